@@ -1,0 +1,187 @@
+//! Physical dimensions with rational exponents, the angle among them.
+
+use std::fmt;
+
+use crate::naming;
+use crate::rational::Rational;
+
+/// A physical dimension: exponents of length, mass, time, temperature, current and angle.
+///
+/// The angle is a dimension of its own here, unlike in the SI: 50 Hz and 50 rad/s differ by a factor of
+/// 2π that no number shows, and only the dimension can tell them apart.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Dimension {
+    exponents: [Rational; 6],
+}
+
+/// Symbols of the base units, in the order of the exponents.
+pub(crate) const BASE_UNITS: [&str; 6] = ["m", "kg", "s", "K", "A", "rad"];
+
+macro_rules! dimensions {
+    ($($(#[$doc:meta])* $name:ident = [$l:literal, $m:literal, $t:literal, $k:literal, $a:literal, $r:literal];)*) => {
+        impl Dimension {
+            $($(#[$doc])* pub const $name: Self = Self::integers([$l, $m, $t, $k, $a, $r]);)*
+        }
+    };
+}
+
+dimensions! {
+    /// Plain number.
+    NONE = [0, 0, 0, 0, 0, 0];
+    /// m
+    LENGTH = [1, 0, 0, 0, 0, 0];
+    /// m^2
+    AREA = [2, 0, 0, 0, 0, 0];
+    /// m^3
+    VOLUME = [3, 0, 0, 0, 0, 0];
+    /// kg
+    MASS = [0, 1, 0, 0, 0, 0];
+    /// s
+    TIME = [0, 0, 1, 0, 0, 0];
+    /// K; see [`Type`](crate::Type) for absolute temperatures and differences.
+    TEMPERATURE = [0, 0, 0, 1, 0, 0];
+    /// A
+    CURRENT = [0, 0, 0, 0, 1, 0];
+    /// rad
+    ANGLE = [0, 0, 0, 0, 0, 1];
+    /// 1/s; not a rotation.
+    FREQUENCY = [0, 0, -1, 0, 0, 0];
+    /// rad/s
+    ANGULAR_VELOCITY = [0, 0, -1, 0, 0, 1];
+    /// m/s
+    VELOCITY = [1, 0, -1, 0, 0, 0];
+    /// m/s^2
+    ACCELERATION = [1, 0, -2, 0, 0, 0];
+    /// N
+    FORCE = [1, 1, -2, 0, 0, 0];
+    /// Pa
+    PRESSURE = [-1, 1, -2, 0, 0, 0];
+    /// J, and N m for a torque.
+    ENERGY = [2, 1, -2, 0, 0, 0];
+    /// W
+    POWER = [2, 1, -3, 0, 0, 0];
+    /// J/K
+    CAPACITY = [2, 1, -2, -1, 0, 0];
+    /// W/K
+    CONDUCTANCE = [2, 1, -3, -1, 0, 0];
+    /// K/W
+    RESISTANCE = [-2, -1, 3, 1, 0, 0];
+    /// W/(m^2 K)
+    FILM_COEFFICIENT = [0, 1, -3, -1, 0, 0];
+    /// m^2 K/W
+    AREA_RESISTANCE = [0, -1, 3, 1, 0, 0];
+    /// W/(m K)
+    CONDUCTIVITY = [1, 1, -3, -1, 0, 0];
+    /// kg/m^3
+    DENSITY = [-3, 1, 0, 0, 0, 0];
+    /// J/(kg K)
+    SPECIFIC_HEAT = [2, 0, -2, -1, 0, 0];
+    /// J/(m^3 K)
+    VOLUMETRIC_HEAT_CAPACITY = [-1, 1, -2, -1, 0, 0];
+    /// J/kg
+    SPECIFIC_ENERGY = [2, 0, -2, 0, 0, 0];
+    /// W/m^2
+    HEAT_FLUX = [0, 1, -3, 0, 0, 0];
+    /// W/m^3
+    POWER_DENSITY = [-1, 1, -3, 0, 0, 0];
+    /// kg/s
+    MASS_FLOW = [0, 1, -1, 0, 0, 0];
+    /// m^3/s
+    VOLUME_FLOW = [3, 0, -1, 0, 0, 0];
+    /// Pa s
+    DYNAMIC_VISCOSITY = [-1, 1, -1, 0, 0, 0];
+    /// m^2/s, also a thermal diffusivity.
+    KINEMATIC_VISCOSITY = [2, 0, -1, 0, 0, 0];
+    /// 1/K
+    EXPANSION_COEFFICIENT = [0, 0, 0, -1, 0, 0];
+    /// K/s
+    HEATING_RATE = [0, 0, -1, 1, 0, 0];
+    /// K/m
+    TEMPERATURE_GRADIENT = [-1, 0, 0, 1, 0, 0];
+    /// W/(m^2 K^4), the dimension of the Stefan-Boltzmann constant.
+    RADIATION_CONSTANT = [0, 1, -3, -4, 0, 0];
+    /// V
+    VOLTAGE = [2, 1, -3, 0, -1, 0];
+    /// ohm
+    ELECTRICAL_RESISTANCE = [2, 1, -3, 0, -2, 0];
+}
+
+impl Dimension {
+    const fn integers(exponents: [i32; 6]) -> Self {
+        let [l, m, t, k, a, r] = exponents;
+        Self {
+            exponents: [
+                Rational::integer(l),
+                Rational::integer(m),
+                Rational::integer(t),
+                Rational::integer(k),
+                Rational::integer(a),
+                Rational::integer(r),
+            ],
+        }
+    }
+
+    /// The exponents of length, mass, time, temperature, current and angle.
+    pub const fn exponents(&self) -> [Rational; 6] {
+        self.exponents
+    }
+
+    /// The dimension of a product; `None` where an exponent overflows.
+    pub fn checked_mul(self, other: Self) -> Option<Self> {
+        self.zip(other, Rational::checked_add)
+    }
+
+    /// The dimension of a quotient; `None` where an exponent overflows.
+    pub fn checked_div(self, other: Self) -> Option<Self> {
+        self.zip(other, Rational::checked_sub)
+    }
+
+    /// The dimension of a power; `None` where an exponent overflows.
+    pub fn checked_pow(self, exponent: Rational) -> Option<Self> {
+        let mut exponents = self.exponents;
+        for e in &mut exponents {
+            *e = e.checked_mul(exponent)?;
+        }
+        Some(Self { exponents })
+    }
+
+    fn zip(self, other: Self, combine: fn(Rational, Rational) -> Option<Rational>) -> Option<Self> {
+        let mut exponents = self.exponents;
+        for (mine, theirs) in exponents.iter_mut().zip(other.exponents) {
+            *mine = combine(*mine, theirs)?;
+        }
+        Some(Self { exponents })
+    }
+
+    /// Is it [`Dimension::NONE`]?
+    pub fn is_none(&self) -> bool {
+        *self == Self::NONE
+    }
+
+    /// The unit a reader expects: `W`, `K/W`, `J/K`, `W/(m^2 K)`; where the dimension has no usual unit, the
+    /// shortest product of base units and one derived unit. `1` for a plain number. [`Unit::parse`]
+    /// reads it back with scale 1.
+    ///
+    /// [`Unit::parse`]: crate::Unit::parse
+    pub fn si_unit(&self) -> String {
+        naming::si_unit(*self)
+    }
+
+    /// The usual name of the quantity, `thermal resistance` for K/W, if it has one.
+    pub fn quantity_name(&self) -> Option<&'static str> {
+        naming::quantity_name(*self)
+    }
+}
+
+impl fmt::Display for Dimension {
+    /// In SI base units, `kg m^2/s^3`; `1` for a plain number.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&naming::base_units(*self))
+    }
+}
+
+impl fmt::Debug for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Dimension({self})")
+    }
+}

@@ -1,0 +1,254 @@
+//! What can be wrong with a quantity or an expression.
+
+use std::fmt;
+use std::ops::Range;
+
+use crate::error_text;
+use crate::types::Type;
+
+/// A mistake in a quantity, a unit or an expression, with its place in the text.
+#[derive(Clone, PartialEq, Debug)]
+pub struct UnitError {
+    /// What is wrong.
+    pub kind: UnitErrorKind,
+    /// Where: bytes of the string that was parsed.
+    pub span: Range<usize>,
+}
+
+/// What is wrong. A `fix` is a text that can be pasted over the whole string, unless said otherwise.
+#[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
+pub enum UnitErrorKind {
+    /// The string holds nothing.
+    Empty,
+    /// Something else was due here.
+    Syntax {
+        /// What was due, in words.
+        wanted: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// The number, or the number in SI units, does not fit into an `f64`.
+    OutOfRange {
+        /// The number as written.
+        number: String,
+    },
+    /// `nan` or `inf`.
+    NotFinite {
+        /// The word as written.
+        text: String,
+    },
+    /// `0,5` for `0.5`.
+    DecimalComma {
+        /// The string with a decimal point.
+        fix: String,
+    },
+    /// Brackets, signs or powers nested too deeply.
+    TooDeep {
+        /// The deepest nesting allowed.
+        limit: usize,
+    },
+    /// No unit has this name.
+    UnknownUnit {
+        /// The name as written.
+        name: String,
+        /// The string with the unit that was probably meant.
+        fix: Option<String>,
+    },
+    /// A product after a division bar without brackets: `J/kg K`.
+    AmbiguousProduct {
+        /// The string with brackets.
+        fix: Option<String>,
+    },
+    /// An exponent that cannot be read or does not fit.
+    Exponent {
+        /// The exponent as written, or the power it belongs to.
+        text: String,
+    },
+    /// The value has the wrong dimension.
+    Dimension {
+        /// The type that is due.
+        wanted: Box<Type>,
+        /// The type of the value.
+        found: Box<Type>,
+        /// What was possibly meant.
+        fix: Option<String>,
+    },
+    /// A number without a unit where a unit is due.
+    BareNumber {
+        /// The type that is due.
+        wanted: Type,
+        /// The string with the usual unit.
+        fix: String,
+    },
+    /// `Hz` or `1/s` where a rotation is due.
+    Rotation {
+        /// The string, or the part of an expression, in revolutions.
+        fix: Option<String>,
+    },
+    /// A temperature difference where an absolute temperature is due.
+    AbsoluteWanted {
+        /// The value made absolute.
+        fix: String,
+    },
+    /// An absolute temperature where a difference is due.
+    DifferenceWanted {
+        /// The value made a difference.
+        fix: String,
+    },
+    /// An absolute temperature below 0 K.
+    BelowAbsoluteZero {
+        /// The temperature in K.
+        kelvin: f64,
+    },
+    /// A standard deviation below zero.
+    NegativeDeviation {
+        /// The deviation as written.
+        text: String,
+    },
+    /// `25 ± 5 % degC`: a percentage of an absolute temperature.
+    RelativeDeviation {
+        /// The string with a deviation in degrees.
+        fix: Option<String>,
+    },
+    /// `2 * m` while `m` is both a unit and a parameter.
+    TwoReadings {
+        /// The name that is both.
+        name: String,
+        /// The string to write for the quantity.
+        quantity: String,
+        /// The string to write for the expression.
+        expression: String,
+    },
+    /// A unit without brackets in an expression.
+    UnbracketedUnit {
+        /// The expression with brackets.
+        fix: String,
+    },
+    /// A bracket that follows neither a number nor, without space, a name.
+    MisplacedBracket {
+        /// The expression without this bracket.
+        fix: String,
+    },
+    /// No parameter, signal, node ... has this name.
+    UnknownName {
+        /// The name as written.
+        name: String,
+        /// The nearest name in scope.
+        suggestion: Option<String>,
+    },
+    /// No function has this name.
+    UnknownFunction {
+        /// The name as written.
+        name: String,
+        /// The nearest function.
+        suggestion: Option<String>,
+    },
+    /// A wrong number of arguments.
+    Arity {
+        /// The function.
+        function: &'static str,
+        /// How many arguments it takes, in words.
+        wanted: &'static str,
+        /// How many were given.
+        found: usize,
+    },
+    /// `-2^2`, which some read as 4 and some as -4.
+    AmbiguousSign {
+        /// The power negated.
+        negated: String,
+        /// The negative number raised.
+        raised: String,
+    },
+    /// `a < b < c`.
+    ChainedComparison,
+    /// The two sides of `+`, `-`, a comparison, or two arguments, are of different types.
+    Operands {
+        /// The operator or function.
+        operation: &'static str,
+        /// Type of the left or first one.
+        left: Box<Type>,
+        /// Type of the right or later one.
+        right: Box<Type>,
+        /// What was possibly meant for the part in question.
+        fix: Option<String>,
+    },
+    /// An absolute temperature where only plain quantities can be used.
+    AbsoluteOperand {
+        /// What was to be done to it, in words.
+        operation: &'static str,
+        /// What to write in its place.
+        fix: String,
+    },
+    /// A function argument of the wrong type.
+    Argument {
+        /// The function.
+        function: &'static str,
+        /// What it takes, in words.
+        wanted: &'static str,
+        /// What it was given.
+        found: Type,
+    },
+    /// A variable exponent on a base that has a dimension.
+    VariableExponent {
+        /// Type of the base.
+        base: Type,
+        /// The power with a plain base.
+        fix: String,
+    },
+    /// An exponent that has a dimension.
+    ExponentDimension {
+        /// Type of the exponent.
+        found: Type,
+    },
+    /// A comparison where a value is due.
+    TruthValue {
+        /// The comparison inside an `if`.
+        fix: String,
+    },
+    /// A value where a comparison is due.
+    TruthWanted {
+        /// The value compared with something.
+        fix: String,
+    },
+}
+
+impl UnitError {
+    pub(crate) fn new(kind: UnitErrorKind, span: Range<usize>) -> Self {
+        Self { kind, span }
+    }
+
+    /// The stable code, `units::dimension` and so on; it never changes once released.
+    pub fn code(&self) -> &'static str {
+        error_text::code(&self.kind)
+    }
+
+    /// What to write instead.
+    pub fn help(&self) -> Option<String> {
+        error_text::help(&self.kind)
+    }
+
+    /// The same error in a larger text: `at` bytes further on.
+    pub(crate) fn shifted(mut self, at: usize) -> Self {
+        self.span = self.span.start + at..self.span.end + at;
+        self
+    }
+
+    /// Completes a fix for a unit to a fix for the text around it.
+    pub(crate) fn map_fix(mut self, complete: impl Fn(&str) -> String) -> Self {
+        if let UnitErrorKind::UnknownUnit { fix: Some(fix), .. }
+        | UnitErrorKind::AmbiguousProduct { fix: Some(fix) } = &mut self.kind
+        {
+            *fix = complete(fix);
+        }
+        self
+    }
+}
+
+impl fmt::Display for UnitError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&error_text::message(&self.kind))
+    }
+}
+
+impl std::error::Error for UnitError {}

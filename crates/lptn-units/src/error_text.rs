@@ -1,0 +1,174 @@
+//! Codes, messages and help of [`UnitErrorKind`].
+
+use crate::error::UnitErrorKind as Kind;
+use crate::types::Type;
+
+pub(crate) fn code(kind: &Kind) -> &'static str {
+    match kind {
+        Kind::Empty => "units::empty",
+        Kind::Syntax { .. } => "units::syntax",
+        Kind::OutOfRange { .. } => "units::out_of_range",
+        Kind::NotFinite { .. } => "units::not_finite",
+        Kind::DecimalComma { .. } => "units::decimal_comma",
+        Kind::TooDeep { .. } => "units::too_deep",
+        Kind::UnknownUnit { .. } => "units::unknown_unit",
+        Kind::AmbiguousProduct { .. } => "units::ambiguous_product",
+        Kind::Exponent { .. } | Kind::VariableExponent { .. } | Kind::ExponentDimension { .. } => {
+            "units::exponent"
+        }
+        Kind::Dimension { .. } => "units::dimension",
+        Kind::BareNumber { .. } => "units::bare_number",
+        Kind::Rotation { .. } => "units::rotation",
+        Kind::AbsoluteWanted { .. } => "units::absolute_wanted",
+        Kind::DifferenceWanted { .. } => "units::difference_wanted",
+        Kind::BelowAbsoluteZero { .. } => "units::below_absolute_zero",
+        Kind::NegativeDeviation { .. } => "units::negative_deviation",
+        Kind::RelativeDeviation { .. } => "units::relative_deviation",
+        Kind::TwoReadings { .. } => "units::two_readings",
+        Kind::UnbracketedUnit { .. } => "units::unbracketed_unit",
+        Kind::MisplacedBracket { .. } => "units::misplaced_bracket",
+        Kind::UnknownName { .. } => "units::unknown_name",
+        Kind::UnknownFunction { .. } => "units::unknown_function",
+        Kind::Arity { .. } => "units::arity",
+        Kind::AmbiguousSign { .. } => "units::ambiguous_sign",
+        Kind::ChainedComparison => "units::chained_comparison",
+        Kind::Operands { .. } => "units::operands",
+        Kind::AbsoluteOperand { .. } => "units::absolute_temperature",
+        Kind::Argument { .. } => "units::argument",
+        Kind::TruthValue { .. } | Kind::TruthWanted { .. } => "units::truth",
+    }
+}
+
+pub(crate) fn message(kind: &Kind) -> String {
+    match kind {
+        Kind::Dimension { wanted, found, .. } => {
+            format!("must be {}, got {}", wanted.with_article(), got(found))
+        }
+        Kind::BareNumber { wanted, .. } => {
+            format!("must be {}, got a number without a unit", wanted.with_article())
+        }
+        Kind::Rotation { .. } => {
+            "must be a rotational speed (rad/s), got a frequency: 1/s and Hz do not say what turns".to_owned()
+        }
+        Kind::AbsoluteWanted { .. } => {
+            "must be an absolute temperature, got a temperature difference".to_owned()
+        }
+        Kind::DifferenceWanted { .. } => {
+            "must be a temperature difference, got an absolute temperature".to_owned()
+        }
+        Kind::BelowAbsoluteZero { kelvin } => {
+            format!("temperature below absolute zero: {} K", crate::format::rounded(*kelvin, 8))
+        }
+        Kind::Operands { operation, left, right, .. } => {
+            format!("{operation} needs values of one kind, got {} and {}", got(left), got(right))
+        }
+        Kind::AbsoluteOperand { operation, .. } => format!("{operation} of an absolute temperature"),
+        Kind::Argument { function, wanted, found } => {
+            format!("`{function}` takes {wanted}, got {}", got(found))
+        }
+        Kind::VariableExponent { base, .. } => {
+            format!("power of a {} needs a constant exponent such as 2 or (5/3)", noun(base))
+        }
+        Kind::ExponentDimension { found } => {
+            format!("exponent must be a plain number, got {}", got(found))
+        }
+        Kind::TruthValue { .. } => "comparison used as a value".to_owned(),
+        Kind::TruthWanted { .. } => "first argument of `if` must be a comparison".to_owned(),
+        _ => text_message(kind),
+    }
+}
+
+/// Messages about the text itself.
+fn text_message(kind: &Kind) -> String {
+    match kind {
+        Kind::Empty => "empty string, expected a quantity or an expression".to_owned(),
+        Kind::Syntax { wanted, found } => format!("expected {wanted}, found {found}"),
+        Kind::OutOfRange { number } => format!("number `{number}` is out of range"),
+        Kind::NotFinite { text } => format!("`{text}` is not a finite number"),
+        Kind::DecimalComma { .. } => "decimal comma".to_owned(),
+        Kind::TooDeep { limit } => format!("nested more than {limit} deep"),
+        Kind::UnknownUnit { name, .. } => format!("unknown unit `{name}`"),
+        Kind::AmbiguousProduct { .. } => "product after `/` needs brackets".to_owned(),
+        Kind::Exponent { text } => format!("exponent `{text}` cannot be used"),
+        Kind::NegativeDeviation { text } => format!("negative standard deviation `{text}`"),
+        Kind::RelativeDeviation { .. } => "percentage of an absolute temperature".to_owned(),
+        Kind::TwoReadings { name, .. } => {
+            format!("`{name}` is a unit and also a parameter, so that this reads in two ways")
+        }
+        Kind::UnbracketedUnit { .. } => "unit without brackets in an expression".to_owned(),
+        Kind::MisplacedBracket { .. } => "unit in brackets may only follow a number".to_owned(),
+        Kind::UnknownName { name, .. } => format!("unknown name `{name}`"),
+        Kind::UnknownFunction { name, .. } => format!("unknown function `{name}`"),
+        Kind::Arity { function, wanted, found } => {
+            format!("`{function}` takes {wanted}, got {found}")
+        }
+        Kind::AmbiguousSign { .. } => "signed number with a power reads in two ways".to_owned(),
+        Kind::ChainedComparison => "comparison of a comparison".to_owned(),
+        other => format!("{other:?}"),
+    }
+}
+
+pub(crate) fn help(kind: &Kind) -> Option<String> {
+    match kind {
+        Kind::DecimalComma { fix }
+        | Kind::BareNumber { fix, .. }
+        | Kind::UnbracketedUnit { fix }
+        | Kind::MisplacedBracket { fix }
+        | Kind::AbsoluteWanted { fix }
+        | Kind::DifferenceWanted { fix }
+        | Kind::AbsoluteOperand { fix, .. }
+        | Kind::VariableExponent { fix, .. }
+        | Kind::TruthValue { fix }
+        | Kind::TruthWanted { fix } => Some(write(fix)),
+        Kind::AmbiguousProduct { fix } | Kind::RelativeDeviation { fix } => fix.as_deref().map(write),
+        Kind::Operands { fix, .. } => fix.as_deref().map(write),
+        Kind::UnknownUnit { fix, .. } => fix.as_deref().map(|fix| format!("did you mean \"{fix}\"?")),
+        Kind::Dimension { wanted, fix, .. } => Some(match fix {
+            Some(fix) => write(fix),
+            None => format!("the value must come out in {}", wanted.usual_unit()),
+        }),
+        Kind::Rotation { fix } => Some(match fix {
+            Some(fix) => format!("{} for revolutions, or use rad/s, deg/s or rpm", write(fix)),
+            None => "multiply the frequency by `1 [rev]`".to_owned(),
+        }),
+        Kind::TwoReadings { quantity, expression, .. } => {
+            Some(format!("write \"{quantity}\" for the quantity or \"{expression}\" for the expression"))
+        }
+        Kind::AmbiguousSign { negated, raised } => Some(format!("write \"{negated}\" or \"{raised}\"")),
+        Kind::UnknownName { suggestion, .. } | Kind::UnknownFunction { suggestion, .. } => {
+            suggestion.as_ref().map(|name| format!("did you mean `{name}`?"))
+        }
+        _ => fixed_help(kind).map(str::to_owned),
+    }
+}
+
+/// Help that does not depend on what was written.
+fn fixed_help(kind: &Kind) -> Option<&'static str> {
+    match kind {
+        Kind::Empty => Some("write a quantity such as \"0.3 K/W\" or an expression such as \"2 * G\""),
+        Kind::NotFinite { .. } => Some("leave the field out if there is no such value"),
+        Kind::Exponent { .. } => Some("write a whole number, a decimal or a fraction: m^2, s^0.5, rpm^(5/3)"),
+        Kind::NegativeDeviation { .. } => Some("the standard deviation after ± is zero or positive"),
+        Kind::BelowAbsoluteZero { .. } => Some("0 K is -273.15 degC or -459.67 degF"),
+        Kind::ChainedComparison => Some("write \"if(a < b, if(b < c, x, y), y)\""),
+        Kind::ExponentDimension { .. } => Some("divide the exponent by its unit: \"x^(n / 1 [K])\""),
+        _ => None,
+    }
+}
+
+fn write(fix: &str) -> String {
+    format!("write \"{fix}\"")
+}
+
+/// How a found type is called: by its unit if it is unusual, by name and unit if it is usual.
+fn got(found: &Type) -> String {
+    if found.absolute || found.dimension.quantity_name().is_some() {
+        found.with_article()
+    } else {
+        found.to_string()
+    }
+}
+
+fn noun(ty: &Type) -> String {
+    if ty.dimension.quantity_name().is_some() { ty.to_string() } else { format!("quantity in {ty}") }
+}

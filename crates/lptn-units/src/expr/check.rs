@@ -1,0 +1,239 @@
+//! Tree to types: resolves names, checks dimensions, folds constants.
+
+use std::ops::Range;
+
+use super::fix::Source;
+use super::function::{self, Function};
+use super::operands;
+use super::tree::{Id, Node, Operator, Tree};
+use super::{Scope, Symbol, fold};
+use crate::dimension::Dimension;
+use crate::error::{UnitError, UnitErrorKind as Kind};
+use crate::rational::Rational;
+use crate::suggest::suggest;
+use crate::types::Type;
+
+/// What is known of a node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Checked {
+    /// The type; `None` for the truth of a comparison.
+    pub(crate) ty: Option<Type>,
+    /// The value, if it does not depend on any name.
+    pub(crate) constant: Option<f64>,
+    /// The constant without rounding, if it is a short fraction.
+    pub(crate) exact: Option<Rational>,
+    /// What a name stands for.
+    pub(crate) symbol: Option<Symbol>,
+}
+
+impl Checked {
+    pub(crate) fn of(ty: Type) -> Self {
+        Self { ty: Some(ty), constant: None, exact: None, symbol: None }
+    }
+}
+
+/// One entry per node, in the order of the tree.
+pub(crate) fn check(
+    text: &str,
+    tree: &Tree,
+    scope: &dyn Scope,
+    expected: Option<Type>,
+) -> Result<Vec<Checked>, Vec<UnitError>> {
+    let mut checker = Checker { source: Source { text, tree }, scope, found: Vec::new(), errors: Vec::new() };
+    for (id, (node, _)) in tree.nodes().enumerate() {
+        let found = checker.node(id, node);
+        checker.found.push(found);
+    }
+    checker.result(expected);
+    let Checker { found, mut errors, .. } = checker;
+    if errors.is_empty() {
+        return Ok(found.into_iter().flatten().collect());
+    }
+    errors.sort_by_key(|error| error.span.start);
+    Err(errors)
+}
+
+struct Checker<'a> {
+    source: Source<'a>,
+    scope: &'a dyn Scope,
+    /// `None` where an error was found, or in an operand.
+    found: Vec<Option<Checked>>,
+    errors: Vec<UnitError>,
+}
+
+impl Checker<'_> {
+    fn node(&mut self, id: Id, node: &Node) -> Option<Checked> {
+        match node {
+            Node::Number { value, exact } => {
+                Some(Checked { constant: Some(*value), exact: *exact, ..Checked::of(Type::SCALAR) })
+            }
+            Node::Literal { value, ty } => Some(Checked { constant: Some(*value), ..Checked::of(*ty) }),
+            Node::Name(name) => self.name(name, self.source.tree.span(id)),
+            Node::Negate(operand) => self.negate(*operand),
+            Node::Binary(operator, left, right) => self.binary(*operator, *left, *right),
+            Node::Compare(comparison, left, right) => {
+                let (a, b) = (self.value(*left), self.value(*right));
+                let checked = operands::common(&self.source, comparison.symbol(), (*left, a?), (*right, b?));
+                self.keep(checked)?;
+                Some(Checked { ty: None, constant: None, exact: None, symbol: None })
+            }
+            Node::Call { function, name_span, arguments } => self.call(function, name_span, arguments),
+        }
+    }
+
+    fn keep<T>(&mut self, result: Result<T, UnitError>) -> Option<T> {
+        result.map_err(|error| self.errors.push(error)).ok()
+    }
+
+    fn fail<T>(&mut self, kind: Kind, span: Range<usize>) -> Option<T> {
+        self.errors.push(UnitError::new(kind, span));
+        None
+    }
+
+    /// The type of an operand; a comparison is none.
+    fn value(&mut self, id: Id) -> Option<Type> {
+        let found = self.found.get(id).copied().flatten()?;
+        match found.ty {
+            Some(ty) => Some(ty),
+            None => {
+                let fix = self.source.replace(id, &format!("if({}, 1, 0)", self.source.text_of(id)));
+                self.fail(Kind::TruthValue { fix }, self.source.tree.span(id))
+            }
+        }
+    }
+
+    fn constant(&self, id: Id) -> Option<f64> {
+        self.found.get(id).copied().flatten()?.constant
+    }
+
+    fn exact(&self, id: Id) -> Option<Rational> {
+        self.found.get(id).copied().flatten()?.exact
+    }
+
+    fn name(&mut self, name: &str, span: Range<usize>) -> Option<Checked> {
+        if name == "pi" {
+            return Some(Checked { constant: Some(std::f64::consts::PI), ..Checked::of(Type::SCALAR) });
+        }
+        if let Some(symbol) = self.scope.symbol(name) {
+            return Some(Checked { symbol: Some(symbol), ..Checked::of(symbol.ty) });
+        }
+        if let Some(function) = function::find(name) {
+            let wanted = function.wrong_arity(0).unwrap_or_default();
+            return self.fail(Kind::Arity { function: function.name(), wanted, found: 0 }, span);
+        }
+        let names = self.scope.names();
+        let candidates = names.iter().map(String::as_str).chain(["pi"]);
+        let suggestion = suggest(name, candidates).map(str::to_owned);
+        self.fail(Kind::UnknownName { name: name.to_owned(), suggestion }, span)
+    }
+
+    fn negate(&mut self, operand: Id) -> Option<Checked> {
+        let ty = self.value(operand)?;
+        if ty.absolute {
+            let error = self.source.absolute(operand, "negative", true);
+            return self.keep(Err(error));
+        }
+        let constant = self.constant(operand).map(|value| -value);
+        let exact = self.exact(operand).and_then(Rational::checked_neg);
+        Some(Checked { constant, exact, ..Checked::of(ty) })
+    }
+
+    fn binary(&mut self, operator: Operator, left: Id, right: Id) -> Option<Checked> {
+        let (a, b) = (self.value(left), self.value(right));
+        let (a, b) = ((left, a?), (right, b?));
+        let checked = match operator {
+            Operator::Add | Operator::Subtract => operands::sum(&self.source, operator, a, b),
+            Operator::Multiply | Operator::Divide => operands::product(&self.source, operator, a, b),
+            Operator::Power => operands::power(&self.source, a, b, self.exact(right)),
+        };
+        let ty = self.keep(checked)?;
+        let constant = fold::binary(operator, self.constant(left), self.constant(right));
+        let exact = fold::exact(operator, self.exact(left), self.exact(right));
+        Some(Checked { constant, exact, ..Checked::of(ty) })
+    }
+
+    fn call(&mut self, name: &str, span: &Range<usize>, arguments: &[Id]) -> Option<Checked> {
+        let Some(function) = function::find(name) else {
+            let suggestion = suggest(name, function::names()).map(str::to_owned);
+            return self.fail(Kind::UnknownFunction { name: name.to_owned(), suggestion }, span.clone());
+        };
+        if let Some(wanted) = function.wrong_arity(arguments.len()) {
+            let kind = Kind::Arity { function: function.name(), wanted, found: arguments.len() };
+            return self.fail(kind, span.clone());
+        }
+        match (function, arguments) {
+            (Function::If, [condition, values @ ..]) => self.conditional(*condition, values),
+            (Function::Min | Function::Max | Function::Mean, _) => self.several(function, arguments),
+            (_, [argument]) => self.single(function, *argument),
+            _ => None,
+        }
+    }
+
+    fn conditional(&mut self, condition: Id, values: &[Id]) -> Option<Checked> {
+        let truth = self.found.get(condition).copied().flatten();
+        if let Some(Checked { ty: Some(ty), .. }) = truth {
+            let error = self.source.truth_wanted(condition, ty);
+            self.errors.push(error);
+        }
+        let common = self.common_type("`if`", values);
+        truth.filter(|found| found.ty.is_none())?;
+        common.map(Checked::of)
+    }
+
+    fn several(&mut self, function: Function, arguments: &[Id]) -> Option<Checked> {
+        let operation = match function {
+            Function::Min => "`min`",
+            Function::Max => "`max`",
+            _ => "`mean`",
+        };
+        let ty = self.common_type(operation, arguments)?;
+        let constants: Option<Vec<f64>> = arguments.iter().map(|id| self.constant(*id)).collect();
+        let constant = constants.and_then(|values| fold::several(function, &values));
+        Some(Checked { constant, ..Checked::of(ty) })
+    }
+
+    /// The one type of all these values.
+    fn common_type(&mut self, operation: &'static str, ids: &[Id]) -> Option<Type> {
+        let mut types = Vec::new();
+        for &id in ids {
+            types.push((id, self.value(id)));
+        }
+        let mut common: Option<(Id, Type)> = None;
+        for (id, ty) in types {
+            let this = (id, ty?);
+            let ty = match common {
+                None => this.1,
+                Some(first) => {
+                    let checked = operands::common(&self.source, operation, first, this);
+                    self.keep(checked)?
+                }
+            };
+            common = Some((common.map_or(id, |(first, _)| first), ty));
+        }
+        common.map(|(_, ty)| ty)
+    }
+
+    fn single(&mut self, function: Function, argument: Id) -> Option<Checked> {
+        let given = self.value(argument)?;
+        let checked = operands::argument(&self.source, function, (argument, given));
+        let ty = self.keep(checked)?;
+        let constant = self.constant(argument).and_then(|value| fold::single(function, value));
+        Some(Checked { constant, ..Checked::of(ty) })
+    }
+
+    /// Checks the whole against what is due.
+    fn result(&mut self, expected: Option<Type>) {
+        let root = self.source.tree.root();
+        let (Some(found), Some(wanted)) = (self.value(root), expected) else { return };
+        if !found.conforms_to(wanted) {
+            let error = self.source.mismatch(root, found, wanted);
+            self.errors.push(error);
+        } else if let Some(Some(root)) = self.found.get_mut(root) {
+            root.ty = Some(wanted);
+        }
+    }
+}
+
+pub(crate) fn is_temperature(ty: Type) -> bool {
+    ty.dimension == Dimension::TEMPERATURE
+}

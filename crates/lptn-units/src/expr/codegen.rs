@@ -1,0 +1,268 @@
+//! Checked tree to flat code.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::check::Checked;
+use super::function::{self, Function};
+use super::program::{Arithmetic, Op, Operand, Program};
+use super::tree::{Comparison, Id, Node, Operator, Tree};
+use crate::dimension::Dimension;
+use crate::types::Type;
+
+pub(crate) fn generate(text: &str, tree: &Tree, checked: &[Checked]) -> Program {
+    let text: Arc<str> = Arc::from(text);
+    let mut main = Generator::new(tree, checked, true);
+    main.node(tree.root());
+    let ty = checked[tree.root()].ty.unwrap_or(Type::SCALAR);
+    let mut program = main.finish(&text, ty);
+    for (id, (node, _)) in tree.nodes().enumerate() {
+        if let Node::Compare(_, left, right) = node {
+            let mut side = Generator::new(tree, checked, false);
+            side.pair(Operator::Subtract, *left, *right, id);
+            program.comparisons.push(side.finish(&text, difference(checked, *left, *right)));
+        }
+    }
+    program
+}
+
+/// Type of left minus right; of two types that go together, the one without the spare radian.
+fn difference(checked: &[Checked], left: Id, right: Id) -> Type {
+    let (Some(a), Some(b)) = (checked[left].ty, checked[right].ty) else { return Type::SCALAR };
+    match (a.absolute, a.conforms_to(b)) {
+        (true, _) => Type::of(Dimension::TEMPERATURE),
+        (false, true) => b,
+        (false, false) => a,
+    }
+}
+
+struct Generator<'a> {
+    tree: &'a Tree,
+    checked: &'a [Checked],
+    /// Do comparisons load the slots meant for them?
+    freezes: bool,
+    /// Inside how many comparisons are we?
+    comparing: usize,
+    code: Vec<Op>,
+    spans: Vec<Range<usize>>,
+    slots: Vec<u32>,
+    waiting: usize,
+    most_waiting: usize,
+}
+
+impl<'a> Generator<'a> {
+    fn new(tree: &'a Tree, checked: &'a [Checked], freezes: bool) -> Self {
+        Self {
+            tree,
+            checked,
+            freezes,
+            comparing: 0,
+            code: Vec::new(),
+            spans: Vec::new(),
+            slots: Vec::new(),
+            waiting: 0,
+            most_waiting: 0,
+        }
+    }
+
+    fn finish(mut self, text: &Arc<str>, ty: Type) -> Program {
+        self.slots.sort_unstable();
+        self.slots.dedup();
+        Program {
+            text: Arc::clone(text),
+            ty,
+            code: self.code,
+            spans: self.spans,
+            slots: self.slots,
+            stack_size: self.most_waiting,
+            comparisons: Vec::new(),
+        }
+    }
+
+    fn emit(&mut self, op: Op, origin: Id) {
+        match op {
+            Op::Push => self.waiting += 1,
+            Op::Popped(_) | Op::PoppedPower | Op::JumpUnless(..) => self.waiting -= 1,
+            _ => {}
+        }
+        self.most_waiting = self.most_waiting.max(self.waiting);
+        self.code.push(op);
+        self.spans.push(self.tree.span(origin));
+    }
+
+    /// Leaves the value of a node in the accumulator. A long sum leans to the left: that side is walked in
+    /// a loop, so that the recursion is as deep as the brackets and no deeper.
+    fn node(&mut self, id: Id) {
+        let mut spine = Vec::new();
+        let mut bottom = id;
+        while let Some((operator, left, right)) = self.pending(bottom) {
+            if operator != Operator::Power && self.leaf(left).is_some() {
+                break;
+            }
+            spine.push((operator, right, bottom));
+            bottom = left;
+        }
+        self.bottom(bottom);
+        for (operator, right, origin) in spine.into_iter().rev() {
+            self.with_right(operator, right, origin);
+        }
+    }
+
+    /// A binary operation whose value is not a constant.
+    fn pending(&self, id: Id) -> Option<(Operator, Id, Id)> {
+        match self.tree.node(id) {
+            Node::Binary(operator, left, right) if self.checked[id].constant.is_none() => {
+                Some((*operator, *left, *right))
+            }
+            _ => None,
+        }
+    }
+
+    fn bottom(&mut self, id: Id) {
+        if let Some(operand) = self.leaf(id) {
+            self.load(operand, id);
+            return;
+        }
+        match self.tree.node(id) {
+            Node::Negate(operand) => {
+                self.node(*operand);
+                self.emit(Op::Negate, id);
+            }
+            Node::Binary(operator, left, right) => self.pair(*operator, *left, *right, id),
+            Node::Call { function, arguments, .. } => self.call(function, arguments, id),
+            _ => {}
+        }
+    }
+
+    /// A constant or a name.
+    fn leaf(&self, id: Id) -> Option<Operand> {
+        let Checked { constant, symbol, .. } = self.checked[id];
+        constant.map(Operand::Constant).or_else(|| {
+            let symbol = symbol?;
+            let frozen = symbol.in_comparison.filter(|_| self.freezes && self.comparing > 0);
+            Some(Operand::Slot(frozen.unwrap_or(symbol.slot)))
+        })
+    }
+
+    fn load(&mut self, operand: Operand, origin: Id) {
+        self.note(operand);
+        self.emit(Op::Load(operand), origin);
+    }
+
+    fn note(&mut self, operand: Operand) {
+        if let Operand::Slot(slot) = operand {
+            self.slots.push(slot);
+        }
+    }
+
+    /// Both sides of an operation, neither of them done.
+    fn pair(&mut self, operator: Operator, left: Id, right: Id, origin: Id) {
+        match (self.leaf(left), self.leaf(right), arithmetic(operator)) {
+            (Some(operand), None, Some(arithmetic)) => {
+                self.node(right);
+                self.note(operand);
+                self.emit(Op::Left(arithmetic, operand), origin);
+            }
+            _ => {
+                self.node(left);
+                self.with_right(operator, right, origin);
+            }
+        }
+    }
+
+    /// The left side is in the accumulator.
+    fn with_right(&mut self, operator: Operator, right: Id, origin: Id) {
+        match (arithmetic(operator), self.leaf(right)) {
+            (Some(arithmetic), Some(operand)) => {
+                self.note(operand);
+                self.emit(Op::Right(arithmetic, operand), origin);
+            }
+            (None, Some(Operand::Constant(exponent))) => self.emit(constant_power(exponent), origin),
+            (arithmetic, _) => {
+                self.emit(Op::Push, origin);
+                self.node(right);
+                self.emit(arithmetic.map_or(Op::PoppedPower, Op::Popped), origin);
+            }
+        }
+    }
+
+    fn call(&mut self, name: &str, arguments: &[Id], origin: Id) {
+        let Some(function) = function::find(name) else { return };
+        match (function, arguments) {
+            (Function::If, [condition, then, otherwise]) => self.conditional(*condition, *then, *otherwise),
+            (Function::Min, _) => self.fold(Arithmetic::Min, arguments, origin),
+            (Function::Max, _) => self.fold(Arithmetic::Max, arguments, origin),
+            (Function::Mean, _) => {
+                self.fold(Arithmetic::Add, arguments, origin);
+                let count = u32::try_from(arguments.len()).unwrap_or(u32::MAX);
+                self.emit(Op::Right(Arithmetic::Divide, Operand::Constant(f64::from(count))), origin);
+            }
+            (_, [argument]) => {
+                self.node(*argument);
+                if !matches!(function, Function::Kelvin | Function::Absolute) {
+                    self.emit(Op::Call(function), origin);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Combines the arguments from the first to the last.
+    fn fold(&mut self, arithmetic: Arithmetic, arguments: &[Id], origin: Id) {
+        let [first, rest @ ..] = arguments else { return };
+        self.node(*first);
+        for &argument in rest {
+            match self.leaf(argument) {
+                Some(operand) => {
+                    self.note(operand);
+                    self.emit(Op::Right(arithmetic, operand), origin);
+                }
+                None => {
+                    self.emit(Op::Push, origin);
+                    self.node(argument);
+                    self.emit(Op::Popped(arithmetic), origin);
+                }
+            }
+        }
+    }
+
+    /// Only the branch taken runs.
+    fn conditional(&mut self, condition: Id, then: Id, otherwise: Id) {
+        let Node::Compare(comparison, left, right) = self.tree.node(condition) else { return };
+        let to_second = self.compare(*comparison, *left, *right, condition);
+        self.node(then);
+        let to_end = self.code.len();
+        self.emit(Op::Jump(0), then);
+        self.code[to_second] = Op::JumpUnless(*comparison, self.code.len());
+        self.node(otherwise);
+        self.code[to_end] = Op::Jump(self.code.len());
+    }
+
+    /// Index of the jump, whose target is not known yet.
+    fn compare(&mut self, comparison: Comparison, left: Id, right: Id, origin: Id) -> usize {
+        self.comparing += 1;
+        self.node(left);
+        self.emit(Op::Push, origin);
+        self.node(right);
+        self.comparing -= 1;
+        self.emit(Op::JumpUnless(comparison, 0), origin);
+        self.code.len() - 1
+    }
+}
+
+fn arithmetic(operator: Operator) -> Option<Arithmetic> {
+    Some(match operator {
+        Operator::Add => Arithmetic::Add,
+        Operator::Subtract => Arithmetic::Subtract,
+        Operator::Multiply => Arithmetic::Multiply,
+        Operator::Divide => Arithmetic::Divide,
+        Operator::Power => return None,
+    })
+}
+
+/// Whole exponents need no logarithm, and allow a negative base.
+fn constant_power(exponent: f64) -> Op {
+    let whole = exponent.fract() == 0.0 && exponent.abs() <= 64.0;
+    #[expect(clippy::cast_possible_truncation, reason = "a whole number of at most 64")]
+    if whole { Op::WholePower(exponent as i32) } else { Op::RealPower(exponent) }
+}

@@ -1,0 +1,86 @@
+//! How a program depends on a slot, from the form of its code.
+
+use super::program::{Arithmetic, Op, Operand};
+
+/// How a result depends on one variable.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Degree {
+    /// Not at all.
+    Constant,
+    /// As `a + b x`.
+    Affine,
+    /// In any other way, as far as the form of the code tells.
+    Nonlinear,
+}
+
+/// A conditional part whose end has not been reached.
+struct Branch {
+    condition: Degree,
+    /// Degree of the first branch and where the second ends, once the first is through.
+    first: Option<(Degree, usize)>,
+}
+
+/// Follows the code once, with degrees in place of values.
+pub(crate) fn degree(code: &[Op], slot: u32) -> Degree {
+    let mut stack: Vec<Degree> = Vec::new();
+    let mut branches: Vec<Branch> = Vec::new();
+    let mut current = Degree::Constant;
+    for (index, op) in code.iter().enumerate() {
+        current = close(&mut branches, index, current);
+        match *op {
+            Op::Push => stack.push(current),
+            Op::JumpUnless(..) => {
+                let condition = stack.pop().unwrap_or(Degree::Nonlinear).max(current);
+                branches.push(Branch { condition, first: None });
+            }
+            Op::Jump(end) => {
+                if let Some(branch) = branches.last_mut() {
+                    branch.first = Some((current, end));
+                }
+            }
+            _ => current = step(op, current, &mut stack, slot),
+        }
+    }
+    close(&mut branches, code.len(), current)
+}
+
+/// Joins the branches that end here. Which one is taken must not depend on the variable.
+fn close(branches: &mut Vec<Branch>, index: usize, mut current: Degree) -> Degree {
+    while let Some(&Branch { condition, first: Some((first, end)) }) = branches.last()
+        && end == index
+    {
+        branches.pop();
+        let depends = condition > Degree::Constant;
+        current = if depends { Degree::Nonlinear } else { current.max(first) };
+    }
+    current
+}
+
+fn step(op: &Op, current: Degree, stack: &mut Vec<Degree>, slot: u32) -> Degree {
+    let of = |operand: Operand| {
+        if operand == Operand::Slot(slot) { Degree::Affine } else { Degree::Constant }
+    };
+    match *op {
+        Op::Load(operand) => of(operand),
+        Op::Right(arithmetic, operand) => combine(arithmetic, current, of(operand)),
+        Op::Left(arithmetic, operand) => combine(arithmetic, of(operand), current),
+        Op::Popped(arithmetic) => combine(arithmetic, stack.pop().unwrap_or(Degree::Nonlinear), current),
+        Op::WholePower(1) | Op::Negate => current,
+        Op::PoppedPower => bent(stack.pop().unwrap_or(Degree::Nonlinear).max(current)),
+        _ => bent(current),
+    }
+}
+
+fn combine(arithmetic: Arithmetic, left: Degree, right: Degree) -> Degree {
+    match arithmetic {
+        Arithmetic::Add | Arithmetic::Subtract => left.max(right),
+        Arithmetic::Multiply if left.min(right) == Degree::Constant => left.max(right),
+        Arithmetic::Divide if right == Degree::Constant => left,
+        _ => bent(left.max(right)),
+    }
+}
+
+/// What a function makes of its argument.
+fn bent(degree: Degree) -> Degree {
+    if degree == Degree::Constant { Degree::Constant } else { Degree::Nonlinear }
+}

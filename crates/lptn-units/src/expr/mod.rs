@@ -1,0 +1,118 @@
+//! Expressions: text, then tree, then types, then flat code.
+
+mod bracket;
+mod check;
+mod codegen;
+mod degree;
+mod eval;
+mod fix;
+mod fold;
+mod function;
+mod lexer;
+mod operands;
+mod parser;
+mod program;
+mod tree;
+
+use std::ops::Range;
+
+use crate::error::UnitError;
+use crate::types::Type;
+use tree::{Node, Tree};
+
+pub(crate) use bracket::bracketed;
+pub use degree::Degree;
+pub use eval::EvalError;
+pub use function::is_function;
+pub use program::Program;
+pub use tree::Comparison;
+
+/// Names with a meaning of their own, which no parameter, signal, control or table may take: the time `t`, `pi`,
+/// the temperatures of the element at hand, and all functions.
+pub const RESERVED: &[&str] = &[
+    "t", "pi", "T", "T_from", "T_to", "T_mean", "dT", "abs", "min", "max", "mean", "sqrt", "exp", "ln",
+    "sin", "cos", "tanh", "if", "kelvin", "absolute",
+];
+
+/// A name in scope: where its value is found and what it is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Symbol {
+    /// Index of the value among the slots given to [`Program::eval`].
+    pub slot: u32,
+    /// What the value is.
+    pub ty: Type,
+    /// Index to load instead inside the two operands of a comparison. An integrator keeps the truth of
+    /// comparisons fixed between events by freezing the values in these slots.
+    pub in_comparison: Option<u32>,
+}
+
+/// The names an expression may use. `pi` and the functions need not be among them.
+pub trait Scope {
+    /// The meaning of a name: `omega`, `steel.T`, `ring[1,2,3].T`.
+    fn symbol(&self, name: &str) -> Option<Symbol>;
+    /// Every name, for "did you mean".
+    fn names(&self) -> Vec<String>;
+}
+
+/// An expression as parsed: syntax checked, names and dimensions not yet.
+#[derive(Clone, Debug)]
+pub struct Expression {
+    text: String,
+    /// The part of the text that this expression is; the whole unless it was split off.
+    part: Range<usize>,
+    tree: Tree,
+}
+
+impl Expression {
+    /// Parses an expression.
+    ///
+    /// Precedence, from the loosest: comparison, `+ -`, `* /`, sign, `^` (right to left). Units stand in
+    /// brackets directly after a number, `5 [W/K]`. A sign directly before a number belongs to it
+    /// (`-20 [degC]`), for which reason `-2^2` is refused.
+    ///
+    /// # Errors
+    ///
+    /// The first mistake in the syntax, an unknown unit, a literal temperature below absolute zero.
+    pub fn parse(text: &str) -> Result<Self, UnitError> {
+        let tree = parser::parse(text)?;
+        Ok(Self { text: text.to_owned(), part: 0..text.len(), tree })
+    }
+
+    /// The text that was parsed. Spans are byte ranges of it; those of a side that
+    /// [`Expression::split_comparison`] returns are byte ranges of the text that was split.
+    pub fn text(&self) -> &str {
+        self.text.get(self.part.clone()).unwrap_or_default()
+    }
+
+    /// The names used, in order of appearance: identifiers and paths such as `steel.T` and `planet[1].gear.T`
+    /// (without spaces), functions and `pi` left out.
+    pub fn names(&self) -> Vec<(String, Range<usize>)> {
+        let named = self.tree.nodes().filter_map(|(node, span)| match node {
+            Node::Name(name) if name != "pi" => Some((name.clone(), span.clone())),
+            _ => None,
+        });
+        named.collect()
+    }
+
+    /// Resolves the names, checks the dimensions and translates to flat code.
+    ///
+    /// `expected` is the type that is due, where it is known; see [`Type::conforms_to`].
+    ///
+    /// # Errors
+    ///
+    /// Every unknown name, wrong dimension and misuse of an absolute temperature, in order of place. Parts
+    /// that contain an error raise no further ones.
+    pub fn compile(&self, scope: &dyn Scope, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
+        let checked = check::check(&self.text, &self.tree, scope, expected)?;
+        Ok(codegen::generate(self.text(), &self.tree, &checked))
+    }
+
+    /// For `a <= b`: the two sides as expressions, and the comparison between them. `None` if the
+    /// expression as a whole is not a comparison. Spans still count from the start of the original text.
+    pub fn split_comparison(&self) -> Option<(Expression, Comparison, Expression)> {
+        let Node::Compare(comparison, left, right) = self.tree.node(self.tree.root()) else { return None };
+        let side = |tree: Tree| Expression { part: tree.span(tree.root()), text: self.text.clone(), tree };
+        let (left, right) = (self.tree.subtree(0, *left), self.tree.subtree(left + 1, *right));
+        Some((side(left), *comparison, side(right)))
+    }
+}

@@ -1,0 +1,98 @@
+//! Flat code: what an expression becomes.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::degree::{self, Degree};
+use super::function::Function;
+use super::tree::Comparison;
+use crate::types::Type;
+
+/// Where an operation finds its right operand.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Operand {
+    Constant(f64),
+    Slot(u32),
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Arithmetic {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Min,
+    Max,
+}
+
+/// One operation on the accumulator and the stack.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Op {
+    /// accumulator = operand
+    Load(Operand),
+    /// Puts the accumulator on the stack.
+    Push,
+    /// accumulator = accumulator op operand
+    Right(Arithmetic, Operand),
+    /// accumulator = operand op accumulator
+    Left(Arithmetic, Operand),
+    /// accumulator = popped op accumulator
+    Popped(Arithmetic),
+    Negate,
+    WholePower(i32),
+    /// An exponent that is not whole, or large.
+    RealPower(f64),
+    /// accumulator = popped ^ accumulator
+    PoppedPower,
+    Call(Function),
+    /// Goes on at the target unless `popped comparison accumulator` holds.
+    JumpUnless(Comparison, usize),
+    Jump(usize),
+}
+
+/// A compiled expression. It holds no reference to the network and can be shared between threads.
+#[derive(Clone, Debug)]
+pub struct Program {
+    pub(crate) text: Arc<str>,
+    pub(crate) ty: Type,
+    pub(crate) code: Vec<Op>,
+    /// The part of the text each operation comes from.
+    pub(crate) spans: Vec<Range<usize>>,
+    pub(crate) slots: Vec<u32>,
+    pub(crate) stack_size: usize,
+    pub(crate) comparisons: Vec<Program>,
+}
+
+impl Program {
+    /// Type of the result.
+    pub fn ty(&self) -> Type {
+        self.ty
+    }
+
+    /// The slots it loads, sorted, each once; those that comparisons load are among them.
+    pub fn slots(&self) -> Vec<u32> {
+        self.slots.clone()
+    }
+
+    /// The most values that wait on the stack; a stack with this capacity is never reallocated.
+    pub fn stack_size(&self) -> usize {
+        self.stack_size
+    }
+
+    /// The expression it was compiled from.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// One program per comparison, nested ones included: left side minus right side, in the order of the
+    /// text. They load the ordinary slots of their symbols, so that a root of theirs is where the truth of
+    /// the comparison changes.
+    pub fn comparisons(&self) -> &[Program] {
+        &self.comparisons
+    }
+
+    /// How the result depends on one slot, the others held: an upper bound from the form of the code.
+    pub fn degree_in(&self, slot: u32) -> Degree {
+        degree::degree(&self.code, slot)
+    }
+}

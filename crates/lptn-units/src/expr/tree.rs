@@ -1,0 +1,146 @@
+//! The syntax tree, in one list: operands stand before what uses them, so that no walk over it recurses.
+
+use std::fmt;
+use std::ops::Range;
+
+use crate::rational::Rational;
+use crate::types::Type;
+
+/// Index of a node.
+pub(crate) type Id = usize;
+
+#[derive(Clone, Debug)]
+pub(crate) enum Node {
+    /// A number without unit.
+    Number {
+        value: f64,
+        exact: Option<Rational>,
+    },
+    /// A number with its unit in brackets, in SI.
+    Literal {
+        value: f64,
+        ty: Type,
+    },
+    Name(String),
+    Negate(Id),
+    Binary(Operator, Id, Id),
+    Compare(Comparison, Id, Id),
+    Call {
+        function: String,
+        name_span: Range<usize>,
+        arguments: Vec<Id>,
+    },
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Operator {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+}
+
+/// A comparison of two values of one kind.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Comparison {
+    /// `<`
+    Less,
+    /// `<=`
+    LessEqual,
+    /// `>`
+    Greater,
+    /// `>=`
+    GreaterEqual,
+    /// `==`
+    Equal,
+    /// `!=`
+    NotEqual,
+}
+
+impl Comparison {
+    /// Does the comparison hold?
+    #[expect(clippy::float_cmp, reason = "`==` in an expression means equal to the last bit")]
+    pub fn holds(self, left: f64, right: f64) -> bool {
+        match self {
+            Self::Less => left < right,
+            Self::LessEqual => left <= right,
+            Self::Greater => left > right,
+            Self::GreaterEqual => left >= right,
+            Self::Equal => left == right,
+            Self::NotEqual => left != right,
+        }
+    }
+
+    pub(crate) const fn symbol(self) -> &'static str {
+        match self {
+            Self::Less => "<",
+            Self::LessEqual => "<=",
+            Self::Greater => ">",
+            Self::GreaterEqual => ">=",
+            Self::Equal => "==",
+            Self::NotEqual => "!=",
+        }
+    }
+}
+
+impl fmt::Display for Comparison {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.symbol())
+    }
+}
+
+/// The nodes with their places; the root is the last.
+#[derive(Clone, Default, Debug)]
+pub(crate) struct Tree {
+    nodes: Vec<(Node, Range<usize>)>,
+}
+
+impl Tree {
+    pub(crate) fn push(&mut self, node: Node, span: Range<usize>) -> Id {
+        self.nodes.push((node, span));
+        self.nodes.len() - 1
+    }
+
+    pub(crate) fn node(&self, id: Id) -> &Node {
+        &self.nodes[id].0
+    }
+
+    pub(crate) fn span(&self, id: Id) -> Range<usize> {
+        self.nodes[id].1.clone()
+    }
+
+    pub(crate) fn root(&self) -> Id {
+        self.nodes.len() - 1
+    }
+
+    /// Operands before what uses them.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = &(Node, Range<usize>)> {
+        self.nodes.iter()
+    }
+
+    /// The nodes from `first` to `root`, where these are a tree of their own: all operands of a node stand
+    /// directly before it.
+    pub(crate) fn subtree(&self, first: Id, root: Id) -> Self {
+        let mut nodes = self.nodes[first..=root].to_vec();
+        for (node, _) in &mut nodes {
+            node.shift(first);
+        }
+        Self { nodes }
+    }
+}
+
+impl Node {
+    /// Lowers the indices of the operands.
+    fn shift(&mut self, by: usize) {
+        match self {
+            Self::Number { .. } | Self::Literal { .. } | Self::Name(_) => {}
+            Self::Negate(operand) => *operand -= by,
+            Self::Binary(_, left, right) | Self::Compare(_, left, right) => {
+                *left -= by;
+                *right -= by;
+            }
+            Self::Call { arguments, .. } => arguments.iter_mut().for_each(|argument| *argument -= by),
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! Quantities, dimensions and expressions with units checked.
+//!
+//! A value in a netlist is a string: a *quantity* such as `"0.3 K/W"` or `"87 ± 15 uW/rpm^(5/3)"`, or an
+//! *expression* such as `"20 [W/K] + 60 [W/K] * fan"`. [`parse_value`] tells them apart, checks their
+//! dimensions, and on a mistake names the place, what is wrong and the text to write instead.
+//!
+//! An expression is compiled once, against the names in scope, into a flat [`Program`] that is evaluated
+//! on `f64` or, for derivatives, on [`Dual`] numbers.
+//!
+//! ```
+//! use lptn_units::{Dimension, Type, parse_quantity};
+//!
+//! let resistance = parse_quantity("0.42 degC/W", Some(Type::of(Dimension::RESISTANCE)))?;
+//! assert_eq!(resistance.value, 0.42); // K/W: inside a compound unit a temperature is a difference
+//!
+//! let mistake = parse_quantity("12 W/m2K", Some(Type::of(Dimension::FILM_COEFFICIENT))).unwrap_err();
+//! assert_eq!(mistake.help().as_deref(), Some("did you mean \"12 W/(m^2 K)\"?"));
+//! # Ok::<(), lptn_units::UnitError>(())
+//! ```
+
+mod dimension;
+mod dual;
+mod error;
+mod error_text;
+mod expr;
+mod format;
+mod naming;
+mod number;
+mod quantity;
+mod rational;
+mod repair;
+mod scalar;
+mod suggest;
+mod types;
+mod unit;
+mod unit_parser;
+mod unit_table;
+mod value;
+
+pub use dimension::Dimension;
+pub use dual::Dual;
+pub use error::{UnitError, UnitErrorKind};
+pub use expr::{Comparison, Degree, EvalError, Expression, Program, RESERVED, Scope, Symbol, is_function};
+pub use format::number as format_number;
+pub use quantity::{Quantity, parse_quantity};
+pub use rational::Rational;
+pub use scalar::Scalar;
+pub use suggest::suggest;
+pub use types::Type;
+pub use unit::Unit;
+pub use value::{Written, parse_value};

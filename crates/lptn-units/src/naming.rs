@@ -1,0 +1,120 @@
+//! What dimensions are called: usual units and usual words.
+
+use crate::dimension::{BASE_UNITS, Dimension};
+use crate::rational::Rational;
+
+/// Dimension, usual SI unit, usual words.
+const KNOWN: &[(Dimension, &str, &str)] = &[
+    (Dimension::NONE, "1", "plain number"),
+    (Dimension::LENGTH, "m", "length"),
+    (Dimension::AREA, "m^2", "area"),
+    (Dimension::VOLUME, "m^3", "volume"),
+    (Dimension::MASS, "kg", "mass"),
+    (Dimension::TIME, "s", "time"),
+    (Dimension::TEMPERATURE, "K", "temperature difference"),
+    (Dimension::CURRENT, "A", "electric current"),
+    (Dimension::ANGLE, "rad", "angle"),
+    (Dimension::FREQUENCY, "1/s", "frequency"),
+    (Dimension::ANGULAR_VELOCITY, "rad/s", "rotational speed"),
+    (Dimension::VELOCITY, "m/s", "velocity"),
+    (Dimension::ACCELERATION, "m/s^2", "acceleration"),
+    (Dimension::FORCE, "N", "force"),
+    (Dimension::PRESSURE, "Pa", "pressure"),
+    (Dimension::ENERGY, "J", "energy"),
+    (Dimension::POWER, "W", "power"),
+    (Dimension::CAPACITY, "J/K", "heat capacity"),
+    (Dimension::CONDUCTANCE, "W/K", "thermal conductance"),
+    (Dimension::RESISTANCE, "K/W", "thermal resistance"),
+    (Dimension::FILM_COEFFICIENT, "W/(m^2 K)", "film coefficient"),
+    (Dimension::AREA_RESISTANCE, "m^2 K/W", "thermal resistance of an area"),
+    (Dimension::CONDUCTIVITY, "W/(m K)", "thermal conductivity"),
+    (Dimension::DENSITY, "kg/m^3", "density"),
+    (Dimension::SPECIFIC_HEAT, "J/(kg K)", "specific heat capacity"),
+    (Dimension::VOLUMETRIC_HEAT_CAPACITY, "J/(m^3 K)", "volumetric heat capacity"),
+    (Dimension::SPECIFIC_ENERGY, "J/kg", "specific energy"),
+    (Dimension::HEAT_FLUX, "W/m^2", "heat flux"),
+    (Dimension::POWER_DENSITY, "W/m^3", "power density"),
+    (Dimension::MASS_FLOW, "kg/s", "mass flow"),
+    (Dimension::VOLUME_FLOW, "m^3/s", "volume flow"),
+    (Dimension::DYNAMIC_VISCOSITY, "Pa s", "dynamic viscosity"),
+    (Dimension::KINEMATIC_VISCOSITY, "m^2/s", "kinematic viscosity or diffusivity"),
+    (Dimension::EXPANSION_COEFFICIENT, "1/K", "expansion coefficient"),
+    (Dimension::HEATING_RATE, "K/s", "heating rate"),
+    (Dimension::TEMPERATURE_GRADIENT, "K/m", "temperature gradient"),
+    (Dimension::RADIATION_CONSTANT, "W/(m^2 K^4)", "radiation constant"),
+    (Dimension::VOLTAGE, "V", "voltage"),
+    (Dimension::ELECTRICAL_RESISTANCE, "ohm", "electrical resistance"),
+];
+
+/// Derived units worth pulling out of a product of base units. J is left out: who writes K/W/s thinks in W.
+const FACTORS: [(Dimension, &str); 2] = [(Dimension::POWER, "W"), (Dimension::FORCE, "N")];
+
+pub(crate) fn si_unit(dimension: Dimension) -> String {
+    match KNOWN.iter().find(|(known, _, _)| *known == dimension) {
+        Some((_, unit, _)) => (*unit).to_owned(),
+        None => shortest(dimension),
+    }
+}
+
+pub(crate) fn quantity_name(dimension: Dimension) -> Option<&'static str> {
+    KNOWN.iter().find(|(known, _, _)| *known == dimension).map(|(_, _, words)| *words)
+}
+
+pub(crate) fn base_units(dimension: Dimension) -> String {
+    compose(&base_factors(dimension))
+}
+
+type Factor = (&'static str, Rational);
+
+/// The product with the fewest factors: base units alone, or with one derived unit pulled out.
+fn shortest(dimension: Dimension) -> String {
+    let mut best = base_factors(dimension);
+    for (derived, symbol) in FACTORS {
+        for sign in [1, -1] {
+            let exponent = Rational::integer(sign);
+            let rest = derived.checked_pow(exponent).and_then(|d| dimension.checked_div(d));
+            let Some(rest) = rest else { continue };
+            let mut factors = vec![(symbol, exponent)];
+            factors.extend(base_factors(rest));
+            if factors.len() < best.len() {
+                best = factors;
+            }
+        }
+    }
+    compose(&best)
+}
+
+/// Base units with their exponents, mass first as it is usually written.
+fn base_factors(dimension: Dimension) -> Vec<Factor> {
+    let [length, mass, time, temperature, current, angle] = dimension.exponents();
+    let [m, kg, s, k, a, rad] = BASE_UNITS;
+    [(kg, mass), (m, length), (k, temperature), (a, current), (rad, angle), (s, time)]
+        .into_iter()
+        .filter(|(_, exponent)| !exponent.is_zero())
+        .collect()
+}
+
+/// `kg m^2/(s^2 K)`: what stands above the bar, then what stands below it.
+fn compose(factors: &[Factor]) -> String {
+    let above: Vec<String> =
+        factors.iter().filter(|(_, e)| e.num() > 0).map(|&(name, e)| power(name, e)).collect();
+    let below: Vec<String> = factors
+        .iter()
+        .filter(|(_, e)| e.num() < 0)
+        .filter_map(|&(name, e)| Some(power(name, e.checked_neg()?)))
+        .collect();
+    let numerator = if above.is_empty() { "1".to_owned() } else { above.join(" ") };
+    match below.as_slice() {
+        [] => numerator,
+        [one] => format!("{numerator}/{one}"),
+        many => format!("{numerator}/({})", many.join(" ")),
+    }
+}
+
+fn power(name: &str, exponent: Rational) -> String {
+    match exponent.as_integer() {
+        Some(1) => name.to_owned(),
+        Some(n) => format!("{name}^{n}"),
+        None => format!("{name}^({exponent})"),
+    }
+}

@@ -1,0 +1,357 @@
+//! Quantities: a number, perhaps its standard deviation, and a unit.
+
+use std::ops::Range;
+
+use crate::dimension::Dimension;
+use crate::error::{UnitError, UnitErrorKind};
+use crate::format::{number, rounded};
+use crate::number::{self, Number};
+use crate::types::Type;
+use crate::unit;
+use crate::unit_parser::ParsedUnit;
+
+/// A value with its type, in SI units.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Quantity {
+    /// The value in SI units; an absolute temperature in K.
+    pub value: f64,
+    /// One standard deviation in SI units, if the text gives one; zero or positive.
+    pub deviation: Option<f64>,
+    /// What it is.
+    pub ty: Type,
+}
+
+/// Reads a quantity: `0.3 K/W`, `87 ± 15 uW/rpm^(5/3)`, `20 +- 5 % W`, `25.5 degC`, `0.7`.
+///
+/// `expected` is the type of the field, where it is known; the quantity must then be of this type, or have
+/// exactly one radian more (see [`Type::conforms_to`]). `300 K` is an absolute temperature only where one is
+/// expected. The deviation stands after the number (`25 ± 0.5 degC`) or, with a unit of its own, at the
+/// end (`25 degC ± 0.5 K`); `± 5 %` is always relative to the value.
+///
+/// # Errors
+///
+/// Text that is no quantity, an unknown or ambiguous unit, a value out of range, a negative deviation, a
+/// temperature below absolute zero, and, with `expected`, a wrong type. Every error names its place
+/// and, where possible, the string to write.
+pub fn parse_quantity(text: &str, expected: Option<Type>) -> Result<Quantity, UnitError> {
+    read(text)?.conclude(expected)
+}
+
+/// A quantity as written, before its type is settled.
+#[derive(Debug)]
+pub(crate) struct Reading<'a> {
+    text: &'a str,
+    number: Number,
+    deviation: Option<Deviation>,
+    unit: Option<(ParsedUnit, Range<usize>)>,
+}
+
+#[derive(Debug)]
+struct Deviation {
+    number: Number,
+    percent: bool,
+    /// A unit of its own: scale and dimension.
+    unit: Option<(f64, Dimension)>,
+}
+
+/// Reads the text without a look at the type.
+pub(crate) fn read(text: &str) -> Result<Reading<'_>, UnitError> {
+    let start = text.len() - text.trim_start().len();
+    let end = text.trim_end().len();
+    if start >= end {
+        return Err(UnitError::new(UnitErrorKind::Empty, 0..text.len()));
+    }
+    let Some(number) = number::scan(text, start, true)? else { return Err(no_number(text, start..end)) };
+    decimal_comma(text, &number)?;
+    let after_number = number.span.end;
+    let (mut deviation, unit_start) = deviation(text, after_number)?;
+    let mut unit_end = end;
+    if deviation.is_none()
+        && let Some(at) = plus_minus(text, unit_start)
+    {
+        unit_end = at.start;
+        deviation = Some(trailing_deviation(text, at.end)?);
+    }
+    let unit = unit_at(text, unit_start..unit_end)?;
+    let reading = Reading { text, number, deviation, unit };
+    reading.check_deviation()?;
+    Ok(reading)
+}
+
+fn no_number(text: &str, span: Range<usize>) -> UnitError {
+    let word = text.get(span.clone()).unwrap_or_default();
+    let bare = word.trim_start_matches(['+', '-']).to_lowercase();
+    let first = bare.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default();
+    if matches!(first, "nan" | "inf" | "infinity") {
+        return UnitError::new(UnitErrorKind::NotFinite { text: first.to_owned() }, span);
+    }
+    let found = format!("`{}`", word.chars().take(20).collect::<String>());
+    UnitError::new(UnitErrorKind::Syntax { wanted: "a number", found }, span)
+}
+
+/// `1,5 K/W`.
+fn decimal_comma(text: &str, number: &Number) -> Result<(), UnitError> {
+    let end = number.span.end;
+    let rest = text.get(end..).unwrap_or_default();
+    let mut next = rest.chars();
+    if next.next() != Some(',') || !next.next().is_some_and(|c| c.is_ascii_digit()) {
+        return Ok(());
+    }
+    let fix = text.get(..end).unwrap_or_default().to_owned() + "." + rest.get(1..).unwrap_or_default();
+    Err(UnitError::new(UnitErrorKind::DecimalComma { fix: fix.trim().to_owned() }, end..end + 1))
+}
+
+const PLUS_MINUS: [&str; 3] = ["±", "+/-", "+-"];
+
+/// The first `±` from `at` on.
+fn plus_minus(text: &str, at: usize) -> Option<Range<usize>> {
+    let rest = text.get(at..)?;
+    PLUS_MINUS
+        .iter()
+        .filter_map(|sign| rest.find(sign).map(|i| at + i..at + i + sign.len()))
+        .min_by_key(|range| range.start)
+}
+
+fn skip_space(text: &str, at: usize) -> usize {
+    let rest = text.get(at..).unwrap_or_default();
+    at + rest.len() - rest.trim_start().len()
+}
+
+/// The deviation directly after the number, and where the unit begins.
+fn deviation(text: &str, at: usize) -> Result<(Option<Deviation>, usize), UnitError> {
+    let start = skip_space(text, at);
+    let Some(sign) = plus_minus(text, start).filter(|sign| sign.start == start) else {
+        return Ok((None, at));
+    };
+    let number = deviation_number(text, sign.end)?;
+    let after = skip_space(text, number.span.end);
+    let percent = text.get(after..).unwrap_or_default().starts_with('%');
+    let end = if percent { after + 1 } else { number.span.end };
+    Ok((Some(Deviation { number, percent, unit: None }), end))
+}
+
+fn deviation_number(text: &str, at: usize) -> Result<Number, UnitError> {
+    let start = skip_space(text, at);
+    number::scan(text, start, true)?.ok_or_else(|| no_number(text, start..text.len()))
+}
+
+/// `± 0.5 K` after the unit.
+fn trailing_deviation(text: &str, at: usize) -> Result<Deviation, UnitError> {
+    let number = deviation_number(text, at)?;
+    let rest = number.span.end..text.len();
+    if text.get(rest.clone()).unwrap_or_default().trim() == "%" {
+        return Ok(Deviation { number, percent: true, unit: None });
+    }
+    let unit = unit_at(text, rest)?.map_or((1.0, Dimension::NONE), |(unit, _)| (unit.scale, unit.dimension));
+    Ok(Deviation { number, percent: false, unit: Some(unit) })
+}
+
+/// The unit that fills this part of the text, `None` if it is blank.
+fn unit_at(text: &str, part: Range<usize>) -> Result<Option<(ParsedUnit, Range<usize>)>, UnitError> {
+    let written = text.get(part.clone()).unwrap_or_default();
+    // `2 * m` is a number times a unit.
+    let product = written.trim_start();
+    let written = product.strip_prefix(['*', '·']).unwrap_or(product).trim_start();
+    let start = part.end - written.len();
+    let unit = written.trim();
+    if unit.is_empty() {
+        return Ok(None);
+    }
+    let before = text.get(..start).unwrap_or_default();
+    let after = text.get(part.end..).unwrap_or_default();
+    let complete = |fix: &str| {
+        let space = if before.ends_with(char::is_whitespace) { "" } else { " " };
+        let gap = if after.is_empty() { "" } else { " " };
+        format!("{before}{space}{fix}{gap}{after}").trim().to_owned()
+    };
+    let parsed = unit::parse_or_repair(unit).map_err(|e| e.shifted(start).map_fix(complete))?;
+    if parsed.names.is_empty() {
+        let kind = UnitErrorKind::Syntax { wanted: "a unit", found: format!("`{unit}`") };
+        return Err(UnitError::new(kind, start..start + unit.len()));
+    }
+    Ok(Some((parsed, start..start + unit.len())))
+}
+
+impl Reading<'_> {
+    fn check_deviation(&self) -> Result<(), UnitError> {
+        match &self.deviation {
+            Some(deviation) if deviation.number.value < 0.0 => {
+                let span = deviation.number.span.clone();
+                let text = self.text.get(span.clone()).unwrap_or_default().to_owned();
+                Err(UnitError::new(UnitErrorKind::NegativeDeviation { text }, span))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The unit names, as written.
+    pub(crate) fn unit_names(&self) -> impl Iterator<Item = (&str, Range<usize>)> {
+        self.unit.iter().flat_map(|(unit, span)| {
+            unit.names.iter().filter_map(|name| {
+                let range = span.start + name.start..span.start + name.end;
+                Some((self.text.get(range.clone())?, range))
+            })
+        })
+    }
+
+    /// The text as it is, without surrounding space.
+    pub(crate) fn plain_text(&self) -> &str {
+        self.text.trim()
+    }
+
+    /// The text with a space in place of an operator between number and unit.
+    pub(crate) fn as_plain_quantity(&self) -> String {
+        let unit = self.unit_text().trim_start_matches(['*', '·', ' ']);
+        let bar = if unit.starts_with('/') { "1" } else { "" };
+        format!("{} {bar}{}", self.amount_text(), unit.replace("/ ", "/"))
+    }
+
+    /// Settles the type and converts to SI.
+    pub(crate) fn conclude(&self, expected: Option<Type>) -> Result<Quantity, UnitError> {
+        let (found, offset) = self.found_type(expected);
+        let ty = match expected {
+            Some(wanted) if !found.conforms_to(wanted) => return Err(self.mismatch(found, wanted)),
+            Some(wanted) => wanted,
+            None => found,
+        };
+        let mut value = self.in_range((self.number.value + offset) * self.scale())?;
+        if ty.absolute {
+            value = above_absolute_zero(value, self.number.span.clone())?;
+        }
+        let deviation = self.deviation_in_si(value, ty)?;
+        Ok(Quantity { value, deviation, ty })
+    }
+
+    fn scale(&self) -> f64 {
+        self.unit.as_ref().map_or(1.0, |(unit, _)| unit.scale)
+    }
+
+    /// The type by the unit alone, and the offset of an absolute temperature.
+    fn found_type(&self, expected: Option<Type>) -> (Type, f64) {
+        let Some((unit, _)) = &self.unit else { return (Type::SCALAR, 0.0) };
+        let wants_absolute = expected == Some(Type::ABSOLUTE_TEMPERATURE);
+        let absolute = unit.alone.filter(|entry| {
+            entry.dimension == Dimension::TEMPERATURE && (entry.offset > 0.0 || wants_absolute)
+        });
+        match absolute {
+            Some(entry) => (Type::ABSOLUTE_TEMPERATURE, entry.offset),
+            None => (Type::of(unit.dimension), 0.0),
+        }
+    }
+
+    fn in_range(&self, value: f64) -> Result<f64, UnitError> {
+        if value.is_finite() {
+            return Ok(value);
+        }
+        let number = self.text.trim().to_owned();
+        Err(UnitError::new(UnitErrorKind::OutOfRange { number }, self.number.span.clone()))
+    }
+
+    fn deviation_in_si(&self, value: f64, ty: Type) -> Result<Option<f64>, UnitError> {
+        let Some(deviation) = &self.deviation else { return Ok(None) };
+        let size = deviation.number.value;
+        let si = match (deviation.percent, ty.absolute) {
+            (true, true) => return Err(self.relative_deviation(deviation)),
+            (true, false) => value.abs() * size / 100.0,
+            (false, _) => size * self.deviation_scale(deviation)?,
+        };
+        self.in_range(si).map(Some)
+    }
+
+    /// A unit of its own must measure the same as that of the value.
+    fn deviation_scale(&self, deviation: &Deviation) -> Result<f64, UnitError> {
+        let dimension = self.unit.as_ref().map_or(Dimension::NONE, |(unit, _)| unit.dimension);
+        let wanted = Type::of(dimension);
+        let kind = match deviation.unit {
+            None => return Ok(self.scale()),
+            Some((scale, own)) if own == dimension => return Ok(scale),
+            Some((_, Dimension::NONE)) => {
+                let fix = format!("{} {}", self.text.trim(), wanted.usual_unit());
+                UnitErrorKind::BareNumber { wanted, fix }
+            }
+            Some((_, own)) => UnitErrorKind::Dimension {
+                wanted: Box::new(wanted),
+                found: Box::new(Type::of(own)),
+                fix: None,
+            },
+        };
+        Err(UnitError::new(kind, deviation.number.span.clone()))
+    }
+
+    fn relative_deviation(&self, deviation: &Deviation) -> UnitError {
+        let size = (self.number.value * deviation.number.value / 100.0).abs();
+        let fix = format!("{} ± {} {}", self.number_text(), rounded(size, 12), self.unit_text());
+        let kind = UnitErrorKind::RelativeDeviation { fix: Some(fix) };
+        UnitError::new(kind, deviation.number.span.clone())
+    }
+
+    fn number_text(&self) -> &str {
+        self.text.get(self.number.span.clone()).unwrap_or_default()
+    }
+
+    fn unit_text(&self) -> &str {
+        self.unit.as_ref().and_then(|(_, span)| self.text.get(span.clone())).unwrap_or_default()
+    }
+
+    /// Number and deviation as written, without the unit.
+    fn amount_text(&self) -> &str {
+        let end = self.unit.as_ref().map_or(self.text.len(), |(_, span)| span.start);
+        self.text.get(..end).unwrap_or_default().trim().trim_end_matches('*').trim_end()
+    }
+
+    fn whole_span(&self) -> Range<usize> {
+        skip_space(self.text, 0)..self.text.trim_end().len()
+    }
+
+    fn mismatch(&self, found: Type, wanted: Type) -> UnitError {
+        let amount = self.amount_text();
+        let kind = if self.unit.is_none() {
+            UnitErrorKind::BareNumber { wanted, fix: format!("{amount} {}", wanted.usual_unit()) }
+        } else if wanted.absolute && found.dimension == Dimension::TEMPERATURE {
+            UnitErrorKind::AbsoluteWanted { fix: format!("{amount} degC") }
+        } else if found.absolute && wanted.dimension == Dimension::TEMPERATURE {
+            UnitErrorKind::DifferenceWanted { fix: self.as_difference() }
+        } else if is_frequency_for_rotation(found, wanted) {
+            UnitErrorKind::Rotation { fix: Some(self.in_revolutions()) }
+        } else {
+            let fix = self.mismatch_fix(found, wanted);
+            UnitErrorKind::Dimension { wanted: Box::new(wanted), found: Box::new(found), fix }
+        };
+        UnitError::new(kind, self.whole_span())
+    }
+
+    /// `5 degF` as a difference is `5 degR`.
+    fn as_difference(&self) -> String {
+        let fahrenheit = self.unit_text().ends_with(['F', '℉']);
+        format!("{} {}", self.amount_text(), if fahrenheit { "degR" } else { "K" })
+    }
+
+    fn in_revolutions(&self) -> String {
+        let scale = self.scale();
+        if (scale - 1.0).abs() < 1e-12 {
+            return format!("{} rev/s", self.amount_text());
+        }
+        format!("{} rev/s", rounded(self.number.value * scale, 12))
+    }
+
+    /// The inverse of what is wanted is a conductance for a resistance; anything else only gets its unit.
+    fn mismatch_fix(&self, found: Type, wanted: Type) -> Option<String> {
+        if Dimension::NONE.checked_div(found.dimension) == Some(wanted.dimension) && !found.absolute {
+            return Some(format!("1 / ({} [{}])", number(self.number.value), self.unit_text()));
+        }
+        Some(format!("{} {}", self.amount_text(), wanted.usual_unit()).trim_end_matches(" 1").to_owned())
+    }
+}
+
+/// Is a frequency given where a rotation is due?
+pub(crate) fn is_frequency_for_rotation(found: Type, wanted: Type) -> bool {
+    wanted == Type::of(Dimension::ANGULAR_VELOCITY) && found == Type::of(Dimension::FREQUENCY)
+}
+
+/// An absolute temperature in K; what rounding puts below 0 K is 0 K.
+pub(crate) fn above_absolute_zero(kelvin: f64, span: Range<usize>) -> Result<f64, UnitError> {
+    if kelvin < -1e-9 {
+        return Err(UnitError::new(UnitErrorKind::BelowAbsoluteZero { kelvin }, span));
+    }
+    Ok(kelvin.max(0.0))
+}

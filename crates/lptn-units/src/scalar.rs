@@ -1,0 +1,105 @@
+//! The arithmetic that programs run on.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number a [`Program`](crate::Program) can be evaluated on: `f64`, or [`Dual`](crate::Dual) for derivatives.
+///
+/// Derivatives at the points where there is none: `abs`, `min` and `max` take one side at their kinks
+/// (`abs'(0) = 1`; `min` and `max` of equal values take the first). `sqrt` and `x^a` with 0 < a < 1 have
+/// an infinite derivative at 0; it is given as 0, so that a law whose conductance goes like `abs(dT)^0.25`
+/// has a finite Jacobian at `dT = 0` (where the term `dT * dG/ddT` is 0). `x^a` with a > 1 has derivative 0 at
+/// 0, which is what it is.
+pub trait Scalar:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// A constant.
+    fn from_f64(value: f64) -> Self;
+    /// The value without its derivatives.
+    fn value(self) -> f64;
+    /// Are the value and all derivatives finite?
+    fn is_finite(self) -> bool;
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// e^x.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// Sine of an angle in rad.
+    fn sin(self) -> Self;
+    /// Cosine of an angle in rad.
+    fn cos(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// Whole power.
+    fn powi(self, exponent: i32) -> Self;
+    /// Constant real power of a base that is not negative.
+    fn powf(self, exponent: f64) -> Self;
+    /// Real power of a base that is not negative, both varying.
+    fn pow(self, exponent: Self) -> Self;
+
+    /// The smaller; the first of equal values.
+    fn min(self, other: Self) -> Self {
+        if other.value() < self.value() { other } else { self }
+    }
+
+    /// The larger; the first of equal values.
+    fn max(self, other: Self) -> Self {
+        if other.value() > self.value() { other } else { self }
+    }
+}
+
+impl Scalar for f64 {
+    fn from_f64(value: f64) -> Self {
+        value
+    }
+
+    fn value(self) -> f64 {
+        self
+    }
+
+    fn is_finite(self) -> bool {
+        self.is_finite()
+    }
+
+    fn abs(self) -> Self {
+        self.abs()
+    }
+
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+
+    fn exp(self) -> Self {
+        self.exp()
+    }
+
+    fn ln(self) -> Self {
+        self.ln()
+    }
+
+    fn sin(self) -> Self {
+        self.sin()
+    }
+
+    fn cos(self) -> Self {
+        self.cos()
+    }
+
+    fn tanh(self) -> Self {
+        self.tanh()
+    }
+
+    fn powi(self, exponent: i32) -> Self {
+        self.powi(exponent)
+    }
+
+    fn powf(self, exponent: f64) -> Self {
+        self.powf(exponent)
+    }
+
+    fn pow(self, exponent: Self) -> Self {
+        self.powf(exponent)
+    }
+}

@@ -1,0 +1,85 @@
+//! "Did you mean": the nearest name.
+
+/// Longer names are not compared: the table below grows with the square of the length.
+const LONGEST: usize = 64;
+
+/// The candidate nearest to `name`, or `None` when nothing is near.
+///
+/// Near means: equal but for case, or at most one edit for every three characters (one edit for names
+/// of two to five) by the Damerau-Levenshtein distance in which no part is edited twice (optimal string
+/// alignment). Of equally near candidates those of the same length win, then the first.
+///
+/// Source: R. A. Wagner and M. J. Fischer, Journal of the ACM 21 (1974) 168, with the transposition of
+/// neighbours added.
+pub fn suggest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let wanted: Vec<char> = name.chars().take(LONGEST + 1).collect();
+    if wanted.is_empty() || wanted.len() > LONGEST {
+        return None;
+    }
+    let mut best: Option<(usize, &'a str)> = None;
+    for candidate in candidates.filter(|c| *c != name) {
+        let Some(rank) = rank(name, &wanted, candidate) else { continue };
+        if best.is_none_or(|(least, _)| rank < least) {
+            best = Some((rank, candidate));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
+}
+
+/// 0 for a difference in case alone, otherwise more the larger the distance; `None` when too far.
+fn rank(name: &str, wanted: &[char], candidate: &str) -> Option<usize> {
+    if name.eq_ignore_ascii_case(candidate) {
+        return Some(0);
+    }
+    let found: Vec<char> = candidate.chars().take(LONGEST + 1).collect();
+    let longer = wanted.len().max(found.len());
+    let limit = if !(2..=LONGEST).contains(&longer) { 0 } else { (longer / 3).max(1) };
+    // Two single letters, or a letter and a pair, have nothing in common to go by.
+    let limit = if wanted.len().min(found.len()) < 2 && longer < 3 { 0 } else { limit };
+    let distance = distance(wanted, &found, limit)?;
+    (distance <= limit).then_some(2 * distance + usize::from(wanted.len() != found.len()))
+}
+
+/// Optimal string alignment distance; `None` if the lengths alone exceed `limit`.
+fn distance(a: &[char], b: &[char], limit: usize) -> Option<usize> {
+    if limit == 0 || a.len().abs_diff(b.len()) > limit {
+        return None;
+    }
+    let mut before: Vec<usize> = Vec::new();
+    let mut above: Vec<usize> = (0..=b.len()).collect();
+    for (i, &x) in a.iter().enumerate() {
+        let mut row = vec![i + 1];
+        for (j, &y) in b.iter().enumerate() {
+            let swapped = i > 0 && j > 0 && a[i - 1] == y && b[j - 1] == x;
+            let replace = above[j] + usize::from(x != y);
+            let mut least = replace.min(above[j + 1] + 1).min(row[j] + 1);
+            if swapped {
+                least = least.min(before[j - 1] + 1);
+            }
+            row.push(least);
+        }
+        before = std::mem::replace(&mut above, row);
+    }
+    above.last().copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::suggest;
+
+    #[test]
+    fn swapped_and_missing_letters_are_near() {
+        let names = ["ambient", "aluminium", "steel"];
+        assert_eq!(suggest("ambiant", names.into_iter()), Some("ambient"));
+        assert_eq!(suggest("stele", names.into_iter()), Some("steel"));
+        assert_eq!(suggest("aluminum", names.into_iter()), Some("aluminium"));
+        assert_eq!(suggest("Steel", names.into_iter()), Some("steel"));
+        assert_eq!(suggest("bronze", names.into_iter()), None);
+    }
+
+    #[test]
+    fn single_letters_are_near_only_in_case() {
+        assert_eq!(suggest("w", ["K", "W"].into_iter()), Some("W"));
+        assert_eq!(suggest("x", ["K", "W"].into_iter()), None);
+    }
+}

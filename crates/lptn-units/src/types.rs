@@ -1,0 +1,78 @@
+//! The type of a value: its dimension, and whether it is an absolute temperature.
+
+use std::fmt;
+
+use crate::dimension::Dimension;
+
+/// What a value is: a dimension, and for temperatures whether it is a point on the scale (absolute) or a
+/// difference of two such points.
+///
+/// 20 degC + 20 degC has no meaning while 20 K + 20 K has, so the two are kept apart.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Type {
+    /// The physical dimension.
+    pub dimension: Dimension,
+    /// A point on the temperature scale; only ever true together with [`Dimension::TEMPERATURE`].
+    pub absolute: bool,
+}
+
+impl Type {
+    /// A point on the temperature scale, in K.
+    pub const ABSOLUTE_TEMPERATURE: Self = Self { dimension: Dimension::TEMPERATURE, absolute: true };
+    /// A plain number.
+    pub const SCALAR: Self = Self::of(Dimension::NONE);
+
+    /// A plain quantity of this dimension; a temperature difference for [`Dimension::TEMPERATURE`].
+    pub const fn of(dimension: Dimension) -> Self {
+        Self { dimension, absolute: false }
+    }
+
+    /// Is it a plain number?
+    pub fn is_scalar(&self) -> bool {
+        !self.absolute && self.dimension.is_none()
+    }
+
+    /// The unit to write a value of this type in: `degC` for an absolute temperature, otherwise
+    /// [`Dimension::si_unit`].
+    pub fn usual_unit(&self) -> String {
+        if self.absolute { "degC".to_owned() } else { self.dimension.si_unit() }
+    }
+
+    /// May a value of this type stand where `wanted` is due?
+    ///
+    /// The types are equal, or the value has exactly one radian too many: a torque (N m) times a rotational
+    /// speed (rad/s) is a power. A rotational speed is never a frequency (1/s).
+    pub fn conforms_to(&self, wanted: Type) -> bool {
+        let one_radian_too_many = || {
+            !self.absolute
+                && !wanted.absolute
+                && wanted.dimension != Dimension::FREQUENCY
+                && wanted.dimension.checked_mul(Dimension::ANGLE) == Some(self.dimension)
+        };
+        *self == wanted || one_radian_too_many()
+    }
+
+    /// With the article a sentence needs: `a thermal resistance (K/W)`.
+    pub(crate) fn with_article(&self) -> String {
+        if !self.absolute && self.dimension.quantity_name().is_none() {
+            return format!("a quantity in {self}");
+        }
+        let text = self.to_string();
+        let article = if text.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+        format!("{article} {text}")
+    }
+}
+
+impl fmt::Display for Type {
+    /// `absolute temperature`, `thermal resistance (K/W)`, `plain number`, or the unit alone.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.absolute {
+            return f.write_str("absolute temperature");
+        }
+        match self.dimension.quantity_name() {
+            Some(name) if self.is_scalar() => f.write_str(name),
+            Some(name) => write!(f, "{name} ({})", self.dimension.si_unit()),
+            None => f.write_str(&self.dimension.si_unit()),
+        }
+    }
+}

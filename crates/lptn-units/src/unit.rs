@@ -1,0 +1,70 @@
+//! A unit on its own, as in the header of a table: `T [degC]`.
+
+use crate::error::{UnitError, UnitErrorKind};
+use crate::repair;
+use crate::types::Type;
+use crate::unit_parser::{self, ParsedUnit};
+
+/// A unit of measurement and its conversion to SI: `si = (value + offset) * scale`.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Unit {
+    /// The unit as written.
+    pub text: String,
+    /// Size of the unit in SI units.
+    pub scale: f64,
+    /// Added to a value before scaling: 273.15 for `degC` alone, 459.67 for `degF` alone, else 0.
+    pub offset: f64,
+    /// What it measures.
+    pub ty: Type,
+}
+
+impl Unit {
+    /// Reads a unit: `W/(m^2 K)`, `uW/rpm^(5/3)`, `1` for plain numbers.
+    ///
+    /// `degC` and `degF` standing alone are absolute; `K`, and every temperature inside a compound unit, is a
+    /// difference.
+    ///
+    /// # Errors
+    ///
+    /// An unknown unit, a product after `/` without brackets, a malformed exponent; the help shows the
+    /// corrected unit.
+    pub fn parse(text: &str) -> Result<Self, UnitError> {
+        let parsed = parse_or_repair(text)?;
+        let entry = parsed.alone.filter(|entry| entry.offset > 0.0);
+        let ty = if entry.is_some() { Type::ABSOLUTE_TEMPERATURE } else { Type::of(parsed.dimension) };
+        let offset = entry.map_or(0.0, |entry| entry.offset);
+        Ok(Self { text: text.trim().to_owned(), scale: parsed.scale, offset, ty })
+    }
+
+    /// A value in this unit, from SI (absolute temperatures in K).
+    pub fn from_si(&self, si: f64) -> f64 {
+        si / self.scale - self.offset
+    }
+
+    /// A value in SI (absolute temperatures in K), from this unit.
+    pub fn to_si(&self, value: f64) -> f64 {
+        (value + self.offset) * self.scale
+    }
+}
+
+/// Reads a unit; an error carries the corrected unit text where there is one.
+pub(crate) fn parse_or_repair(text: &str) -> Result<ParsedUnit, UnitError> {
+    if text.trim().is_empty() {
+        return Err(UnitError::new(UnitErrorKind::Empty, 0..text.len()));
+    }
+    unit_parser::parse(text).map_err(|error| with_fix(error, text))
+}
+
+fn with_fix(mut error: UnitError, text: &str) -> UnitError {
+    let repaired = repair::unit(text);
+    match &mut error.kind {
+        UnitErrorKind::UnknownUnit { fix, .. } | UnitErrorKind::AmbiguousProduct { fix } => *fix = repaired,
+        // `m-2`, `m**2`: no such thing as a unit, but plainly one with its exponent written otherwise.
+        UnitErrorKind::Syntax { .. } if repaired.is_some() => {
+            let name = text.trim().to_owned();
+            error.kind = UnitErrorKind::UnknownUnit { name, fix: repaired };
+        }
+        _ => {}
+    }
+    error
+}

@@ -1,0 +1,281 @@
+//! Reads unit texts: `W/(m^2 K)`, `uW/rpm^(5/3)`, `m²·K/W`.
+
+use std::ops::Range;
+
+use crate::dimension::Dimension;
+use crate::error::{UnitError, UnitErrorKind};
+use crate::rational::Rational;
+use crate::unit_table::{self, Entry};
+
+/// Deepest nesting of brackets in a unit.
+const DEPTH_LIMIT: usize = 32;
+
+/// A unit as read.
+#[derive(Clone, Debug)]
+pub(crate) struct ParsedUnit {
+    pub(crate) scale: f64,
+    pub(crate) dimension: Dimension,
+    /// The unit, when it stands alone: only then can it be an absolute temperature.
+    pub(crate) alone: Option<Entry>,
+    /// The names in it, as written.
+    pub(crate) names: Vec<Range<usize>>,
+}
+
+/// Reads the whole text as a unit, without proposing fixes.
+pub(crate) fn parse(text: &str) -> Result<ParsedUnit, UnitError> {
+    let mut parser = Parser { text, at: 0, depth: 0, names: Vec::new() };
+    let product = parser.product()?;
+    parser.skip_space();
+    if parser.at < text.len() {
+        return Err(parser.unexpected("a unit, `*`, `/` or `^`"));
+    }
+    if !product.scale.is_finite() || product.scale <= 0.0 {
+        let number = text.to_owned();
+        return Err(UnitError::new(UnitErrorKind::OutOfRange { number }, 0..text.len()));
+    }
+    let Factor { scale, dimension, alone } = product;
+    Ok(ParsedUnit { scale, dimension, alone, names: parser.names })
+}
+
+#[derive(Clone, Copy)]
+struct Factor {
+    scale: f64,
+    dimension: Dimension,
+    alone: Option<Entry>,
+}
+
+const ONE: Factor = Factor { scale: 1.0, dimension: Dimension::NONE, alone: None };
+
+struct Parser<'a> {
+    text: &'a str,
+    at: usize,
+    depth: usize,
+    names: Vec<Range<usize>>,
+}
+
+#[derive(PartialEq)]
+enum Joint {
+    Times,
+    Over,
+    End,
+}
+
+impl Parser<'_> {
+    /// Factors joined by `*`, a space or `/`. After a `/` only another `/` may follow.
+    fn product(&mut self) -> Result<Factor, UnitError> {
+        self.skip_space();
+        let mut result = if self.peek() == Some('/') { ONE } else { self.first_factor()? };
+        let mut divided = false;
+        loop {
+            let start = self.at;
+            let joint = self.joint();
+            if joint == Joint::End {
+                return Ok(result);
+            }
+            let factor = self.factor()?;
+            if divided && joint == Joint::Times {
+                let kind = UnitErrorKind::AmbiguousProduct { fix: None };
+                return Err(UnitError::new(kind, self.trimmed(start)));
+            }
+            divided |= joint == Joint::Over;
+            result = self.join(result, factor, &joint).ok_or_else(|| self.overflow(start))?;
+        }
+    }
+
+    fn trimmed(&self, start: usize) -> Range<usize> {
+        let part = self.text.get(start..self.at).unwrap_or_default();
+        start + part.len() - part.trim_start().len()..self.at
+    }
+
+    fn join(&self, left: Factor, right: Factor, joint: &Joint) -> Option<Factor> {
+        let (scale, dimension) = if *joint == Joint::Over {
+            (left.scale / right.scale, left.dimension.checked_div(right.dimension)?)
+        } else {
+            (left.scale * right.scale, left.dimension.checked_mul(right.dimension)?)
+        };
+        Some(Factor { scale, dimension, alone: None })
+    }
+
+    /// What joins the factor before to the one after, if there is one after.
+    fn joint(&mut self) -> Joint {
+        let before = self.at;
+        self.skip_space();
+        match self.peek() {
+            Some('/') => {
+                self.advance();
+                Joint::Over
+            }
+            Some('*' | '·' | '⋅' | '×') => {
+                self.advance();
+                Joint::Times
+            }
+            // `min(` would be a call, not a product.
+            Some('(') if self.at > before => Joint::Times,
+            Some(c) if is_name_start(c) => Joint::Times,
+            _ => Joint::End,
+        }
+    }
+
+    /// A `1` may stand above the bar: `1/K`.
+    fn first_factor(&mut self) -> Result<Factor, UnitError> {
+        if self.peek() == Some('1') {
+            self.advance();
+            return Ok(ONE);
+        }
+        self.factor()
+    }
+
+    fn factor(&mut self) -> Result<Factor, UnitError> {
+        self.skip_space();
+        let start = self.at;
+        let base = match self.peek() {
+            Some('(') => self.group()?,
+            Some(c) if is_name_start(c) => self.name()?,
+            _ => return Err(self.unexpected("a unit")),
+        };
+        match self.exponent()? {
+            None => Ok(base),
+            Some(exponent) => raise(base, exponent).ok_or_else(|| self.overflow(start)),
+        }
+    }
+
+    fn group(&mut self) -> Result<Factor, UnitError> {
+        let start = self.at;
+        self.depth += 1;
+        if self.depth > DEPTH_LIMIT {
+            let kind = UnitErrorKind::TooDeep { limit: DEPTH_LIMIT };
+            return Err(UnitError::new(kind, start..start + 1));
+        }
+        self.advance();
+        let inner = self.product()?;
+        self.skip_space();
+        if self.peek() != Some(')') {
+            return Err(self.unexpected("`)`"));
+        }
+        self.advance();
+        self.depth -= 1;
+        Ok(Factor { alone: None, ..inner })
+    }
+
+    fn name(&mut self) -> Result<Factor, UnitError> {
+        let start = self.at;
+        while self.peek().is_some_and(|c| is_name_start(c) || c.is_ascii_digit()) {
+            self.advance();
+        }
+        let written = self.text.get(start..self.at).unwrap_or_default();
+        self.names.push(start..self.at);
+        match unit_table::find(&unit_table::plain_name(written)) {
+            Some(entry) => Ok(Factor { scale: entry.scale, dimension: entry.dimension, alone: Some(entry) }),
+            None => {
+                let kind = UnitErrorKind::UnknownUnit { name: written.to_owned(), fix: None };
+                Err(UnitError::new(kind, start..self.at))
+            }
+        }
+    }
+
+    /// `^2`, `^-1`, `^0.5`, `^(5/3)`, `²`, `⁻¹`; `None` if there is no exponent.
+    fn exponent(&mut self) -> Result<Option<Rational>, UnitError> {
+        let start = self.at;
+        let (body, digits) = match self.peek() {
+            Some('^') => {
+                self.advance();
+                let body = self.exponent_text();
+                let digits = body.trim_matches(['(', ')']).to_owned();
+                (body, digits)
+            }
+            Some(c) if superscript(c).is_some() => {
+                let body = self.take_while(|c| superscript(c).is_some());
+                let digits = body.chars().filter_map(superscript).collect();
+                (body, digits)
+            }
+            _ => return Ok(None),
+        };
+        let error = || UnitError::new(UnitErrorKind::Exponent { text: body.clone() }, start..self.at);
+        fraction(&digits).map(Some).ok_or_else(error)
+    }
+
+    fn exponent_text(&mut self) -> String {
+        if self.peek() != Some('(') {
+            return self.take_while(|c| c.is_ascii_digit() || matches!(c, '.' | '-' | '+'));
+        }
+        let mut body = self.take_while(|c| c != ')');
+        if self.peek() == Some(')') {
+            self.advance();
+            body.push(')');
+        }
+        body
+    }
+
+    fn take_while(&mut self, keep: impl Fn(char) -> bool) -> String {
+        let start = self.at;
+        while self.peek().is_some_and(&keep) {
+            self.advance();
+        }
+        self.text.get(start..self.at).unwrap_or_default().to_owned()
+    }
+
+    fn peek(&self) -> Option<char> {
+        self.text.get(self.at..)?.chars().next()
+    }
+
+    fn advance(&mut self) {
+        self.at += self.peek().map_or(0, char::len_utf8);
+    }
+
+    fn skip_space(&mut self) {
+        while self.peek().is_some_and(char::is_whitespace) {
+            self.advance();
+        }
+    }
+
+    fn unexpected(&self, wanted: &'static str) -> UnitError {
+        let (found, length) = match self.peek() {
+            Some(c) => (format!("`{c}`"), c.len_utf8()),
+            None => ("the end".to_owned(), 0),
+        };
+        UnitError::new(UnitErrorKind::Syntax { wanted, found }, self.at..self.at + length)
+    }
+
+    fn overflow(&self, start: usize) -> UnitError {
+        let text = self.text.get(start..self.at).unwrap_or_default().trim().to_owned();
+        UnitError::new(UnitErrorKind::Exponent { text }, start..self.at)
+    }
+}
+
+/// Letters, and the signs that are units by themselves.
+pub(crate) fn is_name_start(c: char) -> bool {
+    (c.is_alphabetic() && superscript(c).is_none()) || matches!(c, '°' | '%' | '_' | '℃' | '℉')
+}
+
+fn raise(base: Factor, exponent: Rational) -> Option<Factor> {
+    let scale = match exponent.as_integer() {
+        Some(n) => base.scale.powi(n),
+        None => base.scale.powf(exponent.to_f64()),
+    };
+    Some(Factor { scale, dimension: base.dimension.checked_pow(exponent)?, alone: None })
+}
+
+/// `5/3`, `-1`, `0.5`.
+fn fraction(text: &str) -> Option<Rational> {
+    match text.split_once('/') {
+        Some((num, den)) => decimal(num)?.checked_div(decimal(den)?),
+        None => decimal(text),
+    }
+}
+
+fn decimal(text: &str) -> Option<Rational> {
+    Rational::from_decimal(text.trim())
+}
+
+/// The plain form of a raised digit or minus.
+pub(crate) fn superscript(c: char) -> Option<char> {
+    Some(match c {
+        '⁻' => '-',
+        '⁰' => '0',
+        '¹' => '1',
+        '²' => '2',
+        '³' => '3',
+        '⁴'..='⁹' => char::from_u32(u32::from(c) - u32::from('⁰') + u32::from('0'))?,
+        _ => return None,
+    })
+}

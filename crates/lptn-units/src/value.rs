@@ -1,0 +1,118 @@
+//! A string of the netlist: quantity or expression.
+
+use std::ops::Range;
+
+use crate::error::{UnitError, UnitErrorKind};
+use crate::expr::{Expression, bracketed};
+use crate::quantity::{self, Quantity, Reading};
+use crate::types::Type;
+use crate::unit_parser::is_name_start;
+
+/// What a string turned out to be.
+#[derive(Clone, Debug)]
+pub enum Written {
+    /// A number with a unit, `0.3 K/W`.
+    Quantity(Quantity),
+    /// Anything else: `2 * G_out`.
+    Expression(Expression),
+}
+
+/// Reads a string that is either a quantity or an expression. A string that reads as a quantity is never an
+/// expression.
+///
+/// `expected` is the type of the field, where it is known; only a quantity is checked against it here, an
+/// expression is when it is compiled. `is_parameter` tells which names are parameters in scope.
+///
+/// # Errors
+///
+/// Where neither reading succeeds, the error of the more probable one. `2 * m` is an error if `m` is a
+/// parameter, because both readings succeed; units without brackets in an expression are an error that shows
+/// the brackets.
+pub fn parse_value(
+    text: &str,
+    expected: Option<Type>,
+    is_parameter: &dyn Fn(&str) -> bool,
+) -> Result<Written, UnitError> {
+    let as_quantity = match quantity::read(text) {
+        Ok(reading) => return settle(text, &reading, expected, is_parameter),
+        Err(error) => error,
+    };
+    let as_expression = match Expression::parse(text) {
+        Ok(expression) if !is_word(text, &as_quantity) => return Ok(Written::Expression(expression)),
+        Ok(_) => return Err(as_quantity),
+        Err(error) => error,
+    };
+    Err(more_helpful(text, as_quantity, as_expression, is_parameter))
+}
+
+/// `nan` and `inf` are no names.
+fn is_word(text: &str, error: &UnitError) -> bool {
+    let word = text.trim();
+    matches!(&error.kind, UnitErrorKind::NotFinite { text } if word.trim_start_matches(['+', '-']).eq_ignore_ascii_case(text))
+}
+
+fn settle(
+    text: &str,
+    reading: &Reading<'_>,
+    expected: Option<Type>,
+    is_parameter: &dyn Fn(&str) -> bool,
+) -> Result<Written, UnitError> {
+    let parameter = reading.unit_names().find(|(name, _)| is_parameter(name));
+    if let Some((name, span)) = parameter
+        && Expression::parse(text).is_ok()
+    {
+        return Err(two_readings(reading, name, span));
+    }
+    reading.conclude(expected).map(Written::Quantity)
+}
+
+fn two_readings(reading: &Reading<'_>, name: &str, span: Range<usize>) -> UnitError {
+    let kind = UnitErrorKind::TwoReadings {
+        name: name.to_owned(),
+        quantity: reading.as_plain_quantity(),
+        expression: format!("({})", reading.plain_text()),
+    };
+    UnitError::new(kind, span)
+}
+
+fn more_helpful(
+    text: &str,
+    as_quantity: UnitError,
+    as_expression: UnitError,
+    is_parameter: &dyn Fn(&str) -> bool,
+) -> UnitError {
+    let has_fix = as_quantity.help().is_some();
+    if looks_like_quantity(text) && has_fix && !mentions_parameter(text, is_parameter) {
+        return as_quantity;
+    }
+    if let Some((fix, span)) = bracketed(text, is_parameter) {
+        return UnitError::new(UnitErrorKind::UnbracketedUnit { fix }, span);
+    }
+    if looks_like_quantity(text)
+        || matches!(as_quantity.kind, UnitErrorKind::Empty | UnitErrorKind::NotFinite { .. })
+    {
+        return as_quantity;
+    }
+    as_expression
+}
+
+fn mentions_parameter(text: &str, is_parameter: &dyn Fn(&str) -> bool) -> bool {
+    text.split(|c: char| !c.is_alphanumeric() && c != '_').any(is_parameter)
+}
+
+/// A number, then only what units are made of; `+` and `-` only in `±` and exponents.
+fn looks_like_quantity(text: &str) -> bool {
+    let text = text.trim();
+    let Ok(Some(number)) = crate::number::scan(text, 0, true) else {
+        let bare = text.trim_start_matches(['+', '-', '.']);
+        return bare.starts_with(|c: char| c.is_ascii_digit());
+    };
+    let rest = text.get(number.span.end..).unwrap_or_default();
+    let rest = rest.replace("+-", "±").replace("+/-", "±");
+    // Without a single letter it is arithmetic.
+    if !rest.contains(is_name_start) {
+        return rest.trim_start().starts_with('±');
+    }
+    let has_operator = rest.contains(" + ") || rest.contains(" - ");
+    !has_operator && !rest.contains(['[', ']', '<', '>', '=', '!', '+'])
+}

@@ -1,0 +1,116 @@
+//! What compiled programs and parsed expressions tell about themselves, and how they fail at run time.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+mod common;
+
+use common::{Names, program, run, values};
+use lptn_units::{Degree, Dimension, EvalError, Expression, Program, Type};
+
+const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
+const ABSOLUTE: Type = Type::ABSOLUTE_TEMPERATURE;
+
+#[test]
+fn run_time_errors_name_value_and_place() {
+    let text = "2 + (x - 3)^0.5";
+    let error = run(text).unwrap_err();
+    assert_eq!((error.code(), &text[error.span()]), ("units::negative_base", "(x - 3)^0.5"));
+    assert!(
+        matches!(error, EvalError::NegativeBase { base, exponent, .. } if base < -0.999 && (0.5..0.51).contains(&exponent))
+    );
+    assert_eq!(run("(x - 3)^(n / 2)").unwrap_err().code(), "units::negative_base");
+    let text = "1 + ln(x - 2)";
+    let error = run(text).unwrap_err();
+    assert_eq!((error.code(), &text[error.span()]), ("units::domain", "ln(x - 2)"));
+    assert_eq!(run("sqrt(x - 3)").unwrap_err().code(), "units::domain");
+    let text = "3 * (1 / (x - 2))";
+    let error = run(text).unwrap_err();
+    assert_eq!((error.code(), &text[error.span()]), ("units::result_not_finite", "1 / (x - 2)"));
+    let error = program("T - T_amb").eval(&[1.0_f64], &mut Vec::new()).unwrap_err();
+    assert_eq!(error.code(), "units::missing_slot");
+}
+
+#[test]
+fn comparisons_load_frozen_slots_and_their_own_programs_the_ordinary_ones() {
+    let program = program("if(if(T > 340 [K] + 0 [degC], x, n) > 1, kelvin(T), 0 [K])");
+    assert_eq!(program.slots(), [0, 1, 6, 10]);
+    let frozen = |t| {
+        let mut slots = values();
+        slots[10] = t;
+        slots
+    };
+    let mut stack = Vec::new();
+    assert_eq!(program.eval(&frozen(350.0), &mut stack).unwrap().to_bits(), 350.0_f64.to_bits());
+    let [inner, outer] = program.comparisons() else { panic!("two comparisons") };
+    assert_eq!((inner.slots(), outer.slots()), (vec![6], vec![0, 1, 6]));
+    assert_eq!(inner.ty(), DIFFERENCE);
+    let difference = inner.eval(&values(), &mut stack).unwrap();
+    assert!((difference - (350.0 - 613.15)).abs() < 1e-12);
+}
+
+#[test]
+fn a_comparison_splits_into_its_sides() {
+    let text = "steel.T <= 80 [degC]";
+    let (left, comparison, right) = Expression::parse(text).unwrap().split_comparison().unwrap();
+    assert_eq!((left.text(), comparison.to_string().as_str(), right.text()), ("steel.T", "<=", "80 [degC]"));
+    let right = right.compile(&Names, Some(ABSOLUTE)).unwrap();
+    assert!((right.eval::<f64>(&[], &mut Vec::new()).unwrap() - 353.15).abs() < 1e-12);
+    let (_, _, wrong) = Expression::parse("steel.T < 80 [K] * foo").unwrap().split_comparison().unwrap();
+    assert_eq!(wrong.compile(&Names, None).unwrap_err()[0].span, 19..22);
+    assert!(Expression::parse("1 + 2").unwrap().split_comparison().is_none());
+}
+
+#[test]
+fn programs_can_be_shared_between_threads() {
+    fn is_shared<T: Send + Sync + Clone>() {}
+    is_shared::<Program>();
+}
+
+#[test]
+fn names_are_listed_with_their_places() {
+    let text = "max(ring[1, *].T, planet[1].gear.T) + a.b * pi";
+    let names = Expression::parse(text).unwrap().names();
+    let expected = [("ring[1,*].T", 4..16), ("planet[1].gear.T", 18..34), ("a.b", 38..41)];
+    assert_eq!(names, expected.map(|(name, span)| (name.to_owned(), span)));
+}
+
+#[test]
+fn degrees_are_upper_bounds() {
+    let table = [
+        ("n", Degree::Constant),
+        ("3 * x + n", Degree::Affine),
+        ("(x + 1) / n - x", Degree::Affine),
+        ("n / x", Degree::Nonlinear),
+        ("x * x", Degree::Nonlinear),
+        ("x * (n + n * n)", Degree::Affine),
+        ("abs(x)", Degree::Nonlinear),
+        ("abs(n) * x", Degree::Affine),
+        ("if(n < 2, x, 2 * x)", Degree::Affine),
+        ("1 + if(n < 2, n, if(n < 1, n, x))", Degree::Affine),
+        ("if(x < 2, 1, 2)", Degree::Nonlinear),
+        ("if(n < 2, x^2, 1)", Degree::Nonlinear),
+        ("mean(x, n)", Degree::Affine),
+        ("-x", Degree::Affine),
+        ("x^1", Degree::Affine),
+        ("n^x", Degree::Nonlinear),
+    ];
+    for (text, degree) in table {
+        assert_eq!(program(text).degree_in(0), degree, "{text}");
+    }
+}
+
+#[test]
+fn deep_nesting_is_an_error_and_long_sums_are_not() {
+    for text in [
+        "(".repeat(100_000),
+        "-".repeat(100_000),
+        "2^".repeat(100_000),
+        "abs(".repeat(100_000),
+        format!("{}x{}", "(".repeat(101), ")".repeat(101)),
+    ] {
+        let error = Expression::parse(&text).unwrap_err();
+        assert_eq!(error.code(), "units::too_deep", "{}", &text[..10]);
+    }
+    let long = vec!["x"; 100_000].join(" + ");
+    assert!((run(&long).unwrap() - 200_000.0).abs() < 1e-6);
+}
