@@ -1,0 +1,201 @@
+//! From CVODES into the system and back, without letting a panic or a NaN through.
+
+use std::any::Any;
+use std::ffi::{c_int, c_void};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use sundials_sys as sys;
+use sys::{N_Vector, realtype};
+
+use crate::linear::Factorization;
+use crate::vector::{values, values_mut};
+use crate::{Callback, FactorError, IntegrateError, OdeSystem, Retry, kernels};
+
+/// What CVODES understands: done, try a smaller step, give up.
+pub(crate) const DONE: c_int = 0;
+const SMALLER_STEP: c_int = 1;
+const GIVE_UP: c_int = -1;
+
+/// Everything the callbacks work on. Reached through one raw pointer only, see the crate documentation.
+pub(crate) struct Shared<S> {
+    pub(crate) system: S,
+    /// `df/dy` in the slots of the pattern.
+    pub(crate) jacobian: Vec<f64>,
+    /// Whether `jacobian` is that of a constant matrix and need not be asked for again.
+    pub(crate) jacobian_is_current: bool,
+    /// `M - gamma J` in the slots of the pattern.
+    pub(crate) matrix: Vec<f64>,
+    pub(crate) factors: Box<dyn Factorization>,
+    pub(crate) counts: Counts,
+    /// Time of the last Newton matrix, for messages of the linear solver.
+    pub(crate) time: f64,
+    /// The last failure of a callback that has not succeeded since.
+    pub(crate) failure: Option<Failure>,
+    /// The last failure of a callback since the time last moved, overcome or not.
+    pub(crate) overcome: Option<Failure>,
+}
+
+/// What CVODES does not count, or forgets at a restart.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Counts {
+    pub(crate) flow: u64,
+    pub(crate) jacobian: u64,
+    pub(crate) quadrature: u64,
+    pub(crate) setups: u64,
+    pub(crate) factorizations: u64,
+    pub(crate) solves: u64,
+}
+
+/// A callback that failed.
+#[derive(Clone, Debug)]
+pub(crate) struct Failure {
+    callback: Callback,
+    time: f64,
+    cause: Cause,
+}
+
+/// Why it failed.
+#[derive(Clone, Debug)]
+pub(crate) enum Cause {
+    Panic(String),
+    NotFinite(usize),
+    Retry(Retry),
+    Linear(FactorError),
+}
+
+impl Failure {
+    pub(crate) fn into_error(self) -> IntegrateError {
+        let Self { callback, time, cause } = self;
+        match cause {
+            Cause::Panic(message) => IntegrateError::Panic { callback, time, message },
+            Cause::NotFinite(index) => IntegrateError::NotFinite { callback, time, index },
+            Cause::Retry(Retry::SmallerStep) => IntegrateError::Refused { callback, time },
+            Cause::Retry(Retry::Stop) => IntegrateError::Stopped { callback, time },
+            Cause::Linear(cause) => IntegrateError::Linear { time, cause },
+        }
+    }
+
+    fn code(&self) -> c_int {
+        match self.cause {
+            Cause::Panic(_) | Cause::Retry(Retry::Stop) => GIVE_UP,
+            // A matrix that is not positive definite becomes so as gamma shrinks, and a flow that overflows may not.
+            Cause::NotFinite(_) | Cause::Retry(Retry::SmallerStep) | Cause::Linear(_) => SMALLER_STEP,
+        }
+    }
+}
+
+impl From<Retry> for Cause {
+    fn from(retry: Retry) -> Self {
+        Self::Retry(retry)
+    }
+}
+
+impl<S: OdeSystem> Shared<S> {
+    /// Runs one callback and turns its outcome into a flag for CVODES, keeping the reason.
+    pub(crate) fn guard(
+        &mut self,
+        callback: Callback,
+        time: f64,
+        work: impl FnOnce(&mut Self) -> Result<(), Cause>,
+    ) -> c_int {
+        // What a panic may leave half done is the system, which no callback enters again, and arrays that are written
+        // before they are read.
+        let outcome = catch_unwind(AssertUnwindSafe(|| work(self)));
+        let cause = match outcome {
+            Ok(Ok(())) => {
+                self.overcome =
+                    self.failure.take_if(|failure| failure.callback == callback).or(self.overcome.take());
+                return DONE;
+            }
+            Ok(Err(cause)) => cause,
+            Err(payload) => Cause::Panic(text_of(payload.as_ref())),
+        };
+        let failure = Failure { callback, time, cause };
+        let code = failure.code();
+        self.failure = Some(failure);
+        code
+    }
+
+    fn derivative(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Cause> {
+        self.counts.flow += 1;
+        self.system.flow(t, y, out)?;
+        kernels::zip_in_place(out, self.system.mass(), |flow, mass| flow / mass);
+        expect_finite(out)
+    }
+
+    fn integrands(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Cause> {
+        self.counts.quadrature += 1;
+        self.system.quadrature(t, y, out)?;
+        expect_finite(out)
+    }
+
+    /// Forms `M - gamma J`; says whether the Jacobian was asked for anew.
+    pub(crate) fn form_matrix(
+        &mut self,
+        (t, y): (f64, &[f64]),
+        gamma: f64,
+        reuse: bool,
+    ) -> Result<bool, Cause> {
+        self.counts.setups += 1;
+        self.time = t;
+        let renew = !(reuse || self.jacobian_is_current);
+        if renew {
+            self.counts.jacobian += 1;
+            self.system.jacobian(t, y, &mut self.jacobian)?;
+            expect_finite(&self.jacobian)?;
+            self.jacobian_is_current = self.system.jacobian_is_constant();
+        }
+        kernels::map(&self.jacobian, &mut self.matrix, |slope| -gamma * slope);
+        for (&slot, mass) in self.system.pattern().diagonal().iter().zip(self.system.mass()) {
+            self.matrix[slot] += mass;
+        }
+        Ok(renew)
+    }
+
+    pub(crate) fn factorize(&mut self) -> Result<(), Cause> {
+        self.counts.factorizations += 1;
+        self.factors.factorize(&self.matrix).map_err(Cause::Linear)
+    }
+
+    /// Solves `(M - gamma J) x = M b`.
+    pub(crate) fn solve(&mut self, b: &[f64], x: &mut [f64]) -> Result<(), Cause> {
+        self.counts.solves += 1;
+        kernels::zip(b, self.system.mass(), x, |b, mass| b * mass);
+        self.factors.solve_in_place(x).map_err(Cause::Linear)
+    }
+}
+
+fn expect_finite(x: &[f64]) -> Result<(), Cause> {
+    kernels::first_not_finite(x).map_or(Ok(()), |index| Err(Cause::NotFinite(index)))
+}
+
+fn text_of(payload: &(dyn Any + Send)) -> String {
+    let text = payload.downcast_ref::<&str>().copied();
+    let owned = || payload.downcast_ref::<String>().cloned();
+    text.map(str::to_owned).or_else(owned).unwrap_or_else(|| "panic without a text".to_owned())
+}
+
+/// `y' = f(t, y) / M`, for CVodeInit.
+pub(crate) unsafe extern "C" fn derivative<S: OdeSystem>(
+    t: realtype,
+    y: N_Vector,
+    out: N_Vector,
+    data: *mut c_void,
+) -> c_int {
+    // SAFETY: `data` is the `Shared<S>` given to CVodeSetUserData, to which no reference exists while CVODES runs; the
+    // vectors are ours and different, one to be read, one to be written.
+    let (shared, y, out) = unsafe { (&mut *data.cast::<Shared<S>>(), values(y), values_mut(out)) };
+    shared.guard(Callback::Flow, t, |shared| shared.derivative(t, y, out))
+}
+
+/// The integrands, for CVodeQuadInit.
+pub(crate) unsafe extern "C" fn integrands<S: OdeSystem>(
+    t: realtype,
+    y: N_Vector,
+    out: N_Vector,
+    data: *mut c_void,
+) -> c_int {
+    // SAFETY: as in `derivative`.
+    let (shared, y, out) = unsafe { (&mut *data.cast::<Shared<S>>(), values(y), values_mut(out)) };
+    shared.guard(Callback::Quadrature, t, |shared| shared.integrands(t, y, out))
+}

@@ -1,0 +1,391 @@
+//! Stepping a system from one discontinuity to the next.
+
+use std::ptr::NonNull;
+
+use sundials_sys as sys;
+
+use crate::callback::Shared;
+use crate::context::Context;
+use crate::linear_solver::SolverHandles;
+use crate::memory::{Counters, Flag, Memory, name_of};
+use crate::vector::Vector;
+use crate::{IntegrateError, LinearSolverKind, OdeSystem, Options, Statistics, kernels, linear, start};
+
+/// Steps in a row without progress after which the integration has stalled.
+const STALLED: u32 = 50;
+
+/// One internal step, in units of t.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// Where it began.
+    pub from: f64,
+    /// Where it ended: the present time of the integrator.
+    pub to: f64,
+    /// Whether it ended at the stop time.
+    pub at_stop: bool,
+}
+
+/// Integrates an [`OdeSystem`] with variable-order BDF.
+///
+/// The running integrals obey the same formula as the state, so a balance such as `sum of M (y1 - y0) = integral of the
+/// total flow` holds up to what Newton's method leaves over. The defaults keep that small; see
+/// [`Options::newton_coefficient`].
+pub struct Integrator<S: OdeSystem> {
+    // The order of the fields is the order in which SUNDIALS wants its objects freed.
+    memory: Memory,
+    handles: SolverHandles,
+    state: Vector,
+    scratch: Vector,
+    quadratures: Option<Vector>,
+    context: Context,
+    shared: SharedBox<S>,
+    time: f64,
+    /// Start of the last step; equal to `time` if there is none to interpolate in.
+    from: f64,
+    stop: f64,
+    max_steps: u64,
+    /// What CVODES had counted when it was last restarted.
+    before: Counters,
+    restarts: u64,
+    /// Steps in a row that did not move the time.
+    still: u32,
+}
+
+/// The heap allocation that the callbacks reach through the pointer in it.
+struct SharedBox<S>(NonNull<Shared<S>>);
+
+impl<S> SharedBox<S> {
+    fn new(shared: Shared<S>) -> Self {
+        Self(NonNull::from(Box::leak(Box::new(shared))))
+    }
+
+    fn get(&self) -> &Shared<S> {
+        // SAFETY: allocated by `new`; callbacks run only inside methods that borrow the integrator for writing and that
+        // hold no reference from here meanwhile.
+        unsafe { self.0.as_ref() }
+    }
+
+    fn get_mut(&mut self) -> &mut Shared<S> {
+        // SAFETY: as in `get`, and `self` is borrowed for writing.
+        unsafe { self.0.as_mut() }
+    }
+}
+
+impl<S> Drop for SharedBox<S> {
+    fn drop(&mut self) {
+        // SAFETY: allocated by `new` with `Box`, freed once; CVODES, which has the pointer too, is gone by then.
+        drop(unsafe { Box::from_raw(self.0.as_ptr()) });
+    }
+}
+
+impl<S: OdeSystem> Integrator<S> {
+    /// Takes the system at time `t0` in the state `y0` (one value per component, units of y).
+    ///
+    /// # Errors
+    /// Lengths that do not match, options out of range, a state or a mass that is not usable, no memory.
+    pub fn new(system: S, t0: f64, y0: &[f64], options: &Options) -> Result<Self, IntegrateError> {
+        start::check_options(t0, options)?;
+        start::check_system(&system, y0)?;
+        let context = Context::new()?;
+        let mut state = Vector::new(&context, y0.len())?;
+        state.as_mut_slice().copy_from_slice(y0);
+        let scratch = Vector::new(&context, y0.len())?;
+        let quadratures = match system.quadrature_count() {
+            0 => None,
+            count => Some(Vector::new(&context, count)?),
+        };
+        let shared = SharedBox::new(start::shared(system, t0, options)?);
+        let handles = SolverHandles::new(&context, shared.0.as_ptr())?;
+        let memory = Memory::new(&context)?;
+        let integrator = Self {
+            memory,
+            handles,
+            state,
+            scratch,
+            quadratures,
+            context,
+            shared,
+            time: t0,
+            from: t0,
+            stop: f64::INFINITY,
+            max_steps: u64::try_from(options.max_steps).unwrap_or(u64::MAX),
+            before: Counters::default(),
+            restarts: 0,
+            still: 0,
+        };
+        integrator.set_up(options).map_err(|flag| integrator.unexpected(flag))?;
+        Ok(integrator)
+    }
+
+    fn set_up(&self, options: &Options) -> Result<(), Flag> {
+        let pointer = self.shared.0.as_ptr();
+        self.memory.start((self.time, &self.state), pointer, options.tolerance / 3.0)?;
+        self.memory.attach_solver::<S>(&self.handles)?;
+        if let Some(quadratures) = &self.quadratures {
+            self.memory.start_quadratures::<S>(quadratures)?;
+        }
+        if let Some(step) = options.initial_step {
+            self.memory.set_initial_step(step)?;
+        }
+        if let Some(step) = options.max_step_size {
+            self.memory.set_max_step(step)?;
+        }
+        self.choose_newton(options)
+    }
+
+    fn choose_newton(&self, options: &Options) -> Result<(), Flag> {
+        if self.system().jacobian_is_constant() {
+            self.memory.always_match_gamma()?;
+        } else if linear::is_dense(options.linear_solver, self.state().len()) {
+            self.memory.always_set_up()?;
+        }
+        self.memory.set_newton_coefficient(start::newton_coefficient(self.system(), options))
+    }
+
+    /// Present time.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// State at [`time`](Self::time), in units of y.
+    pub fn state(&self) -> &[f64] {
+        self.state.as_slice()
+    }
+
+    /// The system.
+    pub fn system(&self) -> &S {
+        &self.shared.get().system
+    }
+
+    /// The system, to be changed. A change that makes `f` jump must be followed by [`restart`](Self::restart); its size,
+    /// pattern, symmetry and number of quadratures must stay.
+    pub fn system_mut(&mut self) -> &mut S {
+        &mut self.shared.get_mut().system
+    }
+
+    /// Ends the integration and hands the system back.
+    pub fn into_system(self) -> S {
+        let Self { memory, handles, shared, .. } = self;
+        drop((memory, handles));
+        let pointer = shared.0;
+        std::mem::forget(shared);
+        // SAFETY: allocated with `Box` by `SharedBox::new`; CVODES, which had the pointer too, is gone, and the owner
+        // was forgotten, so nobody frees it again.
+        unsafe { Box::from_raw(pointer.as_ptr()) }.system
+    }
+
+    /// From now on no step crosses `t`, until another stop time is set; `f64::INFINITY` means no stop. The first step
+    /// after a start is at most a tenth of the way to the stop time.
+    pub fn set_stop(&mut self, t: f64) {
+        self.stop = t;
+    }
+
+    /// Takes one step of the size that the error allows. At the stop time it does nothing, says so, and returns a step
+    /// of no length.
+    ///
+    /// # Errors
+    /// See [`IntegrateError`]; [`time`](Self::time) and [`state`](Self::state) are then those of the last good step.
+    pub fn step(&mut self) -> Result<Step, IntegrateError> {
+        let from = self.time;
+        if self.stop <= from || self.stop.is_nan() {
+            return self.step_at_stop();
+        }
+        let steps = self.statistics().steps;
+        if steps >= self.max_steps {
+            return Err(IntegrateError::TooManySteps { time: from, steps });
+        }
+        self.shared.get_mut().failure = None;
+        // Version 6 cannot forget a stop time; the largest double serves as none. It is set for every step because
+        // CVODES forgets it when it is reached and keeps it at a restart.
+        let stop = self.stop.min(f64::MAX);
+        let towards = if self.stop.is_finite() { stop } else { from + from.abs().max(1.0) };
+        let mut reached = from;
+        let outcome = self
+            .memory
+            .set_stop(stop)
+            .and_then(|()| self.memory.step(towards, &mut self.state, &mut reached));
+        self.time = reached;
+        match outcome {
+            Ok(at_stop) => {
+                self.from = from;
+                self.watch_progress(reached > from)?;
+                Ok(Step { from, to: reached, at_stop: at_stop || reached >= self.stop })
+            }
+            Err(flag) => {
+                self.from = reached;
+                Err(self.explain(flag))
+            }
+        }
+    }
+
+    /// CVODES goes on for ever with steps that are lost in the rounding of the time.
+    fn watch_progress(&mut self, moved: bool) -> Result<(), IntegrateError> {
+        if moved {
+            self.still = 0;
+            self.shared.get_mut().overcome = None;
+            return Ok(());
+        }
+        self.still += 1;
+        if self.still < STALLED {
+            return Ok(());
+        }
+        self.still = 0;
+        let (time, step) = (self.time, self.memory.counters().current_step);
+        match self.shared.get_mut().overcome.take() {
+            Some(failure) => Err(failure.into_error()),
+            None => Err(IntegrateError::Stalled { time, step, index: self.worst() }),
+        }
+    }
+
+    fn step_at_stop(&self) -> Result<Step, IntegrateError> {
+        let (time, stop) = (self.time, self.stop);
+        if stop < time {
+            return Err(IntegrateError::StopBehind { time, stop });
+        }
+        if stop.is_nan() {
+            return Err(IntegrateError::InvalidOption { option: "stop", value: stop });
+        }
+        Ok(Step { from: time, to: time, at_stop: true })
+    }
+
+    /// Writes the state at a time inside the last step, ends included, to `y` (one value per component).
+    ///
+    /// # Errors
+    /// [`IntegrateError::OutsideLastStep`] (after a start or a restart only the present time is inside), a wrong length.
+    pub fn interpolate(&mut self, t: f64, y: &mut [f64]) -> Result<(), IntegrateError> {
+        start::expect_length("y", self.state.as_slice().len(), y.len())?;
+        let (from, to) = (self.from, self.time);
+        if !(from..=to).contains(&t) {
+            return Err(IntegrateError::OutsideLastStep { time: t, from, to });
+        }
+        if t >= to {
+            y.copy_from_slice(self.state.as_slice());
+            return Ok(());
+        }
+        self.memory.interpolate(t, &mut self.scratch).map_err(|flag| self.unexpected(flag))?;
+        y.copy_from_slice(self.scratch.as_slice());
+        Ok(())
+    }
+
+    /// The running integrals from the start to [`time`](Self::time), restarts included; one per
+    /// [`OdeSystem::quadrature_count`].
+    ///
+    /// # Errors
+    /// [`IntegrateError::Sundials`] only.
+    pub fn quadratures(&mut self) -> Result<&[f64], IntegrateError> {
+        // Before the first step after a (re)start CVODES has no step to evaluate them in; they are as they were set.
+        if self.from < self.time
+            && let Some(quadratures) = &mut self.quadratures
+        {
+            self.memory
+                .quadratures(quadratures)
+                .map_err(|flag| unexpected(flag, self.time, &self.context))?;
+        }
+        Ok(self.quadratures.as_ref().map_or(&[], Vector::as_slice))
+    }
+
+    /// Begins anew at [`time`](Self::time), from the present state or from `y`, because `f` or the state jumps here.
+    /// The running integrals go on.
+    ///
+    /// # Errors
+    /// A state of the wrong length or not finite.
+    pub fn restart(&mut self, y: Option<&[f64]>) -> Result<(), IntegrateError> {
+        self.quadratures()?;
+        if let Some(y) = y {
+            start::expect_length("y", self.state.as_slice().len(), y.len())?;
+            start::check_state(y)?;
+            self.state.as_mut_slice().copy_from_slice(y);
+        }
+        let now = self.memory.counters();
+        self.before = sum(&self.before, &now);
+        self.restarts += 1;
+        self.from = self.time;
+        self.shared.get_mut().jacobian_is_current = false;
+        let outcome = self.memory.restart(self.time, &self.state, self.quadratures.as_ref());
+        outcome.map_err(|flag| self.unexpected(flag))
+    }
+
+    /// Counters since the integrator was made.
+    pub fn statistics(&self) -> Statistics {
+        let total = sum(&self.before, &self.memory.counters());
+        let counts = &self.shared.get().counts;
+        Statistics {
+            steps: total.steps,
+            flow_evaluations: counts.flow,
+            jacobian_evaluations: counts.jacobian,
+            quadrature_evaluations: counts.quadrature,
+            linear_setups: counts.setups,
+            factorizations: counts.factorizations,
+            linear_solves: counts.solves,
+            newton_iterations: total.newton_iterations,
+            error_test_failures: total.error_test_failures,
+            newton_failures: total.newton_failures,
+            restarts: self.restarts,
+            last_order: total.last_order,
+            last_step: total.last_step,
+        }
+    }
+
+    /// The linear solver in use.
+    pub fn linear_solver(&self) -> LinearSolverKind {
+        self.shared.get().factors.kind()
+    }
+
+    /// The error for a step that CVODES gave up.
+    fn explain(&mut self, flag: Flag) -> IntegrateError {
+        let time = self.time;
+        let failure = self.shared.get_mut().failure.take();
+        match (flag.value, failure) {
+            (sys::CV_ERR_FAILURE, _) => IntegrateError::ErrorTest {
+                time,
+                step: self.memory.counters().current_step,
+                index: self.worst(),
+            },
+            (sys::CV_TOO_MUCH_ACC, _) => {
+                let index = kernels::worst(self.state(), &vec![1.0; self.state().len()]);
+                IntegrateError::ToleranceTooSmall { time, index }
+            }
+            (_, Some(failure)) => failure.into_error(),
+            (sys::CV_CONV_FAILURE, None) => IntegrateError::Newton {
+                time,
+                step: self.memory.counters().current_step,
+                index: self.worst(),
+            },
+            (_, None) => self.unexpected(flag),
+        }
+    }
+
+    /// The component with the largest estimated error in the last step tried.
+    fn worst(&mut self) -> usize {
+        let known = self.memory.local_errors(&mut self.scratch).is_ok();
+        let errors = self.scratch.as_slice();
+        if known { kernels::worst(errors, &vec![1.0; errors.len()]) } else { 0 }
+    }
+
+    fn unexpected(&self, flag: Flag) -> IntegrateError {
+        unexpected(flag, self.time, &self.context)
+    }
+}
+
+fn unexpected(flag: Flag, time: f64, context: &Context) -> IntegrateError {
+    let Flag { function, value } = flag;
+    if value == sys::CV_MEM_FAIL {
+        return IntegrateError::OutOfMemory { function };
+    }
+    let (name, message) = (name_of(value), context.last_message());
+    IntegrateError::Sundials { function, flag: value, name, message, time }
+}
+
+/// Totals of the counters, last values of the rest.
+fn sum(before: &Counters, now: &Counters) -> Counters {
+    let stepped = now.steps > 0;
+    Counters {
+        steps: before.steps + now.steps,
+        error_test_failures: before.error_test_failures + now.error_test_failures,
+        newton_iterations: before.newton_iterations + now.newton_iterations,
+        newton_failures: before.newton_failures + now.newton_failures,
+        last_order: if stepped { now.last_order } else { before.last_order },
+        last_step: if stepped { now.last_step } else { before.last_step },
+        current_step: now.current_step,
+    }
+}

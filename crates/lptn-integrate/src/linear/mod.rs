@@ -1,0 +1,158 @@
+//! Direct solvers for `A x = b` with one sparsity pattern and many sets of values.
+//!
+//! Used for the Newton matrices `M - gamma J` of the integrator, and by others for steady states `G x = b`. The
+//! analysis of the pattern happens once, in `new`; [`Factorization::factorize`] and
+//! [`Factorization::solve_in_place`] work in memory kept between calls.
+
+mod cholesky;
+mod dense;
+mod lu;
+
+pub use cholesky::SparseCholesky;
+pub use dense::Dense;
+pub use lu::SparseLu;
+
+use crate::{FactorError, Pattern, kernels};
+
+/// Largest size for which [`LinearSolver::Auto`] takes a dense solver: below it the bookkeeping of sparse factors costs
+/// more than the arithmetic.
+pub const DENSE_LIMIT: usize = 30;
+
+/// Solution components of the probe in [`Factorization::check`] above which a matrix counts as singular.
+const SINGULAR: f64 = 1e15;
+
+/// Which solver to use.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LinearSolver {
+    /// Dense up to [`DENSE_LIMIT`] components, else sparse; Cholesky for symmetric matrices, else LU.
+    #[default]
+    Auto,
+    /// Dense Cholesky for symmetric matrices, else dense LU with partial pivoting.
+    Dense,
+    /// Sparse Cholesky; an error for matrices that are not symmetric.
+    Cholesky,
+    /// Sparse LU.
+    Lu,
+}
+
+/// The solver in use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinearSolverKind {
+    /// Dense Cholesky.
+    DenseCholesky,
+    /// Dense LU with partial pivoting.
+    DenseLu,
+    /// Sparse Cholesky, approximate minimum degree ordering.
+    SparseCholesky,
+    /// Sparse LU, column approximate minimum degree ordering.
+    SparseLu,
+}
+
+/// A matrix that can be factorised again and again with other values in the same pattern.
+pub trait Factorization {
+    /// Number of rows.
+    fn size(&self) -> usize;
+
+    /// Which solver this is.
+    fn kind(&self) -> LinearSolverKind;
+
+    /// Numbers stored for the factors (for sparse LU: of the matrix, its factors being sized on the fly).
+    fn fill(&self) -> usize;
+
+    /// Factorises the matrix with these values, one per slot of the pattern; Cholesky reads the lower triangle only.
+    ///
+    /// # Errors
+    /// [`FactorError::NotPositiveDefinite`] (Cholesky), [`FactorError::Singular`] (LU), a wrong length. There are then
+    /// no factors to solve with.
+    fn factorize(&mut self, values: &[f64]) -> Result<(), FactorError>;
+
+    /// Replaces `b` by the solution of `A x = b`.
+    ///
+    /// # Errors
+    /// [`FactorError::NotFactorized`], a wrong length, or [`FactorError::Singular`] with the first component of the
+    /// solution that is not finite.
+    fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError>;
+
+    /// Whether the factors are usable: sparse elimination may pass a singular matrix with a pivot of rounding errors
+    /// only. Solves once, with the diagonal as right side, so that the solution is of the order of 1 for a matrix that
+    /// is dominated by its diagonal.
+    ///
+    /// # Errors
+    /// [`FactorError::Singular`] with the component that is largest: for a network one of an island that leads nowhere.
+    fn check(&mut self, pattern: &Pattern, values: &[f64]) -> Result<(), FactorError> {
+        let mut probe: Vec<f64> = pattern.diagonal().iter().map(|&slot| values[slot].abs()).collect();
+        self.solve_in_place(&mut probe)?;
+        let index = kernels::worst(&probe, &vec![1.0; probe.len()]);
+        match probe.get(index) {
+            Some(largest) if largest.abs() > SINGULAR => Err(FactorError::Singular { index }),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Whether [`new`] gives a dense solver.
+pub(crate) fn is_dense(choice: LinearSolver, size: usize) -> bool {
+    choice == LinearSolver::Dense || (choice == LinearSolver::Auto && size <= DENSE_LIMIT)
+}
+
+/// Analyses the pattern for the chosen solver.
+///
+/// # Errors
+/// [`FactorError::NotSymmetric`] if Cholesky is asked for and `symmetric` is false; no memory.
+pub fn new(
+    pattern: &Pattern,
+    symmetric: bool,
+    choice: LinearSolver,
+) -> Result<Box<dyn Factorization>, FactorError> {
+    if choice == LinearSolver::Cholesky && !symmetric {
+        return Err(FactorError::NotSymmetric);
+    }
+    if is_dense(choice, pattern.size()) {
+        return Ok(Box::new(Dense::new(pattern, symmetric)));
+    }
+    if symmetric && choice != LinearSolver::Lu {
+        return Ok(Box::new(SparseCholesky::new(pattern)?));
+    }
+    Ok(Box::new(SparseLu::new(pattern)?))
+}
+
+/// Solves `A x = b` with `steps` steps of iterative refinement, for which `A` (pattern and values) is needed beside
+/// its factors. Writes the solution to `x` and returns the largest `|b - A x|` that is left.
+///
+/// # Errors
+/// Those of [`Factorization::solve_in_place`].
+pub fn solve_refined(
+    factors: &mut dyn Factorization,
+    (pattern, values): (&Pattern, &[f64]),
+    b: &[f64],
+    x: &mut [f64],
+    steps: usize,
+) -> Result<f64, FactorError> {
+    expect_length(pattern.len(), values.len())?;
+    expect_length(pattern.size(), b.len())?;
+    expect_length(pattern.size(), x.len())?;
+    x.copy_from_slice(b);
+    factors.solve_in_place(x)?;
+    let mut residual = vec![0.0; b.len()];
+    for _ in 0..steps {
+        write_residual(pattern, values, (b, x), &mut residual);
+        factors.solve_in_place(&mut residual)?;
+        kernels::scale_and_add(1.0, x, 1.0, &residual);
+    }
+    write_residual(pattern, values, (b, x), &mut residual);
+    Ok(kernels::max_norm(&residual))
+}
+
+fn write_residual(pattern: &Pattern, values: &[f64], (b, x): (&[f64], &[f64]), residual: &mut [f64]) {
+    pattern.multiply(values, x, residual);
+    kernels::scale_and_add(-1.0, residual, 1.0, b);
+}
+
+fn expect_length(expected: usize, found: usize) -> Result<(), FactorError> {
+    if expected == found { Ok(()) } else { Err(FactorError::WrongLength { expected, found }) }
+}
+
+/// What every solve ends with.
+fn expect_finite(x: &[f64]) -> Result<(), FactorError> {
+    kernels::first_not_finite(x).map_or(Ok(()), |index| Err(FactorError::Singular { index }))
+}

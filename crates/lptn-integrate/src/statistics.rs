@@ -1,0 +1,32 @@
+//! Counters of an integration.
+
+/// Work done since the integrator was made, restarts included.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Accepted internal steps.
+    pub steps: u64,
+    /// Calls of [`crate::OdeSystem::flow`].
+    pub flow_evaluations: u64,
+    /// Calls of [`crate::OdeSystem::jacobian`].
+    pub jacobian_evaluations: u64,
+    /// Calls of [`crate::OdeSystem::quadrature`].
+    pub quadrature_evaluations: u64,
+    /// Times CVODE asked for a new Newton matrix.
+    pub linear_setups: u64,
+    /// Numerical factorisations.
+    pub factorizations: u64,
+    /// Linear solves.
+    pub linear_solves: u64,
+    /// Newton iterations.
+    pub newton_iterations: u64,
+    /// Steps repeated because the estimated error was too large.
+    pub error_test_failures: u64,
+    /// Steps repeated because Newton's method did not converge.
+    pub newton_failures: u64,
+    /// Calls of [`crate::Integrator::restart`].
+    pub restarts: u64,
+    /// Order of the last step, 1 to 5; 0 before the first.
+    pub last_order: u32,
+    /// Size of the last step in units of t; 0 before the first.
+    pub last_step: f64,
+}

@@ -1,0 +1,194 @@
+//! The linear solvers against each other and against systems solved by hand.
+#![allow(clippy::unwrap_used, reason = "a test may")]
+
+use lptn_integrate::linear::{Dense, Factorization, SparseCholesky, SparseLu, solve_refined};
+use lptn_integrate::{FactorError, LinearSolver, LinearSolverKind, Pattern, linear};
+
+fn matrix(n: usize, entries: &[(usize, usize, f64)]) -> (Pattern, Vec<f64>) {
+    let pattern = Pattern::new(n, entries.iter().map(|&(i, j, _)| (i, j)));
+    let mut values = vec![0.0; pattern.len()];
+    for &(i, j, value) in entries {
+        values[pattern.slot(i, j).unwrap()] += value;
+    }
+    (pattern, values)
+}
+
+/// All four solvers.
+fn solvers(pattern: &Pattern) -> Vec<Box<dyn Factorization>> {
+    vec![
+        Box::new(Dense::new(pattern, true)),
+        Box::new(Dense::new(pattern, false)),
+        Box::new(SparseCholesky::new(pattern).unwrap()),
+        Box::new(SparseLu::new(pattern).unwrap()),
+    ]
+}
+
+/// Numbers between 0 and 1 that are the same in every run.
+fn numbers(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// `M + G` of a random connected network; not symmetric if `upwind`.
+fn random_network(n: usize, upwind: bool) -> (Pattern, Vec<f64>) {
+    let mut next = numbers(n as u64);
+    let mut entries = Vec::new();
+    for i in 0..n {
+        entries.push((i, i, 0.1 + next()));
+        for _ in 0..3 {
+            let (j, g) = ((next() * n as f64) as usize % n, 10_f64.powf(4.0 * next() - 2.0));
+            if i != j {
+                entries.extend([(i, i, g), (i, j, -g)]);
+                if !upwind {
+                    entries.extend([(j, j, g), (j, i, -g)]);
+                }
+            }
+        }
+    }
+    matrix(n, &entries)
+}
+
+#[test]
+fn pattern_is_closed_sorted_and_whole() {
+    let pattern = Pattern::new(4, [(2, 0), (2, 0), (0, 2), (3, 1)].into_iter());
+    assert_eq!(pattern.column_pointers(), [0, 2, 4, 6, 8]);
+    assert_eq!(pattern.row_indices(), [0, 2, 1, 3, 0, 2, 1, 3]);
+    assert_eq!(pattern.diagonal(), [0, 2, 5, 7]);
+    assert_eq!((pattern.size(), pattern.len()), (4, 8));
+    assert_eq!((pattern.slot(2, 0), pattern.slot(0, 2), pattern.slot(0, 1)), (Some(1), Some(4), None));
+    assert_eq!((pattern.slot(9, 0), pattern.slot(0, 9)), (None, None));
+    assert_eq!(pattern, Pattern::new(4, [(1, 3), (0, 2)].into_iter()));
+    assert!(Pattern::new(0, std::iter::empty()).is_empty());
+}
+
+#[test]
+fn solved_by_hand() {
+    // 4 x + y = 9, x + 3 y = 5, z / 2 = 4.
+    let (pattern, values) = matrix(3, &[(0, 0, 4.0), (0, 1, 1.0), (1, 0, 1.0), (1, 1, 3.0), (2, 2, 0.5)]);
+    for mut solver in solvers(&pattern) {
+        solver.factorize(&values).unwrap();
+        let mut b = [9.0, 5.0, 4.0];
+        solver.solve_in_place(&mut b).unwrap();
+        assert!(b.iter().zip([2.0, 1.0, 8.0]).all(|(x, exact)| (x - exact).abs() < 1e-14), "{b:?}");
+    }
+}
+
+#[test]
+fn rows_are_exchanged_where_they_must_be() {
+    let (pattern, values) = matrix(2, &[(0, 1, 2.0), (1, 0, 4.0), (1, 1, 1.0)]);
+    let solvers: [Box<dyn Factorization>; 2] =
+        [Box::new(Dense::new(&pattern, false)), Box::new(SparseLu::new(&pattern).unwrap())];
+    for mut solver in solvers {
+        solver.factorize(&values).unwrap();
+        let mut b = [6.0, 11.0];
+        solver.solve_in_place(&mut b).unwrap();
+        assert!(b.iter().zip([2.0, 3.0]).all(|(x, exact)| (x - exact).abs() < 1e-14), "{b:?}");
+    }
+}
+
+#[test]
+fn all_solvers_agree() {
+    for n in [1, 2, 3, 7, 30, 31, 200, 900] {
+        for upwind in [false, true] {
+            let (pattern, values) = random_network(n, upwind);
+            let mut next = numbers(99);
+            let exact: Vec<f64> = (0..n).map(|_| 300.0 * next()).collect();
+            let mut b = vec![0.0; n];
+            pattern.multiply(&values, &exact, &mut b);
+            let solvers = solvers(&pattern).into_iter().filter(|s| {
+                !upwind || matches!(s.kind(), LinearSolverKind::DenseLu | LinearSolverKind::SparseLu)
+            });
+            for mut solver in solvers {
+                assert_eq!(solver.size(), n);
+                assert!(solver.fill() >= n);
+                // Twice: the second time in used memory.
+                for _ in 0..2 {
+                    solver.factorize(&values).unwrap();
+                    solver.check(&pattern, &values).unwrap();
+                    let mut x = vec![0.0; n];
+                    let left = solve_refined(solver.as_mut(), (&pattern, &values), &b, &mut x, 1).unwrap();
+                    assert!(left < 1e-9, "{:?}, {n}: residual {left:e}", solver.kind());
+                    let error = x.iter().zip(&exact).map(|(x, e)| (x - e).abs()).fold(0.0, f64::max);
+                    assert!(error < 1e-8, "{:?}, {n}: error {error:e}", solver.kind());
+                }
+            }
+        }
+    }
+}
+
+/// A chain of links of 1 with the boundary link `g` at its end.
+fn chain(n: usize, g: f64) -> (Pattern, Vec<f64>) {
+    let mut entries = vec![(n - 1, n - 1, g)];
+    for i in 1..n {
+        entries.extend([(i, i, 1.0), (i - 1, i - 1, 1.0), (i, i - 1, -1.0), (i - 1, i, -1.0)]);
+    }
+    matrix(n, &entries)
+}
+
+#[test]
+fn a_network_without_a_boundary_is_found_out() {
+    for n in [2, 5, 40] {
+        let (pattern, values) = chain(n, 0.0);
+        for mut solver in solvers(&pattern) {
+            let outcome = solver.factorize(&values).and_then(|()| solver.check(&pattern, &values));
+            assert!(
+                matches!(
+                    outcome,
+                    Err(FactorError::Singular { .. } | FactorError::NotPositiveDefinite { .. })
+                ),
+                "{:?}, {n}: {outcome:?}",
+                solver.kind()
+            );
+        }
+        let (pattern, values) = chain(n, 1e-6);
+        for mut solver in solvers(&pattern) {
+            solver.factorize(&values).and_then(|()| solver.check(&pattern, &values)).unwrap();
+        }
+    }
+}
+
+#[test]
+fn a_negative_pivot_is_reported_by_its_row() {
+    for n in [3, 40, 400] {
+        for bad in [0, n / 2, n - 1] {
+            // No links: the row is that of the entry in any order of elimination.
+            let entries: Vec<_> = (0..n).map(|i| (i, i, if i == bad { -1.0 } else { 1.0 })).collect();
+            let (pattern, values) = matrix(n, &entries);
+            let mut solver = SparseCholesky::new(&pattern).unwrap();
+            assert_eq!(solver.factorize(&values), Err(FactorError::NotPositiveDefinite { index: bad }));
+            assert_eq!(solver.solve_in_place(&mut vec![1.0; n]), Err(FactorError::NotFactorized));
+            let mut solver = Dense::new(&pattern, true);
+            assert_eq!(solver.factorize(&values), Err(FactorError::NotPositiveDefinite { index: bad }));
+        }
+    }
+}
+
+#[test]
+fn a_negative_pivot_in_a_supernode_is_reported_by_its_row() {
+    // Dense enough that faer takes its supernodal code; every row but one is dominated by its diagonal.
+    let n = 300;
+    for bad in [0, 123, n - 1] {
+        let mut entries: Vec<_> = (0..n).map(|i| (i, i, if i == bad { -1e6 } else { 1e6 })).collect();
+        entries.extend((0..n).flat_map(|i| (0..n).filter(move |&j| i != j).map(move |j| (i, j, -1.0))));
+        let (pattern, values) = matrix(n, &entries);
+        let mut solver = SparseCholesky::new(&pattern).unwrap();
+        assert_eq!(solver.factorize(&values), Err(FactorError::NotPositiveDefinite { index: bad }));
+    }
+}
+
+#[test]
+fn misuse_is_an_error() {
+    let (pattern, values) = chain(4, 1.0);
+    for mut solver in solvers(&pattern) {
+        assert_eq!(solver.solve_in_place(&mut [1.0; 4]), Err(FactorError::NotFactorized));
+        let wrong = FactorError::WrongLength { expected: values.len(), found: 3 };
+        assert_eq!(solver.factorize(&values[..3]), Err(wrong));
+        solver.factorize(&values).unwrap();
+        assert!(matches!(solver.solve_in_place(&mut [1.0; 5]), Err(FactorError::WrongLength { .. })));
+        assert!(solver.solve_in_place(&mut [1.0, f64::NAN, 0.0, 0.0]).is_err());
+    }
+    assert!(matches!(linear::new(&pattern, false, LinearSolver::Cholesky), Err(FactorError::NotSymmetric)));
+}
