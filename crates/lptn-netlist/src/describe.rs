@@ -1,0 +1,201 @@
+//! What the network's builder found, said about the file.
+
+use lptn_network::{BuildError, BuildErrorKind as Kind, Field, Item, NodeId};
+use lptn_units::{Dimension, EvalError, format_number};
+
+use crate::diagnostic::Diagnostic;
+use crate::file::Span;
+use crate::source_map::SourceMap;
+use crate::vocabulary::MINIMAL;
+
+/// The error with its places in the file.
+pub(crate) fn describe(error: &BuildError, map: &SourceMap) -> Diagnostic {
+    let diagnostic = Diagnostic::error(error.code(), message(error, map));
+    let diagnostic = places(diagnostic, error, map);
+    match help(error) {
+        Some(help) => diagnostic.help(help),
+        None => diagnostic,
+    }
+}
+
+fn message(error: &BuildError, map: &SourceMap) -> String {
+    let name = &error.name;
+    let words = |item: Item| format!("{} `{name}`", map.kind(item));
+    let field = |item: Item, field: Field| match field {
+        Field::Value | Field::Name => words(item),
+        Field::Initial if map.is_default(item) => "`T0` of [default]".to_owned(),
+        _ => format!("`{}` of {}", field.key(), words(item)),
+    };
+    match &error.kind {
+        Kind::DuplicateName { first, second } => match (map.kind(*first), map.kind(*second)) {
+            (a, b) if a == b => format!("two {a}s are named `{name}`"),
+            (a, b) => format!("the name `{name}` is taken twice: by a {a} and by a {b}"),
+        },
+        Kind::BadName { item } => format!("{} has a name that cannot be used", words(*item)),
+        Kind::ReservedName { item } => {
+            format!("{} has a name with a meaning of its own in expressions", words(*item))
+        }
+        Kind::WrongType { item, field: f, wanted, found } => {
+            format!("{} must be {wanted}, got {found}", field(*item, *f))
+        }
+        Kind::NotPositive { item, field: f, value } if value.is_finite() => {
+            format!("{} must be more than zero, got {}", field(*item, *f), in_unit(*value, *f))
+        }
+        Kind::NotPositive { item, field: f, value } | Kind::NotFinite { item, field: f, value } => {
+            format!("{} must be finite, got {value}", field(*item, *f))
+        }
+        Kind::BelowAbsoluteZero { item, field: f, value } => {
+            format!("{} is below absolute zero: {} K", field(*item, *f), short(*value))
+        }
+        Kind::DependsOnTime { item, field: f } => {
+            format!("{} has to be constant, but depends on the time `t`", field(*item, *f))
+        }
+        Kind::ComparisonNotLinear { item, field: f } => {
+            format!("{} compares something that is not linear in the time `t`", field(*item, *f))
+        }
+        Kind::Evaluation { item, field: f, error: EvalError::NotFinite { value, .. } } => {
+            format!("{} comes out as {value}, which is not finite", field(*item, *f))
+        }
+        Kind::Evaluation { item, field: f, error } => format!("{}: {error}", field(*item, *f)),
+        Kind::SelfLink { conductor } => {
+            format!("{} leads from a place to itself", words(Item::Conductor(*conductor)))
+        }
+        Kind::SourceIntoBoundary { source } => format!("{} heats a boundary", words(Item::Source(*source))),
+        _ => error.to_string(),
+    }
+}
+
+/// Without the noise of binary arithmetic.
+fn short(value: f64) -> String {
+    format!("{value:.9e}").parse().map_or_else(|_| value.to_string(), format_number)
+}
+
+fn in_unit(value: f64, field: Field) -> String {
+    let dimension = match field {
+        Field::Capacity => Dimension::CAPACITY,
+        Field::Resistance => Dimension::RESISTANCE,
+        Field::Conductance => Dimension::CONDUCTANCE,
+        Field::FilmCoefficient => Dimension::FILM_COEFFICIENT,
+        Field::Area => Dimension::AREA,
+        _ => return short(value),
+    };
+    format!("{} {}", short(value), dimension.si_unit())
+}
+
+fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagnostic {
+    let also = |d: Diagnostic, span: Option<&Span>, text: &str| match span {
+        Some(span) => d.also(span.clone(), text),
+        None => d,
+    };
+    match &error.kind {
+        Kind::DuplicateName { .. } => match map.duplicate(&error.kind) {
+            Some((first, second)) => {
+                diagnostic.at(second.clone(), "named again").also(first.clone(), "first named here")
+            }
+            None => diagnostic,
+        },
+        Kind::FloatingIsland { nodes, .. } => island(diagnostic, nodes, map),
+        Kind::Evaluation { item, field, error } => match map.part(*item, *field, &error.span()) {
+            Some(span) => diagnostic.at(span, ""),
+            None => diagnostic,
+        },
+        Kind::MasslessWithCapacity { node } => {
+            let item = Item::Node(*node);
+            let capacity = map.get(item, Field::Capacity).or_else(|| map.capacitor_of(*node));
+            let diagnostic = at(diagnostic, map.name(item), "declared massless");
+            also(diagnostic, capacity, "given a capacity here")
+        }
+        Kind::SelfLink { conductor } => {
+            let item = Item::Conductor(*conductor);
+            let diagnostic = at(diagnostic, map.get(item, Field::To), "the same place");
+            also(diagnostic, map.get(item, Field::From), "leads from here")
+        }
+        kind => match error.place() {
+            Some((item, field)) => at(diagnostic, map.nearest(item, field), label(kind)),
+            None => at(diagnostic, map.top(), ""),
+        },
+    }
+}
+
+fn at(diagnostic: Diagnostic, span: Option<&Span>, text: &str) -> Diagnostic {
+    match span {
+        Some(span) => diagnostic.at(span.clone(), text),
+        None => diagnostic,
+    }
+}
+
+fn label(kind: &Kind) -> &'static str {
+    match kind {
+        Kind::NoCapacity { .. } => "no `C`, and no [capacitor] belongs to it",
+        Kind::NoInitialTemperature { .. } => "no `T0` here, and none in [default]",
+        Kind::SourceIntoBoundary { .. } => "a boundary",
+        _ => "",
+    }
+}
+
+/// Every node of the island, as far as a reader can take them in.
+fn island(mut diagnostic: Diagnostic, nodes: &[NodeId], map: &SourceMap) -> Diagnostic {
+    for (n, span) in nodes.iter().take(8).filter_map(|node| map.name(Item::Node(*node))).enumerate() {
+        diagnostic = if n == 0 {
+            diagnostic.at(span.clone(), "not determined")
+        } else {
+            diagnostic.also(span.clone(), "connected to it")
+        };
+    }
+    diagnostic
+}
+
+fn help(error: &BuildError) -> Option<String> {
+    let zero = |value: f64| value.abs() < f64::MIN_POSITIVE;
+    Some(match &error.kind {
+        Kind::Empty => format!("add a section [node]; {MINIMAL}").trim_end().to_owned(),
+        Kind::DuplicateName { .. } => format!(
+            "rename one of them, for example `{}_2`; nodes and elements share one set of names",
+            error.name
+        ),
+        Kind::NotPositive { field, value, .. } if value.is_nan() || value.is_infinite() => match field {
+            Field::Resistance => "leave the path out if no heat flows through it".into(),
+            _ => "something is divided by zero, or a number is too large".into(),
+        },
+        Kind::NotPositive { field, value, .. } => not_positive(*field, zero(*value)).to_owned(),
+        Kind::NotFinite { .. } => "something is divided by zero, or a number is too large".into(),
+        Kind::Evaluation { error, .. } => evaluation(error)?.to_owned(),
+        Kind::BadName { .. } => format!("use letters, digits and `_`: `{}`", usable(&error.name)),
+        Kind::BelowAbsoluteZero { .. } => "0 K is -273.15 degC".into(),
+        Kind::NoCapacity { .. } => format!(
+            "give it a capacity, `{0} = {{ C = \"500 J/K\" }}`, or make it a junction, `{0} = {{ massless = true }}`",
+            error.name
+        ),
+        _ => return error.help(),
+    })
+}
+
+fn not_positive(field: Field, zero: bool) -> &'static str {
+    match field {
+        Field::Resistance if zero => "two places without resistance between them are one node: make them one",
+        Field::Conductance | Field::FilmCoefficient | Field::Area if zero => {
+            "leave the path out if no heat flows through it"
+        }
+        Field::Capacity if zero => "a node that stores nothing is `{ massless = true }`",
+        Field::Capacity => "check the sign: heat that is stored makes a body warmer",
+        _ => "check the sign: heat flows from the warm to the cold end, whichever is named first",
+    }
+}
+
+fn evaluation(error: &EvalError) -> Option<&'static str> {
+    match error {
+        EvalError::NotFinite { .. } => Some("something is divided by zero, or a number is too large"),
+        EvalError::NegativeBase { .. } => {
+            Some("a negative number has no such power; use `abs(..)` if the sign does not count")
+        }
+        EvalError::Domain { .. } => Some("check the sign of its argument"),
+        _ => None,
+    }
+}
+
+/// A name that is like this one and can be used.
+fn usable(name: &str) -> String {
+    let letters = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
+    let name: String = letters.collect();
+    if name.starts_with(|c: char| c.is_ascii_digit()) || name.is_empty() { format!("_{name}") } else { name }
+}

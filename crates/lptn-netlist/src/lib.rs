@@ -1,0 +1,55 @@
+//! Netlists: TOML text to a [`Network`](lptn_network::Network), with every problem named by its place.
+//!
+//! [`parse`] reads the text into a [`RawNetlist`] (what is written, where), and that into a [`Netlist`] (what it
+//! means). Nothing stops at the first problem: a [`Rejected`] netlist lists them all, each a [`Diagnostic`] with a
+//! stable code, the places in the [`Files`] and, where possible, the text to paste.
+//!
+//! ```
+//! let text = r#"
+//! format = 1
+//!
+//! [node]
+//! block = { T0 = "25 degC", C = "500 J/K" }
+//!
+//! [boundary]
+//! air = { T = "25 degC" }
+//!
+//! [resistor]
+//! cooling = { from = "block", to = "air", R = "0.3 K/W" }
+//! "#;
+//! let netlist = lptn_netlist::parse("block.toml", text)?;
+//! let block = netlist.network.node("block")?;
+//! assert_eq!(netlist.network.capacity(block), 500.0);
+//!
+//! let rejected = lptn_netlist::parse("block.toml", &text.replace("K/W", "W/K")).unwrap_err();
+//! assert_eq!(rejected.diagnostics[0].code, "units::dimension");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod assign;
+mod describe;
+mod diagnostic;
+mod duplicate;
+mod elaborate;
+mod fields;
+mod file;
+mod names;
+mod netlist;
+mod parameters;
+mod raw;
+mod run;
+mod section;
+mod source_map;
+mod syntax;
+mod syntax_error;
+mod toml_1_1;
+mod value;
+mod vocabulary;
+
+pub use diagnostic::{Diagnostic, Label, Severity};
+pub use file::{FileId, Files, Span};
+pub use netlist::{Netlist, ReadError, Rejected, parse, parse_bytes, read};
+pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
+pub use run::{Output, RunSettings};
+pub use source_map::SourceMap;
+pub use syntax::parse_raw;

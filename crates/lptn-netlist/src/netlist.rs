@@ -1,0 +1,211 @@
+//! The whole way: text to [`Netlist`], or every reason why not.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use lptn_network::{Network, Parameters};
+use lptn_units::Unit;
+
+use crate::diagnostic::{Diagnostic, Severity, arrange};
+use crate::elaborate::{Elaborated, elaborate};
+use crate::file::{FileId, Files, Span};
+use crate::run::{RunPlan, RunSettings};
+use crate::section;
+use crate::source_map::SourceMap;
+use crate::syntax::parse_raw;
+use crate::syntax_error::NOT_CLOSED;
+
+/// A network as a netlist describes it, with the way back to the text.
+#[derive(Clone, Debug)]
+pub struct Netlist {
+    /// The network, with the parameters of the file and of [`Netlist::set`].
+    pub network: Network,
+    /// What to simulate; `None` without `[run]`.
+    pub run: Option<RunSettings>,
+    /// Where each part of the network stands.
+    pub source_map: SourceMap,
+    /// The texts that places refer to.
+    pub files: Files,
+    /// What is probably not meant as it is written.
+    pub warnings: Vec<Diagnostic>,
+    /// The unit in which temperatures are shown: degC unless the netlist says otherwise.
+    pub temperature_unit: Unit,
+    pub(crate) plan: Option<RunPlan>,
+    /// Everything that was set so far.
+    pub(crate) assigned: Parameters,
+}
+
+/// A netlist that cannot be used, with every reason.
+#[derive(Clone, Debug)]
+pub struct Rejected {
+    /// The texts that places refer to.
+    pub files: Files,
+    /// What is wrong, in file order; holds at least one error.
+    pub diagnostics: Vec<Diagnostic>,
+    /// Whether the text could not even be read as TOML.
+    pub syntax: bool,
+}
+
+impl fmt::Display for Rejected {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, diagnostic) in self.diagnostics.iter().enumerate() {
+            let separator = if i > 0 { "\n" } else { "" };
+            write!(f, "{separator}{}", self.files.plain(diagnostic))?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Rejected {}
+
+/// Why a file gave no netlist.
+#[derive(Debug)]
+pub enum ReadError {
+    /// The file could not be read.
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        error: std::io::Error,
+    },
+    /// Its content cannot be used.
+    Rejected(Rejected),
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Io { path, error } => write!(f, "cannot read {}: {error}", path.display()),
+            Self::Rejected(rejected) => rejected.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for ReadError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Io { error, .. } => Some(error),
+            Self::Rejected(rejected) => Some(rejected),
+        }
+    }
+}
+
+/// Reads a netlist from a file.
+///
+/// # Errors
+/// [`ReadError`] if the file cannot be read or its content cannot be used.
+pub fn read(path: &Path) -> Result<Netlist, ReadError> {
+    let bytes = std::fs::read(path).map_err(|error| ReadError::Io { path: path.to_owned(), error })?;
+    parse_bytes(&path.display().to_string(), &bytes).map_err(ReadError::Rejected)
+}
+
+/// Reads a netlist from bytes that may not be text; `name` is what diagnostics call it.
+///
+/// # Errors
+/// [`Rejected`] with every problem.
+pub fn parse_bytes(name: &str, bytes: &[u8]) -> Result<Netlist, Rejected> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) if !text.contains('\0') => parse(name, text),
+        Ok(_) => Err(not_text(name, "it contains zero bytes")),
+        Err(_) if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) => {
+            Err(not_text(name, "it looks like UTF-16"))
+        }
+        Err(error) => {
+            let at = error.valid_up_to();
+            let line = bytes.iter().take(at).filter(|&&byte| byte == b'\n').count() + 1;
+            Err(not_text(name, &format!("byte {at} on line {line} belongs to no character")))
+        }
+    }
+}
+
+/// Reads a netlist from text; `name` is what diagnostics call it.
+///
+/// # Errors
+/// [`Rejected`] with every problem.
+pub fn parse(name: &str, text: &str) -> Result<Netlist, Rejected> {
+    let mut files = Files::new();
+    if text.contains('\0') {
+        return Err(not_text(name, "it contains zero bytes"));
+    }
+    let file = files.add(name, text);
+    let (raw, mut diagnostics) = parse_raw(&files, file);
+    let syntax = !diagnostics.is_empty();
+    if raw.top.entries.is_empty() && !syntax {
+        let empty = section::empty(text, Span::new(file, 0..0));
+        return Err(Rejected { files, diagnostics: vec![empty], syntax });
+    }
+    let (done, found) = elaborate(&raw);
+    if syntax {
+        add_certain(&mut diagnostics, found, (&files, file));
+        return Err(Rejected { files, diagnostics, syntax });
+    }
+    diagnostics = found;
+    arrange(&mut diagnostics);
+    match done {
+        Some(done) => finish(files, done, diagnostics),
+        None => Err(Rejected { files, diagnostics, syntax }),
+    }
+}
+
+fn finish(files: Files, done: Elaborated, mut diagnostics: Vec<Diagnostic>) -> Result<Netlist, Rejected> {
+    let Elaborated { network, run: plan, map, temperature_unit } = done;
+    let run = match plan.as_ref().map(|plan| plan.settings(&network)).transpose() {
+        Ok(run) => run,
+        Err(problems) => {
+            diagnostics.extend(problems);
+            diagnostics.retain(|d| d.severity == Severity::Error);
+            arrange(&mut diagnostics);
+            return Err(Rejected { files, diagnostics, syntax: false });
+        }
+    };
+    let assigned = network.overrides();
+    let warnings = diagnostics;
+    Ok(Netlist { network, run, source_map: map, files, warnings, temperature_unit, plan, assigned })
+}
+
+/// Problems that are there whatever the broken lines should have said.
+fn add_certain(all: &mut Vec<Diagnostic>, found: Vec<Diagnostic>, (files, file): (&Files, FileId)) {
+    let line = |d: &Diagnostic| d.place().map(|span| files.line_column(span).0);
+    let broken: Vec<Option<usize>> = all.iter().map(line).collect();
+    // behind something that was not closed, the parser reads one thing as another
+    let end =
+        all.iter().filter(|d| d.code == NOT_CLOSED).filter_map(Diagnostic::place).map(|s| s.range.start);
+    let end = end.min().unwrap_or(usize::MAX);
+    let certain = found.into_iter().filter(|d| {
+        d.severity == Severity::Error
+            && !rests_on_absence(d.code)
+            && d.place().is_some_and(|span| span.file == file && span.range.start < end)
+            && !broken.contains(&line(d))
+    });
+    all.extend(certain);
+    arrange(all);
+}
+
+/// Whether a problem is that something is not there: a broken line may be what is missing.
+fn rests_on_absence(code: &str) -> bool {
+    let absences = [
+        "netlist::missing_format",
+        "netlist::missing_field",
+        "netlist::no_law",
+        "netlist::unknown_node",
+        "netlist::unknown_name",
+        "netlist::run_output",
+        "network::no_capacity",
+        "network::no_initial_temperature",
+        "network::floating_island",
+        "network::empty",
+    ];
+    absences.contains(&code)
+}
+
+fn not_text(name: &str, why: &str) -> Rejected {
+    let mut files = Files::new();
+    let file = files.add(name, "");
+    let error = Diagnostic::error("netlist::not_text", format!("this is not a text file: {why}"))
+        .at(Span::new(file, 0..0), "")
+        .help(
+            "a netlist is a TOML file in UTF-8; choose UTF-8 where your editor saves it, \
+               and write `degC` if the degree sign is the trouble",
+        );
+    Rejected { files, diagnostics: vec![error], syntax: true }
+}

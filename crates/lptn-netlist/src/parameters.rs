@@ -1,0 +1,142 @@
+//! `[param]`: values in the order in which they depend on each other.
+
+use std::collections::HashMap;
+
+use lptn_network::{Field, Item};
+use lptn_units::{Quantity, Type};
+
+use crate::diagnostic::Diagnostic;
+use crate::elaborate::Elaboration;
+use crate::fields::Owner;
+use crate::names::section;
+use crate::raw::RawEntry;
+use crate::value::{Place, Text, Wanted};
+use crate::vocabulary::PARAM;
+
+/// A parameter before its names are resolved.
+struct Pending<'a> {
+    entry: &'a RawEntry,
+    owner: Owner,
+    /// `None` if it could not be read.
+    text: Option<Text>,
+    /// The parameters it uses, as positions in the file.
+    uses: Vec<usize>,
+}
+
+impl<'a> Elaboration<'a> {
+    /// Gives all parameters to the builder.
+    pub(crate) fn parameters(&mut self) {
+        let mut pending = self.read();
+        let (order, cycles) = order(&pending);
+        for cycle in &cycles {
+            self.problems.push(describe_cycle(&pending, cycle));
+            for &member in cycle {
+                pending[member].text = None;
+            }
+        }
+        for i in order {
+            self.parameter(&mut pending[i]);
+        }
+    }
+
+    fn read(&mut self) -> Vec<Pending<'a>> {
+        let entries = section(self.raw, PARAM).map_or(&[][..], |table| &table.entries);
+        let positions: HashMap<&str, usize> =
+            entries.iter().enumerate().map(|(i, entry)| (entry.key.as_str(), i)).collect();
+        entries.iter().map(|entry| self.pending(entry, &positions)).collect()
+    }
+
+    fn pending(&mut self, entry: &'a RawEntry, positions: &HashMap<&str, usize>) -> Pending<'a> {
+        let owner = Owner::element("parameter", &entry.key);
+        let place = Place { owner: &owner, key: "", raw: &entry.value };
+        let text = match place.text(None, &self.names) {
+            Ok(text) => Some(text),
+            Err(problem) => {
+                self.problems.push(problem);
+                None
+            }
+        };
+        let mut uses = Vec::new();
+        if let Some(Text::Expression(expression)) = &text {
+            uses.extend(
+                expression.names().iter().filter_map(|(name, _)| positions.get(name.as_str()).copied()),
+            );
+        }
+        Pending { entry, owner, text, uses }
+    }
+
+    fn parameter(&mut self, pending: &mut Pending<'_>) {
+        let entry = pending.entry;
+        let place = Place { owner: &pending.owner, key: "", raw: &entry.value };
+        let wanted = Wanted { ty: None, time: false };
+        let given = pending.text.take().and_then(|text| self.resolve(place, text, wanted));
+        if given.is_none() {
+            self.names.fail(&entry.key);
+        }
+        // the name is checked even if the value is wrong
+        let stand_in = || Quantity { value: 1.0, deviation: None, ty: Type::SCALAR }.into();
+        let id = self.builder.parameter(&entry.key, given.map_or_else(stand_in, |given| given.input()));
+        self.map.insert(Item::Parameter(id), Field::Name, entry.key_span.clone());
+        self.map.value(Item::Parameter(id), Field::Value, &entry.value);
+    }
+}
+
+/// Positions so that each parameter comes after those it uses, otherwise in file order; and the cycles.
+fn order(pending: &[Pending<'_>]) -> (Vec<usize>, Vec<Vec<usize>>) {
+    let mut state = vec![State::New; pending.len()];
+    let (mut order, mut cycles) = (Vec::with_capacity(pending.len()), Vec::new());
+    for start in 0..pending.len() {
+        // a chain may be as long as the file: no recursion
+        let mut path = vec![(start, 0)];
+        while let Some((at, next)) = path.last_mut() {
+            let at = *at;
+            if *next == 0 && state[at] != State::New {
+                path.pop();
+                continue;
+            }
+            state[at] = State::Open;
+            let Some(&used) = pending[at].uses.get(*next) else {
+                state[at] = State::Done;
+                order.push(at);
+                path.pop();
+                continue;
+            };
+            *next += 1;
+            match state[used] {
+                State::New => path.push((used, 0)),
+                State::Open => cycles.push(cycle(&path, used)),
+                State::Done => {}
+            }
+        }
+    }
+    (order, cycles)
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum State {
+    New,
+    Open,
+    Done,
+}
+
+/// The part of the path from `first` on.
+fn cycle(path: &[(usize, usize)], first: usize) -> Vec<usize> {
+    path.iter().map(|(at, _)| *at).skip_while(|at| *at != first).collect()
+}
+
+fn describe_cycle(pending: &[Pending<'_>], cycle: &[usize]) -> Diagnostic {
+    let name = |i: &usize| format!("`{}`", pending[*i].entry.key);
+    let mut chain: Vec<String> = cycle.iter().map(name).collect();
+    chain.extend(cycle.first().map(name));
+    let message = match cycle {
+        [one] => format!("parameter {} is defined by itself", name(one)),
+        _ => format!("parameters are defined by each other: {}", chain.join(" -> ")),
+    };
+    let mut error = Diagnostic::error("netlist::parameter_cycle", message);
+    for (n, (&i, next)) in cycle.iter().zip(chain.iter().skip(1)).enumerate() {
+        let span = pending[i].entry.value.span.clone();
+        let text = format!("uses {next}");
+        error = if n == 0 { error.at(span, text) } else { error.also(span, text) };
+    }
+    error.help("give one of them a value of its own")
+}

@@ -1,0 +1,101 @@
+//! A netlist as it is written: every key and value with its place, nothing resolved.
+
+use crate::file::{Span, on_borders};
+
+/// The sections and keys of one file, in file order. Strings are untouched, numbers are the text that stands
+/// in the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawNetlist {
+    /// The top level; sections are entries whose value is a table.
+    pub top: RawTable,
+}
+
+/// The entries of a table in file order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawTable {
+    /// The whole inline table, or the heading of a `[table]`.
+    pub span: Span,
+    /// Its entries; no key stands twice.
+    pub entries: Vec<RawEntry>,
+}
+
+impl RawTable {
+    /// The entry of this key.
+    pub fn get(&self, key: &str) -> Option<&RawEntry> {
+        self.entries.iter().find(|entry| entry.key == key)
+    }
+}
+
+/// A key with its value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawEntry {
+    /// The key without quotes.
+    pub key: String,
+    /// Where the key stands.
+    pub key_span: Span,
+    /// The value.
+    pub value: RawValue,
+}
+
+/// A value with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawValue {
+    /// Where it stands, quotes included.
+    pub span: Span,
+    /// What it is.
+    pub kind: RawKind,
+}
+
+/// What a value is in TOML.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RawKind {
+    /// A string.
+    String {
+        /// Its content.
+        text: String,
+        /// The byte of the file at which the content begins; `None` if escapes make the content differ from
+        /// the text of the file.
+        start: Option<usize>,
+    },
+    /// An integer, as decimal text.
+    Integer(String),
+    /// A float, as text.
+    Float(String),
+    /// `true` or `false`.
+    Boolean(bool),
+    /// A date or time.
+    Datetime,
+    /// A list.
+    Array(Vec<RawValue>),
+    /// A table.
+    Table(RawTable),
+}
+
+impl RawKind {
+    /// What it is, with the article that a sentence needs.
+    pub(crate) fn with_article(&self) -> &'static str {
+        match self {
+            Self::String { .. } => "a string",
+            Self::Integer(_) | Self::Float(_) => "a number",
+            Self::Boolean(true) => "`true`",
+            Self::Boolean(false) => "`false`",
+            Self::Datetime => "a date",
+            Self::Array(_) => "a list",
+            Self::Table(_) => "a table",
+        }
+    }
+}
+
+impl RawValue {
+    /// The place of some bytes of the string's content; the whole value where they cannot be told.
+    pub(crate) fn part(&self, range: &std::ops::Range<usize>) -> Span {
+        let RawKind::String { text, start: Some(start) } = &self.kind else { return self.span.clone() };
+        if range.start >= text.len() {
+            // a problem at the end of the text is shown at the closing quote
+            let end = start + text.len();
+            return Span::new(self.span.file, end..(end + 1).min(self.span.range.end));
+        }
+        let part = on_borders(text, range.start..range.end.max(range.start + 1));
+        Span::new(self.span.file, start + part.start..start + part.end)
+    }
+}

@@ -1,0 +1,273 @@
+//! `[run]`: what to simulate.
+
+use lptn_network::{Evaluation, Network, Value};
+use lptn_units::{Dimension, Type};
+
+use crate::diagnostic::Diagnostic;
+use crate::elaborate::Elaboration;
+use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::file::Span;
+use crate::raw::{RawKind, RawValue};
+use crate::value::{Place, Wanted};
+use crate::vocabulary::{OUTPUT, RUN};
+
+/// More rows than this are a mistake in a unit.
+const MOST_ROWS: f64 = 1e7;
+
+/// Rows of a run that does not say.
+const USUAL_ROWS: f64 = 300.0;
+
+/// The tolerance in K of a run that does not say.
+const USUAL_TOLERANCE: f64 = 1e-5;
+
+const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
+const TIME: Type = Type::of(Dimension::TIME);
+
+/// What to simulate, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunSettings {
+    /// Time at which the run begins, in s.
+    pub start: f64,
+    /// Time at which it ends, in s; after `start`.
+    pub stop: f64,
+    /// When to write a row.
+    pub output: Output,
+    /// Which columns to write, as patterns such as `*.T`; empty for all.
+    pub select: Vec<String>,
+    /// Tolerance in K.
+    pub tolerance: f64,
+}
+
+/// When to write a row; start and stop always have one.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Output {
+    /// At this distance in s, from the start on.
+    Every(f64),
+    /// At these times in s, ascending.
+    At(Vec<f64>),
+}
+
+/// `[run]` before its expressions are evaluated: `--set` may change what they use.
+#[derive(Clone, Debug)]
+pub(crate) struct RunPlan {
+    start: Option<Setting>,
+    stop: Setting,
+    output: Option<OutputPlan>,
+    tolerance: Option<Setting>,
+    select: Vec<String>,
+}
+
+/// A value with its place.
+#[derive(Clone, Debug)]
+struct Setting {
+    value: Value,
+    span: Span,
+    words: String,
+    unit: String,
+    help: String,
+}
+
+#[derive(Clone, Debug)]
+enum OutputPlan {
+    Every(Setting),
+    At(Vec<Setting>),
+}
+
+impl<'a> Elaboration<'a> {
+    pub(crate) fn run(&mut self) -> Option<RunPlan> {
+        let entry = self.raw.top.get(RUN.name)?;
+        let fields = Fields::of(&RUN, Owner::section(RUN.name), entry, &mut self.problems)?;
+        self.integrator(&fields);
+        let stop = fields.require("stop", &mut self.problems);
+        let stop = stop.and_then(|raw| self.setting(&fields.owner, ("stop", raw), TIME));
+        let start = self.optional(&fields, "start", TIME);
+        let tolerance = self.optional(&fields, "tolerance", DIFFERENCE);
+        let output = self.output(&fields);
+        let select = fields.get("select").map_or_else(Vec::new, |raw| self.select(&fields, raw));
+        Some(RunPlan { start, stop: stop?, output, tolerance, select })
+    }
+
+    fn optional(&mut self, fields: &Fields<'a>, key: &str, ty: Type) -> Option<Setting> {
+        self.setting(&fields.owner, (key, fields.get(key)?), ty)
+    }
+
+    fn setting(&mut self, owner: &Owner, (key, raw): (&str, &RawValue), ty: Type) -> Option<Setting> {
+        let place = Place { owner, key, raw };
+        let words = place.words();
+        let value = self.given(place, Wanted::constant(ty))?.value();
+        let help = format!("write it like this: `{}`", sample(key));
+        Some(Setting { value, span: raw.span.clone(), words, unit: ty.usual_unit(), help })
+    }
+
+    fn integrator(&mut self, fields: &Fields<'a>) {
+        let Some(raw) = fields.get("integrator") else { return };
+        if fields.text("integrator", raw, &mut self.problems).is_some_and(|text| text != "auto") {
+            let message = "a choice of `integrator` in [run] is not supported yet";
+            self.report(
+                Diagnostic::error("netlist::not_supported_yet", message)
+                    .at(raw.span.clone(), "")
+                    .help("write `integrator = \"auto\"` or leave it out"),
+            );
+        }
+    }
+
+    fn output(&mut self, fields: &Fields<'a>) -> Option<OutputPlan> {
+        let entry = fields.entry("output")?;
+        if !matches!(entry.value.kind, RawKind::Table(_)) {
+            let words = fields.owner.field("output");
+            self.report(wrong_shape(&words, &entry.value, "a table", &sample("output")));
+            return None;
+        }
+        let output = Fields::of(&OUTPUT, fields.owner.inside("output"), entry, &mut self.problems)?;
+        match (output.get("every"), output.get("at")) {
+            (Some(every), None) => self.setting(&output.owner, ("every", every), TIME).map(OutputPlan::Every),
+            (None, Some(at)) => self.times(&output.owner, at),
+            (every, _) => {
+                if output.complete {
+                    self.report(one_of(&entry.value, every.is_some()));
+                }
+                None
+            }
+        }
+    }
+
+    fn times(&mut self, owner: &Owner, raw: &RawValue) -> Option<OutputPlan> {
+        let RawKind::Array(list) = &raw.kind else {
+            self.report(wrong_shape(&owner.field("at"), raw, "a list of times", &sample("at")));
+            return None;
+        };
+        let times: Vec<_> = list.iter().map(|raw| self.setting(owner, ("at", raw), TIME)).collect();
+        times.into_iter().collect::<Option<Vec<_>>>().map(OutputPlan::At)
+    }
+
+    fn select(&mut self, fields: &Fields<'a>, raw: &RawValue) -> Vec<String> {
+        let words = fields.owner.field("select");
+        let RawKind::Array(list) = &raw.kind else {
+            self.report(wrong_shape(&words, raw, "a list of patterns", &sample("select")));
+            return Vec::new();
+        };
+        let (mut patterns, mut spans) = (Vec::new(), Vec::new());
+        for item in list {
+            match &item.kind {
+                RawKind::String { text, .. } => {
+                    patterns.push(text.clone());
+                    spans.push(item.span.clone());
+                }
+                _ => self.report(wrong_shape(&words, item, "a list of strings", &sample("select"))),
+            }
+        }
+        self.map.set_select(spans);
+        patterns
+    }
+}
+
+fn one_of(raw: &RawValue, both: bool) -> Diagnostic {
+    let message = if both { "has both `every` and `at`" } else { "has neither `every` nor `at`" };
+    Diagnostic::error("netlist::run_output", format!("`output` of [run] {message}"))
+        .at(raw.span.clone(), "")
+        .help("write `output = { every = \"5 s\" }` or `output = { at = [\"0 s\", \"5 s\"] }`")
+}
+
+impl RunPlan {
+    /// The settings for the parameters that `network` has.
+    pub(crate) fn settings(&self, network: &Network) -> Result<RunSettings, Vec<Diagnostic>> {
+        let mut check = Check { scope: network.evaluation(), problems: Vec::new() };
+        let start = self.start.as_ref().map_or(0.0, |start| check.number(start));
+        let stop = check.number(&self.stop);
+        if check.problems.is_empty() && stop <= start {
+            check.problems.push(ends_early(self, start, stop));
+        }
+        let tolerance = self.tolerance.as_ref().map_or(USUAL_TOLERANCE, |t| check.positive(t));
+        let output = check.output(self.output.as_ref(), (start, stop));
+        if check.problems.is_empty() {
+            Ok(RunSettings { start, stop, output, select: self.select.clone(), tolerance })
+        } else {
+            Err(check.problems)
+        }
+    }
+}
+
+fn ends_early(plan: &RunPlan, start: f64, stop: f64) -> Diagnostic {
+    let message = format!("the run ends at {stop} s, but begins at {start} s");
+    let error = Diagnostic::error("netlist::run_stop", message).at(plan.stop.span.clone(), "ends here");
+    let error = match &plan.start {
+        Some(start) => error.also(start.span.clone(), "begins here"),
+        None => error,
+    };
+    error.help("`stop` has to be after `start`, which is 0 s unless said otherwise: `stop = \"25 min\"`")
+}
+
+/// Evaluates settings and collects what is wrong with them.
+struct Check {
+    scope: Evaluation,
+    problems: Vec<Diagnostic>,
+}
+
+impl Check {
+    fn number(&mut self, setting: &Setting) -> f64 {
+        let failed = match setting.value.at(&mut self.scope) {
+            Ok(value) if value.is_finite() => return value,
+            Ok(value) => Diagnostic::error(
+                "netlist::run_not_finite",
+                format!("{} must be finite, got {value}", setting.words),
+            ),
+            Err(error) => Diagnostic::error(error.code(), format!("{}: {error}", setting.words)),
+        };
+        self.problems.push(failed.at(setting.span.clone(), "").help(&setting.help));
+        f64::NAN
+    }
+
+    fn positive(&mut self, setting: &Setting) -> f64 {
+        let value = self.number(setting);
+        if value <= 0.0 {
+            let message = format!("{} must be more than zero, got {value} {}", setting.words, setting.unit);
+            let error = Diagnostic::error("netlist::run_not_positive", message);
+            self.problems.push(error.at(setting.span.clone(), "").help(&setting.help));
+        }
+        value
+    }
+
+    fn output(&mut self, plan: Option<&OutputPlan>, (start, stop): (f64, f64)) -> Output {
+        match plan {
+            None => Output::Every((stop - start) / USUAL_ROWS),
+            Some(OutputPlan::Every(setting)) => {
+                let every = self.positive(setting);
+                if every > 0.0 && (stop - start) / every > MOST_ROWS {
+                    self.problems.push(too_many(setting, (stop - start) / every));
+                }
+                Output::Every(every)
+            }
+            Some(OutputPlan::At(times)) => Output::At(self.times(times, (start, stop))),
+        }
+    }
+
+    fn times(&mut self, settings: &[Setting], (start, stop): (f64, f64)) -> Vec<f64> {
+        let mut times: Vec<f64> = Vec::with_capacity(settings.len());
+        for setting in settings {
+            let time = self.number(setting);
+            let says = if time < start || time > stop {
+                Some(format!("{time} s is outside the run, which lasts from {start} s to {stop} s"))
+            } else if times.last().is_some_and(|last| time <= *last) {
+                Some(format!(
+                    "the times of `at` have to ascend, but {time} s does not come after the one before"
+                ))
+            } else {
+                None
+            };
+            if let Some(says) = says {
+                let error = Diagnostic::error("netlist::run_output", says).at(setting.span.clone(), "");
+                self.problems
+                    .push(error.help("list each time once, in order, for example `at = [\"0 s\", \"5 s\"]`"));
+            }
+            times.push(time);
+        }
+        times
+    }
+}
+
+fn too_many(setting: &Setting, rows: f64) -> Diagnostic {
+    let message = format!("{} makes {rows:.0} rows, more than {MOST_ROWS:.0}", setting.words);
+    Diagnostic::error("netlist::too_many_rows", message)
+        .at(setting.span.clone(), "")
+        .help("write a longer time, or leave `output` out for 300 rows")
+}

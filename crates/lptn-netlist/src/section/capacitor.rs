@@ -1,0 +1,40 @@
+//! `[capacitor]`: parts that are lumped into one node.
+
+use lptn_network::{Field, Item};
+use lptn_units::{Dimension, Type};
+
+use crate::elaborate::{Elaboration, stand_in};
+use crate::fields::{Fields, Owner};
+use crate::raw::RawEntry;
+use crate::value::{Place, Wanted};
+use crate::vocabulary::CAPACITOR;
+
+impl<'a> Elaboration<'a> {
+    pub(crate) fn capacitors(&mut self) {
+        for entry in self.elements(CAPACITOR.name) {
+            if self.capacitor(entry).is_none() {
+                self.doubts.parts = true;
+            }
+        }
+    }
+
+    fn capacitor(&mut self, entry: &'a RawEntry) -> Option<()> {
+        let owner = Owner::element(CAPACITOR.name, &entry.key);
+        let fields = Fields::of(&CAPACITOR, owner, entry, &mut self.problems)?;
+        let node = self.node_end(&fields, "node");
+        let raw = fields.require("C", &mut self.problems);
+        let ty = Type::of(Dimension::CAPACITY);
+        let given = raw
+            .and_then(|raw| self.given(Place { owner: &fields.owner, key: "C", raw }, Wanted::constant(ty)));
+        let (node, at) = node?;
+        let capacity = given.map_or_else(|| stand_in(ty), |given| given.input());
+        let id = self.builder.capacitor(&entry.key, node, capacity);
+        let item = Item::Capacitor(id);
+        self.map.insert(item, Field::Name, entry.key_span.clone());
+        self.map.part_of(node, at.span.clone());
+        if let Some(raw) = raw {
+            self.map.value(item, Field::Capacity, raw);
+        }
+        Some(())
+    }
+}

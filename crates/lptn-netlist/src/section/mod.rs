@@ -1,0 +1,13 @@
+//! The sections, one file each.
+
+mod boundary;
+mod capacitor;
+mod conductor;
+mod default;
+mod end;
+mod node;
+mod source;
+mod top;
+
+pub(crate) use default::Default;
+pub(crate) use top::empty;

@@ -1,0 +1,181 @@
+//! Broken TOML, said in the words of a netlist.
+
+use std::collections::HashSet;
+use std::ops::Range;
+
+use toml::de::Error;
+
+use crate::diagnostic::Diagnostic;
+use crate::duplicate;
+use crate::file::{FileId, Span, on_borders};
+use crate::raw::RawTable;
+
+const SYNTAX: &str = "netlist::syntax";
+
+/// Something opened and not closed: what follows is not read as it was meant.
+pub(crate) const NOT_CLOSED: &str = "netlist::not_closed";
+
+/// Broken lines are explained up to here: a file with more of them is probably no netlist.
+const MOST_ERRORS: usize = 200;
+
+/// Explains the parser's errors, one for each line: after the first the parser has lost its place in the line.
+pub(crate) fn explain(errors: &[Error], file: FileId, text: &str, top: &RawTable) -> Vec<Diagnostic> {
+    let mut lines = HashSet::new();
+    let mut found: Vec<Diagnostic> = Vec::new();
+    let mut unclosed = false;
+    let places: Vec<(usize, &str, Place<'_>)> =
+        errors.iter().take(MOST_ERRORS).map(|e| locate(e, file, text)).collect();
+    let strings: HashSet<usize> =
+        places.iter().filter(|(_, message, _)| is_string(message)).map(|(line, ..)| *line).collect();
+    for (line, message, place) in places {
+        // an inline table that is not closed makes trouble on every line up to the end
+        let follows = unclosed && is_inside_table(message);
+        let hidden = strings.contains(&line) && !is_string(message);
+        if follows || hidden || !lines.insert(line) {
+            continue;
+        }
+        let breaks_off = place.line_before().trim().is_empty() || place.rest().is_empty();
+        let brace = is_inside_table(message) && breaks_off;
+        unclosed = brace || is_string(message);
+        found.push(if brace { brace_missing(&place) } else { one(message, &place, top) });
+    }
+    if found.iter().any(|d| d.message.ends_with("is opened twice")) {
+        // the fields below a heading that is opened twice are given twice for that reason
+        found.retain(|d| d.code != duplicate::CODE || d.labels.len() > 1);
+    }
+    if errors.len() > MOST_ERRORS
+        && let Some(last) = found.last_mut()
+    {
+        last.notes.push(format!("there are {} more errors of this kind", errors.len() - MOST_ERRORS));
+    }
+    found
+}
+
+/// The line of an error from 0, its message and its place.
+fn locate<'a>(error: &'a Error, file: FileId, text: &'a str) -> (usize, &'a str, Place<'a>) {
+    let range = on_borders(text, error.span().unwrap_or(0..0));
+    let line = text.get(..range.start).map_or(0, |before| before.matches('\n').count());
+    (line, error.message(), Place { file, text, range })
+}
+
+fn is_string(message: &str) -> bool {
+    ["invalid basic string", "invalid literal string", "invalid multi-line"]
+        .iter()
+        .any(|s| message.starts_with(s))
+}
+
+fn is_inside_table(message: &str) -> bool {
+    ["missing comma between", "missing key for inline", "unclosed inline", "missing assignment"]
+        .iter()
+        .any(|start| message.starts_with(start))
+}
+
+/// Where an error is.
+struct Place<'a> {
+    file: FileId,
+    text: &'a str,
+    range: Range<usize>,
+}
+
+impl Place<'_> {
+    fn span(&self) -> Span {
+        Span::new(self.file, self.range.clone())
+    }
+
+    fn fragment(&self) -> &str {
+        self.text.get(self.range.clone()).unwrap_or("")
+    }
+
+    fn line_before(&self) -> &str {
+        let before = self.text.get(..self.range.start).unwrap_or("");
+        before.rsplit('\n').next().unwrap_or("")
+    }
+
+    fn rest(&self) -> &str {
+        self.text.get(self.range.start..).unwrap_or("").trim()
+    }
+}
+
+fn one(message: &str, place: &Place<'_>, top: &RawTable) -> Diagnostic {
+    let error = |message: &str| Diagnostic::error(SYNTAX, message);
+    let here = || place.span();
+    let says = |start: &str| message.starts_with(start);
+    if says("duplicate key") {
+        duplicate::explain(place.text, &here(), top)
+    } else if says("string values must be quoted") {
+        unquoted(place)
+    } else if says("cannot extend value of type") {
+        error(&format!("`{}` has a value already and cannot have fields as well", place.fragment()))
+            .at(here(), "used as a table here")
+            .help("give all its fields in one place")
+    } else if says("unclosed table") || says("unclosed array of tables") {
+        Diagnostic::error(NOT_CLOSED, "heading without its closing bracket")
+            .at(here(), "`]` is missing here")
+            .help("write it like this: `[resistor]`")
+    } else if is_string(message) {
+        string_open(place)
+    } else if says("key with no value") || says("missing assignment") || says("missing value for key") {
+        error("key without a value")
+            .at(here(), "`=` and a value are missing here")
+            .help("an entry is `name = value`, a heading `[name]`; a comment begins with `#`")
+    } else if says("missing comma between key-value") {
+        error("two fields without a comma between them")
+            .at(here(), "a comma is missing before this")
+            .help("separate fields by commas: `{ from = \"a\", to = \"b\" }`")
+    } else if says("unexpected key or value") {
+        error("something stands after the end of the entry")
+            .at(here(), "does not belong to it")
+            .help("begin a new line here; a comment begins with `#`")
+    } else if says("extra `=`") {
+        error("a second `=`").at(here(), "remove this")
+    } else if says("unexpected leading zero") {
+        error("number with a zero in front").at(here(), "remove this zero")
+    } else if says("missing escaped value") {
+        error("backslash that begins no escape")
+            .at(here(), "after this backslash")
+            .help("write two backslashes, or put the string in single quotes: 'a\\b'")
+    } else {
+        error(&message.replacen("unquoted keys", "keys", 1)).at(here(), "")
+    }
+}
+
+/// The newcomer's first mistake: a quantity without quotes.
+fn unquoted(place: &Place<'_>) -> Diagnostic {
+    let fragment = place.fragment();
+    if fragment.trim().is_empty() {
+        return value_missing(place);
+    }
+    // quotes of word processors, and quotes that were opened and not closed
+    let bare = fragment.trim_matches(|c: char| c.is_whitespace() || "\"'“”„‘’«»".contains(c));
+    Diagnostic::error("netlist::unquoted", "text without quotes")
+        .at(place.span(), "has to stand in straight double quotes")
+        .help(format!("write \"{}\"", bare.replace('"', "")))
+}
+
+fn value_missing(place: &Place<'_>) -> Diagnostic {
+    Diagnostic::error(SYNTAX, "key without a value")
+        .at(place.span(), "a value is missing here")
+        .help("write a string, such as \"25 degC\", or a number")
+}
+
+/// A string that is still open where its line ends.
+fn string_open(place: &Place<'_>) -> Diagnostic {
+    let before = place.line_before();
+    if before.trim_end().ends_with('=') {
+        return value_missing(place); // the parser takes what follows for the rest of a string
+    }
+    let start = place.range.start - before.len() + before.rfind(['"', '\'']).unwrap_or(before.len());
+    let span = Span::new(place.file, start..place.range.start.max(start));
+    Diagnostic::error(NOT_CLOSED, "string without its closing quote")
+        .at(span, "this is not closed on its line")
+        .help("a string begins and ends with a quote: `R = \"0.3 K/W\"`")
+}
+
+/// An inline table that is still open where its line ends.
+fn brace_missing(place: &Place<'_>) -> Diagnostic {
+    let before = place.text.get(..place.range.start).unwrap_or("");
+    let brace = before.rfind('{').map_or(place.range.start..place.range.start, |at| at..at + 1);
+    Diagnostic::error(NOT_CLOSED, "inline table without its closing brace")
+        .at(Span::new(place.file, brace), "`}` is missing on this line")
+        .help("close it on the line it begins on: `{ from = \"a\", to = \"b\", R = \"0.3 K/W\" }`")
+}

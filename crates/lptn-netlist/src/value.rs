@@ -1,0 +1,181 @@
+//! Reads one value: a quantity, a number or an expression, with every mistake placed to the byte.
+
+use std::sync::Arc;
+
+use lptn_network::{Input, Value};
+use lptn_units::{
+    Expression, Program, Quantity, Type, UnitError, UnitErrorKind, Written, parse_quantity, parse_value,
+};
+
+use crate::diagnostic::Diagnostic;
+use crate::elaborate::Elaboration;
+use crate::fields::{Owner, sample, wrong_shape};
+use crate::names::Names;
+use crate::raw::{RawKind, RawValue};
+
+/// A value whose units are right.
+#[derive(Clone, Debug)]
+pub(crate) enum Given {
+    Quantity(Quantity),
+    Expression(Program),
+}
+
+impl Given {
+    /// For the builder of a network.
+    pub(crate) fn input(self) -> Input {
+        match self {
+            Self::Quantity(quantity) => quantity.into(),
+            Self::Expression(program) => program.into(),
+        }
+    }
+
+    /// Without its type, which the reader has checked.
+    pub(crate) fn value(self) -> Value {
+        match self {
+            Self::Quantity(quantity) => Value::Constant(quantity.value),
+            Self::Expression(program) => Value::Expression(Arc::new(program)),
+        }
+    }
+}
+
+/// A value before its names are resolved.
+#[derive(Clone, Debug)]
+pub(crate) enum Text {
+    Quantity(Quantity),
+    Expression(Expression),
+}
+
+/// What a field takes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wanted {
+    /// Its type; any for a parameter.
+    pub(crate) ty: Option<Type>,
+    /// Whether it may depend on `t`.
+    pub(crate) time: bool,
+}
+
+impl Wanted {
+    /// A constant of this type.
+    pub(crate) fn constant(ty: Type) -> Self {
+        Self { ty: Some(ty), time: false }
+    }
+
+    /// A function of time of this type.
+    pub(crate) fn in_time(ty: Type) -> Self {
+        Self { ty: Some(ty), time: true }
+    }
+}
+
+/// One field of one element: what it is called, and what stands there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place<'a> {
+    pub(crate) owner: &'a Owner,
+    pub(crate) key: &'a str,
+    pub(crate) raw: &'a RawValue,
+}
+
+impl Place<'_> {
+    /// "`R` of resistor `internal`"; a parameter has no fields.
+    pub(crate) fn words(&self) -> String {
+        if self.key.is_empty() { self.owner.words().to_owned() } else { self.owner.field(self.key) }
+    }
+
+    /// Reads the text without resolving names.
+    pub(crate) fn text(&self, ty: Option<Type>, names: &Names) -> Result<Text, Diagnostic> {
+        match &self.raw.kind {
+            RawKind::String { text, .. } => match parse_value(text, ty, &|name| names.is_parameter(name)) {
+                Ok(Written::Quantity(quantity)) => Ok(Text::Quantity(quantity)),
+                Ok(Written::Expression(expression)) => Ok(Text::Expression(expression)),
+                Err(error) => Err(self.unit_error(&error)),
+            },
+            RawKind::Integer(number) | RawKind::Float(number) => match parse_quantity(number, ty) {
+                Ok(quantity) => Ok(Text::Quantity(quantity)),
+                Err(error) => Err(self.unit_error(&error)),
+            },
+            _ => {
+                let sample =
+                    if self.key.is_empty() { "name = \"25.5 degC\"".into() } else { sample(self.key) };
+                Err(wrong_shape(&self.words(), self.raw, "a quantity or an expression in quotes", &sample))
+            }
+        }
+    }
+
+    /// Puts a mistake in the string at its place in the file.
+    pub(crate) fn unit_error(&self, error: &UnitError) -> Diagnostic {
+        let (words, says) = (self.words(), error.to_string());
+        let says = match self.fragment(error) {
+            _ if !says.starts_with("must be ") => format!(": {says}"),
+            Some(part) => format!(": `{part}` {says}"),
+            None => format!(" {says}"),
+        };
+        let diagnostic = Diagnostic::error(error.code(), format!("{words}{says}"));
+        let place = match error.kind {
+            // the value as a whole is the mistake
+            UnitErrorKind::BareNumber { .. } => self.raw.span.clone(),
+            _ => self.raw.part(&error.span),
+        };
+        let diagnostic = diagnostic.at(place, "");
+        match self.unit_help(error) {
+            Some(help) => diagnostic.help(help),
+            None => diagnostic,
+        }
+    }
+
+    /// The part of the string that is wrong, if it is not the whole string.
+    fn fragment(&self, error: &UnitError) -> Option<&str> {
+        let RawKind::String { text, .. } = &self.raw.kind else { return None };
+        let part = text.get(error.span.clone())?.trim();
+        (!part.is_empty() && part != text.trim()).then_some(part)
+    }
+
+    fn unit_help(&self, error: &UnitError) -> Option<String> {
+        match &error.kind {
+            // the same number in another unit is rarely what was meant
+            UnitErrorKind::Dimension { wanted, fix: Some(fix), .. }
+                if !fix.contains('[') && !self.key.is_empty() =>
+            {
+                let unit = wanted.usual_unit();
+                Some(format!("give it in {unit}, for example `{}`", sample(self.key)))
+            }
+            UnitErrorKind::OutOfRange { .. } => Some("numbers reach from about 1e-307 to 1e308".into()),
+            _ => error.help(),
+        }
+    }
+}
+
+impl Elaboration<'_> {
+    /// The value of a field; `None` if something is wrong with it, which is then reported, or with a parameter it
+    /// uses, which has been reported.
+    pub(crate) fn given(&mut self, place: Place<'_>, wanted: Wanted) -> Option<Given> {
+        match place.text(wanted.ty, &self.names) {
+            Ok(text) => self.resolve(place, text, wanted),
+            Err(problem) => {
+                self.problems.push(problem);
+                None
+            }
+        }
+    }
+
+    /// Resolves the names of a text and checks its type.
+    pub(crate) fn resolve(&mut self, place: Place<'_>, text: Text, wanted: Wanted) -> Option<Given> {
+        let expression = match text {
+            Text::Quantity(quantity) => return Some(Given::Quantity(quantity)),
+            Text::Expression(expression) => expression,
+        };
+        let problems = self.names.check(place, &expression, wanted);
+        if !problems.is_empty() {
+            self.problems.extend(problems);
+            return None;
+        }
+        if expression.names().iter().any(|(name, _)| self.names.has_failed(name)) {
+            return None;
+        }
+        match expression.compile(&self.builder, wanted.ty) {
+            Ok(program) => Some(Given::Expression(program)),
+            Err(errors) => {
+                self.problems.extend(errors.iter().map(|error| place.unit_error(error)));
+                None
+            }
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! The words of the format: which sections and keys there are, and which are decided but not built yet.
+
+use lptn_units::suggest;
+
+/// A section of elements, or a section that is a table of its own.
+#[derive(Debug)]
+pub(crate) struct Section {
+    /// Its heading; also what an element of it is called.
+    pub(crate) name: &'static str,
+    /// Its keys, or those of its elements.
+    pub(crate) keys: &'static [&'static str],
+    /// Keys that are decided but not supported yet.
+    pub(crate) later: &'static [&'static str],
+    /// The right side of an element, for help.
+    pub(crate) example: &'static str,
+    /// Help for keys that belong elsewhere.
+    pub(crate) elsewhere: &'static [(&'static str, &'static str)],
+}
+
+pub(crate) const NODE: Section = Section {
+    name: "node",
+    keys: &["T0", "C", "massless"],
+    later: &["material", "mass", "volume", "L_char"],
+    example: "{ T0 = \"25 degC\", C = \"500 J/K\" }",
+    elsewhere: &[
+        (
+            "T",
+            "a node's temperature is solved for: `T0` is its start, and a given temperature is a [boundary]",
+        ),
+        ("P", "heat is put in by a [source]: `name = { into = \"node\", P = \"100 W\" }`"),
+    ],
+};
+
+pub(crate) const CAPACITOR: Section = Section {
+    name: "capacitor",
+    keys: &["node", "C"],
+    later: &["material", "mass", "volume"],
+    example: "{ node = \"a\", C = \"500 J/K\" }",
+    elsewhere: &[("T0", "the temperature at the start belongs to the node")],
+};
+
+pub(crate) const BOUNDARY: Section = Section {
+    name: "boundary",
+    keys: &["T"],
+    later: &[],
+    example: "{ T = \"25 degC\" }",
+    elsewhere: &[
+        ("T0", "the temperature of a boundary is `T`"),
+        ("C", "a boundary keeps its temperature whatever flows in; what has a capacity is a [node]"),
+    ],
+};
+
+pub(crate) const RESISTOR: Section = Section {
+    name: "resistor",
+    keys: &["from", "to", "R", "G"],
+    later: &[],
+    example: "{ from = \"a\", to = \"b\", R = \"0.3 K/W\" }",
+    elsewhere: &[
+        ("h", "a film coefficient with an area belongs in [convection]"),
+        ("area", "a film coefficient with an area belongs in [convection]"),
+    ],
+};
+
+pub(crate) const CONVECTION: Section = Section {
+    name: "convection",
+    keys: &["from", "to", "R", "h", "area"],
+    later: &["correlation"],
+    example: "{ from = \"a\", to = \"air\", h = \"10 W/(m^2 K)\", area = \"0.2 m^2\" }",
+    elsewhere: &[
+        ("G", "a convection takes `R`, or `h` and `area`; a path given by `G` belongs in [resistor]"),
+        ("A", "the area is `area`"),
+    ],
+};
+
+pub(crate) const SOURCE: Section = Section {
+    name: "source",
+    keys: &["into", "P"],
+    later: &[],
+    example: "{ into = \"a\", P = \"100 W\" }",
+    elsewhere: &[("node", "the node that is heated is `into`"), ("to", "the node that is heated is `into`")],
+};
+
+pub(crate) const DEFAULT: Section = Section {
+    name: "default",
+    keys: &["T0", "temperature_unit"],
+    later: &[],
+    example: "{ T0 = \"25 degC\" }",
+    elsewhere: &[],
+};
+
+pub(crate) const RUN: Section = Section {
+    name: "run",
+    keys: &["stop", "start", "output", "select", "tolerance", "integrator"],
+    later: &["initial"],
+    example: "{ stop = \"25 min\" }",
+    elsewhere: &[
+        ("every", "write `output = { every = \"5 s\" }`"),
+        ("at", "write `output = { at = [\"5 s\"] }`"),
+    ],
+};
+
+/// `output = { .. }` of `[run]`.
+pub(crate) const OUTPUT: Section = Section {
+    name: "output",
+    keys: &["every", "at"],
+    later: &[],
+    example: "{ every = \"5 s\" }",
+    elsewhere: &[],
+};
+
+pub(crate) const TOP_KEYS: [&str; 3] = ["format", "title", "description"];
+
+/// `[param]` has no keys of its own.
+pub(crate) const PARAM: &str = "param";
+
+/// Every section there is.
+pub(crate) const SECTIONS: [&str; 9] =
+    ["param", "default", "node", "capacitor", "boundary", "resistor", "convection", "source", "run"];
+
+/// What the format has for later.
+pub(crate) const SECTIONS_LATER: [&str; 17] = [
+    "table",
+    "signal",
+    "conduction",
+    "contact",
+    "radiation",
+    "advection",
+    "control",
+    "limit",
+    "material",
+    "fluid",
+    "grid",
+    "template",
+    "use",
+    "import",
+    "size",
+    "sweep",
+    "fit",
+];
+
+/// A netlist that runs.
+pub(crate) const MINIMAL: &str = "a small netlist that runs:\n\
+    \n\
+    format = 1\n\
+    \n\
+    [node]\n\
+    block = { T0 = \"25 degC\", C = \"500 J/K\" }\n\
+    \n\
+    [boundary]\n\
+    air = { T = \"25 degC\" }\n\
+    \n\
+    [resistor]\n\
+    cooling = { from = \"block\", to = \"air\", R = \"0.3 K/W\" }\n\
+    \n\
+    [source]\n\
+    loss = { into = \"block\", P = \"100 W\" }\n\
+    \n\
+    [run]\n\
+    stop = \"25 min\"\n";
+
+impl Section {
+    /// What to do about a key that this section does not have.
+    pub(crate) fn help_for(&self, key: &str) -> String {
+        if let Some((_, help)) = self.elsewhere.iter().find(|(name, _)| *name == key) {
+            return (*help).to_owned();
+        }
+        match suggest(key, self.keys.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("the keys here are {}", list(self.keys)),
+        }
+    }
+}
+
+/// "`a`, `b` and `c`".
+pub(crate) fn list(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => format!("`{one}`"),
+        [most @ .., last] => {
+            let most: Vec<String> = most.iter().map(|name| format!("`{name}`")).collect();
+            format!("{} and `{last}`", most.join(", "))
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The parts of a network, as the builder takes them.
+
+use lptn_units::{EvalError, Type};
+
+use crate::id::{End, NodeId};
+use crate::value::{Evaluation, Value};
+
+/// A named value that expressions may use.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Its type; [`Network::with`](crate::Network::with) keeps it.
+    pub ty: Type,
+    /// A constant, or an expression over parameters that were added before it.
+    pub value: Value,
+    /// One standard deviation in SI units, where `±` gave one.
+    pub deviation: Option<f64>,
+}
+
+/// A lump with one temperature that is solved for.
+#[derive(Clone, Debug)]
+pub struct Node {
+    /// Its name.
+    pub name: String,
+    /// Its own heat capacity in J/K; capacitors add to it.
+    pub capacity: Option<Value>,
+    /// Its temperature at the start in K.
+    pub initial: Option<Value>,
+    /// Whether it is a junction that stores nothing.
+    pub massless: bool,
+}
+
+/// A part of a node's capacity: the paper's equation (9), a sum over the parts of one lump.
+#[derive(Clone, Debug)]
+pub struct Capacitor {
+    /// Its name.
+    pub name: String,
+    /// The node it belongs to.
+    pub node: NodeId,
+    /// Its heat capacity in J/K.
+    pub capacity: Value,
+}
+
+/// A place with a given temperature.
+#[derive(Clone, Debug)]
+pub struct Boundary {
+    /// Its name.
+    pub name: String,
+    /// Its temperature in K; may depend on time.
+    pub temperature: Value,
+}
+
+/// What kind of path a conductor is: the section of the netlist that it stands in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConductorKind {
+    /// `[resistor]`: a path given by its resistance or conductance.
+    Resistor,
+    /// `[convection]`: a wetted surface.
+    Convection,
+}
+
+/// How a conductor carries heat. Heat flow is `G (T_from - T_to)` in W, positive from `from` to `to`.
+#[derive(Clone, Debug)]
+pub enum Law {
+    /// `G = 1/R`, R in K/W.
+    Resistance(Value),
+    /// `G` in W/K.
+    Conductance(Value),
+    /// `G = h A`: Newton's law of cooling with a film coefficient h in W/(m^2 K) and an area A in m^2.
+    Film {
+        /// Film coefficient.
+        coefficient: Value,
+        /// Wetted area.
+        area: Value,
+    },
+}
+
+impl Law {
+    /// The conductance in W/K where `scope` stands.
+    ///
+    /// # Errors
+    /// What the evaluation of an expression reports.
+    pub fn conductance(&self, scope: &mut Evaluation) -> Result<f64, EvalError> {
+        Ok(match self {
+            Self::Resistance(resistance) => resistance.at(scope)?.recip(),
+            Self::Conductance(conductance) => conductance.at(scope)?,
+            Self::Film { coefficient, area } => coefficient.at(scope)? * area.at(scope)?,
+        })
+    }
+}
+
+/// A path that carries heat between two ends. Parallel conductors add.
+#[derive(Clone, Debug)]
+pub struct Conductor {
+    /// Its name.
+    pub name: String,
+    /// Its kind.
+    pub kind: ConductorKind,
+    /// The end that positive heat leaves.
+    pub from: End,
+    /// The end that positive heat enters.
+    pub to: End,
+    /// Its law.
+    pub law: Law,
+}
+
+/// A source of heat.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// Its name.
+    pub name: String,
+    /// The node it heats.
+    pub into: NodeId,
+    /// Its heat in W, positive into the node; may depend on time.
+    pub power: Value,
+}

@@ -1,0 +1,134 @@
+//! Typed ids: dense indices that belong to one network.
+
+macro_rules! ids {
+    ($($(#[$doc:meta])* $name:ident;)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(pub(crate) u32);
+
+        impl $name {
+            /// Position in the network's list of this kind, from 0.
+            pub fn index(self) -> usize {
+                self.0 as usize
+            }
+
+            pub(crate) fn from_len(len: usize) -> Self {
+                Self(u32::try_from(len).expect("a network holds fewer than 2^32 items of a kind"))
+            }
+        }
+    )*};
+}
+
+ids! {
+    /// A parameter of `[param]`.
+    ParameterId;
+    /// A node whose temperature is unknown.
+    NodeId;
+    /// A boundary whose temperature is given.
+    BoundaryId;
+    /// A part of a node's capacity.
+    CapacitorId;
+    /// A path that carries heat between two ends.
+    ConductorId;
+    /// A source of heat.
+    SourceId;
+}
+
+/// One end of a conductor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum End {
+    /// A node: its temperature is solved for.
+    Node(NodeId),
+    /// A boundary: its temperature is given.
+    Boundary(BoundaryId),
+}
+
+impl From<NodeId> for End {
+    fn from(id: NodeId) -> Self {
+        Self::Node(id)
+    }
+}
+
+impl From<BoundaryId> for End {
+    fn from(id: BoundaryId) -> Self {
+        Self::Boundary(id)
+    }
+}
+
+/// Anything of a network that has a name; errors and source maps are keyed by it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Item {
+    /// A parameter.
+    Parameter(ParameterId),
+    /// A node.
+    Node(NodeId),
+    /// A boundary.
+    Boundary(BoundaryId),
+    /// A capacitor.
+    Capacitor(CapacitorId),
+    /// A conductor.
+    Conductor(ConductorId),
+    /// A source.
+    Source(SourceId),
+}
+
+impl From<End> for Item {
+    fn from(end: End) -> Self {
+        match end {
+            End::Node(id) => Self::Node(id),
+            End::Boundary(id) => Self::Boundary(id),
+        }
+    }
+}
+
+/// A field of an item, by the word that a netlist uses for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Field {
+    /// The item's own name.
+    Name,
+    /// A parameter's value.
+    Value,
+    /// Heat capacity.
+    Capacity,
+    /// Temperature at the start.
+    Initial,
+    /// Temperature of a boundary.
+    Temperature,
+    /// Thermal resistance.
+    Resistance,
+    /// Thermal conductance.
+    Conductance,
+    /// Film coefficient.
+    FilmCoefficient,
+    /// Area.
+    Area,
+    /// Heat of a source.
+    Power,
+    /// First end of a conductor.
+    From,
+    /// Second end of a conductor.
+    To,
+    /// Node that a source heats.
+    Into,
+}
+
+impl Field {
+    /// The key of this field in a netlist.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Name => "name",
+            Self::Value => "value",
+            Self::Capacity => "C",
+            Self::Initial => "T0",
+            Self::Temperature => "T",
+            Self::Resistance => "R",
+            Self::Conductance => "G",
+            Self::FilmCoefficient => "h",
+            Self::Area => "area",
+            Self::Power => "P",
+            Self::From => "from",
+            Self::To => "to",
+            Self::Into => "into",
+        }
+    }
+}

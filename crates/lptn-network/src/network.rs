@@ -1,0 +1,321 @@
+//! A thermal network whose invariants hold.
+
+use std::collections::HashMap;
+use std::fmt;
+use std::sync::Arc;
+
+use lptn_units::{EvalError, suggest};
+
+use crate::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
+use crate::error::BuildErrors;
+use crate::id::{BoundaryId, CapacitorId, ConductorId, Field, Item, NodeId, ParameterId, SourceId};
+use crate::numbers::Numbers;
+use crate::parameters::Parameters;
+use crate::value::{Evaluation, Value};
+
+/// Everything that does not change when a parameter does.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Parts {
+    pub(crate) title: Option<String>,
+    pub(crate) parameters: Vec<Parameter>,
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) boundaries: Vec<Boundary>,
+    pub(crate) capacitors: Vec<Capacitor>,
+    pub(crate) conductors: Vec<Conductor>,
+    pub(crate) sources: Vec<Source>,
+    /// Nodes, boundaries and elements share one name space.
+    pub(crate) names: HashMap<String, Item>,
+    pub(crate) parameter_names: HashMap<String, ParameterId>,
+}
+
+/// A thermal network: nodes, boundaries, the paths between them and the heat put in.
+///
+/// Holds by construction: ids are dense and of this network; names are unique; the two ends of a path
+/// differ; capacities, resistances and conductances are finite and positive; each node either has a capacity
+/// and a start temperature, or is massless; each set of connected nodes reaches a capacity or a boundary.
+/// Order is the order of addition. All numbers are in SI units, temperatures in K.
+#[derive(Clone, Debug)]
+pub struct Network {
+    pub(crate) parts: Arc<Parts>,
+    pub(crate) numbers: Numbers,
+}
+
+impl Network {
+    /// The title, if there is one.
+    pub fn title(&self) -> Option<&str> {
+        self.parts.title.as_deref()
+    }
+
+    /// The parameters; a parameter uses only those before it.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parts.parameters
+    }
+
+    /// The nodes.
+    pub fn nodes(&self) -> &[Node] {
+        &self.parts.nodes
+    }
+
+    /// The boundaries.
+    pub fn boundaries(&self) -> &[Boundary] {
+        &self.parts.boundaries
+    }
+
+    /// The capacitors.
+    pub fn capacitors(&self) -> &[Capacitor] {
+        &self.parts.capacitors
+    }
+
+    /// The conductors.
+    pub fn conductors(&self) -> &[Conductor] {
+        &self.parts.conductors
+    }
+
+    /// The sources.
+    pub fn sources(&self) -> &[Source] {
+        &self.parts.sources
+    }
+
+    /// Ids of all nodes.
+    pub fn node_ids(&self) -> impl ExactSizeIterator<Item = NodeId> + use<> {
+        (0..self.parts.nodes.len()).map(NodeId::from_len)
+    }
+
+    /// Ids of all boundaries.
+    pub fn boundary_ids(&self) -> impl ExactSizeIterator<Item = BoundaryId> + use<> {
+        (0..self.parts.boundaries.len()).map(BoundaryId::from_len)
+    }
+
+    /// Ids of all conductors.
+    pub fn conductor_ids(&self) -> impl ExactSizeIterator<Item = ConductorId> + use<> {
+        (0..self.parts.conductors.len()).map(ConductorId::from_len)
+    }
+
+    /// Ids of all sources.
+    pub fn source_ids(&self) -> impl ExactSizeIterator<Item = SourceId> + use<> {
+        (0..self.parts.sources.len()).map(SourceId::from_len)
+    }
+
+    /// Ids of all capacitors.
+    pub fn capacitor_ids(&self) -> impl ExactSizeIterator<Item = CapacitorId> + use<> {
+        (0..self.parts.capacitors.len()).map(CapacitorId::from_len)
+    }
+
+    /// Ids of all parameters.
+    pub fn parameter_ids(&self) -> impl ExactSizeIterator<Item = ParameterId> + use<> {
+        (0..self.parts.parameters.len()).map(ParameterId::from_len)
+    }
+
+    /// What has this name among nodes, boundaries and elements.
+    ///
+    /// # Errors
+    /// [`UnknownName`] with the most similar name.
+    pub fn item(&self, name: &str) -> Result<Item, UnknownName> {
+        self.parts.names.get(name).copied().ok_or_else(|| {
+            let mut names: Vec<&str> = self.parts.names.keys().map(String::as_str).collect();
+            names.sort_unstable();
+            UnknownName::new(name, &names)
+        })
+    }
+
+    /// The node of this name.
+    ///
+    /// # Errors
+    /// [`UnknownName`] if no node has it.
+    pub fn node(&self, name: &str) -> Result<NodeId, UnknownName> {
+        match self.parts.names.get(name) {
+            Some(Item::Node(id)) => Ok(*id),
+            _ => {
+                let names: Vec<&str> = self.nodes().iter().map(|n| n.name.as_str()).collect();
+                Err(UnknownName::new(name, &names))
+            }
+        }
+    }
+
+    /// The parameter of this name.
+    ///
+    /// # Errors
+    /// [`UnknownName`] if there is none.
+    pub fn parameter(&self, name: &str) -> Result<ParameterId, UnknownName> {
+        self.parts.parameter_names.get(name).copied().ok_or_else(|| {
+            let names: Vec<&str> = self.parameters().iter().map(|p| p.name.as_str()).collect();
+            UnknownName::new(name, &names)
+        })
+    }
+
+    /// The value of a parameter in SI units.
+    pub fn parameter_value(&self, id: ParameterId) -> f64 {
+        self.numbers.parameters[id.index()]
+    }
+
+    /// Heat capacity of a node with all its parts, in J/K; 0 for a massless node.
+    pub fn capacity(&self, id: NodeId) -> f64 {
+        self.numbers.capacity[id.index()]
+    }
+
+    /// Temperature of a node at the start in K; NaN for a massless node, which has none.
+    pub fn initial(&self, id: NodeId) -> f64 {
+        self.numbers.initial[id.index()]
+    }
+
+    /// Conductance of a conductor in W/K.
+    pub fn conductance(&self, id: ConductorId) -> f64 {
+        self.numbers.conductance[id.index()]
+    }
+
+    /// The parameters to change for [`Network::with`]; nothing is changed yet.
+    pub fn overrides(&self) -> Parameters {
+        Parameters::new(Arc::clone(&self.parts))
+    }
+
+    /// The same network with other parameters: nothing is parsed, and the structure is shared.
+    ///
+    /// # Errors
+    /// What the new numbers break, such as a resistance that is no longer positive.
+    pub fn with(&self, parameters: &Parameters) -> Result<Self, BuildErrors> {
+        let numbers = Numbers::evaluate(&self.parts, parameters.values()).map_err(BuildErrors)?;
+        Ok(Self { parts: Arc::clone(&self.parts), numbers })
+    }
+
+    /// A place to evaluate this network's inputs; it stands at time 0.
+    pub fn evaluation(&self) -> Evaluation {
+        Evaluation::new(&self.numbers.parameters)
+    }
+
+    /// Writes the temperature of every boundary in K.
+    ///
+    /// # Errors
+    /// [`InputError`] if an expression fails or gives no number.
+    pub fn boundary_temperatures(&self, scope: &mut Evaluation, out: &mut [f64]) -> Result<(), InputError> {
+        for (id, value) in self.boundary_ids().zip(out) {
+            let temperature = &self.boundaries()[id.index()].temperature;
+            *value = self.input(Item::Boundary(id), Field::Temperature, temperature, scope)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the heat of every source in W.
+    ///
+    /// # Errors
+    /// [`InputError`] if an expression fails or gives no number.
+    pub fn source_powers(&self, scope: &mut Evaluation, out: &mut [f64]) -> Result<(), InputError> {
+        for (id, value) in self.source_ids().zip(out) {
+            let power = &self.sources()[id.index()].power;
+            *value = self.input(Item::Source(id), Field::Power, power, scope)?;
+        }
+        Ok(())
+    }
+
+    fn input(&self, item: Item, field: Field, value: &Value, at: &mut Evaluation) -> Result<f64, InputError> {
+        let failed = |problem| InputError { item, field, name: self.name_of(item).to_owned(), problem };
+        match value.at(at) {
+            Ok(x) if !x.is_finite() => Err(failed(InputProblem::NotFinite(x))),
+            Ok(x) if field == Field::Temperature && x < 0.0 => {
+                Err(failed(InputProblem::BelowAbsoluteZero(x)))
+            }
+            Ok(x) => Ok(x),
+            Err(error) => Err(failed(InputProblem::Evaluation(error))),
+        }
+    }
+
+    /// The name of an item.
+    pub fn name_of(&self, item: Item) -> &str {
+        self.parts.name_of(item)
+    }
+
+    /// Whether any source or boundary changes with time.
+    pub fn has_time_dependent_inputs(&self) -> bool {
+        self.inputs().any(|(_, _, value)| value.depends_on_time())
+    }
+
+    /// Every value that may depend on time.
+    pub(crate) fn inputs(&self) -> impl Iterator<Item = (Item, Field, &Value)> {
+        self.parts.inputs()
+    }
+}
+
+impl Parts {
+    pub(crate) fn name_of(&self, item: Item) -> &str {
+        match item {
+            Item::Parameter(id) => &self.parameters[id.index()].name,
+            Item::Node(id) => &self.nodes[id.index()].name,
+            Item::Boundary(id) => &self.boundaries[id.index()].name,
+            Item::Capacitor(id) => &self.capacitors[id.index()].name,
+            Item::Conductor(id) => &self.conductors[id.index()].name,
+            Item::Source(id) => &self.sources[id.index()].name,
+        }
+    }
+
+    pub(crate) fn inputs(&self) -> impl Iterator<Item = (Item, Field, &Value)> {
+        let boundaries = self.boundaries.iter().enumerate();
+        let sources = self.sources.iter().enumerate();
+        boundaries
+            .map(|(i, b)| (Item::Boundary(BoundaryId::from_len(i)), Field::Temperature, &b.temperature))
+            .chain(sources.map(|(i, s)| (Item::Source(SourceId::from_len(i)), Field::Power, &s.power)))
+    }
+}
+
+/// A source or boundary whose value could not be had during a run.
+#[derive(Clone, Debug)]
+pub struct InputError {
+    /// The source or boundary.
+    pub item: Item,
+    /// Its field.
+    pub field: Field,
+    /// Its name.
+    pub name: String,
+    /// What went wrong.
+    pub problem: InputProblem,
+}
+
+/// Why an input has no value.
+#[derive(Clone, Debug)]
+pub enum InputProblem {
+    /// The expression gave an infinite number or none.
+    NotFinite(f64),
+    /// A temperature below 0 K.
+    BelowAbsoluteZero(f64),
+    /// The expression could not be evaluated.
+    Evaluation(EvalError),
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}` of `{}` ", self.field.key(), self.name)?;
+        match &self.problem {
+            InputProblem::NotFinite(value) => write!(f, "is {value}"),
+            InputProblem::BelowAbsoluteZero(value) => write!(f, "is below absolute zero: {value} K"),
+            InputProblem::Evaluation(error) => write!(f, "cannot be evaluated: {error}"),
+        }
+    }
+}
+
+impl std::error::Error for InputError {}
+
+/// A name that the network does not have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownName {
+    /// The name that was asked for.
+    pub name: String,
+    /// The most similar name there is.
+    pub suggestion: Option<String>,
+}
+
+impl UnknownName {
+    pub(crate) fn new(name: &str, known: &[&str]) -> Self {
+        let suggestion = suggest(name, known.iter().copied()).map(str::to_owned);
+        Self { name: name.to_owned(), suggestion }
+    }
+}
+
+impl fmt::Display for UnknownName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "nothing is named `{}`", self.name)?;
+        match &self.suggestion {
+            Some(other) => write!(f, ", did you mean `{other}`?"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl std::error::Error for UnknownName {}

@@ -1,0 +1,78 @@
+//! Other values for the parameters of a network.
+
+use std::fmt;
+use std::sync::Arc;
+
+use lptn_units::{Type, UnitError, parse_quantity};
+
+use crate::id::ParameterId;
+use crate::network::{Parts, UnknownName};
+
+/// New values for some parameters of one network; the others keep theirs.
+#[derive(Clone, Debug)]
+pub struct Parameters {
+    parts: Arc<Parts>,
+    values: Vec<Option<f64>>,
+}
+
+impl Parameters {
+    pub(crate) fn new(parts: Arc<Parts>) -> Self {
+        let values = vec![None; parts.parameters.len()];
+        Self { parts, values }
+    }
+
+    pub(crate) fn values(&self) -> &[Option<f64>] {
+        &self.values
+    }
+
+    /// Sets a parameter to a number in SI units; an absolute temperature in K.
+    pub fn set(&mut self, id: ParameterId, value: f64) {
+        self.values[id.index()] = Some(value);
+    }
+
+    /// Sets a parameter by name to a written quantity, such as `"5000 rpm"`, whose unit is checked.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for an unknown name, a unit of another type or a number that cannot be read.
+    pub fn set_text(&mut self, name: &str, text: &str) -> Result<ParameterId, ParameterError> {
+        let Some(&id) = self.parts.parameter_names.get(name) else {
+            let names: Vec<&str> = self.parts.parameters.iter().map(|p| p.name.as_str()).collect();
+            return Err(ParameterError::Unknown(UnknownName::new(name, &names)));
+        };
+        let ty = self.parts.parameters[id.index()].ty;
+        let quantity = parse_quantity(text, Some(ty)).map_err(|error| ParameterError::Unit {
+            name: name.to_owned(),
+            ty,
+            error: Box::new(error),
+        })?;
+        self.set(id, quantity.value);
+        Ok(id)
+    }
+}
+
+/// Why a parameter could not be set.
+#[derive(Clone, Debug)]
+pub enum ParameterError {
+    /// There is no such parameter.
+    Unknown(UnknownName),
+    /// The text is not a quantity of the parameter's type.
+    Unit {
+        /// The parameter's name.
+        name: String,
+        /// Its type.
+        ty: Type,
+        /// What is wrong with the text.
+        error: Box<UnitError>,
+    },
+}
+
+impl fmt::Display for ParameterError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown(unknown) => write!(f, "no parameter: {unknown}"),
+            Self::Unit { name, error, .. } => write!(f, "`{name}`: {error}"),
+        }
+    }
+}
+
+impl std::error::Error for ParameterError {}
