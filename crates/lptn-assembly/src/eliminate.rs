@@ -1,0 +1,190 @@
+//! Exact elimination of linear massless nodes, and their recovery.
+//!
+//! A massless node m with conductances g_i to its neighbours and the heat q put into it has the temperature
+//! `T_m = (q + sum g_i T_i) / sum g`. Putting this into the balances of its neighbours links every pair of
+//! them with `g_i g_j / sum g` and gives each the share `q g_i / sum g` of the heat: the star-mesh
+//! transformation (A. Rosen, J. IEE 62 (1924) 916). Only sums, products and quotients of positive numbers
+//! occur, so nothing cancels and the result is exact to rounding for any spread of conductances.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
+
+/// A conductance between two vertices: nodes come first, then boundaries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Link {
+    pub(crate) a: u32,
+    pub(crate) b: u32,
+    pub(crate) g: f64,
+}
+
+/// One eliminated vertex with the weights `g_i / sum g` of the neighbours it had at its turn.
+#[derive(Clone, Debug)]
+struct Star {
+    vertex: u32,
+    total: f64,
+    weights: Vec<(u32, f64)>,
+}
+
+/// The eliminated vertices, in the order of elimination.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Elimination {
+    stars: Vec<Star>,
+}
+
+/// A vertex that has too many neighbours to be eliminated.
+pub(crate) struct TooMany {
+    pub(crate) vertex: u32,
+    pub(crate) neighbours: usize,
+}
+
+/// How many links the elimination may add in all: 16 bytes each, so about 300 MB.
+const FILL_LIMIT: usize = 20_000_000;
+
+impl Elimination {
+    /// Eliminates the vertices marked in `massless` from `links`; what remains is returned merged and sorted.
+    pub(crate) fn new(links: Vec<Link>, massless: &[bool]) -> Result<(Self, Vec<Link>), TooMany> {
+        let is_massless = |v: u32| massless.get(v as usize).copied().unwrap_or(false);
+        let mut graph = Graph { stars: BTreeMap::new(), kept: Vec::new(), is_massless: &is_massless };
+        links.into_iter().for_each(|link| graph.add(link));
+        let mut stars = Vec::with_capacity(graph.stars.len());
+        let mut queue: BinaryHeap<Reverse<(usize, u32)>> =
+            graph.stars.iter().map(|(&v, neighbours)| Reverse((neighbours.len(), v))).collect();
+        let mut fill = 0;
+        while let Some(Reverse((degree, vertex))) = queue.pop() {
+            let Some(neighbours) = graph.stars.get(&vertex) else { continue };
+            if neighbours.len() != degree {
+                continue; // an entry from before a neighbour went
+            }
+            fill += degree * degree.saturating_sub(1) / 2;
+            if fill > FILL_LIMIT {
+                return Err(TooMany { vertex, neighbours: degree });
+            }
+            let star = graph.eliminate(vertex);
+            for &(neighbour, _) in &star.weights {
+                if let Some(next) = graph.stars.get(&neighbour) {
+                    queue.push(Reverse((next.len(), neighbour)));
+                }
+            }
+            stars.push(star);
+        }
+        Ok((Self { stars }, merged(graph.kept)))
+    }
+
+    /// Hands the heat put into massless vertices on to those that remain.
+    ///
+    /// `heat` holds one entry a vertex; afterwards an eliminated vertex holds the heat it had at its turn,
+    /// which [`Elimination::recover`] needs.
+    pub(crate) fn distribute(&self, heat: &mut [f64]) {
+        for star in &self.stars {
+            let q = heat[star.vertex as usize];
+            if q != 0.0 {
+                star.weights.iter().for_each(|&(v, w)| heat[v as usize] += w * q);
+            }
+        }
+    }
+
+    /// Fills in the temperatures of the eliminated vertices from those that remain.
+    pub(crate) fn recover(&self, heat: &[f64], temperature: &mut [f64]) {
+        for star in self.stars.iter().rev() {
+            let mean: f64 = star.weights.iter().map(|&(v, w)| w * temperature[v as usize]).sum();
+            temperature[star.vertex as usize] = mean + heat[star.vertex as usize] / star.total;
+        }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.stars.is_empty()
+    }
+}
+
+struct Graph<'a> {
+    /// Neighbours of every massless vertex that is still there.
+    stars: BTreeMap<u32, BTreeMap<u32, f64>>,
+    /// Links between vertices that stay.
+    kept: Vec<Link>,
+    is_massless: &'a dyn Fn(u32) -> bool,
+}
+
+impl Graph<'_> {
+    fn add(&mut self, Link { a, b, g }: Link) {
+        let mut stays = true;
+        for (v, other) in [(a, b), (b, a)] {
+            if (self.is_massless)(v) {
+                *self.stars.entry(v).or_default().entry(other).or_insert(0.0) += g;
+                stays = false;
+            }
+        }
+        if stays {
+            self.kept.push(Link { a: a.min(b), b: a.max(b), g });
+        }
+    }
+
+    fn eliminate(&mut self, vertex: u32) -> Star {
+        let neighbours = self.stars.remove(&vertex).unwrap_or_default();
+        let total: f64 = neighbours.values().sum();
+        for v in neighbours.keys() {
+            if let Some(star) = self.stars.get_mut(v) {
+                star.remove(&vertex);
+            }
+        }
+        let list: Vec<(u32, f64)> = neighbours.into_iter().collect();
+        for (i, &(a, g_a)) in list.iter().enumerate() {
+            for &(b, g_b) in &list[i + 1..] {
+                self.add(Link { a, b, g: g_a * (g_b / total) });
+            }
+        }
+        let weights = list.into_iter().map(|(v, g)| (v, g / total)).collect();
+        Star { vertex, total, weights }
+    }
+}
+
+/// Sorts links by their ends and adds parallel ones.
+fn merged(mut links: Vec<Link>) -> Vec<Link> {
+    links.sort_by_key(|link| (link.a, link.b)); // stable: parallel links are summed in their order
+    links.dedup_by(|next, first| {
+        let parallel = (next.a, next.b) == (first.a, first.b);
+        if parallel {
+            first.g += next.g;
+        }
+        parallel
+    });
+    links
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chain_of_junctions_becomes_its_series_resistance() {
+        // 0 -(2)- 1 -(3)- 2 -(6)- 3 with 1 and 2 massless: 1/(1/2 + 1/3 + 1/6) = 1
+        let links =
+            vec![Link { a: 0, b: 1, g: 2.0 }, Link { a: 1, b: 2, g: 3.0 }, Link { a: 2, b: 3, g: 6.0 }];
+        let (elimination, kept) =
+            Elimination::new(links, &[false, true, true, false]).ok().expect("a chain is small");
+        assert_eq!(kept.len(), 1);
+        assert!((kept[0].g - 1.0).abs() < 1e-15);
+        let mut temperature = [0.0, f64::NAN, f64::NAN, 6.0];
+        elimination.recover(&[0.0; 4], &mut temperature);
+        assert!((temperature[1] - 3.0).abs() < 1e-14, "{temperature:?}");
+        assert!((temperature[2] - 5.0).abs() < 1e-14, "{temperature:?}");
+    }
+
+    #[test]
+    fn heat_into_a_junction_divides_by_conductance() {
+        let links = vec![Link { a: 0, b: 1, g: 3.0 }, Link { a: 1, b: 2, g: 1.0 }];
+        let (elimination, _) = Elimination::new(links, &[false, true, false]).ok().expect("a star is small");
+        let mut heat = [0.0, 8.0, 0.0];
+        elimination.distribute(&mut heat);
+        assert!((heat[0] - 6.0).abs() < 1e-15 && (heat[2] - 2.0).abs() < 1e-15, "{heat:?}");
+        let mut temperature = [10.0, 0.0, 10.0];
+        elimination.recover(&heat, &mut temperature);
+        assert!((temperature[1] - 12.0).abs() < 1e-14, "{temperature:?}");
+    }
+
+    #[test]
+    fn a_hub_of_too_many_neighbours_is_refused() {
+        let links = (1..8000).map(|b| Link { a: 0, b, g: 1.0 }).collect();
+        let Err(refused) = Elimination::new(links, &[true]) else { panic!("32 million links were made") };
+        assert_eq!((refused.vertex, refused.neighbours), (0, 7999));
+    }
+}

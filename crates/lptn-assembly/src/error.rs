@@ -1,0 +1,50 @@
+//! Why a network could not be assembled.
+
+use std::fmt;
+
+use lptn_network::NodeId;
+
+/// Why a network could not be assembled.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum AssemblyError {
+    /// Eliminating a massless node would link too many pairs of its neighbours.
+    TooManyNeighbours {
+        /// The massless node.
+        node: NodeId,
+        /// Its name.
+        name: String,
+        /// How many neighbours it has when its turn comes.
+        neighbours: usize,
+    },
+}
+
+impl AssemblyError {
+    /// The stable code, as diagnostics print it.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::TooManyNeighbours { .. } => "assembly::too_many_neighbours",
+        }
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> String {
+        match self {
+            Self::TooManyNeighbours { name, .. } => {
+                format!("give `{name}` a capacity, however small in reality: it is then a state of its own")
+            }
+        }
+    }
+}
+
+impl fmt::Display for AssemblyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooManyNeighbours { name, neighbours, .. } => write!(
+                f,
+                "massless node `{name}` joins {neighbours} neighbours: eliminating it links every pair of them"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for AssemblyError {}

@@ -1,0 +1,18 @@
+//! From a [`Network`](lptn_network::Network) to the sparse system `C dT/dt = q(t, T)`.
+//!
+//! [`ThermalSystem`] is assembled once: capacities, links, the pattern of the Jacobian with its full diagonal.
+//! Massless nodes are eliminated exactly (star-mesh) and recovered in every output, so that the state holds
+//! only nodes with capacity. This crate knows nothing of time stepping and of files.
+//!
+//! Units: SI, temperatures in K. Heat is positive into a node.
+
+mod eliminate;
+mod error;
+mod pattern;
+mod system;
+mod workspace;
+
+pub use error::AssemblyError;
+pub use pattern::JacobianPattern;
+pub use system::ThermalSystem;
+pub use workspace::Workspace;

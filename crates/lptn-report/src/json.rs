@@ -1,0 +1,109 @@
+//! Results as JSON: one object whose members are written one after the other.
+
+use std::io::{self, Write};
+
+use lptn_solve::Table;
+use serde_json::Value;
+
+use crate::number::Shortest;
+
+/// Writes one JSON object, a member at a time; rows of a table never stand in memory as text.
+///
+/// Numbers read back as the same `f64`; what is no number is `null`.
+pub struct JsonWriter<W: Write> {
+    out: W,
+    empty: bool,
+}
+
+impl<W: Write> JsonWriter<W> {
+    /// Begins the object.
+    pub fn new(out: W) -> Self {
+        Self { out, empty: true }
+    }
+
+    /// Writes a member.
+    ///
+    /// # Errors
+    /// What the stream reports.
+    pub fn member(&mut self, name: &str, value: &Value) -> io::Result<()> {
+        self.key(name)?;
+        // a line break inside a string is escaped, so every one here is layout
+        self.out.write_all(format!("{value:#}").replace('\n', "\n  ").as_bytes())
+    }
+
+    /// Writes a table as `columns`, each with name and unit, and `rows` of plain numbers.
+    ///
+    /// # Errors
+    /// What the stream reports.
+    pub fn table(&mut self, table: &Table) -> io::Result<()> {
+        self.key("columns")?;
+        let columns = table.columns().iter();
+        self.lines(columns, |out, column| {
+            let (name, unit) = (Value::from(column.name.as_str()), Value::from(column.unit.as_str()));
+            write!(out, "{{ \"name\": {name}, \"unit\": {unit} }}")
+        })?;
+        self.key("rows")?;
+        let mut number = Shortest::new();
+        self.lines(0..table.rows(), |out, row| {
+            out.write_all(b"[")?;
+            for (i, value) in table.row(row).enumerate() {
+                out.write_all(if i > 0 { b", " } else { b"" })?;
+                out.write_all(if value.is_finite() { number.text(value) } else { "null" }.as_bytes())?;
+            }
+            out.write_all(b"]")
+        })
+    }
+
+    /// Ends the object and hands the stream back, flushed.
+    ///
+    /// # Errors
+    /// What the stream reports.
+    pub fn finish(mut self) -> io::Result<W> {
+        self.out.write_all(if self.empty { b"{}\n" } else { b"\n}\n" })?;
+        self.out.flush()?;
+        Ok(self.out)
+    }
+
+    fn key(&mut self, name: &str) -> io::Result<()> {
+        let start = if self.empty { "{" } else { "," };
+        self.empty = false;
+        write!(self.out, "{start}\n  {}: ", Value::from(name))
+    }
+
+    fn lines<T>(
+        &mut self,
+        items: impl Iterator<Item = T>,
+        mut line: impl FnMut(&mut W, T) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let mut separator = "[\n    ";
+        for item in items {
+            self.out.write_all(separator.as_bytes())?;
+            line(&mut self.out, item)?;
+            separator = ",\n    ";
+        }
+        let none = separator.starts_with('[');
+        self.out.write_all(if none { b"[]" } else { b"\n  ]" })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::JsonWriter;
+
+    #[test]
+    fn members_read_back() {
+        let mut writer = JsonWriter::new(Vec::new());
+        writer.member("a\"b", &json!({ "x": ["line\nbreak", 1e-7] })).unwrap();
+        writer.member("c", &json!([])).unwrap();
+        let text = writer.finish().unwrap();
+        let value: Value = serde_json::from_slice(&text).unwrap();
+        assert_eq!(value, json!({ "a\"b": { "x": ["line\nbreak", 1e-7] }, "c": [] }));
+    }
+
+    #[test]
+    fn an_empty_object_is_one() {
+        assert_eq!(JsonWriter::new(Vec::new()).finish().unwrap(), b"{}\n");
+    }
+}

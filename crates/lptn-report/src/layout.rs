@@ -1,0 +1,191 @@
+//! Text in columns.
+
+use unicode_width::UnicodeWidthStr;
+
+/// Columns of a terminal that tables are made for.
+pub const WIDTH: usize = 80;
+
+const GAP: &str = "  ";
+
+/// The least width to which names are shortened.
+const LEAST_NAME: usize = 12;
+
+/// On which side the texts of a column stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Align {
+    /// Words.
+    Left,
+    /// Numbers.
+    Right,
+}
+
+/// One column of a [`TextTable`].
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// Its heading.
+    pub title: String,
+    /// Its texts, one a row.
+    pub cells: Vec<String>,
+    /// Their side.
+    pub align: Align,
+    /// Whether the column may be left out where the table is too wide.
+    pub optional: bool,
+}
+
+impl Column {
+    /// A column that is always shown.
+    pub fn new(title: impl Into<String>, align: Align, cells: Vec<String>) -> Self {
+        Self { title: title.into(), cells, align, optional: false }
+    }
+
+    /// The same column, left out where the table is too wide.
+    #[must_use]
+    pub fn optional(mut self) -> Self {
+        self.optional = true;
+        self
+    }
+
+    fn width(&self) -> usize {
+        self.cells.iter().chain([&self.title]).map(|text| text.width()).max().unwrap_or(0)
+    }
+}
+
+/// A table for reading: plain text without lines, the first column of names.
+#[derive(Clone, Debug, Default)]
+pub struct TextTable {
+    columns: Vec<Column>,
+}
+
+impl TextTable {
+    /// A table of columns with equally many cells.
+    pub fn new(columns: Vec<Column>) -> Self {
+        Self { columns }
+    }
+
+    /// The lines of the table, the heading first. Where they would be longer than `width`, optional columns are
+    /// left out from the right, and then long names of the first column shortened in the middle.
+    pub fn lines(mut self, width: usize) -> Vec<String> {
+        while self.width() > width {
+            let Some(last) = self.columns.iter().rposition(|column| column.optional) else { break };
+            self.columns.remove(last);
+        }
+        let excess = self.width().saturating_sub(width);
+        if let Some(names) = self.columns.first_mut().filter(|_| excess > 0) {
+            let room = names.width().saturating_sub(excess).max(LEAST_NAME);
+            names.cells.iter_mut().for_each(|name| *name = shortened(name, room));
+        }
+        let rows = self.columns.first().map_or(0, |column| column.cells.len());
+        let heading = self.line(|column| &column.title);
+        std::iter::once(heading).chain((0..rows).map(|row| self.line(|column| &column.cells[row]))).collect()
+    }
+
+    fn width(&self) -> usize {
+        let gaps = GAP.len() * self.columns.len().saturating_sub(1);
+        self.columns.iter().map(Column::width).sum::<usize>() + gaps
+    }
+
+    fn line<'a>(&'a self, text: impl Fn(&'a Column) -> &'a String) -> String {
+        let cells: Vec<String> = self.columns.iter().map(|c| padded(text(c), c.width(), c.align)).collect();
+        cells.join(GAP).trim_end().to_owned()
+    }
+}
+
+fn padded(text: &str, width: usize, align: Align) -> String {
+    let blanks = " ".repeat(width.saturating_sub(text.width()));
+    match align {
+        Align::Left => format!("{text}{blanks}"),
+        Align::Right => format!("{blanks}{text}"),
+    }
+}
+
+/// `planetary_..ring_17`: the ends of names tell them apart.
+fn shortened(name: &str, room: usize) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    if name.width() <= room {
+        return name.to_owned();
+    }
+    let keep = room.saturating_sub(2);
+    let (head, tail) = (keep / 2, keep - keep / 2);
+    let start: String = letters[..head.min(letters.len())].iter().collect();
+    let end: String = letters[letters.len() - tail.min(letters.len())..].iter().collect();
+    format!("{start}..{end}")
+}
+
+/// Pieces of a sentence behind a label, wrapped between pieces where they would be longer than `width`; further
+/// lines stand under the first piece.
+pub fn labelled(label: &str, pieces: &[String], width: usize) -> Vec<String> {
+    let indent = " ".repeat(label.width());
+    let mut lines = vec![label.to_owned()];
+    for (i, piece) in pieces.iter().enumerate() {
+        let last = lines.last_mut().expect("there is always a line");
+        let fits = last.width() + 1 + piece.width() <= width;
+        if i == 0 {
+            last.push_str(piece);
+        } else if fits {
+            *last += &format!(" {piece}");
+        } else {
+            lines.push(format!("{indent}{piece}"));
+        }
+    }
+    lines
+}
+
+/// A text on one line without control characters, so that no file can steer the terminal.
+pub fn plain(text: &str) -> String {
+    let one_line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    one_line.chars().filter(|c| !c.is_control()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Align, Column, TextTable, labelled, plain};
+
+    fn texts(cells: &[&str]) -> Vec<String> {
+        cells.iter().map(|&c| c.to_owned()).collect()
+    }
+
+    fn table(names: &[&str]) -> TextTable {
+        let numbers = vec!["92.7".to_owned(); names.len()];
+        TextTable::new(vec![
+            Column::new("node", Align::Left, texts(names)),
+            Column::new("T", Align::Right, numbers.clone()),
+            Column::new("curve", Align::Left, vec!["▁▂▃".to_owned(); names.len()]).optional(),
+        ])
+    }
+
+    #[test]
+    fn numbers_stand_on_the_right_and_lines_end_with_text() {
+        assert_eq!(
+            table(&["steel", "al"]).lines(80),
+            ["node      T  curve", "steel  92.7  ▁▂▃", "al     92.7  ▁▂▃"]
+        );
+    }
+
+    #[test]
+    fn wide_letters_take_two_columns() {
+        assert_eq!(table(&["漢字", "µ"]).lines(80)[1..], ["漢字  92.7  ▁▂▃", "µ     92.7  ▁▂▃"]);
+    }
+
+    #[test]
+    fn what_is_too_wide_loses_optional_columns_and_then_letters() {
+        let long = "first_stage_planet_carrier_bearing_outer_ring";
+        let lines = table(&[long]).lines(53);
+        assert_eq!(lines[1], format!("{long}  92.7"));
+        let lines = table(&[long, "al"]).lines(30);
+        assert_eq!(lines[1], "first_stage.._outer_ring  92.7");
+        assert!(lines.iter().all(|line| line.chars().count() <= 30), "{lines:?}");
+    }
+
+    #[test]
+    fn sentences_wrap_between_pieces() {
+        let pieces = texts(&["in 1 kJ", "= stored 0.5", "+ air 0.5 kJ"]);
+        assert_eq!(labelled("heat  ", &pieces, 80), ["heat  in 1 kJ = stored 0.5 + air 0.5 kJ"]);
+        assert_eq!(labelled("heat  ", &pieces, 26), ["heat  in 1 kJ = stored 0.5", "      + air 0.5 kJ"]);
+        assert_eq!(labelled("heat", &[], 26), ["heat"]);
+    }
+
+    #[test]
+    fn titles_cannot_steer_the_terminal() {
+        assert_eq!(plain("a\u{1b}[31mred\n\tb"), "a[31mred b");
+    }
+}

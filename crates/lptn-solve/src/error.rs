@@ -1,0 +1,172 @@
+//! Why an analysis has no answer.
+
+use std::fmt;
+
+use lptn_integrate::{FactorError, IntegrateError};
+use lptn_network::{InputError, NodeId};
+
+use crate::solution::Solution;
+
+/// Why there is no steady state.
+#[derive(Clone, Debug)]
+pub enum SteadyError {
+    /// Some nodes reach no boundary: their heat goes nowhere, or their temperature depends on the start.
+    NoBoundary {
+        /// The nodes, one set of connected ones after the other.
+        nodes: Vec<NodeId>,
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// A source or boundary has no value.
+    Input(InputError),
+    /// The conductances span more than the numbers can hold.
+    Factorization(FactorError),
+    /// The solution does not balance: heat in and heat out differ by `residual` of the heat turned over.
+    Unbalanced {
+        /// Relative residual.
+        residual: f64,
+    },
+}
+
+impl SteadyError {
+    /// The stable code, as diagnostics print it.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NoBoundary { .. } => "steady::no_boundary",
+            Self::Input(_) => "solve::input",
+            Self::Factorization(_) => "steady::singular",
+            Self::Unbalanced { .. } => "steady::unbalanced",
+        }
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> Option<&'static str> {
+        match self {
+            Self::NoBoundary { .. } => {
+                Some("add a path to a boundary, or run the network over time: `lptn run`")
+            }
+            Self::Factorization(_) | Self::Unbalanced { .. } => {
+                Some("replace the largest conductances by merging the nodes they join")
+            }
+            Self::Input(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for SteadyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoBoundary { names, .. } => {
+                write!(f, "no path leads to a boundary from {}", crate::names::list(names))
+            }
+            Self::Input(error) => error.fmt(f),
+            Self::Factorization(error) => write!(f, "the conductances cannot be factorised: {error}"),
+            Self::Unbalanced { residual } => {
+                write!(f, "heat in and heat out differ by {residual:.1e} of the heat turned over")
+            }
+        }
+    }
+}
+
+impl std::error::Error for SteadyError {}
+
+/// Why a transient could not be started or finished.
+#[derive(Debug)]
+pub enum TransientError {
+    /// The settings of the run contradict themselves.
+    Settings(SettingsError),
+    /// A source or boundary has no value at the start.
+    Input(InputError),
+    /// The integrator could not be set up or read.
+    Integrator(IntegrateError),
+    /// The run broke off; what was computed before is whole.
+    Stopped {
+        /// The time reached in s.
+        time: f64,
+        /// The reason.
+        reason: StopReason,
+        /// Everything up to then.
+        partial: Box<Solution>,
+    },
+}
+
+/// What broke a run off.
+#[derive(Debug)]
+pub enum StopReason {
+    /// A source or boundary has no value.
+    Input(InputError),
+    /// The integrator gave up.
+    Integrator {
+        /// Its reason.
+        error: IntegrateError,
+        /// The node with the largest error, where that is known.
+        node: Option<String>,
+    },
+}
+
+/// Settings that contradict themselves.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SettingsError {
+    /// The stop is not after the start, or one of them is not finite.
+    Interval {
+        /// Start in s.
+        start: f64,
+        /// Stop in s.
+        stop: f64,
+    },
+    /// The tolerance is not positive and finite.
+    Tolerance(f64),
+    /// An output time is outside the run or not after the one before it.
+    OutputTime(f64),
+    /// The distance between outputs is not positive, or so small that there would be too many.
+    OutputEvery(f64),
+}
+
+impl TransientError {
+    /// The stable code, as diagnostics print it.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Settings(_) => "run::settings",
+            Self::Input(_) | Self::Stopped { reason: StopReason::Input(_), .. } => "solve::input",
+            Self::Integrator(_) | Self::Stopped { .. } => "run::integrator",
+        }
+    }
+}
+
+impl fmt::Display for TransientError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Settings(error) => error.fmt(f),
+            Self::Input(error) => error.fmt(f),
+            Self::Integrator(error) => write!(f, "the integrator failed: {error}"),
+            Self::Stopped { time, reason: StopReason::Input(error), .. } => {
+                write!(f, "stopped at {time} s: {error}")
+            }
+            Self::Stopped { time, reason: StopReason::Integrator { error, node }, .. } => {
+                write!(f, "stopped at {time} s: {error}")?;
+                node.as_ref().map_or(Ok(()), |node| write!(f, " (largest error at node `{node}`)"))
+            }
+        }
+    }
+}
+
+impl std::error::Error for TransientError {}
+
+impl fmt::Display for SettingsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Interval { start, stop } => {
+                write!(f, "a run must stop after it starts, got {start} s to {stop} s")
+            }
+            Self::Tolerance(value) => write!(f, "the tolerance must be a positive number of K, got {value}"),
+            Self::OutputTime(time) => {
+                write!(f, "the output time {time} s is outside the run or not after the one before it")
+            }
+            Self::OutputEvery(every) => {
+                write!(f, "outputs every {every} s are none, or more than 10 million")
+            }
+        }
+    }
+}
+
+impl std::error::Error for SettingsError {}

@@ -1,0 +1,187 @@
+//! Writes rows while a run goes on, and looks at the watched nodes.
+
+use lptn_assembly::{ThermalSystem, Workspace};
+use lptn_integrate::{Integrator, Statistics};
+use lptn_network::NodeId;
+
+use crate::error::StopReason;
+use crate::heat::Heat;
+use crate::ledger::Ledger;
+use crate::solution::{End, Solution};
+use crate::times::Segment;
+use crate::transient::{Record, Transient};
+use crate::watch::{SAMPLES, Seen, Watch};
+
+/// The rows of a run, written in order.
+pub(crate) struct Recorder<'a> {
+    system: &'a ThermalSystem,
+    work: Workspace,
+    /// The times of all rows, ascending; those before `next` are written.
+    rows: Vec<f64>,
+    next: usize,
+    segment: Segment,
+    segments: Vec<f64>,
+    recorded: Vec<NodeId>,
+    temperatures: Vec<f64>,
+    watch: Vec<Watch>,
+    seen: Vec<Seen>,
+    /// Temperatures of the states at one time.
+    state: Vec<f64>,
+    tolerance: f64,
+}
+
+impl<'a> Recorder<'a> {
+    pub(crate) fn new(system: &'a ThermalSystem, rows: Vec<f64>, settings: &Transient) -> Self {
+        let network = system.network();
+        let mut recorded = match &settings.record {
+            Record::All => network.node_ids().collect(),
+            Record::Nodes(nodes) => nodes.clone(),
+        };
+        recorded.sort_unstable();
+        recorded.dedup();
+        let (start, stop) = (rows[0], rows[rows.len() - 1]);
+        Self {
+            system,
+            work: system.workspace(),
+            segments: Vec::with_capacity(rows.len()),
+            temperatures: Vec::with_capacity(rows.len() * recorded.len()),
+            rows,
+            next: 0,
+            segment: Segment { from: start, to: stop },
+            recorded,
+            watch: settings.watch.clone(),
+            seen: Vec::new(),
+            state: vec![0.0; system.states().len()],
+            tolerance: settings.tolerance,
+        }
+    }
+
+    pub(crate) fn system(&self) -> &'a ThermalSystem {
+        self.system
+    }
+
+    pub(crate) fn span(&self) -> (f64, f64) {
+        (self.rows[0], self.rows[self.rows.len() - 1])
+    }
+
+    pub(crate) fn rows(&self) -> &[f64] {
+        &self.rows
+    }
+
+    pub(crate) fn state_name(&self, state: usize) -> String {
+        let network = self.system.network();
+        self.system.states().get(state).map_or(String::new(), |id| network.nodes()[id.index()].name.clone())
+    }
+
+    /// Enters the next segment: from here on inputs are read as they are inside it.
+    pub(crate) fn enter(&mut self, segment: Segment) {
+        self.segment = segment;
+    }
+
+    /// Writes the row at the start of the segment, if there is one, and starts to watch.
+    pub(crate) fn start(&mut self, state: &[f64]) -> Result<(), StopReason> {
+        let from = self.segment.from;
+        self.state.copy_from_slice(state);
+        self.place(from)?;
+        if self.seen.is_empty() {
+            let nodes = self.system.node_temperatures(&self.work);
+            self.seen = self.watch.iter().map(|&w| Seen::new(w, from, nodes[w.node.index()])).collect();
+        }
+        if self.due(from) {
+            self.push();
+        }
+        Ok(())
+    }
+
+    /// Writes the rows inside the step from `from` to `to`; one at the end of the segment is left to the next
+    /// segment, whose inputs hold there.
+    pub(crate) fn step(
+        &mut self,
+        integrator: &mut Integrator<Heat<'_>>,
+        from: f64,
+        to: f64,
+    ) -> Result<(), StopReason> {
+        while self.due(to) && (self.rows[self.next] < self.segment.to || self.is_last()) {
+            self.interpolate(integrator, self.rows[self.next])?;
+            self.push();
+        }
+        if !self.seen.is_empty() {
+            self.look(integrator, from, to)?;
+        }
+        Ok(())
+    }
+
+    /// Writes a row from the inputs at `time` for a system without state.
+    pub(crate) fn stateless(&mut self, time: f64) -> Result<(), StopReason> {
+        self.place(time)?;
+        self.push();
+        Ok(())
+    }
+
+    /// The workspace at `time`, for a system without state.
+    pub(crate) fn at(&mut self, time: f64) -> Result<&Workspace, StopReason> {
+        self.place(time)?;
+        Ok(&self.work)
+    }
+
+    fn is_last(&self) -> bool {
+        self.next + 1 == self.rows.len()
+    }
+
+    /// Whether the next row is not after `time`.
+    fn due(&self, time: f64) -> bool {
+        self.rows.get(self.next).is_some_and(|&row| row <= time)
+    }
+
+    fn interpolate(&mut self, integrator: &mut Integrator<Heat<'_>>, time: f64) -> Result<(), StopReason> {
+        integrator
+            .interpolate(time, &mut self.state)
+            .map_err(|error| StopReason::Integrator { error, node: None })?;
+        self.place(time)
+    }
+
+    /// Brings the workspace to `time` and the temperatures in `state`.
+    fn place(&mut self, time: f64) -> Result<(), StopReason> {
+        self.system.read_inputs(&mut self.work, time, self.segment.inside()).map_err(StopReason::Input)?;
+        self.system.recover(&mut self.work, &self.state);
+        Ok(())
+    }
+
+    fn push(&mut self) {
+        let nodes = self.system.node_temperatures(&self.work);
+        self.temperatures.extend(self.recorded.iter().map(|id| nodes[id.index()]));
+        self.segments.push(self.segment.inside());
+        self.next += 1;
+    }
+
+    fn look(&mut self, integrator: &mut Integrator<Heat<'_>>, from: f64, to: f64) -> Result<(), StopReason> {
+        let count = SAMPLES + 1;
+        let mut points = vec![Vec::with_capacity(count as usize); self.seen.len()];
+        for k in 1..=count {
+            let time = if k == count { to } else { from + (to - from) * f64::from(k) / f64::from(count) };
+            self.interpolate(integrator, time)?;
+            let nodes = self.system.node_temperatures(&self.work);
+            for (list, seen) in points.iter_mut().zip(&self.seen) {
+                list.push((time, nodes[seen.watch.node.index()]));
+            }
+        }
+        self.seen.iter_mut().zip(&points).for_each(|(seen, points)| seen.look(points));
+        Ok(())
+    }
+
+    pub(crate) fn into_solution(mut self, ledger: Ledger, statistics: Statistics, end: End) -> Solution {
+        self.rows.truncate(self.next);
+        Solution {
+            system: self.system.clone(),
+            times: self.rows,
+            segments: self.segments,
+            recorded: self.recorded,
+            temperatures: self.temperatures,
+            seen: self.seen,
+            ledger,
+            statistics,
+            end,
+            tolerance: self.tolerance,
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! A run of a network whose nodes are all massless: it has no state, so nothing is integrated.
+
+use lptn_integrate::Statistics;
+
+use crate::error::{StopReason, TransientError};
+use crate::ledger::{self, Ledger};
+use crate::recorder::Recorder;
+use crate::solution::{End, Solution};
+use crate::times::Segment;
+
+/// Nodes and weights of the Gauss-Legendre rule of order 10 on (-1, 1), positive half and centre
+/// (Abramowitz and Stegun, Handbook of Mathematical Functions, table 25.4, n = 5).
+const GAUSS: [(f64, f64); 5] = [
+    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
+    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+    (0.0, 0.568_888_888_888_888_9),
+    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+];
+
+/// Evaluates every row; the ledger integrates between rows by the Gauss rule.
+pub(crate) fn solve(mut recorder: Recorder<'_>, segments: &[Segment]) -> Result<Solution, TransientError> {
+    let network = recorder.system().network();
+    let mut integrals = vec![0.0; ledger::integrals(network)];
+    let stored = vec![0.0; network.nodes().len()];
+    let (outcome, end) = match rows(&mut recorder, segments, &mut integrals) {
+        Ok(()) => (None, End::Reached),
+        Err((time, reason)) => (Some((time, reason)), End::Failed(time)),
+    };
+    let ledger = Ledger::new(network, &integrals, stored, 0.0);
+    let solution = recorder.into_solution(ledger, Statistics::default(), end);
+    match outcome {
+        None => Ok(solution),
+        Some((time, reason)) => Err(TransientError::Stopped { time, reason, partial: Box::new(solution) }),
+    }
+}
+
+fn rows(
+    recorder: &mut Recorder<'_>,
+    segments: &[Segment],
+    integrals: &mut [f64],
+) -> Result<(), (f64, StopReason)> {
+    let times = recorder.rows().to_vec();
+    let last = times.len() - 1;
+    let mut row = 0;
+    for (i, &segment) in segments.iter().enumerate() {
+        recorder.enter(segment);
+        recorder.start(&[]).map_err(|e| (segment.from, e))?;
+        row += usize::from(times[row].to_bits() == segment.from.to_bits());
+        let mut from = segment.from;
+        while row <= last && (times[row] < segment.to || (i + 1 == segments.len() && row == last)) {
+            interval(recorder, (from, times[row]), integrals).map_err(|e| (from, e))?;
+            from = times[row];
+            recorder.stateless(from).map_err(|e| (from, e))?;
+            row += 1;
+        }
+        if from < segment.to {
+            interval(recorder, (from, segment.to), integrals).map_err(|e| (from, e))?;
+        }
+    }
+    Ok(())
+}
+
+fn interval(
+    recorder: &mut Recorder<'_>,
+    (from, to): (f64, f64),
+    integrals: &mut [f64],
+) -> Result<(), StopReason> {
+    let system = recorder.system();
+    let mut q = vec![0.0; integrals.len()];
+    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+    for (x, weight) in GAUSS {
+        ledger::integrands(system, recorder.at(middle + half * x)?, &mut q);
+        integrals.iter_mut().zip(&q).for_each(|(sum, q)| *sum += half * weight * q);
+    }
+    Ok(())
+}

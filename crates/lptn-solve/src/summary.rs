@@ -1,0 +1,84 @@
+//! What an engineer asks first of a run: start, end, peak, steady state, time to 95 % of the rise.
+
+use lptn_assembly::ThermalSystem;
+use lptn_network::{InputError, NodeId};
+
+use crate::solution::Solution;
+use crate::steady::SteadyState;
+use crate::watch::Watch;
+
+/// The share of the rise whose time is given: three time constants of a single exponential.
+const SHARE: f64 = 0.95;
+
+/// A steady rise smaller than this, in K, is no rise: its 95 % would be noise.
+const LEAST_RISE: f64 = 1e-6;
+
+/// One node of a summary. Temperatures in K, times in s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeSummary {
+    /// The node.
+    pub node: NodeId,
+    /// Temperature at the start.
+    pub start: f64,
+    /// Temperature at the end.
+    pub end: f64,
+    /// Highest temperature and when it was first there.
+    pub peak: (f64, f64),
+    /// Temperature in steady state, where inputs are constant and there is one.
+    pub steady: Option<f64>,
+    /// Time from the start to 95 % of the way from start to steady state; `None` if that is not known or was
+    /// not reached.
+    pub time_to_95: Option<f64>,
+}
+
+impl NodeSummary {
+    /// The share of the way from start to steady state that the record covers; `None` where there is no way.
+    pub fn reached(&self) -> Option<f64> {
+        let rise = self.steady? - self.start;
+        (rise.abs() > LEAST_RISE).then(|| (self.end - self.start) / rise)
+    }
+}
+
+/// A summary of the watched nodes of a run.
+#[derive(Clone, Debug)]
+pub struct Summary {
+    /// One entry for each watched node, in the order they were named.
+    pub nodes: Vec<NodeSummary>,
+}
+
+impl Summary {
+    /// The watches that a summary of `nodes` needs, to be put into [`crate::Transient::watch`].
+    ///
+    /// # Errors
+    /// [`InputError`] if a source or boundary has no value at the start.
+    pub fn watches(
+        system: &ThermalSystem,
+        start: f64,
+        nodes: &[NodeId],
+        steady: Option<&SteadyState>,
+    ) -> Result<Vec<Watch>, InputError> {
+        let mut work = system.workspace();
+        system.read_inputs(&mut work, start, start)?;
+        system.recover(&mut work, &system.initial());
+        let initial = system.node_temperatures(&work);
+        let level = |node: NodeId| {
+            let (from, to) = (initial[node.index()], steady?.temperatures[node.index()]);
+            ((to - from).abs() > LEAST_RISE).then_some(from + SHARE * (to - from))
+        };
+        Ok(nodes.iter().map(|&node| Watch { node, level: level(node) }).collect())
+    }
+
+    /// Summarises the nodes that `solution` watched.
+    pub fn new(solution: &Solution, steady: Option<&SteadyState>) -> Self {
+        let start = solution.times().first().copied().unwrap_or(0.0);
+        let one = |seen: &crate::Seen| NodeSummary {
+            node: seen.watch.node,
+            start: seen.first(),
+            end: seen.last(),
+            peak: seen.peak,
+            steady: steady.map(|s| s.temperatures[seen.watch.node.index()]),
+            time_to_95: seen.crossed.map(|time| time - start),
+        };
+        Self { nodes: solution.seen().iter().map(one).collect() }
+    }
+}

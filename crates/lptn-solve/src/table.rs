@@ -1,0 +1,238 @@
+//! The one table type that writers take: named columns with units.
+
+use lptn_network::{BoundaryId, ConductorId, Network, NodeId, SourceId};
+use lptn_units::Unit;
+
+use crate::solution::Solution;
+use crate::steady::SteadyState;
+use crate::transient::Record;
+
+/// A column: a name such as `steel.T`, a unit such as `degC`, and one value a row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// The name.
+    pub name: String,
+    /// The unit of the values.
+    pub unit: String,
+    /// The values.
+    pub values: Vec<f64>,
+}
+
+impl Column {
+    /// The column's header in a CSV file: name and unit in brackets.
+    pub fn header(&self) -> String {
+        format!("{} [{}]", self.name, self.unit)
+    }
+}
+
+/// Columns of equal length with unique names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    columns: Vec<Column>,
+}
+
+impl Table {
+    /// The columns.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// The number of rows.
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |column| column.values.len())
+    }
+
+    /// The values of one row.
+    pub fn row(&self, row: usize) -> impl Iterator<Item = f64> + '_ {
+        self.columns.iter().map(move |column| column.values[row])
+    }
+
+    /// The time and the selected columns of a run, temperatures in `unit`.
+    pub fn of_solution(solution: &Solution, selection: &Selection, unit: &Unit) -> Self {
+        let network = solution.network();
+        let time = Column { name: "time".into(), unit: "s".into(), values: solution.times().to_vec() };
+        let mut columns = vec![time];
+        columns.extend(selection.quantities.iter().map(|q| q.column(network, unit)));
+        let heat = selection.quantities.iter().any(|q| q.is_heat_flow()).then(|| heat_flows(solution));
+        for (column, quantity) in columns[1..].iter_mut().zip(&selection.quantities) {
+            column.values = match *quantity {
+                Quantity::Node(id) => in_unit(solution.temperature(id).unwrap_or_default(), unit),
+                Quantity::BoundaryTemperature(id) => in_unit(solution.boundary_temperature(id), unit),
+                Quantity::Source(id) => solution.source_heat(id),
+                Quantity::Conductor(id) => flow(heat.as_ref(), id.index()),
+                Quantity::Boundary(id) => flow(heat.as_ref(), network.conductors().len() + id.index()),
+            };
+        }
+        Self { columns }
+    }
+
+    /// The selected columns of a steady state as a table of one row, temperatures in `unit`.
+    pub fn of_steady(network: &Network, steady: &SteadyState, selection: &Selection, unit: &Unit) -> Self {
+        let column = |quantity: &Quantity| {
+            let mut column = quantity.column(network, unit);
+            column.values = vec![match *quantity {
+                Quantity::Node(id) => unit.from_si(steady.temperatures[id.index()]),
+                Quantity::BoundaryTemperature(id) => unit.from_si(steady.boundary_temperatures[id.index()]),
+                Quantity::Source(id) => steady.source_heat[id.index()],
+                Quantity::Conductor(id) => steady.conductor_heat[id.index()],
+                Quantity::Boundary(id) => steady.boundary_heat[id.index()],
+            }];
+            column
+        };
+        Self { columns: selection.quantities.iter().map(column).collect() }
+    }
+}
+
+fn in_unit(kelvin: Vec<f64>, unit: &Unit) -> Vec<f64> {
+    kelvin.into_iter().map(|t| unit.from_si(t)).collect()
+}
+
+/// Heat flow of every conductor, then heat of every boundary, row by row.
+fn heat_flows(solution: &Solution) -> Vec<Vec<f64>> {
+    let network = solution.network();
+    let conductors = network.conductors().len();
+    let mut heat = vec![0.0; conductors + network.boundaries().len()];
+    let rows = solution.replay(|system, work| {
+        system.conductor_heat(work, &mut heat[..conductors]);
+        system.boundary_heat(work, &mut heat[conductors..]);
+        heat.clone()
+    });
+    rows.unwrap_or_default()
+}
+
+fn flow(rows: Option<&Vec<Vec<f64>>>, index: usize) -> Vec<f64> {
+    rows.map_or(Vec::new(), |rows| rows.iter().map(|row| row[index]).collect())
+}
+
+/// One quantity of a network that can be a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Quantity {
+    Node(NodeId),
+    BoundaryTemperature(BoundaryId),
+    Conductor(ConductorId),
+    Source(SourceId),
+    Boundary(BoundaryId),
+}
+
+impl Quantity {
+    /// All of a network: temperatures of nodes and boundaries, heat flows, sources, heat of boundaries.
+    fn all(network: &Network) -> impl Iterator<Item = Self> {
+        let nodes = network.node_ids().map(Self::Node);
+        nodes
+            .chain(network.boundary_ids().map(Self::BoundaryTemperature))
+            .chain(network.conductor_ids().map(Self::Conductor))
+            .chain(network.source_ids().map(Self::Source))
+            .chain(network.boundary_ids().map(Self::Boundary))
+    }
+
+    fn name(self, network: &Network) -> String {
+        match self {
+            Self::Node(id) => format!("{}.T", network.nodes()[id.index()].name),
+            Self::BoundaryTemperature(id) => format!("{}.T", network.boundaries()[id.index()].name),
+            Self::Conductor(id) => format!("{}.Q", network.conductors()[id.index()].name),
+            Self::Source(id) => format!("{}.P", network.sources()[id.index()].name),
+            Self::Boundary(id) => format!("{}.Q", network.boundaries()[id.index()].name),
+        }
+    }
+
+    fn is_heat_flow(self) -> bool {
+        matches!(self, Self::Conductor(_) | Self::Boundary(_))
+    }
+
+    fn column(self, network: &Network, temperature: &Unit) -> Column {
+        let unit = match self {
+            Self::Node(_) | Self::BoundaryTemperature(_) => temperature.text.clone(),
+            Self::Conductor(_) | Self::Source(_) | Self::Boundary(_) => "W".to_owned(),
+        };
+        Column { name: self.name(network), unit, values: Vec::new() }
+    }
+}
+
+/// The columns of a table, chosen by patterns over their names: `*` stands for any characters, `?` for one.
+#[derive(Clone, Debug)]
+pub struct Selection {
+    quantities: Vec<Quantity>,
+}
+
+impl Selection {
+    /// Every column.
+    pub fn all(network: &Network) -> Self {
+        Self { quantities: Quantity::all(network).collect() }
+    }
+
+    /// The columns that match any of `patterns`, in the order of the network.
+    ///
+    /// # Errors
+    /// The patterns that match no column.
+    pub fn matching(network: &Network, patterns: &[String]) -> Result<Self, Vec<String>> {
+        let named: Vec<(Quantity, String)> = Quantity::all(network).map(|q| (q, q.name(network))).collect();
+        let idle = |p: &&String| !named.iter().any(|(_, name)| matches(p, name));
+        let unmatched: Vec<String> = patterns.iter().filter(idle).cloned().collect();
+        if !unmatched.is_empty() {
+            return Err(unmatched);
+        }
+        let chosen = named.into_iter().filter(|(_, name)| patterns.iter().any(|p| matches(p, name)));
+        Ok(Self { quantities: chosen.map(|(quantity, _)| quantity).collect() })
+    }
+
+    /// The names of all columns that a network has.
+    pub fn names(network: &Network) -> Vec<String> {
+        Quantity::all(network).map(|q| q.name(network)).collect()
+    }
+
+    /// What a run has to keep so that these columns can be had.
+    pub fn record(&self) -> Record {
+        if self.quantities.iter().any(|q| q.is_heat_flow()) {
+            return Record::All;
+        }
+        let node = |q: &Quantity| if let Quantity::Node(id) = q { Some(*id) } else { None };
+        Record::Nodes(self.quantities.iter().filter_map(node).collect())
+    }
+
+    /// Whether no column is selected.
+    pub fn is_empty(&self) -> bool {
+        self.quantities.is_empty()
+    }
+}
+
+/// Whether `name` has the form of `pattern`. Greedy with one place to go back to, so linear but for the
+/// product of the two lengths.
+fn matches(pattern: &str, name: &str) -> bool {
+    let (pattern, name) = (pattern.as_bytes(), name.as_bytes());
+    let (mut p, mut n, mut star) = (0, 0, None);
+    while n < name.len() {
+        match pattern.get(p) {
+            Some(b'*') => {
+                star = Some((p, n));
+                p += 1;
+            }
+            Some(&c) if c == b'?' || c == name[n] => {
+                p += 1;
+                n += 1;
+            }
+            _ => {
+                let Some((at, taken)) = star else { return false };
+                star = Some((at, taken + 1));
+                (p, n) = (at + 1, taken + 1);
+            }
+        }
+    }
+    pattern[p..].iter().all(|&c| c == b'*')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::matches;
+
+    #[test]
+    fn patterns_match_whole_names() {
+        assert!(matches("*.T", "steel.T"));
+        assert!(matches("s*l.?", "steel.T"));
+        assert!(matches("*", ""));
+        assert!(matches("*a*b*", "xxaxxbxx"));
+        assert!(matches("planet[1].*", "planet[1].gear.T"));
+        assert!(!matches("*.T", "internal.Q"));
+        assert!(!matches("steel", "steel.T"));
+        assert!(!matches("?", ""));
+    }
+}

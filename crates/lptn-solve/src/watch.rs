@@ -1,0 +1,111 @@
+//! What happens to some nodes between the rows: peaks, and the time at which a level is crossed.
+
+use lptn_network::NodeId;
+
+/// A node to watch at every step of the integrator.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Watch {
+    /// The node.
+    pub node: NodeId,
+    /// A temperature in K whose first crossing is sought.
+    pub level: Option<f64>,
+}
+
+/// What was seen of a watched node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// The node and the level.
+    pub watch: Watch,
+    /// Highest temperature in K and its time in s.
+    pub peak: (f64, f64),
+    /// Time in s at which the level was first reached, from either side.
+    pub crossed: Option<f64>,
+    first: f64,
+    last: (f64, f64),
+}
+
+/// Points looked at inside each step, besides its end. The steps of a method of order up to 5 are short
+/// against the curvature, so a parabola through three such points places a peak well within the tolerance.
+pub(crate) const SAMPLES: u32 = 8;
+
+impl Seen {
+    pub(crate) fn new(watch: Watch, time: f64, temperature: f64) -> Self {
+        Self {
+            watch,
+            peak: (temperature, time),
+            crossed: None,
+            first: temperature,
+            last: (time, temperature),
+        }
+    }
+
+    /// Temperature at the start in K.
+    pub fn first(&self) -> f64 {
+        self.first
+    }
+
+    /// Temperature at the end that was reached in K.
+    pub fn last(&self) -> f64 {
+        self.last.1
+    }
+
+    /// Takes in the temperatures at successive points of a step.
+    pub(crate) fn look(&mut self, points: &[(f64, f64)]) {
+        let before = self.last;
+        for (i, &(time, temperature)) in points.iter().enumerate() {
+            if temperature > self.peak.0 {
+                self.peak = (temperature, time);
+            }
+            if let Some(next) = points.get(i + 1) {
+                let previous = if i == 0 { before } else { points[i - 1] };
+                self.peak = higher(self.peak, top([previous, (time, temperature), *next]));
+            }
+            self.cross((time, temperature));
+            self.last = (time, temperature);
+        }
+    }
+
+    /// Finds the crossing between the last point and this one by linear interpolation.
+    fn cross(&mut self, (time, temperature): (f64, f64)) {
+        let (Some(level), None) = (self.watch.level, self.crossed) else { return };
+        let (before, after) = (self.last.1 - level, temperature - level);
+        if before == 0.0 || before.signum() == after.signum() {
+            return;
+        }
+        self.crossed = Some(self.last.0 + (time - self.last.0) * before / (before - after));
+    }
+}
+
+fn higher(a: (f64, f64), b: Option<(f64, f64)>) -> (f64, f64) {
+    b.filter(|b| b.0 > a.0).unwrap_or(a)
+}
+
+/// The top of the parabola through three points of ascending time, if the middle one is the highest.
+fn top([(t0, y0), (t1, y1), (t2, y2)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
+    if !(y1 > y0 && y1 >= y2 && t0 < t1) {
+        return None;
+    }
+    let (left, right) = ((y1 - y0) / (t1 - t0), (y2 - y1) / (t2 - t1));
+    let curvature = (right - left) / (t2 - t0);
+    let slope = left + curvature * (t1 - t0);
+    let step = -slope / (2.0 * curvature);
+    let time = t1 + step;
+    (time > t0 && time < t2).then_some((y1 + 0.5 * slope * step, time))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_top_of_a_parabola_is_found_exactly() {
+        let y = |t: f64| 5.0 - (t - 1.25) * (t - 1.25);
+        let found = top([(0.0, y(0.0)), (1.0, y(1.0)), (3.0, y(3.0))]).unwrap();
+        assert!((found.0 - 5.0).abs() < 1e-14 && (found.1 - 1.25).abs() < 1e-14, "{found:?}");
+    }
+
+    #[test]
+    fn a_monotonic_curve_has_no_inner_top() {
+        assert_eq!(top([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)]), None);
+    }
+}
