@@ -1,0 +1,127 @@
+//! The arrows between crates, where `unsafe` may stand, and how long a file may be.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// From the ground up: a crate may use only those before it.
+const ORDER: [&str; 12] = [
+    "lptn-units",
+    "lptn-laws",
+    "lptn-network",
+    "lptn-netlist",
+    "lptn-assembly",
+    "lptn-integrate",
+    "lptn-solve",
+    "lptn-reduce",
+    "lptn-study",
+    "lptn-report",
+    "lptn",
+    "lptn-cli",
+];
+
+/// What a crate may not use although it stands before it.
+const FORBIDDEN: [(&str, &[&str]); 5] = [
+    ("lptn-integrate", &["lptn-units", "lptn-laws", "lptn-network", "lptn-netlist", "lptn-assembly"]),
+    ("lptn-assembly", &["lptn-netlist"]),
+    ("lptn-solve", &["lptn-netlist"]),
+    ("lptn-reduce", &["lptn-netlist"]),
+    ("lptn-laws", &["lptn-network"]),
+];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The lptn crates that each crate uses, build and test dependencies left out.
+fn arrows() -> BTreeMap<String, Vec<String>> {
+    let output = Command::new(env!("CARGO"))
+        .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])
+        .current_dir(root())
+        .output()
+        .expect("cargo runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).expect("cargo prints JSON");
+    let packages = metadata["packages"].as_array().expect("packages");
+    let text = |value: &serde_json::Value| value.as_str().expect("a string").to_owned();
+    let uses = |package: &serde_json::Value| {
+        let list = package["dependencies"].as_array().expect("dependencies");
+        let ours = |d: &&serde_json::Value| d["kind"].is_null() && text(&d["name"]).starts_with("lptn");
+        list.iter().filter(ours).map(|d| text(&d["name"])).collect()
+    };
+    packages.iter().map(|package| (text(&package["name"]), uses(package))).collect()
+}
+
+#[test]
+fn arrows_point_down_only() {
+    let place = |name: &str| {
+        ORDER
+            .iter()
+            .position(|&other| other == name)
+            .unwrap_or_else(|| panic!("{name} has no place in the order"))
+    };
+    let arrows = arrows();
+    assert!(arrows.len() >= 10, "{arrows:?}");
+    for (name, uses) in &arrows {
+        for used in uses {
+            assert!(place(used) < place(name), "{name} uses {used}, which stands above it");
+            assert!(used != "lptn" || name == "lptn-cli", "{name} uses the facade");
+        }
+    }
+}
+
+#[test]
+fn no_crate_knows_what_it_may_not() {
+    let arrows = arrows();
+    for (name, forbidden) in FORBIDDEN {
+        let uses = arrows.get(name).map_or(&[][..], Vec::as_slice);
+        let found: Vec<_> = uses.iter().filter(|used| forbidden.contains(&used.as_str())).collect();
+        assert!(found.is_empty(), "{name} uses {found:?}");
+    }
+}
+
+fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+fn all_sources() -> Vec<(String, String)> {
+    let mut paths = Vec::new();
+    ["crates", "tests", "examples"].iter().for_each(|folder| sources(&root().join(folder), &mut paths));
+    paths.sort();
+    let read = |path: PathBuf| {
+        let name = path.strip_prefix(root()).expect("inside the project").display().to_string();
+        (name, std::fs::read_to_string(&path).expect("a source file"))
+    };
+    paths.into_iter().map(read).collect()
+}
+
+#[test]
+fn one_crate_alone_is_unsafe() {
+    for (name, text) in all_sources() {
+        let opts_out = text.contains(concat!("allow(", "unsafe_code"));
+        assert!(!opts_out || name.starts_with("crates/lptn-integrate/"), "{name} allows unsafe code");
+    }
+}
+
+#[test]
+fn files_are_short() {
+    for (name, text) in all_sources() {
+        // tests at the end of a file are not counted
+        let code = text.split("#[cfg(test)]\nmod tests").next().map_or(0, |code| code.lines().count());
+        assert!(code <= 420, "{name} has {code} lines: is it one idea?");
+    }
+}
+
+#[test]
+fn examples_are_short() {
+    for (name, text) in all_sources().into_iter().filter(|(name, _)| name.starts_with("examples/")) {
+        assert!(text.lines().count() <= 60, "{name}");
+    }
+}

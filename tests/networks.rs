@@ -1,0 +1,83 @@
+//! Every shipped network: it parses without a warning, runs, and closes its books.
+
+#![allow(clippy::print_stdout, reason = "the measured figures, shown with --nocapture")]
+
+mod support;
+
+use lptn::prelude::*;
+use support::{networks, shipped, transient};
+
+fn files() -> Vec<String> {
+    let mut names: Vec<String> = std::fs::read_dir(networks())
+        .expect("the folder of networks")
+        .map(|entry| entry.expect("an entry").file_name().into_string().expect("a name in UTF-8"))
+        .filter(|name| name.ends_with(".toml"))
+        .collect();
+    names.sort();
+    assert!(names.len() >= 7, "only {names:?}");
+    names
+}
+
+#[test]
+fn every_network_parses_without_a_warning() {
+    for name in files() {
+        let (netlist, _) = shipped(&name);
+        let warnings: Vec<String> = netlist.warnings.iter().map(ToString::to_string).collect();
+        assert!(warnings.is_empty(), "{name}: {warnings:?}");
+        assert!(netlist.network.title().is_some(), "{name} has no title");
+    }
+}
+
+#[test]
+fn every_ledger_closes_to_1e_8_of_the_heat_turned_over() {
+    for name in files() {
+        let (netlist, system) = shipped(&name);
+        for tolerance in [1e-5, 1e-6, 1e-7] {
+            let solution = transient(&netlist).tolerance(tolerance).solve(&system).expect("it runs");
+            let ledger = solution.ledger();
+            let residual = ledger.relative_residual().expect("heat is turned over").abs();
+            println!("{name} at {tolerance:e} K: {residual:.1e} of {:.3e} J", ledger.turned_over);
+            assert!(residual <= 1e-8, "{name} at {tolerance:e} K: {residual:e}");
+            assert!(ledger.closes());
+        }
+    }
+}
+
+#[test]
+fn at_coarse_tolerances_the_ledger_keeps_its_stated_bound() {
+    for name in files() {
+        let (netlist, system) = shipped(&name);
+        for tolerance in [1e-3, 1e-4] {
+            let solution = transient(&netlist).tolerance(tolerance).solve(&system).expect("it runs");
+            assert!(solution.ledger().closes(), "{name} at {tolerance:e} K: {:?}", solution.ledger());
+        }
+    }
+}
+
+#[test]
+fn steady_states_are_in_balance() {
+    for name in files() {
+        let (netlist, system) = shipped(&name);
+        match SteadyState::solve(&system, 0.0) {
+            Ok(steady) => assert!(steady.imbalance().abs() <= 1e-10 * steady.turned_over(), "{name}"),
+            Err(error) => {
+                assert_eq!(error.code(), "steady::no_boundary", "{name}: {error}");
+                assert!(netlist.network.boundaries().is_empty());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_run_ends_on_its_stop_and_its_rows_increase() {
+    for name in files() {
+        let (netlist, system) = shipped(&name);
+        let solution = transient(&netlist).solve(&system).expect("it runs");
+        let (times, run) = (solution.times(), netlist.run.as_ref().expect("it has [run]"));
+        assert_eq!(
+            (times[0].to_bits(), times[times.len() - 1].to_bits()),
+            (run.start.to_bits(), run.stop.to_bits())
+        );
+        assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{name}");
+    }
+}
