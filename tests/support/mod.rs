@@ -22,10 +22,7 @@ pub fn transient(netlist: &lptn::netlist::Netlist) -> Transient {
     let run = netlist.run.as_ref().expect("the network has [run]");
     let mut transient = Transient::until(Time(run.stop)).tolerance(run.tolerance);
     transient.start = run.start;
-    transient.output = match &run.output {
-        lptn::netlist::Output::Every(every) => OutputTimes::Every(*every),
-        lptn::netlist::Output::At(times) => OutputTimes::At(times.clone()),
-    };
+    transient.output = run.output.clone();
     transient
 }
 

@@ -274,7 +274,7 @@ impl<S: OdeSystem> Integrator<S> {
     /// [`IntegrateError::Sundials`] only.
     pub fn quadratures(&mut self) -> Result<&[f64], IntegrateError> {
         // Before the first step after a (re)start CVODES has no step to evaluate them in; they are as they were set.
-        if self.from < self.time
+        if self.memory.counters().steps > 0
             && let Some(quadratures) = &mut self.quadratures
         {
             self.memory

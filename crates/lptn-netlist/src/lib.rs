@@ -50,6 +50,6 @@ pub use diagnostic::{Diagnostic, Label, Severity};
 pub use file::{FileId, Files, Span};
 pub use netlist::{Netlist, ReadError, Rejected, parse, parse_bytes, read};
 pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
-pub use run::{Output, RunSettings};
+pub use run::RunSettings;
 pub use source_map::SourceMap;
 pub use syntax::parse_raw;

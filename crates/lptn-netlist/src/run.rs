@@ -1,6 +1,6 @@
 //! `[run]`: what to simulate.
 
-use lptn_network::{Evaluation, Network, Value};
+use lptn_network::{Evaluation, Network, OutputTimes, Value};
 use lptn_units::{Dimension, Type};
 
 use crate::diagnostic::Diagnostic;
@@ -10,12 +10,6 @@ use crate::file::Span;
 use crate::raw::{RawKind, RawValue};
 use crate::value::{Place, Wanted};
 use crate::vocabulary::{OUTPUT, RUN};
-
-/// More rows than this are a mistake in a unit.
-const MOST_ROWS: f64 = 1e7;
-
-/// Rows of a run that does not say.
-const USUAL_ROWS: f64 = 300.0;
 
 /// The tolerance in K of a run that does not say.
 const USUAL_TOLERANCE: f64 = 1e-5;
@@ -31,20 +25,11 @@ pub struct RunSettings {
     /// Time at which it ends, in s; after `start`.
     pub stop: f64,
     /// When to write a row.
-    pub output: Output,
+    pub output: OutputTimes,
     /// Which columns to write, as patterns such as `*.T`; empty for all.
     pub select: Vec<String>,
     /// Tolerance in K.
     pub tolerance: f64,
-}
-
-/// When to write a row; start and stop always have one.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Output {
-    /// At this distance in s, from the start on.
-    Every(f64),
-    /// At these times in s, ascending.
-    At(Vec<f64>),
 }
 
 /// `[run]` before its expressions are evaluated: `--set` may change what they use.
@@ -227,17 +212,17 @@ impl Check {
         value
     }
 
-    fn output(&mut self, plan: Option<&OutputPlan>, (start, stop): (f64, f64)) -> Output {
+    fn output(&mut self, plan: Option<&OutputPlan>, (start, stop): (f64, f64)) -> OutputTimes {
         match plan {
-            None => Output::Every((stop - start) / USUAL_ROWS),
+            None => OutputTimes::Every((stop - start) / OutputTimes::USUAL_INTERVALS),
             Some(OutputPlan::Every(setting)) => {
                 let every = self.positive(setting);
-                if every > 0.0 && (stop - start) / every > MOST_ROWS {
+                if every > 0.0 && (stop - start) / every > OutputTimes::MOST_ROWS {
                     self.problems.push(too_many(setting, (stop - start) / every));
                 }
-                Output::Every(every)
+                OutputTimes::Every(every)
             }
-            Some(OutputPlan::At(times)) => Output::At(self.times(times, (start, stop))),
+            Some(OutputPlan::At(times)) => OutputTimes::At(self.times(times, (start, stop))),
         }
     }
 
@@ -266,7 +251,7 @@ impl Check {
 }
 
 fn too_many(setting: &Setting, rows: f64) -> Diagnostic {
-    let message = format!("{} makes {rows:.0} rows, more than {MOST_ROWS:.0}", setting.words);
+    let message = format!("{} makes {rows:.0} rows, more than {:.0}", setting.words, OutputTimes::MOST_ROWS);
     Diagnostic::error("netlist::too_many_rows", message)
         .at(setting.span.clone(), "")
         .help("write a longer time, or leave `output` out for 300 rows")

@@ -6,7 +6,8 @@
     reason = "a test that cannot go on has failed; exact numbers"
 )]
 
-use lptn_netlist::{Netlist, Output, Severity, parse};
+use lptn_netlist::{Netlist, Severity, parse};
+use lptn_network::OutputTimes;
 use lptn_network::{ConductorKind, End, Field, Item};
 
 /// The example at the end of the format's description.
@@ -46,7 +47,7 @@ fn the_gearbox_has_the_numbers_of_the_paper() {
     network.boundary_temperatures(&mut network.evaluation(), &mut boundaries).unwrap();
     close(boundaries[1], 298.65);
     let run = netlist.run.as_ref().unwrap();
-    assert_eq!((run.start, run.stop, &run.output), (0.0, 1500.0, &Output::Every(5.0)));
+    assert_eq!((run.start, run.stop, &run.output), (0.0, 1500.0, &OutputTimes::Every(5.0)));
     assert_eq!((run.tolerance, run.select.len()), (1e-5, 0));
     assert_eq!(netlist.temperature_unit.text, "degC");
     assert!(netlist.warnings.is_empty());
@@ -203,7 +204,7 @@ fn run_takes_expressions_and_lists() {
     ));
     let run = netlist.run.as_ref().unwrap();
     assert_eq!((run.start, run.stop, run.tolerance), (-5.0, 30.0, 1e-3));
-    assert_eq!(run.output, Output::At(vec![0.0, 10.0, 30.0]));
+    assert_eq!(run.output, OutputTimes::At(vec![0.0, 10.0, 30.0]));
     assert_eq!(run.select, ["*.T", "loss.P"]);
     assert_eq!(netlist.files.at(&netlist.source_map.select()[1]), "'loss.P'");
     close(netlist.temperature_unit.from_si(300.0), 300.0);
@@ -212,7 +213,7 @@ fn run_takes_expressions_and_lists() {
 #[test]
 fn output_is_a_three_hundredth_unless_said() {
     let netlist = good(&format!("{BLOCK}[run]\nstop = '300 s'\n"));
-    assert_eq!(netlist.run.unwrap().output, Output::Every(1.0));
+    assert_eq!(netlist.run.unwrap().output, OutputTimes::Every(1.0));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Times at which an input jumps or bends: known beforehand, so that no step crosses them.
 
-use crate::network::{InputError, InputProblem, Network};
+use crate::input_error::{InputError, InputProblem};
+use crate::network::Network;
 use crate::value::{Evaluation, Value, slot};
 use lptn_units::{Degree, Program};
 

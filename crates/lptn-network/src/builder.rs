@@ -6,8 +6,9 @@ use crate::check;
 use crate::element::{Boundary, Capacitor, Conductor, ConductorKind, Law, Node, Parameter, Source};
 use crate::error::{BuildError, BuildErrorKind, BuildErrors};
 use crate::id::{BoundaryId, CapacitorId, ConductorId, End, Field, Item, NodeId, ParameterId, SourceId};
-use crate::network::{Network, Parts};
+use crate::network::Network;
 use crate::numbers::Numbers;
+use crate::parts::Parts;
 use crate::value::{Input, Value, slot};
 
 const CAPACITY: Type = Type::of(Dimension::CAPACITY);

@@ -2,7 +2,7 @@
 
 use crate::error::{BuildError, BuildErrorKind};
 use crate::id::{End, NodeId};
-use crate::network::Parts;
+use crate::parts::Parts;
 
 pub(crate) fn structure(parts: &Parts, errors: &mut Vec<BuildError>) {
     if parts.nodes.is_empty() {

@@ -5,6 +5,7 @@ use std::fmt;
 use lptn_units::{EvalError, Type};
 
 use crate::id::{ConductorId, Field, Item, NodeId, SourceId};
+use crate::names::list_of_names;
 
 /// All problems found while a network was built; never empty.
 #[derive(Clone, Debug)]
@@ -265,20 +266,9 @@ impl fmt::Display for BuildError {
             K::FloatingIsland { names, .. } => write!(
                 f,
                 "the temperature of {} is not determined: no boundary and no capacity is connected",
-                list(names)
+                list_of_names(names)
             ),
             K::Empty => f.write_str("the network has no node"),
         }
-    }
-}
-
-/// "`a`", "`a` and `b`", "`a`, `b` and 3 more".
-fn list(names: &[String]) -> String {
-    match names {
-        [] => String::new(),
-        [one] => format!("`{one}`"),
-        [one, two] => format!("`{one}` and `{two}`"),
-        [one, two, three] => format!("`{one}`, `{two}` and `{three}`"),
-        [one, two, rest @ ..] => format!("`{one}`, `{two}` and {} more nodes", rest.len()),
     }
 }

@@ -12,9 +12,13 @@ mod check;
 mod element;
 mod error;
 mod id;
+mod input_error;
+mod names;
 mod network;
 mod numbers;
+mod output;
 mod parameters;
+mod parts;
 mod typed;
 mod value;
 
@@ -22,7 +26,10 @@ pub use builder::{NetworkBuilder, Path};
 pub use element::{Boundary, Capacitor, Conductor, ConductorKind, Law, Node, Parameter, Source};
 pub use error::{BuildError, BuildErrorKind, BuildErrors};
 pub use id::{BoundaryId, CapacitorId, ConductorId, End, Field, Item, NodeId, ParameterId, SourceId};
-pub use network::{InputError, InputProblem, Network, UnknownName};
+pub use input_error::{InputError, InputProblem};
+pub use names::{UnknownName, list_of_names};
+pub use network::Network;
+pub use output::OutputTimes;
 pub use parameters::{ParameterError, Parameters};
 pub use typed::{
     Area, Conductance, FilmCoefficient, HeatCapacity, HeatFlow, Resistance, Temperature, Time, ZERO_CELSIUS,

@@ -1,32 +1,16 @@
 //! A thermal network whose invariants hold.
 
-use std::collections::HashMap;
-use std::fmt;
 use std::sync::Arc;
-
-use lptn_units::{EvalError, suggest};
 
 use crate::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
 use crate::error::BuildErrors;
 use crate::id::{BoundaryId, CapacitorId, ConductorId, Field, Item, NodeId, ParameterId, SourceId};
+use crate::input_error::{InputError, InputProblem};
+use crate::names::UnknownName;
 use crate::numbers::Numbers;
 use crate::parameters::Parameters;
+use crate::parts::Parts;
 use crate::value::{Evaluation, Value};
-
-/// Everything that does not change when a parameter does.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Parts {
-    pub(crate) title: Option<String>,
-    pub(crate) parameters: Vec<Parameter>,
-    pub(crate) nodes: Vec<Node>,
-    pub(crate) boundaries: Vec<Boundary>,
-    pub(crate) capacitors: Vec<Capacitor>,
-    pub(crate) conductors: Vec<Conductor>,
-    pub(crate) sources: Vec<Source>,
-    /// Nodes, boundaries and elements share one name space.
-    pub(crate) names: HashMap<String, Item>,
-    pub(crate) parameter_names: HashMap<String, ParameterId>,
-}
 
 /// A thermal network: nodes, boundaries, the paths between them and the heat put in.
 ///
@@ -233,89 +217,3 @@ impl Network {
         self.parts.inputs()
     }
 }
-
-impl Parts {
-    pub(crate) fn name_of(&self, item: Item) -> &str {
-        match item {
-            Item::Parameter(id) => &self.parameters[id.index()].name,
-            Item::Node(id) => &self.nodes[id.index()].name,
-            Item::Boundary(id) => &self.boundaries[id.index()].name,
-            Item::Capacitor(id) => &self.capacitors[id.index()].name,
-            Item::Conductor(id) => &self.conductors[id.index()].name,
-            Item::Source(id) => &self.sources[id.index()].name,
-        }
-    }
-
-    pub(crate) fn inputs(&self) -> impl Iterator<Item = (Item, Field, &Value)> {
-        let boundaries = self.boundaries.iter().enumerate();
-        let sources = self.sources.iter().enumerate();
-        boundaries
-            .map(|(i, b)| (Item::Boundary(BoundaryId::from_len(i)), Field::Temperature, &b.temperature))
-            .chain(sources.map(|(i, s)| (Item::Source(SourceId::from_len(i)), Field::Power, &s.power)))
-    }
-}
-
-/// A source or boundary whose value could not be had during a run.
-#[derive(Clone, Debug)]
-pub struct InputError {
-    /// The source or boundary.
-    pub item: Item,
-    /// Its field.
-    pub field: Field,
-    /// Its name.
-    pub name: String,
-    /// What went wrong.
-    pub problem: InputProblem,
-}
-
-/// Why an input has no value.
-#[derive(Clone, Debug)]
-pub enum InputProblem {
-    /// The expression gave an infinite number or none.
-    NotFinite(f64),
-    /// A temperature below 0 K.
-    BelowAbsoluteZero(f64),
-    /// The expression could not be evaluated.
-    Evaluation(EvalError),
-}
-
-impl fmt::Display for InputError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}` of `{}` ", self.field.key(), self.name)?;
-        match &self.problem {
-            InputProblem::NotFinite(value) => write!(f, "is {value}"),
-            InputProblem::BelowAbsoluteZero(value) => write!(f, "is below absolute zero: {value} K"),
-            InputProblem::Evaluation(error) => write!(f, "cannot be evaluated: {error}"),
-        }
-    }
-}
-
-impl std::error::Error for InputError {}
-
-/// A name that the network does not have.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnknownName {
-    /// The name that was asked for.
-    pub name: String,
-    /// The most similar name there is.
-    pub suggestion: Option<String>,
-}
-
-impl UnknownName {
-    pub(crate) fn new(name: &str, known: &[&str]) -> Self {
-        let suggestion = suggest(name, known.iter().copied()).map(str::to_owned);
-        Self { name: name.to_owned(), suggestion }
-    }
-}
-
-impl fmt::Display for UnknownName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "nothing is named `{}`", self.name)?;
-        match &self.suggestion {
-            Some(other) => write!(f, ", did you mean `{other}`?"),
-            None => Ok(()),
-        }
-    }
-}
-
-impl std::error::Error for UnknownName {}

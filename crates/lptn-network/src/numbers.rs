@@ -5,7 +5,7 @@ use lptn_units::Degree;
 use crate::element::{Law, Parameter};
 use crate::error::{BuildError, BuildErrorKind};
 use crate::id::{CapacitorId, ConductorId, Field, Item, NodeId, ParameterId};
-use crate::network::Parts;
+use crate::parts::Parts;
 use crate::value::{Evaluation, Value, slot};
 
 /// What the parameters determine; checked to be physical.

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use lptn_units::{Type, UnitError, parse_quantity};
 
 use crate::id::ParameterId;
-use crate::network::{Parts, UnknownName};
+use crate::names::UnknownName;
+use crate::parts::Parts;
 
 /// New values for some parameters of one network; the others keep theirs.
 #[derive(Clone, Debug)]

@@ -12,7 +12,10 @@ use crate::number::Shortest;
 /// # Errors
 /// What `out` reports.
 pub fn write_csv(table: &Table, out: impl io::Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
+    write(table, &mut csv::Writer::from_writer(out)).map_err(io_error)
+}
+
+fn write(table: &Table, writer: &mut csv::Writer<impl io::Write>) -> csv::Result<()> {
     writer.write_record(table.columns().iter().map(lptn_solve::Column::header))?;
     let mut number = Shortest::new();
     for row in 0..table.rows() {
@@ -21,5 +24,13 @@ pub fn write_csv(table: &Table, out: impl io::Write) -> io::Result<()> {
         }
         writer.write_record(None::<&[u8]>)?;
     }
-    writer.flush()
+    Ok(writer.flush()?)
+}
+
+/// The error of the stream itself, so that a closed pipe is known as one.
+fn io_error(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    }
 }

@@ -3,7 +3,7 @@
 /// Writes numbers as the shortest text that reads back as the same `f64`: `92.7`, `300`, `1e-7`.
 #[derive(Default)]
 pub struct Shortest {
-    buffer: ryu::Buffer,
+    buffer: zmij::Buffer,
 }
 
 impl Shortest {

@@ -3,7 +3,8 @@
 use std::fmt;
 
 use lptn_integrate::{FactorError, IntegrateError};
-use lptn_network::{InputError, NodeId};
+use lptn_network::{InputError, NodeId, list_of_names};
+use lptn_units::format_number;
 
 use crate::solution::Solution;
 
@@ -57,7 +58,7 @@ impl fmt::Display for SteadyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoBoundary { names, .. } => {
-                write!(f, "no path leads to a boundary from {}", crate::names::list(names))
+                write!(f, "no path leads to a boundary from {}", list_of_names(names))
             }
             Self::Input(error) => error.fmt(f),
             Self::Factorization(error) => write!(f, "the conductances cannot be factorised: {error}"),
@@ -140,14 +141,19 @@ impl fmt::Display for TransientError {
             Self::Input(error) => error.fmt(f),
             Self::Integrator(error) => write!(f, "the integrator failed: {error}"),
             Self::Stopped { time, reason: StopReason::Input(error), .. } => {
-                write!(f, "stopped at {time} s: {error}")
+                write!(f, "stopped at {} s: {error}", six_digits(*time))
             }
             Self::Stopped { time, reason: StopReason::Integrator { error, node }, .. } => {
-                write!(f, "stopped at {time} s: {error}")?;
+                write!(f, "stopped at {} s: {error}", six_digits(*time))?;
                 node.as_ref().map_or(Ok(()), |node| write!(f, " (largest error at node `{node}`)"))
             }
         }
     }
+}
+
+/// A number as a message shows it: six digits are enough to find the place.
+fn six_digits(x: f64) -> String {
+    format!("{x:.5e}").parse().map_or_else(|_| x.to_string(), format_number)
 }
 
 impl std::error::Error for TransientError {}

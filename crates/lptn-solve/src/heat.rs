@@ -4,8 +4,7 @@ use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::{OdeSystem, Pattern, Retry};
 use lptn_network::InputError;
 
-/// The running integrals of the ledger: heat of each source, heat of each boundary, and the sum of their
-/// absolute values.
+/// A system with what evaluating it needs. Its running integrals are those of the ledger.
 pub(crate) struct Heat<'a> {
     system: &'a ThermalSystem,
     pattern: Pattern,

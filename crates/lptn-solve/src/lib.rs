@@ -11,8 +11,8 @@ mod heat;
 mod ledger;
 #[cfg(test)]
 mod mutants;
-mod names;
 mod recorder;
+mod settings;
 mod solution;
 mod stateless;
 mod steady;
@@ -25,10 +25,11 @@ mod watch;
 pub use error::{SettingsError, SteadyError, StopReason, TransientError};
 pub use ledger::Ledger;
 pub use lptn_integrate::{LinearSolver, Linkage, Statistics, linked};
+pub use lptn_network::OutputTimes;
+pub use settings::{Control, Progress, Record, Transient};
 pub use solution::{End, Solution};
 pub use steady::SteadyState;
 pub use summary::{NodeSummary, Summary};
 pub use table::{Column, Selection, Table};
-pub use times::OutputTimes;
-pub use transient::{Control, Progress, Record, Transient};
+
 pub use watch::{Seen, Watch};

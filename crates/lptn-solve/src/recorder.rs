@@ -1,16 +1,19 @@
 //! Writes rows while a run goes on, and looks at the watched nodes.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_integrate::{Integrator, Statistics};
+use lptn_integrate::{IntegrateError, Integrator, Statistics};
 use lptn_network::NodeId;
 
 use crate::error::StopReason;
 use crate::heat::Heat;
 use crate::ledger::Ledger;
+use crate::settings::{Record, Transient};
 use crate::solution::{End, Solution};
 use crate::times::Segment;
-use crate::transient::{Record, Transient};
 use crate::watch::{SAMPLES, Seen, Watch};
+
+/// Writes the state at a time inside the present step.
+type StateAt<'a> = dyn FnMut(f64, &mut [f64]) -> Result<(), IntegrateError> + 'a;
 
 /// The rows of a run, written in order.
 pub(crate) struct Recorder<'a> {
@@ -25,6 +28,8 @@ pub(crate) struct Recorder<'a> {
     temperatures: Vec<f64>,
     watch: Vec<Watch>,
     seen: Vec<Seen>,
+    /// For each watched node the points of the present step.
+    points: Vec<Vec<(f64, f64)>>,
     /// Temperatures of the states at one time.
     state: Vec<f64>,
     tolerance: f64,
@@ -51,6 +56,7 @@ impl<'a> Recorder<'a> {
             recorded,
             watch: settings.watch.clone(),
             seen: Vec::new(),
+            points: vec![Vec::new(); settings.watch.len()],
             state: vec![0.0; system.states().len()],
             tolerance: settings.tolerance,
         }
@@ -83,9 +89,11 @@ impl<'a> Recorder<'a> {
         let from = self.segment.from;
         self.state.copy_from_slice(state);
         self.place(from)?;
+        let nodes = self.system.node_temperatures(&self.work);
         if self.seen.is_empty() {
-            let nodes = self.system.node_temperatures(&self.work);
             self.seen = self.watch.iter().map(|&w| Seen::new(w, from, nodes[w.node.index()])).collect();
+        } else {
+            self.seen.iter_mut().for_each(|seen| seen.jump(from, nodes[seen.watch.node.index()]));
         }
         if self.due(from) {
             self.push();
@@ -102,17 +110,23 @@ impl<'a> Recorder<'a> {
         to: f64,
     ) -> Result<(), StopReason> {
         while self.due(to) && (self.rows[self.next] < self.segment.to || self.is_last()) {
-            self.interpolate(integrator, self.rows[self.next])?;
+            let time = self.rows[self.next];
+            self.place_at(time, &mut |time, state| integrator.interpolate(time, state))?;
             self.push();
         }
         if !self.seen.is_empty() {
-            self.look(integrator, from, to)?;
+            self.look((from, to), &mut |time, state| integrator.interpolate(time, state))?;
         }
         Ok(())
     }
 
+    /// Looks at the watched nodes of a system without state between two times.
+    pub(crate) fn look_without_state(&mut self, from: f64, to: f64) -> Result<(), StopReason> {
+        if self.seen.is_empty() { Ok(()) } else { self.look((from, to), &mut |_, _| Ok(())) }
+    }
+
     /// Writes a row from the inputs at `time` for a system without state.
-    pub(crate) fn stateless(&mut self, time: f64) -> Result<(), StopReason> {
+    pub(crate) fn push_without_state(&mut self, time: f64) -> Result<(), StopReason> {
         self.place(time)?;
         self.push();
         Ok(())
@@ -133,10 +147,8 @@ impl<'a> Recorder<'a> {
         self.rows.get(self.next).is_some_and(|&row| row <= time)
     }
 
-    fn interpolate(&mut self, integrator: &mut Integrator<Heat<'_>>, time: f64) -> Result<(), StopReason> {
-        integrator
-            .interpolate(time, &mut self.state)
-            .map_err(|error| StopReason::Integrator { error, node: None })?;
+    fn place_at(&mut self, time: f64, state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
+        state_at(time, &mut self.state).map_err(|error| StopReason::Integrator { error, node: None })?;
         self.place(time)
     }
 
@@ -154,18 +166,18 @@ impl<'a> Recorder<'a> {
         self.next += 1;
     }
 
-    fn look(&mut self, integrator: &mut Integrator<Heat<'_>>, from: f64, to: f64) -> Result<(), StopReason> {
+    fn look(&mut self, (from, to): (f64, f64), state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
         let count = SAMPLES + 1;
-        let mut points = vec![Vec::with_capacity(count as usize); self.seen.len()];
+        self.points.iter_mut().for_each(Vec::clear);
         for k in 1..=count {
             let time = if k == count { to } else { from + (to - from) * f64::from(k) / f64::from(count) };
-            self.interpolate(integrator, time)?;
+            self.place_at(time, state_at)?;
             let nodes = self.system.node_temperatures(&self.work);
-            for (list, seen) in points.iter_mut().zip(&self.seen) {
+            for (list, seen) in self.points.iter_mut().zip(&self.seen) {
                 list.push((time, nodes[seen.watch.node.index()]));
             }
         }
-        self.seen.iter_mut().zip(&points).for_each(|(seen, points)| seen.look(points));
+        self.seen.iter_mut().zip(&self.points).for_each(|(seen, points)| seen.look(points));
         Ok(())
     }
 

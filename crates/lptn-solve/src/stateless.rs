@@ -51,7 +51,7 @@ fn rows(
         while row <= last && (times[row] < segment.to || (i + 1 == segments.len() && row == last)) {
             interval(recorder, (from, times[row]), integrals).map_err(|e| (from, e))?;
             from = times[row];
-            recorder.stateless(from).map_err(|e| (from, e))?;
+            recorder.push_without_state(from).map_err(|e| (from, e))?;
             row += 1;
         }
         if from < segment.to {
@@ -66,6 +66,7 @@ fn interval(
     (from, to): (f64, f64),
     integrals: &mut [f64],
 ) -> Result<(), StopReason> {
+    recorder.look_without_state(from, to)?;
     let system = recorder.system();
     let mut q = vec![0.0; integrals.len()];
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));

@@ -3,9 +3,9 @@
 use lptn_network::{BoundaryId, ConductorId, Network, NodeId, SourceId};
 use lptn_units::Unit;
 
+use crate::settings::Record;
 use crate::solution::Solution;
 use crate::steady::SteadyState;
-use crate::transient::Record;
 
 /// A column: a name such as `steel.T`, a unit such as `degC`, and one value a row.
 #[derive(Clone, Debug, PartialEq)]
@@ -185,8 +185,12 @@ impl Selection {
         if self.quantities.iter().any(|q| q.is_heat_flow()) {
             return Record::All;
         }
-        let node = |q: &Quantity| if let Quantity::Node(id) = q { Some(*id) } else { None };
-        Record::Nodes(self.quantities.iter().filter_map(node).collect())
+        Record::Nodes(self.nodes().collect())
+    }
+
+    /// The nodes whose temperature is selected, in the order of the network.
+    pub fn nodes(&self) -> impl Iterator<Item = NodeId> + '_ {
+        self.quantities.iter().filter_map(|q| if let Quantity::Node(id) = q { Some(*id) } else { None })
     }
 
     /// Whether no column is selected.

@@ -1,49 +1,38 @@
 //! Output times and the segments between known discontinuities.
 
+use lptn_network::OutputTimes;
+
 use crate::error::SettingsError;
 
-/// When a run writes a row. Start and stop are always written.
-#[derive(Clone, Debug, PartialEq)]
-pub enum OutputTimes {
-    /// Every so many seconds from the start.
-    Every(f64),
-    /// At these times in s, strictly increasing and inside the run.
-    At(Vec<f64>),
+/// The times of all rows, strictly increasing, from `start` to `stop`.
+pub(crate) fn rows(output: &OutputTimes, start: f64, stop: f64) -> Result<Vec<f64>, SettingsError> {
+    let mut rows = match output {
+        OutputTimes::Every(every) => regular(*every, start, stop)?,
+        OutputTimes::At(times) => listed(times, start, stop)?,
+    };
+    if rows.first().is_none_or(|&first| first > start) {
+        rows.insert(0, start);
+    }
+    if rows.last().is_none_or(|&last| last < stop) {
+        rows.push(stop);
+    }
+    Ok(rows)
 }
 
-/// More rows than this are refused: a mistyped unit, not a wish.
-const MAX_ROWS: f64 = 1e7;
-
-impl OutputTimes {
-    /// The times of all rows, strictly increasing, from `start` to `stop`.
-    pub(crate) fn rows(&self, start: f64, stop: f64) -> Result<Vec<f64>, SettingsError> {
-        let mut rows = match self {
-            Self::Every(every) => regular(*every, start, stop)?,
-            Self::At(times) => {
-                let inside = |t: &&f64| !(start..=stop).contains(*t);
-                if let Some(&time) = times.iter().find(inside) {
-                    return Err(SettingsError::OutputTime(time));
-                }
-                if let Some(pair) = times.windows(2).find(|pair| pair[0] >= pair[1]) {
-                    return Err(SettingsError::OutputTime(pair[1]));
-                }
-                times.clone()
-            }
-        };
-        if rows.first().is_none_or(|&first| first > start) {
-            rows.insert(0, start);
-        }
-        if rows.last().is_none_or(|&last| last < stop) {
-            rows.push(stop);
-        }
-        Ok(rows)
+fn listed(times: &[f64], start: f64, stop: f64) -> Result<Vec<f64>, SettingsError> {
+    if let Some(&time) = times.iter().find(|t| !(start..=stop).contains(*t)) {
+        return Err(SettingsError::OutputTime(time));
+    }
+    match times.windows(2).find(|pair| pair[0] >= pair[1]) {
+        Some(pair) => Err(SettingsError::OutputTime(pair[1])),
+        None => Ok(times.to_vec()),
     }
 }
 
 /// `start + k every`, without a last row that differs from the stop by rounding only.
 fn regular(every: f64, start: f64, stop: f64) -> Result<Vec<f64>, SettingsError> {
     let count = (stop - start) / every;
-    if !(every > 0.0 && count <= MAX_ROWS) {
+    if !(every > 0.0 && count <= OutputTimes::MOST_ROWS) {
         return Err(SettingsError::OutputEvery(every));
     }
     let time = |k: u32| start + f64::from(k) * every;
@@ -79,7 +68,7 @@ mod tests {
 
     #[test]
     fn rows_always_hold_start_and_stop_once() {
-        let rows = |o: OutputTimes| o.rows(0.0, 1.0).unwrap();
+        let rows = |o: OutputTimes| rows(&o, 0.0, 1.0).unwrap();
         assert_eq!(rows(OutputTimes::Every(0.4)), [0.0, 0.4, 0.8, 1.0]);
         assert_eq!(rows(OutputTimes::Every(0.1)).len(), 11); // 10 x 0.1 is not 1 exactly
         assert_eq!(rows(OutputTimes::At(vec![0.5])), [0.0, 0.5, 1.0]);
@@ -88,10 +77,10 @@ mod tests {
 
     #[test]
     fn output_times_outside_the_run_or_out_of_order_are_refused() {
-        let at = |times: &[f64]| OutputTimes::At(times.to_vec()).rows(0.0, 1.0);
+        let at = |times: &[f64]| rows(&OutputTimes::At(times.to_vec()), 0.0, 1.0);
         assert_eq!(at(&[0.5, 1.5]), Err(SettingsError::OutputTime(1.5)));
         assert_eq!(at(&[0.5, 0.5]), Err(SettingsError::OutputTime(0.5)));
-        assert_eq!(OutputTimes::Every(0.0).rows(0.0, 1.0), Err(SettingsError::OutputEvery(0.0)));
+        assert_eq!(rows(&OutputTimes::Every(0.0), 0.0, 1.0), Err(SettingsError::OutputEvery(0.0)));
     }
 
     #[test]
@@ -99,6 +88,6 @@ mod tests {
         let found = segments(0.0, 10.0, &[2.0, 5.0]);
         assert_eq!(found[0], Segment { from: 0.0, to: 2.0 });
         assert_eq!(found[2], Segment { from: 5.0, to: 10.0 });
-        assert_eq!(found[1].inside(), 3.5);
+        assert!((found[1].inside() - 3.5).abs() < 1e-15);
     }
 }

@@ -1,109 +1,18 @@
 //! Temperatures over time.
 
 use lptn_assembly::ThermalSystem;
-use lptn_integrate::{IntegrateError, Integrator, LinearSolver, Options, Statistics};
-use lptn_network::{NodeId, Time};
+use lptn_integrate::{IntegrateError, Integrator, Statistics};
 
-use crate::error::{SettingsError, StopReason, TransientError};
+use crate::error::{StopReason, TransientError};
 use crate::heat::Heat;
 use crate::ledger::Ledger;
 use crate::recorder::Recorder;
+use crate::settings::{Control, Progress, Transient};
 use crate::solution::{End, Solution};
 use crate::stateless;
-use crate::times::{OutputTimes, Segment, segments};
-use crate::watch::Watch;
-
-/// Which nodes a solution keeps.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Record {
-    /// Every node: heat flows can be had from the solution.
-    All,
-    /// These nodes only, to save memory.
-    Nodes(Vec<NodeId>),
-}
-
-/// The settings of a run.
-#[derive(Clone, Debug)]
-pub struct Transient {
-    /// Start in s; `t` in expressions begins here.
-    pub start: f64,
-    /// Stop in s.
-    pub stop: f64,
-    /// When a row is written.
-    pub output: OutputTimes,
-    /// Tolerance in K. For networks whose nodes all lead to a boundary the error stays below ten times this,
-    /// from 1e-3 to 1e-5 K (measured in the tests).
-    pub tolerance: f64,
-    /// What is kept.
-    pub record: Record,
-    /// Nodes to look at between the rows too.
-    pub watch: Vec<Watch>,
-    /// The linear solver; chosen by size unless said.
-    pub linear_solver: LinearSolver,
-}
-
-/// Where a run stands.
-#[derive(Clone, Copy, Debug)]
-pub struct Progress {
-    /// Start of the run in s.
-    pub start: f64,
-    /// Time reached in s.
-    pub time: f64,
-    /// Stop of the run in s.
-    pub stop: f64,
-}
-
-/// Whether a run goes on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Control {
-    /// It does.
-    Continue,
-    /// It ends here; what was computed is kept.
-    Interrupt,
-}
+use crate::times::{self, Segment, segments};
 
 impl Transient {
-    /// A run from 0 to `stop` with 300 intervals between its rows and a tolerance of 1e-5 K.
-    pub fn until(stop: Time) -> Self {
-        Self {
-            start: 0.0,
-            stop: stop.0,
-            output: OutputTimes::Every(stop.0 / 300.0),
-            tolerance: 1e-5,
-            record: Record::All,
-            watch: Vec::new(),
-            linear_solver: LinearSolver::Auto,
-        }
-    }
-
-    /// Writes a row every `interval`.
-    #[must_use]
-    pub fn every(mut self, interval: Time) -> Self {
-        self.output = OutputTimes::Every(interval.0);
-        self
-    }
-
-    /// Writes a row at each of these times in s.
-    #[must_use]
-    pub fn at(mut self, times: &[f64]) -> Self {
-        self.output = OutputTimes::At(times.to_vec());
-        self
-    }
-
-    /// Sets the tolerance in K.
-    #[must_use]
-    pub fn tolerance(mut self, kelvin: f64) -> Self {
-        self.tolerance = kelvin;
-        self
-    }
-
-    /// Keeps only these nodes.
-    #[must_use]
-    pub fn record(mut self, nodes: &[NodeId]) -> Self {
-        self.record = Record::Nodes(nodes.to_vec());
-        self
-    }
-
     /// Runs to the stop.
     ///
     /// # Errors
@@ -122,7 +31,7 @@ impl Transient {
         observer: &mut dyn FnMut(Progress) -> Control,
     ) -> Result<Solution, TransientError> {
         self.check().map_err(TransientError::Settings)?;
-        let rows = self.output.rows(self.start, self.stop).map_err(TransientError::Settings)?;
+        let rows = times::rows(&self.output, self.start, self.stop).map_err(TransientError::Settings)?;
         let network = system.network();
         let breakpoints = network.breakpoints(self.start, self.stop).map_err(TransientError::Input)?;
         let segments = segments(self.start, self.stop, &breakpoints);
@@ -131,21 +40,6 @@ impl Transient {
             return stateless::solve(recorder, &segments);
         }
         Run::new(system, recorder, &segments, self)?.through(&segments, observer)
-    }
-
-    fn check(&self) -> Result<(), SettingsError> {
-        let (start, stop) = (self.start, self.stop);
-        if !(start.is_finite() && stop.is_finite() && start < stop) {
-            return Err(SettingsError::Interval { start, stop });
-        }
-        if !(self.tolerance.is_finite() && self.tolerance > 0.0) {
-            return Err(SettingsError::Tolerance(self.tolerance));
-        }
-        Ok(())
-    }
-
-    fn options(&self) -> Options {
-        Options { tolerance: self.tolerance, linear_solver: self.linear_solver, ..Options::default() }
     }
 }
 

@@ -65,14 +65,20 @@ impl Seen {
         }
     }
 
+    /// Takes in the temperature after a jump: a massless node may leap over its level in no time.
+    pub(crate) fn jump(&mut self, time: f64, temperature: f64) {
+        self.cross((time, temperature));
+        self.peak = higher(self.peak, Some((temperature, time)));
+        self.last = (time, temperature);
+    }
+
     /// Finds the crossing between the last point and this one by linear interpolation.
     fn cross(&mut self, (time, temperature): (f64, f64)) {
         let (Some(level), None) = (self.watch.level, self.crossed) else { return };
         let (before, after) = (self.last.1 - level, temperature - level);
-        if before == 0.0 || before.signum() == after.signum() {
-            return;
+        if (before > 0.0) != (after > 0.0) {
+            self.crossed = Some(self.last.0 + (time - self.last.0) * (before / (before - after)));
         }
-        self.crossed = Some(self.last.0 + (time - self.last.0) * before / (before - after));
     }
 }
 

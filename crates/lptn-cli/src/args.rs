@@ -1,0 +1,188 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args as Arguments, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+
+const EXAMPLES: &str = "\
+Examples:
+  lptn new motor                  write motor.toml, a small commented network
+  lptn run motor.toml             heat it up: table, heat balance, CSV
+  lptn steady motor.toml --set P_loss=\"80 W\"";
+
+const RUN_EXAMPLES: &str = "\
+Examples:
+  lptn run motor.toml
+  lptn run motor.toml --set P_loss=80W --no-files
+  lptn run motor.toml --select '*.T' --format csv > temperatures.csv";
+
+const STEADY_EXAMPLES: &str = "\
+Examples:
+  lptn steady motor.toml
+  lptn steady motor.toml --set P_loss=80W --format json";
+
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  lptn check motor.toml
+  lptn check - < motor.toml";
+
+const UNITS_EXAMPLES: &str = "\
+Examples:
+  lptn units \"3 L/min\"
+  lptn units \"87 uW/rpm^(5/3)\"
+  lptn units";
+
+const TEMPLATE: &str = "{before-help}{about-with-newline}\n{usage-heading} {usage}\n\n{all-args}";
+
+/// Simulates lumped-parameter thermal networks
+#[derive(Debug, Parser)]
+#[command(name = "lptn", before_help = EXAMPLES, help_template = TEMPLATE, disable_version_flag = true)]
+#[command(disable_help_subcommand = true, term_width = 80)]
+pub(crate) struct Args {
+    /// Print the versions of lptn and of the SUNDIALS it runs with
+    #[arg(short = 'V', long)]
+    pub(crate) version: bool,
+    #[command(flatten)]
+    pub(crate) global: Global,
+    #[command(subcommand)]
+    pub(crate) verb: Option<Verb>,
+}
+
+/// Options of every verb.
+#[derive(Debug, Arguments)]
+#[command(next_help_heading = "Everywhere")]
+pub(crate) struct Global {
+    /// Print results and errors only
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub(crate) quiet: bool,
+    /// Print more about the solver
+    #[arg(short, long, global = true)]
+    pub(crate) verbose: bool,
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto", hide_possible_values = true)]
+    #[arg(help = "Use colours: auto, always or never; auto respects NO_COLOR", hide_default_value = true)]
+    pub(crate) color: Color,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Color {
+    Auto,
+    Always,
+    Never,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Verb {
+    /// Simulate a network over time
+    #[command(before_help = RUN_EXAMPLES, help_template = TEMPLATE)]
+    Run(RunArgs),
+    /// Find the temperatures at which a network settles
+    #[command(before_help = STEADY_EXAMPLES, help_template = TEMPLATE)]
+    Steady(SteadyArgs),
+    /// Look for mistakes in a netlist without running it
+    #[command(before_help = CHECK_EXAMPLES, help_template = TEMPLATE)]
+    Check(CheckArgs),
+    /// Write a small commented netlist to start from
+    New(NewArgs),
+    /// Convert a quantity to SI and other units, or list the units
+    #[command(before_help = UNITS_EXAMPLES, help_template = TEMPLATE)]
+    Units(UnitsArgs),
+    /// Print a completion script for a shell
+    Completions(CompletionsArgs),
+}
+
+/// The netlist and what is changed in it.
+#[derive(Debug, Arguments)]
+pub(crate) struct Source {
+    /// The netlist; - reads it from stdin
+    #[arg(value_name = "FILE")]
+    pub(crate) file: PathBuf,
+    /// Give a parameter a value; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub(crate) set: Vec<String>,
+}
+
+/// What is shown of a result, and how.
+#[derive(Debug, Arguments)]
+pub(crate) struct Shown {
+    /// Print a table, csv or json
+    #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    pub(crate) format: Format,
+    /// Keep columns like '*.T'; may be repeated
+    #[arg(long, value_name = "PATTERN")]
+    pub(crate) select: Vec<String>,
+    /// Show temperatures in degC, K, degF or degR
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) temperature_unit: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    Table,
+    Csv,
+    Json,
+}
+
+#[derive(Debug, Arguments)]
+pub(crate) struct RunArgs {
+    #[command(flatten)]
+    pub(crate) source: Source,
+    #[command(flatten)]
+    pub(crate) shown: Shown,
+    /// Integrate to a tolerance such as 1e-7K
+    #[arg(long, value_name = "K")]
+    pub(crate) tolerance: Option<String>,
+    /// Write files here, not into out/NAME
+    #[arg(short, long, value_name = "DIR", conflicts_with = "no_files")]
+    pub(crate) output: Option<PathBuf>,
+    /// Write no files
+    #[arg(long)]
+    pub(crate) no_files: bool,
+}
+
+#[derive(Debug, Arguments)]
+pub(crate) struct SteadyArgs {
+    #[command(flatten)]
+    pub(crate) source: Source,
+    #[command(flatten)]
+    pub(crate) shown: Shown,
+    /// Accepted for scripts that pass it to every verb: `steady` writes none.
+    #[arg(long, hide = true)]
+    pub(crate) no_files: bool,
+}
+
+#[derive(Debug, Arguments)]
+pub(crate) struct CheckArgs {
+    #[command(flatten)]
+    pub(crate) source: Source,
+    /// Print a table or json
+    #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    pub(crate) format: CheckFormat,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CheckFormat {
+    Table,
+    Json,
+}
+
+#[derive(Debug, Arguments)]
+pub(crate) struct NewArgs {
+    /// The netlist is written to NAME.toml, which must not exist yet
+    #[arg(value_name = "NAME")]
+    pub(crate) name: String,
+}
+
+#[derive(Debug, Arguments)]
+pub(crate) struct UnitsArgs {
+    /// A number with its unit, in quotes; without it the known units are listed
+    #[arg(value_name = "QUANTITY", allow_hyphen_values = true)]
+    pub(crate) quantity: Option<String>,
+}
+
+#[derive(Debug, Arguments)]
+pub(crate) struct CompletionsArgs {
+    /// bash, zsh, fish, elvish or powershell
+    #[arg(value_name = "SHELL", hide_possible_values = true)]
+    pub(crate) shell: Shell,
+}

@@ -1,0 +1,100 @@
+//! Where text goes: results to stdout, everything else to stderr.
+
+use std::io::{self, BufWriter, ErrorKind, IsTerminal as _, Write};
+
+use lptn_netlist::{Diagnostic, Files};
+
+use crate::args::{Color, Global};
+use crate::diagnostics::render;
+use crate::exit::Exit;
+use crate::failure::{Failure, reason};
+
+/// The two streams of a command.
+#[derive(Debug)]
+pub(crate) struct Console {
+    pub(crate) quiet: bool,
+    pub(crate) verbose: bool,
+    styled_results: bool,
+    styled_messages: bool,
+}
+
+impl Console {
+    pub(crate) fn new(global: &Global) -> Self {
+        let styled = |terminal: bool| match global.color {
+            Color::Always => true,
+            Color::Never => false,
+            Color::Auto => terminal && colours_are_welcome(),
+        };
+        Self {
+            quiet: global.quiet,
+            verbose: global.verbose,
+            styled_results: styled(io::stdout().is_terminal()),
+            styled_messages: styled(io::stderr().is_terminal()),
+        }
+    }
+
+    /// Writes a result that is text.
+    pub(crate) fn print(&self, text: &str) -> Result<Exit, Failure> {
+        self.write(|out| out.write_all(text.as_bytes())).map(|()| Exit::Done)
+    }
+
+    /// Writes a result. A reader that went away (`| head`) has what it wanted.
+    pub(crate) fn write(
+        &self,
+        result: impl FnOnce(&mut BufWriter<io::StdoutLock<'static>>) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let mut out = BufWriter::with_capacity(1 << 16, io::stdout().lock());
+        match result(&mut out).and_then(|()| out.flush()) {
+            Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+                let message = format!("cannot write to stdout: {}", reason(&error));
+                Err(Failure::new(Exit::Failed, Diagnostic::error("output::stdout", message)))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Something worth knowing beside the result; left out when quiet.
+    pub(crate) fn note(&self, text: &str) {
+        if !self.quiet {
+            self.message(text);
+        }
+    }
+
+    /// Something that has to be said. If stderr is closed there is nobody to tell.
+    pub(crate) fn message(&self, text: &str) {
+        let newline = if text.ends_with('\n') { "" } else { "\n" };
+        drop(io::stderr().write_all(format!("{text}{newline}").as_bytes()));
+    }
+
+    /// Diagnostics as messages.
+    pub(crate) fn report(&self, files: &Files, diagnostics: &[Diagnostic]) {
+        let texts: Vec<String> =
+            diagnostics.iter().map(|diagnostic| render(files, diagnostic, self.styled_messages)).collect();
+        if !texts.is_empty() {
+            self.message(&texts.join("\n\n"));
+        }
+    }
+
+    /// Warnings beside a result.
+    pub(crate) fn warn(&self, files: &Files, warnings: &[Diagnostic]) {
+        if !self.quiet {
+            self.report(files, warnings);
+        }
+    }
+
+    /// A diagnostic as a result.
+    pub(crate) fn rendered(&self, files: &Files, diagnostic: &Diagnostic) -> String {
+        render(files, diagnostic, self.styled_results)
+    }
+
+    /// The title of a result.
+    pub(crate) fn title(&self, text: &str) -> String {
+        if self.styled_results { format!("\u{1b}[1m{text}\u{1b}[0m") } else { text.to_owned() }
+    }
+}
+
+/// The conventions of no-color.org and of terminals that cannot.
+fn colours_are_welcome() -> bool {
+    let set = |name| std::env::var_os(name).filter(|value| !value.is_empty());
+    set("NO_COLOR").is_none() && set("TERM").is_none_or(|term| term != "dumb")
+}

@@ -1,0 +1,161 @@
+//! The netlist that a verb works on.
+
+use std::io::Read as _;
+use std::path::Path;
+
+use lptn_assembly::{AssemblyError, ThermalSystem};
+use lptn_netlist::{Diagnostic, Files, Netlist, Rejected, Span, parse_bytes};
+use lptn_network::Item;
+use lptn_units::{Dimension, Type, Unit, UnitError, parse_quantity, suggest};
+
+use crate::args::Source;
+use crate::exit::Exit;
+use crate::failure::{Failure, reason};
+
+/// The bytes of a netlist and what they are called.
+#[derive(Debug)]
+pub(crate) struct Text {
+    pub(crate) bytes: Vec<u8>,
+    /// What diagnostics and the manifest call it.
+    pub(crate) name: String,
+    /// What its results are called: the file's name without its ending.
+    pub(crate) stem: String,
+}
+
+/// Reads the file, or stdin for `-`.
+pub(crate) fn read(file: &Path) -> Result<Text, Failure> {
+    if file.as_os_str() == "-" {
+        let mut bytes = Vec::new();
+        let outcome = std::io::stdin().lock().read_to_end(&mut bytes);
+        outcome.map_err(|error| cannot_read("stdin", &error, None))?;
+        return Ok(Text { bytes, name: "<stdin>".into(), stem: "stdin".into() });
+    }
+    let name = file.display().to_string();
+    let bytes = std::fs::read(file).map_err(|error| cannot_read(&name, &error, similar(file)))?;
+    let stem = file.file_stem().map_or("netlist".into(), |stem| stem.to_string_lossy().into_owned());
+    Ok(Text { bytes, name, stem })
+}
+
+fn cannot_read(name: &str, error: &std::io::Error, help: Option<String>) -> Failure {
+    let problem = Diagnostic::error("input::cannot_read", format!("cannot read {name}: {}", reason(error)));
+    Failure::new(
+        Exit::Input,
+        match help {
+            Some(help) => problem.help(help),
+            None => problem,
+        },
+    )
+}
+
+/// The file of the same folder whose name is nearest.
+fn similar(file: &Path) -> Option<String> {
+    let with_ending = file.with_extension("toml");
+    if file.extension().is_none() && with_ending.is_file() {
+        return Some(format!("did you mean {}?", with_ending.display()));
+    }
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
+    let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let mut names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
+    names.sort_unstable();
+    let wanted = file.file_name()?.to_str()?;
+    let near = suggest(wanted, names.iter().map(String::as_str))?;
+    let near = folder.map_or_else(|| near.into(), |folder| folder.join(near));
+    Some(format!("did you mean {}?", near.display()))
+}
+
+/// A network with everything the command line changes in it.
+#[derive(Debug)]
+pub(crate) struct Input {
+    pub(crate) text: Text,
+    pub(crate) netlist: Netlist,
+}
+
+impl Input {
+    /// Reads the netlist, or says everything that is wrong with it.
+    pub(crate) fn load(source: &Source) -> Result<Self, Failure> {
+        let text = read(&source.file)?;
+        let mut netlist = parse(&text)?;
+        netlist.set(&source.set)?;
+        Ok(Self { text, netlist })
+    }
+
+    /// The name for a command that can be typed; `None` for stdin.
+    pub(crate) fn typed(&self) -> Option<String> {
+        (self.text.name != "<stdin>").then(|| quoted(&self.text.name))
+    }
+
+    pub(crate) fn assemble(&self) -> Result<ThermalSystem, Failure> {
+        ThermalSystem::assemble(&self.netlist.network).map_err(|error| {
+            let AssemblyError::TooManyNeighbours { node, .. } = &error;
+            let problem = Diagnostic::error(error.code(), error.to_string()).help(error.help());
+            let problem = match self.netlist.source_map.name(Item::Node(*node)) {
+                Some(span) => problem.at(span.clone(), ""),
+                None => problem,
+            };
+            Failure::at(Exit::Input, self.netlist.files.clone(), problem)
+        })
+    }
+}
+
+pub(crate) fn parse(text: &Text) -> Result<Netlist, Rejected> {
+    parse_bytes(&text.name, &text.bytes)
+}
+
+/// A word for the shell, in quotes where it needs them.
+pub(crate) fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./+,:@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
+}
+
+/// The tolerance of the command line in K.
+pub(crate) fn tolerance(text: &str) -> Result<f64, Failure> {
+    let quantity = parse_quantity(text, Some(Type::of(Dimension::TEMPERATURE)))
+        .map_err(|error| wrong_unit("--tolerance", text, &error))?;
+    if quantity.value > 0.0 {
+        return Ok(quantity.value);
+    }
+    let problem = Diagnostic::error("run::settings", "the tolerance must be more than 0 K");
+    Err(Failure::new(Exit::Input, problem.help("write for example --tolerance 1e-5K")))
+}
+
+/// The unit for temperatures: that of the command line, or that of the netlist.
+pub(crate) fn temperature_unit(text: Option<&str>, netlist: &Netlist) -> Result<Unit, Failure> {
+    const OPTION: &str = "--temperature-unit";
+    let Some(text) = text else { return Ok(netlist.temperature_unit.clone()) };
+    let unit = Unit::parse(text).map_err(|error| wrong_unit(OPTION, text, &error))?;
+    if unit.ty.dimension == Dimension::TEMPERATURE {
+        return Ok(unit);
+    }
+    let problem =
+        Diagnostic::error("units::dimension", format!("{OPTION} must be a temperature, got {}", unit.ty));
+    Err(Failure::new(Exit::Input, problem.help("choose degC, K, degF or degR")))
+}
+
+/// A mistake in a quantity of the command line, shown in its text.
+pub(crate) fn wrong_unit(name: &str, text: &str, error: &UnitError) -> Failure {
+    let mut files = Files::new();
+    let file = files.add(name, text);
+    let problem =
+        Diagnostic::error(error.code(), error.to_string()).at(Span::new(file, error.span.clone()), "");
+    let problem = match error.help() {
+        Some(help) => problem.help(help),
+        None => problem,
+    };
+    Failure::at(Exit::Input, files, problem)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn words_are_quoted_where_the_shell_would_split_them() {
+        assert_eq!(quoted("networks/gearbox.toml"), "networks/gearbox.toml");
+        assert_eq!(quoted("my gearbox.toml"), "'my gearbox.toml'");
+        assert_eq!(quoted("it's"), "'it'\\''s'");
+    }
+}

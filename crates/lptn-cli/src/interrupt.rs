@@ -1,0 +1,27 @@
+//! Ctrl-C.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether Ctrl-C was pressed since this was made. Pressed once more, it ends the program at once.
+#[derive(Debug)]
+pub(crate) struct Interrupt {
+    pressed: Arc<AtomicBool>,
+}
+
+impl Interrupt {
+    /// Begins to listen. Where that is not possible Ctrl-C ends the program as it always does.
+    pub(crate) fn listen() -> Self {
+        use signal_hook::consts::SIGINT;
+        let pressed = Arc::new(AtomicBool::new(false));
+        // in this order: the first press finds the flag unset, the second one set
+        if signal_hook::flag::register_conditional_default(SIGINT, Arc::clone(&pressed)).is_ok() {
+            drop(signal_hook::flag::register(SIGINT, Arc::clone(&pressed)));
+        }
+        Self { pressed }
+    }
+
+    pub(crate) fn pressed(&self) -> bool {
+        self.pressed.load(Ordering::Relaxed)
+    }
+}

@@ -1,0 +1,74 @@
+//! The command `lptn`.
+//!
+//! Verbs are one module each. Results go to stdout, everything else to stderr; every failure is a
+//! [`lptn_netlist::Diagnostic`] with a stable code, shown the way rustc shows its own, and ends with one of the
+//! codes of [`exit`].
+
+mod args;
+mod check;
+mod command;
+mod completions;
+mod console;
+mod conversions;
+mod diagnostics;
+mod exit;
+mod failure;
+mod files;
+mod input;
+mod interrupt;
+mod new;
+mod next;
+mod outcome;
+mod progress;
+mod run;
+mod select;
+mod steady;
+mod summary;
+mod summary_text;
+mod units;
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+use args::{Args, Verb};
+use console::Console;
+use exit::Exit;
+use failure::Failure;
+
+fn main() -> ExitCode {
+    let args = Args::parse();
+    let console = Console::new(&args.global);
+    let exit = dispatch(&args, &console).unwrap_or_else(|failure| {
+        console.report(&failure.files, &failure.diagnostics);
+        failure.exit
+    });
+    ExitCode::from(exit as u8)
+}
+
+fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
+    if args.version {
+        return console.print(&version());
+    }
+    match &args.verb {
+        None => {
+            console.message(&command::help());
+            Ok(Exit::Input)
+        }
+        Some(Verb::Run(args)) => run::run(args, console),
+        Some(Verb::Check(args)) => check::check(args, console),
+        Some(Verb::Steady(args)) => steady::steady(args, console),
+        Some(Verb::New(args)) => new::new(args, console),
+        Some(Verb::Units(args)) => units::units(args, console),
+        Some(Verb::Completions(args)) => completions::completions(args, console),
+    }
+}
+
+fn version() -> String {
+    let sundials = lptn_study::Sundials::linked();
+    let linkage = match sundials.linkage {
+        "system" => "shared library of the system",
+        _ => "copy inside the program",
+    };
+    format!("lptn {}\nSUNDIALS {}, {linkage}\n", env!("CARGO_PKG_VERSION"), sundials.version)
+}

@@ -1,0 +1,53 @@
+//! A command to try next, made of what the netlist holds.
+
+use lptn_netlist::Netlist;
+use lptn_network::{Law, Network, ParameterId, Value, slot};
+use lptn_report::significant;
+use lptn_units::{Dimension, Type};
+
+use crate::input::Input;
+
+/// What a user of `lptn run` may want to know next: the same with a fifth more heat, or five degrees warmer; else
+/// the steady state.
+pub(crate) fn after_run(input: &Input, has_steady: bool) -> Option<String> {
+    let file = input.typed()?;
+    match what_if(&input.netlist) {
+        Some(set) => Some(format!("lptn run {file} --set {set}")),
+        None => has_steady.then(|| format!("lptn steady {file}")),
+    }
+}
+
+/// A `NAME=VALUE` that the netlist accepts.
+fn what_if(netlist: &Netlist) -> Option<String> {
+    let network = &netlist.network;
+    let changed = |wanted: Type, change: fn(f64) -> (f64, &'static str)| {
+        let id = network.parameter_ids().find(|&id| is_constant(network, id, wanted))?;
+        let (value, unit) = change(network.parameter_value(id));
+        let set = format!("{}=\"{} {unit}\"", network.parameters()[id.index()].name, significant(value, 3));
+        let plain = set.replace('"', "");
+        netlist.clone().set(&[plain]).is_ok().then_some(set)
+    };
+    changed(Type::of(Dimension::POWER), |heat| (1.2 * heat, "W"))
+        .or_else(|| changed(Type::ABSOLUTE_TEMPERATURE, |kelvin| (kelvin - 273.15 + 5.0, "degC")))
+}
+
+/// Whether a parameter is a constant of this type that can be changed by itself: a heat that conductances are
+/// made from as well would change the network with it.
+fn is_constant(network: &Network, id: ParameterId, wanted: Type) -> bool {
+    let parameter = &network.parameters()[id.index()];
+    parameter.ty == wanted
+        && matches!(parameter.value, Value::Constant(_))
+        && (wanted.absolute || (network.parameter_value(id) > 0.0 && !shapes(network, id)))
+}
+
+/// Whether other parameters or conductors depend on a parameter.
+fn shapes(network: &Network, id: ParameterId) -> bool {
+    let own = slot::PARAMETERS as usize + id.index();
+    let uses = |value: &Value| value.slots().iter().any(|&s| s as usize == own);
+    let parameters = network.parameters().iter().map(|p| &p.value);
+    let conductors = network.conductors().iter().flat_map(|c| match &c.law {
+        Law::Resistance(value) | Law::Conductance(value) => vec![value],
+        Law::Film { coefficient, area } => vec![coefficient, area],
+    });
+    parameters.chain(conductors).any(uses)
+}

@@ -1,0 +1,181 @@
+//! What came of a run: files, the result on stdout, messages on stderr, the exit code.
+
+use lptn_netlist::Diagnostic;
+use lptn_network::Parameter;
+use lptn_report::{JsonWriter, duration, plain, write_csv};
+use lptn_solve::{End, Solution, SteadyState, Table};
+use lptn_study::{
+    Environment, FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, Scalar, StatisticsRecord,
+    Sundials,
+};
+use serde_json::{Map, Value, json};
+
+use crate::args::{Format, RunArgs};
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::Folder;
+use crate::run::{Job, NoSteady};
+use crate::summary::View;
+use crate::{diagnostics, next, summary_text};
+
+/// What came of it.
+pub(crate) struct Outcome<'a> {
+    pub(crate) job: Job<'a>,
+    pub(crate) steady: Result<SteadyState, NoSteady>,
+    pub(crate) solution: Solution,
+    /// Why the run broke off.
+    pub(crate) failure: Option<Diagnostic>,
+    pub(crate) wall_time: f64,
+}
+
+const RESULT: &str = "result.csv";
+const MANIFEST: &str = "manifest.json";
+
+impl Outcome<'_> {
+    /// Writes the files; a manifest never stands beside results that are not its own.
+    pub(crate) fn write(&self, args: &RunArgs, folder: &Folder, table: &Table) -> Result<(), Failure> {
+        folder.clear(&[MANIFEST]);
+        let result = folder.write(RESULT, |out| write_csv(table, out))?;
+        let manifest = self.manifest(args, result);
+        folder.write(MANIFEST, |out| out.write_all(manifest.text()?.as_bytes())).map(drop)
+    }
+
+    fn manifest(&self, args: &RunArgs, result: FileHash) -> Manifest {
+        let (text, settings) = (&self.job.input.text, &self.job.settings);
+        let host = std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
+        Manifest {
+            format: 1,
+            lptn: env!("CARGO_PKG_VERSION").to_owned(),
+            sundials: Sundials::linked(),
+            arguments: std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned()).collect(),
+            inputs: vec![FileHash { name: text.name.clone(), sha256: lptn_study::sha256(&text.bytes) }],
+            parameters: self.parameters(&args.source.set),
+            start: Scalar::new(settings.start, "s"),
+            stop: Scalar::new(settings.stop, "s"),
+            tolerance: Scalar::new(settings.tolerance, "K"),
+            end: RunEnd::of(&self.solution, settings.stop, self.ended_early()),
+            statistics: StatisticsRecord::new(self.solution.statistics()),
+            ledger: self.ledger(),
+            results: vec![result],
+            environment: Environment {
+                written: lptn_study::utc(std::time::SystemTime::now()),
+                host: host.trim().to_owned(),
+                wall_time: Scalar::new(self.wall_time, "s"),
+            },
+        }
+    }
+
+    fn parameters(&self, set: &[String]) -> Map<String, Value> {
+        let network = self.solution.network();
+        let set = |name: &str| {
+            let mut assigned = set.iter().filter_map(|text| text.split_once('='));
+            assigned.find(|(left, _)| left.trim() == name).map(|(_, right)| right.trim().to_owned())
+        };
+        let record = |(parameter, id): (&Parameter, _)| {
+            let unit = if parameter.ty.absolute { "K".into() } else { parameter.ty.dimension.si_unit() };
+            let value = network.parameter_value(id);
+            ParameterRecord { name: parameter.name.clone(), value, unit, set: set(&parameter.name) }.member()
+        };
+        network.parameters().iter().zip(network.parameter_ids()).map(record).collect()
+    }
+
+    /// The ledger up to the time that was reached.
+    fn ledger(&self) -> LedgerRecord {
+        LedgerRecord::new(self.solution.network(), self.solution.ledger())
+    }
+
+    /// Why the run did not reach its stop.
+    fn ended_early(&self) -> Option<String> {
+        match (self.solution.end(), &self.failure) {
+            (_, Some(problem)) => Some(problem.message.clone()),
+            (End::Interrupted(time), None) => Some(format!("interrupted at {}", duration(time, 4))),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn print(&self, args: &RunArgs, table: &Table, console: &Console) -> Result<(), Failure> {
+        match args.shown.format {
+            Format::Table => {
+                let netlist = &self.job.input.netlist;
+                let title = netlist.network.title().map_or(self.job.input.text.stem.clone(), plain);
+                let view = View {
+                    title: &title,
+                    solution: &self.solution,
+                    steady: self.steady.as_ref(),
+                    unit: &self.job.unit,
+                    settings: &self.job.settings,
+                };
+                console.print(&summary_text::summary(&view, console)).map(drop)
+            }
+            Format::Csv => console.write(|out| write_csv(table, out)),
+            Format::Json => console.write(|out| self.json(table, out)),
+        }
+    }
+
+    fn json(&self, table: &Table, out: impl std::io::Write) -> std::io::Result<()> {
+        let netlist = &self.job.input.netlist;
+        let mut json = JsonWriter::new(out);
+        json.member("format", &json!(1))?;
+        json.member("network", &json!(self.job.input.text.stem))?;
+        json.member("warnings", &diagnostics::list(&netlist.files, &netlist.warnings))?;
+        json.table(table)?;
+        json.member("events", &json!([]))?;
+        json.member("ledger", &serde_json::to_value(self.ledger())?)?;
+        json.member("statistics", &serde_json::to_value(StatisticsRecord::new(self.solution.statistics()))?)?;
+        if let Some(message) = self.ended_early() {
+            let end = RunEnd::of(&self.solution, self.job.settings.stop, Some(message));
+            json.member("end", &serde_json::to_value(end)?)?;
+        }
+        json.finish().map(drop)
+    }
+
+    /// What is worth knowing beside the result, on stderr.
+    pub(crate) fn messages(&self, folder: Option<&Folder>, table: &Table, console: &Console) {
+        if let Some(folder) = folder {
+            let path = folder.path().join(RESULT);
+            let took = duration(self.wall_time, 2);
+            let rows = table.rows();
+            console.note(&format!("wrote  {}, {MANIFEST} ({rows} rows, solved in {took})", path.display()));
+        }
+        if self.job.format == Format::Table && self.solution.end() == End::Reached {
+            let command = next::after_run(self.job.input, self.steady.is_ok());
+            command.iter().for_each(|command| console.note(&format!("next   {command}")));
+        }
+    }
+
+    /// The exit code, after saying why it is not 0.
+    pub(crate) fn conclude(&self, console: &Console, files: bool) -> Exit {
+        let kept = if files {
+            "the rows up to then are whole, and marked in the manifest"
+        } else {
+            "the rows up to then are whole"
+        };
+        if let Some(problem) = &self.failure {
+            console.report(&self.job.input.netlist.files, std::slice::from_ref(problem));
+            console.message(&format!("failed: {kept}"));
+            return Exit::Failed;
+        }
+        if let Some(message) = self.ended_early() {
+            console.message(&format!("{message}: {kept}"));
+            return Exit::Interrupted;
+        }
+        if !self.solution.ledger().closes() {
+            let problem = does_not_close(&self.solution);
+            console.report(&self.job.input.netlist.files, &[problem]);
+            return Exit::Failed;
+        }
+        Exit::Done
+    }
+}
+
+fn does_not_close(solution: &Solution) -> Diagnostic {
+    let ledger = solution.ledger();
+    let residual = ledger.relative_residual().unwrap_or(f64::NAN);
+    let message = format!(
+        "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than the {:.1e} allowed",
+        ledger.bound
+    );
+    Diagnostic::error("run::ledger", message)
+        .help("this is a bug in lptn or a network of extreme numbers: do not use the result")
+}

@@ -1,0 +1,161 @@
+//! `lptn run`
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use lptn_assembly::ThermalSystem;
+use lptn_netlist::{Diagnostic, RunSettings};
+use lptn_network::Field;
+use lptn_solve::{
+    Control, LinearSolver, Record, Selection, Solution, SteadyError, SteadyState, StopReason, Summary, Table,
+    Transient, TransientError,
+};
+use lptn_units::Unit;
+
+use crate::args::{Format, RunArgs};
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::Folder;
+use crate::input::{self, Input};
+use crate::interrupt::Interrupt;
+use crate::outcome::Outcome;
+use crate::progress::ProgressLine;
+use crate::{select, summary};
+
+pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
+    let input = Input::load(&args.source)?;
+    let job = Job::new(args, &input)?;
+    let system = input.assemble()?;
+    let folder = (!args.no_files).then(|| Folder::prepare(job.folder(args))).transpose()?;
+    console.warn(&input.netlist.files, &input.netlist.warnings);
+    let steady = steady(&system, job.settings.start);
+    let begun = Instant::now();
+    let (solution, failure) = job.solve(&system, steady.as_ref().ok(), console)?;
+    let wall_time = begun.elapsed().as_secs_f64();
+    let result = Outcome { job, steady, solution, failure, wall_time };
+    let table = Table::of_solution(&result.solution, &result.job.selection, &result.job.unit);
+    if let Some(folder) = &folder {
+        result.write(args, folder, &table)?;
+    }
+    result.print(args, &table, console)?;
+    result.messages(folder.as_ref(), &table, console);
+    Ok(result.conclude(console, folder.is_some()))
+}
+
+/// Why there is no steady state to show.
+#[derive(Debug)]
+pub(crate) enum NoSteady {
+    /// The inputs change with time.
+    Inputs,
+    /// The network has none.
+    Network(SteadyError),
+}
+
+fn steady(system: &ThermalSystem, start: f64) -> Result<SteadyState, NoSteady> {
+    if system.network().has_time_dependent_inputs() {
+        return Err(NoSteady::Inputs);
+    }
+    SteadyState::solve(system, start).map_err(NoSteady::Network)
+}
+
+/// What is to be done.
+pub(crate) struct Job<'a> {
+    pub(crate) input: &'a Input,
+    pub(crate) settings: RunSettings,
+    pub(crate) selection: Selection,
+    pub(crate) unit: Unit,
+    pub(crate) format: Format,
+}
+
+impl<'a> Job<'a> {
+    fn new(args: &RunArgs, input: &'a Input) -> Result<Self, Failure> {
+        let netlist = &input.netlist;
+        let mut settings = netlist.run.clone().ok_or_else(|| no_run(input))?;
+        if let Some(text) = &args.tolerance {
+            settings.tolerance = input::tolerance(text)?;
+        }
+        let selection = select::of_run(netlist, &args.shown.select)?;
+        let unit = input::temperature_unit(args.shown.temperature_unit.as_deref(), netlist)?;
+        Ok(Self { input, settings, selection, unit, format: args.shown.format })
+    }
+
+    fn folder(&self, args: &RunArgs) -> PathBuf {
+        args.output.clone().unwrap_or_else(|| PathBuf::from("out").join(&self.input.text.stem))
+    }
+
+    /// Runs to the stop, to the first failure or to Ctrl-C.
+    fn solve(
+        &self,
+        system: &ThermalSystem,
+        steady: Option<&SteadyState>,
+        console: &Console,
+    ) -> Result<(Solution, Option<Diagnostic>), Failure> {
+        let transient = self.transient(system, steady).map_err(|error| self.failed(&error))?;
+        let interrupt = Interrupt::listen();
+        let mut line = ProgressLine::new(console.quiet);
+        let outcome = transient.solve_observed(system, &mut |progress| {
+            line.update(progress);
+            if interrupt.pressed() { Control::Interrupt } else { Control::Continue }
+        });
+        line.clear();
+        match outcome {
+            Ok(solution) => Ok((solution, None)),
+            Err(error) => {
+                let problem = self.explain(&error);
+                match error {
+                    TransientError::Stopped { partial, .. } => Ok((*partial, Some(problem))),
+                    error => Err(self.failed(&error)),
+                }
+            }
+        }
+    }
+
+    fn transient(
+        &self,
+        system: &ThermalSystem,
+        steady: Option<&SteadyState>,
+    ) -> Result<Transient, TransientError> {
+        let RunSettings { start, stop, tolerance, .. } = self.settings;
+        let output = self.settings.output.clone();
+        let (mut record, mut watch) = (self.selection.record(), Vec::new());
+        if self.format == Format::Table {
+            let shown = summary::shown(system.network(), &self.selection, steady);
+            watch = Summary::watches(system, start, &shown, steady).map_err(TransientError::Input)?;
+            if let Record::Nodes(nodes) = &mut record {
+                nodes.extend(shown);
+            }
+        }
+        Ok(Transient { start, stop, output, tolerance, record, watch, linear_solver: LinearSolver::Auto })
+    }
+
+    /// What is wrong at the start is wrong with the input.
+    fn failed(&self, error: &TransientError) -> Failure {
+        let exit = match error {
+            TransientError::Integrator(_) => Exit::Failed,
+            _ => Exit::Input,
+        };
+        Failure::at(exit, self.input.netlist.files.clone(), self.explain(error))
+    }
+
+    fn explain(&self, error: &TransientError) -> Diagnostic {
+        let problem = Diagnostic::error(error.code(), error.to_string());
+        let (TransientError::Input(input) | TransientError::Stopped { reason: StopReason::Input(input), .. }) =
+            error
+        else {
+            return problem;
+        };
+        let map = &self.input.netlist.source_map;
+        match map.get(input.item, input.field).or_else(|| map.get(input.item, Field::Name)) {
+            Some(span) => problem.at(span.clone(), ""),
+            None => problem,
+        }
+    }
+}
+
+fn no_run(input: &Input) -> Failure {
+    let problem =
+        Diagnostic::error("run::no_run", format!("{} has no [run]: how long is it to run?", input.text.name))
+            .help("add these lines, or look at `lptn steady`:\n\n[run]\nstop = \"25 min\"");
+    Failure::new(Exit::Input, problem)
+}

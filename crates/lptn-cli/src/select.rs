@@ -1,0 +1,63 @@
+//! `--select`: which columns are kept.
+
+use lptn_netlist::{Diagnostic, Files, Netlist, Span};
+use lptn_solve::Selection;
+use lptn_units::suggest;
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+
+/// The columns of a run: those that the command line asks for, else those of `[run]`, else all.
+pub(crate) fn of_run(netlist: &Netlist, option: &[String]) -> Result<Selection, Failure> {
+    let of_run = netlist.run.as_ref().map_or(&[][..], |run| &run.select);
+    if option.is_empty() { chosen(netlist, of_run, true) } else { chosen(netlist, option, false) }
+}
+
+/// The columns that the command line asks for, else all.
+pub(crate) fn of_option(netlist: &Netlist, option: &[String]) -> Result<Selection, Failure> {
+    chosen(netlist, option, false)
+}
+
+fn chosen(netlist: &Netlist, patterns: &[String], in_file: bool) -> Result<Selection, Failure> {
+    if patterns.is_empty() {
+        return Ok(Selection::all(&netlist.network));
+    }
+    Selection::matching(&netlist.network, patterns)
+        .map_err(|unmatched| no_match(netlist, &unmatched, in_file))
+}
+
+fn no_match(netlist: &Netlist, unmatched: &[String], in_file: bool) -> Failure {
+    let names = Selection::names(&netlist.network);
+    let mut files = if in_file { netlist.files.clone() } else { Files::new() };
+    let patterns = netlist.run.as_ref().map_or(&[][..], |run| &run.select);
+    let diagnostics = unmatched.iter().map(|pattern| {
+        let place = if in_file {
+            let written = patterns.iter().position(|p| p == pattern);
+            written.and_then(|i| netlist.source_map.select().get(i).cloned())
+        } else {
+            let file = files.add("--select", pattern.as_str());
+            Some(Span::new(file, 0..pattern.len()))
+        };
+        let message = format!("no column matches `{pattern}`");
+        let problem = Diagnostic::error("select::no_match", message).help(help(pattern, &names));
+        match place {
+            Some(place) => problem.at(place, ""),
+            None => problem,
+        }
+    });
+    let diagnostics = diagnostics.collect();
+    Failure { exit: Exit::Input, files, diagnostics }
+}
+
+/// The nearest name; a name without its ending is the usual mistake.
+fn help(pattern: &str, names: &[String]) -> String {
+    let prefix = format!("{pattern}.");
+    let complete = names.iter().find(|name| name.starts_with(&prefix)).map(String::as_str);
+    if let Some(near) = complete.or_else(|| suggest(pattern, names.iter().map(String::as_str))) {
+        return format!("did you mean `{near}`?");
+    }
+    const SHOWN: usize = 8;
+    let some: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
+    let more = if names.len() > SHOWN { format!(" and {} more", names.len() - SHOWN) } else { String::new() };
+    format!("the columns are {}{more}; `*.T` is every temperature", some.join(", "))
+}

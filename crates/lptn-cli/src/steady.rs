@@ -1,0 +1,245 @@
+//! `lptn steady`
+
+use lptn_netlist::{Diagnostic, RunSettings};
+use lptn_report::{
+    Align, Column, JsonWriter, TextTable, WIDTH, decimals, fixed, labelled, plain, prefix, write_csv,
+};
+use lptn_solve::{Selection, SteadyError, SteadyState, Table};
+use lptn_study::Scalar;
+use lptn_units::Unit;
+use serde_json::{Map, Value, json};
+
+use crate::args::{Format, SteadyArgs};
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::{self, Input};
+use crate::summary::{MOST_NODES, counts};
+use crate::{diagnostics, select};
+
+pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failure> {
+    let input = Input::load(&args.source)?;
+    let netlist = &input.netlist;
+    let selection = select::of_option(netlist, &args.shown.select)?;
+    let unit = input::temperature_unit(args.shown.temperature_unit.as_deref(), netlist)?;
+    let system = input.assemble()?;
+    let start = netlist.run.as_ref().map_or(0.0, |run: &RunSettings| run.start);
+    let steady = SteadyState::solve(&system, start).map_err(|error| failed(&input, &error))?;
+    console.warn(&netlist.files, &netlist.warnings);
+    let view = View { input: &input, steady: &steady, selection: &selection, unit: &unit };
+    match args.shown.format {
+        Format::Table => console.print(&view.text(args, console)).map(drop)?,
+        Format::Csv => {
+            let table = Table::of_steady(&netlist.network, &steady, &selection, &unit);
+            console.write(|out| write_csv(&table, out))?;
+        }
+        Format::Json => console.write(|out| view.json(out))?,
+    }
+    if args.shown.format == Format::Table {
+        view.messages(console);
+    }
+    Ok(Exit::Done)
+}
+
+/// A network without a path to a boundary has no steady state whatever its numbers: the question does not fit the
+/// input, so the exit code is that of a wrong input. Numbers that cannot be solved with are a failure of numbers.
+fn failed(input: &Input, error: &SteadyError) -> Failure {
+    let exit = match error {
+        SteadyError::NoBoundary { .. } | SteadyError::Input(_) => Exit::Input,
+        SteadyError::Factorization(_) | SteadyError::Unbalanced { .. } => Exit::Failed,
+    };
+    let mut problem = Diagnostic::error(error.code(), error.to_string());
+    if let Some(help) = error.help() {
+        problem = problem.help(help);
+    }
+    let map = &input.netlist.source_map;
+    let place = match error {
+        SteadyError::NoBoundary { nodes, .. } => {
+            nodes.first().and_then(|&node| map.name(lptn_network::Item::Node(node)))
+        }
+        SteadyError::Input(input) => map.get(input.item, input.field),
+        _ => None,
+    };
+    if let Some(place) = place {
+        problem = problem.at(place.clone(), "");
+    }
+    Failure::at(exit, input.netlist.files.clone(), problem)
+}
+
+/// A steady state and how it is shown.
+struct View<'a> {
+    input: &'a Input,
+    steady: &'a SteadyState,
+    selection: &'a Selection,
+    unit: &'a Unit,
+}
+
+/// A name with a number of its quantity.
+struct Row {
+    name: String,
+    quantity: &'static str,
+    value: f64,
+    words: String,
+}
+
+impl View<'_> {
+    fn text(&self, args: &SteadyArgs, console: &Console) -> String {
+        let network = &self.input.netlist.network;
+        let title = network.title().map_or(self.input.text.stem.clone(), plain);
+        let mut lines = vec![console.title(&title), counts(network)];
+        let patterns = &args.shown.select;
+        let kept = Table::of_steady(network, self.steady, self.selection, self.unit);
+        let keep = |row: &Row| {
+            patterns.is_empty()
+                || kept.columns().iter().any(|c| c.name == format!("{}.{}", row.name, row.quantity))
+        };
+        let (nodes, flows) = (self.temperatures(), self.flows());
+        let blocks = [
+            self.node_lines(nodes.into_iter().filter(keep).collect()),
+            self.flow_lines(flows.into_iter().filter(keep).collect()),
+        ];
+        for block in blocks.into_iter().filter(|block| !block.is_empty()) {
+            lines.push(String::new());
+            lines.extend(block);
+        }
+        if network.has_time_dependent_inputs() {
+            let note = "the inputs change with time; they are taken at the start of the run";
+            lines.push(String::new());
+            lines.extend(labelled("note: ", &note.split(' ').map(str::to_owned).collect::<Vec<_>>(), WIDTH));
+        }
+        lines.join("\n") + "\n"
+    }
+
+    fn temperatures(&self) -> Vec<Row> {
+        let network = &self.input.netlist.network;
+        let node = |(node, &value): (&lptn_network::Node, &f64)| {
+            let words = if node.massless { "junction" } else { "node" };
+            Row { name: node.name.clone(), quantity: "T", value, words: words.into() }
+        };
+        let boundary = |(boundary, &value): (&lptn_network::Boundary, &f64)| Row {
+            name: boundary.name.clone(),
+            quantity: "T",
+            value,
+            words: "boundary".into(),
+        };
+        let nodes = network.nodes().iter().zip(&self.steady.temperatures).map(node);
+        nodes
+            .chain(network.boundaries().iter().zip(&self.steady.boundary_temperatures).map(boundary))
+            .collect()
+    }
+
+    fn flows(&self) -> Vec<Row> {
+        let network = &self.input.netlist.network;
+        let name = |end: lptn_network::End| network.name_of(end.into());
+        let conductors = network.conductors().iter().zip(&self.steady.conductor_heat).map(|(c, &value)| {
+            let words = format!("{} -> {}", name(c.from), name(c.to));
+            Row { name: c.name.clone(), quantity: "Q", value, words }
+        });
+        let sources = network.sources().iter().zip(&self.steady.source_heat).map(|(s, &value)| {
+            let words = format!("source into {}", network.nodes()[s.into.index()].name);
+            Row { name: s.name.clone(), quantity: "P", value, words }
+        });
+        let boundaries = network.boundaries().iter().zip(&self.steady.boundary_heat).map(|(b, &value)| {
+            let words = if value > 0.0 { "boundary gives" } else { "boundary takes" };
+            Row { name: b.name.clone(), quantity: "Q", value, words: words.into() }
+        });
+        sources.chain(conductors).chain(boundaries).collect()
+    }
+
+    /// Temperatures with their rise over the coldest boundary, hottest first where there are many.
+    fn node_lines(&self, mut rows: Vec<Row>) -> Vec<String> {
+        let all = rows.len();
+        if all > MOST_NODES {
+            rows.sort_by(|a, b| b.value.total_cmp(&a.value));
+        }
+        let coldest = coldest(&self.input.netlist.network, self.steady);
+        let largest = rows.iter().map(|r| (r.value - coldest.1).abs()).fold(0.0, f64::max);
+        let digits = decimals(largest / self.unit.scale, 3, 1);
+        rows.truncate(MOST_NODES);
+        let texts = |text: &dyn Fn(&Row) -> String| rows.iter().map(text).collect::<Vec<_>>();
+        let over = format!("over {} [{}]", coldest.0, difference(self.unit));
+        let table = TextTable::new(vec![
+            Column::new("temperature", Align::Left, texts(&|r| r.name.clone())),
+            Column::new(
+                format!("T [{}]", self.unit.text),
+                Align::Right,
+                texts(&|r| fixed(self.unit.from_si(r.value), digits)),
+            ),
+            Column::new(
+                over,
+                Align::Right,
+                texts(&|r| fixed((r.value - coldest.1) / self.unit.scale, digits)),
+            ),
+            Column::new("", Align::Left, texts(&|r| r.words.clone())).optional(),
+        ]);
+        with_hidden(
+            table.lines(WIDTH),
+            (all, rows.len()),
+            "the hottest first; --select 'NAME.T' shows others",
+        )
+    }
+
+    fn flow_lines(&self, mut rows: Vec<Row>) -> Vec<String> {
+        let all = rows.len();
+        if all > MOST_NODES {
+            rows.sort_by(|a, b| b.value.abs().total_cmp(&a.value.abs()));
+        }
+        let largest = rows.iter().map(|r| r.value.abs()).fold(0.0, f64::max);
+        let (scale, letter) = prefix(largest);
+        let digits = decimals(largest / scale, 4, 0);
+        rows.truncate(MOST_NODES);
+        let texts = |text: &dyn Fn(&Row) -> String| rows.iter().map(text).collect::<Vec<_>>();
+        let table = TextTable::new(vec![
+            Column::new("heat flow", Align::Left, texts(&|r| r.name.clone())),
+            Column::new(format!("Q [{letter}W]"), Align::Right, texts(&|r| fixed(r.value / scale, digits))),
+            Column::new("", Align::Left, texts(&|r| r.words.clone())).optional(),
+        ]);
+        with_hidden(
+            table.lines(WIDTH),
+            (all, rows.len()),
+            "the largest first; --select 'NAME.Q' shows others",
+        )
+    }
+
+    fn json(&self, out: impl std::io::Write) -> std::io::Result<()> {
+        let netlist = &self.input.netlist;
+        let kelvin = Unit { text: "K".into(), scale: 1.0, offset: 0.0, ty: self.unit.ty };
+        let table = Table::of_steady(&netlist.network, self.steady, self.selection, &kelvin);
+        let value = |c: &lptn_solve::Column| (c.name.clone(), Scalar::new(c.values[0], &c.unit).json());
+        let values: Map<String, Value> = table.columns().iter().map(value).collect();
+        let mut json = JsonWriter::new(out);
+        json.member("format", &json!(1))?;
+        json.member("network", &json!(self.input.text.stem))?;
+        json.member("warnings", &diagnostics::list(&netlist.files, &netlist.warnings))?;
+        json.member("values", &Value::Object(values))?;
+        json.finish().map(drop)
+    }
+
+    fn messages(&self, console: &Console) {
+        if let (Some(file), Some(_)) = (self.input.typed(), &self.input.netlist.run) {
+            console.note(&format!("next   lptn run {file}"));
+        }
+    }
+}
+
+fn with_hidden(mut lines: Vec<String>, (all, shown): (usize, usize), how: &str) -> Vec<String> {
+    if all == 0 {
+        return Vec::new();
+    }
+    if shown < all {
+        lines.push(format!("{shown} of {all} are shown, {how}"));
+    }
+    lines
+}
+
+/// The boundary that heat is measured against.
+fn coldest(network: &lptn_network::Network, steady: &SteadyState) -> (String, f64) {
+    let boundaries = network.boundaries().iter().zip(&steady.boundary_temperatures);
+    let coldest = boundaries.min_by(|a, b| a.1.total_cmp(b.1));
+    coldest.map_or((String::new(), f64::NAN), |(boundary, &t)| (boundary.name.clone(), t))
+}
+
+/// The unit of a difference between two temperatures in `unit`.
+fn difference(unit: &Unit) -> &'static str {
+    if (unit.scale - 1.0).abs() < 1e-12 { "K" } else { "degR" }
+}

@@ -1,0 +1,74 @@
+//! What the table of a run shows.
+
+use lptn_netlist::RunSettings;
+use lptn_network::{Network, NodeId};
+use lptn_solve::{Selection, Solution, SteadyState};
+use lptn_units::Unit;
+
+use crate::run::NoSteady;
+
+/// More nodes than this do not fit on a screen.
+pub(crate) const MOST_NODES: usize = 30;
+
+/// The nodes that a table shows: those selected, in the order of the file. Of too many the hottest in steady
+/// state, hottest first; where there is none, the first ones.
+pub(crate) fn shown(network: &Network, selection: &Selection, steady: Option<&SteadyState>) -> Vec<NodeId> {
+    let mut nodes: Vec<NodeId> = selection.nodes().collect();
+    if nodes.is_empty() {
+        nodes = network.node_ids().collect();
+    }
+    if nodes.len() > MOST_NODES {
+        if let Some(steady) = steady {
+            let at = |id: &NodeId| steady.temperatures[id.index()];
+            nodes.sort_by(|a, b| at(b).total_cmp(&at(a)));
+        }
+        nodes.truncate(MOST_NODES);
+    }
+    nodes
+}
+
+/// Everything that the text of a run is made of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct View<'a> {
+    pub(crate) title: &'a str,
+    pub(crate) solution: &'a Solution,
+    pub(crate) steady: Result<&'a SteadyState, &'a NoSteady>,
+    pub(crate) unit: &'a Unit,
+    pub(crate) settings: &'a RunSettings,
+}
+
+/// "1 node", "2 nodes".
+pub(crate) fn count(n: usize, noun: &str) -> String {
+    let ending = if n == 1 {
+        ""
+    } else if noun.ends_with('y') {
+        "ies"
+    } else {
+        "s"
+    };
+    let noun = if n == 1 { noun } else { noun.strip_suffix('y').unwrap_or(noun) };
+    format!("{n} {noun}{ending}")
+}
+
+/// "2 nodes, 2 boundaries, 3 paths, 1 source".
+pub(crate) fn counts(network: &Network) -> String {
+    let parts = [
+        count(network.nodes().len(), "node"),
+        count(network.boundaries().len(), "boundary"),
+        count(network.conductors().len(), "path"),
+        count(network.sources().len(), "source"),
+    ];
+    parts.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::count;
+
+    #[test]
+    fn nouns_agree_with_their_number() {
+        assert_eq!(count(1, "boundary"), "1 boundary");
+        assert_eq!(count(2, "boundary"), "2 boundaries");
+        assert_eq!(count(0, "node"), "0 nodes");
+    }
+}

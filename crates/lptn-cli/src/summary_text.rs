@@ -1,0 +1,201 @@
+//! The table of a run, its heat and its notes.
+
+use lptn_report::{
+    Align, Column, Flow, TextTable, WIDTH, balance, decimals, duration, fixed, labelled, significant,
+    sparkline,
+};
+use lptn_solve::{End, NodeSummary, SteadyError, Summary};
+
+use crate::console::Console;
+use crate::run::NoSteady;
+use crate::summary::{View, counts};
+
+/// Characters of a curve.
+const CURVE: usize = 16;
+
+/// A node that varies by less than this, in K, is drawn as flat.
+const FLAT: f64 = 1e-3;
+
+/// The result of a run for reading; ends with a line break.
+pub(crate) fn summary(view: &View<'_>, console: &Console) -> String {
+    let mut nodes = Summary::new(view.solution, view.steady.ok()).nodes;
+    nodes.iter_mut().for_each(|node| include_rows(view, node));
+    let network = view.solution.network();
+    let mut lines = vec![console.title(view.title), counts(network), String::new()];
+    lines.extend(table(view, &nodes));
+    lines.push(String::new());
+    for note in notes(view, &nodes) {
+        lines.extend(labelled("note: ", &words(&note), WIDTH));
+    }
+    if lines.last().is_some_and(|line| !line.is_empty()) {
+        lines.push(String::new());
+    }
+    // where a run breaks off, the integrals and the state are not those of one time
+    if !matches!(view.solution.end(), End::Failed(_)) {
+        lines.extend(heat(view));
+    }
+    if console.verbose {
+        lines.extend(solver(view));
+    }
+    lines.join("\n") + "\n"
+}
+
+/// Takes in the rows, since a network without state is not watched between them; and a peak that the tolerance
+/// cannot tell from the start or from the end is there.
+fn include_rows(view: &View<'_>, node: &mut NodeSummary) {
+    let values = view.solution.temperature(node.node).unwrap_or_default();
+    node.end = values.last().copied().filter(|_| view.solution.end() == End::Reached).unwrap_or(node.end);
+    for (&time, &value) in view.solution.times().iter().zip(&values) {
+        if value > node.peak.0 {
+            node.peak = (value, time);
+        }
+    }
+    let same = |value: f64| node.peak.0 - value <= 10.0 * view.settings.tolerance;
+    if same(node.start) {
+        node.peak.1 = view.settings.start;
+    } else if same(node.end) {
+        node.peak.1 = reached(view);
+    }
+}
+
+fn words(text: &str) -> Vec<String> {
+    text.split(' ').map(str::to_owned).collect()
+}
+
+/// The time up to which there are rows: the stop, unless the run ended early.
+fn reached(view: &View<'_>) -> f64 {
+    match view.solution.end() {
+        End::Reached => view.settings.stop,
+        End::Interrupted(time) | End::Failed(time) => time,
+    }
+}
+
+fn table(view: &View<'_>, nodes: &[NodeSummary]) -> Vec<String> {
+    let unit = view.unit;
+    let temperatures = nodes.iter().flat_map(|n| [Some(n.start), Some(n.end), Some(n.peak.0), n.steady]);
+    let (low, high) = range(temperatures.flatten());
+    let digits = decimals((high - low) / unit.scale, 3, 1);
+    let number = |kelvin: f64| fixed(unit.from_si(kelvin), digits);
+    let column = |title: &str, text: &dyn Fn(&NodeSummary) -> String| {
+        Column::new(title, Align::Right, nodes.iter().map(text).collect())
+    };
+    let network = view.solution.network();
+    let end = duration(reached(view), 4);
+    let names = nodes.iter().map(|n| network.nodes()[n.node.index()].name.clone()).collect();
+    let curves = nodes.iter().map(|n| curve(view, n)).collect();
+    let curve_title = format!("{} to {end}", start_of_curve(view.settings.start));
+    let table = TextTable::new(vec![
+        Column::new(format!("T [{}]", unit.text), Align::Left, names),
+        column("start", &|n| number(n.start)),
+        column(&end, &|n| number(n.end)),
+        column("peak", &|n| number(n.peak.0)),
+        column("at", &|n| duration(n.peak.1, 3)).optional(),
+        column("steady", &|n| n.steady.map_or("-".into(), number)),
+        column("95 % after", &|n| time_to_95(view, n)),
+        Column::new(curve_title, Align::Left, curves).optional(),
+    ]);
+    table.lines(WIDTH)
+}
+
+fn start_of_curve(start: f64) -> String {
+    if start == 0.0 { "0".into() } else { duration(start, 4) }
+}
+
+fn curve(view: &View<'_>, node: &NodeSummary) -> String {
+    let values = view.solution.temperature(node.node).unwrap_or_default();
+    sparkline(view.solution.times(), &values, CURVE, FLAT)
+}
+
+fn time_to_95(view: &View<'_>, node: &NodeSummary) -> String {
+    match (node.time_to_95, node.reached()) {
+        (Some(time), _) => duration(time, 3),
+        (None, Some(_)) => format!("> {}", duration(reached(view) - view.settings.start, 3)),
+        (None, None) => "-".into(),
+    }
+}
+
+fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
+}
+
+/// What the table cannot say.
+fn notes(view: &View<'_>, nodes: &[NodeSummary]) -> Vec<String> {
+    let mut notes: Vec<String> = Vec::new();
+    let network = view.solution.network();
+    if nodes.len() < network.nodes().len() && nodes.len() == crate::summary::MOST_NODES {
+        let which = if view.steady.is_ok() { "those that get hottest" } else { "the first ones" };
+        let all = network.nodes().len();
+        notes.push(format!(
+            "{} of {all} nodes are shown, {which}; --select 'NAME.T' shows others",
+            nodes.len()
+        ));
+    }
+    notes.extend(short_record(nodes));
+    match view.steady {
+        Err(NoSteady::Inputs) => notes.push("steady is `-`: the inputs change with time".into()),
+        Err(NoSteady::Network(SteadyError::NoBoundary { .. })) | Ok(_) => {}
+        Err(NoSteady::Network(error)) => notes.push(format!("steady is `-`: {error}")),
+    }
+    notes.extend(not_bounded(view));
+    notes
+}
+
+/// The record ends before some node has come near its steady state.
+fn short_record(nodes: &[NodeSummary]) -> Option<String> {
+    let short = nodes.iter().filter(|n| n.time_to_95.is_none()).filter_map(NodeSummary::reached);
+    let (least, most) = range(short);
+    if least > most {
+        return None;
+    }
+    let (least, most) = (fixed(100.0 * least, 0), fixed(100.0 * most, 0));
+    let share = if least == most { format!("{least} %") } else { format!("{least} to {most} %") };
+    let rises = nodes.iter().all(|n| n.steady.is_some_and(|steady| steady >= n.start));
+    let way = if rises { "rise" } else { "way" };
+    Some(format!("record ends at {share} of the {way} to steady"))
+}
+
+/// A network that forgets nothing adds up its errors.
+fn not_bounded(view: &View<'_>) -> Option<String> {
+    if view.solution.error_is_bounded() {
+        return None;
+    }
+    let network = view.solution.network();
+    let nodes: Vec<_> = network.ungrounded().into_iter().flatten().collect();
+    let names = nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
+    let why = SteadyError::NoBoundary { nodes, names };
+    Some(format!("error not bounded by the tolerance: it adds up, because {why}"))
+}
+
+fn heat(view: &View<'_>) -> Vec<String> {
+    let (network, ledger) = (view.solution.network(), view.solution.ledger());
+    let sources = network.sources().iter().map(|s| &s.name).zip(&ledger.sources);
+    let boundaries = network.boundaries().iter().map(|b| &b.name).zip(&ledger.boundaries);
+    let flow = |(name, &heat): (&String, &f64)| Flow { name: name.clone(), heat };
+    let flows: Vec<Flow> = sources.chain(boundaries).map(flow).collect();
+    let pieces = balance(&flows, ledger.stored.iter().sum(), ledger.turned_over);
+    let over = format!("heat over {}:", duration(reached(view) - view.settings.start, 4));
+    let width = over.len() + 2;
+    let mut lines = labelled(&format!("{over:width$}"), &pieces, WIDTH);
+    let balance = match ledger.relative_residual() {
+        Some(residual) => {
+            let (residual, bound) = (significant(residual.abs(), 2), significant(ledger.bound, 2));
+            format!("closes to {residual} of the heat turned over (allowed: {bound})")
+        }
+        None => format!("residual {} J; no heat was turned over", significant(ledger.residual(), 2)),
+    };
+    lines.push(format!("{:width$}{balance}", "balance:"));
+    lines
+}
+
+fn solver(view: &View<'_>) -> Vec<String> {
+    let statistics = view.solution.statistics();
+    let repeated = statistics.error_test_failures + statistics.newton_failures;
+    let pieces = [
+        format!("tolerance {} K,", significant(view.settings.tolerance, 3)),
+        format!("{} steps,", statistics.steps),
+        format!("{repeated} repeated,"),
+        format!("{} Newton iterations,", statistics.newton_iterations),
+        format!("{} factorisations", statistics.factorizations),
+    ];
+    labelled("solver: ", &pieces, WIDTH)
+}

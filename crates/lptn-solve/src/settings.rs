@@ -1,0 +1,114 @@
+//! The settings of a run, and how it reports on itself.
+
+use lptn_integrate::{LinearSolver, Options};
+use lptn_network::{NodeId, OutputTimes, Time};
+
+use crate::error::SettingsError;
+use crate::watch::Watch;
+
+/// Which nodes a solution keeps.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Record {
+    /// Every node: heat flows can be had from the solution.
+    All,
+    /// These nodes only, to save memory.
+    Nodes(Vec<NodeId>),
+}
+
+/// The settings of a run.
+#[derive(Clone, Debug)]
+pub struct Transient {
+    /// Start in s; `t` in expressions begins here.
+    pub start: f64,
+    /// Stop in s.
+    pub stop: f64,
+    /// When a row is written.
+    pub output: OutputTimes,
+    /// Tolerance in K. For networks whose nodes all lead to a boundary the error stays below ten times this,
+    /// from 1e-3 to 1e-5 K (measured in the tests).
+    pub tolerance: f64,
+    /// What is kept.
+    pub record: Record,
+    /// Nodes to look at between the rows too.
+    pub watch: Vec<Watch>,
+    /// The linear solver; chosen by size unless said.
+    pub linear_solver: LinearSolver,
+}
+
+/// Where a run stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress {
+    /// Start of the run in s.
+    pub start: f64,
+    /// Time reached in s.
+    pub time: f64,
+    /// Stop of the run in s.
+    pub stop: f64,
+}
+
+/// Whether a run goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Control {
+    /// It does.
+    Continue,
+    /// It ends here; what was computed is kept.
+    Interrupt,
+}
+
+impl Transient {
+    /// A run from 0 to `stop` with 300 intervals between its rows and a tolerance of 1e-5 K.
+    pub fn until(stop: Time) -> Self {
+        Self {
+            start: 0.0,
+            stop: stop.0,
+            output: OutputTimes::Every(stop.0 / OutputTimes::USUAL_INTERVALS),
+            tolerance: 1e-5,
+            record: Record::All,
+            watch: Vec::new(),
+            linear_solver: LinearSolver::Auto,
+        }
+    }
+
+    /// Writes a row every `interval`.
+    #[must_use]
+    pub fn every(mut self, interval: Time) -> Self {
+        self.output = OutputTimes::Every(interval.0);
+        self
+    }
+
+    /// Writes a row at each of these times in s.
+    #[must_use]
+    pub fn at(mut self, times: &[f64]) -> Self {
+        self.output = OutputTimes::At(times.to_vec());
+        self
+    }
+
+    /// Sets the tolerance in K.
+    #[must_use]
+    pub fn tolerance(mut self, kelvin: f64) -> Self {
+        self.tolerance = kelvin;
+        self
+    }
+
+    /// Keeps only these nodes.
+    #[must_use]
+    pub fn record(mut self, nodes: &[NodeId]) -> Self {
+        self.record = Record::Nodes(nodes.to_vec());
+        self
+    }
+
+    pub(crate) fn check(&self) -> Result<(), SettingsError> {
+        let (start, stop) = (self.start, self.stop);
+        if !(start.is_finite() && stop.is_finite() && start < stop) {
+            return Err(SettingsError::Interval { start, stop });
+        }
+        if !(self.tolerance.is_finite() && self.tolerance > 0.0) {
+            return Err(SettingsError::Tolerance(self.tolerance));
+        }
+        Ok(())
+    }
+
+    pub(crate) fn options(&self) -> Options {
+        Options { tolerance: self.tolerance, linear_solver: self.linear_solver, ..Options::default() }
+    }
+}

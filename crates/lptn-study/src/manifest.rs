@@ -1,0 +1,139 @@
+//! What made a result.
+
+use lptn_solve::{End, Linkage, Solution};
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+use crate::record::{LedgerRecord, Scalar, StatisticsRecord};
+
+/// Everything that a run was made from and what came of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Manifest {
+    /// Version of this format.
+    pub format: u32,
+    /// Version of lptn.
+    pub lptn: String,
+    /// The integrator's library.
+    pub sundials: Sundials,
+    /// The command line without the name of the program.
+    pub arguments: Vec<String>,
+    /// Every file that was read.
+    pub inputs: Vec<FileHash>,
+    /// The parameters as they were resolved, in the order of the netlist.
+    pub parameters: Map<String, Value>,
+    /// Start of the run.
+    pub start: Scalar,
+    /// The stop it was given.
+    pub stop: Scalar,
+    /// Its tolerance.
+    pub tolerance: Scalar,
+    /// How it ended.
+    pub end: RunEnd,
+    /// Counters of the integrator.
+    pub statistics: StatisticsRecord,
+    /// Where the heat went; `null` for a run that broke off.
+    pub ledger: LedgerRecord,
+    /// Every file that was written, this one apart.
+    pub results: Vec<FileHash>,
+    /// What changes from run to run; nothing else does.
+    pub environment: Environment,
+}
+
+/// A SUNDIALS library.
+#[derive(Clone, Debug, Serialize)]
+pub struct Sundials {
+    /// The version that was linked.
+    pub version: String,
+    /// `system` or `bundled`.
+    pub linkage: &'static str,
+}
+
+impl Sundials {
+    /// The one this program runs with.
+    pub fn linked() -> Self {
+        let linked = lptn_solve::linked();
+        let linkage = match linked.linkage {
+            Linkage::System => "system",
+            Linkage::Bundled => "bundled",
+        };
+        Self { version: linked.version, linkage }
+    }
+}
+
+/// A file and the hash of its content.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct FileHash {
+    /// Its name as it was given.
+    pub name: String,
+    /// SHA-256 in hexadecimal.
+    pub sha256: String,
+}
+
+/// A parameter as it was resolved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParameterRecord {
+    /// Its name.
+    pub name: String,
+    /// Its value in SI; an absolute temperature in K.
+    pub value: f64,
+    /// The SI unit.
+    pub unit: String,
+    /// The text it was set to on the command line; `None` where the netlist's own value holds.
+    pub set: Option<String>,
+}
+
+impl ParameterRecord {
+    /// The member of [`Manifest::parameters`].
+    pub fn member(&self) -> (String, Value) {
+        let mut value = json!({ "value": self.value, "unit": self.unit });
+        if let (Some(text), Some(object)) = (&self.set, value.as_object_mut()) {
+            object.insert("set".to_owned(), json!(text));
+        }
+        (self.name.clone(), value)
+    }
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RunEnd {
+    /// `reached`, `interrupted` or `failed`.
+    pub status: &'static str,
+    /// The time up to which there are rows and heat.
+    pub time: Scalar,
+    /// Why it ended early, as it was printed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub message: Option<String>,
+}
+
+impl RunEnd {
+    /// The end of `solution`, which was to run until `stop`, in s.
+    pub fn of(solution: &Solution, stop: f64, message: Option<String>) -> Self {
+        let (status, time) = match solution.end() {
+            End::Reached => ("reached", stop),
+            End::Interrupted(time) => ("interrupted", time),
+            End::Failed(time) => ("failed", time),
+        };
+        Self { status, time: Scalar::new(time, "s"), message }
+    }
+}
+
+/// What changes from run to run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Environment {
+    /// When it was written, in UTC.
+    pub written: String,
+    /// The name of the machine; empty if it has none.
+    pub host: String,
+    /// How long the run took.
+    pub wall_time: Scalar,
+}
+
+impl Manifest {
+    /// The file's text, with a line break at its end.
+    ///
+    /// # Errors
+    /// None that can be caused by values: every one of them can be written.
+    pub fn text(&self) -> Result<String, serde_json::Error> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+}

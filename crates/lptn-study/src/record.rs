@@ -1,0 +1,97 @@
+//! Ledger and counters in the form in which they are written.
+
+use lptn_network::Network;
+use lptn_solve::{Ledger, Statistics};
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+/// A number with its unit, in SI.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Scalar {
+    /// The number.
+    pub value: f64,
+    /// Its unit; `1` for a plain number.
+    pub unit: String,
+}
+
+impl Scalar {
+    /// `value` in `unit`.
+    pub fn new(value: f64, unit: &str) -> Self {
+        Self { value, unit: unit.to_owned() }
+    }
+
+    /// The object `{ "value": .., "unit": .. }`; a value that is no number is `null`.
+    pub fn json(&self) -> Value {
+        serde_json::json!({ "value": self.value, "unit": self.unit })
+    }
+}
+
+/// The energy ledger of a run, every heat by the name of what gave or took it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LedgerRecord {
+    /// Heat of each source.
+    pub sources: Map<String, Value>,
+    /// Heat that each boundary gave to the network.
+    pub boundaries: Map<String, Value>,
+    /// Heat that each node stored.
+    pub stored: Map<String, Value>,
+    /// Heat turned over.
+    pub turned_over: Scalar,
+    /// Sources plus boundaries less stored.
+    pub residual: Scalar,
+    /// The residual over the heat turned over; `null` where none was.
+    pub relative_residual: Option<Scalar>,
+    /// What the relative residual may be.
+    pub bound: Scalar,
+    /// Whether it is within that.
+    pub closes: bool,
+}
+
+impl LedgerRecord {
+    /// The ledger of a run of `network`.
+    pub fn new(network: &Network, ledger: &Ledger) -> Self {
+        let sources = network.sources().iter().map(|s| s.name.as_str());
+        let boundaries = network.boundaries().iter().map(|b| b.name.as_str());
+        let nodes = network.nodes().iter().map(|n| n.name.as_str());
+        Self {
+            sources: by_name(sources, &ledger.sources),
+            boundaries: by_name(boundaries, &ledger.boundaries),
+            stored: by_name(nodes, &ledger.stored),
+            turned_over: Scalar::new(ledger.turned_over, "J"),
+            residual: Scalar::new(ledger.residual(), "J"),
+            relative_residual: ledger.relative_residual().map(|r| Scalar::new(r, "1")),
+            bound: Scalar::new(ledger.bound, "1"),
+            closes: ledger.closes(),
+        }
+    }
+}
+
+fn by_name<'a>(names: impl Iterator<Item = &'a str>, heat: &[f64]) -> Map<String, Value> {
+    names.zip(heat).map(|(name, &heat)| (name.to_owned(), Scalar::new(heat, "J").json())).collect()
+}
+
+/// The integrator's counters by name, whole numbers with the unit `1`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct StatisticsRecord(Map<String, Value>);
+
+impl StatisticsRecord {
+    /// The counters of a run.
+    pub fn new(statistics: &Statistics) -> Self {
+        let counters = [
+            ("steps", statistics.steps),
+            ("flow_evaluations", statistics.flow_evaluations),
+            ("jacobian_evaluations", statistics.jacobian_evaluations),
+            ("factorizations", statistics.factorizations),
+            ("linear_solves", statistics.linear_solves),
+            ("newton_iterations", statistics.newton_iterations),
+            ("error_test_failures", statistics.error_test_failures),
+            ("newton_failures", statistics.newton_failures),
+            ("restarts", statistics.restarts),
+        ];
+        let member = |(name, count): (&str, u64)| {
+            (name.to_owned(), serde_json::json!({ "value": count, "unit": "1" }))
+        };
+        Self(counters.into_iter().map(member).collect())
+    }
+}
