@@ -34,7 +34,7 @@ fn plan() -> impl Strategy<Value = Plan> {
         let (n, b) = (nodes.len(), boundaries.len());
         let tree = prop::collection::vec((any::<prop::sample::Index>(), decades(-1.0, 2.0)), n);
         let extra = prop::collection::vec((0..n, 0..n + b, decades(-1.0, 2.0)), 0..8);
-        let sources = prop::collection::vec((0..n, -100.0..100.0_f64), 0..4);
+        let sources = prop::collection::vec((0..n, -2.0..100.0_f64), 0..4);
         (tree, extra, sources).prop_map(move |(tree, extra, sources)| {
             let earlier = |i: usize, pick: prop::sample::Index| match pick.index(i + 1) {
                 0 => n,

@@ -59,3 +59,171 @@ fn a_leap_over_a_level_has_the_time_of_the_jump() {
     let seen = run.solve(&assembled(b)).unwrap().seen()[0];
     assert!((seen.crossed.unwrap() - 100.0).abs() < 1e-9, "{seen:?}");
 }
+
+fn one_node(capacity: f64, conductance: f64, heat: &str) -> ThermalSystem {
+    let mut b = NetworkBuilder::new();
+    let node = b.node("mass", HeatCapacity(capacity), Temperature(300.0));
+    let air = b.boundary("air", Temperature(300.0));
+    b.resistor("path", node, air, Conductance(conductance));
+    let heat = b.expression(heat, None).expect("it compiles");
+    b.source("heat", node, heat);
+    assembled(b)
+}
+
+/// Steps grew over quiet stretches and jumped over what came after them, and the ledger closed all the same.
+#[test]
+fn pulses_of_smooth_inputs_are_not_jumped_over() {
+    let day = 86_400.0;
+    // each row: heat, stop, exact heat put in: half waves of a sine carry 2/w, a triangle half its base, a Gauss
+    // curve sqrt(pi) of its width
+    let sun = 200.0 * day / std::f64::consts::PI;
+    let cases = [
+        ("200 [W] * max(0, sin(2*pi*t/86400 [s]))", 10.0 * day, 10.0 * sun),
+        ("200 [W] * max(0, -cos(2*pi*t/86400 [s]))", 10.0 * day, 10.0 * sun),
+        ("500 [W] * max(0, sin(2*pi*(t - 6 [h])/24 [h]))", 3.0 * day, 3.0 * 2.5 * sun),
+        ("100 [W] * max(0, 1-abs(t-1800 [s])/60 [s])", 3600.0, 6000.0),
+        ("1000 [W] * exp(-((t-1800 [s])/30 [s])^2)", 3600.0, 30_000.0 * std::f64::consts::PI.sqrt()),
+        ("400 [W] * max(0,1-abs(t-40000 [s])/600 [s])", day, 240_000.0),
+        ("60 [W]*sin(pi*t/10[s])^20", 36_000.0, 60.0 * 36_000.0 * 0.176_197_052_001_953_12),
+    ];
+    for (heat, stop, exact) in cases {
+        let solution = Transient::until(Time(stop)).solve(&one_node(500.0, 5.0, heat)).unwrap();
+        let found = solution.ledger().sources[0];
+        assert!((found - exact).abs() < 2e-3 * exact, "{heat}: {found} J of {exact} J");
+    }
+}
+
+/// A row at the time of a jump held the values before it when the two times differed by rounding.
+#[test]
+fn rows_at_a_jump_hold_the_values_after_it() {
+    for minutes in 1..25 {
+        let heat = format!("if(t < {minutes} [min], 100 [W], 0 [W])");
+        let system = one_node(500.0, 5.0, &heat);
+        let solution =
+            Transient::until(Time::minutes(25.0)).every(Time::minutes(1.0)).solve(&system).unwrap();
+        let heat = solution.source_heat(system.network().source_ids().next().unwrap());
+        let expected: Vec<f64> = (0..=25).map(|k| if k < minutes { 100.0 } else { 0.0 }).collect();
+        assert_eq!(heat, expected, "jump at {minutes} min");
+    }
+}
+
+/// A conductance of 1e-5 W/K beside one of 1e9 W/K was rounded away on the diagonal of the matrix.
+#[test]
+fn steady_state_keeps_small_conductances_beside_large_ones() {
+    for (large, small, heat) in [(1e6, 1e-3, 1.0), (1e8, 1e-5, 1e-2), (1e9, 1e-4, 1e-1), (1e9, 1e-5, 1e-3)] {
+        let mut b = NetworkBuilder::new();
+        let zero = Temperature(300.0);
+        let (hot, cold) = (b.node("a", HeatCapacity(1.0), zero), b.node("b", HeatCapacity(1.0), zero));
+        let air = b.boundary("air", zero);
+        b.resistor("large", hot, cold, Conductance(large));
+        b.resistor("small", cold, air, Conductance(small));
+        b.source("heat", hot, HeatFlow(heat));
+        let steady = SteadyState::solve(&assembled(b), 0.0).unwrap();
+        let rise = steady.temperatures[cold.index()] - 300.0;
+        assert!((rise - heat / small).abs() < 1e-9 * heat / small, "{large}, {small}: {rise} K");
+        assert!((steady.boundary_heat[0] + heat).abs() < 1e-9 * heat, "{large}, {small}");
+    }
+}
+
+/// Massless nodes behind large conductances opened the books, and a hub of many boundaries had no steady state.
+#[test]
+fn massless_nodes_do_not_open_the_books() {
+    for large in [1e3, 1e7, 1e9] {
+        let mut b = NetworkBuilder::new();
+        let node = b.node("node", HeatCapacity(50.0), Temperature(300.0));
+        let (junction, air) = (b.massless("junction"), b.boundary("air", Temperature(300.0)));
+        b.resistor("small", node, junction, Conductance(1.0));
+        b.resistor("large", junction, air, Conductance(large));
+        b.source("heat", node, HeatFlow(1.0));
+        let solution = Transient::until(Time(500.0)).tolerance(1e-7).solve(&assembled(b)).unwrap();
+        let residual = solution.ledger().relative_residual().unwrap();
+        assert!(residual.abs() < 1e-11, "{large}: {residual:e}");
+    }
+    let mut b = NetworkBuilder::new();
+    let hub = b.massless("hub");
+    for i in 0..1000 {
+        let boundary = b.boundary(&format!("b{i}"), Temperature(300.0));
+        b.resistor(&format!("r{i}"), hub, boundary, Conductance(1.0));
+    }
+    let steady = SteadyState::solve(&assembled(b), 0.0).unwrap();
+    assert_eq!(steady.temperatures[0].to_bits(), 300.0_f64.to_bits());
+}
+
+/// A step written as `if(t > 0 [s], ..)` was not there yet in the steady state at the start.
+#[test]
+fn steady_state_at_the_start_sees_a_step_that_begins_there() {
+    let system = one_node(500.0, 5.0, "if(t > 0 [s], 100 [W], 0 [W])");
+    assert!((SteadyState::solve(&system, 0.0).unwrap().temperatures[0] - 320.0).abs() < 1e-9);
+}
+
+/// Temperatures below 0 K were given as results.
+#[test]
+fn nothing_is_colder_than_absolute_zero() {
+    let system = one_node(500.0, 5.0, "-5000 [W]");
+    assert_eq!(SteadyState::solve(&system, 0.0).unwrap_err().code(), "solve::below_absolute_zero");
+    let error = Transient::until(Time(1000.0)).solve(&system).unwrap_err();
+    assert_eq!(error.code(), "solve::below_absolute_zero");
+}
+
+/// The peak was that of a parabola through coarse points: at tight tolerances it erred by many of them.
+#[test]
+fn peaks_are_as_accurate_as_rows() {
+    let mut b = NetworkBuilder::new();
+    let hot = b.node("hot", HeatCapacity(100.0), Temperature(400.0));
+    let cold = b.node("cold", HeatCapacity(300.0), Temperature(300.0));
+    let air = b.boundary("air", Temperature(300.0));
+    b.resistor("joint", hot, cold, Conductance(2.0));
+    b.resistor("skin", cold, air, Conductance(1.0));
+    let system = assembled(b);
+    // T_cold = 300 + a (exp(-p t) - exp(-q t)) with p, q the roots of s^2 - 0.03 s + 2/30000 and
+    // a = 100 x 2/300 / (q - p); its top is at ln(q/p)/(q - p)
+    let (sum, product) = (0.02 + 0.01, 2.0 / 30_000.0_f64);
+    let q = 0.5 * (sum + f64::sqrt(sum * sum - 4.0 * product));
+    let p = product / q;
+    let time = (q / p).ln() / (q - p);
+    let peak = 300.0 + 100.0 * 2.0 / 300.0 / (q - p) * ((-p * time).exp() - (-q * time).exp());
+    for tolerance in [1e-5, 1e-6, 1e-7] {
+        let mut run = Transient::until(Time(600.0)).at(&[]).tolerance(tolerance);
+        run.watch = vec![Watch { node: cold, level: None }];
+        let seen = run.solve(&system).unwrap().seen()[0];
+        assert!((seen.peak.0 - peak).abs() < 10.0 * tolerance, "{tolerance:e}: {:e} K", seen.peak.0 - peak);
+    }
+}
+
+/// Parameters of one network were applied to another by their position.
+#[test]
+fn parameters_of_another_network_are_refused() {
+    let one = support::shipped("gearbox.toml").0.network;
+    let other = support::shipped("gearbox_speed.toml").0.network;
+    assert_eq!(one.with(&other.overrides()).unwrap_err().0[0].code(), "network::foreign_parameters");
+}
+
+/// An id of another builder made an index out of range.
+#[test]
+fn ends_of_another_builder_are_refused() {
+    let mut other = NetworkBuilder::new();
+    other.massless("a");
+    let foreign = other.massless("b");
+    let mut b = NetworkBuilder::new();
+    let node = b.node("node", HeatCapacity(1.0), Temperature(300.0));
+    b.resistor("path", node, foreign, Conductance(1.0));
+    assert_eq!(b.build().unwrap_err().0[0].code(), "network::foreign_id");
+}
+
+/// More temperatures than memory holds ended the process.
+#[test]
+fn a_run_that_does_not_fit_in_memory_is_refused() {
+    let system = support::grid(60, 1.0, (1, 1));
+    let error = Transient::until(Time(1e6)).every(Time(0.2)).solve(&system).unwrap_err();
+    assert_eq!(error.code(), "run::settings");
+}
+
+/// The promise of ten tolerances was given to networks that remember a thousand periods of what drives them.
+#[test]
+fn a_very_long_memory_makes_no_promise() {
+    let heat = "1000 [W] * sin(2 * pi * t / 100 [s])";
+    let run = Transient::until(Time(1e5)).every(Time(100.0)).tolerance(1e-3);
+    let long = run.solve(&one_node(1000.0, 0.01, heat)).unwrap();
+    assert!(!long.error_is_bounded());
+    assert!(run.solve(&one_node(1000.0, 1.0, heat)).unwrap().error_is_bounded());
+}

@@ -90,3 +90,40 @@ fn idle_nodes_change_neither_steps_nor_error() {
         );
     }
 }
+
+/// A node that remembers a hundred periods of what drives it: errors add up over them.
+/// One that remembers a thousand makes no such promise, and says so: `regression.rs`.
+#[test]
+fn slow_nodes_under_fast_sines_err_by_less_than_ten_tolerances() {
+    for (tau, period, stop) in [
+        (300.0_f64, 100.0, 4e3),
+        (2e3, 100.0, 1e4),
+        (5e3, 100.0, 2e4),
+        (8e3, 100.0, 4e4),
+        (2.6e6, 86_400.0, 3e7),
+    ] {
+        let (amplitude, c) = (50.0, 1000.0_f64);
+        let mut b = NetworkBuilder::new();
+        let node = b.node("slow", HeatCapacity(c), Temperature(300.0));
+        let air = b.boundary("air", Temperature(300.0));
+        b.resistor("path", node, air, Conductance(c / tau));
+        // a heat that would swing the node by `amplitude` K if it had no path
+        let omega = 2.0 * std::f64::consts::PI / period;
+        let text = format!("{} [W] * sin(2 * pi * t / {period} [s])", amplitude * c * omega);
+        let heat = b.expression(&text, None).expect("it compiles");
+        b.source("heat", node, heat);
+        let system = support::assembled(b);
+        check(&format!("tau {tau} s, period {period} s"), |tolerance| {
+            let run = Transient::until(Time(stop)).every(Time(stop / 1000.0)).tolerance(tolerance);
+            let solution = run.solve(&system).expect("it runs");
+            assert!(solution.error_is_bounded());
+            let exact = |t: f64| {
+                let (rate, power) = (1.0 / tau, amplitude * omega);
+                let forced = rate * (omega * t).sin() - omega * (omega * t).cos();
+                power * (forced + omega * (-rate * t).exp()) / (rate * rate + omega * omega)
+            };
+            let rows = solution.times().iter().enumerate();
+            rows.map(|(row, &t)| (solution.row(row)[0] - 300.0 - exact(t)).abs()).fold(0.0, f64::max)
+        });
+    }
+}

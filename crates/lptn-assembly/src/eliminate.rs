@@ -22,6 +22,9 @@ pub(crate) struct Link {
 struct Star {
     vertex: u32,
     total: f64,
+    /// The neighbour with the largest weight: temperatures are averaged as differences to it, so that a vertex
+    /// between equal temperatures has that temperature to the last digit.
+    nearest: u32,
     weights: Vec<(u32, f64)>,
 }
 
@@ -37,26 +40,25 @@ pub(crate) struct TooMany {
     pub(crate) neighbours: usize,
 }
 
-/// How many links the elimination may add in all: 16 bytes each, so about 300 MB.
+/// How many links the elimination may store in all: up to about 50 bytes each, so at most 1 GB.
 const FILL_LIMIT: usize = 20_000_000;
 
 impl Elimination {
     /// Eliminates the vertices marked in `massless` from `links`; what remains is returned merged and sorted.
     pub(crate) fn new(links: Vec<Link>, massless: &[bool]) -> Result<(Self, Vec<Link>), TooMany> {
         let is_massless = |v: u32| massless.get(v as usize).copied().unwrap_or(false);
-        let mut graph = Graph { stars: BTreeMap::new(), kept: Vec::new(), is_massless: &is_massless };
+        let mut graph =
+            Graph { stars: BTreeMap::new(), kept: Vec::new(), added: 0, is_massless: &is_massless };
         links.into_iter().for_each(|link| graph.add(link));
         let mut stars = Vec::with_capacity(graph.stars.len());
         let mut queue: BinaryHeap<Reverse<(usize, u32)>> =
             graph.stars.iter().map(|(&v, neighbours)| Reverse((neighbours.len(), v))).collect();
-        let mut fill = 0;
         while let Some(Reverse((degree, vertex))) = queue.pop() {
             let Some(neighbours) = graph.stars.get(&vertex) else { continue };
             if neighbours.len() != degree {
                 continue; // an entry from before a neighbour went
             }
-            fill += degree * degree.saturating_sub(1) / 2;
-            if fill > FILL_LIMIT {
+            if graph.added + degree * degree.saturating_sub(1) / 2 > FILL_LIMIT {
                 return Err(TooMany { vertex, neighbours: degree });
             }
             let star = graph.eliminate(vertex);
@@ -86,8 +88,9 @@ impl Elimination {
     /// Fills in the temperatures of the eliminated vertices from those that remain.
     pub(crate) fn recover(&self, heat: &[f64], temperature: &mut [f64]) {
         for star in self.stars.iter().rev() {
-            let mean: f64 = star.weights.iter().map(|&(v, w)| w * temperature[v as usize]).sum();
-            temperature[star.vertex as usize] = mean + heat[star.vertex as usize] / star.total;
+            let near = temperature[star.nearest as usize];
+            let rest: f64 = star.weights.iter().map(|&(v, w)| w * (temperature[v as usize] - near)).sum();
+            temperature[star.vertex as usize] = near + (rest + heat[star.vertex as usize] / star.total);
         }
     }
 
@@ -101,6 +104,8 @@ struct Graph<'a> {
     stars: BTreeMap<u32, BTreeMap<u32, f64>>,
     /// Links between vertices that stay.
     kept: Vec<Link>,
+    /// How many links were stored; one between two massless vertices counts twice.
+    added: usize,
     is_massless: &'a dyn Fn(u32) -> bool,
 }
 
@@ -109,12 +114,16 @@ impl Graph<'_> {
         let mut stays = true;
         for (v, other) in [(a, b), (b, a)] {
             if (self.is_massless)(v) {
-                *self.stars.entry(v).or_default().entry(other).or_insert(0.0) += g;
+                let neighbours = self.stars.entry(v).or_default();
+                let before = neighbours.len();
+                *neighbours.entry(other).or_insert(0.0) += g;
+                self.added += neighbours.len() - before;
                 stays = false;
             }
         }
         if stays {
             self.kept.push(Link { a: a.min(b), b: a.max(b), g });
+            self.added += 1;
         }
     }
 
@@ -132,8 +141,9 @@ impl Graph<'_> {
                 self.add(Link { a, b, g: g_a * (g_b / total) });
             }
         }
+        let nearest = list.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(vertex, |&(v, _)| v);
         let weights = list.into_iter().map(|(v, g)| (v, g / total)).collect();
-        Star { vertex, total, weights }
+        Star { vertex, total, nearest, weights }
     }
 }
 

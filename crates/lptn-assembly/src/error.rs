@@ -30,7 +30,7 @@ impl AssemblyError {
     pub fn help(&self) -> String {
         match self {
             Self::TooManyNeighbours { name, .. } => {
-                format!("give `{name}` a capacity, however small in reality: it is then a state of its own")
+                format!("give `{name}` and its likes their capacity, so that they become states")
             }
         }
     }
@@ -41,7 +41,8 @@ impl fmt::Display for AssemblyError {
         match self {
             Self::TooManyNeighbours { name, neighbours, .. } => write!(
                 f,
-                "massless node `{name}` joins {neighbours} neighbours: eliminating it links every pair of them"
+                "the massless nodes are too closely meshed to be eliminated: `{name}` has {neighbours} neighbours \
+                 when its turn comes, and every pair of them would be linked"
             ),
         }
     }

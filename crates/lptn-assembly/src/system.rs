@@ -1,6 +1,6 @@
 //! The sparse system `C dT/dt = q(t, T)` of a network.
 
-use lptn_network::{End, InputError, Network, NodeId};
+use lptn_network::{ConductorId, End, InputError, Network, NodeId};
 
 use crate::eliminate::{Elimination, Link, TooMany};
 use crate::error::AssemblyError;
@@ -22,8 +22,8 @@ pub struct ThermalSystem {
     links: Vec<Link>,
     /// Links from a state (`a`) to a vertex that is a boundary (`b`).
     ties: Vec<Link>,
-    /// The conductors that end at a boundary, as they were before any elimination: boundary, other vertex.
-    outer: Vec<Link>,
+    /// Links between two boundaries, by vertex: no state feels them, the ledger does.
+    bridges: Vec<Link>,
     elimination: Elimination,
     pattern: JacobianPattern,
 }
@@ -41,18 +41,17 @@ impl ThermalSystem {
         let states: Vec<NodeId> = network.node_ids().filter(|id| !massless[id.index()]).collect();
         let mut state_of = vec![u32::MAX; nodes];
         (0..).zip(&states).for_each(|(state, id)| state_of[id.index()] = state);
-        let (mut links, mut ties) = (Vec::new(), Vec::new());
+        let (mut links, mut ties, mut bridges) = (Vec::new(), Vec::new(), Vec::new());
         for Link { a, b, g } in kept {
             match (state_of.get(a as usize), state_of.get(b as usize)) {
                 (Some(&a), Some(&b)) => links.push(Link { a, b, g }),
                 (Some(&a), None) => ties.push(Link { a, b, g }),
-                _ => {} // two boundaries: no state feels it
+                _ => bridges.push(Link { a, b, g }),
             }
         }
-        let outer = outer_links(network);
         let pattern = JacobianPattern::new(states.len(), &links);
         let capacity = states.iter().map(|&id| network.capacity(id)).collect();
-        Ok(Self { network: network.clone(), states, capacity, links, ties, outer, elimination, pattern })
+        Ok(Self { network: network.clone(), states, capacity, links, ties, bridges, elimination, pattern })
     }
 
     /// The network it was assembled from.
@@ -162,24 +161,44 @@ impl ThermalSystem {
         &work.power
     }
 
-    /// Writes the heat that each boundary gives to the network in W, from inputs read and nodes recovered.
-    pub fn boundary_heat(&self, work: &Workspace, heat: &mut [f64]) {
-        heat.fill(0.0);
+    /// Writes the heat that each boundary gives to the network in W, from the inputs last read and the
+    /// temperatures `y` of the states in K.
+    ///
+    /// The sum runs over the same links as [`ThermalSystem::flow`], after the elimination: a boundary next to a
+    /// massless node through a large conductance would otherwise be the difference of two temperatures that
+    /// are equal to the last digit.
+    pub fn boundary_heat(&self, work: &Workspace, y: &[f64], heat: &mut [f64]) {
         let nodes = self.network.nodes().len();
-        for link in &self.outer {
-            let (boundary, other) = (link.a as usize, link.b as usize);
-            heat[boundary - nodes] += link.g * (work.temperature[boundary] - work.temperature[other]);
+        for (q, share) in heat.iter_mut().zip(&work.heat[nodes..]) {
+            *q = -share; // what massless nodes hand on to it
+        }
+        for tie in &self.ties {
+            let boundary = tie.b as usize;
+            heat[boundary - nodes] += tie.g * (work.temperature[boundary] - y[tie.a as usize]);
+        }
+        for bridge in &self.bridges {
+            let (a, b) = (bridge.a as usize, bridge.b as usize);
+            let q = bridge.g * (work.temperature[a] - work.temperature[b]);
+            heat[a - nodes] += q;
+            heat[b - nodes] -= q;
         }
     }
 
-    /// The heat flow of every conductor in W, positive from `from` to `to`, from inputs read and nodes
-    /// recovered.
-    pub fn conductor_heat(&self, work: &Workspace, heat: &mut [f64]) {
-        let ids = self.network.conductor_ids();
-        for ((q, conductor), id) in heat.iter_mut().zip(self.network.conductors()).zip(ids) {
-            let at = |end| work.temperature[vertex(&self.network, end) as usize];
-            *q = self.network.conductance(id) * (at(conductor.from) - at(conductor.to));
-        }
+    /// The sum of all conductances that lead to a boundary, after the elimination, in W/K.
+    pub fn boundary_conductance(&self) -> f64 {
+        self.ties.iter().chain(&self.bridges).map(|link| link.g).sum()
+    }
+
+    /// Temperatures of the states in K among those of all nodes.
+    pub fn state_temperatures(&self, nodes: &[f64], y: &mut [f64]) {
+        y.iter_mut().zip(&self.states).for_each(|(t, id)| *t = nodes[id.index()]);
+    }
+
+    /// The heat flow of a conductor in W, positive from `from` to `to`, from inputs read and nodes recovered.
+    pub fn conductor_heat(&self, work: &Workspace, id: ConductorId) -> f64 {
+        let conductor = &self.network.conductors()[id.index()];
+        let at = |end| work.temperature[vertex(&self.network, end) as usize];
+        self.network.conductance(id) * (at(conductor.from) - at(conductor.to))
     }
 }
 
@@ -198,15 +217,6 @@ fn all_links(network: &Network) -> Vec<Link> {
         g: network.conductance(id),
     };
     network.conductors().iter().zip(network.conductor_ids()).map(link).collect()
-}
-
-/// Each conductor once for every boundary it ends at, the boundary first.
-fn outer_links(network: &Network) -> Vec<Link> {
-    let nodes = network.nodes().len();
-    let both_ways = all_links(network)
-        .into_iter()
-        .flat_map(|Link { a, b, g }| [Link { a, b, g }, Link { a: b, b: a, g }]);
-    both_ways.filter(|link| link.a as usize >= nodes).collect()
 }
 
 fn too_many(network: &Network, error: &TooMany) -> AssemblyError {

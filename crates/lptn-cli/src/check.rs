@@ -1,6 +1,7 @@
 //! `lptn check`
 
-use lptn_netlist::{Diagnostic, Files, Severity};
+use lptn_netlist::{Diagnostic, Files, Netlist, Severity};
+use lptn_network::{Item, list_of_names};
 use serde_json::json;
 
 use crate::args::{CheckArgs, CheckFormat};
@@ -32,6 +33,21 @@ pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure
     Ok(exit)
 }
 
+/// Nodes that no path ties to a boundary: a path that was left out looks like this.
+fn adrift(netlist: &Netlist) -> Option<Diagnostic> {
+    let network = &netlist.network;
+    let nodes: Vec<_> = network.ungrounded().into_iter().flatten().collect();
+    let first = *nodes.first()?;
+    let names: Vec<String> = nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
+    let message = format!("no path leads to a boundary from {}", list_of_names(&names));
+    let warning = Diagnostic::warning("network::no_boundary", message)
+        .help("add a path if heat is to get out; without one there is no steady state");
+    Some(match netlist.source_map.name(Item::Node(first)) {
+        Some(span) => warning.at(span.clone(), ""),
+        None => warning,
+    })
+}
+
 /// What was found in a netlist.
 struct Finding {
     files: Files,
@@ -56,6 +72,7 @@ impl Finding {
         let counts = Some(counts(&netlist.network));
         let (files, mut diagnostics) = (netlist.files.clone(), netlist.warnings.clone());
         let text = Text { bytes: Vec::new(), name: text.name.clone(), stem: text.stem.clone() };
+        diagnostics.extend(adrift(&netlist));
         let input = Input { text, netlist };
         diagnostics.extend(input.assemble().err().into_iter().flat_map(|failure| failure.diagnostics));
         let selection = select::of_run(&input.netlist, &[]);

@@ -33,7 +33,7 @@ pub(crate) fn read(file: &Path) -> Result<Text, Failure> {
     let name = file.display().to_string();
     let bytes = std::fs::read(file).map_err(|error| cannot_read(&name, &error, similar(file)))?;
     let stem = file.file_stem().map_or("netlist".into(), |stem| stem.to_string_lossy().into_owned());
-    Ok(Text { bytes, name, stem })
+    Ok(Text { bytes, name, stem: folder_name(stem) })
 }
 
 fn cannot_read(name: &str, error: &std::io::Error, help: Option<String>) -> Failure {
@@ -111,6 +111,11 @@ pub(crate) fn quoted(word: &str) -> String {
     format!("'{}'", word.replace('\'', "'\\''"))
 }
 
+/// A name for the folder of results: `...toml` would lead out of it.
+fn folder_name(stem: String) -> String {
+    if matches!(stem.as_str(), "" | "." | "..") { "netlist".into() } else { stem }
+}
+
 /// The tolerance of the command line in K.
 pub(crate) fn tolerance(text: &str) -> Result<f64, Failure> {
     let quantity = parse_quantity(text, Some(Type::of(Dimension::TEMPERATURE)))
@@ -125,14 +130,25 @@ pub(crate) fn tolerance(text: &str) -> Result<f64, Failure> {
 /// The unit for temperatures: that of the command line, or that of the netlist.
 pub(crate) fn temperature_unit(text: Option<&str>, netlist: &Netlist) -> Result<Unit, Failure> {
     const OPTION: &str = "--temperature-unit";
-    let Some(text) = text else { return Ok(netlist.temperature_unit.clone()) };
-    let unit = Unit::parse(text).map_err(|error| wrong_unit(OPTION, text, &error))?;
-    if unit.ty.dimension == Dimension::TEMPERATURE {
-        return Ok(unit);
-    }
-    let problem =
-        Diagnostic::error("units::dimension", format!("{OPTION} must be a temperature, got {}", unit.ty));
-    Err(Failure::new(Exit::Input, problem.help("choose degC, K, degF or degR")))
+    let (name, unit) = match text {
+        Some(text) => (OPTION, Unit::parse(text).map_err(|error| wrong_unit(OPTION, text, &error))?),
+        None => ("temperature_unit", netlist.temperature_unit.clone()),
+    };
+    scale(&unit).ok_or_else(|| {
+        let message = format!("{name} must be a temperature scale, got `{}`", unit.text);
+        let problem = Diagnostic::error("units::dimension", message);
+        Failure::new(Exit::Input, problem.help("choose degC, K, degF or degR"))
+    })
+}
+
+/// The scale that a unit is, by its usual name: `°C` is degC.
+fn scale(unit: &Unit) -> Option<Unit> {
+    let same = |known: &Unit| {
+        known.ty.dimension == unit.ty.dimension
+            && known.scale.to_bits() == unit.scale.to_bits()
+            && known.offset.to_bits() == unit.offset.to_bits()
+    };
+    ["degC", "K", "degF", "degR"].iter().filter_map(|name| Unit::parse(name).ok()).find(same)
 }
 
 /// A mistake in a quantity of the command line, shown in its text.

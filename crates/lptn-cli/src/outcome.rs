@@ -113,12 +113,24 @@ impl Outcome<'_> {
         }
     }
 
+    /// What a reader should know of the numbers; the table says it in its notes.
+    fn doubts(&self) -> Vec<Diagnostic> {
+        let bound = summary_text::not_bounded(&self.solution);
+        let ledger = summary_text::weak_ledger(&self.solution);
+        let warning = |code, text: Option<String>| text.map(|text| Diagnostic::warning(code, text));
+        [warning("run::error_not_bounded", bound), warning("run::weak_ledger", ledger)]
+            .into_iter()
+            .flatten()
+            .collect()
+    }
+
     fn json(&self, table: &Table, out: impl std::io::Write) -> std::io::Result<()> {
         let netlist = &self.job.input.netlist;
         let mut json = JsonWriter::new(out);
         json.member("format", &json!(1))?;
         json.member("network", &json!(self.job.input.text.stem))?;
-        json.member("warnings", &diagnostics::list(&netlist.files, &netlist.warnings))?;
+        let warnings: Vec<Diagnostic> = netlist.warnings.iter().cloned().chain(self.doubts()).collect();
+        json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
         json.table(table)?;
         json.member("events", &json!([]))?;
         json.member("ledger", &serde_json::to_value(self.ledger())?)?;
@@ -137,6 +149,9 @@ impl Outcome<'_> {
             let took = duration(self.wall_time, 2);
             let rows = table.rows();
             console.note(&format!("wrote  {}, {MANIFEST} ({rows} rows, solved in {took})", path.display()));
+        }
+        if self.job.format != Format::Table {
+            console.warn(&self.job.input.netlist.files, &self.doubts());
         }
         if self.job.format == Format::Table && self.solution.end() == End::Reached {
             let command = next::after_run(self.job.input, self.steady.is_ok());

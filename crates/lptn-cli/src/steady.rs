@@ -37,6 +37,8 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
     }
     if args.shown.format == Format::Table {
         view.messages(console);
+    } else {
+        console.warn(&netlist.files, doubt(netlist).as_slice());
     }
     Ok(Exit::Done)
 }
@@ -46,7 +48,9 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
 fn failed(input: &Input, error: &SteadyError) -> Failure {
     let exit = match error {
         SteadyError::NoBoundary { .. } | SteadyError::Input(_) => Exit::Input,
-        SteadyError::Factorization(_) | SteadyError::Unbalanced { .. } => Exit::Failed,
+        SteadyError::Factorization(_)
+        | SteadyError::Unbalanced { .. }
+        | SteadyError::BelowAbsoluteZero { .. } => Exit::Failed,
     };
     let mut problem = Diagnostic::error(error.code(), error.to_string());
     if let Some(help) = error.help() {
@@ -64,6 +68,14 @@ fn failed(input: &Input, error: &SteadyError) -> Failure {
         problem = problem.at(place.clone(), "");
     }
     Failure::at(exit, input.netlist.files.clone(), problem)
+}
+
+const VARY: &str = "the inputs change with time; they are taken at the start of the run";
+
+/// What the table says in a note.
+fn doubt(netlist: &lptn_netlist::Netlist) -> Option<Diagnostic> {
+    let vary = netlist.network.has_time_dependent_inputs();
+    vary.then(|| Diagnostic::warning("steady::inputs_vary", VARY))
 }
 
 /// A steady state and how it is shown.
@@ -103,7 +115,7 @@ impl View<'_> {
             lines.extend(block);
         }
         if network.has_time_dependent_inputs() {
-            let note = "the inputs change with time; they are taken at the start of the run";
+            let note = VARY;
             lines.push(String::new());
             lines.extend(labelled("note: ", &note.split(' ').map(str::to_owned).collect::<Vec<_>>(), WIDTH));
         }
@@ -210,7 +222,8 @@ impl View<'_> {
         let mut json = JsonWriter::new(out);
         json.member("format", &json!(1))?;
         json.member("network", &json!(self.input.text.stem))?;
-        json.member("warnings", &diagnostics::list(&netlist.files, &netlist.warnings))?;
+        let warnings: Vec<Diagnostic> = netlist.warnings.iter().cloned().chain(doubt(netlist)).collect();
+        json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
         json.member("values", &Value::Object(values))?;
         json.finish().map(drop)
     }

@@ -1,10 +1,11 @@
 //! The table of a run, its heat and its notes.
 
+use lptn_network::list_of_names;
 use lptn_report::{
     Align, Column, Flow, TextTable, WIDTH, balance, decimals, duration, fixed, labelled, significant,
     sparkline,
 };
-use lptn_solve::{End, NodeSummary, SteadyError, Summary};
+use lptn_solve::{End, NodeSummary, Solution, SteadyError, Summary, Unbounded};
 
 use crate::console::Console;
 use crate::run::NoSteady;
@@ -136,7 +137,8 @@ fn notes(view: &View<'_>, nodes: &[NodeSummary]) -> Vec<String> {
         Err(NoSteady::Network(SteadyError::NoBoundary { .. })) | Ok(_) => {}
         Err(NoSteady::Network(error)) => notes.push(format!("steady is `-`: {error}")),
     }
-    notes.extend(not_bounded(view));
+    notes.extend(not_bounded(view.solution));
+    notes.extend(weak_ledger(view.solution));
     notes
 }
 
@@ -154,16 +156,34 @@ fn short_record(nodes: &[NodeSummary]) -> Option<String> {
     Some(format!("record ends at {share} of the {way} to steady"))
 }
 
-/// A network that forgets nothing adds up its errors.
-fn not_bounded(view: &View<'_>) -> Option<String> {
-    if view.solution.error_is_bounded() {
-        return None;
-    }
-    let network = view.solution.network();
-    let nodes: Vec<_> = network.ungrounded().into_iter().flatten().collect();
-    let names = nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
-    let why = SteadyError::NoBoundary { nodes, names };
+/// Errors that add up.
+pub(crate) fn not_bounded(solution: &Solution) -> Option<String> {
+    let network = solution.network();
+    let why = match solution.why_unbounded()? {
+        Unbounded::NoBoundary(nodes) => {
+            let names: Vec<String> =
+                nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
+            format!("no path leads to a boundary from {}", list_of_names(&names))
+        }
+        Unbounded::LongMemory { steps } => format!(
+            "the network remembers about {} steps of inputs that keep changing; compare with a smaller --tolerance",
+            significant(steps, 1)
+        ),
+    };
     Some(format!("error not bounded by the tolerance: it adds up, because {why}"))
+}
+
+/// A bound so wide that the books would close on nonsense too.
+pub(crate) fn weak_ledger(solution: &Solution) -> Option<String> {
+    const PROOF: f64 = 1e-2;
+    let ledger = solution.ledger();
+    let weak = ledger.turned_over > 0.0 && ledger.bound > PROOF;
+    weak.then(|| {
+        let tolerance = significant(solution.tolerance(), 2);
+        format!(
+            "so little heat is turned over that at a tolerance of {tolerance} K the balance proves nothing"
+        )
+    })
 }
 
 fn heat(view: &View<'_>) -> Vec<String> {

@@ -219,28 +219,46 @@ impl fmt::Display for FactorError {
     }
 }
 
+/// A number in a message: with an exponent where it would be long.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(x) = self;
+        if *x == 0.0 || (1e-3..1e6).contains(&x.abs()) { write!(f, "{x}") } else { write!(f, "{x:e}") }
+    }
+}
+
 impl fmt::Display for IntegrateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::WrongLength { what, expected, found } => {
                 write!(f, "{what} has length {found} where {expected} is needed")
             }
-            Self::InvalidOption { option, value } => write!(f, "{option} = {value} is out of range"),
+            Self::InvalidOption { option, value } => {
+                write!(f, "{option} = {} is out of range", Short(*value))
+            }
             Self::InvalidState { index, value } => {
-                write!(f, "component {index} of the state starts at {value}")
+                write!(f, "component {index} of the state starts at {}", Short(*value))
             }
             Self::InvalidMass { index, value } => {
-                write!(f, "mass {value} of component {index} is not positive")
+                write!(f, "mass {} of component {index} is not positive", Short(*value))
             }
             Self::StopBehind { time, stop } => {
-                write!(f, "stop time {stop} lies before the present time {time}")
+                write!(f, "stop time {} lies before the present time {}", Short(*stop), Short(*time))
             }
             Self::OutsideLastStep { time, from, to } => {
-                write!(f, "time {time} is outside the last step, {from} to {to}")
+                write!(
+                    f,
+                    "time {} is outside the last step, {} to {}",
+                    Short(*time),
+                    Short(*from),
+                    Short(*to)
+                )
             }
             Self::OutOfMemory { function } => write!(f, "out of memory in {function}"),
             Self::Sundials { function, flag, name, message, time } => {
-                write!(f, "{function} returned {flag} ({name}) at time {time}: {message}")
+                write!(f, "{function} returned {flag} ({name}) at time {}: {message}", Short(*time))
             }
             failure => failure.write_failure(f),
         }
@@ -265,31 +283,52 @@ impl IntegrateError {
     /// The second half of `Display`: errors of a step.
     fn write_failure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::TooManySteps { time, steps } => write!(f, "{steps} steps taken, time {time} reached"),
+            Self::TooManySteps { time, steps } => {
+                write!(f, "{steps} steps taken, time {} reached", Short(*time))
+            }
             Self::ToleranceTooSmall { time, index } => {
-                write!(f, "tolerance is below the rounding error of component {index} at time {time}")
+                write!(
+                    f,
+                    "tolerance is below the rounding error of component {index} at time {}",
+                    Short(*time)
+                )
             }
             Self::ErrorTest { time, step, index } => {
-                write!(f, "error of component {index} stays too large at time {time} with step {step}")
+                write!(
+                    f,
+                    "error of component {index} stays too large at time {} with step {}",
+                    Short(*time),
+                    Short(*step)
+                )
             }
             Self::Stalled { time, step, index } => {
-                write!(f, "no progress at time {time} with step {step}, worst component {index}")
+                write!(
+                    f,
+                    "no progress at time {} with step {}, worst component {index}",
+                    Short(*time),
+                    Short(*step)
+                )
             }
             Self::Newton { time, step, index } => {
-                write!(f, "no convergence at time {time} with step {step}, worst component {index}")
+                write!(
+                    f,
+                    "no convergence at time {} with step {}, worst component {index}",
+                    Short(*time),
+                    Short(*step)
+                )
             }
-            Self::Linear { time, cause } => write!(f, "{cause}, at time {time}"),
+            Self::Linear { time, cause } => write!(f, "{cause}, at time {}", Short(*time)),
             Self::NotFinite { callback, time, index } => {
-                write!(f, "{callback} is not finite at time {time}, component {index}")
+                write!(f, "{callback} is not finite at time {}, component {index}", Short(*time))
             }
             Self::Refused { callback, time } => {
-                write!(f, "{callback} asks for ever smaller steps at time {time}")
+                write!(f, "{callback} asks for ever smaller steps at time {}", Short(*time))
             }
             Self::Stopped { callback, time } => {
-                write!(f, "{callback} stopped the integration at time {time}")
+                write!(f, "{callback} stopped the integration at time {}", Short(*time))
             }
             Self::Panic { callback, time, message } => {
-                write!(f, "{callback} panicked at time {time}: {message}")
+                write!(f, "{callback} panicked at time {}: {message}", Short(*time))
             }
             _ => Ok(()),
         }

@@ -1,4 +1,4 @@
-//! Times at which an input jumps or bends: known beforehand, so that no step crosses them.
+//! Times at which a comparison in an input changes: known beforehand, so that no step crosses them.
 
 use crate::input_error::{InputError, InputProblem};
 use crate::network::Network;
@@ -29,7 +29,8 @@ impl Network {
         }
         times.sort_unstable_by(f64::total_cmp);
         // two that differ by rounding only are one
-        times.dedup_by(|a, b| (*a - *b).abs() <= 1e-12 * (stop - start));
+        let margin = margin(start, stop);
+        times.dedup_by(|a, b| (*a - *b).abs() <= margin);
         Ok(times)
     }
 }
@@ -46,6 +47,23 @@ fn crossing(
     let at_start = scope.evaluate(difference, start).map_err(InputProblem::Evaluation)?;
     let at_stop = scope.evaluate(difference, stop).map_err(InputProblem::Evaluation)?;
     let time = start + (stop - start) * (at_start / (at_start - at_stop));
-    let margin = 1e-12 * (stop - start);
+    let margin = margin(start, stop);
     Ok((time > start + margin && time < stop - margin).then_some(time))
+}
+
+/// Times closer than this are one: rounding, and what no step could be taken between.
+fn margin(start: f64, stop: f64) -> f64 {
+    (1e-12 * (stop - start)).max(64.0 * f64::EPSILON * start.abs().max(stop.abs()))
+}
+
+impl Network {
+    /// The inputs whose course over time is not known to be a straight line between breakpoints, as functions of
+    /// time: an integrator has to look at them often enough to see what they do.
+    pub fn curved_inputs(&self) -> impl Iterator<Item = &Value> {
+        let curved = |value: &&Value| match value {
+            Value::Constant(_) => false,
+            Value::Expression(program) => program.degree_in(slot::TIME) == Degree::Nonlinear,
+        };
+        self.inputs().map(|(_, _, value)| value).filter(curved)
+    }
 }

@@ -103,6 +103,7 @@ impl NetworkBuilder {
     pub fn capacitor(&mut self, name: &str, node: NodeId, capacity: impl Into<Input>) -> CapacitorId {
         let id = CapacitorId::from_len(self.parts.capacitors.len());
         let at = (name, Item::Capacitor(id), Field::Capacity);
+        self.check_end(name, Item::Capacitor(id), node.into());
         let capacity = self.typed(at, capacity.into(), CAPACITY);
         self.parts.capacitors.push(Capacitor { name: name.to_owned(), node, capacity });
         self.register(name, Item::Capacitor(id));
@@ -150,6 +151,7 @@ impl NetworkBuilder {
         path: Path,
     ) -> ConductorId {
         let id = ConductorId::from_len(self.parts.conductors.len());
+        [from, to].into_iter().for_each(|end| self.check_end(name, Item::Conductor(id), end));
         let law = self.law(name, Item::Conductor(id), path);
         self.parts.conductors.push(Conductor { name: name.to_owned(), kind, from, to, law });
         self.register(name, Item::Conductor(id));
@@ -164,7 +166,9 @@ impl NetworkBuilder {
         let id = SourceId::from_len(self.parts.sources.len());
         let at = (name, Item::Source(id), Field::Power);
         let power = self.typed(at, power.into(), Type::of(Dimension::POWER));
-        let node = match into.into() {
+        let into = into.into();
+        self.check_end(name, Item::Source(id), into);
+        let node = match into {
             End::Node(node) => node,
             End::Boundary(_) => {
                 self.error(name, BuildErrorKind::SourceIntoBoundary { source: id });
@@ -189,6 +193,9 @@ impl NetworkBuilder {
     /// # Errors
     /// All problems at once.
     pub fn build(mut self) -> Result<Network, BuildErrors> {
+        if self.errors.iter().any(|e| matches!(e.kind, BuildErrorKind::ForeignId { .. })) {
+            return Err(BuildErrors(self.errors)); // nothing else can be looked up
+        }
         check::structure(&self.parts, &mut self.errors);
         match Numbers::evaluate(&self.parts, &[]) {
             Ok(numbers) if self.errors.is_empty() => {
@@ -231,6 +238,16 @@ impl NetworkBuilder {
         match self.parts.names.get(name) {
             Some(&first) => self.duplicate(name, first, item),
             None => drop(self.parts.names.insert(name.to_owned(), item)),
+        }
+    }
+
+    fn check_end(&mut self, name: &str, item: Item, end: End) {
+        let known = match end {
+            End::Node(id) => id.index() < self.parts.nodes.len(),
+            End::Boundary(id) => id.index() < self.parts.boundaries.len(),
+        };
+        if !known {
+            self.error(name, BuildErrorKind::ForeignId { item });
         }
     }
 

@@ -147,6 +147,13 @@ pub enum BuildErrorKind {
         /// Their names.
         names: Vec<String>,
     },
+    /// An element names a node, boundary or end that is not of this builder.
+    ForeignId {
+        /// The element.
+        item: Item,
+    },
+    /// Parameters of another network.
+    ForeignParameters,
     /// A network without any node.
     Empty,
 }
@@ -172,6 +179,8 @@ impl BuildError {
             K::MasslessWithCapacity { .. } => "network::massless_with_capacity",
             K::NoInitialTemperature { .. } => "network::no_initial_temperature",
             K::FloatingIsland { .. } => "network::floating_island",
+            K::ForeignId { .. } => "network::foreign_id",
+            K::ForeignParameters => "network::foreign_parameters",
             K::Empty => "network::empty",
         }
     }
@@ -196,7 +205,8 @@ impl BuildError {
                 (Item::Node(node), Field::Name)
             }
             K::FloatingIsland { ref nodes, .. } => (Item::Node(*nodes.first()?), Field::Name),
-            K::Empty => return None,
+            K::ForeignId { item } => (item, Field::Name),
+            K::ForeignParameters | K::Empty => return None,
         })
     }
 
@@ -268,6 +278,8 @@ impl fmt::Display for BuildError {
                 "the temperature of {} is not determined: no boundary and no capacity is connected",
                 list_of_names(names)
             ),
+            K::ForeignId { .. } => write!(f, "`{name}` is joined to something of another network"),
+            K::ForeignParameters => f.write_str("the parameters are those of another network"),
             K::Empty => f.write_str("the network has no node"),
         }
     }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
-use crate::error::BuildErrors;
+use crate::error::{BuildError, BuildErrorKind, BuildErrors};
 use crate::id::{BoundaryId, CapacitorId, ConductorId, Field, Item, NodeId, ParameterId, SourceId};
 use crate::input_error::{InputError, InputProblem};
 use crate::names::UnknownName;
@@ -157,6 +157,10 @@ impl Network {
     /// # Errors
     /// What the new numbers break, such as a resistance that is no longer positive.
     pub fn with(&self, parameters: &Parameters) -> Result<Self, BuildErrors> {
+        if !parameters.belong_to(&self.parts) {
+            let name = self.title().unwrap_or_default().to_owned();
+            return Err(BuildErrors(vec![BuildError { kind: BuildErrorKind::ForeignParameters, name }]));
+        }
         let numbers = Numbers::evaluate(&self.parts, parameters.values()).map_err(BuildErrors)?;
         Ok(Self { parts: Arc::clone(&self.parts), numbers })
     }

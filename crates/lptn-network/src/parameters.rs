@@ -22,6 +22,10 @@ impl Parameters {
         Self { parts, values }
     }
 
+    pub(crate) fn belong_to(&self, parts: &Arc<Parts>) -> bool {
+        Arc::ptr_eq(&self.parts, parts)
+    }
+
     pub(crate) fn values(&self) -> &[Option<f64>] {
         &self.values
     }

@@ -19,8 +19,14 @@ impl Shortest {
     }
 }
 
-/// `value` with `decimals` digits after the point, never `-0.0`.
+/// From here on digits before the point mean nothing to a reader.
+const HUGE: f64 = 1e12;
+
+/// `value` with `decimals` digits after the point, never `-0.0`; with an exponent where that would be long.
 pub fn fixed(value: f64, decimals: usize) -> String {
+    if value.abs() >= HUGE {
+        return significant(value, 4);
+    }
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
         Some(zero) if zero.chars().all(|c| matches!(c, '0' | '.')) => zero.to_owned(),

@@ -22,6 +22,13 @@ pub enum SteadyError {
     Input(InputError),
     /// The conductances span more than the numbers can hold.
     Factorization(FactorError),
+    /// More heat is taken out than there is: a linear network goes below 0 K, a real one does not.
+    BelowAbsoluteZero {
+        /// The first such node.
+        name: String,
+        /// Its temperature in K.
+        temperature: f64,
+    },
     /// The solution does not balance: heat in and heat out differ by `residual` of the heat turned over.
     Unbalanced {
         /// Relative residual.
@@ -36,6 +43,7 @@ impl SteadyError {
             Self::NoBoundary { .. } => "steady::no_boundary",
             Self::Input(_) => "solve::input",
             Self::Factorization(_) => "steady::singular",
+            Self::BelowAbsoluteZero { .. } => "solve::below_absolute_zero",
             Self::Unbalanced { .. } => "steady::unbalanced",
         }
     }
@@ -49,6 +57,7 @@ impl SteadyError {
             Self::Factorization(_) | Self::Unbalanced { .. } => {
                 Some("replace the largest conductances by merging the nodes they join")
             }
+            Self::BelowAbsoluteZero { .. } => Some(COLD),
             Self::Input(_) => None,
         }
     }
@@ -62,6 +71,7 @@ impl fmt::Display for SteadyError {
             }
             Self::Input(error) => error.fmt(f),
             Self::Factorization(error) => write!(f, "the conductances cannot be factorised: {error}"),
+            Self::BelowAbsoluteZero { name, temperature } => cold(f, name, *temperature),
             Self::Unbalanced { residual } => {
                 write!(f, "heat in and heat out differ by {residual:.1e} of the heat turned over")
             }
@@ -96,6 +106,13 @@ pub enum TransientError {
 pub enum StopReason {
     /// A source or boundary has no value.
     Input(InputError),
+    /// A node fell below 0 K.
+    BelowAbsoluteZero {
+        /// The first such node.
+        name: String,
+        /// Its temperature in K.
+        temperature: f64,
+    },
     /// The integrator gave up.
     Integrator {
         /// Its reason.
@@ -119,6 +136,13 @@ pub enum SettingsError {
     Tolerance(f64),
     /// An output time is outside the run or not after the one before it.
     OutputTime(f64),
+    /// More temperatures would be kept than fit in memory.
+    TooMuch {
+        /// Number of rows.
+        rows: usize,
+        /// Number of nodes to keep.
+        nodes: usize,
+    },
     /// The distance between outputs is not positive, or so small that there would be too many.
     OutputEvery(f64),
 }
@@ -128,6 +152,9 @@ impl TransientError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::Settings(_) => "run::settings",
+            Self::Stopped { reason: StopReason::BelowAbsoluteZero { .. }, .. } => {
+                "solve::below_absolute_zero"
+            }
             Self::Input(_) | Self::Stopped { reason: StopReason::Input(_), .. } => "solve::input",
             Self::Integrator(_) | Self::Stopped { .. } => "run::integrator",
         }
@@ -143,12 +170,22 @@ impl fmt::Display for TransientError {
             Self::Stopped { time, reason: StopReason::Input(error), .. } => {
                 write!(f, "stopped at {} s: {error}", six_digits(*time))
             }
+            Self::Stopped { time, reason: StopReason::BelowAbsoluteZero { name, temperature }, .. } => {
+                write!(f, "stopped at {} s: ", six_digits(*time))?;
+                cold(f, name, *temperature)
+            }
             Self::Stopped { time, reason: StopReason::Integrator { error, node }, .. } => {
                 write!(f, "stopped at {} s: {error}", six_digits(*time))?;
                 node.as_ref().map_or(Ok(()), |node| write!(f, " (largest error at node `{node}`)"))
             }
         }
     }
+}
+
+const COLD: &str = "less heat can be taken out than that: check the signs and sizes of the sources";
+
+fn cold(f: &mut fmt::Formatter<'_>, name: &str, temperature: f64) -> fmt::Result {
+    write!(f, "node `{name}` is below absolute zero: {} K", six_digits(temperature))
 }
 
 /// A number as a message shows it: six digits are enough to find the place.
@@ -168,6 +205,10 @@ impl fmt::Display for SettingsError {
             Self::OutputTime(time) => {
                 write!(f, "the output time {time} s is outside the run or not after the one before it")
             }
+            Self::TooMuch { rows, nodes } => write!(
+                f,
+                "{rows} rows of {nodes} temperatures do not fit in memory: write fewer rows, or select fewer columns"
+            ),
             Self::OutputEvery(every) => {
                 write!(f, "outputs every {every} s are none, or more than 10 million")
             }

@@ -52,12 +52,12 @@ pub(crate) fn integrals(network: &Network) -> usize {
     network.sources().len() + network.boundaries().len() + 1
 }
 
-/// The integrands at the state of `work`: sources, boundaries, sum of absolute values, in W.
-pub(crate) fn integrands(system: &ThermalSystem, work: &Workspace, q: &mut [f64]) {
+/// The integrands at the inputs of `work` and the states `y`: sources, boundaries, sum of absolute values, in W.
+pub(crate) fn integrands(system: &ThermalSystem, work: &Workspace, y: &[f64], q: &mut [f64]) {
     let powers = system.source_powers(work);
     let (sources, rest) = q.split_at_mut(powers.len());
     sources.copy_from_slice(powers);
     let last = rest.len() - 1;
-    system.boundary_heat(work, &mut rest[..last]);
+    system.boundary_heat(work, y, &mut rest[..last]);
     rest[last] = sources.iter().chain(&rest[..last]).map(|q| q.abs()).sum();
 }

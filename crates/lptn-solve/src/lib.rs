@@ -6,6 +6,7 @@
 //!
 //! Units: SI, temperatures in K, heat positive into a node and from `from` to `to`.
 
+mod curved;
 mod error;
 mod heat;
 mod ledger;
@@ -27,7 +28,7 @@ pub use ledger::Ledger;
 pub use lptn_integrate::{LinearSolver, Linkage, Statistics, linked};
 pub use lptn_network::OutputTimes;
 pub use settings::{Control, Progress, Record, Transient};
-pub use solution::{End, Solution};
+pub use solution::{End, Solution, Unbounded};
 pub use steady::SteadyState;
 pub use summary::{NodeSummary, Summary};
 pub use table::{Column, Selection, Table};

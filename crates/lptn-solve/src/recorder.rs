@@ -4,16 +4,19 @@ use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::{IntegrateError, Integrator, Statistics};
 use lptn_network::NodeId;
 
-use crate::error::StopReason;
+use crate::error::{SettingsError, StopReason};
 use crate::heat::Heat;
 use crate::ledger::Ledger;
 use crate::settings::{Record, Transient};
 use crate::solution::{End, Solution};
 use crate::times::Segment;
-use crate::watch::{SAMPLES, Seen, Watch};
+use crate::watch::{REFINEMENTS, SAMPLES, Seen, Watch};
 
 /// Writes the state at a time inside the present step.
 type StateAt<'a> = dyn FnMut(f64, &mut [f64]) -> Result<(), IntegrateError> + 'a;
+
+/// The most temperatures that are kept: 4 GB.
+const MOST_VALUES: usize = 500_000_000;
 
 /// The rows of a run, written in order.
 pub(crate) struct Recorder<'a> {
@@ -33,10 +36,16 @@ pub(crate) struct Recorder<'a> {
     /// Temperatures of the states at one time.
     state: Vec<f64>,
     tolerance: f64,
+    /// How many steps under curved inputs the network remembers.
+    pub(crate) remembered: f64,
 }
 
 impl<'a> Recorder<'a> {
-    pub(crate) fn new(system: &'a ThermalSystem, rows: Vec<f64>, settings: &Transient) -> Self {
+    pub(crate) fn new(
+        system: &'a ThermalSystem,
+        rows: Vec<f64>,
+        settings: &Transient,
+    ) -> Result<Self, SettingsError> {
         let network = system.network();
         let mut recorded = match &settings.record {
             Record::All => network.node_ids().collect(),
@@ -45,11 +54,15 @@ impl<'a> Recorder<'a> {
         recorded.sort_unstable();
         recorded.dedup();
         let (start, stop) = (rows[0], rows[rows.len() - 1]);
-        Self {
+        let mut temperatures = Vec::new();
+        let too_much = SettingsError::TooMuch { rows: rows.len(), nodes: recorded.len() };
+        let size = rows.len().checked_mul(recorded.len()).filter(|&size| size <= MOST_VALUES);
+        temperatures.try_reserve_exact(size.ok_or(too_much.clone())?).map_err(|_| too_much)?;
+        Ok(Self {
             system,
             work: system.workspace(),
             segments: Vec::with_capacity(rows.len()),
-            temperatures: Vec::with_capacity(rows.len() * recorded.len()),
+            temperatures,
             rows,
             next: 0,
             segment: Segment { from: start, to: stop },
@@ -59,7 +72,8 @@ impl<'a> Recorder<'a> {
             points: vec![Vec::new(); settings.watch.len()],
             state: vec![0.0; system.states().len()],
             tolerance: settings.tolerance,
-        }
+            remembered: 0.0,
+        })
     }
 
     pub(crate) fn system(&self) -> &'a ThermalSystem {
@@ -96,7 +110,7 @@ impl<'a> Recorder<'a> {
             self.seen.iter_mut().for_each(|seen| seen.jump(from, nodes[seen.watch.node.index()]));
         }
         if self.due(from) {
-            self.push();
+            self.push()?;
         }
         Ok(())
     }
@@ -112,7 +126,7 @@ impl<'a> Recorder<'a> {
         while self.due(to) && (self.rows[self.next] < self.segment.to || self.is_last()) {
             let time = self.rows[self.next];
             self.place_at(time, &mut |time, state| integrator.interpolate(time, state))?;
-            self.push();
+            self.push()?;
         }
         if !self.seen.is_empty() {
             self.look((from, to), &mut |time, state| integrator.interpolate(time, state))?;
@@ -128,8 +142,7 @@ impl<'a> Recorder<'a> {
     /// Writes a row from the inputs at `time` for a system without state.
     pub(crate) fn push_without_state(&mut self, time: f64) -> Result<(), StopReason> {
         self.place(time)?;
-        self.push();
-        Ok(())
+        self.push()
     }
 
     /// The workspace at `time`, for a system without state.
@@ -159,16 +172,24 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
-    fn push(&mut self) {
+    fn push(&mut self) -> Result<(), StopReason> {
         let nodes = self.system.node_temperatures(&self.work);
+        if let Some(i) = nodes.iter().position(|&t| t < 0.0) {
+            let name = self.system.network().nodes()[i].name.clone();
+            return Err(StopReason::BelowAbsoluteZero { name, temperature: nodes[i] });
+        }
         self.temperatures.extend(self.recorded.iter().map(|id| nodes[id.index()]));
         self.segments.push(self.segment.inside());
         self.next += 1;
+        Ok(())
     }
 
     fn look(&mut self, (from, to): (f64, f64), state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
         let count = SAMPLES + 1;
-        self.points.iter_mut().for_each(Vec::clear);
+        for (points, seen) in self.points.iter_mut().zip(&self.seen) {
+            points.clear();
+            points.push(seen.last_point());
+        }
         for k in 1..=count {
             let time = if k == count { to } else { from + (to - from) * f64::from(k) / f64::from(count) };
             self.place_at(time, state_at)?;
@@ -177,7 +198,24 @@ impl<'a> Recorder<'a> {
                 list.push((time, nodes[seen.watch.node.index()]));
             }
         }
-        self.seen.iter_mut().zip(&self.points).for_each(|(seen, points)| seen.look(points));
+        for i in 0..self.seen.len() {
+            self.seen[i].look(&self.points[i]);
+            self.refine(i, state_at)?;
+        }
+        Ok(())
+    }
+
+    /// Evaluates the watched node where a parabola has its top, until the peak stands still.
+    fn refine(&mut self, i: usize, state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
+        for _ in 0..REFINEMENTS {
+            let Some(time) = self.seen[i].promising(&self.points[i]) else { break };
+            self.place_at(time, state_at)?;
+            let nodes = self.system.node_temperatures(&self.work);
+            let point = (time, nodes[self.seen[i].watch.node.index()]);
+            self.seen[i].peak_at(point);
+            let place = self.points[i].partition_point(|p| p.0 < time);
+            self.points[i].insert(place, point);
+        }
         Ok(())
     }
 
@@ -194,6 +232,7 @@ impl<'a> Recorder<'a> {
             statistics,
             end,
             tolerance: self.tolerance,
+            remembered: self.remembered,
         }
     }
 }

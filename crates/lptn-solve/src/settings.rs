@@ -3,6 +3,7 @@
 use lptn_integrate::{LinearSolver, Options};
 use lptn_network::{NodeId, OutputTimes, Time};
 
+use crate::curved::Curved;
 use crate::error::SettingsError;
 use crate::watch::Watch;
 
@@ -108,7 +109,13 @@ impl Transient {
         Ok(())
     }
 
-    pub(crate) fn options(&self) -> Options {
-        Options { tolerance: self.tolerance, linear_solver: self.linear_solver, ..Options::default() }
+    /// The options of the integrator, with what curved inputs ask for.
+    pub(crate) fn options(&self, curved: Option<Curved>) -> Options {
+        Options {
+            tolerance: self.tolerance * curved.map_or(1.0, |c| c.share),
+            linear_solver: self.linear_solver,
+            max_step_size: curved.map(|c| c.step),
+            ..Options::default()
+        }
     }
 }

@@ -4,6 +4,7 @@ use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::Statistics;
 use lptn_network::{BoundaryId, ConductorId, Network, NodeId, SourceId};
 
+use crate::curved::MOST_REMEMBERED;
 use crate::ledger::Ledger;
 use crate::watch::Seen;
 
@@ -34,6 +35,7 @@ pub struct Solution {
     pub(crate) statistics: Statistics,
     pub(crate) end: End,
     pub(crate) tolerance: f64,
+    pub(crate) remembered: f64,
 }
 
 impl Solution {
@@ -58,6 +60,11 @@ impl Solution {
         &self.temperatures[row * width..(row + 1) * width]
     }
 
+    /// Temperature of a node in one row in K; NaN if it was not recorded.
+    pub(crate) fn at(&self, row: usize, node: NodeId) -> f64 {
+        self.recorded.binary_search(&node).map_or(f64::NAN, |column| self.row(row)[column])
+    }
+
     /// Temperature of a node over the rows in K; `None` if it was not recorded.
     pub fn temperature(&self, node: NodeId) -> Option<Vec<f64>> {
         let column = self.recorded.binary_search(&node).ok()?;
@@ -68,55 +75,55 @@ impl Solution {
     /// Heat flow of a conductor over the rows in W, positive from `from` to `to`; `None` unless every node was
     /// recorded.
     pub fn conductor_heat(&self, id: ConductorId) -> Option<Vec<f64>> {
-        let mut heat = vec![0.0; self.network().conductors().len()];
-        self.replay(|system, work| {
-            system.conductor_heat(work, &mut heat);
-            heat[id.index()]
-        })
+        let mut heat = Vec::with_capacity(self.times.len());
+        self.is_whole().then(|| self.replay(|at| heat.push(at.conductor_heat(id))))?;
+        Some(heat)
     }
 
     /// Heat that a boundary gives to the network over the rows in W; `None` unless every node was recorded.
     pub fn boundary_heat(&self, id: BoundaryId) -> Option<Vec<f64>> {
-        let mut heat = vec![0.0; self.network().boundaries().len()];
-        self.replay(|system, work| {
-            system.boundary_heat(work, &mut heat);
-            heat[id.index()]
-        })
+        let mut heat = Vec::with_capacity(self.times.len());
+        self.is_whole().then(|| self.replay(|at| heat.push(at.boundary_heat()[id.index()])))?;
+        Some(heat)
     }
 
     /// Temperature of a boundary over the rows in K.
     pub fn boundary_temperature(&self, id: BoundaryId) -> Vec<f64> {
-        self.inputs(|system, work| system.boundary_temperatures(work)[id.index()])
+        let mut temperature = Vec::with_capacity(self.times.len());
+        self.replay(|at| temperature.push(at.boundary_temperatures()[id.index()]));
+        temperature
     }
 
     /// Heat of a source over the rows in W.
     pub fn source_heat(&self, id: SourceId) -> Vec<f64> {
-        self.inputs(|system, work| system.source_powers(work)[id.index()])
+        let mut heat = Vec::with_capacity(self.times.len());
+        self.replay(|at| heat.push(at.source_powers()[id.index()]));
+        heat
     }
 
-    /// Evaluates the system at every row; the inputs could be read there during the run, so they can be again.
-    pub(crate) fn replay<T>(&self, mut value: impl FnMut(&ThermalSystem, &Workspace) -> T) -> Option<Vec<T>> {
-        if self.recorded.len() != self.network().nodes().len() {
-            return None;
+    /// Whether every node was recorded, so that heat flows can be had.
+    pub fn is_whole(&self) -> bool {
+        self.recorded.len() == self.network().nodes().len()
+    }
+
+    /// Visits the rows in order. Inputs could be read there during the run, so they can be again.
+    pub(crate) fn replay(&self, mut visit: impl FnMut(&mut Replay<'_>)) {
+        let mut at = Replay {
+            system: &self.system,
+            work: self.system.workspace(),
+            states: vec![f64::NAN; self.system.states().len()],
+            boundary_heat: vec![f64::NAN; self.network().boundaries().len()],
+        };
+        for (row, (&time, &segment)) in self.times.iter().zip(&self.segments).enumerate() {
+            if self.system.read_inputs(&mut at.work, time, segment).is_err() {
+                break;
+            }
+            if self.is_whole() {
+                self.system.place(&mut at.work, self.row(row));
+                self.system.state_temperatures(self.row(row), &mut at.states);
+            }
+            visit(&mut at);
         }
-        let mut work = self.system.workspace();
-        let rows = self.times.iter().zip(&self.segments).zip(0..);
-        rows.map(|((&time, &segment), row)| {
-            self.system.read_inputs(&mut work, time, segment).ok()?;
-            self.system.place(&mut work, self.row(row));
-            Some(value(&self.system, &work))
-        })
-        .collect()
-    }
-
-    fn inputs(&self, mut value: impl FnMut(&ThermalSystem, &Workspace) -> f64) -> Vec<f64> {
-        let mut work = self.system.workspace();
-        let rows = self.times.iter().zip(&self.segments);
-        rows.map(|(&time, &segment)| match self.system.read_inputs(&mut work, time, segment) {
-            Ok(()) => value(&self.system, &work),
-            Err(_) => f64::NAN,
-        })
-        .collect()
     }
 
     /// What was seen of the watched nodes between the rows too, in the order they were named.
@@ -144,9 +151,57 @@ impl Solution {
         self.tolerance
     }
 
-    /// Whether the error stays within ten times the tolerance: every node leads to a boundary, so that errors
-    /// are forgotten. Otherwise it adds up over the run and the tolerance does not bound it.
+    /// Whether the error stays within ten times the tolerance (for tolerances from 1e-3 to 1e-5 K).
     pub fn error_is_bounded(&self) -> bool {
-        self.network().ungrounded().is_empty()
+        self.why_unbounded().is_none()
+    }
+
+    /// Why the tolerance does not bound the error, if it does not.
+    pub fn why_unbounded(&self) -> Option<Unbounded> {
+        let ungrounded: Vec<NodeId> = self.network().ungrounded().into_iter().flatten().collect();
+        if !ungrounded.is_empty() {
+            return Some(Unbounded::NoBoundary(ungrounded));
+        }
+        let steps = self.remembered;
+        (steps > MOST_REMEMBERED).then_some(Unbounded::LongMemory { steps })
+    }
+}
+
+/// Why the tolerance does not bound the error of a run: errors of the steps add up.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unbounded {
+    /// These nodes lead to no boundary, so that nothing is forgotten.
+    NoBoundary(Vec<NodeId>),
+    /// The network remembers very many steps of inputs that keep exciting it.
+    LongMemory {
+        /// How many.
+        steps: f64,
+    },
+}
+
+/// The system at one row of a solution. Without all nodes recorded its heat flows are not numbers.
+pub(crate) struct Replay<'a> {
+    system: &'a ThermalSystem,
+    work: Workspace,
+    states: Vec<f64>,
+    boundary_heat: Vec<f64>,
+}
+
+impl Replay<'_> {
+    pub(crate) fn conductor_heat(&self, id: ConductorId) -> f64 {
+        self.system.conductor_heat(&self.work, id)
+    }
+
+    pub(crate) fn boundary_heat(&mut self) -> &[f64] {
+        self.system.boundary_heat(&self.work, &self.states, &mut self.boundary_heat);
+        &self.boundary_heat
+    }
+
+    pub(crate) fn boundary_temperatures(&self) -> &[f64] {
+        self.system.boundary_temperatures(&self.work)
+    }
+
+    pub(crate) fn source_powers(&self) -> &[f64] {
+        self.system.source_powers(&self.work)
     }
 }

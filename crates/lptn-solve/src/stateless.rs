@@ -71,7 +71,7 @@ fn interval(
     let mut q = vec![0.0; integrals.len()];
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
     for (x, weight) in GAUSS {
-        ledger::integrands(system, recorder.at(middle + half * x)?, &mut q);
+        ledger::integrands(system, recorder.at(middle + half * x)?, &[], &mut q);
         integrals.iter_mut().zip(&q).for_each(|(sum, q)| *sum += half * weight * q);
     }
     Ok(())

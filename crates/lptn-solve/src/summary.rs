@@ -4,7 +4,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_network::{InputError, NodeId};
 
 use crate::solution::Solution;
-use crate::steady::SteadyState;
+use crate::steady::{SteadyState, just_after};
 use crate::watch::Watch;
 
 /// The share of the rise whose time is given: three time constants of a single exponential.
@@ -58,7 +58,7 @@ impl Summary {
         steady: Option<&SteadyState>,
     ) -> Result<Vec<Watch>, InputError> {
         let mut work = system.workspace();
-        system.read_inputs(&mut work, start, start)?;
+        system.read_inputs(&mut work, start, just_after(start))?;
         system.recover(&mut work, &system.initial());
         let initial = system.node_temperatures(&work);
         let level = |node: NodeId| {

@@ -47,22 +47,29 @@ impl Table {
         self.columns.iter().map(move |column| column.values[row])
     }
 
-    /// The time and the selected columns of a run, temperatures in `unit`.
+    /// The time and the selected columns of a run, temperatures in `unit`. A column of something that was not
+    /// recorded holds no numbers (NaN): see [`Selection::record`].
     pub fn of_solution(solution: &Solution, selection: &Selection, unit: &Unit) -> Self {
         let network = solution.network();
         let time = Column { name: "time".into(), unit: "s".into(), values: solution.times().to_vec() };
         let mut columns = vec![time];
         columns.extend(selection.quantities.iter().map(|q| q.column(network, unit)));
-        let heat = selection.quantities.iter().any(|q| q.is_heat_flow()).then(|| heat_flows(solution));
-        for (column, quantity) in columns[1..].iter_mut().zip(&selection.quantities) {
-            column.values = match *quantity {
-                Quantity::Node(id) => in_unit(solution.temperature(id).unwrap_or_default(), unit),
-                Quantity::BoundaryTemperature(id) => in_unit(solution.boundary_temperature(id), unit),
-                Quantity::Source(id) => solution.source_heat(id),
-                Quantity::Conductor(id) => flow(heat.as_ref(), id.index()),
-                Quantity::Boundary(id) => flow(heat.as_ref(), network.conductors().len() + id.index()),
-            };
-        }
+        let boundary = |q: &Quantity| matches!(q, Quantity::Boundary(_));
+        let heat_of_boundaries = selection.quantities.iter().any(boundary);
+        let mut row = 0;
+        solution.replay(|at| {
+            let heat = if heat_of_boundaries { at.boundary_heat().to_vec() } else { Vec::new() };
+            for (column, quantity) in columns[1..].iter_mut().zip(&selection.quantities) {
+                column.values.push(match *quantity {
+                    Quantity::Node(id) => unit.from_si(solution.at(row, id)),
+                    Quantity::BoundaryTemperature(id) => unit.from_si(at.boundary_temperatures()[id.index()]),
+                    Quantity::Source(id) => at.source_powers()[id.index()],
+                    Quantity::Conductor(id) => at.conductor_heat(id),
+                    Quantity::Boundary(id) => heat[id.index()],
+                });
+            }
+            row += 1;
+        });
         Self { columns }
     }
 
@@ -81,27 +88,6 @@ impl Table {
         };
         Self { columns: selection.quantities.iter().map(column).collect() }
     }
-}
-
-fn in_unit(kelvin: Vec<f64>, unit: &Unit) -> Vec<f64> {
-    kelvin.into_iter().map(|t| unit.from_si(t)).collect()
-}
-
-/// Heat flow of every conductor, then heat of every boundary, row by row.
-fn heat_flows(solution: &Solution) -> Vec<Vec<f64>> {
-    let network = solution.network();
-    let conductors = network.conductors().len();
-    let mut heat = vec![0.0; conductors + network.boundaries().len()];
-    let rows = solution.replay(|system, work| {
-        system.conductor_heat(work, &mut heat[..conductors]);
-        system.boundary_heat(work, &mut heat[conductors..]);
-        heat.clone()
-    });
-    rows.unwrap_or_default()
-}
-
-fn flow(rows: Option<&Vec<Vec<f64>>>, index: usize) -> Vec<f64> {
-    rows.map_or(Vec::new(), |rows| rows.iter().map(|row| row[index]).collect())
 }
 
 /// One quantity of a network that can be a column.

@@ -40,6 +40,17 @@ fn regular(every: f64, start: f64, stop: f64) -> Result<Vec<f64>, SettingsError>
     Ok((0..).map(time).take_while(|&t| t < stop - margin).collect())
 }
 
+/// Moves breakpoints that are a row's time but for rounding onto it, so that the row is after the jump.
+pub(crate) fn snap(breakpoints: &mut [f64], rows: &[f64]) {
+    for time in breakpoints {
+        let after = rows.partition_point(|row| row < time);
+        let near = |row: &&f64| (**row - *time).abs() <= 1e-11 * row.abs().max(time.abs());
+        if let Some(&row) = rows[after.saturating_sub(1)..].iter().take(2).find(near) {
+            *time = row;
+        }
+    }
+}
+
 /// A part of a run inside which every input is smooth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Segment {

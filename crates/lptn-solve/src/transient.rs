@@ -3,6 +3,7 @@
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::{IntegrateError, Integrator, Statistics};
 
+use crate::curved::Curved;
 use crate::error::{StopReason, TransientError};
 use crate::heat::Heat;
 use crate::ledger::Ledger;
@@ -33,9 +34,10 @@ impl Transient {
         self.check().map_err(TransientError::Settings)?;
         let rows = times::rows(&self.output, self.start, self.stop).map_err(TransientError::Settings)?;
         let network = system.network();
-        let breakpoints = network.breakpoints(self.start, self.stop).map_err(TransientError::Input)?;
+        let mut breakpoints = network.breakpoints(self.start, self.stop).map_err(TransientError::Input)?;
+        times::snap(&mut breakpoints, &rows);
         let segments = segments(self.start, self.stop, &breakpoints);
-        let recorder = Recorder::new(system, rows, self);
+        let recorder = Recorder::new(system, rows, self).map_err(TransientError::Settings)?;
         if system.states().is_empty() {
             return stateless::solve(recorder, &segments);
         }
@@ -60,13 +62,15 @@ struct Run<'a> {
 impl<'a> Run<'a> {
     fn new(
         system: &'a ThermalSystem,
-        recorder: Recorder<'a>,
+        mut recorder: Recorder<'a>,
         segments: &[Segment],
         settings: &Transient,
     ) -> Result<Self, TransientError> {
         let initial = system.initial();
         let heat = Heat::new(system, segments[0].inside());
-        let integrator = Integrator::new(heat, settings.start, &initial, &settings.options())
+        let curved = Curved::of(system, segments, recorder.rows());
+        recorder.remembered = curved.map_or(0.0, |c| c.remembered);
+        let integrator = Integrator::new(heat, settings.start, &initial, &settings.options(curved))
             .map_err(TransientError::Integrator)?;
         Ok(Self { integrator, recorder, initial, tolerance: settings.tolerance })
     }

@@ -24,9 +24,11 @@ pub struct Seen {
     last: (f64, f64),
 }
 
-/// Points looked at inside each step, besides its end. The steps of a method of order up to 5 are short
-/// against the curvature, so a parabola through three such points places a peak well within the tolerance.
+/// Points looked at inside each step, besides its ends.
 pub(crate) const SAMPLES: u32 = 8;
+
+/// How often the top of a curve is approached by another parabola.
+pub(crate) const REFINEMENTS: usize = 4;
 
 impl Seen {
     pub(crate) fn new(watch: Watch, time: f64, temperature: f64) -> Self {
@@ -49,26 +51,39 @@ impl Seen {
         self.last.1
     }
 
-    /// Takes in the temperatures at successive points of a step.
+    /// Where the curve stands.
+    pub(crate) fn last_point(&self) -> (f64, f64) {
+        self.last
+    }
+
+    /// Takes in the temperatures at successive points of a step, the first being where the curve stands.
     pub(crate) fn look(&mut self, points: &[(f64, f64)]) {
-        let before = self.last;
-        for (i, &(time, temperature)) in points.iter().enumerate() {
-            if temperature > self.peak.0 {
-                self.peak = (temperature, time);
-            }
-            if let Some(next) = points.get(i + 1) {
-                let previous = if i == 0 { before } else { points[i - 1] };
-                self.peak = higher(self.peak, top([previous, (time, temperature), *next]));
-            }
-            self.cross((time, temperature));
-            self.last = (time, temperature);
+        for &point in points {
+            self.peak_at(point);
+            self.cross(point);
+            self.last = point;
         }
+    }
+
+    /// Takes in a temperature that may be the highest.
+    pub(crate) fn peak_at(&mut self, (time, temperature): (f64, f64)) {
+        if temperature > self.peak.0 {
+            self.peak = (temperature, time);
+        }
+    }
+
+    /// A time inside the points where the curve promises to be higher than the peak so far.
+    pub(crate) fn promising(&self, points: &[(f64, f64)]) -> Option<f64> {
+        let tops = points.windows(3).filter_map(|p| top([p[0], p[1], p[2]]));
+        let (height, time) = tops.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let known = points.iter().any(|p| (p.0 - time).abs() <= 1e-12 * time.abs());
+        (height > self.peak.0 && !known).then_some(time)
     }
 
     /// Takes in the temperature after a jump: a massless node may leap over its level in no time.
     pub(crate) fn jump(&mut self, time: f64, temperature: f64) {
         self.cross((time, temperature));
-        self.peak = higher(self.peak, Some((temperature, time)));
+        self.peak_at((time, temperature));
         self.last = (time, temperature);
     }
 
@@ -76,27 +91,20 @@ impl Seen {
     fn cross(&mut self, (time, temperature): (f64, f64)) {
         let (Some(level), None) = (self.watch.level, self.crossed) else { return };
         let (before, after) = (self.last.1 - level, temperature - level);
-        if (before > 0.0) != (after > 0.0) {
+        if (before > 0.0) != (after > 0.0) || after == 0.0 {
             self.crossed = Some(self.last.0 + (time - self.last.0) * (before / (before - after)));
         }
     }
 }
 
-fn higher(a: (f64, f64), b: Option<(f64, f64)>) -> (f64, f64) {
-    b.filter(|b| b.0 > a.0).unwrap_or(a)
-}
-
-/// The top of the parabola through three points of ascending time, if the middle one is the highest.
+/// The top of the parabola through three points of ascending time, if it has one between them.
 fn top([(t0, y0), (t1, y1), (t2, y2)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
-    if !(y1 > y0 && y1 >= y2 && t0 < t1) {
-        return None;
-    }
     let (left, right) = ((y1 - y0) / (t1 - t0), (y2 - y1) / (t2 - t1));
     let curvature = (right - left) / (t2 - t0);
     let slope = left + curvature * (t1 - t0);
     let step = -slope / (2.0 * curvature);
     let time = t1 + step;
-    (time > t0 && time < t2).then_some((y1 + 0.5 * slope * step, time))
+    (curvature < 0.0 && time > t0 && time < t2).then_some((y1 + 0.5 * slope * step, time))
 }
 
 #[cfg(test)]

@@ -1,0 +1,57 @@
+//! One test for each fixed mistake of the command line.
+
+mod common;
+
+use common::{Folder, GEARBOX};
+
+const OVEN: &str = "format = 1\n[node]\nwinding = { C = \"150 J/K\", T0 = \"20 degC\" }\n\
+    [source]\nloss = { into = \"winding\", P = \"60 W\" }\n[run]\nstop = \"10 min\"\n";
+
+/// A file named `...toml` has the stem `..`: its results were written over files of the present folder.
+#[test]
+fn results_stay_inside_the_output_folder() {
+    let folder = Folder::with("...toml", GEARBOX);
+    folder.run(&["run", "./...toml"]).exits(0);
+    assert!(folder.path().join("out/netlist/result.csv").exists());
+    assert!(!folder.path().join("result.csv").exists());
+}
+
+/// A heated node that nothing ties to the rest was "ok, 0 warnings".
+#[test]
+fn check_warns_of_nodes_that_lead_nowhere() {
+    let ran = Folder::with("oven.toml", OVEN).run(&["check", "oven.toml"]).exits(0);
+    assert!(ran.out.contains("no path leads to a boundary from `winding`"), "{}", ran.out);
+}
+
+/// The table said that the error is not bounded, JSON had no warnings.
+#[test]
+fn json_holds_the_warnings_of_the_table() {
+    let folder = Folder::with("oven.toml", OVEN);
+    let ran = folder.run(&["run", "oven.toml", "--format", "json", "--no-files"]).exits(0);
+    let json: serde_json::Value = serde_json::from_str(&ran.out).unwrap();
+    assert_eq!(json["warnings"][0]["code"], "run::error_not_bounded");
+    let ran = folder.run(&["run", "oven.toml", "--format", "csv", "--no-files"]).exits(0);
+    assert!(ran.err.contains("error not bounded by the tolerance"), "{}", ran.err);
+}
+
+/// `mK` and `K^1` were copied into the header as if they were scales.
+#[test]
+fn temperature_units_are_scales() {
+    let folder = Folder::with_gearbox();
+    folder.run(&["steady", "gearbox.toml", "--temperature-unit", "mK"]).exits(2);
+    let ran = folder.run(&["steady", "gearbox.toml", "--temperature-unit", "\u{b0}C", "--format", "csv"]);
+    assert!(ran.exits(0).out.starts_with("steel.T [degC]"));
+}
+
+/// Results below 0 K were printed as if they were temperatures.
+#[test]
+fn steady_states_below_absolute_zero_fail() {
+    let text = GEARBOX.replace(
+        "P_disp = { into = \"steel\", P = \"P_7000\" }",
+        "cold = { into = \"steel\", P = \"-2 kW\" }",
+    );
+    let folder = Folder::with("cold.toml", &text);
+    let ran = folder.run(&["steady", "cold.toml"]).exits(3);
+    assert!(ran.err.contains("solve::below_absolute_zero"), "{}", ran.err);
+    folder.run(&["run", "cold.toml", "--no-files", "--tolerance", "1e-3K"]).exits(3);
+}
