@@ -67,6 +67,23 @@ fn a_pulse_that_the_steps_miss_is_found() {
 }
 
 #[test]
+fn rates_over_fourteen_decades_are_verified_as_far_as_they_can_be() {
+    let ladder =
+        [("1e3", "1e3"), ("1e-6", "1"), ("100", "100"), ("1e-3", "0.01"), ("10", "10"), ("1", "0.5")];
+    let mut nodes = String::from("format = 1\n[boundary]\nn6 = { T = \"0 degC\" }\n[node]\n");
+    let mut paths = String::from("[source]\ns = { into = \"n0\", P = \"50 W\" }\n[resistor]\n");
+    for (i, (c, g)) in ladder.iter().enumerate() {
+        nodes += &format!("n{i} = {{ C = \"{c} J/K\", T0 = \"0 degC\" }}\n");
+        paths += &format!("r{i} = {{ from = \"n{i}\", to = \"n{}\", G = \"{g} W/K\" }}\n", i + 1);
+    }
+    let text = nodes + &paths + "[run]\nstop = \"1e6 s\"\n";
+    let folder = Folder::with("stiff.toml", &text);
+    folder.run(&["verify", "stiff.toml"]).exits(0).prints("exact solution, 6 modes");
+    let ran = folder.run(&["verify", "stiff.toml", "--tolerance", "1e-9K"]).exits(0);
+    ran.prints("no independent solution: time constants differ").prints("consistent, not verified");
+}
+
+#[test]
 fn modes_are_listed_slowest_first() {
     let ran = Folder::with_gearbox().run(&["modes", "gearbox.toml"]).exits(0);
     assert!(ran.out.lines().all(|line| line.chars().count() <= 80));
