@@ -22,6 +22,16 @@ Examples:
   lptn steady motor.toml
   lptn steady motor.toml --set P_loss=80W --format json";
 
+const MODES_EXAMPLES: &str = "\
+Examples:
+  lptn modes motor.toml
+  lptn modes motor.toml --count 3 --format json";
+
+const VERIFY_EXAMPLES: &str = "\
+Examples:
+  lptn verify motor.toml
+  lptn verify motor.toml --tolerance 1e-7K";
+
 const CHECK_EXAMPLES: &str = "\
 Examples:
   lptn check motor.toml
@@ -79,6 +89,12 @@ pub(crate) enum Verb {
     /// Find the temperatures at which a network settles
     #[command(before_help = STEADY_EXAMPLES, help_template = TEMPLATE)]
     Steady(SteadyArgs),
+    /// List the time constants of a network and who takes part in each
+    #[command(before_help = MODES_EXAMPLES, help_template = TEMPLATE)]
+    Modes(ModesArgs),
+    /// Compare runs of a network with its exact solution
+    #[command(before_help = VERIFY_EXAMPLES, help_template = TEMPLATE)]
+    Verify(VerifyArgs),
     /// Look for mistakes in a netlist without running it
     #[command(before_help = CHECK_EXAMPLES, help_template = TEMPLATE)]
     Check(CheckArgs),
@@ -147,6 +163,36 @@ pub(crate) struct SteadyArgs {
     #[command(flatten)]
     pub(crate) shown: Shown,
     /// Accepted for scripts that pass it to every verb: `steady` writes none.
+    #[arg(long, hide = true)]
+    pub(crate) no_files: bool,
+}
+
+#[derive(Debug, Arguments)]
+pub(crate) struct ModesArgs {
+    #[command(flatten)]
+    pub(crate) source: Source,
+    /// Show the N slowest; else all of up to 20, or 10
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) count: Option<u32>,
+    /// Print a table, csv or json
+    #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    pub(crate) format: Format,
+    /// Accepted for scripts that pass it to every verb: `modes` writes none.
+    #[arg(long, hide = true)]
+    pub(crate) no_files: bool,
+}
+
+#[derive(Debug, Arguments)]
+pub(crate) struct VerifyArgs {
+    #[command(flatten)]
+    pub(crate) source: Source,
+    /// Verify a tolerance such as 1e-7K and a hundredth of it
+    #[arg(long, value_name = "K")]
+    pub(crate) tolerance: Option<String>,
+    /// Print a table, csv or json
+    #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    pub(crate) format: Format,
+    /// Accepted for scripts that pass it to every verb: `verify` writes none.
     #[arg(long, hide = true)]
     pub(crate) no_files: bool,
 }

@@ -16,6 +16,7 @@ mod failure;
 mod files;
 mod input;
 mod interrupt;
+mod modes;
 mod new;
 mod next;
 mod outcome;
@@ -26,6 +27,7 @@ mod steady;
 mod summary;
 mod summary_text;
 mod units;
+mod verify;
 
 use std::process::ExitCode;
 
@@ -58,6 +60,8 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
         Some(Verb::Run(args)) => run::run(args, console),
         Some(Verb::Check(args)) => check::check(args, console),
         Some(Verb::Steady(args)) => steady::steady(args, console),
+        Some(Verb::Modes(args)) => modes::modes(args, console),
+        Some(Verb::Verify(args)) => verify::verify(args, console),
         Some(Verb::New(args)) => new::new(args, console),
         Some(Verb::Units(args)) => units::units(args, console),
         Some(Verb::Completions(args)) => completions::completions(args, console),

@@ -139,21 +139,26 @@ impl<'a> Job<'a> {
     }
 
     fn explain(&self, error: &TransientError) -> Diagnostic {
-        let problem = Diagnostic::error(error.code(), error.to_string());
-        let (TransientError::Input(input) | TransientError::Stopped { reason: StopReason::Input(input), .. }) =
-            error
-        else {
-            return problem;
-        };
-        let map = &self.input.netlist.source_map;
-        match map.get(input.item, input.field).or_else(|| map.get(input.item, Field::Name)) {
-            Some(span) => problem.at(span.clone(), ""),
-            None => problem,
-        }
+        explain(self.input, error)
     }
 }
 
-fn no_run(input: &Input) -> Failure {
+/// What broke a run off, with the place of the input that did.
+pub(crate) fn explain(input: &Input, error: &TransientError) -> Diagnostic {
+    let problem = Diagnostic::error(error.code(), error.to_string());
+    let (TransientError::Input(failed) | TransientError::Stopped { reason: StopReason::Input(failed), .. }) =
+        error
+    else {
+        return problem;
+    };
+    let map = &input.netlist.source_map;
+    match map.get(failed.item, failed.field).or_else(|| map.get(failed.item, Field::Name)) {
+        Some(span) => problem.at(span.clone(), ""),
+        None => problem,
+    }
+}
+
+pub(crate) fn no_run(input: &Input) -> Failure {
     let problem =
         Diagnostic::error("run::no_run", format!("{} has no [run]: how long is it to run?", input.text.name))
             .help("add these lines, or look at `lptn steady`:\n\n[run]\nstop = \"25 min\"");

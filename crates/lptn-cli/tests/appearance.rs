@@ -25,17 +25,21 @@ fn mask_residual(line: &str) -> String {
 fn every_line_fits_into_80_columns() {
     let folder = Folder::with_gearbox();
     folder.run(&["new", "motor"]).exits(0);
-    let arguments: [&[&str]; 12] = [
+    let arguments: [&[&str]; 16] = [
         &["run", "gearbox.toml", "-v"],
         &["run", "motor.toml", "-v"],
         &["run", "gearbox.toml", "--temperature-unit", "degF"],
         &["steady", "gearbox.toml"],
+        &["modes", "gearbox.toml"],
+        &["verify", "gearbox.toml"],
         &["check", "gearbox.toml"],
         &["units"],
         &["units", "3 L/min"],
         &["--help"],
         &["run", "--help"],
         &["steady", "--help"],
+        &["modes", "--help"],
+        &["verify", "--help"],
         &["check", "--help"],
         &["--version"],
     ];
@@ -52,9 +56,15 @@ fn every_line_fits_into_80_columns() {
 fn long_names_are_shortened_before_lines_get_too_long() {
     let name = "first_stage_planet_carrier_needle_bearing_outer_ring";
     let text = GEARBOX.replace("steel", name);
-    let ran = Folder::with("gearbox.toml", &text).run(&["run", "gearbox.toml"]).exits(0);
+    let folder = Folder::with("gearbox.toml", &text);
+    let ran = folder.run(&["run", "gearbox.toml"]).exits(0);
     assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
     ran.prints("outer_ring").prints("92.7");
+    for verb in ["modes", "verify"] {
+        let ran = folder.run(&[verb, "gearbox.toml"]).exits(0);
+        assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
+        ran.prints("outer_ring");
+    }
 }
 
 #[test]

@@ -98,8 +98,8 @@ fn padded(text: &str, width: usize, align: Align) -> String {
     }
 }
 
-/// `planetary_..ring_17`: the ends of names tell them apart.
-fn shortened(name: &str, room: usize) -> String {
+/// A name of at most `room` letters, `planetary_..ring_17`: the ends of names tell them apart.
+pub fn shortened(name: &str, room: usize) -> String {
     let letters: Vec<char> = name.chars().collect();
     if name.width() <= room {
         return name.to_owned();

@@ -8,8 +8,10 @@
 
 mod curved;
 mod error;
+mod exact;
 mod heat;
 mod ledger;
+mod modes;
 #[cfg(test)]
 mod mutants;
 mod recorder;
@@ -21,16 +23,20 @@ mod summary;
 mod table;
 mod times;
 mod transient;
+mod verification;
 mod watch;
 
 pub use error::{SettingsError, SteadyError, StopReason, TransientError};
+pub use exact::{Difference, ExactError, ExactSolution};
 pub use ledger::Ledger;
 pub use lptn_integrate::{LinearSolver, Linkage, Statistics, linked};
 pub use lptn_network::OutputTimes;
+pub use modes::{Mode, Modes};
 pub use settings::{Control, Progress, Record, Transient};
 pub use solution::{End, Solution, Unbounded};
 pub use steady::SteadyState;
 pub use summary::{NodeSummary, Summary};
 pub use table::{Column, Selection, Table};
+pub use verification::{Comparison, LEAST_TOLERANCE, NoReference, Reference, Verification, allowed_error};
 
 pub use watch::{Seen, Watch};

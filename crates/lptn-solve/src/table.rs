@@ -32,6 +32,12 @@ pub struct Table {
 }
 
 impl Table {
+    /// A table of equally many values a column; names are those of a network and thus unique.
+    pub(crate) fn of_columns(columns: Vec<Column>) -> Self {
+        debug_assert!(columns.windows(2).all(|pair| pair[0].values.len() == pair[1].values.len()));
+        Self { columns }
+    }
+
     /// The columns.
     pub fn columns(&self) -> &[Column] {
         &self.columns

@@ -1,0 +1,211 @@
+//! `lptn modes` and `lptn verify`, as a user meets them.
+
+mod common;
+
+use std::path::Path;
+
+use common::{Folder, GEARBOX, csv};
+use serde_json::Value;
+
+const MASSLESS: &str = "format = 1\n[node]\nj = { massless = true }\n[boundary]\na = { T = \"20 degC\" }\n\
+                        [resistor]\nr = { from = \"j\", to = \"a\", R = \"1 K/W\" }\n[run]\nstop = \"1 s\"\n";
+
+/// A pulse of one second after a long rest: the steps of an integrator have grown long and go past it.
+const PULSE: &str = "format = 1\n[node]\nbody = { C = \"100 J/K\", T0 = \"20 degC\" }\n\
+    [boundary]\nair = { T = \"20 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", R = \"1 K/W\" }\n\
+    [source]\npulse = { into = \"body\", P = \"1 [kW] * exp(-((t - 700 [s]) / 1 [s])^2)\" }\n\
+    [run]\nstop = \"1000 s\"\n";
+
+const TWO_MASSES: &str = include_str!("../../../networks/two_masses.toml");
+
+/// A row of nodes, one more than is solved by modes.
+fn row_of(nodes: usize) -> String {
+    let mut text = String::from(
+        "format = 1\n[default]\nT0 = \"0 degC\"\n[boundary]\nair = { T = \"10 degC\" }\n[node]\n",
+    );
+    (0..nodes).for_each(|i| text += &format!("n{i} = {{ C = \"1 J/K\" }}\n"));
+    text += "[resistor]\nr0 = { from = \"air\", to = \"n0\", R = \"1 K/W\" }\n";
+    (1..nodes)
+        .for_each(|i| text += &format!("r{i} = {{ from = \"n{}\", to = \"n{i}\", R = \"1 K/W\" }}\n", i - 1));
+    text + "[run]\nstop = \"10 s\"\noutput = { every = \"5 s\" }\n"
+}
+
+fn scalar(value: &Value) -> f64 {
+    value["value"].as_f64().unwrap_or_else(|| panic!("{value}"))
+}
+
+#[test]
+fn every_shipped_network_is_verified() {
+    let networks = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../networks");
+    let folder = Folder::empty();
+    let mut found = 0;
+    for entry in std::fs::read_dir(networks).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "toml") {
+            let ran = folder.run(&["verify", path.to_str().unwrap()]).exits(0);
+            let last = ran.out.lines().last();
+            assert_eq!(last, Some("verified: every node at every row is within what is allowed"), "{path:?}");
+            assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
+            found += 1;
+        }
+    }
+    assert!(found >= 7);
+    assert!(folder.files().is_empty());
+}
+
+#[test]
+fn a_pulse_that_the_steps_miss_is_found() {
+    // the pulse holds 1 kW sqrt(pi) s, which heats 100 J/K by 17.7 K
+    let folder = Folder::with("pulse.toml", PULSE);
+    let ran = folder.run(&["verify", "pulse.toml"]).exits(1);
+    let last = ran.out.lines().last().unwrap();
+    assert_eq!(last, "not verified: off by 17 K at a tolerance of 1e-5 K, 1e-4 K allowed");
+    let ran =
+        folder.run(&["verify", "pulse.toml", "--format", "json"]).exits(1).says("not verified: off by 17 K");
+    assert_eq!(ran.json()["passes"], false);
+    assert_eq!(ran.json()["worst"][0]["node"], "body");
+}
+
+#[test]
+fn rates_over_fourteen_decades_are_verified_as_far_as_they_can_be() {
+    let ladder =
+        [("1e3", "1e3"), ("1e-6", "1"), ("100", "100"), ("1e-3", "0.01"), ("10", "10"), ("1", "0.5")];
+    let mut nodes = String::from("format = 1\n[boundary]\nn6 = { T = \"0 degC\" }\n[node]\n");
+    let mut paths = String::from("[source]\ns = { into = \"n0\", P = \"50 W\" }\n[resistor]\n");
+    for (i, (c, g)) in ladder.iter().enumerate() {
+        nodes += &format!("n{i} = {{ C = \"{c} J/K\", T0 = \"0 degC\" }}\n");
+        paths += &format!("r{i} = {{ from = \"n{i}\", to = \"n{}\", G = \"{g} W/K\" }}\n", i + 1);
+    }
+    let text = nodes + &paths + "[run]\nstop = \"1e6 s\"\n";
+    let folder = Folder::with("stiff.toml", &text);
+    folder.run(&["verify", "stiff.toml"]).exits(0).prints("exact solution, 6 modes");
+    let ran = folder.run(&["verify", "stiff.toml", "--tolerance", "1e-9K"]).exits(0);
+    ran.prints("no independent solution: time constants differ").prints("consistent, not verified");
+}
+
+#[test]
+fn modes_are_listed_slowest_first() {
+    let ran = Folder::with_gearbox().run(&["modes", "gearbox.toml"]).exits(0);
+    assert!(ran.out.lines().all(|line| line.chars().count() <= 80));
+    let ran = ran.prints("   1  13.233 min  aluminium 53.0 %, steel 47.0 %");
+    ran.prints("   2    5.0683 s  steel 53.0 %, aluminium 47.0 %");
+}
+
+#[test]
+fn modes_as_json_follow_the_schema() {
+    let json = Folder::with_gearbox().run(&["modes", "gearbox.toml", "--format", "json"]).exits(0).json();
+    assert_eq!((&json["format"], &json["network"]), (&Value::from(1), &Value::from("gearbox")));
+    assert!(json["warnings"].as_array().is_some_and(Vec::is_empty));
+    let modes = json["modes"].as_array().unwrap();
+    // validation/gearbox_two_node: the same numbers as networks/gearbox.toml
+    for (mode, tau) in modes.iter().zip([793.9525605667836, 5.068291654431279]) {
+        assert!((scalar(&mode["tau"]) / tau - 1.0).abs() < 1e-12, "{mode}");
+        assert_eq!(mode["tau"]["unit"], "s");
+        let parts = mode["participation"].as_object().unwrap();
+        assert!((parts.values().map(scalar).sum::<f64>() - 1.0).abs() < 1e-14);
+        assert!(mode["shape"].as_object().unwrap().values().any(|x| (scalar(x) - 1.0).abs() < 1e-15));
+    }
+    assert_eq!(modes.len(), 2);
+}
+
+#[test]
+fn what_lasts_for_ever_is_null_and_noted() {
+    let folder = Folder::with("two.toml", TWO_MASSES);
+    let json = folder.run(&["modes", "two.toml", "--format", "json"]).exits(0).json();
+    assert!(json["modes"][0]["tau"]["value"].is_null());
+    assert!(json["notes"][0].as_str().unwrap().contains("no path leads from its nodes to a boundary"));
+    assert!((scalar(&json["modes"][1]["tau"]) - 0.75).abs() < 1e-15);
+    folder.run(&["modes", "two.toml"]).exits(0).prints("for ever").prints("note: 1 mode lasts for ever");
+}
+
+#[test]
+fn count_keeps_the_slowest() {
+    let folder = Folder::with_gearbox();
+    let ran = folder.run(&["modes", "gearbox.toml", "--count", "1"]).exits(0);
+    ran.prints("note: the 1 slowest of 2 modes; --count N shows others");
+    let (headers, rows) = csv(&folder.run(&["modes", "gearbox.toml", "--count", "1", "--format", "csv"]).out);
+    assert_eq!(headers[..3], ["tau [s]", "steel.shape [-]", "steel.participation [-]"]);
+    assert_eq!(rows.len(), 1);
+    folder.run(&["modes", "gearbox.toml", "--count", "0"]).exits(2);
+}
+
+#[test]
+fn a_network_without_capacity_has_no_modes_and_says_so() {
+    let folder = Folder::with("j.toml", MASSLESS);
+    folder.run(&["modes", "j.toml"]).exits(0).prints("no node stores heat");
+    let json = folder.run(&["modes", "j.toml", "--format", "json"]).exits(0).json();
+    assert_eq!(json["modes"], Value::Array(Vec::new()));
+}
+
+#[test]
+fn large_networks_have_no_modes_and_no_independent_solution() {
+    let folder = Folder::with("row.toml", &row_of(2001));
+    folder.run(&["modes", "row.toml"]).exits(2).says("modes::too_large").says("at most 2000");
+    let ran = folder.run(&["verify", "row.toml"]).exits(0).prints("no independent solution: 2001 nodes");
+    assert!(ran.out.ends_with("consistent, not verified: two tolerances agree within what is allowed\n"));
+    let json = folder.run(&["verify", "row.toml", "--format", "json"]).exits(0).json();
+    assert_eq!(
+        (&json["reference"]["independent"], &json["passes"]),
+        (&Value::from(false), &Value::from(true))
+    );
+}
+
+#[test]
+fn rows_have_the_same_columns_in_csv_and_json() {
+    let folder = Folder::with_gearbox();
+    let (headers, rows) = csv(&folder.run(&["verify", "gearbox.toml", "--format", "csv"]).exits(0).out);
+    let json = folder.run(&["verify", "gearbox.toml", "--format", "json"]).exits(0).json();
+    let columns = json["columns"].as_array().unwrap().iter();
+    let named: Vec<String> = columns
+        .map(|c| format!("{} [{}]", c["name"].as_str().unwrap(), c["unit"].as_str().unwrap()))
+        .collect();
+    assert_eq!(headers, named);
+    assert_eq!(
+        headers,
+        [
+            "tolerance [K]",
+            "difference [K]",
+            "allowed [K]",
+            "time [s]",
+            "steel.difference [K]",
+            "aluminium.difference [K]"
+        ]
+    );
+    let written: Vec<Vec<f64>> = serde_json::from_value(json["rows"].clone()).unwrap();
+    assert_eq!((rows.len(), written.len()), (2, 2));
+    for (row, written) in rows.iter().zip(&written) {
+        // serde_json reads numbers to the last digit but one
+        assert!(
+            row.iter().zip(written).all(|(a, b)| (a - b).abs() <= 1e-15 * b.abs()),
+            "{row:?} {written:?}"
+        );
+        assert!(row[1] <= row[2] && row[1] > 0.0, "{row:?}");
+        assert!((row[1] - row[4].max(row[5])).abs() < 1e-300);
+    }
+    assert_eq!(json["passes"], true);
+}
+
+#[test]
+fn tolerances_can_be_chosen() {
+    let folder = Folder::with_gearbox();
+    for (tolerance, allowed) in [("1e-3K", 1e-2), ("1e-4K", 1e-3), ("1e-6K", 5e-5), ("1e-7K", 5e-6)] {
+        let arguments = ["verify", "gearbox.toml", "--tolerance", tolerance, "--format", "csv"];
+        let (_, rows) = csv(&folder.run(&arguments).exits(0).out);
+        assert!((rows[0][2] / allowed - 1.0).abs() < 1e-6, "{tolerance}: {rows:?}");
+    }
+    folder.run(&["verify", "gearbox.toml", "--tolerance", "1 W"]).exits(2);
+}
+
+#[test]
+fn a_network_without_a_run_is_not_verified() {
+    let text = GEARBOX.split("[run]").next().unwrap();
+    Folder::with("gearbox.toml", text).run(&["verify", "gearbox.toml"]).exits(2).says("run::no_run");
+}
+
+#[test]
+fn an_input_that_fails_ends_with_its_place() {
+    let text = GEARBOX.replace("P = \"P_7000\"", "P = \"P_7000 * sqrt(1 - t / 60 [s])\"");
+    assert_ne!(text, GEARBOX);
+    let ran = Folder::with("gearbox.toml", &text).run(&["verify", "gearbox.toml"]).exits(3);
+    ran.says("solve::input").says("P_7000 * sqrt");
+}

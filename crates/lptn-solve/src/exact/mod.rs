@@ -1,0 +1,302 @@
+//! The exact solution of a linear network by its modes: an oracle for every other way to solve it.
+//!
+//! With `x_k` the modes of `C^-1/2 G C^-1/2` scaled so that `x_k' C x_k = 1`, the amplitudes
+//! `y_k = x_k' C (T - T_ref)` obey `dy_k/dt = -r_k y_k + f_k(t)` each by itself, and between two rows
+//! `y_k(b) = exp(-r_k (b - a)) y_k(a) + int exp(-r_k (b - s)) f_k(s) ds`. Constant and straight inputs are
+//! integrated in closed form, others through series of Legendre polynomials against the exact kernel. No step
+//! depends on the one before but through rounding, and no tolerance is passed on. Nothing is shared with
+//! `lptn-assembly` and `lptn-integrate`.
+
+mod inputs;
+mod legendre;
+mod march;
+mod reduced;
+mod spectrum;
+
+use std::fmt;
+
+use lptn_network::{InputError, Network, NodeId};
+use lptn_units::EvalError;
+
+use crate::solution::Solution;
+use crate::times::{Segment, segments};
+use inputs::Inputs;
+use march::March;
+pub(crate) use reduced::Reduced;
+pub(crate) use spectrum::{Island, islands};
+
+/// Temperatures of every node at given times, from the modes of the network.
+#[derive(Clone, Debug)]
+pub struct ExactSolution {
+    times: Vec<f64>,
+    /// Row by row the temperature of every node in K.
+    temperatures: Vec<f64>,
+    nodes: usize,
+    states: usize,
+    quadrature: Option<f64>,
+    rounding: f64,
+}
+
+/// Where two solutions of one network differ most.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// Largest absolute difference in K.
+    pub largest: f64,
+    /// The node where it is.
+    pub node: NodeId,
+    /// Its time in s.
+    pub time: f64,
+    /// The largest difference of each node in K.
+    pub by_node: Vec<f64>,
+}
+
+/// Why a network has no exact solution here.
+#[derive(Clone, Debug)]
+pub enum ExactError {
+    /// More nodes than the dense eigenproblem is for.
+    TooLarge {
+        /// How many it has.
+        nodes: usize,
+    },
+    /// The times are none, do not increase, or begin before the start.
+    Times,
+    /// A source or boundary has no value.
+    Input(InputError),
+    /// A constant has no value.
+    Value(EvalError),
+    /// The conductances of the massless nodes span more than the numbers can hold.
+    Singular,
+    /// The eigenvalues were not found.
+    Modes,
+    /// An input changes too fast for any series.
+    Quadrature {
+        /// Where the attempt was given up, in s.
+        time: f64,
+    },
+}
+
+impl ExactError {
+    /// The stable code, as diagnostics print it.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::TooLarge { .. } => "exact::too_large",
+            Self::Times => "exact::times",
+            Self::Input(_) | Self::Value(_) => "solve::input",
+            Self::Singular => "exact::singular",
+            Self::Modes => "exact::modes",
+            Self::Quadrature { .. } => "exact::quadrature",
+        }
+    }
+}
+
+impl fmt::Display for ExactError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooLarge { nodes } => {
+                write!(f, "{nodes} nodes are more than the {} that are solved by modes", Reduced::MOST_NODES)
+            }
+            Self::Times => f.write_str("the times must increase and begin at the start or after it"),
+            Self::Input(error) => error.fmt(f),
+            Self::Value(error) => error.fmt(f),
+            Self::Singular => {
+                f.write_str("the conductances of the massless nodes span more than the numbers can hold")
+            }
+            Self::Modes => f.write_str("the eigenvalues of the network were not found"),
+            Self::Quadrature { time } => write!(f, "an input changes too fast at {time} s to be integrated"),
+        }
+    }
+}
+
+impl std::error::Error for ExactError {}
+
+impl ExactSolution {
+    /// Temperatures of `network` at `times` in s, which increase strictly, from a start at `start` in s. At a jump
+    /// of an input the temperatures are those after it, except at the last time.
+    ///
+    /// # Errors
+    /// [`ExactError`]; more than 2000 nodes are refused.
+    pub fn solve(network: &Network, start: f64, times: &[f64]) -> Result<Self, ExactError> {
+        let ascending = times.windows(2).all(|pair| pair[0] < pair[1]);
+        let (Some(&first), Some(&stop), true) = (times.first(), times.last(), ascending) else {
+            return Err(ExactError::Times);
+        };
+        if !(start <= first && start < stop && start.is_finite() && stop.is_finite()) {
+            return Err(ExactError::Times);
+        }
+        let breakpoints = network.breakpoints(start, stop).map_err(ExactError::Input)?;
+        let reduced = Reduced::new(network)?;
+        let islands = islands(&reduced, network.boundaries().len())?;
+        let mut rows = Rows::new(network, &reduced, times)?;
+        let inputs = Inputs::new(network, rows.reference);
+        let mut march = March::new(inputs, (&reduced, &islands), &rows.rises, stop - start);
+        rows.start(&march);
+        for segment in segments(start, stop, &breakpoints) {
+            rows.segment(&mut march, segment)?;
+        }
+        let (quadrature, rounding) = (march.series_error(), rows.rounding());
+        let nodes = network.nodes().len();
+        let (states, temperatures) = (reduced.states.len(), rows.temperatures);
+        Ok(Self { times: times.to_vec(), temperatures, nodes, states, quadrature, rounding })
+    }
+
+    /// The times in s.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Temperatures of all nodes at one of the times, in K.
+    pub fn row(&self, row: usize) -> &[f64] {
+        &self.temperatures[row * self.nodes..(row + 1) * self.nodes]
+    }
+
+    /// Temperature of a node over the times in K.
+    pub fn temperature(&self, node: NodeId) -> Vec<f64> {
+        (0..self.times.len()).map(|row| self.row(row)[node.index()]).collect()
+    }
+
+    /// Number of nodes with capacity, which is the number of modes.
+    pub fn states(&self) -> usize {
+        self.states
+    }
+
+    /// What integrating inputs that are neither constant nor straight may have cost, in K; `None` where there
+    /// are none, so that everything is in closed form.
+    pub fn quadrature_error(&self) -> Option<f64> {
+        self.quadrature
+    }
+
+    /// An estimate of its own error in K: quadrature and rounding. The latter is what the modes miss of the
+    /// start, a few units in the last place of a temperature, and what is left over when the rates of change
+    /// that the modes give are put into the heat balance of every node at up to 32 of the rows, taken as heat
+    /// that lasts for the whole run.
+    pub fn own_error(&self) -> f64 {
+        self.quadrature.unwrap_or(0.0) + self.rounding
+    }
+
+    /// Where a run differs most from this; `None` unless it kept every node and has these times.
+    pub fn difference(&self, solution: &Solution) -> Option<Difference> {
+        let same = solution.recorded().len() == self.nodes && solution.times() == self.times;
+        same.then(|| Difference::largest(solution, |row| self.row(row))).flatten()
+    }
+}
+
+impl Difference {
+    /// The largest difference between the rows of a run that kept every node and those of a reference; `None`
+    /// for a run without rows.
+    pub(crate) fn largest<'a>(solution: &Solution, reference: impl Fn(usize) -> &'a [f64]) -> Option<Self> {
+        let nodes: Vec<NodeId> = solution.recorded().to_vec();
+        let time = *solution.times().first()?;
+        let mut found = Self { largest: -1.0, node: *nodes.first()?, time, by_node: vec![0.0; nodes.len()] };
+        for (row, &time) in solution.times().iter().enumerate() {
+            let pairs = solution.row(row).iter().zip(reference(row)).zip(&nodes).zip(&mut found.by_node);
+            for (((a, b), &node), most) in pairs {
+                let difference = (a - b).abs();
+                // in total order a difference that is no number is larger than any
+                if difference.total_cmp(most).is_gt() {
+                    *most = difference;
+                }
+                if difference.total_cmp(&found.largest).is_gt() {
+                    (found.largest, found.node, found.time) = (difference, node, time);
+                }
+            }
+        }
+        Some(found)
+    }
+}
+
+/// Rows, about, at which the modes are put to the test.
+const DEFECTS: usize = 31;
+
+/// The rows, written in order.
+struct Rows<'a> {
+    reduced: &'a Reduced,
+    times: &'a [f64],
+    next: usize,
+    /// Temperature in K that all rises are counted from.
+    reference: f64,
+    rises: Vec<f64>,
+    temperatures: Vec<f64>,
+    nodes: usize,
+    /// Largest rise so far.
+    span: f64,
+    /// What the modes miss of the start, and their largest defect so far, in K.
+    missed: f64,
+    defect: f64,
+}
+
+impl<'a> Rows<'a> {
+    fn new(network: &Network, reduced: &'a Reduced, times: &'a [f64]) -> Result<Self, ExactError> {
+        let initial = reduced.initial(network)?;
+        // rises over a temperature of the network itself are small numbers with small rounding errors
+        let reference = initial.first().copied().unwrap_or(lptn_network::ZERO_CELSIUS);
+        let rises: Vec<f64> = initial.iter().map(|t| t - reference).collect();
+        let nodes = network.nodes().len();
+        let temperatures = Vec::with_capacity(times.len() * nodes);
+        Ok(Self {
+            reduced,
+            times,
+            next: 0,
+            reference,
+            rises,
+            temperatures,
+            nodes,
+            span: 0.0,
+            missed: 0.0,
+            defect: 0.0,
+        })
+    }
+
+    /// Goes through a segment; a row at its end is left to the next one, unless it is the last of all.
+    fn segment(&mut self, march: &mut March<'_>, segment: Segment) -> Result<(), ExactError> {
+        march.enter(segment.inside());
+        let mut now = segment.from;
+        while let Some(&time) = self.times.get(self.next) {
+            let last = self.next + 1 == self.times.len();
+            if time > segment.to || (time >= segment.to && !last) {
+                break;
+            }
+            if time > now {
+                march.advance(now, time)?;
+                now = time;
+            }
+            self.push(march, time)?;
+        }
+        if now < segment.to {
+            march.advance(now, segment.to)?;
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, march: &mut March<'_>, time: f64) -> Result<(), ExactError> {
+        if self.next.is_multiple_of(self.times.len() / DEFECTS + 1) || self.next + 1 == self.times.len() {
+            self.defect = self.defect.max(march.defect(time).map_err(ExactError::Input)?);
+        }
+        let mut known = march.rises();
+        let states = known.len();
+        known.extend(march.inputs(time).map_err(ExactError::Input)?);
+        let mut row = vec![f64::NAN; self.nodes];
+        for (id, rise) in self.reduced.states.iter().zip(&known[..states]) {
+            row[id.index()] = *rise;
+        }
+        for (m, id) in self.reduced.massless.iter().enumerate() {
+            let parts = known.iter().enumerate().map(|(j, value)| self.reduced.recovery[(m, j)] * value);
+            row[id.index()] = parts.sum();
+        }
+        self.span = row.iter().fold(self.span, |span, rise| span.max(rise.abs()));
+        self.temperatures.extend(row.iter().map(|rise| self.reference + rise));
+        self.next += 1;
+        Ok(())
+    }
+
+    /// Compares the start as the modes have it with what it is.
+    fn start(&mut self, march: &March<'_>) {
+        let found = march.rises();
+        let missed = found.iter().zip(&self.rises).map(|(a, b)| (a - b).abs());
+        self.missed = missed.fold(0.0, f64::max);
+    }
+
+    /// See [`ExactSolution::own_error`].
+    fn rounding(&self) -> f64 {
+        4.0 * f64::EPSILON * (self.reference + self.span) + self.missed + self.defect
+    }
+}

@@ -1,0 +1,133 @@
+//! Modes of `C dT/dt = -G T`: eigenvalues and vectors of `C^-1/2 G C^-1/2`, island by island.
+
+use faer::{Mat, Side};
+
+use super::ExactError;
+use super::reduced::Reduced;
+
+/// States that are joined to each other and to no others, with their modes, slowest first.
+#[derive(Clone, Debug)]
+pub(crate) struct Island {
+    /// The states, ascending.
+    pub(crate) members: Vec<usize>,
+    /// Rate of each mode in 1/s; exactly 0 for the mean of an island without a way to a boundary.
+    pub(crate) rates: Vec<f64>,
+    /// Temperature of each member (row) in each mode (column), such that the sum of `C x^2` is 1 J K.
+    pub(crate) shapes: Mat<f64>,
+}
+
+/// The islands of a network in the order of their first states.
+pub(crate) fn islands(reduced: &Reduced, boundaries: usize) -> Result<Vec<Island>, ExactError> {
+    let ties = reduced.ties(boundaries);
+    let numbers = numbering(reduced);
+    let count = numbers.iter().max().map_or(0, |last| last + 1);
+    let island = |number: usize| {
+        let members: Vec<usize> = (0..numbers.len()).filter(|&i| numbers[i] == number).collect();
+        Part::new(reduced, &ties, members).solve()
+    };
+    (0..count).map(island).collect()
+}
+
+/// For each state the number of its island, from 0 in the order of appearance.
+fn numbering(reduced: &Reduced) -> Vec<usize> {
+    let n = reduced.states.len();
+    let mut neighbours = vec![Vec::new(); n];
+    for &(a, b, _) in &reduced.links {
+        neighbours[a].push(b);
+        neighbours[b].push(a);
+    }
+    let mut numbers = vec![usize::MAX; n];
+    let mut count = 0;
+    for first in 0..n {
+        let mut open = vec![first];
+        let known = numbers[first] != usize::MAX;
+        while let Some(i) = open.pop().filter(|_| !known) {
+            if numbers[i] == usize::MAX {
+                numbers[i] = count;
+                open.extend(&neighbours[i]);
+            }
+        }
+        count += usize::from(!known);
+    }
+    numbers
+}
+
+/// One island by itself.
+struct Part {
+    members: Vec<usize>,
+    root: Vec<f64>,
+    links: Vec<(usize, usize, f64)>,
+    ties: Vec<f64>,
+}
+
+impl Part {
+    fn new(reduced: &Reduced, ties: &[f64], members: Vec<usize>) -> Self {
+        let root = members.iter().map(|&i| reduced.capacity[i].sqrt()).collect();
+        let place = |i: usize| members.binary_search(&i).ok();
+        let inside = |&(a, b, g): &(usize, usize, f64)| Some((place(a)?, place(b)?, g));
+        let links = reduced.links.iter().filter_map(inside).collect();
+        let ties = members.iter().map(|&i| ties[i]).collect();
+        Self { members, root, links, ties }
+    }
+
+    fn solve(self) -> Result<Island, ExactError> {
+        let n = self.members.len();
+        let eigen = self.scaled().self_adjoint_eigen(Side::Lower).map_err(|_| ExactError::Modes)?;
+        let mut vectors = eigen.U().to_owned();
+        if self.is_loose() {
+            self.take_out_the_mean(&mut vectors);
+        }
+        let shapes = Mat::from_fn(n, n, |i, k| vectors[(i, k)] / self.root[i]);
+        let mut rates: Vec<f64> = (0..n).map(|k| self.rate(&shapes, k)).collect();
+        if self.is_loose() {
+            rates[0] = 0.0;
+        }
+        Ok(Island { members: self.members, rates, shapes })
+    }
+
+    fn is_loose(&self) -> bool {
+        self.ties.iter().all(|&g| g == 0.0)
+    }
+
+    /// `C^-1/2 G C^-1/2`
+    fn scaled(&self) -> Mat<f64> {
+        let n = self.members.len();
+        let mut a = Mat::zeros(n, n);
+        for (i, g) in self.ties.iter().enumerate() {
+            a[(i, i)] += g / (self.root[i] * self.root[i]);
+        }
+        for &(i, j, g) in &self.links {
+            a[(i, i)] += g / (self.root[i] * self.root[i]);
+            a[(j, j)] += g / (self.root[j] * self.root[j]);
+            a[(i, j)] -= g / (self.root[i] * self.root[j]);
+            a[(j, i)] -= g / (self.root[i] * self.root[j]);
+        }
+        a
+    }
+
+    /// The slowest mode of an island that nothing leaves is known: all at one temperature. The others are
+    /// made orthogonal to it, so that they carry no heat to the last digit.
+    fn take_out_the_mean(&self, vectors: &mut Mat<f64>) {
+        let size = self.root.iter().map(|r| r * r).sum::<f64>().sqrt();
+        for (i, root) in self.root.iter().enumerate() {
+            vectors[(i, 0)] = root / size;
+        }
+        for k in 1..self.root.len() {
+            let along: f64 = (0..self.root.len()).map(|i| vectors[(i, 0)] * vectors[(i, k)]).sum();
+            for i in 0..self.root.len() {
+                let mean = vectors[(i, 0)];
+                vectors[(i, k)] -= along * mean;
+            }
+        }
+    }
+
+    /// Rayleigh's quotient as a sum of the heat of every path: positive terms, so that slow modes keep their
+    /// digits beside fast ones, which the eigenvalues of a dense solver do not.
+    fn rate(&self, shapes: &Mat<f64>, k: usize) -> f64 {
+        let x = |i: usize| shapes[(i, k)];
+        let links: f64 = self.links.iter().map(|&(i, j, g)| g * (x(i) - x(j)) * (x(i) - x(j))).sum();
+        let ties: f64 = self.ties.iter().enumerate().map(|(i, g)| g * x(i) * x(i)).sum();
+        let norm: f64 = self.root.iter().enumerate().map(|(i, r)| (r * x(i)) * (r * x(i))).sum();
+        (links + ties) / norm
+    }
+}

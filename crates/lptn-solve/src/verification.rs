@@ -1,0 +1,174 @@
+//! A run against a solution found another way.
+
+use lptn_assembly::ThermalSystem;
+use lptn_network::Network;
+
+use crate::error::TransientError;
+use crate::exact::{Difference, ExactError, ExactSolution};
+use crate::settings::{Record, Transient};
+use crate::solution::Solution;
+use crate::table::{Column, Table};
+
+/// How far runs of a network are from its exact solution.
+#[derive(Clone, Debug)]
+pub struct Verification {
+    /// What they are compared with.
+    pub reference: Reference,
+    /// One comparison a run, the coarsest tolerance first.
+    pub comparisons: Vec<Comparison>,
+}
+
+/// What runs are compared with.
+#[derive(Clone, Debug)]
+pub enum Reference {
+    /// The solution by modes.
+    Exact {
+        /// Number of modes.
+        states: usize,
+        /// See [`ExactSolution::quadrature_error`].
+        quadrature_error: Option<f64>,
+        /// See [`ExactSolution::own_error`].
+        own_error: f64,
+    },
+    /// There is no independent solution: a run at a hundredth of the tolerance.
+    FinerRun {
+        /// Its tolerance in K.
+        tolerance: f64,
+        /// Why.
+        reason: NoReference,
+    },
+}
+
+/// Why a network has no independent solution.
+#[derive(Clone, Debug)]
+pub enum NoReference {
+    /// It cannot be solved exactly.
+    Unsolved(ExactError),
+    /// Its exact solution is not better than what is to be verified: its rates span too much.
+    TooStiff {
+        /// The error of the exact solution in K.
+        own_error: f64,
+    },
+}
+
+/// One run beside the reference.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// Tolerance of the run in K.
+    pub tolerance: f64,
+    /// Where it differs most.
+    pub difference: Difference,
+    /// The largest error that is allowed, in K: [`allowed_error`].
+    pub allowed: f64,
+    /// What the reference itself may be off, in K.
+    pub reference_error: f64,
+}
+
+/// No run is asked for less than this, in K: temperatures near 300 K have a last digit of 6e-14 K, and the
+/// integrator needs room above it.
+pub const LEAST_TOLERANCE: f64 = 1e-10;
+
+/// Part of the allowed error that a reference may have itself and still judge a run.
+const MOST_OWN_ERROR: f64 = 0.1;
+
+/// What the error of a run may be, in K: ten times its tolerance down to 1e-5 K, fifty times below that.
+pub fn allowed_error(tolerance: f64) -> f64 {
+    let coarse = tolerance >= 1e-5 * (1.0 - 1e-9);
+    tolerance * if coarse { 10.0 } else { 50.0 }
+}
+
+impl Comparison {
+    /// Whether the run can be as good as it has to be.
+    pub fn passes(&self) -> bool {
+        self.difference.largest <= self.allowed + self.reference_error
+    }
+}
+
+impl Verification {
+    /// Runs `system` as `settings` say, at their tolerance and at a hundredth of it, and compares every node at
+    /// every row with the exact solution; where there is none, the two runs with each other.
+    ///
+    /// # Errors
+    /// What a run reports.
+    pub fn of(system: &ThermalSystem, settings: &Transient) -> Result<Self, TransientError> {
+        let fine = (0.01 * settings.tolerance).max(LEAST_TOLERANCE);
+        let run = |tolerance: f64| {
+            let settings =
+                Transient { tolerance, record: Record::All, watch: Vec::new(), ..settings.clone() };
+            settings.solve(system)
+        };
+        let coarse = run(settings.tolerance)?;
+        let finer = if fine < settings.tolerance { Some(run(fine)?) } else { None };
+        let runs: Vec<&Solution> = std::iter::once(&coarse).chain(&finer).collect();
+        match exact(system.network(), &coarse, settings.start) {
+            Ok(exact) => Ok(Self::against_exact(&exact, &runs)),
+            Err(reason) => Ok(Self::against_each_other(reason, &runs)),
+        }
+    }
+
+    /// Compares runs with an exact solution at the same times; runs of other times or nodes are left out.
+    pub fn against_exact(exact: &ExactSolution, runs: &[&Solution]) -> Self {
+        let own = exact.own_error();
+        let compare = |run: &&Solution| Some(Comparison::new(run, exact.difference(run)?, own));
+        Self {
+            reference: Reference::Exact {
+                states: exact.states(),
+                quadrature_error: exact.quadrature_error(),
+                own_error: exact.own_error(),
+            },
+            comparisons: runs.iter().filter_map(compare).collect(),
+        }
+    }
+
+    fn against_each_other(reason: NoReference, runs: &[&Solution]) -> Self {
+        let (&coarse, &fine) = (&runs[0], &runs[runs.len() - 1]);
+        let difference = (runs.len() > 1).then(|| Difference::largest(coarse, |row| fine.row(row))).flatten();
+        Self {
+            reference: Reference::FinerRun { tolerance: fine.tolerance(), reason },
+            comparisons: difference.map(|d| Comparison::new(coarse, d, 0.0)).into_iter().collect(),
+        }
+    }
+
+    /// Whether every difference is allowed, and there is one to judge.
+    pub fn passes(&self) -> bool {
+        !self.comparisons.is_empty() && self.comparisons.iter().all(Comparison::passes)
+    }
+
+    /// One row a run: `tolerance`, `difference` (the largest), `allowed`, `time` (of the largest difference),
+    /// and `NAME.difference` of every node.
+    pub fn table(&self, network: &Network) -> Table {
+        let column = |name: String, unit: &str, value: &dyn Fn(&Comparison) -> f64| Column {
+            name,
+            unit: unit.to_owned(),
+            values: self.comparisons.iter().map(value).collect(),
+        };
+        let mut columns = vec![
+            column("tolerance".into(), "K", &|c| c.tolerance),
+            column("difference".into(), "K", &|c| c.difference.largest),
+            column("allowed".into(), "K", &|c| c.allowed),
+            column("time".into(), "s", &|c| c.difference.time),
+        ];
+        for (i, node) in network.nodes().iter().enumerate() {
+            columns.push(column(format!("{}.difference", node.name), "K", &|c| c.difference.by_node[i]));
+        }
+        Table::of_columns(columns)
+    }
+}
+
+impl Comparison {
+    fn new(run: &Solution, difference: Difference, reference_error: f64) -> Self {
+        let tolerance = run.tolerance();
+        Self { tolerance, difference, allowed: allowed_error(tolerance), reference_error }
+    }
+}
+
+/// The exact solution at the rows of a run, unless it cannot judge that run.
+fn exact(network: &Network, run: &Solution, start: f64) -> Result<ExactSolution, NoReference> {
+    let exact = ExactSolution::solve(network, start, run.times()).map_err(NoReference::Unsolved)?;
+    let own_error = exact.own_error();
+    if own_error <= MOST_OWN_ERROR * allowed_error(run.tolerance()) {
+        Ok(exact)
+    } else {
+        Err(NoReference::TooStiff { own_error })
+    }
+}

@@ -1,0 +1,159 @@
+//! Time constants and shapes against closed forms.
+
+#![allow(clippy::unwrap_used, clippy::float_cmp, reason = "helpers of tests; numbers that are exact")]
+
+mod common;
+
+use common::{gearbox, rc_ladder, stiff, two_masses};
+use lptn_network::{Conductance, HeatCapacity, Network, NetworkBuilder, Temperature};
+use lptn_solve::{ExactError, Modes};
+
+#[track_caller]
+fn has(network: &Network, expected: &[f64], tolerance: f64) -> Modes {
+    let modes = Modes::solve(network).unwrap();
+    let found: Vec<f64> = modes.modes().iter().map(|mode| mode.tau()).collect();
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found / expected - 1.0).abs() <= tolerance, "{found} for {expected}");
+    }
+    modes
+}
+
+#[test]
+fn the_gearbox_has_the_time_constants_of_the_validation_case() {
+    // validation/gearbox_two_node, closed form
+    has(&gearbox(), &[793.952_560_566_783_6, 5.068_291_654_431_279], 1e-14);
+}
+
+#[test]
+fn the_gearbox_of_the_issue_has_its_time_constants() {
+    // peers.md 4.1: C 1000 and 1659 J/K, R_int = 1.7/220.6 and 0.1, R_amb = 65.5/220.6 and 0.3 K/W
+    for (internal, outer, slow, fast) in
+        [(1.7 / 220.6, 65.5 / 220.6, 792.43, 4.79), (0.1, 0.3, 838.33, 59.37)]
+    {
+        let start = Temperature::celsius(25.5);
+        let mut b = NetworkBuilder::new();
+        let steel = b.node("steel", HeatCapacity(1000.0), start);
+        let aluminium = b.node("aluminium", HeatCapacity(1659.0), start);
+        let air = b.boundary("air", start);
+        b.resistor("internal", steel, aluminium, Conductance(f64::recip(internal)));
+        b.resistor("outer", aluminium, air, Conductance(f64::recip(outer)));
+        // 5 digits are given; the sum and the product of the rates are known exactly
+        let modes = has(&b.build().unwrap(), &[slow, fast], 1e-3);
+        let (g, h) = (f64::recip(internal), f64::recip(outer));
+        let (a, c) = (modes.modes()[0].rate, modes.modes()[1].rate);
+        assert!(((a + c) / (g / 1000.0 + (g + h) / 1659.0) - 1.0).abs() < 1e-14);
+        assert!(((a * c) / (g * h / 1000.0 / 1659.0) - 1.0).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn the_ladder_has_the_modes_of_the_validation_case() {
+    // validation/rc_ladder, closed form by the discrete sine transform
+    let expected = [
+        367.066_223_679_649_3,
+        41.727_069_584_659_52,
+        15.728_597_840_160_953,
+        8.604_821_060_433_45,
+        5.722_037_030_415_315,
+        4.323_050_554_083_825,
+        3.594_001_122_196_057_7,
+        3.234_199_128_401_67,
+    ];
+    let modes = has(&rc_ladder(), &expected, 2e-14);
+    let ratio = |k: usize| modes.modes()[k].shape[2] / modes.modes()[k].shape[7];
+    assert!((ratio(0) - 0.528_687_450_335_514_8).abs() < 1e-12);
+    assert!((ratio(1) + 1.035_254_345_070_651).abs() < 1e-12);
+}
+
+#[test]
+fn without_a_boundary_the_mean_lasts_for_ever() {
+    let modes = Modes::solve(&two_masses()).unwrap();
+    let [mean, exchange] = modes.modes() else { panic!("{modes:?}") };
+    assert_eq!((mean.rate.to_bits(), mean.tau()), (0, f64::INFINITY));
+    assert_eq!(mean.shape.as_slice(), [1.0, 1.0]);
+    assert!((exchange.tau() - 0.75).abs() < 1e-15); // C/(2 G)
+    assert!((exchange.shape[1] + 1.0).abs() < 1e-15);
+}
+
+#[test]
+fn rates_over_fourteen_decades_keep_their_digits() {
+    // mpmath 1.3 with 80 digits: eigsy of C^-1/2 G C^-1/2
+    let expected = [
+        113_232.300_653_112_35,
+        90.273_947_711_009_2,
+        22.440_305_135_711_032,
+        0.087_287_151_032_384_85,
+        9.998_900_130_963_41e-6,
+        9.990_009_980_039_83e-10,
+    ];
+    has(&stiff(), &expected, 1e-12);
+}
+
+#[test]
+fn participation_sums_to_one_over_nodes_and_over_modes() {
+    for network in [gearbox(), rc_ladder(), two_masses(), stiff()] {
+        let modes = Modes::solve(&network).unwrap();
+        for mode in modes.modes() {
+            assert!((mode.participation.iter().sum::<f64>() - 1.0).abs() < 1e-13);
+            let largest = mode.shape.iter().fold(f64::MIN, |a, b| a.max(*b));
+            assert!((largest - 1.0).abs() < 1e-8 && mode.shape.iter().all(|x| x.abs() < 1.0 + 1e-8));
+        }
+        for i in 0..network.nodes().len() {
+            let over_modes: f64 = modes.modes().iter().map(|mode| mode.participation[i]).sum();
+            assert!((over_modes - 1.0).abs() < 1e-13, "{over_modes}");
+        }
+    }
+}
+
+#[test]
+fn massless_nodes_follow_and_take_no_part() {
+    // a node, a joint in the middle of 2 and 6 W/K, a boundary: tau = C / 1.5 W/K, the joint at a quarter
+    let start = Temperature::celsius(0.0);
+    let mut b = NetworkBuilder::new();
+    let node = b.node("node", HeatCapacity(3.0), start);
+    let joint = b.massless("joint");
+    let air = b.boundary("air", start);
+    b.resistor("inner", node, joint, Conductance(2.0));
+    b.resistor("outer", joint, air, Conductance(6.0));
+    let modes = has(&b.build().unwrap(), &[2.0], 1e-15);
+    assert!((modes.modes()[0].shape[1] - 0.25).abs() < 1e-15);
+    let [of_node, of_joint] = modes.modes()[0].participation[..] else { panic!("{modes:?}") };
+    assert!((of_node - 1.0).abs() < 1e-15 && of_joint == 0.0);
+}
+
+#[test]
+fn equal_islands_keep_to_themselves() {
+    // two equal nodes that nothing joins: any mixture of them would be a mode; each is one by itself here
+    let start = Temperature::celsius(0.0);
+    let mut b = NetworkBuilder::new();
+    let air = b.boundary("air", start);
+    for name in ["a", "b"] {
+        let node = b.node(name, HeatCapacity(7.0), start);
+        b.resistor(&format!("skin_{name}"), node, air, Conductance(2.0));
+    }
+    let modes = has(&b.build().unwrap(), &[3.5, 3.5], 1e-15);
+    assert_eq!(modes.modes()[0].shape.as_slice(), [1.0, 0.0]);
+    assert_eq!(modes.modes()[1].shape.as_slice(), [0.0, 1.0]);
+}
+
+#[test]
+fn large_networks_are_refused() {
+    let start = Temperature::celsius(0.0);
+    let mut b = NetworkBuilder::new();
+    for i in 0..2001 {
+        b.node(&format!("n{i}"), HeatCapacity(1.0), start);
+    }
+    let error = Modes::solve(&b.build().unwrap()).unwrap_err();
+    assert!(matches!(error, ExactError::TooLarge { nodes: 2001 }), "{error}");
+}
+
+#[test]
+fn a_network_without_capacity_has_no_modes() {
+    let start = Temperature::celsius(0.0);
+    let mut b = NetworkBuilder::new();
+    let joint = b.massless("joint");
+    let air = b.boundary("air", start);
+    b.resistor("r", joint, air, Conductance(2.0));
+    assert!(Modes::solve(&b.build().unwrap()).unwrap().modes().is_empty());
+}
