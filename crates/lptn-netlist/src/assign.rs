@@ -193,6 +193,10 @@ impl Netlist {
             Item::Boundary(id) => vec![&network.boundaries()[id.index()].temperature],
             Item::Capacitor(id) => vec![&network.capacitors()[id.index()].capacity],
             Item::Source(id) => vec![&network.sources()[id.index()].power],
+            Item::Limit(id) => {
+                let limit = &network.limits()[id.index()];
+                vec![if field == Field::Of { &limit.of } else { &limit.value }]
+            }
             Item::Conductor(id) => match &network.conductors()[id.index()].law {
                 Law::Resistance(value) | Law::Conductance(value) => vec![value],
                 Law::Film { coefficient, area } => vec![coefficient, area],

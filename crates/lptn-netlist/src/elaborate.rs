@@ -88,6 +88,7 @@ pub(crate) fn elaborate(raw: &RawNetlist) -> (Option<Elaborated>, Vec<Diagnostic
     work.resistors();
     work.convections();
     work.sources();
+    work.limits();
     let run = work.run();
     work.finish(run, default)
 }

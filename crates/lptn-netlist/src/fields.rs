@@ -127,6 +127,10 @@ pub(crate) fn sample(key: &str) -> String {
 /// The right side of a field of a known key.
 pub(crate) fn sample_value(key: &str) -> &'static str {
     match key {
+        "of" => "\"steel.T\"",
+        "below" => "\"110 degC\"",
+        "above" => "\"-20 degC\"",
+        "severity" => "\"warning\"",
         "T0" | "T" => "\"25 degC\"",
         "C" => "\"500 J/K\"",
         "R" => "\"0.3 K/W\"",

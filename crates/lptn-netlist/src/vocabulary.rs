@@ -80,6 +80,18 @@ pub(crate) const SOURCE: Section = Section {
     elsewhere: &[("node", "the node that is heated is `into`"), ("to", "the node that is heated is `into`")],
 };
 
+pub(crate) const LIMIT: Section = Section {
+    name: "limit",
+    keys: &["of", "below", "above", "severity"],
+    later: &[],
+    example: "{ of = \"a.T\", below = \"110 degC\" }",
+    elsewhere: &[
+        ("node", "what is limited is `of`, for example `of = \"a.T\"`"),
+        ("max", "the highest value that is allowed is `below`"),
+        ("min", "the lowest value that is allowed is `above`"),
+    ],
+};
+
 pub(crate) const DEFAULT: Section = Section {
     name: "default",
     keys: &["T0", "temperature_unit"],
@@ -114,11 +126,11 @@ pub(crate) const TOP_KEYS: [&str; 3] = ["format", "title", "description"];
 pub(crate) const PARAM: &str = "param";
 
 /// Every section there is.
-pub(crate) const SECTIONS: [&str; 9] =
-    ["param", "default", "node", "capacitor", "boundary", "resistor", "convection", "source", "run"];
+pub(crate) const SECTIONS: [&str; 10] =
+    ["param", "default", "node", "capacitor", "boundary", "resistor", "convection", "source", "limit", "run"];
 
 /// What the format has for later.
-pub(crate) const SECTIONS_LATER: [&str; 17] = [
+pub(crate) const SECTIONS_LATER: [&str; 16] = [
     "table",
     "signal",
     "conduction",
@@ -126,7 +138,6 @@ pub(crate) const SECTIONS_LATER: [&str; 17] = [
     "radiation",
     "advection",
     "control",
-    "limit",
     "material",
     "fluid",
     "grid",

@@ -5,11 +5,14 @@ use lptn_units::{Dimension, Expression, Program, RESERVED, Scope, Symbol, Type, 
 use crate::check;
 use crate::element::{Boundary, Capacitor, Conductor, ConductorKind, Law, Node, Parameter, Source};
 use crate::error::{BuildError, BuildErrorKind, BuildErrors};
-use crate::id::{BoundaryId, CapacitorId, ConductorId, End, Field, Item, NodeId, ParameterId, SourceId};
+use crate::id::{
+    BoundaryId, CapacitorId, ConductorId, End, Field, Item, LimitId, NodeId, ParameterId, SourceId,
+};
+use crate::limit::{Bound, Limit, PostScope, Severity};
 use crate::network::Network;
 use crate::numbers::Numbers;
 use crate::parts::Parts;
-use crate::value::{Input, Value, slot};
+use crate::value::{Input, Value};
 
 const CAPACITY: Type = Type::of(Dimension::CAPACITY);
 
@@ -41,6 +44,8 @@ impl From<crate::typed::Conductance> for Path {
 pub struct NetworkBuilder {
     parts: Parts,
     errors: Vec<BuildError>,
+    /// The numbers of parameters and nodes on which the first expression of results rests.
+    shape: Option<(usize, usize)>,
 }
 
 impl NetworkBuilder {
@@ -184,12 +189,49 @@ impl NetworkBuilder {
         Expression::parse(text).map_err(|e| vec![e])?.compile(self, expected)
     }
 
+    /// The names that expressions of results may use. Add what they may name first: a parameter or node that is
+    /// added later would move the places of those before it, and [`NetworkBuilder::build`] refuses it.
+    pub fn post_scope(&mut self) -> PostScope<'_> {
+        self.shape.get_or_insert(self.parts.shape());
+        PostScope::new(&self.parts)
+    }
+
+    /// Compiles an expression over the parameters, `t` and the temperatures `NAME.T` of the nodes and boundaries
+    /// added so far; see [`NetworkBuilder::post_scope`].
+    ///
+    /// # Errors
+    /// Every problem of the text: syntax, unknown names, dimensions.
+    pub fn post_expression(&mut self, text: &str, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
+        Expression::parse(text).map_err(|e| vec![e])?.compile(&self.post_scope(), expected)
+    }
+
+    /// Adds a limit: `of`, written as `text`, has to stay below or above a value of the same type, which is
+    /// constant.
+    pub fn limit(
+        &mut self,
+        name: &str,
+        (of, text): (Input, &str),
+        (bound, value): (Bound, Input),
+        severity: Severity,
+    ) -> LimitId {
+        let id = LimitId::from_len(self.parts.limits.len());
+        let ty = of.ty;
+        let value = self.typed((name, Item::Limit(id), bound.field()), value, ty);
+        let (name, text) = (name.to_owned(), text.to_owned());
+        self.parts.limits.push(Limit { name: name.clone(), of: of.value, ty, bound, value, severity, text });
+        self.register(&name, Item::Limit(id));
+        id
+    }
+
     /// Checks everything and gives the network.
     ///
     /// # Errors
     /// All problems at once.
     pub fn build(mut self) -> Result<Network, BuildErrors> {
         check::structure(&self.parts, &mut self.errors);
+        if self.shape.is_some_and(|shape| shape != self.parts.shape()) {
+            self.error("", BuildErrorKind::PartAfterLimit);
+        }
         match Numbers::evaluate(&self.parts, &[]) {
             Ok(numbers) if self.errors.is_empty() => {
                 Ok(Network { parts: std::sync::Arc::new(self.parts), numbers })
@@ -254,17 +296,10 @@ impl NetworkBuilder {
 
 impl Scope for NetworkBuilder {
     fn symbol(&self, name: &str) -> Option<Symbol> {
-        if name == "t" {
-            let ty = Type::of(Dimension::TIME);
-            return Some(Symbol { slot: slot::TIME, ty, in_comparison: Some(slot::SEGMENT) });
-        }
-        let id = *self.parts.parameter_names.get(name)?;
-        let ty = self.parts.parameters[id.index()].ty;
-        Some(Symbol { slot: slot::PARAMETERS + id.0, ty, in_comparison: None })
+        self.parts.symbol(name)
     }
 
     fn names(&self) -> Vec<String> {
-        let parameters = self.parts.parameters.iter().map(|p| p.name.clone());
-        parameters.chain(["t".to_owned()]).collect()
+        self.parts.value_names()
     }
 }

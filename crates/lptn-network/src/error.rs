@@ -99,6 +99,13 @@ pub enum BuildErrorKind {
         /// Its field.
         field: Field,
     },
+    /// A field that has to be known before any result depends on the temperature of a node or boundary.
+    DependsOnResult {
+        /// The item.
+        item: Item,
+        /// Its field.
+        field: Field,
+    },
     /// A comparison whose sides are not linear in `t`: the time at which it changes is not known beforehand.
     ComparisonNotLinear {
         /// The item.
@@ -147,6 +154,8 @@ pub enum BuildErrorKind {
         /// Their names.
         names: Vec<String>,
     },
+    /// A parameter or node that was added after an expression of results had been compiled.
+    PartAfterLimit,
     /// A network without any node.
     Empty,
 }
@@ -164,6 +173,7 @@ impl BuildError {
             K::NotFinite { .. } => "network::not_finite",
             K::BelowAbsoluteZero { .. } => "network::below_absolute_zero",
             K::DependsOnTime { .. } => "network::depends_on_time",
+            K::DependsOnResult { .. } => "network::depends_on_result",
             K::ComparisonNotLinear { .. } => "network::comparison_not_linear",
             K::Evaluation { error, .. } => error.code(),
             K::SelfLink { .. } => "network::self_link",
@@ -172,6 +182,7 @@ impl BuildError {
             K::MasslessWithCapacity { .. } => "network::massless_with_capacity",
             K::NoInitialTemperature { .. } => "network::no_initial_temperature",
             K::FloatingIsland { .. } => "network::floating_island",
+            K::PartAfterLimit => "network::part_after_limit",
             K::Empty => "network::empty",
         }
     }
@@ -188,6 +199,7 @@ impl BuildError {
             | K::NotFinite { item, field, .. }
             | K::BelowAbsoluteZero { item, field, .. }
             | K::DependsOnTime { item, field }
+            | K::DependsOnResult { item, field }
             | K::ComparisonNotLinear { item, field }
             | K::Evaluation { item, field, .. } => (item, field),
             K::SelfLink { conductor } => (Item::Conductor(conductor), Field::To),
@@ -196,7 +208,7 @@ impl BuildError {
                 (Item::Node(node), Field::Name)
             }
             K::FloatingIsland { ref nodes, .. } => (Item::Node(*nodes.first()?), Field::Name),
-            K::Empty => return None,
+            K::PartAfterLimit | K::Empty => return None,
         })
     }
 
@@ -221,9 +233,13 @@ impl BuildError {
                 "a boundary keeps its temperature whatever flows in: name a node".into()
             }
             K::DependsOnTime { .. } => "only a source's `P` and a boundary's `T` may depend on `t`".into(),
+            K::DependsOnResult { .. } => {
+                "only what a limit limits may depend on temperatures: write the difference there".into()
+            }
             K::ComparisonNotLinear { .. } => {
                 "compare `t` itself, for example `if(t < 300 [s], 0 [W], 100 [W])`".into()
             }
+            K::PartAfterLimit => "add limits last".into(),
             K::BadName { .. } => "use letters, digits and `_`, not a digit first".into(),
             K::ReservedName { .. } => format!("choose another name, for example `{name}_1`"),
             _ => return None,
@@ -254,6 +270,9 @@ impl fmt::Display for BuildError {
             K::DependsOnTime { field, .. } => {
                 write!(f, "`{}` of `{name}` has to be constant, but depends on `t`", field.key())
             }
+            K::DependsOnResult { field, .. } => {
+                write!(f, "`{}` of `{name}` depends on the temperature of a node or boundary", field.key())
+            }
             K::ComparisonNotLinear { field, .. } => {
                 write!(f, "`{}` of `{name}` compares something that is not linear in `t`", field.key())
             }
@@ -268,6 +287,7 @@ impl fmt::Display for BuildError {
                 "the temperature of {} is not determined: no boundary and no capacity is connected",
                 list_of_names(names)
             ),
+            K::PartAfterLimit => f.write_str("a parameter or node was added after a limit"),
             K::Empty => f.write_str("the network has no node"),
         }
     }

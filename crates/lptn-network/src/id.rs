@@ -32,6 +32,8 @@ ids! {
     ConductorId;
     /// A source of heat.
     SourceId;
+    /// A limit of the results.
+    LimitId;
 }
 
 /// One end of a conductor.
@@ -70,6 +72,8 @@ pub enum Item {
     Conductor(ConductorId),
     /// A source.
     Source(SourceId),
+    /// A limit.
+    Limit(LimitId),
 }
 
 impl From<End> for Item {
@@ -110,6 +114,12 @@ pub enum Field {
     To,
     /// Node that a source heats.
     Into,
+    /// What a limit limits.
+    Of,
+    /// What a limited quantity has to stay below.
+    Below,
+    /// What a limited quantity has to stay above.
+    Above,
 }
 
 impl Field {
@@ -129,6 +139,9 @@ impl Field {
             Self::From => "from",
             Self::To => "to",
             Self::Into => "into",
+            Self::Of => "of",
+            Self::Below => "below",
+            Self::Above => "above",
         }
     }
 }

@@ -13,6 +13,7 @@ mod element;
 mod error;
 mod id;
 mod input_error;
+mod limit;
 mod names;
 mod network;
 mod numbers;
@@ -25,8 +26,11 @@ mod value;
 pub use builder::{NetworkBuilder, Path};
 pub use element::{Boundary, Capacitor, Conductor, ConductorKind, Law, Node, Parameter, Source};
 pub use error::{BuildError, BuildErrorKind, BuildErrors};
-pub use id::{BoundaryId, CapacitorId, ConductorId, End, Field, Item, NodeId, ParameterId, SourceId};
+pub use id::{
+    BoundaryId, CapacitorId, ConductorId, End, Field, Item, LimitId, NodeId, ParameterId, SourceId,
+};
 pub use input_error::{InputError, InputProblem};
+pub use limit::{Bound, Limit, PostScope, Severity};
 pub use names::{UnknownName, list_of_names};
 pub use network::Network;
 pub use output::OutputTimes;

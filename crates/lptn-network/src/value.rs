@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use lptn_units::{EvalError, Program, Quantity, Type};
 
-/// Slots that every expression of a network shares; parameters follow at [`slot::PARAMETERS`].
+/// Slots that every expression of a network shares; parameters follow at [`slot::PARAMETERS`], then, for
+/// expressions of results, the temperatures of the nodes and of the boundaries.
 pub mod slot {
     /// The run's time `t` in s.
     pub const TIME: u32 = 0;
@@ -63,6 +64,13 @@ pub struct Input {
     pub(crate) deviation: Option<f64>,
 }
 
+impl Input {
+    /// Its type.
+    pub fn ty(&self) -> Type {
+        self.ty
+    }
+}
+
 impl From<Quantity> for Input {
     fn from(quantity: Quantity) -> Self {
         Self { value: Value::Constant(quantity.value), ty: quantity.ty, deviation: quantity.deviation }
@@ -76,11 +84,13 @@ impl From<Program> for Input {
     }
 }
 
-/// The numbers that expressions read: time and parameters. One per thread; reused, so that evaluating
-/// allocates nothing.
+/// The numbers that expressions read: time and parameters, and for expressions of results the temperatures. One
+/// per thread; reused, so that evaluating allocates nothing.
 #[derive(Clone, Debug)]
 pub struct Evaluation {
     slots: Vec<f64>,
+    /// Where the temperatures begin.
+    fixed: usize,
     stack: Vec<f64>,
 }
 
@@ -89,7 +99,15 @@ impl Evaluation {
     pub(crate) fn new(parameters: &[f64]) -> Self {
         let mut slots = vec![0.0; slot::PARAMETERS as usize];
         slots.extend_from_slice(parameters);
-        Self { slots, stack: Vec::new() }
+        Self { fixed: slots.len(), slots, stack: Vec::new() }
+    }
+
+    /// Sets the temperature of every node and boundary in K, in the order of their ids, for expressions of
+    /// results.
+    pub fn set_temperatures(&mut self, nodes: &[f64], boundaries: &[f64]) {
+        self.slots.truncate(self.fixed);
+        self.slots.extend_from_slice(nodes);
+        self.slots.extend_from_slice(boundaries);
     }
 
     /// Moves to `time` [s]; comparisons of `t` keep the truth they have at `segment` [s].
@@ -106,5 +124,6 @@ impl Evaluation {
 
     pub(crate) fn push_parameter(&mut self, value: f64) {
         self.slots.push(value);
+        self.fixed = self.slots.len();
     }
 }

@@ -5,6 +5,7 @@ mod capacitor;
 mod conductor;
 mod default;
 mod end;
+mod limit;
 mod node;
 mod source;
 mod top;
