@@ -16,6 +16,7 @@ mod failure;
 mod files;
 mod input;
 mod interrupt;
+mod limits;
 mod new;
 mod next;
 mod outcome;
