@@ -106,7 +106,9 @@ fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagno
         },
         Kind::MasslessWithCapacity { node } => {
             let item = Item::Node(*node);
-            let capacity = map.get(item, Field::Capacity).or_else(|| map.capacitor_of(*node));
+            let capacity = map.get(item, Field::Capacity);
+            let capacity =
+                capacity.or_else(|| map.get(item, Field::Material)).or_else(|| map.capacitor_of(*node));
             let diagnostic = at(diagnostic, map.name(item), "declared massless");
             also(diagnostic, capacity, "given a capacity here")
         }

@@ -17,6 +17,7 @@ mod settings;
 mod solution;
 mod stateless;
 mod steady;
+mod stiffness;
 mod summary;
 mod table;
 mod times;
@@ -31,6 +32,7 @@ pub use lptn_network::OutputTimes;
 pub use settings::{Control, Progress, Record, Transient};
 pub use solution::{End, Solution};
 pub use steady::SteadyState;
+pub use stiffness::Stiffness;
 pub use summary::{NodeSummary, Summary};
 pub use table::{Column, Selection, Table};
 

@@ -2,6 +2,7 @@
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{Evaluation, InputError, LimitId, Network};
+use lptn_units::Dimension;
 
 use crate::steady::SteadyState;
 use crate::watch::top;
@@ -29,6 +30,8 @@ pub(crate) struct LimitWatch<'a> {
     seen: Vec<LimitSeen>,
     /// For each limit the last point, then those of the present step.
     points: Vec<Vec<Point>>,
+    /// For each limit the point at the start.
+    first: Vec<Option<Point>>,
 }
 
 impl<'a> LimitWatch<'a> {
@@ -39,6 +42,7 @@ impl<'a> LimitWatch<'a> {
             scope: network.evaluation(),
             seen: network.limit_ids().map(nothing).collect(),
             points: vec![Vec::new(); network.limits().len()],
+            first: vec![None; network.limits().len()],
         }
     }
 
@@ -59,6 +63,9 @@ impl<'a> LimitWatch<'a> {
     ) -> Result<(), InputError> {
         self.points.iter_mut().for_each(Vec::clear);
         self.sample(system, work, at)?;
+        for (first, points) in self.first.iter_mut().zip(&self.points) {
+            *first = first.or(points.first().copied());
+        }
         self.ids().for_each(|id| self.take_in(id, None));
         Ok(())
     }
@@ -127,7 +134,17 @@ impl<'a> LimitWatch<'a> {
         points.drain(..points.len().saturating_sub(1));
     }
 
-    pub(crate) fn into_seen(self) -> Vec<LimitSeen> {
+    /// What was seen. A worst that the tolerance [K] cannot tell from the start or from the end is there.
+    pub(crate) fn into_seen(mut self, tolerance: f64) -> Vec<LimitSeen> {
+        let ends = self.first.iter().zip(&self.points);
+        for (seen, (first, points)) in self.seen.iter_mut().zip(ends) {
+            let temperature =
+                self.network.limits()[seen.limit.index()].ty.dimension == Dimension::TEMPERATURE;
+            let same = |point: &&Point| temperature && point.1 - seen.margin <= 10.0 * tolerance;
+            if let Some(&(time, _)) = first.iter().chain(points.last()).find(same) {
+                seen.worst_at = time;
+            }
+        }
         self.seen
     }
 }

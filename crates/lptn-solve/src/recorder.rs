@@ -232,7 +232,7 @@ impl<'a> Recorder<'a> {
             recorded: self.recorded,
             temperatures: self.temperatures,
             seen: self.seen,
-            limits: self.limits.into_seen(),
+            limits: self.limits.into_seen(self.tolerance),
             ledger,
             statistics,
             end,
