@@ -6,7 +6,7 @@ use crate::value::{Evaluation, Value, slot};
 use lptn_units::{Degree, Program};
 
 impl Network {
-    /// The times inside `(start, stop)` [s] at which the truth of a comparison of `t` changes, ascending.
+    /// The times inside `(start, stop)` in s at which the truth of a comparison of `t` changes, ascending.
     ///
     /// A comparison is linear in `t` (the builder refuses others), so its two sides meet at most once.
     ///

@@ -128,13 +128,13 @@ impl Evaluation {
         self.slots.extend_from_slice(boundaries);
     }
 
-    /// Moves to `time` [s]; comparisons of `t` keep the truth they have at `segment` [s].
+    /// Moves to `time` in s; comparisons of `t` keep the truth they have at `segment` in s.
     pub fn set_time(&mut self, time: f64, segment: f64) {
         self.slots[slot::TIME as usize] = time;
         self.slots[slot::SEGMENT as usize] = segment;
     }
 
-    /// A program's value at `time` [s].
+    /// A program's value at `time` in s.
     pub(crate) fn evaluate(&mut self, program: &Program, time: f64) -> Result<f64, EvalError> {
         self.set_time(time, time);
         program.eval(&self.slots, &mut self.stack)

@@ -134,7 +134,7 @@ impl<'a> LimitWatch<'a> {
         points.drain(..points.len().saturating_sub(1));
     }
 
-    /// What was seen. A worst that the tolerance [K] cannot tell from the start or from the end is there.
+    /// What was seen. A worst that the tolerance in K cannot tell from the start or from the end is there.
     pub(crate) fn into_seen(mut self, tolerance: f64) -> Vec<LimitSeen> {
         let ends = self.first.iter().zip(&self.points);
         for (seen, (first, points)) in self.seen.iter_mut().zip(ends) {
@@ -150,7 +150,7 @@ impl<'a> LimitWatch<'a> {
 }
 
 impl SteadyState {
-    /// The margin of each limit in SI units, positive while it is kept; `t` in the limits is `time` [s], that of the
+    /// The margin of each limit in SI units, positive while it is kept; `t` in the limits is `time` in s, that of the
     /// steady state's inputs.
     ///
     /// # Errors
