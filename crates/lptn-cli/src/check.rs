@@ -1,8 +1,10 @@
 //! `lptn check`
 
 use lptn_netlist::{Diagnostic, Files, Netlist, Severity};
-use lptn_network::{Item, list_of_names};
-use serde_json::json;
+use lptn_network::{Item, Network, NodeId, list_of_names};
+use lptn_solve::Stiffness;
+use lptn_study::Scalar;
+use serde_json::{Value, json};
 
 use crate::args::{CheckArgs, CheckFormat};
 use crate::console::Console;
@@ -12,7 +14,7 @@ use crate::failure::Failure;
 use crate::input::{self, Input, Text};
 use crate::select;
 use crate::summary::{count, counts};
-use lptn_report::JsonWriter;
+use lptn_report::{JsonWriter, WIDTH, duration, labelled, significant};
 
 pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure> {
     let text = input::read(&args.source.file)?;
@@ -26,6 +28,7 @@ pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure
             json.member("ok", &json!(exit == Exit::Done))?;
             json.member("errors", &finding.list(Severity::Error))?;
             json.member("warnings", &finding.list(Severity::Warning))?;
+            json.member("stiffness", &finding.stiffness.as_ref().map_or(Value::Null, Stiff::json))?;
             json.finish().map(drop)
         })?,
         CheckFormat::Table => console.print(&finding.text(&text.name, console)).map(drop)?,
@@ -54,6 +57,8 @@ struct Finding {
     diagnostics: Vec<Diagnostic>,
     /// What the network consists of, if it is one.
     counts: Option<String>,
+    /// How far its time constants are apart.
+    stiffness: Option<Stiff>,
     syntax: bool,
 }
 
@@ -65,11 +70,12 @@ impl Finding {
             Ok(netlist) => netlist,
             Err(rejected) => {
                 let (files, diagnostics, syntax) = (rejected.files, rejected.diagnostics, rejected.syntax);
-                return Ok(Self { files, diagnostics, counts: None, syntax });
+                return Ok(Self { files, diagnostics, counts: None, stiffness: None, syntax });
             }
         };
         netlist.set(set)?;
         let counts = Some(counts(&netlist.network));
+        let stiffness = Stiff::of(&netlist.network);
         let (files, mut diagnostics) = (netlist.files.clone(), netlist.warnings.clone());
         let text = Text { bytes: Vec::new(), name: text.name.clone(), stem: text.stem.clone() };
         diagnostics.extend(adrift(&netlist));
@@ -77,7 +83,7 @@ impl Finding {
         diagnostics.extend(input.assemble().err().into_iter().flat_map(|failure| failure.diagnostics));
         let selection = select::of_run(&input.netlist, &[]);
         diagnostics.extend(selection.err().into_iter().flat_map(|failure| failure.diagnostics));
-        Ok(Self { files, diagnostics, counts, syntax: false })
+        Ok(Self { files, diagnostics, counts, stiffness, syntax: false })
     }
 
     fn number(&self, severity: Severity) -> usize {
@@ -92,7 +98,7 @@ impl Finding {
         }
     }
 
-    fn list(&self, severity: Severity) -> serde_json::Value {
+    fn list(&self, severity: Severity) -> Value {
         let found = self.diagnostics.iter().filter(|d| d.severity == severity);
         found.map(|diagnostic| diagnostics::json(&self.files, diagnostic)).collect()
     }
@@ -105,6 +111,42 @@ impl Finding {
             (0, Some(counts)) => format!("ok: {name} has {counts}; {warnings}\n"),
             (errors, _) => format!("not ok: {name} has {}, {warnings}\n", count(errors, "error")),
         };
-        rendered.collect::<String>() + &answer
+        let stiffness = self.stiffness.as_ref().filter(|_| self.exit() == Exit::Done).map(Stiff::text);
+        rendered.collect::<String>() + &stiffness.unwrap_or_default() + &answer
+    }
+}
+
+/// The time constants of the nodes that follow their surroundings fastest and slowest.
+struct Stiff {
+    fastest: (String, f64),
+    slowest: (String, f64),
+    ratio: f64,
+}
+
+impl Stiff {
+    fn of(network: &Network) -> Option<Self> {
+        let stiffness = Stiffness::of(network)?;
+        let named = |(node, tau): (NodeId, f64)| (network.nodes()[node.index()].name.clone(), tau);
+        let ratio = stiffness.ratio();
+        Some(Self { fastest: named(stiffness.fastest), slowest: named(stiffness.slowest), ratio })
+    }
+
+    fn text(&self) -> String {
+        let one = |(name, tau): &(String, f64)| format!("{} ({name})", duration(*tau, 3));
+        let (fast, slow) = (one(&self.fastest), one(&self.slowest));
+        let words = match self.fastest.0 == self.slowest.0 {
+            true => format!("C / sum of G is {fast}"),
+            false => {
+                format!("{}, C / sum of G is {fast} to {slow}", significant(self.ratio, 3))
+            }
+        };
+        let words: Vec<String> = words.split(' ').map(str::to_owned).collect();
+        labelled("stiffness: ", &words, WIDTH).join("\n") + "\n"
+    }
+
+    fn json(&self) -> Value {
+        let one = |(name, tau): &(String, f64)| json!({ "node": name, "tau": Scalar::new(*tau, "s").json() });
+        let ratio = Scalar::new(self.ratio, "1").json();
+        json!({ "fastest": one(&self.fastest), "slowest": one(&self.slowest), "ratio": ratio })
     }
 }

@@ -16,6 +16,8 @@ mod failure;
 mod files;
 mod input;
 mod interrupt;
+mod limits;
+mod materials;
 mod modes;
 mod new;
 mod next;
@@ -64,6 +66,7 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
         Some(Verb::Verify(args)) => verify::verify(args, console),
         Some(Verb::New(args)) => new::new(args, console),
         Some(Verb::Units(args)) => units::units(args, console),
+        Some(Verb::Materials(args)) => materials::materials(args, console),
         Some(Verb::Completions(args)) => completions::completions(args, console),
     }
 }

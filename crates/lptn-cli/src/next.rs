@@ -37,7 +37,14 @@ fn is_constant(network: &Network, id: ParameterId, wanted: Type) -> bool {
     let parameter = &network.parameters()[id.index()];
     parameter.ty == wanted
         && matches!(parameter.value, Value::Constant(_))
+        && !limits(network, id)
         && (wanted.absolute || (network.parameter_value(id) > 0.0 && !shapes(network, id)))
+}
+
+/// Whether a limit depends on a parameter: another limit is no other network.
+fn limits(network: &Network, id: ParameterId) -> bool {
+    let own = slot::PARAMETERS as usize + id.index();
+    network.limits().iter().any(|limit| limit.value.slots().iter().any(|&s| s as usize == own))
 }
 
 /// Whether other parameters or conductors depend on a parameter.

@@ -15,6 +15,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::Folder;
+use crate::limits::{self, Judged};
 use crate::run::{Job, NoSteady};
 use crate::summary::View;
 use crate::{diagnostics, next, summary_text};
@@ -42,14 +43,18 @@ impl Outcome<'_> {
     }
 
     fn manifest(&self, args: &RunArgs, result: FileHash) -> Manifest {
-        let (text, settings) = (&self.job.input.text, &self.job.settings);
+        let settings = &self.job.settings;
+        let hash = |(name, text): (&str, &str)| FileHash {
+            name: name.to_owned(),
+            sha256: lptn_study::sha256(text.as_bytes()),
+        };
         let host = std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
         Manifest {
             format: 1,
             lptn: env!("CARGO_PKG_VERSION").to_owned(),
             sundials: Sundials::linked(),
             arguments: std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned()).collect(),
-            inputs: vec![FileHash { name: text.name.clone(), sha256: lptn_study::sha256(&text.bytes) }],
+            inputs: self.job.input.netlist.inputs().map(hash).collect(),
             parameters: self.parameters(&args.source.set),
             start: Scalar::new(settings.start, "s"),
             stop: Scalar::new(settings.stop, "s"),
@@ -80,6 +85,11 @@ impl Outcome<'_> {
         network.parameters().iter().zip(network.parameter_ids()).map(record).collect()
     }
 
+    /// How the limits fared.
+    fn limits(&self) -> Vec<Judged> {
+        self.solution.limits().iter().map(Judged::of_run).collect()
+    }
+
     /// The ledger up to the time that was reached.
     fn ledger(&self) -> LedgerRecord {
         LedgerRecord::new(self.solution.network(), self.solution.ledger())
@@ -105,6 +115,7 @@ impl Outcome<'_> {
                     steady: self.steady.as_ref(),
                     unit: &self.job.unit,
                     settings: &self.job.settings,
+                    limits: &self.limits(),
                 };
                 console.print(&summary_text::summary(&view, console)).map(drop)
             }
@@ -134,6 +145,9 @@ impl Outcome<'_> {
         json.table(table)?;
         json.member("events", &json!([]))?;
         json.member("ledger", &serde_json::to_value(self.ledger())?)?;
+        if !self.solution.limits().is_empty() {
+            json.member("limits", &limits::json(self.solution.network(), &self.limits()))?;
+        }
         json.member("statistics", &serde_json::to_value(StatisticsRecord::new(self.solution.statistics()))?)?;
         if let Some(message) = self.ended_early() {
             let end = RunEnd::of(&self.solution, self.job.settings.stop, Some(message));
@@ -180,7 +194,8 @@ impl Outcome<'_> {
             console.report(&self.job.input.netlist.files, &[problem]);
             return Exit::Failed;
         }
-        Exit::Done
+        let (netlist, unit) = (&self.job.input.netlist, &self.job.unit);
+        limits::conclude(&limits::Judgement { netlist, unit, limits: &self.limits() }, console)
     }
 }
 

@@ -214,7 +214,7 @@ fn the_json_of_steady_has_its_schema() {
 fn the_json_of_check_has_its_schema() {
     let folder = Folder::with("gearbox.toml", &GEARBOX.replace("to = \"bed\"", "to = \"bde\""));
     let json = folder.run(&["check", "gearbox.toml", "--format", "json"]).exits(1).json();
-    assert_eq!(keys(&json), ["format", "network", "ok", "errors", "warnings"]);
+    assert_eq!(keys(&json), ["format", "network", "ok", "errors", "warnings", "stiffness"]);
     assert_eq!(json["ok"], false);
     let error = &json["errors"][0];
     assert_eq!(keys(error), ["severity", "code", "message", "places", "help", "notes"]);

@@ -190,9 +190,22 @@ impl Netlist {
                 let value = if field == Field::Initial { &node.initial } else { &node.capacity };
                 value.iter().collect()
             }
+            Item::Material(id) => {
+                let material = &network.materials()[id.index()];
+                let value = match field {
+                    Field::Density => &material.density,
+                    Field::SpecificHeat => &material.cp,
+                    _ => &material.k,
+                };
+                value.iter().collect()
+            }
             Item::Boundary(id) => vec![&network.boundaries()[id.index()].temperature],
             Item::Capacitor(id) => vec![&network.capacitors()[id.index()].capacity],
             Item::Source(id) => vec![&network.sources()[id.index()].power],
+            Item::Limit(id) => {
+                let limit = &network.limits()[id.index()];
+                vec![if field == Field::Of { &limit.of } else { &limit.value }]
+            }
             Item::Conductor(id) => match &network.conductors()[id.index()].law {
                 Law::Resistance(value) | Law::Conductance(value) => vec![value],
                 Law::Film { coefficient, area } => vec![coefficient, area],

@@ -127,6 +127,17 @@ pub(crate) fn sample(key: &str) -> String {
 /// The right side of a field of a known key.
 pub(crate) fn sample_value(key: &str) -> &'static str {
     match key {
+        "of" => "\"steel.T\"",
+        "below" => "\"110 degC\"",
+        "above" => "\"-20 degC\"",
+        "severity" => "\"warning\"",
+        "material" => "\"steel_8620\"",
+        "mass" => "\"1.2 kg\"",
+        "volume" => "\"150 cm^3\"",
+        "density" => "\"7850 kg/m^3\"",
+        "cp" => "\"475 J/(kg K)\"",
+        "k" => "\"46.6 W/(m K)\"",
+        "source" => "\"where the numbers come from\"",
         "T0" | "T" => "\"25 degC\"",
         "C" => "\"500 J/K\"",
         "R" => "\"0.3 K/W\"",

@@ -23,6 +23,8 @@ pub(crate) struct Names {
     used: HashSet<String>,
     /// Names in sections that are not known: they may be what is looked for.
     hidden: HashSet<String>,
+    /// Materials that cannot be read.
+    hidden_materials: HashSet<String>,
     /// How many similar names were looked for.
     searches: usize,
 }
@@ -37,7 +39,7 @@ impl Names {
             names.parameters.insert(entry.key.clone(), entry.key_span.clone());
             names.order.push(entry.key.clone());
         }
-        for kind in ["node", "boundary", "source", "capacitor", "resistor", "convection"] {
+        for kind in ["node", "boundary", "source", "capacitor", "resistor", "convection", "limit"] {
             let entries = section(raw, kind).into_iter().flat_map(|table| &table.entries);
             for entry in entries {
                 names.elements.entry(entry.key.clone()).or_insert(kind);
@@ -61,12 +63,21 @@ impl Names {
         self.hidden.contains(name)
     }
 
+    /// Notes a material that cannot be read.
+    pub(crate) fn hide_material(&mut self, name: &str) {
+        self.hidden_materials.insert(name.to_owned());
+    }
+
+    pub(crate) fn is_hidden_material(&self, name: &str) -> bool {
+        self.hidden_materials.contains(name)
+    }
+
     pub(crate) fn fail(&mut self, name: &str) {
         self.failed.insert(name.to_owned());
     }
 
     pub(crate) fn has_failed(&self, name: &str) -> bool {
-        self.failed.contains(name) || self.hidden.contains(name)
+        self.failed.contains(name) || self.is_hidden(name.strip_suffix(".T").unwrap_or(name))
     }
 
     /// The section of the element of this name.
@@ -97,10 +108,17 @@ impl Names {
         for (name, range) in expression.names() {
             if self.parameters.contains_key(&name) {
                 self.used.insert(name);
-            } else if self.is_hidden(&name) {
+            } else if wanted.results && self.is_temperature(&name) {
+                // the scope of results knows it
+            } else if self.is_hidden(name.strip_suffix(".T").unwrap_or(&name)) {
                 // what hides it has been reported
             } else if name != "t" {
-                problems.push(self.unknown(place, &name, place.raw.part(&range)));
+                let at = place.raw.part(&range);
+                let problem = match wanted.results {
+                    true => self.unknown_result(place, &name, at),
+                    false => self.unknown(place, &name, at),
+                };
+                problems.push(problem);
             } else if !wanted.time {
                 problems.push(depends_on_time(place, place.raw.part(&range)));
             }
@@ -108,13 +126,58 @@ impl Names {
         problems
     }
 
+    /// `NAME.T` of a node or boundary.
+    fn is_temperature(&self, name: &str) -> bool {
+        let kind = name.strip_suffix(".T").and_then(|name| self.kind_of(name));
+        matches!(kind, Some("node" | "boundary"))
+    }
+
+    /// An unknown name where temperatures may be named.
+    fn unknown_result(&mut self, place: Place<'_>, name: &str, at: Span) -> Diagnostic {
+        let words = place.words();
+        let base = name.strip_suffix(".T");
+        let message = match base {
+            Some(base) => format!("{words}: no node or boundary named `{base}`"),
+            None => format!("{words} uses `{name}`, which is no parameter"),
+        };
+        let error = Diagnostic::error("netlist::unknown_name", message).at(at, "unknown name");
+        let kind = self.kind_of(base.unwrap_or(name));
+        match (kind, base) {
+            (Some("node" | "boundary"), None) => error.help(format!("its temperature is `{name}.T`")),
+            (Some(kind), _) => {
+                let name = base.unwrap_or(name);
+                error.help(format!("`{name}` is a {kind}; temperatures are those of nodes and boundaries"))
+            }
+            (None, _) => match self.similar_result(name) {
+                Some(near) => error.help(format!("did you mean `{near}`?")),
+                None => error.help(
+                    "name the temperature of a node or boundary, for example `steel.T`, a parameter or `t`",
+                ),
+            },
+        }
+    }
+
+    /// The most similar parameter or temperature; of equally similar ones the first in the alphabet.
+    fn similar_result(&mut self, name: &str) -> Option<String> {
+        if !self.may_search() {
+            return None;
+        }
+        let places = self.elements.iter().filter(|(_, kind)| matches!(**kind, "node" | "boundary"));
+        let mut names: Vec<String> = places.map(|(name, _)| format!("{name}.T")).collect();
+        names.extend(self.order.iter().cloned());
+        names.sort_unstable();
+        suggest(name, names.iter().map(String::as_str)).map(str::to_owned)
+    }
+
     fn unknown(&mut self, place: Place<'_>, name: &str, at: Span) -> Diagnostic {
         let words = place.words();
         if name.contains(['.', '[']) || matches!(name, "T" | "T_from" | "T_to" | "T_mean" | "dT") {
             let message = format!("{words}: `{name}`, a temperature in an expression, is not supported yet");
-            return Diagnostic::error("netlist::not_supported_yet", message)
-                .at(at, "")
-                .help("expressions may use the parameters and, where time is allowed, `t`");
+            let help = match place.key {
+                "below" | "above" => BOUND_HELP,
+                _ => "expressions may use the parameters and, where time is allowed, `t`",
+            };
+            return Diagnostic::error("netlist::not_supported_yet", message).at(at, "").help(help);
         }
         let error = Diagnostic::error(
             "netlist::unknown_name",
@@ -139,8 +202,14 @@ impl Names {
     }
 }
 
+const BOUND_HELP: &str =
+    "what changes belongs in `of`: a difference such as `of = \"steel.T - air.T\"` has a constant bound";
+
 fn depends_on_time(place: Place<'_>, at: Span) -> Diagnostic {
-    let help = "only `P` of a source and `T` of a boundary may depend on `t`: write the expression there";
+    let help = match place.key {
+        "below" | "above" => BOUND_HELP,
+        _ => "only `P` of a source and `T` of a boundary may depend on `t`: write the expression there",
+    };
     if place.key.is_empty() {
         let message = format!("{} depends on the time `t`, but a parameter is constant", place.words());
         return Diagnostic::error("netlist::time_in_parameter", message).at(at, "time").help(help);

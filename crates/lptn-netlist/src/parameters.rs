@@ -68,7 +68,7 @@ impl<'a> Elaboration<'a> {
     fn parameter(&mut self, pending: &mut Pending<'_>) {
         let entry = pending.entry;
         let place = Place { owner: &pending.owner, key: "", raw: &entry.value };
-        let wanted = Wanted { ty: None, time: false };
+        let wanted = Wanted { ty: None, time: false, results: false };
         let given = pending.text.take().and_then(|text| self.resolve(place, text, wanted));
         if given.is_none() {
             self.names.fail(&entry.key);

@@ -84,6 +84,8 @@ impl SourceMap {
             Item::Capacitor(_) => "capacitor",
             Item::Conductor(id) => self.conductors.get(id.index()).copied().unwrap_or("path"),
             Item::Source(_) => "source",
+            Item::Limit(_) => "limit",
+            Item::Material(_) => "material",
         }
     }
 

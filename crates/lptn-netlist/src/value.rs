@@ -52,17 +52,24 @@ pub(crate) struct Wanted {
     pub(crate) ty: Option<Type>,
     /// Whether it may depend on `t`.
     pub(crate) time: bool,
+    /// Whether it may name temperatures, `NAME.T`.
+    pub(crate) results: bool,
 }
 
 impl Wanted {
     /// A constant of this type.
     pub(crate) fn constant(ty: Type) -> Self {
-        Self { ty: Some(ty), time: false }
+        Self { ty: Some(ty), time: false, results: false }
     }
 
     /// A function of time of this type.
     pub(crate) fn in_time(ty: Type) -> Self {
-        Self { ty: Some(ty), time: true }
+        Self { ty: Some(ty), time: true, results: false }
+    }
+
+    /// Something that results determine.
+    pub(crate) fn of_results() -> Self {
+        Self { ty: None, time: true, results: true }
     }
 }
 
@@ -170,7 +177,12 @@ impl Elaboration<'_> {
         if expression.names().iter().any(|(name, _)| self.names.has_failed(name)) {
             return None;
         }
-        match expression.compile(&self.builder, wanted.ty) {
+        let program = if wanted.results {
+            expression.compile(&self.builder.post_scope(), wanted.ty)
+        } else {
+            expression.compile(&self.builder, wanted.ty)
+        };
+        match program {
             Ok(program) => Some(Given::Expression(program)),
             Err(errors) => {
                 self.problems.extend(errors.iter().map(|error| place.unit_error(error)));

@@ -7,7 +7,7 @@
 )]
 
 use lptn_netlist::{Netlist, Severity, parse};
-use lptn_network::OutputTimes;
+use lptn_network::{Bound, OutputTimes, Severity as LimitSeverity};
 use lptn_network::{ConductorKind, End, Field, Item};
 
 /// The example at the end of the format's description.
@@ -229,4 +229,33 @@ fn line_ends_and_byte_order_mark_do_not_matter() {
 fn reading_a_file_that_is_not_there_names_it() {
     let error = lptn_netlist::read(std::path::Path::new("no/such.toml")).unwrap_err();
     assert!(error.to_string().starts_with("cannot read no/such.toml: "), "{error}");
+}
+
+#[test]
+fn limits_name_temperatures_parameters_and_time() {
+    let netlist = good(
+        "format = 1\n[param]\nT_max = \"110 degC\"\nspare = \"10 K\"\n\
+         [node]\nsteel = { T0 = \"25 degC\", C = \"500 J/K\" }\n[boundary]\nair = { T = \"25 degC\" }\n\
+         [resistor]\ncooling = { from = \"steel\", to = \"air\", R = \"0.3 K/W\" }\n\
+         [limit]\nhot = { of = \"steel.T\", below = \"T_max - spare\" }\n\
+         rise = { of = \"steel.T - air.T\", above = \"-5 K\", severity = \"warning\" }\n",
+    );
+    let network = &netlist.network;
+    let limits = network.limits();
+    assert_eq!((limits[0].name.as_str(), limits[0].text.as_str()), ("hot", "steel.T"));
+    assert_eq!((limits[0].bound, limits[1].bound), (Bound::Below, Bound::Above));
+    assert_eq!((limits[0].severity, limits[1].severity), (LimitSeverity::Error, LimitSeverity::Warning));
+    let mut scope = network.evaluation();
+    scope.set_temperatures(&[350.0], &[298.15]);
+    let margins: Vec<f64> =
+        network.limit_ids().map(|id| network.limit_margin(id, &mut scope).unwrap()).collect();
+    close(margins[0], 373.15 - 350.0);
+    close(margins[1], 350.0 - 298.15 + 5.0);
+    for id in network.limit_ids() {
+        let item = Item::Limit(id);
+        let span = netlist.source_map.get(item, Field::Of).unwrap();
+        assert_eq!(netlist.files.at(span).trim_matches('"'), limits[id.index()].text);
+        assert!(netlist.source_map.get(item, limits[id.index()].bound.field()).is_some());
+    }
+    assert!(netlist.warnings.is_empty());
 }

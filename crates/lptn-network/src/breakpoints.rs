@@ -6,7 +6,7 @@ use crate::value::{Evaluation, Value, slot};
 use lptn_units::{Degree, Program};
 
 impl Network {
-    /// The times inside `(start, stop)` [s] at which the truth of a comparison of `t` changes, ascending.
+    /// The times inside `(start, stop)` in s at which the truth of a comparison of `t` changes, ascending.
     ///
     /// A comparison is linear in `t` (the builder refuses others), so its two sides meet at most once.
     ///
@@ -61,7 +61,7 @@ impl Network {
     /// time: an integrator has to look at them often enough to see what they do.
     pub fn curved_inputs(&self) -> impl Iterator<Item = &Value> {
         let curved = |value: &&Value| match value {
-            Value::Constant(_) => false,
+            Value::Constant(_) | Value::Product(_) => false,
             Value::Expression(program) => program.degree_in(slot::TIME) == Degree::Nonlinear,
         };
         self.inputs().map(|(_, _, value)| value).filter(curved)

@@ -5,11 +5,14 @@ use lptn_units::{Dimension, Expression, Program, RESERVED, Scope, Symbol, Type, 
 use crate::check;
 use crate::element::{Boundary, Capacitor, Conductor, ConductorKind, Law, Node, Parameter, Source};
 use crate::error::{BuildError, BuildErrorKind, BuildErrors};
-use crate::id::{BoundaryId, CapacitorId, ConductorId, End, Field, Item, NodeId, ParameterId, SourceId};
+use crate::id::{
+    BoundaryId, CapacitorId, ConductorId, End, Field, Item, LimitId, NodeId, ParameterId, SourceId,
+};
+use crate::limit::{Bound, Limit, PostScope, Severity};
 use crate::network::Network;
 use crate::numbers::Numbers;
 use crate::parts::Parts;
-use crate::value::{Input, Value, slot};
+use crate::value::{Input, Value};
 
 const CAPACITY: Type = Type::of(Dimension::CAPACITY);
 
@@ -39,8 +42,10 @@ impl From<crate::typed::Conductance> for Path {
 /// Collects the parts of a network; [`NetworkBuilder::build`] checks them all at once.
 #[derive(Clone, Debug, Default)]
 pub struct NetworkBuilder {
-    parts: Parts,
+    pub(crate) parts: Parts,
     errors: Vec<BuildError>,
+    /// The numbers of parameters and nodes on which the first expression of results rests.
+    shape: Option<(usize, usize)>,
 }
 
 impl NetworkBuilder {
@@ -56,7 +61,7 @@ impl NetworkBuilder {
 
     /// Adds a parameter. Its expression may use parameters that were added before it.
     pub fn parameter(&mut self, name: &str, value: impl Into<Input>) -> ParameterId {
-        let Input { value, ty, deviation } = value.into();
+        let Input { value, ty, deviation, .. } = value.into();
         let id = ParameterId::from_len(self.parts.parameters.len());
         self.parts.parameters.push(Parameter { name: name.to_owned(), ty, value, deviation });
         self.check_name(name, Item::Parameter(id));
@@ -92,9 +97,10 @@ impl NetworkBuilder {
     ) -> NodeId {
         let id = NodeId::from_len(self.parts.nodes.len());
         let at = |field| (name, Item::Node(id), field);
+        let lump = capacity.as_ref().and_then(|c| c.lump.clone());
         let capacity = capacity.map(|c| self.typed(at(Field::Capacity), c, CAPACITY));
         let initial = initial.map(|t| self.typed(at(Field::Initial), t, Type::ABSOLUTE_TEMPERATURE));
-        self.parts.nodes.push(Node { name: name.to_owned(), capacity, initial, massless });
+        self.parts.nodes.push(Node { name: name.to_owned(), capacity, lump, initial, massless });
         self.register(name, Item::Node(id));
         id
     }
@@ -104,8 +110,10 @@ impl NetworkBuilder {
         let id = CapacitorId::from_len(self.parts.capacitors.len());
         let at = (name, Item::Capacitor(id), Field::Capacity);
         self.check_end(name, Item::Capacitor(id), node.into());
-        let capacity = self.typed(at, capacity.into(), CAPACITY);
-        self.parts.capacitors.push(Capacitor { name: name.to_owned(), node, capacity });
+        let input = capacity.into();
+        let lump = input.lump.clone();
+        let capacity = self.typed(at, input, CAPACITY);
+        self.parts.capacitors.push(Capacitor { name: name.to_owned(), node, capacity, lump });
         self.register(name, Item::Capacitor(id));
         id
     }
@@ -188,6 +196,40 @@ impl NetworkBuilder {
         Expression::parse(text).map_err(|e| vec![e])?.compile(self, expected)
     }
 
+    /// The names that expressions of results may use. Add what they may name first: a parameter or node that is
+    /// added later would move the places of those before it, and [`NetworkBuilder::build`] refuses it.
+    pub fn post_scope(&mut self) -> PostScope<'_> {
+        self.shape.get_or_insert(self.parts.shape());
+        PostScope::new(&self.parts)
+    }
+
+    /// Compiles an expression over the parameters, `t` and the temperatures `NAME.T` of the nodes and boundaries
+    /// added so far; see [`NetworkBuilder::post_scope`].
+    ///
+    /// # Errors
+    /// Every problem of the text: syntax, unknown names, dimensions.
+    pub fn post_expression(&mut self, text: &str, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
+        Expression::parse(text).map_err(|e| vec![e])?.compile(&self.post_scope(), expected)
+    }
+
+    /// Adds a limit: `of`, written as `text`, has to stay below or above a value of the same type, which is
+    /// constant.
+    pub fn limit(
+        &mut self,
+        name: &str,
+        (of, text): (Input, &str),
+        (bound, value): (Bound, Input),
+        severity: Severity,
+    ) -> LimitId {
+        let id = LimitId::from_len(self.parts.limits.len());
+        let ty = of.ty;
+        let value = self.typed((name, Item::Limit(id), bound.field()), value, ty);
+        let (name, text) = (name.to_owned(), text.to_owned());
+        self.parts.limits.push(Limit { name: name.clone(), of: of.value, ty, bound, value, severity, text });
+        self.register(&name, Item::Limit(id));
+        id
+    }
+
     /// Checks everything and gives the network.
     ///
     /// # Errors
@@ -197,6 +239,9 @@ impl NetworkBuilder {
             return Err(BuildErrors(self.errors)); // nothing else can be looked up
         }
         check::structure(&self.parts, &mut self.errors);
+        if self.shape.is_some_and(|shape| shape != self.parts.shape()) {
+            self.error("", BuildErrorKind::PartAfterLimit);
+        }
         match Numbers::evaluate(&self.parts, &[]) {
             Ok(numbers) if self.errors.is_empty() => {
                 Ok(Network { parts: std::sync::Arc::new(self.parts), numbers })
@@ -226,7 +271,12 @@ impl NetworkBuilder {
         }
     }
 
-    fn typed(&mut self, (name, item, field): (&str, Item, Field), input: Input, wanted: Type) -> Value {
+    pub(crate) fn typed(
+        &mut self,
+        (name, item, field): (&str, Item, Field),
+        input: Input,
+        wanted: Type,
+    ) -> Value {
         if input.ty != wanted {
             self.error(name, BuildErrorKind::WrongType { item, field, wanted, found: input.ty });
         }
@@ -251,7 +301,7 @@ impl NetworkBuilder {
         }
     }
 
-    fn check_name(&mut self, name: &str, item: Item) {
+    pub(crate) fn check_name(&mut self, name: &str, item: Item) {
         let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
         if !name.starts_with(|c: char| word(c) && !c.is_ascii_digit()) || !name.chars().all(word) {
             self.error(name, BuildErrorKind::BadName { item });
@@ -271,17 +321,10 @@ impl NetworkBuilder {
 
 impl Scope for NetworkBuilder {
     fn symbol(&self, name: &str) -> Option<Symbol> {
-        if name == "t" {
-            let ty = Type::of(Dimension::TIME);
-            return Some(Symbol { slot: slot::TIME, ty, in_comparison: Some(slot::SEGMENT) });
-        }
-        let id = *self.parts.parameter_names.get(name)?;
-        let ty = self.parts.parameters[id.index()].ty;
-        Some(Symbol { slot: slot::PARAMETERS + id.0, ty, in_comparison: None })
+        self.parts.symbol(name)
     }
 
     fn names(&self) -> Vec<String> {
-        let parameters = self.parts.parameters.iter().map(|p| p.name.clone());
-        parameters.chain(["t".to_owned()]).collect()
+        self.parts.value_names()
     }
 }

@@ -99,6 +99,13 @@ pub enum BuildErrorKind {
         /// Its field.
         field: Field,
     },
+    /// A field that has to be known before any result depends on the temperature of a node or boundary.
+    DependsOnResult {
+        /// The item.
+        item: Item,
+        /// Its field.
+        field: Field,
+    },
     /// A comparison whose sides are not linear in `t`: the time at which it changes is not known beforehand.
     ComparisonNotLinear {
         /// The item.
@@ -154,6 +161,8 @@ pub enum BuildErrorKind {
     },
     /// Parameters of another network.
     ForeignParameters,
+    /// A parameter or node that was added after an expression of results had been compiled.
+    PartAfterLimit,
     /// A network without any node.
     Empty,
 }
@@ -171,6 +180,7 @@ impl BuildError {
             K::NotFinite { .. } => "network::not_finite",
             K::BelowAbsoluteZero { .. } => "network::below_absolute_zero",
             K::DependsOnTime { .. } => "network::depends_on_time",
+            K::DependsOnResult { .. } => "network::depends_on_result",
             K::ComparisonNotLinear { .. } => "network::comparison_not_linear",
             K::Evaluation { error, .. } => error.code(),
             K::SelfLink { .. } => "network::self_link",
@@ -181,6 +191,7 @@ impl BuildError {
             K::FloatingIsland { .. } => "network::floating_island",
             K::ForeignId { .. } => "network::foreign_id",
             K::ForeignParameters => "network::foreign_parameters",
+            K::PartAfterLimit => "network::part_after_limit",
             K::Empty => "network::empty",
         }
     }
@@ -197,6 +208,7 @@ impl BuildError {
             | K::NotFinite { item, field, .. }
             | K::BelowAbsoluteZero { item, field, .. }
             | K::DependsOnTime { item, field }
+            | K::DependsOnResult { item, field }
             | K::ComparisonNotLinear { item, field }
             | K::Evaluation { item, field, .. } => (item, field),
             K::SelfLink { conductor } => (Item::Conductor(conductor), Field::To),
@@ -206,7 +218,7 @@ impl BuildError {
             }
             K::FloatingIsland { ref nodes, .. } => (Item::Node(*nodes.first()?), Field::Name),
             K::ForeignId { item } => (item, Field::Name),
-            K::ForeignParameters | K::Empty => return None,
+            K::ForeignParameters | K::PartAfterLimit | K::Empty => return None,
         })
     }
 
@@ -231,9 +243,13 @@ impl BuildError {
                 "a boundary keeps its temperature whatever flows in: name a node".into()
             }
             K::DependsOnTime { .. } => "only a source's `P` and a boundary's `T` may depend on `t`".into(),
+            K::DependsOnResult { .. } => {
+                "only what a limit limits may depend on temperatures: write the difference there".into()
+            }
             K::ComparisonNotLinear { .. } => {
                 "compare `t` itself, for example `if(t < 300 [s], 0 [W], 100 [W])`".into()
             }
+            K::PartAfterLimit => "add limits last".into(),
             K::BadName { .. } => "use letters, digits and `_`, not a digit first".into(),
             K::ReservedName { .. } => format!("choose another name, for example `{name}_1`"),
             _ => return None,
@@ -264,6 +280,9 @@ impl fmt::Display for BuildError {
             K::DependsOnTime { field, .. } => {
                 write!(f, "`{}` of `{name}` has to be constant, but depends on `t`", field.key())
             }
+            K::DependsOnResult { field, .. } => {
+                write!(f, "`{}` of `{name}` depends on the temperature of a node or boundary", field.key())
+            }
             K::ComparisonNotLinear { field, .. } => {
                 write!(f, "`{}` of `{name}` compares something that is not linear in `t`", field.key())
             }
@@ -280,6 +299,7 @@ impl fmt::Display for BuildError {
             ),
             K::ForeignId { .. } => write!(f, "`{name}` is joined to something of another network"),
             K::ForeignParameters => f.write_str("the parameters are those of another network"),
+            K::PartAfterLimit => f.write_str("a parameter or node was added after a limit"),
             K::Empty => f.write_str("the network has no node"),
         }
     }

@@ -32,6 +32,10 @@ ids! {
     ConductorId;
     /// A source of heat.
     SourceId;
+    /// A limit of the results.
+    LimitId;
+    /// A material.
+    MaterialId;
 }
 
 /// One end of a conductor.
@@ -70,6 +74,10 @@ pub enum Item {
     Conductor(ConductorId),
     /// A source.
     Source(SourceId),
+    /// A limit.
+    Limit(LimitId),
+    /// A material.
+    Material(MaterialId),
 }
 
 impl From<End> for Item {
@@ -110,6 +118,24 @@ pub enum Field {
     To,
     /// Node that a source heats.
     Into,
+    /// What a limit limits.
+    Of,
+    /// What a limited quantity has to stay below.
+    Below,
+    /// What a limited quantity has to stay above.
+    Above,
+    /// The material of a node or capacitor.
+    Material,
+    /// Mass of a node or capacitor.
+    Mass,
+    /// Volume of a node or capacitor.
+    Volume,
+    /// Density of a material.
+    Density,
+    /// Specific heat capacity of a material.
+    SpecificHeat,
+    /// Thermal conductivity of a material.
+    Conductivity,
 }
 
 impl Field {
@@ -129,6 +155,15 @@ impl Field {
             Self::From => "from",
             Self::To => "to",
             Self::Into => "into",
+            Self::Of => "of",
+            Self::Below => "below",
+            Self::Above => "above",
+            Self::Material => "material",
+            Self::Mass => "mass",
+            Self::Volume => "volume",
+            Self::Density => "density",
+            Self::SpecificHeat => "cp",
+            Self::Conductivity => "k",
         }
     }
 }

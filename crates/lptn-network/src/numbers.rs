@@ -4,7 +4,7 @@ use lptn_units::Degree;
 
 use crate::element::{Law, Parameter};
 use crate::error::{BuildError, BuildErrorKind};
-use crate::id::{CapacitorId, ConductorId, Field, Item, NodeId, ParameterId};
+use crate::id::{CapacitorId, ConductorId, Field, Item, LimitId, MaterialId, NodeId, ParameterId};
 use crate::parts::Parts;
 use crate::value::{Evaluation, Value, slot};
 
@@ -25,9 +25,15 @@ impl Numbers {
         if !work.errors.is_empty() {
             return Err(work.errors); // every value below would fail for the same reason
         }
+        work.check_materials();
+        work.check_lumps();
+        if !work.errors.is_empty() {
+            return Err(work.errors); // and so would the capacities
+        }
         let (capacity, initial) = (work.capacities(), work.initials());
         let conductance = work.conductances();
         work.check_inputs();
+        work.check_limits();
         if work.errors.is_empty() {
             Ok(Self { parameters, capacity, initial, conductance })
         } else {
@@ -125,11 +131,52 @@ impl Work<'_> {
     fn check_inputs(&mut self) {
         for (item, field, value) in self.parts.inputs() {
             if value.depends_on_time() {
+                self.reads_results(item, field, value);
                 self.check_comparisons(item, field, value);
             } else {
                 let range = if field == Field::Temperature { Range::Temperature } else { Range::Finite };
                 self.constant(item, field, value, range);
             }
+        }
+    }
+
+    fn check_materials(&mut self) {
+        for (i, material) in self.parts.materials.iter().enumerate() {
+            let item = Item::Material(MaterialId::from_len(i));
+            let properties = [
+                (Field::Density, &material.density),
+                (Field::SpecificHeat, &material.cp),
+                (Field::Conductivity, &material.k),
+            ];
+            for (field, value) in properties {
+                if let Some(value) = value {
+                    self.constant(item, field, value, Range::Positive);
+                }
+            }
+        }
+    }
+
+    /// A product of two negative numbers would pass for a capacity.
+    fn check_lumps(&mut self) {
+        let parts = self.parts;
+        let nodes = parts.nodes.iter().enumerate();
+        let nodes = nodes.map(|(i, node)| (Item::Node(NodeId::from_len(i)), &node.lump));
+        let capacitors = parts.capacitors.iter().enumerate();
+        let capacitors = capacitors.map(|(i, part)| (Item::Capacitor(CapacitorId::from_len(i)), &part.lump));
+        for (item, lump) in nodes.chain(capacitors) {
+            if let Some(lump) = lump {
+                let (field, value) = lump.size.field();
+                self.constant(item, field, value, Range::Positive);
+            }
+        }
+    }
+
+    /// The values of limits are constant; what they limit is evaluated with results.
+    fn check_limits(&mut self) {
+        for (i, limit) in self.parts.limits.iter().enumerate() {
+            let item = Item::Limit(LimitId::from_len(i));
+            let range = if limit.ty.absolute { Range::Temperature } else { Range::Finite };
+            self.constant(item, limit.bound.field(), &limit.value, range);
         }
     }
 
@@ -141,7 +188,20 @@ impl Work<'_> {
         }
     }
 
+    /// Whether a value that has to be known before any result reads temperatures; reported if so.
+    fn reads_results(&mut self, item: Item, field: Field, value: &Value) -> bool {
+        let first = slot::PARAMETERS as usize + self.parts.parameters.len();
+        let reads = value.slots().last().is_some_and(|&last| last as usize >= first);
+        if reads {
+            self.error(item, BuildErrorKind::DependsOnResult { item, field });
+        }
+        reads
+    }
+
     fn constant(&mut self, item: Item, field: Field, value: &Value, range: Range) -> f64 {
+        if self.reads_results(item, field, value) {
+            return f64::NAN;
+        }
         if value.depends_on_time() {
             self.error(item, BuildErrorKind::DependsOnTime { item, field });
             return f64::NAN;

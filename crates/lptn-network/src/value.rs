@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use lptn_units::{EvalError, Program, Quantity, Type};
 
-/// Slots that every expression of a network shares; parameters follow at [`slot::PARAMETERS`].
+use crate::material::Lump;
+
+/// Slots that every expression of a network shares; parameters follow at [`slot::PARAMETERS`], then, for
+/// expressions of results, the temperatures of the nodes and of the boundaries.
 pub mod slot {
     /// The run's time `t` in s.
     pub const TIME: u32 = 0;
@@ -22,6 +25,8 @@ pub enum Value {
     Constant(f64),
     /// An expression over the slots of [`slot`].
     Expression(Arc<Program>),
+    /// A product of values, such as a mass and a specific heat.
+    Product(Arc<[Value]>),
 }
 
 impl Value {
@@ -33,6 +38,7 @@ impl Value {
         match self {
             Self::Constant(value) => Ok(*value),
             Self::Expression(program) => program.eval(&scope.slots, &mut scope.stack),
+            Self::Product(factors) => factors.iter().try_fold(1.0, |product, f| Ok(product * f.at(scope)?)),
         }
     }
 
@@ -43,14 +49,21 @@ impl Value {
             Self::Expression(program) => {
                 program.slots().iter().any(|&s| s == slot::TIME || s == slot::SEGMENT)
             }
+            Self::Product(factors) => factors.iter().any(Self::depends_on_time),
         }
     }
 
-    /// The slots an expression reads; none for a constant.
+    /// The slots an expression reads, sorted, each once; none for a constant.
     pub fn slots(&self) -> Vec<u32> {
         match self {
             Self::Constant(_) => Vec::new(),
             Self::Expression(program) => program.slots(),
+            Self::Product(factors) => {
+                let mut slots: Vec<u32> = factors.iter().flat_map(Self::slots).collect();
+                slots.sort_unstable();
+                slots.dedup();
+                slots
+            }
         }
     }
 }
@@ -61,26 +74,41 @@ pub struct Input {
     pub(crate) value: Value,
     pub(crate) ty: Type,
     pub(crate) deviation: Option<f64>,
+    pub(crate) lump: Option<Lump>,
+}
+
+impl Input {
+    /// Its type.
+    pub fn ty(&self) -> Type {
+        self.ty
+    }
 }
 
 impl From<Quantity> for Input {
     fn from(quantity: Quantity) -> Self {
-        Self { value: Value::Constant(quantity.value), ty: quantity.ty, deviation: quantity.deviation }
+        Self {
+            value: Value::Constant(quantity.value),
+            ty: quantity.ty,
+            deviation: quantity.deviation,
+            lump: None,
+        }
     }
 }
 
 impl From<Program> for Input {
     fn from(program: Program) -> Self {
         let ty = program.ty();
-        Self { value: Value::Expression(Arc::new(program)), ty, deviation: None }
+        Self { value: Value::Expression(Arc::new(program)), ty, deviation: None, lump: None }
     }
 }
 
-/// The numbers that expressions read: time and parameters. One per thread; reused, so that evaluating
-/// allocates nothing.
+/// The numbers that expressions read: time and parameters, and for expressions of results the temperatures. One
+/// per thread; reused, so that evaluating allocates nothing.
 #[derive(Clone, Debug)]
 pub struct Evaluation {
     slots: Vec<f64>,
+    /// Where the temperatures begin.
+    fixed: usize,
     stack: Vec<f64>,
 }
 
@@ -89,16 +117,24 @@ impl Evaluation {
     pub(crate) fn new(parameters: &[f64]) -> Self {
         let mut slots = vec![0.0; slot::PARAMETERS as usize];
         slots.extend_from_slice(parameters);
-        Self { slots, stack: Vec::new() }
+        Self { fixed: slots.len(), slots, stack: Vec::new() }
     }
 
-    /// Moves to `time` [s]; comparisons of `t` keep the truth they have at `segment` [s].
+    /// Sets the temperature of every node and boundary in K, in the order of their ids, for expressions of
+    /// results.
+    pub fn set_temperatures(&mut self, nodes: &[f64], boundaries: &[f64]) {
+        self.slots.truncate(self.fixed);
+        self.slots.extend_from_slice(nodes);
+        self.slots.extend_from_slice(boundaries);
+    }
+
+    /// Moves to `time` in s; comparisons of `t` keep the truth they have at `segment` in s.
     pub fn set_time(&mut self, time: f64, segment: f64) {
         self.slots[slot::TIME as usize] = time;
         self.slots[slot::SEGMENT as usize] = segment;
     }
 
-    /// A program's value at `time` [s].
+    /// A program's value at `time` in s.
     pub(crate) fn evaluate(&mut self, program: &Program, time: f64) -> Result<f64, EvalError> {
         self.set_time(time, time);
         program.eval(&self.slots, &mut self.stack)
@@ -106,5 +142,6 @@ impl Evaluation {
 
     pub(crate) fn push_parameter(&mut self, value: f64) {
         self.slots.push(value);
+        self.fixed = self.slots.len();
     }
 }

@@ -106,7 +106,8 @@ impl<'a> Inputs<'a> {
 
 fn form(value: &Value) -> Degree {
     match value {
-        Value::Constant(_) => Degree::Constant,
+        // products make capacities, which are constant
+        Value::Constant(_) | Value::Product(_) => Degree::Constant,
         Value::Expression(program) => program.degree_in(slot::TIME),
     }
 }

@@ -1,0 +1,97 @@
+//! Limits, materials, include and what `check` adds, from the command line.
+
+mod common;
+
+use common::Folder;
+
+/// C = 100 J/K, R = 0.5 K/W, P = 100 W: 50 K above 20 degC, tau = 50 s.
+const NET: &str = "format = 1\n[param]\nT_max = \"60 degC\"\n[node]\na = { T0 = \"20 degC\", C = \"100 J/K\" }\n\
+                   [boundary]\nair = { T = \"20 degC\" }\n[resistor]\nr = { from = \"a\", to = \"air\", R = \"0.5 K/W\" }\n\
+                   [source]\np = { into = \"a\", P = \"100 W\" }\n[run]\nstop = \"1000 s\"\n\
+                   [limit]\nhot = { of = \"a.T\", below = \"T_max\" }\n\
+                   warm = { of = \"a.T - air.T\", below = \"45 K\", severity = \"warning\" }\n";
+
+#[test]
+fn a_broken_limit_ends_with_1_and_the_last_line_says_which() {
+    let folder = Folder::with("net.toml", NET);
+    // 40 K of 50 K are reached after 50 ln 5 = 80.47 s
+    let ran = folder.run(&["run", "net.toml", "--no-files"]).exits(1).says("limit::exceeded");
+    let last = "limit broken: `hot` (a.T below 60 degC) by 10 K at 16.67 min, first at 80.47 s";
+    assert_eq!(ran.err.lines().last(), Some(last));
+    let ran = folder.run(&["steady", "net.toml"]).exits(1);
+    assert_eq!(
+        ran.err.lines().last(),
+        Some("limit broken: `hot` (a.T below 60 degC) by 10 K in steady state")
+    );
+}
+
+#[test]
+fn a_warning_changes_no_exit_code() {
+    let folder = Folder::with("net.toml", NET);
+    for verb in ["run", "steady"] {
+        let ran = folder.run(&[verb, "net.toml", "--set", "T_max=80degC"]).exits(0).says("`warm`");
+        ran.prints("kept").prints("exceeded");
+    }
+}
+
+#[test]
+fn json_has_each_limit_with_its_margin() {
+    let folder = Folder::with("net.toml", NET);
+    let json = folder.run(&["run", "net.toml", "--no-files", "--format", "json"]).exits(1).json();
+    let hot = &json["limits"]["hot"];
+    assert_eq!((hot["kept"].as_bool(), hot["margin"]["unit"].as_str()), (Some(false), Some("K")));
+    let near =
+        |value: &serde_json::Value, exact: f64| (value["value"].as_f64().unwrap() - exact).abs() < 1e-3;
+    assert!(near(&hot["margin"], -10.0) && near(&hot["broken_at"], 50.0 * 5.0_f64.ln()), "{hot}");
+    let json = folder.run(&["steady", "net.toml", "--format", "json"]).exits(1).json();
+    assert!(near(&json["limits"]["warm"]["margin"], -5.0), "{json}");
+    assert!(json["limits"]["warm"]["broken_at"].is_null());
+}
+
+#[test]
+fn the_manifest_lists_every_file() {
+    let folder = Folder::with("net.toml", &format!("include = [\"more.toml\"]\n{NET}"));
+    folder.write("more.toml", "format = 1\n[source]\nq = { into = \"a\", P = \"1 W\" }\n");
+    folder.run(&["run", "net.toml"]).exits(1);
+    let manifest: serde_json::Value = serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
+    assert_eq!(manifest["inputs"][0]["name"], "net.toml");
+    assert_eq!(manifest["inputs"][1]["name"], "more.toml");
+    assert_ne!(manifest["inputs"][0]["sha256"], manifest["inputs"][1]["sha256"]);
+    let ran = folder.run_with(&["check", "-"], &format!("include = [\"more.toml\"]\n{NET}")).exits(1);
+    ran.prints("netlist::include_without_folder");
+}
+
+#[test]
+fn materials_are_listed_with_their_sources() {
+    let folder = Folder::empty();
+    let ran = folder.run(&["materials"]).exits(0).prints("steel_8620").prints("gear_oil_vg220");
+    assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
+    folder.run(&["materials", "steel_8620"]).exits(0).prints("MatWeb").prints("475 J/(kg K)");
+    let json = folder.run(&["materials", "--format", "json"]).exits(0).json();
+    assert_eq!(json["materials"]["aluminium_6061"]["cp"]["value"], 896.0);
+    assert_eq!(json["fluids"]["air"]["T"]["unit"], "K");
+    let csv = folder.run(&["materials", "--format", "csv"]).exits(0).out;
+    assert!(csv.starts_with("name,kind,density [kg/m^3],cp [J/(kg K)],k [W/(m K)],T [K],title,source\n"));
+    folder.run(&["materials", "steel_8260"]).exits(2).says("did you mean `steel_8620`?");
+}
+
+#[test]
+fn check_names_the_stiffness_and_the_specific_heat_of_the_paper() {
+    let text = NET.replace("C = \"100 J/K\"", "material = \"m\", mass = \"1 kg\"");
+    let text = format!("{text}[material]\nm = {{ cp = \"0.475 J/(kg K)\" }}\n");
+    let folder = Folder::with("net.toml", &text);
+    let ran = folder.run(&["check", "net.toml"]).exits(0).prints("did you mean 0.475 J/(g K)?");
+    // C / G = 0.475 x 0.5 s
+    ran.prints("stiffness: C / sum of G is 237 ms (a)").prints("1 warning");
+    let two = NET
+        .replace("[source]", "[node.b]\nT0 = \"20 degC\"\nC = \"1 J/K\"\n[source]")
+        .replace("[source]", "[convection]\ns = { from = \"a\", to = \"b\", R = \"0.5 K/W\" }\n[source]");
+    folder.write("two.toml", &two);
+    // a: 100 / (2 + 2) s, b: 1 / 2 s
+    folder
+        .run(&["check", "two.toml"])
+        .exits(0)
+        .prints("stiffness: 50, C / sum of G is 500 ms (b) to 25 s (a)");
+    let json = folder.run(&["check", "two.toml", "--format", "json"]).exits(0).json();
+    assert_eq!(json["stiffness"]["ratio"]["value"], 50.0);
+}

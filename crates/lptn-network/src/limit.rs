@@ -1,0 +1,178 @@
+//! Limits: what the results of a network have to keep.
+
+use lptn_units::{Dimension, Scope, Symbol, Type};
+
+use crate::id::{Field, Item, LimitId};
+use crate::input_error::{InputError, InputProblem};
+use crate::network::Network;
+use crate::parts::Parts;
+use crate::value::{Evaluation, Value, slot};
+
+/// The side on which a limited quantity has to stay.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// It has to stay below the value.
+    Below,
+    /// It has to stay above the value.
+    Above,
+}
+
+impl Bound {
+    /// The field that holds the value.
+    pub fn field(self) -> Field {
+        match self {
+            Self::Below => Field::Below,
+            Self::Above => Field::Above,
+        }
+    }
+}
+
+/// What a broken limit means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// The answer is no.
+    Error,
+    /// It is worth a look.
+    Warning,
+}
+
+/// A quantity of the results that has to stay below or above a value.
+#[derive(Clone, Debug)]
+pub struct Limit {
+    /// Its name.
+    pub name: String,
+    /// The quantity: an expression over parameters, `t` and the temperatures of nodes and boundaries.
+    pub of: Value,
+    /// The type of `of` and of `value`.
+    pub ty: Type,
+    /// The side on which it has to stay.
+    pub bound: Bound,
+    /// What it has to stay below or above; constant for one set of parameters.
+    pub value: Value,
+    /// What it means if it is broken.
+    pub severity: Severity,
+    /// `of` as it was written.
+    pub text: String,
+}
+
+impl Limit {
+    /// The type of the limit's margin: like `of`, but for temperatures a difference.
+    pub fn margin_type(&self) -> Type {
+        Type { absolute: false, ..self.ty }
+    }
+}
+
+impl Network {
+    /// The limits.
+    pub fn limits(&self) -> &[Limit] {
+        &self.parts.limits
+    }
+
+    /// Ids of all limits.
+    pub fn limit_ids(&self) -> impl ExactSizeIterator<Item = LimitId> + use<> {
+        (0..self.parts.limits.len()).map(LimitId::from_len)
+    }
+
+    /// How far a limit is from being broken where `scope` stands: positive while it is kept, in SI units of
+    /// `of`, a difference in K for temperatures. `scope` needs the temperatures of the time that is asked for,
+    /// see [`Evaluation::set_temperatures`].
+    ///
+    /// # Errors
+    /// [`InputError`] if an expression fails or gives no number.
+    pub fn limit_margin(&self, id: LimitId, scope: &mut Evaluation) -> Result<f64, InputError> {
+        let limit = &self.limits()[id.index()];
+        let item = Item::Limit(id);
+        let of = self.number(item, Field::Of, &limit.of, scope)?;
+        let value = self.number(item, limit.bound.field(), &limit.value, scope)?;
+        Ok(match limit.bound {
+            Bound::Below => value - of,
+            Bound::Above => of - value,
+        })
+    }
+
+    fn number(
+        &self,
+        item: Item,
+        field: Field,
+        value: &Value,
+        at: &mut Evaluation,
+    ) -> Result<f64, InputError> {
+        let failed = |problem| InputError { item, field, name: self.name_of(item).to_owned(), problem };
+        match value.at(at) {
+            Ok(x) if x.is_finite() => Ok(x),
+            Ok(x) => Err(failed(InputProblem::NotFinite(x))),
+            Err(error) => Err(failed(InputProblem::Evaluation(error))),
+        }
+    }
+
+    /// The names that expressions of results may use: parameters, `t`, and `NAME.T` of every node and boundary.
+    /// What is compiled against it is evaluated in [`Network::evaluation`] after
+    /// [`Evaluation::set_temperatures`].
+    pub fn post_scope(&self) -> PostScope<'_> {
+        PostScope { parts: &self.parts }
+    }
+}
+
+/// The names that expressions of results may use.
+#[derive(Clone, Copy, Debug)]
+pub struct PostScope<'a> {
+    parts: &'a Parts,
+}
+
+impl<'a> PostScope<'a> {
+    pub(crate) fn new(parts: &'a Parts) -> Self {
+        Self { parts }
+    }
+
+    /// The slot of a temperature: nodes follow the parameters, boundaries the nodes.
+    fn temperature(&self, name: &str) -> Option<u32> {
+        let nodes = slot::PARAMETERS as usize + self.parts.parameters.len();
+        let position = match self.parts.names.get(name)? {
+            Item::Node(id) => nodes + id.index(),
+            Item::Boundary(id) => nodes + self.parts.nodes.len() + id.index(),
+            _ => return None,
+        };
+        u32::try_from(position).ok()
+    }
+}
+
+impl Scope for PostScope<'_> {
+    fn symbol(&self, name: &str) -> Option<Symbol> {
+        if let Some(name) = name.strip_suffix(".T") {
+            let slot = self.temperature(name)?;
+            return Some(Symbol { slot, ty: Type::ABSOLUTE_TEMPERATURE, in_comparison: None });
+        }
+        self.parts.symbol(name)
+    }
+
+    fn names(&self) -> Vec<String> {
+        let nodes = self.parts.nodes.iter().map(|node| &node.name);
+        let boundaries = self.parts.boundaries.iter().map(|boundary| &boundary.name);
+        let mut names = self.parts.value_names();
+        names.extend(nodes.chain(boundaries).map(|name| format!("{name}.T")));
+        names
+    }
+}
+
+impl Parts {
+    /// What a value of an element may use: the parameters and `t`.
+    pub(crate) fn symbol(&self, name: &str) -> Option<Symbol> {
+        if name == "t" {
+            let ty = Type::of(Dimension::TIME);
+            return Some(Symbol { slot: slot::TIME, ty, in_comparison: Some(slot::SEGMENT) });
+        }
+        let id = *self.parameter_names.get(name)?;
+        let ty = self.parameters[id.index()].ty;
+        Some(Symbol { slot: slot::PARAMETERS + id.0, ty, in_comparison: None })
+    }
+
+    pub(crate) fn value_names(&self) -> Vec<String> {
+        let parameters = self.parameters.iter().map(|p| p.name.clone());
+        parameters.chain(["t".to_owned()]).collect()
+    }
+
+    /// What the slots of an expression of results depend on.
+    pub(crate) fn shape(&self) -> (usize, usize) {
+        (self.parameters.len(), self.nodes.len())
+    }
+}
