@@ -33,6 +33,8 @@ mod duplicate;
 mod elaborate;
 mod fields;
 mod file;
+mod habit;
+mod limits;
 mod names;
 mod netlist;
 mod parameters;
@@ -48,6 +50,7 @@ mod vocabulary;
 
 pub use diagnostic::{Diagnostic, Label, Severity};
 pub use file::{FileId, Files, Span};
+pub use limits::{MOST_BYTES, MOST_PROBLEMS, read_bytes};
 pub use netlist::{Netlist, ReadError, Rejected, parse, parse_bytes, read};
 pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 pub use run::RunSettings;

@@ -1,6 +1,8 @@
 //! The whole way: text to [`Netlist`], or every reason why not.
 
+use std::collections::HashSet;
 use std::fmt;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use lptn_network::{Network, Parameters};
@@ -9,6 +11,7 @@ use lptn_units::Unit;
 use crate::diagnostic::{Diagnostic, Severity, arrange};
 use crate::elaborate::{Elaborated, elaborate};
 use crate::file::{FileId, Files, Span};
+use crate::limits::{read_bytes, shorten};
 use crate::run::{RunPlan, RunSettings};
 use crate::section;
 use crate::source_map::SourceMap;
@@ -93,10 +96,10 @@ impl std::error::Error for ReadError {
 /// Reads a netlist from a file.
 ///
 /// # Errors
-/// [`ReadError`] if the file cannot be read or its content cannot be used.
+/// [`ReadError`] if the file cannot be read, is longer than [`MOST_BYTES`](crate::MOST_BYTES), or its content cannot
+/// be used.
 pub fn read(path: &Path) -> Result<Netlist, ReadError> {
-    let bytes = std::fs::read(path).map_err(|error| ReadError::Io { path: path.to_owned(), error })?;
-    parse_bytes(&path.display().to_string(), &bytes).map_err(ReadError::Rejected)
+    parse_bytes(&path.display().to_string(), &read_bytes(path)?).map_err(ReadError::Rejected)
 }
 
 /// Reads a netlist from bytes that may not be text; `name` is what diagnostics call it.
@@ -105,15 +108,17 @@ pub fn read(path: &Path) -> Result<Netlist, ReadError> {
 /// [`Rejected`] with every problem.
 pub fn parse_bytes(name: &str, bytes: &[u8]) -> Result<Netlist, Rejected> {
     match std::str::from_utf8(bytes) {
-        Ok(text) if !text.contains('\0') => parse(name, text),
-        Ok(_) => Err(not_text(name, "it contains zero bytes")),
+        Ok(text) => parse(name, text),
         Err(_) if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) => {
-            Err(not_text(name, "it looks like UTF-16"))
+            Err(not_text((name, ""), 0..0, "it looks like UTF-16"))
         }
         Err(error) => {
             let at = error.valid_up_to();
             let line = bytes.iter().take(at).filter(|&&byte| byte == b'\n').count() + 1;
-            Err(not_text(name, &format!("byte {at} on line {line} belongs to no character")))
+            let text = String::from_utf8_lossy(bytes);
+            let place = at..at + char::REPLACEMENT_CHARACTER.len_utf8();
+            let why = format!("byte {at} on line {line} belongs to no character");
+            Err(not_text((name, text.as_ref()), place, &why))
         }
     }
 }
@@ -125,7 +130,7 @@ pub fn parse_bytes(name: &str, bytes: &[u8]) -> Result<Netlist, Rejected> {
 pub fn parse(name: &str, text: &str) -> Result<Netlist, Rejected> {
     let mut files = Files::new();
     if text.contains('\0') {
-        return Err(not_text(name, "it contains zero bytes"));
+        return Err(not_text((name, ""), 0..0, "it contains zero bytes"));
     }
     let file = files.add(name, text);
     let (raw, mut diagnostics) = parse_raw(&files, file);
@@ -137,13 +142,17 @@ pub fn parse(name: &str, text: &str) -> Result<Netlist, Rejected> {
     let (done, found) = elaborate(&raw);
     if syntax {
         add_certain(&mut diagnostics, found, (&files, file));
+        shorten(&mut diagnostics);
         return Err(Rejected { files, diagnostics, syntax });
     }
     diagnostics = found;
     arrange(&mut diagnostics);
     match done {
         Some(done) => finish(files, done, diagnostics),
-        None => Err(Rejected { files, diagnostics, syntax }),
+        None => {
+            shorten(&mut diagnostics);
+            Err(Rejected { files, diagnostics, syntax })
+        }
     }
 }
 
@@ -155,9 +164,11 @@ fn finish(files: Files, done: Elaborated, mut diagnostics: Vec<Diagnostic>) -> R
             diagnostics.extend(problems);
             diagnostics.retain(|d| d.severity == Severity::Error);
             arrange(&mut diagnostics);
+            shorten(&mut diagnostics);
             return Err(Rejected { files, diagnostics, syntax: false });
         }
     };
+    shorten(&mut diagnostics);
     let assigned = network.overrides();
     let warnings = diagnostics;
     Ok(Netlist { network, run, source_map: map, files, warnings, temperature_unit, plan, assigned })
@@ -166,7 +177,7 @@ fn finish(files: Files, done: Elaborated, mut diagnostics: Vec<Diagnostic>) -> R
 /// Problems that are there whatever the broken lines should have said.
 fn add_certain(all: &mut Vec<Diagnostic>, found: Vec<Diagnostic>, (files, file): (&Files, FileId)) {
     let line = |d: &Diagnostic| d.place().map(|span| files.line_column(span).0);
-    let broken: Vec<Option<usize>> = all.iter().map(line).collect();
+    let broken: HashSet<Option<usize>> = all.iter().map(line).collect();
     // behind something that was not closed, the parser reads one thing as another
     let end =
         all.iter().filter(|d| d.code == NOT_CLOSED).filter_map(Diagnostic::place).map(|s| s.range.start);
@@ -198,11 +209,11 @@ fn rests_on_absence(code: &str) -> bool {
     absences.contains(&code)
 }
 
-fn not_text(name: &str, why: &str) -> Rejected {
+fn not_text((name, text): (&str, &str), place: Range<usize>, why: &str) -> Rejected {
     let mut files = Files::new();
-    let file = files.add(name, "");
+    let file = files.add(name, text);
     let error = Diagnostic::error("netlist::not_text", format!("this is not a text file: {why}"))
-        .at(Span::new(file, 0..0), "")
+        .at(Span::new(file, place), "")
         .help(
             "a netlist is a TOML file in UTF-8; choose UTF-8 where your editor saves it, \
                and write `degC` if the degree sign is the trouble",
