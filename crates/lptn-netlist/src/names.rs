@@ -47,6 +47,14 @@ impl Names {
         names
     }
 
+    /// The line of a parameter; entries stand in the order of the file.
+    pub(crate) fn parameter<'a>(&self, raw: &'a RawNetlist, name: &str) -> Option<&'a RawEntry> {
+        let start = self.parameters.get(name)?.range.start;
+        let entries = &section(raw, PARAM)?.entries;
+        let at = entries.binary_search_by_key(&start, |entry| entry.key_span.range.start).ok()?;
+        entries.get(at)
+    }
+
     pub(crate) fn is_parameter(&self, name: &str) -> bool {
         self.parameters.contains_key(name)
     }

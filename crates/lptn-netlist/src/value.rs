@@ -12,9 +12,8 @@ use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::{Owner, sample, wrong_shape};
 use crate::file::Span;
-use crate::names::{Names, section};
+use crate::names::Names;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
-use crate::vocabulary::PARAM;
 
 /// A value whose units are right.
 #[derive(Clone, Debug)]
@@ -183,8 +182,8 @@ impl Elaboration<'_> {
                 Some(Given::Expression(program))
             }
             Err(errors) => {
-                let raw = self.raw;
-                let explain = |error| with_parameter(raw, (place, wanted), &expression, error);
+                let names = (self.raw, &self.names);
+                let explain = |error| with_parameter(names, (place, wanted), &expression, error);
                 self.problems.extend(errors.iter().map(explain));
                 None
             }
@@ -202,7 +201,7 @@ fn moment(place: Place<'_>, at: Span) -> Diagnostic {
 
 /// A mistake in an expression of one parameter may be that of the parameter: its line is shown as well.
 fn with_parameter(
-    raw: &RawNetlist,
+    (raw, all): (&RawNetlist, &Names),
     (place, wanted): (Place<'_>, Wanted),
     expression: &Expression,
     error: &UnitError,
@@ -219,7 +218,7 @@ fn with_parameter(
     );
     let names = if of_type { expression.names() } else { Vec::new() };
     let [(name, _)] = names.as_slice() else { return diagnostic };
-    let Some(entry) = section(raw, PARAM).and_then(|table| table.get(name)) else { return diagnostic };
+    let Some(entry) = all.parameter(raw, name) else { return diagnostic };
     let diagnostic = diagnostic.also(entry.value.span.clone(), "its value");
     let help =
         wanted.ty.filter(|_| expression.text().trim() == name).and_then(|ty| parameter_help(entry, ty));
