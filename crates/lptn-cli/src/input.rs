@@ -4,7 +4,9 @@ use std::io::Read as _;
 use std::path::Path;
 
 use lptn_assembly::{AssemblyError, ThermalSystem};
-use lptn_netlist::{Diagnostic, Files, Netlist, Rejected, Span, parse_bytes, parse_file};
+use lptn_netlist::{
+    Diagnostic, Files, MOST_BYTES, Netlist, ReadError, Rejected, Span, parse_bytes, parse_file,
+};
 use lptn_network::Item;
 use lptn_units::{Dimension, Type, Unit, UnitError, parse_quantity, suggest};
 
@@ -29,12 +31,20 @@ pub(crate) struct Text {
 pub(crate) fn read(file: &Path) -> Result<Text, Failure> {
     if file.as_os_str() == "-" {
         let mut bytes = Vec::new();
-        let outcome = std::io::stdin().lock().read_to_end(&mut bytes);
+        let outcome = std::io::stdin().lock().take(MOST_BYTES + 1).read_to_end(&mut bytes);
         outcome.map_err(|error| cannot_read("stdin", &error, None))?;
+        if bytes.len() as u64 > MOST_BYTES {
+            let message = format!("stdin is longer than {} MB", MOST_BYTES / 1_000_000);
+            return Err(Failure::new(Exit::Input, Diagnostic::error("netlist::too_long", message)));
+        }
         return Ok(Text { bytes, name: STDIN.into(), stem: "stdin".into() });
     }
     let name = file.display().to_string();
-    let bytes = std::fs::read(file).map_err(|error| cannot_read(&name, &error, similar(file)))?;
+    let bytes = match lptn_netlist::read_bytes(file) {
+        Ok(bytes) => bytes,
+        Err(ReadError::Io { error, .. }) => return Err(cannot_read(&name, &error, similar(file))),
+        Err(ReadError::Rejected(rejected)) => return Err(rejected.into()),
+    };
     let stem = file.file_stem().map_or("netlist".into(), |stem| stem.to_string_lossy().into_owned());
     Ok(Text { bytes, name, stem: folder_name(stem) })
 }
@@ -61,9 +71,12 @@ fn similar(file: &Path) -> Option<String> {
     let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     let mut names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
     names.sort_unstable();
-    let wanted = file.file_name()?.to_str()?;
-    let near = suggest(wanted, names.iter().map(String::as_str))?;
-    let near = folder.map_or_else(|| near.into(), |folder| folder.join(near));
+    // the ending, which all of them share, makes no two names alike
+    let wanted = file.file_stem()?.to_str()?;
+    let mut stems = names.iter().filter_map(|name| name.strip_suffix(".toml"));
+    let same = stems.clone().find(|stem| *stem == wanted);
+    let near = format!("{}.toml", same.or_else(|| suggest(wanted, &mut stems))?);
+    let near = folder.map_or_else(|| near.clone().into(), |folder| folder.join(&near));
     Some(format!("did you mean {}?", near.display()))
 }
 

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use lptn_network::{BuildError, Item, Network, ParameterError, ParameterId, Parameters, Value};
 use lptn_network::{Field, Law};
+use lptn_units::Expression;
 
 use crate::describe::describe;
 use crate::diagnostic::{Diagnostic, arrange};
@@ -39,6 +40,7 @@ impl Netlist {
             }
             Err(mut diagnostics) => {
                 arrange(&mut diagnostics);
+                crate::limits::shorten(&mut diagnostics);
                 Err(Rejected { files, diagnostics, syntax: false })
             }
         }
@@ -73,6 +75,11 @@ impl Netlist {
                 .help("write NAME=VALUE, for example `omega=5000rpm`"));
         };
         let written = name.trim();
+        if written.is_empty() {
+            return Err(Diagnostic::error("netlist::bad_assignment", format!("`{text}` names no parameter"))
+                .at(line, "a name is missing before `=`")
+                .help("write NAME=VALUE, for example `omega=5000rpm`"));
+        }
         match new.set_text(written, value) {
             Ok(id) => Ok(Assignment { id, name: written.to_owned(), span: line }),
             Err(error) => Err(self.refused(&error, (name, value), line)),
@@ -100,12 +107,22 @@ impl Netlist {
                     Ok(id) => self.defined(problem, id),
                     Err(_) => problem,
                 };
+                if self.is_expression(value) {
+                    return problem
+                        .help("`--set` takes a number or a quantity, not an expression: `omega=5000rpm`");
+                }
                 match error.help() {
                     Some(help) => problem.help(help),
                     None => problem,
                 }
             }
         }
+    }
+
+    /// Whether the text is an expression of parameters, which a netlist may hold but an assignment may not.
+    fn is_expression(&self, text: &str) -> bool {
+        let is_parameter = |name: &str| self.network.parameter(name).is_ok();
+        Expression::parse(text).is_ok_and(|e| e.names().iter().any(|(name, _)| is_parameter(name)))
     }
 
     fn suggest_parameter(&self, problem: Diagnostic, near: Option<&str>) -> Diagnostic {

@@ -129,6 +129,8 @@ impl<'a> Elaboration<'a> {
                 .retain(|p| p.code == MISSING_FORMAT || !p.place().is_some_and(|at| at.is_inside(format)));
         }
         if self.problems.iter().any(|problem| problem.severity == Severity::Error) {
+            // what is odd may follow from what is wrong
+            self.problems.retain(|problem| problem.severity == Severity::Error);
             return (None, self.problems);
         }
         self.problems.extend(materials);

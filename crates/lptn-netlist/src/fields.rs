@@ -20,6 +20,11 @@ impl Owner {
         Self(format!("[{name}]"))
     }
 
+    /// Whether it is a section and no element.
+    fn is_section(&self) -> bool {
+        self.0.contains('[')
+    }
+
     /// A table inside a section, such as `output` of [run].
     pub(crate) fn inside(&self, key: &str) -> Self {
         Self(self.field(key))
@@ -63,7 +68,12 @@ impl<'a> Fields<'a> {
         let mut complete = true;
         for field in table.entries.iter().filter(|f| !section.keys.contains(&f.key.as_str())) {
             complete = false;
-            problems.push(unknown(section, &owner, field));
+            let below = field.key_span.range.start >= table.span.range.end;
+            let inner = below && matches!(field.value.kind, RawKind::Table(_));
+            problems.push(match inner && !owner.is_section() {
+                true => element_inside(section, (&owner, &entry.key), field),
+                false => unknown(section, &owner, field),
+            });
         }
         Some(Self { owner, place: &entry.key_span, complete, section: section.keys, table })
     }
@@ -178,6 +188,16 @@ fn not_a_table(section: &Section, owner: &Owner, entry: &RawEntry) -> Diagnostic
         return error.help("write the heading with single brackets: each element has a name of its own");
     }
     error.help(format!("write it like this: `{} = {}`", entry.key, section.example))
+}
+
+/// An element below the heading of another one.
+fn element_inside(section: &Section, (owner, name): (&Owner, &str), field: &RawEntry) -> Diagnostic {
+    let (key, kind) = (&field.key, section.name);
+    Diagnostic::error("netlist::unknown_key", format!("{} has no field `{key}`", owner.words()))
+        .at(field.key_span.clone(), format!("belongs to `[{kind}.{name}]`, which lasts to the next heading"))
+        .help(format!(
+            "put `{key}` above `[{kind}.{name}]`, or give it the heading `[{kind}.{key}]` of its own"
+        ))
 }
 
 fn unknown(section: &Section, owner: &Owner, field: &RawEntry) -> Diagnostic {

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use lptn_units::{Expression, suggest};
+use lptn_units::{Expression, is_function, suggest};
 
 use crate::diagnostic::Diagnostic;
 use crate::fields::sample_value;
@@ -43,19 +43,49 @@ impl Names {
             let entries = section(raw, kind).into_iter().flat_map(|table| &table.entries);
             for entry in entries {
                 names.elements.entry(entry.key.clone()).or_insert(kind);
+                names.hide_inner(entry);
             }
         }
         names
+    }
+
+    /// The line of a parameter; entries stand in the order of the file.
+    pub(crate) fn parameter<'a>(&self, raw: &'a RawNetlist, name: &str) -> Option<&'a RawEntry> {
+        let start = self.parameters.get(name)?.range.start;
+        let entries = &section(raw, PARAM)?.entries;
+        let at = entries.binary_search_by_key(&start, |entry| entry.key_span.range.start).ok()?;
+        entries.get(at)
     }
 
     pub(crate) fn is_parameter(&self, name: &str) -> bool {
         self.parameters.contains_key(name)
     }
 
+    /// Notes elements that stand inside another one, below `[node.winding]`.
+    fn hide_inner(&mut self, element: &RawEntry) {
+        if let RawKind::Table(table) = &element.value.kind {
+            let inner = table.entries.iter().filter(|field| matches!(field.value.kind, RawKind::Table(_)));
+            self.hidden.extend(inner.map(|field| field.key.clone()).filter(|key| key != "into"));
+        }
+    }
+
     /// Notes the names in a section that cannot be read.
     pub(crate) fn hide(&mut self, section: &RawEntry) {
-        if let RawKind::Table(table) = &section.value.kind {
-            self.hidden.extend(table.entries.iter().map(|entry| entry.key.clone()));
+        match &section.value.kind {
+            RawKind::Table(table) => self.hidden.extend(table.entries.iter().map(|entry| entry.key.clone())),
+            RawKind::Array(list) => {
+                // `[[node]]` with its name among its fields
+                let fields = list.iter().filter_map(|item| match &item.kind {
+                    RawKind::Table(table) => Some(&table.entries),
+                    _ => None,
+                });
+                let names = fields.flatten().filter_map(|field| match &field.value.kind {
+                    RawKind::String { text, .. } => Some(text.clone()),
+                    _ => None,
+                });
+                self.hidden.extend(names);
+            }
+            _ => {}
         }
     }
 
@@ -171,6 +201,12 @@ impl Names {
 
     fn unknown(&mut self, place: Place<'_>, name: &str, at: Span) -> Diagnostic {
         let words = place.words();
+        if name.contains('.') && !name.ends_with(".T") {
+            let message = format!("{words} uses `{name}`, which is no parameter");
+            return Diagnostic::error("netlist::unknown_name", message).at(at, "unknown name").help(
+                "expressions may use the parameters and, where time is allowed, `t`: write the value itself",
+            );
+        }
         if name.contains(['.', '[']) || matches!(name, "T" | "T_from" | "T_to" | "T_mean" | "dT") {
             let message = format!("{words}: `{name}`, a temperature in an expression, is not supported yet");
             let help = match place.key {
@@ -184,8 +220,12 @@ impl Names {
             format!("{words} uses `{name}`, which is no parameter"),
         )
         .at(at, "unknown name");
-        let near =
-            if self.may_search() { suggest(name, self.order.iter().map(String::as_str)) } else { None };
+        if is_function(name) {
+            return error.help(format!("`{name}` is a function: write `{name}(..)`"));
+        }
+        let search = self.may_search();
+        let known = self.order.iter().map(String::as_str).chain(["pi"]).filter(|_| search);
+        let near = suggest(name, known);
         if let Some(near) = near {
             let error = error.help(format!("did you mean `{near}`?"));
             return match self.parameters.get(near) {

@@ -1,6 +1,8 @@
 //! The whole way: text to [`Netlist`], or every reason why not.
 
+use std::collections::HashSet;
 use std::fmt;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use lptn_network::{Network, Parameters};
@@ -10,6 +12,7 @@ use crate::diagnostic::{Diagnostic, Severity, arrange};
 use crate::elaborate::{Elaborated, elaborate};
 use crate::file::{FileId, Files, Span};
 use crate::include::{self, Loader, Merged};
+use crate::limits::{read_bytes, shorten};
 use crate::raw::RawNetlist;
 use crate::run::{RunPlan, RunSettings};
 use crate::section;
@@ -103,10 +106,10 @@ impl std::error::Error for ReadError {
 /// Reads a netlist from a file.
 ///
 /// # Errors
-/// [`ReadError`] if the file cannot be read or its content cannot be used.
+/// [`ReadError`] if the file cannot be read, is longer than [`MOST_BYTES`](crate::MOST_BYTES), or its content cannot
+/// be used.
 pub fn read(path: &Path) -> Result<Netlist, ReadError> {
-    let bytes = std::fs::read(path).map_err(|error| ReadError::Io { path: path.to_owned(), error })?;
-    parse_file(path, &bytes).map_err(ReadError::Rejected)
+    parse_file(path, &read_bytes(path)?).map_err(ReadError::Rejected)
 }
 
 /// Reads a netlist from the bytes of a file that was read; what it includes is looked for beside it.
@@ -127,15 +130,17 @@ pub fn parse_bytes(name: &str, bytes: &[u8]) -> Result<Netlist, Rejected> {
 
 fn decode(name: &str, bytes: &[u8], loader: Option<&mut Loader<'_>>) -> Result<Netlist, Rejected> {
     match std::str::from_utf8(bytes) {
-        Ok(text) if !text.contains('\0') => whole(name, text, loader),
-        Ok(_) => Err(not_text(name, "it contains zero bytes")),
+        Ok(text) => whole(name, text, loader),
         Err(_) if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) => {
-            Err(not_text(name, "it looks like UTF-16"))
+            Err(not_text((name, ""), 0..0, "it looks like UTF-16"))
         }
         Err(error) => {
             let at = error.valid_up_to();
             let line = bytes.iter().take(at).filter(|&&byte| byte == b'\n').count() + 1;
-            Err(not_text(name, &format!("byte {at} on line {line} belongs to no character")))
+            let text = String::from_utf8_lossy(bytes);
+            let place = at..at + char::REPLACEMENT_CHARACTER.len_utf8();
+            let why = format!("byte {at} on line {line} belongs to no character");
+            Err(not_text((name, text.as_ref()), place, &why))
         }
     }
 }
@@ -159,7 +164,7 @@ pub fn parse_with(name: &str, text: &str, loader: &mut Loader<'_>) -> Result<Net
 fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netlist, Rejected> {
     let mut files = Files::new();
     if text.contains('\0') {
-        return Err(not_text(name, "it contains zero bytes"));
+        return Err(not_text((name, ""), 0..0, "it contains zero bytes"));
     }
     let file = files.add(name, text);
     let (raw, mut diagnostics) = parse_raw(&files, file);
@@ -173,6 +178,7 @@ fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netl
     }
     let (_, found) = elaborate(&raw);
     add_certain(&mut diagnostics, found, (&files, file));
+    shorten(&mut diagnostics);
     Err(Rejected { files, diagnostics, syntax })
 }
 
@@ -187,6 +193,7 @@ fn included(
         include::merge(&mut files, raw, main, loader);
     if incomplete {
         arrange(&mut diagnostics);
+        shorten(&mut diagnostics);
         return Err(Rejected { files, diagnostics, syntax });
     }
     let (done, found) = elaborate(&raw);
@@ -195,7 +202,10 @@ fn included(
     arrange(&mut diagnostics);
     match done {
         Some(done) => finish(files, done, diagnostics),
-        None => Err(Rejected { files, diagnostics, syntax }),
+        None => {
+            shorten(&mut diagnostics);
+            Err(Rejected { files, diagnostics, syntax })
+        }
     }
 }
 
@@ -207,9 +217,11 @@ fn finish(files: Files, done: Elaborated, mut diagnostics: Vec<Diagnostic>) -> R
             diagnostics.extend(problems);
             diagnostics.retain(|d| d.severity == Severity::Error);
             arrange(&mut diagnostics);
+            shorten(&mut diagnostics);
             return Err(Rejected { files, diagnostics, syntax: false });
         }
     };
+    shorten(&mut diagnostics);
     let assigned = network.overrides();
     let inputs = files.ids().collect();
     let warnings = diagnostics;
@@ -219,7 +231,7 @@ fn finish(files: Files, done: Elaborated, mut diagnostics: Vec<Diagnostic>) -> R
 /// Problems that are there whatever the broken lines should have said.
 fn add_certain(all: &mut Vec<Diagnostic>, found: Vec<Diagnostic>, (files, file): (&Files, FileId)) {
     let line = |d: &Diagnostic| d.place().map(|span| files.line_column(span).0);
-    let broken: Vec<Option<usize>> = all.iter().map(line).collect();
+    let broken: HashSet<Option<usize>> = all.iter().map(line).collect();
     // behind something that was not closed, the parser reads one thing as another
     let end =
         all.iter().filter(|d| d.code == NOT_CLOSED).filter_map(Diagnostic::place).map(|s| s.range.start);
@@ -255,11 +267,11 @@ fn rests_on_absence(code: &str) -> bool {
     absences.contains(&code)
 }
 
-fn not_text(name: &str, why: &str) -> Rejected {
+fn not_text((name, text): (&str, &str), place: Range<usize>, why: &str) -> Rejected {
     let mut files = Files::new();
-    let file = files.add(name, "");
+    let file = files.add(name, text);
     let error = Diagnostic::error("netlist::not_text", format!("this is not a text file: {why}"))
-        .at(Span::new(file, 0..0), "")
+        .at(Span::new(file, place), "")
         .help(
             "a netlist is a TOML file in UTF-8; choose UTF-8 where your editor saves it, \
                and write `degC` if the degree sign is the trouble",

@@ -8,6 +8,7 @@ use toml::de::Error;
 use crate::diagnostic::Diagnostic;
 use crate::duplicate;
 use crate::file::{FileId, Span, on_borders};
+use crate::habit;
 use crate::raw::RawTable;
 
 const SYNTAX: &str = "netlist::syntax";
@@ -15,7 +16,7 @@ const SYNTAX: &str = "netlist::syntax";
 /// Something opened and not closed: what follows is not read as it was meant.
 pub(crate) const NOT_CLOSED: &str = "netlist::not_closed";
 
-/// Broken lines are explained up to here: a file with more of them is probably no netlist.
+/// Broken lines are explained up to here, further ones only counted: a file with more is probably no netlist.
 const MOST_ERRORS: usize = 200;
 
 /// Explains the parser's errors, one for each line: after the first the parser has lost its place in the line.
@@ -23,8 +24,9 @@ pub(crate) fn explain(errors: &[Error], file: FileId, text: &str, top: &RawTable
     let mut lines = HashSet::new();
     let mut found: Vec<Diagnostic> = Vec::new();
     let mut unclosed = false;
+    let breaks: Vec<usize> = text.match_indices('\n').map(|(at, _)| at).collect();
     let places: Vec<(usize, &str, Place<'_>)> =
-        errors.iter().take(MOST_ERRORS).map(|e| locate(e, file, text)).collect();
+        errors.iter().map(|e| locate(e, file, (text, &breaks))).collect();
     let strings: HashSet<usize> =
         places.iter().filter(|(_, message, _)| is_string(message)).map(|(line, ..)| *line).collect();
     for (line, message, place) in places {
@@ -32,6 +34,14 @@ pub(crate) fn explain(errors: &[Error], file: FileId, text: &str, top: &RawTable
         let follows = unclosed && is_inside_table(message);
         let hidden = strings.contains(&line) && !is_string(message);
         if follows || hidden || !lines.insert(line) {
+            continue;
+        }
+        if found.len() >= MOST_ERRORS {
+            found.push(Diagnostic::error(SYNTAX, message).at(place.span(), ""));
+            continue;
+        }
+        if let Some(habit) = habit::explain(&place.line(), file, message) {
+            found.push(habit);
             continue;
         }
         let breaks_off = place.line_before().trim().is_empty() || place.rest().is_empty();
@@ -43,18 +53,17 @@ pub(crate) fn explain(errors: &[Error], file: FileId, text: &str, top: &RawTable
         // the fields below a heading that is opened twice are given twice for that reason
         found.retain(|d| d.code != duplicate::CODE || d.labels.len() > 1);
     }
-    if errors.len() > MOST_ERRORS
-        && let Some(last) = found.last_mut()
-    {
-        last.notes.push(format!("there are {} more errors of this kind", errors.len() - MOST_ERRORS));
-    }
     found
 }
 
 /// The line of an error from 0, its message and its place.
-fn locate<'a>(error: &'a Error, file: FileId, text: &'a str) -> (usize, &'a str, Place<'a>) {
+fn locate<'a>(
+    error: &'a Error,
+    file: FileId,
+    (text, breaks): (&'a str, &[usize]),
+) -> (usize, &'a str, Place<'a>) {
     let range = on_borders(text, error.span().unwrap_or(0..0));
-    let line = text.get(..range.start).map_or(0, |before| before.matches('\n').count());
+    let line = breaks.partition_point(|at| *at < range.start);
     (line, error.message(), Place { file, text, range })
 }
 
@@ -89,6 +98,12 @@ impl Place<'_> {
     fn line_before(&self) -> &str {
         let before = self.text.get(..self.range.start).unwrap_or("");
         before.rsplit('\n').next().unwrap_or("")
+    }
+
+    /// The whole line, and where it begins.
+    fn line(&self) -> (usize, &str) {
+        let start = self.range.start - self.line_before().len();
+        (start, self.text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or(""))
     }
 
     fn rest(&self) -> &str {

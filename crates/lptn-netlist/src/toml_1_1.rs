@@ -99,7 +99,7 @@ impl Scan<'_> {
 }
 
 /// The length of the string that `text` begins with; all of it if it is not closed.
-fn string_length(text: &str) -> usize {
+pub(crate) fn string_length(text: &str) -> usize {
     let quote = if text.starts_with('"') { '"' } else { '\'' };
     let triple = quote.to_string().repeat(3);
     let closing = if text.starts_with(&triple) { triple } else { quote.to_string() };

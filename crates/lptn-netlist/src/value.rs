@@ -4,14 +4,16 @@ use std::sync::Arc;
 
 use lptn_network::{Input, Value};
 use lptn_units::{
-    Expression, Program, Quantity, Type, UnitError, UnitErrorKind, Written, parse_quantity, parse_value,
+    Dimension, Expression, Program, Quantity, Type, UnitError, UnitErrorKind, Written, parse_quantity,
+    parse_value,
 };
 
 use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::{Owner, sample, wrong_shape};
+use crate::file::Span;
 use crate::names::Names;
-use crate::raw::{RawKind, RawValue};
+use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
 
 /// A value whose units are right.
 #[derive(Clone, Debug)]
@@ -144,6 +146,9 @@ impl Place<'_> {
                 let unit = wanted.usual_unit();
                 Some(format!("give it in {unit}, for example `{}`", sample(self.key)))
             }
+            UnitErrorKind::NotFinite { text } if text.starts_with("inf") && self.key == "R" => {
+                Some("leave the path out if no heat flows through it".into())
+            }
             UnitErrorKind::OutOfRange { .. } => Some("numbers reach from about 1e-307 to 1e308".into()),
             _ => error.help(),
         }
@@ -183,11 +188,73 @@ impl Elaboration<'_> {
             expression.compile(&self.builder, wanted.ty)
         };
         match program {
-            Ok(program) => Some(Given::Expression(program)),
+            Ok(program) => {
+                let moments = expression.equalities("t").into_iter().filter(|_| wanted.time);
+                self.problems.extend(moments.map(|range| moment(place, place.raw.part(&range))));
+                Some(Given::Expression(program))
+            }
             Err(errors) => {
-                self.problems.extend(errors.iter().map(|error| place.unit_error(error)));
+                let names = (self.raw, &self.names);
+                let explain = |error| with_parameter(names, (place, wanted), &expression, error);
+                self.problems.extend(errors.iter().map(explain));
                 None
             }
         }
     }
+}
+
+/// `if(t == 5 [s], ..)`.
+fn moment(place: Place<'_>, at: Span) -> Diagnostic {
+    let message = format!("{} compares the time by equality, which lasts for no time", place.words());
+    Diagnostic::warning("netlist::moment", message)
+        .at(at, "never acts")
+        .help("use `<` or `>=`; a pulse is `if(t < 5 [s], a, if(t < 6 [s], b, a))`")
+}
+
+/// A mistake in an expression of one parameter may be that of the parameter: its line is shown as well.
+fn with_parameter(
+    (raw, all): (&RawNetlist, &Names),
+    (place, wanted): (Place<'_>, Wanted),
+    expression: &Expression,
+    error: &UnitError,
+) -> Diagnostic {
+    let diagnostic = place.unit_error(error);
+    use UnitErrorKind as Kind;
+    let of_type = matches!(
+        error.kind,
+        Kind::Dimension { .. }
+            | Kind::AbsoluteWanted { .. }
+            | Kind::DifferenceWanted { .. }
+            | Kind::Rotation { .. }
+            | Kind::Operands { .. }
+    );
+    let names = if of_type { expression.names() } else { Vec::new() };
+    let [(name, _)] = names.as_slice() else { return diagnostic };
+    let Some(entry) = all.parameter(raw, name) else { return diagnostic };
+    let diagnostic = diagnostic.also(entry.value.span.clone(), "its value");
+    let help =
+        wanted.ty.filter(|_| expression.text().trim() == name).and_then(|ty| parameter_help(entry, ty));
+    match help {
+        Some(help) => diagnostic.help(help),
+        None => diagnostic,
+    }
+}
+
+/// The line of a parameter that is a bare number, or kelvin where a point on the temperature scale is due.
+fn parameter_help(entry: &RawEntry, ty: Type) -> Option<String> {
+    let text = match &entry.value.kind {
+        RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => text.trim(),
+        _ => return None,
+    };
+    let found = parse_quantity(text, None).ok()?.ty;
+    let line = |value: &str| format!("`{} = \"{value}\"`", entry.key);
+    if found.is_scalar() && text.ends_with(|c: char| c.is_ascii_digit()) {
+        return Some(format!("write {} in [param]", line(&format!("{text} {}", ty.usual_unit()))));
+    }
+    if ty.absolute && found == Type::of(Dimension::TEMPERATURE) {
+        let number = text.strip_suffix('K')?.trim_end();
+        let (celsius, kelvin) = (line(&format!("{number} degC")), line(&format!("absolute({number} [K])")));
+        return Some(format!("write {celsius} in [param], or {kelvin} if kelvin is meant"));
+    }
+    None
 }

@@ -259,3 +259,29 @@ fn limits_name_temperatures_parameters_and_time() {
     }
     assert!(netlist.warnings.is_empty());
 }
+
+#[test]
+fn what_has_no_effect_is_a_warning() {
+    let text = "format = 1
+[node]
+block = { T0 = \"20 degC\", C = \"500 J/K\" }
+joint = { T0 = \"20 degC\", massless = true }
+[boundary]
+air = { T = \"25 degC\" }
+[resistor]
+inner = { from = \"block\", to = \"joint\", R = \"1 K/W\" }
+outer = { from = \"joint\", to = \"air\", R = \"1 K/W\" }
+[source]
+pulse = { into = \"block\", P = \"if(t == 5 [s], 100 [W], 0 [W])\" }
+";
+    let netlist = lptn_netlist::parse("a.toml", text).unwrap();
+    let found: Vec<String> = netlist.warnings.iter().map(|w| netlist.files.plain(w)).collect();
+    let expected = "\
+warning[netlist::massless_initial]: `T0` of node `joint` has no effect: the node is massless
+ --> a.toml:4:16
+  = help: leave `T0` out: a massless node takes the temperature that its neighbours give it
+warning[netlist::moment]: `P` of source `pulse` compares the time by equality, which lasts for no time
+ --> a.toml:11:35: never acts
+  = help: use `<` or `>=`; a pulse is `if(t < 5 [s], a, if(t < 6 [s], b, a))`";
+    assert_eq!(found.join("\n"), expected);
+}

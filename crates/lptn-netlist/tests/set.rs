@@ -133,3 +133,23 @@ fn the_same_parameter_twice_is_an_error() {
     let found = refused(&["share=0.5", "share=0.6"]);
     assert!(found.starts_with("error[netlist::assigned_twice]: parameter `share` is set twice"), "{found}");
 }
+
+#[test]
+fn expressions_are_for_netlists() {
+    for text in ["tau=2*tau", "T_amb=T_amb"] {
+        let found = refused(&[text]);
+        assert!(found.contains("`--set` takes a number or a quantity, not an expression"), "{found}");
+    }
+    let found = refused(&["omega=5 rpmm"]);
+    assert!(found.contains("did you mean \"5 rpm\"?"), "{found}");
+}
+
+#[test]
+fn an_assignment_needs_a_name() {
+    let expected = "\
+error[netlist::bad_assignment]: `=5` names no parameter
+ --> --set:1:1: a name is missing before `=`
+  = help: write NAME=VALUE, for example `omega=5000rpm`";
+    let found = refused(&["=5"]);
+    assert_eq!(found, expected, "\n{found}");
+}

@@ -38,9 +38,23 @@ pub enum UnitErrorKind {
         /// The word as written.
         text: String,
     },
-    /// `0,5` for `0.5`.
+    /// `0,5` for `0.5`, or `1,000` for `1000`.
     DecimalComma {
-        /// The string with a decimal point.
+        /// The string with a decimal point, where the comma can be one.
+        decimal: Option<String>,
+        /// The string without the commas, where they can separate thousands.
+        thousands: Option<String>,
+    },
+    /// `1 000` or `1'000` for `1000`.
+    DigitGroups {
+        /// The string without the separators.
+        fix: Option<String>,
+    },
+    /// `2 P` for `2 * P`.
+    MissingOperator {
+        /// The parameter that stands in the place of a unit.
+        name: String,
+        /// The string with the operator.
         fix: String,
     },
     /// Brackets, signs or powers nested too deeply.
@@ -175,7 +189,7 @@ pub enum UnitErrorKind {
     },
     /// An absolute temperature where only plain quantities can be used.
     AbsoluteOperand {
-        /// What was to be done to it, in words.
+        /// What it cannot be, in words: "multiplied".
         operation: &'static str,
         /// What to write in its place.
         fix: String,
@@ -187,7 +201,9 @@ pub enum UnitErrorKind {
         /// What it takes, in words.
         wanted: &'static str,
         /// What it was given.
-        found: Type,
+        found: Box<Type>,
+        /// The string with the argument made a plain number by a scale of its own kind.
+        example: Option<String>,
     },
     /// A variable exponent on a base that has a dimension.
     VariableExponent {

@@ -10,6 +10,8 @@ pub(crate) fn code(kind: &Kind) -> &'static str {
         Kind::OutOfRange { .. } => "units::out_of_range",
         Kind::NotFinite { .. } => "units::not_finite",
         Kind::DecimalComma { .. } => "units::decimal_comma",
+        Kind::DigitGroups { .. } => "units::digit_groups",
+        Kind::MissingOperator { .. } => "units::missing_operator",
         Kind::TooDeep { .. } => "units::too_deep",
         Kind::UnknownUnit { .. } => "units::unknown_unit",
         Kind::AmbiguousProduct { .. } => "units::ambiguous_product",
@@ -62,8 +64,8 @@ pub(crate) fn message(kind: &Kind) -> String {
         Kind::Operands { operation, left, right, .. } => {
             format!("{operation} needs values of one kind, got {} and {}", got(left), got(right))
         }
-        Kind::AbsoluteOperand { operation, .. } => format!("{operation} of an absolute temperature"),
-        Kind::Argument { function, wanted, found } => {
+        Kind::AbsoluteOperand { operation, .. } => format!("an absolute temperature cannot be {operation}"),
+        Kind::Argument { function, wanted, found, .. } => {
             format!("`{function}` takes {wanted}, got {}", got(found))
         }
         Kind::VariableExponent { base, .. } => {
@@ -85,7 +87,10 @@ fn text_message(kind: &Kind) -> String {
         Kind::Syntax { wanted, found } => format!("expected {wanted}, found {found}"),
         Kind::OutOfRange { number } => format!("number `{number}` is out of range"),
         Kind::NotFinite { text } => format!("`{text}` is not a finite number"),
-        Kind::DecimalComma { .. } => "decimal comma".to_owned(),
+        Kind::DecimalComma { thousands: None, .. } => "decimal comma".to_owned(),
+        Kind::DecimalComma { .. } => "comma in a number".to_owned(),
+        Kind::DigitGroups { .. } => "number with its digits in groups".to_owned(),
+        Kind::MissingOperator { name, .. } => format!("`{name}` is a parameter, not a unit"),
         Kind::TooDeep { limit } => format!("nested more than {limit} deep"),
         Kind::UnknownUnit { name, .. } => format!("unknown unit `{name}`"),
         Kind::AmbiguousProduct { .. } => "product after `/` needs brackets".to_owned(),
@@ -110,8 +115,9 @@ fn text_message(kind: &Kind) -> String {
 
 pub(crate) fn help(kind: &Kind) -> Option<String> {
     match kind {
-        Kind::DecimalComma { fix }
-        | Kind::BareNumber { fix, .. }
+        Kind::BareNumber { wanted, fix } => Some(bare_number(wanted, fix)),
+        Kind::DecimalComma { decimal, thousands } => Some(comma(decimal.as_deref(), thousands.as_deref())),
+        Kind::MissingOperator { fix, .. }
         | Kind::UnbracketedUnit { fix }
         | Kind::MisplacedBracket { fix }
         | Kind::AbsoluteWanted { fix }
@@ -121,7 +127,21 @@ pub(crate) fn help(kind: &Kind) -> Option<String> {
         | Kind::TruthValue { fix }
         | Kind::TruthWanted { fix } => Some(write(fix)),
         Kind::AmbiguousProduct { fix } | Kind::RelativeDeviation { fix } => fix.as_deref().map(write),
-        Kind::Operands { fix, .. } => fix.as_deref().map(write),
+        Kind::DigitGroups { fix } => {
+            Some(fix.as_deref().map_or_else(|| "write the digits without separators".to_owned(), write))
+        }
+        Kind::Operands { fix: Some(fix), .. } => Some(write(fix)),
+        Kind::Operands { left, right, .. } => {
+            let unit = |ty: &Type| match ty.is_scalar() {
+                true => "without a unit".to_owned(),
+                false => format!("in {}", ty.usual_unit()),
+            };
+            Some(format!("give all of them {} or all {}", unit(left), unit(right)))
+        }
+        Kind::Argument { found, example, .. } => example
+            .as_ref()
+            .map(|example| format!("divide it by {}, for example \"{example}\"", found.with_article())),
+        Kind::Syntax { wanted, found } => syntax_help(wanted, found).map(str::to_owned),
         Kind::UnknownUnit { fix, .. } => fix.as_deref().map(|fix| format!("did you mean \"{fix}\"?")),
         Kind::Dimension { wanted, fix, .. } => Some(match fix {
             Some(fix) => write(fix),
@@ -152,6 +172,43 @@ fn fixed_help(kind: &Kind) -> Option<&'static str> {
         Kind::BelowAbsoluteZero { .. } => Some("0 K is -273.15 degC or -459.67 degF"),
         Kind::ChainedComparison => Some("write \"if(a < b, if(b < c, x, y), y)\""),
         Kind::ExponentDimension { .. } => Some("divide the exponent by its unit: \"x^(n / 1 [K])\""),
+        _ => None,
+    }
+}
+
+/// What a comma in a number may mean.
+fn comma(decimal: Option<&str>, thousands: Option<&str>) -> String {
+    match (decimal, thousands) {
+        (Some(decimal), Some(thousands)) => format!(
+            "write \"{thousands}\" if the comma separates thousands, \"{decimal}\" if it is a decimal comma"
+        ),
+        (Some(fix), None) | (None, Some(fix)) => write(fix),
+        (None, None) => "write a decimal point, and no separators between the digits".to_owned(),
+    }
+}
+
+/// A temperature without a unit may be in kelvin as well.
+fn bare_number(wanted: &Type, fix: &str) -> String {
+    match fix.strip_suffix("degC").filter(|number| wanted.absolute && !number.starts_with(['-', '\u{2212}']))
+    {
+        Some(number) => format!("write \"{fix}\" or \"{number}K\""),
+        None => write(fix),
+    }
+}
+
+pub(crate) const WANTED_POWER: &str = "`^` for a power";
+pub(crate) const WANTED_CALL: &str = "`(` after `if`";
+pub(crate) const WANTED_CHOICE: &str = "`if(..)` for a choice";
+
+fn syntax_help(wanted: &str, found: &str) -> Option<&'static str> {
+    match (wanted, found) {
+        (WANTED_POWER, _) => Some("a power is written with `^`: \"x^2\""),
+        (WANTED_CALL | WANTED_CHOICE, _) | (_, "`then`" | "`else`") => Some(
+            "write `if(condition, value, other value)`, for example \"if(t < 10 [min], 100 [W], 0 [W])\"",
+        ),
+        (_, "`and`" | "`or`" | "`not`" | "`&`" | "`|`" | "`!`") => {
+            Some("conditions are combined by nesting: \"if(a < b, if(c < d, x, y), y)\"")
+        }
         _ => None,
     }
 }

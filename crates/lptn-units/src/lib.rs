@@ -30,6 +30,7 @@ mod quantity;
 mod rational;
 mod repair;
 mod scalar;
+mod separators;
 mod suggest;
 mod types;
 mod unit;

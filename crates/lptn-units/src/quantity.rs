@@ -6,6 +6,7 @@ use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind};
 use crate::format::{number, rounded};
 use crate::number::{self, Number};
+use crate::separators;
 use crate::types::Type;
 use crate::unit;
 use crate::unit_parser::ParsedUnit;
@@ -62,7 +63,7 @@ pub(crate) fn read(text: &str) -> Result<Reading<'_>, UnitError> {
         return Err(UnitError::new(UnitErrorKind::Empty, 0..text.len()));
     }
     let Some(number) = number::scan(text, start, true)? else { return Err(no_number(text, start..end)) };
-    decimal_comma(text, &number)?;
+    separators::check(text, &number)?;
     let after_number = number.span.end;
     let (mut deviation, unit_start) = deviation(text, after_number)?;
     let mut unit_end = end;
@@ -87,18 +88,6 @@ fn no_number(text: &str, span: Range<usize>) -> UnitError {
     }
     let found = format!("`{}`", word.chars().take(20).collect::<String>());
     UnitError::new(UnitErrorKind::Syntax { wanted: "a number", found }, span)
-}
-
-/// `1,5 K/W`.
-fn decimal_comma(text: &str, number: &Number) -> Result<(), UnitError> {
-    let end = number.span.end;
-    let rest = text.get(end..).unwrap_or_default();
-    let mut next = rest.chars();
-    if next.next() != Some(',') || !next.next().is_some_and(|c| c.is_ascii_digit()) {
-        return Ok(());
-    }
-    let fix = text.get(..end).unwrap_or_default().to_owned() + "." + rest.get(1..).unwrap_or_default();
-    Err(UnitError::new(UnitErrorKind::DecimalComma { fix: fix.trim().to_owned() }, end..end + 1))
 }
 
 const PLUS_MINUS: [&str; 3] = ["±", "+/-", "+-"];
@@ -132,7 +121,9 @@ fn deviation(text: &str, at: usize) -> Result<(Option<Deviation>, usize), UnitEr
 
 fn deviation_number(text: &str, at: usize) -> Result<Number, UnitError> {
     let start = skip_space(text, at);
-    number::scan(text, start, true)?.ok_or_else(|| no_number(text, start..text.len()))
+    let number = number::scan(text, start, true)?.ok_or_else(|| no_number(text, start..text.len()))?;
+    separators::check(text, &number)?;
+    Ok(number)
 }
 
 /// `± 0.5 K` after the unit.

@@ -12,6 +12,9 @@ pub(crate) fn unit(text: &str) -> Option<String> {
     if text.len() > LONGEST {
         return None;
     }
+    if ["u/min", "r/min", "rot/min"].contains(&text.trim().to_lowercase().as_str()) {
+        return Some("rpm".to_owned());
+    }
     let mut repaired = String::new();
     for (i, part) in split(text.trim(), |c| c == '/').iter().enumerate() {
         let words = words(part)?;
@@ -30,12 +33,31 @@ fn words(part: &str) -> Option<Vec<String>> {
     let part = part.trim();
     let inner = part.strip_prefix('(').and_then(|p| p.strip_suffix(')')).unwrap_or(part);
     let mut corrected = Vec::new();
-    for text in split(inner, |c| c.is_whitespace() || matches!(c, '*' | '·' | '⋅' | '×')) {
-        if !text.is_empty() {
-            corrected.extend(word(text)?);
+    let factors = split(inner, |c| c.is_whitespace() || matches!(c, '*' | '·' | '⋅' | '×'));
+    let mut factors = factors.into_iter().filter(|text| !text.is_empty()).peekable();
+    while let Some(text) = factors.next() {
+        match factors.peek().and_then(|scale| degrees(text, scale)) {
+            Some(unit) => {
+                factors.next();
+                corrected.push(unit.to_owned());
+            }
+            None => corrected.extend(word(text)?),
         }
     }
     Some(corrected)
+}
+
+/// `deg C` and `degrees Celsius`, which are no degrees of angle.
+fn degrees(word: &str, scale: &str) -> Option<&'static str> {
+    let degree = ["deg", "deg.", "degree", "degrees", "°", "º", "˚"];
+    if !degree.contains(&word.to_lowercase().as_str()) {
+        return None;
+    }
+    match scale.to_lowercase().as_str() {
+        "c" | "celsius" | "centigrade" => Some("degC"),
+        "f" | "fahrenheit" => Some("degF"),
+        _ => None,
+    }
 }
 
 /// Splits outside brackets.
@@ -60,7 +82,11 @@ fn word(text: &str) -> Option<Vec<String>> {
         let end = rest.find(|c: char| !unit_parser::is_name_start(c)).unwrap_or(rest.len());
         let (name, tail) = rest.split_at_checked(end)?;
         let (exponent, tail) = exponent(tail)?;
-        found.push(format!("{}{exponent}", known(name)?));
+        let unit = known(name)?;
+        if !exponent.is_empty() && unit.contains([' ', '^']) {
+            return None; // the power would be of a part
+        }
+        found.extend(unit.split(' ').map(|factor| format!("{factor}{exponent}")));
         rest = tail;
     }
     Some(found)

@@ -31,20 +31,22 @@ fn rank(name: &str, wanted: &[char], candidate: &str) -> Option<usize> {
     if name.eq_ignore_ascii_case(candidate) {
         return Some(0);
     }
-    let found: Vec<char> = candidate.chars().take(LONGEST + 1).collect();
-    let longer = wanted.len().max(found.len());
+    let length = candidate.chars().take(LONGEST + 1).count();
+    let longer = wanted.len().max(length);
     let limit = if !(2..=LONGEST).contains(&longer) { 0 } else { (longer / 3).max(1) };
     // Two single letters, or a letter and a pair, have nothing in common to go by.
-    let limit = if wanted.len().min(found.len()) < 2 && longer < 3 { 0 } else { limit };
-    let distance = distance(wanted, &found, limit)?;
-    (distance <= limit).then_some(2 * distance + usize::from(wanted.len() != found.len()))
-}
-
-/// Optimal string alignment distance; `None` if the lengths alone exceed `limit`.
-fn distance(a: &[char], b: &[char], limit: usize) -> Option<usize> {
-    if limit == 0 || a.len().abs_diff(b.len()) > limit {
+    let limit = if wanted.len().min(length) < 2 && longer < 3 { 0 } else { limit };
+    // most candidates fall out here, before anything is copied
+    if limit == 0 || wanted.len().abs_diff(length) > limit {
         return None;
     }
+    let found: Vec<char> = candidate.chars().collect();
+    let distance = distance(wanted, &found)?;
+    (distance <= limit).then_some(2 * distance + usize::from(wanted.len() != length))
+}
+
+/// Optimal string alignment distance.
+fn distance(a: &[char], b: &[char]) -> Option<usize> {
     let mut before: Vec<usize> = Vec::new();
     let mut above: Vec<usize> = (0..=b.len()).collect();
     for (i, &x) in a.iter().enumerate() {

@@ -244,7 +244,7 @@ impl Parser<'_> {
 
 /// Letters, and the signs that are units by themselves.
 pub(crate) fn is_name_start(c: char) -> bool {
-    (c.is_alphabetic() && superscript(c).is_none()) || matches!(c, '°' | '%' | '_' | '℃' | '℉')
+    (c.is_alphabetic() && superscript(c).is_none()) || matches!(c, '°' | '˚' | '%' | '_' | '℃' | '℉')
 }
 
 fn raise(base: Factor, exponent: Rational) -> Option<Factor> {

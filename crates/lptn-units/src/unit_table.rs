@@ -171,6 +171,21 @@ const ALIASES: &[(&str, &str)] = &[
     ("ampere", "A"),
     ("amp", "A"),
     ("pascal", "Pa"),
+    ("nm", "N m"),
+    ("ncm", "N cm"),
+    ("nmm", "N mm"),
+    ("knm", "kN m"),
+    ("ws", "W s"),
+    ("ah", "A h"),
+    ("sqm", "m^2"),
+    ("qm", "m^2"),
+    ("sqmm", "mm^2"),
+    ("sqft", "ft^2"),
+    ("upm", "rpm"),
+    ("ºc", "degC"),
+    ("˚c", "degC"),
+    ("ºf", "degF"),
+    ("˚f", "degF"),
 ];
 
 /// The unit of this name, prefix included. `name` is in plain letters, see [`plain_name`].

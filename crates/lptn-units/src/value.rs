@@ -81,6 +81,12 @@ fn more_helpful(
     as_expression: UnitError,
     is_parameter: &dyn Fn(&str) -> bool,
 ) -> UnitError {
+    if let Some(error) = missing_operator(text, &as_quantity, is_parameter) {
+        return error;
+    }
+    if matches!(as_expression.kind, UnitErrorKind::AmbiguousSign { .. }) {
+        return as_expression;
+    }
     let has_fix = as_quantity.help().is_some();
     if looks_like_quantity(text) && has_fix && !mentions_parameter(text, is_parameter) {
         return as_quantity;
@@ -94,6 +100,15 @@ fn more_helpful(
         return as_quantity;
     }
     as_expression
+}
+
+/// `2 P`, where `P` is a parameter.
+fn missing_operator(text: &str, error: &UnitError, is_parameter: &dyn Fn(&str) -> bool) -> Option<UnitError> {
+    let UnitErrorKind::UnknownUnit { name, .. } = &error.kind else { return None };
+    let (before, after) = text.split_at_checked(error.span.start).filter(|_| is_parameter(name))?;
+    let fix = format!("{} * {after}", before.trim_end()).trim().to_owned();
+    Expression::parse(&fix).ok()?;
+    Some(UnitError::new(UnitErrorKind::MissingOperator { name: name.clone(), fix }, error.span.clone()))
 }
 
 fn mentions_parameter(text: &str, is_parameter: &dyn Fn(&str) -> bool) -> bool {

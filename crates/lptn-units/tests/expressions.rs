@@ -126,7 +126,13 @@ fn errors_of_syntax() {
         ("(1 + 2", None, "units::syntax", "", None),
         ("1 + 2)", None, "units::syntax", ")", None),
         ("x = 2", None, "units::syntax", "=", None),
-        ("x && n", None, "units::syntax", "&", None),
+        (
+            "x && n",
+            None,
+            "units::syntax",
+            "&",
+            Some("conditions are combined by nesting: \"if(a < b, if(c < d, x, y), y)\""),
+        ),
         ("2 x", None, "units::syntax", "x", None),
         ("max(1,,2)", None, "units::syntax", ",", None),
         ("5 [W", None, "units::syntax", "[W", None),
@@ -172,8 +178,20 @@ fn errors_of_names_and_arguments() {
         ("mean()", None, "units::arity", "mean", None),
         ("if(x < n, 1)", None, "units::arity", "if", None),
         ("2 * sqrt", None, "units::arity", "sqrt", None),
-        ("exp(5 [K])", None, "units::argument", "5 [K]", None),
-        ("sin(5 [m])", None, "units::argument", "5 [m]", None),
+        (
+            "exp(5 [K])",
+            None,
+            "units::argument",
+            "5 [K]",
+            Some("divide it by a temperature difference (K), for example \"exp(5 [K] / 1 [K])\""),
+        ),
+        (
+            "sin(5 [m])",
+            None,
+            "units::argument",
+            "5 [m]",
+            Some("divide it by a length (m), for example \"sin(5 [m] / 1 [m])\""),
+        ),
         ("kelvin(5 [K])", None, "units::argument", "5 [K]", None),
         ("absolute(T)", None, "units::argument", "T", None),
         ("x < n", None, "units::truth", "x < n", Some("write \"if(x < n, 1, 0)\"")),
@@ -185,7 +203,7 @@ fn errors_of_names_and_arguments() {
 #[test]
 fn errors_of_dimensions() {
     check_wrong(&[
-        ("P + 5 [K]", None, "units::operands", "P + 5 [K]", None),
+        ("P + 5 [K]", None, "units::operands", "P + 5 [K]", Some("give all of them in W or all in K")),
         ("P + 5", None, "units::operands", "P + 5", Some("write \"P + 5 [W]\"")),
         (
             "max(0, T - T_amb)",
@@ -298,4 +316,32 @@ fn all_errors_are_reported_in_order_of_place() {
 #[test]
 fn one_radian_too_many_is_a_result_in_the_type_that_is_due() {
     assert_eq!(compile("torque * omega", Some(POWER)).unwrap().ty(), POWER);
+}
+
+#[test]
+fn habits_of_other_languages_are_answered() {
+    let nested = Some("conditions are combined by nesting: \"if(a < b, if(c < d, x, y), y)\"");
+    let choice =
+        Some("write `if(condition, value, other value)`, for example \"if(t < 10 [min], 100 [W], 0 [W])\"");
+    let power = Some("a power is written with `^`: \"x^2\"");
+    check_wrong(&[
+        ("if x < 3 then 1 else 2", None, "units::syntax", "x", choice),
+        ("x < 3 ? 1 : 2", None, "units::syntax", "?", choice),
+        ("if(x < 3 and n < 2, 1, 2)", None, "units::syntax", "and", nested),
+        ("x ** 2", None, "units::syntax", "*", power),
+        ("x²", None, "units::syntax", "²", power),
+        ("[W]", None, "units::misplaced_bracket", "[W]", Some("write \"1 [W]\"")),
+        ("x * [W]", None, "units::misplaced_bracket", "[W]", Some("write \"x * 1 [W]\"")),
+    ]);
+    check_right(&[("x × n", SCALAR, 6.0)]);
+}
+
+#[test]
+fn comparisons_for_equality_are_found_by_name() {
+    let expression =
+        lptn_units::Expression::parse("if(t == 5 [s], x, 0) + if(t < x, 1, if(x != t, 1, 2))").unwrap();
+    let found: Vec<&str> =
+        expression.equalities("t").into_iter().map(|span| &expression.text()[span]).collect();
+    assert_eq!(found, ["t == 5 [s]", "x != t"]);
+    assert!(lptn_units::Expression::parse("if(x == 2, t, 0 [s])").unwrap().equalities("t").is_empty());
 }

@@ -22,8 +22,12 @@ impl<'a> Elaboration<'a> {
         let owner = Owner::element(NODE.name, &entry.key);
         let fields = Fields::of(&NODE, owner, entry, &mut self.problems);
         let field = |key| fields.as_ref().and_then(|fields| fields.get(key));
-        let initial_at = field("T0");
+        let (capacity_at, initial_at) = (field("C").or(field("material")), field("T0"));
+        let doubtful = field("massless").is_some_and(|raw| !matches!(raw.kind, RawKind::Boolean(_)));
         let massless = self.massless(fields.as_ref());
+        if let (true, None, Some(raw)) = (massless, capacity_at, initial_at) {
+            self.report(follows(&entry.key, raw));
+        }
         let capacity = fields.as_ref().and_then(|fields| self.capacity(fields));
         let own = fields.as_ref().and_then(|fields| self.initial(fields));
         let initial_at = initial_at.or(default.map(|(_, raw)| *raw));
@@ -37,7 +41,7 @@ impl<'a> Elaboration<'a> {
         if let Some(raw) = initial_at {
             self.map.value(item, Field::Initial, raw);
         }
-        if fields.is_none_or(|fields| !fields.complete) {
+        if doubtful || fields.is_none_or(|fields| !fields.complete) {
             self.doubts.items.insert(item);
         }
         self.ends.entry(&entry.key).or_insert((End::Node(id), &entry.key_span));
@@ -65,6 +69,13 @@ impl<'a> Elaboration<'a> {
         let given = self.given(Place { owner: &fields.owner, key: "T0", raw }, Wanted::constant(ty));
         Some(given.map_or_else(|| stand_in(ty), |given| given.input()))
     }
+}
+
+fn follows(name: &str, raw: &RawValue) -> Diagnostic {
+    let message = format!("`T0` of node `{name}` has no effect: the node is massless");
+    Diagnostic::warning("netlist::massless_initial", message)
+        .at(raw.span.clone(), "")
+        .help("leave `T0` out: a massless node takes the temperature that its neighbours give it")
 }
 
 fn is_steady(raw: &RawValue) -> bool {

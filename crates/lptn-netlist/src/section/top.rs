@@ -24,6 +24,9 @@ impl Elaboration<'_> {
             if SECTIONS.contains(&entry.key.as_str()) {
                 let problem = check_section(entry);
                 self.doubts.sections |= problem.is_some();
+                if problem.is_some() {
+                    self.names.hide(entry);
+                }
                 self.problems.extend(problem);
             } else if entry.key == "include" {
                 // what it names is in already, or the text is broken elsewhere

@@ -130,7 +130,7 @@ impl Checker<'_> {
     fn negate(&mut self, operand: Id) -> Option<Checked> {
         let ty = self.value(operand)?;
         if ty.absolute {
-            let error = self.source.absolute(operand, "negative", true);
+            let error = self.source.absolute(operand, "negated", true);
             return self.keep(Err(error));
         }
         let constant = self.constant(operand).map(|value| -value);

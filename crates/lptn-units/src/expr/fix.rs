@@ -57,6 +57,15 @@ impl Source<'_> {
         UnitError::new(Kind::AbsoluteOperand { operation, fix }, self.tree.span(id))
     }
 
+    /// The text with this node divided by a value of its own kind.
+    pub(crate) fn divided(&self, id: Id, ty: Type) -> String {
+        let part = self.text_of(id);
+        let sum = matches!(self.tree.node(id), Node::Binary(..) | Node::Compare(..));
+        let part = if sum { format!("({part})") } else { part.to_owned() };
+        let scale = if ty == Type::of(Dimension::TIME) { 60 } else { 1 };
+        self.replace(id, &format!("{part} / {scale} [{}]", ty.dimension.si_unit()))
+    }
+
     /// A condition that is no comparison.
     pub(crate) fn truth_wanted(&self, id: Id, ty: Type) -> UnitError {
         let limit = match (ty.absolute, ty.is_scalar()) {

@@ -4,10 +4,12 @@ use std::ops::Range;
 
 use super::tree::{Comparison, Operator};
 use crate::error::{UnitError, UnitErrorKind};
+use crate::error_text::{WANTED_CHOICE, WANTED_POWER};
 use crate::number::{self, Number};
 use crate::quantity::above_absolute_zero;
 use crate::types::Type;
 use crate::unit::Unit;
+use crate::unit_parser::superscript;
 
 #[derive(Clone, Debug)]
 pub(crate) enum Token {
@@ -42,7 +44,7 @@ struct Lexer<'a> {
 }
 
 /// Longest first.
-static SYMBOLS: [(&str, Token); 18] = [
+static SYMBOLS: [(&str, Token); 20] = [
     ("<=", Token::Comparison(Comparison::LessEqual)),
     (">=", Token::Comparison(Comparison::GreaterEqual)),
     ("==", Token::Comparison(Comparison::Equal)),
@@ -56,6 +58,8 @@ static SYMBOLS: [(&str, Token); 18] = [
     ("\u{2212}", Token::Operator(Operator::Subtract)),
     ("*", Token::Operator(Operator::Multiply)),
     ("·", Token::Operator(Operator::Multiply)),
+    ("⋅", Token::Operator(Operator::Multiply)),
+    ("×", Token::Operator(Operator::Multiply)),
     ("/", Token::Operator(Operator::Divide)),
     ("^", Token::Operator(Operator::Power)),
     ("(", Token::Open),
@@ -118,7 +122,14 @@ impl Lexer<'_> {
     }
 
     fn misplaced(&self, span: Range<usize>) -> UnitError {
-        let fix = splice(self.text, &span, "").trim().replace("  ", " ");
+        let follows = matches!(self.tokens.last(), Some((Token::Name(_) | Token::Unit(_) | Token::Close, _)));
+        let in_name = self.text.get(..span.start).is_some_and(|t| t.ends_with(is_identifier_part));
+        // a unit where a value is due is one of that unit: `[W]` as `1 [W]`
+        let replacement = match self.text.get(span.clone()) {
+            Some(unit) if !follows && !in_name => format!("1 {unit}"),
+            _ => String::new(),
+        };
+        let fix = splice(self.text, &span, &replacement).trim().replace("  ", " ");
         UnitError::new(UnitErrorKind::MisplacedBracket { fix }, span)
     }
 
@@ -174,6 +185,8 @@ impl Lexer<'_> {
         let wanted = match c {
             '=' => "`==` for a comparison",
             '&' | '|' | '!' => "a comparison (conditions are combined by nesting `if`)",
+            '?' => WANTED_CHOICE,
+            _ if superscript(c).is_some() => WANTED_POWER,
             _ => "a number, a name, an operator or a bracket",
         };
         let kind = UnitErrorKind::Syntax { wanted, found: format!("`{c}`") };
@@ -198,6 +211,10 @@ fn is_identifier_start(c: char) -> bool {
     c.is_ascii_alphabetic() || c == '_'
 }
 
+fn is_identifier_part(c: char) -> bool {
+    c.is_ascii_alphanumeric() || c == '_'
+}
+
 fn identifier_length(text: &str) -> usize {
-    text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len())
+    text.find(|c: char| !is_identifier_part(c)).unwrap_or(text.len())
 }

@@ -94,6 +94,19 @@ impl Expression {
         named.collect()
     }
 
+    /// The comparisons by `==` or `!=` in which this name occurs: where it is a time, they hold, or fail to,
+    /// for a moment that has no length.
+    pub fn equalities(&self, name: &str) -> Vec<Range<usize>> {
+        let named = |node: &Node| matches!(node, Node::Name(found) if found == name);
+        let uses: Vec<&Range<usize>> =
+            self.tree.nodes().filter(|(node, _)| named(node)).map(|(_, span)| span).collect();
+        let equal = self.tree.nodes().filter(|(node, span)| {
+            matches!(node, Node::Compare(Comparison::Equal | Comparison::NotEqual, ..))
+                && uses.iter().any(|at| span.start <= at.start && at.end <= span.end)
+        });
+        equal.map(|(_, span)| span.clone()).collect()
+    }
+
     /// Resolves the names, checks the dimensions and translates to flat code.
     ///
     /// `expected` is the type that is due, where it is known; see [`Type::conforms_to`].

@@ -34,7 +34,7 @@ pub(crate) fn sum(source: &Source<'_>, operator: Operator, a: Operand, b: Operan
         (true, false) if is_temperature(b.1) => Ok(a.1),
         (false, true) if is_temperature(a.1) && !subtract => Ok(b.1),
         (false, true) if is_temperature(a.1) => {
-            Err(source.absolute(b.0, "subtraction from a temperature difference", false))
+            Err(source.absolute(b.0, "subtracted from a temperature difference", false))
         }
         _ => Err(source.unlike(symbol, a, b)),
     }
@@ -42,7 +42,7 @@ pub(crate) fn sum(source: &Source<'_>, operator: Operator, a: Operand, b: Operan
 
 /// `T + 5 [degC]` was meant to be `T + 5 [K]`.
 fn sum_of_absolutes(source: &Source<'_>, a: Id, b: Id) -> UnitError {
-    let operation = "sum with an absolute temperature";
+    let operation = "added to another one";
     if let Some(fix) = source.as_difference(b).or_else(|| source.as_difference(a)) {
         return UnitError::new(Kind::AbsoluteOperand { operation, fix }, source.tree.span(b));
     }
@@ -56,7 +56,7 @@ pub(crate) fn product(source: &Source<'_>, operator: Operator, a: Operand, b: Op
     let divide = operator == Operator::Divide;
     for (id, ty) in [a, b] {
         if ty.absolute {
-            return Err(source.absolute(id, if divide { "quotient" } else { "product" }, false));
+            return Err(source.absolute(id, if divide { "part of a quotient" } else { "multiplied" }, false));
         }
     }
     let (left, right) = (a.1.dimension, b.1.dimension);
@@ -67,7 +67,7 @@ pub(crate) fn product(source: &Source<'_>, operator: Operator, a: Operand, b: Op
 /// A base with a dimension needs an exponent that is known exactly.
 pub(crate) fn power(source: &Source<'_>, base: Operand, exponent: Operand, exact: Option<Rational>) -> Typed {
     if base.1.absolute {
-        return Err(source.absolute(base.0, "power", false));
+        return Err(source.absolute(base.0, "raised to a power", false));
     }
     if !exponent.1.is_scalar() {
         let kind = Kind::ExponentDimension { found: exponent.1 };
@@ -96,7 +96,9 @@ fn overflow(source: &Source<'_>, a: Id, b: Id) -> UnitError {
 pub(crate) fn argument(source: &Source<'_>, function: Function, given: Operand) -> Typed {
     let (id, ty) = given;
     let wrong = |wanted| {
-        let kind = Kind::Argument { function: function.name(), wanted, found: ty };
+        let scaled = !matches!(function, Function::Kelvin | Function::Absolute);
+        let example = scaled.then(|| source.divided(id, ty));
+        let kind = Kind::Argument { function: function.name(), wanted, found: Box::new(ty), example };
         Err(UnitError::new(kind, source.tree.span(id)))
     };
     match function {
@@ -104,7 +106,7 @@ pub(crate) fn argument(source: &Source<'_>, function: Function, given: Operand) 
         Function::Kelvin => wrong("an absolute temperature"),
         Function::Absolute if !ty.absolute && is_temperature(ty) => Ok(Type::ABSOLUTE_TEMPERATURE),
         Function::Absolute => wrong("a temperature above 0 K as a plain quantity, `absolute(300 [K])`"),
-        _ if ty.absolute => Err(source.absolute(id, "function", false)),
+        _ if ty.absolute => Err(source.absolute(id, "the argument of this function", false)),
         Function::Abs => Ok(ty),
         Function::Sqrt => {
             ty.dimension.checked_pow(Rational::HALF).map(Type::of).ok_or_else(|| overflow(source, id, id))

@@ -7,6 +7,7 @@ use std::ops::Range;
 use super::lexer::{self, Spanned, Token, splice};
 use super::tree::{Comparison, Id, Node, Operator, Tree};
 use crate::error::{UnitError, UnitErrorKind};
+use crate::error_text::{WANTED_CALL, WANTED_POWER};
 use crate::number::Number;
 use crate::types::Type;
 use crate::unit::Unit;
@@ -29,7 +30,8 @@ pub(crate) fn parse(text: &str) -> Result<Tree, UnitError> {
     let mut parser = Parser { text, tokens, at: 0, depth: 0, tree: Tree::default() };
     parser.expression(0)?;
     if parser.peek().is_some() {
-        return Err(parser.unexpected("an operator"));
+        let wanted = if parser.after_if() { WANTED_CALL } else { "an operator" };
+        return Err(parser.unexpected(wanted));
     }
     Ok(parser.tree)
 }
@@ -121,8 +123,26 @@ impl Parser<'_> {
                 self.close()?;
                 Ok(inner)
             }
+            Some(Token::Operator(Operator::Multiply)) if self.after_star() => {
+                Err(self.unexpected(WANTED_POWER))
+            }
             _ => Err(self.unexpected("a number, a name or `(`")),
         }
+    }
+
+    fn before(&self) -> Option<&Spanned> {
+        self.at.checked_sub(1).and_then(|i| self.tokens.get(i))
+    }
+
+    /// `if t < 5 [s] then ..`.
+    fn after_if(&self) -> bool {
+        matches!(self.before(), Some((Token::Name(name), _)) if name == "if")
+    }
+
+    /// `x**2`.
+    fn after_star(&self) -> bool {
+        let here = self.here().start;
+        matches!(self.before(), Some((Token::Operator(Operator::Multiply), star)) if star.end == here)
     }
 
     /// A number, with the unit that may follow it.
@@ -208,7 +228,7 @@ impl Parser<'_> {
 
     /// Adds a node that reaches from `start` to the last token taken.
     fn finish(&mut self, node: Node, start: usize) -> Id {
-        let end = self.at.checked_sub(1).and_then(|i| self.tokens.get(i)).map_or(start, |(_, span)| span.end);
+        let end = self.before().map_or(start, |(_, span)| span.end);
         self.tree.push(node, start..end)
     }
 

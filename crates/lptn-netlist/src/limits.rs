@@ -1,0 +1,112 @@
+//! How much is read and how much is said.
+
+use std::io::{self, Read};
+use std::path::Path;
+
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::file::{FileId, Files, Span};
+use crate::netlist::{ReadError, Rejected};
+
+/// The longest netlist in bytes; anything longer is a device or no netlist.
+pub const MOST_BYTES: u64 = 100_000_000;
+
+/// So many problems of one file are shown; the rest are counted.
+pub const MOST_PROBLEMS: usize = 50;
+
+/// The bytes of a file, which need not be text, up to [`MOST_BYTES`]; an input without an end is not read on.
+///
+/// # Errors
+/// [`ReadError::Io`] if the file cannot be read; [`ReadError::Rejected`] with `netlist::too_long` if it is longer,
+/// or with `netlist::not_a_file` if it is a device.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
+    let name = path.display().to_string();
+    let failed = |error| ReadError::Io { path: path.to_owned(), error };
+    let kind = std::fs::metadata(path).map_err(failed)?.file_type();
+    if is_device(kind) {
+        let error = Diagnostic::error("netlist::not_a_file", format!("{name} is a device"));
+        return Err(refused(&name, error.help("name a netlist, a TOML file")));
+    }
+    let file = std::fs::File::open(path).map_err(failed)?;
+    match limited(file, MOST_BYTES).map_err(failed)? {
+        Some(bytes) => Ok(bytes),
+        None => {
+            let message = format!("{name} is longer than {} MB", MOST_BYTES / 1_000_000);
+            let error = Diagnostic::error("netlist::too_long", message);
+            Err(refused(&name, error.help("a netlist of a million elements takes less: is this one?")))
+        }
+    }
+}
+
+/// All bytes, or `None` if there are more than `most`; at most one more is read.
+fn limited(from: impl Read, most: u64) -> io::Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::new();
+    from.take(most + 1).read_to_end(&mut bytes)?;
+    Ok((bytes.len() as u64 <= most).then_some(bytes))
+}
+
+/// Pipes may be netlists, as in `lptn run <(generate)`; disks and `/dev/zero` may not.
+#[cfg(unix)]
+fn is_device(kind: std::fs::FileType) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    kind.is_block_device() || kind.is_char_device()
+}
+
+#[cfg(not(unix))]
+fn is_device(_: std::fs::FileType) -> bool {
+    false
+}
+
+fn refused(name: &str, error: Diagnostic) -> ReadError {
+    let mut files = Files::new();
+    files.add(name, "");
+    ReadError::Rejected(Rejected { files, diagnostics: vec![error], syntax: false })
+}
+
+/// Keeps the first problems of each file, errors before warnings, and counts the others.
+pub(crate) fn shorten(diagnostics: &mut Vec<Diagnostic>) {
+    if diagnostics.len() <= MOST_PROBLEMS {
+        return;
+    }
+    let all = diagnostics.len();
+    let mut kept: std::collections::BTreeMap<Option<FileId>, usize> = std::collections::BTreeMap::new();
+    let mut keep = vec![false; all];
+    for severity in [Severity::Error, Severity::Warning] {
+        for (diagnostic, keep) in diagnostics.iter().zip(&mut keep) {
+            let count = kept.entry(diagnostic.place().map(|span: &Span| span.file)).or_default();
+            if diagnostic.severity == severity && *count < MOST_PROBLEMS {
+                *count += 1;
+                *keep = true;
+            }
+        }
+    }
+    let mut keep = keep.into_iter();
+    let errors_before = errors(diagnostics);
+    diagnostics.retain(|_| keep.next().unwrap_or(false));
+    let left = all - diagnostics.len();
+    if left > 0 {
+        let message =
+            if left == 1 { "and one more problem".into() } else { format!("and {left} more problems") };
+        let more = match errors_before > errors(diagnostics) {
+            true => Diagnostic::error("netlist::more", message),
+            false => Diagnostic::warning("netlist::more", message),
+        };
+        diagnostics.push(more);
+    }
+}
+
+fn errors(diagnostics: &[Diagnostic]) -> usize {
+    diagnostics.iter().filter(|d| d.severity == Severity::Error).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::limited;
+
+    #[test]
+    fn an_endless_input_is_read_up_to_the_limit() -> std::io::Result<()> {
+        assert_eq!(limited(std::io::repeat(b'x'), 1000)?, None);
+        assert_eq!(limited(&b"abc"[..], 3)?, Some(b"abc".to_vec()));
+        assert_eq!(limited(&b"abcd"[..], 3)?, None);
+        Ok(())
+    }
+}

@@ -1,0 +1,113 @@
+//! Numbers as they are written by hand: `0,5`, `1,000`, `1.000,5`, `1 000`, `1'000`.
+
+use std::ops::Range;
+
+use crate::error::{UnitError, UnitErrorKind};
+use crate::expr::Expression;
+use crate::number::Number;
+use crate::quantity;
+
+/// Longer texts get no proposal: each is read again to see whether it is one.
+const LONGEST: usize = 200;
+
+/// Refuses a number with other separators than one decimal point, and shows it without.
+pub(crate) fn check(text: &str, number: &Number) -> Result<(), UnitError> {
+    let Some(run) = Run::at(text, &number.span) else { return Ok(()) };
+    let kind = if run.marks.contains(&',') {
+        let (decimal, thousands) = (run.decimal(), run.thousands());
+        UnitErrorKind::DecimalComma {
+            decimal: decimal.and_then(|digits| run.proposal(text, &digits)),
+            thousands: thousands.and_then(|digits| run.proposal(text, &digits)),
+        }
+    } else {
+        let digits = run.decimal().or_else(|| run.thousands());
+        UnitErrorKind::DigitGroups { fix: digits.and_then(|digits| run.proposal(text, &digits)) }
+    };
+    Err(UnitError::new(kind, run.first.clone()))
+}
+
+/// Digits with separators.
+struct Run<'a> {
+    span: Range<usize>,
+    groups: Vec<&'a str>,
+    /// The separators between the groups.
+    marks: Vec<char>,
+    /// The first separator that is no decimal point.
+    first: Range<usize>,
+}
+
+impl<'a> Run<'a> {
+    /// The run that begins with this number; `None` if it is written as it should be.
+    fn at(text: &'a str, number: &Range<usize>) -> Option<Self> {
+        let sign = text.get(number.clone())?.find(|c: char| c.is_ascii_digit() || c == '.')?;
+        let start = number.start + sign;
+        let mut end = start + digits(text.get(start..)?);
+        let (mut groups, mut marks) = (vec![text.get(start..end)?], Vec::new());
+        let mut first: Option<Range<usize>> = None;
+        while let Some(mark) = text.get(end..).and_then(|rest| rest.chars().next()) {
+            let next = end + mark.len_utf8();
+            let length = digits(text.get(next..)?);
+            if !separates(mark, length) {
+                break;
+            }
+            if mark != '.' || marks.contains(&'.') {
+                first.get_or_insert(end..next);
+            }
+            groups.push(text.get(next..next + length)?);
+            marks.push(mark);
+            end = next + length;
+        }
+        Some(Self { span: start..end, groups, marks, first: first? })
+    }
+
+    /// The digits with a decimal point for the last separator.
+    fn decimal(&self) -> Option<String> {
+        let (mark, before) = self.marks.split_last()?;
+        let (fraction, whole) = self.groups.split_last()?;
+        let is_point = matches!(mark, ',' | '.') && !before.contains(mark);
+        (is_point && (before.is_empty() || in_thousands(whole, before)))
+            .then(|| format!("{}.{fraction}", whole.concat()))
+    }
+
+    /// The digits without separators.
+    fn thousands(&self) -> Option<String> {
+        in_thousands(&self.groups, &self.marks).then(|| self.groups.concat())
+    }
+
+    /// The text with these digits, or with further corrections, if it can be read then.
+    fn proposal(&self, text: &str, digits: &str) -> Option<String> {
+        if text.len() > LONGEST {
+            return None;
+        }
+        let (before, after) = (text.get(..self.span.start)?, text.get(self.span.end..)?);
+        let fixed = format!("{before}{digits}{after}").trim().to_owned();
+        match quantity::read(&fixed).err().map(|error| error.kind) {
+            None => Some(fixed),
+            Some(UnitErrorKind::UnknownUnit { fix: Some(fix), .. }) => Some(fix),
+            Some(UnitErrorKind::DecimalComma { decimal: Some(fix), thousands: None }) => Some(fix),
+            Some(_) => Expression::parse(&fixed).is_ok().then_some(fixed),
+        }
+    }
+}
+
+fn digits(text: &str) -> usize {
+    text.find(|c: char| !c.is_ascii_digit() && c != '_').unwrap_or(text.len())
+}
+
+/// Can this stand between digits, with so many after it? A space can only before three: `5 1/s` is a quantity.
+fn separates(mark: char, after: usize) -> bool {
+    match mark {
+        ',' | '.' => after > 0,
+        '\'' | '’' | ' ' | '\u{a0}' | '\u{2009}' | '\u{202f}' => after == 3,
+        _ => false,
+    }
+}
+
+/// `1`, `000`, `000` with the same separator between them.
+fn in_thousands(groups: &[&str], marks: &[char]) -> bool {
+    let Some((first, rest)) = groups.split_first() else { return false };
+    (1..=3).contains(&first.len())
+        && !first.starts_with('0')
+        && rest.iter().all(|group| group.len() == 3)
+        && marks.windows(2).all(|pair| pair[0] == pair[1])
+}
