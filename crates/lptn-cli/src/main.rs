@@ -7,6 +7,8 @@
 mod args;
 mod check;
 mod command;
+mod compare;
+mod compare_text;
 mod completions;
 mod console;
 mod conversions;
@@ -22,6 +24,10 @@ mod outcome;
 mod progress;
 mod run;
 mod select;
+mod size;
+mod size_cooling;
+mod size_text;
+mod size_write;
 mod steady;
 mod summary;
 mod summary_text;
@@ -58,6 +64,8 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
         Some(Verb::Run(args)) => run::run(args, console),
         Some(Verb::Check(args)) => check::check(args, console),
         Some(Verb::Steady(args)) => steady::steady(args, console),
+        Some(Verb::Compare(args)) => compare::compare(args, console),
+        Some(Verb::Size(args)) => size::size(args, console),
         Some(Verb::New(args)) => new::new(args, console),
         Some(Verb::Units(args)) => units::units(args, console),
         Some(Verb::Completions(args)) => completions::completions(args, console),

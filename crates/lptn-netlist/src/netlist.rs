@@ -11,6 +11,7 @@ use crate::elaborate::{Elaborated, elaborate};
 use crate::file::{FileId, Files, Span};
 use crate::run::{RunPlan, RunSettings};
 use crate::section;
+use crate::size::SizeStudy;
 use crate::source_map::SourceMap;
 use crate::syntax::parse_raw;
 use crate::syntax_error::NOT_CLOSED;
@@ -22,6 +23,8 @@ pub struct Netlist {
     pub network: Network,
     /// What to simulate; `None` without `[run]`.
     pub run: Option<RunSettings>,
+    /// What to size, in file order.
+    pub sizes: Vec<SizeStudy>,
     /// Where each part of the network stands.
     pub source_map: SourceMap,
     /// The texts that places refer to.
@@ -33,6 +36,13 @@ pub struct Netlist {
     pub(crate) plan: Option<RunPlan>,
     /// Everything that was set so far.
     pub(crate) assigned: Parameters,
+}
+
+impl Netlist {
+    /// The parameters as they were set, for [`Network::with`] with further ones.
+    pub fn overrides(&self) -> Parameters {
+        self.assigned.clone()
+    }
 }
 
 /// A netlist that cannot be used, with every reason.
@@ -148,19 +158,22 @@ pub fn parse(name: &str, text: &str) -> Result<Netlist, Rejected> {
 }
 
 fn finish(files: Files, done: Elaborated, mut diagnostics: Vec<Diagnostic>) -> Result<Netlist, Rejected> {
-    let Elaborated { network, run: plan, map, temperature_unit } = done;
-    let run = match plan.as_ref().map(|plan| plan.settings(&network)).transpose() {
-        Ok(run) => run,
-        Err(problems) => {
-            diagnostics.extend(problems);
-            diagnostics.retain(|d| d.severity == Severity::Error);
-            arrange(&mut diagnostics);
-            return Err(Rejected { files, diagnostics, syntax: false });
-        }
-    };
+    let Elaborated { network, run: plan, sizes, map, temperature_unit } = done;
+    let run = plan.as_ref().map(|plan| plan.settings(&network)).transpose();
+    let mut problems: Vec<Diagnostic> = sizes.iter().filter_map(|size| size.check(&network)).collect();
+    let run = run.unwrap_or_else(|more| {
+        problems.extend(more);
+        None
+    });
+    if !problems.is_empty() {
+        diagnostics.extend(problems);
+        diagnostics.retain(|d| d.severity == Severity::Error);
+        arrange(&mut diagnostics);
+        return Err(Rejected { files, diagnostics, syntax: false });
+    }
     let assigned = network.overrides();
     let warnings = diagnostics;
-    Ok(Netlist { network, run, source_map: map, files, warnings, temperature_unit, plan, assigned })
+    Ok(Netlist { network, run, sizes, source_map: map, files, warnings, temperature_unit, plan, assigned })
 }
 
 /// Problems that are there whatever the broken lines should have said.

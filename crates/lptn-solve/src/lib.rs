@@ -30,6 +30,6 @@ pub use settings::{Control, Progress, Record, Transient};
 pub use solution::{End, Solution};
 pub use steady::SteadyState;
 pub use summary::{NodeSummary, Summary};
-pub use table::{Column, Selection, Table};
+pub use table::{Column, Label, Selection, Table};
 
 pub use watch::{Seen, Watch};
