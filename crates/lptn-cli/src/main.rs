@@ -18,6 +18,7 @@ mod failure;
 mod files;
 mod input;
 mod interrupt;
+mod limits;
 mod new;
 mod next;
 mod outcome;

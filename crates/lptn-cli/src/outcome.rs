@@ -15,6 +15,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::Folder;
+use crate::limits::{self, Judged};
 use crate::run::{Job, NoSteady};
 use crate::summary::View;
 use crate::{diagnostics, next, summary_text};
@@ -80,6 +81,11 @@ impl Outcome<'_> {
         network.parameters().iter().zip(network.parameter_ids()).map(record).collect()
     }
 
+    /// How the limits fared.
+    fn limits(&self) -> Vec<Judged> {
+        self.solution.limits().iter().map(Judged::of_run).collect()
+    }
+
     /// The ledger up to the time that was reached.
     fn ledger(&self) -> LedgerRecord {
         LedgerRecord::new(self.solution.network(), self.solution.ledger())
@@ -105,6 +111,7 @@ impl Outcome<'_> {
                     steady: self.steady.as_ref(),
                     unit: &self.job.unit,
                     settings: &self.job.settings,
+                    limits: &self.limits(),
                 };
                 console.print(&summary_text::summary(&view, console)).map(drop)
             }
@@ -122,6 +129,9 @@ impl Outcome<'_> {
         json.table(table)?;
         json.member("events", &json!([]))?;
         json.member("ledger", &serde_json::to_value(self.ledger())?)?;
+        if !self.solution.limits().is_empty() {
+            json.member("limits", &limits::json(self.solution.network(), &self.limits()))?;
+        }
         json.member("statistics", &serde_json::to_value(StatisticsRecord::new(self.solution.statistics()))?)?;
         if let Some(message) = self.ended_early() {
             let end = RunEnd::of(&self.solution, self.job.settings.stop, Some(message));
@@ -165,7 +175,8 @@ impl Outcome<'_> {
             console.report(&self.job.input.netlist.files, &[problem]);
             return Exit::Failed;
         }
-        Exit::Done
+        let (netlist, unit) = (&self.job.input.netlist, &self.job.unit);
+        limits::conclude(&limits::Judgement { netlist, unit, limits: &self.limits() }, console)
     }
 }
 

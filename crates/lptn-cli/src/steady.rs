@@ -14,6 +14,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Input};
+use crate::limits::{self, Judged, Judgement};
 use crate::summary::{MOST_NODES, counts};
 use crate::{diagnostics, select};
 
@@ -26,7 +27,8 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
     let start = netlist.run.as_ref().map_or(0.0, |run: &RunSettings| run.start);
     let steady = SteadyState::solve(&system, start).map_err(|error| failed(&input, &error))?;
     console.warn(&netlist.files, &netlist.warnings);
-    let view = View { input: &input, steady: &steady, selection: &selection, unit: &unit };
+    let limits = limits(&input, &steady, start)?;
+    let view = View { input: &input, steady: &steady, selection: &selection, unit: &unit, limits: &limits };
     match args.shown.format {
         Format::Table => console.print(&view.text(args, console)).map(drop)?,
         Format::Csv => {
@@ -38,7 +40,14 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
     if args.shown.format == Format::Table {
         view.messages(console);
     }
-    Ok(Exit::Done)
+    Ok(limits::conclude(&Judgement { netlist, unit: &unit, limits: &limits }, console))
+}
+
+fn limits(input: &Input, steady: &SteadyState, time: f64) -> Result<Vec<Judged>, Failure> {
+    let network = &input.netlist.network;
+    let margins = steady.limit_margins(network, time);
+    let margins = margins.map_err(|error| failed(input, &SteadyError::Input(error)))?;
+    Ok(network.limit_ids().zip(margins).map(|(limit, margin)| Judged::of_steady(limit, margin)).collect())
 }
 
 /// A network without a path to a boundary has no steady state whatever its numbers: the question does not fit the
@@ -72,6 +81,7 @@ struct View<'a> {
     steady: &'a SteadyState,
     selection: &'a Selection,
     unit: &'a Unit,
+    limits: &'a [Judged],
 }
 
 /// A name with a number of its quantity.
@@ -97,6 +107,7 @@ impl View<'_> {
         let blocks = [
             self.node_lines(nodes.into_iter().filter(keep).collect()),
             self.flow_lines(flows.into_iter().filter(keep).collect()),
+            limits::lines(network, self.limits, self.unit),
         ];
         for block in blocks.into_iter().filter(|block| !block.is_empty()) {
             lines.push(String::new());
@@ -212,6 +223,9 @@ impl View<'_> {
         json.member("network", &json!(self.input.text.stem))?;
         json.member("warnings", &diagnostics::list(&netlist.files, &netlist.warnings))?;
         json.member("values", &Value::Object(values))?;
+        if !self.limits.is_empty() {
+            json.member("limits", &limits::json(&netlist.network, self.limits))?;
+        }
         json.finish().map(drop)
     }
 

@@ -5,6 +5,7 @@ use lptn_network::{Network, NodeId};
 use lptn_solve::{Selection, Solution, SteadyState};
 use lptn_units::Unit;
 
+use crate::limits::Judged;
 use crate::run::NoSteady;
 
 /// More nodes than this do not fit on a screen.
@@ -35,6 +36,7 @@ pub(crate) struct View<'a> {
     pub(crate) steady: Result<&'a SteadyState, &'a NoSteady>,
     pub(crate) unit: &'a Unit,
     pub(crate) settings: &'a RunSettings,
+    pub(crate) limits: &'a [Judged],
 }
 
 /// "1 node", "2 nodes".

@@ -24,6 +24,10 @@ pub(crate) fn summary(view: &View<'_>, console: &Console) -> String {
     let mut lines = vec![console.title(view.title), counts(network), String::new()];
     lines.extend(table(view, &nodes));
     lines.push(String::new());
+    if !view.limits.is_empty() {
+        lines.extend(crate::limits::lines(network, view.limits, view.unit));
+        lines.push(String::new());
+    }
     for note in notes(view, &nodes) {
         lines.extend(labelled("note: ", &words(&note), WIDTH));
     }

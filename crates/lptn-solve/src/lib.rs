@@ -9,6 +9,7 @@
 mod error;
 mod heat;
 mod ledger;
+mod limit;
 #[cfg(test)]
 mod mutants;
 mod recorder;
@@ -24,6 +25,7 @@ mod watch;
 
 pub use error::{SettingsError, SteadyError, StopReason, TransientError};
 pub use ledger::Ledger;
+pub use limit::LimitSeen;
 pub use lptn_integrate::{LinearSolver, Linkage, Statistics, linked};
 pub use lptn_network::OutputTimes;
 pub use settings::{Control, Progress, Record, Transient};

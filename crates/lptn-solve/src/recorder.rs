@@ -2,15 +2,19 @@
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::{IntegrateError, Integrator, Statistics};
-use lptn_network::NodeId;
+use lptn_network::{LimitId, NodeId};
 
 use crate::error::StopReason;
 use crate::heat::Heat;
 use crate::ledger::Ledger;
+use crate::limit::LimitWatch;
 use crate::settings::{Record, Transient};
 use crate::solution::{End, Solution};
 use crate::times::Segment;
 use crate::watch::{SAMPLES, Seen, Watch};
+
+/// Halvings of the interval in which a limit is first broken: to the rounding of its length.
+const BISECTIONS: usize = 53;
 
 /// Writes the state at a time inside the present step.
 type StateAt<'a> = dyn FnMut(f64, &mut [f64]) -> Result<(), IntegrateError> + 'a;
@@ -30,6 +34,7 @@ pub(crate) struct Recorder<'a> {
     seen: Vec<Seen>,
     /// For each watched node the points of the present step.
     points: Vec<Vec<(f64, f64)>>,
+    limits: LimitWatch<'a>,
     /// Temperatures of the states at one time.
     state: Vec<f64>,
     tolerance: f64,
@@ -57,6 +62,7 @@ impl<'a> Recorder<'a> {
             watch: settings.watch.clone(),
             seen: Vec::new(),
             points: vec![Vec::new(); settings.watch.len()],
+            limits: LimitWatch::new(network),
             state: vec![0.0; system.states().len()],
             tolerance: settings.tolerance,
         }
@@ -95,10 +101,17 @@ impl<'a> Recorder<'a> {
         } else {
             self.seen.iter_mut().for_each(|seen| seen.jump(from, nodes[seen.watch.node.index()]));
         }
+        let at = (from, self.segment.inside());
+        self.limits.enter(self.system, &self.work, at).map_err(StopReason::Input)?;
         if self.due(from) {
             self.push();
         }
         Ok(())
+    }
+
+    /// Whether something is to be looked at between the rows.
+    fn looks(&self) -> bool {
+        !(self.seen.is_empty() && self.limits.is_empty())
     }
 
     /// Writes the rows inside the step from `from` to `to`; one at the end of the segment is left to the next
@@ -114,7 +127,7 @@ impl<'a> Recorder<'a> {
             self.place_at(time, &mut |time, state| integrator.interpolate(time, state))?;
             self.push();
         }
-        if !self.seen.is_empty() {
+        if self.looks() {
             self.look((from, to), &mut |time, state| integrator.interpolate(time, state))?;
         }
         Ok(())
@@ -122,7 +135,7 @@ impl<'a> Recorder<'a> {
 
     /// Looks at the watched nodes of a system without state between two times.
     pub(crate) fn look_without_state(&mut self, from: f64, to: f64) -> Result<(), StopReason> {
-        if self.seen.is_empty() { Ok(()) } else { self.look((from, to), &mut |_, _| Ok(())) }
+        if self.looks() { self.look((from, to), &mut |_, _| Ok(())) } else { Ok(()) }
     }
 
     /// Writes a row from the inputs at `time` for a system without state.
@@ -176,9 +189,38 @@ impl<'a> Recorder<'a> {
             for (list, seen) in self.points.iter_mut().zip(&self.seen) {
                 list.push((time, nodes[seen.watch.node.index()]));
             }
+            let at = (time, self.segment.inside());
+            self.limits.sample(self.system, &self.work, at).map_err(StopReason::Input)?;
         }
         self.seen.iter_mut().zip(&self.points).for_each(|(seen, points)| seen.look(points));
+        self.limits.ids().try_for_each(|id| self.look_at_limit(id, state_at))
+    }
+
+    /// Looks where a limit is nearest to being broken, and finds when it first was.
+    fn look_at_limit(&mut self, id: LimitId, state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
+        for time in self.limits.valleys(id) {
+            let margin = self.margin_at(id, time, state_at)?;
+            self.limits.insert(id, (time, margin));
+        }
+        let mut broken_at = None;
+        if let Some((mut kept, mut broken)) = self.limits.break_between(id) {
+            for _ in 0..BISECTIONS {
+                let middle = kept + 0.5 * (broken - kept);
+                match self.margin_at(id, middle, state_at)? < 0.0 {
+                    true => broken = middle,
+                    false => kept = middle,
+                }
+            }
+            broken_at = Some(broken);
+        }
+        self.limits.take_in(id, broken_at);
         Ok(())
+    }
+
+    fn margin_at(&mut self, id: LimitId, time: f64, state_at: &mut StateAt<'_>) -> Result<f64, StopReason> {
+        self.place_at(time, state_at)?;
+        let at = (time, self.segment.inside());
+        self.limits.margin(id, (self.system, &self.work), at).map_err(StopReason::Input)
     }
 
     pub(crate) fn into_solution(mut self, ledger: Ledger, statistics: Statistics, end: End) -> Solution {
@@ -190,6 +232,7 @@ impl<'a> Recorder<'a> {
             recorded: self.recorded,
             temperatures: self.temperatures,
             seen: self.seen,
+            limits: self.limits.into_seen(),
             ledger,
             statistics,
             end,

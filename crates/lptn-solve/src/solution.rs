@@ -5,6 +5,7 @@ use lptn_integrate::Statistics;
 use lptn_network::{BoundaryId, ConductorId, Network, NodeId, SourceId};
 
 use crate::ledger::Ledger;
+use crate::limit::LimitSeen;
 use crate::watch::Seen;
 
 /// How a run ended.
@@ -30,6 +31,7 @@ pub struct Solution {
     /// Row by row, one temperature in K for each recorded node.
     pub(crate) temperatures: Vec<f64>,
     pub(crate) seen: Vec<Seen>,
+    pub(crate) limits: Vec<LimitSeen>,
     pub(crate) ledger: Ledger,
     pub(crate) statistics: Statistics,
     pub(crate) end: End,
@@ -122,6 +124,11 @@ impl Solution {
     /// What was seen of the watched nodes between the rows too, in the order they were named.
     pub fn seen(&self) -> &[Seen] {
         &self.seen
+    }
+
+    /// How each limit of the network fared up to the end that was reached, between the rows too.
+    pub fn limits(&self) -> &[LimitSeen] {
+        &self.limits
     }
 
     /// The energy ledger from the start to the end that was reached.

@@ -87,7 +87,7 @@ fn higher(a: (f64, f64), b: Option<(f64, f64)>) -> (f64, f64) {
 }
 
 /// The top of the parabola through three points of ascending time, if the middle one is the highest.
-fn top([(t0, y0), (t1, y1), (t2, y2)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
+pub(crate) fn top([(t0, y0), (t1, y1), (t2, y2)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
     if !(y1 > y0 && y1 >= y2 && t0 < t1) {
         return None;
     }

@@ -1,0 +1,160 @@
+//! Limits as a result: a line each, JSON, and what a broken one does to the exit code.
+
+use lptn_netlist::{Diagnostic, Netlist};
+use lptn_network::{Field, Item, Limit, LimitId, Network, Severity};
+use lptn_report::{Align, Column, TextTable, WIDTH, duration, significant};
+use lptn_solve::LimitSeen;
+use lptn_study::Scalar;
+use lptn_units::{Dimension, Type, Unit};
+use serde_json::{Map, Value, json};
+
+use crate::console::Console;
+use crate::exit::Exit;
+
+/// Digits of a margin.
+const DIGITS: usize = 4;
+
+/// One limit with what became of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Judged {
+    limit: LimitId,
+    /// Least margin in SI units.
+    margin: f64,
+    /// When that was, in s; `None` in steady state.
+    worst_at: Option<f64>,
+    /// When it was first broken, in s; `None` if it was not, and in steady state.
+    broken_at: Option<f64>,
+}
+
+impl Judged {
+    pub(crate) fn of_run(seen: &LimitSeen) -> Self {
+        let LimitSeen { limit, margin, worst_at, broken_at } = *seen;
+        Self { limit, margin, worst_at: Some(worst_at), broken_at }
+    }
+
+    pub(crate) fn of_steady(limit: LimitId, margin: f64) -> Self {
+        Self { limit, margin, worst_at: None, broken_at: None }
+    }
+
+    fn is_broken(&self) -> bool {
+        self.margin < 0.0
+    }
+}
+
+/// All limits of a netlist with what became of them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Judgement<'a> {
+    pub(crate) netlist: &'a Netlist,
+    /// The unit of temperatures.
+    pub(crate) unit: &'a Unit,
+    pub(crate) limits: &'a [Judged],
+}
+
+/// A table with a line for each limit; nothing without limits.
+pub(crate) fn lines(network: &Network, limits: &[Judged], unit: &Unit) -> Vec<String> {
+    if limits.is_empty() {
+        return Vec::new();
+    }
+    let of = |judged: &Judged| &network.limits()[judged.limit.index()];
+    let cells = |text: &dyn Fn(&Judged) -> String| limits.iter().map(text).collect::<Vec<_>>();
+    let mut columns = vec![
+        Column::new("limit", Align::Left, cells(&|j| of(j).name.clone())),
+        Column::new("wanted", Align::Left, cells(&|j| wanted(network, j.limit, unit))),
+        Column::new("margin", Align::Right, cells(&|j| number(j.margin, of(j).margin_type(), unit))),
+    ];
+    if limits.iter().any(|judged| judged.worst_at.is_some()) {
+        let least = |j: &Judged| j.worst_at.map_or("-".into(), |time| duration(time, 3));
+        columns.push(Column::new("least at", Align::Right, cells(&least)));
+    }
+    columns.push(Column::new("", Align::Left, cells(&|j| verdict(j, of(j)))));
+    TextTable::new(columns).lines(WIDTH)
+}
+
+/// "steel.T below 110 degC".
+fn wanted(network: &Network, id: LimitId, unit: &Unit) -> String {
+    let limit = &network.limits()[id.index()];
+    // the value is constant and was evaluated when the network was built
+    let value = limit.value.at(&mut network.evaluation()).unwrap_or(f64::NAN);
+    format!("{} {} {}", limit.text, limit.bound.field().key(), number(value, limit.ty, unit))
+}
+
+fn verdict(judged: &Judged, limit: &Limit) -> String {
+    match (judged.is_broken(), judged.broken_at, limit.severity) {
+        (false, ..) => "kept".into(),
+        (true, Some(time), Severity::Error) => format!("BROKEN from {}", duration(time, 4)),
+        (true, Some(time), Severity::Warning) => format!("exceeded from {}", duration(time, 4)),
+        (true, None, Severity::Error) => "BROKEN".into(),
+        (true, None, Severity::Warning) => "exceeded".into(),
+    }
+}
+
+/// A number in the unit that is shown for its type.
+fn number(value: f64, ty: Type, unit: &Unit) -> String {
+    if ty.absolute {
+        return format!("{} {}", significant(unit.from_si(value), DIGITS), unit.text);
+    }
+    if ty == Type::of(Dimension::TEMPERATURE) {
+        let kelvin = (unit.scale - 1.0).abs() < 1e-12;
+        return format!("{} {}", significant(value / unit.scale, DIGITS), if kelvin { "K" } else { "degR" });
+    }
+    let si = ty.dimension.si_unit();
+    let value = significant(value, DIGITS);
+    if si == "1" { value } else { format!("{value} {si}") }
+}
+
+/// Members by the limit's name: `{ margin, worst_at, broken_at, severity, kept }`.
+pub(crate) fn json(network: &Network, limits: &[Judged]) -> Value {
+    let one = |judged: &Judged| {
+        let limit = &network.limits()[judged.limit.index()];
+        let time = |time: Option<f64>| time.map_or(Value::Null, |time| Scalar::new(time, "s").json());
+        let member = json!({
+            "of": limit.text,
+            "margin": Scalar::new(judged.margin, &limit.margin_type().dimension.si_unit()).json(),
+            "worst_at": time(judged.worst_at),
+            "broken_at": time(judged.broken_at),
+            "severity": if limit.severity == Severity::Error { "error" } else { "warning" },
+            "kept": !judged.is_broken(),
+        });
+        (limit.name.clone(), member)
+    };
+    Value::Object(limits.iter().map(one).collect::<Map<_, _>>())
+}
+
+/// Says which limits are broken, the worst last, and gives the exit code.
+pub(crate) fn conclude(judgement: &Judgement<'_>, console: &Console) -> Exit {
+    let Judgement { netlist, limits, .. } = *judgement;
+    let severity = |judged: &Judged| netlist.network.limits()[judged.limit.index()].severity;
+    let broken = |wanted: Severity| limits.iter().filter(move |j| j.is_broken() && severity(j) == wanted);
+    let warnings: Vec<Diagnostic> =
+        broken(Severity::Warning).map(|judged| warning(judgement, judged)).collect();
+    console.warn(&netlist.files, &warnings);
+    for judged in broken(Severity::Error) {
+        console.message(&format!("limit broken: {}", words(judgement, judged)));
+    }
+    if broken(Severity::Error).next().is_some() { Exit::No } else { Exit::Done }
+}
+
+fn warning(judgement: &Judgement<'_>, judged: &Judged) -> Diagnostic {
+    let item = Item::Limit(judged.limit);
+    let problem = Diagnostic::warning("limit::exceeded", words(judgement, judged));
+    match judgement.netlist.source_map.get(item, Field::Name) {
+        Some(span) => problem.at(span.clone(), ""),
+        None => problem,
+    }
+}
+
+/// "`hot` (steel.T below 110 degC) by 3.2 K at 25 min, first after 12.05 min".
+fn words(judgement: &Judgement<'_>, judged: &Judged) -> String {
+    let Judgement { netlist: Netlist { network, .. }, unit, .. } = judgement;
+    let limit = &network.limits()[judged.limit.index()];
+    let by = number(-judged.margin, limit.margin_type(), unit);
+    let mut text = format!("`{}` ({}) by {by}", limit.name, wanted(network, judged.limit, unit));
+    match judged.worst_at {
+        Some(time) => text += &format!(" at {}", duration(time, 4)),
+        None => text += " in steady state",
+    }
+    if let Some(time) = judged.broken_at {
+        text += &format!(", first at {}", duration(time, 4));
+    }
+    text
+}

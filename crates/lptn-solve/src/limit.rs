@@ -1,0 +1,147 @@
+//! Limits in results: how near each came to being broken, and when it first was.
+
+use lptn_assembly::{ThermalSystem, Workspace};
+use lptn_network::{Evaluation, InputError, LimitId, Network};
+
+use crate::steady::SteadyState;
+use crate::watch::top;
+
+/// How a limit fared in a run, between the rows too.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LimitSeen {
+    /// The limit.
+    pub limit: LimitId,
+    /// Its least margin in SI units, positive if it was kept all the time; see [`Network::limit_margin`].
+    pub margin: f64,
+    /// When that was, in s.
+    pub worst_at: f64,
+    /// When it was first broken, in s.
+    pub broken_at: Option<f64>,
+}
+
+/// A time in s with a margin.
+type Point = (f64, f64);
+
+/// All limits of a network during a run.
+pub(crate) struct LimitWatch<'a> {
+    network: &'a Network,
+    scope: Evaluation,
+    seen: Vec<LimitSeen>,
+    /// For each limit the last point, then those of the present step.
+    points: Vec<Vec<Point>>,
+}
+
+impl<'a> LimitWatch<'a> {
+    pub(crate) fn new(network: &'a Network) -> Self {
+        let nothing = |limit| LimitSeen { limit, margin: f64::INFINITY, worst_at: f64::NAN, broken_at: None };
+        Self {
+            network,
+            scope: network.evaluation(),
+            seen: network.limit_ids().map(nothing).collect(),
+            points: vec![Vec::new(); network.limits().len()],
+        }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.seen.is_empty()
+    }
+
+    pub(crate) fn ids(&self) -> impl Iterator<Item = LimitId> + use<> {
+        self.network.limit_ids()
+    }
+
+    /// Begins a segment: what comes before it is no part of a curve that goes on.
+    pub(crate) fn enter(
+        &mut self,
+        system: &ThermalSystem,
+        work: &Workspace,
+        at: (f64, f64),
+    ) -> Result<(), InputError> {
+        self.points.iter_mut().for_each(Vec::clear);
+        self.sample(system, work, at)?;
+        self.ids().for_each(|id| self.take_in(id, None));
+        Ok(())
+    }
+
+    /// Adds a point for each limit; `at` is the time and a time inside the segment.
+    pub(crate) fn sample(
+        &mut self,
+        system: &ThermalSystem,
+        work: &Workspace,
+        at: (f64, f64),
+    ) -> Result<(), InputError> {
+        for id in self.ids() {
+            let margin = self.margin(id, (system, work), at)?;
+            self.points[id.index()].push((at.0, margin));
+        }
+        Ok(())
+    }
+
+    /// The margin of one limit.
+    pub(crate) fn margin(
+        &mut self,
+        id: LimitId,
+        (system, work): (&ThermalSystem, &Workspace),
+        (time, segment): (f64, f64),
+    ) -> Result<f64, InputError> {
+        self.scope.set_time(time, segment);
+        self.scope.set_temperatures(system.node_temperatures(work), system.boundary_temperatures(work));
+        self.network.limit_margin(id, &mut self.scope)
+    }
+
+    /// The times between the points at which a limit may be nearest to being broken.
+    pub(crate) fn valleys(&self, id: LimitId) -> Vec<f64> {
+        let turned = |&(time, margin): &Point| (time, -margin);
+        let found = self.points[id.index()]
+            .windows(3)
+            .filter_map(|w| top([turned(&w[0]), turned(&w[1]), turned(&w[2])]));
+        found.map(|(_, time)| time).collect()
+    }
+
+    /// Adds a point between the others.
+    pub(crate) fn insert(&mut self, id: LimitId, point: Point) {
+        let points = &mut self.points[id.index()];
+        let place = points.partition_point(|p| p.0 < point.0);
+        points.insert(place, point);
+    }
+
+    /// Two points next to each other between which a limit is first broken.
+    pub(crate) fn break_between(&self, id: LimitId) -> Option<(f64, f64)> {
+        if self.seen[id.index()].broken_at.is_some() {
+            return None;
+        }
+        let pair = self.points[id.index()].windows(2).find(|w| w[0].1 >= 0.0 && w[1].1 < 0.0)?;
+        Some((pair[0].0, pair[1].0))
+    }
+
+    /// Takes the points into account and keeps the last; `broken_at` is where they go below zero.
+    pub(crate) fn take_in(&mut self, id: LimitId, broken_at: Option<f64>) {
+        let (seen, points) = (&mut self.seen[id.index()], &mut self.points[id.index()]);
+        for &(time, margin) in points.iter() {
+            if margin < seen.margin {
+                (seen.margin, seen.worst_at) = (margin, time);
+            }
+        }
+        let below = points.iter().find(|p| p.1 < 0.0).map(|p| p.0);
+        seen.broken_at = seen.broken_at.or(broken_at).or(below);
+        points.drain(..points.len().saturating_sub(1));
+    }
+
+    pub(crate) fn into_seen(self) -> Vec<LimitSeen> {
+        self.seen
+    }
+}
+
+impl SteadyState {
+    /// The margin of each limit in SI units, positive while it is kept; `t` in the limits is `time` [s], that of the
+    /// steady state's inputs.
+    ///
+    /// # Errors
+    /// [`InputError`] if a limit cannot be evaluated.
+    pub fn limit_margins(&self, network: &Network, time: f64) -> Result<Vec<f64>, InputError> {
+        let mut scope = network.evaluation();
+        scope.set_time(time, time);
+        scope.set_temperatures(&self.temperatures, &self.boundary_temperatures);
+        network.limit_ids().map(|id| network.limit_margin(id, &mut scope)).collect()
+    }
+}
