@@ -220,18 +220,17 @@ impl Comparison {
     }
 
     fn print(&self, args: &CompareArgs, console: &Console) -> Result<(), Failure> {
-        let answer = compare_text::answer(self);
         let table: Table = compare_table(&self.rows, &self.unit);
         match args.format {
-            Format::Table => {
-                return console.print(&compare_text::text(self, console)).map(drop);
-            }
+            Format::Table => console.print(&compare_text::text(self, console)).map(drop)?,
             Format::Csv => console.write(|out| write_csv(&table, out))?,
             Format::Json => console.write(|out| self.json(&table, out))?,
         }
-        match self.exit() {
-            Exit::Done => console.note(&answer),
-            _ => console.message(&answer),
+        let answer = compare_text::answer(self);
+        if self.exit() == Exit::Done {
+            console.note(&answer)
+        } else {
+            console.message(&answer)
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lptn_network::Severity;
-use lptn_report::{Align, Column, TextTable, WIDTH, decimals, duration, fixed, labelled, significant};
+use lptn_report::{Align, Column, TextTable, WIDTH, decimals, duration, fixed, significant};
 use lptn_study::{Candidate, CompareRow, LimitResult};
 
 use crate::compare::Comparison;
@@ -25,9 +25,6 @@ pub(crate) fn text(comparison: &Comparison, console: &Console) -> String {
             lines.extend(block);
         }
     }
-    lines.push(String::new());
-    let words: Vec<String> = answer(comparison).split(' ').map(str::to_owned).collect();
-    lines.extend(labelled("", &words, WIDTH));
     lines.join("\n") + "\n"
 }
 
@@ -61,7 +58,7 @@ fn overview(comparison: &Comparison) -> Vec<String> {
         Column::new(format!("T [{}]", unit.text), Align::Left, names(rows)),
         Column::new("hottest", Align::Left, cells(&|c| Some(c.hottest.clone()))),
         column("peak", &|c| Some(number(c.peak.temperature))),
-        column("after", &|c| c.peak.after.map(|time| duration(time, 3))).optional(),
+        column("at", &|c| c.peak.at.map(|time| duration(time, 3))).optional(),
         column("steady", &|c| c.steady.map(number)),
         column("95 % after", &|c| c.time_to_95.map(|time| duration(time, 3))),
         column("C [J/K]", &|c| Some(significant(c.capacity, 4))).optional(),
@@ -74,7 +71,6 @@ fn verdict(row: &CompareRow, end: Exit) -> &str {
     match (end, row.status()) {
         (Exit::Input, _) => "not read",
         (Exit::Failed, _) => "failed",
-        (_, "kept") if row.candidate().is_some_and(|c| c.limits.is_empty()) => "none",
         (_, status) => status,
     }
 }
@@ -96,8 +92,8 @@ fn margin(limit: &LimitResult) -> String {
     } else {
         significant(limit.margin, 3)
     };
-    match limit.breaks_after {
-        Some(time) => format!("{number}{unit} after {}", duration(time, 3)),
+    match limit.broken_at {
+        Some(time) => format!("{number}{unit} from {}", duration(time, 3)),
         None => format!("{number}{unit}"),
     }
 }
@@ -142,7 +138,7 @@ pub(crate) fn answer(comparison: &Comparison) -> String {
     match comparison.exit() {
         Exit::Input => format!("not read: {}", of(Exit::Input)),
         Exit::Failed => format!("failed: {}", of(Exit::Failed)),
-        Exit::No => format!("broken: {}", broken(&comparison.rows, &names)),
+        Exit::No => format!("limit broken: {}", broken(&comparison.rows, &names)),
         _ if comparison.rows.iter().all(|row| row.candidate().is_some_and(|c| c.limits.is_empty())) => {
             "no candidate has a [limit]".into()
         }

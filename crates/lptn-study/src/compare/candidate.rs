@@ -4,7 +4,7 @@ use std::fmt;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
-use lptn_network::{InputError, Network};
+use lptn_network::{InputError, Network, Severity};
 use lptn_solve::{
     LinearSolver, NodeSummary, OutputTimes, Record, Solution, SteadyError, SteadyState, Summary, Transient,
     TransientError,
@@ -17,11 +17,11 @@ use crate::compare::limits::{self, LimitResult};
 pub struct Peak {
     /// The temperature in K.
     pub temperature: f64,
-    /// Time from the start of the run in s; `None` where the candidate was not run.
-    pub after: Option<f64>,
+    /// The time in s at which it is first there; `None` where the candidate was not run.
+    pub at: Option<f64>,
 }
 
-/// What is compared of a candidate. Temperatures in K, times in s from the start of its run, heat in W.
+/// What is compared of a candidate. Temperatures in K, times in s.
 #[derive(Clone, Debug)]
 pub struct Candidate {
     /// The name of the node that gets hottest.
@@ -30,7 +30,7 @@ pub struct Candidate {
     pub peak: Peak,
     /// Its temperature in steady state; `None` where inputs change with time or there is none.
     pub steady: Option<f64>,
-    /// When it is 95 % of the way from its start to its steady state; `None` if the run ends before.
+    /// How long it takes to get 95 % of the way from its start to its steady state; `None` if the run ends before.
     pub time_to_95: Option<f64>,
     /// Every limit, in the order of the network.
     pub limits: Vec<LimitResult>,
@@ -108,23 +108,28 @@ impl Candidate {
         }
     }
 
-    /// The least margin of its temperature limits, in K, with the limit; `None` without such a limit.
+    /// The temperature limit with the least margin: of those of severity error, else of the warnings; `None` without
+    /// a limit of a temperature.
     pub fn worst(&self) -> Option<&LimitResult> {
-        let temperatures = self.limits.iter().filter(|limit| limit.is_temperature());
-        temperatures.min_by(|a, b| a.margin.total_cmp(&b.margin))
+        let of = |severity| {
+            let limits = self.limits.iter().filter(move |l| l.is_temperature() && l.severity == severity);
+            limits.min_by(|a, b| a.margin.total_cmp(&b.margin))
+        };
+        of(Severity::Error).or_else(|| of(Severity::Warning))
     }
 
     fn in_steady_state(system: &ThermalSystem) -> Result<Self, CompareError> {
         let network = system.network();
         let steady = SteadyState::solve(system, 0.0).map_err(CompareError::Steady)?;
+        let margins = steady.limit_margins(network, 0.0).map_err(CompareError::Input)?;
         let hottest = hottest(&steady.temperatures);
         let temperature = steady.temperatures[hottest];
         Ok(Self {
             hottest: network.nodes()[hottest].name.clone(),
-            peak: Peak { temperature, after: None },
+            peak: Peak { temperature, at: None },
             steady: Some(temperature),
             time_to_95: None,
-            limits: limits::in_steady_state(network, &steady).map_err(CompareError::Input)?,
+            limits: limits::in_steady_state(network, &margins),
             shares: shares(network, &steady.boundary_heat),
             capacity: capacity(network),
         })
@@ -146,17 +151,17 @@ impl Candidate {
         let heat = heat_at_the_end(system, &solution, run).map_err(CompareError::Input)?;
         Ok(Self {
             hottest: network.nodes()[node.node.index()].name.clone(),
-            peak: Peak { temperature: node.peak.0, after: Some(node.peak.1 - run.start) },
+            peak: Peak { temperature: node.peak.0, at: Some(node.peak.1) },
             steady: node.steady,
             time_to_95: node.time_to_95,
-            limits: limits::over_time(system, &transient, &solution)?,
+            limits: limits::over_time(network, solution.limits()),
             shares: shares(network, &heat),
             capacity: capacity(network),
         })
     }
 }
 
-/// The run of the file with rows where limits are looked at, and every node watched.
+/// The run of the file without its rows, and with every node watched: peaks and limits are looked at between rows.
 fn transient(
     system: &ThermalSystem,
     run: &RunSettings,
@@ -165,13 +170,12 @@ fn transient(
     let network = system.network();
     let nodes: Vec<_> = network.node_ids().collect();
     let watch = Summary::watches(system, run.start, &nodes, steady).map_err(CompareError::Input)?;
-    let rows = limits::rows(network, run).map_err(CompareError::Input)?;
     Ok(Transient {
         start: run.start,
         stop: run.stop,
-        output: OutputTimes::At(rows),
+        output: OutputTimes::At(vec![run.stop]),
         tolerance: run.tolerance,
-        record: Record::Nodes(limits::nodes(network)),
+        record: Record::Nodes(Vec::new()),
         watch,
         linear_solver: LinearSolver::Auto,
     })

@@ -24,7 +24,7 @@ impl CompareRow {
         self.outcome.as_ref().ok()
     }
 
-    /// `kept`, `warning` where only limits of that severity are broken, `broken`, or the code of the problem.
+    /// `none` without limits, `kept`, `warning` where only limits of that severity are broken, `broken`, or the code of the problem.
     pub fn status(&self) -> &str {
         let candidate = match &self.outcome {
             Ok(candidate) => candidate,
@@ -34,6 +34,7 @@ impl CompareRow {
         match (broken(Severity::Error), broken(Severity::Warning)) {
             (true, _) => "broken",
             (false, true) => "warning",
+            (false, false) if candidate.limits.is_empty() => "none",
             (false, false) => "kept",
         }
     }
@@ -114,7 +115,7 @@ fn general(rows: &[CompareRow], unit: &Unit) -> Vec<Column> {
     vec![
         of("worst_margin", "K", &|c| c.worst().map(|limit| limit.margin)),
         of("peak", &unit.text, &|c| Some(unit.from_si(c.peak.temperature))),
-        of("peak_after", "s", &|c| c.peak.after),
+        of("peak_at", "s", &|c| c.peak.at),
         of("steady", &unit.text, &|c| c.steady.map(|kelvin| unit.from_si(kelvin))),
         of("time_to_95", "s", &|c| c.time_to_95),
         of("capacity", "J/K", &|c| Some(c.capacity)),
@@ -127,9 +128,9 @@ fn of_limit(rows: &[CompareRow], name: &str) -> [Column; 2] {
     let first = rows.iter().find_map(|row| row.limit(name));
     let unit = first.map_or_else(|| "1".to_owned(), |limit| limit.ty.dimension.si_unit());
     let margin = |row: &CompareRow| row.limit(name).map_or(f64::NAN, |limit| limit.margin);
-    let breaks = |row: &CompareRow| row.limit(name).and_then(|limit| limit.breaks_after).unwrap_or(f64::NAN);
+    let broken = |row: &CompareRow| row.limit(name).and_then(|limit| limit.broken_at).unwrap_or(f64::NAN);
     [
         column(rows, &format!("{name}.margin"), &unit, &margin),
-        column(rows, &format!("{name}.breaks_after"), "s", &breaks),
+        column(rows, &format!("{name}.broken_at"), "s", &broken),
     ]
 }
