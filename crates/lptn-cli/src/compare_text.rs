@@ -108,9 +108,17 @@ fn heat(rows: &[CompareRow]) -> Vec<Column> {
     CompareRow::boundary_names(rows).iter().map(column).collect()
 }
 
-/// As many tables as it takes to show every column within the width.
-fn blocks_of(title: &str, rows: &[CompareRow], columns: Vec<Column>) -> Vec<Vec<String>> {
-    let first = || Column::new(title, Align::Left, names(rows));
+/// As many tables as it takes to show every column within the width; a row with nothing in it is left out.
+fn blocks_of(title: &str, rows: &[CompareRow], mut columns: Vec<Column>) -> Vec<Vec<String>> {
+    let kept: Vec<bool> =
+        (0..rows.len()).map(|row| columns.iter().any(|column| column.cells[row] != NOTHING)).collect();
+    let keep =
+        |cells: Vec<String>| cells.into_iter().zip(&kept).filter(|(_, k)| **k).map(|(c, _)| c).collect();
+    for column in &mut columns {
+        column.cells = keep(std::mem::take(&mut column.cells));
+    }
+    let names: Vec<String> = keep(names(rows));
+    let first = || Column::new(title, Align::Left, names.clone());
     let fits = |columns: &[Column]| {
         let table = TextTable::new([vec![first()], columns.to_vec()].concat());
         table.lines(usize::MAX).iter().all(|line| line.chars().count() <= WIDTH)

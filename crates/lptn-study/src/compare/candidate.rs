@@ -151,7 +151,7 @@ impl Candidate {
         let heat = heat_at_the_end(system, &solution, run).map_err(CompareError::Input)?;
         Ok(Self {
             hottest: network.nodes()[node.node.index()].name.clone(),
-            peak: Peak { temperature: node.peak.0, at: Some(node.peak.1) },
+            peak: peak(node, run),
             steady: node.steady,
             time_to_95: node.time_to_95,
             limits: limits::over_time(network, solution.limits()),
@@ -159,6 +159,18 @@ impl Candidate {
             capacity: capacity(network),
         })
     }
+}
+
+/// The peak of a node; one that the tolerance cannot tell from the start or from the end is there.
+fn peak(node: &NodeSummary, run: &RunSettings) -> Peak {
+    let (temperature, time) = node.peak;
+    let same = |value: f64| temperature - value <= 10.0 * run.tolerance;
+    let at = match (same(node.start), same(node.end)) {
+        (true, _) => run.start,
+        (false, true) => run.stop,
+        (false, false) => time,
+    };
+    Peak { temperature, at: Some(at) }
 }
 
 /// The run of the file without its rows, and with every node watched: peaks and limits are looked at between rows.

@@ -9,8 +9,8 @@ use crate::compare::candidate::Candidate;
 /// What candidates are sorted by, the best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SortKey {
-    /// Those that keep every limit first; then by the least margin of their temperature limits, the largest first;
-    /// then by peak.
+    /// Those that keep every limit first; then by the least margin of their temperature limits, the largest first, and
+    /// those without such a limit last; then by peak.
     Margin,
     /// The lowest peak first.
     Peak,
@@ -39,7 +39,7 @@ fn compare(a: &Candidate, b: &Candidate, key: SortKey) -> Ordering {
     let peak = || a.peak.temperature.total_cmp(&b.peak.temperature);
     match key {
         SortKey::Margin => {
-            let worst = |c: &Candidate| c.worst().map_or(f64::INFINITY, |limit| limit.margin);
+            let worst = |c: &Candidate| c.worst().map_or(f64::NEG_INFINITY, |limit| limit.margin);
             broken(a).cmp(&broken(b)).then_with(|| worst(b).total_cmp(&worst(a))).then_with(peak)
         }
         SortKey::Peak => peak(),
