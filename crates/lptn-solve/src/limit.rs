@@ -133,7 +133,7 @@ impl<'a> LimitWatch<'a> {
 }
 
 impl SteadyState {
-    /// The margin of each limit in SI units, positive while it is kept; `t` in the limits is `time` [s], that of the
+    /// The margin of each limit in SI units, positive while it is kept; `t` in the limits is `time` in s, that of the
     /// steady state's inputs.
     ///
     /// # Errors

@@ -333,3 +333,16 @@ fn units_alone_convert_both_ways() {
     assert_eq!(Unit::parse("W/m2K").unwrap_err().help().as_deref(), Some("did you mean \"W/(m^2 K)\"?"));
     assert_eq!(Unit::parse(" ").unwrap_err().code(), "units::empty");
 }
+
+#[test]
+fn number_and_unit_of_a_quantity_are_found_where_they_stand() {
+    let of = |text: &str| {
+        let written = lptn_units::written_quantity(text).unwrap();
+        (text[written.number].to_owned(), written.unit.text)
+    };
+    assert_eq!(of("3000 ± 100 mW/K"), ("3000".into(), "mW/K".into()));
+    assert_eq!(of(" -2.5e-3 degC"), ("-2.5e-3".into(), "degC".into()));
+    assert_eq!(of("25 degC ± 0.5 K"), ("25".into(), "degC".into()));
+    assert_eq!(of("0.7"), ("0.7".into(), "1".into()));
+    assert!(lptn_units::written_quantity("P / 20 [K]").is_none());
+}

@@ -70,7 +70,7 @@ impl<'a> Trials<'a> {
 }
 
 /// How far each requirement is from being broken in the steady state of `network` with inputs as they are at `time`
-/// [s]: in SI units, positive while it is kept.
+/// in s: in SI units, positive while it is kept.
 ///
 /// # Errors
 /// [`SizeError`] if there is no steady state or a requirement has no value.
