@@ -45,6 +45,12 @@ Examples:
   lptn units \"87 uW/rpm^(5/3)\"
   lptn units";
 
+const MATERIALS_EXAMPLES: &str = "\
+Examples:
+  lptn materials
+  lptn materials steel_8620
+  lptn materials --format csv > materials.csv";
+
 const TEMPLATE: &str = "{before-help}{about-with-newline}\n{usage-heading} {usage}\n\n{all-args}";
 
 /// Simulates lumped-parameter thermal networks
@@ -105,6 +111,9 @@ pub(crate) enum Verb {
     /// Convert a quantity to SI and other units, or list the units
     #[command(before_help = UNITS_EXAMPLES, help_template = TEMPLATE)]
     Units(UnitsArgs),
+    /// List the materials that ship inside, with their sources
+    #[command(before_help = MATERIALS_EXAMPLES, help_template = TEMPLATE)]
+    Materials(MaterialsArgs),
     /// Print a completion script for a shell
     Completions(CompletionsArgs),
 }
@@ -275,6 +284,16 @@ pub(crate) struct UnitsArgs {
     /// A number with its unit, in quotes; without it the known units are listed
     #[arg(value_name = "QUANTITY", allow_hyphen_values = true)]
     pub(crate) quantity: Option<String>,
+}
+
+#[derive(Debug, Arguments)]
+pub(crate) struct MaterialsArgs {
+    /// One material or fluid, with the source of its numbers; without it all are listed
+    #[arg(value_name = "NAME")]
+    pub(crate) name: Option<String>,
+    /// Print a table, csv or json
+    #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    pub(crate) format: Format,
 }
 
 #[derive(Debug, Arguments)]

@@ -54,7 +54,7 @@ fn overview(comparison: &Comparison) -> Vec<String> {
         Column::new(title, Align::Right, cells(text))
     };
     let answers = rows.iter().zip(&comparison.ends).map(|(row, end)| verdict(row, *end).to_owned());
-    let table = TextTable::new(vec![
+    let mut columns = vec![
         Column::new(format!("T [{}]", unit.text), Align::Left, names(rows)),
         Column::new("hottest", Align::Left, cells(&|c| Some(c.hottest.clone()))),
         column("peak", &|c| Some(number(c.peak.temperature))),
@@ -63,8 +63,12 @@ fn overview(comparison: &Comparison) -> Vec<String> {
         column("95 % after", &|c| c.time_to_95.map(|time| duration(time, 3))),
         column("C [J/K]", &|c| Some(significant(c.capacity, 4))).optional(),
         Column::new("limits", Align::Left, answers.collect()),
-    ]);
-    table.lines(WIDTH)
+    ];
+    if rows.iter().filter_map(CompareRow::candidate).any(|candidate| candidate.mass.is_some()) {
+        let mass = column("m [kg]", &|c| c.mass.map(|mass| significant(mass, 4))).optional();
+        columns.insert(columns.len() - 1, mass);
+    }
+    TextTable::new(columns).lines(WIDTH)
 }
 
 fn verdict(row: &CompareRow, end: Exit) -> &str {

@@ -4,13 +4,16 @@ use std::io::Read as _;
 use std::path::Path;
 
 use lptn_assembly::{AssemblyError, ThermalSystem};
-use lptn_netlist::{Diagnostic, Files, Netlist, Rejected, Span, parse_bytes};
+use lptn_netlist::{Diagnostic, Files, Netlist, Rejected, Span, parse_bytes, parse_file};
 use lptn_network::Item;
 use lptn_units::{Dimension, Type, Unit, UnitError, parse_quantity, suggest};
 
 use crate::args::Source;
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
+
+/// What a netlist from stdin is called.
+const STDIN: &str = "<stdin>";
 
 /// The bytes of a netlist and what they are called.
 #[derive(Debug)]
@@ -28,7 +31,7 @@ pub(crate) fn read(file: &Path) -> Result<Text, Failure> {
         let mut bytes = Vec::new();
         let outcome = std::io::stdin().lock().read_to_end(&mut bytes);
         outcome.map_err(|error| cannot_read("stdin", &error, None))?;
-        return Ok(Text { bytes, name: "<stdin>".into(), stem: "stdin".into() });
+        return Ok(Text { bytes, name: STDIN.into(), stem: "stdin".into() });
     }
     let name = file.display().to_string();
     let bytes = std::fs::read(file).map_err(|error| cannot_read(&name, &error, similar(file)))?;
@@ -82,7 +85,7 @@ impl Input {
 
     /// The name for a command that can be typed; `None` for stdin.
     pub(crate) fn typed(&self) -> Option<String> {
-        (self.text.name != "<stdin>").then(|| quoted(&self.text.name))
+        (self.text.name != STDIN).then(|| quoted(&self.text.name))
     }
 
     pub(crate) fn assemble(&self) -> Result<ThermalSystem, Failure> {
@@ -99,7 +102,10 @@ impl Input {
 }
 
 pub(crate) fn parse(text: &Text) -> Result<Netlist, Rejected> {
-    parse_bytes(&text.name, &text.bytes)
+    match text.name.as_str() {
+        STDIN => parse_bytes(STDIN, &text.bytes),
+        name => parse_file(Path::new(name), &text.bytes),
+    }
 }
 
 /// A word for the shell, in quotes where it needs them.

@@ -19,6 +19,7 @@ mod files;
 mod input;
 mod interrupt;
 mod limits;
+mod materials;
 mod new;
 mod next;
 mod outcome;
@@ -69,6 +70,7 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
         Some(Verb::Size(args)) => size::size(args, console),
         Some(Verb::New(args)) => new::new(args, console),
         Some(Verb::Units(args)) => units::units(args, console),
+        Some(Verb::Materials(args)) => materials::materials(args, console),
         Some(Verb::Completions(args)) => completions::completions(args, console),
     }
 }

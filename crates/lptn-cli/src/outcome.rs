@@ -43,14 +43,18 @@ impl Outcome<'_> {
     }
 
     fn manifest(&self, args: &RunArgs, result: FileHash) -> Manifest {
-        let (text, settings) = (&self.job.input.text, &self.job.settings);
+        let settings = &self.job.settings;
+        let hash = |(name, text): (&str, &str)| FileHash {
+            name: name.to_owned(),
+            sha256: lptn_study::sha256(text.as_bytes()),
+        };
         let host = std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
         Manifest {
             format: 1,
             lptn: env!("CARGO_PKG_VERSION").to_owned(),
             sundials: Sundials::linked(),
             arguments: std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned()).collect(),
-            inputs: vec![FileHash { name: text.name.clone(), sha256: lptn_study::sha256(&text.bytes) }],
+            inputs: self.job.input.netlist.inputs().map(hash).collect(),
             parameters: self.parameters(&args.source.set),
             start: Scalar::new(settings.start, "s"),
             stop: Scalar::new(settings.stop, "s"),

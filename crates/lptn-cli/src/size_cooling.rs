@@ -22,8 +22,8 @@ pub(crate) fn cooling(args: &SizeArgs, console: &Console) -> Result<Exit, Failur
     let answer = Answer {
         task,
         cooling,
-        air: Coolant::air(&task).map(|air| (air, task.flow(air))),
-        oil: Coolant::oil(&task).map(|oil| (oil, task.flow(oil))),
+        air: Coolant::air(task.ambient).map(|air| (air, task.flow(air))),
+        oil: Coolant::oil().map(|oil| (oil, task.flow(oil))),
     };
     match args.format {
         Format::Table => console.print(&answer.text(&args.cooling, console)).map(drop)?,
@@ -153,8 +153,8 @@ impl Answer {
                 "1 / R_max".into(),
             ],
         ];
-        for (name, of) in [("air", self.air), ("oil", self.oil)] {
-            rows.push([format!("{name} that warms by {rise} K"), flow(of), properties(of)]);
+        for (name, of) in [("air", self.air), ("gear oil", self.oil)] {
+            rows.push([format!("{name}, {rise} K warmer"), flow(of), properties(of)]);
         }
         let column = |i: usize| Column::new("", Align::Left, rows.iter().map(|row| row[i].clone()).collect());
         let lines = TextTable::new((0..3).map(column).collect()).lines(WIDTH);
@@ -164,7 +164,7 @@ impl Answer {
 
 fn flow(of: Option<(Coolant, Option<Flow>)>) -> String {
     match of {
-        None => "no properties at this temperature".into(),
+        None => "no properties".into(),
         Some((_, None)) => "would leave warmer than the limit".into(),
         Some((_, Some(flow))) => {
             let (mass, volume) = (significant(1e3 * flow.mass, 4), significant(6e4 * flow.volume, 4));

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lptn_netlist::{Diagnostic, Goal, Netlist, parse};
+use lptn_netlist::{Diagnostic, Goal, Netlist, parse_file};
 use lptn_network::ParameterId;
 use lptn_report::Shortest;
 use lptn_study::requirement_margins;
@@ -24,6 +24,9 @@ pub(crate) fn possible(input: &Input, parameter: ParameterId) -> Result<(), Fail
     let name = &netlist.network.parameters()[parameter.index()].name;
     let problem = if input.typed().is_none() {
         Diagnostic::error("size::write", "there is no file to write into: the netlist came from stdin")
+    } else if netlist.written_number(parameter).is_some_and(|written| !netlist.is_own(&written)) {
+        let problem = Diagnostic::error("size::write", format!("`{name}` stands in a file that is included"));
+        problem.help("other netlists may include it too: change it there, or move the parameter here")
     } else if netlist.written_number(parameter).is_none() {
         let message = format!("`{name}` is not written as a number, so no other can be written in its place");
         let problem = Diagnostic::error("size::write", message)
@@ -69,7 +72,7 @@ fn proven(answer: &Answer<'_>) -> Option<(String, String)> {
     DIGITS.into_iter().find_map(|digits| {
         let number = Shortest::new().text(rounded(value, digits, up)).to_owned();
         let text = netlist.text_with_number(&written, &number);
-        let again = parse(&answer.input.text.name, &text).ok()?;
+        let again = parse_file(Path::new(&answer.input.text.name), text.as_bytes()).ok()?;
         keeps(answer, &again)?.then_some((number, text))
     })
 }

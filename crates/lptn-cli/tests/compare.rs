@@ -214,3 +214,20 @@ fn twenty_candidates_fit_the_terminal() {
     let ran = folder.run(&["compare", "."]).exits(0);
     assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
 }
+
+#[test]
+fn the_mass_is_shown_where_every_material_is_known() {
+    let folder = three();
+    let without = folder.run(&["compare", ".", "--format", "csv"]).out;
+    assert!(!without.contains("mass"));
+    let steel =
+        candidate("0.4", LIMIT).replace("C = \"2000 J/K\"", "material = \"steel_8620\", mass = \"4 kg\"");
+    folder.write("b.toml", &steel);
+    let ran = folder.run(&["compare", ".", "--format", "csv"]).exits(1);
+    let all = rows(&ran.out);
+    near(number(&all[0], "mass [kg]"), 4.0, 1e-12);
+    // 475 J/(kg K), as the seed paper has it
+    near(number(&all[0], "capacity [J/K]"), 1900.0, 1e-9);
+    assert!(number(&all[1], "mass [kg]").is_nan());
+    folder.run(&["compare", "."]).exits(1).prints("m [kg]");
+}

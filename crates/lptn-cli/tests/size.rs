@@ -183,3 +183,25 @@ fn what_is_no_number_cannot_be_written() {
     folder.run_with(&["size", "-"], FAN).exits(0);
     folder.run(&["size", "fan.toml", "--write", "--set", "P=1 W"]).exits(2);
 }
+
+#[test]
+fn a_number_of_an_included_file_is_not_written() {
+    let folder = Folder::with("own.toml", "format = 1\n[param]\nG = \"3 W/K\"\n");
+    folder.write(
+        "fan.toml",
+        &FAN.replace("format = 1", "format = 1\ninclude = [\"own.toml\"]").replace("G = '3 W/K'", "#"),
+    );
+    folder.run(&["size", "fan.toml"]).exits(0).prints("G = 1.81819 W/K");
+    folder.run(&["size", "fan.toml", "--write"]).exits(2).says("stands in a file that is included");
+    // what is written beside an include is proven with it
+    folder.write(
+        "own.toml",
+        "format = 1\n[material]\nmade_up = { cp = \"500 J/(kg K)\", source = \"test\" }\n",
+    );
+    let with_material = FAN.replace("format = 1", "format = 1\ninclude = [\"own.toml\"]");
+    folder.write(
+        "fan.toml",
+        &with_material.replace("C = \"1 kJ/K\"", "material = \"made_up\", mass = \"2 kg\""),
+    );
+    folder.run(&["size", "fan.toml", "--write"]).exits(0).says("wrote  fan.toml");
+}

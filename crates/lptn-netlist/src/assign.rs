@@ -190,6 +190,15 @@ impl Netlist {
                 let value = if field == Field::Initial { &node.initial } else { &node.capacity };
                 value.iter().collect()
             }
+            Item::Material(id) => {
+                let material = &network.materials()[id.index()];
+                let value = match field {
+                    Field::Density => &material.density,
+                    Field::SpecificHeat => &material.cp,
+                    _ => &material.k,
+                };
+                value.iter().collect()
+            }
             Item::Boundary(id) => vec![&network.boundaries()[id.index()].temperature],
             Item::Capacitor(id) => vec![&network.capacitors()[id.index()].capacity],
             Item::Source(id) => vec![&network.sources()[id.index()].power],

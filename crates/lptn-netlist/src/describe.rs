@@ -77,6 +77,11 @@ fn in_unit(value: f64, field: Field) -> String {
         Field::Conductance => Dimension::CONDUCTANCE,
         Field::FilmCoefficient => Dimension::FILM_COEFFICIENT,
         Field::Area => Dimension::AREA,
+        Field::Mass => Dimension::MASS,
+        Field::Volume => Dimension::VOLUME,
+        Field::Density => Dimension::DENSITY,
+        Field::SpecificHeat => Dimension::SPECIFIC_HEAT,
+        Field::Conductivity => Dimension::CONDUCTIVITY,
         _ => return short(value),
     };
     format!("{} {}", short(value), dimension.si_unit())
@@ -178,6 +183,9 @@ fn not_positive(field: Field, zero: bool) -> &'static str {
         }
         Field::Capacity if zero => "a node that stores nothing is `{ massless = true }`",
         Field::Capacity => "check the sign: heat that is stored makes a body warmer",
+        Field::Mass | Field::Volume | Field::Density | Field::SpecificHeat | Field::Conductivity => {
+            "a body has a mass, a volume and properties of more than zero"
+        }
         _ => "check the sign: heat flows from the warm to the cold end, whichever is named first",
     }
 }

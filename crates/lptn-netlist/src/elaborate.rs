@@ -36,6 +36,9 @@ pub(crate) struct Elaboration<'a> {
     pub(crate) ends: HashMap<&'a str, (End, &'a Span)>,
     pub(crate) problems: Vec<Diagnostic>,
     pub(crate) doubts: Doubts,
+    /// Materials by name: those of the file, and those of the library that are used.
+    pub(crate) known: HashMap<String, section::Known>,
+    pub(crate) used_materials: HashSet<String>,
 }
 
 /// What was left out because of an error, so that its absence is not reported as another one.
@@ -79,11 +82,14 @@ pub(crate) fn elaborate(raw: &RawNetlist) -> (Option<Elaborated>, Vec<Diagnostic
         ends: HashMap::new(),
         problems: Vec::new(),
         doubts: Doubts::default(),
+        known: HashMap::new(),
+        used_materials: HashSet::new(),
     };
     work.map.set_top(raw.top.span.clone());
     work.top_level();
     work.parameters();
     let default = work.defaults();
+    work.materials();
     work.nodes(default.initial.as_ref());
     work.boundaries();
     work.capacitors();
@@ -111,6 +117,7 @@ impl<'a> Elaboration<'a> {
         (run, sizes): (Option<RunPlan>, Vec<SizeStudy>),
         default: section::Default<'_>,
     ) -> (Option<Elaborated>, Vec<Diagnostic>) {
+        let materials = self.unused_materials();
         let (map, doubts) = (&self.map, &self.doubts);
         let network = match self.builder.build() {
             Ok(network) => Some(network),
@@ -127,6 +134,7 @@ impl<'a> Elaboration<'a> {
         if self.problems.iter().any(|problem| problem.severity == Severity::Error) {
             return (None, self.problems);
         }
+        self.problems.extend(materials);
         self.problems.extend(self.names.unused().map(|(name, span)| unused(name, span)));
         let temperature_unit = default.temperature_unit;
         let done = network.map(|network| Elaborated { network, run, sizes, map: self.map, temperature_unit });

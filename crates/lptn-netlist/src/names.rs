@@ -23,6 +23,8 @@ pub(crate) struct Names {
     used: HashSet<String>,
     /// Names in sections that are not known: they may be what is looked for.
     hidden: HashSet<String>,
+    /// Materials that cannot be read.
+    hidden_materials: HashSet<String>,
     /// How many similar names were looked for.
     searches: usize,
 }
@@ -59,6 +61,15 @@ impl Names {
 
     pub(crate) fn is_hidden(&self, name: &str) -> bool {
         self.hidden.contains(name)
+    }
+
+    /// Notes a material that cannot be read.
+    pub(crate) fn hide_material(&mut self, name: &str) {
+        self.hidden_materials.insert(name.to_owned());
+    }
+
+    pub(crate) fn is_hidden_material(&self, name: &str) -> bool {
+        self.hidden_materials.contains(name)
     }
 
     pub(crate) fn fail(&mut self, name: &str) {

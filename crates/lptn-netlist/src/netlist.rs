@@ -9,6 +9,8 @@ use lptn_units::Unit;
 use crate::diagnostic::{Diagnostic, Severity, arrange};
 use crate::elaborate::{Elaborated, elaborate};
 use crate::file::{FileId, Files, Span};
+use crate::include::{self, Loader, Merged};
+use crate::raw::RawNetlist;
 use crate::run::{RunPlan, RunSettings};
 use crate::section;
 use crate::size::SizeStudy;
@@ -36,9 +38,15 @@ pub struct Netlist {
     pub(crate) plan: Option<RunPlan>,
     /// Everything that was set so far.
     pub(crate) assigned: Parameters,
+    pub(crate) inputs: Vec<FileId>,
 }
 
 impl Netlist {
+    /// The files it was read from, its own first: name and text.
+    pub fn inputs(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.inputs.iter().map(|&id| (self.files.name(id), self.files.text(id)))
+    }
+
     /// The parameters as they were set, for [`Network::with`] with further ones.
     pub fn overrides(&self) -> Parameters {
         self.assigned.clone()
@@ -106,16 +114,28 @@ impl std::error::Error for ReadError {
 /// [`ReadError`] if the file cannot be read or its content cannot be used.
 pub fn read(path: &Path) -> Result<Netlist, ReadError> {
     let bytes = std::fs::read(path).map_err(|error| ReadError::Io { path: path.to_owned(), error })?;
-    parse_bytes(&path.display().to_string(), &bytes).map_err(ReadError::Rejected)
+    parse_file(path, &bytes).map_err(ReadError::Rejected)
 }
 
-/// Reads a netlist from bytes that may not be text; `name` is what diagnostics call it.
+/// Reads a netlist from the bytes of a file that was read; what it includes is looked for beside it.
+///
+/// # Errors
+/// [`Rejected`] with every problem.
+pub fn parse_file(path: &Path, bytes: &[u8]) -> Result<Netlist, Rejected> {
+    decode(&path.display().to_string(), bytes, Some(&mut |path: &Path| std::fs::read(path)))
+}
+
+/// Reads a netlist from bytes that may not be text; `name` is what diagnostics call it. It cannot include files.
 ///
 /// # Errors
 /// [`Rejected`] with every problem.
 pub fn parse_bytes(name: &str, bytes: &[u8]) -> Result<Netlist, Rejected> {
+    decode(name, bytes, None)
+}
+
+fn decode(name: &str, bytes: &[u8], loader: Option<&mut Loader<'_>>) -> Result<Netlist, Rejected> {
     match std::str::from_utf8(bytes) {
-        Ok(text) if !text.contains('\0') => parse(name, text),
+        Ok(text) if !text.contains('\0') => whole(name, text, loader),
         Ok(_) => Err(not_text(name, "it contains zero bytes")),
         Err(_) if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) => {
             Err(not_text(name, "it looks like UTF-16"))
@@ -128,11 +148,23 @@ pub fn parse_bytes(name: &str, bytes: &[u8]) -> Result<Netlist, Rejected> {
     }
 }
 
-/// Reads a netlist from text; `name` is what diagnostics call it.
+/// Reads a netlist from text; `name` is what diagnostics call it. It cannot include files.
 ///
 /// # Errors
 /// [`Rejected`] with every problem.
 pub fn parse(name: &str, text: &str) -> Result<Netlist, Rejected> {
+    whole(name, text, None)
+}
+
+/// Reads a netlist from text; `loader` reads what it includes, by paths relative to that of `name`.
+///
+/// # Errors
+/// [`Rejected`] with every problem.
+pub fn parse_with(name: &str, text: &str, loader: &mut Loader<'_>) -> Result<Netlist, Rejected> {
+    whole(name, text, Some(loader))
+}
+
+fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netlist, Rejected> {
     let mut files = Files::new();
     if text.contains('\0') {
         return Err(not_text(name, "it contains zero bytes"));
@@ -144,12 +176,30 @@ pub fn parse(name: &str, text: &str) -> Result<Netlist, Rejected> {
         let empty = section::empty(text, Span::new(file, 0..0));
         return Err(Rejected { files, diagnostics: vec![empty], syntax });
     }
-    let (done, found) = elaborate(&raw);
-    if syntax {
-        add_certain(&mut diagnostics, found, (&files, file));
+    if !syntax {
+        return included(files, raw, (Path::new(name), file), loader);
+    }
+    let (_, found) = elaborate(&raw);
+    add_certain(&mut diagnostics, found, (&files, file));
+    Err(Rejected { files, diagnostics, syntax })
+}
+
+/// The rest of the way for a text that is TOML.
+fn included(
+    mut files: Files,
+    raw: RawNetlist,
+    main: (&Path, FileId),
+    loader: Option<&mut Loader<'_>>,
+) -> Result<Netlist, Rejected> {
+    let Merged { raw, problems: mut diagnostics, incomplete, syntax } =
+        include::merge(&mut files, raw, main, loader);
+    if incomplete {
+        arrange(&mut diagnostics);
         return Err(Rejected { files, diagnostics, syntax });
     }
-    diagnostics = found;
+    let (done, found) = elaborate(&raw);
+    let done = done.filter(|_| !include::any_error(&diagnostics));
+    diagnostics.extend(found);
     arrange(&mut diagnostics);
     match done {
         Some(done) => finish(files, done, diagnostics),
@@ -172,8 +222,20 @@ fn finish(files: Files, done: Elaborated, mut diagnostics: Vec<Diagnostic>) -> R
         return Err(Rejected { files, diagnostics, syntax: false });
     }
     let assigned = network.overrides();
+    let inputs = files.ids().collect();
     let warnings = diagnostics;
-    Ok(Netlist { network, run, sizes, source_map: map, files, warnings, temperature_unit, plan, assigned })
+    Ok(Netlist {
+        network,
+        run,
+        sizes,
+        source_map: map,
+        files,
+        warnings,
+        temperature_unit,
+        plan,
+        assigned,
+        inputs,
+    })
 }
 
 /// Problems that are there whatever the broken lines should have said.
@@ -201,6 +263,10 @@ fn rests_on_absence(code: &str) -> bool {
         "netlist::missing_field",
         "netlist::no_law",
         "netlist::unknown_node",
+        "netlist::unknown_material",
+        "netlist::no_property",
+        "netlist::no_size",
+        "netlist::no_bound",
         "netlist::unknown_name",
         "netlist::run_output",
         "network::no_capacity",

@@ -88,10 +88,10 @@ impl SizeStudy {
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn sizes(&mut self) -> Vec<SizeStudy> {
-        self.elements(SIZE.name).iter().filter_map(|entry| self.size(entry)).collect()
+        self.elements(SIZE.name).iter().filter_map(|entry| self.size_study(entry)).collect()
     }
 
-    fn size(&mut self, entry: &'a RawEntry) -> Option<SizeStudy> {
+    fn size_study(&mut self, entry: &'a RawEntry) -> Option<SizeStudy> {
         let owner = Owner::element(SIZE.name, &entry.key);
         let fields = Fields::of(&SIZE, owner, entry, &mut self.problems)?;
         self.over(&fields);

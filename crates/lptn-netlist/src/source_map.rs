@@ -85,6 +85,7 @@ impl SourceMap {
             Item::Conductor(id) => self.conductors.get(id.index()).copied().unwrap_or("path"),
             Item::Source(_) => "source",
             Item::Limit(_) => "limit",
+            Item::Material(_) => "material",
         }
     }
 

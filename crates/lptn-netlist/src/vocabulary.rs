@@ -19,8 +19,8 @@ pub(crate) struct Section {
 
 pub(crate) const NODE: Section = Section {
     name: "node",
-    keys: &["T0", "C", "massless"],
-    later: &["material", "mass", "volume", "L_char"],
+    keys: &["T0", "C", "material", "mass", "volume", "massless"],
+    later: &["L_char"],
     example: "{ T0 = \"25 degC\", C = \"500 J/K\" }",
     elsewhere: &[
         (
@@ -33,8 +33,8 @@ pub(crate) const NODE: Section = Section {
 
 pub(crate) const CAPACITOR: Section = Section {
     name: "capacitor",
-    keys: &["node", "C"],
-    later: &["material", "mass", "volume"],
+    keys: &["node", "C", "material", "mass", "volume"],
+    later: &[],
     example: "{ node = \"a\", C = \"500 J/K\" }",
     elsewhere: &[("T0", "the temperature at the start belongs to the node")],
 };
@@ -92,6 +92,20 @@ pub(crate) const LIMIT: Section = Section {
     ],
 };
 
+pub(crate) const MATERIAL: Section = Section {
+    name: "material",
+    keys: &["density", "cp", "k", "source"],
+    later: &["solidus", "liquidus", "latent_heat"],
+    example: "{ density = \"7850 kg/m^3\", cp = \"475 J/(kg K)\" }",
+    elsewhere: &[
+        ("c", "the specific heat capacity is `cp`"),
+        ("rho", "the density is `density`"),
+        ("lambda", "the thermal conductivity is `k`"),
+        ("mass", "the mass belongs to the node or capacitor that is made of the material"),
+        ("volume", "the volume belongs to the node or capacitor that is made of the material"),
+    ],
+};
+
 pub(crate) const DEFAULT: Section = Section {
     name: "default",
     keys: &["T0", "temperature_unit"],
@@ -142,15 +156,16 @@ pub(crate) const OUTPUT: Section = Section {
     elsewhere: &[],
 };
 
-pub(crate) const TOP_KEYS: [&str; 3] = ["format", "title", "description"];
+pub(crate) const TOP_KEYS: [&str; 4] = ["format", "title", "description", "include"];
 
 /// `[param]` has no keys of its own.
 pub(crate) const PARAM: &str = "param";
 
 /// Every section there is.
-pub(crate) const SECTIONS: [&str; 11] = [
+pub(crate) const SECTIONS: [&str; 12] = [
     "param",
     "default",
+    "material",
     "node",
     "capacitor",
     "boundary",
@@ -163,7 +178,7 @@ pub(crate) const SECTIONS: [&str; 11] = [
 ];
 
 /// What the format has for later.
-pub(crate) const SECTIONS_LATER: [&str; 15] = [
+pub(crate) const SECTIONS_LATER: [&str; 14] = [
     "table",
     "signal",
     "conduction",
@@ -171,7 +186,6 @@ pub(crate) const SECTIONS_LATER: [&str; 15] = [
     "radiation",
     "advection",
     "control",
-    "material",
     "fluid",
     "grid",
     "template",

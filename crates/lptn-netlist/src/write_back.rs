@@ -34,6 +34,11 @@ impl Netlist {
         Some(WrittenNumber { unit: written.unit, file: span.file, place })
     }
 
+    /// Whether a number stands in the netlist's own file and not in one that it includes.
+    pub fn is_own(&self, written: &WrittenNumber) -> bool {
+        self.inputs.first() == Some(&written.file)
+    }
+
     /// The text of the file with `number` in the place of the one written there: comments, order, unit and
     /// standard deviation stay. A number in place of another cannot change what a string or a comment is, so the
     /// text is cut at the number's own place rather than parsed and printed again.

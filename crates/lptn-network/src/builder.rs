@@ -42,7 +42,7 @@ impl From<crate::typed::Conductance> for Path {
 /// Collects the parts of a network; [`NetworkBuilder::build`] checks them all at once.
 #[derive(Clone, Debug, Default)]
 pub struct NetworkBuilder {
-    parts: Parts,
+    pub(crate) parts: Parts,
     errors: Vec<BuildError>,
     /// The numbers of parameters and nodes on which the first expression of results rests.
     shape: Option<(usize, usize)>,
@@ -61,7 +61,7 @@ impl NetworkBuilder {
 
     /// Adds a parameter. Its expression may use parameters that were added before it.
     pub fn parameter(&mut self, name: &str, value: impl Into<Input>) -> ParameterId {
-        let Input { value, ty, deviation } = value.into();
+        let Input { value, ty, deviation, .. } = value.into();
         let id = ParameterId::from_len(self.parts.parameters.len());
         self.parts.parameters.push(Parameter { name: name.to_owned(), ty, value, deviation });
         self.check_name(name, Item::Parameter(id));
@@ -97,9 +97,10 @@ impl NetworkBuilder {
     ) -> NodeId {
         let id = NodeId::from_len(self.parts.nodes.len());
         let at = |field| (name, Item::Node(id), field);
+        let lump = capacity.as_ref().and_then(|c| c.lump.clone());
         let capacity = capacity.map(|c| self.typed(at(Field::Capacity), c, CAPACITY));
         let initial = initial.map(|t| self.typed(at(Field::Initial), t, Type::ABSOLUTE_TEMPERATURE));
-        self.parts.nodes.push(Node { name: name.to_owned(), capacity, initial, massless });
+        self.parts.nodes.push(Node { name: name.to_owned(), capacity, lump, initial, massless });
         self.register(name, Item::Node(id));
         id
     }
@@ -108,8 +109,10 @@ impl NetworkBuilder {
     pub fn capacitor(&mut self, name: &str, node: NodeId, capacity: impl Into<Input>) -> CapacitorId {
         let id = CapacitorId::from_len(self.parts.capacitors.len());
         let at = (name, Item::Capacitor(id), Field::Capacity);
-        let capacity = self.typed(at, capacity.into(), CAPACITY);
-        self.parts.capacitors.push(Capacitor { name: name.to_owned(), node, capacity });
+        let input = capacity.into();
+        let lump = input.lump.clone();
+        let capacity = self.typed(at, input, CAPACITY);
+        self.parts.capacitors.push(Capacitor { name: name.to_owned(), node, capacity, lump });
         self.register(name, Item::Capacitor(id));
         id
     }
@@ -261,7 +264,12 @@ impl NetworkBuilder {
         }
     }
 
-    fn typed(&mut self, (name, item, field): (&str, Item, Field), input: Input, wanted: Type) -> Value {
+    pub(crate) fn typed(
+        &mut self,
+        (name, item, field): (&str, Item, Field),
+        input: Input,
+        wanted: Type,
+    ) -> Value {
         if input.ty != wanted {
             self.error(name, BuildErrorKind::WrongType { item, field, wanted, found: input.ty });
         }
@@ -276,7 +284,7 @@ impl NetworkBuilder {
         }
     }
 
-    fn check_name(&mut self, name: &str, item: Item) {
+    pub(crate) fn check_name(&mut self, name: &str, item: Item) {
         let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
         if !name.starts_with(|c: char| word(c) && !c.is_ascii_digit()) || !name.chars().all(word) {
             self.error(name, BuildErrorKind::BadName { item });

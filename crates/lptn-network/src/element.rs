@@ -3,6 +3,7 @@
 use lptn_units::{EvalError, Type};
 
 use crate::id::{End, NodeId};
+use crate::material::Lump;
 use crate::value::{Evaluation, Value};
 
 /// A named value that expressions may use.
@@ -25,6 +26,8 @@ pub struct Node {
     pub name: String,
     /// Its own heat capacity in J/K; capacitors add to it.
     pub capacity: Option<Value>,
+    /// The lump that its own capacity was computed from.
+    pub lump: Option<Lump>,
     /// Its temperature at the start in K.
     pub initial: Option<Value>,
     /// Whether it is a junction that stores nothing.
@@ -40,6 +43,8 @@ pub struct Capacitor {
     pub node: NodeId,
     /// Its heat capacity in J/K.
     pub capacity: Value,
+    /// The lump that its capacity was computed from.
+    pub lump: Option<Lump>,
 }
 
 /// A place with a given temperature.

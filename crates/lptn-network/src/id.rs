@@ -34,6 +34,8 @@ ids! {
     SourceId;
     /// A limit of the results.
     LimitId;
+    /// A material.
+    MaterialId;
 }
 
 /// One end of a conductor.
@@ -74,6 +76,8 @@ pub enum Item {
     Source(SourceId),
     /// A limit.
     Limit(LimitId),
+    /// A material.
+    Material(MaterialId),
 }
 
 impl From<End> for Item {
@@ -120,6 +124,18 @@ pub enum Field {
     Below,
     /// What a limited quantity has to stay above.
     Above,
+    /// The material of a node or capacitor.
+    Material,
+    /// Mass of a node or capacitor.
+    Mass,
+    /// Volume of a node or capacitor.
+    Volume,
+    /// Density of a material.
+    Density,
+    /// Specific heat capacity of a material.
+    SpecificHeat,
+    /// Thermal conductivity of a material.
+    Conductivity,
 }
 
 impl Field {
@@ -142,6 +158,12 @@ impl Field {
             Self::Of => "of",
             Self::Below => "below",
             Self::Above => "above",
+            Self::Material => "material",
+            Self::Mass => "mass",
+            Self::Volume => "volume",
+            Self::Density => "density",
+            Self::SpecificHeat => "cp",
+            Self::Conductivity => "k",
         }
     }
 }

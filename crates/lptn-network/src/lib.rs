@@ -14,6 +14,7 @@ mod error;
 mod id;
 mod input_error;
 mod limit;
+mod material;
 mod names;
 mod network;
 mod numbers;
@@ -27,10 +28,12 @@ pub use builder::{NetworkBuilder, Path};
 pub use element::{Boundary, Capacitor, Conductor, ConductorKind, Law, Node, Parameter, Source};
 pub use error::{BuildError, BuildErrorKind, BuildErrors};
 pub use id::{
-    BoundaryId, CapacitorId, ConductorId, End, Field, Item, LimitId, NodeId, ParameterId, SourceId,
+    BoundaryId, CapacitorId, ConductorId, End, Field, Item, LimitId, MaterialId, NodeId, ParameterId,
+    SourceId,
 };
 pub use input_error::{InputError, InputProblem};
 pub use limit::{Bound, Limit, PostScope, Severity};
+pub use material::{Lump, Material, Properties, Size};
 pub use names::{UnknownName, list_of_names};
 pub use network::Network;
 pub use output::OutputTimes;

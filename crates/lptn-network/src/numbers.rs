@@ -4,7 +4,7 @@ use lptn_units::Degree;
 
 use crate::element::{Law, Parameter};
 use crate::error::{BuildError, BuildErrorKind};
-use crate::id::{CapacitorId, ConductorId, Field, Item, LimitId, NodeId, ParameterId};
+use crate::id::{CapacitorId, ConductorId, Field, Item, LimitId, MaterialId, NodeId, ParameterId};
 use crate::parts::Parts;
 use crate::value::{Evaluation, Value, slot};
 
@@ -24,6 +24,11 @@ impl Numbers {
         let parameters = work.parameters(overrides);
         if !work.errors.is_empty() {
             return Err(work.errors); // every value below would fail for the same reason
+        }
+        work.check_materials();
+        work.check_lumps();
+        if !work.errors.is_empty() {
+            return Err(work.errors); // and so would the capacities
         }
         let (capacity, initial) = (work.capacities(), work.initials());
         let conductance = work.conductances();
@@ -131,6 +136,37 @@ impl Work<'_> {
             } else {
                 let range = if field == Field::Temperature { Range::Temperature } else { Range::Finite };
                 self.constant(item, field, value, range);
+            }
+        }
+    }
+
+    fn check_materials(&mut self) {
+        for (i, material) in self.parts.materials.iter().enumerate() {
+            let item = Item::Material(MaterialId::from_len(i));
+            let properties = [
+                (Field::Density, &material.density),
+                (Field::SpecificHeat, &material.cp),
+                (Field::Conductivity, &material.k),
+            ];
+            for (field, value) in properties {
+                if let Some(value) = value {
+                    self.constant(item, field, value, Range::Positive);
+                }
+            }
+        }
+    }
+
+    /// A product of two negative numbers would pass for a capacity.
+    fn check_lumps(&mut self) {
+        let parts = self.parts;
+        let nodes = parts.nodes.iter().enumerate();
+        let nodes = nodes.map(|(i, node)| (Item::Node(NodeId::from_len(i)), &node.lump));
+        let capacitors = parts.capacitors.iter().enumerate();
+        let capacitors = capacitors.map(|(i, part)| (Item::Capacitor(CapacitorId::from_len(i)), &part.lump));
+        for (item, lump) in nodes.chain(capacitors) {
+            if let Some(lump) = lump {
+                let (field, value) = lump.size.field();
+                self.constant(item, field, value, Range::Positive);
             }
         }
     }

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use crate::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
 use crate::id::{BoundaryId, Field, Item, ParameterId, SourceId};
 use crate::limit::Limit;
+use crate::material::Material;
 use crate::value::Value;
 
 /// Everything that does not change when a parameter does.
@@ -18,6 +19,7 @@ pub(crate) struct Parts {
     pub(crate) conductors: Vec<Conductor>,
     pub(crate) sources: Vec<Source>,
     pub(crate) limits: Vec<Limit>,
+    pub(crate) materials: Vec<Material>,
     /// Nodes, boundaries and elements share one name space.
     pub(crate) names: HashMap<String, Item>,
     pub(crate) parameter_names: HashMap<String, ParameterId>,
@@ -33,6 +35,7 @@ impl Parts {
             Item::Conductor(id) => &self.conductors[id.index()].name,
             Item::Source(id) => &self.sources[id.index()].name,
             Item::Limit(id) => &self.limits[id.index()].name,
+            Item::Material(id) => &self.materials[id.index()].name,
         }
     }
 

@@ -12,7 +12,7 @@ macro_rules! typed {
 
         impl From<$name> for Input {
             fn from(value: $name) -> Self {
-                Self { value: Value::Constant(value.0), ty: $ty, deviation: None }
+                Self { value: Value::Constant(value.0), ty: $ty, deviation: None, lump: None }
             }
         }
     )*};

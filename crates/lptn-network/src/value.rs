@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use lptn_units::{EvalError, Program, Quantity, Type};
 
+use crate::material::Lump;
+
 /// Slots that every expression of a network shares; parameters follow at [`slot::PARAMETERS`], then, for
 /// expressions of results, the temperatures of the nodes and of the boundaries.
 pub mod slot {
@@ -23,6 +25,8 @@ pub enum Value {
     Constant(f64),
     /// An expression over the slots of [`slot`].
     Expression(Arc<Program>),
+    /// A product of values, such as a mass and a specific heat.
+    Product(Arc<[Value]>),
 }
 
 impl Value {
@@ -34,6 +38,7 @@ impl Value {
         match self {
             Self::Constant(value) => Ok(*value),
             Self::Expression(program) => program.eval(&scope.slots, &mut scope.stack),
+            Self::Product(factors) => factors.iter().try_fold(1.0, |product, f| Ok(product * f.at(scope)?)),
         }
     }
 
@@ -44,14 +49,21 @@ impl Value {
             Self::Expression(program) => {
                 program.slots().iter().any(|&s| s == slot::TIME || s == slot::SEGMENT)
             }
+            Self::Product(factors) => factors.iter().any(Self::depends_on_time),
         }
     }
 
-    /// The slots an expression reads; none for a constant.
+    /// The slots an expression reads, sorted, each once; none for a constant.
     pub fn slots(&self) -> Vec<u32> {
         match self {
             Self::Constant(_) => Vec::new(),
             Self::Expression(program) => program.slots(),
+            Self::Product(factors) => {
+                let mut slots: Vec<u32> = factors.iter().flat_map(Self::slots).collect();
+                slots.sort_unstable();
+                slots.dedup();
+                slots
+            }
         }
     }
 }
@@ -62,6 +74,7 @@ pub struct Input {
     pub(crate) value: Value,
     pub(crate) ty: Type,
     pub(crate) deviation: Option<f64>,
+    pub(crate) lump: Option<Lump>,
 }
 
 impl Input {
@@ -73,14 +86,19 @@ impl Input {
 
 impl From<Quantity> for Input {
     fn from(quantity: Quantity) -> Self {
-        Self { value: Value::Constant(quantity.value), ty: quantity.ty, deviation: quantity.deviation }
+        Self {
+            value: Value::Constant(quantity.value),
+            ty: quantity.ty,
+            deviation: quantity.deviation,
+            lump: None,
+        }
     }
 }
 
 impl From<Program> for Input {
     fn from(program: Program) -> Self {
         let ty = program.ty();
-        Self { value: Value::Expression(Arc::new(program)), ty, deviation: None }
+        Self { value: Value::Expression(Arc::new(program)), ty, deviation: None, lump: None }
     }
 }
 

@@ -15,6 +15,16 @@ pub fn write_csv(table: &Table, out: impl io::Write) -> io::Result<()> {
     write(table, &mut csv::Writer::from_writer(out)).map_err(io_error)
 }
 
+/// Writes rows of texts, the heading first; all of one length.
+///
+/// # Errors
+/// What the writer reports.
+pub fn write_rows(rows: &[Vec<String>], out: impl io::Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    rows.iter().try_for_each(|row| writer.write_record(row)).map_err(io_error)?;
+    writer.flush()
+}
+
 fn write(table: &Table, writer: &mut csv::Writer<impl io::Write>) -> csv::Result<()> {
     let labels = table.labels().iter().map(|label| label.name.clone());
     writer.write_record(labels.chain(table.columns().iter().map(lptn_solve::Column::header)))?;

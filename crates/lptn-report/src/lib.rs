@@ -11,7 +11,7 @@ mod layout;
 mod number;
 mod sparkline;
 
-pub use csv::write_csv;
+pub use csv::{write_csv, write_rows};
 pub use heat::{Flow, balance};
 pub use json::JsonWriter;
 pub use layout::{Align, Column, TextTable, WIDTH, labelled, plain};

@@ -6,7 +6,6 @@ use lptn_units::{Dimension, Type};
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner};
 use crate::raw::RawEntry;
-use crate::value::{Place, Wanted};
 use crate::vocabulary::CAPACITOR;
 
 impl<'a> Elaboration<'a> {
@@ -22,19 +21,16 @@ impl<'a> Elaboration<'a> {
         let owner = Owner::element(CAPACITOR.name, &entry.key);
         let fields = Fields::of(&CAPACITOR, owner, entry, &mut self.problems)?;
         let node = self.node_end(&fields, "node");
-        let raw = fields.require("C", &mut self.problems);
-        let ty = Type::of(Dimension::CAPACITY);
-        let given = raw
-            .and_then(|raw| self.given(Place { owner: &fields.owner, key: "C", raw }, Wanted::constant(ty)));
+        let capacity = self.capacity(&fields).unwrap_or_else(|| {
+            fields.require("C", &mut self.problems);
+            stand_in(Type::of(Dimension::CAPACITY))
+        });
         let (node, at) = node?;
-        let capacity = given.map_or_else(|| stand_in(ty), |given| given.input());
         let id = self.builder.capacitor(&entry.key, node, capacity);
         let item = Item::Capacitor(id);
         self.map.insert(item, Field::Name, entry.key_span.clone());
         self.map.part_of(node, at.span.clone());
-        if let Some(raw) = raw {
-            self.map.value(item, Field::Capacity, raw);
-        }
+        self.map_capacity(item, &fields);
         Some(())
     }
 }

@@ -6,9 +6,11 @@ mod conductor;
 mod default;
 mod end;
 mod limit;
+mod material;
 mod node;
 mod source;
 mod top;
 
 pub(crate) use default::Default;
-pub(crate) use top::empty;
+pub(crate) use material::Known;
+pub(crate) use top::{check_head, empty};

@@ -1,7 +1,7 @@
 //! `[node]`.
 
 use lptn_network::{End, Field, Input, Item};
-use lptn_units::{Dimension, Type};
+use lptn_units::Type;
 
 use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
@@ -22,7 +22,7 @@ impl<'a> Elaboration<'a> {
         let owner = Owner::element(NODE.name, &entry.key);
         let fields = Fields::of(&NODE, owner, entry, &mut self.problems);
         let field = |key| fields.as_ref().and_then(|fields| fields.get(key));
-        let (capacity_at, initial_at) = (field("C"), field("T0"));
+        let initial_at = field("T0");
         let massless = self.massless(fields.as_ref());
         let capacity = fields.as_ref().and_then(|fields| self.capacity(fields));
         let own = fields.as_ref().and_then(|fields| self.initial(fields));
@@ -31,8 +31,8 @@ impl<'a> Elaboration<'a> {
         let id = self.builder.add_node(&entry.key, capacity, initial, massless);
         let item = Item::Node(id);
         self.map.insert(item, Field::Name, entry.key_span.clone());
-        if let Some(raw) = capacity_at {
-            self.map.value(item, Field::Capacity, raw);
+        if let Some(fields) = &fields {
+            self.map_capacity(item, fields);
         }
         if let Some(raw) = initial_at {
             self.map.value(item, Field::Initial, raw);
@@ -53,13 +53,6 @@ impl<'a> Elaboration<'a> {
         let words = fields.owner.field("massless");
         self.report(wrong_shape(&words, raw, "`true` or `false`", &sample("massless")));
         false
-    }
-
-    fn capacity(&mut self, fields: &Fields<'_>) -> Option<Input> {
-        let place = Place { owner: &fields.owner, key: "C", raw: fields.get("C")? };
-        let ty = Type::of(Dimension::CAPACITY);
-        let given = self.given(place, Wanted::constant(ty));
-        Some(given.map_or_else(|| stand_in(ty), |given| given.input()))
     }
 
     fn initial(&mut self, fields: &Fields<'_>) -> Option<Input> {

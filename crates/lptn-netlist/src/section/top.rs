@@ -25,6 +25,8 @@ impl Elaboration<'_> {
                 let problem = check_section(entry);
                 self.doubts.sections |= problem.is_some();
                 self.problems.extend(problem);
+            } else if entry.key == "include" {
+                // what it names is in already, or the text is broken elsewhere
             } else if TOP_KEYS.contains(&entry.key.as_str()) {
                 self.words(entry);
             } else {
@@ -45,6 +47,15 @@ impl Elaboration<'_> {
                 self.report(wrong_shape(&format!("`{}`", entry.key), &entry.value, "a string", &sample));
             }
         }
+    }
+}
+
+/// What is wrong with the `format` of an included file, which begins at `start`.
+pub(crate) fn check_head(entries: &[RawEntry], start: Span) -> Option<Diagnostic> {
+    match entries.iter().find(|entry| entry.key == "format") {
+        Some(entry) => check_format(entry),
+        None if entries.is_empty() => Some(missing_format(entries, None).at(start, "belongs here")),
+        None => Some(missing_format(entries, misplaced_format(entries))),
     }
 }
 
@@ -109,9 +120,8 @@ fn check_section(entry: &RawEntry) -> Option<Diagnostic> {
 fn unknown(entry: &RawEntry) -> Diagnostic {
     let (name, place) = (entry.key.as_str(), entry.key_span.clone());
     let is_table = matches!(entry.value.kind, RawKind::Table(_) | RawKind::Array(_));
-    if SECTIONS_LATER.contains(&name) || name == "include" {
-        let written = if name == "include" { name.to_owned() } else { format!("[{name}]") };
-        return Diagnostic::error("netlist::not_supported_yet", format!("`{written}` is not supported yet"))
+    if SECTIONS_LATER.contains(&name) {
+        return Diagnostic::error("netlist::not_supported_yet", format!("`[{name}]` is not supported yet"))
             .at(place, "")
             .help(format!("the sections so far are {}", list(&SECTIONS)));
     }

@@ -39,6 +39,8 @@ pub struct Candidate {
     pub shares: Vec<(String, Option<f64>)>,
     /// Sum of all heat capacities in J/K.
     pub capacity: f64,
+    /// Mass of all nodes in kg; `None` where that of a node with capacity is not known.
+    pub mass: Option<f64>,
 }
 
 /// Why a candidate has no results.
@@ -132,6 +134,7 @@ impl Candidate {
             limits: limits::in_steady_state(network, &margins),
             shares: shares(network, &steady.boundary_heat),
             capacity: capacity(network),
+            mass: mass(network),
         })
     }
 
@@ -157,6 +160,7 @@ impl Candidate {
             limits: limits::over_time(network, solution.limits()),
             shares: shares(network, &heat),
             capacity: capacity(network),
+            mass: mass(network),
         })
     }
 }
@@ -201,6 +205,13 @@ fn hottest(temperatures: &[f64]) -> usize {
 
 fn capacity(network: &Network) -> f64 {
     network.node_ids().map(|id| network.capacity(id)).sum()
+}
+
+/// A part whose material is not known makes the whole unknown: a sum without it would look like a light design.
+fn mass(network: &Network) -> Option<f64> {
+    let nodes = network.node_ids().filter(|id| network.capacity(*id) > 0.0);
+    let masses: Vec<Option<f64>> = nodes.map(|id| network.mass(id)).collect();
+    if masses.is_empty() { None } else { masses.into_iter().sum() }
 }
 
 /// Heat that each boundary gives at the stop, from the last temperatures of the watched nodes.

@@ -112,14 +112,18 @@ fn general(rows: &[CompareRow], unit: &Unit) -> Vec<Column> {
     let of = |name: &str, unit: &str, value: &dyn Fn(&Candidate) -> Option<f64>| {
         column(rows, name, unit, &|row| row.candidate().and_then(value).unwrap_or(f64::NAN))
     };
-    vec![
+    let mut columns = vec![
         of("worst_margin", "K", &|c| c.worst().map(|limit| limit.margin)),
         of("peak", &unit.text, &|c| Some(unit.from_si(c.peak.temperature))),
         of("peak_at", "s", &|c| c.peak.at),
         of("steady", &unit.text, &|c| c.steady.map(|kelvin| unit.from_si(kelvin))),
         of("time_to_95", "s", &|c| c.time_to_95),
         of("capacity", "J/K", &|c| Some(c.capacity)),
-    ]
+    ];
+    if rows.iter().filter_map(CompareRow::candidate).any(|candidate| candidate.mass.is_some()) {
+        columns.push(of("mass", "kg", &|c| c.mass));
+    }
+    columns
 }
 
 /// The margin of a limit and when it breaks. Limits of one name but different quantities share the unit of the first:

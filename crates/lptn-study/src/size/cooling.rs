@@ -18,7 +18,7 @@ pub struct CoolingTask {
 /// A coolant's properties where they are needed: specific heat in J/(kg K), density in kg/m^3.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coolant {
-    /// Specific heat at constant pressure, halfway between entering and leaving.
+    /// Specific heat at constant pressure.
     pub specific_heat: f64,
     /// Density where it enters, as fans and pumps are rated.
     pub density: f64,
@@ -100,10 +100,5 @@ impl CoolingTask {
         }
         let mass = self.power / (coolant.specific_heat * self.rise);
         Some(Flow { mass, volume: mass / coolant.density })
-    }
-
-    /// The temperature in K at which a coolant's specific heat is taken: halfway between entering and leaving.
-    pub fn mean_temperature(&self) -> f64 {
-        self.ambient + 0.5 * self.rise
     }
 }

@@ -1,0 +1,265 @@
+//! `include`: one netlist from several files, each value with the place it stands in.
+
+use std::collections::{HashMap, HashSet};
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::duplicate;
+use crate::fields::wrong_shape;
+use crate::file::{FileId, Files, Span};
+use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
+use crate::section::check_head;
+use crate::syntax::parse_raw;
+
+/// Reads the bytes of an included file.
+pub type Loader<'a> = dyn FnMut(&Path) -> io::Result<Vec<u8>> + 'a;
+
+/// A file that includes another that includes another: more are a mistake.
+const DEEPEST: usize = 8;
+
+const INCLUDE: &str = "include";
+
+/// What belongs to the question that is asked of a network, and not to a part of it.
+const STUDIES: [&str; 4] = ["run", "size", "sweep", "fit"];
+
+/// A netlist with everything it includes.
+#[derive(Debug)]
+pub(crate) struct Merged {
+    pub(crate) raw: RawNetlist,
+    pub(crate) problems: Vec<Diagnostic>,
+    /// Whether a file is missing as a whole, so that nothing can be said of what uses it.
+    pub(crate) incomplete: bool,
+    /// Whether a text could not even be read as TOML.
+    pub(crate) syntax: bool,
+}
+
+/// Puts what a netlist includes in front of its own entries; without `include` nothing is done.
+pub(crate) fn merge(
+    files: &mut Files,
+    raw: RawNetlist,
+    (path, file): (&Path, FileId),
+    loader: Option<&mut Loader<'_>>,
+) -> Merged {
+    let mut merged = Merged { raw, problems: Vec::new(), incomplete: false, syntax: false };
+    if merged.raw.top.get(INCLUDE).is_none() {
+        return merged;
+    }
+    let span = merged.raw.top.span.clone();
+    let own = std::mem::take(&mut merged.raw.top.entries);
+    let mut work = Work { files, loader, stack: vec![(normal(path), file)], done: HashSet::new(), merged };
+    let (entries, includes) = split(own);
+    work.includes(&includes, path);
+    work.append(entries);
+    // the file itself is what has no place of its own
+    work.merged.raw.top.span = span;
+    work.merged
+}
+
+struct Work<'a, 'l> {
+    files: &'a mut Files,
+    loader: Option<&'a mut Loader<'l>>,
+    /// The files that are open: each includes the next.
+    stack: Vec<(PathBuf, FileId)>,
+    /// The files that are in: one that several others include is there once.
+    done: HashSet<PathBuf>,
+    merged: Merged,
+}
+
+impl Work<'_, '_> {
+    fn includes(&mut self, includes: &[RawEntry], from: &Path) {
+        for entry in includes {
+            let RawKind::Array(list) = &entry.value.kind else {
+                self.report(shape(&entry.value));
+                continue;
+            };
+            for value in list {
+                match &value.kind {
+                    RawKind::String { text, .. } => self.include(text, value, from),
+                    _ => self.report(shape(value)),
+                }
+            }
+        }
+    }
+
+    fn include(&mut self, text: &str, value: &RawValue, from: &Path) {
+        let path = from.parent().unwrap_or(Path::new("")).join(text);
+        let key = normal(&path);
+        if let Some(first) = self.stack.iter().position(|(open, _)| *open == key) {
+            let problem = self.cycle(first, value);
+            return self.lost(problem);
+        }
+        if self.done.contains(&key) {
+            return;
+        }
+        if self.stack.len() > DEEPEST {
+            return self.lost(too_deep(value));
+        }
+        let Some(loader) = self.loader.as_mut() else { return self.lost(no_folder(value)) };
+        let bytes = match loader(&path) {
+            Ok(bytes) => bytes,
+            Err(error) => return self.lost(cannot_read(&path, &error, value)),
+        };
+        let Some(text) = std::str::from_utf8(&bytes).ok().filter(|text| !text.contains('\0')) else {
+            return self.lost(not_text(&path, value));
+        };
+        let file = self.files.add(path.display().to_string(), text);
+        self.file(&path, key, file);
+    }
+
+    fn file(&mut self, path: &Path, key: PathBuf, file: FileId) {
+        let (raw, broken) = parse_raw(self.files, file);
+        if !broken.is_empty() {
+            self.merged.syntax = true;
+            self.merged.incomplete = true;
+            self.merged.problems.extend(broken);
+            return;
+        }
+        self.merged.problems.extend(check_head(&raw.top.entries, Span::new(file, 0..0)));
+        let (entries, includes) = split(raw.top.entries);
+        self.stack.push((key.clone(), file));
+        self.includes(&includes, path);
+        self.stack.pop();
+        self.done.insert(key);
+        let (refused, entries): (Vec<_>, Vec<_>) =
+            entries.into_iter().partition(|entry| STUDIES.contains(&entry.key.as_str()));
+        self.merged.problems.extend(refused.iter().map(study));
+        // title and format are the file's own
+        let own = ["format", "title", "description"];
+        self.append(entries.into_iter().filter(|entry| !own.contains(&entry.key.as_str())).collect());
+    }
+
+    /// Adds the entries of a file behind those that are there.
+    fn append(&mut self, entries: Vec<RawEntry>) {
+        for entry in entries {
+            let top = &mut self.merged.raw.top.entries;
+            let Some(there) = top.iter_mut().find(|there| there.key == entry.key) else {
+                top.push(entry);
+                continue;
+            };
+            match (&mut there.value.kind, entry.value.kind) {
+                (RawKind::Table(table), RawKind::Table(more)) => {
+                    self.merged.problems.extend(append_table(table, more));
+                }
+                // what is wrong with it is said of the first
+                (_, kind) => {
+                    let value = RawValue { span: entry.value.span, kind };
+                    top.push(RawEntry { key: entry.key, key_span: entry.key_span, value });
+                }
+            }
+        }
+    }
+
+    fn report(&mut self, problem: Diagnostic) {
+        self.merged.problems.push(problem);
+    }
+
+    /// A file that is not there: what it holds is missing.
+    fn lost(&mut self, problem: Diagnostic) {
+        self.merged.incomplete = true;
+        self.report(problem);
+    }
+
+    fn cycle(&self, first: usize, value: &RawValue) -> Diagnostic {
+        let files = self.stack.get(first..).unwrap_or_default();
+        let mut chain: Vec<&str> = files.iter().map(|(_, file)| self.files.name(*file)).collect();
+        chain.extend(chain.first().copied());
+        let message = match chain.as_slice() {
+            [one, _] => format!("{one} includes itself"),
+            _ => format!("files include each other: {}", chain.join(" -> ")),
+        };
+        Diagnostic::error("netlist::include_cycle", message)
+            .at(value.span.clone(), "")
+            .help("move what both need into a file of its own")
+    }
+}
+
+/// The entries of a file, and its `include`.
+fn split(entries: Vec<RawEntry>) -> (Vec<RawEntry>, Vec<RawEntry>) {
+    entries.into_iter().partition(|entry| entry.key != INCLUDE)
+}
+
+/// Adds entries of the same section of another file; a key that stands in both is kept once.
+fn append_table(table: &mut RawTable, more: RawTable) -> Vec<Diagnostic> {
+    let first: HashMap<String, Span> =
+        table.entries.iter().map(|entry| (entry.key.clone(), entry.key_span.clone())).collect();
+    let mut problems = Vec::new();
+    for entry in more.entries {
+        match first.get(&entry.key) {
+            None => table.entries.push(entry),
+            Some(place) => {
+                let message = format!("`{}` is given in two files", entry.key);
+                problems.push(
+                    Diagnostic::error(duplicate::CODE, message)
+                        .at(entry.key_span, "given again")
+                        .also(place.clone(), "first given here")
+                        .help("remove one of the two, or give one another name"),
+                );
+            }
+        }
+    }
+    problems
+}
+
+/// The path without `.` and `name/..`, so that one file has one name.
+fn normal(path: &Path) -> PathBuf {
+    let mut normal = PathBuf::new();
+    for component in path.components() {
+        match component {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(normal.components().next_back(), Some(Component::Normal(_))) => {
+                normal.pop();
+            }
+            other => normal.push(other),
+        }
+    }
+    normal
+}
+
+fn shape(value: &RawValue) -> Diagnostic {
+    wrong_shape("`include`", value, "a list of file names", "include = [\"materials.toml\"]")
+}
+
+fn study(entry: &RawEntry) -> Diagnostic {
+    let message = format!("`[{}]` cannot stand in a file that is included", entry.key);
+    Diagnostic::error("netlist::study_in_include", message)
+        .at(entry.key_span.clone(), "")
+        .help("move it to the file that is run: what is asked of a network is no part of it")
+}
+
+fn too_deep(value: &RawValue) -> Diagnostic {
+    let message = format!("files are included more than {DEEPEST} deep");
+    Diagnostic::error("netlist::include_depth", message)
+        .at(value.span.clone(), "")
+        .help("include the innermost file directly")
+}
+
+fn no_folder(value: &RawValue) -> Diagnostic {
+    let message = "this netlist is not read from a file, so it cannot include one";
+    Diagnostic::error("netlist::include_without_folder", message)
+        .at(value.span.clone(), "")
+        .help("save it, and give the name of the file")
+}
+
+fn cannot_read(path: &Path, error: &io::Error, value: &RawValue) -> Diagnostic {
+    let reason = match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
+        _ => error.to_string(),
+    };
+    let message = format!("cannot include {}: {reason}", path.display());
+    Diagnostic::error("netlist::include_not_found", message)
+        .at(value.span.clone(), "")
+        .help("paths are relative to the file that includes")
+}
+
+fn not_text(path: &Path, value: &RawValue) -> Diagnostic {
+    Diagnostic::error("netlist::not_text", format!("{} is not a text file in UTF-8", path.display()))
+        .at(value.span.clone(), "")
+        .help("a netlist is a TOML file in UTF-8; choose UTF-8 where your editor saves it")
+}
+
+/// Whether any of the problems keeps the netlist from being used.
+pub(crate) fn any_error(problems: &[Diagnostic]) -> bool {
+    problems.iter().any(|problem| problem.severity == Severity::Error)
+}
