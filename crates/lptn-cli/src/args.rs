@@ -32,6 +32,18 @@ Examples:
   lptn verify motor.toml
   lptn verify motor.toml --tolerance 1e-7K";
 
+const COMPARE_EXAMPLES: &str = "\
+Examples:
+  lptn compare bare.toml finned.toml fan.toml
+  lptn compare candidates/ --sort peak
+  lptn compare candidates/ --set P_loss=80W --format csv > candidates.csv";
+
+const SIZE_EXAMPLES: &str = "\
+Examples:
+  lptn size --power \"223 W\" --limit \"110 degC\" --ambient \"35 degC\"
+  lptn size fan.toml
+  lptn size fan.toml fan --write";
+
 const CHECK_EXAMPLES: &str = "\
 Examples:
   lptn check motor.toml
@@ -101,6 +113,12 @@ pub(crate) enum Verb {
     /// Compare runs of a network with its exact solution
     #[command(before_help = VERIFY_EXAMPLES, help_template = TEMPLATE)]
     Verify(VerifyArgs),
+    /// Put candidate designs side by side: peaks, limits, margins, heat
+    #[command(before_help = COMPARE_EXAMPLES, help_template = TEMPLATE)]
+    Compare(CompareArgs),
+    /// Find the cooling, or the value of a parameter, that keeps a limit
+    #[command(before_help = SIZE_EXAMPLES, help_template = TEMPLATE)]
+    Size(SizeArgs),
     /// Look for mistakes in a netlist without running it
     #[command(before_help = CHECK_EXAMPLES, help_template = TEMPLATE)]
     Check(CheckArgs),
@@ -192,6 +210,31 @@ pub(crate) struct ModesArgs {
 }
 
 #[derive(Debug, Arguments)]
+pub(crate) struct CompareArgs {
+    /// Netlists, or folders of netlists
+    #[arg(value_name = "FILE", required = true)]
+    pub(crate) files: Vec<PathBuf>,
+    /// Give a parameter a value in every candidate that has it; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// Print a table, csv or json
+    #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    pub(crate) format: Format,
+    /// Sort by margin, peak, steady, time, capacity, or keep the order as given
+    #[arg(long, value_name = "KEY", default_value = "margin", hide_possible_values = true)]
+    pub(crate) sort: Sort,
+    /// Show temperatures in degC, K, degF or degR
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) temperature_unit: Option<String>,
+    /// Use so many threads, not all of the machine; the result is the same
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+    /// Accepted for scripts that pass it to every verb: `compare` writes none.
+    #[arg(long, hide = true)]
+    pub(crate) no_files: bool,
+}
+
+#[derive(Debug, Arguments)]
 pub(crate) struct VerifyArgs {
     #[command(flatten)]
     pub(crate) source: Source,
@@ -204,6 +247,60 @@ pub(crate) struct VerifyArgs {
     /// Accepted for scripts that pass it to every verb: `verify` writes none.
     #[arg(long, hide = true)]
     pub(crate) no_files: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Sort {
+    Margin,
+    Peak,
+    Steady,
+    Time,
+    Capacity,
+    Given,
+}
+
+#[derive(Debug, Arguments)]
+pub(crate) struct SizeArgs {
+    /// A netlist with a [size.NAME]; without it the options of a cooling are needed
+    #[arg(value_name = "FILE")]
+    pub(crate) file: Option<PathBuf>,
+    /// Which [size.NAME], where there are several
+    #[arg(value_name = "NAME")]
+    pub(crate) name: Option<String>,
+    /// Give a parameter a value; may be repeated
+    #[arg(long, value_name = "NAME=VALUE", requires = "file")]
+    pub(crate) set: Vec<String>,
+    /// Write the value into the netlist; comments and order stay
+    #[arg(long, requires = "file", conflicts_with = "set")]
+    pub(crate) write: bool,
+    /// Print a table, csv or json
+    #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    pub(crate) format: Format,
+    #[command(flatten)]
+    pub(crate) cooling: CoolingArgs,
+    /// Accepted for scripts that pass it to every verb.
+    #[arg(long, hide = true)]
+    pub(crate) no_files: bool,
+}
+
+/// A cooling without a netlist.
+#[derive(Debug, Arguments)]
+#[command(next_help_heading = "Cooling without a netlist")]
+pub(crate) struct CoolingArgs {
+    /// Heat to be taken away, such as "223 W"
+    #[arg(long, value_name = "W", required_unless_present = "file", conflicts_with = "file")]
+    pub(crate) power: Option<String>,
+    /// Temperature that must not be exceeded, such as "110 degC"
+    #[arg(long, value_name = "T", required_unless_present = "file", conflicts_with = "file")]
+    #[arg(allow_hyphen_values = true)]
+    pub(crate) limit: Option<String>,
+    /// Temperature of the surroundings, such as "35 degC"
+    #[arg(long, value_name = "T", required_unless_present = "file", conflicts_with = "file")]
+    #[arg(allow_hyphen_values = true)]
+    pub(crate) ambient: Option<String>,
+    /// How much air or oil may warm on its way [10 K]
+    #[arg(long, value_name = "K", conflicts_with = "file")]
+    pub(crate) rise: Option<String>,
 }
 
 #[derive(Debug, Arguments)]

@@ -7,6 +7,8 @@
 mod args;
 mod check;
 mod command;
+mod compare;
+mod compare_text;
 mod completions;
 mod console;
 mod conversions;
@@ -25,6 +27,10 @@ mod outcome;
 mod progress;
 mod run;
 mod select;
+mod size;
+mod size_cooling;
+mod size_text;
+mod size_write;
 mod steady;
 mod summary;
 mod summary_text;
@@ -64,6 +70,8 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
         Some(Verb::Steady(args)) => steady::steady(args, console),
         Some(Verb::Modes(args)) => modes::modes(args, console),
         Some(Verb::Verify(args)) => verify::verify(args, console),
+        Some(Verb::Compare(args)) => compare::compare(args, console),
+        Some(Verb::Size(args)) => size::size(args, console),
         Some(Verb::New(args)) => new::new(args, console),
         Some(Verb::Units(args)) => units::units(args, console),
         Some(Verb::Materials(args)) => materials::materials(args, console),

@@ -12,6 +12,7 @@ use crate::names::Names;
 use crate::raw::{RawEntry, RawNetlist};
 use crate::run::RunPlan;
 use crate::section;
+use crate::size::SizeStudy;
 use crate::source_map::SourceMap;
 
 pub(crate) const MISSING_FORMAT: &str = "netlist::missing_format";
@@ -20,6 +21,7 @@ pub(crate) const MISSING_FORMAT: &str = "netlist::missing_format";
 pub(crate) struct Elaborated {
     pub(crate) network: Network,
     pub(crate) run: Option<RunPlan>,
+    pub(crate) sizes: Vec<SizeStudy>,
     pub(crate) map: SourceMap,
     pub(crate) temperature_unit: Unit,
 }
@@ -96,7 +98,8 @@ pub(crate) fn elaborate(raw: &RawNetlist) -> (Option<Elaborated>, Vec<Diagnostic
     work.sources();
     work.limits();
     let run = work.run();
-    work.finish(run, default)
+    let sizes = work.sizes();
+    work.finish((run, sizes), default)
 }
 
 impl<'a> Elaboration<'a> {
@@ -111,7 +114,7 @@ impl<'a> Elaboration<'a> {
 
     fn finish(
         mut self,
-        run: Option<RunPlan>,
+        (run, sizes): (Option<RunPlan>, Vec<SizeStudy>),
         default: section::Default<'_>,
     ) -> (Option<Elaborated>, Vec<Diagnostic>) {
         let materials = self.unused_materials();
@@ -136,7 +139,7 @@ impl<'a> Elaboration<'a> {
         self.problems.extend(materials);
         self.problems.extend(self.names.unused().map(|(name, span)| unused(name, span)));
         let temperature_unit = default.temperature_unit;
-        let done = network.map(|network| Elaborated { network, run, map: self.map, temperature_unit });
+        let done = network.map(|network| Elaborated { network, run, sizes, map: self.map, temperature_unit });
         (done, self.problems)
     }
 }

@@ -16,6 +16,7 @@ use crate::limits::{read_bytes, shorten};
 use crate::raw::RawNetlist;
 use crate::run::{RunPlan, RunSettings};
 use crate::section;
+use crate::size::SizeStudy;
 use crate::source_map::SourceMap;
 use crate::syntax::parse_raw;
 use crate::syntax_error::NOT_CLOSED;
@@ -27,6 +28,8 @@ pub struct Netlist {
     pub network: Network,
     /// What to simulate; `None` without `[run]`.
     pub run: Option<RunSettings>,
+    /// What to size, in file order.
+    pub sizes: Vec<SizeStudy>,
     /// Where each part of the network stands.
     pub source_map: SourceMap,
     /// The texts that places refer to.
@@ -38,13 +41,18 @@ pub struct Netlist {
     pub(crate) plan: Option<RunPlan>,
     /// Everything that was set so far.
     pub(crate) assigned: Parameters,
-    inputs: Vec<FileId>,
+    pub(crate) inputs: Vec<FileId>,
 }
 
 impl Netlist {
     /// The files it was read from, its own first: name and text.
     pub fn inputs(&self) -> impl Iterator<Item = (&str, &str)> {
         self.inputs.iter().map(|&id| (self.files.name(id), self.files.text(id)))
+    }
+
+    /// The parameters as they were set, for [`Network::with`] with further ones.
+    pub fn overrides(&self) -> Parameters {
+        self.assigned.clone()
     }
 }
 
@@ -210,22 +218,36 @@ fn included(
 }
 
 fn finish(files: Files, done: Elaborated, mut diagnostics: Vec<Diagnostic>) -> Result<Netlist, Rejected> {
-    let Elaborated { network, run: plan, map, temperature_unit } = done;
-    let run = match plan.as_ref().map(|plan| plan.settings(&network)).transpose() {
-        Ok(run) => run,
-        Err(problems) => {
-            diagnostics.extend(problems);
-            diagnostics.retain(|d| d.severity == Severity::Error);
-            arrange(&mut diagnostics);
-            shorten(&mut diagnostics);
-            return Err(Rejected { files, diagnostics, syntax: false });
-        }
-    };
+    let Elaborated { network, run: plan, sizes, map, temperature_unit } = done;
+    let run = plan.as_ref().map(|plan| plan.settings(&network)).transpose();
+    let mut problems: Vec<Diagnostic> = sizes.iter().filter_map(|size| size.check(&network)).collect();
+    let run = run.unwrap_or_else(|more| {
+        problems.extend(more);
+        None
+    });
+    if !problems.is_empty() {
+        diagnostics.extend(problems);
+        diagnostics.retain(|d| d.severity == Severity::Error);
+        arrange(&mut diagnostics);
+        shorten(&mut diagnostics);
+        return Err(Rejected { files, diagnostics, syntax: false });
+    }
     shorten(&mut diagnostics);
     let assigned = network.overrides();
     let inputs = files.ids().collect();
     let warnings = diagnostics;
-    Ok(Netlist { network, run, source_map: map, files, warnings, temperature_unit, plan, assigned, inputs })
+    Ok(Netlist {
+        network,
+        run,
+        sizes,
+        source_map: map,
+        files,
+        warnings,
+        temperature_unit,
+        plan,
+        assigned,
+        inputs,
+    })
 }
 
 /// Problems that are there whatever the broken lines should have said.

@@ -140,6 +140,11 @@ impl SourceMap {
         }
     }
 
+    /// The byte at which the content of a field's string begins, where no escape changes it.
+    pub(crate) fn content(&self, item: Item, field: Field) -> Option<usize> {
+        self.contents.get(&(item, field)).copied()
+    }
+
     pub(crate) fn set_select(&mut self, spans: Vec<Span>) {
         self.select = spans;
     }

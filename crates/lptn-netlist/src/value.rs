@@ -23,6 +23,14 @@ pub(crate) enum Given {
 }
 
 impl Given {
+    /// Its type.
+    pub(crate) fn ty(&self) -> Type {
+        match self {
+            Self::Quantity(quantity) => quantity.ty,
+            Self::Expression(program) => program.ty(),
+        }
+    }
+
     /// For the builder of a network.
     pub(crate) fn input(self) -> Input {
         match self {

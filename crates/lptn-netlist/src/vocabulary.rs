@@ -125,6 +125,28 @@ pub(crate) const RUN: Section = Section {
     ],
 };
 
+pub(crate) const SIZE: Section = Section {
+    name: "size",
+    keys: &["minimise", "maximise", "vary", "require", "over"],
+    later: &["catalogue"],
+    example: "{ minimise = \"p\", vary = { p = { from = \"..\", to = \"..\" } }, require = [\"a.T <= 80 [degC]\"] }",
+    elsewhere: &[
+        ("minimize", "did you mean `minimise`?"),
+        ("maximize", "did you mean `maximise`?"),
+        ("from", "write `vary = { p = { from = \"..\", to = \"..\" } }`"),
+        ("to", "write `vary = { p = { from = \"..\", to = \"..\" } }`"),
+    ],
+};
+
+/// `p = { from = .., to = .. }` in `vary` of a size.
+pub(crate) const VARY: Section = Section {
+    name: "vary",
+    keys: &["from", "to"],
+    later: &[],
+    example: "{ from = \"1 W/K\", to = \"10 W/K\" }",
+    elsewhere: &[],
+};
+
 /// `output = { .. }` of `[run]`.
 pub(crate) const OUTPUT: Section = Section {
     name: "output",
@@ -140,7 +162,7 @@ pub(crate) const TOP_KEYS: [&str; 4] = ["format", "title", "description", "inclu
 pub(crate) const PARAM: &str = "param";
 
 /// Every section there is.
-pub(crate) const SECTIONS: [&str; 11] = [
+pub(crate) const SECTIONS: [&str; 12] = [
     "param",
     "default",
     "material",
@@ -152,10 +174,11 @@ pub(crate) const SECTIONS: [&str; 11] = [
     "source",
     "limit",
     "run",
+    "size",
 ];
 
 /// What the format has for later.
-pub(crate) const SECTIONS_LATER: [&str; 15] = [
+pub(crate) const SECTIONS_LATER: [&str; 14] = [
     "table",
     "signal",
     "conduction",
@@ -168,7 +191,6 @@ pub(crate) const SECTIONS_LATER: [&str; 15] = [
     "template",
     "use",
     "import",
-    "size",
     "sweep",
     "fit",
 ];

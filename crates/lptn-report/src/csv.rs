@@ -6,8 +6,8 @@ use lptn_solve::Table;
 
 use crate::number::Shortest;
 
-/// Writes a table as CSV: one header, `time [s]`, `steel.T [degC]` and so on, then one line a row. Every number
-/// reads back as the same `f64`.
+/// Writes a table as CSV: one header, `time [s]`, `steel.T [degC]` and so on, columns of words without a unit first, then
+/// one line a row. Every number reads back as the same `f64`.
 ///
 /// # Errors
 /// What `out` reports.
@@ -26,9 +26,13 @@ pub fn write_rows(rows: &[Vec<String>], out: impl io::Write) -> io::Result<()> {
 }
 
 fn write(table: &Table, writer: &mut csv::Writer<impl io::Write>) -> csv::Result<()> {
-    writer.write_record(table.columns().iter().map(lptn_solve::Column::header))?;
+    let labels = table.labels().iter().map(|label| label.name.clone());
+    writer.write_record(labels.chain(table.columns().iter().map(lptn_solve::Column::header)))?;
     let mut number = Shortest::new();
     for row in 0..table.rows() {
+        for label in table.labels() {
+            writer.write_field(&label.cells[row])?;
+        }
         for value in table.row(row) {
             writer.write_field(number.text(value))?;
         }

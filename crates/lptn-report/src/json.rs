@@ -31,23 +31,32 @@ impl<W: Write> JsonWriter<W> {
         self.out.write_all(format!("{value:#}").replace('\n', "\n  ").as_bytes())
     }
 
-    /// Writes a table as `columns`, each with name and unit, and `rows` of plain numbers.
+    /// Writes a table as `columns`, each with name and unit, and `rows` of plain numbers; columns of words come first and
+    /// have `null` for a unit.
     ///
     /// # Errors
     /// What the stream reports.
     pub fn table(&mut self, table: &Table) -> io::Result<()> {
         self.key("columns")?;
-        let columns = table.columns().iter();
-        self.lines(columns, |out, column| {
-            let (name, unit) = (Value::from(column.name.as_str()), Value::from(column.unit.as_str()));
+        let labels = table.labels().iter().map(|label| (label.name.as_str(), None));
+        let numbers = table.columns().iter().map(|column| (column.name.as_str(), Some(column.unit.as_str())));
+        self.lines(labels.chain(numbers), |out, (name, unit)| {
+            let (name, unit) = (Value::from(name), Value::from(unit));
             write!(out, "{{ \"name\": {name}, \"unit\": {unit} }}")
         })?;
         self.key("rows")?;
         let mut number = Shortest::new();
         self.lines(0..table.rows(), |out, row| {
             out.write_all(b"[")?;
-            for (i, value) in table.row(row).enumerate() {
-                out.write_all(if i > 0 { b", " } else { b"" })?;
+            let labels = table.labels().iter().map(|label| Value::from(label.cells[row].as_str()));
+            let mut separator = "";
+            for label in labels {
+                write!(out, "{separator}{label}")?;
+                separator = ", ";
+            }
+            for value in table.row(row) {
+                out.write_all(separator.as_bytes())?;
+                separator = ", ";
                 out.write_all(if value.is_finite() { number.text(value) } else { "null" }.as_bytes())?;
             }
             out.write_all(b"]")

@@ -40,7 +40,7 @@ pub use solution::{End, Solution, Unbounded};
 pub use steady::SteadyState;
 pub use stiffness::Stiffness;
 pub use summary::{NodeSummary, Summary};
-pub use table::{Column, Selection, Table};
+pub use table::{Column, Label, Selection, Table};
 pub use verification::{Comparison, LEAST_TOLERANCE, NoReference, Reference, Verification, allowed_error};
 
 pub use watch::{Seen, Watch};

@@ -75,7 +75,7 @@ impl Modes {
             columns.push(column(format!("{}.shape", node.name), "-", &|m| m.shape[i]));
             columns.push(column(format!("{}.participation", node.name), "-", &|m| m.participation[i]));
         }
-        Table::of_columns(columns)
+        Table::labelled(Vec::new(), columns)
     }
 }
 

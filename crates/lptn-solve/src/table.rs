@@ -25,30 +25,49 @@ impl Column {
     }
 }
 
-/// Columns of equal length with unique names.
+/// A column of words, such as the file that a row belongs to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Label {
+    /// The name.
+    pub name: String,
+    /// One text a row.
+    pub cells: Vec<String>,
+}
+
+/// Columns of equal length with unique names; those of words stand before those of numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
+    labels: Vec<Label>,
     columns: Vec<Column>,
 }
 
 impl Table {
-    /// A table of equally many values a column; names are those of a network and thus unique.
-    pub(crate) fn of_columns(columns: Vec<Column>) -> Self {
-        debug_assert!(columns.windows(2).all(|pair| pair[0].values.len() == pair[1].values.len()));
-        Self { columns }
+    /// A table of columns of words and columns of numbers; all are cut to the length of the shortest.
+    pub fn labelled(mut labels: Vec<Label>, mut columns: Vec<Column>) -> Self {
+        let lengths = labels.iter().map(|l| l.cells.len()).chain(columns.iter().map(|c| c.values.len()));
+        let rows = lengths.min().unwrap_or(0);
+        labels.iter_mut().for_each(|label| label.cells.truncate(rows));
+        columns.iter_mut().for_each(|column| column.values.truncate(rows));
+        Self { labels, columns }
     }
 
-    /// The columns.
+    /// The columns of words.
+    pub fn labels(&self) -> &[Label] {
+        &self.labels
+    }
+
+    /// The columns of numbers.
     pub fn columns(&self) -> &[Column] {
         &self.columns
     }
 
     /// The number of rows.
     pub fn rows(&self) -> usize {
-        self.columns.first().map_or(0, |column| column.values.len())
+        let numbers = self.columns.first().map(|column| column.values.len());
+        numbers.or_else(|| self.labels.first().map(|label| label.cells.len())).unwrap_or(0)
     }
 
-    /// The values of one row.
+    /// The numbers of one row.
     pub fn row(&self, row: usize) -> impl Iterator<Item = f64> + '_ {
         self.columns.iter().map(move |column| column.values[row])
     }
@@ -76,7 +95,7 @@ impl Table {
             }
             row += 1;
         });
-        Self { columns }
+        Self { labels: Vec::new(), columns }
     }
 
     /// The selected columns of a steady state as a table of one row, temperatures in `unit`.
@@ -92,7 +111,7 @@ impl Table {
             }];
             column
         };
-        Self { columns: selection.quantities.iter().map(column).collect() }
+        Self { labels: Vec::new(), columns: selection.quantities.iter().map(column).collect() }
     }
 }
 

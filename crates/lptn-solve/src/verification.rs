@@ -151,7 +151,7 @@ impl Verification {
         for (i, node) in network.nodes().iter().enumerate() {
             columns.push(column(format!("{}.difference", node.name), "K", &|c| c.difference.by_node[i]));
         }
-        Table::of_columns(columns)
+        Table::labelled(Vec::new(), columns)
     }
 }
 

@@ -43,7 +43,7 @@ pub use dual::Dual;
 pub use error::{UnitError, UnitErrorKind};
 pub use expr::{Comparison, Degree, EvalError, Expression, Program, RESERVED, Scope, Symbol, is_function};
 pub use format::number as format_number;
-pub use quantity::{Quantity, parse_quantity};
+pub use quantity::{Quantity, WrittenQuantity, parse_quantity, written_quantity};
 pub use rational::Rational;
 pub use scalar::Scalar;
 pub use suggest::suggest;

@@ -8,7 +8,7 @@ use crate::format::{number, rounded};
 use crate::number::{self, Number};
 use crate::separators;
 use crate::types::Type;
-use crate::unit;
+use crate::unit::{self, Unit};
 use crate::unit_parser::ParsedUnit;
 
 /// A value with its type, in SI units.
@@ -36,6 +36,23 @@ pub struct Quantity {
 /// and, where possible, the string to write.
 pub fn parse_quantity(text: &str, expected: Option<Type>) -> Result<Quantity, UnitError> {
     read(text)?.conclude(expected)
+}
+
+/// A quantity's number and unit as they stand in a text.
+#[derive(Clone, Debug)]
+pub struct WrittenQuantity {
+    /// The bytes of the number, its sign included.
+    pub number: Range<usize>,
+    /// The unit, `1` where none is written.
+    pub unit: Unit,
+}
+
+/// Where the number of a quantity stands and in which unit it is; `None` if the text is no quantity.
+pub fn written_quantity(text: &str) -> Option<WrittenQuantity> {
+    let reading = read(text).ok()?;
+    let written = reading.unit_text();
+    let unit = Unit::parse(if written.is_empty() { "1" } else { written }).ok()?;
+    Some(WrittenQuantity { number: reading.number.span, unit })
 }
 
 /// A quantity as written, before its type is settled.

@@ -1,0 +1,189 @@
+//! `lptn size`
+
+use lptn_netlist::{Diagnostic, Requirement, SizeStudy};
+use lptn_network::ParameterId;
+use lptn_report::{JsonWriter, write_csv};
+use lptn_solve::{SteadyError, Table};
+use lptn_study::{Scalar, SizeError, SizeTask, Sizing, Verdict};
+use lptn_units::{Type, Unit};
+use serde_json::{Map, Value, json};
+
+use crate::args::{Format, SizeArgs, Source};
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::{diagnostics, size_cooling, size_text, size_write};
+
+pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
+    let Some(file) = &args.file else { return size_cooling::cooling(args, console) };
+    let input = Input::load(&Source { file: file.clone(), set: args.set.clone() })?;
+    let study = study(&input, args.name.as_deref())?;
+    let parameter = parameter(&input, study)?;
+    let unit = unit(&input, parameter);
+    if args.write {
+        size_write::possible(&input, parameter)?;
+    }
+    console.warn(&input.netlist.files, &input.netlist.warnings);
+    let sizing = solve(&input, study, parameter).map_err(|error| failed(&input, study, &unit, &error))?;
+    let answer = Answer { input: &input, study, parameter, unit, sizing };
+    match args.format {
+        Format::Table => console.print(&size_text::text(&answer, console)).map(drop)?,
+        Format::Csv => console.write(|out| write_csv(&answer.table(), out))?,
+        Format::Json => console.write(|out| answer.json(out))?,
+    }
+    if !answer.sizing.feasible() {
+        if args.format != Format::Table {
+            console.message(&size_text::verdict(&answer));
+        }
+        return Ok(Exit::No);
+    }
+    if args.write {
+        size_write::write(&answer, file, console)?;
+    }
+    Ok(Exit::Done)
+}
+
+/// The study of this name, or the only one.
+fn study<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a SizeStudy, Failure> {
+    let sizes = &input.netlist.sizes;
+    let known = || sizes.iter().map(|study| study.name.as_str());
+    let file = &input.text.name;
+    let problem = match (name, sizes.as_slice()) {
+        (None, [only]) => return Ok(only),
+        (None, []) => Diagnostic::error("size::no_study", format!("{file} has no [size.NAME]: what is to be sized?"))
+            .help(
+                "add for example:\n\n[size.fan]\nminimise = \"p\"\nvary = { p = { from = \"1 W/K\", to = \"10 W/K\" } }\n\
+                 require = [\"steel.T <= 80 [degC]\"]",
+            ),
+        (None, _) => {
+            let list: Vec<String> = known().map(|name| format!("`{name}`")).collect();
+            Diagnostic::error("size::which_study", format!("{file} has several [size.NAME]"))
+                .help(format!("name one of {}", list.join(", ")))
+        }
+        (Some(name), _) => match sizes.iter().find(|study| study.name == name) {
+            Some(study) => return Ok(study),
+            None => {
+                let problem =
+                    Diagnostic::error("size::no_study", format!("{file} has no [size.{name}]"));
+                match lptn_units::suggest(name, known()) {
+                    Some(near) => problem.help(format!("did you mean `{near}`?")),
+                    None => problem,
+                }
+            }
+        },
+    };
+    Err(Failure::new(Exit::Input, problem))
+}
+
+fn parameter(input: &Input, study: &SizeStudy) -> Result<ParameterId, Failure> {
+    input.netlist.network.parameter(&study.parameter).map_err(|_| {
+        let message = format!("there is no parameter `{}`", study.parameter);
+        let problem = Diagnostic::error("netlist::unknown_parameter", message);
+        Failure::at(Exit::Input, input.netlist.files.clone(), problem.at(study.span.clone(), ""))
+    })
+}
+
+/// The unit in which the file writes the parameter, else the usual one of its type.
+fn unit(input: &Input, parameter: ParameterId) -> Unit {
+    let ty = input.netlist.network.parameters()[parameter.index()].ty;
+    let written = input.netlist.written_number(parameter).map(|written| written.unit);
+    let si = |ty: Type| Unit { text: ty.dimension.si_unit(), scale: 1.0, offset: 0.0, ty };
+    written.or_else(|| Unit::parse(&ty.usual_unit()).ok()).unwrap_or_else(|| si(ty))
+}
+
+fn solve(input: &Input, study: &SizeStudy, parameter: ParameterId) -> Result<Sizing, SizeError> {
+    let network = &input.netlist.network;
+    let range = study.range(network).unwrap_or((f64::NAN, f64::NAN));
+    let task = SizeTask {
+        network,
+        parameters: input.netlist.overrides(),
+        parameter,
+        range,
+        goal: study.goal,
+        requirements: &study.requirements,
+        time: input.netlist.run.as_ref().map_or(0.0, |run| run.start),
+    };
+    lptn_study::size(&task)
+}
+
+fn failed(input: &Input, study: &SizeStudy, unit: &Unit, error: &SizeError) -> Failure {
+    let at = |value: f64| size_text::quantity(&study.parameter, value, unit);
+    let (exit, message) = match error {
+        SizeError::Network { value, errors } => {
+            (Exit::Input, format!("there is no network with {}: {errors}", at(*value)))
+        }
+        SizeError::Steady { value, error } => {
+            let input = matches!(error, SteadyError::NoBoundary { .. } | SteadyError::Input(_));
+            let exit = if input { Exit::Input } else { Exit::Failed };
+            (exit, format!("there is no steady state with {}: {error}", at(*value)))
+        }
+        error => (Exit::Input, error.to_string()),
+    };
+    let problem = Diagnostic::error(error.code(), message).at(study.span.clone(), "");
+    Failure::at(exit, input.netlist.files.clone(), problem)
+}
+
+/// What came of sizing a parameter.
+pub(crate) struct Answer<'a> {
+    pub(crate) input: &'a Input,
+    pub(crate) study: &'a SizeStudy,
+    pub(crate) parameter: ParameterId,
+    /// In which the parameter is shown.
+    pub(crate) unit: Unit,
+    pub(crate) sizing: Sizing,
+}
+
+impl Answer<'_> {
+    /// The requirement that stops the parameter; `None` where the end of the range does.
+    pub(crate) fn binding(&self) -> Option<&Requirement> {
+        let closest = &self.study.requirements[self.sizing.closest];
+        (self.sizing.verdict != Verdict::BestEnd).then_some(closest)
+    }
+
+    fn closest_unit(&self) -> String {
+        self.study.requirements[self.sizing.closest].ty.dimension.si_unit()
+    }
+
+    /// One row: the value in its unit, the margin of every requirement in SI units.
+    fn table(&self) -> Table {
+        let column = |name: &str, unit: &str, value: f64| lptn_solve::Column {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            values: vec![value],
+        };
+        let value = self.unit.from_si(self.sizing.trial.value);
+        let mut columns = vec![
+            column(&self.study.parameter, &self.unit.text, value),
+            column("feasible", "-", if self.sizing.feasible() { 1.0 } else { 0.0 }),
+        ];
+        let requirements = self.study.requirements.iter().zip(&self.sizing.trial.margins);
+        columns.extend(requirements.map(|(r, &margin)| column(&r.text, &r.ty.dimension.si_unit(), margin)));
+        Table::labelled(Vec::new(), columns)
+    }
+
+    fn json(&self, out: impl std::io::Write) -> std::io::Result<()> {
+        let (netlist, sizing) = (&self.input.netlist, &self.sizing);
+        let ty = netlist.network.parameters()[self.parameter.index()].ty;
+        let si = if ty.absolute { "K".to_owned() } else { ty.dimension.si_unit() };
+        let mut values = Map::new();
+        values.insert(self.study.parameter.clone(), Scalar::new(sizing.trial.value, &si).json());
+        let requirement = |(r, &margin): (&Requirement, &f64)| json!({ "requirement": r.text, "margin": Scalar::new(margin, &r.ty.dimension.si_unit()).json() });
+        let requirements: Value =
+            self.study.requirements.iter().zip(&sizing.trial.margins).map(requirement).collect();
+        let scalar = |value: Option<f64>, unit: &str| value.map(|value| Scalar::new(value, unit).json());
+        let mut json = JsonWriter::new(out);
+        json.member("format", &json!(1))?;
+        json.member("network", &json!(self.input.text.stem))?;
+        json.member("warnings", &diagnostics::list(&netlist.files, &netlist.warnings))?;
+        json.member("values", &Value::Object(values))?;
+        json.member("margin", &Scalar::new(sizing.margin(), &self.closest_unit()).json())?;
+        json.member("binding", &json!(self.binding().map(|requirement| &requirement.text)))?;
+        json.member("feasible", &json!(sizing.feasible()))?;
+        json.member("requirements", &requirements)?;
+        json.member("sensitivity", &json!(scalar(sizing.sensitivity, &self.closest_unit())))?;
+        json.member("breaks_again", &json!(scalar(sizing.breaks_again, &si)))?;
+        json.member("first_guess", &json!(scalar(sizing.first_guess, &si)))?;
+        json.finish().map(drop)
+    }
+}

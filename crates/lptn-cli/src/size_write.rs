@@ -1,0 +1,88 @@
+//! `lptn size --write`: the value goes into the netlist, and the netlist proves it.
+
+use std::path::Path;
+
+use lptn_netlist::{Diagnostic, Goal, Netlist, parse_file};
+use lptn_network::ParameterId;
+use lptn_report::Shortest;
+use lptn_study::requirement_margins;
+
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::{Failure, reason};
+use crate::files::Folder;
+use crate::input::Input;
+use crate::size::Answer;
+use crate::size_text::rounded;
+
+/// Digits that are tried, the fewest first.
+const DIGITS: std::ops::RangeInclusive<usize> = 6..=17;
+
+/// Refuses before anything is computed what could not be written afterwards.
+pub(crate) fn possible(input: &Input, parameter: ParameterId) -> Result<(), Failure> {
+    let netlist = &input.netlist;
+    let name = &netlist.network.parameters()[parameter.index()].name;
+    let problem = if input.typed().is_none() {
+        Diagnostic::error("size::write", "there is no file to write into: the netlist came from stdin")
+    } else if netlist.written_number(parameter).is_some_and(|written| !netlist.is_own(&written)) {
+        let problem = Diagnostic::error("size::write", format!("`{name}` stands in a file that is included"));
+        problem.help("other netlists may include it too: change it there, or move the parameter here")
+    } else if netlist.written_number(parameter).is_none() {
+        let message = format!("`{name}` is not written as a number, so no other can be written in its place");
+        let problem = Diagnostic::error("size::write", message)
+            .help("give it a value of its own, for example `\"5 W/K\"`, or leave `--write` out");
+        match netlist.source_map.parameter(parameter) {
+            Some(span) => problem.at(span.clone(), ""),
+            None => problem,
+        }
+    } else {
+        return Ok(());
+    };
+    Err(Failure::at(Exit::Input, netlist.files.clone(), problem))
+}
+
+pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Result<(), Failure> {
+    let Some((number, text)) = proven(answer) else {
+        let problem = Diagnostic::error("size::write", "no number of 17 digits keeps what is required");
+        return Err(Failure::new(Exit::Failed, problem));
+    };
+    // a link stays a link: what it leads to is written
+    let place = std::fs::canonicalize(file).map_err(|error| cannot_write(file, &reason(&error)))?;
+    let name = place.file_name().map(|name| name.to_string_lossy().into_owned());
+    let (Some(folder), Some(name)) = (place.parent(), name) else {
+        return Err(cannot_write(file, "it has no name"));
+    };
+    Folder::prepare(folder.to_owned())?.write(&name, |out| out.write_all(text.as_bytes()))?;
+    let unit = if answer.unit.text == "1" { String::new() } else { format!(" {}", answer.unit.text) };
+    console.note(&format!("wrote  {}: {} = {number}{unit}", file.display(), answer.study.parameter));
+    Ok(())
+}
+
+fn cannot_write(file: &Path, why: &str) -> Failure {
+    let message = format!("cannot write {}: {why}", file.display());
+    Failure::new(Exit::Failed, Diagnostic::error("output::cannot_write", message))
+}
+
+/// The number with the fewest digits whose netlist, read again from its text, keeps every requirement; and that text.
+fn proven(answer: &Answer<'_>) -> Option<(String, String)> {
+    let netlist = &answer.input.netlist;
+    let written = netlist.written_number(answer.parameter)?;
+    let value = answer.unit.from_si(answer.sizing.trial.value);
+    let up = answer.study.goal == Goal::Minimise;
+    DIGITS.into_iter().find_map(|digits| {
+        let number = Shortest::new().text(rounded(value, digits, up)).to_owned();
+        let text = netlist.text_with_number(&written, &number);
+        let again = parse_file(Path::new(&answer.input.text.name), text.as_bytes()).ok()?;
+        keeps(answer, &again)?.then_some((number, text))
+    })
+}
+
+/// Whether a netlist stays inside the range of its study and keeps everything.
+fn keeps(answer: &Answer<'_>, netlist: &Netlist) -> Option<bool> {
+    let study = netlist.sizes.iter().find(|study| study.name == answer.study.name)?;
+    let (from, to) = study.range(&netlist.network).ok()?;
+    let value = netlist.network.parameter_value(netlist.network.parameter(&study.parameter).ok()?);
+    let time = netlist.run.as_ref().map_or(0.0, |run| run.start);
+    let margins = requirement_margins(&netlist.network, &study.requirements, time).ok()?;
+    Some(value >= from && value <= to && margins.iter().all(|margin| *margin >= 0.0))
+}

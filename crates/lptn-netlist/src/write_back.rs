@@ -1,0 +1,50 @@
+//! Another number in the place of a parameter's own, everything else of the file as it was.
+
+use std::ops::Range;
+
+use lptn_network::{Field, Item, ParameterId};
+use lptn_units::{Unit, written_quantity};
+
+use crate::file::FileId;
+use crate::netlist::Netlist;
+
+/// The number that a file gives to a parameter.
+#[derive(Clone, Debug)]
+pub struct WrittenNumber {
+    /// The unit it is written in.
+    pub unit: Unit,
+    file: FileId,
+    /// Its bytes in the file.
+    place: Range<usize>,
+}
+
+impl Netlist {
+    /// Where and in which unit the file writes a parameter's number; `None` if its value is an expression or a
+    /// string with escapes.
+    pub fn written_number(&self, id: ParameterId) -> Option<WrittenNumber> {
+        let (item, field) = (Item::Parameter(id), Field::Value);
+        let span = self.source_map.get(item, field)?;
+        let text = self.files.at(span);
+        let quoted = text.starts_with(['"', '\'']);
+        let content = if quoted { self.source_map.content(item, field)? } else { span.range.start };
+        let inside = self.files.text(span.file).get(content..span.range.end)?;
+        let inside = if quoted { inside.split(['"', '\'']).next()? } else { inside };
+        let written = written_quantity(inside)?;
+        let place = content + written.number.start..content + written.number.end;
+        Some(WrittenNumber { unit: written.unit, file: span.file, place })
+    }
+
+    /// Whether a number stands in the netlist's own file and not in one that it includes.
+    pub fn is_own(&self, written: &WrittenNumber) -> bool {
+        self.inputs.first() == Some(&written.file)
+    }
+
+    /// The text of the file with `number` in the place of the one written there: comments, order, unit and
+    /// standard deviation stay. A number in place of another cannot change what a string or a comment is, so the
+    /// text is cut at the number's own place rather than parsed and printed again.
+    pub fn text_with_number(&self, written: &WrittenNumber, number: &str) -> String {
+        let text = self.files.text(written.file);
+        let (before, after) = (text.get(..written.place.start), text.get(written.place.end..));
+        [before.unwrap_or_default(), number, after.unwrap_or_default()].concat()
+    }
+}

@@ -1,0 +1,239 @@
+//! One candidate.
+
+use std::fmt;
+
+use lptn_assembly::ThermalSystem;
+use lptn_netlist::RunSettings;
+use lptn_network::{InputError, Network, Severity};
+use lptn_solve::{
+    LinearSolver, NodeSummary, OutputTimes, Record, Solution, SteadyError, SteadyState, Summary, Transient,
+    TransientError,
+};
+
+use crate::compare::limits::{self, LimitResult};
+
+/// The highest temperature of a candidate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// The temperature in K.
+    pub temperature: f64,
+    /// The time in s at which it is first there; `None` where the candidate was not run.
+    pub at: Option<f64>,
+}
+
+/// What is compared of a candidate. Temperatures in K, times in s.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// The name of the node that gets hottest.
+    pub hottest: String,
+    /// Its peak during the run, or its steady temperature where there is no run.
+    pub peak: Peak,
+    /// Its temperature in steady state; `None` where inputs change with time or there is none.
+    pub steady: Option<f64>,
+    /// How long it takes to get 95 % of the way from its start to its steady state; `None` if the run ends before.
+    pub time_to_95: Option<f64>,
+    /// Every limit, in the order of the network.
+    pub limits: Vec<LimitResult>,
+    /// For each boundary by name the heat it takes at the end as a share of the heat that all boundaries take; 0
+    /// for one that gives heat. `None` where no boundary takes any.
+    pub shares: Vec<(String, Option<f64>)>,
+    /// Sum of all heat capacities in J/K.
+    pub capacity: f64,
+    /// Mass of all nodes in kg; `None` where that of a node with capacity is not known.
+    pub mass: Option<f64>,
+}
+
+/// Why a candidate has no results.
+#[derive(Debug)]
+pub enum CompareError {
+    /// It is not run and has no steady state.
+    Steady(SteadyError),
+    /// Its run failed.
+    Run(Box<TransientError>),
+    /// A limit, source or boundary has no value.
+    Input(InputError),
+    /// Its books do not close: relative residual, and what is allowed.
+    Ledger(f64, f64),
+}
+
+impl CompareError {
+    /// The stable code, as diagnostics print it.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Steady(error) => error.code(),
+            Self::Run(error) => error.code(),
+            Self::Input(_) => "solve::input",
+            Self::Ledger(..) => "run::ledger",
+        }
+    }
+
+    /// The input that has no value, if that is the reason.
+    pub fn input(&self) -> Option<&InputError> {
+        use lptn_solve::StopReason;
+        match self {
+            Self::Input(input) | Self::Steady(SteadyError::Input(input)) => Some(input),
+            Self::Run(error) => match &**error {
+                TransientError::Input(input)
+                | TransientError::Stopped { reason: StopReason::Input(input), .. } => Some(input),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for CompareError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Steady(error) => error.fmt(f),
+            Self::Run(error) => error.fmt(f),
+            Self::Input(error) => error.fmt(f),
+            Self::Ledger(residual, bound) => write!(
+                f,
+                "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than the {bound:.1e} allowed"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for CompareError {}
+
+impl Candidate {
+    /// Runs a candidate; without settings of a run it is compared in steady state.
+    ///
+    /// # Errors
+    /// [`CompareError`] if it cannot be solved.
+    pub fn evaluate(system: &ThermalSystem, run: Option<&RunSettings>) -> Result<Self, CompareError> {
+        match run {
+            Some(run) => Self::over_time(system, run),
+            None => Self::in_steady_state(system),
+        }
+    }
+
+    /// The temperature limit with the least margin: of those of severity error, else of the warnings; `None` without
+    /// a limit of a temperature.
+    pub fn worst(&self) -> Option<&LimitResult> {
+        let of = |severity| {
+            let limits = self.limits.iter().filter(move |l| l.is_temperature() && l.severity == severity);
+            limits.min_by(|a, b| a.margin.total_cmp(&b.margin))
+        };
+        of(Severity::Error).or_else(|| of(Severity::Warning))
+    }
+
+    fn in_steady_state(system: &ThermalSystem) -> Result<Self, CompareError> {
+        let network = system.network();
+        let steady = SteadyState::solve(system, 0.0).map_err(CompareError::Steady)?;
+        let margins = steady.limit_margins(network, 0.0).map_err(CompareError::Input)?;
+        let hottest = hottest(&steady.temperatures);
+        let temperature = steady.temperatures[hottest];
+        Ok(Self {
+            hottest: network.nodes()[hottest].name.clone(),
+            peak: Peak { temperature, at: None },
+            steady: Some(temperature),
+            time_to_95: None,
+            limits: limits::in_steady_state(network, &margins),
+            shares: shares(network, &steady.boundary_heat),
+            capacity: capacity(network),
+            mass: mass(network),
+        })
+    }
+
+    fn over_time(system: &ThermalSystem, run: &RunSettings) -> Result<Self, CompareError> {
+        let network = system.network();
+        let constant = !network.has_time_dependent_inputs();
+        let steady = if constant { SteadyState::solve(system, run.start).ok() } else { None };
+        let transient = transient(system, run, steady.as_ref())?;
+        let solution = transient.solve(system).map_err(|error| CompareError::Run(Box::new(error)))?;
+        let ledger = solution.ledger();
+        if let Some(residual) = ledger.relative_residual().filter(|_| !ledger.closes()) {
+            return Err(CompareError::Ledger(residual.abs(), ledger.bound));
+        }
+        let nodes = Summary::new(&solution, steady.as_ref()).nodes;
+        let peaks: Vec<f64> = nodes.iter().map(|node| node.peak.0).collect();
+        let node: &NodeSummary = &nodes[hottest(&peaks)];
+        let heat = heat_at_the_end(system, &solution, run).map_err(CompareError::Input)?;
+        Ok(Self {
+            hottest: network.nodes()[node.node.index()].name.clone(),
+            peak: peak(node, run),
+            steady: node.steady,
+            time_to_95: node.time_to_95,
+            limits: limits::over_time(network, solution.limits()),
+            shares: shares(network, &heat),
+            capacity: capacity(network),
+            mass: mass(network),
+        })
+    }
+}
+
+/// The peak of a node; one that the tolerance cannot tell from the start or from the end is there.
+fn peak(node: &NodeSummary, run: &RunSettings) -> Peak {
+    let (temperature, time) = node.peak;
+    let same = |value: f64| temperature - value <= 10.0 * run.tolerance;
+    let at = match (same(node.start), same(node.end)) {
+        (true, _) => run.start,
+        (false, true) => run.stop,
+        (false, false) => time,
+    };
+    Peak { temperature, at: Some(at) }
+}
+
+/// The run of the file without its rows, and with every node watched: peaks and limits are looked at between rows.
+fn transient(
+    system: &ThermalSystem,
+    run: &RunSettings,
+    steady: Option<&SteadyState>,
+) -> Result<Transient, CompareError> {
+    let network = system.network();
+    let nodes: Vec<_> = network.node_ids().collect();
+    let watch = Summary::watches(system, run.start, &nodes, steady).map_err(CompareError::Input)?;
+    Ok(Transient {
+        start: run.start,
+        stop: run.stop,
+        output: OutputTimes::At(vec![run.stop]),
+        tolerance: run.tolerance,
+        record: Record::Nodes(Vec::new()),
+        watch,
+        linear_solver: LinearSolver::Auto,
+    })
+}
+
+/// The position of the largest value; of equals the first.
+fn hottest(temperatures: &[f64]) -> usize {
+    let positions = (0..temperatures.len()).rev();
+    positions.max_by(|&a, &b| temperatures[a].total_cmp(&temperatures[b])).unwrap_or(0)
+}
+
+fn capacity(network: &Network) -> f64 {
+    network.node_ids().map(|id| network.capacity(id)).sum()
+}
+
+/// A part whose material is not known makes the whole unknown: a sum without it would look like a light design.
+fn mass(network: &Network) -> Option<f64> {
+    let nodes = network.node_ids().filter(|id| network.capacity(*id) > 0.0);
+    let masses: Vec<Option<f64>> = nodes.map(|id| network.mass(id)).collect();
+    if masses.is_empty() { None } else { masses.into_iter().sum() }
+}
+
+/// Heat that each boundary gives at the stop, from the last temperatures of the watched nodes.
+fn heat_at_the_end(
+    system: &ThermalSystem,
+    solution: &Solution,
+    run: &RunSettings,
+) -> Result<Vec<f64>, InputError> {
+    let last: Vec<f64> = solution.seen().iter().map(lptn_solve::Seen::last).collect();
+    let mut work = system.workspace();
+    system.read_inputs(&mut work, run.stop, run.stop)?;
+    system.place(&mut work, &last);
+    let mut states = vec![0.0; system.states().len()];
+    system.state_temperatures(&last, &mut states);
+    let mut heat = vec![0.0; system.network().boundaries().len()];
+    system.boundary_heat(&work, &states, &mut heat);
+    Ok(heat)
+}
+
+fn shares(network: &Network, given: &[f64]) -> Vec<(String, Option<f64>)> {
+    let taken = |&given: &f64| (-given).max(0.0);
+    let all: f64 = given.iter().map(taken).sum();
+    let share = |given: &f64| (all > 0.0).then(|| taken(given) / all);
+    network.boundaries().iter().zip(given).map(|(b, given)| (b.name.clone(), share(given))).collect()
+}

@@ -1,0 +1,61 @@
+//! The order of candidates.
+
+use std::cmp::Ordering;
+
+use lptn_network::Severity;
+
+use crate::compare::candidate::Candidate;
+
+/// What candidates are sorted by, the best first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SortKey {
+    /// Those that keep every limit first; then by the least margin of their temperature limits, the largest first, and
+    /// those without such a limit last; then by peak.
+    Margin,
+    /// The lowest peak first.
+    Peak,
+    /// The lowest steady temperature of the hottest node first.
+    Steady,
+    /// The slowest first: the longest time to 95 % of the rise.
+    Time,
+    /// The least heat capacity first.
+    Capacity,
+    /// As they were given.
+    Given,
+}
+
+/// The positions of candidates in their order; `None` stands for one without results, which comes last. Equals
+/// stay as they were given.
+pub fn order(candidates: &[Option<&Candidate>], key: SortKey) -> Vec<usize> {
+    let mut positions: Vec<usize> = (0..candidates.len()).collect();
+    positions.sort_by(|&a, &b| match (candidates[a], candidates[b]) {
+        (Some(a), Some(b)) => compare(a, b, key),
+        (a, b) => b.is_some().cmp(&a.is_some()),
+    });
+    positions
+}
+
+fn compare(a: &Candidate, b: &Candidate, key: SortKey) -> Ordering {
+    let peak = || a.peak.temperature.total_cmp(&b.peak.temperature);
+    match key {
+        SortKey::Margin => {
+            let worst = |c: &Candidate| c.worst().map_or(f64::NEG_INFINITY, |limit| limit.margin);
+            broken(a).cmp(&broken(b)).then_with(|| worst(b).total_cmp(&worst(a))).then_with(peak)
+        }
+        SortKey::Peak => peak(),
+        SortKey::Steady => ascending(a.steady, b.steady).then_with(peak),
+        SortKey::Time => ascending(b.time_to_95, a.time_to_95).then_with(peak),
+        SortKey::Capacity => a.capacity.total_cmp(&b.capacity),
+        SortKey::Given => Ordering::Equal,
+    }
+}
+
+/// Whether a limit that counts is broken.
+fn broken(candidate: &Candidate) -> bool {
+    candidate.limits.iter().any(|limit| limit.broken() && limit.severity == Severity::Error)
+}
+
+/// What is not known stands last among ascending values.
+fn ascending(a: Option<f64>, b: Option<f64>) -> Ordering {
+    a.unwrap_or(f64::INFINITY).total_cmp(&b.unwrap_or(f64::INFINITY))
+}

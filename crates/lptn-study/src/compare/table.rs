@@ -1,0 +1,140 @@
+//! A comparison as a table for files.
+
+use lptn_network::Severity;
+use lptn_solve::{Column, Label, Table};
+use lptn_units::Unit;
+
+use crate::compare::candidate::Candidate;
+use crate::compare::limits::LimitResult;
+
+/// A candidate with what it is called.
+#[derive(Debug)]
+pub struct CompareRow {
+    /// The file it was read from.
+    pub file: String,
+    /// Its title; may be empty.
+    pub title: String,
+    /// Its results, or the code of the problem that there are none for.
+    pub outcome: Result<Candidate, String>,
+}
+
+impl CompareRow {
+    /// Its results.
+    pub fn candidate(&self) -> Option<&Candidate> {
+        self.outcome.as_ref().ok()
+    }
+
+    /// `none` without limits, `kept`, `warning` where only limits of that severity are broken, `broken`, or the code of the problem.
+    pub fn status(&self) -> &str {
+        let candidate = match &self.outcome {
+            Ok(candidate) => candidate,
+            Err(code) => return code,
+        };
+        let broken = |severity| candidate.limits.iter().any(|l| l.broken() && l.severity == severity);
+        match (broken(Severity::Error), broken(Severity::Warning)) {
+            (true, _) => "broken",
+            (false, true) => "warning",
+            (false, false) if candidate.limits.is_empty() => "none",
+            (false, false) => "kept",
+        }
+    }
+
+    /// Its result for the limit of this name, if it has one.
+    pub fn limit(&self, name: &str) -> Option<&LimitResult> {
+        self.candidate()?.limits.iter().find(|limit| limit.name == name)
+    }
+
+    /// The share of the boundary of this name, if it has one.
+    pub fn share(&self, name: &str) -> Option<f64> {
+        self.candidate()?.shares.iter().find(|(boundary, _)| boundary == name)?.1
+    }
+}
+
+/// Every name that `names` gives for any row, in the order in which they first appear.
+pub(crate) fn union<'a>(
+    rows: &'a [CompareRow],
+    names: impl Fn(&'a Candidate) -> Vec<&'a str>,
+) -> Vec<&'a str> {
+    let mut found: Vec<&str> = Vec::new();
+    for name in rows.iter().filter_map(CompareRow::candidate).flat_map(names) {
+        if !found.contains(&name) {
+            found.push(name);
+        }
+    }
+    found
+}
+
+impl CompareRow {
+    /// The names of all limits of some rows.
+    pub fn limit_names(rows: &[Self]) -> Vec<&str> {
+        union(rows, |candidate| candidate.limits.iter().map(|limit| limit.name.as_str()).collect())
+    }
+
+    /// The names of all boundaries of some rows.
+    pub fn boundary_names(rows: &[Self]) -> Vec<&str> {
+        union(rows, |candidate| candidate.shares.iter().map(|(name, _)| name.as_str()).collect())
+    }
+}
+
+/// One line for each row: what it is and how it ended, then its numbers, temperatures in `unit`; what a candidate does
+/// not have is NaN.
+pub fn compare_table(rows: &[CompareRow], unit: &Unit) -> Table {
+    let label = |name: &str, text: &dyn Fn(&CompareRow) -> &str| Label {
+        name: name.to_owned(),
+        cells: rows.iter().map(|row| text(row).to_owned()).collect(),
+    };
+    let hottest = |row: &CompareRow| row.candidate().map_or(String::new(), |c| c.hottest.clone());
+    let worst = |row: &CompareRow| {
+        row.candidate().and_then(Candidate::worst).map_or(String::new(), |limit| limit.name.clone())
+    };
+    let labels = vec![
+        label("file", &|row| &row.file),
+        label("title", &|row| &row.title),
+        label("status", &|row| row.status()),
+        Label { name: "hottest".into(), cells: rows.iter().map(hottest).collect() },
+        Label { name: "worst_limit".into(), cells: rows.iter().map(worst).collect() },
+    ];
+    let mut columns = general(rows, unit);
+    columns.extend(CompareRow::limit_names(rows).into_iter().flat_map(|name| of_limit(rows, name)));
+    for name in CompareRow::boundary_names(rows) {
+        let share = |row: &CompareRow| row.share(name).unwrap_or(f64::NAN);
+        columns.push(column(rows, &format!("{name}.share"), "-", &share));
+    }
+    Table::labelled(labels, columns)
+}
+
+fn column(rows: &[CompareRow], name: &str, unit: &str, value: &dyn Fn(&CompareRow) -> f64) -> Column {
+    Column { name: name.to_owned(), unit: unit.to_owned(), values: rows.iter().map(value).collect() }
+}
+
+/// The numbers that every candidate has.
+fn general(rows: &[CompareRow], unit: &Unit) -> Vec<Column> {
+    let of = |name: &str, unit: &str, value: &dyn Fn(&Candidate) -> Option<f64>| {
+        column(rows, name, unit, &|row| row.candidate().and_then(value).unwrap_or(f64::NAN))
+    };
+    let mut columns = vec![
+        of("worst_margin", "K", &|c| c.worst().map(|limit| limit.margin)),
+        of("peak", &unit.text, &|c| Some(unit.from_si(c.peak.temperature))),
+        of("peak_at", "s", &|c| c.peak.at),
+        of("steady", &unit.text, &|c| c.steady.map(|kelvin| unit.from_si(kelvin))),
+        of("time_to_95", "s", &|c| c.time_to_95),
+        of("capacity", "J/K", &|c| Some(c.capacity)),
+    ];
+    if rows.iter().filter_map(CompareRow::candidate).any(|candidate| candidate.mass.is_some()) {
+        columns.push(of("mass", "kg", &|c| c.mass));
+    }
+    columns
+}
+
+/// The margin of a limit and when it breaks. Limits of one name but different quantities share the unit of the first:
+/// SI units both, and the name says that they are meant to be the same.
+fn of_limit(rows: &[CompareRow], name: &str) -> [Column; 2] {
+    let first = rows.iter().find_map(|row| row.limit(name));
+    let unit = first.map_or_else(|| "1".to_owned(), |limit| limit.ty.dimension.si_unit());
+    let margin = |row: &CompareRow| row.limit(name).map_or(f64::NAN, |limit| limit.margin);
+    let broken = |row: &CompareRow| row.limit(name).and_then(|limit| limit.broken_at).unwrap_or(f64::NAN);
+    [
+        column(rows, &format!("{name}.margin"), &unit, &margin),
+        column(rows, &format!("{name}.broken_at"), "s", &broken),
+    ]
+}

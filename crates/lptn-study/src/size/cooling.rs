@@ -1,0 +1,104 @@
+//! What a cooling has to do, from a power and two temperatures alone.
+
+use std::fmt;
+
+/// Heat, the temperature that must not be exceeded, and what takes the heat away. Temperatures in K.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoolingTask {
+    /// Heat to be taken away in W.
+    pub power: f64,
+    /// Highest temperature allowed.
+    pub limit: f64,
+    /// Temperature of the surroundings, and of a coolant where it enters.
+    pub ambient: f64,
+    /// How much warmer a coolant may leave than it enters.
+    pub rise: f64,
+}
+
+/// A coolant's properties where they are needed: specific heat in J/(kg K), density in kg/m^3.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coolant {
+    /// Specific heat at constant pressure.
+    pub specific_heat: f64,
+    /// Density where it enters, as fans and pumps are rated.
+    pub density: f64,
+}
+
+/// A flow of coolant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flow {
+    /// Mass flow in kg/s.
+    pub mass: f64,
+    /// Volume flow in m^3/s where the coolant enters.
+    pub volume: f64,
+}
+
+/// What a cooling has to do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cooling {
+    /// `limit - ambient` in K: by so much the limit is above its surroundings; if it is not positive no cooling
+    /// without refrigeration keeps it.
+    pub available: f64,
+    /// Largest thermal resistance to the surroundings in K/W.
+    pub resistance: f64,
+}
+
+/// Why the question has no answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CoolingError {
+    /// The power is not positive and finite.
+    Power(f64),
+    /// The rise is not positive and finite.
+    Rise(f64),
+}
+
+impl CoolingError {
+    /// The stable code, as diagnostics print it.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Power(_) => "size::power",
+            Self::Rise(_) => "size::rise",
+        }
+    }
+}
+
+impl fmt::Display for CoolingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Power(power) => write!(f, "the power has to be more than 0 W, got {power} W"),
+            Self::Rise(rise) => write!(f, "the rise of the coolant has to be more than 0 K, got {rise} K"),
+        }
+    }
+}
+
+impl std::error::Error for CoolingError {}
+
+impl CoolingTask {
+    /// The resistance that carries `power` with `limit - ambient` across it: `R_max = (limit - ambient) / P`, the
+    /// definition of a thermal resistance (F. P. Incropera et al., Fundamentals of Heat and Mass Transfer,
+    /// section 3.1.2). Its inverse is the product of film coefficient and area.
+    ///
+    /// # Errors
+    /// [`CoolingError`] for a power or rise that is not positive.
+    pub fn cooling(&self) -> Result<Cooling, CoolingError> {
+        let positive = |x: f64| x.is_finite() && x > 0.0;
+        if !positive(self.power) {
+            return Err(CoolingError::Power(self.power));
+        }
+        if !positive(self.rise) {
+            return Err(CoolingError::Rise(self.rise));
+        }
+        let available = self.limit - self.ambient;
+        Ok(Cooling { available, resistance: available / self.power })
+    }
+
+    /// The flow that takes the heat away while it warms by `rise`: `P = m cp rise`, the steady flow energy equation
+    /// (Incropera et al., equation 1.12e). `None` where the coolant would have to leave warmer than the limit.
+    pub fn flow(&self, coolant: Coolant) -> Option<Flow> {
+        if self.rise > self.limit - self.ambient {
+            return None;
+        }
+        let mass = self.power / (coolant.specific_heat * self.rise);
+        Some(Flow { mass, volume: mass / coolant.density })
+    }
+}

@@ -1,0 +1,250 @@
+//! The best value of a parameter that keeps every requirement.
+//!
+//! The range is looked at in [`POINTS`] places first, so that a requirement that is kept in the middle only is
+//! found and one that breaks again behind the answer is told. Then the border nearest to the best end is
+//! narrowed to neighbouring numbers, with the full network at every step.
+
+use lptn_netlist::Goal;
+
+use crate::size::error::SizeError;
+use crate::size::root::{last_kept, norton_guess};
+use crate::size::trial::{SizeTask, Trial, Trials};
+
+/// Places at which the range is looked at.
+const POINTS: usize = 25;
+
+/// A range that spans more than this is looked at in equal ratios rather than in equal steps.
+const WIDE: f64 = 10.0;
+
+/// Steps of the search for a value that keeps what no place looked at keeps: golden section, 2e-9 of its interval.
+const GOLDEN_STEPS: usize = 42;
+
+/// Relative change of the parameter for its sensitivity.
+const NUDGE: f64 = 1e-4;
+
+/// How an answer came about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// A requirement binds: beyond the value it is broken.
+    Bound,
+    /// The best end of the range keeps every requirement already.
+    BestEnd,
+    /// No value that was looked at keeps every requirement.
+    Infeasible,
+}
+
+/// What came of sizing.
+#[derive(Clone, Debug)]
+pub struct Sizing {
+    /// How the answer came about.
+    pub verdict: Verdict,
+    /// The value with its margins; where it is infeasible, the value that comes closest.
+    pub trial: Trial,
+    /// The requirement that is closest to being broken, relative to how much it varies over the range.
+    pub closest: usize,
+    /// Where a requirement breaks again on the far side of the value, in SI units: more is not always better.
+    pub breaks_again: Option<f64>,
+    /// Change of the closest requirement's margin, in SI units, for 1 % more of the parameter; `None` for a
+    /// temperature, of which there is no percentage, and for zero.
+    pub sensitivity: Option<f64>,
+    /// The value that the Norton equivalent seen from the changed path predicted, in SI units.
+    pub first_guess: Option<f64>,
+    /// How many steady states were solved.
+    pub solved: usize,
+}
+
+impl Sizing {
+    /// Whether the value keeps every requirement.
+    pub fn feasible(&self) -> bool {
+        self.verdict != Verdict::Infeasible
+    }
+
+    /// The margin of the closest requirement in SI units; negative by as much as it is broken.
+    pub fn margin(&self) -> f64 {
+        self.trial.margins[self.closest]
+    }
+}
+
+/// Finds the best value of the task's parameter.
+///
+/// # Errors
+/// [`SizeError`] if a network inside the range cannot be solved or a requirement has no value. That no value
+/// keeps the requirements is an answer: [`Verdict::Infeasible`].
+pub fn size(task: &SizeTask<'_>) -> Result<Sizing, SizeError> {
+    let (from, to) = task.range;
+    if !(from.is_finite() && to.is_finite() && from < to) {
+        return Err(SizeError::Range { from, to });
+    }
+    if task.requirements.is_empty() {
+        return Err(SizeError::NoRequirement);
+    }
+    let trials = Trials::new(task);
+    let scan = places(task).map(|value| trials.at(value)).collect::<Result<Vec<_>, _>>()?;
+    let search = Search { scale: scales(&scan), trials, scan };
+    let found = search.best()?;
+    let closest = search.closest(&found.trial);
+    let sensitivity = search.sensitivity(task, &found.trial, closest);
+    let Found { verdict, trial, breaks_again, first_guess } = found;
+    let solved = search.trials.count();
+    Ok(Sizing { verdict, trial, closest, breaks_again, sensitivity, first_guess, solved })
+}
+
+/// The places of the first look, the best end of the range first; the ends are exact.
+fn places(task: &SizeTask<'_>) -> impl Iterator<Item = f64> + use<> {
+    let (best, worst) = match task.goal {
+        Goal::Minimise => task.range,
+        Goal::Maximise => (task.range.1, task.range.0),
+    };
+    let ratio = worst / best;
+    let wide = best > 0.0 && worst > 0.0 && ratio.max(ratio.recip()) > WIDE;
+    (0..POINTS).map(move |i| {
+        let share = i as f64 / (POINTS - 1) as f64;
+        match i {
+            0 => best,
+            _ if i == POINTS - 1 => worst,
+            _ if wide => best * ratio.powf(share),
+            _ => best + share * (worst - best),
+        }
+    })
+}
+
+/// The largest size of each margin: requirements of different units are compared in shares of it.
+fn scales(scan: &[Trial]) -> Vec<f64> {
+    let count = scan.first().map_or(0, |trial| trial.margins.len());
+    let largest = |i: usize| scan.iter().map(|trial| trial.margins[i].abs()).fold(0.0, f64::max);
+    (0..count).map(largest).map(|scale| if scale > 0.0 { scale } else { 1.0 }).collect()
+}
+
+struct Search<'a> {
+    trials: Trials<'a>,
+    scan: Vec<Trial>,
+    scale: Vec<f64>,
+}
+
+struct Found {
+    verdict: Verdict,
+    trial: Trial,
+    breaks_again: Option<f64>,
+    first_guess: Option<f64>,
+}
+
+impl Search<'_> {
+    fn shares(&self, trial: &Trial) -> impl Iterator<Item = f64> {
+        trial.margins.iter().zip(&self.scale).map(|(margin, scale)| margin / scale)
+    }
+
+    /// The least margin as a share of its scale: not negative where everything is kept.
+    fn worst(&self, trial: &Trial) -> f64 {
+        self.shares(trial).fold(f64::INFINITY, f64::min)
+    }
+
+    fn closest(&self, trial: &Trial) -> usize {
+        let shares = self.shares(trial).enumerate();
+        shares.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i)
+    }
+
+    fn keeps(&self, trial: &Trial) -> bool {
+        self.worst(trial) >= 0.0
+    }
+
+    fn best(&self) -> Result<Found, SizeError> {
+        match self.scan.iter().position(|trial| self.keeps(trial)) {
+            Some(0) => {
+                let trial = self.scan[0].clone();
+                let breaks_again = self.breaks_after(0)?;
+                Ok(Found { verdict: Verdict::BestEnd, trial, breaks_again, first_guess: None })
+            }
+            Some(k) => {
+                let (trial, first_guess) = self.border(&self.scan[k - 1], &self.scan[k])?;
+                let breaks_again = self.breaks_after(k)?;
+                Ok(Found { verdict: Verdict::Bound, trial, breaks_again, first_guess })
+            }
+            None => self.between_the_places(),
+        }
+    }
+
+    /// The last trial on the way from `kept` to `broken` that keeps everything, and the first guess for it.
+    fn border(&self, broken: &Trial, kept: &Trial) -> Result<(Trial, Option<f64>), SizeError> {
+        let (mut broken, mut kept) = (broken.clone(), kept.clone());
+        let middle = self.trials.at(0.5 * (broken.value + kept.value))?;
+        let binding = self.closest(&broken);
+        let margin = |trial: &Trial| (trial.value, trial.margins[binding]);
+        let guess = norton_guess([margin(&broken), margin(&middle), margin(&kept)]);
+        let guessed = guess.map(|value| self.trials.at(value)).transpose()?;
+        for trial in [Some(middle), guessed].into_iter().flatten() {
+            let inside = (trial.value - broken.value) * (trial.value - kept.value) < 0.0;
+            match self.keeps(&trial) {
+                true if inside => kept = trial,
+                false if inside => broken = trial,
+                _ => {}
+            }
+        }
+        let point = |trial: &Trial| (trial.value, self.worst(trial));
+        let mut worst = |value| self.trials.at(value).map(|trial| self.worst(&trial));
+        let (value, _) = last_kept(point(&kept), point(&broken), &mut worst)?;
+        Ok((self.trials.at(value)?, guess))
+    }
+
+    /// Where a requirement breaks behind place `k`, at which everything is kept.
+    fn breaks_after(&self, k: usize) -> Result<Option<f64>, SizeError> {
+        let behind = self.scan.iter().enumerate().skip(k + 1);
+        let Some((at, _)) = behind.into_iter().find(|(_, trial)| !self.keeps(trial)) else { return Ok(None) };
+        self.border(&self.scan[at], &self.scan[at - 1]).map(|(trial, _)| Some(trial.value))
+    }
+
+    /// No place keeps everything: perhaps a value between them does. Golden section around the best place.
+    fn between_the_places(&self) -> Result<Found, SizeError> {
+        let by_worst =
+            |a: &usize, b: &usize| self.worst(&self.scan[*a]).total_cmp(&self.worst(&self.scan[*b]));
+        // of equals the first, which is nearer to the best end
+        let best = (0..self.scan.len()).rev().max_by(by_worst).unwrap_or(0);
+        let low = &self.scan[best.saturating_sub(1)];
+        let high = &self.scan[(best + 1).min(self.scan.len() - 1)];
+        let top = self.top((low.value, high.value), self.scan[best].clone())?;
+        if !self.keeps(&top) {
+            let (verdict, breaks_again, first_guess) = (Verdict::Infeasible, None, None);
+            return Ok(Found { verdict, trial: top, breaks_again, first_guess });
+        }
+        let (trial, first_guess) = self.border(low, &top)?;
+        let (behind, _) = self.border(high, &top)?;
+        let breaks_again = Some(behind.value);
+        Ok(Found { verdict: Verdict::Bound, trial, breaks_again, first_guess })
+    }
+
+    /// The best trial between two values that golden section finds; the first that keeps everything ends it.
+    fn top(&self, (mut a, mut b): (f64, f64), mut best: Trial) -> Result<Trial, SizeError> {
+        let golden = 0.5 * (5_f64.sqrt() - 1.0);
+        let inner = |from: f64, to: f64| self.trials.at(to - golden * (to - from));
+        let (mut left, mut right) = (inner(a, b)?, inner(b, a)?);
+        for _ in 0..GOLDEN_STEPS {
+            for trial in [&left, &right] {
+                if self.worst(trial) > self.worst(&best) {
+                    best = trial.clone();
+                }
+            }
+            if self.keeps(&best) {
+                break;
+            }
+            if self.worst(&left) >= self.worst(&right) {
+                b = right.value;
+                right = left;
+                left = inner(a, b)?;
+            } else {
+                a = left.value;
+                left = right;
+                right = inner(b, a)?;
+            }
+        }
+        Ok(best)
+    }
+
+    /// Change of a margin for 1 % more of the parameter, by a central difference.
+    fn sensitivity(&self, task: &SizeTask<'_>, trial: &Trial, closest: usize) -> Option<f64> {
+        let ty = task.network.parameters()[task.parameter.index()].ty;
+        if ty.absolute || trial.value == 0.0 {
+            return None;
+        }
+        let margin = |share: f64| self.trials.at(trial.value * share).ok().map(|t| t.margins[closest]);
+        Some((margin(1.0 + NUDGE)? - margin(1.0 - NUDGE)?) / (2.0 * NUDGE) * 0.01)
+    }
+}

@@ -1,0 +1,172 @@
+//! Sizing against closed forms of networks of one and two nodes.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use lptn_netlist::{Netlist, parse};
+use lptn_study::{SizeError, SizeTask, Sizing, Verdict, requirement_margins, size};
+
+/// 100 W into `inner`, over `R_in` into `outer`, over `G` into air of 20 degC.
+fn chain(param: &str, study: &str) -> Netlist {
+    let text = format!(
+        "format = 1\n[param]\nG = \"3 W/K\"\nR_in = \"0.05 K/W\"\n{param}\n[default]\nT0 = \"20 degC\"\n[node]\n\
+         inner = {{ C = \"1 kJ/K\" }}\nouter = {{ C = \"1 kJ/K\" }}\n[boundary]\nair = {{ T = \"20 degC\" }}\n\
+         [resistor]\njoint = {{ from = \"inner\", to = \"outer\", R = \"R_in\" }}\n\
+         skin = {{ from = \"outer\", to = \"air\", G = \"G\" }}\n\
+         [source]\nloss = {{ into = \"inner\", P = \"100 W\" }}\n[size.s]\n{study}\n"
+    );
+    parse("chain.toml", &text).unwrap_or_else(|rejected| panic!("{rejected}"))
+}
+
+fn one_node(resistor: &str, power: &str, study: &str) -> Netlist {
+    let text = format!(
+        "format = 1\n[param]\nx = 3\n[node]\nblock = {{ C = \"1 kJ/K\", T0 = \"20 degC\" }}\n[boundary]\n\
+         air = {{ T = \"20 degC\" }}\n[resistor]\nskin = {{ from = \"block\", to = \"air\", {resistor} }}\n\
+         [source]\nloss = {{ into = \"block\", P = \"{power}\" }}\n[size.s]\n{study}\n"
+    );
+    parse("one_node.toml", &text).unwrap_or_else(|rejected| panic!("{rejected}"))
+}
+
+fn solve(netlist: &Netlist) -> Result<Sizing, SizeError> {
+    let study = &netlist.sizes[0];
+    size(&SizeTask {
+        network: &netlist.network,
+        parameters: netlist.overrides(),
+        parameter: netlist.network.parameter(&study.parameter).unwrap(),
+        range: study.range(&netlist.network).unwrap(),
+        goal: study.goal,
+        requirements: &study.requirements,
+        time: 0.0,
+    })
+}
+
+#[track_caller]
+fn near(found: f64, expected: f64, relative: f64) {
+    assert!((found - expected).abs() <= relative * expected.abs(), "{found:e} is not {expected:e}");
+}
+
+#[test]
+fn one_node_has_the_closed_form() {
+    let study =
+        "minimise = \"x\"\nvary = { x = { from = 0.1, to = 50 } }\nrequire = [\"block.T <= 75 [degC]\"]";
+    let sizing = solve(&one_node("G = \"x * 1 [W/K]\"", "100 W", study)).unwrap();
+    assert_eq!(sizing.verdict, Verdict::Bound);
+    near(sizing.trial.value, 100.0 / 55.0, 1e-12);
+    assert!(sizing.margin() >= 0.0 && sizing.margin() < 1e-10, "{}", sizing.margin());
+    assert_eq!(sizing.breaks_again, None);
+    // T = 20 + P/G: 1 % more G takes 1 % of the rise
+    near(sizing.sensitivity.unwrap(), 0.55, 1e-7);
+    // the Norton equivalent of one path is the network itself
+    near(sizing.first_guess.unwrap(), 100.0 / 55.0, 1e-10);
+
+    let study = study.replace("minimise", "maximise").replace("to = 50", "to = 5");
+    let sizing = solve(&one_node("R = \"x * 1 [K/W]\"", "100 W", &study)).unwrap();
+    near(sizing.trial.value, 55.0 / 100.0, 1e-12);
+    near(sizing.sensitivity.unwrap(), -0.55, 1e-7);
+}
+
+#[test]
+fn two_limits_bind_in_turn() {
+    let study = "minimise = \"G\"\nvary = { G = { from = \"0.5 W/K\", to = \"50 W/K\" } }\n\
+                 require = [\"inner.T <= 80 [degC]\", \"70 [degC] >= outer.T\"]";
+    // outer = 20 + 100/G; inner is 100 R_in above it
+    for (r_in, expected, binding) in
+        [(0.05, 2.0, 1), (0.2, 2.5, 0), (0.0999, 2.0, 1), (0.1001, 100.0 / 49.99, 0)]
+    {
+        let mut netlist = chain("", study);
+        netlist.set(&[format!("R_in={r_in} K/W")]).unwrap();
+        let sizing = solve(&netlist).unwrap();
+        near(sizing.trial.value, expected, 1e-11);
+        assert_eq!(sizing.closest, binding, "R_in {r_in}");
+        let other = sizing.trial.margins[1 - binding];
+        near(other, f64::abs(10.0 - 100.0 * r_in), 1e-9);
+    }
+}
+
+#[test]
+fn what_is_kept_already_takes_the_best_end() {
+    let study = "minimise = \"G\"\nvary = { G = { from = \"5 W/K\", to = \"50 W/K\" } }\nrequire = [\"outer.T <= 70 [degC]\"]";
+    let sizing = solve(&chain("", study)).unwrap();
+    assert_eq!(sizing.verdict, Verdict::BestEnd);
+    near(sizing.trial.value, 5.0, 0.0);
+    near(sizing.margin(), 30.0, 1e-12);
+    assert_eq!(sizing.breaks_again, None);
+    // seen from the other end the answer is the border again
+    let sizing = solve(&chain("", &study.replace("minimise", "maximise").replace("<=", ">="))).unwrap();
+    assert_eq!(sizing.verdict, Verdict::Infeasible);
+}
+
+#[test]
+fn infeasible_says_how_far_off() {
+    let study = "minimise = \"G\"\nvary = { G = { from = \"0.5 W/K\", to = \"2 W/K\" } }\nrequire = [\"outer.T <= 60 [degC]\"]";
+    let sizing = solve(&chain("", study)).unwrap();
+    assert_eq!((sizing.verdict, sizing.feasible()), (Verdict::Infeasible, false));
+    near(sizing.trial.value, 2.0, 1e-7);
+    near(sizing.margin(), 60.0 - (20.0 + 100.0 / 2.0), 1e-6);
+    // below the surroundings nothing helps
+    let sizing = solve(&chain("", &study.replace("60 [degC]", "10 [degC]"))).unwrap();
+    assert_eq!(sizing.verdict, Verdict::Infeasible);
+    near(sizing.margin(), 10.0 - 70.0, 1e-6);
+}
+
+/// A fan that heats what it cools: T = 20 + 100/x + 2 x, with its least value at the root of 50.
+fn fan(limit: &str) -> Sizing {
+    let study = format!(
+        "minimise = \"x\"\nvary = {{ x = {{ from = 1, to = 50 }} }}\nrequire = [\"block.T <= {limit} [degC]\"]"
+    );
+    solve(&one_node("G = \"x * 1 [W/K]\"", "100 [W] + 2 [W] * x^2", &study)).unwrap()
+}
+
+#[test]
+fn what_helps_first_and_harms_later_is_told() {
+    // 100/x + 2 x = 30 at 5 and 10
+    let sizing = fan("50");
+    assert_eq!(sizing.verdict, Verdict::Bound);
+    near(sizing.trial.value, 5.0, 1e-12);
+    near(sizing.breaks_again.unwrap(), 10.0, 1e-12);
+}
+
+#[test]
+fn a_window_between_the_places_is_found() {
+    // 100/x + 2 x = 28.2845 has its two roots 0.07 apart, while the places are 18 % apart
+    let root = (28.2845_f64 * 28.2845 - 800.0).sqrt();
+    let sizing = fan("48.2845");
+    assert_eq!(sizing.verdict, Verdict::Bound);
+    near(sizing.trial.value, (28.2845 - root) / 4.0, 1e-9);
+    near(sizing.breaks_again.unwrap(), (28.2845 + root) / 4.0, 1e-9);
+}
+
+#[test]
+fn an_infeasible_middle_is_the_best_there_is() {
+    let sizing = fan("48.28");
+    assert_eq!(sizing.verdict, Verdict::Infeasible);
+    near(sizing.trial.value, 50.0_f64.sqrt(), 1e-5);
+    near(sizing.margin(), 48.28 - 20.0 - 2.0 * 200.0_f64.sqrt(), 1e-6);
+}
+
+#[test]
+fn what_was_set_before_stays_set() {
+    let study = "minimise = \"G\"\nvary = { G = { from = \"0.5 W/K\", to = \"50 W/K\" } }\nrequire = [\"inner.T <= 80 [degC]\"]";
+    let mut netlist = chain("", study);
+    netlist.set(&["R_in=0.2 K/W".into()]).unwrap();
+    near(solve(&netlist).unwrap().trial.value, 2.5, 1e-11);
+}
+
+#[test]
+fn a_range_without_network_is_an_error_that_says_where() {
+    let study =
+        "minimise = \"x\"\nvary = { x = { from = -1, to = 5 } }\nrequire = [\"block.T <= 75 [degC]\"]";
+    let error = solve(&one_node("G = \"x * 1 [W/K]\"", "100 W", study)).unwrap_err();
+    assert_eq!(error.code(), "size::network");
+    assert!(matches!(error, SizeError::Network { value, .. } if value < 0.0), "{error}");
+}
+
+#[test]
+fn margins_are_those_of_the_network_as_it_is() {
+    let study = "minimise = \"G\"\nvary = { G = { from = \"1 W/K\", to = \"9 W/K\" } }\n\
+                 require = [\"inner.T <= 80 [degC]\", \"inner.T - outer.T < 6 [K]\"]";
+    let netlist = chain("", study);
+    let margins = requirement_margins(&netlist.network, &netlist.sizes[0].requirements, 0.0).unwrap();
+    // G = 3 W/K, R_in = 0.05 K/W
+    near(margins[0], 80.0 - (20.0 + 100.0 / 3.0 + 5.0), 1e-12);
+    near(margins[1], 1.0, 1e-10);
+}
