@@ -101,6 +101,16 @@ impl ThermalSystem {
         Ok(())
     }
 
+    /// Takes these heats into the nodes [W] and these temperatures of the boundaries [K] in place of the
+    /// network's own inputs, until those are read again: the response to a heat that no source puts in.
+    pub fn apply(&self, work: &mut Workspace, heat: &[f64], boundaries: &[f64]) {
+        work.forget();
+        work.heat.fill(0.0);
+        work.heat[..heat.len()].copy_from_slice(heat);
+        self.elimination.distribute(&mut work.heat);
+        work.temperature[self.network.nodes().len()..].copy_from_slice(boundaries);
+    }
+
     /// Writes the heat flow into each state in W, from the inputs last read and the temperatures `y` in K.
     pub fn flow(&self, work: &Workspace, y: &[f64], flow: &mut [f64]) {
         for (q, id) in flow.iter_mut().zip(&self.states) {

@@ -16,10 +16,14 @@ mod failure;
 mod files;
 mod input;
 mod interrupt;
+mod netlist_text;
 mod new;
 mod next;
 mod outcome;
 mod progress;
+mod reduce;
+mod reduce_json;
+mod reduce_text;
 mod run;
 mod select;
 mod steady;
@@ -58,6 +62,7 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
         Some(Verb::Run(args)) => run::run(args, console),
         Some(Verb::Check(args)) => check::check(args, console),
         Some(Verb::Steady(args)) => steady::steady(args, console),
+        Some(Verb::Reduce(args)) => reduce::reduce(args, console),
         Some(Verb::New(args)) => new::new(args, console),
         Some(Verb::Units(args)) => units::units(args, console),
         Some(Verb::Completions(args)) => completions::completions(args, console),

@@ -32,4 +32,4 @@ pub use steady::SteadyState;
 pub use summary::{NodeSummary, Summary};
 pub use table::{Column, Selection, Table};
 
-pub use watch::{Seen, Watch};
+pub use watch::{Seen, Watch, top};

@@ -10,7 +10,7 @@ use crate::recorder::Recorder;
 use crate::settings::{Control, Progress, Transient};
 use crate::solution::{End, Solution};
 use crate::stateless;
-use crate::times::{self, Segment, segments};
+use crate::times::{Segment, segments};
 
 impl Transient {
     /// Runs to the stop.
@@ -30,8 +30,7 @@ impl Transient {
         system: &ThermalSystem,
         observer: &mut dyn FnMut(Progress) -> Control,
     ) -> Result<Solution, TransientError> {
-        self.check().map_err(TransientError::Settings)?;
-        let rows = times::rows(&self.output, self.start, self.stop).map_err(TransientError::Settings)?;
+        let rows = self.rows().map_err(TransientError::Settings)?;
         let network = system.network();
         let breakpoints = network.breakpoints(self.start, self.stop).map_err(TransientError::Input)?;
         let segments = segments(self.start, self.stop, &breakpoints);

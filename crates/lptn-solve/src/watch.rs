@@ -86,8 +86,9 @@ fn higher(a: (f64, f64), b: Option<(f64, f64)>) -> (f64, f64) {
     b.filter(|b| b.0 > a.0).unwrap_or(a)
 }
 
-/// The top of the parabola through three points of ascending time, if the middle one is the highest.
-fn top([(t0, y0), (t1, y1), (t2, y2)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
+/// The top (value, time) of the parabola through three points (time, value) of ascending time, if the middle one is
+/// the highest.
+pub fn top([(t0, y0), (t1, y1), (t2, y2)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
     if !(y1 > y0 && y1 >= y2 && t0 < t1) {
         return None;
     }
