@@ -85,7 +85,7 @@ impl ThermalSystem {
         Workspace::new(&self.network)
     }
 
-    /// Reads the inputs at `time` [s], comparisons of `t` as they stand at `segment` [s].
+    /// Reads the inputs at `time` \[s\], comparisons of `t` as they stand at `segment` \[s\].
     ///
     /// # Errors
     /// [`InputError`] naming the source or boundary whose value cannot be had.
@@ -101,7 +101,7 @@ impl ThermalSystem {
         Ok(())
     }
 
-    /// Takes these heats into the nodes [W] and these temperatures of the boundaries [K] in place of the
+    /// Takes these heats into the nodes in W and these temperatures of the boundaries in K in place of the
     /// network's own inputs, until those are read again: the response to a heat that no source puts in.
     pub fn apply(&self, work: &mut Workspace, heat: &[f64], boundaries: &[f64]) {
         work.forget();

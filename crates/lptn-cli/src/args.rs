@@ -25,7 +25,7 @@ Examples:
 const REDUCE_EXAMPLES: &str = "\
 Examples:
   lptn reduce motor.toml --port winding
-  lptn reduce motor.toml --port winding --max-error 0.5K --definition sum
+  lptn reduce motor.toml --port winding --max-error 30% --definition sum
   lptn reduce motor.toml --port winding --format toml > one_node.toml";
 
 const CHECK_EXAMPLES: &str = "\
@@ -170,7 +170,7 @@ pub(crate) struct ReduceArgs {
     /// Exit with 1 if the error over the run is larger than 0.5K, or 2%
     #[arg(long, value_name = "ERROR")]
     pub(crate) max_error: Option<String>,
-    /// Use sum, first_moment, dominant_pole or least_squares, not the recommended capacity
+    /// Use sum, first_moment, dominant_pole or least_squares for C_eq
     #[arg(long, value_name = "NAME", hide_possible_values = true)]
     pub(crate) definition: Option<DefinitionName>,
     /// Fit one exponential to the run and say what heat it implies

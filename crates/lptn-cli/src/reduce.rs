@@ -188,7 +188,7 @@ fn no_run(input: &Input, option: &str) -> Failure {
 fn failed(input: &Input, args: &ReduceArgs, error: &ReduceError) -> Failure {
     let exit = match error {
         ReduceError::Factorization(_) | ReduceError::Modes | ReduceError::Equivalent(_) => Exit::Failed,
-        ReduceError::Run(lptn_solve::TransientError::Integrator(_)) => Exit::Failed,
+        ReduceError::Run(error) if error.code() == "run::integrator" => Exit::Failed,
         _ => Exit::Input,
     };
     let problem = Diagnostic::error(error.code(), error.to_string());

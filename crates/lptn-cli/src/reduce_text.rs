@@ -169,7 +169,7 @@ impl View<'_> {
         let (residual, resistance) = (dynamics.step.residual, dynamics.step.resistance);
         if residual > 1e-6 * resistance {
             let share = significant(100.0 * residual / resistance, 2);
-            notes.push(format!("the step response is known to {share} % of R_eq at its very beginning only"));
+            notes.push(format!("the fastest modes, {share} % of R_eq, are not resolved: the errors for a step hold but for its very beginning"));
         }
         notes
     }

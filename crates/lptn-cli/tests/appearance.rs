@@ -25,17 +25,19 @@ fn mask_residual(line: &str) -> String {
 fn every_line_fits_into_80_columns() {
     let folder = Folder::with_gearbox();
     folder.run(&["new", "motor"]).exits(0);
-    let arguments: [&[&str]; 12] = [
+    let arguments: [&[&str]; 14] = [
         &["run", "gearbox.toml", "-v"],
         &["run", "motor.toml", "-v"],
         &["run", "gearbox.toml", "--temperature-unit", "degF"],
         &["steady", "gearbox.toml"],
         &["check", "gearbox.toml"],
+        &["reduce", "gearbox.toml", "--port", "steel", "--bias"],
         &["units"],
         &["units", "3 L/min"],
         &["--help"],
         &["run", "--help"],
         &["steady", "--help"],
+        &["reduce", "--help"],
         &["check", "--help"],
         &["--version"],
     ];
@@ -224,6 +226,7 @@ fn the_examples_of_the_help_work() {
         &["--help"][..],
         &["run", "--help"],
         &["steady", "--help"],
+        &["reduce", "--help"],
         &["check", "--help"],
         &["units", "--help"],
     ] {
@@ -236,5 +239,5 @@ fn the_examples_of_the_help_work() {
             count += 1;
         }
     }
-    assert_eq!(count, 13);
+    assert_eq!(count, 16);
 }

@@ -29,27 +29,27 @@ impl<'a> Conductances<'a> {
     /// Rise of every node in K for these heats into the nodes in W.
     pub(crate) fn rise(&mut self, heat: &[f64]) -> Result<Vec<f64>, ReduceError> {
         self.system.apply(&mut self.work, heat, &self.still);
-        let states = self.states()?;
+        let states = self.states(REFINEMENTS)?;
         self.system.recover(&mut self.work, &states);
         Ok(self.system.node_temperatures(&self.work).to_vec())
     }
 
-    /// Rise of every state in K for these heats into the states in W.
+    /// Rise of every state in K for these heats into the states in W, refined once.
     pub(crate) fn state_rise(&mut self, heat: &[f64]) -> Result<Vec<f64>, ReduceError> {
         let mut nodes = vec![0.0; self.system.network().nodes().len()];
         self.system.states().iter().zip(heat).for_each(|(id, q)| nodes[id.index()] = *q);
         self.system.apply(&mut self.work, &nodes, &self.still);
-        self.states()
+        self.states(1)
     }
 
     /// The states for the inputs applied. The residual is the heat flow summed link by link, not `b - G x` with
     /// the sums on the diagonal: rounding of those sums would be a path to ground that is not there.
-    fn states(&mut self) -> Result<Vec<f64>, ReduceError> {
+    fn states(&mut self, refinements: usize) -> Result<Vec<f64>, ReduceError> {
         let Some(factors) = &mut self.factors else { return Ok(Vec::new()) };
         let mut x = vec![0.0; self.system.states().len()];
         let mut step = x.clone();
         let size = |v: &[f64]| v.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-        for _ in 0..=REFINEMENTS {
+        for _ in 0..=refinements {
             self.system.flow(&self.work, &x, &mut step);
             factors.solve_in_place(&mut step)?;
             x.iter_mut().zip(&step).for_each(|(x, dx)| *x += dx);

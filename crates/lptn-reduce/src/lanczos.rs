@@ -39,17 +39,11 @@ pub(crate) fn modes(
         let last = basis.len() - 1;
         let mut next = apply(&basis[last])?;
         diagonal.push(dot(&basis[last], &next));
-        for _ in 0..2 {
-            for vector in &basis {
-                let along = dot(vector, &next);
-                next.iter_mut().zip(vector).for_each(|(x, v)| *x -= along * v);
-            }
-        }
-        let coupling = norm(&next);
+        let coupling = orthogonalise(&mut next, &basis);
         largest = largest.max(diagonal[last].abs()).max(coupling);
         let done = coupling <= EXHAUSTED * largest || basis.len() == start.len() || basis.len() == MOST;
         if done || basis.len() >= check {
-            check += check / 2;
+            check += check / 4;
             let found = ritz(&diagonal, &beside, coupling, length)?;
             if done || enough(&found) {
                 return Ok(found);
@@ -58,6 +52,23 @@ pub(crate) fn modes(
         beside.push(coupling);
         basis.push(scaled(&next, 1.0 / coupling));
     }
+}
+
+/// Takes the parts along `basis` off a vector and gives the length that is left. A second time where much was taken
+/// off, so that rounding of the first does not stay ("twice is enough": B. N. Parlett, The Symmetric Eigenvalue
+/// Problem (1998), section 6.9).
+fn orthogonalise(next: &mut [f64], basis: &[Vec<f64>]) -> f64 {
+    let before = norm(next);
+    for _ in 0..2 {
+        for vector in basis {
+            let along = dot(vector, next);
+            next.iter_mut().zip(vector).for_each(|(x, v)| *x -= along * v);
+        }
+        if norm(next) > 0.7 * before {
+            break;
+        }
+    }
+    norm(next)
 }
 
 /// Eigenvalues of the tridiagonal matrix, largest first.

@@ -100,7 +100,7 @@ impl NortonEquivalent {
         sources.iter().zip(&self.source_weights).map(|(p, w)| w * p).sum()
     }
 
-    /// The inputs as they are at `time` [s].
+    /// The inputs as they are at `time`, in s.
     ///
     /// # Errors
     /// [`InputError`] if a source or boundary has no value.

@@ -23,7 +23,7 @@ pub struct Term {
 /// The terms are the modes of `C dT/dt = -G T` that heat at the port excites: eigenvalues of
 /// `C^1/2 G^-1 C^1/2` found by Lanczos iteration from `C^1/2 G^-1 e_p`, so that the slowest come first and modes
 /// that the port does not see never appear. For small networks they are all there is; for large ones the
-/// iteration ends when the curve is known to 1e-10 of `R_eq`, or after 300 vectors, and
+/// iteration ends when the curve is known to 1e-9 of `R_eq`, or after 300 vectors, and
 /// [`StepResponse::residual`] says what is left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepResponse {
@@ -33,8 +33,8 @@ pub struct StepResponse {
     pub direct: f64,
     /// The terms, slowest first.
     pub terms: Vec<Term>,
-    /// By how much the terms miss the rise at time 0 in K/W. They are least exact there, so this is the size of
-    /// the largest error of the curve (an estimate, not a bound).
+    /// By how much the terms miss the rise at time 0 in K/W: the part of the fastest modes that is not resolved. The
+    /// curve is least exact there, so this is the size of its largest error (an estimate, not a bound).
     pub residual: f64,
 }
 
@@ -42,7 +42,7 @@ pub struct StepResponse {
 const VISIBLE: f64 = 1e-9;
 
 /// The curve is known well enough when it misses no more than this share of `R_eq`.
-const CURVE: f64 = 1e-10;
+const CURVE: f64 = 1e-9;
 
 /// The slowest time constant is known well enough with this relative error.
 const SLOWEST: f64 = 1e-13;
@@ -85,7 +85,7 @@ impl StepResponse {
         Ok(Some(Self { resistance, direct, terms, residual }))
     }
 
-    /// The rise at `time` [s] in K/W; at 0 that which comes at once.
+    /// The rise in K/W at `time` in s; at 0 that which comes at once.
     pub fn value(&self, time: f64) -> f64 {
         if time <= 0.0 {
             return self.direct;

@@ -143,6 +143,49 @@ fn a_mode_that_the_port_does_not_see_is_not_its_time_constant() {
     assert!(step.terms.iter().all(|term| (term.tau - 1e6).abs() > 100.0));
 }
 
+/// A port of a millionth of a joule per kelvin: time constants nine decades apart. To first order in c the fast one
+/// is c R_int with all of R_int.
+#[test]
+fn time_constants_may_lie_far_apart() {
+    let (system, [port, _]) = common::two_nodes([1e-6, 1e3], 0.1, 0.3, 1.0);
+    let norton = NortonEquivalent::new(&system, port).unwrap();
+    let step = StepResponse::new(&system, &norton).unwrap().unwrap();
+    near(step.terms[0].tau, 300.0 + 0.3e-6, 1e-12);
+    near(step.terms[0].resistance, 0.3, 1e-8);
+    near(step.terms[1].tau, 1e-7, 1e-5);
+    near(step.terms[1].resistance, 0.1, 1e-5);
+    assert!(step.residual < 1e-6 * norton.resistance);
+}
+
+/// Modes by Lanczos iteration and CVODES have nothing in common but the network.
+#[test]
+fn the_step_response_of_a_grid_is_what_the_integrator_finds() {
+    let n = 24;
+    let zero = Temperature::celsius(0.0);
+    let mut b = NetworkBuilder::new();
+    let edge = b.boundary("edge", zero);
+    let cells: Vec<NodeId> =
+        (0..n * n).map(|k| b.node(&format!("c{k}"), HeatCapacity(1.0 + (k % 3) as f64), zero)).collect();
+    let g = spread(2 * n * n, 2.0);
+    for k in 0..n * n {
+        if k % n + 1 < n {
+            b.resistor(&format!("x{k}"), cells[k], cells[k + 1], Conductance(g[k]));
+        }
+        let below = cells.get(k + n).map_or_else(|| edge.into(), |&cell| lptn_network::End::Node(cell));
+        b.resistor(&format!("y{k}"), cells[k], below, Conductance(g[n * n + k]));
+    }
+    let port = cells[7 * n + 5];
+    b.source("heat", port, HeatFlow(1.0));
+    let system = assembled(b);
+    let norton = NortonEquivalent::new(&system, port).unwrap();
+    let step = StepResponse::new(&system, &norton).unwrap().unwrap();
+    assert!(step.terms.len() < n * n / 2, "{}", step.terms.len());
+    let solution = Transient::until(Time(3000.0)).tolerance(1e-9).record(&[port]).solve(&system).unwrap();
+    for (&time, t) in solution.times().iter().zip(solution.temperature(port).unwrap()) {
+        assert!((t - 273.15 - step.value(time)).abs() < 2e-8, "{time} {}", t - 273.15 - step.value(time));
+    }
+}
+
 #[test]
 fn wrong_ports_are_named() {
     let (system, _) = chain(&[1.0, 1.0], &[1.0, 1.0]);

@@ -122,6 +122,21 @@ fn rc_ladder() {
     }
 }
 
+/// incropera_3_2_chip: a chip between air above and a joint, a board and air below, massless throughout.
+#[test]
+fn incropera_3_2_chip() {
+    let mut b = NetworkBuilder::new();
+    let air = b.boundary("air", Temperature::celsius(25.0));
+    let [chip, joint, back] = ["chip", "joint", "back"].map(|name| b.massless(name));
+    let film = || Path::Film(FilmCoefficient(100.0).into(), Area(1.0).into());
+    b.convection("e0", chip, air, film());
+    b.resistor("e1", chip, joint, Conductance(11_111.111_111_111_111));
+    b.resistor("e2", joint, back, Conductance(29_875.0));
+    b.convection("e3", back, air, film());
+    let norton = NortonEquivalent::new(&assembled(b), chip).unwrap();
+    near(norton.resistance, 0.005_030_678_800_958_934, 1e-13);
+}
+
 /// freq_two_node: closed forms.
 #[test]
 fn freq_two_node() {

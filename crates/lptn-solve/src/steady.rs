@@ -26,7 +26,7 @@ pub struct SteadyState {
 const BALANCE: f64 = 1e-9;
 
 impl SteadyState {
-    /// Solves `G T = q` with the inputs as they are at `time` [s].
+    /// Solves `G T = q` with the inputs as they are at `time` \[s\].
     ///
     /// # Errors
     /// [`SteadyError`], in particular for nodes without a path to a boundary.
