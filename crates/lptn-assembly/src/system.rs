@@ -84,7 +84,7 @@ impl ThermalSystem {
         Workspace::new(&self.network)
     }
 
-    /// Reads the inputs at `time` [s], comparisons of `t` as they stand at `segment` [s].
+    /// Reads the inputs at `time` \[s\], comparisons of `t` as they stand at `segment` \[s\].
     ///
     /// # Errors
     /// [`InputError`] naming the source or boundary whose value cannot be had.
@@ -98,6 +98,16 @@ impl ThermalSystem {
         }
         self.elimination.distribute(&mut work.heat);
         Ok(())
+    }
+
+    /// Takes these heats into the nodes in W and these temperatures of the boundaries in K in place of the
+    /// network's own inputs, until those are read again: the response to a heat that no source puts in.
+    pub fn apply(&self, work: &mut Workspace, heat: &[f64], boundaries: &[f64]) {
+        work.forget();
+        work.heat.fill(0.0);
+        work.heat[..heat.len()].copy_from_slice(heat);
+        self.elimination.distribute(&mut work.heat);
+        work.temperature[self.network.nodes().len()..].copy_from_slice(boundaries);
     }
 
     /// Writes the heat flow into each state in W, from the inputs last read and the temperatures `y` in K.

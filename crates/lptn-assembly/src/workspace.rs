@@ -45,4 +45,9 @@ impl Workspace {
         self.read_at = Some((time, segment));
         Ok(true)
     }
+
+    /// What was read holds no longer.
+    pub(crate) fn forget(&mut self) {
+        self.read_at = None;
+    }
 }

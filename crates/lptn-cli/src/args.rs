@@ -44,6 +44,12 @@ Examples:
   lptn size fan.toml
   lptn size fan.toml fan --write";
 
+const REDUCE_EXAMPLES: &str = "\
+Examples:
+  lptn reduce motor.toml --port winding
+  lptn reduce motor.toml --port winding --max-error 30% --definition sum
+  lptn reduce motor.toml --port winding --format toml > one_node.toml";
+
 const CHECK_EXAMPLES: &str = "\
 Examples:
   lptn check motor.toml
@@ -119,6 +125,9 @@ pub(crate) enum Verb {
     /// Find the cooling, or the value of a parameter, that keeps a limit
     #[command(before_help = SIZE_EXAMPLES, help_template = TEMPLATE)]
     Size(SizeArgs),
+    /// Replace a network by one node, and say how wrong that is
+    #[command(before_help = REDUCE_EXAMPLES, help_template = TEMPLATE)]
+    Reduce(ReduceArgs),
     /// Look for mistakes in a netlist without running it
     #[command(before_help = CHECK_EXAMPLES, help_template = TEMPLATE)]
     Check(CheckArgs),
@@ -249,6 +258,39 @@ pub(crate) struct VerifyArgs {
     pub(crate) no_files: bool,
 }
 
+#[derive(Debug, Arguments)]
+pub(crate) struct ReduceArgs {
+    #[command(flatten)]
+    pub(crate) source: Source,
+    /// The node that the network is seen from
+    #[arg(long, value_name = "NODE")]
+    pub(crate) port: String,
+    /// Exit with 1 if the error over the run is larger than 0.5K, or 2%
+    #[arg(long, value_name = "ERROR")]
+    pub(crate) max_error: Option<String>,
+    /// Use sum, first_moment, dominant_pole or least_squares for C_eq
+    #[arg(long, value_name = "NAME", hide_possible_values = true)]
+    pub(crate) definition: Option<DefinitionName>,
+    /// Fit one exponential to the run and say what heat it implies
+    #[arg(long)]
+    pub(crate) bias: bool,
+    /// Fit least_squares over this time after the step, not over the run
+    #[arg(long, value_name = "TIME")]
+    pub(crate) window: Option<String>,
+    /// Print a table, json, or the one-node network as toml
+    #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    pub(crate) format: ReduceFormat,
+    /// Write the one-node network as a netlist too
+    #[arg(long, value_name = "FILE")]
+    pub(crate) write: Option<PathBuf>,
+    /// Show temperatures in degC, K, degF or degR
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) temperature_unit: Option<String>,
+    /// Accepted for scripts that pass it to every verb: only `--write` writes a file.
+    #[arg(long, hide = true)]
+    pub(crate) no_files: bool,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Sort {
     Margin,
@@ -301,6 +343,22 @@ pub(crate) struct CoolingArgs {
     /// How much air or oil may warm on its way [10 K]
     #[arg(long, value_name = "K", conflicts_with = "file")]
     pub(crate) rise: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ReduceFormat {
+    Table,
+    Json,
+    Toml,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub(crate) enum DefinitionName {
+    Sum,
+    FirstMoment,
+    DominantPole,
+    LeastSquares,
 }
 
 #[derive(Debug, Arguments)]

@@ -21,10 +21,14 @@ mod interrupt;
 mod limits;
 mod materials;
 mod modes;
+mod netlist_text;
 mod new;
 mod next;
 mod outcome;
 mod progress;
+mod reduce;
+mod reduce_json;
+mod reduce_text;
 mod run;
 mod select;
 mod size;
@@ -72,6 +76,7 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
         Some(Verb::Verify(args)) => verify::verify(args, console),
         Some(Verb::Compare(args)) => compare::compare(args, console),
         Some(Verb::Size(args)) => size::size(args, console),
+        Some(Verb::Reduce(args)) => reduce::reduce(args, console),
         Some(Verb::New(args)) => new::new(args, console),
         Some(Verb::Units(args)) => units::units(args, console),
         Some(Verb::Materials(args)) => materials::materials(args, console),

@@ -25,7 +25,7 @@ fn mask_residual(line: &str) -> String {
 fn every_line_fits_into_80_columns() {
     let folder = Folder::with_gearbox();
     folder.run(&["new", "motor"]).exits(0);
-    let arguments: [&[&str]; 16] = [
+    let arguments: [&[&str]; 18] = [
         &["run", "gearbox.toml", "-v"],
         &["run", "motor.toml", "-v"],
         &["run", "gearbox.toml", "--temperature-unit", "degF"],
@@ -33,6 +33,7 @@ fn every_line_fits_into_80_columns() {
         &["modes", "gearbox.toml"],
         &["verify", "gearbox.toml"],
         &["check", "gearbox.toml"],
+        &["reduce", "gearbox.toml", "--port", "steel", "--bias"],
         &["units"],
         &["units", "3 L/min"],
         &["--help"],
@@ -40,6 +41,7 @@ fn every_line_fits_into_80_columns() {
         &["steady", "--help"],
         &["modes", "--help"],
         &["verify", "--help"],
+        &["reduce", "--help"],
         &["check", "--help"],
         &["--version"],
     ];
@@ -238,6 +240,7 @@ fn the_examples_of_the_help_work() {
         &["--help"][..],
         &["run", "--help"],
         &["steady", "--help"],
+        &["reduce", "--help"],
         &["check", "--help"],
         &["units", "--help"],
     ] {
@@ -250,5 +253,5 @@ fn the_examples_of_the_help_work() {
             count += 1;
         }
     }
-    assert_eq!(count, 13);
+    assert_eq!(count, 16);
 }

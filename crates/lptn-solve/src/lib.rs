@@ -43,4 +43,4 @@ pub use summary::{NodeSummary, Summary};
 pub use table::{Column, Label, Selection, Table};
 pub use verification::{Comparison, LEAST_TOLERANCE, NoReference, Reference, Verification, allowed_error};
 
-pub use watch::{Seen, Watch};
+pub use watch::{Seen, Watch, top};

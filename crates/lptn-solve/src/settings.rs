@@ -5,6 +5,7 @@ use lptn_network::{NodeId, OutputTimes, Time};
 
 use crate::curved::Curved;
 use crate::error::SettingsError;
+use crate::times;
 use crate::watch::Watch;
 
 /// Which nodes a solution keeps.
@@ -96,6 +97,15 @@ impl Transient {
     pub fn record(mut self, nodes: &[NodeId]) -> Self {
         self.record = Record::Nodes(nodes.to_vec());
         self
+    }
+
+    /// The times in s at which a row is written, from the start to the stop.
+    ///
+    /// # Errors
+    /// [`SettingsError`] if the settings contradict themselves.
+    pub fn rows(&self) -> Result<Vec<f64>, SettingsError> {
+        self.check()?;
+        times::rows(&self.output, self.start, self.stop)
     }
 
     pub(crate) fn check(&self) -> Result<(), SettingsError> {

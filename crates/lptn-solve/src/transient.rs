@@ -11,7 +11,7 @@ use crate::recorder::Recorder;
 use crate::settings::{Control, Progress, Transient};
 use crate::solution::{End, Solution};
 use crate::stateless;
-use crate::times::{self, Segment, segments};
+use crate::times::{Segment, segments, snap};
 
 impl Transient {
     /// Runs to the stop.
@@ -31,11 +31,10 @@ impl Transient {
         system: &ThermalSystem,
         observer: &mut dyn FnMut(Progress) -> Control,
     ) -> Result<Solution, TransientError> {
-        self.check().map_err(TransientError::Settings)?;
-        let rows = times::rows(&self.output, self.start, self.stop).map_err(TransientError::Settings)?;
+        let rows = self.rows().map_err(TransientError::Settings)?;
         let network = system.network();
         let mut breakpoints = network.breakpoints(self.start, self.stop).map_err(TransientError::Input)?;
-        times::snap(&mut breakpoints, &rows);
+        snap(&mut breakpoints, &rows);
         let segments = segments(self.start, self.stop, &breakpoints);
         let recorder = Recorder::new(system, rows, self).map_err(TransientError::Settings)?;
         if system.states().is_empty() {

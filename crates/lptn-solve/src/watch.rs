@@ -97,8 +97,9 @@ impl Seen {
     }
 }
 
-/// The top of the parabola through three points of ascending time, if it has one between them.
-pub(crate) fn top([(t0, y0), (t1, y1), (t2, y2)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
+/// The top (value, time) of the parabola through three points (time, value) of ascending time, if it has one
+/// between them.
+pub fn top([(t0, y0), (t1, y1), (t2, y2)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
     let (left, right) = ((y1 - y0) / (t1 - t0), (y2 - y1) / (t2 - t1));
     let curvature = (right - left) / (t2 - t0);
     let slope = left + curvature * (t1 - t0);

@@ -29,6 +29,7 @@ pub use lptn_assembly as assembly;
 pub use lptn_integrate as integrate;
 pub use lptn_netlist as netlist;
 pub use lptn_network as network;
+pub use lptn_reduce as reduce;
 pub use lptn_report as report;
 pub use lptn_solve as solve;
 pub use lptn_units as units;

@@ -1,0 +1,104 @@
+//! The modes of a symmetric operator that one vector excites.
+
+use faer::{Mat, Side};
+
+use crate::error::ReduceError;
+
+/// An eigenvalue with the weight of the start vector in it: squared cosine times squared length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Mode {
+    pub(crate) value: f64,
+    pub(crate) weight: f64,
+    /// How far the value is from an eigenvalue at most.
+    pub(crate) error: f64,
+}
+
+/// A symmetric operator: gives its product with a vector.
+pub(crate) type Operator<'a> = dyn FnMut(&[f64]) -> Result<Vec<f64>, ReduceError> + 'a;
+
+/// Most vectors kept. A port sees few modes: those beyond are too fast or too far to matter.
+const MOST: usize = 300;
+
+/// Coupling relative to the largest eigenvalue below which nothing new is excited.
+const EXHAUSTED: f64 = 1e-14;
+
+/// Lanczos iteration with full reorthogonalisation (C. Lanczos, J. Res. NBS 45 (1950) 255; G. H. Golub and
+/// G. Meurant, Matrices, Moments and Quadrature (2010), chapter 4: values and weights are the Gauss quadrature
+/// of the start vector's measure). Ends when `enough` says so of the modes found, or when there are no more.
+pub(crate) fn modes(
+    start: &[f64],
+    apply: &mut Operator<'_>,
+    enough: &dyn Fn(&[Mode]) -> bool,
+) -> Result<Vec<Mode>, ReduceError> {
+    let length = norm(start);
+    let mut basis: Vec<Vec<f64>> = vec![scaled(start, 1.0 / length)];
+    let (mut diagonal, mut beside) = (Vec::<f64>::new(), Vec::<f64>::new());
+    let mut largest: f64 = 0.0;
+    let mut check = 4;
+    loop {
+        let last = basis.len() - 1;
+        let mut next = apply(&basis[last])?;
+        diagonal.push(dot(&basis[last], &next));
+        let coupling = orthogonalise(&mut next, &basis);
+        largest = largest.max(diagonal[last].abs()).max(coupling);
+        let done = coupling <= EXHAUSTED * largest || basis.len() == start.len() || basis.len() == MOST;
+        if done || basis.len() >= check {
+            check += check / 4;
+            let found = ritz(&diagonal, &beside, coupling, length)?;
+            if done || enough(&found) {
+                return Ok(found);
+            }
+        }
+        beside.push(coupling);
+        basis.push(scaled(&next, 1.0 / coupling));
+    }
+}
+
+/// Takes the parts along `basis` off a vector and gives the length that is left. A second time where much was taken
+/// off, so that rounding of the first does not stay ("twice is enough": B. N. Parlett, The Symmetric Eigenvalue
+/// Problem (1998), section 6.9).
+fn orthogonalise(next: &mut [f64], basis: &[Vec<f64>]) -> f64 {
+    let before = norm(next);
+    for _ in 0..2 {
+        for vector in basis {
+            let along = dot(vector, next);
+            next.iter_mut().zip(vector).for_each(|(x, v)| *x -= along * v);
+        }
+        if norm(next) > 0.7 * before {
+            break;
+        }
+    }
+    norm(next)
+}
+
+/// Eigenvalues of the tridiagonal matrix, largest first.
+fn ritz(diagonal: &[f64], beside: &[f64], coupling: f64, length: f64) -> Result<Vec<Mode>, ReduceError> {
+    let n = diagonal.len();
+    let entry = |i: usize, j: usize| match i.abs_diff(j) {
+        0 => diagonal[i],
+        1 => beside[i.min(j)],
+        _ => 0.0,
+    };
+    let eigen = Mat::from_fn(n, n, entry).self_adjoint_eigen(Side::Lower).map_err(|_| ReduceError::Modes)?;
+    let (values, vectors) = (eigen.S().column_vector(), eigen.U());
+    let mode = |k: usize| Mode {
+        value: values[k],
+        weight: (length * vectors[(0, k)]).powi(2),
+        error: (coupling * vectors[(n - 1, k)]).abs(),
+    };
+    let mut found: Vec<Mode> = (0..n).map(mode).collect();
+    found.sort_by(|a, b| b.value.total_cmp(&a.value));
+    Ok(found)
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+fn scaled(a: &[f64], factor: f64) -> Vec<f64> {
+    a.iter().map(|x| factor * x).collect()
+}

@@ -1,0 +1,32 @@
+//! A network seen from one node: its Norton equivalent, and what it costs to believe it.
+//!
+//! At a *port* (a node) a linear network is `q = Q_N - (T - T_ref) / R_eq` in steady state, exactly:
+//! [`NortonEquivalent`]. Over time it is not one resistance and one capacity but a sum of exponentials,
+//! [`StepResponse`]; the capacity `C_eq` of the nearest one-node network depends on what "nearest" means, so
+//! [`Reduction`] gives it by four [`Definition`]s, each with the largest [`Deviation`] it leads to, measured for
+//! a unit step of heat and for the network's own inputs. [`fit_exponential`] and [`Bias`] are the method of the
+//! seed paper, which takes heat from one exponential.
+//!
+//! Units: SI, temperatures in K, resistances in K/W, capacities in J/K, heat positive into a node.
+
+mod bias;
+mod capacity;
+mod conductances;
+mod definition;
+mod deviation;
+mod error;
+mod fit;
+mod lanczos;
+mod norton;
+mod one_node;
+mod reduction;
+mod step;
+
+pub use bias::Bias;
+pub use definition::{Definition, Pair, Recommended};
+pub use deviation::Deviation;
+pub use error::{FitError, ReduceError};
+pub use fit::{ExponentialFit, fit_exponential};
+pub use norton::{Inputs, NortonEquivalent, port, transfer_resistance};
+pub use reduction::{Dynamics, Options, Reduction, TOLERANCE, Window};
+pub use step::{StepResponse, Term};

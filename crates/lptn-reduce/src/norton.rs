@@ -1,0 +1,166 @@
+//! What a network is in steady state, seen from one node.
+
+use lptn_assembly::ThermalSystem;
+use lptn_network::{End, InputError, Item, Network, NodeId};
+
+use crate::conductances::Conductances;
+use crate::error::ReduceError;
+
+/// The Norton equivalent of a linear network at a port: `q = Q_N - (T - T_ref) / R_eq`, where q is the heat that
+/// the network gives out of the port in W when something outside holds the port at T.
+///
+/// `R_eq = (G^-1)_pp` is the rise of the port for 1 W into it. By reciprocity (G is symmetric) the response
+/// `R_pk` of node k to heat at the port is that of the port to heat at k, so one solution gives the weights of
+/// all sources, `R_pk / R_pp`, and of all boundaries: the share of the 1 W that each takes. Source: L. O. Chua,
+/// C. A. Desoer, E. S. Kuh, Linear and Nonlinear Circuits (1987), chapters 5 and 13.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NortonEquivalent {
+    /// The port.
+    pub port: NodeId,
+    /// `R_eq` in K/W, positive.
+    pub resistance: f64,
+    /// `R_pk` in K/W: rise of every node for 1 W into the port, between 0 and `R_eq`; 0 for nodes that only a
+    /// boundary connects with the port.
+    pub response: Vec<f64>,
+    /// Weight of every boundary in `T_ref`: not negative, sum 1.
+    pub boundary_weights: Vec<f64>,
+    /// Weight of every source in `Q_N`: `R_pk / R_pp` of its node, between 0 and 1.
+    pub source_weights: Vec<f64>,
+}
+
+/// What the inputs of a network are at its port at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inputs {
+    /// The port's steady temperature with all sources off, in K.
+    pub reference: f64,
+    /// `Q_N` in W: the heat at the port that does there what all sources do.
+    pub heat: f64,
+}
+
+/// The node of this name, to be a port.
+///
+/// # Errors
+/// [`ReduceError::UnknownPort`], with a suggestion, and [`ReduceError::BoundaryPort`].
+pub fn port(network: &Network, name: &str) -> Result<NodeId, ReduceError> {
+    match network.item(name) {
+        Ok(Item::Node(id)) => Ok(id),
+        Ok(Item::Boundary(_)) => Err(ReduceError::BoundaryPort { name: name.to_owned() }),
+        _ => network.node(name).map_err(ReduceError::UnknownPort),
+    }
+}
+
+/// Rise of node `to` in K for 1 W into node `from`, in K/W; the same with the two exchanged.
+///
+/// # Errors
+/// [`ReduceError::NoGround`] and [`ReduceError::Factorization`].
+pub fn transfer_resistance(system: &ThermalSystem, from: NodeId, to: NodeId) -> Result<f64, ReduceError> {
+    Ok(NortonEquivalent::new(system, from)?.response[to.index()])
+}
+
+impl NortonEquivalent {
+    /// Reduces `system` at `port`.
+    ///
+    /// The resistance is right to 1e-12 for conductances that spread over three decades (tested).
+    ///
+    /// # Errors
+    /// [`ReduceError::NoGround`] if nodes reach no boundary, [`ReduceError::Factorization`].
+    pub fn new(system: &ThermalSystem, port: NodeId) -> Result<Self, ReduceError> {
+        grounded(system.network())?;
+        Self::with(system, port, &mut Conductances::new(system)?)
+    }
+
+    pub(crate) fn with(
+        system: &ThermalSystem,
+        port: NodeId,
+        conductances: &mut Conductances<'_>,
+    ) -> Result<Self, ReduceError> {
+        let network = system.network();
+        let mut heat = vec![0.0; network.nodes().len()];
+        heat[port.index()] = 1.0;
+        let reached = reached(network, port);
+        let rise = conductances.rise(&heat)?;
+        let response: Vec<f64> =
+            rise.iter().zip(&reached).map(|(&r, &is)| if is { r } else { 0.0 }).collect();
+        let resistance = response[port.index()];
+        let weight = |source: &lptn_network::Source| response[source.into.index()] / resistance;
+        let source_weights = network.sources().iter().map(weight).collect();
+        let boundary_weights = conductances.boundary_heat().iter().map(|w| w.max(0.0)).collect();
+        Ok(Self { port, resistance, response, boundary_weights, source_weights })
+    }
+
+    /// `T_ref` in K from the temperatures of all boundaries in K.
+    pub fn reference(&self, boundaries: &[f64]) -> f64 {
+        // as differences: a network at one temperature has exactly that as its reference
+        let base = boundaries.first().copied().unwrap_or(f64::NAN);
+        base + boundaries.iter().zip(&self.boundary_weights).map(|(t, w)| w * (t - base)).sum::<f64>()
+    }
+
+    /// `Q_N` in W from the heat of all sources in W.
+    pub fn heat(&self, sources: &[f64]) -> f64 {
+        sources.iter().zip(&self.source_weights).map(|(p, w)| w * p).sum()
+    }
+
+    /// The inputs as they are at `time`, in s.
+    ///
+    /// # Errors
+    /// [`InputError`] if a source or boundary has no value.
+    pub fn inputs(&self, system: &ThermalSystem, time: f64) -> Result<Inputs, InputError> {
+        let mut work = system.workspace();
+        system.read_inputs(&mut work, time, time)?;
+        Ok(Inputs {
+            reference: self.reference(system.boundary_temperatures(&work)),
+            heat: self.heat(system.source_powers(&work)),
+        })
+    }
+
+    /// Sum of the capacities of all nodes that heat from the port reaches, in J/K.
+    pub fn capacity_sum(&self, network: &Network) -> f64 {
+        self.reached(network).map(|(_, capacity)| capacity).sum()
+    }
+
+    /// `m1 = sum of C_k R_pk^2` in K s/W: the first moment of the impulse response at the port (W. C. Elmore,
+    /// J. Appl. Phys. 19 (1948) 55; for a driving point of an RC network the sum over squares).
+    pub fn first_moment(&self, network: &Network) -> f64 {
+        self.reached(network).map(|(r, capacity)| capacity * r * r).sum()
+    }
+
+    /// Response and capacity of the nodes that heat from the port reaches.
+    fn reached(&self, network: &Network) -> impl Iterator<Item = (f64, f64)> {
+        let capacities = network.node_ids().map(|id| network.capacity(id)).collect::<Vec<_>>();
+        let is_reached = reached(network, self.port);
+        let all = self.response.clone().into_iter().zip(capacities).zip(is_reached);
+        all.filter(|(_, is)| *is).map(|(pair, _)| pair)
+    }
+}
+
+/// Every node must lead to a boundary.
+pub(crate) fn grounded(network: &Network) -> Result<(), ReduceError> {
+    let loose: Vec<NodeId> = network.ungrounded().into_iter().flatten().collect();
+    if loose.is_empty() {
+        return Ok(());
+    }
+    let names = loose.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
+    Err(ReduceError::NoGround { names })
+}
+
+/// Which nodes are connected with the port by paths over nodes.
+fn reached(network: &Network, port: NodeId) -> Vec<bool> {
+    let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); network.nodes().len()];
+    for conductor in network.conductors() {
+        if let (End::Node(a), End::Node(b)) = (conductor.from, conductor.to) {
+            neighbours[a.index()].push(b.index());
+            neighbours[b.index()].push(a.index());
+        }
+    }
+    let mut reached = vec![false; neighbours.len()];
+    reached[port.index()] = true;
+    let mut open = vec![port.index()];
+    while let Some(node) = open.pop() {
+        for &next in &neighbours[node] {
+            if !std::mem::replace(&mut reached[next], true) {
+                open.push(next);
+            }
+        }
+    }
+    reached
+}

@@ -1,0 +1,134 @@
+//! The one-node network of a Norton equivalent, as a network that runs.
+
+use lptn_assembly::ThermalSystem;
+use lptn_network::{
+    BuildErrors, HeatCapacity, HeatFlow, Input, Network, NetworkBuilder, NodeId, Resistance, Temperature,
+    Value, slot,
+};
+use lptn_units::{Dimension, Quantity, Type, UnitError, format_number};
+
+use crate::error::ReduceError;
+use crate::norton::NortonEquivalent;
+
+/// Everything but the capacity.
+pub(crate) struct OneNode<'a> {
+    pub(crate) system: &'a ThermalSystem,
+    pub(crate) norton: &'a NortonEquivalent,
+    /// Temperature of the port at the start in K.
+    pub(crate) initial: f64,
+    /// Start of the run in s, where constant inputs are read.
+    pub(crate) start: f64,
+}
+
+impl OneNode<'_> {
+    /// The network with this capacity in J/K, or none. Its node is the port's namesake.
+    ///
+    /// Constant inputs become one boundary `T_ref` behind `R_eq` and one source `Q_N`. Where an input changes
+    /// with time, every boundary stays, behind `R_eq` over its weight, and every source, times its weight:
+    /// expressions stay as they are written, and the whole is the same equivalent at every moment.
+    pub(crate) fn network(&self, capacity: Option<f64>) -> Result<Network, ReduceError> {
+        let from = self.system.network();
+        let mut builder = NetworkBuilder::new();
+        let name = &from.nodes()[self.norton.port.index()].name;
+        let varies = from.has_time_dependent_inputs();
+        if varies {
+            self.parameters(&mut builder);
+        }
+        let node = match capacity {
+            Some(capacity) => builder.node(name, HeatCapacity(capacity), Temperature(self.initial)),
+            None => builder.massless(name),
+        };
+        if varies {
+            self.boundaries(&mut builder, node).and_then(|()| self.sources(&mut builder, node))?;
+        } else {
+            self.constants(&mut builder, node)?;
+        }
+        builder.build().map_err(|errors| ReduceError::Equivalent(first(&errors)))
+    }
+
+    /// The parameters that the inputs use, as the constants they come to.
+    fn parameters(&self, builder: &mut NetworkBuilder) {
+        let network = self.system.network();
+        let boundaries = network.boundaries().iter().map(|b| &b.temperature);
+        let sources = network.sources().iter().map(|s| &s.power);
+        let values = boundaries.zip(&self.norton.boundary_weights);
+        let values = values.chain(sources.zip(&self.norton.source_weights)).filter(|(_, w)| **w > 0.0);
+        let used: Vec<u32> = values.flat_map(|(value, _)| value.slots()).collect();
+        for (parameter, id) in network.parameters().iter().zip(network.parameter_ids()) {
+            if used.iter().any(|&s| s as usize == slot::PARAMETERS as usize + id.index()) {
+                let value = network.parameter_value(id);
+                builder.parameter(&parameter.name, Quantity { value, deviation: None, ty: parameter.ty });
+            }
+        }
+    }
+
+    fn constants(&self, builder: &mut NetworkBuilder, node: NodeId) -> Result<(), ReduceError> {
+        let inputs = self.norton.inputs(self.system, self.start).map_err(ReduceError::Input)?;
+        let reference = builder.boundary(&self.free("T_ref"), Temperature(inputs.reference));
+        builder.resistor(&self.free("R_eq"), node, reference, Resistance(self.norton.resistance));
+        if !self.system.network().sources().is_empty() {
+            builder.source(&self.free("Q_N"), node, HeatFlow(inputs.heat));
+        }
+        Ok(())
+    }
+
+    fn boundaries(&self, builder: &mut NetworkBuilder, node: NodeId) -> Result<(), ReduceError> {
+        let network = self.system.network();
+        for (boundary, &weight) in network.boundaries().iter().zip(&self.norton.boundary_weights) {
+            if weight > 0.0 {
+                let value = input(builder, &boundary.temperature, Type::ABSOLUTE_TEMPERATURE, 1.0)?;
+                let end = builder.boundary(&boundary.name, value);
+                let name = self.free(&format!("R_{}", boundary.name));
+                builder.resistor(&name, node, end, Resistance(self.norton.resistance / weight));
+            }
+        }
+        Ok(())
+    }
+
+    fn sources(&self, builder: &mut NetworkBuilder, node: NodeId) -> Result<(), ReduceError> {
+        let network = self.system.network();
+        for (source, &weight) in network.sources().iter().zip(&self.norton.source_weights) {
+            if weight > 0.0 {
+                let value = input(builder, &source.power, Type::of(Dimension::POWER), weight)?;
+                builder.source(&source.name, node, value);
+            }
+        }
+        Ok(())
+    }
+
+    /// A name that nothing of the network has.
+    fn free(&self, wanted: &str) -> String {
+        let mut name = wanted.to_owned();
+        while self.system.network().item(&name).is_ok() {
+            name.push('_');
+        }
+        name
+    }
+}
+
+/// `weight` times a value, which has no absolute type unless the weight is 1.
+fn input(builder: &NetworkBuilder, value: &Value, ty: Type, weight: f64) -> Result<Input, ReduceError> {
+    let factor = format_number(weight);
+    match value {
+        Value::Constant(value) => Ok(Quantity { value: weight * value, deviation: None, ty }.into()),
+        Value::Product(_) => {
+            Err(ReduceError::Equivalent("a product is no input: this is a bug in lptn".into()))
+        }
+        Value::Expression(program) => {
+            let text = if factor == "1" {
+                program.text().to_owned()
+            } else {
+                format!("{factor} * ({})", program.text())
+            };
+            let failed = |errors: Vec<UnitError>| {
+                let error = errors.first().map(ToString::to_string).unwrap_or_default();
+                ReduceError::Equivalent(format!("`{text}`: {error}"))
+            };
+            Ok(builder.expression(&text, Some(ty)).map_err(failed)?.into())
+        }
+    }
+}
+
+fn first(errors: &BuildErrors) -> String {
+    errors.0.first().map(|error| error.to_string()).unwrap_or_default()
+}

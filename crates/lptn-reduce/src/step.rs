@@ -1,0 +1,130 @@
+//! The port's temperature after a unit step of heat into it, as a sum of exponentials.
+
+use lptn_assembly::ThermalSystem;
+
+use crate::conductances::Conductances;
+use crate::error::ReduceError;
+use crate::lanczos::{self, Mode};
+use crate::norton::NortonEquivalent;
+
+/// One exponential of a step response.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Term {
+    /// Its time constant in s.
+    pub tau: f64,
+    /// Its share of `R_eq` in K/W.
+    pub resistance: f64,
+    /// How far `tau` is from a time constant of the network at most, in s.
+    pub error: f64,
+}
+
+/// Rise of the port in K for 1 W into it from time 0 on: `R_eq - sum of r_i exp(-t / tau_i)`.
+///
+/// The terms are the modes of `C dT/dt = -G T` that heat at the port excites: eigenvalues of
+/// `C^1/2 G^-1 C^1/2` found by Lanczos iteration from `C^1/2 G^-1 e_p`, so that the slowest come first and modes
+/// that the port does not see never appear. For small networks they are all there is; for large ones the
+/// iteration ends when the curve is known to 1e-9 of `R_eq`, or after 300 vectors, and
+/// [`StepResponse::residual`] says what is left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepResponse {
+    /// `R_eq` in K/W.
+    pub resistance: f64,
+    /// The rise that comes at once in K/W: 0 unless the port is massless.
+    pub direct: f64,
+    /// The terms, slowest first.
+    pub terms: Vec<Term>,
+    /// By how much the terms miss the rise at time 0 in K/W: the part of the fastest modes that is not resolved. The
+    /// curve is least exact there, so this is the size of its largest error (an estimate, not a bound).
+    pub residual: f64,
+}
+
+/// Share of `R_eq` that a mode must have to count as one that the port sees.
+const VISIBLE: f64 = 1e-9;
+
+/// The curve is known well enough when it misses no more than this share of `R_eq`.
+const CURVE: f64 = 1e-9;
+
+/// The slowest time constant is known well enough with this relative error.
+const SLOWEST: f64 = 1e-13;
+
+impl StepResponse {
+    /// The response at the port of `norton`; `None` if no capacity is connected with it.
+    ///
+    /// # Errors
+    /// [`ReduceError::Factorization`], [`ReduceError::Modes`].
+    pub fn new(system: &ThermalSystem, norton: &NortonEquivalent) -> Result<Option<Self>, ReduceError> {
+        Self::with(system, norton, &mut Conductances::new(system)?)
+    }
+
+    pub(crate) fn with(
+        system: &ThermalSystem,
+        norton: &NortonEquivalent,
+        conductances: &mut Conductances<'_>,
+    ) -> Result<Option<Self>, ReduceError> {
+        let root: Vec<f64> = system.capacity().iter().map(|c| c.sqrt()).collect();
+        let rise = system.states().iter().map(|id| norton.response[id.index()]);
+        let start: Vec<f64> = rise.zip(&root).map(|(r, c)| r * c).collect();
+        if start.iter().all(|x| *x <= 0.0) {
+            return Ok(None);
+        }
+        let direct = direct(system, norton);
+        let resistance = norton.resistance;
+        let moved = resistance - direct;
+        let enough = |modes: &[Mode]| {
+            let first = modes[0];
+            let sum: f64 = terms(modes).iter().map(|term| term.resistance).sum();
+            (sum - moved).abs() <= CURVE * resistance && first.error <= SLOWEST * first.value
+        };
+        let mut apply = |x: &[f64]| {
+            let heat: Vec<f64> = x.iter().zip(&root).map(|(x, c)| x * c).collect();
+            let rise = conductances.state_rise(&heat)?;
+            Ok(rise.iter().zip(&root).map(|(r, c)| r * c).collect())
+        };
+        let terms = terms(&lanczos::modes(&start, &mut apply, &enough)?);
+        let residual = (terms.iter().map(|term| term.resistance).sum::<f64>() - moved).abs();
+        Ok(Some(Self { resistance, direct, terms, residual }))
+    }
+
+    /// The rise in K/W at `time` in s; at 0 that which comes at once.
+    pub fn value(&self, time: f64) -> f64 {
+        if time <= 0.0 {
+            return self.direct;
+        }
+        self.resistance - self.terms.iter().map(|t| t.resistance * (-time / t.tau).exp()).sum::<f64>()
+    }
+
+    /// The slowest time constant that the port sees: the slowest mode that has at least 1e-9 of `R_eq`.
+    pub fn slowest(&self) -> Term {
+        let seen = self.terms.iter().find(|term| term.resistance >= VISIBLE * self.resistance);
+        seen.or(self.terms.first()).copied().unwrap_or(Term { tau: f64::NAN, resistance: 0.0, error: 0.0 })
+    }
+
+    /// Shortest and longest time constant in s.
+    pub(crate) fn span(&self) -> (f64, f64) {
+        let taus = self.terms.iter().map(|term| term.tau);
+        taus.fold((f64::INFINITY, 0.0), |(least, most), tau| (least.min(tau), most.max(tau)))
+    }
+}
+
+/// Modes as terms: the weight in the measure of `C^1/2 G^-1 e_p` is `tau r`. Values within rounding of zero are no
+/// time constants.
+fn terms(modes: &[Mode]) -> Vec<Term> {
+    let least = 1e-15 * modes.first().map_or(0.0, |mode| mode.value);
+    let real = modes.iter().filter(|mode| mode.value > least && mode.weight > 0.0);
+    real.map(|m| Term { tau: m.value, resistance: m.weight / m.value, error: m.error }).collect()
+}
+
+/// The rise of a massless port in K/W while every capacity still has its old temperature.
+fn direct(system: &ThermalSystem, norton: &NortonEquivalent) -> f64 {
+    let network = system.network();
+    let port = norton.port;
+    if !network.nodes()[port.index()].massless {
+        return 0.0;
+    }
+    let mut heat = vec![0.0; network.nodes().len()];
+    heat[port.index()] = 1.0;
+    let mut work = system.workspace();
+    system.apply(&mut work, &heat, &vec![0.0; network.boundaries().len()]);
+    system.recover(&mut work, &vec![0.0; system.states().len()]);
+    system.node_temperatures(&work)[port.index()]
+}

@@ -1,0 +1,172 @@
+//! The two-node gearbox: every number from the 2 x 2 eigenproblem written out here.
+#![allow(clippy::unwrap_used, reason = "the helpers are part of the tests")]
+
+mod common;
+
+use common::{near, two_nodes};
+use lptn_network::Time;
+use lptn_reduce::{Definition, Options, Reduction, Window};
+use lptn_solve::Transient;
+
+/// Printed values: capacity, half of its last digit, error in %, half of its last digit. Source: the numbers that
+/// the reduction was asked to reach, found with numpy and scipy.
+type Printed = [[f64; 4]; 4];
+
+/// The step response `R - r_1 exp(-t/tau_1) - r_2 exp(-t/tau_2)` at node s of C_s -R_int- C_a -R_amb- ground.
+struct Exact {
+    resistance: f64,
+    tau: [f64; 2],
+    r: [f64; 2],
+    c: [f64; 2],
+    r_amb: f64,
+}
+
+impl Exact {
+    fn new(c: [f64; 2], r_int: f64, r_amb: f64) -> Self {
+        // symmetric form of C^-1/2 G C^-1/2
+        let (g_i, g_o) = (1.0 / r_int, 1.0 / r_amb);
+        let (a, b, d) = (g_i / c[0], -g_i / f64::sqrt(c[0] * c[1]), (g_i + g_o) / c[1]);
+        let fast = 0.5 * (a + d) + f64::hypot(0.5 * (a - d), b);
+        let rates = [(a * d - b * b) / fast, fast];
+        let share = rates.map(|rate| b * b / (b * b + (rate - a) * (rate - a)) / c[0]);
+        Self {
+            resistance: r_int + r_amb,
+            tau: rates.map(f64::recip),
+            r: [share[0] / rates[0], share[1] / rates[1]],
+            c,
+            r_amb,
+        }
+    }
+
+    fn step(&self, t: f64) -> f64 {
+        self.resistance - self.r[0] * (-t / self.tau[0]).exp() - self.r[1] * (-t / self.tau[1]).exp()
+    }
+
+    /// The largest error of `C_eq = capacity` by brute force: size over `R_eq`, and when.
+    fn error(&self, capacity: f64) -> (f64, f64) {
+        let tau = self.resistance * capacity;
+        let times = (0..400_000).map(|k| 1e-2 * 10_f64.powf(f64::from(k) / 66_000.0));
+        let error = |t: f64| (self.step(t) / self.resistance + f64::exp_m1(-t / tau)).abs();
+        times.map(|t| (error(t), t)).fold((0.0, 0.0), |best, next| if next.0 > best.0 { next } else { best })
+    }
+
+    /// Least squares by Simpson's rule and a ternary search: nothing of the library's closed forms.
+    fn least_squares(&self, window: f64) -> f64 {
+        let cost = |capacity: f64| {
+            let tau = self.resistance * capacity;
+            let n = 20_000;
+            let value = |k: i32| {
+                let t = window * f64::from(k) / f64::from(n);
+                (self.step(t) + self.resistance * f64::exp_m1(-t / tau)).powi(2)
+            };
+            let weight = |k: i32| if k == 0 || k == n { 1.0 } else { 2.0 + 2.0 * f64::from(k % 2) };
+            (0..=n).map(|k| weight(k) * value(k)).sum::<f64>()
+        };
+        let (mut a, mut b) = (0.3 * self.c[0], 1.5 * (self.c[0] + self.c[1]));
+        for _ in 0..60 {
+            let (x, y) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
+            if cost(x) < cost(y) { b = y } else { a = x }
+        }
+        0.5 * (a + b)
+    }
+
+    fn capacities(&self, window: f64) -> [f64; 4] {
+        let ratio = self.r_amb / self.resistance;
+        [
+            self.c[0] + self.c[1],
+            self.c[0] + self.c[1] * ratio * ratio,
+            self.tau[0] / self.resistance,
+            self.least_squares(window),
+        ]
+    }
+}
+
+fn check(r_int: f64, r_amb: f64, printed_tau: [f64; 2], printed: Printed) {
+    let c = [1000.0, 1659.0];
+    let exact = Exact::new(c, r_int, r_amb);
+    assert!((exact.tau[0] - printed_tau[0]).abs() < 5e-3 && (exact.tau[1] - printed_tau[1]).abs() < 5e-3);
+    let (system, [steel, _]) = two_nodes(c, r_int, r_amb, 220.6);
+    let run = Transient::until(Time(1500.0));
+    let options = Options { run: Some(run), window: None };
+    let reduction = Reduction::new(&system, steel, &options).unwrap();
+    near(reduction.norton.resistance, r_int + r_amb, 1e-14);
+    near(reduction.norton.boundary_weights[0], 1.0, 1e-14);
+    let dynamics = reduction.dynamics.unwrap();
+    near(dynamics.step.slowest().tau, exact.tau[0], 1e-12);
+    near(dynamics.step.terms[1].tau, exact.tau[1], 1e-10);
+    near(dynamics.step.terms[1].resistance, exact.r[1], 1e-8);
+    assert_eq!(dynamics.window, Window::Run(1500.0));
+    for ((pair, capacity), printed) in dynamics.pairs.iter().zip(exact.capacities(1500.0)).zip(printed) {
+        let tight = if pair.definition == Definition::LeastSquares { 1e-6 } else { 1e-11 };
+        near(pair.capacity, capacity, tight);
+        let [printed_capacity, its_half_digit, printed_error, half_digit] = printed;
+        assert!((pair.capacity - printed_capacity).abs() <= its_half_digit, "{pair:?}");
+        let (error, time) = exact.error(pair.capacity);
+        near(pair.step.relative.unwrap(), error, 1e-7);
+        assert!((pair.step.relative.unwrap() * 100.0 - printed_error).abs() <= half_digit, "{pair:?}");
+        near(pair.step.time, time, 1e-3);
+        // the run is a step of 220.6 W from rest, cut off at 1500 s: the same error times 220.6 W, in K
+        let run = pair.run.unwrap();
+        near(run.kelvin, error * (r_int + r_amb) * 220.6, 1e-4);
+        near(run.relative.unwrap(), error * (r_int + r_amb) / exact.step(1500.0), 1e-4);
+    }
+}
+
+#[test]
+fn nearly_one_node() {
+    let tau_1_over_r = Exact::new([1000.0, 1659.0], 1.7 / 220.6, 65.5 / 220.6).tau[0] / (67.2 / 220.6);
+    let printed = [
+        [2659.0, 1e-9, 1.25, 0.005],
+        [2576.12, 0.005, 0.91, 0.005],
+        [tau_1_over_r, 1e-8, 0.94, 0.005],
+        [2570.40, 0.005, 0.905, 0.0005],
+    ];
+    check(1.7 / 220.6, 65.5 / 220.6, [792.42, 4.79], printed);
+}
+
+#[test]
+fn clearly_two_nodes() {
+    let tau_1_over_r = Exact::new([1000.0, 1659.0], 0.1, 0.3).tau[0] / 0.4;
+    let printed = [
+        [2659.0, 1e-9, 12.1, 0.05],
+        [1933.2, 0.05, 5.1, 0.05],
+        [tau_1_over_r, 1e-8, 6.3, 0.05],
+        [1885.22, 0.005, 4.757, 0.0005],
+    ];
+    check(0.1, 0.3, [838.33, 59.37], printed);
+}
+
+#[test]
+fn the_pair_with_the_smallest_error_is_recommended() {
+    let (system, [steel, _]) = two_nodes([1000.0, 1659.0], 0.1, 0.3, 220.6);
+    let with_run = Options { run: Some(Transient::until(Time(1500.0))), window: None };
+    for options in [with_run, Options::default()] {
+        let by_run = options.run.is_some();
+        let reduction = Reduction::new(&system, steel, &options).unwrap();
+        let recommended = reduction.dynamics.unwrap().recommended;
+        assert_eq!((recommended.definition, recommended.by_run), (Definition::LeastSquares, by_run));
+    }
+}
+
+#[test]
+fn one_node_is_its_own_equivalent_by_all_definitions() {
+    let (system, nodes) = common::chain(&[2659.0], &[3.25]);
+    let options = Options { run: Some(Transient::until(Time(900.0))), window: Some(400.0) };
+    let dynamics = Reduction::new(&system, nodes[0], &options).unwrap().dynamics.unwrap();
+    for pair in &dynamics.pairs {
+        near(pair.capacity, 2659.0, 1e-12);
+        assert!(pair.step.relative.unwrap() < 1e-12, "{pair:?}");
+        assert!(pair.run.unwrap().kelvin < 1e-9 && pair.run.unwrap().relative.is_none());
+    }
+    assert_eq!(dynamics.recommended.definition, Definition::Sum);
+}
+
+#[test]
+fn a_window_must_be_a_time() {
+    let (system, nodes) = common::chain(&[1.0], &[1.0]);
+    for window in [0.0, -1.0, f64::NAN] {
+        let error =
+            Reduction::new(&system, nodes[0], &Options { run: None, window: Some(window) }).unwrap_err();
+        assert_eq!(error.code(), "reduce::window");
+    }
+}
