@@ -1,4 +1,4 @@
-//! Networks of /work/shared/validation, written out.
+//! Networks of the validation set, written out.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used, reason = "each test file uses a part")]
 
 use lptn_network::{Conductance, HeatCapacity, HeatFlow, Network, NetworkBuilder, NodeId, Temperature};
