@@ -66,7 +66,7 @@ fn materials_are_listed_with_their_sources() {
     let folder = Folder::empty();
     let ran = folder.run(&["materials"]).exits(0).prints("steel_8620").prints("gear_oil_vg220");
     assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
-    folder.run(&["materials", "steel_8620"]).exits(0).prints("MatWeb").prints("475 J/(kg K)");
+    folder.run(&["materials", "steel_8620"]).exits(0).prints("AZoM").prints("475 J/(kg K)");
     let json = folder.run(&["materials", "--format", "json"]).exits(0).json();
     assert_eq!(json["materials"]["aluminium_6061"]["cp"]["value"], 896.0);
     assert_eq!(json["fluids"]["air"]["T"]["unit"], "K");

@@ -105,7 +105,7 @@ mod tests {
         let aluminium = find("aluminium_6061").map(|r| (r.density, r.cp, r.k));
         assert_eq!(aluminium, Some((Some(2700.0), Some(896.0), Some(167.0))));
         assert_eq!(find("steel_8620").and_then(|r| r.cp), Some(475.0));
-        assert_eq!(find("air").map(|r| (r.cp, r.temperature)), Some((Some(1007.0), Some(300.0))));
+        assert_eq!(find("air").map(|r| (r.cp, r.temperature)), Some((Some(1006.0), Some(298.15))));
     }
 
     /// The heat capacity of a volume of a dense solid lies between 1 and 5 MJ/(m^3 K), of plastics as well.

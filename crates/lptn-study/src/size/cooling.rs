@@ -75,8 +75,8 @@ impl std::error::Error for CoolingError {}
 
 impl CoolingTask {
     /// The resistance that carries `power` with `limit - ambient` across it: `R_max = (limit - ambient) / P`, the
-    /// definition of a thermal resistance (F. P. Incropera et al., Fundamentals of Heat and Mass Transfer,
-    /// section 3.1.2). Its inverse is the product of film coefficient and area.
+    /// definition of a thermal resistance (F. P. Incropera et al., Fundamentals of Heat and Mass Transfer).
+    /// Its inverse is the product of film coefficient and area.
     ///
     /// # Errors
     /// [`CoolingError`] for a power or rise that is not positive.
@@ -92,8 +92,8 @@ impl CoolingTask {
         Ok(Cooling { available, resistance: available / self.power })
     }
 
-    /// The flow that takes the heat away while it warms by `rise`: `P = m cp rise`, the steady flow energy equation
-    /// (Incropera et al., equation 1.12e). `None` where the coolant would have to leave warmer than the limit.
+    /// The flow that takes the heat away while it warms by `rise`: `P = m cp rise`, the energy equation of a steady flow
+    /// without work (Incropera et al.). `None` where the coolant would have to leave warmer than the limit.
     pub fn flow(&self, coolant: Coolant) -> Option<Flow> {
         if self.rise > self.limit - self.ambient {
             return None;
