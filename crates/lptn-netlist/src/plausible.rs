@@ -16,7 +16,7 @@ struct Range {
 
 /// The limits are those of real solids near room temperature, with a factor to spare: uranium 116 and lithium 3582
 /// J/(kg K), osmium 22587 kg/m^3 (CRC Handbook of Chemistry and Physics, as the package mendeleev 1 has it); silica
-/// aerogels 3 kg/m^3 and about 0.015 W/(m K); natural diamond of type IIa 2500 W/(m K) (Proc. SPIE 2428 (1995) 610: 24 to 25 W/(cm K)).
+/// aerogels 3 kg/m^3 and about 0.015 W/(m K); natural diamond of type IIa 24 to 25 W/(cm K) (Proc. SPIE 2428 (1995) 610).
 const RANGES: [Range; 3] = [
     Range {
         key: "cp",

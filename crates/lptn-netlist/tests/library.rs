@@ -17,7 +17,7 @@ fn near(found: f64, expected: f64, relative: f64) {
 #[track_caller]
 fn holds(name: &str, [density, cp, k]: [f64; 3]) {
     let found = record(name);
-    assert_eq!([found.density, found.cp, found.k].map(Option::unwrap), [density, cp, k], "{name}");
+    assert_eq!([found.density, found.cp, found.k], [Some(density), Some(cp), Some(k)], "{name}");
 }
 
 /// Steels and aluminium as data sheets of suppliers print them, which is where most designs take them from.

@@ -92,8 +92,8 @@ impl CoolingTask {
         Ok(Cooling { available, resistance: available / self.power })
     }
 
-    /// The flow that takes the heat away while it warms by `rise`: `P = m cp rise`, the energy equation of a steady flow
-    /// without work (Incropera et al.). `None` where the coolant would have to leave warmer than the limit.
+    /// The flow that takes the heat away while it warms by `rise`: `P = m cp rise`, the energy equation of a steady
+    /// flow without work (Incropera et al.). `None` where the coolant would have to leave warmer than the limit.
     pub fn flow(&self, coolant: Coolant) -> Option<Flow> {
         if self.rise > self.limit - self.ambient {
             return None;
