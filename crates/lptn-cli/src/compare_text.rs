@@ -56,7 +56,7 @@ fn overview(comparison: &Comparison) -> Vec<String> {
     let answers = rows.iter().zip(&comparison.ends).map(|(row, end)| verdict(row, *end).to_owned());
     let mut columns = vec![
         Column::new(format!("T [{}]", unit.text), Align::Left, names(rows)),
-        Column::new("hottest", Align::Left, cells(&|c| Some(c.hottest.clone()))),
+        Column::new("hottest", Align::Left, cells(&|c| Some(c.hottest.clone()))).names(),
         column("peak", &|c| Some(number(c.peak.temperature))),
         column("at", &|c| c.peak.at.map(|time| duration(time, 3))).optional(),
         column("steady", &|c| c.steady.map(number)),
@@ -122,6 +122,9 @@ fn blocks_of(title: &str, rows: &[CompareRow], mut columns: Vec<Column>) -> Vec<
         column.cells = keep(std::mem::take(&mut column.cells));
     }
     let names: Vec<String> = keep(names(rows));
+    if names.is_empty() {
+        return Vec::new();
+    }
     let first = || Column::new(title, Align::Left, names.clone());
     let fits = |columns: &[Column]| {
         let table = TextTable::new([vec![first()], columns.to_vec()].concat());

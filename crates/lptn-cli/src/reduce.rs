@@ -219,7 +219,10 @@ fn failed(input: &Input, args: &ReduceArgs, error: &ReduceError) -> Failure {
 
 /// Writes a file that is not there yet.
 fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
-    let outcome = File::create_new(path).and_then(|mut file| file.write_all(text.as_bytes()));
+    let outcome = File::create_new(path).and_then(|mut file| {
+        // half a netlist would be in the way of the next try
+        file.write_all(text.as_bytes()).inspect_err(|_| drop(std::fs::remove_file(path)))
+    });
     outcome.map_err(|error| {
         let path = path.display();
         let problem = match error.kind() {

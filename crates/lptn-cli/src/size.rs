@@ -13,11 +13,12 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::{diagnostics, size_cooling, size_text, size_write};
+use crate::{diagnostics, size_cooling, size_text, size_write, steady};
 
 pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
     let Some(file) = &args.file else { return size_cooling::cooling(args, console) };
-    let input = Input::load(&Source { file: file.clone(), set: args.set.clone() })?;
+    let mut input = Input::load(&Source { file: file.clone(), set: args.set.clone() })?;
+    input.netlist.warnings.extend(steady::doubt(&input.netlist));
     let study = study(&input, args.name.as_deref())?;
     let parameter = parameter(&input, study)?;
     let unit = unit(&input, parameter);
@@ -121,6 +122,13 @@ fn failed(input: &Input, study: &SizeStudy, unit: &Unit, error: &SizeError) -> F
         error => (Exit::Input, error.to_string()),
     };
     let problem = Diagnostic::error(error.code(), message).at(study.span.clone(), "");
+    let problem = match error {
+        SizeError::Network { .. }
+        | SizeError::Steady { error: SteadyError::BelowAbsoluteZero { .. }, .. } => {
+            problem.help("`vary` has to leave this value out: let its range begin or end elsewhere")
+        }
+        _ => problem,
+    };
     Failure::at(exit, input.netlist.files.clone(), problem)
 }
 

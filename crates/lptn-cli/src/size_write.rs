@@ -24,6 +24,9 @@ pub(crate) fn possible(input: &Input, parameter: ParameterId) -> Result<(), Fail
     let name = &netlist.network.parameters()[parameter.index()].name;
     let problem = if input.typed().is_none() {
         Diagnostic::error("size::write", "there is no file to write into: the netlist came from stdin")
+    } else if is_protected(&input.text.name) {
+        let message = format!("{} is protected against writing", input.text.name);
+        Diagnostic::error("size::write", message).help("allow it with `chmod u+w`, or leave `--write` out")
     } else if netlist.written_number(parameter).is_some_and(|written| !netlist.is_own(&written)) {
         let problem = Diagnostic::error("size::write", format!("`{name}` stands in a file that is included"));
         problem.help("other netlists may include it too: change it there, or move the parameter here")
@@ -39,6 +42,11 @@ pub(crate) fn possible(input: &Input, parameter: ParameterId) -> Result<(), Fail
         return Ok(());
     };
     Err(Failure::at(Exit::Input, netlist.files.clone(), problem))
+}
+
+/// A file that is replaced would not be protected by its permissions.
+fn is_protected(file: &str) -> bool {
+    std::fs::metadata(file).is_ok_and(|metadata| metadata.permissions().readonly())
 }
 
 pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Result<(), Failure> {
