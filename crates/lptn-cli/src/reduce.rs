@@ -192,9 +192,13 @@ fn failed(input: &Input, args: &ReduceArgs, error: &ReduceError) -> Failure {
         _ => Exit::Input,
     };
     let problem = Diagnostic::error(error.code(), error.to_string());
-    let problem = match error.help() {
-        Some(help) => problem.help(help),
-        None => problem,
+    let first_node = input.netlist.network.nodes().first();
+    let problem = match (error.help(), error, first_node) {
+        (Some(help), ..) => problem.help(help),
+        (None, ReduceError::UnknownPort(_), Some(node)) => {
+            problem.help(format!("name a node, for example `{}`", node.name))
+        }
+        _ => problem,
     };
     let netlist = &input.netlist;
     let map = &netlist.source_map;

@@ -49,6 +49,7 @@ pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> 
 fn study<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a SizeStudy, Failure> {
     let sizes = &input.netlist.sizes;
     let known = || sizes.iter().map(|study| study.name.as_str());
+    let list = || known().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
     let file = &input.text.name;
     let problem = match (name, sizes.as_slice()) {
         (None, [only]) => return Ok(only),
@@ -57,11 +58,8 @@ fn study<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a SizeStudy, Fail
                 "add for example:\n\n[size.fan]\nminimise = \"p\"\nvary = { p = { from = \"1 W/K\", to = \"10 W/K\" } }\n\
                  require = [\"steel.T <= 80 [degC]\"]",
             ),
-        (None, _) => {
-            let list: Vec<String> = known().map(|name| format!("`{name}`")).collect();
-            Diagnostic::error("size::which_study", format!("{file} has several [size.NAME]"))
-                .help(format!("name one of {}", list.join(", ")))
-        }
+        (None, _) => Diagnostic::error("size::which_study", format!("{file} has several [size.NAME]"))
+            .help(format!("name one of {}", list())),
         (Some(name), _) => match sizes.iter().find(|study| study.name == name) {
             Some(study) => return Ok(study),
             None => {
@@ -69,7 +67,8 @@ fn study<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a SizeStudy, Fail
                     Diagnostic::error("size::no_study", format!("{file} has no [size.{name}]"));
                 match lptn_units::suggest(name, known()) {
                     Some(near) => problem.help(format!("did you mean `{near}`?")),
-                    None => problem,
+                    None if sizes.is_empty() => problem,
+                    None => problem.help(format!("name one of {}", list())),
                 }
             }
         },

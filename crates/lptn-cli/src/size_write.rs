@@ -60,10 +60,19 @@ pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Resu
     let (Some(folder), Some(name)) = (place.parent(), name) else {
         return Err(cannot_write(file, "it has no name"));
     };
-    Folder::prepare(folder.to_owned())?.write(&name, |out| out.write_all(text.as_bytes()))?;
+    let folder = Folder::prepare(folder.to_owned()).map_err(as_it_was)?;
+    folder.write(&name, |out| out.write_all(text.as_bytes())).map_err(as_it_was)?;
     let unit = if answer.unit.text == "1" { String::new() } else { format!(" {}", answer.unit.text) };
     console.note(&format!("wrote  {}: {} = {number}{unit}", file.display(), answer.study.parameter));
     Ok(())
+}
+
+/// The help of a folder is about results.
+fn as_it_was(mut failure: Failure) -> Failure {
+    for problem in &mut failure.diagnostics {
+        problem.help = Some("the netlist is as it was: write the value into it by hand".into());
+    }
+    failure
 }
 
 fn cannot_write(file: &Path, why: &str) -> Failure {

@@ -220,3 +220,27 @@ fn a_window_that_is_too_short_is_named() {
         .exits(2)
         .says("error[reduce::window]: the window must be a time in which the port warms");
 }
+
+/// What to do when the netlist cannot be written was the help of another verb: `-o DIR`, which `size` does not know.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_help_for_a_netlist_that_cannot_be_written_is_of_this_verb() {
+    // the temporary name beside it is longer than the 255 bytes of a name
+    let name = format!("{}.toml", "a".repeat(248));
+    let folder = Folder::with(&name, &block("50 W", &sized("{ from = \"1 W/K\", to = \"10 W/K\" }")));
+    let ran =
+        folder.run(&["size", &name, "--write"]).exits(3).says("error[output::cannot_write]: cannot write");
+    assert!(ran.err.contains("the netlist is as it was") && !ran.err.contains("--no-files"), "{}", ran.err);
+    assert_eq!(folder.files(), [name]);
+}
+
+/// A study or a port that does not exist came without a way on where no name is near.
+#[test]
+fn an_unknown_study_or_port_comes_with_the_names_there_are() {
+    let folder = Folder::with("a.toml", &block("50 W", &sized("{ from = \"1 W/K\", to = \"10 W/K\" }")));
+    folder.run(&["size", "a.toml", "cooling"]).exits(2).says("help: name one of `x`");
+    folder
+        .run(&["reduce", "a.toml", "--port", "winding"])
+        .exits(2)
+        .says("help: name a node, for example `a`");
+}
