@@ -244,3 +244,27 @@ fn an_unknown_study_or_port_comes_with_the_names_there_are() {
         .exits(2)
         .says("help: name a node, for example `a`");
 }
+
+/// A cooling sized to the limit approached it from below, and `run` called it broken by 2e-6 K, the error of the run,
+/// where `steady` and `size` kept it.
+#[test]
+fn a_limit_that_is_reached_and_not_passed_is_kept_by_every_verb() {
+    let more = "[limit]\nhot = { of = \"a.T\", below = \"LIMIT\" }\n[run]\nstop = \"10 h\"";
+    // T = 20 degC + 50 W / (1 W/K) in the end
+    let folder = Folder::with("a.toml", &block("50 W", &more.replace("LIMIT", "70 degC")));
+    let json = folder.run(&["run", "a.toml", "--no-files", "--format", "json"]).exits(0).json();
+    assert_eq!(json["limits"]["hot"]["kept"], true);
+    assert_eq!(json["limits"]["hot"]["margin"]["value"], 0.0);
+    folder.run(&["compare", "a.toml"]).exits(0);
+    folder.run(&["steady", "a.toml"]).exits(0);
+    // by more than ten times the tolerance of 1e-5 K it is broken
+    folder.write("a.toml", &block("50 W", &more.replace("LIMIT", "69.999 degC")));
+    folder.run(&["run", "a.toml", "--no-files"]).exits(1);
+    folder.run(&["compare", "a.toml"]).exits(1);
+    folder.run(&["steady", "a.toml"]).exits(1);
+    // what is written is exact: a start above the limit breaks it, however little
+    let start = block("50 W", &more.replace("LIMIT", "80 degC"))
+        .replace("20 degC\" }\n[boundary", "80.00002 degC\" }\n[boundary");
+    folder.write("a.toml", &start);
+    folder.run(&["run", "a.toml", "--no-files"]).exits(1);
+}

@@ -12,7 +12,8 @@ use crate::watch::top;
 pub struct LimitSeen {
     /// The limit.
     pub limit: LimitId,
-    /// Its least margin in SI units, positive if it was kept all the time; see [`Network::limit_margin`].
+    /// Its least margin in SI units, positive if it was kept all the time; see [`Network::limit_margin`]. Zero where a
+    /// temperature passes it by less than ten times the tolerance, which is the error of a run.
     pub margin: f64,
     /// When that was, in s.
     pub worst_at: f64,
@@ -134,7 +135,8 @@ impl<'a> LimitWatch<'a> {
         points.drain(..points.len().saturating_sub(1));
     }
 
-    /// What was seen. A worst that the tolerance in K cannot tell from the start or from the end is there.
+    /// What was seen. A worst that the tolerance in K cannot tell from the start or from the end is there, and a limit
+    /// that it cannot tell from being reached and not passed is not broken; a start that breaks it is exact.
     pub(crate) fn into_seen(mut self, tolerance: f64) -> Vec<LimitSeen> {
         let ends = self.first.iter().zip(&self.points);
         for (seen, (first, points)) in self.seen.iter_mut().zip(ends) {
@@ -143,6 +145,10 @@ impl<'a> LimitWatch<'a> {
             let same = |point: &&Point| temperature && point.1 - seen.margin <= 10.0 * tolerance;
             if let Some(&(time, _)) = first.iter().chain(points.last()).find(same) {
                 seen.worst_at = time;
+            }
+            let exact = first.is_some_and(|(_, margin)| margin < 0.0);
+            if temperature && !exact && seen.margin < 0.0 && seen.margin >= -10.0 * tolerance {
+                (seen.margin, seen.broken_at) = (0.0, None);
             }
         }
         self.seen
