@@ -268,3 +268,16 @@ fn a_limit_that_is_reached_and_not_passed_is_kept_by_every_verb() {
     folder.write("a.toml", &start);
     folder.run(&["run", "a.toml", "--no-files"]).exits(1);
 }
+
+/// 20 degC + 33 W x (1.3 + 0.1) K/W is 66.2 degC, but not in binary: the limit was broken by 5.7e-14 K.
+#[test]
+fn rounding_breaks_no_limit() {
+    let text = "format = 1\n[node]\na = { massless = true }\nb = { massless = true }\n[boundary]\namb = { T = \"20 degC\" }\n\
+        [resistor]\nr = { from = \"a\", to = \"b\", R = \"1.3 K/W\" }\nq = { from = \"b\", to = \"amb\", R = \"0.1 K/W\" }\n\
+        [source]\ns = { into = \"a\", P = \"33 W\" }\n[limit]\nhot = { of = \"a.T\", below = \"66.2 degC\" }\n";
+    let folder = Folder::with("a.toml", text);
+    folder.run(&["steady", "a.toml"]).exits(0);
+    folder.run(&["compare", "a.toml"]).exits(0);
+    folder.write("a.toml", &format!("{text}[run]\nstop = \"1 min\"\n"));
+    folder.run(&["run", "a.toml", "--no-files"]).exits(0);
+}
