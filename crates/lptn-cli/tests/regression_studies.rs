@@ -281,3 +281,20 @@ fn rounding_breaks_no_limit() {
     folder.write("a.toml", &format!("{text}[run]\nstop = \"1 min\"\n"));
     folder.run(&["run", "a.toml", "--no-files"]).exits(0);
 }
+
+/// A name with a line break broke the table, one with an escape sequence could steer the terminal.
+#[cfg(unix)]
+#[test]
+fn names_of_files_stay_on_their_line() {
+    let name = "two\nlines\u{1b}[31m.toml";
+    let folder = Folder::with(name, &block("50 W", ""));
+    folder.run(&["compare", name]).exits(0).prints("\ntwo lines[31m  ");
+}
+
+/// Temperatures that differ by the error of the run were shown with eight decimals of it.
+#[test]
+fn the_error_of_a_run_is_not_shown_as_digits() {
+    let folder = Folder::with("a.toml", &block("50 W", "[run]\nstop = \"10 h\""));
+    let ran = folder.run(&["compare", "a.toml"]).exits(0).prints(" 70.0000 ");
+    assert!(!ran.out.contains("70.00000"), "{}", ran.out);
+}
