@@ -310,10 +310,10 @@ pub(crate) struct SizeArgs {
     #[arg(value_name = "NAME")]
     pub(crate) name: Option<String>,
     /// Give a parameter a value; may be repeated
-    #[arg(long, value_name = "NAME=VALUE", requires = "file")]
+    #[arg(long, value_name = "NAME=VALUE", conflicts_with = "power")]
     pub(crate) set: Vec<String>,
     /// Write the value into the netlist; comments and order stay
-    #[arg(long, requires = "file", conflicts_with = "set")]
+    #[arg(long, conflicts_with_all = ["set", "power"])]
     pub(crate) write: bool,
     /// Print a table, csv or json
     #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
@@ -331,6 +331,7 @@ pub(crate) struct SizeArgs {
 pub(crate) struct CoolingArgs {
     /// Heat to be taken away, such as "223 W"
     #[arg(long, value_name = "W", required_unless_present = "file", conflicts_with = "file")]
+    #[arg(allow_hyphen_values = true)]
     pub(crate) power: Option<String>,
     /// Temperature that must not be exceeded, such as "110 degC"
     #[arg(long, value_name = "T", required_unless_present = "file", conflicts_with = "file")]
@@ -341,7 +342,7 @@ pub(crate) struct CoolingArgs {
     #[arg(allow_hyphen_values = true)]
     pub(crate) ambient: Option<String>,
     /// How much air or oil may warm on its way [10 K]
-    #[arg(long, value_name = "K", conflicts_with = "file")]
+    #[arg(long, value_name = "K", conflicts_with = "file", allow_hyphen_values = true)]
     pub(crate) rise: Option<String>,
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use lptn_assembly::ThermalSystem;
-use lptn_netlist::{Diagnostic, Files};
+use lptn_netlist::{Diagnostic, Files, Netlist};
 use lptn_network::Field;
 use lptn_report::{JsonWriter, plain, write_csv};
 use lptn_solve::{SteadyError, Table, TransientError};
@@ -90,7 +90,15 @@ fn load(file: &Path, set: &[String]) -> Loaded {
     let own: Vec<String> =
         set.iter().zip(&has).filter(|(_, has)| **has).map(|(text, _)| text.clone()).collect();
     let outcome = input.netlist.set(&own);
+    input.netlist.warnings.extend(inputs_vary(&input.netlist, &name));
     Loaded { file: name, input: outcome.map(|()| input).map_err(Failure::from), has }
+}
+
+/// Without a run a candidate is looked at once: what comes later is not seen.
+fn inputs_vary(netlist: &Netlist, name: &str) -> Option<Diagnostic> {
+    let vary = netlist.run.is_none() && netlist.network.has_time_dependent_inputs();
+    let message = format!("{name}: the inputs change with time; without a [run] they are taken at 0 s");
+    vary.then(|| Diagnostic::warning("steady::inputs_vary", message).help("add a [run] to compare over time"))
 }
 
 /// A `--set` that no candidate can use is a mistake, unless a candidate that could not be read may be meant.

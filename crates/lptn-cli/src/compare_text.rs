@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lptn_network::Severity;
-use lptn_report::{Align, Column, TextTable, WIDTH, decimals, duration, fixed, significant};
+use lptn_report::{Align, Column, TextTable, WIDTH, decimals, duration, fixed, plain, significant};
 use lptn_study::{Candidate, CompareRow, LimitResult};
 
 use crate::compare::Comparison;
@@ -32,11 +32,11 @@ pub(crate) fn text(comparison: &Comparison, console: &Console) -> String {
 fn names(rows: &[CompareRow]) -> Vec<String> {
     let stem = |row: &CompareRow| {
         let stem = Path::new(&row.file).file_stem();
-        stem.map_or_else(|| row.file.clone(), |stem| stem.to_string_lossy().into_owned())
+        plain(&stem.map_or_else(|| row.file.clone().into(), |stem| stem.to_string_lossy()))
     };
     let stems: Vec<String> = rows.iter().map(stem).collect();
     let twice = |stem: &String| stems.iter().filter(|other| *other == stem).count() > 1;
-    rows.iter().zip(&stems).map(|(row, s)| if twice(s) { row.file.clone() } else { s.clone() }).collect()
+    rows.iter().zip(&stems).map(|(row, s)| if twice(s) { plain(&row.file) } else { s.clone() }).collect()
 }
 
 fn overview(comparison: &Comparison) -> Vec<String> {
@@ -45,7 +45,8 @@ fn overview(comparison: &Comparison) -> Vec<String> {
     let temperatures: Vec<f64> = all.flat_map(|c| [Some(c.peak.temperature), c.steady]).flatten().collect();
     let low = temperatures.iter().copied().fold(f64::INFINITY, f64::min);
     let high = temperatures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let digits = decimals((high - low) / unit.scale, 3, 1);
+    // finer than that is the error of the runs
+    let digits = decimals((high - low) / unit.scale, 3, 1).min(4);
     let number = |kelvin: f64| fixed(unit.from_si(kelvin), digits);
     let cells = |text: &dyn Fn(&Candidate) -> Option<String>| -> Vec<String> {
         rows.iter().map(|row| row.candidate().and_then(text).unwrap_or_else(|| NOTHING.into())).collect()
@@ -56,7 +57,7 @@ fn overview(comparison: &Comparison) -> Vec<String> {
     let answers = rows.iter().zip(&comparison.ends).map(|(row, end)| verdict(row, *end).to_owned());
     let mut columns = vec![
         Column::new(format!("T [{}]", unit.text), Align::Left, names(rows)),
-        Column::new("hottest", Align::Left, cells(&|c| Some(c.hottest.clone()))),
+        Column::new("hottest", Align::Left, cells(&|c| Some(c.hottest.clone()))).names(),
         column("peak", &|c| Some(number(c.peak.temperature))),
         column("at", &|c| c.peak.at.map(|time| duration(time, 3))).optional(),
         column("steady", &|c| c.steady.map(number)),
@@ -122,6 +123,9 @@ fn blocks_of(title: &str, rows: &[CompareRow], mut columns: Vec<Column>) -> Vec<
         column.cells = keep(std::mem::take(&mut column.cells));
     }
     let names: Vec<String> = keep(names(rows));
+    if names.is_empty() {
+        return Vec::new();
+    }
     let first = || Column::new(title, Align::Left, names.clone());
     let fits = |columns: &[Column]| {
         let table = TextTable::new([vec![first()], columns.to_vec()].concat());

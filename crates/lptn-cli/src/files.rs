@@ -28,21 +28,24 @@ impl Folder {
         Ok(folder)
     }
 
-    /// Writes a file under a temporary name, then renames it: a reader sees all of it or nothing.
+    /// Writes a file under a temporary name, then renames it: a reader sees all of it or nothing. A file that was
+    /// there keeps its owner and permissions.
     pub(crate) fn write(
         &self,
         name: &str,
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<FileHash, Failure> {
         let temporary = self.temporary(name);
-        let outcome = write_hashed(&temporary, content)
-            .and_then(|hash| fs::rename(&temporary, self.path.join(name)).map(|()| hash));
+        let place = self.path.join(name);
+        let outcome = File::create(&temporary)
+            .and_then(|file| like(&place, &temporary).map(|()| file))
+            .and_then(|file| write_hashed(file, content))
+            .and_then(|hash| fs::rename(&temporary, &place).map(|()| hash));
         match outcome {
             Ok(sha256) => Ok(FileHash { name: name.to_owned(), sha256 }),
             Err(error) => {
                 drop(fs::remove_file(&temporary));
-                let path = self.path.join(name);
-                let message = format!("cannot write {}: {}", path.display(), reason(&error));
+                let message = format!("cannot write {}: {}", place.display(), reason(&error));
                 let problem = Diagnostic::error("output::cannot_write", message)
                     .help("choose another folder with -o DIR, or write none with --no-files");
                 Err(Failure::new(Exit::Failed, problem))
@@ -73,9 +76,21 @@ impl Folder {
     }
 }
 
+/// Gives a new file the owner and permissions of the one whose place it takes, before anything is in it.
+fn like(old: &Path, new: &Path) -> io::Result<()> {
+    let Ok(old) = fs::metadata(old) else { return Ok(()) };
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::{MetadataExt as _, chown};
+        // only root may give a file away
+        drop(chown(new, Some(old.uid()), Some(old.gid())));
+    }
+    fs::set_permissions(new, old.permissions())
+}
+
 /// Writes a file and gives the SHA-256 of its content.
-fn write_hashed(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<String> {
-    let mut out = Hashing::new(BufWriter::with_capacity(1 << 16, File::create(path)?));
+fn write_hashed(file: File, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<String> {
+    let mut out = Hashing::new(BufWriter::with_capacity(1 << 16, file));
     content(&mut out)?;
     let (mut file, hash) = out.finish();
     file.flush()?;

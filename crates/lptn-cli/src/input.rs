@@ -1,6 +1,6 @@
 //! The netlist that a verb works on.
 
-use std::io::Read as _;
+use std::io::{ErrorKind, Read as _};
 use std::path::Path;
 
 use lptn_assembly::{AssemblyError, ThermalSystem};
@@ -42,7 +42,11 @@ pub(crate) fn read(file: &Path) -> Result<Text, Failure> {
     let name = file.display().to_string();
     let bytes = match lptn_netlist::read_bytes(file) {
         Ok(bytes) => bytes,
-        Err(ReadError::Io { error, .. }) => return Err(cannot_read(&name, &error, similar(file))),
+        Err(ReadError::Io { error, .. }) => {
+            // what is there but cannot be read is not misspelt
+            let missing = error.kind() == ErrorKind::NotFound;
+            return Err(cannot_read(&name, &error, if missing { similar(file) } else { None }));
+        }
         Err(ReadError::Rejected(rejected)) => return Err(rejected.into()),
     };
     let stem = file.file_stem().map_or("netlist".into(), |stem| stem.to_string_lossy().into_owned());

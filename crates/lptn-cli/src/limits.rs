@@ -59,7 +59,7 @@ pub(crate) fn lines(network: &Network, limits: &[Judged], unit: &Unit) -> Vec<St
     let cells = |text: &dyn Fn(&Judged) -> String| limits.iter().map(text).collect::<Vec<_>>();
     let mut columns = vec![
         Column::new("limit", Align::Left, cells(&|j| of(j).name.clone())),
-        Column::new("wanted", Align::Left, cells(&|j| wanted(network, j.limit, unit))),
+        Column::new("wanted", Align::Left, cells(&|j| wanted(network, j.limit, unit))).names(),
         Column::new("margin", Align::Right, cells(&|j| number(j.margin, of(j).margin_type(), unit))),
     ];
     if limits.iter().any(|judged| judged.worst_at.is_some()) {

@@ -192,9 +192,13 @@ fn failed(input: &Input, args: &ReduceArgs, error: &ReduceError) -> Failure {
         _ => Exit::Input,
     };
     let problem = Diagnostic::error(error.code(), error.to_string());
-    let problem = match error.help() {
-        Some(help) => problem.help(help),
-        None => problem,
+    let first_node = input.netlist.network.nodes().first();
+    let problem = match (error.help(), error, first_node) {
+        (Some(help), ..) => problem.help(help),
+        (None, ReduceError::UnknownPort(_), Some(node)) => {
+            problem.help(format!("name a node, for example `{}`", node.name))
+        }
+        _ => problem,
     };
     let netlist = &input.netlist;
     let map = &netlist.source_map;
@@ -219,7 +223,10 @@ fn failed(input: &Input, args: &ReduceArgs, error: &ReduceError) -> Failure {
 
 /// Writes a file that is not there yet.
 fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
-    let outcome = File::create_new(path).and_then(|mut file| file.write_all(text.as_bytes()));
+    let outcome = File::create_new(path).and_then(|mut file| {
+        // half a netlist would be in the way of the next try
+        file.write_all(text.as_bytes()).inspect_err(|_| drop(std::fs::remove_file(path)))
+    });
     outcome.map_err(|error| {
         let path = path.display();
         let problem = match error.kind() {

@@ -13,11 +13,12 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::{diagnostics, size_cooling, size_text, size_write};
+use crate::{diagnostics, size_cooling, size_text, size_write, steady};
 
 pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
     let Some(file) = &args.file else { return size_cooling::cooling(args, console) };
-    let input = Input::load(&Source { file: file.clone(), set: args.set.clone() })?;
+    let mut input = Input::load(&Source { file: file.clone(), set: args.set.clone() })?;
+    input.netlist.warnings.extend(steady::doubt(&input.netlist));
     let study = study(&input, args.name.as_deref())?;
     let parameter = parameter(&input, study)?;
     let unit = unit(&input, parameter);
@@ -48,6 +49,7 @@ pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> 
 fn study<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a SizeStudy, Failure> {
     let sizes = &input.netlist.sizes;
     let known = || sizes.iter().map(|study| study.name.as_str());
+    let list = || known().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
     let file = &input.text.name;
     let problem = match (name, sizes.as_slice()) {
         (None, [only]) => return Ok(only),
@@ -56,11 +58,8 @@ fn study<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a SizeStudy, Fail
                 "add for example:\n\n[size.fan]\nminimise = \"p\"\nvary = { p = { from = \"1 W/K\", to = \"10 W/K\" } }\n\
                  require = [\"steel.T <= 80 [degC]\"]",
             ),
-        (None, _) => {
-            let list: Vec<String> = known().map(|name| format!("`{name}`")).collect();
-            Diagnostic::error("size::which_study", format!("{file} has several [size.NAME]"))
-                .help(format!("name one of {}", list.join(", ")))
-        }
+        (None, _) => Diagnostic::error("size::which_study", format!("{file} has several [size.NAME]"))
+            .help(format!("name one of {}", list())),
         (Some(name), _) => match sizes.iter().find(|study| study.name == name) {
             Some(study) => return Ok(study),
             None => {
@@ -68,7 +67,8 @@ fn study<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a SizeStudy, Fail
                     Diagnostic::error("size::no_study", format!("{file} has no [size.{name}]"));
                 match lptn_units::suggest(name, known()) {
                     Some(near) => problem.help(format!("did you mean `{near}`?")),
-                    None => problem,
+                    None if sizes.is_empty() => problem,
+                    None => problem.help(format!("name one of {}", list())),
                 }
             }
         },
@@ -121,6 +121,13 @@ fn failed(input: &Input, study: &SizeStudy, unit: &Unit, error: &SizeError) -> F
         error => (Exit::Input, error.to_string()),
     };
     let problem = Diagnostic::error(error.code(), message).at(study.span.clone(), "");
+    let problem = match error {
+        SizeError::Network { .. }
+        | SizeError::Steady { error: SteadyError::BelowAbsoluteZero { .. }, .. } => {
+            problem.help("`vary` has to leave this value out: let its range begin or end elsewhere")
+        }
+        _ => problem,
+    };
     Failure::at(exit, input.netlist.files.clone(), problem)
 }
 

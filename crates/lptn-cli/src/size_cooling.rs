@@ -174,7 +174,8 @@ fn flow(of: Option<(Coolant, Option<Flow>)>) -> String {
 }
 
 fn properties(of: Option<(Coolant, Option<Flow>)>) -> String {
-    of.map_or(String::new(), |(coolant, _)| {
+    // of no use where there is no flow
+    of.filter(|(_, flow)| flow.is_some()).map_or(String::new(), |(coolant, _)| {
         let (cp, rho) = (significant(coolant.specific_heat, 4), significant(coolant.density, 4));
         format!("{cp} J/(kg K), {rho} kg/m^3")
     })

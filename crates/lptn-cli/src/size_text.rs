@@ -28,7 +28,10 @@ pub(crate) fn text(answer: &Answer<'_>, console: &Console) -> String {
         number(range.1),
         spaced(unit)
     );
-    let mut lines = vec![console.title(&title), sought, String::new()];
+    let words: Vec<String> = sought.split(' ').map(str::to_owned).collect();
+    let mut lines = vec![console.title(&title)];
+    lines.extend(labelled("", &words, WIDTH));
+    lines.push(String::new());
     lines.extend(requirements(answer));
     lines.push(String::new());
     for (label, note) in notes(answer) {
@@ -154,7 +157,9 @@ pub(crate) fn verdict(answer: &Answer<'_>) -> String {
 fn end(answer: &Answer<'_>) -> Option<&'static str> {
     let (from, to) = answer.study.range(&answer.input.netlist.network).ok()?;
     let value = answer.sizing.trial.value;
-    let near = |end: f64| (value - end).abs() <= 1e-6 * (to - from);
+    // in a range over decades the least end is near only for values of its own size
+    let size = |end: f64| if end == 0.0 { to - from } else { end.abs().min(to - from) };
+    let near = |end: f64| (value - end).abs() <= 1e-6 * size(end);
     match (near(from), near(to)) {
         (true, _) => Some("least"),
         (_, true) => Some("largest"),

@@ -24,6 +24,9 @@ pub(crate) fn possible(input: &Input, parameter: ParameterId) -> Result<(), Fail
     let name = &netlist.network.parameters()[parameter.index()].name;
     let problem = if input.typed().is_none() {
         Diagnostic::error("size::write", "there is no file to write into: the netlist came from stdin")
+    } else if is_protected(&input.text.name) {
+        let message = format!("{} is protected against writing", input.text.name);
+        Diagnostic::error("size::write", message).help("allow it with `chmod u+w`, or leave `--write` out")
     } else if netlist.written_number(parameter).is_some_and(|written| !netlist.is_own(&written)) {
         let problem = Diagnostic::error("size::write", format!("`{name}` stands in a file that is included"));
         problem.help("other netlists may include it too: change it there, or move the parameter here")
@@ -41,6 +44,11 @@ pub(crate) fn possible(input: &Input, parameter: ParameterId) -> Result<(), Fail
     Err(Failure::at(Exit::Input, netlist.files.clone(), problem))
 }
 
+/// A file that is replaced would not be protected by its permissions.
+fn is_protected(file: &str) -> bool {
+    std::fs::metadata(file).is_ok_and(|metadata| metadata.permissions().readonly())
+}
+
 pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Result<(), Failure> {
     let Some((number, text)) = proven(answer) else {
         let problem = Diagnostic::error("size::write", "no number of 17 digits keeps what is required");
@@ -52,10 +60,19 @@ pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Resu
     let (Some(folder), Some(name)) = (place.parent(), name) else {
         return Err(cannot_write(file, "it has no name"));
     };
-    Folder::prepare(folder.to_owned())?.write(&name, |out| out.write_all(text.as_bytes()))?;
+    let folder = Folder::prepare(folder.to_owned()).map_err(as_it_was)?;
+    folder.write(&name, |out| out.write_all(text.as_bytes())).map_err(as_it_was)?;
     let unit = if answer.unit.text == "1" { String::new() } else { format!(" {}", answer.unit.text) };
     console.note(&format!("wrote  {}: {} = {number}{unit}", file.display(), answer.study.parameter));
     Ok(())
+}
+
+/// The help of a folder is about results.
+fn as_it_was(mut failure: Failure) -> Failure {
+    for problem in &mut failure.diagnostics {
+        problem.help = Some("the netlist is as it was: write the value into it by hand".into());
+    }
+    failure
 }
 
 fn cannot_write(file: &Path, why: &str) -> Failure {

@@ -2,7 +2,8 @@
 
 use lptn_netlist::{Diagnostic, RunSettings};
 use lptn_report::{
-    Align, Column, JsonWriter, TextTable, WIDTH, decimals, fixed, labelled, plain, prefix, write_csv,
+    Align, Column, JsonWriter, TextTable, WIDTH, decimals, fixed, labelled, plain, prefix, shortened,
+    write_csv,
 };
 use lptn_solve::{Selection, SteadyError, SteadyState, Table};
 use lptn_study::Scalar;
@@ -82,7 +83,7 @@ fn failed(input: &Input, error: &SteadyError) -> Failure {
 const VARY: &str = "the inputs change with time; they are taken at the start of the run";
 
 /// What the table says in a note.
-fn doubt(netlist: &lptn_netlist::Netlist) -> Option<Diagnostic> {
+pub(crate) fn doubt(netlist: &lptn_netlist::Netlist) -> Option<Diagnostic> {
     let vary = netlist.network.has_time_dependent_inputs();
     vary.then(|| Diagnostic::warning("steady::inputs_vary", VARY))
 }
@@ -180,7 +181,7 @@ impl View<'_> {
         let digits = decimals(largest / self.unit.scale, 3, 1);
         rows.truncate(MOST_NODES);
         let texts = |text: &dyn Fn(&Row) -> String| rows.iter().map(text).collect::<Vec<_>>();
-        let over = format!("over {} [{}]", coldest.0, difference(self.unit));
+        let over = format!("over {} [{}]", shortened(&coldest.0, 24), difference(self.unit));
         let table = TextTable::new(vec![
             Column::new("temperature", Align::Left, texts(&|r| r.name.clone())),
             Column::new(

@@ -30,7 +30,7 @@ pub(crate) struct Merged {
     pub(crate) problems: Vec<Diagnostic>,
     /// Whether a file is missing as a whole, so that nothing can be said of what uses it.
     pub(crate) incomplete: bool,
-    /// Whether a text could not even be read as TOML.
+    /// Whether a text could not even be read, or not as TOML.
     pub(crate) syntax: bool,
 }
 
@@ -98,10 +98,10 @@ impl Work<'_, '_> {
         let Some(loader) = self.loader.as_mut() else { return self.lost(no_folder(value)) };
         let bytes = match loader(&path) {
             Ok(bytes) => bytes,
-            Err(error) => return self.lost(cannot_read(&path, &error, value)),
+            Err(error) => return self.unread(cannot_read(&path, &error, value)),
         };
         let Some(text) = std::str::from_utf8(&bytes).ok().filter(|text| !text.contains('\0')) else {
-            return self.lost(not_text(&path, value));
+            return self.unread(not_text(&path, value));
         };
         let file = self.files.add(path.display().to_string(), text);
         self.file(&path, key, file);
@@ -158,6 +158,12 @@ impl Work<'_, '_> {
     fn lost(&mut self, problem: Diagnostic) {
         self.merged.incomplete = true;
         self.report(problem);
+    }
+
+    /// A file without a text: as wrong as one that is no TOML.
+    fn unread(&mut self, problem: Diagnostic) {
+        self.merged.syntax = true;
+        self.lost(problem);
     }
 
     fn cycle(&self, first: usize, value: &RawValue) -> Diagnostic {

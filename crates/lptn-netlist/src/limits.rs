@@ -37,6 +37,18 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     }
 }
 
+/// The same for a file that another includes; the reason reads "cannot include NAME: it is a device".
+///
+/// # Errors
+/// Why it cannot be read.
+pub(crate) fn included_bytes(path: &Path) -> io::Result<Vec<u8>> {
+    if is_device(std::fs::metadata(path)?.file_type()) {
+        return Err(io::Error::other("it is a device"));
+    }
+    let bytes = limited(std::fs::File::open(path)?, MOST_BYTES)?;
+    bytes.ok_or_else(|| io::Error::other(format!("it is longer than {} MB", MOST_BYTES / 1_000_000)))
+}
+
 /// All bytes, or `None` if there are more than `most`; at most one more is read.
 fn limited(from: impl Read, most: u64) -> io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();

@@ -12,7 +12,7 @@ use crate::diagnostic::{Diagnostic, Severity, arrange};
 use crate::elaborate::{Elaborated, elaborate};
 use crate::file::{FileId, Files, Span};
 use crate::include::{self, Loader, Merged};
-use crate::limits::{read_bytes, shorten};
+use crate::limits::{included_bytes, read_bytes, shorten};
 use crate::raw::RawNetlist;
 use crate::run::{RunPlan, RunSettings};
 use crate::section;
@@ -63,7 +63,7 @@ pub struct Rejected {
     pub files: Files,
     /// What is wrong, in file order; holds at least one error.
     pub diagnostics: Vec<Diagnostic>,
-    /// Whether the text could not even be read as TOML.
+    /// Whether a text could not even be read as TOML, or one that is included not at all.
     pub syntax: bool,
 }
 
@@ -125,7 +125,7 @@ pub fn read(path: &Path) -> Result<Netlist, ReadError> {
 /// # Errors
 /// [`Rejected`] with every problem.
 pub fn parse_file(path: &Path, bytes: &[u8]) -> Result<Netlist, Rejected> {
-    decode(&path.display().to_string(), bytes, Some(&mut |path: &Path| std::fs::read(path)))
+    decode(&path.display().to_string(), bytes, Some(&mut included_bytes))
 }
 
 /// Reads a netlist from bytes that may not be text; `name` is what diagnostics call it. It cannot include files.

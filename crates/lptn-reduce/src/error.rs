@@ -31,7 +31,7 @@ pub enum ReduceError {
     Run(TransientError),
     /// The equivalent network could not be built; the text says why.
     Equivalent(String),
-    /// The window of the least-squares definition is not a positive time.
+    /// The window of the least-squares definition is no positive time, or too short to see the port warm.
     Window(f64),
 }
 
@@ -86,7 +86,9 @@ impl fmt::Display for ReduceError {
             Self::Modes => f.write_str("the time constants at the port cannot be computed"),
             Self::Run(error) => error.fmt(f),
             Self::Equivalent(why) => write!(f, "the equivalent network cannot be built: {why}"),
-            Self::Window(window) => write!(f, "the window must be a positive time, got {window} s"),
+            Self::Window(window) => {
+                write!(f, "the window must be a time in which the port warms, got {window} s")
+            }
         }
     }
 }

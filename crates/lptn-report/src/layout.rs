@@ -30,12 +30,14 @@ pub struct Column {
     pub align: Align,
     /// Whether the column may be left out where the table is too wide.
     pub optional: bool,
+    /// Whether its texts may be shortened in the middle where the table is too wide: never so for numbers.
+    pub names: bool,
 }
 
 impl Column {
     /// A column that is always shown.
     pub fn new(title: impl Into<String>, align: Align, cells: Vec<String>) -> Self {
-        Self { title: title.into(), cells, align, optional: false }
+        Self { title: title.into(), cells, align, optional: false, names: false }
     }
 
     /// The same column, left out where the table is too wide.
@@ -43,6 +45,18 @@ impl Column {
     pub fn optional(mut self) -> Self {
         self.optional = true;
         self
+    }
+
+    /// The same column with texts that may be shortened in the middle, as those of the first column always may.
+    #[must_use]
+    pub fn names(mut self) -> Self {
+        self.names = true;
+        self
+    }
+
+    fn shorten(&mut self, room: usize) {
+        self.title = shortened(&self.title, room);
+        self.cells.iter_mut().for_each(|name| *name = shortened(name, room));
     }
 
     fn width(&self) -> usize {
@@ -63,20 +77,33 @@ impl TextTable {
     }
 
     /// The lines of the table, the heading first. Where they would be longer than `width`, optional columns are
-    /// left out from the right, and then long names of the first column shortened in the middle.
+    /// left out from the right, and then long names shortened in the middle, the longest first.
     pub fn lines(mut self, width: usize) -> Vec<String> {
         while self.width() > width {
             let Some(last) = self.columns.iter().rposition(|column| column.optional) else { break };
             self.columns.remove(last);
         }
-        let excess = self.width().saturating_sub(width);
-        if let Some(names) = self.columns.first_mut().filter(|_| excess > 0) {
-            let room = names.width().saturating_sub(excess).max(LEAST_NAME);
-            names.cells.iter_mut().for_each(|name| *name = shortened(name, room));
-        }
+        self.shorten_names(width);
         let rows = self.columns.first().map_or(0, |column| column.cells.len());
         let heading = self.line(|column| &column.title);
         std::iter::once(heading).chain((0..rows).map(|row| self.line(|column| &column.cells[row]))).collect()
+    }
+
+    fn shorten_names(&mut self, width: usize) {
+        if let Some(first) = self.columns.first_mut() {
+            first.names = true;
+        }
+        let mut excess = self.width().saturating_sub(width);
+        let names = || self.columns.iter().enumerate().filter(|(_, column)| column.names);
+        let mut rooms: Vec<(usize, usize)> = names().map(|(i, column)| (i, column.width())).collect();
+        while let Some((_, room)) = rooms.iter_mut().rev().max_by_key(|(_, room)| *room) {
+            if excess == 0 || *room <= LEAST_NAME {
+                break;
+            }
+            *room -= 1;
+            excess -= 1;
+        }
+        rooms.into_iter().for_each(|(i, room)| self.columns[i].shorten(room));
     }
 
     fn width(&self) -> usize {

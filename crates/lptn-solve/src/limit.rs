@@ -12,13 +12,18 @@ use crate::watch::top;
 pub struct LimitSeen {
     /// The limit.
     pub limit: LimitId,
-    /// Its least margin in SI units, positive if it was kept all the time; see [`Network::limit_margin`].
+    /// Its least margin in SI units, positive if it was kept all the time; see [`Network::limit_margin`]. Zero where a
+    /// temperature passes it by less than ten times the tolerance, which is the error of a run.
     pub margin: f64,
     /// When that was, in s.
     pub worst_at: f64,
     /// When it was first broken, in s.
     pub broken_at: Option<f64>,
 }
+
+/// A temperature that passes its limit by less than this, in K, does so by rounding: a temperature of 300 K has steps
+/// of 6e-14 K, and the refined steady state of a network is good to a few hundred of them.
+const ROUNDING: f64 = 1e-9;
 
 /// A time in s with a margin.
 type Point = (f64, f64);
@@ -134,23 +139,32 @@ impl<'a> LimitWatch<'a> {
         points.drain(..points.len().saturating_sub(1));
     }
 
-    /// What was seen. A worst that the tolerance in K cannot tell from the start or from the end is there.
+    /// What was seen. A worst that the tolerance in K cannot tell from the start or from the end is there, and a limit
+    /// that it cannot tell from being reached and not passed is not broken; a start that breaks it is exact.
     pub(crate) fn into_seen(mut self, tolerance: f64) -> Vec<LimitSeen> {
         let ends = self.first.iter().zip(&self.points);
         for (seen, (first, points)) in self.seen.iter_mut().zip(ends) {
-            let temperature =
-                self.network.limits()[seen.limit.index()].ty.dimension == Dimension::TEMPERATURE;
+            let temperature = is_temperature(self.network, seen.limit);
             let same = |point: &&Point| temperature && point.1 - seen.margin <= 10.0 * tolerance;
             if let Some(&(time, _)) = first.iter().chain(points.last()).find(same) {
                 seen.worst_at = time;
+            }
+            let exact = first.is_some_and(|(_, margin)| margin < -ROUNDING);
+            if temperature && !exact && seen.margin < 0.0 && seen.margin >= -ROUNDING.max(10.0 * tolerance) {
+                (seen.margin, seen.broken_at) = (0.0, None);
             }
         }
         self.seen
     }
 }
 
+fn is_temperature(network: &Network, id: LimitId) -> bool {
+    network.limits()[id.index()].ty.dimension == Dimension::TEMPERATURE
+}
+
 impl SteadyState {
-    /// The margin of each limit in SI units, positive while it is kept; `t` in the limits is `time` in s, that of the
+    /// The margin of each limit in SI units, positive while it is kept, zero where a temperature passes it by rounding
+    /// only; `t` in the limits is `time` in s, that of the
     /// steady state's inputs.
     ///
     /// # Errors
@@ -159,6 +173,11 @@ impl SteadyState {
         let mut scope = network.evaluation();
         scope.set_time(time, time);
         scope.set_temperatures(&self.temperatures, &self.boundary_temperatures);
-        network.limit_ids().map(|id| network.limit_margin(id, &mut scope)).collect()
+        let margin = |id: LimitId| {
+            let margin = network.limit_margin(id, &mut scope)?;
+            let rounding = is_temperature(network, id) && (-ROUNDING..0.0).contains(&margin);
+            Ok(if rounding { 0.0 } else { margin })
+        };
+        network.limit_ids().map(margin).collect()
     }
 }

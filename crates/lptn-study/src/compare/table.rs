@@ -126,15 +126,23 @@ fn general(rows: &[CompareRow], unit: &Unit) -> Vec<Column> {
     columns
 }
 
-/// The margin of a limit and when it breaks. Limits of one name but different quantities share the unit of the first:
-/// SI units both, and the name says that they are meant to be the same.
-fn of_limit(rows: &[CompareRow], name: &str) -> [Column; 2] {
-    let first = rows.iter().find_map(|row| row.limit(name));
-    let unit = first.map_or_else(|| "1".to_owned(), |limit| limit.ty.dimension.si_unit());
-    let margin = |row: &CompareRow| row.limit(name).map_or(f64::NAN, |limit| limit.margin);
+/// The margins of the limits of a name and when they break. Candidates may mean different quantities by one name: each
+/// quantity has a column of its own, told apart by the unit.
+fn of_limit(rows: &[CompareRow], name: &str) -> Vec<Column> {
+    let unit = |limit: &LimitResult| limit.ty.dimension.si_unit();
+    let mut units: Vec<String> = Vec::new();
+    for found in rows.iter().filter_map(|row| row.limit(name)).map(unit) {
+        if !units.contains(&found) {
+            units.push(found);
+        }
+    }
+    let margin = |of: &str| {
+        let value =
+            |row: &CompareRow| row.limit(name).filter(|l| unit(l) == of).map_or(f64::NAN, |l| l.margin);
+        column(rows, &format!("{name}.margin"), of, &value)
+    };
     let broken = |row: &CompareRow| row.limit(name).and_then(|limit| limit.broken_at).unwrap_or(f64::NAN);
-    [
-        column(rows, &format!("{name}.margin"), &unit, &margin),
-        column(rows, &format!("{name}.broken_at"), "s", &broken),
-    ]
+    let mut columns: Vec<Column> = units.iter().map(|unit| margin(unit)).collect();
+    columns.push(column(rows, &format!("{name}.broken_at"), "s", &broken));
+    columns
 }

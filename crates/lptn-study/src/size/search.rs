@@ -102,7 +102,8 @@ fn places(task: &SizeTask<'_>) -> impl Iterator<Item = f64> + use<> {
         match i {
             0 => best,
             _ if i == POINTS - 1 => worst,
-            _ if wide => best * ratio.powf(share),
+            _ if wide && ratio.is_normal() => best * ratio.powf(share),
+            _ if wide => best.powf(1.0 - share) * worst.powf(share),
             _ => best + share * (worst - best),
         }
     })
