@@ -1,6 +1,6 @@
 //! A reduction as text for a terminal.
 
-use lptn_reduce::{Bias, Deviation, Dynamics, FitError, Pair, Window};
+use lptn_reduce::{Bias, Definition, Deviation, Dynamics, FitError, Pair, Window};
 use lptn_report::{Align, Column, TextTable, WIDTH, decimals, duration, fixed, labelled, plain, significant};
 
 use crate::console::Console;
@@ -167,6 +167,12 @@ impl View<'_> {
             notes.push(format!("runs are compared at a tolerance of {} K", significant(tolerance, 2)));
         }
         let (residual, resistance) = (dynamics.step.residual, dynamics.step.resistance);
+        if dynamics.pair(Definition::LeastSquares).capacity <= 0.0 {
+            let share = significant(100.0 * dynamics.step.direct / resistance, 3);
+            notes.push(format!(
+                "the port answers at once with {share} % of the rise: no capacity at all is nearest to that"
+            ));
+        }
         if residual > 1e-6 * resistance {
             let share = significant(100.0 * residual / resistance, 2);
             notes.push(format!("the fastest modes, {share} % of R_eq, are not resolved: the errors for a step hold but for its very beginning"));

@@ -184,3 +184,29 @@ fn without_run_or_capacity_it_says_what_is_missing() {
     folder.run(&[&arguments[..], &["--write", "one.toml"]].concat()).exits(0);
     folder.run(&["steady", "one.toml"]).exits(0);
 }
+
+#[test]
+fn a_port_that_answers_at_once_may_have_no_capacity() {
+    let text = r#"format = 1
+[node]
+port = { massless = true }
+wall = { C = "1000 J/K", T0 = "0 degC" }
+[boundary]
+air = { T = "0 degC" }
+[resistor]
+inner = { from = "port", to = "wall", R = "0.9 K/W" }
+outer = { from = "wall", to = "air", R = "0.1 K/W" }
+"#;
+    let folder = Folder::with("junction.toml", text);
+    let reduce = ["reduce", "junction.toml", "--port", "port"];
+    folder
+        .run(&reduce)
+        .exits(0)
+        .prints("with C_eq 0 J/K (least_squares)")
+        .prints("answers at once with 90 % of the rise");
+    let json = folder.run(&[&reduce[..], &["--format", "json"]].concat()).exits(0).json();
+    assert_eq!(number(&json, &["C_eq", "least_squares"]).to_bits(), 0);
+    near(number(&json, &["errors", "least_squares", "step", "max"]), 0.1, 1e-9);
+    let written = folder.run(&[&reduce[..], &["--format", "toml"]].concat()).exits(0).out;
+    assert!(written.contains("port = { massless = true }"), "{written}");
+}

@@ -74,8 +74,11 @@ fn rates_over_fourteen_decades_are_verified_as_far_as_they_can_be() {
     }
     let text = nodes + &paths + "[run]\nstop = \"1e6 s\"\n";
     let folder = Folder::with("stiff.toml", &text);
-    folder.run(&["verify", "stiff.toml"]).exits(0).prints("exact solution, 6 modes");
-    let ran = folder.run(&["verify", "stiff.toml", "--tolerance", "1e-9K"]).exits(0);
+    folder.run(&["verify", "stiff.toml", "--tolerance", "1e-9K"]).exits(0).prints("exact solution, 6 modes");
+    // over more, and hotter, what rounding leaves is more than a tenth of what is allowed
+    let text = text.replace("50 W", "500 W").replace("1e-6 J/K", "1e-3 J/K").replace("1e3 W/K", "1e17 W/K");
+    let folder = Folder::with("stiffer.toml", &text);
+    let ran = folder.run(&["verify", "stiffer.toml", "--tolerance", "1e-9K"]).exits(0);
     ran.prints("no independent solution: time constants differ").prints("consistent, not verified");
 }
 

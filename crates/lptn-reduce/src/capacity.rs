@@ -7,7 +7,8 @@ use crate::step::StepResponse;
 ///
 /// With `a = 1/(R C)` and `z = R - sum r_i exp(-l_i t)` the derivative by a vanishes where
 /// `R K(2a) = sum r_i K(a + l_i)`, K(s) being the integral of `t exp(-s t)` over the window: closed forms, no
-/// sampling. All minima are found on a grid of a and the lowest is taken.
+/// sampling. All minima are found on a grid of a and the lowest is taken: 0 where none is lower than the limit
+/// for C to 0, which happens at massless ports only, where much of the rise comes at once.
 pub(crate) fn least_squares(step: &StepResponse, window: f64) -> f64 {
     const PER_DECADE: f64 = 20.0;
     let (least, most) = step.span();
@@ -28,8 +29,13 @@ pub(crate) fn least_squares(step: &StepResponse, window: f64) -> f64 {
         }
         k += 1.0;
     }
-    // there is always one: the slope is positive for small rates and negative for large ones
-    best.map_or(f64::NAN, |(_, rate)| 1.0 / (step.resistance * rate))
+    match best {
+        // a cost of 0 is that of no capacity
+        Some((cost, rate)) if cost < 0.0 => 1.0 / (step.resistance * rate),
+        _ if step.direct > 0.0 => 0.0,
+        // so short a window that all slopes are lost in rounding: the port warms alone
+        _ => step.terms.iter().map(|t| t.resistance / t.tau).sum::<f64>().recip(),
+    }
 }
 
 /// Positive where a larger rate is better.
@@ -88,6 +94,20 @@ mod tests {
             assert!((ramp(x, 1.0) / closed - 1.0).abs() < 1e-14, "{x}");
         }
         assert!((ramp(0.0, 3.0) - 4.5).abs() < 1e-15);
+    }
+
+    /// `z = 1 - r exp(-t)` at a massless port, over a window so long that the cost is, less what does not depend on
+    /// a, `1/(2a) - 2r/(a + 1)`. Its derivative vanishes where `(a + 1)^2 = 4 r a^2`, `a = 1/(2 sqrt(r) - 1)`, and the
+    /// cost there is `-(2 sqrt(r) - 1)^2 / 2`, lower than that of C = 0; for r <= 1/4 there is no such place.
+    #[test]
+    fn no_capacity_is_nearest_to_a_port_that_answers_at_once() {
+        for r in [0.02_f64, 0.249, 0.26, 0.5, 0.99] {
+            let term = Term { tau: 1.0, resistance: r, error: 0.0 };
+            let step = StepResponse { resistance: 1.0, direct: 1.0 - r, terms: vec![term], residual: 0.0 };
+            let expected = (2.0 * r.sqrt() - 1.0).max(0.0);
+            let found = least_squares(&step, 1e4);
+            assert!((found - expected).abs() < 1e-10, "{r}: {found} is not {expected}");
+        }
     }
 
     #[test]

@@ -36,7 +36,7 @@ impl Definition {
 pub struct Pair {
     /// What the capacity is equal in.
     pub definition: Definition,
-    /// `C_eq` in J/K.
+    /// `C_eq` in J/K; 0 where the least squares of a massless port are those of no capacity.
     pub capacity: f64,
     /// Largest error for a step of 1 W at the port; the rise is `R_eq` times 1 W.
     pub step: Deviation,

@@ -30,9 +30,12 @@ impl Deviation {
 pub(crate) fn of_step(step: &StepResponse, capacity: f64) -> Deviation {
     const PER_DECADE: f64 = 200.0;
     let tau = step.resistance * capacity;
-    let error = |time: f64| (step.value(time) + step.resistance * f64::exp_m1(-time / tau)).abs();
+    // without capacity all of the rise comes at once
+    let model =
+        |time: f64| if tau > 0.0 { -step.resistance * f64::exp_m1(-time / tau) } else { step.resistance };
+    let error = |time: f64| (step.value(time) - model(time)).abs();
     let (least, most) = step.span();
-    let from = (1e-3 * least.min(tau)).log10();
+    let from = (1e-3 * if tau > 0.0 { least.min(tau) } else { least }).log10();
     let count = ((50.0 * most.max(tau)).log10() - from) * PER_DECADE;
     let at = |k: f64| 10_f64.powf(from + k / PER_DECADE);
     let (mut best, mut place, mut k) = (error(0.0), None, 0.0);
@@ -60,57 +63,85 @@ fn highest(f: &dyn Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
 /// Temperatures of one node at the times of a comparison.
 #[derive(Clone, Debug)]
 pub(crate) struct Record {
-    pub(crate) times: Vec<f64>,
-    pub(crate) temperatures: Vec<f64>,
+    times: Vec<f64>,
+    temperatures: Vec<f64>,
+    breaks: Vec<f64>,
 }
 
 impl Record {
     /// Runs `system` and keeps `node`.
-    pub(crate) fn of(
-        system: &ThermalSystem,
-        node: NodeId,
-        transient: &Transient,
-    ) -> Result<Self, TransientError> {
-        let solution = transient.clone().record(&[node]).solve(system)?;
+    pub(crate) fn of(system: &ThermalSystem, node: NodeId, run: &Dense) -> Result<Self, TransientError> {
+        let solution = run.transient.clone().record(&[node]).solve(system)?;
         let temperatures = solution.temperature(node).unwrap_or_default();
-        Ok(Self { times: solution.times().to_vec(), temperatures })
+        Ok(Self { times: solution.times().to_vec(), temperatures, breaks: run.breaks.clone() })
     }
 
     /// The largest change from the start in K.
     pub(crate) fn rise(&self) -> f64 {
         let start = self.temperatures.first().copied().unwrap_or(0.0);
-        self.temperatures.iter().map(|t| (t - start).abs()).fold(0.0, f64::max)
+        self.largest(self.temperatures.iter().map(|t| (t - start).abs())).0
     }
 
-    /// The largest difference from `other` at the same times, and between them by a parabola.
+    /// The largest difference from `other` at the same times and between them.
     pub(crate) fn deviation(&self, other: &Self) -> Deviation {
-        let pairs = self.temperatures.iter().zip(&other.temperatures).zip(&self.times);
-        let points: Vec<(f64, f64)> = pairs.map(|((a, b), &time)| (time, (a - b).abs())).collect();
-        let start = (0.0, self.times.first().copied().unwrap_or(0.0));
-        let tops = points.windows(3).filter_map(|three| top([three[0], three[1], three[2]]));
-        let all = points.iter().map(|&(time, size)| (size, time)).chain(tops);
-        let (kelvin, time) = all.fold(start, |best, next| if next.0 > best.0 { next } else { best });
+        let pairs = self.temperatures.iter().zip(&other.temperatures);
+        let (kelvin, time) = self.largest(pairs.map(|(a, b)| (a - b).abs()));
         let rise = self.rise();
         Deviation { kelvin, relative: (rise > 0.0).then(|| kelvin / rise), time }
     }
+
+    /// The largest of these sizes, one a row, and its time; between rows by a parabola through three of them.
+    fn largest(&self, sizes: impl Iterator<Item = f64>) -> (f64, f64) {
+        let points: Vec<(f64, f64)> = self.times.iter().copied().zip(sizes).collect();
+        let start = (0.0, self.times.first().copied().unwrap_or(0.0));
+        let smooth = points.windows(3).filter(|p| self.is_smooth([p[0].0, p[1].0, p[2].0]));
+        let tops = smooth.filter_map(|p| top([p[0], p[1], p[2]]));
+        let all = points.iter().map(|&(time, size)| (size, time)).chain(tops);
+        all.fold(start, |best, next| if next.0 > best.0 { next } else { best })
+    }
+
+    /// Whether a parabola may go through rows at these times: a jump or kink on the way has none, and rows that lie
+    /// much closer on one side than on the other give its slope as noise over their distance.
+    fn is_smooth(&self, [a, b, c]: [f64; 3]) -> bool {
+        const MOST_UNEVEN: f64 = 10.0;
+        let passed = |time: f64| self.breaks.partition_point(|&at| at <= time);
+        let even = b - a <= MOST_UNEVEN * (c - b) && c - b <= MOST_UNEVEN * (b - a);
+        even && passed(a) == passed(c)
+    }
 }
 
-/// The run with rows where errors are looked for: its own, and between two known discontinuities 1000 at
-/// equal distances and 100 a decade after the first over eight decades, since errors are largest soon after a jump.
-pub(crate) fn dense(system: &ThermalSystem, run: &Transient) -> Result<Transient, TransientError> {
-    let (start, stop) = (run.start, run.stop);
-    let mut times = run.rows().map_err(TransientError::Settings)?;
-    let mut ends = system.network().breakpoints(start, stop).map_err(TransientError::Input)?;
-    ends.push(stop);
-    let mut from = start;
-    for to in ends {
-        let length = to - from;
-        times.extend((0..1000).map(|k| from + length * f64::from(k) / 1000.0));
-        times.extend((1..800).map(|k| from + length * 10_f64.powf(-f64::from(k) / 100.0)));
-        from = to;
+/// A run with rows where errors are looked for, and its known discontinuities.
+#[derive(Clone, Debug)]
+pub(crate) struct Dense {
+    transient: Transient,
+    breaks: Vec<f64>,
+}
+
+impl Dense {
+    /// The rows of `run`, and between two known discontinuities 1000 at equal distances, 100 a decade after the
+    /// first over eight decades, since errors are largest soon after a jump, and one just before the second, where
+    /// a massless port is about to leap.
+    pub(crate) fn new(
+        system: &ThermalSystem,
+        run: &Transient,
+        tolerance: f64,
+    ) -> Result<Self, TransientError> {
+        let (start, stop) = (run.start, run.stop);
+        let mut times = run.rows().map_err(TransientError::Settings)?;
+        let breaks = system.network().breakpoints(start, stop).map_err(TransientError::Input)?;
+        let mut from = start;
+        for &to in breaks.iter().chain([&stop]) {
+            let length = to - from;
+            times.extend((0..1000).map(|k| from + length * f64::from(k) / 1000.0));
+            times.extend((1..800).map(|k| from + length * 10_f64.powf(-f64::from(k) / 100.0)));
+            times.push(to - 1e-9 * length);
+            from = to;
+        }
+        times.sort_unstable_by(f64::total_cmp);
+        let near = |next: f64, first: f64| next - first <= 1e-12 * (stop - start) && !breaks.contains(&next);
+        times.dedup_by(|next, first| *next <= *first || near(*next, *first));
+        times.retain(|time| (start..=stop).contains(time));
+        let transient = Transient { output: OutputTimes::At(times), watch: Vec::new(), ..run.clone() };
+        Ok(Self { transient: transient.tolerance(tolerance), breaks })
     }
-    times.sort_unstable_by(f64::total_cmp);
-    times.dedup_by(|next, first| *next - *first <= 1e-12 * (stop - start));
-    times.retain(|time| (start..=stop).contains(time));
-    Ok(Transient { output: OutputTimes::At(times), watch: Vec::new(), ..run.clone() })
 }

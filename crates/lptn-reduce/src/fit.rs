@@ -19,7 +19,7 @@ pub struct ExponentialFit {
 ///
 /// By variable projection (G. H. Golub and V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413): for a given `tau` the
 /// other two are linear; `tau` is sought on a grid over all scales of the record and then by Gauss-Newton steps
-/// in its logarithm.
+/// in its logarithm, without the term of the derivative that vanishes with the residual (L. Kaufman, BIT 15 (1975) 49).
 ///
 /// # Errors
 /// [`FitError`], in particular where the record does not bend.

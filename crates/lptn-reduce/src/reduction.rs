@@ -7,7 +7,7 @@ use lptn_solve::{Transient, TransientError};
 use crate::capacity::least_squares;
 use crate::conductances::Conductances;
 use crate::definition::{Definition, Pair, Recommended, recommended};
-use crate::deviation::{self, Deviation, Record};
+use crate::deviation::{self, Dense, Deviation, Record};
 use crate::error::ReduceError;
 use crate::norton::{Inputs, NortonEquivalent, grounded};
 use crate::one_node::OneNode;
@@ -105,7 +105,7 @@ impl Reduction {
         Ok(reduction)
     }
 
-    /// The one-node network with the capacity of `pair` (a massless one without), started as the whole one is; its
+    /// The one-node network with the capacity of `pair` (a massless one without, or with a capacity of 0), started as the whole one is; its
     /// node has the name of the port.
     ///
     /// # Errors
@@ -116,7 +116,8 @@ impl Reduction {
         start: f64,
         pair: Option<&Pair>,
     ) -> Result<Network, ReduceError> {
-        self.one_node(system, start).network(pair.map(|pair| pair.capacity))
+        let capacity = pair.map(|pair| pair.capacity).filter(|capacity| *capacity > 0.0);
+        self.one_node(system, start).network(capacity)
     }
 
     fn one_node<'a>(&'a self, system: &'a ThermalSystem, start: f64) -> OneNode<'a> {
@@ -166,15 +167,16 @@ impl Reduction {
         capacities: [f64; 4],
     ) -> Result<Comparison, ReduceError> {
         let tolerance = TOLERANCE.min(0.01 * run.tolerance);
-        let run = deviation::dense(system, run)?.tolerance(tolerance);
-        let whole = Record::of(system, self.norton.port, &run)?;
         let one_node = self.one_node(system, run.start);
         let mut deviations = [Deviation { kelvin: 0.0, relative: None, time: run.start }; 4];
+        let run = Dense::new(system, run, tolerance)?;
+        let whole = Record::of(system, self.norton.port, &run)?;
         for (capacity, deviation) in capacities.into_iter().zip(&mut deviations) {
-            let network = one_node.network(Some(capacity))?;
+            let network = one_node.network(Some(capacity).filter(|capacity| *capacity > 0.0))?;
+            let port = network.node_ids().next().unwrap_or(self.norton.port); // its only node
             let reduced = ThermalSystem::assemble(&network)
                 .map_err(|error| ReduceError::Equivalent(error.to_string()))?;
-            *deviation = whole.deviation(&Record::of(&reduced, reduced.states()[0], &run)?);
+            *deviation = whole.deviation(&Record::of(&reduced, port, &run)?);
         }
         Ok(Comparison { deviations, tolerance, rise: whole.rise() })
     }

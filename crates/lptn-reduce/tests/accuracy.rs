@@ -48,6 +48,66 @@ fn a_weak_ground_is_seen_through_strong_paths() {
     }
 }
 
+/// A mesh: paths between nodes, 7 for the boundary, with conductances in W/K.
+type Mesh = [(usize, usize, f64); 14];
+
+/// Meshes with conductances from 1 W/K to 9e2, 6e5, 2e8 and 9e11 W/K; the resistance at node 0 by Gauss elimination
+/// in fractions (Python), and the condition number of G (numpy).
+#[rustfmt::skip]
+const MESHES: [(Mesh, f64, f64); 4] = [
+    (
+        [
+            (1, 0, 9.0), (2, 1, 800.0), (3, 2, 200.0), (4, 0, 80.0), (5, 4, 4.0), (6, 5, 800.0), (6, 4, 80.0),
+            (5, 1, 400.0), (1, 4, 700.0), (0, 5, 2.0), (6, 4, 10.0), (6, 0, 50.0), (7, 6, 1.0), (7, 5, 900.0),
+        ],
+        112_689_622_483.0 / 11_842_780_415_070.0,
+        55.0,
+    ),
+    (
+        [
+            (1, 0, 6e5), (2, 0, 80.0), (3, 2, 10.0), (4, 0, 6e3), (5, 1, 7e4), (6, 0, 4.0), (5, 1, 700.0),
+            (1, 3, 3.0), (1, 4, 80.0), (1, 0, 10.0), (6, 1, 30.0), (2, 6, 4e4), (7, 6, 1.0), (7, 5, 2.0),
+        ],
+        0.334_291_870_178_007_43, // 123014328367820605/367984804124361681
+        2.9e6,
+    ),
+    (
+        [
+            (1, 0, 3e6), (2, 0, 2e8), (3, 0, 6.0), (4, 1, 10.0), (5, 3, 70.0), (6, 1, 2e8), (3, 0, 2e3),
+            (5, 6, 1e6), (0, 1, 1e8), (6, 1, 5e6), (1, 4, 2e4), (4, 5, 30.0), (7, 6, 1.0), (7, 5, 2.0),
+        ],
+        0.333_333_792_319_371_7, // 732113926661683684440522143/2196338755718577938568490210
+        1.2e9,
+    ),
+    (
+        [
+            (1, 0, 9e7), (2, 1, 9e9), (3, 0, 3e8), (4, 3, 30.0), (5, 3, 500.0), (6, 0, 9e11), (5, 0, 7e7),
+            (5, 6, 3e9), (0, 4, 2.0), (0, 1, 4e9), (0, 3, 6e7), (4, 1, 9e3), (7, 6, 1.0), (7, 5, 2.0),
+        ],
+        // 918680191341073631256929423701195783977/2756040572817334690610723569661525013500
+        0.333_333_333_479_181,
+        4.2e12,
+    ),
+];
+
+/// To 1e-12 up to a spread of 10^3, to 100 eps cond(G) beyond; refinement by links does better: 1e-14 throughout.
+#[test]
+fn the_resistance_of_a_mesh_is_that_of_exact_fractions() {
+    let zero = Temperature::celsius(0.0);
+    for (mesh, expected, condition) in MESHES {
+        let mut b = NetworkBuilder::new();
+        let nodes: Vec<NodeId> = (0..7).map(|i| b.node(&format!("n{i}"), HeatCapacity(1.0), zero)).collect();
+        let ground = b.boundary("ground", zero);
+        for (k, &(from, to, g)) in mesh.iter().enumerate() {
+            let end = nodes.get(from).map_or_else(|| ground.into(), |&n| lptn_network::End::Node(n));
+            b.resistor(&format!("g{k}"), end, nodes[to], Conductance(g));
+        }
+        let resistance = NortonEquivalent::new(&assembled(b), nodes[0]).unwrap().resistance;
+        near(resistance, expected, 1e-12_f64.min(100.0 * f64::EPSILON * condition));
+        near(resistance, expected, 1e-14);
+    }
+}
+
 /// The same with every second node massless: eliminated, and a port itself.
 #[test]
 fn junctions_can_be_ports() {

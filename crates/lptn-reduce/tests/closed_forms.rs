@@ -3,8 +3,8 @@
 
 mod common;
 
-use common::{near, two_nodes};
-use lptn_network::Time;
+use common::{assembled, near, two_nodes};
+use lptn_network::{HeatCapacity, NetworkBuilder, Resistance, Temperature, Time};
 use lptn_reduce::{Definition, Options, Reduction, Window};
 use lptn_solve::Transient;
 
@@ -159,6 +159,89 @@ fn one_node_is_its_own_equivalent_by_all_definitions() {
         assert!(pair.run.unwrap().kelvin < 1e-9 && pair.run.unwrap().relative.is_none());
     }
     assert_eq!(dynamics.recommended.definition, Definition::Sum);
+}
+
+/// A pulse into a light port: temperatures have a kink where it ends, and a parabola through rows on both sides of
+/// it would promise an error that is nowhere. By superposition the error is that of the step, less the same later.
+#[test]
+fn the_error_of_a_pulse_is_not_that_of_a_parabola_over_its_end() {
+    let (c, r_int, r_amb, ambient) = ([1.0, 1000.0], 0.1, 0.3, Temperature::celsius(25.5));
+    let exact = Exact::new(c, r_int, r_amb);
+    let mut b = NetworkBuilder::new();
+    let pulse = b.expression("if(t < 300 [s], 100 [W], 0 [W])", None).unwrap();
+    let [port, wall] = [("port", c[0]), ("wall", c[1])].map(|(n, c)| b.node(n, HeatCapacity(c), ambient));
+    let air = b.boundary("air", ambient);
+    b.resistor("inner", port, wall, Resistance(r_int));
+    b.resistor("outer", wall, air, Resistance(r_amb));
+    b.source("heat", port, pulse);
+    let options = Options { run: Some(Transient::until(Time(600.0))), window: None };
+    let dynamics = Reduction::new(&assembled(b), port, &options).unwrap().dynamics.unwrap();
+    for pair in &dynamics.pairs {
+        let tau = exact.resistance * pair.capacity;
+        let miss =
+            |t: f64| if t > 0.0 { exact.step(t) + exact.resistance * (-t / tau).exp_m1() } else { 0.0 };
+        let error = |t: f64| 100.0 * (miss(t) - miss(t - 300.0)).abs();
+        let after = (0..200_000).map(|k| 1e-4 * 10_f64.powf(f64::from(k) / 30_000.0));
+        let times = after.flat_map(|t| [t.min(600.0), 300.0 + t.min(300.0)]).chain([300.0]);
+        let (expected, _) =
+            times.map(|t| (error(t), t)).fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a });
+        near(pair.run.unwrap().kelvin, expected, 1e-5);
+    }
+    near(dynamics.rise.unwrap(), 100.0 * exact.step(300.0), 1e-6);
+}
+
+/// A ramp into a massless port that ends at once: the error is largest just before the end, where the port leaps.
+/// Port and node behind it: `s R_int + s R_amb (t - tau (1 - exp(-t/tau)))` at a slope of s, the same without R_int
+/// for the one-node network.
+#[test]
+fn the_error_of_a_leaping_port_is_largest_just_before_it_leaps() {
+    let (c, r_int, r_amb, slope, zero) = (1000.0, 0.5, 0.5, 2.0, Temperature::celsius(0.0));
+    let mut b = NetworkBuilder::new();
+    let ramp = b.expression("if(t < 50 [s], 2 [W/s] * t, 0 [W])", None).unwrap();
+    let (port, wall, air) =
+        (b.massless("port"), b.node("wall", HeatCapacity(c), zero), b.boundary("air", zero));
+    b.resistor("inner", port, wall, Resistance(r_int));
+    b.resistor("outer", wall, air, Resistance(r_amb));
+    b.source("heat", port, ramp);
+    let options = Options { run: Some(Transient::until(Time(100.0))), window: None };
+    let reduction = Reduction::new(&assembled(b), port, &options).unwrap();
+    let rise = |r: f64, tau: f64, t: f64| slope * r * (t + tau * (-t / tau).exp_m1());
+    // the fourth is so small a capacity that the one-node network errs by more after the leap
+    for pair in &reduction.dynamics.as_ref().unwrap().pairs[..3] {
+        let tau = (r_int + r_amb) * pair.capacity;
+        let port = |t: f64| slope * r_int * t + rise(r_amb, r_amb * c, t);
+        let error = |t: f64| (port(t) - rise(r_int + r_amb, tau, t)).abs();
+        let run = pair.run.unwrap();
+        near(run.kelvin, error(50.0), 1e-6);
+        near(run.relative.unwrap(), error(50.0) / port(50.0), 1e-6);
+        near(run.time, 50.0, 1e-8);
+    }
+}
+
+/// Nine tenths of the rise come at once: of all capacities none at all is nearest, and its error is the last tenth.
+#[test]
+fn a_massless_port_may_be_best_without_capacity() {
+    let zero = Temperature::celsius(0.0);
+    let mut b = NetworkBuilder::new();
+    let (port, wall, air) =
+        (b.massless("port"), b.node("wall", HeatCapacity(1000.0), zero), b.boundary("air", zero));
+    b.resistor("inner", port, wall, Resistance(0.9));
+    b.resistor("outer", wall, air, Resistance(0.1));
+    b.source("heat", port, lptn_network::HeatFlow(50.0));
+    let system = assembled(b);
+    let options = Options { run: Some(Transient::until(Time(1000.0))), window: None };
+    let reduction = Reduction::new(&system, port, &options).unwrap();
+    let dynamics = reduction.dynamics.as_ref().unwrap();
+    let pair = dynamics.pair(Definition::LeastSquares);
+    assert!(pair.capacity.abs() < f64::MIN_POSITIVE);
+    near(pair.step.kelvin, 0.1, 1e-9);
+    near(pair.run.unwrap().kelvin, 5.0, 1e-6);
+    let by_step = Reduction::new(&system, port, &Options { run: None, window: Some(1000.0) }).unwrap();
+    assert_eq!(by_step.dynamics.unwrap().recommended.definition, Definition::LeastSquares);
+    let one = reduction.network(&system, 0.0, Some(pair)).unwrap();
+    assert!(one.nodes()[0].massless);
+    // with a capacity the one-node network misses what comes at once
+    near(dynamics.pair(Definition::Sum).step.kelvin, 0.9, 1e-9);
 }
 
 #[test]

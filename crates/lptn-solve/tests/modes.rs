@@ -90,6 +90,90 @@ fn rates_over_fourteen_decades_keep_their_digits() {
     has(&stiff(), &expected, 1e-12);
 }
 
+fn network_of(capacity: &[f64], links: &[(usize, usize, f64)], ties: &[(usize, f64)]) -> Network {
+    let start = Temperature::celsius(0.0);
+    let mut b = NetworkBuilder::new();
+    let nodes: Vec<_> =
+        (0..).zip(capacity).map(|(i, &c)| b.node(&format!("n{i}"), HeatCapacity(c), start)).collect();
+    for (k, &(i, j, g)) in links.iter().enumerate() {
+        b.resistor(&format!("g{k}"), nodes[i], nodes[j], Conductance(g));
+    }
+    if !ties.is_empty() {
+        let air = b.boundary("air", start);
+        ties.iter().for_each(|&(i, g)| {
+            b.resistor(&format!("t{i}"), nodes[i], air, Conductance(g));
+        });
+    }
+    b.build().unwrap()
+}
+
+#[track_caller]
+fn takes_part(modes: &Modes, mode: usize, expected: &[f64]) {
+    for (found, expected) in modes.modes()[mode].participation.iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-13, "{:?}", modes.modes()[mode]);
+    }
+}
+
+/// A dense solver mixes modes whose rates differ by less than rounding of the fastest: here 1e18 times as fast. Two
+/// nodes that are one at these times make a 2 x 2 problem: `[[2, -1], [-1, 1]]` with capacities 1 and 2, rates
+/// `(5 -+ sqrt 17) / 4`; what is left out is 1e-18 of it.
+#[test]
+fn slow_modes_are_not_mixed_by_rounding_of_fast_ones() {
+    let links = [(0, 1, 1e-12), (1, 2, 1e6)];
+    let root = 17_f64.sqrt();
+    let modes = has(
+        &network_of(&[1.0, 1.0, 1.0], &links, &[(0, 1e-12)]),
+        &[4e12 / (5.0 - root), 4e12 / (5.0 + root), 0.5e-6],
+        1e-14,
+    );
+    for (mode, rate) in [(0, (5.0 - root) / 4.0), (1, (5.0 + root) / 4.0)] {
+        // x_1 = (2 - rate) x_0
+        let other = (2.0 - rate) * (2.0 - rate);
+        let sum = 1.0 + 2.0 * other;
+        takes_part(&modes, mode, &[1.0 / sum, other / sum, other / sum]);
+    }
+}
+
+/// Two pairs, 3 and 7 J/K, that nearly nothing joins: they exchange heat at `g (1/3 + 1/7)`.
+#[test]
+fn a_weak_exchange_without_a_boundary_keeps_its_digits() {
+    let links = [(0, 1, 1e6), (2, 3, 3e5), (1, 2, 1e-9)];
+    let modes = Modes::solve(&network_of(&[1.0, 2.0, 3.0, 4.0], &links, &[])).unwrap();
+    assert_eq!(modes.modes()[0].rate.to_bits(), 0);
+    takes_part(&modes, 0, &[0.1, 0.2, 0.3, 0.4]);
+    assert!((modes.modes()[1].rate / (1e-9 / 2.1) - 1.0).abs() < 1e-13);
+    takes_part(&modes, 1, &[0.7 / 3.0, 1.4 / 3.0, 0.9 / 7.0, 1.2 / 7.0]);
+}
+
+/// Strong paths between weak ones, 1e14 apart; mpmath 1.3 with 80 digits: eigsy of C^-1/2 G C^-1/2.
+#[test]
+fn strong_paths_inside_a_network_keep_the_slow_modes() {
+    let links = [(0, 1, 1.0), (1, 2, 1e14), (2, 3, 2.0), (3, 4, 1e14 / 3.0)];
+    let network = network_of(&[3.0, 5.0, 7.0, 2.0, 4.0], &links, &[(0, 0.5), (4, 0.2)]);
+    let modes = has(
+        &network,
+        &[
+            36.43709690941729,
+            2.244789686328594,
+            1.5534075219012646,
+            3.999999999999891e-14,
+            2.916666666666647e-14,
+        ],
+        1e-13,
+    );
+    takes_part(
+        &modes,
+        1,
+        &[
+            0.48441967214562387,
+            0.021601701180639508,
+            0.030242381652890872,
+            0.15457874834027213,
+            0.30915749668057363,
+        ],
+    );
+}
+
 #[test]
 fn participation_sums_to_one_over_nodes_and_over_modes() {
     for network in [gearbox(), rc_ladder(), two_masses(), stiff()] {

@@ -3,8 +3,8 @@
 //! A mode of rate `r` answers to `u = sum c_n P_n(x)`, x from -1 to 1 over a panel of length h, with
 //! `int exp(-r (h - s)) u(s) ds = h sum c_n w_n(r h / 2)`, where `w_n(a) = exp(-a) i_n(a)` and i_n is the
 //! modified spherical Bessel function of the first kind: from `2 i_n(a) = int exp(a x) P_n(x) dx` over (-1, 1)
-//! (Abramowitz and Stegun, Handbook of Mathematical Functions, 10.2.36 with the orthogonality of P_n). The
-//! kernel is integrated exactly, so a panel may be as long as the input is smooth, however fast the mode.
+//! (Abramowitz and Stegun, Handbook of Mathematical Functions, 10.2.36, DLMF 10.60.8, with the orthogonality of
+//! P_n). The kernel is integrated exactly, so a panel may be as long as the input is smooth, however fast the mode.
 
 /// Points of the Gauss-Legendre rule and terms of the series.
 pub(crate) const TERMS: usize = 16;
@@ -142,7 +142,8 @@ mod tests {
         assert_eq!(out.map(f64::to_bits), [1.0_f64, 0.0, 0.0, 0.0].map(f64::to_bits));
     }
 
-    const EXPECTED: [(f64, [f64; 4]); 7] = [
+    const EXPECTED: [(f64, [f64; 4]); 8] = [
+        (25.0, [0.02, 0.0192, 0.010_868_848_64, 0.000_173_839_083_213_244_25]),
         (
             1e-6,
             [

@@ -126,7 +126,7 @@ impl ExactSolution {
         let breakpoints = network.breakpoints(start, stop).map_err(ExactError::Input)?;
         let reduced = Reduced::new(network)?;
         let islands = islands(&reduced, network.boundaries().len())?;
-        let mut rows = Rows::new(network, &reduced, times)?;
+        let mut rows = Rows::new(network, &reduced, (start, times))?;
         let inputs = Inputs::new(network, rows.reference);
         let mut march = March::new(inputs, (&reduced, &islands), &rows.rises, stop - start);
         rows.start(&march);
@@ -167,8 +167,8 @@ impl ExactSolution {
 
     /// An estimate of its own error in K: quadrature and rounding. The latter is what the modes miss of the
     /// start, a few units in the last place of a temperature, and what is left over when the rates of change
-    /// that the modes give are put into the heat balance of every node at up to 32 of the rows, taken as heat
-    /// that lasts for the whole run.
+    /// that the modes give are put into the heat balance of every node at some 32 of the rows after the start,
+    /// taken as heat that lasts for the whole run.
     pub fn own_error(&self) -> f64 {
         self.quadrature.unwrap_or(0.0) + self.rounding
     }
@@ -210,6 +210,8 @@ const DEFECTS: usize = 31;
 /// The rows, written in order.
 struct Rows<'a> {
     reduced: &'a Reduced,
+    /// Start of the run in s.
+    begin: f64,
     times: &'a [f64],
     next: usize,
     /// Temperature in K that all rises are counted from.
@@ -225,7 +227,11 @@ struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    fn new(network: &Network, reduced: &'a Reduced, times: &'a [f64]) -> Result<Self, ExactError> {
+    fn new(
+        network: &Network,
+        reduced: &'a Reduced,
+        (begin, times): (f64, &'a [f64]),
+    ) -> Result<Self, ExactError> {
         let initial = reduced.initial(network)?;
         // rises over a temperature of the network itself are small numbers with small rounding errors
         let reference = initial.first().copied().unwrap_or(lptn_network::ZERO_CELSIUS);
@@ -234,6 +240,7 @@ impl<'a> Rows<'a> {
         let temperatures = Vec::with_capacity(times.len() * nodes);
         Ok(Self {
             reduced,
+            begin,
             times,
             next: 0,
             reference,
@@ -268,7 +275,7 @@ impl<'a> Rows<'a> {
     }
 
     fn push(&mut self, march: &mut March<'_>, time: f64) -> Result<(), ExactError> {
-        if self.next.is_multiple_of(self.times.len() / DEFECTS + 1) || self.next + 1 == self.times.len() {
+        if self.is_tested(time) {
             self.defect = self.defect.max(march.defect(time).map_err(ExactError::Input)?);
         }
         let mut known = march.rises();
@@ -286,6 +293,13 @@ impl<'a> Rows<'a> {
         self.temperatures.extend(row.iter().map(|rise| self.reference + rise));
         self.next += 1;
         Ok(())
+    }
+
+    /// Whether the modes are put to the test at the next row, which is at `time`. Not at the start: rounding of rates of
+    /// change that are gone at once would count as heat that lasts. What is left of them shows at the second row.
+    fn is_tested(&self, time: f64) -> bool {
+        let regular = self.next.is_multiple_of(self.times.len() / DEFECTS + 1);
+        time > self.begin && (regular || self.next == 1 || self.next + 1 == self.times.len())
     }
 
     /// Compares the start as the modes have it with what it is.

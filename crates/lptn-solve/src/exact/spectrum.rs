@@ -52,6 +52,13 @@ fn numbering(reduced: &Reduced) -> Vec<usize> {
     numbers
 }
 
+/// Modes slower than this share of the fastest are told apart anew: the eigenvectors of a dense solver are right to
+/// rounding of the fastest rate over the distance of two rates.
+const SLOW: f64 = 1e-2;
+
+/// Paths whose differences are multiplied at once.
+const CHUNK: usize = 512;
+
 /// One island by itself.
 struct Part {
     members: Vec<usize>,
@@ -74,10 +81,11 @@ impl Part {
         let n = self.members.len();
         let eigen = self.scaled().self_adjoint_eigen(Side::Lower).map_err(|_| ExactError::Modes)?;
         let mut vectors = eigen.U().to_owned();
+        self.sharpen(&mut vectors)?;
         if self.is_loose() {
             self.take_out_the_mean(&mut vectors);
         }
-        let shapes = Mat::from_fn(n, n, |i, k| vectors[(i, k)] / self.root[i]);
+        let shapes = self.shapes(&vectors, n);
         let mut rates: Vec<f64> = (0..n).map(|k| self.rate(&shapes, k)).collect();
         if self.is_loose() {
             rates[0] = 0.0;
@@ -103,6 +111,45 @@ impl Part {
             a[(j, i)] -= g / (self.root[i] * self.root[j]);
         }
         a
+    }
+
+    /// Tells slow modes apart that the dense solver has mixed. Rounding mixes little of the fast modes into the slow
+    /// ones, as much as a rounding error, but slow ones among each other if their rates differ by less than rounding
+    /// of the fastest. So `x' G x` of the slow ones, summed over paths, where nothing fast is left that could drown
+    /// them, is diagonalised by itself; and again the slow ones among these, until one is left.
+    fn sharpen(&self, vectors: &mut Mat<f64>) -> Result<(), ExactError> {
+        let mut count = vectors.ncols();
+        loop {
+            let shapes = self.shapes(vectors, count);
+            let rates: Vec<f64> = (0..count).map(|k| self.rate(&shapes, k)).collect();
+            let top = rates.iter().copied().fold(0.0, f64::max);
+            count = rates.iter().take_while(|rate| **rate < SLOW * top).count();
+            if count < 2 {
+                return Ok(());
+            }
+            let eigen = self.among(&shapes, count).self_adjoint_eigen(Side::Lower);
+            let turned = vectors.subcols(0, count) * eigen.map_err(|_| ExactError::Modes)?.U();
+            vectors.subcols_mut(0, count).copy_from(&turned);
+        }
+    }
+
+    fn shapes(&self, vectors: &Mat<f64>, count: usize) -> Mat<f64> {
+        Mat::from_fn(self.root.len(), count, |i, k| vectors[(i, k)] / self.root[i])
+    }
+
+    /// `x_k' G x_l` of the first `count` modes as sums over paths.
+    fn among(&self, shapes: &Mat<f64>, count: usize) -> Mat<f64> {
+        let mut sum = Mat::zeros(count, count);
+        for links in self.links.chunks(CHUNK) {
+            let difference = Mat::from_fn(links.len(), count, |row, k| {
+                let (i, j, g) = links[row];
+                g.sqrt() * (shapes[(i, k)] - shapes[(j, k)])
+            });
+            sum += difference.transpose() * &difference;
+        }
+        let tied = Mat::from_fn(self.ties.len(), count, |i, k| self.ties[i].sqrt() * shapes[(i, k)]);
+        sum += tied.transpose() * &tied;
+        sum
     }
 
     /// The slowest mode of an island that nothing leaves is known: all at one temperature. The others are
