@@ -11,7 +11,6 @@
 
 mod bias;
 mod capacity;
-mod conductances;
 mod definition;
 mod deviation;
 mod error;
@@ -20,6 +19,7 @@ mod lanczos;
 mod norton;
 mod one_node;
 mod reduction;
+mod rises;
 mod step;
 
 pub use bias::Bias;

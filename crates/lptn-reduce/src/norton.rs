@@ -3,8 +3,8 @@
 use lptn_assembly::ThermalSystem;
 use lptn_network::{End, InputError, Item, Network, NodeId};
 
-use crate::conductances::Conductances;
 use crate::error::ReduceError;
+use crate::rises::Rises;
 
 /// The Norton equivalent of a linear network at a port: `q = Q_N - (T - T_ref) / R_eq`, where q is the heat that
 /// the network gives out of the port in W when something outside holds the port at T.
@@ -66,25 +66,25 @@ impl NortonEquivalent {
     /// [`ReduceError::NoGround`] if nodes reach no boundary, [`ReduceError::Factorization`].
     pub fn new(system: &ThermalSystem, port: NodeId) -> Result<Self, ReduceError> {
         grounded(system.network())?;
-        Self::with(system, port, &mut Conductances::new(system)?)
+        Self::with(system, port, &mut Rises::new(system)?)
     }
 
     pub(crate) fn with(
         system: &ThermalSystem,
         port: NodeId,
-        conductances: &mut Conductances<'_>,
+        rises: &mut Rises<'_>,
     ) -> Result<Self, ReduceError> {
         let network = system.network();
         let mut heat = vec![0.0; network.nodes().len()];
         heat[port.index()] = 1.0;
         let reached = reached(network, port);
-        let rise = conductances.rise(&heat)?;
+        let rise = rises.of_nodes(&heat)?;
         let response: Vec<f64> =
             rise.iter().zip(&reached).map(|(&r, &is)| if is { r } else { 0.0 }).collect();
         let resistance = response[port.index()];
         let weight = |source: &lptn_network::Source| response[source.into.index()] / resistance;
         let source_weights = network.sources().iter().map(weight).collect();
-        let boundary_weights = conductances.boundary_heat().iter().map(|w| w.max(0.0)).collect();
+        let boundary_weights = rises.boundary_heat().iter().map(|w| w.max(0.0)).collect();
         Ok(Self { port, resistance, response, boundary_weights, source_weights })
     }
 

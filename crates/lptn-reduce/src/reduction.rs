@@ -5,12 +5,12 @@ use lptn_network::{Network, NodeId};
 use lptn_solve::{Transient, TransientError};
 
 use crate::capacity::least_squares;
-use crate::conductances::Conductances;
 use crate::definition::{Definition, Pair, Recommended, recommended};
 use crate::deviation::{self, Dense, Deviation, Record};
 use crate::error::ReduceError;
 use crate::norton::{Inputs, NortonEquivalent, grounded};
 use crate::one_node::OneNode;
+use crate::rises::Rises;
 use crate::step::StepResponse;
 
 /// The largest tolerance in K of the runs that are compared; a run with a tighter one keeps a hundredth of that.
@@ -92,12 +92,12 @@ impl Reduction {
             return Err(ReduceError::Window(window));
         }
         grounded(system.network())?;
-        let mut conductances = Conductances::new(system)?;
-        let norton = NortonEquivalent::with(system, port, &mut conductances)?;
+        let mut rises = Rises::new(system)?;
+        let norton = NortonEquivalent::with(system, port, &mut rises)?;
         let start = options.run.as_ref().map_or(0.0, |run| run.start);
         let inputs = norton.inputs(system, start).map_err(ReduceError::Input)?;
         let initial = initial(system, port, start)?;
-        let step = StepResponse::with(system, &norton, &mut conductances)?;
+        let step = StepResponse::with(system, &norton, &mut rises)?;
         let mut reduction = Self { norton, inputs, initial, dynamics: None };
         if let Some(step) = step {
             reduction.dynamics = Some(reduction.dynamics(system, step, options)?);

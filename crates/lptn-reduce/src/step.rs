@@ -2,10 +2,10 @@
 
 use lptn_assembly::ThermalSystem;
 
-use crate::conductances::Conductances;
 use crate::error::ReduceError;
 use crate::lanczos::{self, Mode};
 use crate::norton::NortonEquivalent;
+use crate::rises::Rises;
 
 /// One exponential of a step response.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,13 +53,13 @@ impl StepResponse {
     /// # Errors
     /// [`ReduceError::Factorization`], [`ReduceError::Modes`].
     pub fn new(system: &ThermalSystem, norton: &NortonEquivalent) -> Result<Option<Self>, ReduceError> {
-        Self::with(system, norton, &mut Conductances::new(system)?)
+        Self::with(system, norton, &mut Rises::new(system)?)
     }
 
     pub(crate) fn with(
         system: &ThermalSystem,
         norton: &NortonEquivalent,
-        conductances: &mut Conductances<'_>,
+        rises: &mut Rises<'_>,
     ) -> Result<Option<Self>, ReduceError> {
         let root: Vec<f64> = system.capacity().iter().map(|c| c.sqrt()).collect();
         let rise = system.states().iter().map(|id| norton.response[id.index()]);
@@ -77,7 +77,7 @@ impl StepResponse {
         };
         let mut apply = |x: &[f64]| {
             let heat: Vec<f64> = x.iter().zip(&root).map(|(x, c)| x * c).collect();
-            let rise = conductances.state_rise(&heat)?;
+            let rise = rises.of_states(&heat)?;
             Ok(rise.iter().zip(&root).map(|(r, c)| r * c).collect())
         };
         let terms = terms(&lanczos::modes(&start, &mut apply, &enough)?);

@@ -6,6 +6,7 @@
 //!
 //! Units: SI, temperatures in K, heat positive into a node and from `from` to `to`.
 
+mod conductances;
 mod curved;
 mod error;
 mod exact;
@@ -28,6 +29,7 @@ mod transient;
 mod verification;
 mod watch;
 
+pub use conductances::Conductances;
 pub use error::{SettingsError, SteadyError, StopReason, TransientError};
 pub use exact::{Difference, ExactError, ExactSolution};
 pub use ledger::Ledger;

@@ -1,10 +1,10 @@
 //! Steady state by direct solution.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_integrate::linear::{self, Factorization, LinearSolver};
-use lptn_integrate::{FactorError, Pattern};
+use lptn_integrate::FactorError;
 use lptn_network::{Network, NodeId};
 
+use crate::conductances::Conductances;
 use crate::error::SteadyError;
 
 /// The temperatures at which nothing is stored any more.
@@ -39,7 +39,7 @@ impl SteadyState {
         }
         let mut work = system.workspace();
         system.read_inputs(&mut work, time, just_after(time)).map_err(SteadyError::Input)?;
-        let states = states(system, &work)?;
+        let states = states(system, &work).map_err(SteadyError::Factorization)?;
         system.recover(&mut work, &states);
         let steady = Self::from_workspace(system, &work, &states);
         if steady.imbalance().abs() > BALANCE * steady.turned_over() + rounding(system, &steady) {
@@ -97,37 +97,8 @@ fn check_absolute(network: &Network, temperatures: &[f64]) -> Result<(), SteadyE
     }
 }
 
-/// Temperatures of the states. The solution is sought as a rise over one boundary, so that a network at rest
-/// is at rest to the last digit.
-fn states(system: &ThermalSystem, work: &Workspace) -> Result<Vec<f64>, SteadyError> {
-    let n = system.states().len();
-    if n == 0 {
-        return Ok(Vec::new());
-    }
-    let reference = system.boundary_temperatures(work)[0];
-    let pattern = Pattern::from_symbolic(system.pattern().symbolic());
-    let mut values = vec![0.0; pattern.len()];
-    system.jacobian(&mut values);
-    values.iter_mut().for_each(|v| *v = -*v);
-    let mut factors = factorized(&pattern, &values).map_err(SteadyError::Factorization)?;
-    let mut y = vec![reference; n];
-    let mut flow = vec![0.0; n];
-    for _ in 0..SOLVES {
-        system.flow(work, &y, &mut flow);
-        factors.solve_in_place(&mut flow).map_err(SteadyError::Factorization)?;
-        y.iter_mut().zip(&flow).for_each(|(t, rise)| *t += rise);
-    }
-    Ok(y)
-}
-
-/// One solution and its refinements. What is left over is taken from the links, where a heat flow leaves one
-/// node as the number that enters the other, not from the matrix, whose diagonal has rounded a small conductance
-/// beside a large one away: the total balance is then exact, and the refinement restores what was rounded.
-const SOLVES: usize = 5;
-
-fn factorized(pattern: &Pattern, values: &[f64]) -> Result<Box<dyn Factorization>, FactorError> {
-    let mut factors = linear::new(pattern, true, LinearSolver::Auto)?;
-    factors.factorize(values)?;
-    factors.check(pattern, values)?;
-    Ok(factors)
+/// Temperatures of the states, sought as a rise over one boundary.
+fn states(system: &ThermalSystem, work: &Workspace) -> Result<Vec<f64>, FactorError> {
+    let start = system.boundary_temperatures(work).first().copied().unwrap_or(0.0);
+    Conductances::new(system)?.states(work, start, Conductances::REFINEMENTS)
 }

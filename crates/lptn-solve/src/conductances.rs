@@ -1,0 +1,79 @@
+//! The factorised conductances of a system: temperatures at which its inputs balance.
+
+use std::fmt;
+
+use lptn_assembly::{ThermalSystem, Workspace};
+use lptn_integrate::linear::{self, Factorization, LinearSolver};
+use lptn_integrate::{FactorError, Pattern};
+
+/// `G` of `C dT/dt = q - G T`, factorised once for many inputs. Steady states and Norton equivalents come from it.
+pub struct Conductances<'a> {
+    system: &'a ThermalSystem,
+    /// `None` for a system without states.
+    factors: Option<Box<dyn Factorization>>,
+}
+
+impl fmt::Debug for Conductances<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Conductances").field("states", &self.system.states().len()).finish_non_exhaustive()
+    }
+}
+
+impl<'a> Conductances<'a> {
+    /// Most steps of iterative refinement that are of use; two are usual.
+    pub const REFINEMENTS: usize = 6;
+
+    /// Factorises the conductances of a system every state of which has a path to a boundary.
+    ///
+    /// # Errors
+    /// [`FactorError`] where there is no such path, or where the conductances span more than the numbers hold.
+    pub fn new(system: &'a ThermalSystem) -> Result<Self, FactorError> {
+        let factors = if system.states().is_empty() { None } else { Some(factorized(system)?) };
+        Ok(Self { system, factors })
+    }
+
+    /// Temperature of each state in K, in the order of [`ThermalSystem::states`], at which the inputs in `work`
+    /// balance: sought from `start` in K everywhere, so that a network at rest there stays so to the last digit.
+    ///
+    /// It is refined at most `refinements` times. What is left over is taken from the links, where a heat flow
+    /// leaves one node as the number that enters the other, not from the matrix, whose diagonal has rounded a
+    /// small conductance beside a large one away (a path to ground that is not there): the total balance is then
+    /// exact, and the refinement restores what was rounded.
+    ///
+    /// # Errors
+    /// [`FactorError`] where the solution is not finite.
+    pub fn states(
+        &mut self,
+        work: &Workspace,
+        start: f64,
+        refinements: usize,
+    ) -> Result<Vec<f64>, FactorError> {
+        let Some(factors) = &mut self.factors else { return Ok(Vec::new()) };
+        let mut states = vec![start; self.system.states().len()];
+        let mut step = vec![0.0; states.len()];
+        for _ in 0..=refinements {
+            self.system.flow(work, &states, &mut step);
+            factors.solve_in_place(&mut step)?;
+            states.iter_mut().zip(&step).for_each(|(t, dt)| *t += dt);
+            if size(&step) <= f64::EPSILON * size(&states) {
+                break;
+            }
+        }
+        Ok(states)
+    }
+}
+
+fn size(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most: f64, v| most.max(v.abs()))
+}
+
+fn factorized(system: &ThermalSystem) -> Result<Box<dyn Factorization>, FactorError> {
+    let pattern = Pattern::from_symbolic(system.pattern().symbolic());
+    let mut values = vec![0.0; pattern.len()];
+    system.jacobian(&mut values);
+    values.iter_mut().for_each(|v| *v = -*v);
+    let mut factors = linear::new(&pattern, true, LinearSolver::Auto)?;
+    factors.factorize(&values)?;
+    factors.check(&pattern, &values)?;
+    Ok(factors)
+}
