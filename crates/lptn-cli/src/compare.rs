@@ -6,7 +6,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files, Netlist};
 use lptn_network::Field;
 use lptn_report::{JsonWriter, plain, write_csv};
-use lptn_solve::{SteadyError, Table, TransientError};
+use lptn_solve::{Progress, SteadyError, Table, TransientError};
 use lptn_study::{
     Candidate, CompareError, CompareRow, SortKey, available_threads, compare_table, in_parallel, order,
 };
@@ -20,13 +20,15 @@ use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
 use crate::input::{self, Input};
+use crate::interrupt::Interrupt;
+use crate::progress::ProgressOfAll;
 
 pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Failure> {
     let files = files(&args.files)?;
     let threads = args.threads.unwrap_or_else(available_threads);
     let loaded = in_parallel(&files, threads, |file| load(file, &args.set));
     used(args, &loaded)?;
-    let done = in_parallel(&loaded, threads, evaluate);
+    let done = evaluate_all(&loaded, threads, console);
     let unit = unit(args, &loaded)?;
     let candidates: Vec<_> = done.iter().map(|outcome| outcome.as_ref().ok()).collect();
     let places = order(&candidates, key(args.sort));
@@ -129,11 +131,37 @@ enum NoResult {
     Failure(Failure),
 }
 
-fn evaluate(loaded: &Loaded) -> Result<Candidate, NoResult> {
+/// Every candidate, with progress on a terminal; after Ctrl-C those that were finished by then.
+fn evaluate_all(loaded: &[Loaded], threads: usize, console: &Console) -> Vec<Result<Candidate, NoResult>> {
+    let interrupt = Interrupt::listen();
+    let progress = ProgressOfAll::new(console.quiet, loaded.len());
+    let numbered: Vec<(usize, &Loaded)> = loaded.iter().enumerate().collect();
+    let done = in_parallel(&numbered, threads, |&(number, loaded)| {
+        let outcome = evaluate(loaded, &interrupt, &mut |step| progress.update(number, step));
+        progress.finished(number);
+        outcome
+    });
+    progress.clear();
+    done
+}
+
+fn evaluate(
+    loaded: &Loaded,
+    interrupt: &Interrupt,
+    show: &mut dyn FnMut(Progress),
+) -> Result<Candidate, NoResult> {
     let input = loaded.input.as_ref().map_err(|_| NoResult::NotRead)?;
     let system: ThermalSystem = input.assemble().map_err(NoResult::Failure)?;
-    Candidate::evaluate(&system, input.netlist.run.as_ref())
-        .map_err(|error| NoResult::Failure(explained(input, &error)))
+    let run = input.netlist.run.as_ref();
+    let found = if interrupt.pressed() {
+        Err(CompareError::Interrupted(run.map_or(0.0, |run| run.start)))
+    } else {
+        Candidate::evaluate_observed(&system, run, &mut |step| {
+            show(step);
+            interrupt.control()
+        })
+    };
+    found.map_err(|error| NoResult::Failure(explained(input, &error)))
 }
 
 /// A question that does not fit the input is a wrong input, as for the verbs `run` and `steady`.
@@ -145,6 +173,7 @@ fn explained(input: &Input, error: &CompareError) -> Failure {
             TransientError::Settings(_) | TransientError::Input(_) => Exit::Input,
             _ => Exit::Failed,
         },
+        CompareError::Interrupted(_) => Exit::Interrupted,
         _ => Exit::Failed,
     };
     let problem = Diagnostic::error(error.code(), error.to_string());
@@ -224,7 +253,9 @@ impl Comparison {
     /// Warnings and what is wrong with the candidates that have no results.
     fn report(&self, console: &Console) {
         self.warnings.iter().for_each(|(files, warnings)| console.warn(files, warnings));
-        self.failures.iter().for_each(|failure| console.report(&failure.files, &failure.diagnostics));
+        // the last line names those that were interrupted
+        let problems = self.failures.iter().filter(|failure| failure.exit != Exit::Interrupted);
+        problems.for_each(|failure| console.report(&failure.files, &failure.diagnostics));
     }
 
     fn print(&self, args: &CompareArgs, console: &Console) -> Result<(), Failure> {
@@ -260,9 +291,11 @@ impl Comparison {
         json.finish().map(drop)
     }
 
-    /// What could not be read goes before what failed, and that before a broken limit.
+    /// Ctrl-C goes before what could not be read, that before what failed, and that before a broken limit.
     pub(crate) fn exit(&self) -> Exit {
-        if self.ends.contains(&Exit::Input) {
+        if self.ends.contains(&Exit::Interrupted) {
+            Exit::Interrupted
+        } else if self.ends.contains(&Exit::Input) {
             Exit::Input
         } else if self.ends.contains(&Exit::Failed) {
             Exit::Failed

@@ -76,6 +76,7 @@ fn verdict(row: &CompareRow, end: Exit) -> &str {
     match (end, row.status()) {
         (Exit::Input, _) => "not read",
         (Exit::Failed, _) => "failed",
+        (Exit::Interrupted, _) => "not finished",
         (_, status) => status,
     }
 }
@@ -144,7 +145,7 @@ fn blocks_of(title: &str, rows: &[CompareRow], mut columns: Vec<Column>) -> Vec<
     blocks.into_iter().map(table).collect()
 }
 
-/// One sentence: what could not be read, else what failed, else which limits are broken.
+/// One sentence: what was not finished, else what could not be read, else what failed, else which limits are broken.
 pub(crate) fn answer(comparison: &Comparison) -> String {
     let names = names(&comparison.rows);
     let of = |wanted: Exit| {
@@ -152,6 +153,7 @@ pub(crate) fn answer(comparison: &Comparison) -> String {
         ends.map(|(name, _)| name.clone()).collect::<Vec<_>>().join(", ")
     };
     match comparison.exit() {
+        Exit::Interrupted => format!("interrupted: not finished: {}", of(Exit::Interrupted)),
         Exit::Input => format!("not read: {}", of(Exit::Input)),
         Exit::Failed => format!("failed: {}", of(Exit::Failed)),
         Exit::No => format!("limit broken: {}", broken(&comparison.rows, &names)),

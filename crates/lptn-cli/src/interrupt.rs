@@ -3,6 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use lptn_solve::Control;
+
 /// Whether Ctrl-C was pressed since this was made. Pressed once more, it ends the program at once.
 #[derive(Debug)]
 pub(crate) struct Interrupt {
@@ -23,5 +25,10 @@ impl Interrupt {
 
     pub(crate) fn pressed(&self) -> bool {
         self.pressed.load(Ordering::Relaxed)
+    }
+
+    /// What a run is to do.
+    pub(crate) fn control(&self) -> Control {
+        if self.pressed() { Control::Interrupt } else { Control::Continue }
     }
 }

@@ -1,6 +1,7 @@
 //! How far a long run is, on a terminal.
 
 use std::io::{IsTerminal as _, Write as _};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use lptn_report::duration;
@@ -10,6 +11,9 @@ use lptn_solve::Progress;
 const PATIENCE: Duration = Duration::from_secs(1);
 
 const EVERY: Duration = Duration::from_millis(100);
+
+/// Letters that are written over.
+const WIDTH: usize = 60;
 
 /// One line of stderr that is written over and over.
 #[derive(Debug)]
@@ -25,22 +29,29 @@ impl ProgressLine {
         Self { wanted, due: Instant::now() + PATIENCE, shown: false }
     }
 
+    /// Shows how far a run is.
     pub(crate) fn update(&mut self, progress: Progress) {
+        self.show(|| run(progress));
+    }
+
+    /// The same, of one of several runs.
+    pub(crate) fn update_of(&mut self, which: &str, progress: Progress) {
+        self.show(|| format!("{which}: {}", run(progress)));
+    }
+
+    fn show(&mut self, text: impl FnOnce() -> String) {
         if !self.wanted || Instant::now() < self.due {
             return;
         }
         self.due = Instant::now() + EVERY;
         self.shown = true;
-        let Progress { start, time, stop } = progress;
-        let share = 100.0 * (time - start) / (stop - start);
-        let text = format!("{share:5.1} %  {} of {}", duration(time, 3), duration(stop, 3));
-        self.overwrite(&format!("{text:<40}"));
+        self.overwrite(&format!("{:<WIDTH$}", text()));
     }
 
     /// Leaves the line empty for what comes next.
     pub(crate) fn clear(&mut self) {
         if self.shown {
-            self.overwrite(&" ".repeat(40));
+            self.overwrite(&" ".repeat(WIDTH));
             self.shown = false;
         }
     }
@@ -48,5 +59,55 @@ impl ProgressLine {
     fn overwrite(&self, text: &str) {
         let mut stderr = std::io::stderr();
         drop(write!(stderr, "\r{text}\r").and_then(|()| stderr.flush()));
+    }
+}
+
+fn run(progress: Progress) -> String {
+    let Progress { time, stop, .. } = progress;
+    format!("{:5.1} %  {} of {}", 100.0 * share(progress), duration(time, 3), duration(stop, 3))
+}
+
+fn share(Progress { start, time, stop }: Progress) -> f64 {
+    (time - start) / (stop - start)
+}
+
+/// How far several runs are that go on at the same time.
+#[derive(Debug)]
+pub(crate) struct ProgressOfAll {
+    /// The line, and the part of each run that is done.
+    state: Mutex<(ProgressLine, Vec<f64>)>,
+    wanted: bool,
+}
+
+impl ProgressOfAll {
+    pub(crate) fn new(quiet: bool, runs: usize) -> Self {
+        let line = ProgressLine::new(quiet);
+        let wanted = line.wanted;
+        Self { state: Mutex::new((line, vec![0.0; runs])), wanted }
+    }
+
+    /// One run is so far. It never waits for another one: the next step says more.
+    pub(crate) fn update(&self, run: usize, progress: Progress) {
+        if !self.wanted {
+            return;
+        }
+        let Ok(mut state) = self.state.try_lock() else { return };
+        let (line, parts) = &mut *state;
+        parts[run] = share(progress);
+        line.show(|| {
+            let done = parts.iter().filter(|part| **part >= 1.0).count();
+            let all: f64 = parts.iter().sum::<f64>() / parts.len() as f64;
+            format!("{:5.1} %  {done} of {} candidates", 100.0 * all, parts.len())
+        });
+    }
+
+    /// One run is over, however it ended.
+    pub(crate) fn finished(&self, run: usize) {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner).1[run] = 1.0;
+    }
+
+    /// Leaves the line empty for what comes next.
+    pub(crate) fn clear(&self) {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner).0.clear();
     }
 }

@@ -7,7 +7,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings};
 use lptn_network::Field;
 use lptn_solve::{
-    Control, LinearSolver, Record, Selection, Solution, SteadyError, SteadyState, StopReason, Summary, Table,
+    LinearSolver, Record, Selection, Solution, SteadyError, SteadyState, StopReason, Summary, Table,
     Transient, TransientError,
 };
 use lptn_units::Unit;
@@ -96,7 +96,7 @@ impl<'a> Job<'a> {
         let mut line = ProgressLine::new(console.quiet);
         let outcome = transient.solve_observed(system, &mut |progress| {
             line.update(progress);
-            if interrupt.pressed() { Control::Interrupt } else { Control::Continue }
+            interrupt.control()
         });
         line.clear();
         match outcome {

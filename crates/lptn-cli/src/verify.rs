@@ -1,5 +1,6 @@
 //! `lptn verify`
 
+use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
 use lptn_network::Network;
 use lptn_report::{
@@ -16,6 +17,8 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Input};
+use crate::interrupt::Interrupt;
+use crate::progress::ProgressLine;
 use crate::summary::{count, counts};
 use crate::{diagnostics, run};
 
@@ -29,8 +32,11 @@ pub(crate) fn verify(args: &VerifyArgs, console: &Console) -> Result<Exit, Failu
     let given = args.tolerance.as_deref().map(input::tolerance).transpose()?;
     let system = input.assemble()?;
     console.warn(&netlist.files, &netlist.warnings);
-    let verification =
-        Verification::of(&system, &transient(settings, given)).map_err(|error| failed(&input, &error))?;
+    let found = observed(&system, &transient(settings, given), console);
+    let Some(verification) = found.map_err(|error| failed(&input, &error))? else {
+        console.message("interrupted: nothing is verified");
+        return Ok(Exit::Interrupted);
+    };
     let view = View { input: &input, verification: &verification };
     match args.format {
         Format::Table => console.print(&view.text(console)).map(drop)?,
@@ -60,6 +66,22 @@ fn transient(run: RunSettings, tolerance: Option<f64>) -> Transient {
         watch: Vec::new(),
         linear_solver: LinearSolver::Auto,
     }
+}
+
+/// The verification, with progress on a terminal; `None` after Ctrl-C.
+fn observed(
+    system: &ThermalSystem,
+    settings: &Transient,
+    console: &Console,
+) -> Result<Option<Verification>, TransientError> {
+    let interrupt = Interrupt::listen();
+    let mut line = ProgressLine::new(console.quiet);
+    let found = Verification::observed(system, settings, &mut |tolerance, progress| {
+        line.update_of(&format!("at {} K", significant(tolerance, 3)), progress);
+        interrupt.control()
+    });
+    line.clear();
+    found
 }
 
 fn failed(input: &Input, error: &TransientError) -> Failure {

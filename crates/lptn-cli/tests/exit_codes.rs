@@ -161,40 +161,9 @@ fn new_never_writes_over_a_file() {
 #[cfg(unix)]
 mod unix {
     use std::io::{BufRead as _, BufReader, Read as _};
-    use std::process::{Command, Stdio};
-    use std::time::{Duration, Instant};
+    use std::process::Stdio;
 
     use super::{Folder, GEARBOX, Ran};
-
-    /// A run that would take minutes.
-    fn endless() -> Folder {
-        let long =
-            GEARBOX.replace("\"25 min\"", "\"2000 d\"").replace("{ every = \"5 s\" }", "{ every = \"1 d\" }");
-        let busy = long.replace("P = \"P_7000\"", "P = \"P_7000 * (1 + 0.5 * sin(t / 10 [s]))\"");
-        Folder::with("gearbox.toml", &busy)
-    }
-
-    #[test]
-    fn ctrl_c_ends_with_130_and_keeps_the_rows() {
-        let folder = endless();
-        let mut command = folder.command(&["run", "gearbox.toml"]);
-        let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-        let begun = Instant::now();
-        while !folder.path().join("out/gearbox").is_dir() {
-            assert!(begun.elapsed() < Duration::from_secs(20), "the run has not begun");
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        std::thread::sleep(Duration::from_millis(500));
-        let signal = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-        assert!(signal.success());
-        let ran = Ran::of(child.wait_with_output().unwrap()).exits(130).says("interrupted at");
-        assert!(ran.out.contains("heat over"));
-        let manifest: serde_json::Value =
-            serde_json::from_str(&folder.read("out/gearbox/manifest.json")).unwrap();
-        assert_eq!(manifest["end"]["status"], "interrupted");
-        assert!(folder.read("out/gearbox/result.csv").starts_with("time [s],steel.T [degC]"));
-        assert_eq!(folder.files().len(), 3, "no temporary file is left");
-    }
 
     #[test]
     fn a_reader_that_goes_away_is_no_error() {

@@ -5,8 +5,8 @@ use lptn_network::Network;
 
 use crate::error::TransientError;
 use crate::exact::{Difference, ExactError, ExactSolution};
-use crate::settings::{Record, Transient};
-use crate::solution::Solution;
+use crate::settings::{Control, Progress, Record, Transient};
+use crate::solution::{End, Solution};
 use crate::table::{Column, Table};
 
 /// How far runs of a network are from its exact solution.
@@ -91,18 +91,30 @@ impl Verification {
     /// # Errors
     /// What a run reports.
     pub fn of(system: &ThermalSystem, settings: &Transient) -> Result<Self, TransientError> {
-        let fine = (0.01 * settings.tolerance).max(LEAST_TOLERANCE);
-        let run = |tolerance: f64| {
-            let settings =
-                Transient { tolerance, record: Record::All, watch: Vec::new(), ..settings.clone() };
-            settings.solve(system)
-        };
-        let coarse = run(settings.tolerance)?;
-        let finer = if fine < settings.tolerance { Some(run(fine)?) } else { None };
-        let runs: Vec<&Solution> = std::iter::once(&coarse).chain(&finer).collect();
-        match exact(system.network(), &coarse, settings.start) {
-            Ok(exact) => Ok(Self::against_exact(&exact, &runs)),
-            Err(reason) => Ok(Self::against_each_other(reason, &runs)),
+        let runs = runs(system, settings, &mut |_, _| Control::Continue)?;
+        Ok(Self::of_runs(system, settings, &runs))
+    }
+
+    /// The same; `observer` is called after every step of a run with its tolerance in K and may interrupt it. Then
+    /// there is nothing to judge, and the result is `None`.
+    ///
+    /// # Errors
+    /// What a run reports.
+    pub fn observed(
+        system: &ThermalSystem,
+        settings: &Transient,
+        observer: &mut dyn FnMut(f64, Progress) -> Control,
+    ) -> Result<Option<Self>, TransientError> {
+        let runs = runs(system, settings, observer)?;
+        let whole = runs.iter().all(|run| run.end() == End::Reached);
+        Ok(whole.then(|| Self::of_runs(system, settings, &runs)))
+    }
+
+    fn of_runs(system: &ThermalSystem, settings: &Transient, runs: &[Solution]) -> Self {
+        let runs: Vec<&Solution> = runs.iter().collect();
+        match exact(system.network(), runs[0], settings.start) {
+            Ok(exact) => Self::against_exact(&exact, &runs),
+            Err(reason) => Self::against_each_other(reason, &runs),
         }
     }
 
@@ -160,6 +172,25 @@ impl Comparison {
         let tolerance = run.tolerance();
         Self { tolerance, difference, allowed: allowed_error(tolerance), reference_error }
     }
+}
+
+/// A run at the tolerance of `settings` and one at a hundredth of it, if there is room for it; the last one may be
+/// interrupted.
+fn runs(
+    system: &ThermalSystem,
+    settings: &Transient,
+    observer: &mut dyn FnMut(f64, Progress) -> Control,
+) -> Result<Vec<Solution>, TransientError> {
+    let mut run = |tolerance: f64| {
+        let settings = Transient { tolerance, record: Record::All, watch: Vec::new(), ..settings.clone() };
+        settings.solve_observed(system, &mut |progress| observer(tolerance, progress))
+    };
+    let fine = (0.01 * settings.tolerance).max(LEAST_TOLERANCE);
+    let mut runs = vec![run(settings.tolerance)?];
+    if fine < settings.tolerance && runs[0].end() == End::Reached {
+        runs.push(run(fine)?);
+    }
+    Ok(runs)
 }
 
 /// The exact solution at the rows of a run, unless it cannot judge that run.

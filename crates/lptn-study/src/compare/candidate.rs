@@ -6,8 +6,8 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
 use lptn_network::{InputError, Network, Severity};
 use lptn_solve::{
-    LinearSolver, NodeSummary, OutputTimes, Record, Solution, SteadyError, SteadyState, Summary, Transient,
-    TransientError,
+    Control, End, LinearSolver, NodeSummary, OutputTimes, Progress, Record, Solution, SteadyError,
+    SteadyState, Summary, Transient, TransientError,
 };
 
 use crate::compare::limits::{self, LimitResult};
@@ -54,6 +54,8 @@ pub enum CompareError {
     Input(InputError),
     /// Its books do not close: relative residual, and what is allowed.
     Ledger(f64, f64),
+    /// Its run was interrupted at this time in s: peaks and limits of a part would read like those of the whole.
+    Interrupted(f64),
 }
 
 impl CompareError {
@@ -64,6 +66,7 @@ impl CompareError {
             Self::Run(error) => error.code(),
             Self::Input(_) => "solve::input",
             Self::Ledger(..) => "run::ledger",
+            Self::Interrupted(_) => "run::interrupted",
         }
     }
 
@@ -92,6 +95,7 @@ impl fmt::Display for CompareError {
                 f,
                 "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than the {bound:.1e} allowed"
             ),
+            Self::Interrupted(time) => write!(f, "the run was interrupted at {time} s"),
         }
     }
 }
@@ -104,8 +108,20 @@ impl Candidate {
     /// # Errors
     /// [`CompareError`] if it cannot be solved.
     pub fn evaluate(system: &ThermalSystem, run: Option<&RunSettings>) -> Result<Self, CompareError> {
+        Self::evaluate_observed(system, run, &mut |_| Control::Continue)
+    }
+
+    /// The same; `observer` is called after every step of the run and may interrupt it.
+    ///
+    /// # Errors
+    /// [`CompareError`] if it cannot be solved or was interrupted.
+    pub fn evaluate_observed(
+        system: &ThermalSystem,
+        run: Option<&RunSettings>,
+        observer: &mut dyn FnMut(Progress) -> Control,
+    ) -> Result<Self, CompareError> {
         match run {
-            Some(run) => Self::over_time(system, run),
+            Some(run) => Self::over_time(system, run, observer),
             None => Self::in_steady_state(system),
         }
     }
@@ -138,12 +154,20 @@ impl Candidate {
         })
     }
 
-    fn over_time(system: &ThermalSystem, run: &RunSettings) -> Result<Self, CompareError> {
+    fn over_time(
+        system: &ThermalSystem,
+        run: &RunSettings,
+        observer: &mut dyn FnMut(Progress) -> Control,
+    ) -> Result<Self, CompareError> {
         let network = system.network();
         let constant = !network.has_time_dependent_inputs();
         let steady = if constant { SteadyState::solve(system, run.start).ok() } else { None };
         let transient = transient(system, run, steady.as_ref())?;
-        let solution = transient.solve(system).map_err(|error| CompareError::Run(Box::new(error)))?;
+        let solution = transient.solve_observed(system, observer);
+        let solution = solution.map_err(|error| CompareError::Run(Box::new(error)))?;
+        if let End::Interrupted(time) = solution.end() {
+            return Err(CompareError::Interrupted(time));
+        }
         let ledger = solution.ledger();
         if let Some(residual) = ledger.relative_residual().filter(|_| !ledger.closes()) {
             return Err(CompareError::Ledger(residual.abs(), ledger.bound));

@@ -1,0 +1,109 @@
+//! Ctrl-C, and the progress of what takes long enough to press it.
+
+#![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod common;
+
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use common::{Folder, GEARBOX, Ran};
+
+/// A run that would take minutes.
+fn endless() -> String {
+    let long =
+        GEARBOX.replace("\"25 min\"", "\"2000 d\"").replace("{ every = \"5 s\" }", "{ every = \"1 d\" }");
+    long.replace("P = \"P_7000\"", "P = \"P_7000 * (1 + 0.5 * sin(t / 10 [s]))\"")
+}
+
+/// A finished candidate and one that would take minutes.
+fn two() -> Folder {
+    let folder = Folder::with_gearbox();
+    folder.write("slow.toml", &endless());
+    folder
+}
+
+/// Starts the program and presses Ctrl-C when it has used half a second of CPU, far more than the gearbox needs.
+fn interrupted(folder: &Folder, arguments: &[&str]) -> Ran {
+    let child = folder.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let begun = Instant::now();
+    while cpu_ticks(&child).is_none_or(|ticks| ticks < 50) && begun.elapsed() < Duration::from_secs(20) {
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let signal = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(signal.success());
+    Ran::of(child.wait_with_output().unwrap())
+}
+
+/// User time in hundredths of a second, where the system says.
+fn cpu_ticks(child: &Child) -> Option<u64> {
+    let text = std::fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
+    text.rsplit_once(") ")?.1.split(' ').nth(11)?.parse().ok()
+}
+
+#[test]
+fn a_run_keeps_its_rows() {
+    let folder = Folder::with("gearbox.toml", &endless());
+    let ran = interrupted(&folder, &["run", "gearbox.toml"]).exits(130).says("interrupted at");
+    assert!(ran.out.contains("heat over"));
+    let manifest: serde_json::Value =
+        serde_json::from_str(&folder.read("out/gearbox/manifest.json")).unwrap();
+    assert_eq!(manifest["end"]["status"], "interrupted");
+    assert!(folder.read("out/gearbox/result.csv").starts_with("time [s],steel.T [degC]"));
+    assert_eq!(folder.files().len(), 3, "no temporary file is left");
+}
+
+#[test]
+fn a_comparison_prints_what_is_finished_and_names_the_rest() {
+    let ran = interrupted(&two(), &["compare", "slow.toml", "gearbox.toml", "--threads", "2"]).exits(130);
+    let lines: Vec<&str> = ran.out.lines().skip(3).take(2).collect();
+    assert!(lines[0].starts_with("gearbox ") && !lines[0].contains("not finished"), "{}", ran.out);
+    assert!(lines[1].starts_with("slow ") && lines[1].ends_with("not finished"), "{}", ran.out);
+    assert_eq!(ran.err, "interrupted: not finished: slow\n");
+}
+
+#[test]
+fn candidates_that_were_not_begun_are_missing_too() {
+    let folder = two();
+    folder.write("third.toml", GEARBOX);
+    let line = ["compare", "gearbox.toml", "slow.toml", "third.toml", "--threads", "1", "--format", "json"];
+    let ran = interrupted(&folder, &line).exits(130).says("interrupted: not finished: slow, third");
+    let json = ran.json();
+    let status: Vec<&str> = json["rows"].as_array().unwrap().iter().map(|r| r[2].as_str().unwrap()).collect();
+    assert_eq!(status, ["none", "run::interrupted", "run::interrupted"]);
+    assert_eq!(json["errors"].as_array().map(Vec::len), Some(2));
+}
+
+#[test]
+fn a_verification_says_that_there_is_none() {
+    let folder = Folder::with("slow.toml", &endless());
+    let ran = interrupted(&folder, &["verify", "slow.toml"]).exits(130);
+    assert_eq!((ran.out.as_str(), ran.err.as_str()), ("", "interrupted: nothing is verified\n"));
+}
+
+/// What a terminal, played by `script` of util-linux, gets before Ctrl-C after three seconds.
+fn on_terminal(folder: &Folder, arguments: &str) -> Option<String> {
+    let line = format!("timeout --foreground -s INT 3 '{}' {arguments}", env!("CARGO_BIN_EXE_lptn"));
+    let mut command = Command::new("script");
+    command.args(["-qec", &line, "/dev/null"]).current_dir(folder.path()).stdin(Stdio::null());
+    let output = command.output().ok().filter(|output| output.status.code() == Some(124))?;
+    Some(String::from_utf8(output.stdout).unwrap())
+}
+
+#[test]
+fn a_terminal_sees_progress_unless_quiet() {
+    let folder = two();
+    let Some(compare) = on_terminal(&folder, "compare gearbox.toml slow.toml") else {
+        eprintln!(
+            "SKIPPED: `script` is missing or opens no terminal; apt-get install bsdutils, mount /dev/pts"
+        );
+        assert!(std::env::var_os("LPTN_REQUIRE_ORACLES").is_none());
+        return;
+    };
+    assert!(compare.contains(" %  1 of 2 candidates"), "{compare}");
+    let verify = on_terminal(&folder, "verify slow.toml").unwrap();
+    assert!(verify.contains("\rat 1e-5 K: ") && verify.contains(" of 2000 d"), "{verify}");
+    let quiet = on_terminal(&folder, "--quiet compare slow.toml").unwrap();
+    assert!(!quiet.contains(" %  "), "{quiet}");
+}
