@@ -277,7 +277,7 @@ pub(crate) struct ReduceArgs {
     /// Fit least_squares over this time after the step, not over the run
     #[arg(long, value_name = "TIME")]
     pub(crate) window: Option<String>,
-    /// Print a table, json, or the one-node network as toml
+    /// Print a table, csv, json, or the one node as toml
     #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
     pub(crate) format: ReduceFormat,
     /// Write the one-node network as a netlist too
@@ -349,6 +349,7 @@ pub(crate) struct CoolingArgs {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ReduceFormat {
     Table,
+    Csv,
     Json,
     Toml,
 }

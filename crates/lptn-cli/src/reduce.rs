@@ -8,7 +8,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings};
 use lptn_network::{Field, Item};
 use lptn_reduce::{Bias, Definition, FitError, Options, Pair, ReduceError, Reduction, port};
-use lptn_report::{plain, significant};
+use lptn_report::{plain, significant, write_csv};
 use lptn_solve::{LinearSolver, Record, Transient};
 use lptn_units::{Dimension, Type, Unit, parse_quantity};
 
@@ -70,6 +70,11 @@ impl View<'_> {
         }
         match self.args.format {
             ReduceFormat::Table => console.print(&reduce_text::text(self, console)).map(drop)?,
+            ReduceFormat::Csv => {
+                let table = self.reduction.table();
+                console.write(|out| write_csv(&table, out))?;
+                self.notes().iter().for_each(|note| console.note(&format!("note: {note}")));
+            }
             ReduceFormat::Json => console.write(|out| reduce_json::write(self, out))?,
             ReduceFormat::Toml => console.print(&self.netlist()?).map(drop)?,
         }

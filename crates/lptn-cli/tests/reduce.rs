@@ -1,5 +1,7 @@
 //! `lptn reduce` from the outside: what it prints, what it writes, how it ends.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
 mod common;
 
 use common::Folder;
@@ -48,6 +50,43 @@ fn json_holds_what_the_design_promises() {
     // the port's rise in 25 min, validation/gearbox_two_node
     near(number(&json, &["rise"]), 82.613_154_474_351_82 - 25.5, 1e-6);
     assert_eq!(json["recommended"], "least_squares");
+}
+
+/// The rows of the CSV: cells by header.
+fn rows(text: &str) -> Vec<std::collections::BTreeMap<String, String>> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let headers: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    let row = |row: csv::StringRecord| headers.iter().cloned().zip(row.iter().map(str::to_owned)).collect();
+    reader.records().map(|record| row(record.unwrap())).collect()
+}
+
+/// Capacities and R_eq as in the test of the JSON; every other cell is that of the JSON.
+#[test]
+fn csv_has_a_row_a_definition() {
+    let folder = Folder::with_gearbox();
+    let reduce =
+        |format| folder.run(&["reduce", "gearbox.toml", "--port", "steel", "--format", format]).exits(0);
+    let ran = reduce("csv");
+    let header = "definition,recommended,R_eq [K/W],C_eq [J/K],tau [s],step.max [K],step.relative [-],step.time [s],\
+                  run.max [K],run.relative [-],run.time [s]";
+    assert_eq!(ran.out.lines().next(), Some(header));
+    let (rows, json) = (rows(&ran.out), reduce("json").json());
+    assert_eq!(rows.iter().map(|row| row["definition"].as_str()).collect::<Vec<_>>(), DEFINITIONS);
+    for row in &rows {
+        let (definition, cell) = (row["definition"].as_str(), |name: &str| row[name].parse::<f64>().unwrap());
+        near(cell("R_eq [K/W]"), 67.2 / 220.6, 1e-12);
+        near(cell("tau [s]"), 67.2 / 220.6 * cell("C_eq [J/K]"), 1e-12);
+        near(cell("C_eq [J/K]"), number(&json, &["C_eq", definition]), 1e-15);
+        for (name, unit) in [("max", "K"), ("relative", "-"), ("time", "s")] {
+            for judgement in ["step", "run"] {
+                let expected = number(&json, &["errors", definition, judgement, name]);
+                near(cell(&format!("{judgement}.{name} [{unit}]")), expected, 1e-15);
+            }
+        }
+        assert_eq!(row["recommended"] == "yes", json["recommended"] == definition);
+    }
+    near(rows[0]["C_eq [J/K]"].parse().unwrap(), 2659.0, 1e-12);
+    near(rows[2]["tau [s]"].parse().unwrap(), 793.952_560_566_783_6, 1e-9);
 }
 
 #[test]
@@ -171,6 +210,8 @@ fn without_run_or_capacity_it_says_what_is_missing() {
     assert!(json["errors"]["sum"]["run"].is_null() && json["rise"].is_null());
     assert_eq!(json["recommended_by"], "step");
     reduce(&[]).exits(0).prints("without [run] no run is compared");
+    let csv = rows(&reduce(&["--format", "csv"]).exits(0).says("without [run] no run is compared").out);
+    assert!(csv.len() == 4 && csv.iter().all(|row| row["run.max [K]"] == "NaN"), "{csv:?}");
     reduce(&["--bias"]).exits(2).says("run::no_run");
     reduce(&["--max-error", "1K"]).exits(2).says("run::no_run");
     let massless = DUTY.replace("C = \"50 J/K\", T0 = \"20 degC\"", "massless = true");
@@ -181,6 +222,13 @@ fn without_run_or_capacity_it_says_what_is_missing() {
     let json = folder.run(&[&arguments[..], &["--format", "json"]].concat()).exits(0).json();
     near(number(&json, &["R_eq"]), 0.9 + 1.0 / (1.0 / 1.2 + 1.0 / 3.0), 1e-14);
     assert!(json["C_eq"].is_null() && json["recommended"].is_null());
+    let ran = folder.run(&[&arguments[..], &["--format", "csv"]].concat()).exits(0);
+    let row = &rows(&ran.says("the port sees no capacity").out)[0];
+    near(row["R_eq [K/W]"].parse().unwrap(), 0.9 + 1.0 / (1.0 / 1.2 + 1.0 / 3.0), 1e-14);
+    assert!(
+        row["definition"].is_empty() && row["C_eq [J/K]"] == "NaN" && row["recommended"] == "no",
+        "{row:?}"
+    );
     folder.run(&[&arguments[..], &["--write", "one.toml"]].concat()).exits(0);
     folder.run(&["steady", "one.toml"]).exits(0);
 }

@@ -21,6 +21,7 @@ mod one_node;
 mod reduction;
 mod rises;
 mod step;
+mod table;
 
 pub use bias::Bias;
 pub use definition::{Definition, Pair, Recommended};
