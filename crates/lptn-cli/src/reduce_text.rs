@@ -5,7 +5,7 @@ use lptn_report::{Align, Column, TextTable, WIDTH, decimals, duration, fixed, la
 
 use crate::console::Console;
 use crate::reduce::View;
-use crate::summary::counts;
+use crate::summary::{count, counts};
 
 pub(crate) fn text(view: &View<'_>, console: &Console) -> String {
     let network = &view.input.netlist.network;
@@ -149,6 +149,7 @@ impl View<'_> {
                 "the inputs change with time; T_ref and Q_N are those at the start of the run".to_owned(),
             );
         }
+        notes.extend(self.apart());
         let Some(dynamics) = &self.reduction.dynamics else {
             notes.push("the port sees no capacity: T = T_ref + R_eq Q_N holds at every moment".to_owned());
             return notes;
@@ -178,6 +179,19 @@ impl View<'_> {
             notes.push(format!("the fastest modes, {share} % of R_eq, are not resolved: the errors for a step hold but for its very beginning"));
         }
         notes
+    }
+}
+
+impl View<'_> {
+    /// What is said of nodes that the port does not feel.
+    fn apart(&self) -> Option<String> {
+        let response = &self.reduction.norton.response;
+        let reached = response.iter().filter(|rise| **rise > 0.0).count();
+        let apart = response.len() - reached;
+        (apart > 0).then(|| {
+            let reached = count(reached, "node");
+            format!("C_eq is that of the {reached} that heat from the port reaches; {apart} apart from it do not matter")
+        })
     }
 }
 

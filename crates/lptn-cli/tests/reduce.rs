@@ -201,6 +201,19 @@ fn wrong_ports_end_with_2_and_help() {
     ran.says("error[reduce::no_ground]: no path leads to a boundary from `winding` and `housing`");
 }
 
+/// The island of `stone` has no boundary; its 5000 J/K are in no C_eq.
+#[test]
+fn nodes_apart_from_the_port_are_noted() {
+    let apart = DUTY.replace("[boundary]", "stone = { C = \"5000 J/K\", T0 = \"20 degC\" }\n[boundary]");
+    let folder = Folder::with("apart.toml", &apart);
+    let ran = folder.run(&["reduce", "apart.toml", "--port", "winding"]).exits(0);
+    let ran = ran.prints("C_eq is that of the 2 nodes that heat from the port reaches; 1 apart");
+    assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
+    let json = folder.run(&["reduce", "apart.toml", "--port", "winding", "--format", "json"]).exits(0).json();
+    near(number(&json, &["C_eq", "sum"]), 950.0, 1e-14);
+    folder.run(&["reduce", "apart.toml", "--port", "stone"]).exits(2).says("boundary from `stone`");
+}
+
 #[test]
 fn without_run_or_capacity_it_says_what_is_missing() {
     let without_run = DUTY.split("[run]").next().unwrap_or_default();

@@ -21,7 +21,7 @@ pub struct Bias {
     pub points: usize,
     /// Length of the record in s.
     pub length: f64,
-    /// The sum of the capacities in J/K.
+    /// The sum of the capacities that heat from the port reaches, in J/K.
     pub capacity: f64,
     /// `t_RC / C_eq` in K/W.
     pub resistance: f64,

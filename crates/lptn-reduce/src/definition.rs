@@ -5,7 +5,7 @@ use crate::deviation::Deviation;
 /// What the capacity of the one-node equivalent is to be equal in. `R_eq` is the same for all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Definition {
-    /// The heat stored when all nodes are equally warm: the sum of the capacities.
+    /// The heat stored when all nodes are equally warm: the sum of the capacities that heat from the port reaches.
     Sum,
     /// The first moment of the impulse response, `m1 / R_eq^2` with `m1 = sum of C_k R_pk^2`: the area between
     /// the step response and its final value.

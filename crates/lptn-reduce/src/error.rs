@@ -16,7 +16,7 @@ pub enum ReduceError {
         /// Its name.
         name: String,
     },
-    /// No path leads from these nodes to a boundary: heat put in there is never given away.
+    /// No path leads from the port and the nodes joined to it to a boundary: heat put in there is never given away.
     NoGround {
         /// Their names.
         names: Vec<String>,

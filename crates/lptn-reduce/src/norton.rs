@@ -63,9 +63,9 @@ impl NortonEquivalent {
     /// The resistance is right to 1e-12 for conductances that spread over three decades (tested).
     ///
     /// # Errors
-    /// [`ReduceError::NoGround`] if nodes reach no boundary, [`ReduceError::Factorization`].
+    /// [`ReduceError::NoGround`] if no path leads from the port to a boundary, [`ReduceError::Factorization`].
     pub fn new(system: &ThermalSystem, port: NodeId) -> Result<Self, ReduceError> {
-        grounded(system.network())?;
+        grounded(system.network(), port)?;
         Self::with(system, port, &mut Rises::new(system)?)
     }
 
@@ -133,12 +133,11 @@ impl NortonEquivalent {
     }
 }
 
-/// Every node must lead to a boundary.
-pub(crate) fn grounded(network: &Network) -> Result<(), ReduceError> {
-    let loose: Vec<NodeId> = network.ungrounded().into_iter().flatten().collect();
-    if loose.is_empty() {
+/// The port must lead to a boundary. Nodes that no path over nodes joins to it need not: it does not feel them.
+pub(crate) fn grounded(network: &Network, port: NodeId) -> Result<(), ReduceError> {
+    let Some(loose) = network.ungrounded().into_iter().find(|island| island.contains(&port)) else {
         return Ok(());
-    }
+    };
     let names = loose.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
     Err(ReduceError::NoGround { names })
 }

@@ -86,12 +86,12 @@ impl Reduction {
     /// Reduces `system` at `port` and measures what the result is worth.
     ///
     /// # Errors
-    /// [`ReduceError`], in particular for a network without ground.
+    /// [`ReduceError`], in particular for a port without a path to a boundary.
     pub fn new(system: &ThermalSystem, port: NodeId, options: &Options) -> Result<Self, ReduceError> {
         if let Some(window) = options.window.filter(|w| !(w.is_finite() && *w > 0.0)) {
             return Err(ReduceError::Window(window));
         }
-        grounded(system.network())?;
+        grounded(system.network(), port)?;
         let mut rises = Rises::new(system)?;
         let norton = NortonEquivalent::with(system, port, &mut rises)?;
         let start = options.run.as_ref().map_or(0.0, |run| run.start);

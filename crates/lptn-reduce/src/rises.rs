@@ -15,7 +15,7 @@ pub(crate) struct Rises<'a> {
 }
 
 impl<'a> Rises<'a> {
-    /// Factorises the conductances; the network must be grounded.
+    /// Factorises the conductances; heat may go in only where a path leads to a boundary.
     pub(crate) fn new(system: &'a ThermalSystem) -> Result<Self, FactorError> {
         let still = vec![0.0; system.network().boundaries().len()];
         Ok(Self { system, work: system.workspace(), conductances: Conductances::new(system)?, still })

@@ -4,8 +4,8 @@
 mod common;
 
 use common::{assembled, near, two_nodes};
-use lptn_network::{HeatCapacity, NetworkBuilder, Resistance, Temperature, Time};
-use lptn_reduce::{Definition, Options, Reduction, Window};
+use lptn_network::{HeatCapacity, HeatFlow, NetworkBuilder, NodeId, Resistance, Temperature, Time};
+use lptn_reduce::{Definition, Options, ReduceError, Reduction, Window};
 use lptn_solve::Transient;
 
 /// Printed values: capacity, half of its last digit, error in %, half of its last digit. Source: the numbers that
@@ -242,6 +242,53 @@ fn a_massless_port_may_be_best_without_capacity() {
     assert!(one.nodes()[0].massless);
     // with a capacity the one-node network misses what comes at once
     near(dynamics.pair(Definition::Sum).step.kelvin, 0.9, 1e-9);
+}
+
+/// Regression: any node without a path to a boundary was a `reduce::no_ground`, however far from the port. The
+/// numbers are those of the two nodes alone; 3 loose nodes are solved by dense, 43 by sparse factors.
+#[test]
+fn islands_without_ground_do_not_matter_to_a_port_that_has_one() {
+    for loose in [3_usize, 43] {
+        let (c, r_int, r_amb) = ([1000.0, 1659.0], 0.1, 0.3);
+        let zero = Temperature::celsius(0.0);
+        let mut b = NetworkBuilder::new();
+        let chain: Vec<NodeId> =
+            (0..loose).map(|i| b.node(&format!("n{i}"), HeatCapacity(50.0), zero)).collect();
+        let steel = b.node("steel", HeatCapacity(c[0]), zero);
+        let aluminium = b.node("aluminium", HeatCapacity(c[1]), zero);
+        let alone = b.node("alone", HeatCapacity(7.0), zero);
+        let junction = b.massless("junction");
+        let bed = b.boundary("bed", zero);
+        b.resistor("internal", steel, aluminium, Resistance(r_int));
+        b.resistor("outer", aluminium, bed, Resistance(r_amb));
+        b.resistor("end", chain[0], junction, Resistance(3.0));
+        for (i, pair) in chain.windows(2).enumerate() {
+            b.resistor(&format!("r{i}"), pair[0], pair[1], Resistance(0.2));
+        }
+        b.source("P_disp", steel, HeatFlow(220.6));
+        b.source("elsewhere", chain[1], HeatFlow(1000.0));
+        let system = common::assembled(b);
+        let options = Options { run: Some(Transient::until(Time(1500.0))), window: None };
+        let reduction = Reduction::new(&system, steel, &options).unwrap();
+        near(reduction.norton.resistance, r_int + r_amb, 1e-14);
+        near(reduction.inputs.heat, 220.6, 1e-14);
+        assert_eq!(reduction.norton.response.iter().filter(|rise| **rise > 0.0).count(), 2);
+        let exact = Exact::new(c, r_int, r_amb);
+        let dynamics = reduction.dynamics.unwrap();
+        for (pair, capacity) in dynamics.pairs.iter().zip(exact.capacities(1500.0)) {
+            let tight = if pair.definition == Definition::LeastSquares { 1e-6 } else { 1e-11 };
+            near(pair.capacity, capacity, tight);
+            near(pair.run.unwrap().kelvin, exact.error(pair.capacity).0 * (r_int + r_amb) * 220.6, 1e-4);
+        }
+        for port in [chain[0], junction, alone] {
+            let error = Reduction::new(&system, port, &options).unwrap_err();
+            let ReduceError::NoGround { names } = error else { panic!("{error:?}") };
+            assert!(
+                !names.contains(&"steel".to_owned()) && (port == alone) == (names == ["alone"]),
+                "{names:?}"
+            );
+        }
+    }
 }
 
 #[test]

@@ -23,10 +23,13 @@ impl<'a> Conductances<'a> {
     /// Most steps of iterative refinement that are of use; two are usual.
     pub const REFINEMENTS: usize = 6;
 
-    /// Factorises the conductances of a system every state of which has a path to a boundary.
+    /// Factorises the conductances of a system.
+    ///
+    /// Nodes without a path to a boundary have no temperature that heat leads to. They are kept apart from the others,
+    /// and nothing may be asked about them but to stay where they are.
     ///
     /// # Errors
-    /// [`FactorError`] where there is no such path, or where the conductances span more than the numbers hold.
+    /// [`FactorError`] where the conductances span more than the numbers hold.
     pub fn new(system: &'a ThermalSystem) -> Result<Self, FactorError> {
         let factors = if system.states().is_empty() { None } else { Some(factorized(system)?) };
         Ok(Self { system, factors })
@@ -72,8 +75,20 @@ fn factorized(system: &ThermalSystem) -> Result<Box<dyn Factorization>, FactorEr
     let mut values = vec![0.0; pattern.len()];
     system.jacobian(&mut values);
     values.iter_mut().for_each(|v| *v = -*v);
+    tie_down(system, &pattern, &mut values);
     let mut factors = linear::new(&pattern, true, LinearSolver::Auto)?;
     factors.factorize(&values)?;
     factors.check(&pattern, &values)?;
     Ok(factors)
+}
+
+/// Makes the blocks of islands without a boundary regular, by twice their diagonal: no other block sees it, and where
+/// no heat goes in the solution is zero all the same.
+fn tie_down(system: &ThermalSystem, pattern: &Pattern, values: &mut [f64]) {
+    for loose in system.network().ungrounded().into_iter().flatten() {
+        if let Ok(state) = system.states().binary_search(&loose) {
+            let slot = pattern.diagonal_slot(state);
+            values[slot] = if values[slot] > 0.0 { 2.0 * values[slot] } else { 1.0 };
+        }
+    }
 }
