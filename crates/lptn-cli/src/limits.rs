@@ -1,7 +1,7 @@
 //! Limits as a result: a line each, JSON, and what a broken one does to the exit code.
 
 use lptn_netlist::{Diagnostic, Netlist};
-use lptn_network::{Field, Item, Limit, LimitId, Network, Severity};
+use lptn_network::{Bound, Field, Item, Limit, LimitId, Network, Severity};
 use lptn_report::{Align, Column, TextTable, WIDTH, duration, significant};
 use lptn_solve::LimitSeen;
 use lptn_study::Scalar;
@@ -73,9 +73,14 @@ pub(crate) fn lines(network: &Network, limits: &[Judged], unit: &Unit) -> Vec<St
 /// "steel.T below 110 degC".
 fn wanted(network: &Network, id: LimitId, unit: &Unit) -> String {
     let limit = &network.limits()[id.index()];
-    // the value is constant and was evaluated when the network was built
-    let value = limit.value.at(&mut network.evaluation()).unwrap_or(f64::NAN);
-    format!("{} {} {}", limit.text, limit.bound.field().key(), number(value, limit.ty, unit))
+    let bound = number(bound(network, limit), limit.ty, unit);
+    format!("{} {} {bound}", limit.text, limit.bound.field().key())
+}
+
+/// What the quantity has to stay below or above, in SI units.
+fn bound(network: &Network, limit: &Limit) -> f64 {
+    // it is constant and was evaluated when the network was built
+    limit.value.at(&mut network.evaluation()).unwrap_or(f64::NAN)
 }
 
 fn verdict(judged: &Judged, limit: &Limit) -> String {
@@ -102,14 +107,23 @@ fn number(value: f64, ty: Type, unit: &Unit) -> String {
     if si == "1" { value } else { format!("{value} {si}") }
 }
 
-/// Members by the limit's name: `{ margin, worst_at, broken_at, severity, kept }`.
-pub(crate) fn json(network: &Network, limits: &[Judged]) -> Value {
+/// Members by the limit's name: `{ of, below or above, worst, margin, worst_at, broken_at, severity, kept }`, in the
+/// results and in the manifest. `worst` is the value of `of` where the margin is least.
+pub(crate) fn members(network: &Network, limits: &[Judged]) -> Map<String, Value> {
     let one = |judged: &Judged| {
         let limit = &network.limits()[judged.limit.index()];
         let time = |time: Option<f64>| time.map_or(Value::Null, |time| Scalar::new(time, "s").json());
+        let scalar = |value: f64| Scalar::new(value, &limit.ty.dimension.si_unit()).json();
+        let bound = bound(network, limit);
+        let worst = match limit.bound {
+            Bound::Below => bound - judged.margin,
+            Bound::Above => bound + judged.margin,
+        };
         let member = json!({
             "of": limit.text,
-            "margin": Scalar::new(judged.margin, &limit.margin_type().dimension.si_unit()).json(),
+            limit.bound.field().key(): scalar(bound),
+            "worst": scalar(worst),
+            "margin": scalar(judged.margin),
             "worst_at": time(judged.worst_at),
             "broken_at": time(judged.broken_at),
             "severity": if limit.severity == Severity::Error { "error" } else { "warning" },
@@ -117,10 +131,11 @@ pub(crate) fn json(network: &Network, limits: &[Judged]) -> Value {
         });
         (limit.name.clone(), member)
     };
-    Value::Object(limits.iter().map(one).collect::<Map<_, _>>())
+    limits.iter().map(one).collect()
 }
 
-/// Says which limits are broken, the worst last, and gives the exit code.
+/// Says which limits are broken and gives the exit code. Those that make it 1 are said last, and with `--quiet` too;
+/// those of severity warning are warnings, which `--quiet` leaves out: the table, JSON and the manifest have them.
 pub(crate) fn conclude(judgement: &Judgement<'_>, console: &Console) -> Exit {
     let Judgement { netlist, limits, .. } = *judgement;
     let severity = |judged: &Judged| netlist.network.limits()[judged.limit.index()].severity;

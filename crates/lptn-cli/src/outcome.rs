@@ -62,6 +62,7 @@ impl Outcome<'_> {
             end: RunEnd::of(&self.solution, settings.stop, self.ended_early()),
             statistics: StatisticsRecord::new(self.solution.statistics()),
             ledger: self.ledger(),
+            limits: limits::members(self.solution.network(), &self.limits()),
             results: vec![result],
             environment: Environment {
                 written: lptn_study::utc(std::time::SystemTime::now()),
@@ -146,7 +147,8 @@ impl Outcome<'_> {
         json.member("events", &json!([]))?;
         json.member("ledger", &serde_json::to_value(self.ledger())?)?;
         if !self.solution.limits().is_empty() {
-            json.member("limits", &limits::json(self.solution.network(), &self.limits()))?;
+            let limits = limits::members(self.solution.network(), &self.limits());
+            json.member("limits", &Value::Object(limits))?;
         }
         json.member("statistics", &serde_json::to_value(StatisticsRecord::new(self.solution.statistics()))?)?;
         if let Some(message) = self.ended_early() {

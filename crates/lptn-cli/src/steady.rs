@@ -238,7 +238,8 @@ impl View<'_> {
         json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
         json.member("values", &Value::Object(values))?;
         if !self.limits.is_empty() {
-            json.member("limits", &limits::json(&netlist.network, self.limits))?;
+            let limits = limits::members(&netlist.network, self.limits);
+            json.member("limits", &Value::Object(limits))?;
         }
         json.finish().map(drop)
     }

@@ -48,6 +48,57 @@ fn json_has_each_limit_with_its_margin() {
     assert!(json["limits"]["warm"]["broken_at"].is_null());
 }
 
+/// The values of the closed form above; `cold` is nearest to being broken at the start.
+#[test]
+fn the_manifest_says_what_became_of_every_limit() {
+    let folder = Folder::with("net.toml", &format!("{NET}cold = {{ of = \"a.T\", above = \"10 degC\" }}\n"));
+    let json = folder.run(&["run", "net.toml", "--format", "json"]).exits(1).json();
+    let manifest: serde_json::Value = serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
+    let limits = &manifest["limits"];
+    assert_eq!(limits, &json["limits"]);
+    assert_eq!(limits.as_object().unwrap().keys().collect::<Vec<_>>(), ["hot", "warm", "cold"]);
+    let expected = [
+        ("hot", "a.T", "below", "error", [333.15, 343.15, -10.0, 1000.0], Some(50.0 * 5.0_f64.ln())),
+        ("warm", "a.T - air.T", "below", "warning", [45.0, 50.0, -5.0, 1000.0], Some(50.0 * 10.0_f64.ln())),
+        ("cold", "a.T", "above", "error", [283.15, 293.15, 10.0, 0.0], None),
+    ];
+    for (name, of, side, severity, numbers, broken_at) in expected {
+        let limit = &limits[name];
+        assert_eq!((&limit["of"], &limit["severity"]), (&of.into(), &severity.into()), "{limit}");
+        assert_eq!(limit["kept"], broken_at.is_none());
+        for ((key, unit), exact) in
+            [(side, "K"), ("worst", "K"), ("margin", "K"), ("worst_at", "s")].iter().zip(numbers)
+        {
+            let found = limit[key]["value"].as_f64().unwrap_or_else(|| panic!("no {key} in {limit}"));
+            assert!(
+                (found - exact).abs() < 1e-3 && limit[key]["unit"] == *unit,
+                "{name} {key} {found} {exact}"
+            );
+        }
+        let broken = limit["broken_at"]["value"].as_f64();
+        assert_eq!(broken.is_some(), broken_at.is_some(), "{limit}");
+        assert!(broken.zip(broken_at).is_none_or(|(found, exact)| (found - exact).abs() < 1e-3), "{limit}");
+    }
+}
+
+#[test]
+fn quiet_still_says_why_the_exit_code_is_1() {
+    let folder = Folder::with("net.toml", NET);
+    for (verb, last) in [
+        ("run", "limit broken: `hot` (a.T below 60 degC) by 10 K at 16.67 min, first at 80.47 s"),
+        ("steady", "limit broken: `hot` (a.T below 60 degC) by 10 K in steady state"),
+        ("compare", "limit broken: net breaks hot"),
+    ] {
+        for format in ["table", "csv", "json"] {
+            let ran = folder.run(&[verb, "net.toml", "--no-files", "--quiet", "--format", format]).exits(1);
+            assert_eq!(ran.err.trim_end(), last, "{verb} {format}");
+        }
+        // a broken limit of severity warning is a warning
+        let ran = folder.run(&[verb, "net.toml", "--no-files", "--quiet", "--set", "T_max=80degC"]).exits(0);
+        assert_eq!(ran.err, "", "{verb}");
+    }
+}
+
 #[test]
 fn the_manifest_lists_every_file() {
     let folder = Folder::with("net.toml", &format!("include = [\"more.toml\"]\n{NET}"));

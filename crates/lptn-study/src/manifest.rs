@@ -33,6 +33,9 @@ pub struct Manifest {
     pub statistics: StatisticsRecord,
     /// Where the heat went; `null` for a run that broke off.
     pub ledger: LedgerRecord,
+    /// What became of every limit, in the order of the netlist: `of`, `below` or `above`, `worst` (the value with the
+    /// least `margin`), `worst_at`, `broken_at`, `severity`, `kept`. Up to the time in `end`.
+    pub limits: Map<String, Value>,
     /// Every file that was written, this one apart.
     pub results: Vec<FileHash>,
     /// What changes from run to run; nothing else does.
