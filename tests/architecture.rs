@@ -125,3 +125,12 @@ fn examples_are_short() {
         assert!(text.lines().count() <= 60, "{name}");
     }
 }
+
+#[test]
+fn the_prelude_is_small() {
+    let text = std::fs::read_to_string(root().join("crates/lptn/src/lib.rs")).expect("the facade");
+    let (_, prelude) = text.split_once("pub mod prelude").expect("a prelude");
+    let words = prelude.split(|c: char| !c.is_alphanumeric() && c != '_');
+    let names: Vec<&str> = words.filter(|word| word.starts_with(char::is_uppercase)).collect();
+    assert!((10..=20).contains(&names.len()), "{names:?}");
+}

@@ -4,6 +4,7 @@ mod support;
 
 use lptn::netlist::Netlist;
 use lptn::prelude::*;
+use lptn::study::{Candidate, SortKey, order};
 
 fn read(name: &str) -> Netlist {
     let path = support::networks().join("candidates").join(name);
@@ -45,4 +46,21 @@ fn candidates_run_as_the_matrix_exponential_says() {
 fn there_are_no_other_candidates() {
     let folder = std::fs::read_dir(support::networks().join("candidates")).expect("the folder");
     assert_eq!(folder.count(), EXPECTED.len());
+}
+
+/// The same numbers by a comparison in code.
+#[test]
+fn a_program_can_compare_them() {
+    let candidates = EXPECTED.map(|(name, peak, lubricant, touch)| {
+        let netlist = read(name);
+        let system = ThermalSystem::assemble(&netlist.network).expect("it can be assembled");
+        let candidate = Candidate::evaluate(&system, netlist.run.as_ref()).expect("it runs");
+        assert_eq!(candidate.hottest, "steel");
+        assert!((candidate.peak.temperature - 273.15 - peak).abs() < 1e-4, "{name}: {:?}", candidate.peak);
+        let broken: Vec<bool> = candidate.limits.iter().map(|limit| limit.broken()).collect();
+        assert_eq!(broken, [lubricant.is_some(), touch.is_some()], "{name}");
+        candidate
+    });
+    // the coolest first
+    assert_eq!(order(&candidates.each_ref().map(Some), SortKey::Peak), [2, 1, 0]);
 }

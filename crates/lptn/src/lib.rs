@@ -32,6 +32,7 @@ pub use lptn_network as network;
 pub use lptn_reduce as reduce;
 pub use lptn_report as report;
 pub use lptn_solve as solve;
+pub use lptn_study as study;
 pub use lptn_units as units;
 
 pub use lptn_netlist::{parse, read};
