@@ -20,9 +20,12 @@ fn has(network: &Network, expected: &[f64], tolerance: f64) -> Modes {
 }
 
 #[test]
-fn the_gearbox_has_the_time_constants_of_the_validation_case() {
-    // validation/gearbox_two_node, closed form
-    has(&gearbox(), &[793.952_560_566_783_6, 5.068_291_654_431_279], 1e-14);
+fn two_nodes_have_the_rates_of_the_characteristic_equation() {
+    // r^2 - (g/C_s + (g + h)/C_a) r + g h / (C_s C_a) = 0 for the conductances g within and h to the outside
+    let (g, h, c) = (220.6 / 1.7, 220.6 / 65.5, [1235.0, 1424.0]);
+    let (sum, product) = (g / c[0] + (g + h) / c[1], g * h / (c[0] * c[1]));
+    let fast = 0.5 * (sum + f64::sqrt(sum * sum - 4.0 * product));
+    has(&gearbox(), &[fast / product, 1.0 / fast], 1e-14);
 }
 
 #[test]
@@ -48,22 +51,15 @@ fn the_gearbox_of_the_issue_has_its_time_constants() {
 }
 
 #[test]
-fn the_ladder_has_the_modes_of_the_validation_case() {
-    // validation/rc_ladder, closed form by the discrete sine transform
-    let expected = [
-        367.066_223_679_649_3,
-        41.727_069_584_659_52,
-        15.728_597_840_160_953,
-        8.604_821_060_433_45,
-        5.722_037_030_415_315,
-        4.323_050_554_083_825,
-        3.594_001_122_196_057_7,
-        3.234_199_128_401_67,
-    ];
-    let modes = has(&rc_ladder(), &expected, 2e-14);
-    let ratio = |k: usize| modes.modes()[k].shape[2] / modes.modes()[k].shape[7];
-    assert!((ratio(0) - 0.528_687_450_335_514_8).abs() < 1e-12);
-    assert!((ratio(1) + 1.035_254_345_070_651).abs() < 1e-12);
+fn the_ladder_has_the_modes_of_the_sine_transform() {
+    // one end held, one free: 1/tau_k = 4 G/C sin^2((2k - 1) pi/34), node i at sin((2k - 1) i pi/17); C 50 J/K, G 4 W/K
+    let angle = |k: i32| f64::from(2 * k - 1) * std::f64::consts::PI / 17.0;
+    let tau: Vec<f64> = (1..=8).map(|k| 50.0 / (16.0 * (0.5 * angle(k)).sin().powi(2))).collect();
+    let modes = has(&rc_ladder(), &tau, 2e-14);
+    for (k, mode) in (1..).zip(modes.modes()) {
+        let exact = |i: f64| (i * angle(k)).sin();
+        assert!((mode.shape[2] / mode.shape[7] - exact(3.0) / exact(8.0)).abs() < 1e-12, "mode {k}");
+    }
 }
 
 #[test]

@@ -142,3 +142,18 @@ pub fn csv(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
     let rows = reader.records().map(|row| row.unwrap().iter().map(number).collect()).collect();
     (headers, rows)
 }
+
+/// What the validation case `gearbox_two_node` expects of a quantity, of a node where it has one.
+pub fn gearbox_case(quantity: &str, node: &str) -> Vec<serde_json::Value> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/validation/gearbox_two_node/case.json");
+    let case: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let all = case["expected"].as_array().unwrap().iter();
+    let of_node =
+        |e: &&serde_json::Value| e["quantity"] == quantity && (node.is_empty() || e["node"] == node);
+    all.filter(of_node).cloned().collect()
+}
+
+/// The values of [`gearbox_case`].
+pub fn gearbox_values(quantity: &str, node: &str) -> Vec<f64> {
+    gearbox_case(quantity, node).iter().map(|expected| expected["value"].as_f64().unwrap()).collect()
+}
