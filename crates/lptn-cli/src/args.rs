@@ -4,6 +4,10 @@ use std::path::PathBuf;
 
 use clap::{Args as Arguments, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use lptn_reduce::Definition;
+use lptn_study::SortKey;
+
+use crate::choice::one_of;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -231,7 +235,8 @@ pub(crate) struct CompareArgs {
     pub(crate) format: Format,
     /// Sort by margin, peak, steady, time, capacity, or keep the order as given
     #[arg(long, value_name = "KEY", default_value = "margin", hide_possible_values = true)]
-    pub(crate) sort: Sort,
+    #[arg(value_parser = one_of(&SortKey::ALL, SortKey::key))]
+    pub(crate) sort: SortKey,
     /// Show temperatures in degC, K, degF or degR
     #[arg(long, value_name = "UNIT")]
     pub(crate) temperature_unit: Option<String>,
@@ -270,7 +275,8 @@ pub(crate) struct ReduceArgs {
     pub(crate) max_error: Option<String>,
     /// Use sum, first_moment, dominant_pole or least_squares for C_eq
     #[arg(long, value_name = "NAME", hide_possible_values = true)]
-    pub(crate) definition: Option<DefinitionName>,
+    #[arg(value_parser = one_of(&Definition::ALL, Definition::key))]
+    pub(crate) definition: Option<Definition>,
     /// Fit one exponential to the run and say what heat it implies
     #[arg(long)]
     pub(crate) bias: bool,
@@ -289,16 +295,6 @@ pub(crate) struct ReduceArgs {
     /// Accepted for scripts that pass it to every verb: only `--write` writes a file.
     #[arg(long, hide = true)]
     pub(crate) no_files: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Sort {
-    Margin,
-    Peak,
-    Steady,
-    Time,
-    Capacity,
-    Given,
 }
 
 #[derive(Debug, Arguments)]
@@ -352,15 +348,6 @@ pub(crate) enum ReduceFormat {
     Csv,
     Json,
     Toml,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-#[value(rename_all = "snake_case")]
-pub(crate) enum DefinitionName {
-    Sum,
-    FirstMoment,
-    DominantPole,
-    LeastSquares,
 }
 
 #[derive(Debug, Arguments)]

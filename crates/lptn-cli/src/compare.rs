@@ -7,13 +7,11 @@ use lptn_netlist::{Diagnostic, Files, Netlist};
 use lptn_network::Field;
 use lptn_report::{JsonWriter, plain, write_csv};
 use lptn_solve::{Progress, SteadyError, Table, TransientError};
-use lptn_study::{
-    Candidate, CompareError, CompareRow, SortKey, available_threads, compare_table, in_parallel, order,
-};
+use lptn_study::{Candidate, CompareError, CompareRow, available_threads, compare_table, in_parallel, order};
 use lptn_units::Unit;
 use serde_json::json;
 
-use crate::args::{CompareArgs, Format, Sort, Source};
+use crate::args::{CompareArgs, Format, Source};
 use crate::compare_text;
 use crate::console::Console;
 use crate::diagnostics;
@@ -31,7 +29,7 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
     let done = evaluate_all(&loaded, threads, console);
     let unit = unit(args, &loaded)?;
     let candidates: Vec<_> = done.iter().map(|outcome| outcome.as_ref().ok()).collect();
-    let places = order(&candidates, key(args.sort));
+    let places = order(&candidates, args.sort);
     let mut outcomes: Vec<_> = loaded.into_iter().zip(done).map(Some).collect();
     let sorted = places.into_iter().filter_map(|place| outcomes[place].take());
     let comparison = Comparison::of(sorted, unit);
@@ -195,17 +193,6 @@ fn unit(args: &CompareArgs, loaded: &[Loaded]) -> Result<Unit, Failure> {
             let text = text.unwrap_or("degC");
             Unit::parse(text).map_err(|error| input::wrong_unit("--temperature-unit", text, &error))
         }
-    }
-}
-
-fn key(sort: Sort) -> SortKey {
-    match sort {
-        Sort::Margin => SortKey::Margin,
-        Sort::Peak => SortKey::Peak,
-        Sort::Steady => SortKey::Steady,
-        Sort::Time => SortKey::Time,
-        Sort::Capacity => SortKey::Capacity,
-        Sort::Given => SortKey::Given,
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod args;
 mod check;
+mod choice;
 mod command;
 mod compare;
 mod compare_text;

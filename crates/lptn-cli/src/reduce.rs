@@ -12,7 +12,7 @@ use lptn_report::{plain, significant, write_csv};
 use lptn_solve::{LinearSolver, Record, Transient};
 use lptn_units::{Dimension, Type, Unit, parse_quantity};
 
-use crate::args::{DefinitionName, ReduceArgs, ReduceFormat};
+use crate::args::{ReduceArgs, ReduceFormat};
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
@@ -37,7 +37,7 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
         Some(run) if args.bias => Some(Bias::new(&system, port, run).map_err(explain)?),
         _ => None,
     };
-    let definition = args.definition.map(definition);
+    let definition = args.definition;
     console.warn(&input.netlist.files, &input.netlist.warnings);
     let view = View { input: &input, args, system: &system, reduction, bias, unit, limit, definition };
     view.show(console)?;
@@ -152,15 +152,6 @@ impl Limit {
         let [kelvin, relative] =
             if share { [None, Some(quantity.value)] } else { [Some(quantity.value), None] };
         Ok(Self { kelvin, relative, text: text.trim().to_owned() })
-    }
-}
-
-fn definition(name: DefinitionName) -> Definition {
-    match name {
-        DefinitionName::Sum => Definition::Sum,
-        DefinitionName::FirstMoment => Definition::FirstMoment,
-        DefinitionName::DominantPole => Definition::DominantPole,
-        DefinitionName::LeastSquares => Definition::LeastSquares,
     }
 }
 

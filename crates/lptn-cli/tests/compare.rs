@@ -169,6 +169,15 @@ fn without_limits_the_coolest_comes_first() {
 }
 
 #[test]
+fn every_order_has_its_name() {
+    let folder = three();
+    for key in ["margin", "peak", "steady", "time", "capacity", "given"] {
+        folder.run(&["compare", ".", "--sort", key]).exits(1);
+    }
+    folder.run(&["compare", ".", "--sort", "beauty"]).exits(2).says("possible values: margin, peak");
+}
+
+#[test]
 fn without_a_run_candidates_are_compared_in_steady_state() {
     let folder = Folder::empty();
     let steady = candidate("0.6", LIMIT).replace("[run]\nstop = \"1 h\"\n", "");

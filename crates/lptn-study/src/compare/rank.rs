@@ -24,6 +24,24 @@ pub enum SortKey {
     Given,
 }
 
+impl SortKey {
+    /// All of them, the usual one first.
+    pub const ALL: [Self; 6] =
+        [Self::Margin, Self::Peak, Self::Steady, Self::Time, Self::Capacity, Self::Given];
+
+    /// The name on the command line.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Margin => "margin",
+            Self::Peak => "peak",
+            Self::Steady => "steady",
+            Self::Time => "time",
+            Self::Capacity => "capacity",
+            Self::Given => "given",
+        }
+    }
+}
+
 /// The positions of candidates in their order; `None` stands for one without results, which comes last. Equals
 /// stay as they were given.
 pub fn order(candidates: &[Option<&Candidate>], key: SortKey) -> Vec<usize> {
