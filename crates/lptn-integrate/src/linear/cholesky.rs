@@ -1,15 +1,15 @@
 //! Sparse `L L'` by faer, analysed once.
 
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
-use faer::{Conj, MatMut, Par, Side, Spec};
+use faer::{Conj, Par, Side, Spec};
 
-use super::{Factorization, LinearSolverKind, expect_finite, expect_length};
+use super::{Factorization, LinearSolverKind, allocated, checked, column, expect_length};
 use crate::{FactorError, Pattern};
 
 /// Sparse Cholesky with approximate minimum degree ordering.
@@ -41,11 +41,10 @@ impl SparseCholesky {
             CholeskySymbolicParams::default(),
         )
         .map_err(|_| FactorError::OutOfMemory)?;
-        let request = StackReq::any_of(&[
+        let memory = allocated(
             symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default()),
             symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
-        ]);
-        let memory = MemBuffer::try_new(request).map_err(|_| FactorError::OutOfMemory)?;
+        )?;
         let (lower_values, factors) = (vec![0.0; source.len()], vec![0.0; symbolic.len_val()]);
         let full_length = pattern.len();
         Ok(Self { lower, source, lower_values, symbolic, factors, memory, full_length, ready: false })
@@ -113,14 +112,10 @@ impl Factorization for SparseCholesky {
     }
 
     fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError> {
-        expect_length(self.size(), b.len())?;
-        if !self.ready {
-            return Err(FactorError::NotFactorized);
-        }
-        let factors = LltRef::new(&self.symbolic, &self.factors);
-        let rows = b.len();
-        let right = MatMut::from_column_major_slice_mut(b, rows, 1);
-        factors.solve_in_place_with_conj(Conj::No, right, Par::Seq, MemStack::new(&mut self.memory));
-        expect_finite(b)
+        checked((self.size(), self.ready), b, |b| {
+            let factors = LltRef::new(&self.symbolic, &self.factors);
+            let memory = MemStack::new(&mut self.memory);
+            factors.solve_in_place_with_conj(Conj::No, column(b), Par::Seq, memory);
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! Small systems as full matrices.
 
-use super::{Factorization, LinearSolverKind, expect_finite, expect_length};
+use super::{Factorization, LinearSolverKind, checked, expect_length};
 use crate::{FactorError, Pattern};
 
 /// Pivots below this fraction of the largest entry of their column are rounding errors.
@@ -162,15 +162,8 @@ impl Factorization for Dense {
     }
 
     fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError> {
-        expect_length(self.size, b.len())?;
-        if !self.ready {
-            return Err(FactorError::NotFactorized);
-        }
-        if self.symmetric {
-            self.solve_cholesky(b)
-        } else {
-            self.solve_lu(b)
-        }
-        expect_finite(b)
+        checked((self.size, self.ready), b, |b| {
+            if self.symmetric { self.solve_cholesky(b) } else { self.solve_lu(b) }
+        })
     }
 }

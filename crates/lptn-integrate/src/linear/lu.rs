@@ -1,12 +1,12 @@
 //! Sparse LU by faer, analysed once.
 
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::LuError;
 use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
-use faer::{Conj, MatMut, Par, Spec};
+use faer::{Conj, Par, Spec};
 
-use super::{Factorization, LinearSolverKind, expect_finite, expect_length};
+use super::{Factorization, LinearSolverKind, allocated, checked, column, expect_length};
 use crate::{FactorError, Pattern};
 
 /// Sparse LU with column approximate minimum degree ordering and partial pivoting.
@@ -29,11 +29,10 @@ impl SparseLu {
         let structure = SymbolicSparseColMat::new_checked(n, n, pointers, None, rows);
         let symbolic = factorize_symbolic_lu(structure.as_ref(), LuSymbolicParams::default())
             .map_err(|_| FactorError::OutOfMemory)?;
-        let request = StackReq::any_of(&[
+        let memory = allocated(
             symbolic.factorize_numeric_lu_scratch::<f64>(Par::Seq, Spec::default()),
             symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
-        ]);
-        let memory = MemBuffer::try_new(request).map_err(|_| FactorError::OutOfMemory)?;
+        )?;
         Ok(Self { structure, symbolic, numeric: NumericLu::new(), memory, ready: false })
     }
 }
@@ -70,14 +69,10 @@ impl Factorization for SparseLu {
     }
 
     fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError> {
-        expect_length(self.size(), b.len())?;
-        if !self.ready {
-            return Err(FactorError::NotFactorized);
-        }
-        let factors = LuRef::new_unchecked(&self.symbolic, &self.numeric);
-        let rows = b.len();
-        let right = MatMut::from_column_major_slice_mut(b, rows, 1);
-        factors.solve_in_place_with_conj(Conj::No, right, Par::Seq, MemStack::new(&mut self.memory));
-        expect_finite(b)
+        checked((self.size(), self.ready), b, |b| {
+            let factors = LuRef::new_unchecked(&self.symbolic, &self.numeric);
+            let memory = MemStack::new(&mut self.memory);
+            factors.solve_in_place_with_conj(Conj::No, column(b), Par::Seq, memory);
+        })
     }
 }

@@ -12,6 +12,9 @@ pub use cholesky::SparseCholesky;
 pub use dense::Dense;
 pub use lu::SparseLu;
 
+use faer::MatMut;
+use faer::dyn_stack::{MemBuffer, StackReq};
+
 use crate::{FactorError, Pattern, kernels};
 
 /// Largest size for which [`LinearSolver::Auto`] takes a dense solver: below it the bookkeeping of sparse factors costs
@@ -152,7 +155,27 @@ fn expect_length(expected: usize, found: usize) -> Result<(), FactorError> {
     if expected == found { Ok(()) } else { Err(FactorError::WrongLength { expected, found }) }
 }
 
-/// What every solve ends with.
-fn expect_finite(x: &[f64]) -> Result<(), FactorError> {
-    kernels::first_not_finite(x).map_or(Ok(()), |index| Err(FactorError::Singular { index }))
+/// A solve by factors of this size that are there or not, with what every solve begins and ends with.
+fn checked(
+    (size, ready): (usize, bool),
+    b: &mut [f64],
+    solve: impl FnOnce(&mut [f64]),
+) -> Result<(), FactorError> {
+    expect_length(size, b.len())?;
+    if !ready {
+        return Err(FactorError::NotFactorized);
+    }
+    solve(b);
+    kernels::first_not_finite(b).map_or(Ok(()), |index| Err(FactorError::Singular { index }))
+}
+
+/// One right side as faer takes it.
+fn column(b: &mut [f64]) -> MatMut<'_, f64> {
+    let rows = b.len();
+    MatMut::from_column_major_slice_mut(b, rows, 1)
+}
+
+/// Memory in which faer can factorise and solve.
+fn allocated(factorize: StackReq, solve: StackReq) -> Result<MemBuffer, FactorError> {
+    MemBuffer::try_new(StackReq::any_of(&[factorize, solve])).map_err(|_| FactorError::OutOfMemory)
 }
