@@ -83,12 +83,30 @@ fn two_masses_meet_at_their_weighted_mean() {
     assert!(!solution.error_is_bounded());
 }
 
+/// Without a boundary they keep their energy: both come to rest at the mean, weighted by the capacities.
 #[test]
-fn two_masses_have_no_steady_state_and_say_which_nodes() {
-    let (_, system) = shipped("two_masses.toml");
+fn two_masses_come_to_rest_where_their_energy_leads() {
+    let (netlist, system) = shipped("two_masses.toml");
+    let steady = SteadyState::solve(&system, 0.0).unwrap();
+    steady.temperatures.iter().for_each(|t| close(celsius(*t), 50.0, 1e-9));
+    let all: Vec<_> = netlist.network.node_ids().collect();
+    assert_eq!(steady.adiabatic, all);
+}
+
+/// Heat that stays for ever leads to no steady state.
+#[test]
+fn a_heated_island_has_no_steady_state_and_says_so() {
+    let mut b = NetworkBuilder::new();
+    let a = b.node("a", HeatCapacity(10.0), Temperature(300.0));
+    let c = b.node("c", HeatCapacity(10.0), Temperature(300.0));
+    b.resistor("joint", a, c, Conductance(1.0));
+    b.source("heater", a, HeatFlow(5.0));
+    let system = ThermalSystem::assemble(&b.build().unwrap()).unwrap();
     let error = SteadyState::solve(&system, 0.0).unwrap_err();
     assert_eq!(error.code(), "steady::no_boundary");
-    assert_eq!(error.to_string(), "no path leads to a boundary from `hot` and `cold`");
+    let text =
+        "no path leads to a boundary from `a` and `c`, where 5 W stay for ever: there is no steady state";
+    assert_eq!(error.to_string(), text);
 }
 
 /// Node equations of the bridge at hot 60 degC, cold 20 degC, solved by Cramer's rule:

@@ -54,17 +54,23 @@ fn at_coarse_tolerances_the_ledger_keeps_its_stated_bound() {
     }
 }
 
+/// Networks without a steady state at the start of their run, and what is said of them.
+const RESTLESS: [(&str, &str); 2] = [
+    ("coolant_reversal.toml", "solve::undetermined"), // the coolant stands still at the start
+    ("melting.toml", "steady::no_boundary"),          // heated, and nothing takes the heat away
+];
+
 #[test]
 fn steady_states_are_in_balance() {
     for name in files() {
-        let (netlist, system) = shipped(&name);
-        match SteadyState::solve(&system, 0.0) {
-            Ok(steady) => assert!(steady.imbalance().abs() <= 1e-10 * steady.turned_over(), "{name}"),
-            Err(error) => {
-                assert_eq!(error.code(), "steady::no_boundary", "{name}: {error}");
-                assert!(netlist.network.boundaries().is_empty());
-            }
-        }
+        let (_, system) = shipped(&name);
+        let said = SteadyState::solve(&system, 0.0).map(|steady| {
+            // where nothing heats a network, what Newton's method leaves is all the heat there is
+            let rest = if system.is_linear() { 0.0 } else { 1e-12 };
+            assert!(steady.imbalance().abs() <= 1e-10 * steady.turned_over() + rest, "{name}");
+        });
+        let expected = RESTLESS.into_iter().find(|(restless, _)| *restless == name).map(|(_, code)| code);
+        assert_eq!(said.err().map(|error| error.code()), expected, "{name}");
     }
 }
 

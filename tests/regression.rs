@@ -2,6 +2,7 @@
 
 mod support;
 
+use lptn::network::{Area, ConductorKind, Context, Exchange, Path};
 use lptn::prelude::*;
 use lptn::solve::{End, TransientError, Watch};
 use support::assembled;
@@ -226,4 +227,39 @@ fn a_very_long_memory_makes_no_promise() {
     let long = run.solve(&one_node(1000.0, 0.01, heat)).unwrap();
     assert!(!long.error_is_bounded());
     assert!(run.solve(&one_node(1000.0, 1.0, heat)).unwrap().error_is_bounded());
+}
+
+/// A network of two boundaries and the paths between them was refused as empty; what passes is its answer.
+#[test]
+fn two_boundaries_and_a_path_are_a_network() {
+    let mut b = NetworkBuilder::new();
+    let (hot, cold) = (b.boundary("hot", Temperature(400.0)), b.boundary("cold", Temperature(300.0)));
+    b.resistor("path", hot, cold, Conductance(2.0));
+    let system = assembled(b);
+    let steady = SteadyState::solve(&system, 0.0).unwrap();
+    assert_eq!((steady.conductor_heat.as_slice(), steady.temperatures.len()), ([200.0].as_slice(), 0));
+    assert_eq!(steady.boundary_heat, [200.0, -200.0]);
+    let run = Transient::until(Time(60.0)).every(Time(10.0)).solve(&system).unwrap();
+    assert_eq!(run.boundary_heat(hot), Some(vec![200.0; 7]));
+    assert!((run.ledger().boundaries[0] - 12_000.0).abs() < 1e-8 && run.ledger().closes());
+    let nothing = NetworkBuilder::new().build().unwrap_err();
+    assert_eq!(nothing.0[0].code(), "network::empty");
+}
+
+/// Without any source a network that is not linear was "unbalanced": what Newton's method left was all its heat.
+#[test]
+fn networks_that_come_to_rest_have_a_steady_state() {
+    for ambient in [0.0, 300.0] {
+        let mut b = NetworkBuilder::new();
+        let [bright, still] = ["bright", "still"].map(|n| b.node(n, HeatCapacity(1.0), Temperature(400.0)));
+        let space = b.boundary("space", Temperature(ambient));
+        let area = Exchange::Area(Area(0.04).into());
+        b.conductor("glow", ConductorKind::Radiation, (bright.into(), space.into()), Path::Radiation(area));
+        let film = b.expression_in(Context::Link, "0.35 [W/K] * abs(dT / 1 [K])^0.25", None).unwrap();
+        b.resistor("film", still, space, Path::Conductance(film.into()));
+        let steady = SteadyState::solve(&assembled(b), 0.0).unwrap();
+        // heat that grows with the fourth power is gone within Newton's last digit, 1e-9 K, times that power
+        let off = steady.temperatures.iter().map(|t| (t - ambient).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-8, "{ambient} K: {:?}", steady.temperatures);
+    }
 }

@@ -6,12 +6,14 @@
 //!
 //! Units: SI, temperatures in K. Heat is positive into a node.
 
+mod element;
 mod eliminate;
 mod error;
 mod pattern;
 mod system;
 mod workspace;
 
+pub use element::Form;
 pub use error::AssemblyError;
 pub use pattern::JacobianPattern;
 pub use system::ThermalSystem;

@@ -1,27 +1,27 @@
-//! The pattern of the Jacobian and where each link's value goes in it.
+//! The pattern of the Jacobian and where each value goes in it.
 
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
-use crate::eliminate::Link;
-
-/// Compressed columns of a symmetric matrix: sorted, without duplicates, with its full diagonal. It never
+/// Compressed columns of a structurally symmetric matrix: sorted, without duplicates, with its full diagonal. It never
 /// changes; values are written through slots only.
 #[derive(Clone, Debug)]
 pub struct JacobianPattern {
     symbolic: SymbolicSparseColMat<usize>,
     /// Slot of each diagonal entry.
     diagonal: Vec<usize>,
-    /// Slots of (a, b) and (b, a) for every link.
-    links: Vec<[usize; 2]>,
 }
 
 impl JacobianPattern {
-    /// The pattern of `size` states that `links` (sorted, without duplicates, `a < b`) join.
-    pub(crate) fn new(size: usize, links: &[Link]) -> Self {
+    /// The pattern of `size` unknowns of which these pairs meet; pairs may repeat and come in any order.
+    pub(crate) fn new(size: usize, mut pairs: Vec<(u32, u32)>) -> Self {
+        pairs.iter_mut().for_each(|(a, b)| (*a, *b) = ((*a).min(*b), (*a).max(*b)));
+        pairs.retain(|(a, b)| a != b);
+        pairs.sort_unstable();
+        pairs.dedup();
         let mut counts = vec![1_usize; size]; // the diagonal
-        for link in links {
-            counts[link.a as usize] += 1;
-            counts[link.b as usize] += 1;
+        for &(a, b) in &pairs {
+            counts[a as usize] += 1;
+            counts[b as usize] += 1;
         }
         let mut columns = vec![0_usize; size + 1];
         for i in 0..size {
@@ -35,21 +35,21 @@ impl JacobianPattern {
             next[column] += 1;
             at
         };
-        // links are sorted by (a, b), so each column gets its rows in order: those above the diagonal are the
-        // `a` of earlier links, then the diagonal, then the `b` of its own links
+        // pairs are sorted by (a, b), so each column gets its rows in order: those above the diagonal are the
+        // `a` of earlier pairs, then the diagonal, then the `b` of its own pairs
         let mut diagonal = vec![0; size];
-        let mut slots = vec![[0; 2]; links.len()];
         let mut k = 0;
         for (column, slot) in diagonal.iter_mut().enumerate() {
             *slot = put(column, column);
-            while k < links.len() && links[k].a as usize == column {
-                let b = links[k].b as usize;
-                slots[k] = [put(column, b), put(b, column)];
+            while k < pairs.len() && pairs[k].0 as usize == column {
+                let b = pairs[k].1 as usize;
+                put(column, b);
+                put(b, column);
                 k += 1;
             }
         }
         let symbolic = SymbolicSparseColMat::new_checked(size, size, columns, None, rows);
-        Self { symbolic, diagonal, links: slots }
+        Self { symbolic, diagonal }
     }
 
     /// The compressed columns.
@@ -62,12 +62,16 @@ impl JacobianPattern {
         self.symbolic.row_idx().len()
     }
 
-    pub(crate) fn diagonal_slot(&self, state: usize) -> usize {
-        self.diagonal[state]
+    pub(crate) fn diagonal_slot(&self, unknown: usize) -> usize {
+        self.diagonal[unknown]
     }
 
-    pub(crate) fn link_slots(&self, link: usize) -> [usize; 2] {
-        self.links[link]
+    /// The slot of an entry, which has to be one of the pattern.
+    pub(crate) fn slot(&self, row: u32, column: u32) -> usize {
+        let columns = self.symbolic.col_ptr();
+        let (first, last) = (columns[column as usize], columns[column as usize + 1]);
+        let offset = self.symbolic.row_idx()[first..last].partition_point(|&r| r < row as usize);
+        first + offset
     }
 }
 
@@ -77,12 +81,11 @@ mod tests {
 
     #[test]
     fn pattern_is_sorted_symmetric_and_has_its_diagonal() {
-        let link = |a, b| Link { a, b, g: 1.0 };
-        let pattern = JacobianPattern::new(4, &[link(0, 3), link(1, 2), link(1, 3)]);
+        let pattern = JacobianPattern::new(4, vec![(1, 3), (0, 3), (2, 1), (1, 3)]);
         let (columns, rows) = (pattern.symbolic().col_ptr(), pattern.symbolic().row_idx());
         assert_eq!(columns, &[0, 2, 5, 7, 10]);
         assert_eq!(rows, &[0, 3, 1, 2, 3, 1, 2, 0, 1, 3]);
-        let [ab, ba] = pattern.link_slots(2);
-        assert_eq!((rows[ab], rows[ba]), (1, 3));
+        let (ab, ba) = (pattern.slot(3, 1), pattern.slot(1, 3));
+        assert_eq!((rows[ab], rows[ba]), (3, 1));
     }
 }

@@ -1,57 +1,86 @@
 //! The sparse system `C dT/dt = q(t, T)` of a network.
 
-use lptn_network::{ConductorId, End, InputError, Network, NodeId};
+use lptn_network::{ConductorId, ConductorKind, Flow, InputError, Network, NodeId, Received};
 
+use crate::element::{Element, Form};
 use crate::eliminate::{Elimination, Link, TooMany};
 use crate::error::AssemblyError;
 use crate::pattern::JacobianPattern;
 use crate::workspace::Workspace;
 
-/// A network as a system of ordinary differential equations in its nodes with capacity.
+/// A network as a system of ordinary differential equations in its nodes with capacity, and of balances without
+/// storage in its massless nodes that cannot be eliminated.
 ///
-/// The states are the nodes with capacity, in the network's order. `flow` and `jacobian` read the same links,
-/// and a link's heat leaves one end and enters the other as one number with two signs.
+/// The unknowns are the nodes with capacity (the states), then those massless nodes (the algebraic ones), each in the
+/// network's order. `flow` and `jacobian` read the same links and elements, and the heat of a link leaves one end and
+/// enters the other as one number with two signs.
 #[derive(Clone, Debug)]
 pub struct ThermalSystem {
     network: Network,
-    /// Node of each state.
-    states: Vec<NodeId>,
-    /// Capacity of each state in J/K.
-    capacity: Vec<f64>,
-    /// Links between states, by state number.
+    /// Node of each unknown.
+    unknowns: Vec<NodeId>,
+    /// How many of them are states.
+    states: usize,
+    /// Capacity of each state in J/K at its start, then zeros.
+    mass: Vec<f64>,
+    /// Constant conductances between unknowns, by their numbers, with their two slots in the Jacobian.
     links: Vec<Link>,
-    /// Links from a state (`a`) to a vertex that is a boundary (`b`).
+    link_slots: Vec<[usize; 2]>,
+    /// Those from an unknown (`a`) to a vertex that is a boundary (`b`).
     ties: Vec<Link>,
-    /// Links between two boundaries, by vertex: no state feels them, the ledger does.
+    /// Those between two boundaries, by vertex: no unknown feels them, the ledger does.
     bridges: Vec<Link>,
+    /// Everything else.
+    elements: Vec<Element>,
+    streams: Vec<ConductorId>,
+    /// Whether every element has a symmetric form.
+    symmetric: bool,
     elimination: Elimination,
     pattern: JacobianPattern,
 }
 
 impl ThermalSystem {
-    /// Assembles a network: structure, links and pattern, once.
+    /// Assembles a network: structure, links, elements and pattern, once.
     ///
     /// # Errors
     /// [`AssemblyError`] if a massless node has too many neighbours to be eliminated.
     pub fn assemble(network: &Network) -> Result<Self, AssemblyError> {
-        let nodes = network.nodes().len();
-        let massless: Vec<bool> = network.nodes().iter().map(|n| n.massless).collect();
+        let eliminated = network.linear_massless();
         let (elimination, kept) =
-            Elimination::new(all_links(network), &massless).map_err(|e| too_many(network, &e))?;
-        let states: Vec<NodeId> = network.node_ids().filter(|id| !massless[id.index()]).collect();
-        let mut state_of = vec![u32::MAX; nodes];
-        (0..).zip(&states).for_each(|(state, id)| state_of[id.index()] = state);
-        let (mut links, mut ties, mut bridges) = (Vec::new(), Vec::new(), Vec::new());
-        for Link { a, b, g } in kept {
-            match (state_of.get(a as usize), state_of.get(b as usize)) {
-                (Some(&a), Some(&b)) => links.push(Link { a, b, g }),
-                (Some(&a), None) => ties.push(Link { a, b, g }),
-                _ => bridges.push(Link { a, b, g }),
-            }
-        }
-        let pattern = JacobianPattern::new(states.len(), &links);
-        let capacity = states.iter().map(|&id| network.capacity(id)).collect();
-        Ok(Self { network: network.clone(), states, capacity, links, ties, bridges, elimination, pattern })
+            Elimination::new(constant_links(network), &eliminated).map_err(|e| too_many(network, &e))?;
+        let massless = |id: &NodeId| network.nodes()[id.index()].massless;
+        let mut unknowns: Vec<NodeId> = network.node_ids().filter(|id| !massless(id)).collect();
+        let states = unknowns.len();
+        unknowns.extend(network.node_ids().filter(|id| massless(id) && !eliminated[id.index()]));
+        let mut number = vec![u32::MAX; network.nodes().len() + network.boundaries().len()];
+        (0..).zip(&unknowns).for_each(|(unknown, id)| number[id.index()] = unknown);
+        let (links, ties, bridges) = sorted(kept, &number);
+        let mut elements = Element::all_of(network);
+        let mut pairs: Vec<(u32, u32)> = links.iter().map(|link| (link.a, link.b)).collect();
+        elements.iter().for_each(|element| pairs.extend(element.pairs(&number)));
+        let pattern = JacobianPattern::new(unknowns.len(), pairs);
+        elements.iter_mut().for_each(|element| element.place(&number, &pattern));
+        let link_slots = links.iter().map(|l| [pattern.slot(l.a, l.b), pattern.slot(l.b, l.a)]).collect();
+        let symmetric = elements.iter().all(|element| element.is_symmetric(network));
+        let mass = unknowns.iter().map(|&id| network.capacity(id)).collect();
+        let stream = |id: &ConductorId| network.conductors()[id.index()].kind == ConductorKind::Advection;
+        let streams = network.conductor_ids().filter(stream).collect();
+        let network = network.clone();
+        Ok(Self {
+            network,
+            unknowns,
+            states,
+            mass,
+            links,
+            link_slots,
+            ties,
+            bridges,
+            elements,
+            streams,
+            symmetric,
+            elimination,
+            pattern,
+        })
     }
 
     /// The network it was assembled from.
@@ -61,17 +90,42 @@ impl ThermalSystem {
 
     /// The node of each state.
     pub fn states(&self) -> &[NodeId] {
-        &self.states
+        &self.unknowns[..self.states]
     }
 
-    /// Heat capacity of each state in J/K.
+    /// The node of each algebraic unknown.
+    pub fn algebraic(&self) -> &[NodeId] {
+        &self.unknowns[self.states..]
+    }
+
+    /// The node of each unknown: states, then algebraic ones.
+    pub fn unknowns(&self) -> &[NodeId] {
+        &self.unknowns
+    }
+
+    /// Heat capacity of each state at its start in J/K.
     pub fn capacity(&self) -> &[f64] {
-        &self.capacity
+        &self.mass[..self.states]
+    }
+
+    /// Heat capacity of each unknown at its start in J/K: zero for the algebraic ones.
+    pub fn mass(&self) -> &[f64] {
+        &self.mass
     }
 
     /// Temperature of each state at the start in K.
     pub fn initial(&self) -> Vec<f64> {
-        self.states.iter().map(|&id| self.network.initial(id)).collect()
+        self.states().iter().map(|&id| self.network.initial(id)).collect()
+    }
+
+    /// Whether its flow is linear in the unknowns with constant coefficients, and symmetric.
+    pub fn is_linear(&self) -> bool {
+        self.elements.is_empty()
+    }
+
+    /// Whether the Jacobian has a symmetric form that Newton's method may use.
+    pub fn is_symmetric(&self) -> bool {
+        self.symmetric
     }
 
     /// The pattern of [`ThermalSystem::jacobian`].
@@ -93,8 +147,12 @@ impl ThermalSystem {
             return Ok(());
         }
         work.heat.fill(0.0);
-        for (source, power) in self.network.sources().iter().zip(&work.power) {
-            work.heat[source.into.index()] += power;
+        for ((source, power), id) in
+            self.network.sources().iter().zip(&work.power).zip(self.network.source_ids())
+        {
+            if self.network.source_variables(id).is_empty() {
+                source.into.iter().for_each(|(node, share)| work.heat[node.index()] += share * power);
+            }
         }
         self.elimination.distribute(&mut work.heat);
         Ok(())
@@ -110,9 +168,24 @@ impl ThermalSystem {
         work.temperature[self.network.nodes().len()..].copy_from_slice(boundaries);
     }
 
-    /// Writes the heat flow into each state in W, from the inputs last read and the temperatures `y` in K.
-    pub fn flow(&self, work: &Workspace, y: &[f64], flow: &mut [f64]) {
-        for (q, id) in flow.iter_mut().zip(&self.states) {
+    /// Writes the heat flow into each unknown in W, from the inputs last read and the temperatures `y` of the unknowns
+    /// in K.
+    ///
+    /// # Errors
+    /// [`InputError`] naming the element whose heat cannot be had; never for a linear system.
+    pub fn flow(&self, work: &mut Workspace, y: &[f64], flow: &mut [f64]) -> Result<(), InputError> {
+        self.linear_flow(work, y, flow);
+        if !self.elements.is_empty() {
+            self.evaluate_elements(work, y)?;
+            flow.iter_mut().zip(&self.unknowns).for_each(|(q, id)| *q += work.element_heat[id.index()]);
+        }
+        Ok(())
+    }
+
+    /// The part of [`ThermalSystem::flow`] that inputs and constant conductances make up: all of it for a linear
+    /// system.
+    pub fn linear_flow(&self, work: &Workspace, y: &[f64], flow: &mut [f64]) {
+        for (q, id) in flow.iter_mut().zip(&self.unknowns) {
             *q = work.heat[id.index()];
         }
         for link in &self.links {
@@ -126,13 +199,45 @@ impl ThermalSystem {
         }
     }
 
-    /// Writes the derivative of [`ThermalSystem::flow`] by the states in W/K into the slots of the pattern.
+    fn evaluate_elements(&self, work: &mut Workspace, y: &[f64]) -> Result<(), InputError> {
+        self.put(work, y);
+        work.element_heat.fill(0.0);
+        self.elements.iter().try_for_each(|element| element.add_heat(&self.network, work))
+    }
+
+    /// Takes the temperatures of the unknowns.
+    fn put(&self, work: &mut Workspace, y: &[f64]) {
+        y.iter().zip(&self.unknowns).for_each(|(t, id)| work.temperature[id.index()] = *t);
+    }
+
+    /// Writes the derivative of [`ThermalSystem::flow`] by the unknowns in W/K into the slots of the pattern.
     ///
-    /// It is symmetric, and constant as long as the network is linear.
+    /// It is constant and symmetric for a linear system; otherwise symmetric if that form is asked for.
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::flow`].
+    pub fn jacobian_at(
+        &self,
+        work: &mut Workspace,
+        y: &[f64],
+        form: Form,
+        values: &mut [f64],
+    ) -> Result<(), InputError> {
+        self.jacobian(values);
+        if !self.elements.is_empty() {
+            self.put(work, y);
+            for element in &self.elements {
+                element.add_slopes(&self.network, work, form, values)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The part of the Jacobian that constant conductances make up, in W/K: all of it for a linear system.
     pub fn jacobian(&self, values: &mut [f64]) {
         values.fill(0.0);
-        for (k, link) in self.links.iter().enumerate() {
-            self.pattern.link_slots(k).into_iter().for_each(|slot| values[slot] += link.g);
+        for (link, slots) in self.links.iter().zip(&self.link_slots) {
+            slots.iter().for_each(|&slot| values[slot] += link.g);
             values[self.pattern.diagonal_slot(link.a as usize)] -= link.g;
             values[self.pattern.diagonal_slot(link.b as usize)] -= link.g;
         }
@@ -141,11 +246,9 @@ impl ThermalSystem {
         }
     }
 
-    /// Fills the temperatures of all nodes from those of the states, massless nodes recovered exactly.
+    /// Fills the temperatures of all nodes from those of the unknowns, eliminated nodes recovered exactly.
     pub fn recover(&self, work: &mut Workspace, y: &[f64]) {
-        for (t, id) in y.iter().zip(&self.states) {
-            work.temperature[id.index()] = *t;
-        }
+        self.put(work, y);
         if !self.elimination.is_empty() {
             self.elimination.recover(&work.heat, &mut work.temperature);
         }
@@ -172,12 +275,26 @@ impl ThermalSystem {
     }
 
     /// Writes the heat that each boundary gives to the network in W, from the inputs last read and the
-    /// temperatures `y` of the states in K.
+    /// temperatures `y` of the unknowns in K; and keeps the heat of sources that depend on temperatures.
     ///
     /// The sum runs over the same links as [`ThermalSystem::flow`], after the elimination: a boundary next to a
     /// massless node through a large conductance would otherwise be the difference of two temperatures that
     /// are equal to the last digit.
-    pub fn boundary_heat(&self, work: &Workspace, y: &[f64], heat: &mut [f64]) {
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::flow`].
+    pub fn boundary_heat(&self, work: &mut Workspace, y: &[f64], heat: &mut [f64]) -> Result<(), InputError> {
+        self.linear_boundary_heat(work, y, heat);
+        if !self.elements.is_empty() {
+            let nodes = self.network.nodes().len();
+            self.evaluate_elements(work, y)?;
+            heat.iter_mut().zip(&work.element_heat[nodes..]).for_each(|(q, received)| *q -= received);
+        }
+        Ok(())
+    }
+
+    /// The part of [`ThermalSystem::boundary_heat`] that constant conductances carry: all of it for a linear system.
+    pub fn linear_boundary_heat(&self, work: &Workspace, y: &[f64], heat: &mut [f64]) {
         let nodes = self.network.nodes().len();
         for (q, share) in heat.iter_mut().zip(&work.heat[nodes..]) {
             *q = -share; // what massless nodes hand on to it
@@ -194,39 +311,72 @@ impl ThermalSystem {
         }
     }
 
+    /// The conductors that are streams.
+    pub fn streams(&self) -> &[ConductorId] {
+        &self.streams
+    }
+
+    /// Writes the heat that each stream brings to its two ends together, in W, after [`ThermalSystem::boundary_heat`].
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::flow`].
+    pub fn stream_heat(&self, work: &mut Workspace, heat: &mut [f64]) -> Result<(), InputError> {
+        for (q, &id) in heat.iter_mut().zip(&self.streams) {
+            *q = self.received(work, id)?.iter().sum();
+        }
+        Ok(())
+    }
+
     /// The sum of all conductances that lead to a boundary, after the elimination, in W/K.
     pub fn boundary_conductance(&self) -> f64 {
         self.ties.iter().chain(&self.bridges).map(|link| link.g).sum()
     }
 
-    /// Temperatures of the states in K among those of all nodes.
-    pub fn state_temperatures(&self, nodes: &[f64], y: &mut [f64]) {
-        y.iter_mut().zip(&self.states).for_each(|(t, id)| *t = nodes[id.index()]);
+    /// Temperatures of the unknowns in K among those of all nodes.
+    pub fn unknown_temperatures(&self, nodes: &[f64], y: &mut [f64]) {
+        y.iter_mut().zip(&self.unknowns).for_each(|(t, id)| *t = nodes[id.index()]);
     }
 
-    /// The heat flow of a conductor in W, positive from `from` to `to`, from inputs read and nodes recovered.
-    pub fn conductor_heat(&self, work: &Workspace, id: ConductorId) -> f64 {
+    /// The heat that the two ends of a conductor receive in W, from inputs read and nodes recovered: equal and
+    /// opposite but for a stream.
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::flow`].
+    pub fn received(&self, work: &mut Workspace, id: ConductorId) -> Result<Received, InputError> {
         let conductor = &self.network.conductors()[id.index()];
-        let at = |end| work.temperature[vertex(&self.network, end) as usize];
-        self.network.conductance(id) * (at(conductor.from) - at(conductor.to))
+        if let Some(conductance) = self.network.conductance(id) {
+            let at = |end| work.temperature[self.network.vertex(end)];
+            let heat = conductance * (at(conductor.from) - at(conductor.to));
+            return Ok([-heat, heat]);
+        }
+        let place = self.elements.partition_point(|e| e.conductor.is_some_and(|c| c < id));
+        self.elements[place].received(&self.network, work)
     }
 }
 
-fn vertex(network: &Network, end: End) -> u32 {
-    let index = match end {
-        End::Node(id) => id.index(),
-        End::Boundary(id) => network.nodes().len() + id.index(),
+/// The constant conductances by vertex.
+fn constant_links(network: &Network) -> Vec<Link> {
+    let vertex = |end| u32::try_from(network.vertex(end)).expect("ids are 32 bits wide");
+    let link = |(c, id): (&lptn_network::Conductor, _)| match network.flow(id) {
+        Flow::Conductance(g) => Some(Link { a: vertex(c.from), b: vertex(c.to), g }),
+        Flow::Radiation(_) | Flow::Stream(_) | Flow::Variable => None,
     };
-    u32::try_from(index).expect("ids are 32 bits wide")
+    network.conductors().iter().zip(network.conductor_ids()).filter_map(link).collect()
 }
 
-fn all_links(network: &Network) -> Vec<Link> {
-    let link = |(c, id): (&lptn_network::Conductor, _)| Link {
-        a: vertex(network, c.from),
-        b: vertex(network, c.to),
-        g: network.conductance(id),
-    };
-    network.conductors().iter().zip(network.conductor_ids()).map(link).collect()
+/// Links between unknowns, from an unknown to a boundary, between boundaries. `kept` is sorted by vertex and so are
+/// they: the numbers of unknowns only grow with those of nodes within states and within algebraic ones.
+fn sorted(kept: Vec<Link>, number: &[u32]) -> (Vec<Link>, Vec<Link>, Vec<Link>) {
+    let (mut links, mut ties, mut bridges) = (Vec::new(), Vec::new(), Vec::new());
+    for Link { a, b, g } in kept {
+        match (number[a as usize], number[b as usize]) {
+            (u32::MAX, u32::MAX) => bridges.push(Link { a, b, g }),
+            (a, u32::MAX) => ties.push(Link { a, b, g }),
+            (u32::MAX, b) => ties.push(Link { a: b, b: a, g }),
+            (a, b) => links.push(Link { a, b, g }),
+        }
+    }
+    (links, ties, bridges)
 }
 
 fn too_many(network: &Network, error: &TooMany) -> AssemblyError {

@@ -2,6 +2,8 @@
 
 use lptn_network::{Evaluation, InputError, Network};
 
+use crate::element::Slopes;
+
 /// Inputs at one time, and the temperatures of all vertices.
 #[derive(Clone, Debug)]
 pub struct Workspace {
@@ -10,8 +12,11 @@ pub struct Workspace {
     pub(crate) power: Vec<f64>,
     /// Heat put into every vertex in W, that of massless nodes handed on.
     pub(crate) heat: Vec<f64>,
+    /// Heat that elements other than constant conductances bring to every vertex in W.
+    pub(crate) element_heat: Vec<f64>,
     /// Temperature of every vertex in K: nodes, then boundaries.
     pub(crate) temperature: Vec<f64>,
+    pub(crate) slopes: Slopes,
     /// Whether the inputs have to be evaluated again when the time changes.
     varies: bool,
     /// The time and segment that the inputs were read for.
@@ -25,7 +30,9 @@ impl Workspace {
             scope: network.evaluation(),
             power: vec![0.0; network.sources().len()],
             heat: vec![0.0; vertices],
+            element_heat: vec![0.0; vertices],
             temperature: vec![f64::NAN; vertices],
+            slopes: Slopes::default(),
             varies: network.has_time_dependent_inputs(),
             read_at: None,
         }

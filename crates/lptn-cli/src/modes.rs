@@ -58,6 +58,11 @@ fn failed(input: &Input, error: &ExactError) -> Failure {
             "modes::too_large",
             Some("lump nodes until there are at most 2000, or let `lptn run` show how long each node takes"),
         ),
+        ExactError::NotLinear { .. } => (
+            Exit::Input,
+            error.code(),
+            Some("only a network of constants has modes; `lptn run` follows it over time"),
+        ),
         ExactError::Input(_) | ExactError::Value(_) | ExactError::Times => (Exit::Input, error.code(), None),
         ExactError::Singular | ExactError::Modes | ExactError::Quadrature { .. } => {
             (Exit::Failed, error.code(), Some("merge the nodes that the largest conductances join"))

@@ -1,7 +1,7 @@
 //! A command to try next, made of what the netlist holds.
 
 use lptn_netlist::Netlist;
-use lptn_network::{Law, Network, ParameterId, Value, slot};
+use lptn_network::{Network, ParameterId, Value};
 use lptn_report::significant;
 use lptn_units::{Dimension, Type};
 
@@ -43,18 +43,15 @@ fn is_constant(network: &Network, id: ParameterId, wanted: Type) -> bool {
 
 /// Whether a limit depends on a parameter: another limit is no other network.
 fn limits(network: &Network, id: ParameterId) -> bool {
-    let own = slot::PARAMETERS as usize + id.index();
-    network.limits().iter().any(|limit| limit.value.slots().iter().any(|&s| s as usize == own))
+    let own = network.parameter_slot(id);
+    network.limits().iter().any(|limit| limit.value.slots().contains(&own))
 }
 
 /// Whether other parameters or conductors depend on a parameter.
 fn shapes(network: &Network, id: ParameterId) -> bool {
-    let own = slot::PARAMETERS as usize + id.index();
-    let uses = |value: &Value| value.slots().iter().any(|&s| s as usize == own);
+    let own = network.parameter_slot(id);
+    let uses = |value: &Value| value.slots().contains(&own);
     let parameters = network.parameters().iter().map(|p| &p.value);
-    let conductors = network.conductors().iter().flat_map(|c| match &c.law {
-        Law::Resistance(value) | Law::Conductance(value) => vec![value],
-        Law::Film { coefficient, area } => vec![coefficient, area],
-    });
+    let conductors = network.conductors().iter().flat_map(|c| c.law.parts()).map(|(_, value)| value);
     parameters.chain(conductors).any(uses)
 }

@@ -7,8 +7,8 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings};
 use lptn_network::Field;
 use lptn_solve::{
-    LinearSolver, Record, Selection, Solution, SteadyError, SteadyState, StopReason, Summary, Table,
-    Transient, TransientError,
+    LinearSolver, Record, Selection, Solution, SteadyError, SteadyState, Summary, Table, Transient,
+    TransientError,
 };
 use lptn_units::Unit;
 
@@ -121,7 +121,7 @@ impl<'a> Job<'a> {
         let (mut record, mut watch) = (self.selection.record(), Vec::new());
         if self.format == Format::Table {
             let shown = summary::shown(system.network(), &self.selection, steady);
-            watch = Summary::watches(system, start, &shown, steady).map_err(TransientError::Input)?;
+            watch = Summary::watches(system, start, &shown, steady).map_err(TransientError::Start)?;
             if let Record::Nodes(nodes) = &mut record {
                 nodes.extend(shown);
             }
@@ -132,7 +132,7 @@ impl<'a> Job<'a> {
     /// What is wrong at the start is wrong with the input.
     fn failed(&self, error: &TransientError) -> Failure {
         let exit = match error {
-            TransientError::Integrator(_) => Exit::Failed,
+            TransientError::Integrator(_) | TransientError::Start(_) => Exit::Failed,
             _ => Exit::Input,
         };
         Failure::at(exit, self.input.netlist.files.clone(), self.explain(error))
@@ -145,14 +145,13 @@ impl<'a> Job<'a> {
 
 /// What broke a run off, with the place of the input that did.
 pub(crate) fn explain(input: &Input, error: &TransientError) -> Diagnostic {
-    let problem = Diagnostic::error(error.code(), error.to_string());
-    let (TransientError::Input(failed) | TransientError::Stopped { reason: StopReason::Input(failed), .. }) =
-        error
-    else {
-        return problem;
-    };
+    let mut problem = Diagnostic::error(error.code(), error.to_string());
+    if let Some(help) = error.help() {
+        problem = problem.help(help);
+    }
     let map = &input.netlist.source_map;
-    match map.get(failed.item, failed.field).or_else(|| map.get(failed.item, Field::Name)) {
+    let place = error.input().and_then(|e| map.get(e.item, e.field).or_else(|| map.get(e.item, Field::Name)));
+    match place {
         Some(span) => problem.at(span.clone(), ""),
         None => problem,
     }

@@ -1,6 +1,7 @@
 //! `lptn steady`
 
 use lptn_netlist::{Diagnostic, RunSettings};
+use lptn_network::{ConductorKind, list_of_names};
 use lptn_report::{
     Align, Column, JsonWriter, TextTable, WIDTH, decimals, fixed, labelled, plain, prefix, shortened,
     write_csv,
@@ -41,7 +42,7 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
     if args.shown.format == Format::Table {
         view.messages(console);
     } else {
-        console.warn(&netlist.files, doubt(netlist).as_slice());
+        console.warn(&netlist.files, &view.doubts());
     }
     Ok(limits::conclude(&Judgement { netlist, unit: &unit, limits: &limits }, console))
 }
@@ -58,7 +59,8 @@ fn limits(input: &Input, steady: &SteadyState, time: f64) -> Result<Vec<Judged>,
 fn failed(input: &Input, error: &SteadyError) -> Failure {
     let exit = match error {
         SteadyError::NoBoundary { .. } | SteadyError::Input(_) => Exit::Input,
-        SteadyError::Factorization(_)
+        SteadyError::Unsolved(_)
+        | SteadyError::Factorization(_)
         | SteadyError::Unbalanced { .. }
         | SteadyError::BelowAbsoluteZero { .. } => Exit::Failed,
     };
@@ -71,8 +73,11 @@ fn failed(input: &Input, error: &SteadyError) -> Failure {
         SteadyError::NoBoundary { nodes, .. } => {
             nodes.first().and_then(|&node| map.name(lptn_network::Item::Node(node)))
         }
-        SteadyError::Input(input) => map.get(input.item, input.field),
-        _ => None,
+        SteadyError::Unsolved(unsolved) if unsolved.input().is_none() => {
+            let node = input.netlist.network.node(&unsolved.node).ok();
+            node.and_then(|node| map.name(lptn_network::Item::Node(node)))
+        }
+        error => error.input().and_then(|input| map.get(input.item, input.field)),
     };
     if let Some(place) = place {
         problem = problem.at(place.clone(), "");
@@ -86,6 +91,17 @@ const VARY: &str = "the inputs change with time; they are taken at the start of 
 pub(crate) fn doubt(netlist: &lptn_netlist::Netlist) -> Option<Diagnostic> {
     let vary = netlist.network.has_time_dependent_inputs();
     vary.then(|| Diagnostic::warning("steady::inputs_vary", VARY))
+}
+
+/// Nodes that keep their energy have a steady state that depends on their start.
+fn adiabatic(network: &lptn_network::Network, steady: &SteadyState) -> Option<Diagnostic> {
+    let name = |id: &lptn_network::NodeId| network.nodes()[id.index()].name.clone();
+    let names: Vec<String> = steady.adiabatic.iter().map(name).collect();
+    let message = format!(
+        "no path leads to a boundary from {}: the energy at the start decides where they come to rest",
+        list_of_names(&names)
+    );
+    (!names.is_empty()).then(|| Diagnostic::warning("steady::energy", message))
 }
 
 /// A steady state and how it is shown.
@@ -126,10 +142,10 @@ impl View<'_> {
             lines.push(String::new());
             lines.extend(block);
         }
-        if network.has_time_dependent_inputs() {
-            let note = VARY;
+        for doubt in self.doubts() {
             lines.push(String::new());
-            lines.extend(labelled("note: ", &note.split(' ').map(str::to_owned).collect::<Vec<_>>(), WIDTH));
+            let words: Vec<String> = doubt.message.split(' ').map(str::to_owned).collect();
+            lines.extend(labelled("note: ", &words, WIDTH));
         }
         lines.join("\n") + "\n"
     }
@@ -155,12 +171,20 @@ impl View<'_> {
     fn flows(&self) -> Vec<Row> {
         let network = &self.input.netlist.network;
         let name = |end: lptn_network::End| network.name_of(end.into());
-        let conductors = network.conductors().iter().zip(&self.steady.conductor_heat).map(|(c, &value)| {
-            let words = format!("{} -> {}", name(c.from), name(c.to));
-            Row { name: c.name.clone(), quantity: "Q", value, words }
-        });
+        let conductors =
+            network.conductors().iter().zip(&self.steady.received).flat_map(|(c, &[back, on])| {
+                let row = |quantity, value, words| Row { name: c.name.clone(), quantity, value, words };
+                if c.kind != ConductorKind::Advection {
+                    return vec![row("Q", on, format!("{} -> {}", name(c.from), name(c.to)))];
+                }
+                vec![
+                    row("Q_from", back, format!("stream to {}", name(c.from))),
+                    row("Q_to", on, format!("stream to {}", name(c.to))),
+                ]
+            });
         let sources = network.sources().iter().zip(&self.steady.source_heat).map(|(s, &value)| {
-            let words = format!("source into {}", network.nodes()[s.into.index()].name);
+            let into: Vec<&str> = s.into.iter().map(|(id, _)| name((*id).into())).collect();
+            let words = format!("source into {}", into.join(", "));
             Row { name: s.name.clone(), quantity: "P", value, words }
         });
         let boundaries = network.boundaries().iter().zip(&self.steady.boundary_heat).map(|(b, &value)| {
@@ -234,7 +258,7 @@ impl View<'_> {
         let mut json = JsonWriter::new(out);
         json.member("format", &json!(1))?;
         json.member("network", &json!(self.input.text.stem))?;
-        let warnings: Vec<Diagnostic> = netlist.warnings.iter().cloned().chain(doubt(netlist)).collect();
+        let warnings: Vec<Diagnostic> = netlist.warnings.iter().cloned().chain(self.doubts()).collect();
         json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
         json.member("values", &Value::Object(values))?;
         if !self.limits.is_empty() {
@@ -242,6 +266,12 @@ impl View<'_> {
             json.member("limits", &Value::Object(limits))?;
         }
         json.finish().map(drop)
+    }
+
+    /// What to know before this is believed.
+    fn doubts(&self) -> Vec<Diagnostic> {
+        let netlist = &self.input.netlist;
+        doubt(netlist).into_iter().chain(adiabatic(&netlist.network, self.steady)).collect()
     }
 
     fn messages(&self, console: &Console) {
@@ -261,11 +291,13 @@ fn with_hidden(mut lines: Vec<String>, (all, shown): (usize, usize), how: &str) 
     lines
 }
 
-/// The boundary that heat is measured against.
+/// The boundary that rises are measured against; without one the coldest node.
 fn coldest(network: &lptn_network::Network, steady: &SteadyState) -> (String, f64) {
     let boundaries = network.boundaries().iter().zip(&steady.boundary_temperatures);
-    let coldest = boundaries.min_by(|a, b| a.1.total_cmp(b.1));
-    coldest.map_or((String::new(), f64::NAN), |(boundary, &t)| (boundary.name.clone(), t))
+    let boundaries = boundaries.map(|(boundary, &t)| (boundary.name.clone(), t));
+    let nodes = network.nodes().iter().zip(&steady.temperatures).map(|(node, &t)| (node.name.clone(), t));
+    let coldest = |a: &(String, f64), b: &(String, f64)| a.1.total_cmp(&b.1);
+    boundaries.min_by(coldest).or_else(|| nodes.min_by(coldest)).unwrap_or_default()
 }
 
 /// The unit of a difference between two temperatures in `unit`.

@@ -141,6 +141,12 @@ fn notes(view: &View<'_>, nodes: &[NodeSummary]) -> Vec<String> {
         Err(NoSteady::Network(SteadyError::NoBoundary { .. })) | Ok(_) => {}
         Err(NoSteady::Network(error)) => notes.push(format!("steady is `-`: {error}")),
     }
+    notes.extend(view.solution.statistics().switched_to_lu.map(|time| {
+        format!(
+            "from {} s on the Newton matrix is unsymmetric: the symmetric one did not converge",
+            significant(time, 4)
+        )
+    }));
     notes.extend(not_bounded(view.solution));
     notes.extend(weak_ledger(view.solution));
     notes

@@ -86,7 +86,9 @@ fn observed(
 
 fn failed(input: &Input, error: &TransientError) -> Failure {
     let exit = match error {
-        TransientError::Integrator(_) | TransientError::Stopped { .. } => Exit::Failed,
+        TransientError::Integrator(_) | TransientError::Start(_) | TransientError::Stopped { .. } => {
+            Exit::Failed
+        }
         TransientError::Settings(_) | TransientError::Input(_) => Exit::Input,
     };
     Failure::at(exit, input.netlist.files.clone(), run::explain(input, error))

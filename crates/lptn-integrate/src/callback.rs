@@ -16,15 +16,23 @@ pub(crate) const DONE: c_int = 0;
 const SMALLER_STEP: c_int = 1;
 const GIVE_UP: c_int = -1;
 
+/// Slopes below this count as this, so that a state whose `T` stands still divides nothing by zero. It is far below all
+/// that matters next to another term, and far above what would overflow.
+const FLAT: f64 = 1e-30;
+
 /// Everything the callbacks work on. Reached through one raw pointer only, see the crate documentation.
 pub(crate) struct Shared<S> {
     pub(crate) system: S,
-    /// `df/dy` in the slots of the pattern.
+    /// The matrix of [`OdeSystem::jacobian`] in the slots of the pattern.
     pub(crate) jacobian: Vec<f64>,
     /// Whether `jacobian` is that of a constant matrix and need not be asked for again.
     pub(crate) jacobian_is_current: bool,
-    /// `M - gamma J` in the slots of the pattern.
+    /// The Newton matrix in the slots of the pattern.
     pub(crate) matrix: Vec<f64>,
+    /// [`OdeSystem::slope`] that belongs to `jacobian`, no smaller than [`FLAT`]; empty if there is none.
+    pub(crate) slopes: Vec<f64>,
+    /// States and algebraic unknowns during a solve; empty if there are none of the latter.
+    pub(crate) work: Vec<f64>,
     pub(crate) factors: Box<dyn Factorization>,
     pub(crate) counts: Counts,
     /// Time of the last Newton matrix, for messages of the linear solver.
@@ -129,7 +137,23 @@ impl<S: OdeSystem> Shared<S> {
         expect_finite(out)
     }
 
-    /// Forms `M - gamma J`; says whether the Jacobian was asked for anew.
+    /// Forms the Newton matrix; says whether the Jacobian was asked for anew.
+    ///
+    /// CVODE asks for the solution `x` of `(M - gamma J) x = r` with `r = M b`, where `J` is the derivative of
+    /// `f(t, y, z(t, y))`. With `0 = g(t, y, z)` and subscripts for derivatives, a change `x` of the states changes the
+    /// unknowns by `w` with `g_y x + g_z w = 0`, so that `J x = f_y x + f_z w`. Both together, the second line times
+    /// `-gamma`:
+    ///
+    /// ```text
+    /// M x - gamma (f_y x + f_z w) = r
+    ///     - gamma (g_y x + g_z w) = 0
+    /// ```
+    ///
+    /// This is `(diag(M, 0) - gamma K) [x, w] = [r, 0]` with `K` the derivatives of `[f, g]` by `[y, z]`: eliminating `w`
+    /// gives back `M - gamma J` exactly. The matrix is symmetric if `K` is, and positive definite if `-K` is.
+    ///
+    /// Where `K` is written by `T(y)` with the slopes `S = diag(dT/dy)`, it stands for `K S`. With `u = S x` the equation
+    /// `(M - gamma K S) x = r` becomes `(M / S - gamma K) u = r`, symmetric again, and `x = u / S`.
     pub(crate) fn form_matrix(
         &mut self,
         (t, y): (f64, &[f64]),
@@ -143,13 +167,35 @@ impl<S: OdeSystem> Shared<S> {
             self.counts.jacobian += 1;
             self.system.jacobian(t, y, &mut self.jacobian)?;
             expect_finite(&self.jacobian)?;
+            self.keep_slopes()?;
             self.jacobian_is_current = self.system.jacobian_is_constant();
         }
         kernels::map(&self.jacobian, &mut self.matrix, |slope| -gamma * slope);
-        for (&slot, mass) in self.system.pattern().diagonal().iter().zip(self.system.mass()) {
-            self.matrix[slot] += mass;
+        let diagonal = self.system.pattern().diagonal().iter().zip(self.system.mass());
+        if self.slopes.is_empty() {
+            diagonal.for_each(|(&slot, mass)| self.matrix[slot] += mass);
+        } else {
+            diagonal.zip(&self.slopes).for_each(|((&slot, mass), slope)| self.matrix[slot] += mass / slope);
         }
         Ok(renew)
+    }
+
+    /// The slopes must be those of the Jacobian that is kept, not of a later one.
+    fn keep_slopes(&mut self) -> Result<(), Cause> {
+        if let Some(slope) = self.system.slope() {
+            expect_finite(slope)?;
+            self.slopes.clear();
+            self.slopes.extend(slope.iter().map(|&slope| slope.max(FLAT)));
+        }
+        Ok(())
+    }
+
+    /// From now on with these factors, which must be for any values, and with the system's exact Jacobian.
+    pub(crate) fn leave_symmetry(&mut self, factors: Box<dyn Factorization>) {
+        self.factors = factors;
+        self.jacobian_is_current = false;
+        (self.failure, self.overcome) = (None, None);
+        self.system.leave_symmetry();
     }
 
     pub(crate) fn factorize(&mut self) -> Result<(), Cause> {
@@ -157,11 +203,22 @@ impl<S: OdeSystem> Shared<S> {
         self.factors.factorize(&self.matrix).map_err(Cause::Linear)
     }
 
-    /// Solves `(M - gamma J) x = M b`.
+    /// Solves `(M - gamma J) x = M b`, see [`form_matrix`](Self::form_matrix).
     pub(crate) fn solve(&mut self, b: &[f64], x: &mut [f64]) -> Result<(), Cause> {
         self.counts.solves += 1;
         kernels::zip(b, self.system.mass(), x, |b, mass| b * mass);
-        self.factors.solve_in_place(x).map_err(Cause::Linear)
+        if self.work.is_empty() {
+            self.factors.solve_in_place(x).map_err(Cause::Linear)?;
+        } else {
+            let (states, algebraic) = self.work.split_at_mut(x.len());
+            states.copy_from_slice(x);
+            algebraic.fill(0.0);
+            self.factors.solve_in_place(&mut self.work).map_err(Cause::Linear)?;
+            x.copy_from_slice(&self.work[..x.len()]);
+        }
+        // Nothing happens where there are no slopes.
+        kernels::zip_in_place(x, &self.slopes, |u, slope| u / slope);
+        Ok(())
     }
 }
 

@@ -15,7 +15,8 @@ pub enum Callback {
     LinearSolver,
 }
 
-/// A matrix could not be factorised or solved with. Indices are rows of the matrix as given.
+/// A matrix could not be factorised or solved with. Indices are rows of the matrix as given; those of algebraic
+/// unknowns follow those of the states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FactorError {
     /// Elimination found a pivot that is not positive.
@@ -74,6 +75,13 @@ pub enum IntegrateError {
     InvalidMass {
         /// The component.
         index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// The entry of `M` of an algebraic row is not 0.
+    AlgebraicMass {
+        /// Row of the pattern.
+        row: usize,
         /// Its value.
         value: f64,
     },
@@ -243,6 +251,9 @@ impl fmt::Display for IntegrateError {
             }
             Self::InvalidMass { index, value } => {
                 write!(f, "mass {} of component {index} is not positive", Short(*value))
+            }
+            Self::AlgebraicMass { row, value } => {
+                write!(f, "mass {} of algebraic row {row} is not 0", Short(*value))
             }
             Self::StopBehind { time, stop } => {
                 write!(f, "stop time {} lies before the present time {}", Short(*stop), Short(*time))

@@ -1,13 +1,12 @@
 //! Stepping a system from one discontinuity to the next.
 
-use std::ptr::NonNull;
-
 use sundials_sys as sys;
 
-use crate::callback::Shared;
 use crate::context::Context;
 use crate::linear_solver::SolverHandles;
 use crate::memory::{Counters, Flag, Memory, name_of};
+use crate::shared::SharedBox;
+use crate::symmetry::{ATTEMPTS, SYMMETRIC_ATTEMPTS, Symmetry};
 use crate::vector::Vector;
 use crate::{IntegrateError, LinearSolverKind, OdeSystem, Options, Statistics, kernels, linear, start};
 
@@ -44,38 +43,12 @@ pub struct Integrator<S: OdeSystem> {
     from: f64,
     stop: f64,
     max_steps: u64,
+    symmetry: Symmetry,
     /// What CVODES had counted when it was last restarted.
     before: Counters,
     restarts: u64,
     /// Steps in a row that did not move the time.
     still: u32,
-}
-
-/// The heap allocation that the callbacks reach through the pointer in it.
-struct SharedBox<S>(NonNull<Shared<S>>);
-
-impl<S> SharedBox<S> {
-    fn new(shared: Shared<S>) -> Self {
-        Self(NonNull::from(Box::leak(Box::new(shared))))
-    }
-
-    fn get(&self) -> &Shared<S> {
-        // SAFETY: allocated by `new`; callbacks run only inside methods that borrow the integrator for writing and that
-        // hold no reference from here meanwhile.
-        unsafe { self.0.as_ref() }
-    }
-
-    fn get_mut(&mut self) -> &mut Shared<S> {
-        // SAFETY: as in `get`, and `self` is borrowed for writing.
-        unsafe { self.0.as_mut() }
-    }
-}
-
-impl<S> Drop for SharedBox<S> {
-    fn drop(&mut self) {
-        // SAFETY: allocated by `new` with `Box`, freed once; CVODES, which has the pointer too, is gone by then.
-        drop(unsafe { Box::from_raw(self.0.as_ptr()) });
-    }
 }
 
 impl<S: OdeSystem> Integrator<S> {
@@ -94,8 +67,9 @@ impl<S: OdeSystem> Integrator<S> {
             0 => None,
             count => Some(Vector::new(&context, count)?),
         };
+        let symmetry = Symmetry::of(&system, options.linear_solver);
         let shared = SharedBox::new(start::shared(system, t0, options)?);
-        let handles = SolverHandles::new(&context, shared.0.as_ptr())?;
+        let handles = SolverHandles::new(&context, shared.as_ptr())?;
         let memory = Memory::new(&context)?;
         let integrator = Self {
             memory,
@@ -109,6 +83,7 @@ impl<S: OdeSystem> Integrator<S> {
             from: t0,
             stop: f64::INFINITY,
             max_steps: u64::try_from(options.max_steps).unwrap_or(u64::MAX),
+            symmetry,
             before: Counters::default(),
             restarts: 0,
             still: 0,
@@ -118,7 +93,7 @@ impl<S: OdeSystem> Integrator<S> {
     }
 
     fn set_up(&self, options: &Options) -> Result<(), Flag> {
-        let pointer = self.shared.0.as_ptr();
+        let pointer = self.shared.as_ptr();
         self.memory.start((self.time, &self.state), pointer, options.tolerance / 3.0)?;
         self.memory.attach_solver::<S>(&self.handles)?;
         if let Some(quadratures) = &self.quadratures {
@@ -130,13 +105,16 @@ impl<S: OdeSystem> Integrator<S> {
         if let Some(step) = options.max_step_size {
             self.memory.set_max_step(step)?;
         }
+        if self.symmetry.is_held() {
+            self.memory.set_attempts(SYMMETRIC_ATTEMPTS)?;
+        }
         self.choose_newton(options)
     }
 
     fn choose_newton(&self, options: &Options) -> Result<(), Flag> {
         if self.system().jacobian_is_constant() {
             self.memory.always_match_gamma()?;
-        } else if linear::is_dense(options.linear_solver, self.state().len()) {
+        } else if linear::is_dense(options.linear_solver, self.system().pattern().size()) {
             self.memory.always_set_up()?;
         }
         self.memory.set_newton_coefficient(start::newton_coefficient(self.system(), options))
@@ -167,11 +145,7 @@ impl<S: OdeSystem> Integrator<S> {
     pub fn into_system(self) -> S {
         let Self { memory, handles, shared, .. } = self;
         drop((memory, handles));
-        let pointer = shared.0;
-        std::mem::forget(shared);
-        // SAFETY: allocated with `Box` by `SharedBox::new`; CVODES, which had the pointer too, is gone, and the owner
-        // was forgotten, so nobody frees it again.
-        unsafe { Box::from_raw(pointer.as_ptr()) }.system
+        shared.into_inner().system
     }
 
     /// From now on no step crosses `t`, until another stop time is set; `f64::INFINITY` means no stop. The first step
@@ -183,6 +157,11 @@ impl<S: OdeSystem> Integrator<S> {
     /// Takes one step of the size that the error allows. At the stop time it does nothing, says so, and returns a step
     /// of no length.
     ///
+    /// If the Jacobian is symmetric but not constant, and Newton's method fails three times in a row (the matrix not
+    /// being positive definite is one way to fail) or in a quarter of 60 steps, the symmetric values are given up for the
+    /// rest of the run: see
+    /// [`OdeSystem::leave_symmetry`] and [`Statistics::switched_to_lu`]. The running integrals go on.
+    ///
     /// # Errors
     /// See [`IntegrateError`]; [`time`](Self::time) and [`state`](Self::state) are then those of the last good step.
     pub fn step(&mut self) -> Result<Step, IntegrateError> {
@@ -190,32 +169,53 @@ impl<S: OdeSystem> Integrator<S> {
         if self.stop <= from || self.stop.is_nan() {
             return self.step_at_stop();
         }
-        let steps = self.statistics().steps;
-        if steps >= self.max_steps {
-            return Err(IntegrateError::TooManySteps { time: from, steps });
+        let so_far = self.statistics();
+        if so_far.steps >= self.max_steps {
+            return Err(IntegrateError::TooManySteps { time: from, steps: so_far.steps });
         }
+        if self.symmetry.stalls(&so_far) {
+            self.leave_symmetry();
+        }
+        let mut outcome = self.advance();
+        if let Err(flag) = &outcome
+            && self.symmetry.is_to_blame(flag)
+            && self.leave_symmetry()
+        {
+            outcome = self.advance();
+        }
+        let to = self.time;
+        match outcome {
+            Ok(at_stop) => {
+                self.from = from;
+                self.watch_progress(to > from)?;
+                Ok(Step { from, to, at_stop: at_stop || to >= self.stop })
+            }
+            Err(flag) => {
+                self.from = to;
+                Err(self.explain(flag))
+            }
+        }
+    }
+
+    /// One step of CVODES; true: it ended at the stop time.
+    fn advance(&mut self) -> Result<bool, Flag> {
         self.shared.get_mut().failure = None;
         // Version 6 cannot forget a stop time; the largest double serves as none. It is set for every step because
         // CVODES forgets it when it is reached and keeps it at a restart.
         let stop = self.stop.min(f64::MAX);
-        let towards = if self.stop.is_finite() { stop } else { from + from.abs().max(1.0) };
-        let mut reached = from;
-        let outcome = self
-            .memory
-            .set_stop(stop)
-            .and_then(|()| self.memory.step(towards, &mut self.state, &mut reached));
-        self.time = reached;
-        match outcome {
-            Ok(at_stop) => {
-                self.from = from;
-                self.watch_progress(reached > from)?;
-                Ok(Step { from, to: reached, at_stop: at_stop || reached >= self.stop })
-            }
-            Err(flag) => {
-                self.from = reached;
-                Err(self.explain(flag))
-            }
-        }
+        let towards = if self.stop.is_finite() { stop } else { self.time + self.time.abs().max(1.0) };
+        self.memory.set_stop(stop)?;
+        self.memory.step(towards, &mut self.state, &mut self.time)
+    }
+
+    /// From the last good state on with LU; false if that cannot be had.
+    fn leave_symmetry(&mut self) -> bool {
+        let choice = self.symmetry.leave();
+        let Ok(factors) = linear::new(self.system().pattern(), false, choice) else { return false };
+        self.shared.get_mut().leave_symmetry(factors);
+        self.symmetry.set_switched(self.time);
+        self.quadratures().is_ok()
+            && self.begin_anew().and_then(|()| self.memory.set_attempts(ATTEMPTS)).is_ok()
     }
 
     /// CVODES goes on for ever with steps that are lost in the rounding of the time.
@@ -296,13 +296,17 @@ impl<S: OdeSystem> Integrator<S> {
             start::check_state(y)?;
             self.state.as_mut_slice().copy_from_slice(y);
         }
+        self.restarts += 1;
+        self.shared.get_mut().jacobian_is_current = false;
+        self.begin_anew().map_err(|flag| self.unexpected(flag))
+    }
+
+    /// Restarts CVODES from the present state with the running integrals read last.
+    fn begin_anew(&mut self) -> Result<(), Flag> {
         let now = self.memory.counters();
         self.before = sum(&self.before, &now);
-        self.restarts += 1;
         self.from = self.time;
-        self.shared.get_mut().jacobian_is_current = false;
-        let outcome = self.memory.restart(self.time, &self.state, self.quadratures.as_ref());
-        outcome.map_err(|flag| self.unexpected(flag))
+        self.memory.restart(self.time, &self.state, self.quadratures.as_ref())
     }
 
     /// Counters since the integrator was made.
@@ -321,6 +325,7 @@ impl<S: OdeSystem> Integrator<S> {
             error_test_failures: total.error_test_failures,
             newton_failures: total.newton_failures,
             restarts: self.restarts,
+            switched_to_lu: self.symmetry.switched(),
             last_order: total.last_order,
             last_step: total.last_step,
         }

@@ -2,6 +2,7 @@
 //!
 //! A system `M y' = f(t, y)` with a diagonal, positive `M` is described by the trait [`OdeSystem`]; an [`Integrator`]
 //! owns the system, steps it from one discontinuity to the next and keeps its books ([`OdeSystem::quadrature`]).
+//! Algebraic unknowns are the system's to solve; the Newton matrix holds them beside the states, see [`OdeSystem`].
 //! The crate knows nothing of what the numbers mean: "units of y" below is whatever unit the system uses.
 //!
 //! Errors are local: the tolerance is one absolute number and the error norm is the weighted *maximum* over the
@@ -38,8 +39,10 @@ mod linear_solver;
 mod memory;
 mod options;
 mod pattern;
+mod shared;
 mod start;
 mod statistics;
+mod symmetry;
 mod system;
 mod vector;
 mod version;

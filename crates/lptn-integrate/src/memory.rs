@@ -136,6 +136,12 @@ impl Memory {
         check("CVodeSetMaxStep", unsafe { sys::CVodeSetMaxStep(self.raw, step) })
     }
 
+    /// How many attempts at one step may fail, other than by its error, before CVODES gives it up.
+    pub(crate) fn set_attempts(&self, attempts: c_int) -> Result<(), Flag> {
+        // SAFETY: the object is alive.
+        check("CVodeSetMaxConvFails", unsafe { sys::CVodeSetMaxConvFails(self.raw, attempts) })
+    }
+
     pub(crate) fn set_stop(&self, t: f64) -> Result<(), Flag> {
         // SAFETY: the object is alive.
         check("CVodeSetStopTime", unsafe { sys::CVodeSetStopTime(self.raw, t) })

@@ -43,12 +43,16 @@ pub(crate) fn shared<S: OdeSystem>(
     })?;
     let slots = system.pattern().len();
     let (jacobian, matrix) = (vec![0.0; slots], vec![0.0; slots]);
+    let rows = system.pattern().size();
+    let work = vec![0.0; if rows > system.size() { rows } else { 0 }];
     let counts = Counts::default();
     Ok(Shared {
         system,
         jacobian,
         jacobian_is_current: false,
         matrix,
+        slopes: Vec::new(),
+        work,
         factors,
         counts,
         time: t0,
@@ -79,11 +83,26 @@ pub(crate) fn check_system(system: &impl OdeSystem, y0: &[f64]) -> Result<(), In
         return Err(IntegrateError::InvalidOption { option: "size", value: 0.0 });
     }
     expect_length("y0", system.size(), y0.len())?;
-    expect_length("mass", system.size(), system.mass().len())?;
-    expect_length("pattern", system.size(), system.pattern().size())?;
+    let rows = system.pattern().size();
+    if rows < system.size() {
+        expect_length("pattern", system.size(), rows)?;
+    }
+    expect_length("mass", rows, system.mass().len())?;
+    if let Some(slope) = system.slope() {
+        expect_length("slope", rows, slope.len())?;
+    }
     check_state(y0)?;
-    match system.mass().iter().position(|&mass| !(mass > 0.0 && mass.is_finite())) {
-        Some(index) => Err(IntegrateError::InvalidMass { index, value: system.mass()[index] }),
+    check_mass(system.mass(), system.size())
+}
+
+/// Positive for the `size` states, 0 for the algebraic rows behind them.
+fn check_mass(mass: &[f64], size: usize) -> Result<(), IntegrateError> {
+    let (states, algebraic) = mass.split_at(size);
+    if let Some(index) = states.iter().position(|&mass| !(mass > 0.0 && mass.is_finite())) {
+        return Err(IntegrateError::InvalidMass { index, value: mass[index] });
+    }
+    match algebraic.iter().position(|&mass| mass.abs() > 0.0 || mass.is_nan()) {
+        Some(index) => Err(IntegrateError::AlgebraicMass { row: size + index, value: algebraic[index] }),
         None => Ok(()),
     }
 }

@@ -11,17 +11,32 @@ pub enum Retry {
     Stop,
 }
 
-/// `M y' = f(t, y)` with a diagonal, positive `M`.
+/// `M y' = f(t, y)` with a diagonal, positive `M`; `f` may go through unknowns `z` that balances `0 = g(t, y, z)`
+/// determine.
 ///
 /// All slices have the length [`size`](Self::size) unless stated otherwise. `M` has the units of `f` times time per
 /// unit of `y`. A callback that panics or that writes a value that is not finite does no harm: the step is given up
 /// and the integrator returns an error with the time and, where there is one, the index.
+///
+/// # Algebraic unknowns
+///
+/// A system with `m` unknowns beside its `n` states solves `0 = g(t, y, z)` itself, inside [`flow`](Self::flow) and
+/// [`quadrature`](Self::quadrature) and more accurately than the tolerance; the integrator sees `f(t, y, z(t, y))`
+/// only. [`pattern`](Self::pattern) then has `n + m` rows, those of `z` behind those of `y`,
+/// [`jacobian`](Self::jacobian) writes the derivatives of `[f, g]` by `[y, z]`, and [`mass`](Self::mass) ends in `m`
+/// zeros. The integrator factorises this larger and sparser matrix instead of the derivative of `f(t, y, z(t, y))`,
+/// in which every unknown would link all of its neighbours. `dg/dz` must be regular.
+///
+/// # States carried as another variable
+///
+/// Where `f` depends on a temperature `T_j(y_j)` instead of on `y_j` itself, [`jacobian`](Self::jacobian) may be written
+/// by `T` and [`slope`](Self::slope) returns `dT_j/dy_j`. The matrix stays symmetric if the derivatives by `T` are.
 pub trait OdeSystem {
     /// Number of components of `y`; at least 1 and constant.
     fn size(&self) -> usize;
 
-    /// Diagonal of `M`, every entry positive and finite, as of the last call of `flow` or `jacobian` (so that it may
-    /// depend on the state).
+    /// Diagonal of `M`, as long as the pattern: every entry positive and finite, those of the algebraic rows 0; as of
+    /// the last call of `flow` or `jacobian` (so that it may depend on the state).
     fn mass(&self) -> &[f64];
 
     /// Writes `f(t, y)`, in units of `M` times `y` per time. Positive raises `y`.
@@ -30,14 +45,30 @@ pub trait OdeSystem {
     /// Whether a smaller step may help.
     fn flow(&mut self, t: f64, y: &[f64], f: &mut [f64]) -> Result<(), Retry>;
 
-    /// Where `df/dy` can be nonzero; constant over the life of the system.
+    /// Where the matrix of [`jacobian`](Self::jacobian) can be nonzero: [`size`](Self::size) rows for the states, then
+    /// one for every algebraic unknown; constant over the life of the system.
     fn pattern(&self) -> &Pattern;
 
     /// Whether the *values* written by [`jacobian`](Self::jacobian) are symmetric. They then are factorised as
-    /// `M - gamma J` by Cholesky, which must be positive definite for the step sizes of interest; otherwise by LU.
+    /// `M - gamma J` by Cholesky, which must be positive definite for the step sizes of interest; otherwise by LU. Read
+    /// once, by [`crate::Integrator::new`].
     fn symmetric(&self) -> bool;
 
-    /// Writes `df/dy` into the slots of [`pattern`](Self::pattern) (`values.len() == pattern().len()`), with `values`
+    /// The integrator gives up on the symmetric values: from now on they are factorised by LU, and
+    /// [`jacobian`](Self::jacobian) had better write the exact ones. Called at most once, and only if
+    /// [`symmetric`](Self::symmetric) was true and [`jacobian_is_constant`](Self::jacobian_is_constant) false; see
+    /// [`crate::Integrator::step`].
+    fn leave_symmetry(&mut self) {}
+
+    /// `dT/dy` of every row of the pattern (1 for algebraic rows), not negative and finite, for a
+    /// [`jacobian`](Self::jacobian) written by `T` instead of `y`, as of the last call of it; 0 where `T` stands still
+    /// while `y` changes. `None`: by `y`. Which of the two is constant.
+    fn slope(&self) -> Option<&[f64]> {
+        None
+    }
+
+    /// Writes `df/dy` (with algebraic unknowns the derivatives of `[f, g]` by `[y, z]`; with a [`slope`](Self::slope)
+    /// those by `T`) into the slots of [`pattern`](Self::pattern) (`values.len() == pattern().len()`), with `values`
     /// holding the result of the previous call on entry. An approximation is allowed: it changes how fast Newton's
     /// method converges, not what it converges to.
     ///

@@ -2,8 +2,10 @@
 
 use std::collections::HashSet;
 
-use lptn_network::{BuildError, Item, Network, ParameterError, ParameterId, Parameters, Value};
-use lptn_network::{Field, Law};
+use lptn_network::{
+    BuildError, Course, Field, Item, Material, Network, ParameterError, ParameterId, Parameters, SignalId,
+    Value,
+};
 use lptn_units::Expression;
 
 use crate::describe::describe;
@@ -93,6 +95,14 @@ impl Netlist {
                 let place = Span::new(line.file, start..start + name.len());
                 let message = format!("there is no parameter `{}`", unknown.name);
                 let problem = Diagnostic::error("netlist::unknown_parameter", message).at(place, "");
+                if let Some(id) = self.signal(&unknown.name) {
+                    let problem = match self.source_map.name(Item::Signal(id)) {
+                        Some(span) => problem.also(span.clone(), "a signal"),
+                        None => problem,
+                    };
+                    return problem
+                        .help("a signal changes with time: scale it with a parameter, and set that");
+                }
                 self.suggest_parameter(problem, unknown.suggestion.as_deref())
             }
             ParameterError::Unit { name: parameter, error, .. } => {
@@ -117,6 +127,11 @@ impl Netlist {
                 }
             }
         }
+    }
+
+    fn signal(&self, name: &str) -> Option<SignalId> {
+        let signals = self.network.signals();
+        self.network.signal_ids().find(|id| signals[id.index()].name == name)
     }
 
     /// Whether the text is an expression of parameters, which a netlist may hold but an assignment may not.
@@ -192,11 +207,20 @@ impl Netlist {
         found
     }
 
+    /// The parameters in a value, those of the signals it reads included.
     fn parameters_of(&self, value: &Value) -> Vec<ParameterId> {
-        let slots = value.slots();
-        let first = lptn_network::slot::PARAMETERS;
-        let used = slots.into_iter().filter_map(|slot| slot.checked_sub(first));
-        used.filter_map(|n| self.network.parameter_ids().nth(n as usize)).collect()
+        let network = &self.network;
+        let (mut slots, mut next) = (value.slots(), 0);
+        while let Some(&slot) = slots.get(next) {
+            next += 1;
+            let read = |id: &SignalId| (0..2).any(|k| network.signal_slot(*id) + k == slot);
+            let signal = network.signal_ids().find(read).and_then(|id| network.signals().get(id.index()));
+            if let Some(Course::Expression(value)) = signal.map(|signal| &signal.course) {
+                let more: Vec<u32> = value.slots().into_iter().filter(|s| !slots.contains(s)).collect();
+                slots.extend(more);
+            }
+        }
+        network.parameter_ids().filter(|id| slots.contains(&network.parameter_slot(*id))).collect()
     }
 
     fn values(&self, item: Item, field: Field) -> Vec<&Value> {
@@ -207,14 +231,10 @@ impl Netlist {
                 let value = if field == Field::Initial { &node.initial } else { &node.capacity };
                 value.iter().collect()
             }
-            Item::Material(id) => {
-                let material = &network.materials()[id.index()];
-                let value = match field {
-                    Field::Density => &material.density,
-                    Field::SpecificHeat => &material.cp,
-                    _ => &material.k,
-                };
-                value.iter().collect()
+            Item::Material(id) => material_values(&network.materials()[id.index()], field),
+            Item::Fluid(id) => {
+                let fluid = &network.fluids()[id.index()];
+                if field == Field::Density { fluid.density.iter().collect() } else { vec![&fluid.cp] }
             }
             Item::Boundary(id) => vec![&network.boundaries()[id.index()].temperature],
             Item::Capacitor(id) => vec![&network.capacitors()[id.index()].capacity],
@@ -223,13 +243,30 @@ impl Netlist {
                 let limit = &network.limits()[id.index()];
                 vec![if field == Field::Of { &limit.of } else { &limit.value }]
             }
-            Item::Conductor(id) => match &network.conductors()[id.index()].law {
-                Law::Resistance(value) | Law::Conductance(value) => vec![value],
-                Law::Film { coefficient, area } => vec![coefficient, area],
+            Item::Conductor(id) => {
+                // a conductance out of range may be the fault of any of them
+                network.conductors()[id.index()].law.parts().into_iter().map(|(_, value)| value).collect()
+            }
+            Item::Signal(id) => match &network.signals()[id.index()].course {
+                Course::Expression(value) => vec![value],
+                _ => Vec::new(),
             },
-            Item::Parameter(_) => Vec::new(),
+            Item::Parameter(_) | Item::Table(_) => Vec::new(),
         }
     }
+}
+
+fn material_values(material: &Material, field: Field) -> Vec<&Value> {
+    let melting = material.melting.as_ref();
+    let value = match field {
+        Field::Density => material.density.as_ref(),
+        Field::SpecificHeat => material.cp.as_ref(),
+        Field::Solidus => melting.map(|m| &m.solidus),
+        Field::LatentHeat => melting.map(|m| &m.heat),
+        Field::Liquidus => return melting.map_or_else(Vec::new, |m| vec![&m.solidus, &m.liquidus]),
+        _ => material.k.as_ref(),
+    };
+    value.into_iter().collect()
 }
 
 fn name_changed<'a>(problem: Diagnostic, changed: impl Iterator<Item = &'a Assignment>) -> Diagnostic {

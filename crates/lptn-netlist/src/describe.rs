@@ -53,6 +53,12 @@ fn message(error: &BuildError, map: &SourceMap) -> String {
         Kind::ComparisonNotLinear { item, field: f } => {
             format!("{} compares something that is not linear in the time `t`", field(*item, *f))
         }
+        Kind::DependsOnResult { item, field: f } => {
+            format!("{} cannot depend on the temperature of a node or boundary", field(*item, *f))
+        }
+        Kind::ComparesTemperature { item, field: f } => {
+            format!("{} compares a temperature, which is not supported yet", field(*item, *f))
+        }
         Kind::Evaluation { item, field: f, error: EvalError::NotFinite { value, .. } } => {
             format!("{} comes out as {value}, which is not finite", field(*item, *f))
         }
@@ -61,6 +67,50 @@ fn message(error: &BuildError, map: &SourceMap) -> String {
             format!("{} leads from a place to itself", words(Item::Conductor(*conductor)))
         }
         Kind::SourceIntoBoundary { source } => format!("{} heats a boundary", words(Item::Source(*source))),
+        _ => message_of_physics(error, map),
+    }
+}
+
+/// What contradicts the physics of an element.
+fn message_of_physics(error: &BuildError, map: &SourceMap) -> String {
+    let words = |item: Item| format!("{} `{}`", map.kind(item), error.name);
+    let field = |item: Item, field: Field| format!("`{}` of {}", field.key(), words(item));
+    match &error.kind {
+        Kind::NotAFraction { item, field: f, value } => {
+            format!("{} must be above 0 and at most 1, got {}", field(*item, *f), short(*value))
+        }
+        Kind::Radii { item, inner, outer } => format!(
+            "`r_out` of {}, {} m, must be larger than its `r_in`, {} m",
+            words(*item),
+            short(*outer),
+            short(*inner)
+        ),
+        Kind::Melting { item, solidus, liquidus } => format!(
+            "`liquidus` of {}, {} K, is below its `solidus`, {} K",
+            words(*item),
+            short(*liquidus),
+            short(*solidus)
+        ),
+        Kind::Shares { source, sum } => {
+            format!("the shares of {} must sum to 1, got {}", words(Item::Source(*source)), short(*sum))
+        }
+        Kind::WhichTemperature { source } => {
+            format!("`P` of {} depends on `T`, but it heats several nodes", words(Item::Source(*source)))
+        }
+        Kind::CapacityUnknown { node, temperature } => format!(
+            "the capacity of {} is not known and positive at its start, {} K",
+            words(Item::Node(*node)),
+            short(*temperature)
+        ),
+        Kind::FluidUnknown { fluid, field: f } => {
+            format!("{} is not known and positive at any usual temperature", field(Item::Fluid(*fluid), *f))
+        }
+        Kind::PeriodTooShort { signal, period, span } => format!(
+            "the period of {}, {} s, is shorter than its points reach, {} s",
+            words(Item::Signal(*signal)),
+            short(*period),
+            short(*span)
+        ),
         _ => error.to_string(),
     }
 }
@@ -82,6 +132,11 @@ fn in_unit(value: f64, field: Field) -> String {
         Field::Density => Dimension::DENSITY,
         Field::SpecificHeat => Dimension::SPECIFIC_HEAT,
         Field::Conductivity => Dimension::CONDUCTIVITY,
+        Field::Exchange => Dimension::AREA,
+        Field::Thickness | Field::InnerRadius | Field::OuterRadius | Field::Length | Field::Diameter => {
+            Dimension::LENGTH
+        }
+        Field::LatentHeat => Dimension::SPECIFIC_ENERGY,
         _ => return short(value),
     };
     format!("{} {}", short(value), dimension.si_unit())
@@ -102,7 +157,7 @@ fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagno
         Kind::FloatingIsland { nodes, .. } => island(diagnostic, nodes, map),
         Kind::Evaluation { item, field, error } => match map.part(*item, *field, &error.span()) {
             Some(span) => diagnostic.at(span, ""),
-            None => diagnostic,
+            None => at(diagnostic, map.nearest(*item, *field), ""),
         },
         Kind::MasslessWithCapacity { node } => {
             let item = Item::Node(*node);
@@ -156,15 +211,22 @@ fn help(error: &BuildError) -> Option<String> {
     let zero = |value: f64| value.abs() < f64::MIN_POSITIVE;
     Some(match &error.kind {
         Kind::Empty => format!("add a section [node]; {MINIMAL}").trim_end().to_owned(),
-        Kind::DuplicateName { .. } => format!(
-            "rename one of them, for example `{}_2`; nodes and elements share one set of names",
-            error.name
-        ),
+        Kind::DuplicateName { first, .. } => {
+            let kinds = match first {
+                Item::Parameter(_) | Item::Signal(_) | Item::Table(_) => "parameters, signals and tables",
+                _ => "nodes and elements",
+            };
+            format!("rename one of them, for example `{}_2`; {kinds} share one set of names", error.name)
+        }
         Kind::NotPositive { field, value, .. } if value.is_nan() || value.is_infinite() => match field {
             Field::Resistance => "leave the path out if no heat flows through it".into(),
             _ => "something is divided by zero, or a number is too large".into(),
         },
         Kind::NotPositive { field, value, .. } => not_positive(*field, zero(*value)).to_owned(),
+        Kind::Radii { inner, outer, .. } if inner <= outer => {
+            "a wall has a thickness: make `r_out` larger".into()
+        }
+        Kind::NotAFraction { .. } => "it is a part of a whole: write `0.8` for 80 %".into(),
         Kind::NotFinite { .. } => "something is divided by zero, or a number is too large".into(),
         Kind::Evaluation { error, .. } => evaluation(error)?.to_owned(),
         Kind::BadName { .. } => format!("use letters, digits and `_`: `{}`", usable(&error.name)),
@@ -180,7 +242,7 @@ fn help(error: &BuildError) -> Option<String> {
 fn not_positive(field: Field, zero: bool) -> &'static str {
     match field {
         Field::Resistance if zero => "two places without resistance between them are one node: make them one",
-        Field::Conductance | Field::FilmCoefficient | Field::Area if zero => {
+        Field::Conductance | Field::FilmCoefficient | Field::Area | Field::Exchange if zero => {
             "leave the path out if no heat flows through it"
         }
         Field::Capacity if zero => "a node that stores nothing is `{ massless = true }`",
@@ -188,6 +250,10 @@ fn not_positive(field: Field, zero: bool) -> &'static str {
         Field::Mass | Field::Volume | Field::Density | Field::SpecificHeat | Field::Conductivity => {
             "a body has a mass, a volume and properties of more than zero"
         }
+        Field::Thickness | Field::InnerRadius | Field::OuterRadius | Field::Length | Field::Diameter => {
+            "a body has measures of more than zero"
+        }
+        Field::LatentHeat => "melting takes up heat: give it as a positive number",
         _ => "check the sign: heat flows from the warm to the cold end, whichever is named first",
     }
 }
@@ -199,6 +265,7 @@ fn evaluation(error: &EvalError) -> Option<&'static str> {
             Some("a negative number has no such power; use `abs(..)` if the sign does not count")
         }
         EvalError::Domain { .. } => Some("check the sign of its argument"),
+        EvalError::OutsideTable { .. } => error.help(),
         _ => None,
     }
 }

@@ -5,10 +5,11 @@ use std::collections::{HashMap, HashSet};
 use lptn_network::{BuildError, BuildErrorKind, End, Input, Item, Network, NetworkBuilder};
 use lptn_units::{Quantity, Type, Unit};
 
+use crate::csv_file::CsvFiles;
 use crate::describe::describe;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::file::Span;
-use crate::names::Names;
+use crate::names::{Names, ValueKind};
 use crate::raw::{RawEntry, RawNetlist};
 use crate::run::RunPlan;
 use crate::section;
@@ -29,6 +30,7 @@ pub(crate) struct Elaborated {
 /// Work in progress: the network as far as it is built, and everything found on the way.
 pub(crate) struct Elaboration<'a> {
     pub(crate) raw: &'a RawNetlist,
+    pub(crate) csv: &'a CsvFiles,
     pub(crate) builder: NetworkBuilder,
     pub(crate) map: SourceMap,
     pub(crate) names: Names,
@@ -39,6 +41,9 @@ pub(crate) struct Elaboration<'a> {
     /// Materials by name: those of the file, and those of the library that are used.
     pub(crate) known: HashMap<String, section::Known>,
     pub(crate) used_materials: HashSet<String>,
+    /// Fluids by name, in the same way.
+    pub(crate) known_fluids: HashMap<String, section::KnownFluid>,
+    pub(crate) used_fluids: HashSet<String>,
 }
 
 /// What was left out because of an error, so that its absence is not reported as another one.
@@ -73,9 +78,10 @@ impl Doubts {
 }
 
 /// The network, or every reason why there is none. Warnings come with either.
-pub(crate) fn elaborate(raw: &RawNetlist) -> (Option<Elaborated>, Vec<Diagnostic>) {
+pub(crate) fn elaborate(raw: &RawNetlist, csv: &CsvFiles) -> (Option<Elaborated>, Vec<Diagnostic>) {
     let mut work = Elaboration {
         raw,
+        csv,
         builder: NetworkBuilder::new(),
         map: SourceMap::default(),
         names: Names::of(raw),
@@ -84,17 +90,21 @@ pub(crate) fn elaborate(raw: &RawNetlist) -> (Option<Elaborated>, Vec<Diagnostic
         doubts: Doubts::default(),
         known: HashMap::new(),
         used_materials: HashSet::new(),
+        known_fluids: HashMap::new(),
+        used_fluids: HashSet::new(),
     };
     work.map.set_top(raw.top.span.clone());
     work.top_level();
+    work.tables();
     work.parameters();
+    work.signals();
     let default = work.defaults();
     work.materials();
+    work.fluids();
     work.nodes(default.initial.as_ref());
     work.boundaries();
     work.capacitors();
-    work.resistors();
-    work.convections();
+    work.conductors();
     work.sources();
     work.limits();
     let run = work.run();
@@ -117,7 +127,8 @@ impl<'a> Elaboration<'a> {
         (run, sizes): (Option<RunPlan>, Vec<SizeStudy>),
         default: section::Default<'_>,
     ) -> (Option<Elaborated>, Vec<Diagnostic>) {
-        let materials = self.unused_materials();
+        let mut substances = self.unused_materials();
+        substances.extend(self.unused_fluids());
         let (map, doubts) = (&self.map, &self.doubts);
         let network = match self.builder.build() {
             Ok(network) => Some(network),
@@ -136,8 +147,8 @@ impl<'a> Elaboration<'a> {
             self.problems.retain(|problem| problem.severity == Severity::Error);
             return (None, self.problems);
         }
-        self.problems.extend(materials);
-        self.problems.extend(self.names.unused().map(|(name, span)| unused(name, span)));
+        self.problems.extend(substances);
+        self.problems.extend(self.names.unused().map(|(kind, name, span)| unused(kind, name, span)));
         let temperature_unit = default.temperature_unit;
         let done = network.map(|network| Elaborated { network, run, sizes, map: self.map, temperature_unit });
         (done, self.problems)
@@ -149,8 +160,13 @@ pub(crate) fn stand_in(ty: Type) -> Input {
     Quantity { value: 1.0, deviation: None, ty }.into()
 }
 
-fn unused(name: &str, span: &Span) -> Diagnostic {
-    Diagnostic::warning("netlist::unused_parameter", format!("nothing uses parameter `{name}`"))
+fn unused(kind: ValueKind, name: &str, span: &Span) -> Diagnostic {
+    let code = match kind {
+        ValueKind::Parameter => "netlist::unused_parameter",
+        ValueKind::Signal => "netlist::unused_signal",
+        ValueKind::Table => "netlist::unused_table",
+    };
+    Diagnostic::warning(code, format!("nothing uses {} `{name}`", kind.word()))
         .at(span.clone(), "")
         .help("use it or remove it; a misspelt name elsewhere may be the cause")
 }

@@ -172,8 +172,51 @@ pub(crate) fn sample_value(key: &str) -> &'static str {
         "from" => "\"name of a node or boundary\"",
         "to" => "\"name of another node or boundary\"",
         "node" | "into" => "\"name of a node\"",
-        _ => "\"..\"",
+        _ => sample_of_law(key).or_else(|| sample_of_curve(key)).unwrap_or("\"..\""),
     }
+}
+
+/// The right side of a field of a path or of what it is made of.
+fn sample_of_law(key: &str) -> Option<&'static str> {
+    Some(match key {
+        "Gr" => "\"0.16 m^2\"",
+        "emissivity" => "0.8",
+        "view_factor" => "1",
+        "shape" => "\"slab\"",
+        "thickness" => "\"5 mm\"",
+        "r_in" => "\"20 mm\"",
+        "r_out" => "\"25 mm\"",
+        "length" => "\"0.3 m\"",
+        "diameter" => "\"20 mm\"",
+        "mcp" => "\"50 W/K\"",
+        "fluid" => "\"water\"",
+        "flow" => "\"0.05 kg/s\"",
+        "flow_T" => "\"20 degC\"",
+        "solidus" => "\"55 degC\"",
+        "liquidus" => "\"57 degC\"",
+        "latent_heat" => "\"200 kJ/kg\"",
+        _ => return None,
+    })
+}
+
+/// The right side of a field of a table or signal.
+fn sample_of_curve(key: &str) -> Option<&'static str> {
+    Some(match key {
+        "x" => "[\"0 rpm\", \"5000 rpm\"]",
+        "y" => "[\"0 W\", \"80 W\"]",
+        "t" => "[\"0 s\", \"60 s\"]",
+        "v" => "[\"0 rpm\", \"5000 rpm\"]",
+        "x_unit" | "v_unit" => "\"rpm\"",
+        "y_unit" => "\"W\"",
+        "t_unit" => "\"s\"",
+        "csv" => "\"cycle.csv\"",
+        "time" => "\"t\"",
+        "value" => "\"speed\"",
+        "interp" => "\"linear\"",
+        "outside" | "after_end" => "\"hold\"",
+        "period" => "\"60 s\"",
+        _ => return None,
+    })
 }
 
 /// A value of another TOML type than its field takes.

@@ -12,7 +12,7 @@ use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::section::check_head;
 use crate::syntax::parse_raw;
 
-/// Reads the bytes of an included file.
+/// Reads the bytes of a file that a netlist names: one that it includes, or a CSV file.
 pub type Loader<'a> = dyn FnMut(&Path) -> io::Result<Vec<u8>> + 'a;
 
 /// A file that includes another that includes another: more are a mistake.
@@ -248,15 +248,19 @@ fn no_folder(value: &RawValue) -> Diagnostic {
 }
 
 fn cannot_read(path: &Path, error: &io::Error, value: &RawValue) -> Diagnostic {
-    let reason = match error.kind() {
-        io::ErrorKind::NotFound => "there is no such file".to_owned(),
-        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
-        _ => error.to_string(),
-    };
-    let message = format!("cannot include {}: {reason}", path.display());
+    let message = format!("cannot include {}: {}", path.display(), reason(error));
     Diagnostic::error("netlist::include_not_found", message)
         .at(value.span.clone(), "")
         .help("paths are relative to the file that includes")
+}
+
+/// Why a file could not be read, in words.
+pub(crate) fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
+        _ => error.to_string(),
+    }
 }
 
 fn not_text(path: &Path, value: &RawValue) -> Diagnostic {

@@ -27,6 +27,7 @@
 //! ```
 
 mod assign;
+mod csv_file;
 mod describe;
 mod diagnostic;
 mod duplicate;
@@ -41,6 +42,7 @@ mod names;
 mod netlist;
 mod parameters;
 mod plausible;
+mod points;
 mod raw;
 mod run;
 mod section;

@@ -37,16 +37,13 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     }
 }
 
-/// The same for a file that another includes; the reason reads "cannot include NAME: it is a device".
-///
-/// # Errors
-/// Why it cannot be read.
-pub(crate) fn included_bytes(path: &Path) -> io::Result<Vec<u8>> {
+/// The bytes of a file that a netlist names, within the same bounds.
+pub(crate) fn read_named(path: &Path) -> io::Result<Vec<u8>> {
     if is_device(std::fs::metadata(path)?.file_type()) {
         return Err(io::Error::other("it is a device"));
     }
-    let bytes = limited(std::fs::File::open(path)?, MOST_BYTES)?;
-    bytes.ok_or_else(|| io::Error::other(format!("it is longer than {} MB", MOST_BYTES / 1_000_000)))
+    let too_long = || io::Error::other(format!("it is longer than {} MB", MOST_BYTES / 1_000_000));
+    limited(std::fs::File::open(path)?, MOST_BYTES)?.ok_or_else(too_long)
 }
 
 /// All bytes, or `None` if there are more than `most`; at most one more is read.

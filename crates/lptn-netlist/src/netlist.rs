@@ -8,11 +8,12 @@ use std::path::{Path, PathBuf};
 use lptn_network::{Network, Parameters};
 use lptn_units::Unit;
 
+use crate::csv_file::CsvFiles;
 use crate::diagnostic::{Diagnostic, Severity, arrange};
 use crate::elaborate::{Elaborated, elaborate};
 use crate::file::{FileId, Files, Span};
 use crate::include::{self, Loader, Merged};
-use crate::limits::{included_bytes, read_bytes, shorten};
+use crate::limits::{read_bytes, read_named, shorten};
 use crate::raw::RawNetlist;
 use crate::run::{RunPlan, RunSettings};
 use crate::section;
@@ -45,7 +46,7 @@ pub struct Netlist {
 }
 
 impl Netlist {
-    /// The files it was read from, its own first: name and text.
+    /// The files it was read from, its own first, then those it includes and its CSV files: name and text.
     pub fn inputs(&self) -> impl Iterator<Item = (&str, &str)> {
         self.inputs.iter().map(|&id| (self.files.name(id), self.files.text(id)))
     }
@@ -63,7 +64,7 @@ pub struct Rejected {
     pub files: Files,
     /// What is wrong, in file order; holds at least one error.
     pub diagnostics: Vec<Diagnostic>,
-    /// Whether a text could not even be read as TOML, or one that is included not at all.
+    /// Whether the text could not even be read as TOML.
     pub syntax: bool,
 }
 
@@ -120,15 +121,15 @@ pub fn read(path: &Path) -> Result<Netlist, ReadError> {
     parse_file(path, &read_bytes(path)?).map_err(ReadError::Rejected)
 }
 
-/// Reads a netlist from the bytes of a file that was read; what it includes is looked for beside it.
+/// Reads a netlist from the bytes of a file that was read; what it includes, and its CSV files, are looked for beside it.
 ///
 /// # Errors
 /// [`Rejected`] with every problem.
 pub fn parse_file(path: &Path, bytes: &[u8]) -> Result<Netlist, Rejected> {
-    decode(&path.display().to_string(), bytes, Some(&mut included_bytes))
+    decode(&path.display().to_string(), bytes, Some(&mut read_named))
 }
 
-/// Reads a netlist from bytes that may not be text; `name` is what diagnostics call it. It cannot include files.
+/// Reads a netlist from bytes that may not be text; `name` is what diagnostics call it. It cannot name other files.
 ///
 /// # Errors
 /// [`Rejected`] with every problem.
@@ -153,7 +154,7 @@ fn decode(name: &str, bytes: &[u8], loader: Option<&mut Loader<'_>>) -> Result<N
     }
 }
 
-/// Reads a netlist from text; `name` is what diagnostics call it. It cannot include files.
+/// Reads a netlist from text; `name` is what diagnostics call it. It cannot name other files.
 ///
 /// # Errors
 /// [`Rejected`] with every problem.
@@ -161,7 +162,7 @@ pub fn parse(name: &str, text: &str) -> Result<Netlist, Rejected> {
     whole(name, text, None)
 }
 
-/// Reads a netlist from text; `loader` reads what it includes, by paths relative to that of `name`.
+/// Reads a netlist from text; `loader` reads what it includes and its CSV files, by paths relative to that of `name`.
 ///
 /// # Errors
 /// [`Rejected`] with every problem.
@@ -184,7 +185,7 @@ fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netl
     if !syntax {
         return included(files, raw, (Path::new(name), file), loader);
     }
-    let (_, found) = elaborate(&raw);
+    let (_, found) = elaborate(&raw, &CsvFiles::default());
     add_certain(&mut diagnostics, found, (&files, file));
     shorten(&mut diagnostics);
     Err(Rejected { files, diagnostics, syntax })
@@ -195,16 +196,17 @@ fn included(
     mut files: Files,
     raw: RawNetlist,
     main: (&Path, FileId),
-    loader: Option<&mut Loader<'_>>,
+    mut loader: Option<&mut Loader<'_>>,
 ) -> Result<Netlist, Rejected> {
     let Merged { raw, problems: mut diagnostics, incomplete, syntax } =
-        include::merge(&mut files, raw, main, loader);
+        include::merge(&mut files, raw, main, loader.as_deref_mut());
     if incomplete {
         arrange(&mut diagnostics);
         shorten(&mut diagnostics);
         return Err(Rejected { files, diagnostics, syntax });
     }
-    let (done, found) = elaborate(&raw);
+    let csv = CsvFiles::read(&mut files, &raw, loader);
+    let (done, found) = elaborate(&raw, &csv);
     let done = done.filter(|_| !include::any_error(&diagnostics));
     diagnostics.extend(found);
     arrange(&mut diagnostics);
@@ -276,6 +278,7 @@ fn rests_on_absence(code: &str) -> bool {
         "netlist::no_law",
         "netlist::unknown_node",
         "netlist::unknown_material",
+        "netlist::unknown_fluid",
         "netlist::no_property",
         "netlist::no_size",
         "netlist::no_bound",

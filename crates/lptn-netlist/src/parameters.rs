@@ -8,46 +8,64 @@ use lptn_units::{Quantity, Type};
 use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::Owner;
-use crate::names::section;
-use crate::raw::RawEntry;
+use crate::raw::{RawEntry, RawKind};
 use crate::value::{Place, Text, Wanted};
-use crate::vocabulary::PARAM;
+use crate::vocabulary::{PARAM, SIGNAL};
 
-/// A parameter before its names are resolved.
-struct Pending<'a> {
-    entry: &'a RawEntry,
-    owner: Owner,
-    /// `None` if it could not be read.
-    text: Option<Text>,
-    /// The parameters it uses, as positions in the file.
+/// A parameter or signal before its names are resolved.
+pub(crate) struct Pending<'a> {
+    pub(crate) entry: &'a RawEntry,
+    pub(crate) owner: Owner,
+    /// `None` if it could not be read, or is no expression.
+    pub(crate) text: Option<Text>,
+    /// Those of its kind that it uses, as positions in the file.
     uses: Vec<usize>,
 }
 
 impl<'a> Elaboration<'a> {
     /// Gives all parameters to the builder.
     pub(crate) fn parameters(&mut self) {
-        let mut pending = self.read();
-        let (order, cycles) = order(&pending);
-        for cycle in &cycles {
-            self.problems.push(describe_cycle(&pending, cycle));
-            for &member in cycle {
-                pending[member].text = None;
-            }
-        }
-        for i in order {
-            self.parameter(&mut pending[i]);
+        for mut pending in self.in_order((PARAM, "parameter"), "netlist::parameter_cycle") {
+            self.parameter(&mut pending);
         }
     }
 
-    fn read(&mut self) -> Vec<Pending<'a>> {
-        let entries = section(self.raw, PARAM).map_or(&[][..], |table| &table.entries);
+    /// The entries of a section so that each comes after those it uses; cycles are reported, and their members left
+    /// without text.
+    pub(crate) fn in_order(
+        &mut self,
+        (heading, kind): (&str, &'static str),
+        code: &'static str,
+    ) -> Vec<Pending<'a>> {
+        let entries = self.elements(heading);
         let positions: HashMap<&str, usize> =
             entries.iter().enumerate().map(|(i, entry)| (entry.key.as_str(), i)).collect();
-        entries.iter().map(|entry| self.pending(entry, &positions)).collect()
+        let mut pending: Vec<Option<Pending<'a>>> =
+            entries.iter().map(|entry| Some(self.pending(kind, entry, &positions))).collect();
+        let (order, cycles) = order(&pending);
+        for cycle in &cycles {
+            let members: Vec<&Pending<'_>> = cycle.iter().filter_map(|&i| pending[i].as_ref()).collect();
+            self.problems.push(describe_cycle(kind, code, &members));
+            for &member in cycle {
+                if let Some(pending) = &mut pending[member] {
+                    pending.text = None;
+                    self.names.fail(&pending.entry.key);
+                }
+            }
+        }
+        order.into_iter().filter_map(|i| pending[i].take()).collect()
     }
 
-    fn pending(&mut self, entry: &'a RawEntry, positions: &HashMap<&str, usize>) -> Pending<'a> {
-        let owner = Owner::element("parameter", &entry.key);
+    fn pending(
+        &mut self,
+        kind: &'static str,
+        entry: &'a RawEntry,
+        positions: &HashMap<&str, usize>,
+    ) -> Pending<'a> {
+        let owner = Owner::element(kind, &entry.key);
+        if let (RawKind::Table(_), true) = (&entry.value.kind, kind == SIGNAL.name) {
+            return Pending { entry, owner, text: None, uses: Vec::new() }; // its points are read later
+        }
         let place = Place { owner: &owner, key: "", raw: &entry.value };
         let text = match place.text(None, &self.names) {
             Ok(text) => Some(text),
@@ -68,8 +86,7 @@ impl<'a> Elaboration<'a> {
     fn parameter(&mut self, pending: &mut Pending<'_>) {
         let entry = pending.entry;
         let place = Place { owner: &pending.owner, key: "", raw: &entry.value };
-        let wanted = Wanted { ty: None, time: false, results: false };
-        let given = pending.text.take().and_then(|text| self.resolve(place, text, wanted));
+        let given = pending.text.take().and_then(|text| self.resolve(place, text, Wanted::parameter()));
         if given.is_none() {
             self.names.fail(&entry.key);
         }
@@ -82,7 +99,7 @@ impl<'a> Elaboration<'a> {
 }
 
 /// Positions so that each parameter comes after those it uses, otherwise in file order; and the cycles.
-fn order(pending: &[Pending<'_>]) -> (Vec<usize>, Vec<Vec<usize>>) {
+fn order(pending: &[Option<Pending<'_>>]) -> (Vec<usize>, Vec<Vec<usize>>) {
     let mut state = vec![State::New; pending.len()];
     let (mut order, mut cycles) = (Vec::with_capacity(pending.len()), Vec::new());
     for start in 0..pending.len() {
@@ -95,7 +112,7 @@ fn order(pending: &[Pending<'_>]) -> (Vec<usize>, Vec<Vec<usize>>) {
                 continue;
             }
             state[at] = State::Open;
-            let Some(&used) = pending[at].uses.get(*next) else {
+            let Some(&used) = pending[at].as_ref().and_then(|p| p.uses.get(*next)) else {
                 state[at] = State::Done;
                 order.push(at);
                 path.pop();
@@ -124,17 +141,17 @@ fn cycle(path: &[(usize, usize)], first: usize) -> Vec<usize> {
     path.iter().map(|(at, _)| *at).skip_while(|at| *at != first).collect()
 }
 
-fn describe_cycle(pending: &[Pending<'_>], cycle: &[usize]) -> Diagnostic {
-    let name = |i: &usize| format!("`{}`", pending[*i].entry.key);
+fn describe_cycle(kind: &str, code: &'static str, cycle: &[&Pending<'_>]) -> Diagnostic {
+    let name = |p: &&Pending<'_>| format!("`{}`", p.entry.key);
     let mut chain: Vec<String> = cycle.iter().map(name).collect();
     chain.extend(cycle.first().map(name));
     let message = match cycle {
-        [one] => format!("parameter {} is defined by itself", name(one)),
-        _ => format!("parameters are defined by each other: {}", chain.join(" -> ")),
+        [one] => format!("{kind} {} is defined by itself", name(one)),
+        _ => format!("{kind}s are defined by each other: {}", chain.join(" -> ")),
     };
-    let mut error = Diagnostic::error("netlist::parameter_cycle", message);
-    for (n, (&i, next)) in cycle.iter().zip(chain.iter().skip(1)).enumerate() {
-        let span = pending[i].entry.value.span.clone();
+    let mut error = Diagnostic::error(code, message);
+    for (n, (member, next)) in cycle.iter().zip(chain.iter().skip(1)).enumerate() {
+        let span = member.entry.value.span.clone();
         let text = format!("uses {next}");
         error = if n == 0 { error.at(span, text) } else { error.also(span, text) };
     }

@@ -1,6 +1,6 @@
 //! `[run]`: what to simulate.
 
-use lptn_network::{Evaluation, Network, OutputTimes, Value};
+use lptn_network::{AfterEnd, Evaluation, Network, OutputTimes, Value};
 use lptn_units::{Dimension, Type};
 
 use crate::diagnostic::Diagnostic;
@@ -9,7 +9,7 @@ use crate::fields::{Fields, Owner, sample, wrong_shape};
 use crate::file::Span;
 use crate::raw::{RawKind, RawValue};
 use crate::value::{Place, Wanted};
-use crate::vocabulary::{OUTPUT, RUN};
+use crate::vocabulary::{OUTPUT, RUN, SIGNAL};
 
 /// The tolerance in K of a run that does not say.
 const USUAL_TOLERANCE: f64 = 1e-5;
@@ -40,6 +40,8 @@ pub(crate) struct RunPlan {
     output: Option<OutputPlan>,
     tolerance: Option<Setting>,
     select: Vec<String>,
+    /// The signals that are used, with their places: they have to last as long as the run.
+    signals: Vec<(String, Span)>,
 }
 
 /// A value with its place.
@@ -69,7 +71,16 @@ impl<'a> Elaboration<'a> {
         let tolerance = self.optional(&fields, "tolerance", DIFFERENCE);
         let output = self.output(&fields);
         let select = fields.get("select").map_or_else(Vec::new, |raw| self.select(&fields, raw));
-        Some(RunPlan { start, stop: stop?, output, tolerance, select })
+        let signals = self.used_signals();
+        Some(RunPlan { start, stop: stop?, output, tolerance, select, signals })
+    }
+
+    /// The signals with points that something uses.
+    fn used_signals(&self) -> Vec<(String, Span)> {
+        let entries = self.elements(SIGNAL.name).iter();
+        let used =
+            entries.filter(|entry| self.names.is_used(&entry.key) && !self.names.has_failed(&entry.key));
+        used.map(|entry| (entry.key.clone(), entry.key_span.clone())).collect()
     }
 
     fn optional(&mut self, fields: &Fields<'a>, key: &str, ty: Type) -> Option<Setting> {
@@ -161,6 +172,9 @@ impl RunPlan {
         let stop = check.number(&self.stop);
         if check.problems.is_empty() && stop <= start {
             check.problems.push(ends_early(self, start, stop));
+        } else if check.problems.is_empty() {
+            let short = self.signals.iter().filter_map(|signal| self.short(network, signal, (start, stop)));
+            check.problems.extend(short);
         }
         let tolerance = self.tolerance.as_ref().map_or(USUAL_TOLERANCE, |t| check.positive(t));
         let output = check.output(self.output.as_ref(), (start, stop));
@@ -169,6 +183,36 @@ impl RunPlan {
         } else {
             Err(check.problems)
         }
+    }
+}
+
+impl RunPlan {
+    /// A signal that has no value during a part of the run.
+    fn short(
+        &self,
+        network: &Network,
+        (name, span): &(String, Span),
+        (start, stop): (f64, f64),
+    ) -> Option<Diagnostic> {
+        let course = &network.signals().iter().find(|signal| signal.name == *name)?.course;
+        let (first, last) = course.span();
+        // rounding does not count, as when it is read
+        let margin = 1e-9 * (last - first).max(first.abs().max(last.abs()) * 1e-3);
+        let problem =
+            |message: String| Diagnostic::error("netlist::signal_too_short", message).at(span.clone(), "");
+        if start < first - margin {
+            let message = format!("signal `{name}` begins at {first} s, but the run at {start} s");
+            let start = self.start.as_ref().unwrap_or(&self.stop).span.clone();
+            let help = format!("give it a point there, or begin the run later: `start = \"{first} s\"`");
+            return Some(problem(message).also(start, "the run").help(help));
+        }
+        if stop > last + margin && course.after() == AfterEnd::Error {
+            let message = format!("signal `{name}` ends at {last} s, but the run at {stop} s");
+            return Some(problem(message).also(self.stop.span.clone(), "the run ends here").help(
+                "write `after_end = \"hold\"` to keep its last value or `after_end = \"repeat\"`, or stop the run earlier",
+            ));
+        }
+        None
     }
 }
 

@@ -1,6 +1,6 @@
 //! `[size.NAME]`: a parameter to size, and what has to be kept.
 
-use lptn_network::{Evaluation, Network, Value};
+use lptn_network::{Context, Evaluation, Network, Value};
 use lptn_units::{Comparison, EvalError, Expression, Scope as _, Type, suggest};
 
 use crate::diagnostic::Diagnostic;
@@ -176,7 +176,7 @@ impl<'a> Elaboration<'a> {
         }
         let owner = fields.owner.inside("vary").inside(parameter);
         let range = Fields::of(&VARY, owner, entry, &mut self.problems)?;
-        let ty = self.builder.symbol(parameter)?.ty;
+        let ty = self.builder.scope(Context::Time).symbol(parameter)?.ty;
         let (from, to) = (self.range_end(&range, "from", ty), self.range_end(&range, "to", ty));
         Some((from?, to?))
     }

@@ -86,6 +86,9 @@ impl SourceMap {
             Item::Source(_) => "source",
             Item::Limit(_) => "limit",
             Item::Material(_) => "material",
+            Item::Fluid(_) => "fluid",
+            Item::Signal(_) => "signal",
+            Item::Table(_) => "table",
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lptn_network::{Input, Value};
+use lptn_network::{Context, Input, Value};
 use lptn_units::{
     Dimension, Expression, Program, Quantity, Type, UnitError, UnitErrorKind, Written, parse_quantity,
     parse_value,
@@ -56,30 +56,64 @@ pub(crate) enum Text {
 }
 
 /// What a field takes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Wanted {
     /// Its type; any for a parameter.
     pub(crate) ty: Option<Type>,
-    /// Whether it may depend on `t`.
+    /// Which temperatures it may name.
+    pub(crate) context: Context,
+    /// Whether it may depend on `t` and on signals.
     pub(crate) time: bool,
-    /// Whether it may name temperatures, `NAME.T`.
-    pub(crate) results: bool,
 }
 
 impl Wanted {
     /// A constant of this type.
     pub(crate) fn constant(ty: Type) -> Self {
-        Self { ty: Some(ty), time: false, results: false }
+        Self { ty: Some(ty), context: Context::Time, time: false }
     }
 
-    /// A function of time of this type.
-    pub(crate) fn in_time(ty: Type) -> Self {
-        Self { ty: Some(ty), time: true, results: false }
+    /// A constant of any type.
+    pub(crate) fn parameter() -> Self {
+        Self { ty: None, context: Context::Time, time: false }
+    }
+
+    /// A function of time.
+    pub(crate) fn in_time(ty: impl Into<Option<Type>>) -> Self {
+        Self { ty: ty.into(), context: Context::Time, time: true }
+    }
+
+    /// A constant of this type that may depend on the temperature `T` of what it belongs to.
+    pub(crate) fn own(ty: Type) -> Self {
+        Self { ty: Some(ty), context: Context::Own, time: false }
+    }
+
+    /// The heat of a source.
+    pub(crate) fn of_source(ty: Type) -> Self {
+        Self { ty: Some(ty), context: Context::Source, time: true }
+    }
+
+    /// A value of a path between two ends.
+    pub(crate) fn of_link(ty: impl Into<Option<Type>>) -> Self {
+        Self { ty: ty.into(), context: Context::Link, time: true }
     }
 
     /// Something that results determine.
     pub(crate) fn of_results() -> Self {
-        Self { ty: None, time: true, results: true }
+        Self { ty: None, context: Context::Result, time: true }
+    }
+
+    /// Whether it may name the temperature of any node or boundary, `NAME.T`.
+    pub(crate) fn names_nodes(self) -> bool {
+        matches!(self.context, Context::Source | Context::Link | Context::Result)
+    }
+
+    /// Whether this is a name of a temperature in this place.
+    pub(crate) fn is_local(self, name: &str) -> bool {
+        match self.context {
+            Context::Own | Context::Source => name == "T",
+            Context::Link => matches!(name, "T_from" | "T_to" | "T_mean" | "dT"),
+            Context::Time | Context::Result => false,
+        }
     }
 }
 
@@ -100,7 +134,7 @@ impl Place<'_> {
     /// Reads the text without resolving names.
     pub(crate) fn text(&self, ty: Option<Type>, names: &Names) -> Result<Text, Diagnostic> {
         match &self.raw.kind {
-            RawKind::String { text, .. } => match parse_value(text, ty, &|name| names.is_parameter(name)) {
+            RawKind::String { text, .. } => match parse_value(text, ty, &|name| names.is_value(name)) {
                 Ok(Written::Quantity(quantity)) => Ok(Text::Quantity(quantity)),
                 Ok(Written::Expression(expression)) => Ok(Text::Expression(expression)),
                 Err(error) => Err(self.unit_error(&error)),
@@ -152,6 +186,9 @@ impl Place<'_> {
                 if !fix.contains('[') && !self.key.is_empty() =>
             {
                 let unit = wanted.usual_unit();
+                if matches!(self.key, "x" | "y" | "t" | "v") {
+                    return Some(format!("give it in {unit}, for example `\"1 {unit}\"`"));
+                }
                 Some(format!("give it in {unit}, for example `{}`", sample(self.key)))
             }
             UnitErrorKind::NotFinite { text } if text.starts_with("inf") && self.key == "R" => {
@@ -187,15 +224,11 @@ impl Elaboration<'_> {
             self.problems.extend(problems);
             return None;
         }
-        if expression.names().iter().any(|(name, _)| self.names.has_failed(name)) {
+        let mut names = expression.names().into_iter().chain(expression.calls());
+        if names.any(|(name, _)| self.names.has_failed(&name)) {
             return None;
         }
-        let program = if wanted.results {
-            expression.compile(&self.builder.post_scope(), wanted.ty)
-        } else {
-            expression.compile(&self.builder, wanted.ty)
-        };
-        match program {
+        match expression.compile(&self.builder.scope(wanted.context), wanted.ty) {
             Ok(program) => {
                 let moments = expression.equalities("t").into_iter().filter(|_| wanted.time);
                 self.problems.extend(moments.map(|range| moment(place, place.raw.part(&range))));

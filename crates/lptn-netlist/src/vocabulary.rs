@@ -56,6 +56,7 @@ pub(crate) const RESISTOR: Section = Section {
     later: &[],
     example: "{ from = \"a\", to = \"b\", R = \"0.3 K/W\" }",
     elsewhere: &[
+        ("k", "a conductivity with a shape belongs in [conduction]"),
         ("h", "a film coefficient with an area belongs in [convection]"),
         ("area", "a film coefficient with an area belongs in [convection]"),
     ],
@@ -69,6 +70,104 @@ pub(crate) const CONVECTION: Section = Section {
     elsewhere: &[
         ("G", "a convection takes `R`, or `h` and `area`; a path given by `G` belongs in [resistor]"),
         ("A", "the area is `area`"),
+    ],
+};
+
+pub(crate) const CONDUCTION: Section = Section {
+    name: "conduction",
+    keys: &[
+        "from",
+        "to",
+        "material",
+        "k",
+        "shape",
+        "area",
+        "thickness",
+        "r_in",
+        "r_out",
+        "length",
+        "diameter",
+    ],
+    later: &[],
+    example: "{ from = \"a\", to = \"b\", k = \"46.6 W/(m K)\", shape = \"slab\", area = \"0.2 m^2\", thickness = \"5 mm\" }",
+    elsewhere: &[
+        ("lambda", "the thermal conductivity is `k`"),
+        ("A", "the area is `area`"),
+        ("L", "the length is `length`, the thickness of a slab `thickness`"),
+        ("R", "a path given by `R` belongs in [resistor]"),
+    ],
+};
+
+pub(crate) const CONTACT: Section = Section {
+    name: "contact",
+    keys: &["from", "to", "h", "area"],
+    later: &[],
+    example: "{ from = \"a\", to = \"b\", h = \"3000 W/(m^2 K)\", area = \"20 cm^2\" }",
+    elsewhere: &[
+        ("R", "a path given by `R` belongs in [resistor]"),
+        ("G", "a path given by `G` belongs in [resistor]"),
+        ("A", "the area is `area`"),
+    ],
+};
+
+pub(crate) const RADIATION: Section = Section {
+    name: "radiation",
+    keys: &["from", "to", "Gr", "emissivity", "area", "view_factor"],
+    later: &[],
+    example: "{ from = \"a\", to = \"walls\", emissivity = 0.8, area = \"0.2 m^2\" }",
+    elsewhere: &[
+        ("epsilon", "the emissivity is `emissivity`"),
+        ("F", "the view factor is `view_factor`"),
+        ("A", "the area is `area`"),
+        ("h", "a film coefficient with an area belongs in [convection]"),
+    ],
+};
+
+pub(crate) const ADVECTION: Section = Section {
+    name: "advection",
+    keys: &["from", "to", "mcp", "fluid", "flow", "flow_T"],
+    later: &[],
+    example: "{ from = \"inlet\", to = \"a\", mcp = \"50 W/K\" }",
+    elsewhere: &[
+        ("G", "the capacity rate of a stream is `mcp`"),
+        ("m", "the mass flow is `flow`, with its `fluid`"),
+        ("cp", "the specific heat belongs to the [fluid]; or give `mcp`, mass flow times specific heat"),
+    ],
+};
+
+pub(crate) const FLUID: Section = Section {
+    name: "fluid",
+    keys: &["density", "cp", "source"],
+    later: &["k", "viscosity"],
+    example: "{ density = \"870 kg/m^3\", cp = \"2000 J/(kg K)\" }",
+    elsewhere: &[
+        ("c", "the specific heat capacity is `cp`"),
+        ("rho", "the density is `density`"),
+        ("flow", "the flow belongs to the [advection] that carries the fluid"),
+    ],
+};
+
+/// A table of `[table]`, and a property over temperature.
+pub(crate) const TABLE: Section = Section {
+    name: "table",
+    keys: &["x", "y", "x_unit", "y_unit", "csv", "value", "interp", "outside"],
+    later: &[],
+    example: "{ x = [\"0 rpm\", \"5000 rpm\"], y = [\"0 W\", \"80 W\"] }",
+    elsewhere: &[
+        ("after_end", "outside its points a table has `outside = \"hold\"`"),
+        ("t", "values over time are a [signal]; the arguments of a table are `x`"),
+    ],
+};
+
+pub(crate) const SIGNAL: Section = Section {
+    name: "signal",
+    keys: &["t", "v", "t_unit", "v_unit", "csv", "time", "value", "interp", "after_end", "period"],
+    later: &[],
+    example: "{ t = [\"0 s\", \"60 s\"], v = [\"0 rpm\", \"5000 rpm\"] }",
+    elsewhere: &[
+        ("outside", "after its last point a signal has `after_end = \"hold\"` or `\"repeat\"`"),
+        ("x", "the times of a signal are `t`"),
+        ("y", "the values of a signal are `v`"),
     ],
 };
 
@@ -94,8 +193,8 @@ pub(crate) const LIMIT: Section = Section {
 
 pub(crate) const MATERIAL: Section = Section {
     name: "material",
-    keys: &["density", "cp", "k", "source"],
-    later: &["solidus", "liquidus", "latent_heat"],
+    keys: &["density", "cp", "k", "solidus", "liquidus", "latent_heat", "source"],
+    later: &[],
     example: "{ density = \"7850 kg/m^3\", cp = \"475 J/(kg K)\" }",
     elsewhere: &[
         ("c", "the specific heat capacity is `cp`"),
@@ -162,15 +261,22 @@ pub(crate) const TOP_KEYS: [&str; 4] = ["format", "title", "description", "inclu
 pub(crate) const PARAM: &str = "param";
 
 /// Every section there is.
-pub(crate) const SECTIONS: [&str; 12] = [
+pub(crate) const SECTIONS: [&str; 19] = [
     "param",
+    "table",
+    "signal",
     "default",
     "material",
+    "fluid",
     "node",
     "capacitor",
     "boundary",
     "resistor",
+    "conduction",
     "convection",
+    "contact",
+    "radiation",
+    "advection",
     "source",
     "limit",
     "run",
@@ -178,22 +284,7 @@ pub(crate) const SECTIONS: [&str; 12] = [
 ];
 
 /// What the format has for later.
-pub(crate) const SECTIONS_LATER: [&str; 14] = [
-    "table",
-    "signal",
-    "conduction",
-    "contact",
-    "radiation",
-    "advection",
-    "control",
-    "fluid",
-    "grid",
-    "template",
-    "use",
-    "import",
-    "sweep",
-    "fit",
-];
+pub(crate) const SECTIONS_LATER: [&str; 7] = ["control", "grid", "template", "use", "import", "sweep", "fit"];
 
 /// A netlist that runs.
 pub(crate) const MINIMAL: &str = "a small netlist that runs:\n\

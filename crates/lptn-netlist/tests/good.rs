@@ -23,7 +23,7 @@ fn close(found: f64, expected: f64) {
 
 fn conductance(netlist: &Netlist, name: &str) -> f64 {
     match netlist.network.item(name).unwrap() {
-        Item::Conductor(id) => netlist.network.conductance(id),
+        Item::Conductor(id) => netlist.network.conductance(id).unwrap(),
         other => panic!("{other:?}"),
     }
 }

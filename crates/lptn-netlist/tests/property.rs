@@ -5,10 +5,38 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use lptn_netlist::{Netlist, Rejected, Severity, parse, parse_bytes};
+use lptn_netlist::{Netlist, Rejected, Severity, parse, parse_bytes, parse_with};
 use proptest::prelude::*;
 
 const GEARBOX: &str = include_str!("good/gearbox.toml");
+
+/// Every element and every input.
+const ELEMENTS: &str = include_str!("good/elements.toml");
+
+/// Reads a netlist whose CSV files all hold these bytes.
+fn with_csv(text: &str, csv: &[u8]) -> Result<Netlist, Rejected> {
+    parse_with("elements.toml", text, &mut |_| Ok(csv.to_vec()))
+}
+
+/// Its CSV files as they are.
+fn with_files(text: &str) -> Result<Netlist, Rejected> {
+    parse_with("elements.toml", text, &mut |path| {
+        Ok(match path.to_str() {
+            Some("cycle.csv") => include_bytes!("good/cycle.csv").to_vec(),
+            Some("map.csv") => include_bytes!("good/map.csv").to_vec(),
+            Some("film.csv") => include_bytes!("good/film.csv").to_vec(),
+            _ => return Err(std::io::ErrorKind::NotFound.into()),
+        })
+    })
+}
+
+/// A table of one, of two arguments and a signal from one file.
+const ALL_FROM_CSV: &str = "format = 1\n[table]\na = { csv = \"d.csv\", x = \"x\", value = \"z\" }\n\
+     b = { csv = \"d.csv\", x = \"x\", y = \"y\", value = \"z\" }\n[signal]\n\
+     c = { csv = \"d.csv\", time = \"t\", value = \"z\" }\n\
+     [node]\nn = { C = \"1 J/K\", T0 = \"0 degC\" }\n";
+
+const CSV: &str = "x [rpm],y [N m],t [s],z [W]\n0,0,0,1\n0,1,1,2\n1,0,2,3\n1,1,3,5\n";
 
 fn check(result: Result<Netlist, Rejected>) -> Result<(), TestCaseError> {
     match result {
@@ -29,8 +57,9 @@ fn sound(netlist: &Netlist) -> Result<(), TestCaseError> {
         prop_assert!(node.massless || network.initial(id) >= 0.0);
     }
     for id in network.conductor_ids() {
-        let g = network.conductance(id);
-        prop_assert!(g.is_finite() && g > 0.0);
+        if let Some(g) = network.conductance(id) {
+            prop_assert!(g.is_finite() && g > 0.0);
+        }
         let conductor = &network.conductors()[id.index()];
         prop_assert_ne!(conductor.from, conductor.to);
     }
@@ -74,6 +103,15 @@ fn piece() -> impl Strategy<Value = String> {
         "#",
         "[node]\n",
         "[param]\nx = ",
+        "[signal]\n",
+        "[table]\n",
+        "into = { steel = 0.5 }",
+        "T_from",
+        "shape = \"rod\"",
+        "csv = \"map.csv\"",
+        "period = \"1 s\"",
+        "loss(",
+        "steel.T",
         "T0",
         "massless = true",
         "1e999",
@@ -109,6 +147,15 @@ fn piece() -> impl Strategy<Value = String> {
     prop_oneof![4 => known.prop_map(str::to_owned), 1 => "\\PC{0,3}".prop_map(|text| text)]
 }
 
+/// Pieces that mean something in a CSV file.
+fn csv_piece() -> impl Strategy<Value = String> {
+    let known = prop::sample::select(vec![
+        "", ",", ";", "\"", "\n", "\r\n", "\r", "#", "nan", "-0", "1e999", "-300", "[degC]", "[", "]", "x",
+        "\u{feff}", " ", "\n\n", "é",
+    ]);
+    prop_oneof![4 => known.prop_map(str::to_owned), 1 => "\\PC{0,3}".prop_map(|text| text)]
+}
+
 /// The text with a range replaced, on borders of characters.
 fn mutate(text: &str, (at, length, piece): &(usize, usize, String)) -> String {
     let letters: Vec<char> = text.chars().collect();
@@ -136,6 +183,28 @@ proptest! {
     fn a_mutated_gearbox(changes in prop::collection::vec((any::<usize>(), 0..12usize, piece()), 1..4)) {
         let text = changes.iter().fold(GEARBOX.to_owned(), |text, change| mutate(&text, change));
         check(parse("gearbox.toml", &text))?;
+    }
+
+    #[test]
+    fn mutated_elements(changes in prop::collection::vec((any::<usize>(), 0..12usize, piece()), 1..4)) {
+        let text = changes.iter().fold(ELEMENTS.to_owned(), |text, change| mutate(&text, change));
+        check(with_files(&text))?;
+    }
+
+    #[test]
+    fn any_bytes_as_csv(bytes in prop::collection::vec(any::<u8>(), 0..100)) {
+        check(with_csv(ALL_FROM_CSV, &bytes))?;
+    }
+
+    #[test]
+    fn a_mutated_csv(changes in prop::collection::vec((any::<usize>(), 0..6usize, csv_piece()), 1..4)) {
+        let text = changes.iter().fold(CSV.to_owned(), |text, change| mutate(&text, change));
+        check(with_csv(ALL_FROM_CSV, text.as_bytes()))?;
+    }
+
+    #[test]
+    fn lines_of_the_elements_in_any_order(order in Just(ELEMENTS.lines().collect::<Vec<_>>()).prop_shuffle()) {
+        check(with_files(&order.join("\n")))?;
     }
 
     #[test]

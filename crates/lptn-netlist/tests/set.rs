@@ -64,7 +64,7 @@ fn values_and_what_depends_on_them_change() {
     set(&mut netlist, &["omega=5000rpm", "share = 0.5"]).unwrap();
     assert!((power(&netlist) - 500.0).abs() < 1e-9);
     let Item::Conductor(cooling) = netlist.network.item("cooling").unwrap() else { panic!("a conductor") };
-    assert!((netlist.network.conductance(cooling) - 4.0).abs() < 1e-12);
+    assert!((netlist.network.conductance(cooling).unwrap() - 4.0).abs() < 1e-12);
 }
 
 #[test]

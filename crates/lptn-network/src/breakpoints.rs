@@ -1,54 +1,177 @@
-//! Times at which a comparison in an input changes: known beforehand, so that no step crosses them.
+//! Times at which an input bends or jumps: known beforehand, so that no step crosses them.
 
-use crate::input_error::{InputError, InputProblem};
-use crate::network::Network;
-use crate::value::{Evaluation, Value, slot};
 use lptn_units::{Degree, Program};
 
+use crate::error::BuildErrorKind;
+use crate::evaluation::Evaluation;
+use crate::id::{Field, Item};
+use crate::input_error::{InputError, InputProblem};
+use crate::layout::Holds;
+use crate::network::Network;
+use crate::parts::Parts;
+use crate::value::Value;
+
+/// Parts of a stretch in which a curve is looked at for a place where it bends.
+const LOOKS: u32 = 256;
+
+/// Halvings of the interval in which it does: to the rounding of the time.
+const BISECTIONS: usize = 60;
+
+/// A stretch of time without a point of a signal inside, from and to in s.
+type Stretch = (f64, f64);
+
 impl Network {
-    /// The times inside `(start, stop)` in s at which the truth of a comparison of `t` changes, ascending.
+    /// The times inside `(start, stop)` in s at which an input may bend or jump, ascending: points of signals,
+    /// changes of comparisons, kinks of `abs`, `min` and `max`, knots of tables.
     ///
-    /// A comparison is linear in `t` (the builder refuses others), so its two sides meet at most once.
+    /// A comparison goes straight between points of signals (the builder refuses others), so its two sides meet at
+    /// most once there. Kinks of curves are looked for in small steps.
+    ///
+    /// What has no value at some time is left to the run, which says so.
     ///
     /// # Errors
-    /// [`InputError`] if a side of a comparison cannot be evaluated.
+    /// None at present.
     pub fn breakpoints(&self, start: f64, stop: f64) -> Result<Vec<f64>, InputError> {
+        let mut times = self.bends(start, stop);
+        let mut ends = times.clone();
+        ends.insert(0, start);
+        ends.push(stop);
+        let stretches: Vec<Stretch> = ends.windows(2).map(|pair| (pair[0], pair[1])).collect();
         let mut scope = self.evaluation();
-        let mut times = Vec::new();
-        for (item, field, value) in self.inputs() {
-            let Value::Expression(program) = value else { continue };
-            for comparison in program.comparisons() {
-                let time = crossing(comparison, &mut scope, (start, stop)).map_err(|problem| InputError {
-                    item,
-                    field,
-                    name: self.name_of(item).to_owned(),
-                    problem,
-                })?;
-                times.extend(time);
+        for (_, _, value) in self.inputs() {
+            for difference in self.differences(value) {
+                for &stretch in &stretches {
+                    // what stands in a branch that is not taken may have no value there
+                    let _ = crossings(&difference, &mut scope, stretch, &mut times);
+                }
             }
         }
-        times.sort_unstable_by(f64::total_cmp);
-        // two that differ by rounding only are one
-        let margin = margin(start, stop);
-        times.dedup_by(|a, b| (*a - *b).abs() <= margin);
+        tidy(&mut times, start, stop);
         Ok(times)
+    }
+
+    /// Points of the signals that are used.
+    fn bends(&self, start: f64, stop: f64) -> Vec<f64> {
+        let signals = self.parts.layout.signals();
+        let mut used = vec![false; signals.len()];
+        for slot in self.inputs().flat_map(|(_, _, value)| value.slots()) {
+            if let Holds::Signal(id) | Holds::FrozenSignal(id) = self.parts.layout.holds(slot) {
+                used[id.index()] = true;
+            }
+        }
+        let mut times = Vec::new();
+        let used = signals.iter().zip(used).filter(|(_, used)| *used);
+        for (signal, _) in used.filter(|(s, _)| s.course.is_straight()) {
+            signal.course.bends(start, stop, &mut times);
+        }
+        tidy(&mut times, start, stop);
+        times
+    }
+
+    /// Differences whose roots in time are where a value bends or jumps.
+    fn differences(&self, value: &Value) -> Vec<Difference> {
+        let mut differences = Vec::new();
+        for program in value.programs() {
+            let plain = program.comparisons().iter().chain(program.kinks());
+            differences.extend(plain.map(|p| Difference::new(p, vec![0.0])));
+            for call in program.table_calls() {
+                let axes = (0..call.table.dimension()).map(|axis| call.table.knots(axis));
+                let pairs = call.arguments.iter().zip(axes);
+                differences.extend(pairs.map(|(argument, knots)| Difference::new(argument, knots.to_vec())));
+            }
+        }
+        let parts = &self.parts;
+        differences.iter_mut().for_each(|d| d.degree = parts.course_of(&d.program));
+        let of_time = |d: &Difference| {
+            let value = Value::Expression(d.program.clone().into());
+            d.degree > Degree::Constant && !parts.reads(&value).reads_results()
+        };
+        differences.retain(of_time);
+        differences
+    }
+
+    /// How a value goes over time between [`Network::breakpoints`], temperatures held.
+    pub fn course(&self, value: &Value) -> Degree {
+        self.parts.course(value)
+    }
+
+    /// The inputs whose course over time is not known to be a straight line between breakpoints, as functions of
+    /// time: an integrator has to look at them often enough to see what they do.
+    pub fn curved_inputs(&self) -> impl Iterator<Item = &Value> {
+        let values = self.inputs().map(|(_, _, value)| value);
+        values.filter(|value| {
+            !self.parts.reads(value).reads_results() && self.parts.course(value) == Degree::Nonlinear
+        })
     }
 }
 
-/// Where a difference that is linear in time is zero strictly inside the interval.
-fn crossing(
-    difference: &Program,
-    scope: &mut Evaluation,
-    (start, stop): (f64, f64),
-) -> Result<Option<f64>, InputProblem> {
-    if difference.degree_in(slot::TIME) == Degree::Constant {
-        return Ok(None);
+/// A program with the values at which something happens, and how it goes over time.
+struct Difference {
+    program: Program,
+    knots: Vec<f64>,
+    degree: Degree,
+}
+
+impl Difference {
+    fn new(program: &Program, knots: Vec<f64>) -> Self {
+        Self { program: program.clone(), knots, degree: Degree::Constant }
     }
-    let at_start = scope.evaluate(difference, start).map_err(InputProblem::Evaluation)?;
-    let at_stop = scope.evaluate(difference, stop).map_err(InputProblem::Evaluation)?;
-    let time = start + (stop - start) * (at_start / (at_start - at_stop));
+}
+
+/// Adds the times strictly inside a stretch at which a program takes the value of a knot.
+fn crossings(
+    difference: &Difference,
+    scope: &mut Evaluation,
+    (from, to): Stretch,
+    times: &mut Vec<f64>,
+) -> Result<(), InputProblem> {
+    let middle = 0.5 * (from + to);
+    let mut at = |time: f64| {
+        let value = scope.evaluate(&difference.program, time, middle);
+        value.map_err(InputProblem::from)
+    };
+    let looks = if difference.degree == Degree::Nonlinear { LOOKS } else { 1 };
+    let place = |k: u32| if k == looks { to } else { from + (to - from) * f64::from(k) / f64::from(looks) };
+    let mut left = (from, at(from)?);
+    for k in 1..=looks {
+        let right = (place(k), at(place(k))?);
+        let (low, high) = (left.1.min(right.1), left.1.max(right.1));
+        for &knot in difference.knots.iter().filter(|knot| (low..=high).contains(*knot)) {
+            if left.1.to_bits() == right.1.to_bits() {
+                continue;
+            }
+            let straight = left.0 + (right.0 - left.0) * ((knot - left.1) / (right.1 - left.1));
+            times.push(if looks == 1 { straight } else { bisect(&mut at, knot, left, right)? });
+        }
+        left = right;
+    }
+    Ok(())
+}
+
+fn bisect(
+    at: &mut dyn FnMut(f64) -> Result<f64, InputProblem>,
+    knot: f64,
+    mut left: (f64, f64),
+    mut right: (f64, f64),
+) -> Result<f64, InputProblem> {
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (left.0 + right.0);
+        let value = at(middle)?;
+        if (value - knot) * (right.1 - knot) > 0.0 {
+            right = (middle, value);
+        } else {
+            left = (middle, value);
+        }
+    }
+    Ok(0.5 * (left.0 + right.0))
+}
+
+/// Sorts times, keeps those inside, and makes two that differ by rounding only one.
+fn tidy(times: &mut Vec<f64>, start: f64, stop: f64) {
     let margin = margin(start, stop);
-    Ok((time > start + margin && time < stop - margin).then_some(time))
+    times.retain(|&time| time > start + margin && time < stop - margin);
+    times.sort_unstable_by(f64::total_cmp);
+    times.dedup_by(|a, b| (*a - *b).abs() <= margin);
 }
 
 /// Times closer than this are one: rounding, and what no step could be taken between.
@@ -56,14 +179,57 @@ fn margin(start: f64, stop: f64) -> f64 {
     (1e-12 * (stop - start)).max(64.0 * f64::EPSILON * start.abs().max(stop.abs()))
 }
 
-impl Network {
-    /// The inputs whose course over time is not known to be a straight line between breakpoints, as functions of
-    /// time: an integrator has to look at them often enough to see what they do.
-    pub fn curved_inputs(&self) -> impl Iterator<Item = &Value> {
-        let curved = |value: &&Value| match value {
-            Value::Constant(_) | Value::Product(_) => false,
-            Value::Expression(program) => program.degree_in(slot::TIME) == Degree::Nonlinear,
+impl Parts {
+    /// How a value goes over time between the points of the signals it reads; temperatures held.
+    pub(crate) fn course(&self, value: &Value) -> Degree {
+        let mut factors = value.programs().into_iter().map(|program| self.course_of(program));
+        let first = factors.next().unwrap_or(Degree::Constant);
+        // a product of two that vary is not a straight line
+        factors.fold(first, |a, b| if a.min(b) > Degree::Constant { Degree::Nonlinear } else { a.max(b) })
+    }
+
+    fn course_of(&self, program: &Program) -> Degree {
+        let mut worst = Degree::Constant;
+        let mut varying = 0;
+        for slot in program.slots() {
+            let own = match self.layout.holds(slot) {
+                Holds::Time => Degree::Affine,
+                Holds::Signal(id) if self.layout.signals()[id.index()].course.is_straight() => Degree::Affine,
+                Holds::Signal(_) => Degree::Nonlinear,
+                _ => continue,
+            };
+            varying += 1;
+            worst = worst.max(own.max(program.degree_in(slot)));
+        }
+        // each straight by itself, but perhaps multiplied: the form of the code does not tell
+        if varying > 1 { Degree::Nonlinear } else { worst }
+    }
+
+    /// Why a comparison cannot be used: it compares a temperature, or its change is not known beforehand.
+    pub(crate) fn comparison_problem(
+        &self,
+        comparison: &Program,
+        item: Item,
+        field: Field,
+    ) -> Option<BuildErrorKind> {
+        let value = Value::Expression(comparison.clone().into());
+        if self.reads(&value).reads_results() {
+            return Some(BuildErrorKind::ComparesTemperature { item, field });
+        }
+        let single = comparison.slots().into_iter().filter(|&s| match self.layout.holds(s) {
+            Holds::Signal(id) => self.layout.signals()[id.index()].course.is_monotone(),
+            _ => false,
+        });
+        let known = match (self.course(&value), single.count()) {
+            (Degree::Constant | Degree::Affine, _) => true,
+            // one curve that goes one way between its points
+            (Degree::Nonlinear, 1) => {
+                let affine = |s: &u32| comparison.degree_in(*s) <= Degree::Affine;
+                let varying = |s: &u32| matches!(self.layout.holds(*s), Holds::Time | Holds::Signal(_));
+                comparison.slots().iter().filter(|s| varying(s)).all(affine)
+            }
+            _ => false,
         };
-        self.inputs().map(|(_, _, value)| value).filter(curved)
+        (!known).then_some(BuildErrorKind::ComparisonNotLinear { item, field })
     }
 }

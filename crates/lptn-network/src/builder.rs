@@ -1,18 +1,25 @@
 //! Builds a network and checks that it is one.
 
-use lptn_units::{Dimension, Expression, Program, RESERVED, Scope, Symbol, Type, UnitError};
+use std::sync::Arc;
+
+use lptn_units::{Dimension, Expression, Program, RESERVED, TableSymbol, Type, UnitError};
 
 use crate::check;
-use crate::element::{Boundary, Capacitor, Conductor, ConductorKind, Law, Node, Parameter, Source};
+use crate::element::{Boundary, Capacitor, Conductor, ConductorKind, Node, Parameter, Source};
 use crate::error::{BuildError, BuildErrorKind, BuildErrors};
 use crate::id::{
-    BoundaryId, CapacitorId, ConductorId, End, Field, Item, LimitId, NodeId, ParameterId, SourceId,
+    BoundaryId, CapacitorId, ConductorId, End, Field, Item, LimitId, NodeId, ParameterId, SourceId, TableId,
 };
-use crate::limit::{Bound, Limit, PostScope, Severity};
+use crate::law::{Exchange, Law, Shape, Stream};
+use crate::limit::{Bound, Limit, Severity};
 use crate::network::Network;
 use crate::numbers::Numbers;
 use crate::parts::Parts;
+use crate::scope::{Context, NetworkScope};
 use crate::value::{Input, Value};
+
+/// How far the shares of a source may be from a sum of 1.
+const SHARES: f64 = 1e-9;
 
 const CAPACITY: Type = Type::of(Dimension::CAPACITY);
 
@@ -23,8 +30,14 @@ pub enum Path {
     Resistance(Input),
     /// Thermal conductance.
     Conductance(Input),
-    /// Film coefficient and area.
+    /// Film coefficient and area, of a wetted surface or a contact.
     Film(Input, Input),
+    /// Thermal conductivity, and the shape of the body.
+    Conduction(Input, Shape<Input>),
+    /// Two surfaces that see each other.
+    Radiation(Exchange<Input>),
+    /// A stream.
+    Advection(Stream<Input>),
 }
 
 impl From<crate::typed::Resistance> for Path {
@@ -44,8 +57,6 @@ impl From<crate::typed::Conductance> for Path {
 pub struct NetworkBuilder {
     pub(crate) parts: Parts,
     errors: Vec<BuildError>,
-    /// The numbers of parameters and nodes on which the first expression of results rests.
-    shape: Option<(usize, usize)>,
 }
 
 impl NetworkBuilder {
@@ -64,11 +75,9 @@ impl NetworkBuilder {
         let Input { value, ty, deviation, .. } = value.into();
         let id = ParameterId::from_len(self.parts.parameters.len());
         self.parts.parameters.push(Parameter { name: name.to_owned(), ty, value, deviation });
-        self.check_name(name, Item::Parameter(id));
-        match self.parts.parameter_names.get(name) {
-            Some(&first) => self.duplicate(name, Item::Parameter(first), Item::Parameter(id)),
-            None => drop(self.parts.parameter_names.insert(name.to_owned(), id)),
-        }
+        Arc::make_mut(&mut self.parts.layout).add_parameter(id);
+        self.parts.parameter_names.entry(name.to_owned()).or_insert(id);
+        self.register_value(name, Item::Parameter(id));
         id
     }
 
@@ -101,6 +110,7 @@ impl NetworkBuilder {
         let capacity = capacity.map(|c| self.typed(at(Field::Capacity), c, CAPACITY));
         let initial = initial.map(|t| self.typed(at(Field::Initial), t, Type::ABSOLUTE_TEMPERATURE));
         self.parts.nodes.push(Node { name: name.to_owned(), capacity, lump, initial, massless });
+        Arc::make_mut(&mut self.parts.layout).add_node(id);
         self.register(name, Item::Node(id));
         id
     }
@@ -124,6 +134,7 @@ impl NetworkBuilder {
         let at = (name, Item::Boundary(id), Field::Temperature);
         let temperature = self.typed(at, temperature.into(), Type::ABSOLUTE_TEMPERATURE);
         self.parts.boundaries.push(Boundary { name: name.to_owned(), temperature });
+        Arc::make_mut(&mut self.parts.layout).add_boundary(id);
         self.register(name, Item::Boundary(id));
         id
     }
@@ -183,24 +194,64 @@ impl NetworkBuilder {
                 NodeId(0)
             }
         };
-        self.parts.sources.push(Source { name: name.to_owned(), into: node, power });
+        self.parts.sources.push(Source { name: name.to_owned(), into: vec![(node, 1.0)], power });
         self.register(name, Item::Source(id));
         id
     }
 
-    /// Compiles an expression over the parameters added so far and `t`.
+    /// Adds a source whose heat is shared between nodes; the shares have to sum to 1.
+    pub fn shared_source(&mut self, name: &str, into: &[(NodeId, f64)], power: impl Into<Input>) -> SourceId {
+        let id = SourceId::from_len(self.parts.sources.len());
+        let at = (name, Item::Source(id), Field::Power);
+        let power = self.typed(at, power.into(), Type::of(Dimension::POWER));
+        into.iter().for_each(|&(node, _)| self.check_end(name, Item::Source(id), node.into()));
+        let sum: f64 = into.iter().map(|(_, share)| share).sum();
+        let usable = into.iter().all(|(_, share)| share.is_finite() && *share >= 0.0);
+        if !(usable && (sum - 1.0).abs() <= SHARES) {
+            self.error(name, BuildErrorKind::Shares { source: id, sum });
+        }
+        self.parts.sources.push(Source { name: name.to_owned(), into: into.to_vec(), power });
+        self.register(name, Item::Source(id));
+        id
+    }
+
+    /// Adds a table that expressions added afterwards may call by its name.
+    pub fn table(&mut self, name: &str, table: TableSymbol) -> TableId {
+        let id = TableId::from_len(self.parts.tables.len());
+        self.parts.tables.push((name.to_owned(), table));
+        self.register_value(name, Item::Table(id));
+        id
+    }
+
+    /// The names that an expression may use in this place.
+    pub fn scope(&self, context: Context) -> NetworkScope<'_> {
+        NetworkScope::new(&self.parts, context)
+    }
+
+    /// Compiles an expression for this place over what was added so far.
+    ///
+    /// # Errors
+    /// Every problem of the text: syntax, unknown names, dimensions.
+    pub fn expression_in(
+        &self,
+        context: Context,
+        text: &str,
+        expected: Option<Type>,
+    ) -> Result<Program, Vec<UnitError>> {
+        Expression::parse(text).map_err(|e| vec![e])?.compile(&self.scope(context), expected)
+    }
+
+    /// Compiles an expression over the parameters, signals and tables added so far and `t`.
     ///
     /// # Errors
     /// Every problem of the text: syntax, unknown names, dimensions.
     pub fn expression(&self, text: &str, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
-        Expression::parse(text).map_err(|e| vec![e])?.compile(self, expected)
+        self.expression_in(Context::Time, text, expected)
     }
 
-    /// The names that expressions of results may use. Add what they may name first: a parameter or node that is
-    /// added later would move the places of those before it, and [`NetworkBuilder::build`] refuses it.
-    pub fn post_scope(&mut self) -> PostScope<'_> {
-        self.shape.get_or_insert(self.parts.shape());
-        PostScope::new(&self.parts)
+    /// The names that expressions of results may use.
+    pub fn post_scope(&self) -> NetworkScope<'_> {
+        self.scope(Context::Result)
     }
 
     /// Compiles an expression over the parameters, `t` and the temperatures `NAME.T` of the nodes and boundaries
@@ -208,8 +259,8 @@ impl NetworkBuilder {
     ///
     /// # Errors
     /// Every problem of the text: syntax, unknown names, dimensions.
-    pub fn post_expression(&mut self, text: &str, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
-        Expression::parse(text).map_err(|e| vec![e])?.compile(&self.post_scope(), expected)
+    pub fn post_expression(&self, text: &str, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
+        self.expression_in(Context::Result, text, expected)
     }
 
     /// Adds a limit: `of`, written as `text`, has to stay below or above a value of the same type, which is
@@ -239,13 +290,9 @@ impl NetworkBuilder {
             return Err(BuildErrors(self.errors)); // nothing else can be looked up
         }
         check::structure(&self.parts, &mut self.errors);
-        if self.shape.is_some_and(|shape| shape != self.parts.shape()) {
-            self.error("", BuildErrorKind::PartAfterLimit);
-        }
+        self.parts.settle();
         match Numbers::evaluate(&self.parts, &[]) {
-            Ok(numbers) if self.errors.is_empty() => {
-                Ok(Network { parts: std::sync::Arc::new(self.parts), numbers })
-            }
+            Ok(numbers) if self.errors.is_empty() => Ok(Network { parts: Arc::new(self.parts), numbers }),
             Ok(_) => Err(BuildErrors(self.errors)),
             Err(more) => {
                 self.errors.extend(more);
@@ -268,6 +315,20 @@ impl NetworkBuilder {
                 coefficient: self.typed(at(Field::FilmCoefficient), h, of(Dimension::FILM_COEFFICIENT)),
                 area: self.typed(at(Field::Area), area, of(Dimension::AREA)),
             },
+            Path::Conduction(k, shape) => Law::Conduction {
+                conductivity: self.typed(at(Field::Conductivity), k, of(Dimension::CONDUCTIVITY)),
+                shape: shape.map(|field, value| self.typed(at(field), value, type_of(field))),
+            },
+            Path::Radiation(exchange) => {
+                Law::Radiation(exchange.map(|field, value| self.typed(at(field), value, type_of(field))))
+            }
+            Path::Advection(stream) => {
+                let volume = matches!(stream, Stream::Volume { .. });
+                Law::Advection(stream.map(|field, value| {
+                    let ty = if volume && field == Field::Flow { VOLUME_FLOW } else { type_of(field) };
+                    self.typed(at(field), value, ty)
+                }))
+            }
         }
     }
 
@@ -288,6 +349,14 @@ impl NetworkBuilder {
         match self.parts.names.get(name) {
             Some(&first) => self.duplicate(name, first, item),
             None => drop(self.parts.names.insert(name.to_owned(), item)),
+        }
+    }
+
+    pub(crate) fn register_value(&mut self, name: &str, item: Item) {
+        self.check_name(name, item);
+        match self.parts.value_names.get(name) {
+            Some(&first) => self.duplicate(name, first, item),
+            None => drop(self.parts.value_names.insert(name.to_owned(), item)),
         }
     }
 
@@ -314,17 +383,23 @@ impl NetworkBuilder {
         self.error(name, BuildErrorKind::DuplicateName { first, second });
     }
 
-    fn error(&mut self, name: &str, kind: BuildErrorKind) {
+    pub(crate) fn error(&mut self, name: &str, kind: BuildErrorKind) {
         self.errors.push(BuildError { kind, name: name.to_owned() });
     }
 }
 
-impl Scope for NetworkBuilder {
-    fn symbol(&self, name: &str) -> Option<Symbol> {
-        self.parts.symbol(name)
-    }
+/// A mass flow in kg/s and a volume flow in m^3/s.
+const MASS_FLOW: Type = Type::of(Dimension::MASS_FLOW);
+const VOLUME_FLOW: Type = Type::of(Dimension::VOLUME_FLOW);
 
-    fn names(&self) -> Vec<String> {
-        self.parts.value_names()
+/// The type of a field of a shape, an exchange or a stream; a flow is a mass flow.
+fn type_of(field: Field) -> Type {
+    match field {
+        Field::Area | Field::Exchange => Type::of(Dimension::AREA),
+        Field::Emissivity | Field::ViewFactor => Type::SCALAR,
+        Field::StreamCapacity => Type::of(Dimension::CONDUCTANCE),
+        Field::Flow => MASS_FLOW,
+        Field::FlowTemperature => Type::ABSOLUTE_TEMPERATURE,
+        _ => Type::of(Dimension::LENGTH),
     }
 }

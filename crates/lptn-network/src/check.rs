@@ -5,7 +5,8 @@ use crate::id::{End, NodeId};
 use crate::parts::Parts;
 
 pub(crate) fn structure(parts: &Parts, errors: &mut Vec<BuildError>) {
-    if parts.nodes.is_empty() {
+    // two boundaries with a path between them are a network: nothing is sought but the heat that passes
+    if parts.nodes.is_empty() && parts.conductors.is_empty() {
         errors.push(BuildError { kind: BuildErrorKind::Empty, name: String::new() });
     }
     let stores = stores_heat(parts);

@@ -1,10 +1,11 @@
 //! The parts of a network, as the builder takes them.
 
-use lptn_units::{EvalError, Type};
+use lptn_units::Type;
 
 use crate::id::{End, NodeId};
+use crate::law::Law;
 use crate::material::Lump;
-use crate::value::{Evaluation, Value};
+use crate::value::Value;
 
 /// A named value that expressions may use.
 #[derive(Clone, Debug)]
@@ -24,7 +25,7 @@ pub struct Parameter {
 pub struct Node {
     /// Its name.
     pub name: String,
-    /// Its own heat capacity in J/K; capacitors add to it.
+    /// Its own heat capacity in J/K, which may depend on its temperature; capacitors add to it.
     pub capacity: Option<Value>,
     /// The lump that its own capacity was computed from.
     pub lump: Option<Lump>,
@@ -41,7 +42,7 @@ pub struct Capacitor {
     pub name: String,
     /// The node it belongs to.
     pub node: NodeId,
-    /// Its heat capacity in J/K.
+    /// Its heat capacity in J/K; may depend on the node's temperature.
     pub capacity: Value,
     /// The lump that its capacity was computed from.
     pub lump: Option<Lump>,
@@ -61,38 +62,16 @@ pub struct Boundary {
 pub enum ConductorKind {
     /// `[resistor]`: a path given by its resistance or conductance.
     Resistor,
+    /// `[conduction]`: a body of simple shape.
+    Conduction,
     /// `[convection]`: a wetted surface.
     Convection,
-}
-
-/// How a conductor carries heat. Heat flow is `G (T_from - T_to)` in W, positive from `from` to `to`.
-#[derive(Clone, Debug)]
-pub enum Law {
-    /// `G = 1/R`, R in K/W.
-    Resistance(Value),
-    /// `G` in W/K.
-    Conductance(Value),
-    /// `G = h A`: Newton's law of cooling with a film coefficient h in W/(m^2 K) and an area A in m^2.
-    Film {
-        /// Film coefficient.
-        coefficient: Value,
-        /// Wetted area.
-        area: Value,
-    },
-}
-
-impl Law {
-    /// The conductance in W/K where `scope` stands.
-    ///
-    /// # Errors
-    /// What the evaluation of an expression reports.
-    pub fn conductance(&self, scope: &mut Evaluation) -> Result<f64, EvalError> {
-        Ok(match self {
-            Self::Resistance(resistance) => resistance.at(scope)?.recip(),
-            Self::Conductance(conductance) => conductance.at(scope)?,
-            Self::Film { coefficient, area } => coefficient.at(scope)? * area.at(scope)?,
-        })
-    }
+    /// `[contact]`: an interface between two bodies.
+    Contact,
+    /// `[radiation]`: two surfaces that see each other.
+    Radiation,
+    /// `[advection]`: a stream.
+    Advection,
 }
 
 /// A path that carries heat between two ends. Parallel conductors add.
@@ -115,8 +94,8 @@ pub struct Conductor {
 pub struct Source {
     /// Its name.
     pub name: String,
-    /// The node it heats.
-    pub into: NodeId,
-    /// Its heat in W, positive into the node; may depend on time.
+    /// The nodes it heats, with the share of each; the shares sum to 1.
+    pub into: Vec<(NodeId, f64)>,
+    /// Its heat in W, positive into the nodes; may depend on time and on temperatures.
     pub power: Value,
 }

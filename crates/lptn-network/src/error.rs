@@ -4,8 +4,7 @@ use std::fmt;
 
 use lptn_units::{EvalError, Type};
 
-use crate::id::{ConductorId, Field, Item, NodeId, SourceId};
-use crate::names::list_of_names;
+use crate::id::{ConductorId, Field, FluidId, Item, NodeId, SignalId, SourceId};
 
 /// All problems found while a network was built; never empty.
 #[derive(Clone, Debug)]
@@ -113,6 +112,75 @@ pub enum BuildErrorKind {
         /// Its field.
         field: Field,
     },
+    /// A comparison of a temperature: when it changes is not known beforehand, and events are not built yet.
+    ComparesTemperature {
+        /// The item.
+        item: Item,
+        /// Its field.
+        field: Field,
+    },
+    /// An emissivity or view factor that is not above 0 and at most 1.
+    NotAFraction {
+        /// The item.
+        item: Item,
+        /// Its field.
+        field: Field,
+        /// The value.
+        value: f64,
+    },
+    /// An outer radius that is not larger than the inner one.
+    Radii {
+        /// The conductor.
+        item: Item,
+        /// Inner radius in m.
+        inner: f64,
+        /// Outer radius in m.
+        outer: f64,
+    },
+    /// A liquidus below the solidus.
+    Melting {
+        /// The material.
+        item: Item,
+        /// Solidus in K.
+        solidus: f64,
+        /// Liquidus in K.
+        liquidus: f64,
+    },
+    /// Shares of a source that are negative or do not sum to 1.
+    Shares {
+        /// The source.
+        source: SourceId,
+        /// Their sum.
+        sum: f64,
+    },
+    /// A source of several nodes whose heat depends on `T`, which could be any of theirs.
+    WhichTemperature {
+        /// The source.
+        source: SourceId,
+    },
+    /// A capacity that is not known and positive at the start of its node.
+    CapacityUnknown {
+        /// The node.
+        node: NodeId,
+        /// Its start in K.
+        temperature: f64,
+    },
+    /// A property of a fluid that is not known and positive where it is needed.
+    FluidUnknown {
+        /// The fluid.
+        fluid: FluidId,
+        /// The property.
+        field: Field,
+    },
+    /// A period that ends before the last point of its signal.
+    PeriodTooShort {
+        /// The signal.
+        signal: SignalId,
+        /// The period in s.
+        period: f64,
+        /// From the first to the last point in s.
+        span: f64,
+    },
     /// An expression that could not be evaluated.
     Evaluation {
         /// The item.
@@ -161,9 +229,7 @@ pub enum BuildErrorKind {
     },
     /// Parameters of another network.
     ForeignParameters,
-    /// A parameter or node that was added after an expression of results had been compiled.
-    PartAfterLimit,
-    /// A network without any node.
+    /// A network without any node, and without a path between boundaries.
     Empty,
 }
 
@@ -182,6 +248,15 @@ impl BuildError {
             K::DependsOnTime { .. } => "network::depends_on_time",
             K::DependsOnResult { .. } => "network::depends_on_result",
             K::ComparisonNotLinear { .. } => "network::comparison_not_linear",
+            K::ComparesTemperature { .. } => "network::compares_temperature",
+            K::NotAFraction { .. } => "network::not_a_fraction",
+            K::Radii { .. } => "network::radii",
+            K::Melting { .. } => "network::melting",
+            K::Shares { .. } => "network::shares",
+            K::WhichTemperature { .. } => "network::which_temperature",
+            K::CapacityUnknown { .. } => "network::capacity_unknown",
+            K::FluidUnknown { .. } => "network::fluid_unknown",
+            K::PeriodTooShort { .. } => "network::period_too_short",
             K::Evaluation { error, .. } => error.code(),
             K::SelfLink { .. } => "network::self_link",
             K::SourceIntoBoundary { .. } => "network::source_into_boundary",
@@ -191,7 +266,6 @@ impl BuildError {
             K::FloatingIsland { .. } => "network::floating_island",
             K::ForeignId { .. } => "network::foreign_id",
             K::ForeignParameters => "network::foreign_parameters",
-            K::PartAfterLimit => "network::part_after_limit",
             K::Empty => "network::empty",
         }
     }
@@ -210,7 +284,16 @@ impl BuildError {
             | K::DependsOnTime { item, field }
             | K::DependsOnResult { item, field }
             | K::ComparisonNotLinear { item, field }
+            | K::ComparesTemperature { item, field }
+            | K::NotAFraction { item, field, .. }
             | K::Evaluation { item, field, .. } => (item, field),
+            K::Radii { item, .. } => (item, Field::OuterRadius),
+            K::Melting { item, .. } => (item, Field::Liquidus),
+            K::Shares { source, .. } => (Item::Source(source), Field::Into),
+            K::WhichTemperature { source } => (Item::Source(source), Field::Power),
+            K::CapacityUnknown { node, .. } => (Item::Node(node), Field::Capacity),
+            K::FluidUnknown { fluid, field } => (Item::Fluid(fluid), field),
+            K::PeriodTooShort { signal, .. } => (Item::Signal(signal), Field::Period),
             K::SelfLink { conductor } => (Item::Conductor(conductor), Field::To),
             K::SourceIntoBoundary { source } => (Item::Source(source), Field::Into),
             K::NoCapacity { node } | K::MasslessWithCapacity { node } | K::NoInitialTemperature { node } => {
@@ -218,89 +301,7 @@ impl BuildError {
             }
             K::FloatingIsland { ref nodes, .. } => (Item::Node(*nodes.first()?), Field::Name),
             K::ForeignId { item } => (item, Field::Name),
-            K::ForeignParameters | K::PartAfterLimit | K::Empty => return None,
+            K::ForeignParameters | K::Empty => return None,
         })
-    }
-
-    /// What to do about it, in words that can be pasted where possible.
-    pub fn help(&self) -> Option<String> {
-        use BuildErrorKind as K;
-        let name = &self.name;
-        Some(match &self.kind {
-            K::NoCapacity { .. } => format!(
-                "give it a capacity, `{name} = {{ C = \"500 J/K\" }}`, or declare it a junction, \
-                 `{name} = {{ massless = true }}`"
-            ),
-            K::MasslessWithCapacity { .. } => "remove `massless = true`, or the capacity".into(),
-            K::NoInitialTemperature { .. } => {
-                "add `T0 = \"25 degC\"` to the node, or to [default] for every node".into()
-            }
-            K::FloatingIsland { .. } => {
-                "connect one of them to a boundary, or give one of them a capacity".into()
-            }
-            K::SelfLink { .. } => "a path leads from one node to another: name two different ends".into(),
-            K::SourceIntoBoundary { .. } => {
-                "a boundary keeps its temperature whatever flows in: name a node".into()
-            }
-            K::DependsOnTime { .. } => "only a source's `P` and a boundary's `T` may depend on `t`".into(),
-            K::DependsOnResult { .. } => {
-                "only what a limit limits may depend on temperatures: write the difference there".into()
-            }
-            K::ComparisonNotLinear { .. } => {
-                "compare `t` itself, for example `if(t < 300 [s], 0 [W], 100 [W])`".into()
-            }
-            K::PartAfterLimit => "add limits last".into(),
-            K::BadName { .. } => "use letters, digits and `_`, not a digit first".into(),
-            K::ReservedName { .. } => format!("choose another name, for example `{name}_1`"),
-            _ => return None,
-        })
-    }
-}
-
-impl fmt::Display for BuildError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        use BuildErrorKind as K;
-        let name = &self.name;
-        match &self.kind {
-            K::DuplicateName { .. } => write!(f, "the name `{name}` is taken twice"),
-            K::BadName { .. } => write!(f, "`{name}` is not a name"),
-            K::ReservedName { .. } => write!(f, "`{name}` has a meaning of its own in expressions"),
-            K::WrongType { field, wanted, found, .. } => {
-                write!(f, "`{}` of `{name}` must be {wanted}, got {found}", field.key())
-            }
-            K::NotPositive { field, value, .. } => {
-                write!(f, "`{}` of `{name}` must be finite and more than zero, got {value}", field.key())
-            }
-            K::NotFinite { field, value, .. } => {
-                write!(f, "`{}` of `{name}` must be finite, got {value}", field.key())
-            }
-            K::BelowAbsoluteZero { field, value, .. } => {
-                write!(f, "`{}` of `{name}` is below absolute zero: {value} K", field.key())
-            }
-            K::DependsOnTime { field, .. } => {
-                write!(f, "`{}` of `{name}` has to be constant, but depends on `t`", field.key())
-            }
-            K::DependsOnResult { field, .. } => {
-                write!(f, "`{}` of `{name}` depends on the temperature of a node or boundary", field.key())
-            }
-            K::ComparisonNotLinear { field, .. } => {
-                write!(f, "`{}` of `{name}` compares something that is not linear in `t`", field.key())
-            }
-            K::Evaluation { field, error, .. } => write!(f, "`{}` of `{name}`: {error}", field.key()),
-            K::SelfLink { .. } => write!(f, "`{name}` leads from a node to itself"),
-            K::SourceIntoBoundary { .. } => write!(f, "`{name}` heats a boundary"),
-            K::NoCapacity { .. } => write!(f, "node `{name}` has no capacity"),
-            K::MasslessWithCapacity { .. } => write!(f, "node `{name}` is massless but has a capacity"),
-            K::NoInitialTemperature { .. } => write!(f, "node `{name}` has no temperature at the start"),
-            K::FloatingIsland { names, .. } => write!(
-                f,
-                "the temperature of {} is not determined: no boundary and no capacity is connected",
-                list_of_names(names)
-            ),
-            K::ForeignId { .. } => write!(f, "`{name}` is joined to something of another network"),
-            K::ForeignParameters => f.write_str("the parameters are those of another network"),
-            K::PartAfterLimit => f.write_str("a parameter or node was added after a limit"),
-            K::Empty => f.write_str("the network has no node"),
-        }
     }
 }

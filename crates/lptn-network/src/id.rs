@@ -36,6 +36,12 @@ ids! {
     LimitId;
     /// A material.
     MaterialId;
+    /// A fluid.
+    FluidId;
+    /// A signal of `[signal]`.
+    SignalId;
+    /// A table of `[table]`.
+    TableId;
 }
 
 /// One end of a conductor.
@@ -78,6 +84,12 @@ pub enum Item {
     Limit(LimitId),
     /// A material.
     Material(MaterialId),
+    /// A fluid.
+    Fluid(FluidId),
+    /// A signal.
+    Signal(SignalId),
+    /// A table.
+    Table(TableId),
 }
 
 impl From<End> for Item {
@@ -136,6 +148,38 @@ pub enum Field {
     SpecificHeat,
     /// Thermal conductivity of a material.
     Conductivity,
+    /// Emissivity of a radiating exchange.
+    Emissivity,
+    /// View factor of a radiating exchange.
+    ViewFactor,
+    /// Exchange area of a radiating exchange.
+    Exchange,
+    /// Thickness of a slab.
+    Thickness,
+    /// Inner radius of a tube or hollow sphere.
+    InnerRadius,
+    /// Outer radius of a tube or hollow sphere.
+    OuterRadius,
+    /// Length of a tube or bar.
+    Length,
+    /// Diameter of a bar.
+    Diameter,
+    /// Capacity rate of a stream.
+    StreamCapacity,
+    /// Flow of a stream.
+    Flow,
+    /// Temperature at which a volume flow is measured.
+    FlowTemperature,
+    /// Fluid of a stream.
+    Fluid,
+    /// Temperature at which a material begins to melt.
+    Solidus,
+    /// Temperature at which a material is molten.
+    Liquidus,
+    /// Latent heat of melting of a material.
+    LatentHeat,
+    /// Period of a signal.
+    Period,
 }
 
 impl Field {
@@ -164,6 +208,22 @@ impl Field {
             Self::Density => "density",
             Self::SpecificHeat => "cp",
             Self::Conductivity => "k",
+            Self::Emissivity => "emissivity",
+            Self::ViewFactor => "view_factor",
+            Self::Exchange => "Gr",
+            Self::Thickness => "thickness",
+            Self::InnerRadius => "r_in",
+            Self::OuterRadius => "r_out",
+            Self::Length => "length",
+            Self::Diameter => "diameter",
+            Self::StreamCapacity => "mcp",
+            Self::Flow => "flow",
+            Self::FlowTemperature => "flow_T",
+            Self::Fluid => "fluid",
+            Self::Solidus => "solidus",
+            Self::Liquidus => "liquidus",
+            Self::LatentHeat => "latent_heat",
+            Self::Period => "period",
         }
     }
 }

@@ -27,7 +27,62 @@ pub enum InputProblem {
     /// A temperature below 0 K.
     BelowAbsoluteZero(f64),
     /// The expression could not be evaluated.
-    Evaluation(EvalError),
+    Evaluation(Box<EvalError>),
+    /// A conductance below 0 W/K.
+    NegativeConductance(f64),
+    /// A signal was read before its first point.
+    BeforeSignal {
+        /// The time in s.
+        time: f64,
+        /// The first point in s.
+        first: f64,
+    },
+    /// A signal was read after its last point.
+    AfterSignal {
+        /// The time in s.
+        time: f64,
+        /// The last point in s.
+        last: f64,
+    },
+    /// A volume flow of a fluid whose density is not known.
+    NoDensity,
+    /// A fluid outside the temperatures for which its specific heat is known and positive.
+    OutsideFluid {
+        /// The temperature in K.
+        temperature: f64,
+        /// The temperatures it is known for, in K.
+        range: (f64, f64),
+    },
+    /// A node outside the temperatures for which its capacity is known and positive.
+    OutsideCapacity {
+        /// The temperatures it is known for, in K.
+        range: (f64, f64),
+    },
+}
+
+impl From<EvalError> for InputProblem {
+    fn from(error: EvalError) -> Self {
+        Self::Evaluation(Box::new(error))
+    }
+}
+
+impl InputProblem {
+    /// What to do about it.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Evaluation(error) => error.help().map(str::to_owned),
+            Self::AfterSignal { .. } => Some(
+                "write `after_end = \"hold\"` or `after_end = \"repeat\"` in the signal, or stop the run there"
+                    .into(),
+            ),
+            Self::BeforeSignal { first, .. } => {
+                Some(format!("begin the signal earlier, or the run at `start = \"{first} s\"`"))
+            }
+            Self::NegativeConductance(_) => Some("keep it positive: `max(x, 0 [W/K])` with its own unit".into()),
+            Self::NoDensity => Some("add `density` to the fluid, or give a mass flow".into()),
+            _ => None,
+        }
+    }
 }
 
 impl fmt::Display for InputError {
@@ -37,6 +92,22 @@ impl fmt::Display for InputError {
             InputProblem::NotFinite(value) => write!(f, "is {value}"),
             InputProblem::BelowAbsoluteZero(value) => write!(f, "is below absolute zero: {value} K"),
             InputProblem::Evaluation(error) => write!(f, "cannot be evaluated: {error}"),
+            InputProblem::NegativeConductance(value) => {
+                write!(f, "makes a negative conductance: {value} W/K")
+            }
+            InputProblem::BeforeSignal { time, first } => {
+                write!(f, "is not known at {time} s: its first point is at {first} s")
+            }
+            InputProblem::AfterSignal { time, last } => {
+                write!(f, "is not known at {time} s: its last point is at {last} s")
+            }
+            InputProblem::NoDensity => f.write_str("has no density, which a volume flow needs"),
+            InputProblem::OutsideFluid { temperature, range: (from, to) } => {
+                write!(f, "is asked for at {temperature} K, but is known from {from} to {to} K only")
+            }
+            InputProblem::OutsideCapacity { range: (from, to) } => {
+                write!(f, "is left by the temperature: it is known and positive from {from} to {to} K only")
+            }
         }
     }
 }

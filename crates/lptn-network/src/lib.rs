@@ -9,10 +9,18 @@
 mod breakpoints;
 mod builder;
 mod check;
+mod dependence;
 mod element;
+mod enthalpy;
 mod error;
+mod error_text;
+mod evaluation;
+mod flow;
+mod fluid;
 mod id;
 mod input_error;
+mod law;
+mod layout;
 mod limit;
 mod material;
 mod names;
@@ -21,24 +29,37 @@ mod numbers;
 mod output;
 mod parameters;
 mod parts;
+mod scope;
+mod signal;
+mod stream;
+mod thermal;
 mod typed;
 mod value;
 
 pub use builder::{NetworkBuilder, Path};
-pub use element::{Boundary, Capacitor, Conductor, ConductorKind, Law, Node, Parameter, Source};
+pub use element::{Boundary, Capacitor, Conductor, ConductorKind, Node, Parameter, Source};
+pub use enthalpy::{Content, Enthalpy};
 pub use error::{BuildError, BuildErrorKind, BuildErrors};
+pub use evaluation::Evaluation;
+pub use flow::{Flow, Received};
+pub use fluid::Fluid;
 pub use id::{
-    BoundaryId, CapacitorId, ConductorId, End, Field, Item, LimitId, MaterialId, NodeId, ParameterId,
-    SourceId,
+    BoundaryId, CapacitorId, ConductorId, End, Field, FluidId, Item, LimitId, MaterialId, NodeId,
+    ParameterId, SignalId, SourceId, TableId,
 };
 pub use input_error::{InputError, InputProblem};
-pub use limit::{Bound, Limit, PostScope, Severity};
-pub use material::{Lump, Material, Properties, Size};
+pub use law::{Emissivity, Exchange, Law, Shape, Stream};
+pub use layout::slot;
+pub use limit::{Bound, Limit, Severity};
+pub use material::{Lump, Material, Melting, Properties, Size};
 pub use names::{UnknownName, list_of_names};
 pub use network::Network;
 pub use output::OutputTimes;
 pub use parameters::{ParameterError, Parameters};
+pub use scope::{Context, NetworkScope};
+pub use signal::{AfterEnd, Course, Join, Signal};
+pub use stream::Passing;
 pub use typed::{
     Area, Conductance, FilmCoefficient, HeatCapacity, HeatFlow, Resistance, Temperature, Time, ZERO_CELSIUS,
 };
-pub use value::{Evaluation, Input, Value, slot};
+pub use value::{Input, Value};

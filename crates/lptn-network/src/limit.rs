@@ -1,12 +1,13 @@
 //! Limits: what the results of a network have to keep.
 
-use lptn_units::{Dimension, Scope, Symbol, Type};
+use lptn_units::Type;
 
+use crate::evaluation::Evaluation;
 use crate::id::{Field, Item, LimitId};
 use crate::input_error::{InputError, InputProblem};
 use crate::network::Network;
-use crate::parts::Parts;
-use crate::value::{Evaluation, Value, slot};
+use crate::scope::{Context, NetworkScope};
+use crate::value::Value;
 
 /// The side on which a limited quantity has to stay.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,82 +98,17 @@ impl Network {
         value: &Value,
         at: &mut Evaluation,
     ) -> Result<f64, InputError> {
-        let failed = |problem| InputError { item, field, name: self.name_of(item).to_owned(), problem };
         match value.at(at) {
             Ok(x) if x.is_finite() => Ok(x),
-            Ok(x) => Err(failed(InputProblem::NotFinite(x))),
-            Err(error) => Err(failed(InputProblem::Evaluation(error))),
+            Ok(x) => Err(self.failed(item, (field, InputProblem::NotFinite(x)), at)),
+            Err(error) => Err(self.failed(item, (field, error.into()), at)),
         }
     }
 
     /// The names that expressions of results may use: parameters, `t`, and `NAME.T` of every node and boundary.
     /// What is compiled against it is evaluated in [`Network::evaluation`] after
     /// [`Evaluation::set_temperatures`].
-    pub fn post_scope(&self) -> PostScope<'_> {
-        PostScope { parts: &self.parts }
-    }
-}
-
-/// The names that expressions of results may use.
-#[derive(Clone, Copy, Debug)]
-pub struct PostScope<'a> {
-    parts: &'a Parts,
-}
-
-impl<'a> PostScope<'a> {
-    pub(crate) fn new(parts: &'a Parts) -> Self {
-        Self { parts }
-    }
-
-    /// The slot of a temperature: nodes follow the parameters, boundaries the nodes.
-    fn temperature(&self, name: &str) -> Option<u32> {
-        let nodes = slot::PARAMETERS as usize + self.parts.parameters.len();
-        let position = match self.parts.names.get(name)? {
-            Item::Node(id) => nodes + id.index(),
-            Item::Boundary(id) => nodes + self.parts.nodes.len() + id.index(),
-            _ => return None,
-        };
-        u32::try_from(position).ok()
-    }
-}
-
-impl Scope for PostScope<'_> {
-    fn symbol(&self, name: &str) -> Option<Symbol> {
-        if let Some(name) = name.strip_suffix(".T") {
-            let slot = self.temperature(name)?;
-            return Some(Symbol { slot, ty: Type::ABSOLUTE_TEMPERATURE, in_comparison: None });
-        }
-        self.parts.symbol(name)
-    }
-
-    fn names(&self) -> Vec<String> {
-        let nodes = self.parts.nodes.iter().map(|node| &node.name);
-        let boundaries = self.parts.boundaries.iter().map(|boundary| &boundary.name);
-        let mut names = self.parts.value_names();
-        names.extend(nodes.chain(boundaries).map(|name| format!("{name}.T")));
-        names
-    }
-}
-
-impl Parts {
-    /// What a value of an element may use: the parameters and `t`.
-    pub(crate) fn symbol(&self, name: &str) -> Option<Symbol> {
-        if name == "t" {
-            let ty = Type::of(Dimension::TIME);
-            return Some(Symbol { slot: slot::TIME, ty, in_comparison: Some(slot::SEGMENT) });
-        }
-        let id = *self.parameter_names.get(name)?;
-        let ty = self.parameters[id.index()].ty;
-        Some(Symbol { slot: slot::PARAMETERS + id.0, ty, in_comparison: None })
-    }
-
-    pub(crate) fn value_names(&self) -> Vec<String> {
-        let parameters = self.parameters.iter().map(|p| p.name.clone());
-        parameters.chain(["t".to_owned()]).collect()
-    }
-
-    /// What the slots of an expression of results depend on.
-    pub(crate) fn shape(&self) -> (usize, usize) {
-        (self.parameters.len(), self.nodes.len())
+    pub fn post_scope(&self) -> NetworkScope<'_> {
+        NetworkScope::new(&self.parts, Context::Result)
     }
 }

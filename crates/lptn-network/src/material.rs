@@ -18,6 +18,8 @@ pub struct Material {
     pub cp: Option<Value>,
     /// Thermal conductivity in W/(m K).
     pub k: Option<Value>,
+    /// How it melts.
+    pub melting: Option<Melting>,
     /// Where the numbers come from.
     pub source: Option<String>,
 }
@@ -31,8 +33,21 @@ pub struct Properties {
     pub cp: Option<Input>,
     /// Thermal conductivity.
     pub k: Option<Input>,
+    /// How it melts.
+    pub melting: Option<Melting<Input>>,
     /// Where the numbers come from.
     pub source: Option<String>,
+}
+
+/// A change of phase: latent heat, taken up evenly from the solidus to the liquidus.
+#[derive(Clone, Debug)]
+pub struct Melting<T = Value> {
+    /// Absolute temperature in K at which melting begins.
+    pub solidus: T,
+    /// Absolute temperature in K at which all is molten; not below the solidus, and equal to it for a pure substance.
+    pub liquidus: T,
+    /// Latent heat in J/kg.
+    pub heat: T,
 }
 
 /// How much of a material there is.
@@ -72,10 +87,26 @@ impl NetworkBuilder {
         let density = value(Field::Density, properties.density, Dimension::DENSITY);
         let cp = value(Field::SpecificHeat, properties.cp, Dimension::SPECIFIC_HEAT);
         let k = value(Field::Conductivity, properties.k, Dimension::CONDUCTIVITY);
-        let material = Material { name: name.to_owned(), density, cp, k, source: properties.source };
+        let melting = properties.melting.map(|m| {
+            let mut value = |field, input, ty| self.typed((name, Item::Material(id), field), input, ty);
+            Melting {
+                solidus: value(Field::Solidus, m.solidus, Type::ABSOLUTE_TEMPERATURE),
+                liquidus: value(Field::Liquidus, m.liquidus, Type::ABSOLUTE_TEMPERATURE),
+                heat: value(Field::LatentHeat, m.heat, LATENT_HEAT),
+            }
+        });
+        let source = properties.source;
+        let material = Material { name: name.to_owned(), density, cp, k, melting, source };
         self.parts.materials.push(material);
         self.check_name(name, Item::Material(id));
         id
+    }
+
+    /// The conductivity of a material, for [`Path::Conduction`](crate::Path::Conduction); it may depend on the
+    /// temperature, which is then the mean of the ends.
+    pub fn conductivity(&self, material: MaterialId) -> Option<Input> {
+        let value = self.parts.materials[material.index()].k.clone()?;
+        Some(Input { value, ty: Type::of(Dimension::CONDUCTIVITY), deviation: None, lump: None })
     }
 
     /// The capacity of a lump, `mass cp` or `volume density cp`, for a node or capacitor; `None` if the material
@@ -98,6 +129,9 @@ impl NetworkBuilder {
         Some(Input { value, ty, deviation: None, lump: Some(Lump { material, size }) })
     }
 }
+
+/// J/kg.
+const LATENT_HEAT: Type = Type::of(Dimension::SPECIFIC_ENERGY);
 
 fn product(ty: Type, dimension: Dimension) -> Option<Type> {
     ty.dimension.checked_mul(dimension).map(Type::of)

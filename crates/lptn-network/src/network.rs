@@ -4,13 +4,15 @@ use std::sync::Arc;
 
 use crate::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
 use crate::error::{BuildError, BuildErrorKind, BuildErrors};
+use crate::evaluation::Evaluation;
+use crate::flow::Flow;
 use crate::id::{BoundaryId, CapacitorId, ConductorId, Field, Item, NodeId, ParameterId, SourceId};
 use crate::input_error::{InputError, InputProblem};
 use crate::names::UnknownName;
 use crate::numbers::Numbers;
 use crate::parameters::Parameters;
 use crate::parts::Parts;
-use crate::value::{Evaluation, Value};
+use crate::value::Value;
 
 /// A thermal network: nodes, boundaries, the paths between them and the heat put in.
 ///
@@ -132,7 +134,8 @@ impl Network {
         self.numbers.parameters[id.index()]
     }
 
-    /// Heat capacity of a node with all its parts, in J/K; 0 for a massless node.
+    /// Heat capacity of a node with all its parts at its start, in J/K; 0 for a massless node. See
+    /// [`Network::enthalpy`] for one that depends on temperature.
     pub fn capacity(&self, id: NodeId) -> f64 {
         self.numbers.capacity[id.index()]
     }
@@ -142,9 +145,22 @@ impl Network {
         self.numbers.initial[id.index()]
     }
 
-    /// Conductance of a conductor in W/K.
-    pub fn conductance(&self, id: ConductorId) -> f64 {
-        self.numbers.conductance[id.index()]
+    /// Conductance of a conductor in W/K; `None` if it is not constant.
+    pub fn conductance(&self, id: ConductorId) -> Option<f64> {
+        match self.flow(id) {
+            Flow::Conductance(conductance) => Some(conductance),
+            Flow::Radiation(_) | Flow::Stream(_) | Flow::Variable => None,
+        }
+    }
+
+    /// The slot that expressions read a parameter from.
+    pub fn parameter_slot(&self, id: ParameterId) -> u32 {
+        self.parts.layout.parameter(id)
+    }
+
+    /// The slot that expressions read a signal from; comparisons read the next one.
+    pub fn signal_slot(&self, id: crate::SignalId) -> u32 {
+        self.parts.layout.signal(id)
     }
 
     /// The parameters to change for [`Network::with`]; nothing is changed yet.
@@ -167,7 +183,7 @@ impl Network {
 
     /// A place to evaluate this network's inputs; it stands at time 0.
     pub fn evaluation(&self) -> Evaluation {
-        Evaluation::new(&self.numbers.parameters)
+        Evaluation::new(&self.parts.layout, &self.numbers.parameters)
     }
 
     /// Writes the temperature of every boundary in K.
@@ -182,12 +198,15 @@ impl Network {
         Ok(())
     }
 
-    /// Writes the heat of every source in W.
+    /// Writes the heat of every source in W that does not depend on a temperature; the others are left alone.
     ///
     /// # Errors
     /// [`InputError`] if an expression fails or gives no number.
     pub fn source_powers(&self, scope: &mut Evaluation, out: &mut [f64]) -> Result<(), InputError> {
         for (id, value) in self.source_ids().zip(out) {
+            if !self.source_variables(id).is_empty() {
+                continue;
+            }
             let power = &self.sources()[id.index()].power;
             *value = self.input(Item::Source(id), Field::Power, power, scope)?;
         }
@@ -195,15 +214,13 @@ impl Network {
     }
 
     fn input(&self, item: Item, field: Field, value: &Value, at: &mut Evaluation) -> Result<f64, InputError> {
-        let failed = |problem| InputError { item, field, name: self.name_of(item).to_owned(), problem };
-        match value.at(at) {
-            Ok(x) if !x.is_finite() => Err(failed(InputProblem::NotFinite(x))),
-            Ok(x) if field == Field::Temperature && x < 0.0 => {
-                Err(failed(InputProblem::BelowAbsoluteZero(x)))
-            }
-            Ok(x) => Ok(x),
-            Err(error) => Err(failed(InputProblem::Evaluation(error))),
-        }
+        let problem = match value.at(at) {
+            Ok(x) if !x.is_finite() => InputProblem::NotFinite(x),
+            Ok(x) if field == Field::Temperature && x < 0.0 => InputProblem::BelowAbsoluteZero(x),
+            Ok(x) => return Ok(x),
+            Err(error) => error.into(),
+        };
+        Err(self.failed(item, (field, problem), at))
     }
 
     /// The name of an item.
@@ -211,9 +228,24 @@ impl Network {
         self.parts.name_of(item)
     }
 
-    /// Whether any source or boundary changes with time.
+    /// Whether any source, boundary or conductor changes with time by itself.
     pub fn has_time_dependent_inputs(&self) -> bool {
-        self.inputs().any(|(_, _, value)| value.depends_on_time())
+        self.inputs().any(|(_, _, value)| self.depends_on_time(value))
+    }
+
+    /// Whether a value changes with time by itself.
+    pub fn depends_on_time(&self, value: &Value) -> bool {
+        self.parts.reads(value).time
+    }
+
+    /// The first item that makes the network more than constant capacities, constant conductances and heat that
+    /// depends on time only.
+    pub fn first_nonlinear(&self) -> Option<Item> {
+        let conductor = self.conductor_ids().find(|id| self.conductance(*id).is_none());
+        let source = self.source_ids().find(|id| !self.source_variables(*id).is_empty());
+        let node = self.node_ids().find(|id| self.enthalpy(*id).is_some());
+        let items = [conductor.map(Item::Conductor), source.map(Item::Source), node.map(Item::Node)];
+        items.into_iter().flatten().next()
     }
 
     /// Every value that may depend on time.

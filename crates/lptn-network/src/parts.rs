@@ -1,11 +1,18 @@
 //! What a network is made of, before any number is computed from it.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
+use lptn_units::TableSymbol;
+
+use crate::dependence::Dependence;
 use crate::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
-use crate::id::{BoundaryId, Field, Item, ParameterId, SourceId};
+use crate::fluid::Fluid;
+use crate::id::{BoundaryId, ConductorId, Field, Item, ParameterId, SignalId, SourceId};
+use crate::layout::Layout;
 use crate::limit::Limit;
 use crate::material::Material;
+use crate::signal::Course;
 use crate::value::Value;
 
 /// Everything that does not change when a parameter does.
@@ -20,9 +27,20 @@ pub(crate) struct Parts {
     pub(crate) sources: Vec<Source>,
     pub(crate) limits: Vec<Limit>,
     pub(crate) materials: Vec<Material>,
+    pub(crate) fluids: Vec<Fluid>,
+    /// Tables by name, in the order of addition.
+    pub(crate) tables: Vec<(String, TableSymbol)>,
+    /// The signals are here, with the slots of everything that expressions may name.
+    pub(crate) layout: Arc<Layout>,
+    /// For each conductor that is no constant: the temperatures it depends on.
+    pub(crate) conductor_dependence: Vec<Dependence>,
+    /// For each source the temperatures it depends on.
+    pub(crate) source_dependence: Vec<Dependence>,
     /// Nodes, boundaries and elements share one name space.
     pub(crate) names: HashMap<String, Item>,
     pub(crate) parameter_names: HashMap<String, ParameterId>,
+    /// Parameters, signals and tables share another.
+    pub(crate) value_names: HashMap<String, Item>,
 }
 
 impl Parts {
@@ -36,14 +54,29 @@ impl Parts {
             Item::Source(id) => &self.sources[id.index()].name,
             Item::Limit(id) => &self.limits[id.index()].name,
             Item::Material(id) => &self.materials[id.index()].name,
+            Item::Fluid(id) => &self.fluids[id.index()].name,
+            Item::Signal(id) => &self.layout.signals()[id.index()].name,
+            Item::Table(id) => &self.tables[id.index()].0,
         }
     }
 
+    /// Every value that may depend on time: temperatures of boundaries, heat of sources, values of conductors, and
+    /// signals that are expressions.
     pub(crate) fn inputs(&self) -> impl Iterator<Item = (Item, Field, &Value)> {
         let boundaries = self.boundaries.iter().enumerate();
         let sources = self.sources.iter().enumerate();
+        let conductors = self.conductors.iter().enumerate();
+        let signals = self.layout.signals().iter().enumerate();
         boundaries
             .map(|(i, b)| (Item::Boundary(BoundaryId::from_len(i)), Field::Temperature, &b.temperature))
             .chain(sources.map(|(i, s)| (Item::Source(SourceId::from_len(i)), Field::Power, &s.power)))
+            .chain(conductors.flat_map(|(i, c)| {
+                let item = Item::Conductor(ConductorId::from_len(i));
+                c.law.parts().into_iter().map(move |(field, value)| (item, field, value))
+            }))
+            .chain(signals.filter_map(|(i, s)| match &s.course {
+                Course::Expression(value) => Some((Item::Signal(SignalId::from_len(i)), Field::Value, value)),
+                _ => None,
+            }))
     }
 }

@@ -1,29 +1,17 @@
-//! Values of elements: a constant, or a compiled expression over parameters and time.
+//! Values of elements: a constant, or a compiled expression.
 
 use std::sync::Arc;
 
-use lptn_units::{EvalError, Program, Quantity, Type};
+use lptn_units::{EvalError, Program, Quantity, Scalar, Type};
 
 use crate::material::Lump;
-
-/// Slots that every expression of a network shares; parameters follow at [`slot::PARAMETERS`], then, for
-/// expressions of results, the temperatures of the nodes and of the boundaries.
-pub mod slot {
-    /// The run's time `t` in s.
-    pub const TIME: u32 = 0;
-    /// The time that comparisons see: a point inside the present segment. The truth of a comparison of `t`
-    /// thus never changes while a step is being computed; the segments end where it does change.
-    pub const SEGMENT: u32 = 1;
-    /// The first parameter.
-    pub const PARAMETERS: u32 = 2;
-}
 
 /// The value of one field in SI units.
 #[derive(Clone, Debug)]
 pub enum Value {
     /// A number in SI units; an absolute temperature in K.
     Constant(f64),
-    /// An expression over the slots of [`slot`].
+    /// An expression over the slots of [`slot`](crate::slot).
     Expression(Arc<Program>),
     /// A product of values, such as a mass and a specific heat.
     Product(Arc<[Value]>),
@@ -34,37 +22,37 @@ impl Value {
     ///
     /// # Errors
     /// What the expression's evaluation reports, such as a negative base under a non-integer exponent.
-    pub fn at(&self, scope: &mut Evaluation) -> Result<f64, EvalError> {
+    pub fn at(&self, scope: &mut crate::Evaluation) -> Result<f64, EvalError> {
+        let (slots, stack) = scope.plain();
+        self.on(slots, stack)
+    }
+
+    /// The value for these slots, on numbers or on dual numbers.
+    pub(crate) fn on<S: Scalar>(&self, slots: &[S], stack: &mut Vec<S>) -> Result<S, EvalError> {
         match self {
-            Self::Constant(value) => Ok(*value),
-            Self::Expression(program) => program.eval(&scope.slots, &mut scope.stack),
-            Self::Product(factors) => factors.iter().try_fold(1.0, |product, f| Ok(product * f.at(scope)?)),
+            Self::Constant(value) => Ok(S::from_f64(*value)),
+            Self::Expression(program) => program.eval(slots, stack),
+            Self::Product(factors) => {
+                factors.iter().try_fold(S::from_f64(1.0), |product, f| Ok(product * f.on(slots, stack)?))
+            }
         }
     }
 
-    /// Whether the value changes with time.
-    pub fn depends_on_time(&self) -> bool {
+    /// The programs in it.
+    pub fn programs(&self) -> Vec<&Arc<Program>> {
         match self {
-            Self::Constant(_) => false,
-            Self::Expression(program) => {
-                program.slots().iter().any(|&s| s == slot::TIME || s == slot::SEGMENT)
-            }
-            Self::Product(factors) => factors.iter().any(Self::depends_on_time),
+            Self::Constant(_) => Vec::new(),
+            Self::Expression(program) => vec![program],
+            Self::Product(factors) => factors.iter().flat_map(Self::programs).collect(),
         }
     }
 
     /// The slots an expression reads, sorted, each once; none for a constant.
     pub fn slots(&self) -> Vec<u32> {
-        match self {
-            Self::Constant(_) => Vec::new(),
-            Self::Expression(program) => program.slots(),
-            Self::Product(factors) => {
-                let mut slots: Vec<u32> = factors.iter().flat_map(Self::slots).collect();
-                slots.sort_unstable();
-                slots.dedup();
-                slots
-            }
-        }
+        let mut slots: Vec<u32> = self.programs().into_iter().flat_map(|program| program.slots()).collect();
+        slots.sort_unstable();
+        slots.dedup();
+        slots
     }
 }
 
@@ -81,6 +69,11 @@ impl Input {
     /// Its type.
     pub fn ty(&self) -> Type {
         self.ty
+    }
+
+    /// A plain number.
+    pub fn number(value: f64) -> Self {
+        Self { value: Value::Constant(value), ty: Type::SCALAR, deviation: None, lump: None }
     }
 }
 
@@ -99,49 +92,5 @@ impl From<Program> for Input {
     fn from(program: Program) -> Self {
         let ty = program.ty();
         Self { value: Value::Expression(Arc::new(program)), ty, deviation: None, lump: None }
-    }
-}
-
-/// The numbers that expressions read: time and parameters, and for expressions of results the temperatures. One
-/// per thread; reused, so that evaluating allocates nothing.
-#[derive(Clone, Debug)]
-pub struct Evaluation {
-    slots: Vec<f64>,
-    /// Where the temperatures begin.
-    fixed: usize,
-    stack: Vec<f64>,
-}
-
-impl Evaluation {
-    /// An evaluation at time 0 with these parameters, in SI units and in the order of their ids.
-    pub(crate) fn new(parameters: &[f64]) -> Self {
-        let mut slots = vec![0.0; slot::PARAMETERS as usize];
-        slots.extend_from_slice(parameters);
-        Self { fixed: slots.len(), slots, stack: Vec::new() }
-    }
-
-    /// Sets the temperature of every node and boundary in K, in the order of their ids, for expressions of
-    /// results.
-    pub fn set_temperatures(&mut self, nodes: &[f64], boundaries: &[f64]) {
-        self.slots.truncate(self.fixed);
-        self.slots.extend_from_slice(nodes);
-        self.slots.extend_from_slice(boundaries);
-    }
-
-    /// Moves to `time` in s; comparisons of `t` keep the truth they have at `segment` in s.
-    pub fn set_time(&mut self, time: f64, segment: f64) {
-        self.slots[slot::TIME as usize] = time;
-        self.slots[slot::SEGMENT as usize] = segment;
-    }
-
-    /// A program's value at `time` in s.
-    pub(crate) fn evaluate(&mut self, program: &Program, time: f64) -> Result<f64, EvalError> {
-        self.set_time(time, time);
-        program.eval(&self.slots, &mut self.stack)
-    }
-
-    pub(crate) fn push_parameter(&mut self, value: f64) {
-        self.slots.push(value);
-        self.fixed = self.slots.len();
     }
 }

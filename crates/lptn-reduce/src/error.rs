@@ -21,6 +21,11 @@ pub enum ReduceError {
         /// Their names.
         names: Vec<String>,
     },
+    /// The network is not linear with constant coefficients.
+    NotLinear {
+        /// The name of the first item that makes it so.
+        name: String,
+    },
     /// A source or boundary has no value.
     Input(InputError),
     /// The conductances span more than the numbers can hold.
@@ -42,6 +47,7 @@ impl ReduceError {
             Self::UnknownPort(_) => "reduce::unknown_port",
             Self::BoundaryPort { .. } => "reduce::boundary_port",
             Self::NoGround { .. } => "reduce::no_ground",
+            Self::NotLinear { .. } => "reduce::not_linear",
             Self::Input(_) => "solve::input",
             Self::Factorization(_) => "reduce::singular",
             Self::Modes => "reduce::modes",
@@ -67,6 +73,9 @@ impl ReduceError {
             Self::Factorization(_) => {
                 Some("replace the largest conductances by merging the nodes they join".into())
             }
+            Self::NotLinear { name } => Some(format!(
+                "put a constant conductance, capacity or heat in place of `{name}`, as it is in steady state: `lptn steady`"
+            )),
             Self::Window(_) => Some("write for example --window \"25 min\"".into()),
             _ => None,
         }
@@ -81,6 +90,10 @@ impl fmt::Display for ReduceError {
             Self::NoGround { names } => {
                 write!(f, "no path leads to a boundary from {}", list_of_names(names))
             }
+            Self::NotLinear { name } => write!(
+                f,
+                "`{name}` is more than a constant: only linear networks have one equivalent resistance"
+            ),
             Self::Input(error) => error.fmt(f),
             Self::Factorization(error) => write!(f, "the conductances cannot be factorised: {error}"),
             Self::Modes => f.write_str("the time constants at the port cannot be computed"),

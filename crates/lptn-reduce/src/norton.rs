@@ -82,7 +82,9 @@ impl NortonEquivalent {
         let response: Vec<f64> =
             rise.iter().zip(&reached).map(|(&r, &is)| if is { r } else { 0.0 }).collect();
         let resistance = response[port.index()];
-        let weight = |source: &lptn_network::Source| response[source.into.index()] / resistance;
+        let weight = |source: &lptn_network::Source| {
+            source.into.iter().map(|(node, share)| share * response[node.index()]).sum::<f64>() / resistance
+        };
         let source_weights = network.sources().iter().map(weight).collect();
         let boundary_weights = rises.boundary_heat().iter().map(|w| w.max(0.0)).collect();
         Ok(Self { port, resistance, response, boundary_weights, source_weights })

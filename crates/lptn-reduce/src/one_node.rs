@@ -2,8 +2,8 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    BuildErrors, HeatCapacity, HeatFlow, Input, Network, NetworkBuilder, NodeId, Resistance, Temperature,
-    Value, slot,
+    BuildErrors, Course, HeatCapacity, HeatFlow, Input, Network, NetworkBuilder, NodeId, Resistance,
+    Temperature, Value,
 };
 use lptn_units::{Dimension, Quantity, Type, UnitError, format_number};
 
@@ -32,7 +32,7 @@ impl OneNode<'_> {
         let name = &from.nodes()[self.norton.port.index()].name;
         let varies = from.has_time_dependent_inputs();
         if varies {
-            self.parameters(&mut builder);
+            self.parameters(&mut builder)?;
         }
         let node = match capacity {
             Some(capacity) => builder.node(name, HeatCapacity(capacity), Temperature(self.initial)),
@@ -46,20 +46,36 @@ impl OneNode<'_> {
         builder.build().map_err(|errors| ReduceError::Equivalent(first(&errors)))
     }
 
-    /// The parameters that the inputs use, as the constants they come to.
-    fn parameters(&self, builder: &mut NetworkBuilder) {
+    /// The parameters that the inputs use, as the constants they come to; with signals and tables all of them.
+    fn parameters(&self, builder: &mut NetworkBuilder) -> Result<(), ReduceError> {
         let network = self.system.network();
         let boundaries = network.boundaries().iter().map(|b| &b.temperature);
         let sources = network.sources().iter().map(|s| &s.power);
         let values = boundaries.zip(&self.norton.boundary_weights);
         let values = values.chain(sources.zip(&self.norton.source_weights)).filter(|(_, w)| **w > 0.0);
         let used: Vec<u32> = values.flat_map(|(value, _)| value.slots()).collect();
+        let all = !network.signals().is_empty();
         for (parameter, id) in network.parameters().iter().zip(network.parameter_ids()) {
-            if used.iter().any(|&s| s as usize == slot::PARAMETERS as usize + id.index()) {
+            if all || used.contains(&network.parameter_slot(id)) {
                 let value = network.parameter_value(id);
                 builder.parameter(&parameter.name, Quantity { value, deviation: None, ty: parameter.ty });
             }
         }
+        for (name, table) in network.tables() {
+            builder.table(name, table.clone());
+        }
+        for signal in network.signals() {
+            match &signal.course {
+                Course::Expression(value) => {
+                    let value = input(builder, value, signal.ty, 1.0)?;
+                    builder.signal_expression(&signal.name, value);
+                }
+                course => {
+                    builder.signal(&signal.name, signal.ty, course.clone());
+                }
+            }
+        }
+        Ok(())
     }
 
     fn constants(&self, builder: &mut NetworkBuilder, node: NodeId) -> Result<(), ReduceError> {

@@ -1,7 +1,6 @@
 //! Rises from heat alone: `G x = b` with every boundary at zero.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_integrate::FactorError;
 use lptn_solve::Conductances;
 
 use crate::error::ReduceError;
@@ -16,7 +15,10 @@ pub(crate) struct Rises<'a> {
 
 impl<'a> Rises<'a> {
     /// Factorises the conductances; heat may go in only where a path leads to a boundary.
-    pub(crate) fn new(system: &'a ThermalSystem) -> Result<Self, FactorError> {
+    pub(crate) fn new(system: &'a ThermalSystem) -> Result<Self, ReduceError> {
+        if let Some(item) = system.network().first_nonlinear() {
+            return Err(ReduceError::NotLinear { name: system.network().name_of(item).to_owned() });
+        }
         let still = vec![0.0; system.network().boundaries().len()];
         Ok(Self { system, work: system.workspace(), conductances: Conductances::new(system)?, still })
     }
@@ -41,8 +43,8 @@ impl<'a> Rises<'a> {
     pub(crate) fn boundary_heat(&self) -> Vec<f64> {
         let mut heat = vec![0.0; self.still.len()];
         let mut states = vec![0.0; self.system.states().len()];
-        self.system.state_temperatures(self.system.node_temperatures(&self.work), &mut states);
-        self.system.boundary_heat(&self.work, &states, &mut heat);
+        self.system.unknown_temperatures(self.system.node_temperatures(&self.work), &mut states);
+        self.system.linear_boundary_heat(&self.work, &states, &mut heat);
         heat.iter_mut().for_each(|q| *q = -*q);
         heat
     }

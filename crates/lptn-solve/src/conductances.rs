@@ -55,7 +55,7 @@ impl<'a> Conductances<'a> {
         let mut states = vec![start; self.system.states().len()];
         let mut step = vec![0.0; states.len()];
         for _ in 0..=refinements {
-            self.system.flow(work, &states, &mut step);
+            self.system.linear_flow(work, &states, &mut step);
             factors.solve_in_place(&mut step)?;
             states.iter_mut().zip(&step).for_each(|(t, dt)| *t += dt);
             if size(&step) <= f64::EPSILON * size(&states) {

@@ -4,7 +4,7 @@
 //! a trace, and the books would close all the same. So the inputs are looked at before the run, and no step is
 //! longer than what resolves them.
 
-use lptn_assembly::ThermalSystem;
+use lptn_assembly::{Form, ThermalSystem};
 use lptn_network::{Evaluation, Value};
 
 use crate::times::Segment;
@@ -68,7 +68,7 @@ impl Curved {
             }
             step *= 0.5;
         }
-        let remembered = memory(system).min(span) / step;
+        let remembered = memory(system, segments[0].inside()).min(span) / step;
         let share = (1.0 + remembered / REMEMBERED).recip().max(LEAST_SHARE);
         Some(Self { step, share, remembered })
     }
@@ -76,8 +76,20 @@ impl Curved {
 
 /// How long a network remembers, in s: all capacity over all conductance that leads out. The slowest time constant
 /// is not shorter, for it is the inverse of the least Rayleigh quotient, and this is the quotient of a uniform rise.
-fn memory(system: &ThermalSystem) -> f64 {
-    system.capacity().iter().sum::<f64>() / system.boundary_conductance()
+fn memory(system: &ThermalSystem, time: f64) -> f64 {
+    let mut values = vec![0.0; system.pattern().entries()];
+    let mut work = system.workspace();
+    let mut start = system.initial();
+    let mean = start.iter().sum::<f64>() / start.len() as f64;
+    start.resize(system.unknowns().len(), mean);
+    let known = system.read_inputs(&mut work, time, time).is_ok()
+        && system.jacobian_at(&mut work, &start, Form::Exact, &mut values).is_ok();
+    if !known {
+        return f64::INFINITY;
+    }
+    // what leaves all nodes together for a rise of all by 1 K
+    let out = -values.iter().sum::<f64>();
+    if out > 0.0 { system.capacity().iter().sum::<f64>() / out } else { f64::INFINITY }
 }
 
 /// Whether steps of this length see the input over the segment. What cannot be evaluated is left to the run.

@@ -7,19 +7,24 @@ use lptn_network::{InputError, NodeId, list_of_names};
 use lptn_units::format_number;
 
 use crate::solution::Solution;
+use crate::unsolved::Unsolved;
 
 /// Why there is no steady state.
 #[derive(Clone, Debug)]
 pub enum SteadyError {
-    /// Some nodes reach no boundary: their heat goes nowhere, or their temperature depends on the start.
+    /// Some nodes reach no boundary and are heated or cooled for ever.
     NoBoundary {
         /// The nodes, one set of connected ones after the other.
         nodes: Vec<NodeId>,
         /// Their names.
         names: Vec<String>,
+        /// The heat in W that they keep receiving.
+        heat: f64,
     },
     /// A source or boundary has no value.
     Input(InputError),
+    /// The balances of a nonlinear network were not solved.
+    Unsolved(Unsolved),
     /// The conductances span more than the numbers can hold.
     Factorization(FactorError),
     /// More heat is taken out than there is: a linear network goes below 0 K, a real one does not.
@@ -37,11 +42,21 @@ pub enum SteadyError {
 }
 
 impl SteadyError {
+    /// The value that failed, if that is the reason.
+    pub fn input(&self) -> Option<&InputError> {
+        match self {
+            Self::Input(error) => Some(error),
+            Self::Unsolved(unsolved) => unsolved.input(),
+            _ => None,
+        }
+    }
+
     /// The stable code, as diagnostics print it.
     pub fn code(&self) -> &'static str {
         match self {
             Self::NoBoundary { .. } => "steady::no_boundary",
             Self::Input(_) => "solve::input",
+            Self::Unsolved(unsolved) => unsolved.code(),
             Self::Factorization(_) => "steady::singular",
             Self::BelowAbsoluteZero { .. } => "solve::below_absolute_zero",
             Self::Unbalanced { .. } => "steady::unbalanced",
@@ -49,16 +64,17 @@ impl SteadyError {
     }
 
     /// What to do about it.
-    pub fn help(&self) -> Option<&'static str> {
+    pub fn help(&self) -> Option<String> {
         match self {
             Self::NoBoundary { .. } => {
-                Some("add a path to a boundary, or run the network over time: `lptn run`")
+                Some("add a path to a boundary, or run the network over time: `lptn run`".into())
             }
             Self::Factorization(_) | Self::Unbalanced { .. } => {
-                Some("replace the largest conductances by merging the nodes they join")
+                Some("replace the largest conductances by merging the nodes they join".into())
             }
-            Self::BelowAbsoluteZero { .. } => Some(COLD),
-            Self::Input(_) => None,
+            Self::BelowAbsoluteZero { .. } => Some(COLD.into()),
+            Self::Input(error) => error.problem.help(),
+            Self::Unsolved(unsolved) => unsolved.help(),
         }
     }
 }
@@ -66,10 +82,14 @@ impl SteadyError {
 impl fmt::Display for SteadyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoBoundary { names, .. } => {
-                write!(f, "no path leads to a boundary from {}", list_of_names(names))
-            }
+            Self::NoBoundary { names, heat, .. } => write!(
+                f,
+                "no path leads to a boundary from {}, where {} W stay for ever: there is no steady state",
+                list_of_names(names),
+                six_digits(*heat)
+            ),
             Self::Input(error) => error.fmt(f),
+            Self::Unsolved(unsolved) => unsolved.fmt(f),
             Self::Factorization(error) => write!(f, "the conductances cannot be factorised: {error}"),
             Self::BelowAbsoluteZero { name, temperature } => cold(f, name, *temperature),
             Self::Unbalanced { residual } => {
@@ -88,6 +108,8 @@ pub enum TransientError {
     Settings(SettingsError),
     /// A source or boundary has no value at the start.
     Input(InputError),
+    /// The balances of massless nodes could not be set up.
+    Start(Unsolved),
     /// The integrator could not be set up or read.
     Integrator(IntegrateError),
     /// The run broke off; what was computed before is whole.
@@ -106,6 +128,8 @@ pub enum TransientError {
 pub enum StopReason {
     /// A source or boundary has no value.
     Input(InputError),
+    /// The balances of massless nodes have no solution.
+    Unsolved(Unsolved),
     /// A node fell below 0 K.
     BelowAbsoluteZero {
         /// The first such node.
@@ -148,6 +172,17 @@ pub enum SettingsError {
 }
 
 impl TransientError {
+    /// The value that failed, if that is the reason.
+    pub fn input(&self) -> Option<&InputError> {
+        match self {
+            Self::Input(error) | Self::Stopped { reason: StopReason::Input(error), .. } => Some(error),
+            Self::Start(unsolved) | Self::Stopped { reason: StopReason::Unsolved(unsolved), .. } => {
+                unsolved.input()
+            }
+            _ => None,
+        }
+    }
+
     /// The stable code, as diagnostics print it.
     pub fn code(&self) -> &'static str {
         match self {
@@ -156,7 +191,24 @@ impl TransientError {
                 "solve::below_absolute_zero"
             }
             Self::Input(_) | Self::Stopped { reason: StopReason::Input(_), .. } => "solve::input",
+            Self::Start(unsolved) | Self::Stopped { reason: StopReason::Unsolved(unsolved), .. } => {
+                unsolved.code()
+            }
             Self::Integrator(_) | Self::Stopped { .. } => "run::integrator",
+        }
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Input(error) | Self::Stopped { reason: StopReason::Input(error), .. } => {
+                error.problem.help()
+            }
+            Self::Start(unsolved) | Self::Stopped { reason: StopReason::Unsolved(unsolved), .. } => {
+                unsolved.help()
+            }
+            Self::Stopped { reason: StopReason::BelowAbsoluteZero { .. }, .. } => Some(COLD.into()),
+            _ => None,
         }
     }
 }
@@ -166,6 +218,10 @@ impl fmt::Display for TransientError {
         match self {
             Self::Settings(error) => error.fmt(f),
             Self::Input(error) => error.fmt(f),
+            Self::Start(unsolved) => unsolved.fmt(f),
+            Self::Stopped { time, reason: StopReason::Unsolved(unsolved), .. } => {
+                write!(f, "stopped at {} s: {unsolved}", six_digits(*time))
+            }
             Self::Integrator(error) => write!(f, "the integrator failed: {error}"),
             Self::Stopped { time, reason: StopReason::Input(error), .. } => {
                 write!(f, "stopped at {} s: {error}", six_digits(*time))
@@ -189,7 +245,7 @@ fn cold(f: &mut fmt::Formatter<'_>, name: &str, temperature: f64) -> fmt::Result
 }
 
 /// A number as a message shows it: six digits are enough to find the place.
-fn six_digits(x: f64) -> String {
+pub(crate) fn six_digits(x: f64) -> String {
     format!("{x:.5e}").parse().map_or_else(|_| x.to_string(), format_number)
 }
 

@@ -1,31 +1,46 @@
 //! A thermal system as the integrator sees it: `M y' = f` with M the capacities and f the heat flows.
 
-use lptn_assembly::{ThermalSystem, Workspace};
+use lptn_assembly::{Form, ThermalSystem, Workspace};
 use lptn_integrate::{OdeSystem, Pattern, Retry};
-use lptn_network::InputError;
+
+use crate::newton::NewtonError;
+use crate::unfold::Unfold;
 
 /// A system with what evaluating it needs. Its running integrals are those of the ledger.
 pub(crate) struct Heat<'a> {
     system: &'a ThermalSystem,
     pattern: Pattern,
     work: Workspace,
+    unfold: Unfold<'a>,
+    flow: Vec<f64>,
+    /// Which Jacobian is written.
+    form: Form,
     /// Comparisons of `t` keep the truth they have here while a segment lasts.
     pub(crate) segment: f64,
-    /// Why a source or boundary had no value.
-    pub(crate) failure: Option<InputError>,
+    /// Why the heat could not be had.
+    pub(crate) failure: Option<NewtonError>,
 }
 
 impl<'a> Heat<'a> {
-    pub(crate) fn new(system: &'a ThermalSystem, segment: f64) -> Self {
+    pub(crate) fn new(system: &'a ThermalSystem, segment: f64) -> Result<Self, NewtonError> {
         let pattern = Pattern::from_symbolic(system.pattern().symbolic());
-        Self { system, pattern, work: system.workspace(), segment, failure: None }
+        let form = if system.is_symmetric() { Form::Symmetric } else { Form::Exact };
+        let flow = vec![0.0; system.unknowns().len()];
+        let (work, unfold) = (system.workspace(), Unfold::new(system)?);
+        Ok(Self { system, pattern, work, unfold, flow, form, segment, failure: None })
     }
 
-    fn read(&mut self, time: f64) -> Result<(), Retry> {
-        self.system.read_inputs(&mut self.work, time, self.segment).map_err(|error| {
-            self.failure = Some(error);
-            Retry::Stop
-        })
+    /// Reads the inputs and takes the state; what fails may be the guess of a step that is too long.
+    fn place(&mut self, time: f64, y: &[f64]) -> Result<(), Retry> {
+        let inputs = self.system.read_inputs(&mut self.work, time, self.segment);
+        inputs.map_err(|error| self.failed(NewtonError::Input(error), Retry::Stop))?;
+        let unfolded = self.unfold.temperatures(&mut self.work, y).map(|_| ());
+        unfolded.map_err(|error| self.failed(error, Retry::SmallerStep))
+    }
+
+    fn failed(&mut self, error: NewtonError, retry: Retry) -> Retry {
+        self.failure = Some(error);
+        retry
     }
 }
 
@@ -35,12 +50,19 @@ impl OdeSystem for Heat<'_> {
     }
 
     fn mass(&self) -> &[f64] {
-        self.system.capacity()
+        self.system.mass()
+    }
+
+    fn slope(&self) -> Option<&[f64]> {
+        self.unfold.carries_heat().then(|| self.unfold.slopes())
     }
 
     fn flow(&mut self, time: f64, y: &[f64], flow: &mut [f64]) -> Result<(), Retry> {
-        self.read(time)?;
-        self.system.flow(&self.work, y, flow);
+        self.place(time, y)?;
+        let heat = self.system.flow(&mut self.work, self.unfold.last(), &mut self.flow);
+        heat.map_err(|error| self.failed(NewtonError::Input(error), Retry::SmallerStep))?;
+        flow.copy_from_slice(&self.flow[..flow.len()]);
+        self.failure = None;
         Ok(())
     }
 
@@ -49,25 +71,34 @@ impl OdeSystem for Heat<'_> {
     }
 
     fn symmetric(&self) -> bool {
-        true
+        self.form == Form::Symmetric
     }
 
-    fn jacobian(&mut self, _time: f64, _y: &[f64], values: &mut [f64]) -> Result<(), Retry> {
-        self.system.jacobian(values);
-        Ok(())
+    fn leave_symmetry(&mut self) {
+        self.form = Form::Exact;
+    }
+
+    fn jacobian(&mut self, time: f64, y: &[f64], values: &mut [f64]) -> Result<(), Retry> {
+        if self.system.is_linear() {
+            self.system.jacobian(values);
+            return Ok(());
+        }
+        self.place(time, y)?;
+        let slopes = self.system.jacobian_at(&mut self.work, self.unfold.last(), self.form, values);
+        slopes.map_err(|error| self.failed(NewtonError::Input(error), Retry::SmallerStep))
     }
 
     fn jacobian_is_constant(&self) -> bool {
-        true
+        self.system.is_linear() && !self.unfold.carries_heat()
     }
 
     fn quadrature_count(&self) -> usize {
-        crate::ledger::integrals(self.system.network())
+        crate::ledger::integrals(self.system)
     }
 
     fn quadrature(&mut self, time: f64, y: &[f64], q: &mut [f64]) -> Result<(), Retry> {
-        self.read(time)?;
-        crate::ledger::integrands(self.system, &self.work, y, q);
-        Ok(())
+        self.place(time, y)?;
+        let heat = crate::ledger::integrands(self.system, &mut self.work, self.unfold.last(), q);
+        heat.map_err(|error| self.failed(NewtonError::Input(error), Retry::SmallerStep))
     }
 }

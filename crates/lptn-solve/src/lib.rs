@@ -6,6 +6,7 @@
 //!
 //! Units: SI, temperatures in K, heat positive into a node and from `from` to `to`.
 
+mod adiabatic;
 mod conductances;
 mod curved;
 mod error;
@@ -16,6 +17,7 @@ mod limit;
 mod modes;
 #[cfg(test)]
 mod mutants;
+mod newton;
 mod recorder;
 mod settings;
 mod solution;
@@ -26,6 +28,8 @@ mod summary;
 mod table;
 mod times;
 mod transient;
+mod unfold;
+mod unsolved;
 mod verification;
 mod watch;
 
@@ -43,6 +47,7 @@ pub use steady::SteadyState;
 pub use stiffness::Stiffness;
 pub use summary::{NodeSummary, Summary};
 pub use table::{Column, Label, Selection, Table};
+pub use unsolved::{Unsolved, UnsolvedReason};
 pub use verification::{Comparison, LEAST_TOLERANCE, NoReference, Reference, Verification, allowed_error};
 
 pub use watch::{Seen, Watch, top};

@@ -83,7 +83,7 @@ fn ledger(wrong: Wrong) -> Ledger {
     b.resistor("skin", outer, air, Conductance(OUTER));
     b.source("heater", inner, HeatFlow(POWER));
     let system = ThermalSystem::assemble(&b.build().unwrap()).unwrap();
-    let mutant = Mutant { heat: Heat::new(&system, 500.0), wrong };
+    let mutant = Mutant { heat: Heat::new(&system, 500.0).unwrap(), wrong };
     let options = Options { tolerance: 1e-5, ..Options::default() };
     let mut run = Integrator::new(mutant, 0.0, &system.initial(), &options).unwrap();
     run.set_stop(1000.0);
@@ -91,7 +91,7 @@ fn ledger(wrong: Wrong) -> Ledger {
         run.step().unwrap();
     }
     let rise = run.state().iter().zip(system.capacity()).map(|(t, c)| c * (t - AMBIENT)).collect();
-    Ledger::new(system.network(), run.quadratures().unwrap(), rise, options.tolerance)
+    Ledger::new(&system, run.quadratures().unwrap(), rise, options.tolerance)
 }
 
 #[test]

@@ -4,13 +4,15 @@ use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::{IntegrateError, Integrator, Statistics};
 use lptn_network::{LimitId, NodeId};
 
-use crate::error::{SettingsError, StopReason};
+use crate::error::{SettingsError, StopReason, TransientError};
 use crate::heat::Heat;
 use crate::ledger::Ledger;
 use crate::limit::LimitWatch;
 use crate::settings::{Record, Transient};
 use crate::solution::{End, Solution};
 use crate::times::Segment;
+use crate::unfold::Unfold;
+use crate::unsolved::Unsolved;
 use crate::watch::{REFINEMENTS, SAMPLES, Seen, Watch};
 
 /// Halvings of the interval in which a limit is first broken: to the rounding of its length.
@@ -38,8 +40,9 @@ pub(crate) struct Recorder<'a> {
     /// For each watched node the points of the present step.
     points: Vec<Vec<(f64, f64)>>,
     limits: LimitWatch<'a>,
-    /// Temperatures of the states at one time.
+    /// What the integrator carries at one time.
     state: Vec<f64>,
+    unfold: Unfold<'a>,
     tolerance: f64,
     /// How many steps under curved inputs the network remembers.
     pub(crate) remembered: f64,
@@ -50,7 +53,7 @@ impl<'a> Recorder<'a> {
         system: &'a ThermalSystem,
         rows: Vec<f64>,
         settings: &Transient,
-    ) -> Result<Self, SettingsError> {
+    ) -> Result<Self, TransientError> {
         let network = system.network();
         let mut recorded = match &settings.record {
             Record::All => network.node_ids().collect(),
@@ -62,7 +65,9 @@ impl<'a> Recorder<'a> {
         let mut temperatures = Vec::new();
         let too_much = SettingsError::TooMuch { rows: rows.len(), nodes: recorded.len() };
         let size = rows.len().checked_mul(recorded.len()).filter(|&size| size <= MOST_VALUES);
-        temperatures.try_reserve_exact(size.ok_or(too_much.clone())?).map_err(|_| too_much)?;
+        let size = size.ok_or(TransientError::Settings(too_much.clone()))?;
+        temperatures.try_reserve_exact(size).map_err(|_| TransientError::Settings(too_much))?;
+        let unfold = Unfold::new(system).map_err(|e| TransientError::Start(Unsolved::new(system, e)))?;
         Ok(Self {
             system,
             work: system.workspace(),
@@ -77,6 +82,7 @@ impl<'a> Recorder<'a> {
             points: vec![Vec::new(); settings.watch.len()],
             limits: LimitWatch::new(network),
             state: vec![0.0; system.states().len()],
+            unfold,
             tolerance: settings.tolerance,
             remembered: 0.0,
         })
@@ -159,9 +165,9 @@ impl<'a> Recorder<'a> {
     }
 
     /// The workspace at `time`, for a system without state.
-    pub(crate) fn at(&mut self, time: f64) -> Result<&Workspace, StopReason> {
+    pub(crate) fn at(&mut self, time: f64) -> Result<&mut Workspace, StopReason> {
         self.place(time)?;
-        Ok(&self.work)
+        Ok(&mut self.work)
     }
 
     fn is_last(&self) -> bool {
@@ -181,7 +187,9 @@ impl<'a> Recorder<'a> {
     /// Brings the workspace to `time` and the temperatures in `state`.
     fn place(&mut self, time: f64) -> Result<(), StopReason> {
         self.system.read_inputs(&mut self.work, time, self.segment.inside()).map_err(StopReason::Input)?;
-        self.system.recover(&mut self.work, &self.state);
+        let unfolded = self.unfold.temperatures(&mut self.work, &self.state);
+        let temperatures = unfolded.map_err(|e| StopReason::Unsolved(Unsolved::new(self.system, e)))?;
+        self.system.recover(&mut self.work, temperatures);
         Ok(())
     }
 

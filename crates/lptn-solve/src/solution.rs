@@ -2,7 +2,7 @@
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::Statistics;
-use lptn_network::{BoundaryId, ConductorId, Network, NodeId, SourceId};
+use lptn_network::{BoundaryId, ConductorId, Network, NodeId, Received, SourceId};
 
 use crate::curved::MOST_REMEMBERED;
 use crate::ledger::Ledger;
@@ -74,11 +74,18 @@ impl Solution {
         Some(rows.map(|row| row[column]).collect())
     }
 
-    /// Heat flow of a conductor over the rows in W, positive from `from` to `to`; `None` unless every node was
-    /// recorded.
+    /// Heat flow of a conductor over the rows in W, positive from `from` to `to`, what `to` receives; `None` unless
+    /// every node was recorded.
     pub fn conductor_heat(&self, id: ConductorId) -> Option<Vec<f64>> {
+        let received = self.received(id)?;
+        Some(received.into_iter().map(|[_, to]| to).collect())
+    }
+
+    /// Heat that the two ends of a conductor receive over the rows in W: equal and opposite but for a stream; `None`
+    /// unless every node was recorded.
+    pub fn received(&self, id: ConductorId) -> Option<Vec<Received>> {
         let mut heat = Vec::with_capacity(self.times.len());
-        self.is_whole().then(|| self.replay(|at| heat.push(at.conductor_heat(id))))?;
+        self.is_whole().then(|| self.replay(|at| heat.push(at.received(id))))?;
         Some(heat)
     }
 
@@ -113,7 +120,7 @@ impl Solution {
         let mut at = Replay {
             system: &self.system,
             work: self.system.workspace(),
-            states: vec![f64::NAN; self.system.states().len()],
+            unknowns: vec![f64::NAN; self.system.unknowns().len()],
             boundary_heat: vec![f64::NAN; self.network().boundaries().len()],
         };
         for (row, (&time, &segment)) in self.times.iter().zip(&self.segments).enumerate() {
@@ -122,8 +129,9 @@ impl Solution {
             }
             if self.is_whole() {
                 self.system.place(&mut at.work, self.row(row));
-                self.system.state_temperatures(self.row(row), &mut at.states);
+                self.system.unknown_temperatures(self.row(row), &mut at.unknowns);
             }
+            at.evaluate();
             visit(&mut at);
         }
     }
@@ -190,17 +198,24 @@ pub enum Unbounded {
 pub(crate) struct Replay<'a> {
     system: &'a ThermalSystem,
     work: Workspace,
-    states: Vec<f64>,
+    unknowns: Vec<f64>,
     boundary_heat: Vec<f64>,
 }
 
 impl Replay<'_> {
-    pub(crate) fn conductor_heat(&self, id: ConductorId) -> f64 {
-        self.system.conductor_heat(&self.work, id)
+    /// Heat of boundaries and of sources that depend on temperatures. What could be evaluated in the run can be here.
+    fn evaluate(&mut self) {
+        let heat = self.system.boundary_heat(&mut self.work, &self.unknowns, &mut self.boundary_heat);
+        if heat.is_err() {
+            self.boundary_heat.fill(f64::NAN);
+        }
     }
 
-    pub(crate) fn boundary_heat(&mut self) -> &[f64] {
-        self.system.boundary_heat(&self.work, &self.states, &mut self.boundary_heat);
+    pub(crate) fn received(&mut self, id: ConductorId) -> Received {
+        self.system.received(&mut self.work, id).unwrap_or([f64::NAN; 2])
+    }
+
+    pub(crate) fn boundary_heat(&self) -> &[f64] {
         &self.boundary_heat
     }
 

@@ -20,14 +20,14 @@ const GAUSS: [(f64, f64); 5] = [
 
 /// Evaluates every row; the ledger integrates between rows by the Gauss rule.
 pub(crate) fn solve(mut recorder: Recorder<'_>, segments: &[Segment]) -> Result<Solution, TransientError> {
-    let network = recorder.system().network();
-    let mut integrals = vec![0.0; ledger::integrals(network)];
-    let stored = vec![0.0; network.nodes().len()];
+    let system = recorder.system();
+    let mut integrals = vec![0.0; ledger::integrals(system)];
+    let stored = vec![0.0; system.network().nodes().len()];
     let (outcome, end) = match rows(&mut recorder, segments, &mut integrals) {
         Ok(()) => (None, End::Reached),
         Err((time, reason)) => (Some((time, reason)), End::Failed(time)),
     };
-    let ledger = Ledger::new(network, &integrals, stored, 0.0);
+    let ledger = Ledger::new(system, &integrals, stored, 0.0);
     let solution = recorder.into_solution(ledger, Statistics::default(), end);
     match outcome {
         None => Ok(solution),
@@ -71,7 +71,10 @@ fn interval(
     let mut q = vec![0.0; integrals.len()];
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
     for (x, weight) in GAUSS {
-        ledger::integrands(system, recorder.at(middle + half * x)?, &[], &mut q);
+        let work = recorder.at(middle + half * x)?;
+        let mut unknowns = vec![0.0; system.unknowns().len()];
+        system.unknown_temperatures(system.node_temperatures(work), &mut unknowns);
+        ledger::integrands(system, work, &unknowns, &mut q).map_err(StopReason::Input)?;
         integrals.iter_mut().zip(&q).for_each(|(sum, q)| *sum += half * weight * q);
     }
     Ok(())

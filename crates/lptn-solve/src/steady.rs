@@ -1,11 +1,14 @@
-//! Steady state by direct solution.
+//! Steady state: directly for linear networks, by Newton's method for others.
 
-use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_integrate::FactorError;
-use lptn_network::{Network, NodeId};
+use lptn_assembly::{Form, ThermalSystem, Workspace};
+use lptn_integrate::{FactorError, Pattern};
+use lptn_network::{InputError, Network, NodeId, Received};
 
+use crate::adiabatic::{self, Island};
 use crate::conductances::Conductances;
 use crate::error::SteadyError;
+use crate::newton::{Newton, SMALL};
+use crate::unsolved::Unsolved;
 
 /// The temperatures at which nothing is stored any more.
 #[derive(Clone, Debug)]
@@ -14,12 +17,18 @@ pub struct SteadyState {
     pub temperatures: Vec<f64>,
     /// Temperature of each boundary in K.
     pub boundary_temperatures: Vec<f64>,
-    /// Heat flow of each conductor in W, positive from `from` to `to`.
+    /// Heat flow of each conductor in W, positive from `from` to `to`: what `to` receives.
     pub conductor_heat: Vec<f64>,
+    /// Heat that the two ends of each conductor receive in W: equal and opposite but for a stream.
+    pub received: Vec<Received>,
     /// Heat of each source in W.
     pub source_heat: Vec<f64>,
     /// Heat that each boundary gives to the network in W.
     pub boundary_heat: Vec<f64>,
+    /// Heat that each stream brings to its two ends together in W, in the order of the conductors.
+    pub stream_heat: Vec<f64>,
+    /// The nodes that no path leads from to a boundary: their temperatures follow from the energy at their start.
+    pub adiabatic: Vec<NodeId>,
 }
 
 /// How far heat in and heat out of a steady state may differ, relative to the heat turned over.
@@ -32,39 +41,54 @@ impl SteadyState {
     /// [`SteadyError`], in particular for nodes without a path to a boundary.
     pub fn solve(system: &ThermalSystem, time: f64) -> Result<Self, SteadyError> {
         let network = system.network();
-        let loose: Vec<NodeId> = network.ungrounded().into_iter().flatten().collect();
-        if !loose.is_empty() {
-            let names = loose.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
-            return Err(SteadyError::NoBoundary { nodes: loose, names });
-        }
         let mut work = system.workspace();
         system.read_inputs(&mut work, time, just_after(time)).map_err(SteadyError::Input)?;
-        let states = states(system, &work).map_err(SteadyError::Factorization)?;
-        system.recover(&mut work, &states);
-        let steady = Self::from_workspace(system, &work, &states);
-        if steady.imbalance().abs() > BALANCE * steady.turned_over() + rounding(system, &steady) {
+        let islands = Island::all_of(system);
+        let unknowns = if system.is_linear() && islands.is_empty() {
+            states(system, &work).map_err(SteadyError::Factorization)?
+        } else {
+            balanced(system, &mut work, &islands)?
+        };
+        system.recover(&mut work, &unknowns);
+        let mut steady = Self::from_workspace(system, &mut work, &unknowns).map_err(SteadyError::Input)?;
+        steady.adiabatic = islands.into_iter().flat_map(|island| island.nodes).collect();
+        let rest = rounding(system, &steady)
+            + unsettled(system, &mut work, &unknowns).map_err(SteadyError::Input)?;
+        if steady.imbalance().abs() > BALANCE * steady.turned_over() + rest {
             return Err(SteadyError::Unbalanced { residual: steady.imbalance() / steady.turned_over() });
         }
         check_absolute(network, &steady.temperatures)?;
         Ok(steady)
     }
 
-    fn from_workspace(system: &ThermalSystem, work: &Workspace, states: &[f64]) -> Self {
+    fn from_workspace(
+        system: &ThermalSystem,
+        work: &mut Workspace,
+        unknowns: &[f64],
+    ) -> Result<Self, InputError> {
         let network = system.network();
         let mut boundary_heat = vec![0.0; network.boundaries().len()];
-        system.boundary_heat(work, states, &mut boundary_heat);
-        Self {
+        system.boundary_heat(work, unknowns, &mut boundary_heat)?;
+        let mut stream_heat = vec![0.0; system.streams().len()];
+        system.stream_heat(work, &mut stream_heat)?;
+        let received: Result<Vec<Received>, InputError> =
+            network.conductor_ids().map(|id| system.received(work, id)).collect();
+        let received = received?;
+        Ok(Self {
             temperatures: system.node_temperatures(work).to_vec(),
             boundary_temperatures: system.boundary_temperatures(work).to_vec(),
-            conductor_heat: network.conductor_ids().map(|id| system.conductor_heat(work, id)).collect(),
+            conductor_heat: received.iter().map(|[_, to]| *to).collect(),
+            received,
             source_heat: system.source_powers(work).to_vec(),
             boundary_heat,
-        }
+            stream_heat,
+            adiabatic: Vec::new(),
+        })
     }
 
-    /// Heat of all sources and boundaries in W: zero but for rounding.
+    /// Heat of all sources, boundaries and streams in W: zero but for rounding.
     pub fn imbalance(&self) -> f64 {
-        self.source_heat.iter().chain(&self.boundary_heat).sum()
+        self.source_heat.iter().chain(&self.boundary_heat).chain(&self.stream_heat).sum()
     }
 
     /// The sum of the absolute heat of every source, boundary and conductor in W.
@@ -87,6 +111,20 @@ fn rounding(system: &ThermalSystem, steady: &SteadyState) -> f64 {
     4.0 * f64::EPSILON * system.boundary_conductance() * all.copied().fold(0.0, f64::max)
 }
 
+/// The heat in W that the last corrections of Newton's method leave in the balances: where nothing heats a network that
+/// is not linear, it is all the heat there is.
+fn unsettled(system: &ThermalSystem, work: &mut Workspace, unknowns: &[f64]) -> Result<f64, InputError> {
+    if system.is_linear() {
+        return Ok(0.0);
+    }
+    let mut values = vec![0.0; system.pattern().entries()];
+    system.jacobian_at(work, unknowns, Form::Exact, &mut values)?;
+    let pattern = Pattern::from_symbolic(system.pattern().symbolic());
+    // what leaves the network altogether for 1 K more of one unknown
+    let out = |i| values[pattern.column(i)].iter().sum::<f64>().abs();
+    Ok(SMALL * (0..unknowns.len()).map(out).sum::<f64>())
+}
+
 fn check_absolute(network: &Network, temperatures: &[f64]) -> Result<(), SteadyError> {
     match temperatures.iter().position(|&t| t < 0.0) {
         Some(i) => Err(SteadyError::BelowAbsoluteZero {
@@ -95,6 +133,34 @@ fn check_absolute(network: &Network, temperatures: &[f64]) -> Result<(), SteadyE
         }),
         None => Ok(()),
     }
+}
+
+/// Temperatures of all unknowns of a network that is not linear or that keeps energy, from those at the start.
+fn balanced(
+    system: &ThermalSystem,
+    work: &mut Workspace,
+    islands: &[Island],
+) -> Result<Vec<f64>, SteadyError> {
+    let mut temperatures = start(system, work);
+    if islands.is_empty() {
+        let all = (0..temperatures.len()).collect();
+        let unsolved = |error| SteadyError::Unsolved(Unsolved::new(system, error));
+        let mut newton = Newton::new(system, all).map_err(unsolved)?;
+        newton.solve(work, &mut temperatures).map_err(unsolved)?;
+    } else {
+        adiabatic::solve(system, work, islands, &mut temperatures)?;
+    }
+    Ok(temperatures)
+}
+
+/// Where the search begins: nodes at their start, massless ones in the middle of the boundaries.
+fn start(system: &ThermalSystem, work: &Workspace) -> Vec<f64> {
+    let mut temperatures = system.initial();
+    let boundaries = system.boundary_temperatures(work);
+    let known = boundaries.iter().chain(&temperatures).copied();
+    let (sum, count) = known.fold((0.0, 0.0), |(sum, count), t| (sum + t, count + 1.0));
+    temperatures.resize(system.unknowns().len(), sum / count);
+    temperatures
 }
 
 /// Temperatures of the states, sought as a rise over one boundary.

@@ -12,7 +12,7 @@ pub struct Stiffness {
 }
 
 impl Stiffness {
-    /// Of the nodes with a capacity and a path, with the conductances they have at the start; `None` without any.
+    /// Of the nodes with a capacity and a path of constant conductance; `None` without any.
     ///
     /// These are the time constants that each node would have if its neighbours kept their temperatures, the
     /// diagonal of the system, and not those of the network (its modes); but their ratio says what an explicit
@@ -22,7 +22,7 @@ impl Stiffness {
         for (id, conductor) in network.conductor_ids().zip(network.conductors()) {
             for end in [conductor.from, conductor.to] {
                 if let End::Node(node) = end {
-                    conductance[node.index()] += network.conductance(id);
+                    conductance[node.index()] += network.conductance(id).unwrap_or(0.0);
                 }
             }
         }

@@ -1,10 +1,13 @@
 //! What an engineer asks first of a run: start, end, peak, steady state, time to 95 % of the rise.
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::{InputError, NodeId};
+use lptn_network::NodeId;
 
+use crate::newton::NewtonError;
 use crate::solution::Solution;
 use crate::steady::{SteadyState, just_after};
+use crate::unfold::Unfold;
+use crate::unsolved::Unsolved;
 use crate::watch::Watch;
 
 /// The share of the rise whose time is given: three time constants of a single exponential.
@@ -50,16 +53,20 @@ impl Summary {
     /// The watches that a summary of `nodes` needs, to be put into [`crate::Transient::watch`].
     ///
     /// # Errors
-    /// [`InputError`] if a source or boundary has no value at the start.
+    /// [`Unsolved`] if a value cannot be had at the start, or the balances of massless nodes have no solution there.
     pub fn watches(
         system: &ThermalSystem,
         start: f64,
         nodes: &[NodeId],
         steady: Option<&SteadyState>,
-    ) -> Result<Vec<Watch>, InputError> {
+    ) -> Result<Vec<Watch>, Unsolved> {
         let mut work = system.workspace();
-        system.read_inputs(&mut work, start, just_after(start))?;
-        system.recover(&mut work, &system.initial());
+        let unsolved = |error| Unsolved::new(system, error);
+        let inputs = system.read_inputs(&mut work, start, just_after(start));
+        inputs.map_err(|error| unsolved(NewtonError::Input(error)))?;
+        let mut unfold = Unfold::new(system).map_err(unsolved)?;
+        let temperatures = unfold.temperatures(&mut work, &system.initial()).map_err(unsolved)?;
+        system.recover(&mut work, temperatures);
         let initial = system.node_temperatures(&work);
         let level = |node: NodeId| {
             let (from, to) = (initial[node.index()], steady?.temperatures[node.index()]);

@@ -1,6 +1,6 @@
 //! The one table type that writers take: named columns with units.
 
-use lptn_network::{BoundaryId, ConductorId, Network, NodeId, SourceId};
+use lptn_network::{BoundaryId, ConductorId, ConductorKind, Network, NodeId, SourceId};
 use lptn_units::Unit;
 
 use crate::settings::Record;
@@ -79,18 +79,16 @@ impl Table {
         let time = Column { name: "time".into(), unit: "s".into(), values: solution.times().to_vec() };
         let mut columns = vec![time];
         columns.extend(selection.quantities.iter().map(|q| q.column(network, unit)));
-        let boundary = |q: &Quantity| matches!(q, Quantity::Boundary(_));
-        let heat_of_boundaries = selection.quantities.iter().any(boundary);
         let mut row = 0;
         solution.replay(|at| {
-            let heat = if heat_of_boundaries { at.boundary_heat().to_vec() } else { Vec::new() };
             for (column, quantity) in columns[1..].iter_mut().zip(&selection.quantities) {
                 column.values.push(match *quantity {
                     Quantity::Node(id) => unit.from_si(solution.at(row, id)),
                     Quantity::BoundaryTemperature(id) => unit.from_si(at.boundary_temperatures()[id.index()]),
                     Quantity::Source(id) => at.source_powers()[id.index()],
-                    Quantity::Conductor(id) => at.conductor_heat(id),
-                    Quantity::Boundary(id) => heat[id.index()],
+                    Quantity::Conductor(id) | Quantity::ReceivedTo(id) => at.received(id)[1],
+                    Quantity::ReceivedFrom(id) => at.received(id)[0],
+                    Quantity::Boundary(id) => at.boundary_heat()[id.index()],
                 });
             }
             row += 1;
@@ -106,7 +104,8 @@ impl Table {
                 Quantity::Node(id) => unit.from_si(steady.temperatures[id.index()]),
                 Quantity::BoundaryTemperature(id) => unit.from_si(steady.boundary_temperatures[id.index()]),
                 Quantity::Source(id) => steady.source_heat[id.index()],
-                Quantity::Conductor(id) => steady.conductor_heat[id.index()],
+                Quantity::Conductor(id) | Quantity::ReceivedTo(id) => steady.conductor_heat[id.index()],
+                Quantity::ReceivedFrom(id) => steady.received[id.index()][0],
                 Quantity::Boundary(id) => steady.boundary_heat[id.index()],
             }];
             column
@@ -121,6 +120,10 @@ enum Quantity {
     Node(NodeId),
     BoundaryTemperature(BoundaryId),
     Conductor(ConductorId),
+    /// Heat that the first end of a stream receives.
+    ReceivedFrom(ConductorId),
+    /// Heat that the second end of a stream receives.
+    ReceivedTo(ConductorId),
     Source(SourceId),
     Boundary(BoundaryId),
 }
@@ -131,13 +134,22 @@ impl Quantity {
         let nodes = network.node_ids().map(Self::Node);
         nodes
             .chain(network.boundary_ids().map(Self::BoundaryTemperature))
-            .chain(network.conductor_ids().map(Self::Conductor))
+            .chain(network.conductor_ids().flat_map(|id| Self::of_conductor(network, id)))
             .chain(network.source_ids().map(Self::Source))
             .chain(network.boundary_ids().map(Self::Boundary))
     }
 
+    fn of_conductor(network: &Network, id: ConductorId) -> Vec<Self> {
+        match network.conductors()[id.index()].kind {
+            ConductorKind::Advection => vec![Self::ReceivedFrom(id), Self::ReceivedTo(id)],
+            _ => vec![Self::Conductor(id)],
+        }
+    }
+
     fn name(self, network: &Network) -> String {
         match self {
+            Self::ReceivedFrom(id) => format!("{}.Q_from", network.conductors()[id.index()].name),
+            Self::ReceivedTo(id) => format!("{}.Q_to", network.conductors()[id.index()].name),
             Self::Node(id) => format!("{}.T", network.nodes()[id.index()].name),
             Self::BoundaryTemperature(id) => format!("{}.T", network.boundaries()[id.index()].name),
             Self::Conductor(id) => format!("{}.Q", network.conductors()[id.index()].name),
@@ -147,13 +159,13 @@ impl Quantity {
     }
 
     fn is_heat_flow(self) -> bool {
-        matches!(self, Self::Conductor(_) | Self::Boundary(_))
+        !matches!(self, Self::Node(_) | Self::BoundaryTemperature(_))
     }
 
     fn column(self, network: &Network, temperature: &Unit) -> Column {
         let unit = match self {
             Self::Node(_) | Self::BoundaryTemperature(_) => temperature.text.clone(),
-            Self::Conductor(_) | Self::Source(_) | Self::Boundary(_) => "W".to_owned(),
+            _ => "W".to_owned(),
         };
         Column { name: self.name(network), unit, values: Vec::new() }
     }

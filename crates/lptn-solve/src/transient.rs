@@ -7,11 +7,13 @@ use crate::curved::Curved;
 use crate::error::{StopReason, TransientError};
 use crate::heat::Heat;
 use crate::ledger::Ledger;
+use crate::newton::NewtonError;
 use crate::recorder::Recorder;
 use crate::settings::{Control, Progress, Transient};
 use crate::solution::{End, Solution};
 use crate::stateless;
 use crate::times::{Segment, segments, snap};
+use crate::unsolved::Unsolved;
 
 impl Transient {
     /// Runs to the stop.
@@ -36,7 +38,7 @@ impl Transient {
         let mut breakpoints = network.breakpoints(self.start, self.stop).map_err(TransientError::Input)?;
         snap(&mut breakpoints, &rows);
         let segments = segments(self.start, self.stop, &breakpoints);
-        let recorder = Recorder::new(system, rows, self).map_err(TransientError::Settings)?;
+        let recorder = Recorder::new(system, rows, self)?;
         if system.states().is_empty() {
             return stateless::solve(recorder, &segments);
         }
@@ -66,7 +68,8 @@ impl<'a> Run<'a> {
         settings: &Transient,
     ) -> Result<Self, TransientError> {
         let initial = system.initial();
-        let heat = Heat::new(system, segments[0].inside());
+        let heat = Heat::new(system, segments[0].inside())
+            .map_err(|e| TransientError::Start(Unsolved::new(system, e)))?;
         let curved = Curved::of(system, segments, recorder.rows());
         recorder.remembered = curved.map_or(0.0, |c| c.remembered);
         let integrator = Integrator::new(heat, settings.start, &initial, &settings.options(curved))
@@ -124,8 +127,12 @@ impl<'a> Run<'a> {
 
     /// The reason of a failure: what the system knows goes before what the integrator says.
     fn failed(&mut self, error: IntegrateError) -> Break {
-        if let Some(input) = self.integrator.system_mut().failure.take() {
-            return Break::Failed(StopReason::Input(input));
+        if let Some(failure) = self.integrator.system_mut().failure.take() {
+            let system = self.recorder.system();
+            return Break::Failed(match failure {
+                NewtonError::Input(input) => StopReason::Input(input),
+                other => StopReason::Unsolved(Unsolved::new(system, other)),
+            });
         }
         let node = error.component().map(|state| self.recorder.state_name(state));
         Break::Failed(StopReason::Integrator { error, node })
@@ -133,15 +140,14 @@ impl<'a> Run<'a> {
 
     fn finish(mut self, end: End) -> Result<Solution, TransientError> {
         let system = self.recorder.system();
-        let network = system.network();
-        let mut stored = vec![0.0; network.nodes().len()];
+        let mut stored = vec![0.0; system.network().nodes().len()];
         let changes = self.integrator.state().iter().zip(&self.initial).zip(system.capacity());
         for (((now, before), capacity), id) in changes.zip(system.states()) {
             stored[id.index()] = capacity * (now - before);
         }
         let statistics: Statistics = self.integrator.statistics();
         let integrals = self.integrator.quadratures().map_err(TransientError::Integrator)?;
-        let ledger = Ledger::new(network, integrals, stored, self.tolerance);
+        let ledger = Ledger::new(system, integrals, stored, self.tolerance);
         Ok(self.recorder.into_solution(ledger, statistics, end))
     }
 }

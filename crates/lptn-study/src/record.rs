@@ -1,6 +1,6 @@
 //! Ledger and counters in the form in which they are written.
 
-use lptn_network::Network;
+use lptn_network::{ConductorKind, Network};
 use lptn_solve::{Ledger, Statistics};
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -33,11 +33,13 @@ pub struct LedgerRecord {
     pub sources: Map<String, Value>,
     /// Heat that each boundary gave to the network.
     pub boundaries: Map<String, Value>,
+    /// Heat that each stream brought to its two ends together.
+    pub streams: Map<String, Value>,
     /// Heat that each node stored.
     pub stored: Map<String, Value>,
     /// Heat turned over.
     pub turned_over: Scalar,
-    /// Sources plus boundaries less stored.
+    /// Sources plus boundaries plus streams less stored.
     pub residual: Scalar,
     /// The residual over the heat turned over; `null` where none was.
     pub relative_residual: Option<Scalar>,
@@ -52,10 +54,13 @@ impl LedgerRecord {
     pub fn new(network: &Network, ledger: &Ledger) -> Self {
         let sources = network.sources().iter().map(|s| s.name.as_str());
         let boundaries = network.boundaries().iter().map(|b| b.name.as_str());
+        let streams = network.conductors().iter().filter(|c| c.kind == ConductorKind::Advection);
+        let streams = streams.map(|c| c.name.as_str());
         let nodes = network.nodes().iter().map(|n| n.name.as_str());
         Self {
             sources: by_name(sources, &ledger.sources),
             boundaries: by_name(boundaries, &ledger.boundaries),
+            streams: by_name(streams, &ledger.streams),
             stored: by_name(nodes, &ledger.stored),
             turned_over: Scalar::new(ledger.turned_over, "J"),
             residual: Scalar::new(ledger.residual(), "J"),
@@ -92,6 +97,10 @@ impl StatisticsRecord {
         let member = |(name, count): (&str, u64)| {
             (name.to_owned(), serde_json::json!({ "value": count, "unit": "1" }))
         };
-        Self(counters.into_iter().map(member).collect())
+        let mut members: Map<String, Value> = counters.into_iter().map(member).collect();
+        if let Some(time) = statistics.switched_to_lu {
+            members.insert("switched_to_lu".into(), Scalar::new(time, "s").json());
+        }
+        Self(members)
     }
 }

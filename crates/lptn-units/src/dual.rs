@@ -29,21 +29,6 @@ impl<const N: usize> Dual<N> {
         }
         dual
     }
-
-    /// A function of this number, from its value and its slope.
-    fn chain(self, value: f64, slope: f64) -> Self {
-        Self { value, derivatives: self.derivatives.map(|d| times(slope, d)) }
-    }
-
-    /// A function of two numbers, from its value and its two slopes.
-    fn chain2(self, other: Self, value: f64, slopes: [f64; 2]) -> Self {
-        let [mine, theirs] = slopes;
-        let mut derivatives = self.derivatives;
-        for (d, o) in derivatives.iter_mut().zip(other.derivatives) {
-            *d = times(mine, *d) + times(theirs, o);
-        }
-        Self { value, derivatives }
-    }
 }
 
 /// A slope times a derivative. What does not depend on a variable does not, however steep the function.
@@ -171,5 +156,20 @@ impl<const N: usize> Scalar for Dual<N> {
         // 0^b is constantly 0 for b > 0, while ln 0 is infinite.
         let in_exponent = if self.value == 0.0 { 0.0 } else { value * self.value.ln() };
         self.chain2(exponent, value, [power_slope(self.value, exponent.value), in_exponent])
+    }
+
+    #[inline]
+    fn chain(self, value: f64, slope: f64) -> Self {
+        Self { value, derivatives: self.derivatives.map(|d| times(slope, d)) }
+    }
+
+    #[inline]
+    fn chain2(self, other: Self, value: f64, slopes: [f64; 2]) -> Self {
+        let [mine, theirs] = slopes;
+        let mut derivatives = self.derivatives;
+        for (d, o) in derivatives.iter_mut().zip(other.derivatives) {
+            *d = times(mine, *d) + times(theirs, o);
+        }
+        Self { value, derivatives }
     }
 }

@@ -205,6 +205,37 @@ pub enum UnitErrorKind {
         /// The string with the argument made a plain number by a scale of its own kind.
         example: Option<String>,
     },
+    /// A table called with a wrong number of arguments, or used without any.
+    TableArity {
+        /// The table.
+        table: String,
+        /// The type of each argument it takes.
+        wanted: Vec<Type>,
+        /// How many were given.
+        found: usize,
+        /// The string with names in scope that are of the right kind.
+        fix: Option<String>,
+    },
+    /// An argument of a table of the wrong type.
+    TableArgument {
+        /// The table.
+        table: String,
+        /// Which argument, counted from 0.
+        argument: usize,
+        /// The type it takes.
+        wanted: Box<Type>,
+        /// The type it was given.
+        found: Box<Type>,
+        /// What was possibly meant.
+        fix: Option<String>,
+    },
+    /// A parameter or another name without arguments, called as if it were a table.
+    NotATable {
+        /// The name.
+        name: String,
+        /// The string without the call; a product if there is one argument.
+        fix: String,
+    },
     /// A variable exponent on a base that has a dimension.
     VariableExponent {
         /// Type of the base.

@@ -31,12 +31,13 @@ pub(crate) fn code(kind: &Kind) -> &'static str {
         Kind::MisplacedBracket { .. } => "units::misplaced_bracket",
         Kind::UnknownName { .. } => "units::unknown_name",
         Kind::UnknownFunction { .. } => "units::unknown_function",
-        Kind::Arity { .. } => "units::arity",
+        Kind::Arity { .. } | Kind::TableArity { .. } => "units::arity",
+        Kind::NotATable { .. } => "units::not_a_table",
         Kind::AmbiguousSign { .. } => "units::ambiguous_sign",
         Kind::ChainedComparison => "units::chained_comparison",
         Kind::Operands { .. } => "units::operands",
         Kind::AbsoluteOperand { .. } => "units::absolute_temperature",
-        Kind::Argument { .. } => "units::argument",
+        Kind::Argument { .. } | Kind::TableArgument { .. } => "units::argument",
         Kind::TruthValue { .. } | Kind::TruthWanted { .. } => "units::truth",
     }
 }
@@ -67,6 +68,13 @@ pub(crate) fn message(kind: &Kind) -> String {
         Kind::AbsoluteOperand { operation, .. } => format!("an absolute temperature cannot be {operation}"),
         Kind::Argument { function, wanted, found, .. } => {
             format!("`{function}` takes {wanted}, got {}", got(found))
+        }
+        Kind::TableArity { table, wanted, found, .. } => {
+            let count = if wanted.len() == 1 { "one argument" } else { "two arguments" };
+            format!("table `{table}` takes {count}, {}, got {found}", kinds(wanted))
+        }
+        Kind::TableArgument { table, wanted, found, .. } => {
+            format!("table `{table}` takes {}, got {}", wanted.with_article(), got(found))
         }
         Kind::VariableExponent { base, .. } => {
             format!("power of a {} needs a constant exponent such as 2 or (5/3)", noun(base))
@@ -104,6 +112,7 @@ fn text_message(kind: &Kind) -> String {
         Kind::MisplacedBracket { .. } => "unit in brackets may only follow a number".to_owned(),
         Kind::UnknownName { name, .. } => format!("unknown name `{name}`"),
         Kind::UnknownFunction { name, .. } => format!("unknown function `{name}`"),
+        Kind::NotATable { name, .. } => format!("`{name}` is no table and takes no arguments"),
         Kind::Arity { function, wanted, found } => {
             format!("`{function}` takes {wanted}, got {found}")
         }
@@ -125,7 +134,8 @@ pub(crate) fn help(kind: &Kind) -> Option<String> {
         | Kind::AbsoluteOperand { fix, .. }
         | Kind::VariableExponent { fix, .. }
         | Kind::TruthValue { fix }
-        | Kind::TruthWanted { fix } => Some(write(fix)),
+        | Kind::TruthWanted { fix }
+        | Kind::NotATable { fix, .. } => Some(write(fix)),
         Kind::AmbiguousProduct { fix } | Kind::RelativeDeviation { fix } => fix.as_deref().map(write),
         Kind::DigitGroups { fix } => {
             Some(fix.as_deref().map_or_else(|| "write the digits without separators".to_owned(), write))
@@ -143,6 +153,14 @@ pub(crate) fn help(kind: &Kind) -> Option<String> {
             .map(|example| format!("divide it by {}, for example \"{example}\"", found.with_article())),
         Kind::Syntax { wanted, found } => syntax_help(wanted, found).map(str::to_owned),
         Kind::UnknownUnit { fix, .. } => fix.as_deref().map(|fix| format!("did you mean \"{fix}\"?")),
+        Kind::TableArity { table, wanted, fix, .. } => Some(match fix {
+            Some(fix) => write(fix),
+            None => format!("write `{table}(..)` with {} between the brackets", kinds(wanted)),
+        }),
+        Kind::TableArgument { wanted, fix, .. } => Some(match fix {
+            Some(fix) => write(fix),
+            None => format!("the argument must come out in {}", wanted.usual_unit()),
+        }),
         Kind::Dimension { wanted, fix, .. } => Some(match fix {
             Some(fix) => write(fix),
             None => format!("the value must come out in {}", wanted.usual_unit()),
@@ -224,6 +242,12 @@ fn got(found: &Type) -> String {
     } else {
         found.to_string()
     }
+}
+
+/// What a table takes.
+fn kinds(arguments: &[Type]) -> String {
+    let kinds: Vec<String> = arguments.iter().map(Type::with_article).collect();
+    kinds.join(" and ")
 }
 
 fn noun(ty: &Type) -> String {

@@ -32,6 +32,7 @@ mod repair;
 mod scalar;
 mod separators;
 mod suggest;
+pub mod table;
 mod types;
 mod unit;
 mod unit_parser;
@@ -41,12 +42,15 @@ mod value;
 pub use dimension::Dimension;
 pub use dual::Dual;
 pub use error::{UnitError, UnitErrorKind};
-pub use expr::{Comparison, Degree, EvalError, Expression, Program, RESERVED, Scope, Symbol, is_function};
+pub use expr::{
+    Comparison, Degree, EvalError, Expression, Program, RESERVED, Scope, Symbol, TableCall, is_function,
+};
 pub use format::number as format_number;
 pub use quantity::{Quantity, WrittenQuantity, parse_quantity, written_quantity};
 pub use rational::Rational;
 pub use scalar::Scalar;
 pub use suggest::suggest;
+pub use table::{Interpolation, Outside, Table, Table1, Table2, TableError, TableSymbol};
 pub use types::Type;
 pub use unit::Unit;
 pub use value::{Written, parse_value};

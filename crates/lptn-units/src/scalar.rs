@@ -5,7 +5,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// A number a [`Program`](crate::Program) can be evaluated on: `f64`, or [`Dual`](crate::Dual) for derivatives.
 ///
 /// Derivatives at the points where there is none: `abs`, `min` and `max` take one side at their kinks
-/// (`abs'(0) = 1`; `min` and `max` of equal values take the first). `sqrt` and `x^a` with 0 < a < 1 have
+/// (`abs'(0) = 1`; `min` and `max` of equal values take the first; a table takes the piece above its knot). `sqrt` and `x^a` with 0 < a < 1 have
 /// an infinite derivative at 0; it is given as 0, so that a law whose conductance goes like `abs(dT)^0.25`
 /// has a finite Jacobian at `dT = 0` (where the term `dT * dG/ddT` is 0). `x^a` with a > 1 has derivative 0 at
 /// 0, which is what it is.
@@ -38,6 +38,10 @@ pub trait Scalar:
     fn powf(self, exponent: f64) -> Self;
     /// Real power of a base that is not negative, both varying.
     fn pow(self, exponent: Self) -> Self;
+    /// A function of this number, from its value and its slope here.
+    fn chain(self, value: f64, slope: f64) -> Self;
+    /// A function of this and another number, from its value and its slopes along each.
+    fn chain2(self, other: Self, value: f64, slopes: [f64; 2]) -> Self;
 
     /// The smaller; the first of equal values.
     fn min(self, other: Self) -> Self {
@@ -101,5 +105,13 @@ impl Scalar for f64 {
 
     fn pow(self, exponent: Self) -> Self {
         self.powf(exponent)
+    }
+
+    fn chain(self, value: f64, _: f64) -> Self {
+        value
+    }
+
+    fn chain2(self, _: Self, value: f64, _: [f64; 2]) -> Self {
+        value
     }
 }

@@ -53,7 +53,7 @@ impl Type {
     }
 
     /// With the article a sentence needs: `a thermal resistance (K/W)`.
-    pub(crate) fn with_article(&self) -> String {
+    pub fn with_article(&self) -> String {
         if !self.absolute && self.dimension.quantity_name().is_none() {
             return format!("a quantity in {self}");
         }

@@ -2,9 +2,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
+use std::sync::Arc;
+
 use lptn_units::{
-    Dimension, Expression, Rational, Scope, Symbol, Type, Unit, format_number, parse_quantity, parse_value,
-    suggest,
+    Dimension, Expression, Interpolation, Outside, Rational, Scope, Symbol, Table, Table1, TableSymbol, Type,
+    Unit, format_number, parse_quantity, parse_value, suggest,
 };
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
@@ -27,6 +29,17 @@ impl Scope for Nothing {
 
     fn names(&self) -> Vec<String> {
         vec!["x".to_owned()]
+    }
+
+    fn table(&self, name: &str) -> Option<TableSymbol> {
+        let points =
+            Table1::new(vec![0.0, 1.0], vec![0.0, 1.0], Interpolation::Linear, Outside::Error).unwrap();
+        let table = Arc::new(Table::One(points));
+        (name == "loss").then_some(TableSymbol { table, arguments: vec![Type::SCALAR], ty: Type::SCALAR })
+    }
+
+    fn table_names(&self) -> Vec<String> {
+        vec!["loss".to_owned()]
     }
 }
 
@@ -72,6 +85,8 @@ fn soup() -> impl Strategy<Value = String> {
         Just(" "),
         Just("x"),
         Just("if("),
+        Just("loss("),
+        Just("loss"),
         Just(","),
         Just("<"),
         Just("µ"),
@@ -113,7 +128,12 @@ fn compile_errors(text: &str, expected: Option<Type>) -> Vec<lptn_units::UnitErr
     let _ = (expression.names(), expression.split_comparison());
     match expression.compile(&Nothing, expected) {
         Ok(program) => {
-            let _ = (program.eval(&[0.5], &mut Vec::new()), program.degree_in(0));
+            let _ = (
+                program.eval(&[0.5], &mut Vec::new()),
+                program.degree_in(0),
+                program.kinks(),
+                program.table_calls(),
+            );
             Vec::new()
         }
         Err(errors) => errors,

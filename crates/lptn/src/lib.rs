@@ -27,6 +27,7 @@
 
 pub use lptn_assembly as assembly;
 pub use lptn_integrate as integrate;
+pub use lptn_laws as laws;
 pub use lptn_netlist as netlist;
 pub use lptn_network as network;
 pub use lptn_reduce as reduce;

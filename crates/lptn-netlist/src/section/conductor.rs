@@ -1,4 +1,5 @@
-//! `[resistor]` and `[convection]`: paths between two ends.
+//! The sections of paths between two ends: `[resistor]`, `[convection]`, `[contact]` here, the others in files of
+//! their own.
 
 use lptn_network::{ConductorKind, End, Field, Input, Item, Path};
 use lptn_units::{Dimension, Type};
@@ -8,24 +9,53 @@ use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample};
 use crate::raw::{RawEntry, RawValue};
 use crate::value::{Place, Wanted};
-use crate::vocabulary::{CONVECTION, RESISTOR, Section};
+use crate::vocabulary::{ADVECTION, CONDUCTION, CONTACT, CONVECTION, RADIATION, RESISTOR, Section};
 
 /// The forms of a law, by their keys.
 const RESISTOR_FORMS: &[&[&str]] = &[&["R"], &["G"]];
 const CONVECTION_FORMS: &[&[&str]] = &[&["R"], &["h", "area"]];
+const CONTACT_FORMS: &[&[&str]] = &[&["h", "area"]];
+
+/// The sections of paths, in the order in which their columns stand.
+const PATHS: [(&Section, ConductorKind); 6] = [
+    (&RESISTOR, ConductorKind::Resistor),
+    (&CONDUCTION, ConductorKind::Conduction),
+    (&CONVECTION, ConductorKind::Convection),
+    (&CONTACT, ConductorKind::Contact),
+    (&RADIATION, ConductorKind::Radiation),
+    (&ADVECTION, ConductorKind::Advection),
+];
+
+/// Where the values of a path stand; `from` and `to` are noted by themselves.
+const FIELDS: [Field; 18] = [
+    Field::Resistance,
+    Field::Conductance,
+    Field::FilmCoefficient,
+    Field::Area,
+    Field::Material,
+    Field::Conductivity,
+    Field::Thickness,
+    Field::InnerRadius,
+    Field::OuterRadius,
+    Field::Length,
+    Field::Diameter,
+    Field::Exchange,
+    Field::Emissivity,
+    Field::ViewFactor,
+    Field::StreamCapacity,
+    Field::Fluid,
+    Field::Flow,
+    Field::FlowTemperature,
+];
 
 impl<'a> Elaboration<'a> {
-    pub(crate) fn resistors(&mut self) {
-        for entry in self.elements(RESISTOR.name) {
-            let read = self.conductor(entry, &RESISTOR, ConductorKind::Resistor);
-            self.doubts.paths |= read.is_none();
-        }
-    }
-
-    pub(crate) fn convections(&mut self) {
-        for entry in self.elements(CONVECTION.name) {
-            let read = self.conductor(entry, &CONVECTION, ConductorKind::Convection);
-            self.doubts.paths |= read.is_none();
+    /// Every path between two ends.
+    pub(crate) fn conductors(&mut self) {
+        for (section, kind) in PATHS {
+            for entry in self.elements(section.name) {
+                let read = self.conductor(entry, section, kind);
+                self.doubts.paths |= read.is_none();
+            }
         }
     }
 
@@ -33,13 +63,15 @@ impl<'a> Elaboration<'a> {
         let owner = Owner::element(section.name, &entry.key);
         let fields = Fields::of(section, owner, entry, &mut self.problems)?;
         let (from, to) = (self.end(&fields, "from"), self.end(&fields, "to"));
+        // a stand-in where the law is wrong, so that the ends still count
         let path = self.path(&fields, kind);
+        let path = path.unwrap_or_else(|| Path::Resistance(stand_in(Type::of(Dimension::RESISTANCE))));
         let (from, to) = (from?, to?);
         let id = self.builder.conductor(&entry.key, kind, (from.0, to.0), path);
         self.map.conductor(section.name);
         let item = Item::Conductor(id);
-        self.map.insert(item, Field::Name, entry.key_span.clone());
         self.map_fields(item, &fields, (from, to));
+        self.map.insert(item, Field::Name, entry.key_span.clone());
         Some(())
     }
 
@@ -51,42 +83,49 @@ impl<'a> Elaboration<'a> {
     ) {
         self.map.value(item, Field::From, from.1);
         self.map.value(item, Field::To, to.1);
-        let laws = [Field::Resistance, Field::Conductance, Field::FilmCoefficient, Field::Area];
-        for field in laws {
+        for field in FIELDS {
             if let Some(raw) = fields.get(field.key()) {
                 self.map.value(item, field, raw);
             }
         }
     }
 
-    /// The law; a stand-in where it is wrong, so that the ends still count.
-    fn path(&mut self, fields: &Fields<'a>, kind: ConductorKind) -> Path {
-        let forms = if kind == ConductorKind::Resistor { RESISTOR_FORMS } else { CONVECTION_FORMS };
-        self.problems.extend(check_forms(fields, forms));
-        let resistance = self.law(fields, "R", Dimension::RESISTANCE);
-        let conductance = self.law(fields, "G", Dimension::CONDUCTANCE);
-        let film = self.law(fields, "h", Dimension::FILM_COEFFICIENT);
-        let area = self.law(fields, "area", Dimension::AREA);
-        match (resistance, conductance, film, area) {
-            (None, Some(conductance), ..) => Path::Conductance(conductance),
-            (None, None, Some(film), Some(area)) => Path::Film(film, area),
-            (resistance, ..) => {
-                Path::Resistance(resistance.unwrap_or_else(|| stand_in(Type::of(Dimension::RESISTANCE))))
-            }
+    fn path(&mut self, fields: &Fields<'a>, kind: ConductorKind) -> Option<Path> {
+        match kind {
+            ConductorKind::Resistor => self.simple(fields, RESISTOR_FORMS),
+            ConductorKind::Convection => self.simple(fields, CONVECTION_FORMS),
+            ConductorKind::Contact => self.simple(fields, CONTACT_FORMS),
+            ConductorKind::Conduction => self.conduction(fields),
+            ConductorKind::Radiation => self.radiation(fields),
+            ConductorKind::Advection => self.advection(fields),
         }
     }
 
-    fn law(&mut self, fields: &Fields<'a>, key: &str, dimension: Dimension) -> Option<Input> {
+    /// A resistance, a conductance, or a film coefficient with its area.
+    fn simple(&mut self, fields: &Fields<'a>, forms: &[&[&str]]) -> Option<Path> {
+        self.problems.extend(check_forms(fields, forms));
+        let resistance = self.law(fields, "R", Type::of(Dimension::RESISTANCE));
+        let conductance = self.law(fields, "G", Type::of(Dimension::CONDUCTANCE));
+        let film = self.law(fields, "h", Type::of(Dimension::FILM_COEFFICIENT));
+        let area = self.law(fields, "area", Type::of(Dimension::AREA));
+        match (resistance, conductance, film, area) {
+            (None, Some(conductance), ..) => Some(Path::Conductance(conductance)),
+            (None, None, Some(film), Some(area)) => Some(Path::Film(film, area)),
+            (resistance, ..) => resistance.map(Path::Resistance),
+        }
+    }
+
+    /// The value of a field of a path, which may depend on time and temperatures; a stand-in if it is wrong.
+    pub(crate) fn law(&mut self, fields: &Fields<'a>, key: &str, ty: Type) -> Option<Input> {
         let known = fields.known(key);
         let raw = fields.get(key).filter(|_| known)?;
-        let ty = Type::of(dimension);
-        let given = self.given(Place { owner: &fields.owner, key, raw }, Wanted::constant(ty));
+        let given = self.given(Place { owner: &fields.owner, key, raw }, Wanted::of_link(ty));
         Some(given.map_or_else(|| stand_in(ty), |given| given.input()))
     }
 }
 
 /// Exactly one form, and all of it.
-fn check_forms(fields: &Fields<'_>, forms: &[&[&str]]) -> Option<Diagnostic> {
+pub(crate) fn check_forms(fields: &Fields<'_>, forms: &[&[&str]]) -> Option<Diagnostic> {
     let begun: Vec<&&[&str]> =
         forms.iter().filter(|form| form.iter().any(|key| fields.get(key).is_some())).collect();
     match begun.as_slice() {

@@ -8,17 +8,23 @@ use lptn_units::suggest;
 use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::Fields;
-use crate::raw::{RawKind, RawValue};
+use crate::raw::RawValue;
 
 impl<'a> Elaboration<'a> {
     /// The node or boundary that a field names.
     pub(crate) fn end(&mut self, fields: &Fields<'a>, key: &str) -> Option<(End, &'a RawValue)> {
         let raw = fields.require(key, &mut self.problems)?;
-        if let (RawKind::Table(_), "into") = (&raw.kind, key) {
-            self.report(shares(fields, raw));
-            return None;
-        }
         let name = fields.text(key, raw, &mut self.problems)?;
+        self.named_end(fields, key, (name, raw))
+    }
+
+    /// The node or boundary of this name.
+    pub(crate) fn named_end(
+        &mut self,
+        fields: &Fields<'a>,
+        key: &str,
+        (name, raw): (&str, &'a RawValue),
+    ) -> Option<(End, &'a RawValue)> {
         match self.ends.get(name) {
             Some((end, _)) => Some((*end, raw)),
             None if self.names.is_hidden(name) => None, // what hides it has been reported
@@ -89,11 +95,4 @@ fn example(name: &str, wanted: &str) -> String {
         "node" => format!("`{name} = {{ T0 = \"25 degC\", C = \"500 J/K\" }}` below [node]"),
         _ => format!("`{name} = {{ T = \"25 degC\" }}` below [boundary]"),
     }
-}
-
-fn shares(fields: &Fields<'_>, raw: &RawValue) -> Diagnostic {
-    let message = format!("{} names several nodes, which is not supported yet", fields.owner.field("into"));
-    Diagnostic::error("netlist::not_supported_yet", message)
-        .at(raw.span.clone(), "")
-        .help("write one source for each node, with its share of the heat: `P = \"0.5 * P_total\"`")
 }

@@ -7,24 +7,27 @@ use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample};
 use crate::library::{self, Record};
-use crate::plausible;
-use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::raw::{RawEntry, RawValue};
 use crate::value::{Given, Place, Wanted};
-use crate::vocabulary::MATERIAL;
+use crate::vocabulary::{FLUID, MATERIAL};
 
 /// A material in use or ready to be.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
-    id: MaterialId,
+    pub(crate) id: MaterialId,
     density: bool,
     cp: bool,
+    pub(crate) k: bool,
 }
 
 /// The properties, by key.
-const PROPERTIES: [(&str, Field, Dimension); 3] = [
-    ("density", Field::Density, Dimension::DENSITY),
-    ("cp", Field::SpecificHeat, Dimension::SPECIFIC_HEAT),
-    ("k", Field::Conductivity, Dimension::CONDUCTIVITY),
+const PROPERTIES: [(&str, Field); 6] = [
+    ("density", Field::Density),
+    ("cp", Field::SpecificHeat),
+    ("k", Field::Conductivity),
+    ("solidus", Field::Solidus),
+    ("liquidus", Field::Liquidus),
+    ("latent_heat", Field::LatentHeat),
 ];
 
 impl<'a> Elaboration<'a> {
@@ -40,38 +43,27 @@ impl<'a> Elaboration<'a> {
             self.names.hide_material(&entry.key);
             return;
         };
-        let [density, cp, k] = PROPERTIES.map(|(key, _, dimension)| self.property(&fields, key, dimension));
+        let density = self.solid_property(&fields, "density", Wanted::constant(Type::of(Dimension::DENSITY)));
+        let cp = self.solid_property(&fields, "cp", Wanted::own(Type::of(Dimension::SPECIFIC_HEAT)));
+        let k = self.solid_property(&fields, "k", Wanted::own(Type::of(Dimension::CONDUCTIVITY)));
+        let melting = self.melting(&fields);
         let source = fields.get("source").and_then(|raw| fields.text("source", raw, &mut self.problems));
         // an unknown key may be the property that is missing
         let known = |property: &Option<Input>| property.is_some() || !fields.complete;
-        let (has_density, has_cp) = (known(&density), known(&cp));
+        let (has_density, has_cp, has_k) = (known(&density), known(&cp), known(&k));
         let density = density.or_else(|| (!fields.complete).then(|| stand_in(Type::of(Dimension::DENSITY))));
         let cp = cp.or_else(|| (!fields.complete).then(|| stand_in(Type::of(Dimension::SPECIFIC_HEAT))));
-        let properties = Properties { density, cp, k, source: source.map(str::to_owned) };
+        let k = k.or_else(|| (!fields.complete).then(|| stand_in(Type::of(Dimension::CONDUCTIVITY))));
+        let properties = Properties { density, cp, k, melting, source: source.map(str::to_owned) };
         let id = self.builder.material(&entry.key, properties);
         let item = Item::Material(id);
         self.map.insert(item, Field::Name, entry.key_span.clone());
-        for (key, field, _) in PROPERTIES {
+        for (key, field) in PROPERTIES {
             if let Some(raw) = fields.get(key) {
                 self.map.value(item, field, raw);
             }
         }
-        self.known.insert(entry.key.clone(), Known { id, density: has_density, cp: has_cp });
-    }
-
-    fn property(&mut self, fields: &Fields<'a>, key: &'static str, dimension: Dimension) -> Option<Input> {
-        let raw = fields.get(key)?;
-        let ty = Type::of(dimension);
-        if matches!(raw.kind, RawKind::Table(_) | RawKind::Array(_)) {
-            self.report(tabulated(fields, key, raw));
-            return Some(stand_in(ty));
-        }
-        let place = Place { owner: &fields.owner, key, raw };
-        let given = self.given(place, Wanted::constant(ty));
-        if let Some(Given::Quantity(quantity)) = &given {
-            self.problems.extend(plausible::check(place, quantity.value));
-        }
-        Some(given.map_or_else(|| stand_in(ty), Given::input))
+        self.known.insert(entry.key.clone(), Known { id, density: has_density, cp: has_cp, k: has_k });
     }
 
     /// The capacity of a node or capacitor: `C`, or `material` with `mass` or `volume`; `None` where neither is.
@@ -82,7 +74,7 @@ impl<'a> Elaboration<'a> {
             (None, None) => None,
             (Some(raw), None) => {
                 let place = Place { owner: &fields.owner, key: "C", raw };
-                let given = self.given(place, Wanted::constant(ty));
+                let given = self.given(place, Wanted::own(ty));
                 Some(given.map_or_else(|| stand_in(ty), Given::input))
             }
             (Some(_), Some(key)) => {
@@ -151,7 +143,12 @@ impl<'a> Elaboration<'a> {
     }
 
     /// A material of the file, else of the library; a sump is a lump of a fluid.
-    fn known_material(&mut self, fields: &Fields<'_>, name: &'a str, raw: &RawValue) -> Option<Known> {
+    pub(crate) fn known_material(
+        &mut self,
+        fields: &Fields<'_>,
+        name: &'a str,
+        raw: &RawValue,
+    ) -> Option<Known> {
         self.used_materials.insert(name.to_owned());
         if let Some(known) = self.known.get(name) {
             return Some(*known);
@@ -162,17 +159,19 @@ impl<'a> Elaboration<'a> {
         let Some(record) = library::find(name) else {
             let own: Vec<&str> =
                 self.elements(MATERIAL.name).iter().map(|entry| entry.key.as_str()).collect();
-            self.report(unknown(fields, (name, raw), &own));
+            let is_fluid = self.elements(FLUID.name).iter().any(|entry| entry.key == name);
+            self.report(unknown(fields, (name, raw), (&own, is_fluid)));
             return None;
         };
         let id = self.builder.material(name, properties(record));
         self.map.insert(Item::Material(id), Field::Name, raw.span.clone());
-        let known = Known { id, density: record.density.is_some(), cp: record.cp.is_some() };
+        let (density, cp, k) = (record.density.is_some(), record.cp.is_some(), record.k.is_some());
+        let known = Known { id, density, cp, k };
         self.known.insert(name.to_owned(), known);
         Some(known)
     }
 
-    fn without_property(
+    pub(crate) fn without_property(
         &self,
         fields: &Fields<'_>,
         (name, raw): (&str, &RawValue),
@@ -189,6 +188,9 @@ impl<'a> Elaboration<'a> {
         };
         match own {
             Some(_) => problem.help(format!("add `{}` to the material", sample(property))),
+            None if property == "k" => {
+                problem.help(format!("give the conductivity itself, `{}`", sample("k")))
+            }
             None => problem.help("give the capacity itself, for example `C = \"500 J/K\"`"),
         }
     }
@@ -216,15 +218,25 @@ fn properties(record: &Record) -> Properties {
         density: input(record.density, Dimension::DENSITY),
         cp: input(record.cp, Dimension::SPECIFIC_HEAT),
         k: input(record.k, Dimension::CONDUCTIVITY),
+        melting: None,
         source: Some(record.source.clone()),
     }
 }
 
-fn unknown(fields: &Fields<'_>, (name, raw): (&str, &RawValue), own: &[&str]) -> Diagnostic {
+fn unknown(
+    fields: &Fields<'_>,
+    (name, raw): (&str, &RawValue),
+    (own, is_fluid): (&[&str], bool),
+) -> Diagnostic {
     let message = format!("no material named `{name}`, which {} refers to", fields.owner.field("material"));
     let problem = Diagnostic::error("netlist::unknown_material", message)
         .at(raw.span.clone(), "neither in [material] nor in the library");
     let shipped = library::materials().iter().chain(library::fluids()).map(|record| record.name.as_str());
+    if is_fluid {
+        return problem.help(format!(
+            "`{name}` is a fluid of this file: give the capacity itself, or write a [material] of this name as well"
+        ));
+    }
     match suggest(name, own.iter().copied().chain(shipped)) {
         Some(near) => problem.help(format!("did you mean `{near}`?")),
         None => problem.help(
@@ -232,13 +244,6 @@ fn unknown(fields: &Fields<'_>, (name, raw): (&str, &RawValue), own: &[&str]) ->
              `steel = { density = \"7850 kg/m^3\", cp = \"475 J/(kg K)\" }`",
         ),
     }
-}
-
-fn tabulated(fields: &Fields<'_>, key: &str, raw: &RawValue) -> Diagnostic {
-    let message = format!("{}, a table over temperature, is not supported yet", fields.owner.field(key));
-    Diagnostic::error("netlist::not_supported_yet", message)
-        .at(raw.span.clone(), "")
-        .help(format!("give one value: `{}`", sample(key)))
 }
 
 fn two_capacities(fields: &Fields<'_>, key: &str) -> Diagnostic {

@@ -1,16 +1,23 @@
 //! The sections, one file each.
 
+mod advection;
 mod boundary;
 mod capacitor;
+mod conduction;
 mod conductor;
 mod default;
 mod end;
 mod limit;
 mod material;
 mod node;
+mod property;
+mod radiation;
+mod signal;
 mod source;
+mod table;
 mod top;
 
+pub(crate) use advection::KnownFluid;
 pub(crate) use default::Default;
 pub(crate) use material::Known;
 pub(crate) use top::{check_head, empty};

@@ -1,6 +1,6 @@
 //! The inputs of a network between two times, as Legendre series.
 
-use lptn_network::{Evaluation, InputError, Network, Value, slot};
+use lptn_network::{Evaluation, InputError, Network};
 use lptn_units::Degree;
 
 use super::legendre::{Rule, TERMS, value};
@@ -37,8 +37,8 @@ impl Panel {
 
 impl<'a> Inputs<'a> {
     pub(crate) fn new(network: &'a Network, reference: f64) -> Self {
-        let boundaries = network.boundaries().iter().map(|b| form(&b.temperature));
-        let forms = boundaries.chain(network.sources().iter().map(|s| form(&s.power))).collect();
+        let boundaries = network.boundaries().iter().map(|b| network.course(&b.temperature));
+        let forms = boundaries.chain(network.sources().iter().map(|s| network.course(&s.power))).collect();
         let rule = Rule::new();
         Self { network, scope: network.evaluation(), reference, forms, rule, inside: 0.0 }
     }
@@ -101,13 +101,5 @@ impl<'a> Inputs<'a> {
     fn sample(&mut self, (from, to): (f64, f64), places: &[f64]) -> Result<Vec<Vec<f64>>, InputError> {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         places.iter().map(|x| self.at((middle + half * x).clamp(from, to))).collect()
-    }
-}
-
-fn form(value: &Value) -> Degree {
-    match value {
-        // products make capacities, which are constant
-        Value::Constant(_) | Value::Product(_) => Degree::Constant,
-        Value::Expression(program) => program.degree_in(slot::TIME),
     }
 }

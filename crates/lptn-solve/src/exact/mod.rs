@@ -64,6 +64,11 @@ pub enum ExactError {
     Input(InputError),
     /// A constant has no value.
     Value(EvalError),
+    /// It is not linear with constant coefficients.
+    NotLinear {
+        /// The name of the first item that makes it so.
+        name: String,
+    },
     /// The conductances of the massless nodes span more than the numbers can hold.
     Singular,
     /// The eigenvalues were not found.
@@ -82,6 +87,7 @@ impl ExactError {
             Self::TooLarge { .. } => "exact::too_large",
             Self::Times => "exact::times",
             Self::Input(_) | Self::Value(_) => "solve::input",
+            Self::NotLinear { .. } => "exact::not_linear",
             Self::Singular => "exact::singular",
             Self::Modes => "exact::modes",
             Self::Quadrature { .. } => "exact::quadrature",
@@ -98,6 +104,9 @@ impl fmt::Display for ExactError {
             Self::Times => f.write_str("the times must increase and begin at the start or after it"),
             Self::Input(error) => error.fmt(f),
             Self::Value(error) => error.fmt(f),
+            Self::NotLinear { name } => {
+                write!(f, "`{name}` makes the network more than constant capacities and conductances")
+            }
             Self::Singular => {
                 f.write_str("the conductances of the massless nodes span more than the numbers can hold")
             }

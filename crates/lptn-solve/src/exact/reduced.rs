@@ -48,6 +48,9 @@ impl Reduced {
         if nodes > Self::MOST_NODES {
             return Err(ExactError::TooLarge { nodes });
         }
+        if let Some(item) = network.first_nonlinear() {
+            return Err(ExactError::NotLinear { name: network.name_of(item).to_owned() });
+        }
         let elements = Elements::read(network).map_err(ExactError::Value)?;
         let capacities = capacities(network).map_err(ExactError::Value)?;
         let (mut states, mut massless) = (Vec::new(), Vec::new());
@@ -97,7 +100,7 @@ impl Elements {
             }
         }
         for (k, source) in network.sources().iter().enumerate() {
-            inputs[(source.into.index(), boundaries + k)] += 1.0;
+            source.into.iter().for_each(|(node, share)| inputs[(node.index(), boundaries + k)] += share);
         }
         Ok(Self { among, inputs, boundaries })
     }

@@ -7,7 +7,7 @@ use lptn_netlist::RunSettings;
 use lptn_network::{InputError, Network, Severity};
 use lptn_solve::{
     Control, End, LinearSolver, NodeSummary, OutputTimes, Progress, Record, Solution, SteadyError,
-    SteadyState, Summary, Transient, TransientError,
+    SteadyState, Summary, Transient, TransientError, Unsolved,
 };
 
 use crate::compare::limits::{self, LimitResult};
@@ -52,6 +52,8 @@ pub enum CompareError {
     Run(Box<TransientError>),
     /// A limit, source or boundary has no value.
     Input(InputError),
+    /// The balances of its massless nodes have no solution at the start.
+    Start(Unsolved),
     /// Its books do not close: relative residual, and what is allowed.
     Ledger(f64, f64),
     /// Its run was interrupted at this time in s: peaks and limits of a part would read like those of the whole.
@@ -65,6 +67,7 @@ impl CompareError {
             Self::Steady(error) => error.code(),
             Self::Run(error) => error.code(),
             Self::Input(_) => "solve::input",
+            Self::Start(unsolved) => unsolved.code(),
             Self::Ledger(..) => "run::ledger",
             Self::Interrupted(_) => "run::interrupted",
         }
@@ -72,14 +75,11 @@ impl CompareError {
 
     /// The input that has no value, if that is the reason.
     pub fn input(&self) -> Option<&InputError> {
-        use lptn_solve::StopReason;
         match self {
-            Self::Input(input) | Self::Steady(SteadyError::Input(input)) => Some(input),
-            Self::Run(error) => match &**error {
-                TransientError::Input(input)
-                | TransientError::Stopped { reason: StopReason::Input(input), .. } => Some(input),
-                _ => None,
-            },
+            Self::Input(input) => Some(input),
+            Self::Steady(error) => error.input(),
+            Self::Run(error) => error.input(),
+            Self::Start(unsolved) => unsolved.input(),
             _ => None,
         }
     }
@@ -91,6 +91,7 @@ impl fmt::Display for CompareError {
             Self::Steady(error) => error.fmt(f),
             Self::Run(error) => error.fmt(f),
             Self::Input(error) => error.fmt(f),
+            Self::Start(unsolved) => unsolved.fmt(f),
             Self::Ledger(residual, bound) => write!(
                 f,
                 "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than the {bound:.1e} allowed"
@@ -209,7 +210,7 @@ fn transient(
 ) -> Result<Transient, CompareError> {
     let network = system.network();
     let nodes: Vec<_> = network.node_ids().collect();
-    let watch = Summary::watches(system, run.start, &nodes, steady).map_err(CompareError::Input)?;
+    let watch = Summary::watches(system, run.start, &nodes, steady).map_err(CompareError::Start)?;
     Ok(Transient {
         start: run.start,
         stop: run.stop,
@@ -248,10 +249,10 @@ fn heat_at_the_end(
     let mut work = system.workspace();
     system.read_inputs(&mut work, run.stop, run.stop)?;
     system.place(&mut work, &last);
-    let mut states = vec![0.0; system.states().len()];
-    system.state_temperatures(&last, &mut states);
+    let mut unknowns = vec![0.0; system.unknowns().len()];
+    system.unknown_temperatures(&last, &mut unknowns);
     let mut heat = vec![0.0; system.network().boundaries().len()];
-    system.boundary_heat(&work, &states, &mut heat);
+    system.boundary_heat(&mut work, &unknowns, &mut heat)?;
     Ok(heat)
 }
 

@@ -1,10 +1,13 @@
 //! Tree to types: resolves names, checks dimensions, folds constants.
 
 use std::ops::Range;
+use std::sync::Arc;
 
+use super::call;
 use super::fix::Source;
 use super::function::{self, Function};
 use super::operands;
+use super::program::NamedTable;
 use super::tree::{Id, Node, Operator, Tree};
 use super::{Scope, Symbol, fold};
 use crate::dimension::Dimension;
@@ -24,30 +27,40 @@ pub(crate) struct Checked {
     pub(crate) exact: Option<Rational>,
     /// What a name stands for.
     pub(crate) symbol: Option<Symbol>,
+    /// Index of the table that is called.
+    pub(crate) table: Option<usize>,
 }
 
 impl Checked {
     pub(crate) fn of(ty: Type) -> Self {
-        Self { ty: Some(ty), constant: None, exact: None, symbol: None }
+        Self { ty: Some(ty), constant: None, exact: None, symbol: None, table: None }
     }
 }
 
-/// One entry per node, in the order of the tree.
+/// What is known of a tree.
+pub(crate) struct Resolved {
+    /// One entry per node, in the order of the tree.
+    pub(crate) nodes: Vec<Checked>,
+    /// The tables that are called, each once.
+    pub(crate) tables: Vec<NamedTable>,
+}
+
 pub(crate) fn check(
     text: &str,
     tree: &Tree,
     scope: &dyn Scope,
     expected: Option<Type>,
-) -> Result<Vec<Checked>, Vec<UnitError>> {
-    let mut checker = Checker { source: Source { text, tree }, scope, found: Vec::new(), errors: Vec::new() };
+) -> Result<Resolved, Vec<UnitError>> {
+    let source = Source { text, tree };
+    let mut checker = Checker { source, scope, found: Vec::new(), tables: Vec::new(), errors: Vec::new() };
     for (id, (node, _)) in tree.nodes().enumerate() {
         let found = checker.node(id, node);
         checker.found.push(found);
     }
     checker.result(expected);
-    let Checker { found, mut errors, .. } = checker;
+    let Checker { found, tables, mut errors, .. } = checker;
     if errors.is_empty() {
-        return Ok(found.into_iter().flatten().collect());
+        return Ok(Resolved { nodes: found.into_iter().flatten().collect(), tables });
     }
     errors.sort_by_key(|error| error.span.start);
     Err(errors)
@@ -58,6 +71,7 @@ struct Checker<'a> {
     scope: &'a dyn Scope,
     /// `None` where an error was found, or in an operand.
     found: Vec<Option<Checked>>,
+    tables: Vec<NamedTable>,
     errors: Vec<UnitError>,
 }
 
@@ -75,9 +89,9 @@ impl Checker<'_> {
                 let (a, b) = (self.value(*left), self.value(*right));
                 let checked = operands::common(&self.source, comparison.symbol(), (*left, a?), (*right, b?));
                 self.keep(checked)?;
-                Some(Checked { ty: None, constant: None, exact: None, symbol: None })
+                Some(Checked { ty: None, ..Checked::of(Type::SCALAR) })
             }
-            Node::Call { function, name_span, arguments } => self.call(function, name_span, arguments),
+            Node::Call { function, name_span, arguments } => self.call(id, function, name_span, arguments),
         }
     }
 
@@ -121,9 +135,14 @@ impl Checker<'_> {
             let wanted = function.wrong_arity(0).unwrap_or_default();
             return self.fail(Kind::Arity { function: function.name(), wanted, found: 0 }, span);
         }
+        if let Some(symbol) = self.scope.table(name) {
+            let error = call::wrong_arity(&self.source, self.scope, (name, &symbol), (span, &[]));
+            return self.keep(Err(error));
+        }
         let names = self.scope.names();
         let candidates = names.iter().map(String::as_str).chain(["pi"]);
-        let suggestion = suggest(name, candidates).map(str::to_owned);
+        let near = suggest(name, candidates).map(str::to_owned);
+        let suggestion = near.or_else(|| call::near_table(self.scope, name));
         self.fail(Kind::UnknownName { name: name.to_owned(), suggestion }, span)
     }
 
@@ -152,11 +171,8 @@ impl Checker<'_> {
         Some(Checked { constant, exact, ..Checked::of(ty) })
     }
 
-    fn call(&mut self, name: &str, span: &Range<usize>, arguments: &[Id]) -> Option<Checked> {
-        let Some(function) = function::find(name) else {
-            let suggestion = suggest(name, function::names()).map(str::to_owned);
-            return self.fail(Kind::UnknownFunction { name: name.to_owned(), suggestion }, span.clone());
-        };
+    fn call(&mut self, id: Id, name: &str, span: &Range<usize>, arguments: &[Id]) -> Option<Checked> {
+        let Some(function) = function::find(name) else { return self.table(id, name, arguments) };
         if let Some(wanted) = function.wrong_arity(arguments.len()) {
             let kind = Kind::Arity { function: function.name(), wanted, found: arguments.len() };
             return self.fail(kind, span.clone());
@@ -167,6 +183,34 @@ impl Checker<'_> {
             (_, [argument]) => self.single(function, *argument),
             _ => None,
         }
+    }
+
+    fn table(&mut self, id: Id, name: &str, arguments: &[Id]) -> Option<Checked> {
+        let Some(symbol) = self.scope.table(name) else {
+            let error = call::no_table(&self.source, self.scope, id);
+            return self.keep(Err(error));
+        };
+        let mut types = Vec::new();
+        for &argument in arguments {
+            types.push((argument, self.value(argument)));
+        }
+        if arguments.len() != symbol.table.dimension() {
+            let given = (self.source.tree.span(id), types.as_slice());
+            let error = call::wrong_arity(&self.source, self.scope, (name, &symbol), given);
+            return self.keep(Err(error));
+        }
+        let mut right = Some(());
+        for (index, (argument, ty)) in types.into_iter().enumerate() {
+            let checked = ty.map(|ty| call::argument(&self.source, (name, &symbol), index, (argument, ty)));
+            right = right.and(checked.and_then(|checked| self.keep(checked)));
+        }
+        right?;
+        let known = self.tables.iter().position(|table| table.name == name);
+        let index = known.unwrap_or_else(|| {
+            self.tables.push(NamedTable { name: name.to_owned(), table: Arc::clone(&symbol.table) });
+            self.tables.len() - 1
+        });
+        Some(Checked { table: Some(index), ..Checked::of(symbol.ty) })
     }
 
     fn conditional(&mut self, condition: Id, values: &[Id]) -> Option<Checked> {

@@ -3,42 +3,35 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::check::Checked;
+use super::check::{Checked, Resolved};
 use super::function::{self, Function};
-use super::program::{Arithmetic, Op, Operand, Program};
+use super::parts;
+use super::program::{Arithmetic, NamedTable, Op, Operand, Program};
 use super::tree::{Comparison, Id, Node, Operator, Tree};
-use crate::dimension::Dimension;
 use crate::types::Type;
 
-pub(crate) fn generate(text: &str, tree: &Tree, checked: &[Checked]) -> Program {
+pub(crate) fn generate(text: &str, tree: &Tree, resolved: Resolved) -> Program {
     let text: Arc<str> = Arc::from(text);
-    let mut main = Generator::new(tree, checked, true);
+    let (checked, tables) = (resolved.nodes, Arc::from(resolved.tables));
+    let common = Common { tree, checked: &checked, tables: &tables };
+    let mut main = Generator::new(common, true);
     main.node(tree.root());
     let ty = checked[tree.root()].ty.unwrap_or(Type::SCALAR);
     let mut program = main.finish(&text, ty);
-    for (id, (node, _)) in tree.nodes().enumerate() {
-        if let Node::Compare(_, left, right) = node {
-            let mut side = Generator::new(tree, checked, false);
-            side.pair(Operator::Subtract, *left, *right, id);
-            program.comparisons.push(side.finish(&text, difference(checked, *left, *right)));
-        }
-    }
+    parts::Parts { common, text: &text }.add_to(&mut program);
     program
 }
 
-/// Type of left minus right; of two types that go together, the one without the spare radian.
-fn difference(checked: &[Checked], left: Id, right: Id) -> Type {
-    let (Some(a), Some(b)) = (checked[left].ty, checked[right].ty) else { return Type::SCALAR };
-    match (a.absolute, a.conforms_to(b)) {
-        (true, _) => Type::of(Dimension::TEMPERATURE),
-        (false, true) => b,
-        (false, false) => a,
-    }
+/// What the programs of one expression share.
+#[derive(Clone, Copy)]
+pub(super) struct Common<'a> {
+    pub(super) tree: &'a Tree,
+    pub(super) checked: &'a [Checked],
+    pub(super) tables: &'a Arc<[NamedTable]>,
 }
 
-struct Generator<'a> {
-    tree: &'a Tree,
-    checked: &'a [Checked],
+pub(super) struct Generator<'a> {
+    common: Common<'a>,
     /// Do comparisons load the slots meant for them?
     freezes: bool,
     /// Inside how many comparisons are we?
@@ -51,10 +44,9 @@ struct Generator<'a> {
 }
 
 impl<'a> Generator<'a> {
-    fn new(tree: &'a Tree, checked: &'a [Checked], freezes: bool) -> Self {
+    pub(super) fn new(common: Common<'a>, freezes: bool) -> Self {
         Self {
-            tree,
-            checked,
+            common,
             freezes,
             comparing: 0,
             code: Vec::new(),
@@ -65,7 +57,7 @@ impl<'a> Generator<'a> {
         }
     }
 
-    fn finish(mut self, text: &Arc<str>, ty: Type) -> Program {
+    pub(super) fn finish(mut self, text: &Arc<str>, ty: Type) -> Program {
         self.slots.sort_unstable();
         self.slots.dedup();
         Program {
@@ -75,24 +67,27 @@ impl<'a> Generator<'a> {
             spans: self.spans,
             slots: self.slots,
             stack_size: self.most_waiting,
+            tables: Arc::clone(self.common.tables),
             comparisons: Vec::new(),
+            kinks: Vec::new(),
+            table_calls: Vec::new(),
         }
     }
 
-    fn emit(&mut self, op: Op, origin: Id) {
+    pub(super) fn emit(&mut self, op: Op, origin: Id) {
         match op {
             Op::Push => self.waiting += 1,
-            Op::Popped(_) | Op::PoppedPower | Op::JumpUnless(..) => self.waiting -= 1,
+            Op::Popped(_) | Op::PoppedPower | Op::PoppedTable(_) | Op::JumpUnless(..) => self.waiting -= 1,
             _ => {}
         }
         self.most_waiting = self.most_waiting.max(self.waiting);
         self.code.push(op);
-        self.spans.push(self.tree.span(origin));
+        self.spans.push(self.common.tree.span(origin));
     }
 
     /// Leaves the value of a node in the accumulator. A long sum leans to the left: that side is walked in
     /// a loop, so that the recursion is as deep as the brackets and no deeper.
-    fn node(&mut self, id: Id) {
+    pub(super) fn node(&mut self, id: Id) {
         let mut spine = Vec::new();
         let mut bottom = id;
         while let Some((operator, left, right)) = self.pending(bottom) {
@@ -110,8 +105,8 @@ impl<'a> Generator<'a> {
 
     /// A binary operation whose value is not a constant.
     fn pending(&self, id: Id) -> Option<(Operator, Id, Id)> {
-        match self.tree.node(id) {
-            Node::Binary(operator, left, right) if self.checked[id].constant.is_none() => {
+        match self.common.tree.node(id) {
+            Node::Binary(operator, left, right) if self.common.checked[id].constant.is_none() => {
                 Some((*operator, *left, *right))
             }
             _ => None,
@@ -123,7 +118,7 @@ impl<'a> Generator<'a> {
             self.load(operand, id);
             return;
         }
-        match self.tree.node(id) {
+        match self.common.tree.node(id) {
             Node::Negate(operand) => {
                 self.node(*operand);
                 self.emit(Op::Negate, id);
@@ -136,7 +131,7 @@ impl<'a> Generator<'a> {
 
     /// A constant or a name.
     fn leaf(&self, id: Id) -> Option<Operand> {
-        let Checked { constant, symbol, .. } = self.checked[id];
+        let Checked { constant, symbol, .. } = self.common.checked[id];
         constant.map(Operand::Constant).or_else(|| {
             let symbol = symbol?;
             let frozen = symbol.in_comparison.filter(|_| self.freezes && self.comparing > 0);
@@ -156,7 +151,7 @@ impl<'a> Generator<'a> {
     }
 
     /// Both sides of an operation, neither of them done.
-    fn pair(&mut self, operator: Operator, left: Id, right: Id, origin: Id) {
+    pub(super) fn pair(&mut self, operator: Operator, left: Id, right: Id, origin: Id) {
         match (self.leaf(left), self.leaf(right), arithmetic(operator)) {
             (Some(operand), None, Some(arithmetic)) => {
                 self.node(right);
@@ -187,7 +182,7 @@ impl<'a> Generator<'a> {
     }
 
     fn call(&mut self, name: &str, arguments: &[Id], origin: Id) {
-        let Some(function) = function::find(name) else { return };
+        let Some(function) = function::find(name) else { return self.table(arguments, origin) };
         match (function, arguments) {
             (Function::If, [condition, then, otherwise]) => self.conditional(*condition, *then, *otherwise),
             (Function::Min, _) => self.fold(Arithmetic::Min, arguments, origin),
@@ -207,8 +202,24 @@ impl<'a> Generator<'a> {
         }
     }
 
+    fn table(&mut self, arguments: &[Id], origin: Id) {
+        match (self.common.checked[origin].table, arguments) {
+            (Some(table), [argument]) => {
+                self.node(*argument);
+                self.emit(Op::Table(table), origin);
+            }
+            (Some(table), [first, second]) => {
+                self.node(*first);
+                self.emit(Op::Push, origin);
+                self.node(*second);
+                self.emit(Op::PoppedTable(table), origin);
+            }
+            _ => {}
+        }
+    }
+
     /// Combines the arguments from the first to the last.
-    fn fold(&mut self, arithmetic: Arithmetic, arguments: &[Id], origin: Id) {
+    pub(super) fn fold(&mut self, arithmetic: Arithmetic, arguments: &[Id], origin: Id) {
         let [first, rest @ ..] = arguments else { return };
         self.node(*first);
         for &argument in rest {
@@ -228,7 +239,7 @@ impl<'a> Generator<'a> {
 
     /// Only the branch taken runs.
     fn conditional(&mut self, condition: Id, then: Id, otherwise: Id) {
-        let Node::Compare(comparison, left, right) = self.tree.node(condition) else { return };
+        let Node::Compare(comparison, left, right) = self.common.tree.node(condition) else { return };
         let to_second = self.compare(*comparison, *left, *right, condition);
         self.node(then);
         let to_end = self.code.len();

@@ -66,7 +66,7 @@ fn step(op: &Op, current: Degree, stack: &mut Vec<Degree>, slot: u32) -> Degree 
         Op::Left(arithmetic, operand) => combine(arithmetic, of(operand), current),
         Op::Popped(arithmetic) => combine(arithmetic, stack.pop().unwrap_or(Degree::Nonlinear), current),
         Op::WholePower(1) | Op::Negate => current,
-        Op::PoppedPower => bent(stack.pop().unwrap_or(Degree::Nonlinear).max(current)),
+        Op::PoppedPower | Op::PoppedTable(_) => bent(stack.pop().unwrap_or(Degree::Nonlinear).max(current)),
         _ => bent(current),
     }
 }

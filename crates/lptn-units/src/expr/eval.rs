@@ -4,8 +4,9 @@ use std::fmt;
 use std::ops::Range;
 
 use super::function::Function;
-use super::program::{Arithmetic, Op, Operand, Program};
+use super::program::{Arithmetic, NamedTable, Op, Operand, Program};
 use crate::scalar::Scalar;
+use crate::table::Table;
 
 /// What can go wrong at run time.
 #[derive(Clone, PartialEq, Debug)]
@@ -26,6 +27,21 @@ pub enum EvalError {
         function: &'static str,
         /// Its argument, in SI units.
         argument: f64,
+        /// The call in the text.
+        span: Range<usize>,
+    },
+    /// An argument outside the knots of a table that has no value there.
+    OutsideTable {
+        /// The table.
+        table: String,
+        /// Which argument, counted from 0.
+        argument: usize,
+        /// The argument, in SI units.
+        value: f64,
+        /// The first knot, in SI units.
+        from: f64,
+        /// The last knot, in SI units.
+        to: f64,
         /// The call in the text.
         span: Range<usize>,
     },
@@ -51,6 +67,7 @@ impl EvalError {
         match self {
             Self::NegativeBase { .. } => "units::negative_base",
             Self::Domain { .. } => "units::domain",
+            Self::OutsideTable { .. } => "units::outside_table",
             Self::NotFinite { .. } => "units::result_not_finite",
             Self::MissingSlot { .. } => "units::missing_slot",
         }
@@ -59,9 +76,10 @@ impl EvalError {
     /// The part of the expression that failed, in bytes; empty for a missing slot.
     pub fn span(&self) -> Range<usize> {
         match self {
-            Self::NegativeBase { span, .. } | Self::Domain { span, .. } | Self::NotFinite { span, .. } => {
-                span.clone()
-            }
+            Self::NegativeBase { span, .. }
+            | Self::Domain { span, .. }
+            | Self::OutsideTable { span, .. }
+            | Self::NotFinite { span, .. } => span.clone(),
             Self::MissingSlot { .. } => 0..0,
         }
     }
@@ -72,6 +90,9 @@ impl EvalError {
             Self::NegativeBase { .. } => Some("write \"abs(x)^a\", or \"if(x > 0, x^a, 0)\" with its units"),
             Self::Domain { .. } => Some("keep the argument positive: \"max(x, 1e-9)\" with its unit"),
             Self::NotFinite { .. } => Some("keep divisors away from 0: \"max(x, 1e-9)\" with its unit"),
+            Self::OutsideTable { .. } => {
+                Some("add points to the table, or keep its end values with `outside = \"hold\"`")
+            }
             Self::MissingSlot { .. } => None,
         }
     }
@@ -84,6 +105,13 @@ impl fmt::Display for EvalError {
                 write!(f, "negative base {base} with the exponent {exponent}, which is not a whole number")
             }
             Self::Domain { function, argument, .. } => write!(f, "`{function}` of {argument}"),
+            Self::OutsideTable { table, value, from, to, argument, .. } => {
+                let which = if *argument == 0 { "first" } else { "second" };
+                write!(
+                    f,
+                    "table `{table}` reaches from {from} to {to} in its {which} argument, got {value} (SI units)"
+                )
+            }
             Self::NotFinite { value, .. } => write!(f, "result {value} or its derivative is not finite"),
             Self::MissingSlot { slot, given } => {
                 write!(f, "slot {slot} is needed, but only {given} slots are given")
@@ -169,6 +197,8 @@ impl Program {
                 }
                 Op::PoppedPower => self.power(index, pop(stack), accumulator)?,
                 Op::Call(function) => self.call(index, function, accumulator)?,
+                Op::Table(table) => self.table(index, table, accumulator)?,
+                Op::PoppedTable(table) => self.table_of_two(index, table, [pop(stack), accumulator])?,
                 Op::JumpUnless(comparison, target) => {
                     if !comparison.holds(pop(stack).value(), accumulator.value()) {
                         next = target;
@@ -196,6 +226,54 @@ impl Program {
     fn power<S: Scalar>(&self, index: usize, base: S, exponent: S) -> Result<S, EvalError> {
         self.check_base(index, base.value(), exponent.value())?;
         Ok(base.pow(exponent))
+    }
+
+    /// Not inlined, as it would fill the loop that runs programs without tables.
+    #[inline(never)]
+    fn table<S: Scalar>(&self, index: usize, table: usize, argument: S) -> Result<S, EvalError> {
+        let found = match &self.named(table).table.as_ref() {
+            Table::One(table) => table.value_and_slope(argument.value()),
+            Table::Two(_) => None,
+        };
+        match found {
+            Some((value, slope)) => Ok(argument.chain(value, slope)),
+            None => self.outside(index, table, &[argument]),
+        }
+    }
+
+    #[inline(never)]
+    fn table_of_two<S: Scalar>(&self, index: usize, table: usize, arguments: [S; 2]) -> Result<S, EvalError> {
+        let [x, y] = arguments;
+        let found = match &self.named(table).table.as_ref() {
+            Table::Two(table) => table.value_and_slopes(x.value(), y.value()),
+            Table::One(_) => None,
+        };
+        match found {
+            Some((value, slopes)) => Ok(x.chain2(y, value, slopes)),
+            None => self.outside(index, table, &arguments),
+        }
+    }
+
+    fn named(&self, table: usize) -> &NamedTable {
+        match self.tables.get(table) {
+            Some(named) => named,
+            None => unreachable!("code calls the tables it was compiled with; this is a bug in lptn"),
+        }
+    }
+
+    /// An argument that is not finite gives a value that is not either, so that its own place is reported.
+    #[cold]
+    fn outside<S: Scalar>(&self, index: usize, table: usize, arguments: &[S]) -> Result<S, EvalError> {
+        let NamedTable { name, table } = self.named(table);
+        for (argument, value) in arguments.iter().map(|argument| argument.value()).enumerate() {
+            let knots = table.knots(argument);
+            let (Some(&from), Some(&to)) = (knots.first(), knots.last()) else { continue };
+            if value.is_finite() && !table.reaches(argument, value) {
+                let (table, span) = (name.clone(), self.span(index));
+                return Err(EvalError::OutsideTable { table, argument, value, from, to, span });
+            }
+        }
+        Ok(S::from_f64(f64::NAN))
     }
 
     #[inline]

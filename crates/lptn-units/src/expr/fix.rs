@@ -57,11 +57,38 @@ impl Source<'_> {
         UnitError::new(Kind::AbsoluteOperand { operation, fix }, self.tree.span(id))
     }
 
-    /// The text with this node divided by a value of its own kind.
-    pub(crate) fn divided(&self, id: Id, ty: Type) -> String {
+    /// A node as it can stand in a product.
+    pub(crate) fn factor(&self, id: Id) -> String {
         let part = self.text_of(id);
         let sum = matches!(self.tree.node(id), Node::Binary(..) | Node::Compare(..));
-        let part = if sum { format!("({part})") } else { part.to_owned() };
+        if sum { format!("({part})") } else { part.to_owned() }
+    }
+
+    /// The text with this node made what is wanted, where there is a way that is probably meant.
+    pub(crate) fn converted(&self, id: Id, found: Type, wanted: Type) -> Option<String> {
+        let part = self.factor(id);
+        if is_frequency_for_rotation(found, wanted) {
+            let turned = || self.replace(id, &format!("{part} * 1 [rev]"));
+            return Some(self.in_revolutions(id).unwrap_or_else(turned));
+        }
+        match self.tree.node(id) {
+            Node::Number { .. } => Some(self.replace(id, &format!("{part} [{}]", wanted.usual_unit()))),
+            _ if wanted.absolute && is_temperature(found) => {
+                let made = || self.replace(id, &format!("absolute({})", self.text_of(id)));
+                Some(self.relabel(id, "degC").unwrap_or_else(made))
+            }
+            _ if found.absolute && is_temperature(wanted) => {
+                let made = || self.replace(id, &format!("{part} - 0 [degC]"));
+                Some(self.as_difference(id).unwrap_or_else(made))
+            }
+            _ if wanted.is_scalar() && !found.absolute => Some(self.divided(id, found)),
+            _ => None,
+        }
+    }
+
+    /// The text with this node divided by a value of its own kind.
+    pub(crate) fn divided(&self, id: Id, ty: Type) -> String {
+        let part = self.factor(id);
         let scale = if ty == Type::of(Dimension::TIME) { 60 } else { 1 };
         self.replace(id, &format!("{part} / {scale} [{}]", ty.dimension.si_unit()))
     }

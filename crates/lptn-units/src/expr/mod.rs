@@ -1,6 +1,7 @@
 //! Expressions: text, then tree, then types, then flat code.
 
 mod bracket;
+mod call;
 mod check;
 mod codegen;
 mod degree;
@@ -11,12 +12,14 @@ mod function;
 mod lexer;
 mod operands;
 mod parser;
+mod parts;
 mod program;
 mod tree;
 
 use std::ops::Range;
 
 use crate::error::UnitError;
+use crate::table::TableSymbol;
 use crate::types::Type;
 use tree::{Node, Tree};
 
@@ -24,7 +27,7 @@ pub(crate) use bracket::bracketed;
 pub use degree::Degree;
 pub use eval::EvalError;
 pub use function::is_function;
-pub use program::Program;
+pub use program::{Program, TableCall};
 pub use tree::Comparison;
 
 /// Names with a meaning of their own, which no parameter, signal, control or table may take: the time `t`, `pi`,
@@ -50,8 +53,19 @@ pub struct Symbol {
 pub trait Scope {
     /// The meaning of a name: `omega`, `steel.T`, `ring[1,2,3].T`.
     fn symbol(&self, name: &str) -> Option<Symbol>;
-    /// Every name, for "did you mean".
+    /// Every name, for "did you mean"; tables are not among them.
     fn names(&self) -> Vec<String>;
+
+    /// The meaning of a name that is called: `loss(speed)`. No name is both a symbol and a table.
+    fn table(&self, name: &str) -> Option<TableSymbol> {
+        let _ = name;
+        None
+    }
+
+    /// Every table, for "did you mean".
+    fn table_names(&self) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 /// An expression as parsed: syntax checked, names and dimensions not yet.
@@ -94,6 +108,18 @@ impl Expression {
         named.collect()
     }
 
+    /// The names that are called and are no functions, in order of appearance: tables, such as `loss` in
+    /// `2 * loss(speed)`.
+    pub fn calls(&self) -> Vec<(String, Range<usize>)> {
+        let called = self.tree.nodes().filter_map(|(node, _)| match node {
+            Node::Call { function: name, name_span, .. } if !is_function(name) => {
+                Some((name.clone(), name_span.clone()))
+            }
+            _ => None,
+        });
+        called.collect()
+    }
+
     /// The comparisons by `==` or `!=` in which this name occurs: where it is a time, they hold, or fail to,
     /// for a moment that has no length.
     pub fn equalities(&self, name: &str) -> Vec<Range<usize>> {
@@ -117,7 +143,7 @@ impl Expression {
     /// that contain an error raise no further ones.
     pub fn compile(&self, scope: &dyn Scope, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
         let checked = check::check(&self.text, &self.tree, scope, expected)?;
-        Ok(codegen::generate(self.text(), &self.tree, &checked))
+        Ok(codegen::generate(self.text(), &self.tree, checked))
     }
 
     /// For `a <= b`: the two sides as expressions, and the comparison between them. `None` if the

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::degree::{self, Degree};
 use super::function::Function;
 use super::tree::Comparison;
+use crate::table::Table;
 use crate::types::Type;
 
 /// Where an operation finds its right operand.
@@ -45,9 +46,30 @@ pub(crate) enum Op {
     /// accumulator = popped ^ accumulator
     PoppedPower,
     Call(Function),
+    /// accumulator = table(accumulator)
+    Table(usize),
+    /// accumulator = table(popped, accumulator)
+    PoppedTable(usize),
     /// Goes on at the target unless `popped comparison accumulator` holds.
     JumpUnless(Comparison, usize),
     Jump(usize),
+}
+
+/// A table that an expression calls.
+#[derive(Clone, Debug)]
+pub(crate) struct NamedTable {
+    pub(crate) name: String,
+    pub(crate) table: Arc<Table>,
+}
+
+/// One call of a table, and where its arguments are.
+#[derive(Clone, Debug)]
+pub struct TableCall {
+    /// The table.
+    pub table: Arc<Table>,
+    /// One program per argument. It loads the ordinary slots of its symbols, inside comparisons too, so that
+    /// the roots of its value minus a knot are where the call crosses the knot.
+    pub arguments: Vec<Program>,
 }
 
 /// A compiled expression. It holds no reference to the network and can be shared between threads.
@@ -60,7 +82,10 @@ pub struct Program {
     pub(crate) spans: Vec<Range<usize>>,
     pub(crate) slots: Vec<u32>,
     pub(crate) stack_size: usize,
+    pub(crate) tables: Arc<[NamedTable]>,
     pub(crate) comparisons: Vec<Program>,
+    pub(crate) kinks: Vec<Program>,
+    pub(crate) table_calls: Vec<TableCall>,
 }
 
 impl Program {
@@ -89,6 +114,24 @@ impl Program {
     /// the comparison changes.
     pub fn comparisons(&self) -> &[Program] {
         &self.comparisons
+    }
+
+    /// Where the result has a kink: for every `abs` its argument, for every pair of arguments of a `min` or
+    /// `max` their difference, inner calls before those around them and otherwise in the order of the text.
+    /// They load the ordinary slots of their symbols, so that a kink is at a root of theirs. Not every root
+    /// is a kink: the pair may not be the smallest or largest, the branch not the one that is taken; there a
+    /// program may also fail to evaluate.
+    ///
+    /// Pairs of constants are left out. Of more than 16 arguments the lists are halved until they have no
+    /// more; between halves stands the difference of their extremes, whose roots are the kinks between them.
+    pub fn kinks(&self) -> &[Program] {
+        &self.kinks
+    }
+
+    /// The calls of tables, inner ones before those around them and otherwise in the order of the text. In a
+    /// branch that is not taken the programs of the arguments may fail to evaluate.
+    pub fn table_calls(&self) -> &[TableCall] {
+        &self.table_calls
     }
 
     /// How the result depends on one slot, the others held: an upper bound from the form of the code.

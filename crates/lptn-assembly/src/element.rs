@@ -1,0 +1,212 @@
+//! Elements that are more than a constant conductance: their heat and its derivatives, with places in the Jacobian.
+
+use lptn_network::{ConductorId, End, Flow, InputError, Network, Received, SourceId};
+
+use crate::pattern::JacobianPattern;
+use crate::workspace::Workspace;
+
+/// How an element's heat is computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Kind {
+    /// Radiation with this constant exchange area in m^2.
+    Radiation(f64),
+    /// A stream of this constant capacity rate in W/K.
+    Stream(f64),
+    /// A conductor as the network evaluates it.
+    Conductor(ConductorId),
+    /// A source whose heat depends on temperatures.
+    Source(SourceId),
+}
+
+/// An element with the vertices that receive its heat and those it depends on.
+#[derive(Clone, Debug)]
+pub(crate) struct Element {
+    pub(crate) kind: Kind,
+    /// The conductor it is, for those that are.
+    pub(crate) conductor: Option<ConductorId>,
+    /// Two ends of a conductor, the nodes of a source.
+    pub(crate) receivers: Vec<u32>,
+    /// Shares of a source; empty for a conductor, whose ends each receive their own heat.
+    pub(crate) shares: Vec<f64>,
+    pub(crate) variables: Vec<u32>,
+    /// Slot of each pair (receiver, variable), receiver by receiver; [`NOWHERE`] if one of them is given.
+    slots: Vec<usize>,
+}
+
+/// No place in the Jacobian.
+const NOWHERE: usize = usize::MAX;
+
+/// Which Jacobian is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// The derivatives as they are.
+    Exact,
+    /// Symmetric: each conductor with the mean of its two derivatives. Newton's method converges with it more slowly,
+    /// to the same point.
+    Symmetric,
+}
+
+/// The heat of an element with its derivatives, evaluated.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Slopes {
+    /// By variable: derivatives of the heat of both ends.
+    ends: Vec<Received>,
+    /// By variable: derivative of the heat of a source.
+    source: Vec<f64>,
+}
+
+impl Element {
+    /// The elements of a network that are no constant conductances, in the order of conductors, then sources.
+    pub(crate) fn all_of(network: &Network) -> Vec<Self> {
+        let vertex = |end: End| u32::try_from(network.vertex(end)).expect("ids are 32 bits wide");
+        let conductors = network.conductors().iter().zip(network.conductor_ids()).filter_map(|(c, id)| {
+            let ends = vec![vertex(c.from), vertex(c.to)];
+            let (kind, variables) = match network.flow(id) {
+                Flow::Conductance(_) => return None,
+                Flow::Radiation(gr) => (Kind::Radiation(gr), ends.clone()),
+                Flow::Stream(mcp) => (Kind::Stream(mcp), ends.clone()),
+                Flow::Variable => (Kind::Conductor(id), network.conductor_variables(id).to_vec()),
+            };
+            let conductor = Some(id);
+            Some(Self { kind, conductor, receivers: ends, shares: vec![], variables, slots: vec![] })
+        });
+        let sources = network.sources().iter().zip(network.source_ids()).filter_map(|(s, id)| {
+            let variables = network.source_variables(id).to_vec();
+            let receivers = s.into.iter().map(|&(node, _)| vertex(End::Node(node))).collect();
+            let shares = s.into.iter().map(|&(_, share)| share).collect();
+            (!variables.is_empty()).then(|| Self {
+                kind: Kind::Source(id),
+                conductor: None,
+                receivers,
+                shares,
+                variables,
+                slots: vec![],
+            })
+        });
+        conductors.chain(sources).collect()
+    }
+
+    /// The pairs of unknowns that meet in it; `unknown` is `u32::MAX` for a vertex that is given.
+    pub(crate) fn pairs<'a>(&'a self, unknown: &'a [u32]) -> impl Iterator<Item = (u32, u32)> + 'a {
+        let known = |v: &u32| unknown[*v as usize];
+        let all =
+            self.receivers.iter().flat_map(move |r| self.variables.iter().map(move |v| (known(r), known(v))));
+        all.filter(|&(r, v)| r != u32::MAX && v != u32::MAX)
+    }
+
+    pub(crate) fn place(&mut self, unknown: &[u32], pattern: &JacobianPattern) {
+        let mut slots = Vec::with_capacity(self.receivers.len() * self.variables.len());
+        for &receiver in &self.receivers {
+            for &variable in &self.variables {
+                let (row, column) = (unknown[receiver as usize], unknown[variable as usize]);
+                let given = row == u32::MAX || column == u32::MAX;
+                slots.push(if given { NOWHERE } else { pattern.slot(row, column) });
+            }
+        }
+        self.slots = slots;
+    }
+
+    /// Whether its derivatives have a symmetric form: a conductor between its ends, or one node's own heat.
+    pub(crate) fn is_symmetric(&self, network: &Network) -> bool {
+        match self.kind {
+            Kind::Radiation(_) => true,
+            Kind::Stream(_) => false,
+            Kind::Conductor(id) => {
+                let stream = matches!(network.conductors()[id.index()].law, lptn_network::Law::Advection(_));
+                !stream && self.variables.len() == 2
+            }
+            Kind::Source(_) => self.variables == self.receivers,
+        }
+    }
+
+    /// The heat that both ends of a conductor receive in W.
+    pub(crate) fn received(&self, network: &Network, work: &mut Workspace) -> Result<Received, InputError> {
+        let at = |k: usize| work.temperature[self.receivers[k] as usize];
+        Ok(match self.kind {
+            Kind::Radiation(gr) => {
+                let (from, to) = (at(0), at(1));
+                let heat = lptn_laws::radiation_conductance(gr, from, to) * (from - to);
+                [-heat, heat]
+            }
+            Kind::Stream(mcp) => {
+                let (from, to) = (at(0), at(1));
+                // adding 0 leaves no negative zero to be printed
+                [lptn_laws::advection_from(mcp, from, to) + 0.0, lptn_laws::advection_to(mcp, from, to) + 0.0]
+            }
+            Kind::Conductor(id) => network.exchange(id, &mut work.scope, &work.temperature)?,
+            Kind::Source(_) => [0.0; 2],
+        })
+    }
+
+    /// Adds its heat to that of every vertex in W; a source's power is kept.
+    pub(crate) fn add_heat(&self, network: &Network, work: &mut Workspace) -> Result<(), InputError> {
+        if let Kind::Source(id) = self.kind {
+            let power = network.source_heat(id, &mut work.scope, &work.temperature)?;
+            work.power[id.index()] = power;
+            for (&vertex, share) in self.receivers.iter().zip(&self.shares) {
+                work.element_heat[vertex as usize] += share * power;
+            }
+            return Ok(());
+        }
+        let heat = self.received(network, work)?;
+        for (&vertex, q) in self.receivers.iter().zip(heat) {
+            work.element_heat[vertex as usize] += q;
+        }
+        Ok(())
+    }
+
+    /// Adds its derivatives to the values of the Jacobian.
+    pub(crate) fn add_slopes(
+        &self,
+        network: &Network,
+        work: &mut Workspace,
+        form: Form,
+        values: &mut [f64],
+    ) -> Result<(), InputError> {
+        self.evaluate_slopes(network, work)?;
+        let slopes = &mut work.slopes;
+        if form == Form::Symmetric && self.shares.is_empty() {
+            let [from, to] = [slopes.ends[0][1], slopes.ends[1][1]];
+            let mean = (0.5 * (from - to)).max(0.0);
+            slopes.ends[0] = [-mean, mean];
+            slopes.ends[1] = [mean, -mean];
+        }
+        let mut slots = self.slots.iter();
+        for row in 0..self.receivers.len() {
+            for column in 0..self.variables.len() {
+                let Some(&slot) = slots.next().filter(|slot| **slot != NOWHERE) else { continue };
+                values[slot] += match self.shares.get(row) {
+                    Some(share) => share * slopes.source[column],
+                    None => slopes.ends[column][row],
+                };
+            }
+        }
+        Ok(())
+    }
+
+    fn evaluate_slopes(&self, network: &Network, work: &mut Workspace) -> Result<(), InputError> {
+        let Workspace { scope, temperature, slopes, .. } = work;
+        let at = |k: usize| temperature[self.receivers[k] as usize];
+        match self.kind {
+            Kind::Radiation(gr) => {
+                // q = sigma Gr (Ta^4 - Tb^4)
+                let slope = |t: f64| 4.0 * lptn_laws::STEFAN_BOLTZMANN * gr * t.powi(3);
+                let (from, to) = (slope(at(0)), slope(at(1)));
+                slopes.ends.clear();
+                slopes.ends.extend([[-from, from], [to, -to]]);
+            }
+            Kind::Stream(mcp) => {
+                let (forward, backward) = (mcp.max(0.0), (-mcp).max(0.0));
+                slopes.ends.clear();
+                slopes.ends.extend([[-backward, forward], [backward, -forward]]);
+            }
+            Kind::Conductor(id) => {
+                network.exchange_slopes(id, scope, temperature, &mut slopes.ends)?;
+            }
+            Kind::Source(id) => {
+                network.source_slopes(id, scope, temperature, &mut slopes.source)?;
+            }
+        }
+        Ok(())
+    }
+}

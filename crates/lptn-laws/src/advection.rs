@@ -1,0 +1,63 @@
+//! Heat carried by a stream, one-way: the end it flows into receives, the end it leaves does not notice.
+//!
+//! At zero flow both ends take the side of a flow that begins `from` -> `to`, so that together they have one
+//! derivative, that of mcp (T_from - T_to).
+
+use lptn_units::Scalar;
+
+/// Heat that `to` receives from a stream: q = max(mcp, 0) (T_from - T_to), in W.
+///
+/// * `mcp`: heat capacity rate in W/K, of either sign; positive from `from` to `to`
+/// * `t_from`, `t_to`: temperatures in K, or in any one unit with the size of a kelvin
+///
+/// Positive heats `to`. The stream leaves `to` at the temperature of `to` (a well-mixed cell). Source: energy
+/// equation of a well-mixed open system with constant cp: Incropera et al., Fundamentals of Heat and Mass
+/// Transfer, 6th edition, equation 1.11e.
+///
+/// ```
+/// use lptn_laws::{advection_from, advection_to};
+///
+/// assert_eq!(advection_to(20.0, 350.0, 300.0), 1000.0);
+/// assert_eq!(advection_from(20.0, 350.0, 300.0), 0.0);
+/// assert_eq!(advection_from(-20.0, 350.0, 300.0), -1000.0); // the stream cools `from` now
+/// ```
+pub fn advection_to<S: Scalar>(mcp: S, t_from: S, t_to: S) -> S {
+    forward(mcp) * (t_from - t_to)
+}
+
+/// Heat that `from` receives from a stream that flows backwards: q = max(-mcp, 0) (T_to - T_from), in W.
+///
+/// Symbols, range and source as in [`advection_to`]; positive heats `from`.
+pub fn advection_from<S: Scalar>(mcp: S, t_from: S, t_to: S) -> S {
+    backward(mcp) * (t_to - t_from)
+}
+
+/// Heat that `to` receives from a stream, by enthalpies: q = max(m, 0) (h_from - h_to), in W.
+///
+/// * `flow`: m, mass flow in kg/s, of either sign; positive from `from` to `to`
+/// * `h_from`, `h_to`: specific enthalpies of the fluid in J/kg at the temperatures of the two ends, from one
+///   zero
+///
+/// Positive heats `to`. For fluids whose cp depends on temperature this closes the balance of a loop exactly,
+/// which mcp at any mean temperature does not. Source: steady-flow energy equation without work, kinetic and
+/// potential energy: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 1.11d.
+pub fn stream_to<S: Scalar>(flow: S, h_from: S, h_to: S) -> S {
+    forward(flow) * (h_from - h_to)
+}
+
+/// Heat that `from` receives from a stream that flows backwards: q = max(-m, 0) (h_to - h_from), in W.
+///
+/// Symbols, range and source as in [`stream_to`]; positive heats `from`.
+pub fn stream_from<S: Scalar>(flow: S, h_from: S, h_to: S) -> S {
+    backward(flow) * (h_to - h_from)
+}
+
+/// The part of a flow along `from` -> `to`; at zero with the derivative of the flow itself.
+fn forward<S: Scalar>(flow: S) -> S {
+    flow.max(S::from_f64(0.0))
+}
+
+/// The part of a flow against `from` -> `to`; at zero with derivative 0.
+fn backward<S: Scalar>(flow: S) -> S {
+    S::from_f64(0.0).max(-flow)
+}

@@ -1,0 +1,41 @@
+//! Published formulas of heat transfer, one function each.
+//!
+//! Every law is generic over [`Scalar`](lptn_units::Scalar): on `f64` it gives the value, on
+//! [`Dual`](lptn_units::Dual) the derivatives with it, from the same lines. All quantities are in SI units,
+//! absolute temperatures in K. A function checks nothing: its valid range is in its description, and who calls
+//! it refuses what is outside, with the name of the element. Inside the range, value and derivatives are finite,
+//! at `dT = 0`, at zero flow and at reversal too.
+//!
+//! Links are written as q = G dT wherever a conductance exists, so that heat never is the small difference of
+//! two large numbers.
+//!
+//! ```
+//! use lptn_laws::{effective_emissivity_parallel_plates, radiation_conductance, radiation_exchange_area};
+//! use lptn_units::Dual;
+//!
+//! let emissivity = effective_emissivity_parallel_plates(0.8, 0.9);
+//! let gr = radiation_exchange_area(emissivity, 0.25, 1.0); // m^2
+//!
+//! // Heat from a plate of 350 K to one of 300 K, in W, and how it changes with either temperature, in W/K.
+//! let (t_from, t_to) = (Dual::<2>::variable(350.0, 0), Dual::<2>::variable(300.0, 1));
+//! let heat = radiation_conductance(Dual::constant(gr), t_from, t_to) * (t_from - t_to);
+//! assert!((heat.value - 5.670374419e-8 * gr * (350f64.powi(4) - 300f64.powi(4))).abs() < 1e-12);
+//! assert!((heat.derivatives[0] - 4.0 * 5.670374419e-8 * gr * 350f64.powi(3)).abs() < 1e-14);
+//! ```
+
+mod advection;
+mod conduction;
+mod convection;
+mod electric;
+mod phase;
+mod radiation;
+
+pub use advection::{advection_from, advection_to, stream_from, stream_to};
+pub use conduction::{cylinder, rod, slab, sphere};
+pub use convection::{contact, film, power_conductance};
+pub use electric::{joule, linear_temperature_factor};
+pub use phase::{Melting, melt_fraction};
+pub use radiation::{
+    STEFAN_BOLTZMANN, effective_emissivity_concentric, effective_emissivity_parallel_plates,
+    radiation_conductance, radiation_exchange_area,
+};

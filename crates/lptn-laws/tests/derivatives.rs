@@ -1,0 +1,91 @@
+//! Property: every law of the crate, its derivatives by dual numbers against central differences at random
+//! states, and value and derivatives finite where laws usually break.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+mod table;
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use lptn_units::{Dual, Scalar};
+use table::{INPUTS, Law, laws};
+
+/// Numbers between `low` and `high`, the same in every run (linear congruence of Knuth's MMIX).
+fn random(state: &mut u64, (low, high): (f64, f64)) -> f64 {
+    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    let unit = f64::from(u32::try_from(*state >> 32).unwrap()) / f64::from(u32::MAX);
+    low + (high - low) * unit
+}
+
+fn dual(law: &Law, inputs: &[f64]) -> Dual<INPUTS> {
+    let variables: Vec<_> = inputs.iter().enumerate().map(|(i, &x)| Dual::variable(x, i)).collect();
+    (law.dual)(&variables)
+}
+
+/// The central difference in one input, and what rounding of the law's values can have done to it.
+fn difference(law: &Law, inputs: &[f64], index: usize) -> (f64, f64) {
+    let at = |x: f64| {
+        let mut moved = inputs.to_vec();
+        moved[index] = x;
+        (law.value)(&moved)
+    };
+    let step = 1e-5 * inputs[index].abs();
+    let (low, high) = (inputs[index] - step, inputs[index] + step);
+    let rounding = 8.0 * f64::EPSILON * at(high).abs() / step;
+    ((at(high) - at(low)) / (high - low), rounding)
+}
+
+#[test]
+fn derivatives_agree_with_central_differences() {
+    let mut state = 4;
+    for law in laws() {
+        for regime in law.regimes {
+            for _ in 0..200 {
+                let inputs: Vec<_> = regime.iter().map(|&range| random(&mut state, range)).collect();
+                let found = dual(&law, &inputs);
+                let same = (found.value - (law.value)(&inputs)).abs() <= 1e-14 * found.value.abs();
+                assert!(same, "{} has two values at {inputs:?}", law.name);
+                for (index, exact) in found.derivatives.into_iter().enumerate().take(inputs.len()) {
+                    let (expected, rounding) = difference(&law, &inputs, index);
+                    let error = (exact - expected).abs();
+                    assert!(
+                        error <= 1e-6 * exact.abs() + rounding,
+                        "{} in input {index} at {inputs:?}: {exact} and {expected}",
+                        law.name
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn value_and_derivatives_are_finite_where_laws_usually_break() {
+    for law in laws() {
+        assert!(!law.edges.is_empty(), "{} has no edges", law.name);
+        for inputs in law.edges {
+            let found = dual(&law, inputs);
+            assert!(found.is_finite(), "{} at {inputs:?}: {found:?}", law.name);
+            let same = (found.value - (law.value)(inputs)).abs() <= 1e-14 * found.value.abs();
+            assert!(same, "{} has two values at {inputs:?}", law.name);
+        }
+    }
+}
+
+/// The names of the public functions and methods in the crate's sources.
+fn public_functions() -> BTreeSet<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let text: String = files.map(|file| std::fs::read_to_string(file).unwrap()).collect();
+    let starts = text.lines().filter_map(|line| line.trim_start().strip_prefix("pub fn "));
+    let is_of_name = |c: &char| c.is_alphanumeric() || *c == '_';
+    starts.map(|rest| rest.chars().take_while(is_of_name).collect()).collect()
+}
+
+#[test]
+fn every_law_stands_in_the_table() {
+    let found = public_functions();
+    let listed: BTreeSet<_> = laws().iter().map(|law| law.name.to_owned()).collect();
+    assert_eq!(found, listed, "a law without a row in tests/table/mod.rs, or a row without its law");
+}

@@ -1,0 +1,253 @@
+//! All laws with the ranges they are tested in. Inputs stand in the order of the function's arguments.
+
+use lptn_laws::{
+    Melting, advection_from, advection_to, contact, cylinder, effective_emissivity_concentric,
+    effective_emissivity_parallel_plates, film, joule, linear_temperature_factor, melt_fraction,
+    power_conductance, radiation_conductance, radiation_exchange_area, rod, slab, sphere, stream_from,
+    stream_to,
+};
+use lptn_units::{Dual, Scalar};
+
+/// The most inputs a law has.
+pub(crate) const INPUTS: usize = 6;
+
+/// One law, to be called on numbers and on dual numbers.
+pub(crate) struct Law {
+    pub(crate) name: &'static str,
+    pub(crate) value: fn(&[f64]) -> f64,
+    pub(crate) dual: fn(&[Dual<INPUTS>]) -> Dual<INPUTS>,
+    /// Ranges of all inputs, without a kink inside: one row for each branch of the law.
+    pub(crate) regimes: &'static [&'static [(f64, f64)]],
+    /// States at kinks, at equal temperatures, at zero flow, at the ends of the valid range.
+    pub(crate) edges: &'static [&'static [f64]],
+}
+
+macro_rules! law {
+    ($name:literal, |$x:ident| $body:expr, [$($regime:expr),+], [$($edge:expr),+]) => {{
+        fn law<S: Scalar>($x: &[S]) -> S {
+            $body
+        }
+        Law {
+            name: $name,
+            value: law::<f64>,
+            dual: law::<Dual<INPUTS>>,
+            regimes: &[$(&$regime),+],
+            edges: &[$(&$edge),+],
+        }
+    }};
+}
+
+const AREA: (f64, f64) = (1e-4, 2.0);
+const CONDUCTIVITY: (f64, f64) = (0.02, 400.0);
+const FILM: (f64, f64) = (2.0, 5000.0);
+const KELVIN: (f64, f64) = (150.0, 900.0);
+const SHARE: (f64, f64) = (0.02, 0.98);
+const FORWARD: (f64, f64) = (0.5, 200.0);
+const BACKWARD: (f64, f64) = (-200.0, -0.5);
+const ENTHALPY: (f64, f64) = (1e4, 4e5);
+
+pub(crate) fn laws() -> Vec<Law> {
+    [conduction(), convection(), radiation(), advection(), electric(), melting(), melting_fractions()]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+fn conduction() -> Vec<Law> {
+    vec![
+        law!(
+            "slab",
+            |x| slab(x[0], x[1], x[2]),
+            [[CONDUCTIVITY, AREA, (1e-4, 0.5)]],
+            [[0.0, 1.0, 0.1], [400.0, 1.0, 1e-9]]
+        ),
+        law!(
+            "cylinder",
+            |x| cylinder(x[0], x[1], x[2], x[3]),
+            [[CONDUCTIVITY, (0.01, 0.1), (0.12, 0.5), (0.01, 2.0)]],
+            [[0.0, 0.1, 0.2, 1.0], [50.0, 0.1, 0.1 + 1e-9, 1.0]]
+        ),
+        law!(
+            "sphere",
+            |x| sphere(x[0], x[1], x[2]),
+            [[CONDUCTIVITY, (0.01, 0.1), (0.12, 0.5)]],
+            [[0.0, 0.1, 0.2], [50.0, 0.1, 0.1 + 1e-9], [50.0, 0.1, 1e9]]
+        ),
+        law!(
+            "rod",
+            |x| rod(x[0], x[1], x[2]),
+            [[CONDUCTIVITY, (1e-3, 0.2), (0.01, 2.0)]],
+            [[0.0, 0.01, 0.1], [400.0, 14e-9, 5e-6]]
+        ),
+    ]
+}
+
+fn convection() -> Vec<Law> {
+    vec![
+        law!("film", |x| film(x[0], x[1]), [[FILM, AREA]], [[0.0, 1.0]]),
+        law!("contact", |x| contact(x[0], x[1]), [[FILM, AREA]], [[0.0, 1.0]]),
+        law!(
+            "power_conductance",
+            |x| power_conductance(x[0], x[1], x[2]),
+            [
+                [(0.1, 10.0), (0.1, 0.4), (0.5, 200.0)],
+                [(0.1, 10.0), (0.1, 0.4), (-200.0, -0.5)],
+                [(0.1, 10.0), (1.0, 3.0), (-200.0, -0.5)]
+            ],
+            [
+                [0.35, 0.25, 0.0],
+                [0.35, 0.25, -0.0],
+                [0.35, 1.0 / 3.0, 0.0],
+                [0.35, 0.0, 0.0],
+                [0.35, 1.0, 0.0],
+                [0.35, 2.0, 0.0],
+                [0.0, 0.25, 0.0],
+                [0.35, 0.25, 1e-300],
+                [0.35, 0.25, -1e-300]
+            ]
+        ),
+    ]
+}
+
+fn radiation() -> Vec<Law> {
+    vec![
+        law!(
+            "radiation_conductance",
+            |x| radiation_conductance(x[0], x[1], x[2]),
+            [[AREA, KELVIN, KELVIN]],
+            [[0.04, 300.0, 300.0], [0.04, 0.0, 0.0], [0.04, 1200.0, 0.0], [0.0, 300.0, 400.0]]
+        ),
+        law!(
+            "radiation_exchange_area",
+            |x| radiation_exchange_area(x[0], x[1], x[2]),
+            [[SHARE, AREA, SHARE]],
+            [[0.0, 1.0, 0.0], [1.0, 1.0, 1.0]]
+        ),
+        law!(
+            "effective_emissivity_parallel_plates",
+            |x| effective_emissivity_parallel_plates(x[0], x[1]),
+            [[SHARE, SHARE]],
+            [[1.0, 1.0], [0.0, 1.0], [0.5, 0.0]]
+        ),
+        law!(
+            "effective_emissivity_concentric",
+            |x| effective_emissivity_concentric(x[0], x[1], x[2]),
+            [[SHARE, SHARE, SHARE]],
+            [[1.0, 1.0, 0.5], [0.0, 1.0, 0.5], [0.5, 0.0, 0.5], [0.5, 0.5, 0.0], [0.5, 0.5, 1.0]]
+        ),
+    ]
+}
+
+fn advection() -> Vec<Law> {
+    vec![
+        law!(
+            "advection_to",
+            |x| advection_to(x[0], x[1], x[2]),
+            [[FORWARD, KELVIN, KELVIN], [BACKWARD, KELVIN, KELVIN]],
+            [[0.0, 350.0, 300.0], [-0.0, 300.0, 350.0], [20.0, 300.0, 300.0], [-20.0, 300.0, 300.0]]
+        ),
+        law!(
+            "advection_from",
+            |x| advection_from(x[0], x[1], x[2]),
+            [[FORWARD, KELVIN, KELVIN], [BACKWARD, KELVIN, KELVIN]],
+            [[0.0, 350.0, 300.0], [-0.0, 300.0, 350.0], [20.0, 300.0, 300.0], [-20.0, 300.0, 300.0]]
+        ),
+        law!(
+            "stream_to",
+            |x| stream_to(x[0], x[1], x[2]),
+            [[(1e-3, 2.0), ENTHALPY, ENTHALPY], [(-2.0, -1e-3), ENTHALPY, ENTHALPY]],
+            [[0.0, 2e5, 1e5], [-0.0, 1e5, 2e5], [0.1, 1e5, 1e5], [-0.1, 1e5, 1e5]]
+        ),
+        law!(
+            "stream_from",
+            |x| stream_from(x[0], x[1], x[2]),
+            [[(1e-3, 2.0), ENTHALPY, ENTHALPY], [(-2.0, -1e-3), ENTHALPY, ENTHALPY]],
+            [[0.0, 2e5, 1e5], [-0.0, 1e5, 2e5], [0.1, 1e5, 1e5], [-0.1, 1e5, 1e5]]
+        ),
+    ]
+}
+
+fn electric() -> Vec<Law> {
+    vec![
+        law!(
+            "linear_temperature_factor",
+            |x| linear_temperature_factor(x[0], x[1], x[2]),
+            [[(1e-4, 6e-3), (250.0, 450.0), (250.0, 450.0)]],
+            [[0.00393, 293.15, 293.15], [0.0, 400.0, 293.15], [0.00393, 0.0, 293.15]]
+        ),
+        law!("joule", |x| joule(x[0], x[1]), [[(-400.0, 400.0), (1e-3, 1e3)]], [[0.0, 1.0], [-12.0, 1.0]]),
+    ]
+}
+
+/// The lump of the last five inputs: capacities, latent heat, solidus, liquidus.
+fn lump<S: Scalar>(x: &[S]) -> Melting<S> {
+    Melting { c_solid: x[1], c_liquid: x[2], latent_heat: x[3], solidus: x[4], liquidus: x[5] }
+}
+
+const CAPACITY: (f64, f64) = (500.0, 3000.0);
+const LATENT: (f64, f64) = (1e5, 3e5);
+const SOLIDUS: (f64, f64) = (320.0, 325.0);
+const LIQUIDUS: (f64, f64) = (340.0, 345.0);
+
+/// Heat or temperature `$range` first, then the lump.
+macro_rules! lumps {
+    ($($range:expr),+) => {
+        &[$(&[$range, CAPACITY, CAPACITY, LATENT, SOLIDUS, LIQUIDUS]),+]
+    };
+}
+
+/// Enthalpies at both kinks of each lump, and inside.
+const LUMPS_BY_HEAT: &[&[f64]] = &[
+    &[0.0, 1000.0, 2000.0, 2e5, 320.0, 340.0],
+    &[230_000.0, 1000.0, 2000.0, 2e5, 320.0, 340.0],
+    &[1e5, 1000.0, 1000.0, 2e5, 320.0, 340.0],
+    // melting at one temperature
+    &[0.0, 1000.0, 2000.0, 2e5, 320.0, 320.0],
+    &[1e5, 1000.0, 2000.0, 2e5, 320.0, 320.0],
+    &[2e5, 1000.0, 2000.0, 2e5, 320.0, 320.0],
+    // no latent heat, with and without a range
+    &[0.0, 1000.0, 2000.0, 0.0, 320.0, 340.0],
+    &[1e4, 1000.0, 2000.0, 0.0, 320.0, 340.0],
+    &[0.0, 1000.0, 2000.0, 0.0, 320.0, 320.0],
+];
+
+/// Temperatures at both kinks, with and without a range.
+const LUMPS_BY_TEMPERATURE: &[&[f64]] = &[
+    &[320.0, 1000.0, 2000.0, 2e5, 320.0, 340.0],
+    &[340.0, 1000.0, 2000.0, 2e5, 320.0, 340.0],
+    &[320.0, 1000.0, 2000.0, 2e5, 320.0, 320.0],
+    &[330.0, 1000.0, 1000.0, 0.0, 320.0, 340.0],
+    &[320.0, 1000.0, 2000.0, 0.0, 320.0, 320.0],
+];
+
+/// Solid, mushy, liquid: the heat of melting is 1.07e5 to 3.75e5 in these ranges.
+const BY_HEAT: &[&[(f64, f64)]] = lumps!((-1e5, -1e3), (1e3, 1e5), (4e5, 1e6));
+const BY_TEMPERATURE: &[&[(f64, f64)]] = lumps!((200.0, 319.0), (326.0, 339.0), (346.0, 500.0));
+
+fn melting() -> Vec<Law> {
+    let mut laws = vec![
+        law!("enthalpy", |x| lump(x).enthalpy(x[0]), [[]], [[]]),
+        law!("temperature", |x| lump(x).temperature(x[0]), [[]], [[]]),
+        law!("temperature_slope", |x| lump(x).temperature_slope(x[0]), [[]], [[]]),
+        law!("melted", |x| lump(x).melted(x[0]), [[]], [[]]),
+        law!("heat_of_melting", |x| lump(x).heat_of_melting(), [[]], [[]]),
+    ];
+    for law in &mut laws {
+        (law.regimes, law.edges) = (BY_HEAT, LUMPS_BY_HEAT);
+    }
+    (laws[0].regimes, laws[0].edges) = (BY_TEMPERATURE, LUMPS_BY_TEMPERATURE);
+    laws
+}
+
+fn melting_fractions() -> Vec<Law> {
+    vec![law!(
+        "melt_fraction",
+        |x| melt_fraction(x[0], x[1], x[2]),
+        [
+            [(200.0, 319.0), SOLIDUS, LIQUIDUS],
+            [(326.0, 339.0), SOLIDUS, LIQUIDUS],
+            [(346.0, 500.0), SOLIDUS, LIQUIDUS]
+        ],
+        [[320.0, 320.0, 340.0], [340.0, 320.0, 340.0], [320.0, 320.0, 320.0], [321.0, 320.0, 320.0]]
+    )]
+}

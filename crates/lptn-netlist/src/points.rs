@@ -1,0 +1,357 @@
+//! Points of curves: lists of quantities or numbers in a netlist, columns of a CSV file.
+
+use std::sync::Arc;
+
+use lptn_units::{Dimension, Expression, TableError, Type, Unit, parse_quantity, suggest};
+
+use crate::csv_file::CsvFile;
+use crate::diagnostic::Diagnostic;
+use crate::elaborate::Elaboration;
+use crate::fields::{Fields, sample, wrong_shape};
+use crate::file::Span;
+use crate::raw::{RawKind, RawValue};
+use crate::value::Place;
+
+/// Numbers in SI units, with the place of each.
+#[derive(Clone, Debug)]
+pub(crate) struct Points {
+    pub(crate) numbers: Vec<f64>,
+    pub(crate) ty: Type,
+    pub(crate) places: Vec<Span>,
+    /// The list, or the header of the column.
+    pub(crate) whole: Span,
+}
+
+impl Points {
+    pub(crate) fn new(ty: Type, whole: Span) -> Self {
+        Self { numbers: Vec::new(), ty, places: Vec::new(), whole }
+    }
+
+    pub(crate) fn push(&mut self, number: f64, place: Span) {
+        self.numbers.push(number);
+        self.places.push(place);
+    }
+}
+
+/// A unit where a type is due: `K` alone is absolute where an absolute temperature is. What is due and what was
+/// found, where they differ.
+pub(crate) fn fit(unit: Unit, wanted: Option<Type>) -> Result<Unit, (Type, Type)> {
+    let Some(wanted) = wanted else { return Ok(unit) };
+    let kelvin = wanted.absolute && unit.ty == Type::of(Dimension::TEMPERATURE);
+    if kelvin || unit.ty.conforms_to(wanted) {
+        Ok(Unit { ty: wanted, ..unit })
+    } else {
+        Err((wanted, unit.ty))
+    }
+}
+
+/// The keys of one axis: the list or column, and the unit of plain numbers.
+#[derive(Clone, Copy)]
+pub(crate) struct Axis<'k> {
+    pub(crate) list: &'k str,
+    pub(crate) unit: &'k str,
+    /// The key that names a column of a CSV file.
+    pub(crate) column: &'k str,
+    /// Its type, where that is known.
+    pub(crate) ty: Option<Type>,
+}
+
+impl<'a> Elaboration<'a> {
+    /// The points of a curve, from lists or from a CSV file.
+    pub(crate) fn curve(&mut self, fields: &Fields<'a>, axes: [Axis<'_>; 2]) -> Option<[Points; 2]> {
+        let [x, y] = axes;
+        if fields.get("csv").is_none() {
+            self.refuse_keys(fields, &["time", "value"], "names a column, but there is no `csv`");
+            let (x, y) = (self.list(fields, x), self.list(fields, y));
+            return Some([x?, y?]);
+        }
+        let lists = [x.list, y.list].into_iter().filter(|key| *key != x.column && *key != y.column);
+        let mut keys: Vec<&str> = lists.collect();
+        keys.extend([x.unit, y.unit]);
+        self.refuse_keys(fields, &keys, "is for lists, but the points come from a CSV file");
+        let file = self.csv_file(fields);
+        let names = [x, y].map(|axis| self.column_name(fields, axis.column));
+        let file = file?;
+        let [x, y] =
+            [(x, names[0]), (y, names[1])].map(|(axis, name)| self.column(fields, &file, axis, name));
+        Some([x?, y?])
+    }
+
+    /// The file that `csv` names.
+    pub(crate) fn csv_file(&mut self, fields: &Fields<'a>) -> Option<Arc<CsvFile>> {
+        let raw = fields.get("csv")?;
+        fields.text("csv", raw, &mut self.problems)?;
+        match self.csv.get(raw)? {
+            Ok(file) => Some(file),
+            Err(problem) => {
+                self.report(problem);
+                None
+            }
+        }
+    }
+
+    /// The name of a column.
+    pub(crate) fn column_name(&mut self, fields: &Fields<'a>, key: &str) -> Option<(&'a str, &'a RawValue)> {
+        let raw = fields.get(key);
+        if raw.is_none() && fields.complete {
+            let message = format!("{} has no `{key}`", fields.owner.words());
+            let problem = Diagnostic::error("netlist::missing_field", message)
+                .at(fields.place.clone(), format!("`{key}` is missing"));
+            self.report(problem.help(format!("name the column: `{key} = \"name of the column\"`")));
+        }
+        let raw = raw?;
+        match &raw.kind {
+            RawKind::String { text, .. } => Some((text, raw)),
+            _ => {
+                let example = format!("{key} = \"name of the column\"");
+                self.report(wrong_shape(&fields.owner.field(key), raw, "the name of a column", &example));
+                None
+            }
+        }
+    }
+
+    /// The numbers of a column.
+    pub(crate) fn column(
+        &mut self,
+        fields: &Fields<'a>,
+        file: &CsvFile,
+        axis: Axis<'_>,
+        name: Option<(&str, &RawValue)>,
+    ) -> Option<Points> {
+        let (name, raw) = name?;
+        let place = Place { owner: &fields.owner, key: axis.column, raw };
+        match file.column(name, axis.ty, place) {
+            Ok(points) => Some(points),
+            Err(problems) => {
+                self.problems.extend(problems);
+                None
+            }
+        }
+    }
+
+    /// Keys that mean nothing here.
+    pub(crate) fn refuse_keys(&mut self, fields: &Fields<'_>, keys: &[&str], why: &str) {
+        for key in keys {
+            if let Some(span) = fields.key(key) {
+                let message = format!("{} {why}", fields.owner.field(key));
+                let problem = Diagnostic::error("netlist::useless_key", message).at(span.clone(), "");
+                self.report(problem.help(format!("remove `{key}`")));
+            }
+        }
+    }
+
+    fn list(&mut self, fields: &Fields<'a>, axis: Axis<'_>) -> Option<Points> {
+        let raw = fields.require(axis.list, &mut self.problems);
+        let unit = fields.get(axis.unit).map(|raw| self.unit(fields, axis, raw));
+        let raw = raw?;
+        let place = Place { owner: &fields.owner, key: axis.list, raw };
+        let RawKind::Array(items) = &raw.kind else {
+            self.report(wrong_shape(&place.words(), raw, "a list", &sample(axis.list)));
+            return None;
+        };
+        let unit = match unit {
+            None => None,
+            Some(unit) => Some(unit?),
+        };
+        let ty = axis.ty.or(unit.as_ref().map(|unit| unit.ty));
+        let mut points = Points::new(ty.unwrap_or(Type::SCALAR), raw.span.clone());
+        let before = self.problems.len();
+        for (n, item) in items.iter().enumerate() {
+            let known = ty.or((n > 0).then_some(points.ty));
+            match self.point((place, item), unit.as_ref(), (axis, known)) {
+                Some((number, found)) => {
+                    points.ty = known.unwrap_or(found);
+                    points.push(number, item.span.clone());
+                }
+                None if n == 0 && ty.is_none() => return None, // the others cannot be judged
+                None => {}
+            }
+        }
+        (self.problems.len() == before).then_some(points)
+    }
+
+    /// One item of a list in SI units, and its type.
+    fn point(
+        &mut self,
+        (list, item): (Place<'_>, &RawValue),
+        unit: Option<&Unit>,
+        (axis, known): (Axis<'_>, Option<Type>),
+    ) -> Option<(f64, Type)> {
+        let place = Place { raw: item, ..list };
+        let problem = match (&item.kind, unit) {
+            (RawKind::Integer(number) | RawKind::Float(number), Some(unit)) => {
+                match parse_quantity(number, Some(Type::SCALAR)) {
+                    Ok(quantity) if unit.ty.absolute && unit.to_si(quantity.value) < 0.0 => cold(place),
+                    Ok(quantity) => return Some((unit.to_si(quantity.value), unit.ty)),
+                    Err(error) => place.unit_error(&error),
+                }
+            }
+            (RawKind::Integer(number) | RawKind::Float(number), None) => {
+                match parse_quantity(number, Some(Type::SCALAR)) {
+                    Ok(quantity) if known.is_none_or(|ty| ty.is_scalar()) => {
+                        return Some((quantity.value, Type::SCALAR));
+                    }
+                    Ok(_) if axis.ty.is_none() => mixed(place, axis, (known, Type::SCALAR)),
+                    Ok(_) => no_unit(place, axis, known.unwrap_or(Type::SCALAR)),
+                    Err(error) => place.unit_error(&error),
+                }
+            }
+            (RawKind::String { .. }, Some(_)) => two_units(place, axis),
+            (RawKind::String { text, .. }, None) => match parse_quantity(text, known) {
+                Ok(quantity) => return Some((quantity.value, quantity.ty)),
+                Err(_) if is_expression(text) => not_constant(place),
+                Err(error) => match parse_quantity(text, None) {
+                    Ok(quantity) if axis.ty.is_none() => mixed(place, axis, (known, quantity.ty)),
+                    _ => place.unit_error(&error),
+                },
+            },
+            _ => {
+                let wanted = "a list of quantities or numbers";
+                wrong_shape(&list.words(), item, wanted, &sample(axis.list))
+            }
+        };
+        self.report(problem);
+        None
+    }
+
+    /// The unit of plain numbers.
+    fn unit(&mut self, fields: &Fields<'a>, axis: Axis<'_>, raw: &'a RawValue) -> Option<Unit> {
+        let text = fields.text(axis.unit, raw, &mut self.problems)?;
+        let place = Place { owner: &fields.owner, key: axis.unit, raw };
+        let problem = match Unit::parse(text) {
+            Err(error) => place.unit_error(&error),
+            Ok(unit) => match fit(unit, axis.ty) {
+                Ok(unit) => return Some(unit),
+                Err((wanted, found)) => {
+                    let message = format!(
+                        "{} must be {}, got {}",
+                        place.words(),
+                        wanted.with_article(),
+                        found.with_article()
+                    );
+                    let example = format!("{} = \"{}\"", axis.unit, wanted.usual_unit());
+                    Diagnostic::error("units::dimension", message)
+                        .at(raw.span.clone(), "")
+                        .help(format!("write it like this: `{example}`"))
+                }
+            },
+        };
+        self.report(problem);
+        None
+    }
+
+    /// One of several words; the first unless said otherwise.
+    pub(crate) fn choice<T: Copy>(
+        &mut self,
+        fields: &Fields<'a>,
+        key: &str,
+        words: &[(&str, T)],
+    ) -> Option<T> {
+        let Some(raw) = fields.get(key) else { return words.first().map(|(_, value)| *value) };
+        let text = fields.text(key, raw, &mut self.problems)?;
+        if let Some((_, value)) = words.iter().find(|(word, _)| *word == text) {
+            return Some(*value);
+        }
+        let message = format!("{} cannot be \"{text}\"", fields.owner.field(key));
+        let problem = Diagnostic::error("netlist::unknown_word", message).at(raw.span.clone(), "");
+        let all: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        self.report(match suggest(text, all.iter().copied()) {
+            Some(near) => problem.help(format!("did you mean `{key} = \"{near}\"`?")),
+            None => problem.help(format!("it is one of {}", crate::vocabulary::list(&all))),
+        });
+        None
+    }
+
+    /// What is wrong with the points of a curve, at its place; `arguments` is what has to rise, in words.
+    pub(crate) fn report_points(
+        &mut self,
+        fields: &Fields<'a>,
+        (x, y): (&Points, &Points),
+        (arguments, error): (&str, &TableError),
+    ) {
+        let words = fields.owner.words();
+        let at_list = |message: String| {
+            Diagnostic::error(error.code(), message)
+                .at(y.whole.clone(), "")
+                .also(fields.place.clone(), "read here")
+        };
+        let problem = match error {
+            TableError::NotIncreasing { index } => rising(words, arguments, x, *index)
+                .also(fields.place.clone(), "read here")
+                .help("sort the points by their argument, each argument once"),
+            TableError::TooShort => at_list(format!("{words} needs two points or more"))
+                .help("a value that never changes is a parameter"),
+            TableError::LengthsDiffer => {
+                let (n, m) = (x.numbers.len(), y.numbers.len());
+                at_list(format!("{words} has {n} arguments but {m} values")).help("give one value for each")
+            }
+            other => at_list(format!("{words}: {other}")),
+        };
+        self.report(problem);
+    }
+}
+
+fn rising(words: &str, arguments: &str, x: &Points, index: usize) -> Diagnostic {
+    let repeated = x.numbers[index] >= x.numbers[index - 1];
+    let says = if repeated { "the same stands twice" } else { "this one is below the one before it" };
+    Diagnostic::error(
+        TableError::NotIncreasing { index }.code(),
+        format!("{arguments} of {words} must rise, but {says}"),
+    )
+    .at(x.places[index].clone(), if repeated { "again" } else { "falls" })
+    .also(x.places[index - 1].clone(), "the one before it")
+}
+
+fn cold(place: Place<'_>) -> Diagnostic {
+    Diagnostic::error("units::below_absolute_zero", format!("{} goes below absolute zero", place.words()))
+        .at(place.raw.span.clone(), "")
+        .help("0 K is -273.15 degC")
+}
+
+fn no_unit(place: Place<'_>, axis: Axis<'_>, ty: Type) -> Diagnostic {
+    let unit = ty.usual_unit();
+    Diagnostic::error(
+        "units::bare_number",
+        format!("{} must be {}, got a plain number", place.words(), ty.with_article()),
+    )
+    .at(place.raw.span.clone(), "")
+    .help(format!("give the unit once for the whole list: `{} = \"{unit}\"`", axis.unit))
+}
+
+/// A list of one type so far, and an item of another.
+fn mixed(place: Place<'_>, axis: Axis<'_>, (first, found): (Option<Type>, Type)) -> Diagnostic {
+    let first = first.unwrap_or(Type::SCALAR);
+    let message = format!(
+        "{} begins with {}, but this is {}",
+        place.words(),
+        first.with_article(),
+        found.with_article()
+    );
+    let problem = Diagnostic::error("netlist::mixed_list", message).at(place.raw.span.clone(), "");
+    match first.is_scalar() || found.is_scalar() {
+        true => problem.help(format!(
+            "give every value its unit in quotes, or none: `{}` then gives the unit of all",
+            axis.unit
+        )),
+        false => problem
+            .help("a list holds values of one kind; `min` and `h` may stand in one list, `W` and `J` not"),
+    }
+}
+
+fn two_units(place: Place<'_>, axis: Axis<'_>) -> Diagnostic {
+    let message = format!("{} holds a string, but `{}` is for plain numbers", place.words(), axis.unit);
+    Diagnostic::error("netlist::two_units", message).at(place.raw.span.clone(), "").help(format!(
+        "write the number without quotes and unit, or remove `{}` and give every number its unit",
+        axis.unit
+    ))
+}
+
+fn is_expression(text: &str) -> bool {
+    Expression::parse(text).is_ok_and(|e| !(e.names().is_empty() && e.calls().is_empty()))
+}
+
+fn not_constant(place: Place<'_>) -> Diagnostic {
+    Diagnostic::error("netlist::point_not_constant", format!("{} holds an expression", place.words()))
+        .at(place.raw.span.clone(), "")
+        .help("points are numbers or quantities; multiply where the curve is used: `scale * name(x)`")
+}

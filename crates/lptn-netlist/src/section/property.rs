@@ -1,0 +1,82 @@
+//! Properties of materials and fluids: constant, an expression in `T`, or a table over it.
+
+use lptn_network::{Input, Melting};
+use lptn_units::{Dimension, Type};
+
+use crate::diagnostic::Diagnostic;
+use crate::elaborate::{Elaboration, stand_in};
+use crate::fields::{Fields, sample, wrong_shape};
+use crate::plausible;
+use crate::raw::RawKind;
+use crate::value::{Given, Place, Wanted};
+
+/// What a change of phase takes: all of them or none.
+const MELTING: [&str; 3] = ["solidus", "liquidus", "latent_heat"];
+
+impl<'a> Elaboration<'a> {
+    /// A property; a stand-in if it is wrong.
+    pub(crate) fn property(&mut self, fields: &Fields<'a>, key: &str, wanted: Wanted) -> Option<Input> {
+        let raw = fields.get(key)?;
+        let ty = wanted.ty.unwrap_or(Type::SCALAR);
+        let place = Place { owner: &fields.owner, key, raw };
+        match raw.kind {
+            RawKind::Table(_) if wanted == Wanted::constant(ty) => {
+                self.report(constant(place));
+                return Some(stand_in(ty));
+            }
+            RawKind::Table(_) => {
+                return Some(self.property_table(fields, key, ty).unwrap_or_else(|| stand_in(ty)));
+            }
+            RawKind::Array(_) => {
+                let wanted = "a quantity or a table over `T`";
+                let table = format!("{key} = {{ x = [\"20 degC\", \"100 degC\"], y = [.., ..] }}");
+                self.report(wrong_shape(&place.words(), raw, wanted, &table));
+                return Some(stand_in(ty));
+            }
+            _ => {}
+        }
+        Some(self.given(place, wanted).map_or_else(|| stand_in(ty), Given::input))
+    }
+
+    /// As [`Elaboration::property`], with a warning if no solid has such a value.
+    pub(crate) fn solid_property(&mut self, fields: &Fields<'a>, key: &str, wanted: Wanted) -> Option<Input> {
+        let raw = fields.get(key)?;
+        let place = Place { owner: &fields.owner, key, raw };
+        if let (RawKind::String { .. }, Ok(crate::value::Text::Quantity(quantity))) =
+            (&raw.kind, place.text(wanted.ty, &self.names))
+        {
+            self.problems.extend(plausible::check(place, quantity.value));
+        }
+        self.property(fields, key, wanted)
+    }
+
+    /// How a material melts.
+    pub(crate) fn melting(&mut self, fields: &Fields<'a>) -> Option<Melting<Input>> {
+        let given = MELTING.iter().filter(|key| fields.get(key).is_some()).count();
+        if given == 0 {
+            return None;
+        }
+        let missing = MELTING.iter().find(|key| fields.get(key).is_none());
+        if let Some(key) = missing.filter(|_| fields.complete) {
+            let message = format!("{} melts, but has no `{key}`", fields.owner.words());
+            let problem = Diagnostic::error("netlist::missing_field", message)
+                .at(fields.place.clone(), format!("`{key}` is missing"));
+            self.report(problem.help(format!("add `{}`", sample(key))));
+        }
+        let mut value = |key: &str, ty: Type| {
+            let raw = fields.get(key)?;
+            let given = self.given(Place { owner: &fields.owner, key, raw }, Wanted::constant(ty));
+            Some(given.map_or_else(|| stand_in(ty), Given::input))
+        };
+        let solidus = value("solidus", Type::ABSOLUTE_TEMPERATURE);
+        let liquidus = value("liquidus", Type::ABSOLUTE_TEMPERATURE);
+        let heat = value("latent_heat", Type::of(Dimension::SPECIFIC_ENERGY));
+        Some(Melting { solidus: solidus?, liquidus: liquidus?, heat: heat? })
+    }
+}
+
+fn constant(place: Place<'_>) -> Diagnostic {
+    Diagnostic::error("netlist::constant_property", format!("{} has to be constant", place.words()))
+        .at(place.raw.span.clone(), "")
+        .help(format!("give one value, at the temperature of the volume: `{}`", sample(place.key)))
+}

@@ -1,0 +1,120 @@
+//! `[signal]`: courses over time.
+
+use lptn_network::{AfterEnd, Course, Field, Item, Join};
+use lptn_units::{Dimension, Interpolation, Outside, Table1, Type, parse_quantity};
+
+use crate::elaborate::{Elaboration, stand_in};
+use crate::fields::Fields;
+use crate::parameters::Pending;
+use crate::points::Axis;
+use crate::raw::RawKind;
+use crate::value::{Place, Wanted};
+use crate::vocabulary::SIGNAL;
+
+const TIME: Type = Type::of(Dimension::TIME);
+
+const JOINS: [(&str, Join); 3] =
+    [("linear", Join::Linear), ("previous", Join::Previous), ("pchip", Join::Pchip)];
+
+/// What follows the last point, by its word; the period of a repetition stands in a key of its own.
+#[derive(Clone, Copy, PartialEq)]
+enum After {
+    Error,
+    Hold,
+    Repeat,
+}
+
+const AFTER: [(&str, After); 3] = [("error", After::Error), ("hold", After::Hold), ("repeat", After::Repeat)];
+
+impl<'a> Elaboration<'a> {
+    /// Gives all signals to the builder, each after those it uses.
+    pub(crate) fn signals(&mut self) {
+        for pending in self.in_order((SIGNAL.name, "signal"), "netlist::signal_cycle") {
+            self.signal(pending);
+        }
+    }
+
+    fn signal(&mut self, mut pending: Pending<'a>) {
+        let entry = pending.entry;
+        let id = if let RawKind::Table(_) = entry.value.kind {
+            let fields = Fields::of(&SIGNAL, pending.owner, entry, &mut self.problems);
+            let course = fields.as_ref().and_then(|fields| self.course(fields));
+            course.map(|(ty, course)| {
+                let item = Item::Signal(self.builder.signal(&entry.key, ty, course));
+                if let Some(raw) = fields.as_ref().and_then(|fields| fields.get("period")) {
+                    self.map.value(item, Field::Period, raw);
+                }
+                item
+            })
+        } else {
+            let place = Place { owner: &pending.owner, key: "", raw: &entry.value };
+            let given = pending.text.take().and_then(|text| self.resolve(place, text, Wanted::in_time(None)));
+            given.map(|given| Item::Signal(self.builder.signal_expression(&entry.key, given.input())))
+        };
+        let item = id.unwrap_or_else(|| {
+            self.names.fail(&entry.key);
+            // the name is checked even if the value is wrong
+            Item::Signal(self.builder.signal_expression(&entry.key, stand_in(Type::SCALAR)))
+        });
+        self.map.insert(item, Field::Name, entry.key_span.clone());
+        self.map.value(item, Field::Value, &entry.value);
+    }
+
+    /// The type of a signal and its course, from points.
+    fn course(&mut self, fields: &Fields<'a>) -> Option<(Type, Course)> {
+        let join = self.choice(fields, "interp", &JOINS);
+        let after = self.choice(fields, "after_end", &AFTER);
+        let period = self.period(fields, after);
+        let time = Axis { list: "t", unit: "t_unit", column: "time", ty: Some(TIME) };
+        let value = Axis { list: "v", unit: "v_unit", column: "value", ty: None };
+        let [times, values] = self.curve(fields, [time, value])?;
+        let interpolation = match join? {
+            Join::Pchip => Interpolation::Pchip,
+            Join::Linear | Join::Previous => Interpolation::Linear,
+        };
+        let points =
+            match Table1::new(times.numbers.clone(), values.numbers.clone(), interpolation, Outside::Hold) {
+                Ok(points) => points,
+                Err(error) => {
+                    self.report_points(fields, (&times, &values), ("the times", &error));
+                    return None;
+                }
+            };
+        let span = points.knots().last()? - points.knots().first()?;
+        let after = match after? {
+            After::Error => AfterEnd::Error,
+            After::Hold => AfterEnd::Hold,
+            After::Repeat => AfterEnd::Repeat(period?.unwrap_or(span)),
+        };
+        let course = match join? {
+            Join::Previous => Course::Steps { times: times.numbers, values: values.numbers, after },
+            Join::Linear | Join::Pchip => Course::Curve { points, after },
+        };
+        Some((values.ty, course))
+    }
+
+    /// The period, if one is written; `None` if it is wrong.
+    fn period(&mut self, fields: &Fields<'a>, after: Option<After>) -> Option<Option<f64>> {
+        let Some(raw) = fields.get("period") else { return Some(None) };
+        if after.is_some_and(|after| after != After::Repeat) {
+            self.refuse_keys(fields, &["period"], "has no effect without `after_end = \"repeat\"`");
+            return None;
+        }
+        let place = Place { owner: &fields.owner, key: "period", raw };
+        let text = match &raw.kind {
+            RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => text.as_str(),
+            _ => {
+                let sample = crate::fields::sample("period");
+                self.report(crate::fields::wrong_shape(&place.words(), raw, "a quantity", &sample));
+                return None;
+            }
+        };
+        match parse_quantity(text, Some(TIME)) {
+            Ok(quantity) => Some(Some(quantity.value)),
+            Err(error) => {
+                self.report(place.unit_error(&error));
+                None
+            }
+        }
+    }
+}

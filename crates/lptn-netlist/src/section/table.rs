@@ -1,0 +1,224 @@
+//! `[table]`, and properties that are tabulated over temperature.
+
+use std::sync::Arc;
+
+use lptn_network::{Field, Input, Item, slot};
+use lptn_units::{
+    Expression, Interpolation, Outside, Scope, Symbol, Table, Table1, Table2, TableError, TableSymbol, Type,
+};
+
+use crate::diagnostic::Diagnostic;
+use crate::elaborate::Elaboration;
+use crate::fields::{Fields, Owner};
+use crate::points::{Axis, Points};
+use crate::raw::RawEntry;
+use crate::vocabulary::TABLE;
+
+const INTERPOLATIONS: [(&str, Interpolation); 2] =
+    [("linear", Interpolation::Linear), ("pchip", Interpolation::Pchip)];
+
+const OUTSIDE: [(&str, Outside); 2] = [("error", Outside::Error), ("hold", Outside::Hold)];
+
+impl<'a> Elaboration<'a> {
+    /// Gives all tables to the builder; they hold numbers only, so everything else may use them.
+    pub(crate) fn tables(&mut self) {
+        for entry in self.elements(TABLE.name) {
+            match self.table(entry) {
+                Some(symbol) => {
+                    let id = self.builder.table(&entry.key, symbol);
+                    self.map.insert(Item::Table(id), Field::Name, entry.key_span.clone());
+                }
+                None => self.names.fail(&entry.key),
+            }
+        }
+    }
+
+    fn table(&mut self, entry: &'a RawEntry) -> Option<TableSymbol> {
+        let owner = Owner::element(TABLE.name, &entry.key);
+        let fields = Fields::of(&TABLE, owner, entry, &mut self.problems)?;
+        let map = fields.get("csv").is_some() && fields.get("y").is_some();
+        if map { self.map_of_two(&fields) } else { self.tabulated(&fields, (None, None)) }
+    }
+
+    /// A table of one argument.
+    fn tabulated(&mut self, fields: &Fields<'a>, ty: (Option<Type>, Option<Type>)) -> Option<TableSymbol> {
+        let interpolation = self.choice(fields, "interp", &INTERPOLATIONS);
+        let outside = self.choice(fields, "outside", &OUTSIDE);
+        let x = Axis { list: "x", unit: "x_unit", column: "x", ty: ty.0 };
+        let y = Axis { list: "y", unit: "y_unit", column: "value", ty: ty.1 };
+        let [x, y] = self.curve(fields, [x, y])?;
+        let (numbers, values) = (x.numbers.clone(), y.numbers.clone());
+        match Table1::new(numbers, values, interpolation?, outside?) {
+            Ok(table) => {
+                let table = Arc::new(Table::One(table));
+                Some(TableSymbol { table, arguments: vec![x.ty], ty: y.ty })
+            }
+            Err(error) => {
+                self.report_points(fields, (&x, &y), ("the arguments", &error));
+                None
+            }
+        }
+    }
+
+    /// A table of two arguments: one row of a CSV file for each point of the grid, in any order.
+    fn map_of_two(&mut self, fields: &Fields<'a>) -> Option<TableSymbol> {
+        self.refuse_keys(fields, &["x_unit", "y_unit"], "is for lists, but the points come from a CSV file");
+        let outside = self.choice(fields, "outside", &OUTSIDE);
+        let linear = self.choice(fields, "interp", &INTERPOLATIONS) != Some(Interpolation::Pchip);
+        if let (false, Some(raw)) = (linear, fields.get("interp")) {
+            let message = format!("{} of two arguments is not supported yet", fields.owner.field("interp"));
+            let problem = Diagnostic::error("netlist::not_supported_yet", message).at(raw.span.clone(), "");
+            self.report(problem.help("a table of two arguments is bilinear: leave `interp` out"));
+        }
+        let file = self.csv_file(fields);
+        let names = ["x", "y", "value"].map(|key| self.column_name(fields, key));
+        let file = file?;
+        let columns = ["x", "y", "value"].map(|key| Axis { list: key, unit: "", column: key, ty: None });
+        let mut columns = columns
+            .into_iter()
+            .zip(names)
+            .map(|(axis, name)| self.column(fields, &file, axis, name))
+            .collect::<Vec<_>>()
+            .into_iter();
+        let (x, y, value) = (columns.next()??, columns.next()??, columns.next()??);
+        if value.numbers.is_empty() {
+            self.report_points(fields, (&x, &value), ("the arguments", &TableError::TooShort));
+            return None;
+        }
+        let [xs, ys] = [&x, &y].map(|axis| knots(&axis.numbers));
+        let grid = Grid { fields, file_header: file.header(), axes: [&x, &y], knots: [&xs, &ys] };
+        let values = match grid.fill(&value) {
+            Ok(values) => values,
+            Err(problem) => {
+                self.report(problem);
+                return None;
+            }
+        };
+        match Table2::new(xs, ys, values, outside.filter(|_| linear)?) {
+            Ok(table) => {
+                let table = Arc::new(Table::Two(table));
+                Some(TableSymbol { table, arguments: vec![x.ty, y.ty], ty: value.ty })
+            }
+            Err(error) => {
+                self.report_points(fields, (&x, &value), ("the arguments", &error));
+                None
+            }
+        }
+    }
+
+    /// A property that is tabulated over the temperature.
+    pub(crate) fn property_table(&mut self, fields: &Fields<'a>, key: &str, ty: Type) -> Option<Input> {
+        let entry = fields.entry(key)?;
+        let inner = Fields::of(&TABLE, fields.owner.inside(key), entry, &mut self.problems)?;
+        let types = (Some(Type::ABSOLUTE_TEMPERATURE), Some(ty));
+        let symbol = self.tabulated(&inner, types)?;
+        if let Table::One(table) = &*symbol.table
+            && let Some(value) = table.values().iter().find(|value| **value <= 0.0)
+        {
+            let message =
+                format!("{} must be more than zero, got {value} {}", inner.owner.words(), ty.usual_unit());
+            let problem = Diagnostic::error("network::not_positive", message);
+            self.report(
+                problem.at(entry.value.span.clone(), "").help("check the sign, or leave the point out"),
+            );
+            return None;
+        }
+        // an error at run time names the table by its key
+        let scope = OfTemperature { name: key, table: symbol };
+        let program = Expression::parse(&format!("{key}(T)")).ok()?.compile(&scope, Some(ty)).ok()?;
+        Some(program.into())
+    }
+}
+
+/// The scope of a property that is a table over its own temperature.
+struct OfTemperature<'k> {
+    name: &'k str,
+    table: TableSymbol,
+}
+
+impl Scope for OfTemperature<'_> {
+    fn symbol(&self, name: &str) -> Option<Symbol> {
+        let ty = Type::ABSOLUTE_TEMPERATURE;
+        (name == "T").then_some(Symbol { slot: slot::OWN, ty, in_comparison: None })
+    }
+
+    fn names(&self) -> Vec<String> {
+        vec!["T".to_owned()]
+    }
+
+    fn table(&self, name: &str) -> Option<TableSymbol> {
+        (name == self.name).then(|| self.table.clone())
+    }
+}
+
+/// The different numbers of a column, rising.
+fn knots(numbers: &[f64]) -> Vec<f64> {
+    let mut knots = numbers.to_vec();
+    knots.sort_unstable_by(f64::total_cmp);
+    knots.dedup_by(|a, b| a.total_cmp(b).is_eq());
+    knots
+}
+
+/// A grid that the rows of a file have to fill.
+struct Grid<'g> {
+    fields: &'g Fields<'g>,
+    file_header: &'g crate::file::Span,
+    axes: [&'g Points; 2],
+    knots: [&'g [f64]; 2],
+}
+
+impl Grid<'_> {
+    /// The value at every point of the grid, row by row.
+    fn fill(&self, value: &Points) -> Result<Vec<f64>, Diagnostic> {
+        let [xs, ys] = self.knots;
+        let at = |axis: usize, row: usize| {
+            let number = self.axes[axis].numbers[row];
+            self.knots[axis].partition_point(|knot| knot.total_cmp(&number).is_lt())
+        };
+        let mut rows: Vec<((usize, usize), usize)> =
+            (0..value.numbers.len()).map(|row| ((at(0, row), at(1, row)), row)).collect();
+        rows.sort_unstable();
+        if let Some(pair) = rows.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+            return Err(self.repeated(pair[1].1, pair[0].1));
+        }
+        // in order and each once: the first that is out of place comes after one that is missing
+        let point = |n: usize| (n / ys.len(), n % ys.len());
+        let gap = rows.iter().enumerate().position(|(n, (found, _))| *found != point(n));
+        let missing = gap.unwrap_or(rows.len());
+        if point(missing).0 < xs.len() {
+            return Err(self.incomplete(point(missing)));
+        }
+        Ok(rows.into_iter().map(|(_, row)| value.numbers[row]).collect())
+    }
+
+    fn repeated(&self, row: usize, first: usize) -> Diagnostic {
+        let message = format!("{} has two rows for the same point", self.fields.owner.words());
+        Diagnostic::error("netlist::grid_repeated", message)
+            .at(self.axes[0].places[row].clone(), "again")
+            .also(self.axes[0].places[first].clone(), "first here")
+            .also(self.fields.place.clone(), "read here")
+            .help("keep one of the two rows")
+    }
+
+    fn incomplete(&self, (x, y): (usize, usize)) -> Diagnostic {
+        let [xs, ys] = self.knots;
+        let message = format!(
+            "{} needs a row for each of the {} pairs of its {} and {} arguments",
+            self.fields.owner.words(),
+            xs.len().saturating_mul(ys.len()),
+            xs.len(),
+            ys.len(),
+        );
+        let mut problem = Diagnostic::error("netlist::grid_incomplete", message)
+            .at(self.file_header.clone(), "the columns")
+            .help("add the row that is missing: every first argument with every second one");
+        let parts = [(0, x, "this argument"), (1, y, "does not stand together with this one")];
+        for (axis, knot, text) in parts {
+            let same = |number: &f64| number.total_cmp(&self.knots[axis][knot]).is_eq();
+            if let Some(row) = self.axes[axis].numbers.iter().position(same) {
+                problem = problem.also(self.axes[axis].places[row].clone(), text);
+            }
+        }
+        problem.also(self.fields.place.clone(), "read here")
+    }
+}

@@ -1,0 +1,149 @@
+//! What a value depends on: constants, time, or temperatures.
+
+use crate::element::{Conductor, Source};
+use crate::id::End;
+use crate::layout::{Holds, slot};
+use crate::parts::Parts;
+use crate::value::Value;
+
+/// What the slots of a value hold.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Reads {
+    pub(crate) time: bool,
+    pub(crate) link: bool,
+    pub(crate) own: bool,
+    /// Nodes and boundaries by name, ascending.
+    pub(crate) temperatures: Vec<End>,
+}
+
+impl Reads {
+    /// Whether it reads nothing but parameters.
+    pub(crate) fn is_constant(&self) -> bool {
+        !self.time && !self.reads_results()
+    }
+
+    /// Whether it reads any temperature.
+    pub(crate) fn reads_results(&self) -> bool {
+        self.link || self.own || !self.temperatures.is_empty()
+    }
+}
+
+/// Which temperatures an element's heat depends on.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Dependence {
+    /// Vertices, each once: nodes, then boundaries. Those of a conductor begin with its ends.
+    pub(crate) vertices: Vec<u32>,
+    /// Slots that hold the temperature of `vertices[.1]`.
+    pub(crate) named: Vec<(u32, usize)>,
+}
+
+impl Dependence {
+    fn add(&mut self, parts: &Parts, end: End) {
+        let vertex = parts.vertex(end);
+        let position = self.vertices.iter().position(|&v| v == vertex).unwrap_or_else(|| {
+            self.vertices.push(vertex);
+            self.vertices.len() - 1
+        });
+        self.named.push((parts.layout.temperature(end), position));
+    }
+}
+
+impl Parts {
+    /// Position of an end among all vertices: nodes, then boundaries.
+    pub(crate) fn vertex(&self, end: End) -> u32 {
+        let index = match end {
+            End::Node(id) => id.index(),
+            End::Boundary(id) => self.nodes.len() + id.index(),
+        };
+        u32::try_from(index).expect("ids are 32 bits wide")
+    }
+
+    /// What a value reads, signals that are expressions included.
+    pub(crate) fn reads(&self, value: &Value) -> Reads {
+        let mut reads = Reads::default();
+        for slot in value.slots() {
+            match self.layout.holds(slot) {
+                Holds::Time | Holds::FrozenTime | Holds::Signal(_) | Holds::FrozenSignal(_) => {
+                    reads.time = true;
+                }
+                Holds::Link => reads.link = true,
+                Holds::Own => reads.own = true,
+                Holds::Temperature(end) => reads.temperatures.push(end),
+                Holds::Parameter(_) => {}
+            }
+        }
+        reads.temperatures.sort_unstable();
+        reads
+    }
+
+    /// Whether the heat of a conductor is more than a constant times a difference or a stream.
+    pub(crate) fn is_variable(&self, conductor: &Conductor) -> bool {
+        let values = conductor.law.parts();
+        let fluid = match &conductor.law {
+            crate::Law::Advection(stream) => stream.fluid().map(|id| &self.fluids[id.index()].cp),
+            _ => None,
+        };
+        values.into_iter().map(|(_, value)| value).chain(fluid).any(|v| !self.reads(v).is_constant())
+    }
+
+    /// The temperatures a conductor depends on.
+    pub(crate) fn conductor_dependence(&self, conductor: &Conductor) -> Dependence {
+        let mut dependence = Dependence {
+            vertices: vec![self.vertex(conductor.from), self.vertex(conductor.to)],
+            named: Vec::new(),
+        };
+        for (_, value) in conductor.law.parts() {
+            self.reads(value).temperatures.into_iter().for_each(|end| dependence.add(self, end));
+        }
+        dependence
+    }
+
+    /// The temperatures a source depends on: its own node first, if it reads that; none if it depends on time only.
+    pub(crate) fn source_dependence(&self, source: &Source) -> Dependence {
+        let reads = self.reads(&source.power);
+        let mut dependence = Dependence::default();
+        if let (true, Some(&(node, _))) = (reads.own, source.into.first()) {
+            dependence.vertices.push(self.vertex(End::Node(node)));
+            dependence.named.push((slot::OWN, 0));
+        }
+        reads.temperatures.into_iter().for_each(|end| dependence.add(self, end));
+        dependence
+    }
+
+    /// Which massless nodes have only constant conductances around them, so that they can be eliminated.
+    pub(crate) fn linear_massless(&self) -> Vec<bool> {
+        let mut linear: Vec<bool> = self.nodes.iter().map(|node| node.massless).collect();
+        let mut touch = |vertex: u32| {
+            if let Some(flag) = linear.get_mut(vertex as usize) {
+                *flag = false;
+            }
+        };
+        for (conductor, dependence) in self.conductors.iter().zip(&self.conductor_dependence) {
+            let constant = !matches!(conductor.law, crate::Law::Radiation(_) | crate::Law::Advection(_));
+            if !(constant && dependence.vertices.is_empty()) {
+                touch(self.vertex(conductor.from));
+                touch(self.vertex(conductor.to));
+                dependence.vertices.iter().for_each(|&v| touch(v));
+            }
+        }
+        for (source, dependence) in self.sources.iter().zip(&self.source_dependence) {
+            dependence.vertices.iter().for_each(|&v| touch(v));
+            if !dependence.vertices.is_empty() {
+                source.into.iter().for_each(|&(node, _)| touch(self.vertex(End::Node(node))));
+            }
+        }
+        linear
+    }
+
+    /// Works out once what depends on what.
+    pub(crate) fn settle(&mut self) {
+        let conductors = self
+            .conductors
+            .iter()
+            .map(|c| if self.is_variable(c) { self.conductor_dependence(c) } else { Dependence::default() });
+        let conductors = conductors.collect();
+        let sources = self.sources.iter().map(|s| self.source_dependence(s)).collect();
+        self.conductor_dependence = conductors;
+        self.source_dependence = sources;
+    }
+}

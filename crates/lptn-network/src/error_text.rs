@@ -1,0 +1,146 @@
+//! The words of build errors.
+
+use std::fmt;
+
+use crate::error::{BuildError, BuildErrorKind};
+use crate::names::list_of_names;
+
+impl BuildError {
+    /// What to do about it, in words that can be pasted where possible.
+    pub fn help(&self) -> Option<String> {
+        use BuildErrorKind as K;
+        let name = &self.name;
+        Some(match &self.kind {
+            K::NoCapacity { .. } => format!(
+                "give it a capacity, `{name} = {{ C = \"500 J/K\" }}`, or declare it a junction, \
+                 `{name} = {{ massless = true }}`"
+            ),
+            K::MasslessWithCapacity { .. } => "remove `massless = true`, or the capacity".into(),
+            K::NoInitialTemperature { .. } => {
+                "add `T0 = \"25 degC\"` to the node, or to [default] for every node".into()
+            }
+            K::FloatingIsland { .. } => {
+                "connect one of them to a boundary, or give one of them a capacity".into()
+            }
+            K::SelfLink { .. } => "a path leads from one node to another: name two different ends".into(),
+            K::SourceIntoBoundary { .. } => {
+                "a boundary keeps its temperature whatever flows in: name a node".into()
+            }
+            K::DependsOnTime { .. } => {
+                "sources, boundaries and the values of conductors may depend on `t`; a parameter that should is a \
+                 [signal]"
+                    .into()
+            }
+            K::DependsOnResult { .. } => {
+                "sources, conductors and limits may depend on temperatures; a capacity and a property of a material \
+                 may depend on their own `T`"
+                    .into()
+            }
+            K::ComparisonNotLinear { .. } => {
+                "compare `t` itself, for example `if(t < 300 [s], 0 [W], 100 [W])`".into()
+            }
+            K::ComparesTemperature { .. } => {
+                "write a smooth change, for example `0.5 * (1 + tanh((T - 80 [degC]) / 1 [K]))`, or a [table]".into()
+            }
+            K::Radii { .. } => "exchange `r_in` and `r_out`".into(),
+            K::Melting { .. } => "exchange `solidus` and `liquidus`".into(),
+            K::Shares { .. } => "make the shares sum to 1".into(),
+            K::WhichTemperature { .. } => "name the node, for example `steel.T`".into(),
+            K::CapacityUnknown { .. } => {
+                "let the table or expression reach `T0` and stay positive there".into()
+            }
+            K::PeriodTooShort { span, .. } => format!("write `period = \"{span} s\"` or more"),
+            K::BadName { .. } => "use letters, digits and `_`, not a digit first".into(),
+            K::ReservedName { .. } => format!("choose another name, for example `{name}_1`"),
+            _ => return None,
+        })
+    }
+}
+
+/// The words for what only some kinds of elements can have wrong.
+struct OfElements<'a>(&'a BuildError);
+
+impl fmt::Display for OfElements<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use BuildErrorKind as K;
+        let name = &self.0.name;
+        match &self.0.kind {
+            K::ComparesTemperature { field, .. } => {
+                write!(f, "`{}` of `{name}` compares a temperature, which is not supported yet", field.key())
+            }
+            K::NotAFraction { field, value, .. } => {
+                write!(f, "`{}` of `{name}` must be above 0 and at most 1, got {value}", field.key())
+            }
+            K::Radii { inner, outer, .. } => {
+                write!(f, "`r_out` of `{name}` must be larger than `r_in`, got {outer} m and {inner} m")
+            }
+            K::Melting { solidus, liquidus, .. } => {
+                write!(f, "`liquidus` of `{name}`, {liquidus} K, is below `solidus`, {solidus} K")
+            }
+            K::Shares { sum, .. } => {
+                write!(f, "the shares of `{name}` must not be negative and must sum to 1, got {sum}")
+            }
+            K::WhichTemperature { .. } => {
+                write!(f, "`P` of `{name}` depends on `T`, but it heats several nodes")
+            }
+            K::CapacityUnknown { temperature, .. } => {
+                write!(f, "the capacity of `{name}` is not known and positive at its start, {temperature} K")
+            }
+            K::FluidUnknown { field, .. } => {
+                write!(f, "`{}` of `{name}` is not known and positive at any usual temperature", field.key())
+            }
+            K::PeriodTooShort { period, span, .. } => {
+                write!(f, "the period of `{name}`, {period} s, is shorter than its points reach, {span} s")
+            }
+            _ => f.write_str(self.0.code()),
+        }
+    }
+}
+
+impl fmt::Display for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use BuildErrorKind as K;
+        let name = &self.name;
+        match &self.kind {
+            K::DuplicateName { .. } => write!(f, "the name `{name}` is taken twice"),
+            K::BadName { .. } => write!(f, "`{name}` is not a name"),
+            K::ReservedName { .. } => write!(f, "`{name}` has a meaning of its own in expressions"),
+            K::WrongType { field, wanted, found, .. } => {
+                write!(f, "`{}` of `{name}` must be {wanted}, got {found}", field.key())
+            }
+            K::NotPositive { field, value, .. } => {
+                write!(f, "`{}` of `{name}` must be finite and more than zero, got {value}", field.key())
+            }
+            K::NotFinite { field, value, .. } => {
+                write!(f, "`{}` of `{name}` must be finite, got {value}", field.key())
+            }
+            K::BelowAbsoluteZero { field, value, .. } => {
+                write!(f, "`{}` of `{name}` is below absolute zero: {value} K", field.key())
+            }
+            K::DependsOnTime { field, .. } => {
+                write!(f, "`{}` of `{name}` has to be constant, but depends on `t`", field.key())
+            }
+            K::DependsOnResult { field, .. } => {
+                write!(f, "`{}` of `{name}` depends on the temperature of a node or boundary", field.key())
+            }
+            K::ComparisonNotLinear { field, .. } => {
+                write!(f, "`{}` of `{name}` compares something that is not linear in `t`", field.key())
+            }
+            K::Evaluation { field, error, .. } => write!(f, "`{}` of `{name}`: {error}", field.key()),
+            K::SelfLink { .. } => write!(f, "`{name}` leads from a node to itself"),
+            K::SourceIntoBoundary { .. } => write!(f, "`{name}` heats a boundary"),
+            K::NoCapacity { .. } => write!(f, "node `{name}` has no capacity"),
+            K::MasslessWithCapacity { .. } => write!(f, "node `{name}` is massless but has a capacity"),
+            K::NoInitialTemperature { .. } => write!(f, "node `{name}` has no temperature at the start"),
+            K::FloatingIsland { names, .. } => write!(
+                f,
+                "the temperature of {} is not determined: no boundary and no capacity is connected",
+                list_of_names(names)
+            ),
+            K::ForeignId { .. } => write!(f, "`{name}` is joined to something of another network"),
+            K::ForeignParameters => f.write_str("the parameters are those of another network"),
+            K::Empty => f.write_str("the network has no node"),
+            _ => OfElements(self).fmt(f),
+        }
+    }
+}

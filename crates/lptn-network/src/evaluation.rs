@@ -1,0 +1,110 @@
+//! The numbers that expressions read, on plain numbers and on dual ones.
+
+use std::sync::Arc;
+
+use lptn_units::{Dual, EvalError, Program};
+
+use crate::id::SignalId;
+use crate::input_error::InputProblem;
+use crate::layout::{Layout, slot};
+
+/// Derivatives taken in one pass. Two ends of a conductor and two further temperatures fit in.
+pub(crate) const PASS: usize = 4;
+
+/// A number with its derivatives by up to [`PASS`] temperatures.
+pub(crate) type Slope = Dual<PASS>;
+
+/// The numbers that expressions read: time, parameters, signals and temperatures. One per thread; reused, so that
+/// evaluating allocates nothing.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    layout: Arc<Layout>,
+    slots: Vec<f64>,
+    stack: Vec<f64>,
+    /// The same on dual numbers; empty until derivatives are asked for.
+    duals: Vec<Slope>,
+    dual_stack: Vec<Slope>,
+    /// The first signal that has no value at the present time.
+    failure: Option<(SignalId, InputProblem)>,
+}
+
+impl Evaluation {
+    /// An evaluation at time 0 with these parameters, in SI units and in the order of their ids.
+    pub(crate) fn new(layout: &Arc<Layout>, parameters: &[f64]) -> Self {
+        let mut slots = vec![f64::NAN; layout.len()];
+        slots[slot::TIME as usize] = 0.0;
+        slots[slot::SEGMENT as usize] = 0.0;
+        let mut scope = Self {
+            layout: Arc::clone(layout),
+            slots,
+            stack: Vec::new(),
+            duals: Vec::new(),
+            dual_stack: Vec::new(),
+            failure: None,
+        };
+        parameters.iter().enumerate().for_each(|(i, &value)| scope.set_parameter(i, value));
+        scope.set_time(0.0, 0.0);
+        scope
+    }
+
+    pub(crate) fn set_parameter(&mut self, index: usize, value: f64) {
+        let slot = self.layout.parameter(crate::ParameterId::from_len(index));
+        self.set(slot, value);
+    }
+
+    /// Sets the temperature of every node and boundary in K, in the order of their ids, for expressions of
+    /// results.
+    pub fn set_temperatures(&mut self, nodes: &[f64], boundaries: &[f64]) {
+        for (slot, &value) in self.layout.temperatures().zip(nodes.iter().chain(boundaries)) {
+            self.slots[slot as usize] = value;
+        }
+    }
+
+    /// Moves to `time` in s; comparisons of `t` and of signals keep the truth they have at `segment` in s.
+    pub fn set_time(&mut self, time: f64, segment: f64) {
+        self.set(slot::TIME, time);
+        self.set(slot::SEGMENT, segment);
+        self.failure = None;
+        let layout = Arc::clone(&self.layout);
+        for (i, signal) in layout.signals().iter().enumerate() {
+            let id = SignalId::from_len(i);
+            let now = layout.signal(id);
+            for (at, slot) in [(segment, now + 1), (time, now)] {
+                let value = signal.at(at, segment, &self.slots, &mut self.stack).unwrap_or_else(|problem| {
+                    self.failure.get_or_insert((id, problem));
+                    f64::NAN
+                });
+                self.set(slot, value);
+            }
+        }
+    }
+
+    /// Why a signal has no value where this stands.
+    pub(crate) fn failure(&self) -> Option<(SignalId, InputProblem)> {
+        self.failure.clone()
+    }
+
+    pub(crate) fn set(&mut self, slot: u32, value: f64) {
+        self.slots[slot as usize] = value;
+        if let Some(dual) = self.duals.get_mut(slot as usize) {
+            *dual = Slope::constant(value);
+        }
+    }
+
+    pub(crate) fn plain(&mut self) -> (&mut [f64], &mut Vec<f64>) {
+        (&mut self.slots, &mut self.stack)
+    }
+
+    pub(crate) fn dual(&mut self) -> (&mut [Slope], &mut Vec<Slope>) {
+        if self.duals.is_empty() {
+            self.duals = self.slots.iter().map(|&value| Slope::constant(value)).collect();
+        }
+        (&mut self.duals, &mut self.dual_stack)
+    }
+
+    /// A program's value at `time` in s.
+    pub(crate) fn evaluate(&mut self, program: &Program, time: f64, segment: f64) -> Result<f64, EvalError> {
+        self.set_time(time, segment);
+        program.eval(&self.slots, &mut self.stack)
+    }
+}

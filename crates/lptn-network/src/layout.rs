@@ -1,0 +1,139 @@
+//! Where expressions find their numbers: one slot for each thing that a name can mean.
+
+use crate::id::{BoundaryId, End, NodeId, ParameterId, SignalId};
+use crate::signal::Signal;
+
+/// Slots that every expression of a network shares. Those of parameters, signals, nodes and boundaries follow in
+/// the order in which these were added.
+pub mod slot {
+    /// The run's time `t` in s.
+    pub const TIME: u32 = 0;
+    /// The time that comparisons see: a point inside the present segment. The truth of a comparison of `t`
+    /// thus never changes while a step is being computed; the segments end where it does change.
+    pub const SEGMENT: u32 = 1;
+    /// `T_from` of a conductor in K.
+    pub const FROM: u32 = 2;
+    /// `T_to` of a conductor in K.
+    pub const TO: u32 = 3;
+    /// `T_mean` of a conductor in K.
+    pub const MEAN: u32 = 4;
+    /// `dT` of a conductor in K.
+    pub const DIFFERENCE: u32 = 5;
+    /// `T` of the node or material at hand in K.
+    pub const OWN: u32 = 6;
+    /// How many there are before the first part of a network.
+    pub(crate) const FIXED: usize = 7;
+}
+
+/// What a slot holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Holds {
+    /// `t`.
+    Time,
+    /// `t` where comparisons read it.
+    FrozenTime,
+    /// A temperature of the conductor at hand.
+    Link,
+    /// The temperature of the node or material at hand.
+    Own,
+    /// A parameter.
+    Parameter(ParameterId),
+    /// A signal.
+    Signal(SignalId),
+    /// A signal where comparisons read it.
+    FrozenSignal(SignalId),
+    /// The temperature of a node or boundary.
+    Temperature(End),
+}
+
+/// The slots of a network.
+#[derive(Clone, Debug)]
+pub(crate) struct Layout {
+    holds: Vec<Holds>,
+    parameters: Vec<u32>,
+    /// The value now; the frozen value is in the next slot.
+    signal_slots: Vec<u32>,
+    signals: Vec<Signal>,
+    nodes: Vec<u32>,
+    boundaries: Vec<u32>,
+}
+
+impl Default for Layout {
+    fn default() -> Self {
+        use Holds::{FrozenTime, Link, Own, Time};
+        let holds = vec![Time, FrozenTime, Link, Link, Link, Link, Own];
+        debug_assert_eq!(holds.len(), slot::FIXED);
+        Self {
+            holds,
+            parameters: vec![],
+            signal_slots: vec![],
+            signals: vec![],
+            nodes: vec![],
+            boundaries: vec![],
+        }
+    }
+}
+
+impl Layout {
+    fn push(&mut self, holds: Holds) -> u32 {
+        let slot = u32::try_from(self.holds.len()).expect("a network holds fewer than 2^32 names");
+        self.holds.push(holds);
+        slot
+    }
+
+    pub(crate) fn add_parameter(&mut self, id: ParameterId) {
+        let slot = self.push(Holds::Parameter(id));
+        self.parameters.push(slot);
+    }
+
+    pub(crate) fn add_signal(&mut self, signal: Signal) -> SignalId {
+        let id = SignalId::from_len(self.signals.len());
+        let slot = self.push(Holds::Signal(id));
+        self.push(Holds::FrozenSignal(id));
+        self.signal_slots.push(slot);
+        self.signals.push(signal);
+        id
+    }
+
+    pub(crate) fn signals(&self) -> &[Signal] {
+        &self.signals
+    }
+
+    pub(crate) fn add_node(&mut self, id: NodeId) {
+        let slot = self.push(Holds::Temperature(End::Node(id)));
+        self.nodes.push(slot);
+    }
+
+    pub(crate) fn add_boundary(&mut self, id: BoundaryId) {
+        let slot = self.push(Holds::Temperature(End::Boundary(id)));
+        self.boundaries.push(slot);
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.holds.len()
+    }
+
+    pub(crate) fn holds(&self, slot: u32) -> Holds {
+        self.holds[slot as usize]
+    }
+
+    pub(crate) fn parameter(&self, id: ParameterId) -> u32 {
+        self.parameters[id.index()]
+    }
+
+    pub(crate) fn signal(&self, id: SignalId) -> u32 {
+        self.signal_slots[id.index()]
+    }
+
+    pub(crate) fn temperature(&self, end: End) -> u32 {
+        match end {
+            End::Node(id) => self.nodes[id.index()],
+            End::Boundary(id) => self.boundaries[id.index()],
+        }
+    }
+
+    /// The slots of all temperatures: nodes, then boundaries.
+    pub(crate) fn temperatures(&self) -> impl Iterator<Item = u32> {
+        self.nodes.iter().chain(&self.boundaries).copied()
+    }
+}

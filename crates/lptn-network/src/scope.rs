@@ -1,0 +1,114 @@
+//! The names that expressions may use, by the place they stand in.
+
+use lptn_units::{Dimension, Scope, Symbol, TableSymbol, Type};
+
+use crate::id::{End, Item};
+use crate::layout::slot;
+use crate::parts::Parts;
+
+/// Where an expression stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Context {
+    /// Parameters, boundaries, signals: nothing but parameters, `t`, signals and tables.
+    Time,
+    /// The capacity of a node, a property of a material or fluid: its own `T` too.
+    Own,
+    /// A source: its node's own `T` and `NAME.T` of every node and boundary too.
+    Source,
+    /// A conductor: `T_from`, `T_to`, `T_mean`, `dT` and `NAME.T` too.
+    Link,
+    /// Results: `NAME.T` too.
+    Result,
+}
+
+/// The names that an expression may use.
+#[derive(Clone, Copy, Debug)]
+pub struct NetworkScope<'a> {
+    parts: &'a Parts,
+    context: Context,
+}
+
+impl<'a> NetworkScope<'a> {
+    pub(crate) fn new(parts: &'a Parts, context: Context) -> Self {
+        Self { parts, context }
+    }
+
+    /// Temperatures of the element at hand.
+    fn local(self, name: &str) -> Option<Symbol> {
+        let (slot, ty) = match (self.context, name) {
+            (Context::Own | Context::Source, "T") => (slot::OWN, Type::ABSOLUTE_TEMPERATURE),
+            (Context::Link, "T_from") => (slot::FROM, Type::ABSOLUTE_TEMPERATURE),
+            (Context::Link, "T_to") => (slot::TO, Type::ABSOLUTE_TEMPERATURE),
+            (Context::Link, "T_mean") => (slot::MEAN, Type::ABSOLUTE_TEMPERATURE),
+            (Context::Link, "dT") => (slot::DIFFERENCE, Type::of(Dimension::TEMPERATURE)),
+            _ => return None,
+        };
+        Some(Symbol { slot, ty, in_comparison: None })
+    }
+
+    fn temperature(self, name: &str) -> Option<Symbol> {
+        if !matches!(self.context, Context::Source | Context::Link | Context::Result) {
+            return None;
+        }
+        let end = match self.parts.names.get(name)? {
+            Item::Node(id) => End::Node(*id),
+            Item::Boundary(id) => End::Boundary(*id),
+            _ => return None,
+        };
+        let slot = self.parts.layout.temperature(end);
+        Some(Symbol { slot, ty: Type::ABSOLUTE_TEMPERATURE, in_comparison: None })
+    }
+
+    fn value(self, name: &str) -> Option<Symbol> {
+        let layout = &self.parts.layout;
+        match *self.parts.value_names.get(name)? {
+            Item::Parameter(id) => {
+                let ty = self.parts.parameters[id.index()].ty;
+                Some(Symbol { slot: layout.parameter(id), ty, in_comparison: None })
+            }
+            Item::Signal(id) => {
+                let (slot, ty) = (layout.signal(id), layout.signals()[id.index()].ty);
+                Some(Symbol { slot, ty, in_comparison: Some(slot + 1) })
+            }
+            _ => None,
+        }
+    }
+}
+
+impl Scope for NetworkScope<'_> {
+    fn symbol(&self, name: &str) -> Option<Symbol> {
+        if name == "t" {
+            let ty = Type::of(Dimension::TIME);
+            return Some(Symbol { slot: slot::TIME, ty, in_comparison: Some(slot::SEGMENT) });
+        }
+        match name.strip_suffix(".T") {
+            Some(name) => self.temperature(name),
+            None => self.local(name).or_else(|| self.value(name)),
+        }
+    }
+
+    fn names(&self) -> Vec<String> {
+        let parameters = self.parts.parameters.iter().map(|p| p.name.clone());
+        let signals = self.parts.layout.signals().iter().map(|s| s.name.clone());
+        let mut names: Vec<String> = parameters.chain(signals).chain(["t".to_owned()]).collect();
+        let local = ["T", "T_from", "T_to", "T_mean", "dT"];
+        names.extend(local.into_iter().filter(|n| self.local(n).is_some()).map(str::to_owned));
+        if matches!(self.context, Context::Source | Context::Link | Context::Result) {
+            let nodes = self.parts.nodes.iter().map(|node| &node.name);
+            let boundaries = self.parts.boundaries.iter().map(|boundary| &boundary.name);
+            names.extend(nodes.chain(boundaries).map(|name| format!("{name}.T")));
+        }
+        names
+    }
+
+    fn table(&self, name: &str) -> Option<TableSymbol> {
+        match self.parts.value_names.get(name)? {
+            Item::Table(id) => Some(self.parts.tables[id.index()].1.clone()),
+            _ => None,
+        }
+    }
+
+    fn table_names(&self) -> Vec<String> {
+        self.parts.tables.iter().map(|(name, _)| name.clone()).collect()
+    }
+}

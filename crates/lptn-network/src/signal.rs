@@ -1,0 +1,207 @@
+//! Signals: named courses over time, as points or as an expression.
+
+use std::sync::Arc;
+
+use lptn_units::{Interpolation, Table1, TableSymbol, Type};
+
+use crate::builder::NetworkBuilder;
+use crate::error::BuildErrorKind;
+use crate::id::{Item, SignalId};
+use crate::input_error::InputProblem;
+use crate::network::Network;
+use crate::value::{Input, Value};
+
+/// A named value that changes with time.
+#[derive(Clone, Debug)]
+pub struct Signal {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: Type,
+    /// How it goes over time.
+    pub course: Course,
+}
+
+/// How a signal goes over time.
+#[derive(Clone, Debug)]
+pub enum Course {
+    /// Points, joined by straight lines or by a monotone cubic (pchip).
+    Curve {
+        /// Times in s and values in SI units.
+        points: Table1,
+        /// What follows the last point.
+        after: AfterEnd,
+    },
+    /// Points, each value held until the next: right-continuous steps.
+    Steps {
+        /// Times in s, strictly increasing.
+        times: Vec<f64>,
+        /// Values in SI units.
+        values: Vec<f64>,
+        /// What follows the last point.
+        after: AfterEnd,
+    },
+    /// An expression over `t`, parameters and the signals before this one.
+    Expression(Value),
+}
+
+/// What follows the last point of a signal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AfterEnd {
+    /// The run fails there.
+    Error,
+    /// The last value stays.
+    Hold,
+    /// It begins anew every so many s after the first point; past the last point its value is held until then.
+    Repeat(f64),
+}
+
+/// How the points of a signal are joined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Join {
+    /// Straight lines.
+    Linear,
+    /// The value of the point before.
+    Previous,
+    /// A monotone cubic through the points.
+    Pchip,
+}
+
+impl Course {
+    /// First and last point in s; an expression reaches from minus to plus infinity.
+    pub fn span(&self) -> (f64, f64) {
+        let times = self.times();
+        (times.first().copied().unwrap_or(f64::NEG_INFINITY), times.last().copied().unwrap_or(f64::INFINITY))
+    }
+
+    fn times(&self) -> &[f64] {
+        match self {
+            Self::Curve { points, .. } => points.knots(),
+            Self::Steps { times, .. } => times,
+            Self::Expression(_) => &[],
+        }
+    }
+
+    /// What follows the last point.
+    pub fn after(&self) -> AfterEnd {
+        match self {
+            Self::Curve { after, .. } | Self::Steps { after, .. } => *after,
+            Self::Expression(_) => AfterEnd::Error,
+        }
+    }
+
+    /// Whether it is a straight line between its points.
+    pub(crate) fn is_straight(&self) -> bool {
+        match self {
+            Self::Curve { points, .. } => points.interpolation() == Interpolation::Linear,
+            Self::Steps { .. } => true,
+            Self::Expression(_) => false,
+        }
+    }
+
+    /// Whether it goes one way only between two of its points.
+    pub(crate) fn is_monotone(&self) -> bool {
+        !matches!(self, Self::Expression(_))
+    }
+
+    /// The start of the repetition that `segment` lies in, less that of the first; 0 without repetition.
+    fn offset(&self, segment: f64) -> f64 {
+        match self.after() {
+            AfterEnd::Repeat(period) => ((segment - self.span().0) / period).floor() * period,
+            AfterEnd::Error | AfterEnd::Hold => 0.0,
+        }
+    }
+
+    /// The times strictly inside `(start, stop)` at which it may bend or jump.
+    pub(crate) fn bends(&self, start: f64, stop: f64, out: &mut Vec<f64>) {
+        let mut inside = |time: f64| {
+            if time > start && time < stop {
+                out.push(time);
+            }
+        };
+        let AfterEnd::Repeat(period) = self.after() else {
+            return self.times().iter().copied().for_each(inside);
+        };
+        let mut offset = self.offset(start);
+        while self.span().0 + offset < stop {
+            self.times().iter().for_each(|time| inside(time + offset));
+            offset += period;
+        }
+    }
+}
+
+impl Signal {
+    /// The value at `time`, on the piece on which `segment` lies.
+    pub(crate) fn at(
+        &self,
+        time: f64,
+        segment: f64,
+        slots: &[f64],
+        stack: &mut Vec<f64>,
+    ) -> Result<f64, InputProblem> {
+        if let Course::Expression(value) = &self.course {
+            return value.on(slots, stack).map_err(InputProblem::from);
+        }
+        let (first, last) = self.course.span();
+        let offset = self.course.offset(segment);
+        let (time, segment) = (time - offset, segment - offset);
+        // a run may end at the last point: rounding must not carry it past
+        let margin = 1e-9 * (last - first).max(first.abs().max(last.abs()) * 1e-3);
+        if time < first - margin {
+            return Err(InputProblem::BeforeSignal { time, first });
+        }
+        if time > last + margin && self.course.after() == AfterEnd::Error {
+            return Err(InputProblem::AfterSignal { time, last });
+        }
+        Ok(match &self.course {
+            Course::Curve { points, .. } => {
+                points.value_and_slope(time.clamp(first, last)).map_or(f64::NAN, |(value, _)| value)
+            }
+            Course::Steps { times, values, .. } => {
+                let after = times.partition_point(|&t| t <= segment);
+                values[after.saturating_sub(1)]
+            }
+            Course::Expression(_) => f64::NAN,
+        })
+    }
+}
+
+impl NetworkBuilder {
+    /// Adds a signal. Expressions that are compiled afterwards may use its name.
+    pub fn signal(&mut self, name: &str, ty: Type, course: Course) -> SignalId {
+        let layout = Arc::make_mut(&mut self.parts.layout);
+        let id = layout.add_signal(Signal { name: name.to_owned(), ty, course: course.clone() });
+        if let AfterEnd::Repeat(period) = course.after() {
+            let (first, last) = course.span();
+            let covers = period > 0.0 && period.is_finite() && period >= (last - first) * (1.0 - 1e-12);
+            if !covers {
+                self.error(name, BuildErrorKind::PeriodTooShort { signal: id, period, span: last - first });
+            }
+        }
+        self.register_value(name, Item::Signal(id));
+        id
+    }
+
+    /// Adds a signal that an expression of `t`, parameters and earlier signals describes.
+    pub fn signal_expression(&mut self, name: &str, input: impl Into<Input>) -> SignalId {
+        let Input { value, ty, .. } = input.into();
+        self.signal(name, ty, Course::Expression(value))
+    }
+}
+
+impl Network {
+    /// The signals; one that is an expression uses only those before it.
+    pub fn signals(&self) -> &[Signal] {
+        self.parts.layout.signals()
+    }
+
+    /// The tables with their names.
+    pub fn tables(&self) -> impl Iterator<Item = (&str, &TableSymbol)> {
+        self.parts.tables.iter().map(|(name, table)| (name.as_str(), table))
+    }
+
+    /// Ids of all signals.
+    pub fn signal_ids(&self) -> impl ExactSizeIterator<Item = SignalId> + use<> {
+        (0..self.signals().len()).map(SignalId::from_len)
+    }
+}

@@ -1,0 +1,77 @@
+//! Streams and the nodes they pass.
+
+use crate::flow::{Flow, Received};
+use crate::id::{ConductorId, End, NodeId};
+use crate::input_error::InputError;
+use crate::law::Law;
+use crate::network::Network;
+
+/// Where capacity rates are compared, in K.
+const REFERENCE: f64 = 298.15;
+
+/// What streams bring to a node and take from it, as capacity rates in W/K.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Passing {
+    /// The node.
+    pub node: NodeId,
+    /// The rate that flows in.
+    pub inflow: f64,
+    /// The rate that flows out.
+    pub outflow: f64,
+}
+
+impl Passing {
+    /// Whether as much flows out as in, but for rounding.
+    pub fn is_balanced(&self) -> bool {
+        (self.inflow - self.outflow).abs() <= 1e-6 * self.inflow.max(self.outflow)
+    }
+}
+
+impl Network {
+    /// What passes each node that a stream touches, at `time` in s and with everything at 25 degC, so that one flow of
+    /// one fluid has one capacity rate.
+    ///
+    /// # Errors
+    /// [`InputError`] if a flow has no value.
+    pub fn passing_streams(&self, time: f64) -> Result<Vec<Passing>, InputError> {
+        let mut scope = self.evaluation();
+        scope.set_time(time, time);
+        let temperatures = vec![REFERENCE; self.nodes().len() + self.boundaries().len()];
+        let mut passing: Vec<Passing> =
+            self.node_ids().map(|node| Passing { node, inflow: 0.0, outflow: 0.0 }).collect();
+        let mut slopes = Vec::new();
+        for id in self.conductor_ids() {
+            let conductor = &self.conductors()[id.index()];
+            if !matches!(conductor.law, Law::Advection(_)) {
+                continue;
+            }
+            let rate = self.rate(id, &mut scope, &temperatures, &mut slopes)?;
+            let (up, down) =
+                if rate < 0.0 { (conductor.to, conductor.from) } else { (conductor.from, conductor.to) };
+            if let End::Node(node) = up {
+                passing[node.index()].outflow += rate.abs();
+            }
+            if let End::Node(node) = down {
+                passing[node.index()].inflow += rate.abs();
+            }
+        }
+        passing.retain(|p| p.inflow + p.outflow > 0.0);
+        Ok(passing)
+    }
+
+    /// Capacity rate of a stream in W/K, positive from `from` to `to`.
+    fn rate(
+        &self,
+        id: ConductorId,
+        scope: &mut crate::Evaluation,
+        temperatures: &[f64],
+        slopes: &mut Vec<Received>,
+    ) -> Result<f64, InputError> {
+        if let Flow::Stream(rate) = self.flow(id) {
+            return Ok(rate);
+        }
+        self.exchange_slopes(id, scope, temperatures, slopes)?;
+        // what `to` receives by the temperature of `from` less what `from` receives by that of `to`
+        Ok(slopes[0][1] - slopes[1][0])
+    }
+}

@@ -1,0 +1,129 @@
+//! Heat contents of nodes and fluids: capacities that depend on temperature.
+
+use std::sync::Arc;
+
+use crate::enthalpy::{Enthalpy, Latent};
+use crate::error::BuildErrorKind;
+use crate::evaluation::Evaluation;
+use crate::id::{FluidId, NodeId};
+use crate::layout::slot;
+use crate::material::{Lump, Size};
+use crate::parts::Parts;
+use crate::value::Value;
+
+/// Where the heat content of a fluid is zero, in K: 25 degC.
+const FLUID_ZERO: f64 = 298.15;
+
+/// A property that is not known and positive at any usual temperature.
+pub(crate) struct Unknown;
+
+/// A value at a temperature of its own, and where it may bend.
+fn at(value: &Value, temperature: f64, scope: &mut Evaluation) -> Option<f64> {
+    scope.set(slot::OWN, temperature);
+    value.at(scope).ok()
+}
+
+/// Temperatures at which the tables in a value bend, as far as they are called with the bare temperature.
+fn edges(value: &Value, scope: &mut Evaluation) -> Vec<f64> {
+    let mut edges = Vec::new();
+    for program in value.programs() {
+        for call in program.table_calls() {
+            let (lptn_units::Table::One(table), [argument]) = (&*call.table, &call.arguments[..]) else {
+                continue;
+            };
+            // linear in T, so two values tell where it takes that of a knot
+            let mut of = |t: f64| {
+                scope.set(slot::OWN, t);
+                let (slots, stack) = scope.plain();
+                argument.eval(slots, stack).ok()
+            };
+            if let (Some(a), Some(b)) = (of(0.0), of(1000.0)) {
+                edges.extend(table.knots().iter().map(|knot| 1000.0 * (knot - a) / (b - a)));
+            }
+        }
+    }
+    edges.retain(|t| t.is_finite() && *t > 0.0);
+    edges
+}
+
+impl Parts {
+    /// The capacities that make up a node: its own and those of its capacitors, with their lumps.
+    fn capacities_of(&self, id: NodeId) -> Vec<(&Value, Option<&Lump>)> {
+        let node = &self.nodes[id.index()];
+        let own = node.capacity.iter().map(|value| (value, node.lump.as_ref()));
+        let parts = self.capacitors.iter().filter(|part| part.node == id);
+        own.chain(parts.map(|part| (&part.capacity, part.lump.as_ref()))).collect()
+    }
+
+    /// For each node whether its capacity depends on its temperature or it can melt.
+    pub(crate) fn varying_capacities(&self) -> Vec<bool> {
+        let varies = |value: &Value, lump: Option<&Lump>| {
+            let melts = lump.is_some_and(|l| self.materials[l.material.index()].melting.is_some());
+            melts || self.reads(value).own
+        };
+        let mut varying: Vec<bool> = self
+            .nodes
+            .iter()
+            .map(|n| n.capacity.as_ref().is_some_and(|c| varies(c, n.lump.as_ref())))
+            .collect();
+        for part in &self.capacitors {
+            varying[part.node.index()] |= varies(&part.capacity, part.lump.as_ref());
+        }
+        varying
+    }
+
+    /// The heat content of a node around its start in K.
+    pub(crate) fn enthalpy_of(
+        &self,
+        id: NodeId,
+        start: f64,
+        scope: &mut Evaluation,
+    ) -> Result<Arc<Enthalpy>, BuildErrorKind> {
+        let parts = self.capacities_of(id);
+        let mut latent = Vec::new();
+        let mut bends = Vec::new();
+        for (value, lump) in &parts {
+            bends.extend(edges(value, scope));
+            latent.extend(lump.and_then(|lump| self.latent(lump, scope)));
+        }
+        let mut capacity =
+            |t: f64| parts.iter().try_fold(0.0, |sum, (value, _)| Some(sum + at(value, t, scope)?));
+        Enthalpy::new(&mut capacity, start, &bends, &latent)
+            .map(Arc::new)
+            .ok_or(BuildErrorKind::CapacityUnknown { node: id, temperature: start })
+    }
+
+    fn latent(&self, lump: &Lump, scope: &mut Evaluation) -> Option<Latent> {
+        let material = &self.materials[lump.material.index()];
+        let melting = material.melting.as_ref()?;
+        let mass = match &lump.size {
+            Size::Mass(mass) => mass.at(scope).ok()?,
+            Size::Volume(volume) => volume.at(scope).ok()? * material.density.as_ref()?.at(scope).ok()?,
+        };
+        Some(Latent {
+            solidus: melting.solidus.at(scope).ok()?,
+            liquidus: melting.liquidus.at(scope).ok()?,
+            heat: mass * melting.heat.at(scope).ok()?,
+        })
+    }
+
+    /// The heat content of a kg of a fluid whose specific heat depends on its temperature; `None` for one whose
+    /// specific heat is constant.
+    pub(crate) fn fluid_enthalpy(
+        &self,
+        id: FluidId,
+        scope: &mut Evaluation,
+    ) -> Result<Option<Arc<Enthalpy>>, Unknown> {
+        let cp = &self.fluids[id.index()].cp;
+        if !self.reads(cp).own {
+            return Ok(None);
+        }
+        let bends = edges(cp, scope);
+        // where it is known: from 25 degC, or from the middle of its table
+        let middle = bends.iter().sum::<f64>() / bends.len().max(1) as f64;
+        let starts = [FLUID_ZERO, middle];
+        let mut capacity = |t: f64| at(cp, t, scope);
+        let curve = starts.into_iter().find_map(|start| Enthalpy::new(&mut capacity, start, &bends, &[]));
+        curve.map(|curve| Some(Arc::new(curve))).ok_or(Unknown)
+    }
+}

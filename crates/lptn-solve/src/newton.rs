@@ -1,0 +1,288 @@
+//! Newton's method for the balances of some unknowns, the others held: steady states and massless nodes.
+//!
+//! Steps are damped until the simplified correction shrinks (the natural monotonicity test; P. Deuflhard, Newton
+//! Methods for Nonlinear Problems, Springer 2004, section 3.3). Where that stalls, the balances are followed over a
+//! pseudo-time whose steps grow as the heat that is left over shrinks (switched evolution relaxation; C. T. Kelley and
+//! D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508), which ends where a network that stores heat in every node would.
+
+use lptn_assembly::{Form, ThermalSystem, Workspace};
+use lptn_integrate::linear::{self, Factorization, LinearSolver};
+use lptn_integrate::{FactorError, Pattern};
+use lptn_network::InputError;
+
+/// Why balances could not be solved.
+#[derive(Clone, Debug)]
+pub(crate) enum NewtonError {
+    /// A value of an element fails.
+    Input(InputError),
+    /// Nothing determines the temperature of an unknown.
+    Singular {
+        /// The unknown.
+        unknown: usize,
+    },
+    /// No memory, or another failure of the factorisation.
+    Factorization(FactorError),
+    /// No solution was found.
+    Stalled {
+        /// The unknown that still moved most.
+        unknown: usize,
+        /// By how much in K.
+        change: f64,
+    },
+}
+
+/// Corrections below this, in K, are the last: near 300 K the last digit is 6e-14 K.
+pub(crate) const SMALL: f64 = 1e-9;
+
+/// Corrections to follow a solution that moves, below this in K.
+const FOLLOWED: f64 = 1e-10;
+
+/// Iterations with full or damped steps.
+const ITERATIONS: usize = 60;
+
+/// The smallest share of a correction that is tried.
+const LEAST_SHARE: f64 = 1.0 / 1024.0;
+
+/// Steps of pseudo-time.
+const PSEUDO_STEPS: usize = 3000;
+
+/// Iterations with the same factors, as long as each correction is at most this part of the one before.
+const REUSED: usize = 6;
+const CONTRACTION: f64 = 0.25;
+
+/// Newton's method on a range of unknowns.
+pub(crate) struct Newton<'a> {
+    system: &'a ThermalSystem,
+    /// The unknowns that are solved for, ascending.
+    free: Vec<usize>,
+    pattern: Pattern,
+    /// The slot in the whole Jacobian of each slot of the pattern.
+    slots: Vec<usize>,
+    factors: Box<dyn Factorization>,
+    /// Whether the factors are those of some earlier point.
+    ready: bool,
+    whole: Vec<f64>,
+    values: Vec<f64>,
+    flow: Vec<f64>,
+}
+
+impl<'a> Newton<'a> {
+    pub(crate) fn new(system: &'a ThermalSystem, free: Vec<usize>) -> Result<Self, NewtonError> {
+        let whole = Pattern::from_symbolic(system.pattern().symbolic());
+        let mut entries = Vec::new();
+        let mut slots = Vec::new();
+        // columns in order, rows ascending, as the slots of the pattern are
+        for (column, &from) in free.iter().enumerate() {
+            for slot in whole.column(from) {
+                if let Ok(row) = free.binary_search(&whole.row_indices()[slot]) {
+                    entries.push((row, column));
+                    slots.push(slot);
+                }
+            }
+        }
+        let pattern = Pattern::new(free.len(), entries.into_iter());
+        let factors = linear::new(&pattern, false, LinearSolver::Auto).map_err(NewtonError::Factorization)?;
+        let (values, whole) = (vec![0.0; pattern.len()], vec![0.0; whole.len()]);
+        let flow = vec![0.0; system.unknowns().len()];
+        Ok(Self { system, free, pattern, slots, factors, ready: false, whole, values, flow })
+    }
+
+    /// Moves the free ones of `temperatures` (all unknowns, in K) from the solution of a moment ago to that of now.
+    pub(crate) fn follow(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &mut [f64],
+    ) -> Result<(), NewtonError> {
+        let start = temperatures.to_vec();
+        if self.ready && self.contract(work, temperatures) == Some(true) {
+            return Ok(());
+        }
+        temperatures.copy_from_slice(&start);
+        self.solve(work, temperatures)
+    }
+
+    /// Corrections with the factors at hand; whether they led to the solution. `None`: a value failed.
+    fn contract(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> Option<bool> {
+        let mut last = f64::INFINITY;
+        for _ in 0..REUSED {
+            let correction = self.correction(work, temperatures).ok()?;
+            let size = largest(&correction);
+            if !(size <= CONTRACTION * last || size <= FOLLOWED) {
+                return Some(false);
+            }
+            self.apply(&correction, 1.0, temperatures);
+            if size <= FOLLOWED {
+                return Some(true);
+            }
+            last = size;
+        }
+        Some(false)
+    }
+
+    /// Solves the balances of the free unknowns, starting from `temperatures` (all unknowns, in K).
+    pub(crate) fn solve(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &mut [f64],
+    ) -> Result<(), NewtonError> {
+        let start = temperatures.to_vec();
+        match self.damped(work, temperatures) {
+            Ok(()) => Ok(()),
+            Err(NewtonError::Factorization(error)) => Err(NewtonError::Factorization(error)),
+            Err(first) => {
+                temperatures.copy_from_slice(&start);
+                // what stopped Newton's method at the start says more than how the pseudo-time ended
+                self.pseudo_time(work, temperatures).map_err(|later| match (first, later) {
+                    (NewtonError::Stalled { .. }, later) => later,
+                    (first, _) => first,
+                })
+            }
+        }
+    }
+
+    fn damped(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> Result<(), NewtonError> {
+        let mut state = (0, f64::INFINITY);
+        for _ in 0..ITERATIONS {
+            self.factorize(work, temperatures, 0.0)?;
+            let correction = self.correction(work, temperatures)?;
+            state = worst(&correction);
+            if state.1 <= SMALL {
+                return self.polish(work, temperatures, correction);
+            }
+            if !self.damp(work, temperatures, &correction) {
+                break;
+            }
+        }
+        Err(NewtonError::Stalled { unknown: self.free[state.0], change: state.1 })
+    }
+
+    /// Takes the largest share of a correction after which the next one, with the same factors, is smaller.
+    fn damp(&mut self, work: &mut Workspace, temperatures: &mut [f64], correction: &[f64]) -> bool {
+        let before = temperatures.to_vec();
+        let size = largest(correction);
+        let mut share = self.positive_share(temperatures, correction);
+        while share >= LEAST_SHARE {
+            self.apply(correction, share, temperatures);
+            if let Ok(next) = self.correction(work, temperatures)
+                && largest(&next) <= (1.0 - 0.25 * share) * size
+            {
+                return true;
+            }
+            temperatures.copy_from_slice(&before);
+            share *= 0.5;
+        }
+        false
+    }
+
+    /// The share of a correction that leaves every temperature at least a fifth of what it is.
+    fn positive_share(&self, temperatures: &[f64], correction: &[f64]) -> f64 {
+        let free = self.free.iter().map(|&i| temperatures[i]).zip(correction);
+        free.fold(1.0, |share: f64, (t, dt)| if *dt < -0.8 * t { share.min(-0.8 * t / dt) } else { share })
+    }
+
+    /// The last corrections, with the factors at hand, while they shrink.
+    fn polish(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &mut [f64],
+        correction: Vec<f64>,
+    ) -> Result<(), NewtonError> {
+        let mut size = largest(&correction);
+        self.apply(&correction, 1.0, temperatures);
+        for _ in 0..3 {
+            let next = self.correction(work, temperatures)?;
+            if largest(&next) >= 0.5 * size {
+                break;
+            }
+            size = largest(&next);
+            self.apply(&next, 1.0, temperatures);
+        }
+        Ok(())
+    }
+
+    fn pseudo_time(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> Result<(), NewtonError> {
+        let (mut step, mut left) = (0.01, f64::INFINITY);
+        let mut change = (0, f64::INFINITY);
+        for _ in 0..PSEUDO_STEPS {
+            self.factorize(work, temperatures, 1.0 / step)?;
+            let correction = self.correction(work, temperatures)?;
+            let heat = self.left_over();
+            change = worst(&correction);
+            let before = temperatures.to_vec();
+            let share = self.positive_share(temperatures, &correction);
+            self.apply(&correction, share, temperatures);
+            let now = self.system.flow(work, temperatures, &mut self.flow);
+            let after = self.left_over();
+            if now.is_err() || after > 4.0 * heat.max(f64::MIN_POSITIVE) {
+                temperatures.copy_from_slice(&before);
+                step *= 0.25;
+                if step < 1e-12 {
+                    now.map_err(NewtonError::Input)?;
+                    break;
+                }
+                continue;
+            }
+            step *= if left.is_finite() { (left / after).clamp(0.5, 8.0) } else { 2.0 };
+            left = after;
+            if step > 1e4 && self.damped(work, &mut temperatures.to_vec()).is_ok() {
+                return self.damped(work, temperatures);
+            }
+        }
+        Err(NewtonError::Stalled { unknown: self.free[change.0], change: change.1 })
+    }
+
+    /// Factorises `-J`, with `inertia` times the size of its diagonal added.
+    fn factorize(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &[f64],
+        inertia: f64,
+    ) -> Result<(), NewtonError> {
+        let jacobian = self.system.jacobian_at(work, temperatures, Form::Exact, &mut self.whole);
+        jacobian.map_err(NewtonError::Input)?;
+        for (value, &slot) in self.values.iter_mut().zip(&self.slots) {
+            *value = -self.whole[slot];
+        }
+        for &slot in self.pattern.diagonal() {
+            self.values[slot] += inertia * self.values[slot].abs();
+        }
+        self.ready = false;
+        let free = &self.free;
+        let failed = |error| match error {
+            FactorError::Singular { index } => NewtonError::Singular { unknown: free[index] },
+            other => NewtonError::Factorization(other),
+        };
+        self.factors.factorize(&self.values).map_err(failed)?;
+        self.factors.check(&self.pattern, &self.values).map_err(failed)?;
+        self.ready = true;
+        Ok(())
+    }
+
+    /// The correction of the free unknowns, in K, with the factors at hand.
+    fn correction(&mut self, work: &mut Workspace, temperatures: &[f64]) -> Result<Vec<f64>, NewtonError> {
+        self.system.flow(work, temperatures, &mut self.flow).map_err(NewtonError::Input)?;
+        let mut correction: Vec<f64> = self.free.iter().map(|&i| self.flow[i]).collect();
+        self.factors.solve_in_place(&mut correction).map_err(NewtonError::Factorization)?;
+        Ok(correction)
+    }
+
+    /// The largest heat that was left over when the flow was last evaluated, in W.
+    fn left_over(&self) -> f64 {
+        self.free.iter().map(|&i| self.flow[i].abs()).fold(0.0, f64::max)
+    }
+
+    fn apply(&self, correction: &[f64], share: f64, temperatures: &mut [f64]) {
+        self.free.iter().zip(correction).for_each(|(&i, dt)| temperatures[i] += share * dt);
+    }
+}
+
+fn largest(values: &[f64]) -> f64 {
+    worst(values).1
+}
+
+/// The largest magnitude and where it is; what is no number counts as infinite.
+fn worst(values: &[f64]) -> (usize, f64) {
+    let size = |v: f64| if v.is_nan() { f64::INFINITY } else { v.abs() };
+    let all = values.iter().map(|&v| size(v)).enumerate();
+    all.fold((0, 0.0), |most, now| if now.1 > most.1 { now } else { most })
+}

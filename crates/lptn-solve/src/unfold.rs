@@ -1,0 +1,97 @@
+//! From what the integrator carries to temperatures.
+//!
+//! A node with a constant capacity is carried by its temperature. One whose capacity depends on its temperature is
+//! carried by its heat content H over its capacity at the start, `y = T0 + H / C0` in K, so that heat is never lost to
+//! the approximation of a changing capacity. Algebraic unknowns are solved for.
+
+use lptn_assembly::{ThermalSystem, Workspace};
+use lptn_network::{Enthalpy, Field, InputError, InputProblem, Item};
+
+use crate::newton::{Newton, NewtonError};
+
+/// Temperatures of all unknowns of a system, from those that are carried.
+pub(crate) struct Unfold<'a> {
+    system: &'a ThermalSystem,
+    /// The states that are carried by their heat content, with their start in K.
+    contents: Vec<(usize, &'a Enthalpy, f64)>,
+    algebraic: Option<Newton<'a>>,
+    /// Temperature of every unknown in K. Algebraic ones begin where the last solution was.
+    temperatures: Vec<f64>,
+    /// Derivative of the temperature of every unknown by what is carried for it.
+    slopes: Vec<f64>,
+}
+
+/// A capacity of which nothing is left to tell: melting at one temperature.
+const LEAST_SLOPE: f64 = 1e-12;
+
+impl<'a> Unfold<'a> {
+    pub(crate) fn new(system: &'a ThermalSystem) -> Result<Self, NewtonError> {
+        let network = system.network();
+        let states = system.states();
+        let contents = states
+            .iter()
+            .enumerate()
+            .filter_map(|(i, &id)| Some((i, network.enthalpy(id)?, network.initial(id))));
+        let count = system.unknowns().len();
+        let algebraic = match states.len() {
+            n if n == count => None,
+            n => Some(Newton::new(system, (n..count).collect())?),
+        };
+        let mut temperatures = system.initial();
+        let mean = guess(system);
+        temperatures.resize(count, mean);
+        let contents = contents.collect();
+        Ok(Self { system, contents, algebraic, temperatures, slopes: vec![1.0; count] })
+    }
+
+    /// Whether what is carried is not the temperature somewhere.
+    pub(crate) fn carries_heat(&self) -> bool {
+        !self.contents.is_empty()
+    }
+
+    /// Derivatives of the temperatures of all unknowns by what is carried for them.
+    pub(crate) fn slopes(&self) -> &[f64] {
+        &self.slopes
+    }
+
+    /// The temperatures last unfolded.
+    pub(crate) fn last(&self) -> &[f64] {
+        &self.temperatures
+    }
+
+    /// Temperatures of all unknowns in K, with the inputs as they were last read.
+    pub(crate) fn temperatures(
+        &mut self,
+        work: &mut Workspace,
+        carried: &[f64],
+    ) -> Result<&[f64], NewtonError> {
+        self.temperatures[..carried.len()].copy_from_slice(carried);
+        for (state, curve, start) in &self.contents {
+            let capacity = self.system.capacity()[*state];
+            let heat = capacity * (carried[*state] - start);
+            let Some(content) = curve.temperature(heat) else {
+                return Err(NewtonError::Input(outside(self.system, *state, curve)));
+            };
+            self.temperatures[*state] = content.temperature;
+            self.slopes[*state] = (capacity / content.capacity).max(LEAST_SLOPE);
+        }
+        if let Some(newton) = &mut self.algebraic {
+            newton.follow(work, &mut self.temperatures)?;
+        }
+        Ok(&self.temperatures)
+    }
+}
+
+/// A first guess for algebraic unknowns in K: the mean of the starts of all states, or of the boundaries.
+fn guess(system: &ThermalSystem) -> f64 {
+    let initial = system.initial();
+    let mean = initial.iter().sum::<f64>() / initial.len() as f64;
+    if mean.is_finite() { mean } else { lptn_network::ZERO_CELSIUS + 25.0 }
+}
+
+fn outside(system: &ThermalSystem, state: usize, curve: &Enthalpy) -> InputError {
+    let id = system.states()[state];
+    let name = system.network().nodes()[id.index()].name.clone();
+    let problem = InputProblem::OutsideCapacity { range: curve.range() };
+    InputError { item: Item::Node(id), field: Field::Capacity, name, problem }
+}

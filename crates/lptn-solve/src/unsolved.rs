@@ -1,0 +1,107 @@
+//! Balances that could not be solved, with the node at which it failed.
+
+use std::fmt;
+
+use lptn_assembly::ThermalSystem;
+use lptn_integrate::FactorError;
+use lptn_network::InputError;
+
+use crate::error::six_digits;
+use crate::newton::NewtonError;
+
+/// Balances that could not be solved.
+#[derive(Clone, Debug)]
+pub struct Unsolved {
+    /// The node at which it failed.
+    pub node: String,
+    /// Why.
+    pub reason: UnsolvedReason,
+}
+
+/// Why balances could not be solved.
+#[derive(Clone, Debug)]
+pub enum UnsolvedReason {
+    /// A value of an element fails.
+    Input(InputError),
+    /// Nothing determines the temperature of the node: all heat flows that reach it are zero whatever it is.
+    Undetermined,
+    /// The numbers could not be factorised.
+    Factorization(FactorError),
+    /// No temperatures were found at which heat in and heat out are equal.
+    NotFound {
+        /// By how much the node still moved, in K.
+        change: f64,
+    },
+}
+
+impl Unsolved {
+    pub(crate) fn new(system: &ThermalSystem, error: NewtonError) -> Self {
+        let name = |unknown: usize| {
+            let id = system.unknowns().get(unknown);
+            id.map_or(String::new(), |id| system.network().nodes()[id.index()].name.clone())
+        };
+        let (node, reason) = match error {
+            NewtonError::Input(error) => (error.name.clone(), UnsolvedReason::Input(error)),
+            NewtonError::Singular { unknown } => (name(unknown), UnsolvedReason::Undetermined),
+            NewtonError::Factorization(error) => (String::new(), UnsolvedReason::Factorization(error)),
+            NewtonError::Stalled { unknown, change } => (name(unknown), UnsolvedReason::NotFound { change }),
+        };
+        Self { node, reason }
+    }
+
+    /// The stable code, as diagnostics print it.
+    pub fn code(&self) -> &'static str {
+        match self.reason {
+            UnsolvedReason::Input(_) => "solve::input",
+            UnsolvedReason::Undetermined => "solve::undetermined",
+            UnsolvedReason::Factorization(_) => "solve::singular",
+            UnsolvedReason::NotFound { .. } => "solve::not_found",
+        }
+    }
+
+    /// The value that failed, if that is the reason.
+    pub fn input(&self) -> Option<&InputError> {
+        match &self.reason {
+            UnsolvedReason::Input(error) => Some(error),
+            _ => None,
+        }
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> Option<String> {
+        match &self.reason {
+            UnsolvedReason::Input(error) => error.problem.help(),
+            UnsolvedReason::Undetermined => Some(format!(
+                "give `{}` a second path, or a capacity, so that it keeps its temperature while nothing flows",
+                self.node
+            )),
+            UnsolvedReason::Factorization(_) => None,
+            UnsolvedReason::NotFound { .. } => {
+                Some("check for a heat that grows faster with temperature than the cooling does".into())
+            }
+        }
+    }
+}
+
+impl fmt::Display for Unsolved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let node = &self.node;
+        match &self.reason {
+            UnsolvedReason::Input(error) => error.fmt(f),
+            UnsolvedReason::Undetermined => {
+                write!(
+                    f,
+                    "nothing determines the temperature of `{node}`: no heat flow that reaches it depends on it"
+                )
+            }
+            UnsolvedReason::Factorization(error) => write!(f, "the balances cannot be factorised: {error}"),
+            UnsolvedReason::NotFound { change } => write!(
+                f,
+                "no temperatures were found at which heat in and out are equal: `{node}` still moved by {} K",
+                six_digits(*change)
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Unsolved {}

@@ -1,0 +1,100 @@
+//! Runs the cases of a validation set and judges what lptn says to each expected value.
+
+#![allow(dead_code, unreachable_pub, reason = "the format is read whole; each test file uses a part of this")]
+
+mod answer;
+mod case;
+mod expected;
+mod mean;
+mod network;
+mod size;
+mod verdict;
+mod waiting;
+
+use std::path::{Path, PathBuf};
+
+use lptn::network::Network;
+use serde_json::Value;
+
+pub use verdict::Report;
+pub use waiting::Waiting;
+
+use answer::{Laboratory, Trouble};
+use case::Case;
+use network::Model;
+use verdict::Verdict;
+
+/// The folder of the project's own copy.
+pub fn own_folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/validation")
+}
+
+/// The names of the cases in a folder, in order.
+pub fn cases(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
+    let mut names: Vec<String> = entries
+        .map(|entry| entry.expect("an entry"))
+        .filter(|entry| entry.path().join("case.json").is_file())
+        .map(|entry| entry.file_name().into_string().expect("a name in UTF-8"))
+        .collect();
+    names.sort();
+    names
+}
+
+/// `case.json` of a case, not yet understood.
+pub fn json(folder: &Path, id: &str) -> Value {
+    let path = folder.join(id).join("case.json");
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    serde_json::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// Runs a case and judges every value.
+pub fn judge(id: &str, json: &Value, waiting: Waiting<'_>) -> Report {
+    let case: Case = match serde_json::from_value(json.clone()) {
+        Ok(case) => case,
+        Err(error) => return Report::unreadable(id, &error.to_string()),
+    };
+    let mut report = Report::new(id, &case);
+    if case.id != id {
+        report.complain(format!("its id is `{}`", case.id));
+    }
+    values(&case, Laboratory::new(&case, json), waiting, &mut report);
+    report
+}
+
+/// Judges what `network` says to every value of a case of the project's own copy but to `size`, which is about the
+/// fields of the case. `names` pairs names of the case with others of the network.
+pub fn judge_network(id: &str, network: &Network, names: &[(&str, &str)]) -> Report {
+    let mut json = json(&own_folder(), id);
+    if let Some(expected) = json["expected"].as_array_mut() {
+        expected.retain(|value| value["quantity"] != "size");
+    }
+    let case: Case = serde_json::from_value(json.clone()).unwrap_or_else(|e| panic!("{id}: {e}"));
+    let mut report = Report::new(id, &case);
+    let laboratory = Model::of(network, &case, names).map(|model| Laboratory::of(&case, &json, model));
+    let nothing_waits = Waiting { list: &[], known: &[id.to_owned()] };
+    values(&case, laboratory.map_err(Trouble::Failed), nothing_waits, &mut report);
+    report
+}
+
+fn values(
+    case: &Case,
+    laboratory: Result<Laboratory<'_>, Trouble>,
+    waiting: Waiting<'_>,
+    report: &mut Report,
+) {
+    let id = report.id.clone();
+    for expected in &case.expected {
+        let found = match &laboratory {
+            Ok(laboratory) => laboratory.answer(expected),
+            Err(trouble) => Err(trouble.clone()),
+        };
+        let verdict = match found {
+            Ok(found) => Verdict::of(found, expected),
+            Err(Trouble::Missing(_)) if waiting.may_wait(&id, &expected.name) => Verdict::Waiting,
+            Err(Trouble::Missing(what)) => Verdict::Wrong(format!("lptn has no {what} yet")),
+            Err(Trouble::Failed(why)) => Verdict::Wrong(why),
+        };
+        report.add(expected, verdict, waiting.is_listed(&id, &expected.name));
+    }
+}

@@ -1,0 +1,300 @@
+//! The network of a case, built through the public API.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use lptn::network::{
+    AfterEnd, Area, ConductorId, ConductorKind, Context, Course, End, Exchange, FilmCoefficient, Input, Item,
+    Path, Stream,
+};
+use lptn::prelude::*;
+use lptn::units::{Dimension, Interpolation as Join, Outside, Table as Curve, Table1, TableSymbol, Type};
+
+use super::case::{At, CapacityCurve, Case, Edge, Interpolation, Node, Source, Table, TimeFunction};
+
+/// The Stefan-Boltzmann constant of the SI in W/(m^2 K^4), which lptn computes with.
+const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
+
+/// A case as lptn knows it.
+pub struct Model {
+    pub system: ThermalSystem,
+    pub ends: BTreeMap<String, End>,
+    pub edges: BTreeMap<String, ConductorId>,
+}
+
+impl Model {
+    /// Builds the network.
+    ///
+    /// # Errors
+    /// What lptn says about it, or that lptn has no such element.
+    pub fn new(case: &Case) -> Result<Self, String> {
+        let mut building = Building {
+            b: NetworkBuilder::new(),
+            zero: case.zero(),
+            ends: BTreeMap::new(),
+            edges: BTreeMap::new(),
+            signals: 0,
+        };
+        case.nodes.iter().try_for_each(|node| building.node(node))?;
+        case.edges.iter().try_for_each(|edge| building.edge(edge))?;
+        case.sources.iter().try_for_each(|source| building.source(source))?;
+        let Building { b, ends, edges, .. } = building;
+        let network = b.build().map_err(|e| e.to_string())?;
+        let system = ThermalSystem::assemble(&network).map_err(|e| e.to_string())?;
+        Ok(Self { system, ends, edges })
+    }
+
+    /// A network from elsewhere that is to answer for a case. Nodes and edges bear the names of the case, or those that
+    /// `names` pairs with them.
+    ///
+    /// # Errors
+    /// What lptn says about it.
+    pub fn of(network: &Network, case: &Case, names: &[(&str, &str)]) -> Result<Self, String> {
+        let system = ThermalSystem::assemble(network).map_err(|e| e.to_string())?;
+        let item = |id: &str| {
+            let name = names.iter().find(|(theirs, _)| *theirs == id).map_or(id, |(_, ours)| ours);
+            network.item(name).ok()
+        };
+        let mut model = Self { system, ends: BTreeMap::new(), edges: BTreeMap::new() };
+        for node in &case.nodes {
+            let end = match item(node.id()) {
+                Some(Item::Node(id)) => End::Node(id),
+                Some(Item::Boundary(id)) => End::Boundary(id),
+                _ => return Err(format!("`{}` is no node of the network", node.id())),
+            };
+            model.ends.insert(node.id().to_owned(), end);
+        }
+        for edge in &case.edges {
+            if let Some(Item::Conductor(id)) = item(edge.id()) {
+                model.edges.insert(edge.id().to_owned(), id);
+            }
+        }
+        Ok(model)
+    }
+}
+
+struct Building {
+    b: NetworkBuilder,
+    zero: f64,
+    ends: BTreeMap<String, End>,
+    edges: BTreeMap<String, ConductorId>,
+    signals: usize,
+}
+
+/// A unit as expressions write it, and its type.
+#[derive(Clone, Copy)]
+enum Unit {
+    Kelvin,
+    Watt,
+    WattPerKelvin,
+}
+
+impl Unit {
+    fn text(self) -> &'static str {
+        match self {
+            Self::Kelvin => "K",
+            Self::Watt => "W",
+            Self::WattPerKelvin => "W/K",
+        }
+    }
+
+    fn ty(self) -> Type {
+        match self {
+            Self::Kelvin => Type::ABSOLUTE_TEMPERATURE,
+            Self::Watt => Type::of(Dimension::POWER),
+            Self::WattPerKelvin => Type::of(Dimension::CONDUCTANCE),
+        }
+    }
+}
+
+/// A name that lptn accepts and that says what it stands for: names of a case may be reserved words, and a node and
+/// an edge may share one.
+fn name(kind: &str, id: &str) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    format!("{kind}_{}", id.chars().map(plain).collect::<String>())
+}
+
+impl Building {
+    fn end(&self, id: &str) -> Result<End, String> {
+        self.ends.get(id).copied().ok_or_else(|| format!("there is no node `{id}`"))
+    }
+
+    fn expression(&self, context: Context, text: &str) -> Result<Input, String> {
+        let program = self.b.expression_in(context, text, None);
+        program.map(Input::from).map_err(|errors| format!("`{text}`: {errors:?}"))
+    }
+
+    fn node(&mut self, node: &Node) -> Result<(), String> {
+        let (id, end) = match node {
+            Node::Capacitance { id, capacity, initial, over_temperature } => {
+                let capacity = match over_temperature {
+                    None => HeatCapacity(*capacity).into(),
+                    Some(curve) => self.capacity(id, *capacity, curve)?,
+                };
+                let initial = Temperature(initial + self.zero);
+                (id, self.b.node(&name("node", id), capacity, initial).into())
+            }
+            Node::Massless { id, .. } => (id, self.b.massless(&name("node", id)).into()),
+            Node::Boundary { id, temperature } => {
+                let temperature = self.of_time(temperature, Unit::Kelvin)?;
+                (id, self.b.boundary(&name("node", id), temperature).into())
+            }
+        };
+        match self.ends.insert(id.clone(), end) {
+            Some(_) => Err(format!("there are two nodes `{id}`")),
+            None => Ok(()),
+        }
+    }
+
+    fn capacity(&mut self, id: &str, capacity: f64, curve: &CapacityCurve) -> Result<Input, String> {
+        let text = match curve {
+            CapacityCurve::Linear { beta, reference } => {
+                let rise = format!("(T - absolute({} [K]))", reference + self.zero);
+                format!("{capacity} [J/K] * (1 + ({beta} [1/K]) * {rise})")
+            }
+            CapacityCurve::Table { temperatures, factor } => {
+                let table = name("table", id);
+                let x = temperatures.iter().map(|t| t + self.zero).collect();
+                let points = points(x, factor.clone())?;
+                let arguments = vec![Type::ABSOLUTE_TEMPERATURE];
+                let table_of =
+                    TableSymbol { table: Arc::new(Curve::One(points)), arguments, ty: Type::SCALAR };
+                self.b.table(&table, table_of);
+                format!("{capacity} [J/K] * {table}(T)")
+            }
+        };
+        self.expression(Context::Own, &text)
+    }
+
+    fn edge(&mut self, edge: &Edge) -> Result<(), String> {
+        let ((id, a, b), kind, path) = match edge {
+            Edge::Conductance { id, a, b, conductance } => {
+                ((id, a, b), ConductorKind::Resistor, Conductance(*conductance).into())
+            }
+            Edge::Convection { id, a, b, h, area } => {
+                let path = Path::Film(FilmCoefficient(*h).into(), Area(*area).into());
+                ((id, a, b), ConductorKind::Convection, path)
+            }
+            Edge::ConvectionPower { id, a, b, c, n } => {
+                let g = format!("{c} [W/K] * abs(dT / 1 [K])^({n})");
+                (
+                    (id, a, b),
+                    ConductorKind::Convection,
+                    Path::Conductance(self.expression(Context::Link, &g)?),
+                )
+            }
+            Edge::ConductanceLinear { id, a, b, conductance, beta, reference, at } => {
+                let at = match at {
+                    At::Mean => "T_mean",
+                    At::A => "T_from",
+                    At::B => "T_to",
+                };
+                let rise = format!("({at} - absolute({} [K]))", reference + self.zero);
+                let g = format!("{conductance} [W/K] * (1 + ({beta} [1/K]) * {rise})");
+                ((id, a, b), ConductorKind::Resistor, Path::Conductance(self.expression(Context::Link, &g)?))
+            }
+            Edge::Radiation { id, a, b, exchange, sigma } => {
+                // books print 5.67e-8: their constant goes into the area, for lptn has the exact one
+                let area = Area(exchange * (sigma / STEFAN_BOLTZMANN));
+                ((id, a, b), ConductorKind::Radiation, Path::Radiation(Exchange::Area(area.into())))
+            }
+            Edge::Advection { id, a, b, mcp } => {
+                let stream = Stream::Capacity(self.of_time(mcp, Unit::WattPerKelvin)?);
+                ((id, a, b), ConductorKind::Advection, Path::Advection(stream))
+            }
+        };
+        let conductor = self.b.conductor(&name("edge", id), kind, (self.end(a)?, self.end(b)?), path);
+        match self.edges.insert(id.clone(), conductor) {
+            Some(_) => Err(format!("there are two edges `{id}`")),
+            None => Ok(()),
+        }
+    }
+
+    fn source(&mut self, source: &Source) -> Result<(), String> {
+        let rise = |reference: f64| format!("(T - absolute({} [K]))", reference + self.zero);
+        let (id, node, power) = match source {
+            Source::Heat { gate: Some(_), .. } | Source::Resistor { gate: Some(_), .. } => {
+                return Err("lptn has no thermostat yet".to_owned());
+            }
+            Source::Heat { id, node, heat, coefficient: None, .. } => {
+                (id, node, self.of_time(heat, Unit::Watt)?)
+            }
+            Source::Heat { id, node, heat, coefficient: Some(c), .. } => {
+                let factor = format!("(1 + ({} [1/K]) * {})", c.alpha, rise(c.reference));
+                let heat = self.text(heat, Unit::Watt)?;
+                (id, node, self.expression(Context::Source, &format!("({heat}) * {factor}"))?)
+            }
+            Source::Resistor { id, node, voltage, resistance, alpha, reference, .. } => {
+                let cold = voltage * voltage / resistance;
+                let text = format!("{cold} [W] / (1 + ({alpha} [1/K]) * {})", rise(*reference));
+                (id, node, self.expression(Context::Source, &text)?)
+            }
+        };
+        self.b.source(&name("source", id), self.end(node)?, power);
+        Ok(())
+    }
+
+    fn of_time(&mut self, of_time: &TimeFunction, unit: Unit) -> Result<Input, String> {
+        match *of_time {
+            TimeFunction::Constant(value) => Ok(match unit {
+                Unit::Kelvin => Temperature(value + self.zero).into(),
+                Unit::Watt => HeatFlow(value).into(),
+                Unit::WattPerKelvin => Conductance(value).into(),
+            }),
+            _ => {
+                let text = self.text(of_time, unit)?;
+                self.expression(Context::Time, &text)
+            }
+        }
+    }
+
+    /// A function of time as an expression; a table becomes a signal first.
+    fn text(&mut self, of_time: &TimeFunction, unit: Unit) -> Result<String, String> {
+        let literal = |value: f64| match unit {
+            Unit::Kelvin => format!("absolute({} [K])", value + self.zero),
+            _ => format!("{value} [{}]", unit.text()),
+        };
+        match of_time {
+            TimeFunction::Constant(value) => Ok(literal(*value)),
+            TimeFunction::Sine(s) => {
+                let mean = literal(s.mean);
+                let swing = format!("sin(({} [1/s]) * t + ({}))", s.omega, s.phase);
+                Ok(format!("{mean} + ({} [{}]) * {swing}", s.amp, unit.text()))
+            }
+            TimeFunction::Table(table) => {
+                let offset = if matches!(unit, Unit::Kelvin) { self.zero } else { 0.0 };
+                let signal = format!("signal_{}", self.signals);
+                self.signals += 1;
+                self.b.signal(&signal, unit.ty(), course(table, offset)?);
+                Ok(signal)
+            }
+        }
+    }
+}
+
+/// A table of the format: its first value holds before it, its last one after it, and a period wraps time.
+fn course(table: &Table, offset: f64) -> Result<Course, String> {
+    let mut times = table.t.clone();
+    let mut values: Vec<f64> = table.v.iter().map(|v| v + offset).collect();
+    if times.is_empty() || times.len() != values.len() {
+        return Err(format!("a table of {} times and {} values", times.len(), values.len()));
+    }
+    if times[0] > 0.0 {
+        times.insert(0, 0.0);
+        values.insert(0, values[0]);
+    }
+    let after = match table.period {
+        None => AfterEnd::Hold,
+        // wrapped time begins at 0, and so does a table that repeats
+        Some(period) if times[0] == 0.0 => AfterEnd::Repeat(period),
+        Some(_) => return Err("a table that repeats has to begin at 0".to_owned()),
+    };
+    Ok(match table.interp {
+        Interpolation::Linear => Course::Curve { points: points(times, values)?, after },
+        Interpolation::Previous => Course::Steps { times, values, after },
+    })
+}
+
+fn points(x: Vec<f64>, y: Vec<f64>) -> Result<Table1, String> {
+    Table1::new(x, y, Join::Linear, Outside::Hold).map_err(|e| e.to_string())
+}

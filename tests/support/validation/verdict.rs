@@ -1,0 +1,135 @@
+//! What is said of a case: one line for each of its quantities.
+
+use std::fmt;
+
+use super::case::Case;
+use super::expected::Expected;
+
+/// What is said of one value.
+#[derive(Clone, Debug)]
+pub enum Verdict {
+    /// It is right; the error as a share of what is allowed.
+    Right(f64),
+    /// It is wrong, or was not found.
+    Wrong(String),
+    /// It waits for an analysis that lptn does not have.
+    Waiting,
+}
+
+impl Verdict {
+    pub fn of(found: f64, expected: &Expected) -> Self {
+        let share = (found - expected.value).abs() / expected.allowed();
+        if share <= 1.0 {
+            Self::Right(share)
+        } else {
+            // a NaN comes here too
+            Self::Wrong(format!("found {found}, {share:.3} of what is allowed"))
+        }
+    }
+}
+
+/// What is said of one quantity of a case.
+#[derive(Clone, Debug)]
+struct Line {
+    quantity: String,
+    right: usize,
+    wrong: usize,
+    waiting: usize,
+    /// The largest error as a share of what is allowed, and what is allowed there.
+    worst: (f64, f64),
+}
+
+/// What is said of a case.
+#[derive(Clone, Debug)]
+pub struct Report {
+    pub id: String,
+    lines: Vec<Line>,
+    complaints: Vec<String>,
+    tolerance: f64,
+}
+
+impl Report {
+    pub fn new(id: &str, case: &Case) -> Self {
+        Self { id: id.to_owned(), lines: Vec::new(), complaints: Vec::new(), tolerance: case.tolerance() }
+    }
+
+    pub fn unreadable(id: &str, why: &str) -> Self {
+        let complaints = vec![format!("{id}: {why}")];
+        Self { id: id.to_owned(), lines: Vec::new(), complaints, tolerance: f64::NAN }
+    }
+
+    pub fn complain(&mut self, what: String) {
+        self.complaints.push(format!("{}: {what}", self.id));
+    }
+
+    pub fn add(&mut self, expected: &Expected, verdict: Verdict, listed: bool) {
+        let i = self.lines.iter().position(|line| line.quantity == expected.name).unwrap_or_else(|| {
+            let quantity = expected.name.clone();
+            self.lines.push(Line {
+                quantity,
+                right: 0,
+                wrong: 0,
+                waiting: 0,
+                worst: (0.0, expected.allowed()),
+            });
+            self.lines.len() - 1
+        });
+        let line = &mut self.lines[i];
+        match verdict {
+            Verdict::Right(share) => {
+                line.right += 1;
+                if share >= line.worst.0 {
+                    line.worst = (share, expected.allowed());
+                }
+                if listed {
+                    self.complain(format!("{} need not wait any longer", expected.name));
+                }
+            }
+            Verdict::Wrong(why) => {
+                line.wrong += 1;
+                self.complain(format!("{why}: {expected:?}"));
+            }
+            Verdict::Waiting => line.waiting += 1,
+        }
+    }
+
+    /// What is wrong, one line each.
+    pub fn complaints(&self) -> &[String] {
+        &self.complaints
+    }
+
+    /// Values that are right, that are wrong and that wait.
+    pub fn counts(&self) -> [usize; 3] {
+        let sum = |of: fn(&Line) -> usize| self.lines.iter().map(of).sum();
+        [sum(|line| line.right), sum(|line| line.wrong), sum(|line| line.waiting)]
+    }
+
+    /// The quantities that were asked for.
+    pub fn quantities(&self) -> impl Iterator<Item = &str> {
+        self.lines.iter().map(|line| line.quantity.as_str())
+    }
+
+    /// The heading of the table.
+    pub fn heading() -> String {
+        format!(
+            "{:<26} {:<18} {:>4} {:>9} {:>9} {:>8}",
+            "case", "quantity", "n", "worst/tol", "tolerance", "run at"
+        )
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for line in &self.lines {
+            let n = line.right + line.wrong + line.waiting;
+            write!(f, "{:<26} {:<18} {n:>4} ", self.id, line.quantity)?;
+            match line {
+                Line { wrong: 1.., .. } => write!(f, "{:>9} ", "WRONG")?,
+                Line { waiting: 1.., .. } => write!(f, "{:>9} ", "WAITING")?,
+                _ => write!(f, "{:>9.2e} ", line.worst.0)?,
+            }
+            writeln!(f, "{:>9.1e} {:>6.0e} K", line.worst.1, self.tolerance)?;
+        }
+        Ok(())
+    }
+}
