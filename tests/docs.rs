@@ -12,8 +12,11 @@ const BASE: &str = "format = 1\n[default]\nT0 = \"20 degC\"\n[node]\nbase_node =
 
 fn pages() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let docs = std::fs::read_dir(root.join("docs")).expect("the folder of documentation");
-    let mut pages: Vec<PathBuf> = docs.map(|entry| entry.expect("an entry").path()).collect();
+    let mut pages = Vec::new();
+    for folder in ["docs", "docs/elements"] {
+        let docs = std::fs::read_dir(root.join(folder)).expect("the folder of documentation");
+        pages.extend(docs.map(|entry| entry.expect("an entry").path()));
+    }
     pages.extend(["README.md", "ARCHITECTURE.md", "CHANGELOG.md"].map(|name| root.join(name)));
     pages.retain(|path| path.extension().is_some_and(|e| e == "md"));
     pages.sort();
@@ -72,7 +75,8 @@ fn every_toml_block_parses() {
                 _ => continue,
             };
             let place = format!("{}:{line}", page.display());
-            if let Err(error) = lptn::parse(&place, &netlist) {
+            // CSV files are looked for beside the page
+            if let Err(error) = lptn::netlist::parse_file(Path::new(&place), netlist.as_bytes()) {
                 panic!("{place}\n{netlist}\n{error}");
             }
             count += 1;

@@ -263,3 +263,65 @@ fn networks_that_come_to_rest_have_a_steady_state() {
         assert!(off < 1e-8, "{ambient} K: {:?}", steady.temperatures);
     }
 }
+
+/// How a run breaks off that leaves the range of a law: its time, its message and its steps.
+fn edge_of(conductance: &str) -> (f64, String, u64) {
+    let text = format!(
+        "format = 1\n[boundary]\nroom = {{ T = \"20 degC\" }}\n\
+         [table]\ng = {{ x = [0, 40], y = [1, 1], x_unit = \"K\", y_unit = \"W/K\" }}\n\
+         [node]\nmass = {{ T0 = \"20 degC\", C = \"1 kJ/K\" }}\n\
+         [resistor]\npath = {{ from = \"mass\", to = \"room\", G = \"{conductance}\" }}\n\
+         [source]\nheat = {{ into = \"mass\", P = \"100 W\" }}\n"
+    );
+    let netlist = lptn::parse("edge.toml", &text).expect("it reads");
+    let system = ThermalSystem::assemble(&netlist.network).expect("it assembles");
+    let error = Transient::until(Time(3600.0)).every(Time(100.0)).solve(&system).expect_err("it breaks off");
+    assert_eq!(error.code(), "solve::input", "{error}");
+    let message = error.to_string();
+    let TransientError::Stopped { time, partial, .. } = error else { panic!("{message}") };
+    assert!(partial.times().len() >= 5, "{:?}", partial.times());
+    (time, message, partial.statistics().steps)
+}
+
+/// A run that left a table shrank its steps ten million times and then blamed the integrator.
+#[test]
+fn a_run_that_leaves_a_table_stops_there_and_names_it() {
+    let (time, message, steps) = edge_of("g(dT)");
+    // 100 K (1 - exp(-t / 1000 s)) = 40 K
+    let end = -1000.0 * 0.6_f64.ln();
+    assert!((time - end).abs() < 1e-3, "stopped at {time} s, not at {end} s");
+    assert!(message.contains("`G` of `path`") && message.contains("table `g`"), "{message}");
+    assert!(steps < 10_000, "{steps} steps");
+}
+
+/// So did one whose conductance became negative.
+#[test]
+fn a_run_whose_conductance_becomes_negative_stops_there_and_names_it() {
+    let (time, message, steps) = edge_of("1 [W/K] + 0 [1/K] * g(0 [K]) * dT - 20 [mW/K^2] * dT");
+    // 1000 dx/dt = 100 - x + 0.02 x^2 up to x = 50 K
+    let root = (4.0 * 0.02 * 100.0 - 1.0_f64).sqrt();
+    let end = 1000.0 * 2.0 / root * 2.0 * (1.0 / root).atan();
+    assert!((time - end).abs() < 1e-3, "stopped at {time} s, not at {end} s");
+    assert!(message.contains("`G` of `path` makes a negative conductance"), "{message}");
+    assert!(steps < 10_000, "{steps} steps");
+}
+
+/// The time constants that `check` prints left out streams: a sump that oil follows in seconds took minutes.
+#[test]
+fn time_constants_of_nodes_count_the_streams_into_them() {
+    let mut b = NetworkBuilder::new();
+    let sump = b.node("sump", HeatCapacity(3000.0), Temperature::celsius(40.0));
+    let tank = b.node("tank", HeatCapacity(800.0), Temperature::celsius(40.0));
+    let cooler = b.boundary("cooler", Temperature::celsius(40.0));
+    b.conductor("feed", ConductorKind::Advection, (cooler.into(), sump.into()), Path::Advection(rate(90.0)));
+    b.conductor("back", ConductorKind::Advection, (tank.into(), sump.into()), Path::Advection(rate(-90.0)));
+    b.resistor("skin", sump, cooler, Conductance(10.0));
+    b.resistor("foot", tank, cooler, Conductance(10.0));
+    let stiffness = lptn::solve::Stiffness::of(&b.build().unwrap()).unwrap();
+    assert_eq!((stiffness.slowest.0, stiffness.fastest.0), (sump, tank));
+    assert!((stiffness.slowest.1 - 30.0).abs() < 1e-12 && (stiffness.fastest.1 - 8.0).abs() < 1e-12);
+}
+
+fn rate(value: f64) -> lptn::network::Stream<lptn::network::Input> {
+    lptn::network::Stream::Capacity(Conductance(value).into())
+}

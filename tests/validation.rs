@@ -112,6 +112,7 @@ fn what_the_format_does_not_know_is_an_error() {
     assert!(said(&|case| case["surprise"] = json!(1)).contains("surprise"));
     assert!(said(&|case| case["requires"] = json!(["magic"])).contains("magic"));
     assert!(said(&|case| case["id"] = json!("other")).contains("other"));
+    assert!(said(&|case| case["expected"] = json!([])).contains("nothing is expected"));
     assert!(said(&|case| case["nodes"][0]["type"] = json!("cloud")).contains("cloud"));
     assert!(said(&|case| case["nodes"][0]["C"] = json!(1.0)).contains('C'));
     assert!(said(&|case| case["nodes"][0]["T"] = json!({ "kind": "noise" })).contains("noise"));
@@ -119,7 +120,10 @@ fn what_the_format_does_not_know_is_an_error() {
     assert!(said(&|case| case["edges"][0]["tilt"] = json!(1)).contains("tilt"));
     assert!(said(&|case| case["expected"][0]["quantity"] = json!("entropy")).contains("entropy"));
     assert!(said(&|case| case["expected"][0]["colour"] = json!(1)).contains("colour"));
-    assert!(said(&|case| drop(case["expected"][0]["tol_abs"].take())).contains("tol_abs"));
+    assert!(said(&|case| case["expected"][0]["tol_abs"] = json!("much")).contains("much"));
+    let untold =
+        |case: &mut Value| drop(case["expected"][0].as_object_mut().expect("a value").remove("tol_abs"));
+    assert!(said(&untold).contains("no tolerance"));
 }
 
 #[test]

@@ -8,8 +8,6 @@ use crate::workspace::Workspace;
 /// How an element's heat is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
-    /// Radiation with this constant exchange area in m^2.
-    Radiation(f64),
     /// A stream of this constant capacity rate in W/K.
     Stream(f64),
     /// A conductor as the network evaluates it.
@@ -34,7 +32,7 @@ pub(crate) struct Element {
 }
 
 /// No place in the Jacobian.
-const NOWHERE: usize = usize::MAX;
+pub(crate) const NOWHERE: usize = usize::MAX;
 
 /// Which Jacobian is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,14 +54,14 @@ pub(crate) struct Slopes {
 }
 
 impl Element {
-    /// The elements of a network that are no constant conductances, in the order of conductors, then sources.
+    /// The elements of a network that are neither constant conductances nor radiation of a constant area, in the order
+    /// of conductors, then sources.
     pub(crate) fn all_of(network: &Network) -> Vec<Self> {
         let vertex = |end: End| u32::try_from(network.vertex(end)).expect("ids are 32 bits wide");
         let conductors = network.conductors().iter().zip(network.conductor_ids()).filter_map(|(c, id)| {
             let ends = vec![vertex(c.from), vertex(c.to)];
             let (kind, variables) = match network.flow(id) {
-                Flow::Conductance(_) => return None,
-                Flow::Radiation(gr) => (Kind::Radiation(gr), ends.clone()),
+                Flow::Conductance(_) | Flow::Radiation(_) => return None,
                 Flow::Stream(mcp) => (Kind::Stream(mcp), ends.clone()),
                 Flow::Variable => (Kind::Conductor(id), network.conductor_variables(id).to_vec()),
             };
@@ -109,7 +107,6 @@ impl Element {
     /// Whether its derivatives have a symmetric form: a conductor between its ends, or one node's own heat.
     pub(crate) fn is_symmetric(&self, network: &Network) -> bool {
         match self.kind {
-            Kind::Radiation(_) => true,
             Kind::Stream(_) => false,
             Kind::Conductor(id) => {
                 let stream = matches!(network.conductors()[id.index()].law, lptn_network::Law::Advection(_));
@@ -123,11 +120,6 @@ impl Element {
     pub(crate) fn received(&self, network: &Network, work: &mut Workspace) -> Result<Received, InputError> {
         let at = |k: usize| work.temperature[self.receivers[k] as usize];
         Ok(match self.kind {
-            Kind::Radiation(gr) => {
-                let (from, to) = (at(0), at(1));
-                let heat = lptn_laws::radiation_conductance(gr, from, to) * (from - to);
-                [-heat, heat]
-            }
             Kind::Stream(mcp) => {
                 let (from, to) = (at(0), at(1));
                 // adding 0 leaves no negative zero to be printed
@@ -166,10 +158,9 @@ impl Element {
         self.evaluate_slopes(network, work)?;
         let slopes = &mut work.slopes;
         if form == Form::Symmetric && self.shares.is_empty() {
-            let [from, to] = [slopes.ends[0][1], slopes.ends[1][1]];
-            let mean = (0.5 * (from - to)).max(0.0);
-            slopes.ends[0] = [-mean, mean];
-            slopes.ends[1] = [mean, -mean];
+            let g = self.symmetric_conductance(&slopes.ends);
+            slopes.ends[0] = [-g, g];
+            slopes.ends[1] = [g, -g];
         }
         let mut slots = self.slots.iter();
         for row in 0..self.receivers.len() {
@@ -184,17 +175,21 @@ impl Element {
         Ok(())
     }
 
+    /// The conductance in W/K that stands for both derivatives of a conductor: their mean, or the one that is exact where
+    /// the other end is given. Never negative, so that the matrix stays definite.
+    fn symmetric_conductance(&self, ends: &[Received]) -> f64 {
+        let given = |k: usize| self.slots[3 * k] == NOWHERE; // its place on the diagonal
+        let g = match (given(0), given(1)) {
+            (false, true) => -ends[0][0],
+            (true, false) => -ends[1][1],
+            _ => 0.5 * (ends[0][1] - ends[1][1]),
+        };
+        g.max(0.0)
+    }
+
     fn evaluate_slopes(&self, network: &Network, work: &mut Workspace) -> Result<(), InputError> {
         let Workspace { scope, temperature, slopes, .. } = work;
-        let at = |k: usize| temperature[self.receivers[k] as usize];
         match self.kind {
-            Kind::Radiation(gr) => {
-                // q = sigma Gr (Ta^4 - Tb^4)
-                let slope = |t: f64| 4.0 * lptn_laws::STEFAN_BOLTZMANN * gr * t.powi(3);
-                let (from, to) = (slope(at(0)), slope(at(1)));
-                slopes.ends.clear();
-                slopes.ends.extend([[-from, from], [to, -to]]);
-            }
             Kind::Stream(mcp) => {
                 let (forward, backward) = (mcp.max(0.0), (-mcp).max(0.0));
                 slopes.ends.clear();

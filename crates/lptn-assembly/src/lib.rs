@@ -10,6 +10,7 @@ mod element;
 mod eliminate;
 mod error;
 mod pattern;
+mod radiation;
 mod system;
 mod workspace;
 

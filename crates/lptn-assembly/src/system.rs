@@ -6,6 +6,7 @@ use crate::element::{Element, Form};
 use crate::eliminate::{Elimination, Link, TooMany};
 use crate::error::AssemblyError;
 use crate::pattern::JacobianPattern;
+use crate::radiation::Radiation;
 use crate::workspace::Workspace;
 
 /// A network as a system of ordinary differential equations in its nodes with capacity, and of balances without
@@ -30,6 +31,7 @@ pub struct ThermalSystem {
     ties: Vec<Link>,
     /// Those between two boundaries, by vertex: no unknown feels them, the ledger does.
     bridges: Vec<Link>,
+    radiation: Vec<Radiation>,
     /// Everything else.
     elements: Vec<Element>,
     streams: Vec<ConductorId>,
@@ -55,10 +57,13 @@ impl ThermalSystem {
         let mut number = vec![u32::MAX; network.nodes().len() + network.boundaries().len()];
         (0..).zip(&unknowns).for_each(|(unknown, id)| number[id.index()] = unknown);
         let (links, ties, bridges) = sorted(kept, &number);
+        let mut radiation = Radiation::all_of(network);
         let mut elements = Element::all_of(network);
         let mut pairs: Vec<(u32, u32)> = links.iter().map(|link| (link.a, link.b)).collect();
+        pairs.extend(radiation.iter().filter_map(|r| r.pair(&number)));
         elements.iter().for_each(|element| pairs.extend(element.pairs(&number)));
         let pattern = JacobianPattern::new(unknowns.len(), pairs);
+        radiation.iter_mut().for_each(|r| r.place(&number, &pattern));
         elements.iter_mut().for_each(|element| element.place(&number, &pattern));
         let link_slots = links.iter().map(|l| [pattern.slot(l.a, l.b), pattern.slot(l.b, l.a)]).collect();
         let symmetric = elements.iter().all(|element| element.is_symmetric(network));
@@ -75,6 +80,7 @@ impl ThermalSystem {
             link_slots,
             ties,
             bridges,
+            radiation,
             elements,
             streams,
             symmetric,
@@ -120,7 +126,7 @@ impl ThermalSystem {
 
     /// Whether its flow is linear in the unknowns with constant coefficients, and symmetric.
     pub fn is_linear(&self) -> bool {
-        self.elements.is_empty()
+        self.elements.is_empty() && self.radiation.is_empty()
     }
 
     /// Whether the Jacobian has a symmetric form that Newton's method may use.
@@ -175,7 +181,7 @@ impl ThermalSystem {
     /// [`InputError`] naming the element whose heat cannot be had; never for a linear system.
     pub fn flow(&self, work: &mut Workspace, y: &[f64], flow: &mut [f64]) -> Result<(), InputError> {
         self.linear_flow(work, y, flow);
-        if !self.elements.is_empty() {
+        if !self.is_linear() {
             self.evaluate_elements(work, y)?;
             flow.iter_mut().zip(&self.unknowns).for_each(|(q, id)| *q += work.element_heat[id.index()]);
         }
@@ -202,6 +208,7 @@ impl ThermalSystem {
     fn evaluate_elements(&self, work: &mut Workspace, y: &[f64]) -> Result<(), InputError> {
         self.put(work, y);
         work.element_heat.fill(0.0);
+        self.radiation.iter().for_each(|r| r.add_heat(&work.temperature, &mut work.element_heat));
         self.elements.iter().try_for_each(|element| element.add_heat(&self.network, work))
     }
 
@@ -224,8 +231,9 @@ impl ThermalSystem {
         values: &mut [f64],
     ) -> Result<(), InputError> {
         self.jacobian(values);
-        if !self.elements.is_empty() {
+        if !self.is_linear() {
             self.put(work, y);
+            self.radiation.iter().for_each(|r| r.add_slopes(&work.temperature, form, values));
             for element in &self.elements {
                 element.add_slopes(&self.network, work, form, values)?;
             }
@@ -285,7 +293,7 @@ impl ThermalSystem {
     /// As [`ThermalSystem::flow`].
     pub fn boundary_heat(&self, work: &mut Workspace, y: &[f64], heat: &mut [f64]) -> Result<(), InputError> {
         self.linear_boundary_heat(work, y, heat);
-        if !self.elements.is_empty() {
+        if !self.is_linear() {
             let nodes = self.network.nodes().len();
             self.evaluate_elements(work, y)?;
             heat.iter_mut().zip(&work.element_heat[nodes..]).for_each(|(q, received)| *q -= received);
@@ -348,6 +356,9 @@ impl ThermalSystem {
             let at = |end| work.temperature[self.network.vertex(end)];
             let heat = conductance * (at(conductor.from) - at(conductor.to));
             return Ok([-heat, heat]);
+        }
+        if let Ok(place) = self.radiation.binary_search_by_key(&id, |r| r.conductor) {
+            return Ok(self.radiation[place].received(&work.temperature));
         }
         let place = self.elements.partition_point(|e| e.conductor.is_some_and(|c| c < id));
         self.elements[place].received(&self.network, work)

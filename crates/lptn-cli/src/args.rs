@@ -19,6 +19,7 @@ const RUN_EXAMPLES: &str = "\
 Examples:
   lptn run motor.toml
   lptn run motor.toml --set P_loss=80W --no-files
+  lptn run motor.toml --balance winding
   lptn run motor.toml --select '*.T' --format csv > temperatures.csv";
 
 const STEADY_EXAMPLES: &str = "\
@@ -185,6 +186,9 @@ pub(crate) struct RunArgs {
     pub(crate) source: Source,
     #[command(flatten)]
     pub(crate) shown: Shown,
+    /// Show the heat into and out of a node or boundary, largest path first
+    #[arg(long, value_name = "NODE")]
+    pub(crate) balance: Option<String>,
     /// Integrate to a tolerance such as 1e-7K
     #[arg(long, value_name = "K")]
     pub(crate) tolerance: Option<String>,
@@ -202,6 +206,9 @@ pub(crate) struct SteadyArgs {
     pub(crate) source: Source,
     #[command(flatten)]
     pub(crate) shown: Shown,
+    /// Show the heat into and out of a node or boundary, largest path first
+    #[arg(long, value_name = "NODE")]
+    pub(crate) balance: Option<String>,
     /// Accepted for scripts that pass it to every verb: `steady` writes none.
     #[arg(long, hide = true)]
     pub(crate) no_files: bool,

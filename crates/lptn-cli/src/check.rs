@@ -1,7 +1,7 @@
 //! `lptn check`
 
 use lptn_netlist::{Diagnostic, Files, Netlist, Severity};
-use lptn_network::{Item, Network, NodeId, Passing, list_of_names};
+use lptn_network::{Item, Network, NodeId, list_of_names};
 use lptn_solve::Stiffness;
 use lptn_study::Scalar;
 use serde_json::{Value, json};
@@ -80,7 +80,6 @@ impl Finding {
         let (files, mut diagnostics) = (netlist.files.clone(), netlist.warnings.clone());
         let text = Text { bytes: Vec::new(), name: text.name.clone(), stem: text.stem.clone() };
         diagnostics.extend(adrift(&netlist));
-        diagnostics.extend(unbalanced(&netlist));
         let input = Input { text, netlist };
         diagnostics.extend(input.assemble().err().into_iter().flat_map(|failure| failure.diagnostics));
         let selection = select::of_run(&input.netlist, &[]);
@@ -151,26 +150,4 @@ impl Stiff {
         let ratio = Scalar::new(self.ratio, "1").json();
         json!({ "fastest": one(&self.fastest), "slowest": one(&self.slowest), "ratio": ratio })
     }
-}
-
-/// Nodes at which streams begin or end, or of which more flows out than in: a stream that is lost carries heat that no
-/// element accounts for.
-fn unbalanced(netlist: &Netlist) -> Vec<Diagnostic> {
-    let network = &netlist.network;
-    let start = netlist.run.as_ref().map_or(0.0, |run| run.start);
-    let passing = network.passing_streams(start).unwrap_or_default(); // what has no value is reported elsewhere
-    let uneven = passing.into_iter().filter(|p| !p.is_balanced());
-    let warning = |p: Passing| {
-        let name = &network.nodes()[p.node.index()].name;
-        let rate = |rate: f64| significant(rate, 6);
-        let message =
-            format!("{} W/K flow into `{name}` and {} W/K out of it", rate(p.inflow), rate(p.outflow));
-        let problem = Diagnostic::warning("network::unbalanced_streams", message)
-            .help("let every stream go on to another node or to a boundary with the same flow");
-        match netlist.source_map.name(Item::Node(p.node)) {
-            Some(place) => problem.at(place.clone(), "streams meet here"),
-            None => problem,
-        }
-    };
-    uneven.map(warning).collect()
 }

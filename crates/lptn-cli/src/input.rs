@@ -100,6 +100,12 @@ impl Input {
         Ok(Self { text, netlist })
     }
 
+    /// Where the node of this name stands.
+    pub(crate) fn node_place(&self, name: &str) -> Option<&Span> {
+        let node = self.netlist.network.node(name).ok()?;
+        self.netlist.source_map.name(Item::Node(node))
+    }
+
     /// The name for a command that can be typed; `None` for stdin.
     pub(crate) fn typed(&self) -> Option<String> {
         (self.text.name != STDIN).then(|| quoted(&self.text.name))

@@ -5,6 +5,7 @@
 //! codes of [`exit`].
 
 mod args;
+mod balance;
 mod check;
 mod choice;
 mod command;
@@ -41,6 +42,7 @@ mod summary;
 mod summary_text;
 mod units;
 mod verify;
+mod window_text;
 
 use std::process::ExitCode;
 

@@ -2,7 +2,7 @@
 
 use lptn_netlist::Diagnostic;
 use lptn_network::Parameter;
-use lptn_report::{JsonWriter, duration, plain, write_csv};
+use lptn_report::{JsonWriter, duration, plain, write_csv, write_rows};
 use lptn_solve::{End, Solution, SteadyState, Table};
 use lptn_study::{
     Environment, FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, Scalar, StatisticsRecord,
@@ -18,7 +18,7 @@ use crate::files::Folder;
 use crate::limits::{self, Judged};
 use crate::run::{Job, NoSteady};
 use crate::summary::View;
-use crate::{diagnostics, next, summary_text};
+use crate::{balance, diagnostics, next, summary_text, window_text};
 
 /// What came of it.
 pub(crate) struct Outcome<'a> {
@@ -31,18 +31,24 @@ pub(crate) struct Outcome<'a> {
 }
 
 const RESULT: &str = "result.csv";
+const WINDOWS: &str = "windows.csv";
 const MANIFEST: &str = "manifest.json";
 
 impl Outcome<'_> {
     /// Writes the files; a manifest never stands beside results that are not its own.
     pub(crate) fn write(&self, args: &RunArgs, folder: &Folder, table: &Table) -> Result<(), Failure> {
-        folder.clear(&[MANIFEST]);
-        let result = folder.write(RESULT, |out| write_csv(table, out))?;
-        let manifest = self.manifest(args, result);
+        folder.clear(&[MANIFEST, WINDOWS]);
+        let mut results = vec![folder.write(RESULT, |out| write_csv(table, out))?];
+        let windows = self.solution.windows();
+        if !windows.is_empty() {
+            let rows = window_text::rows(windows, &self.job.unit);
+            results.push(folder.write(WINDOWS, |out| write_rows(&rows, out))?);
+        }
+        let manifest = self.manifest(args, results);
         folder.write(MANIFEST, |out| out.write_all(manifest.text()?.as_bytes())).map(drop)
     }
 
-    fn manifest(&self, args: &RunArgs, result: FileHash) -> Manifest {
+    fn manifest(&self, args: &RunArgs, results: Vec<FileHash>) -> Manifest {
         let settings = &self.job.settings;
         let hash = |(name, text): (&str, &str)| FileHash {
             name: name.to_owned(),
@@ -63,7 +69,7 @@ impl Outcome<'_> {
             statistics: StatisticsRecord::new(self.solution.statistics()),
             ledger: self.ledger(),
             limits: limits::members(self.solution.network(), &self.limits()),
-            results: vec![result],
+            results,
             environment: Environment {
                 written: lptn_study::utc(std::time::SystemTime::now()),
                 host: host.trim().to_owned(),
@@ -117,6 +123,8 @@ impl Outcome<'_> {
                     unit: &self.job.unit,
                     settings: &self.job.settings,
                     limits: &self.limits(),
+                    table,
+                    chosen: self.job.chosen,
                 };
                 console.print(&summary_text::summary(&view, console)).map(drop)
             }
@@ -150,6 +158,12 @@ impl Outcome<'_> {
             let limits = limits::members(self.solution.network(), &self.limits());
             json.member("limits", &Value::Object(limits))?;
         }
+        if !self.job.settings.windows.is_empty() {
+            json.member("windows", &Value::Object(window_text::members(self.solution.windows())))?;
+        }
+        if let Some(of) = self.solution.balance() {
+            json.member("balance", &balance::json(self.solution.network(), of))?;
+        }
         json.member("statistics", &serde_json::to_value(StatisticsRecord::new(self.solution.statistics()))?)?;
         if let Some(message) = self.ended_early() {
             let end = RunEnd::of(&self.solution, self.job.settings.stop, Some(message));
@@ -164,7 +178,9 @@ impl Outcome<'_> {
             let path = folder.path().join(RESULT);
             let took = duration(self.wall_time, 2);
             let rows = table.rows();
-            console.note(&format!("wrote  {}, {MANIFEST} ({rows} rows, solved in {took})", path.display()));
+            let windows = if self.solution.windows().is_empty() { "" } else { ", windows.csv" };
+            let files = format!("{}{windows}, {MANIFEST}", path.display());
+            console.note(&format!("wrote  {files} ({rows} rows, solved in {took})"));
         }
         if self.job.format != Format::Table {
             console.warn(&self.job.input.netlist.files, &self.doubts());

@@ -169,6 +169,8 @@ fn transient(run: &RunSettings) -> Transient {
         tolerance: run.tolerance,
         record: Record::All,
         watch: Vec::new(),
+        windows: Vec::new(),
+        balance: None,
         linear_solver: LinearSolver::Auto,
     }
 }

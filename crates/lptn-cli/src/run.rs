@@ -5,10 +5,10 @@ use std::time::Instant;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings};
-use lptn_network::Field;
+use lptn_network::{End, Field};
 use lptn_solve::{
     LinearSolver, Record, Selection, Solution, SteadyError, SteadyState, Summary, Table, Transient,
-    TransientError,
+    TransientError, Window,
 };
 use lptn_units::Unit;
 
@@ -21,7 +21,7 @@ use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
 use crate::outcome::Outcome;
 use crate::progress::ProgressLine;
-use crate::{select, summary};
+use crate::{balance, select, summary};
 
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
@@ -64,8 +64,11 @@ pub(crate) struct Job<'a> {
     pub(crate) input: &'a Input,
     pub(crate) settings: RunSettings,
     pub(crate) selection: Selection,
+    /// Whether columns were asked for by name.
+    pub(crate) chosen: bool,
     pub(crate) unit: Unit,
     pub(crate) format: Format,
+    pub(crate) balance: Option<End>,
 }
 
 impl<'a> Job<'a> {
@@ -77,7 +80,10 @@ impl<'a> Job<'a> {
         }
         let selection = select::of_run(netlist, &args.shown.select)?;
         let unit = input::temperature_unit(args.shown.temperature_unit.as_deref(), netlist)?;
-        Ok(Self { input, settings, selection, unit, format: args.shown.format })
+        let chosen = !(args.shown.select.is_empty() && settings.select.is_empty());
+        let format = args.shown.format;
+        let balance = balance::end(netlist, args.balance.as_deref(), format)?;
+        Ok(Self { input, settings, selection, chosen, unit, format, balance })
     }
 
     fn folder(&self, args: &RunArgs) -> PathBuf {
@@ -126,7 +132,21 @@ impl<'a> Job<'a> {
                 nodes.extend(shown);
             }
         }
-        Ok(Transient { start, stop, output, tolerance, record, watch, linear_solver: LinearSolver::Auto })
+        let window = |window: &lptn_netlist::WindowSettings| {
+            let (name, of) = (window.name.clone(), self.selection.clone());
+            Window { name, from: window.from, to: window.to, of }
+        };
+        Ok(Transient {
+            start,
+            stop,
+            output,
+            tolerance,
+            record,
+            watch,
+            windows: self.settings.windows.iter().map(window).collect(),
+            balance: self.balance,
+            linear_solver: LinearSolver::Auto,
+        })
     }
 
     /// What is wrong at the start is wrong with the input.
@@ -151,7 +171,8 @@ pub(crate) fn explain(input: &Input, error: &TransientError) -> Diagnostic {
     }
     let map = &input.netlist.source_map;
     let place = error.input().and_then(|e| map.get(e.item, e.field).or_else(|| map.get(e.item, Field::Name)));
-    match place {
+    let node = || error.node().and_then(|name| input.node_place(name));
+    match place.or_else(node) {
         Some(span) => problem.at(span.clone(), ""),
         None => problem,
     }

@@ -4,9 +4,9 @@ use lptn_netlist::{Diagnostic, RunSettings};
 use lptn_network::{ConductorKind, list_of_names};
 use lptn_report::{
     Align, Column, JsonWriter, TextTable, WIDTH, decimals, fixed, labelled, plain, prefix, shortened,
-    write_csv,
+    significant, write_csv,
 };
-use lptn_solve::{Selection, SteadyError, SteadyState, Table};
+use lptn_solve::{Balance, Selection, SteadyError, SteadyState, Table};
 use lptn_study::Scalar;
 use lptn_units::Unit;
 use serde_json::{Map, Value, json};
@@ -18,23 +18,33 @@ use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::limits::{self, Judged, Judgement};
 use crate::summary::{MOST_NODES, counts};
-use crate::{diagnostics, select};
+use crate::{balance, diagnostics, select};
 
 pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
     let netlist = &input.netlist;
     let selection = select::of_option(netlist, &args.shown.select)?;
     let unit = input::temperature_unit(args.shown.temperature_unit.as_deref(), netlist)?;
+    let balance = balance::end(netlist, args.balance.as_deref(), args.shown.format)?;
     let system = input.assemble()?;
     let start = netlist.run.as_ref().map_or(0.0, |run: &RunSettings| run.start);
     let steady = SteadyState::solve(&system, start).map_err(|error| failed(&input, &error))?;
     console.warn(&netlist.files, &netlist.warnings);
     let limits = limits(&input, &steady, start)?;
-    let view = View { input: &input, steady: &steady, selection: &selection, unit: &unit, limits: &limits };
+    let table = table(&input, &steady, &selection, &unit)?;
+    let balance = balance.map(|of| steady.balance(&netlist.network, of));
+    let view = View {
+        input: &input,
+        steady: &steady,
+        selection: &selection,
+        table: &table,
+        unit: &unit,
+        limits: &limits,
+        balance: balance.as_ref(),
+    };
     match args.shown.format {
         Format::Table => console.print(&view.text(args, console)).map(drop)?,
         Format::Csv => {
-            let table = Table::of_steady(&netlist.network, &steady, &selection, &unit);
             console.write(|out| write_csv(&table, out))?;
         }
         Format::Json => console.write(|out| view.json(out))?,
@@ -45,6 +55,11 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
         console.warn(&netlist.files, &view.doubts());
     }
     Ok(limits::conclude(&Judgement { netlist, unit: &unit, limits: &limits }, console))
+}
+
+fn table(input: &Input, steady: &SteadyState, selection: &Selection, unit: &Unit) -> Result<Table, Failure> {
+    let table = Table::of_steady(&input.netlist.network, steady, selection, unit);
+    table.map_err(|error| failed(input, &SteadyError::Input(error)))
 }
 
 fn limits(input: &Input, steady: &SteadyState, time: f64) -> Result<Vec<Judged>, Failure> {
@@ -73,10 +88,8 @@ fn failed(input: &Input, error: &SteadyError) -> Failure {
         SteadyError::NoBoundary { nodes, .. } => {
             nodes.first().and_then(|&node| map.name(lptn_network::Item::Node(node)))
         }
-        SteadyError::Unsolved(unsolved) if unsolved.input().is_none() => {
-            let node = input.netlist.network.node(&unsolved.node).ok();
-            node.and_then(|node| map.name(lptn_network::Item::Node(node)))
-        }
+        SteadyError::Unsolved(unsolved) if unsolved.input().is_none() => input.node_place(&unsolved.node),
+        SteadyError::BelowAbsoluteZero { name, .. } => input.node_place(name),
         error => error.input().and_then(|input| map.get(input.item, input.field)),
     };
     if let Some(place) = place {
@@ -104,13 +117,19 @@ fn adiabatic(network: &lptn_network::Network, steady: &SteadyState) -> Option<Di
     (!names.is_empty()).then(|| Diagnostic::warning("steady::energy", message))
 }
 
+/// Rises in K and heats in W below this are what rounding left over: no unit and no decimals are chosen to show them.
+const NOISE: f64 = 1e-9;
+
 /// A steady state and how it is shown.
 struct View<'a> {
     input: &'a Input,
     steady: &'a SteadyState,
     selection: &'a Selection,
+    /// What is selected, in the unit that is shown.
+    table: &'a Table,
     unit: &'a Unit,
     limits: &'a [Judged],
+    balance: Option<&'a Balance>,
 }
 
 /// A name with a number of its quantity.
@@ -127,7 +146,7 @@ impl View<'_> {
         let title = network.title().map_or(self.input.text.stem.clone(), plain);
         let mut lines = vec![console.title(&title), counts(network)];
         let patterns = &args.shown.select;
-        let kept = Table::of_steady(network, self.steady, self.selection, self.unit);
+        let kept = self.table;
         let keep = |row: &Row| {
             patterns.is_empty()
                 || kept.columns().iter().any(|c| c.name == format!("{}.{}", row.name, row.quantity))
@@ -136,7 +155,9 @@ impl View<'_> {
         let blocks = [
             self.node_lines(nodes.into_iter().filter(keep).collect()),
             self.flow_lines(flows.into_iter().filter(keep).collect()),
+            self.other_lines(),
             limits::lines(network, self.limits, self.unit),
+            self.balance.map_or(Vec::new(), |of| balance::lines(network, of, None)),
         ];
         for block in blocks.into_iter().filter(|block| !block.is_empty()) {
             lines.push(String::new());
@@ -201,7 +222,8 @@ impl View<'_> {
             rows.sort_by(|a, b| b.value.total_cmp(&a.value));
         }
         let coldest = coldest(&self.input.netlist.network, self.steady);
-        let largest = rows.iter().map(|r| (r.value - coldest.1).abs()).fold(0.0, f64::max);
+        let rises = rows.iter().map(|r| (r.value - coldest.1).abs());
+        let largest = rises.filter(|rise| *rise > NOISE).fold(0.0, f64::max);
         let digits = decimals(largest / self.unit.scale, 3, 1);
         rows.truncate(MOST_NODES);
         let texts = |text: &dyn Fn(&Row) -> String| rows.iter().map(text).collect::<Vec<_>>();
@@ -232,7 +254,7 @@ impl View<'_> {
         if all > MOST_NODES {
             rows.sort_by(|a, b| b.value.abs().total_cmp(&a.value.abs()));
         }
-        let largest = rows.iter().map(|r| r.value.abs()).fold(0.0, f64::max);
+        let largest = rows.iter().map(|r| r.value.abs()).filter(|heat| *heat > NOISE).fold(0.0, f64::max);
         let (scale, letter) = prefix(largest);
         let digits = decimals(largest / scale, 4, 0);
         rows.truncate(MOST_NODES);
@@ -249,10 +271,23 @@ impl View<'_> {
         )
     }
 
+    /// Signals and reports.
+    fn other_lines(&self) -> Vec<String> {
+        let shown: Vec<_> = self.table.columns().iter().filter(|c| !c.name.contains('.')).collect();
+        if shown.is_empty() {
+            return Vec::new();
+        }
+        let names = shown.iter().map(|c| c.header()).collect();
+        let values = shown.iter().map(|c| significant(c.values[0], 5)).collect();
+        let columns = vec![Column::new("column", Align::Left, names), Column::new("", Align::Right, values)];
+        TextTable::new(columns).lines(WIDTH)
+    }
+
     fn json(&self, out: impl std::io::Write) -> std::io::Result<()> {
         let netlist = &self.input.netlist;
         let kelvin = Unit { text: "K".into(), scale: 1.0, offset: 0.0, ty: self.unit.ty };
         let table = Table::of_steady(&netlist.network, self.steady, self.selection, &kelvin);
+        let table = table.map_err(std::io::Error::other)?;
         let value = |c: &lptn_solve::Column| (c.name.clone(), Scalar::new(c.values[0], &c.unit).json());
         let values: Map<String, Value> = table.columns().iter().map(value).collect();
         let mut json = JsonWriter::new(out);
@@ -264,6 +299,9 @@ impl View<'_> {
         if !self.limits.is_empty() {
             let limits = limits::members(&netlist.network, self.limits);
             json.member("limits", &Value::Object(limits))?;
+        }
+        if let Some(of) = self.balance {
+            json.member("balance", &balance::json(&netlist.network, of))?;
         }
         json.finish().map(drop)
     }

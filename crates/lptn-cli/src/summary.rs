@@ -2,7 +2,7 @@
 
 use lptn_netlist::RunSettings;
 use lptn_network::{Network, NodeId};
-use lptn_solve::{Selection, Solution, SteadyState};
+use lptn_solve::{Selection, Solution, SteadyState, Table};
 use lptn_units::Unit;
 
 use crate::limits::Judged;
@@ -37,6 +37,9 @@ pub(crate) struct View<'a> {
     pub(crate) unit: &'a Unit,
     pub(crate) settings: &'a RunSettings,
     pub(crate) limits: &'a [Judged],
+    pub(crate) table: &'a Table,
+    /// Whether columns were asked for by name.
+    pub(crate) chosen: bool,
 }
 
 /// "1 node", "2 nodes".

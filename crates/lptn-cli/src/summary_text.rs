@@ -1,6 +1,6 @@
 //! The table of a run, its heat and its notes.
 
-use lptn_network::list_of_names;
+use lptn_network::{ConductorKind, list_of_names};
 use lptn_report::{
     Align, Column, Flow, TextTable, WIDTH, balance, decimals, duration, fixed, labelled, significant,
     sparkline,
@@ -9,7 +9,8 @@ use lptn_solve::{End, NodeSummary, Solution, SteadyError, Summary, Unbounded};
 
 use crate::console::Console;
 use crate::run::NoSteady;
-use crate::summary::{View, counts};
+use crate::summary::{MOST_NODES, View, counts};
+use crate::window_text;
 
 /// Characters of a curve.
 const CURVE: usize = 16;
@@ -29,6 +30,8 @@ pub(crate) fn summary(view: &View<'_>, console: &Console) -> String {
         lines.extend(crate::limits::lines(network, view.limits, view.unit));
         lines.push(String::new());
     }
+    lines.extend(columns(view));
+    lines.extend(window_text::lines(view.solution.windows(), view.unit));
     for note in notes(view, &nodes) {
         lines.extend(labelled("note: ", &words(&note), WIDTH));
     }
@@ -38,6 +41,11 @@ pub(crate) fn summary(view: &View<'_>, console: &Console) -> String {
     // where a run breaks off, the integrals and the state are not those of one time
     if !matches!(view.solution.end(), End::Failed(_)) {
         lines.extend(heat(view));
+        if let Some(balance) = view.solution.balance() {
+            lines.push(String::new());
+            let times = Some((view.settings.start, reached(view)));
+            lines.extend(crate::balance::lines(network, balance, times));
+        }
     }
     if console.verbose {
         lines.extend(solver(view));
@@ -100,6 +108,36 @@ fn table(view: &View<'_>, nodes: &[NodeSummary]) -> Vec<String> {
         Column::new(curve_title, Align::Left, curves).optional(),
     ]);
     table.lines(WIDTH)
+}
+
+/// What is no temperature of a node: every report, and the other columns that were asked for by name.
+fn columns(view: &View<'_>) -> Vec<String> {
+    let network = view.solution.network();
+    let is_report = |name: &str| network.reports().iter().any(|report| report.name == name);
+    let is_node = |name: &str| name.strip_suffix(".T").is_some_and(|name| network.node(name).is_ok());
+    let wanted = |name: &str| is_report(name) || (view.chosen && !is_node(name));
+    let all = view.table.columns().get(1..).unwrap_or_default();
+    let shown: Vec<_> = all.iter().filter(|column| wanted(&column.name)).take(MOST_NODES).collect();
+    if shown.is_empty() {
+        return Vec::new();
+    }
+    type Of<'a> = &'a lptn_solve::Column;
+    let cells = |text: &dyn Fn(Of<'_>) -> String| shown.iter().map(|c| text(c)).collect::<Vec<_>>();
+    let number = |column: Of<'_>, value: Option<&f64>| {
+        let (low, high) = range(column.values.iter().copied());
+        let digits = decimals(low.abs().max(high.abs()), 4, 1);
+        value.map_or("-".into(), |&value| fixed(value, digits))
+    };
+    let curve = |c: Of<'_>| sparkline(view.solution.times(), &c.values, CURVE, 0.0);
+    let mut lines = TextTable::new(vec![
+        Column::new("column", Align::Left, cells(&|c| c.header())),
+        Column::new("start", Align::Right, cells(&|c| number(c, c.values.first()))),
+        Column::new(duration(reached(view), 4), Align::Right, cells(&|c| number(c, c.values.last()))),
+        Column::new("", Align::Left, cells(&curve)).optional(),
+    ])
+    .lines(WIDTH);
+    lines.push(String::new());
+    lines
 }
 
 fn start_of_curve(start: f64) -> String {
@@ -200,8 +238,10 @@ fn heat(view: &View<'_>) -> Vec<String> {
     let (network, ledger) = (view.solution.network(), view.solution.ledger());
     let sources = network.sources().iter().map(|s| &s.name).zip(&ledger.sources);
     let boundaries = network.boundaries().iter().map(|b| &b.name).zip(&ledger.boundaries);
+    let streams = network.conductors().iter().filter(|c| c.kind == ConductorKind::Advection);
+    let streams = streams.map(|c| &c.name).zip(&ledger.streams);
     let flow = |(name, &heat): (&String, &f64)| Flow { name: name.clone(), heat };
-    let flows: Vec<Flow> = sources.chain(boundaries).map(flow).collect();
+    let flows: Vec<Flow> = sources.chain(boundaries).chain(streams).map(flow).collect();
     let pieces = balance(&flows, ledger.stored.iter().sum(), ledger.turned_over);
     let over = format!("heat over {}:", duration(reached(view) - view.settings.start, 4));
     let width = over.len() + 2;

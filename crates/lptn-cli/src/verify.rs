@@ -64,6 +64,8 @@ fn transient(run: RunSettings, tolerance: Option<f64>) -> Transient {
         tolerance: tolerance.unwrap_or(run.tolerance),
         record: Record::All,
         watch: Vec::new(),
+        windows: Vec::new(),
+        balance: None,
         linear_solver: LinearSolver::Auto,
     }
 }

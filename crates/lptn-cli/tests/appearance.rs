@@ -253,5 +253,5 @@ fn the_examples_of_the_help_work() {
             count += 1;
         }
     }
-    assert_eq!(count, 16);
+    assert_eq!(count, 17);
 }

@@ -55,3 +55,24 @@ fn steady_states_below_absolute_zero_fail() {
     assert!(ran.err.contains("solve::below_absolute_zero"), "{}", ran.err);
     folder.run(&["run", "cold.toml", "--no-files", "--tolerance", "1e-3K"]).exits(3);
 }
+
+/// A node below 0 K was named, but not shown.
+#[test]
+fn failures_at_a_node_show_its_line() {
+    let text = GEARBOX.replace("P = \"P_7000\" }", "P = \"-2 kW\" }");
+    let folder = Folder::with("cold.toml", &text);
+    for verb in ["run", "steady"] {
+        folder.run(&[verb, "cold.toml"]).exits(3).says("steel = {}");
+    }
+}
+
+/// A network at rest was shown with nine decimals and in microwatts, all of them rounding.
+#[test]
+fn a_steady_state_at_rest_is_shown_as_zeros() {
+    let text = "format = 1\n[node]\nstill = { C = \"800 J/K\", T0 = \"100 degC\" }\n\
+                [boundary]\nroom = { T = \"20 degC\" }\n[convection]\n\
+                wall = { from = \"still\", to = \"room\", h = \"2 [W/(m^2 K)] * (abs(dT) / 1 [K])^(1/4)\", \
+                area = \"0.1 m^2\" }\n";
+    let ran = Folder::with("still.toml", text).run(&["steady", "still.toml"]).exits(0);
+    assert!(ran.out.contains("Q [W]") && !ran.out.contains("00000"), "{}", ran.out);
+}

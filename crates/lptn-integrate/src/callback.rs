@@ -34,6 +34,8 @@ pub(crate) struct Shared<S> {
     /// States and algebraic unknowns during a solve; empty if there are none of the latter.
     pub(crate) work: Vec<f64>,
     pub(crate) factors: Box<dyn Factorization>,
+    /// The absolute tolerance that CVODE works with.
+    pub(crate) absolute: f64,
     pub(crate) counts: Counts,
     /// Time of the last Newton matrix, for messages of the linear solver.
     pub(crate) time: f64,
@@ -129,6 +131,17 @@ impl<S: OdeSystem> Shared<S> {
         self.system.flow(t, y, out)?;
         kernels::zip_in_place(out, self.system.mass(), |flow, mass| flow / mass);
         expect_finite(out)
+    }
+
+    /// The weights of the error test: the tolerance is one of `T`, where a state is carried as another variable. Where
+    /// `T` moves less than the state, it is one of the state: what is carried must not get lost either.
+    fn weights(&self, out: &mut [f64]) {
+        out.fill(1.0 / self.absolute);
+        if let Some(slopes) = self.system.slope() {
+            kernels::zip_in_place(out, slopes, |weight, slope| {
+                weight * if slope > 1.0 { slope } else { 1.0 }
+            });
+        }
     }
 
     fn integrands(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Cause> {
@@ -255,4 +268,19 @@ pub(crate) unsafe extern "C" fn integrands<S: OdeSystem>(
     // SAFETY: as in `derivative`.
     let (shared, y, out) = unsafe { (&mut *data.cast::<Shared<S>>(), values(y), values_mut(out)) };
     shared.guard(Callback::Quadrature, t, |shared| shared.integrands(t, y, out))
+}
+
+/// The weights of the error test, for CVodeWFtolerances.
+pub(crate) unsafe extern "C" fn weights<S: OdeSystem>(
+    _y: N_Vector,
+    out: N_Vector,
+    data: *mut c_void,
+) -> c_int {
+    // SAFETY: as in `derivative`.
+    let (shared, out) = unsafe { (&mut *data.cast::<Shared<S>>(), values_mut(out)) };
+    let time = shared.time;
+    shared.guard(Callback::Flow, time, |shared| {
+        shared.weights(out);
+        expect_finite(out)
+    })
 }

@@ -286,6 +286,7 @@ impl IntegrateError {
             | Self::ToleranceTooSmall { index, .. }
             | Self::ErrorTest { index, .. }
             | Self::Newton { index, .. }
+            | Self::Stalled { index, .. }
             | Self::NotFinite { callback: Callback::Flow, index, .. } => Some(*index),
             _ => None,
         }

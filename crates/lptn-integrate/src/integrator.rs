@@ -94,7 +94,7 @@ impl<S: OdeSystem> Integrator<S> {
 
     fn set_up(&self, options: &Options) -> Result<(), Flag> {
         let pointer = self.shared.as_ptr();
-        self.memory.start((self.time, &self.state), pointer, options.tolerance / 3.0)?;
+        self.memory.start((self.time, &self.state), pointer)?;
         self.memory.attach_solver::<S>(&self.handles)?;
         if let Some(quadratures) = &self.quadratures {
             self.memory.start_quadratures::<S>(quadratures)?;

@@ -56,13 +56,12 @@ impl Memory {
         &self,
         (t0, y0): (f64, &Vector),
         shared: *mut Shared<S>,
-        absolute: f64,
     ) -> Result<(), Flag> {
         // SAFETY: the object is alive; `shared` stays alive and in place until after it is freed.
         unsafe {
             check("CVodeInit", sys::CVodeInit(self.raw, Some(callback::derivative::<S>), t0, y0.raw()))?;
             // The relative tolerance is zero: it would depend on the zero of the scale.
-            check("CVodeSStolerances", sys::CVodeSStolerances(self.raw, 0.0, absolute))?;
+            check("CVodeWFtolerances", sys::CVodeWFtolerances(self.raw, Some(callback::weights::<S>)))?;
             check("CVodeSetUserData", sys::CVodeSetUserData(self.raw, shared.cast()))?;
             // Counted by the integrator; one call here is one step.
             check("CVodeSetMaxNumSteps", sys::CVodeSetMaxNumSteps(self.raw, -1))?;

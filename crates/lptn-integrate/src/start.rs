@@ -54,6 +54,7 @@ pub(crate) fn shared<S: OdeSystem>(
         slopes: Vec::new(),
         work,
         factors,
+        absolute: options.tolerance / 3.0,
         counts,
         time: t0,
         failure: None,

@@ -31,6 +31,7 @@ pub enum Retry {
 ///
 /// Where `f` depends on a temperature `T_j(y_j)` instead of on `y_j` itself, [`jacobian`](Self::jacobian) may be written
 /// by `T` and [`slope`](Self::slope) returns `dT_j/dy_j`. The matrix stays symmetric if the derivatives by `T` are.
+/// The tolerance is then one of `T_j` where `dT_j/dy_j` is above 1, and one of `y_j` elsewhere.
 pub trait OdeSystem {
     /// Number of components of `y`; at least 1 and constant.
     fn size(&self) -> usize;

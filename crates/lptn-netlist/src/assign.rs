@@ -251,6 +251,7 @@ impl Netlist {
                 Course::Expression(value) => vec![value],
                 _ => Vec::new(),
             },
+            Item::Report(id) => vec![&network.reports()[id.index()].value],
             Item::Parameter(_) | Item::Table(_) => Vec::new(),
         }
     }

@@ -213,7 +213,9 @@ fn help(error: &BuildError) -> Option<String> {
         Kind::Empty => format!("add a section [node]; {MINIMAL}").trim_end().to_owned(),
         Kind::DuplicateName { first, .. } => {
             let kinds = match first {
-                Item::Parameter(_) | Item::Signal(_) | Item::Table(_) => "parameters, signals and tables",
+                Item::Parameter(_) | Item::Signal(_) | Item::Table(_) | Item::Report(_) => {
+                    "parameters, signals, tables and reports"
+                }
                 _ => "nodes and elements",
             };
             format!("rename one of them, for example `{}_2`; {kinds} share one set of names", error.name)

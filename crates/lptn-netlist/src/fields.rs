@@ -140,6 +140,8 @@ pub(crate) fn sample_value(key: &str) -> &'static str {
         "of" => "\"steel.T\"",
         "below" => "\"110 degC\"",
         "above" => "\"-20 degC\"",
+        "report" => "{ rise = \"steel.T - air.T\" }",
+        "window" => "{ climb = { from = \"10 min\", to = \"20 min\" } }",
         "severity" => "\"warning\"",
         "minimise" | "maximise" => "\"name of a parameter\"",
         "vary" => "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",

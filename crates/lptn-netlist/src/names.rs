@@ -10,6 +10,7 @@ use crate::diagnostic::Diagnostic;
 use crate::fields::sample_value;
 use crate::file::Span;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable};
+use crate::result_names::base;
 use crate::value::{Place, Wanted};
 use crate::vocabulary::{PARAM, SIGNAL, TABLE};
 
@@ -41,8 +42,8 @@ impl ValueKind {
 pub(crate) struct Names {
     values: HashMap<String, (ValueKind, Span)>,
     /// In file order, for suggestions.
-    order: Vec<String>,
-    elements: HashMap<String, &'static str>,
+    pub(crate) order: Vec<String>,
+    pub(crate) elements: HashMap<String, &'static str>,
     /// Values that are wrong: what uses them is not reported again.
     failed: HashSet<String>,
     used: HashSet<String>,
@@ -97,10 +98,14 @@ impl Names {
         names
     }
 
-    /// The line of a parameter; entries stand in the order of the file.
-    pub(crate) fn parameter<'a>(&self, raw: &'a RawNetlist, name: &str) -> Option<&'a RawEntry> {
-        let (_, span) = self.values.get(name).filter(|(kind, _)| *kind == ValueKind::Parameter)?;
-        let entries = &section(raw, PARAM)?.entries;
+    /// The line of a parameter or signal; entries stand in the order of the file.
+    pub(crate) fn line<'a>(&self, raw: &'a RawNetlist, name: &str) -> Option<&'a RawEntry> {
+        let (kind, span) = self.values.get(name)?;
+        let entries = match kind {
+            ValueKind::Parameter => &section(raw, PARAM)?.entries,
+            ValueKind::Signal => &section(raw, SIGNAL.name)?.entries,
+            ValueKind::Table => return None,
+        };
         let at = entries.binary_search_by_key(&span.range.start, |entry| entry.key_span.range.start).ok()?;
         entries.get(at)
     }
@@ -177,7 +182,7 @@ impl Names {
     }
 
     pub(crate) fn has_failed(&self, name: &str) -> bool {
-        self.failed.contains(name) || self.is_hidden(name.strip_suffix(".T").unwrap_or(name))
+        self.failed.contains(name) || self.is_hidden(base(name))
     }
 
     /// The section of the element of this name.
@@ -227,8 +232,9 @@ impl Names {
             let changes = kind == ValueKind::Signal && !wanted.time;
             return changes.then(|| depends_on_time(place, &name, at()));
         }
-        let temperature = wanted.names_nodes() && self.is_temperature(&name);
-        if temperature || wanted.is_local(&name) || self.is_hidden(name.strip_suffix(".T").unwrap_or(&name)) {
+        let result = wanted.context == Context::Result;
+        let known = (wanted.names_nodes() && self.is_temperature(&name)) || (result && self.is_heat(&name));
+        if known || wanted.is_local(&name) || self.is_hidden(base(&name)) {
             return None; // what hides it has been reported
         }
         if name == "t" {
@@ -248,43 +254,6 @@ impl Names {
     fn is_temperature(&self, name: &str) -> bool {
         let kind = name.strip_suffix(".T").and_then(|name| self.kind_of(name));
         matches!(kind, Some("node" | "boundary"))
-    }
-
-    /// An unknown name where temperatures may be named.
-    fn unknown_result(&mut self, place: Place<'_>, name: &str, at: Span) -> Diagnostic {
-        let words = place.words();
-        let base = name.strip_suffix(".T");
-        let message = match base {
-            Some(base) => format!("{words}: no node or boundary named `{base}`"),
-            None => format!("{words} uses `{name}`, which is no parameter"),
-        };
-        let error = Diagnostic::error("netlist::unknown_name", message).at(at, "unknown name");
-        let kind = self.kind_of(base.unwrap_or(name));
-        match (kind, base) {
-            (Some("node" | "boundary"), None) => error.help(format!("its temperature is `{name}.T`")),
-            (Some(kind), _) => {
-                let name = base.unwrap_or(name);
-                error.help(format!("`{name}` is a {kind}; temperatures are those of nodes and boundaries"))
-            }
-            (None, _) => match self.similar_result(name) {
-                Some(near) => error.help(format!("did you mean `{near}`?")),
-                None => error.help(
-                    "name the temperature of a node or boundary, for example `steel.T`, a parameter or `t`",
-                ),
-            },
-        }
-    }
-
-    /// The most similar parameter or temperature; of equally similar ones the first in the alphabet.
-    fn similar_result(&mut self, name: &str) -> Option<String> {
-        if !self.may_search() {
-            return None;
-        }
-        let places = self.elements.iter().filter(|(_, kind)| matches!(**kind, "node" | "boundary"));
-        let mut names: Vec<String> = places.map(|(name, _)| format!("{name}.T")).collect();
-        names.extend(self.order.iter().cloned());
-        names.sort_unstable();
-        suggest(name, names.iter().map(String::as_str)).map(str::to_owned)
     }
 
     fn unknown(&mut self, (place, wanted): (Place<'_>, Wanted), name: &str, at: Span) -> Diagnostic {

@@ -19,6 +19,7 @@ use crate::run::{RunPlan, RunSettings};
 use crate::section;
 use crate::size::SizeStudy;
 use crate::source_map::SourceMap;
+use crate::streams;
 use crate::syntax::parse_raw;
 use crate::syntax_error::NOT_CLOSED;
 
@@ -234,6 +235,9 @@ fn finish(files: Files, done: Elaborated, mut diagnostics: Vec<Diagnostic>) -> R
         shorten(&mut diagnostics);
         return Err(Rejected { files, diagnostics, syntax: false });
     }
+    let start = run.as_ref().map_or(0.0, |run| run.start);
+    diagnostics.extend(streams::unbalanced(&network, &map, start));
+    arrange(&mut diagnostics);
     shorten(&mut diagnostics);
     let assigned = network.overrides();
     let inputs = files.ids().collect();

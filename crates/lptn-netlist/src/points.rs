@@ -285,7 +285,13 @@ impl<'a> Elaboration<'a> {
                 let (n, m) = (x.numbers.len(), y.numbers.len());
                 at_list(format!("{words} has {n} arguments but {m} values")).help("give one value for each")
             }
-            other => at_list(format!("{words}: {other}")),
+            other => {
+                let problem = at_list(format!("{words}: {other}"));
+                match other.help() {
+                    Some(help) => problem.help(help),
+                    None => problem,
+                }
+            }
         };
         self.report(problem);
     }

@@ -7,6 +7,7 @@ use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
 use crate::file::Span;
+use crate::outputs::{WindowPlan, WindowSettings};
 use crate::raw::{RawKind, RawValue};
 use crate::value::{Place, Wanted};
 use crate::vocabulary::{OUTPUT, RUN, SIGNAL};
@@ -15,7 +16,7 @@ use crate::vocabulary::{OUTPUT, RUN, SIGNAL};
 const USUAL_TOLERANCE: f64 = 1e-5;
 
 const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
-const TIME: Type = Type::of(Dimension::TIME);
+pub(crate) const TIME: Type = Type::of(Dimension::TIME);
 
 /// What to simulate, in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +29,8 @@ pub struct RunSettings {
     pub output: OutputTimes,
     /// Which columns to write, as patterns such as `*.T`; empty for all.
     pub select: Vec<String>,
+    /// Over which parts of it to take means and extremes, in file order.
+    pub windows: Vec<WindowSettings>,
     /// Tolerance in K.
     pub tolerance: f64,
 }
@@ -42,16 +45,17 @@ pub(crate) struct RunPlan {
     select: Vec<String>,
     /// The signals that are used, with their places: they have to last as long as the run.
     signals: Vec<(String, Span)>,
+    windows: Vec<WindowPlan>,
 }
 
 /// A value with its place.
 #[derive(Clone, Debug)]
-struct Setting {
+pub(crate) struct Setting {
     value: Value,
-    span: Span,
+    pub(crate) span: Span,
     words: String,
     unit: String,
-    help: String,
+    pub(crate) help: String,
 }
 
 #[derive(Clone, Debug)]
@@ -71,8 +75,10 @@ impl<'a> Elaboration<'a> {
         let tolerance = self.optional(&fields, "tolerance", DIFFERENCE);
         let output = self.output(&fields);
         let select = fields.get("select").map_or_else(Vec::new, |raw| self.select(&fields, raw));
+        self.reports(&fields);
+        let windows = self.windows(&fields);
         let signals = self.used_signals();
-        Some(RunPlan { start, stop: stop?, output, tolerance, select, signals })
+        Some(RunPlan { start, stop: stop?, output, tolerance, select, windows, signals })
     }
 
     /// The signals with points that something uses.
@@ -87,7 +93,12 @@ impl<'a> Elaboration<'a> {
         self.setting(&fields.owner, (key, fields.get(key)?), ty)
     }
 
-    fn setting(&mut self, owner: &Owner, (key, raw): (&str, &RawValue), ty: Type) -> Option<Setting> {
+    pub(crate) fn setting(
+        &mut self,
+        owner: &Owner,
+        (key, raw): (&str, &RawValue),
+        ty: Type,
+    ) -> Option<Setting> {
         let place = Place { owner, key, raw };
         let words = place.words();
         let value = self.given(place, Wanted::constant(ty))?.value();
@@ -178,8 +189,9 @@ impl RunPlan {
         }
         let tolerance = self.tolerance.as_ref().map_or(USUAL_TOLERANCE, |t| check.positive(t));
         let output = check.output(self.output.as_ref(), (start, stop));
+        let windows = self.windows.iter().filter_map(|plan| check.window(plan, (start, stop))).collect();
         if check.problems.is_empty() {
-            Ok(RunSettings { start, stop, output, select: self.select.clone(), tolerance })
+            Ok(RunSettings { start, stop, output, select: self.select.clone(), windows, tolerance })
         } else {
             Err(check.problems)
         }
@@ -254,6 +266,15 @@ impl Check {
             self.problems.push(error.at(setting.span.clone(), "").help(&setting.help));
         }
         value
+    }
+
+    fn window(&mut self, plan: &WindowPlan, run: (f64, f64)) -> Option<WindowSettings> {
+        let before = self.problems.len();
+        let [from, to] = plan.ends().map(|end| self.number(end));
+        if self.problems.len() > before || run.1 <= run.0 {
+            return None;
+        }
+        plan.settings((from, to), run).map_err(|problem| self.problems.push(problem)).ok()
     }
 
     fn output(&mut self, plan: Option<&OutputPlan>, (start, stop): (f64, f64)) -> OutputTimes {

@@ -89,6 +89,7 @@ impl SourceMap {
             Item::Fluid(_) => "fluid",
             Item::Signal(_) => "signal",
             Item::Table(_) => "table",
+            Item::Report(_) => "report",
         }
     }
 

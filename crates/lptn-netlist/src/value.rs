@@ -228,6 +228,9 @@ impl Elaboration<'_> {
         if names.any(|(name, _)| self.names.has_failed(&name)) {
             return None;
         }
+        if wanted.context == Context::Result {
+            self.builder.name_heats(&expression);
+        }
         match expression.compile(&self.builder.scope(wanted.context), wanted.ty) {
             Ok(program) => {
                 let moments = expression.equalities("t").into_iter().filter(|_| wanted.time);
@@ -252,7 +255,7 @@ fn moment(place: Place<'_>, at: Span) -> Diagnostic {
         .help("use `<` or `>=`; a pulse is `if(t < 5 [s], a, if(t < 6 [s], b, a))`")
 }
 
-/// A mistake in an expression of one parameter may be that of the parameter: its line is shown as well.
+/// A mistake in an expression of one parameter or signal may be that of the parameter: its line is shown as well.
 fn with_parameter(
     (raw, all): (&RawNetlist, &Names),
     (place, wanted): (Place<'_>, Wanted),
@@ -271,10 +274,10 @@ fn with_parameter(
     );
     let names = if of_type { expression.names() } else { Vec::new() };
     let [(name, _)] = names.as_slice() else { return diagnostic };
-    let Some(entry) = all.parameter(raw, name) else { return diagnostic };
+    let Some(entry) = all.line(raw, name) else { return diagnostic };
     let diagnostic = diagnostic.also(entry.value.span.clone(), "its value");
-    let help =
-        wanted.ty.filter(|_| expression.text().trim() == name).and_then(|ty| parameter_help(entry, ty));
+    let alone = expression.text().trim() == name && all.is_parameter(name);
+    let help = wanted.ty.filter(|_| alone).and_then(|ty| parameter_help(entry, ty));
     match help {
         Some(help) => diagnostic.help(help),
         None => diagnostic,

@@ -215,7 +215,7 @@ pub(crate) const DEFAULT: Section = Section {
 
 pub(crate) const RUN: Section = Section {
     name: "run",
-    keys: &["stop", "start", "output", "select", "tolerance", "integrator"],
+    keys: &["stop", "start", "output", "select", "report", "window", "tolerance", "integrator"],
     later: &["initial"],
     example: "{ stop = \"25 min\" }",
     elsewhere: &[
@@ -243,6 +243,15 @@ pub(crate) const VARY: Section = Section {
     keys: &["from", "to"],
     later: &[],
     example: "{ from = \"1 W/K\", to = \"10 W/K\" }",
+    elsewhere: &[],
+};
+
+/// `climb = { from = .., to = .. }` in `window` of `[run]`.
+pub(crate) const WINDOW: Section = Section {
+    name: "window",
+    keys: &["from", "to"],
+    later: &[],
+    example: "{ from = \"10 min\", to = \"20 min\" }",
     elsewhere: &[],
 };
 

@@ -71,10 +71,12 @@ fn value(netlist: &Netlist, name: &str, time: f64) -> f64 {
 }
 
 #[test]
-fn nothing_is_odd_about_it() {
+fn nothing_is_odd_but_its_streams() {
     let netlist = read(ELEMENTS);
     let warnings: Vec<String> = netlist.warnings.iter().map(|w| netlist.files.plain(w)).collect();
-    assert!(warnings.is_empty(), "{}", warnings.join("\n"));
+    assert_eq!(warnings.len(), 3, "{}", warnings.join("\n"));
+    assert!(netlist.warnings.iter().all(|w| w.code == "network::unbalanced_streams"));
+    assert!(warnings[0].contains("streams bring 88.8 W/K into node `sump` and take 40.2 W/K out of it"));
     assert_eq!(netlist.network.conductors().len(), 14);
     assert_eq!(netlist.network.fluids().len(), 2);
     assert_eq!(netlist.network.materials().len(), 3, "cast, wax and the copper of the library");
@@ -343,6 +345,28 @@ fn a_device_is_no_csv_file() {
     let text = "format = 1\n[signal]\ns = { csv = \"/dev/zero\", time = \"t\", value = \"v\" }\n";
     let rejected = lptn_netlist::parse_file(Path::new("a.toml"), text.as_bytes()).unwrap_err();
     assert!(rejected.to_string().contains("netlist::csv_not_found"), "{rejected}");
+}
+
+/// What flows into a node flows out of it, whichever way its streams are named.
+#[test]
+fn streams_that_balance_are_no_warning() {
+    let of = |streams: &str| {
+        let text = format!(
+            "format = 1\n[boundary]\nin = {{ T = \"40 degC\" }}\nout = {{ T = \"0 degC\" }}\n\
+             [node]\na = {{ C = \"1 J/K\", T0 = \"0 degC\" }}\n[advection]\n{streams}"
+        );
+        let netlist = parse("a.toml", &text).unwrap_or_else(|r| panic!("{r}"));
+        let codes: Vec<&str> = netlist.warnings.iter().map(|w| w.code).collect();
+        codes.join(" ")
+    };
+    let feed = "x = { from = \"in\", to = \"a\", mcp = \"2 W/K\" }\n";
+    assert_eq!(of(feed), "network::unbalanced_streams");
+    assert_eq!(of(&format!("{feed}y = {{ from = \"a\", to = \"out\", mcp = \"2 W/K\" }}\n")), "");
+    assert_eq!(of(&format!("{feed}y = {{ from = \"out\", to = \"a\", mcp = \"-2 W/K\" }}\n")), "");
+    // what varies is judged as it stands at the start
+    let varies = "x = { from = \"in\", to = \"a\", mcp = \"2 [W/K] + 1 [W/(K s)] * t\" }\n";
+    assert_eq!(of(varies), "network::unbalanced_streams");
+    assert_eq!(of(&varies.replace("2 [W/K]", "0 [W/K]")), "");
 }
 
 /// A tabulated property is constant in all but the temperature, whatever unit its list has.

@@ -4,7 +4,7 @@ use lptn_units::{Degree, Program};
 
 use crate::error::BuildErrorKind;
 use crate::evaluation::Evaluation;
-use crate::id::{Field, Item};
+use crate::id::{Field, Item, SignalId};
 use crate::input_error::{InputError, InputProblem};
 use crate::layout::Holds;
 use crate::network::Network;
@@ -30,10 +30,10 @@ impl Network {
     /// What has no value at some time is left to the run, which says so.
     ///
     /// # Errors
-    /// None at present.
+    /// [`InputProblem::TooManyPoints`] for a signal that is repeated beyond reason.
     pub fn breakpoints(&self, start: f64, stop: f64) -> Result<Vec<f64>, InputError> {
-        let mut times = self.bends(start, stop);
-        let mut ends = times.clone();
+        let mut times = self.points((start, stop), true)?;
+        let mut ends = self.points((start, stop), false)?;
         ends.insert(0, start);
         ends.push(stop);
         let stretches: Vec<Stretch> = ends.windows(2).map(|pair| (pair[0], pair[1])).collect();
@@ -50,8 +50,8 @@ impl Network {
         Ok(times)
     }
 
-    /// Points of the signals that are used.
-    fn bends(&self, start: f64, stop: f64) -> Vec<f64> {
+    /// Points of the signals that are used; with `bends` only those at which one may bend or jump.
+    fn points(&self, span: (f64, f64), bends: bool) -> Result<Vec<f64>, InputError> {
         let signals = self.parts.layout.signals();
         let mut used = vec![false; signals.len()];
         for slot in self.inputs().flat_map(|(_, _, value)| value.slots()) {
@@ -60,12 +60,16 @@ impl Network {
             }
         }
         let mut times = Vec::new();
-        let used = signals.iter().zip(used).filter(|(_, used)| *used);
-        for (signal, _) in used.filter(|(s, _)| s.course.is_straight()) {
-            signal.course.bends(start, stop, &mut times);
+        for (i, (signal, _)) in signals.iter().zip(used).enumerate().filter(|(_, (_, used))| *used) {
+            signal.course.points(span, bends, &mut times).map_err(|count| InputError {
+                item: Item::Signal(SignalId::from_len(i)),
+                field: Field::Period,
+                name: signal.name.clone(),
+                problem: InputProblem::TooManyPoints(count),
+            })?;
         }
-        tidy(&mut times, start, stop);
-        times
+        tidy(&mut times, span.0, span.1);
+        Ok(times)
     }
 
     /// Differences whose roots in time are where a value bends or jumps.

@@ -254,15 +254,6 @@ impl NetworkBuilder {
         self.scope(Context::Result)
     }
 
-    /// Compiles an expression over the parameters, `t` and the temperatures `NAME.T` of the nodes and boundaries
-    /// added so far; see [`NetworkBuilder::post_scope`].
-    ///
-    /// # Errors
-    /// Every problem of the text: syntax, unknown names, dimensions.
-    pub fn post_expression(&self, text: &str, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
-        self.expression_in(Context::Result, text, expected)
-    }
-
     /// Adds a limit: `of`, written as `text`, has to stay below or above a value of the same type, which is
     /// constant.
     pub fn limit(

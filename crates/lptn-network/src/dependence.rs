@@ -1,9 +1,10 @@
 //! What a value depends on: constants, time, or temperatures.
 
 use crate::element::{Conductor, Source};
-use crate::id::End;
+use crate::id::{End, Item, SignalId};
 use crate::layout::{Holds, slot};
 use crate::parts::Parts;
+use crate::signal::Course;
 use crate::value::Value;
 
 /// What the slots of a value hold.
@@ -69,11 +70,35 @@ impl Parts {
                 Holds::Link => reads.link = true,
                 Holds::Own => reads.own = true,
                 Holds::Temperature(end) => reads.temperatures.push(end),
-                Holds::Parameter(_) => {}
+                Holds::Parameter(_) | Holds::Heat(_) => {}
             }
         }
         reads.temperatures.sort_unstable();
         reads
+    }
+
+    /// Whether a value of an item reads a signal, through other signals too.
+    pub(crate) fn uses_signal(&self, item: Item, signal: SignalId) -> bool {
+        let signals = self.layout.signals();
+        let mut used = vec![false; signals.len()];
+        let mark = |value: &Value, used: &mut Vec<bool>| {
+            for slot in value.slots() {
+                if let Holds::Signal(id) | Holds::FrozenSignal(id) = self.layout.holds(slot) {
+                    used[id.index()] = true;
+                }
+            }
+        };
+        self.inputs().filter(|(of, _, _)| *of == item).for_each(|(_, _, value)| mark(value, &mut used));
+        if let Item::Limit(id) = item {
+            mark(&self.limits[id.index()].of, &mut used);
+        }
+        // a signal reads only those before it
+        for (i, s) in signals.iter().enumerate().rev() {
+            if let (true, Course::Expression(value)) = (used[i], &s.course) {
+                mark(value, &mut used);
+            }
+        }
+        used[signal.index()]
     }
 
     /// Whether the heat of a conductor is more than a constant times a difference or a stream.

@@ -181,6 +181,11 @@ pub enum BuildErrorKind {
         /// From the first to the last point in s.
         span: f64,
     },
+    /// Points of a signal that are not as many times as values, one at least, finite, the times rising.
+    SignalPoints {
+        /// The signal.
+        signal: SignalId,
+    },
     /// An expression that could not be evaluated.
     Evaluation {
         /// The item.
@@ -257,6 +262,7 @@ impl BuildError {
             K::CapacityUnknown { .. } => "network::capacity_unknown",
             K::FluidUnknown { .. } => "network::fluid_unknown",
             K::PeriodTooShort { .. } => "network::period_too_short",
+            K::SignalPoints { .. } => "network::signal_points",
             K::Evaluation { error, .. } => error.code(),
             K::SelfLink { .. } => "network::self_link",
             K::SourceIntoBoundary { .. } => "network::source_into_boundary",
@@ -294,6 +300,7 @@ impl BuildError {
             K::CapacityUnknown { node, .. } => (Item::Node(node), Field::Capacity),
             K::FluidUnknown { fluid, field } => (Item::Fluid(fluid), field),
             K::PeriodTooShort { signal, .. } => (Item::Signal(signal), Field::Period),
+            K::SignalPoints { signal } => (Item::Signal(signal), Field::Value),
             K::SelfLink { conductor } => (Item::Conductor(conductor), Field::To),
             K::SourceIntoBoundary { source } => (Item::Source(source), Field::Into),
             K::NoCapacity { node } | K::MasslessWithCapacity { node } | K::NoInitialTemperature { node } => {

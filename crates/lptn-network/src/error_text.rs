@@ -92,6 +92,9 @@ impl fmt::Display for OfElements<'_> {
             K::PeriodTooShort { period, span, .. } => {
                 write!(f, "the period of `{name}`, {period} s, is shorter than its points reach, {span} s")
             }
+            K::SignalPoints { .. } => {
+                write!(f, "the points of `{name}` are no rising times with one finite value each")
+            }
             _ => f.write_str(self.0.code()),
         }
     }

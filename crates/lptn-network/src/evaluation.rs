@@ -60,6 +60,18 @@ impl Evaluation {
         }
     }
 
+    /// Sets the heat flows that expressions of results name, in W, in the order of [`crate::Network::named_heats`].
+    pub fn set_heats(&mut self, heats: &[f64]) {
+        for ((_, slot), &value) in self.layout.heats().iter().zip(heats) {
+            self.slots[*slot as usize] = value;
+        }
+    }
+
+    /// The value of a signal in SI units where this stands; NaN where it has none.
+    pub fn signal(&self, id: SignalId) -> f64 {
+        self.slots[self.layout.signal(id) as usize]
+    }
+
     /// Moves to `time` in s; comparisons of `t` and of signals keep the truth they have at `segment` in s.
     pub fn set_time(&mut self, time: f64, segment: f64) {
         self.set(slot::TIME, time);

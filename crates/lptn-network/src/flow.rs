@@ -186,8 +186,10 @@ impl Network {
     /// Names what failed: a signal without a value goes before what it was used for.
     pub(crate) fn failed(&self, item: Item, (field, problem): Failed, scope: &Evaluation) -> InputError {
         let (item, field, problem) = match scope.failure() {
-            Some((id, problem)) => (Item::Signal(id), Field::Value, problem),
-            None => (item, field, problem),
+            Some((id, problem)) if self.parts.uses_signal(item, id) => {
+                (Item::Signal(id), Field::Value, problem)
+            }
+            _ => (item, field, problem),
         };
         InputError { item, field, name: self.name_of(item).to_owned(), problem }
     }
@@ -200,11 +202,10 @@ impl Network {
         from: S,
         to: S,
     ) -> Result<Received<S>, Failed> {
-        let evaluated = |(field, error): (Field, EvalError)| (field, error.into());
         if let Law::Advection(stream) = &conductor.law {
             return self.carried(stream, &mut at, from, to);
         }
-        let conductance = at.conductance(&conductor.law).map_err(evaluated)?;
+        let conductance = at.conductance(&conductor.law)?;
         let field = conductor.law.parts()[0].0;
         if conductance.value() < 0.0 {
             return Err((field, InputProblem::NegativeConductance(conductance.value())));
@@ -223,10 +224,9 @@ impl Network {
         from: S,
         to: S,
     ) -> Result<Received<S>, Failed> {
-        let evaluated = |(field, error): (Field, EvalError)| (field, error.into());
         let not_finite = |field, value: f64| (field, InputProblem::NotFinite(value));
         let (field, value) = stream.parts()[0];
-        let flow = at.get(field, value).map_err(evaluated)?;
+        let flow = at.get(field, value)?;
         if !flow.is_finite() {
             return Err(not_finite(field, flow.value()));
         }
@@ -236,11 +236,11 @@ impl Network {
         let fluid = &self.fluids()[id.index()];
         let flow = match stream {
             Stream::Volume { at: measured, .. } => {
-                let temperature = at.get(Field::FlowTemperature, measured).map_err(evaluated)?;
+                let temperature = at.get(Field::FlowTemperature, measured)?;
                 at.slots[slot::OWN as usize] = temperature;
                 let missing = (Field::Fluid, InputProblem::NoDensity);
                 let density = fluid.density.as_ref().ok_or(missing)?;
-                flow * at.get(Field::Density, density).map_err(evaluated)?
+                flow * at.get(Field::Density, density)?
             }
             _ => flow,
         };
@@ -257,7 +257,7 @@ impl Network {
         };
         let (from, to) = (content(from)?, content(to)?);
         let flow = match curve {
-            None => flow * at.get(Field::SpecificHeat, &fluid.cp).map_err(evaluated)?,
+            None => flow * at.get(Field::SpecificHeat, &fluid.cp)?,
             Some(_) => flow,
         };
         Ok([lptn_laws::advection_from(flow, from, to), lptn_laws::advection_to(flow, from, to)])

@@ -42,6 +42,8 @@ ids! {
     SignalId;
     /// A table of `[table]`.
     TableId;
+    /// A report of the results.
+    ReportId;
 }
 
 /// One end of a conductor.
@@ -90,6 +92,8 @@ pub enum Item {
     Signal(SignalId),
     /// A table.
     Table(TableId),
+    /// A report.
+    Report(ReportId),
 }
 
 impl From<End> for Item {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use lptn_units::EvalError;
+use lptn_units::{EvalError, format_number};
 
 use crate::id::{Field, Item};
 
@@ -44,6 +44,12 @@ pub enum InputProblem {
         /// The last point in s.
         last: f64,
     },
+    /// A signal that is repeated so often that a run would have to stop at this many points.
+    TooManyPoints(f64),
+    /// An emissivity or view factor outside 0 to 1.
+    NotAFraction(f64),
+    /// A quantity that cannot be negative, in SI units.
+    Negative(f64),
     /// A volume flow of a fluid whose density is not known.
     NoDensity,
     /// A fluid outside the temperatures for which its specific heat is known and positive.
@@ -79,6 +85,16 @@ impl InputProblem {
                 Some(format!("begin the signal earlier, or the run at `start = \"{first} s\"`"))
             }
             Self::NegativeConductance(_) => Some("keep it positive: `max(x, 0 [W/K])` with its own unit".into()),
+            Self::TooManyPoints(_) => {
+                Some("give the signal a longer period, or put its mean in its place".into())
+            }
+            Self::NotAFraction(_) => Some("keep it between 0 and 1: `min(max(x, 0), 1)`".into()),
+            Self::Negative(_) => Some("keep it positive: `max(x, 0)` with its unit".into()),
+            Self::OutsideCapacity { .. } | Self::OutsideFluid { .. } => Some(
+                "let the table or expression reach further, or keep the end values of a table with \
+                 `outside = \"hold\"`"
+                    .into(),
+            ),
             Self::NoDensity => Some("add `density` to the fluid, or give a mass flow".into()),
             _ => None,
         }
@@ -93,8 +109,13 @@ impl fmt::Display for InputError {
             InputProblem::BelowAbsoluteZero(value) => write!(f, "is below absolute zero: {value} K"),
             InputProblem::Evaluation(error) => write!(f, "cannot be evaluated: {error}"),
             InputProblem::NegativeConductance(value) => {
-                write!(f, "makes a negative conductance: {value} W/K")
+                write!(f, "makes a negative conductance: {} W/K", format_number(*value))
             }
+            InputProblem::TooManyPoints(count) => {
+                write!(f, "repeats the signal so often that the run would stop at {count:.0} points")
+            }
+            InputProblem::NotAFraction(value) => write!(f, "is not between 0 and 1: {value}"),
+            InputProblem::Negative(value) => write!(f, "is negative: {value} (SI units)"),
             InputProblem::BeforeSignal { time, first } => {
                 write!(f, "is not known at {time} s: its first point is at {first} s")
             }
@@ -106,7 +127,10 @@ impl fmt::Display for InputError {
                 write!(f, "is asked for at {temperature} K, but is known from {from} to {to} K only")
             }
             InputProblem::OutsideCapacity { range: (from, to) } => {
-                write!(f, "is left by the temperature: it is known and positive from {from} to {to} K only")
+                write!(
+                    f,
+                    "is not known where the temperature goes: it is known and positive from {from} to {to} K only"
+                )
             }
         }
     }

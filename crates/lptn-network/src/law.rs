@@ -4,6 +4,7 @@ use lptn_units::{EvalError, Scalar};
 
 use crate::evaluation::Evaluation;
 use crate::id::{Field, FluidId};
+use crate::input_error::InputProblem;
 use crate::layout::slot;
 use crate::value::Value;
 
@@ -248,10 +249,28 @@ impl Law {
     /// The conductance in W/K where `scope` stands; 0 for a stream.
     ///
     /// # Errors
-    /// What the evaluation of an expression reports.
+    /// What the evaluation of an expression reports; a value that its field cannot have counts as no number.
     pub fn conductance(&self, scope: &mut Evaluation) -> Result<f64, EvalError> {
         let (slots, stack) = scope.plain();
-        At { slots, stack }.conductance(self).map_err(|(_, error)| error)
+        At { slots, stack }.conductance(self).map_err(|(_, problem)| match problem {
+            InputProblem::Evaluation(error) => *error,
+            _ => EvalError::NotFinite { value: f64::NAN, span: 0..0 },
+        })
+    }
+}
+
+/// What is wrong with a value of a field that may change during a run.
+fn impossible(field: Field, value: f64) -> Option<InputProblem> {
+    match field {
+        Field::StreamCapacity | Field::Flow => None,
+        Field::Emissivity | Field::ViewFactor if !(0.0..=1.0).contains(&value) => {
+            Some(InputProblem::NotAFraction(value))
+        }
+        Field::Conductance if value < 0.0 => Some(InputProblem::NegativeConductance(value)),
+        Field::Resistance if value < 0.0 => Some(InputProblem::NegativeConductance(value.recip())),
+        Field::FlowTemperature if value < 0.0 => Some(InputProblem::BelowAbsoluteZero(value)),
+        _ if value < 0.0 => Some(InputProblem::Negative(value)),
+        _ => None,
     }
 }
 
@@ -262,12 +281,18 @@ pub(crate) struct At<'a, S> {
 }
 
 impl<S: Scalar> At<'_, S> {
-    pub(crate) fn get(&mut self, field: Field, value: &Value) -> Result<S, (Field, EvalError)> {
-        value.on(self.slots, self.stack).map_err(|error| (field, error))
+    /// A value, which has to be one that its field can have.
+    pub(crate) fn get(&mut self, field: Field, value: &Value) -> Result<S, (Field, InputProblem)> {
+        let evaluated = value.on(self.slots, self.stack);
+        let result = evaluated.map_err(|error| (field, error.into()))?;
+        match impossible(field, result.value()) {
+            Some(problem) => Err((field, problem)),
+            None => Ok(result),
+        }
     }
 
     /// The conductance of a law that is no stream, in W/K, where the slots stand.
-    pub(crate) fn conductance(&mut self, law: &Law) -> Result<S, (Field, EvalError)> {
+    pub(crate) fn conductance(&mut self, law: &Law) -> Result<S, (Field, InputProblem)> {
         match law {
             Law::Resistance(r) => Ok(S::from_f64(1.0) / self.get(Field::Resistance, r)?),
             Law::Conductance(g) => self.get(Field::Conductance, g),
@@ -285,7 +310,7 @@ impl<S: Scalar> At<'_, S> {
         }
     }
 
-    fn conduction(&mut self, conductivity: &Value, shape: &Shape) -> Result<S, (Field, EvalError)> {
+    fn conduction(&mut self, conductivity: &Value, shape: &Shape) -> Result<S, (Field, InputProblem)> {
         let k = self.get(Field::Conductivity, conductivity)?;
         Ok(match shape {
             Shape::Slab { area, thickness } => {
@@ -309,7 +334,7 @@ impl<S: Scalar> At<'_, S> {
     }
 
     /// The exchange area Gr in m^2.
-    pub(crate) fn exchange_area(&mut self, exchange: &Exchange) -> Result<S, (Field, EvalError)> {
+    pub(crate) fn exchange_area(&mut self, exchange: &Exchange) -> Result<S, (Field, InputProblem)> {
         match exchange {
             Exchange::Area(gr) => self.get(Field::Exchange, gr),
             Exchange::Surfaces { emissivity, area, view_factor } => {

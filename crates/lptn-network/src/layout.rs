@@ -1,6 +1,7 @@
 //! Where expressions find their numbers: one slot for each thing that a name can mean.
 
 use crate::id::{BoundaryId, End, NodeId, ParameterId, SignalId};
+use crate::result::HeatOf;
 use crate::signal::Signal;
 
 /// Slots that every expression of a network shares. Those of parameters, signals, nodes and boundaries follow in
@@ -44,6 +45,8 @@ pub(crate) enum Holds {
     FrozenSignal(SignalId),
     /// The temperature of a node or boundary.
     Temperature(End),
+    /// A heat flow, in results only.
+    Heat(HeatOf),
 }
 
 /// The slots of a network.
@@ -56,6 +59,8 @@ pub(crate) struct Layout {
     signals: Vec<Signal>,
     nodes: Vec<u32>,
     boundaries: Vec<u32>,
+    /// The heat flows that expressions of results name, with their slots.
+    heats: Vec<(HeatOf, u32)>,
 }
 
 impl Default for Layout {
@@ -70,6 +75,7 @@ impl Default for Layout {
             signals: vec![],
             nodes: vec![],
             boundaries: vec![],
+            heats: vec![],
         }
     }
 }
@@ -107,6 +113,22 @@ impl Layout {
     pub(crate) fn add_boundary(&mut self, id: BoundaryId) {
         let slot = self.push(Holds::Temperature(End::Boundary(id)));
         self.boundaries.push(slot);
+    }
+
+    /// Gives a heat flow a slot, unless it has one.
+    pub(crate) fn add_heat(&mut self, heat: HeatOf) {
+        if self.heat(heat).is_none() {
+            let slot = self.push(Holds::Heat(heat));
+            self.heats.push((heat, slot));
+        }
+    }
+
+    pub(crate) fn heat(&self, heat: HeatOf) -> Option<u32> {
+        self.heats.iter().find(|(known, _)| *known == heat).map(|(_, slot)| *slot)
+    }
+
+    pub(crate) fn heats(&self) -> &[(HeatOf, u32)] {
+        &self.heats
     }
 
     pub(crate) fn len(&self) -> usize {

@@ -29,6 +29,7 @@ mod numbers;
 mod output;
 mod parameters;
 mod parts;
+mod result;
 mod scope;
 mod signal;
 mod stream;
@@ -45,7 +46,7 @@ pub use flow::{Flow, Received};
 pub use fluid::Fluid;
 pub use id::{
     BoundaryId, CapacitorId, ConductorId, End, Field, FluidId, Item, LimitId, MaterialId, NodeId,
-    ParameterId, SignalId, SourceId, TableId,
+    ParameterId, ReportId, SignalId, SourceId, TableId,
 };
 pub use input_error::{InputError, InputProblem};
 pub use law::{Emissivity, Exchange, Law, Shape, Stream};
@@ -56,6 +57,7 @@ pub use names::{UnknownName, list_of_names};
 pub use network::Network;
 pub use output::OutputTimes;
 pub use parameters::{ParameterError, Parameters};
+pub use result::{HeatOf, Report};
 pub use scope::{Context, NetworkScope};
 pub use signal::{AfterEnd, Course, Join, Signal};
 pub use stream::Passing;

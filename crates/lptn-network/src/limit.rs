@@ -42,7 +42,7 @@ pub enum Severity {
 pub struct Limit {
     /// Its name.
     pub name: String,
-    /// The quantity: an expression over parameters, `t` and the temperatures of nodes and boundaries.
+    /// The quantity: an expression over parameters, `t`, signals, tables, temperatures and heat flows of the results.
     pub of: Value,
     /// The type of `of` and of `value`.
     pub ty: Type,
@@ -91,7 +91,7 @@ impl Network {
         })
     }
 
-    fn number(
+    pub(crate) fn number(
         &self,
         item: Item,
         field: Field,

@@ -13,6 +13,7 @@ use crate::id::{
 use crate::law::{At, Law, Stream};
 use crate::layout::slot;
 use crate::parts::Parts;
+use crate::thermal::Curves;
 use crate::value::Value;
 
 /// What the parameters determine; checked to be physical.
@@ -135,9 +136,10 @@ impl Work<'_> {
     fn enthalpies(&mut self, initial: &[f64]) -> Vec<Option<Arc<Enthalpy>>> {
         let varying = self.parts.varying_capacities();
         let mut curves = Vec::with_capacity(varying.len());
+        let mut known = Curves::new();
         for (i, varies) in varying.into_iter().enumerate() {
             let id = NodeId::from_len(i);
-            let curve = varies.then(|| self.parts.enthalpy_of(id, initial[i], &mut self.scope));
+            let curve = varies.then(|| self.parts.enthalpy_of(id, initial[i], &mut self.scope, &mut known));
             curves.push(curve.and_then(|curve| match curve {
                 Ok(curve) => Some(curve),
                 Err(kind) => {

@@ -12,6 +12,7 @@ use crate::id::{BoundaryId, ConductorId, Field, Item, ParameterId, SignalId, Sou
 use crate::layout::Layout;
 use crate::limit::Limit;
 use crate::material::Material;
+use crate::result::Report;
 use crate::signal::Course;
 use crate::value::Value;
 
@@ -26,6 +27,7 @@ pub(crate) struct Parts {
     pub(crate) conductors: Vec<Conductor>,
     pub(crate) sources: Vec<Source>,
     pub(crate) limits: Vec<Limit>,
+    pub(crate) reports: Vec<Report>,
     pub(crate) materials: Vec<Material>,
     pub(crate) fluids: Vec<Fluid>,
     /// Tables by name, in the order of addition.
@@ -57,6 +59,7 @@ impl Parts {
             Item::Fluid(id) => &self.fluids[id.index()].name,
             Item::Signal(id) => &self.layout.signals()[id.index()].name,
             Item::Table(id) => &self.tables[id.index()].0,
+            Item::Report(id) => &self.reports[id.index()].name,
         }
     }
 

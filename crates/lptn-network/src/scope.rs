@@ -17,7 +17,7 @@ pub enum Context {
     Source,
     /// A conductor: `T_from`, `T_to`, `T_mean`, `dT` and `NAME.T` too.
     Link,
-    /// Results: `NAME.T` too.
+    /// Results: `NAME.T` and the heat flows `NAME.Q`, `NAME.Q_from`, `NAME.Q_to`, `NAME.P` too.
     Result,
 }
 
@@ -59,6 +59,13 @@ impl<'a> NetworkScope<'a> {
         Some(Symbol { slot, ty: Type::ABSOLUTE_TEMPERATURE, in_comparison: None })
     }
 
+    /// A heat flow that has a place: see [`crate::NetworkBuilder::name_heats`].
+    fn heat(self, name: &str) -> Option<Symbol> {
+        let heat = self.parts.heat(name).filter(|_| self.context == Context::Result)?;
+        let slot = self.parts.layout.heat(heat)?;
+        Some(Symbol { slot, ty: Type::of(Dimension::POWER), in_comparison: None })
+    }
+
     fn value(self, name: &str) -> Option<Symbol> {
         let layout = &self.parts.layout;
         match *self.parts.value_names.get(name)? {
@@ -81,8 +88,9 @@ impl Scope for NetworkScope<'_> {
             let ty = Type::of(Dimension::TIME);
             return Some(Symbol { slot: slot::TIME, ty, in_comparison: Some(slot::SEGMENT) });
         }
-        match name.strip_suffix(".T") {
-            Some(name) => self.temperature(name),
+        match name.rsplit_once('.') {
+            Some((name, "T")) => self.temperature(name),
+            Some(_) => self.heat(name),
             None => self.local(name).or_else(|| self.value(name)),
         }
     }
@@ -97,6 +105,9 @@ impl Scope for NetworkScope<'_> {
             let nodes = self.parts.nodes.iter().map(|node| &node.name);
             let boundaries = self.parts.boundaries.iter().map(|boundary| &boundary.name);
             names.extend(nodes.chain(boundaries).map(|name| format!("{name}.T")));
+        }
+        if self.context == Context::Result {
+            names.extend(self.parts.heat_names());
         }
         names
     }

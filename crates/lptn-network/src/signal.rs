@@ -45,6 +45,9 @@ pub enum Course {
     Expression(Value),
 }
 
+/// The most points of one signal at which a run stops.
+const MOST_POINTS: f64 = 5e6;
+
 /// What follows the last point of a signal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AfterEnd {
@@ -107,25 +110,57 @@ impl Course {
     /// The start of the repetition that `segment` lies in, less that of the first; 0 without repetition.
     fn offset(&self, segment: f64) -> f64 {
         match self.after() {
-            AfterEnd::Repeat(period) => ((segment - self.span().0) / period).floor() * period,
+            AfterEnd::Repeat(period) => self.repetition(segment, period) * period,
             AfterEnd::Error | AfterEnd::Hold => 0.0,
         }
     }
 
-    /// The times strictly inside `(start, stop)` at which it may bend or jump.
-    pub(crate) fn bends(&self, start: f64, stop: f64, out: &mut Vec<f64>) {
-        let mut inside = |time: f64| {
-            if time > start && time < stop {
-                out.push(time);
+    /// How many repetitions are over at a time. There is none before the first.
+    fn repetition(&self, time: f64, period: f64) -> f64 {
+        ((time - self.span().0) / period).floor().max(0.0)
+    }
+
+    /// Adds the points that lie strictly inside `(start, stop)`. Where the signal is smooth between its ends and only
+    /// `bends` are asked for, these are the ends.
+    ///
+    /// # Errors
+    /// How many there would be, if that is more than [`MOST_POINTS`].
+    pub(crate) fn points(
+        &self,
+        (start, stop): (f64, f64),
+        bends: bool,
+        out: &mut Vec<f64>,
+    ) -> Result<(), f64> {
+        let (first, last) = self.span();
+        let ends = [first, last];
+        let times =
+            if bends && !self.is_straight() && !self.times().is_empty() { &ends } else { self.times() };
+        let (from, to, period) = match self.after() {
+            AfterEnd::Repeat(p) => (self.repetition(start, p), self.repetition(stop, p), p),
+            AfterEnd::Error | AfterEnd::Hold => (0.0, 0.0, 0.0),
+        };
+        let count = (to - from + 1.0) * times.len() as f64;
+        if count.is_nan() || count > MOST_POINTS {
+            return Err(count);
+        }
+        let mut k = from;
+        while k <= to {
+            let shifted = times.iter().map(|time| time + k * period);
+            out.extend(shifted.filter(|time| *time > start && *time < stop));
+            k += 1.0;
+        }
+        Ok(())
+    }
+
+    /// Whether its points can be read: as many values as times, one at least, all numbers, the times rising.
+    fn is_sound(&self) -> bool {
+        match self {
+            Self::Steps { times, values, .. } => {
+                let rises = times.windows(2).all(|pair| pair[0] < pair[1]);
+                let numbers = times.iter().chain(values).all(|x| x.is_finite());
+                !times.is_empty() && times.len() == values.len() && rises && numbers
             }
-        };
-        let AfterEnd::Repeat(period) = self.after() else {
-            return self.times().iter().copied().for_each(inside);
-        };
-        let mut offset = self.offset(start);
-        while self.span().0 + offset < stop {
-            self.times().iter().for_each(|time| inside(time + offset));
-            offset += period;
+            Self::Curve { .. } | Self::Expression(_) => true,
         }
     }
 }
@@ -169,6 +204,9 @@ impl Signal {
 impl NetworkBuilder {
     /// Adds a signal. Expressions that are compiled afterwards may use its name.
     pub fn signal(&mut self, name: &str, ty: Type, course: Course) -> SignalId {
+        let sound = course.is_sound();
+        let constant = Course::Expression(Value::Constant(f64::NAN));
+        let course = if sound { course } else { constant }; // nothing reads it: the network is refused
         let layout = Arc::make_mut(&mut self.parts.layout);
         let id = layout.add_signal(Signal { name: name.to_owned(), ty, course: course.clone() });
         if let AfterEnd::Repeat(period) = course.after() {
@@ -177,6 +215,9 @@ impl NetworkBuilder {
             if !covers {
                 self.error(name, BuildErrorKind::PeriodTooShort { signal: id, period, span: last - first });
             }
+        }
+        if !sound {
+            self.error(name, BuildErrorKind::SignalPoints { signal: id });
         }
         self.register_value(name, Item::Signal(id));
         id

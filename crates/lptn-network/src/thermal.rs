@@ -1,5 +1,6 @@
 //! Heat contents of nodes and fluids: capacities that depend on temperature.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::enthalpy::{Enthalpy, Latent};
@@ -46,6 +47,34 @@ fn edges(value: &Value, scope: &mut Evaluation) -> Vec<f64> {
     edges
 }
 
+/// Heat contents by what makes their form.
+pub(crate) type Curves = BTreeMap<String, Enthalpy>;
+
+/// A value as a product of others.
+fn factors(value: &Value) -> Vec<&Value> {
+    match value {
+        Value::Product(all) => all.iter().collect(),
+        one => vec![one],
+    }
+}
+
+fn product(factors: &[&Value], temperature: f64, scope: &mut Evaluation) -> Option<f64> {
+    factors.iter().try_fold(1.0, |product, factor| Some(product * at(factor, temperature, scope)?))
+}
+
+/// What two curves have in common that are the same.
+fn form(parts: &[Vec<&Value>], latent: &[Latent]) -> String {
+    let of = |value: &&Value| match value {
+        Value::Constant(number) => format!("{:x}", number.to_bits()),
+        other => {
+            let texts: Vec<&str> = other.programs().into_iter().map(|program| program.text()).collect();
+            format!("{texts:?} {:?}", other.slots())
+        }
+    };
+    let parts: Vec<Vec<String>> = parts.iter().map(|part| part.iter().map(of).collect()).collect();
+    format!("{parts:?} {latent:?}")
+}
+
 impl Parts {
     /// The capacities that make up a node: its own and those of its capacitors, with their lumps.
     fn capacities_of(&self, id: NodeId) -> Vec<(&Value, Option<&Lump>)> {
@@ -72,25 +101,37 @@ impl Parts {
         varying
     }
 
-    /// The heat content of a node around its start in K.
+    /// The heat content of a node around its start in K. Curves of one form are made once and kept in `known`.
     pub(crate) fn enthalpy_of(
         &self,
         id: NodeId,
         start: f64,
         scope: &mut Evaluation,
+        known: &mut Curves,
     ) -> Result<Arc<Enthalpy>, BuildErrorKind> {
         let parts = self.capacities_of(id);
-        let mut latent = Vec::new();
-        let mut bends = Vec::new();
-        for (value, lump) in &parts {
-            bends.extend(edges(value, scope));
-            latent.extend(lump.and_then(|lump| self.latent(lump, scope)));
+        let mut factors: Vec<Vec<&Value>> = parts.iter().map(|(value, _)| factors(value)).collect();
+        // a single part is a size times a property: the curve is that of the property
+        let mut scale = 1.0;
+        if let [only] = &mut factors[..] {
+            let sizes = only.extract_if(.., |factor| !self.reads(factor).own);
+            scale = sizes.map(|size| size.at(scope).unwrap_or(f64::NAN)).product();
         }
+        let mut latent: Vec<Latent> =
+            parts.iter().filter_map(|(_, lump)| self.latent((*lump)?, scope)).collect();
+        latent.iter_mut().for_each(|l| l.heat /= scale);
+        let form = form(&factors, &latent);
+        let shared = known.get(&form).and_then(|curve| curve.rescaled(scale, start));
+        if let Some(curve) = shared {
+            return Ok(Arc::new(curve));
+        }
+        let bends: Vec<f64> = parts.iter().flat_map(|(value, _)| edges(value, scope)).collect();
         let mut capacity =
-            |t: f64| parts.iter().try_fold(0.0, |sum, (value, _)| Some(sum + at(value, t, scope)?));
-        Enthalpy::new(&mut capacity, start, &bends, &latent)
-            .map(Arc::new)
-            .ok_or(BuildErrorKind::CapacityUnknown { node: id, temperature: start })
+            |t: f64| factors.iter().try_fold(0.0, |sum, part| Some(sum + product(part, t, scope)?));
+        let curve = Enthalpy::new(&mut capacity, start, &bends, &latent);
+        let scaled = curve.as_ref().and_then(|curve| curve.rescaled(scale, start));
+        known.extend(curve.map(|curve| (form, curve)));
+        scaled.map(Arc::new).ok_or(BuildErrorKind::CapacityUnknown { node: id, temperature: start })
     }
 
     fn latent(&self, lump: &Lump, scope: &mut Evaluation) -> Option<Latent> {

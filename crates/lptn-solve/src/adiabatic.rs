@@ -1,14 +1,17 @@
 //! Nodes that no path leads from to a boundary: they keep their energy, which tells where they come to rest.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{ConductorKind, End, Network, NodeId};
+use lptn_network::{ConductorKind, End, Flow, Network, NodeId};
 
 use crate::error::SteadyError;
 use crate::newton::{Newton, NewtonError};
 use crate::unsolved::Unsolved;
 
 /// Rounds of bringing the energy of every island to what it was at the start; a linear network takes two.
-const ROUNDS: usize = 60;
+const ROUNDS: usize = 250;
+
+/// Rounds after which the interval that holds the solution is halved each time.
+const QUICK: usize = 40;
 
 /// What remains, in K of a uniform rise.
 const REST: f64 = 1e-10;
@@ -21,24 +24,21 @@ pub(crate) struct Island {
     pub(crate) nodes: Vec<NodeId>,
     /// The unknown that is held while the others are solved for.
     pinned: usize,
-    /// Sum of the capacities at the start in J/K.
-    capacity: f64,
 }
 
 impl Island {
-    /// The islands of a system that neither a stream nor a source that depends on temperatures reaches.
+    /// The islands of a system that neither a source that depends on temperatures nor a stream reaches, but for constant
+    /// streams that go round and round.
     pub(crate) fn all_of(system: &ThermalSystem) -> Vec<Self> {
-        let network = system.network();
-        let keeps = |nodes: &Vec<NodeId>| !nodes.iter().any(|&id| exchanges(network, id));
-        let islands = network.ungrounded().into_iter().filter(keeps);
+        let exchanges = exchanges(system.network());
+        let keeps = |nodes: &Vec<NodeId>| !nodes.iter().any(|&id| exchanges[id.index()]);
+        let islands = system.network().ungrounded().into_iter().filter(keeps);
         islands.filter_map(|nodes| Self::new(system, nodes)).collect()
     }
 
     fn new(system: &ThermalSystem, nodes: Vec<NodeId>) -> Option<Self> {
-        let network = system.network();
         let pinned = system.states().iter().position(|id| nodes.binary_search(id).is_ok())?;
-        let capacity = nodes.iter().map(|&id| network.capacity(id)).sum();
-        Some(Self { nodes, pinned, capacity })
+        Some(Self { nodes, pinned })
     }
 
     /// Refuses an island that is heated for ever.
@@ -61,30 +61,101 @@ impl Island {
         Err(SteadyError::NoBoundary { nodes: self.nodes.clone(), names, heat })
     }
 
-    /// The energy over that at the start in J.
-    fn energy(&self, system: &ThermalSystem, temperatures: &[f64]) -> f64 {
+    /// The states in it, with their places among the unknowns.
+    fn states(&self, system: &ThermalSystem) -> Vec<(usize, NodeId)> {
+        let inside = |(_, id): &(usize, NodeId)| self.nodes.binary_search(id).is_ok();
+        system.states().iter().copied().enumerate().filter(inside).collect()
+    }
+
+    /// The energy over that at the start in J, and the capacity in J/K; infinite with the sign of the side on which a
+    /// node leaves the temperatures for which its capacity is known.
+    fn energy(&self, system: &ThermalSystem, temperatures: &[f64]) -> (f64, f64) {
         let network = system.network();
-        let states = system.states().iter().zip(temperatures);
-        let inside = states.filter(|(id, _)| self.nodes.binary_search(id).is_ok());
-        let stored = inside.map(|(&id, &t)| match network.enthalpy(id) {
-            Some(curve) => curve.heat(t).unwrap_or(f64::NAN),
-            None => network.capacity(id) * (t - network.initial(id)),
+        let stored = self.states(system).into_iter().map(|(i, id)| {
+            let (t, constant) = (temperatures[i], network.capacity(id));
+            match network.enthalpy(id) {
+                None => (constant * (t - network.initial(id)), constant),
+                Some(curve) => match (curve.heat(t), curve.capacity(t)) {
+                    (Some(heat), Some(capacity)) => (heat, capacity),
+                    _ if t < curve.range().0 => (f64::NEG_INFINITY, constant),
+                    _ => (f64::INFINITY, constant),
+                },
+            }
         });
-        stored.sum()
+        stored.fold((0.0, 0.0), |(heat, capacity), (h, c)| (heat + h, capacity + c))
+    }
+
+    /// The first node that is outside the temperatures for which its capacity is known.
+    fn outside(&self, system: &ThermalSystem, temperatures: &[f64]) -> Option<NewtonError> {
+        let network = system.network();
+        self.states(system).into_iter().find_map(|(i, id)| {
+            let curve = network.enthalpy(id).filter(|curve| curve.heat(temperatures[i]).is_none())?;
+            Some(NewtonError::Input(crate::unfold::outside(system, i, curve)))
+        })
+    }
+
+    /// Moves all its nodes by as much, but none below a tenth of its temperature.
+    fn shift(&self, system: &ThermalSystem, temperatures: &mut [f64], rise: f64) {
+        let inside = system.unknowns().iter().zip(temperatures);
+        let inside = inside.filter(|(id, _)| self.nodes.binary_search(id).is_ok());
+        inside.for_each(|(_, t)| *t = (*t + rise).max(0.1 * *t));
     }
 }
 
-/// Whether a node takes part in anything that its energy does not account for.
-fn exchanges(network: &Network, id: NodeId) -> bool {
-    let end = End::Node(id);
-    let stream = network
-        .conductors()
-        .iter()
-        .any(|c| c.kind == ConductorKind::Advection && (c.from == end || c.to == end));
-    let heated = network.sources().iter().zip(network.source_ids()).any(|(source, k)| {
-        !network.source_variables(k).is_empty() && source.into.iter().any(|(node, _)| *node == id)
-    });
-    stream || heated
+/// The interval in which the temperature that is held must lie, in K.
+#[derive(Clone, Copy)]
+struct Interval {
+    low: f64,
+    high: f64,
+}
+
+impl Interval {
+    /// Where to look next: where the capacity points, unless that is outside or takes too long.
+    fn next(&mut self, held: f64, (heat, capacity): (f64, f64), round: usize) -> f64 {
+        if heat > 0.0 {
+            self.high = self.high.min(held)
+        } else {
+            self.low = self.low.max(held)
+        }
+        let next = held - heat / capacity;
+        let half = if self.high.is_finite() { 0.5 * (self.low + self.high) } else { 2.0 * held };
+        if round < QUICK && next > self.low && next < self.high { next } else { half }
+    }
+
+    /// Whether nothing is left of it: there the heat content jumps, as where a node melts.
+    fn is_closed(self) -> bool {
+        self.high.is_finite() && self.high - self.low <= 4.0 * f64::EPSILON * self.high
+    }
+}
+
+/// Which nodes take part in something that the energy of their island does not account for.
+fn exchanges(network: &Network) -> Vec<bool> {
+    let mut exchanges = vec![false; network.nodes().len()];
+    // what flows in and out of each node, in W/K
+    let mut flows = vec![(0.0, 0.0); network.nodes().len()];
+    for (conductor, id) in network.conductors().iter().zip(network.conductor_ids()) {
+        if conductor.kind != ConductorKind::Advection {
+            continue;
+        }
+        let (End::Node(from), End::Node(to)) = (conductor.from, conductor.to) else { continue };
+        match network.flow(id) {
+            Flow::Stream(rate) => {
+                let (from, to) = if rate < 0.0 { (to, from) } else { (from, to) };
+                flows[from.index()].1 += rate.abs();
+                flows[to.index()].0 += rate.abs();
+            }
+            _ => [from, to].into_iter().for_each(|node| exchanges[node.index()] = true),
+        }
+    }
+    for (exchanges, (inward, outward)) in exchanges.iter_mut().zip(flows) {
+        *exchanges |= f64::abs(inward - outward) > BALANCED * (inward + outward);
+    }
+    for (source, id) in network.sources().iter().zip(network.source_ids()) {
+        if !network.source_variables(id).is_empty() {
+            source.into.iter().for_each(|(node, _)| exchanges[node.index()] = true);
+        }
+    }
+    exchanges
 }
 
 /// Solves the balances of a system with islands, whose energies are those of the start.
@@ -94,29 +165,49 @@ pub(crate) fn solve(
     islands: &[Island],
     temperatures: &mut [f64],
 ) -> Result<(), SteadyError> {
-    let unsolved = |error| SteadyError::Unsolved(Unsolved::new(system, error));
     islands.iter().try_for_each(|island| island.check(system, work))?;
+    search(system, work, islands, temperatures)
+        .map_err(|error| SteadyError::Unsolved(Unsolved::new(system, error)))
+}
+
+fn search(
+    system: &ThermalSystem,
+    work: &mut Workspace,
+    islands: &[Island],
+    temperatures: &mut [f64],
+) -> Result<(), NewtonError> {
     let pinned: Vec<usize> = islands.iter().map(|island| island.pinned).collect();
     let free: Vec<usize> = (0..temperatures.len()).filter(|i| !pinned.contains(i)).collect();
-    let mut newton = if free.is_empty() { None } else { Some(Newton::new(system, free).map_err(unsolved)?) };
-    let mut rise = f64::INFINITY;
-    for _ in 0..ROUNDS {
+    let mut newton = if free.is_empty() { None } else { Some(Newton::new(system, free)?) };
+    let mut intervals = vec![Interval { low: 0.0, high: f64::INFINITY }; islands.len()];
+    let mut change = 0.0;
+    for round in 0..ROUNDS {
         if let Some(newton) = &mut newton {
-            newton.solve(work, temperatures).map_err(unsolved)?;
+            newton.solve(work, temperatures)?;
         }
-        rise = 0.0;
-        for island in islands {
-            let missing = island.energy(system, temperatures) / island.capacity;
-            rise = f64::max(rise, missing.abs());
-            let inside = system.unknowns().iter().zip(&mut *temperatures);
-            inside
-                .filter(|(id, _)| island.nodes.binary_search(id).is_ok())
-                .for_each(|(_, t)| *t = (*t - missing).max(0.1 * *t));
+        change = 0.0;
+        for (island, interval) in islands.iter().zip(&mut intervals) {
+            let energy = island.energy(system, temperatures);
+            let held = temperatures[island.pinned];
+            let rise = energy.0 / energy.1;
+            let next = interval.next(held, energy, round);
+            let target = match (rise.abs() <= REST, interval.is_closed()) {
+                (true, _) => held - rise,
+                (false, true) => held,
+                (false, false) => next,
+            };
+            change = f64::max(change, if rise.abs() <= REST { 0.0 } else { (target - held).abs() });
+            island.shift(system, temperatures, target - held);
         }
-        if rise <= REST {
-            return Ok(());
+        if change <= 0.0 {
+            let outside = islands.iter().find_map(|island| island.outside(system, temperatures));
+            return match (outside, newton.map(|mut newton| newton.unstable(work, temperatures))) {
+                (Some(outside), _) => Err(outside),
+                (None, Some(Ok(Some(unknown)))) => Err(NewtonError::Unstable { unknown }),
+                _ => Ok(()),
+            };
         }
     }
     let unknown = islands.first().map_or(0, |island| island.pinned);
-    Err(unsolved(NewtonError::Stalled { unknown, change: rise }))
+    Err(NewtonError::Stalled { unknown, change })
 }

@@ -160,6 +160,15 @@ pub enum SettingsError {
     Tolerance(f64),
     /// An output time is outside the run or not after the one before it.
     OutputTime(f64),
+    /// A window is not inside the run, or its end not after its beginning.
+    Window {
+        /// Its name.
+        name: String,
+        /// Its beginning in s.
+        from: f64,
+        /// Its end in s.
+        to: f64,
+    },
     /// More temperatures would be kept than fit in memory.
     TooMuch {
         /// Number of rows.
@@ -180,6 +189,20 @@ impl TransientError {
                 unsolved.input()
             }
             _ => None,
+        }
+    }
+
+    /// The name of the node at which it failed, if that is the reason.
+    pub fn node(&self) -> Option<&str> {
+        let Self::Stopped { reason, .. } = self else {
+            let Self::Start(unsolved) = self else { return None };
+            return Some(&unsolved.node);
+        };
+        match reason {
+            StopReason::Unsolved(unsolved) => Some(&unsolved.node),
+            StopReason::BelowAbsoluteZero { name, .. } => Some(name),
+            StopReason::Integrator { node, .. } => node.as_deref(),
+            StopReason::Input(_) => None,
         }
     }
 
@@ -258,6 +281,9 @@ impl fmt::Display for SettingsError {
                 write!(f, "a run must stop after it starts, got {start} s to {stop} s")
             }
             Self::Tolerance(value) => write!(f, "the tolerance must be a positive number of K, got {value}"),
+            Self::Window { name, from, to } => {
+                write!(f, "window `{name}` from {from} s to {to} s is not a part of the run")
+            }
             Self::OutputTime(time) => {
                 write!(f, "the output time {time} s is outside the run or not after the one before it")
             }

@@ -3,6 +3,7 @@
 use lptn_assembly::{Form, ThermalSystem, Workspace};
 use lptn_integrate::{OdeSystem, Pattern, Retry};
 
+use crate::balance::Books;
 use crate::newton::NewtonError;
 use crate::unfold::Unfold;
 
@@ -13,21 +14,24 @@ pub(crate) struct Heat<'a> {
     work: Workspace,
     unfold: Unfold<'a>,
     flow: Vec<f64>,
+    books: Books,
     /// Which Jacobian is written.
     form: Form,
     /// Comparisons of `t` keep the truth they have here while a segment lasts.
     pub(crate) segment: f64,
     /// Why the heat could not be had.
     pub(crate) failure: Option<NewtonError>,
+    /// The same, overcome by a smaller step or not, until someone takes it.
+    pub(crate) refused: Option<NewtonError>,
 }
 
 impl<'a> Heat<'a> {
-    pub(crate) fn new(system: &'a ThermalSystem, segment: f64) -> Result<Self, NewtonError> {
+    pub(crate) fn new(system: &'a ThermalSystem, segment: f64, books: Books) -> Result<Self, NewtonError> {
         let pattern = Pattern::from_symbolic(system.pattern().symbolic());
         let form = if system.is_symmetric() { Form::Symmetric } else { Form::Exact };
         let flow = vec![0.0; system.unknowns().len()];
         let (work, unfold) = (system.workspace(), Unfold::new(system)?);
-        Ok(Self { system, pattern, work, unfold, flow, form, segment, failure: None })
+        Ok(Self { system, pattern, work, unfold, flow, books, form, segment, failure: None, refused: None })
     }
 
     /// Reads the inputs and takes the state; what fails may be the guess of a step that is too long.
@@ -39,6 +43,7 @@ impl<'a> Heat<'a> {
     }
 
     fn failed(&mut self, error: NewtonError, retry: Retry) -> Retry {
+        self.refused = Some(error.clone());
         self.failure = Some(error);
         retry
     }
@@ -93,12 +98,12 @@ impl OdeSystem for Heat<'_> {
     }
 
     fn quadrature_count(&self) -> usize {
-        crate::ledger::integrals(self.system)
+        self.books.integrals(self.system)
     }
 
     fn quadrature(&mut self, time: f64, y: &[f64], q: &mut [f64]) -> Result<(), Retry> {
         self.place(time, y)?;
-        let heat = crate::ledger::integrands(self.system, &mut self.work, self.unfold.last(), q);
+        let heat = self.books.integrands(self.system, &mut self.work, self.unfold.last(), q);
         heat.map_err(|error| self.failed(NewtonError::Input(error), Retry::SmallerStep))
     }
 }

@@ -7,6 +7,7 @@
 //! Units: SI, temperatures in K, heat positive into a node and from `from` to `to`.
 
 mod adiabatic;
+mod balance;
 mod conductances;
 mod curved;
 mod error;
@@ -18,9 +19,13 @@ mod modes;
 #[cfg(test)]
 mod mutants;
 mod newton;
+mod quadrature;
+mod quantity;
+mod reading;
 mod recorder;
 mod settings;
 mod solution;
+mod stability;
 mod stateless;
 mod steady;
 mod stiffness;
@@ -32,7 +37,9 @@ mod unfold;
 mod unsolved;
 mod verification;
 mod watch;
+mod window;
 
+pub use balance::{Balance, Term};
 pub use conductances::Conductances;
 pub use error::{SettingsError, SteadyError, StopReason, TransientError};
 pub use exact::{Difference, ExactError, ExactSolution};
@@ -51,3 +58,4 @@ pub use unsolved::{Unsolved, UnsolvedReason};
 pub use verification::{Comparison, LEAST_TOLERANCE, NoReference, Reference, Verification, allowed_error};
 
 pub use watch::{Seen, Watch, top};
+pub use window::{ColumnSeen, Window, WindowSeen};

@@ -1,9 +1,10 @@
 //! Limits in results: how near each came to being broken, and when it first was.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{Evaluation, InputError, LimitId, Network};
+use lptn_network::{InputError, LimitId, Network};
 use lptn_units::Dimension;
 
+use crate::reading::Reading;
 use crate::steady::SteadyState;
 use crate::watch::top;
 
@@ -31,7 +32,7 @@ type Point = (f64, f64);
 /// All limits of a network during a run.
 pub(crate) struct LimitWatch<'a> {
     network: &'a Network,
-    scope: Evaluation,
+    reading: Reading<'a>,
     seen: Vec<LimitSeen>,
     /// For each limit the last point, then those of the present step.
     points: Vec<Vec<Point>>,
@@ -40,11 +41,12 @@ pub(crate) struct LimitWatch<'a> {
 }
 
 impl<'a> LimitWatch<'a> {
-    pub(crate) fn new(network: &'a Network) -> Self {
+    pub(crate) fn new(system: &'a ThermalSystem) -> Self {
+        let network = system.network();
         let nothing = |limit| LimitSeen { limit, margin: f64::INFINITY, worst_at: f64::NAN, broken_at: None };
         Self {
             network,
-            scope: network.evaluation(),
+            reading: Reading::new(system),
             seen: network.limit_ids().map(nothing).collect(),
             points: vec![Vec::new(); network.limits().len()],
             first: vec![None; network.limits().len()],
@@ -60,14 +62,9 @@ impl<'a> LimitWatch<'a> {
     }
 
     /// Begins a segment: what comes before it is no part of a curve that goes on.
-    pub(crate) fn enter(
-        &mut self,
-        system: &ThermalSystem,
-        work: &Workspace,
-        at: (f64, f64),
-    ) -> Result<(), InputError> {
+    pub(crate) fn enter(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
         self.points.iter_mut().for_each(Vec::clear);
-        self.sample(system, work, at)?;
+        self.sample(work, at)?;
         for (first, points) in self.first.iter_mut().zip(&self.points) {
             *first = first.or(points.first().copied());
         }
@@ -76,14 +73,13 @@ impl<'a> LimitWatch<'a> {
     }
 
     /// Adds a point for each limit; `at` is the time and a time inside the segment.
-    pub(crate) fn sample(
-        &mut self,
-        system: &ThermalSystem,
-        work: &Workspace,
-        at: (f64, f64),
-    ) -> Result<(), InputError> {
+    pub(crate) fn sample(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
+        if self.is_empty() {
+            return Ok(());
+        }
+        self.reading.place(work, at)?;
         for id in self.ids() {
-            let margin = self.margin(id, (system, work), at)?;
+            let margin = self.network.limit_margin(id, &mut self.reading.scope)?;
             self.points[id.index()].push((at.0, margin));
         }
         Ok(())
@@ -93,12 +89,11 @@ impl<'a> LimitWatch<'a> {
     pub(crate) fn margin(
         &mut self,
         id: LimitId,
-        (system, work): (&ThermalSystem, &Workspace),
-        (time, segment): (f64, f64),
+        work: &mut Workspace,
+        at: (f64, f64),
     ) -> Result<f64, InputError> {
-        self.scope.set_time(time, segment);
-        self.scope.set_temperatures(system.node_temperatures(work), system.boundary_temperatures(work));
-        self.network.limit_margin(id, &mut self.scope)
+        self.reading.place(work, at)?;
+        self.network.limit_margin(id, &mut self.reading.scope)
     }
 
     /// The times between the points at which a limit may be nearest to being broken.
@@ -170,9 +165,8 @@ impl SteadyState {
     /// # Errors
     /// [`InputError`] if a limit cannot be evaluated.
     pub fn limit_margins(&self, network: &Network, time: f64) -> Result<Vec<f64>, InputError> {
-        let mut scope = network.evaluation();
+        let mut scope = self.evaluation(network);
         scope.set_time(time, time);
-        scope.set_temperatures(&self.temperatures, &self.boundary_temperatures);
         let margin = |id: LimitId| {
             let margin = network.limit_margin(id, &mut scope)?;
             let rounding = is_temperature(network, id) && (-ROUNDING..0.0).contains(&margin);

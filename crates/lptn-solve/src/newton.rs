@@ -22,6 +22,11 @@ pub(crate) enum NewtonError {
     },
     /// No memory, or another failure of the factorisation.
     Factorization(FactorError),
+    /// The balances hold, but the least disturbance leads away from there.
+    Unstable {
+        /// The unknown that moves most.
+        unknown: usize,
+    },
     /// No solution was found.
     Stalled {
         /// The unknown that still moved most.
@@ -34,13 +39,19 @@ pub(crate) enum NewtonError {
 /// Corrections below this, in K, are the last: near 300 K the last digit is 6e-14 K.
 pub(crate) const SMALL: f64 = 1e-9;
 
+/// No larger correction in K is put down to rounding.
+const MOST_ROUNDING: f64 = 1e-5;
+
 /// Corrections to follow a solution that moves, below this in K.
 const FOLLOWED: f64 = 1e-10;
 
 /// Iterations with full or damped steps.
 const ITERATIONS: usize = 60;
 
-/// The smallest share of a correction that is tried.
+/// By how much the size of a correction may be off by rounding, relative.
+const ROUNDING: f64 = 1e-12;
+
+/// The smallest part of the largest careful share of a correction that is tried.
 const LEAST_SHARE: f64 = 1.0 / 1024.0;
 
 /// Steps of pseudo-time.
@@ -52,17 +63,17 @@ const CONTRACTION: f64 = 0.25;
 
 /// Newton's method on a range of unknowns.
 pub(crate) struct Newton<'a> {
-    system: &'a ThermalSystem,
+    pub(crate) system: &'a ThermalSystem,
     /// The unknowns that are solved for, ascending.
-    free: Vec<usize>,
-    pattern: Pattern,
+    pub(crate) free: Vec<usize>,
+    pub(crate) pattern: Pattern,
     /// The slot in the whole Jacobian of each slot of the pattern.
     slots: Vec<usize>,
-    factors: Box<dyn Factorization>,
+    pub(crate) factors: Box<dyn Factorization>,
     /// Whether the factors are those of some earlier point.
     ready: bool,
     whole: Vec<f64>,
-    values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
     flow: Vec<f64>,
 }
 
@@ -98,7 +109,11 @@ impl<'a> Newton<'a> {
             return Ok(());
         }
         temperatures.copy_from_slice(&start);
-        self.solve(work, temperatures)
+        let solved = self.solve(work, temperatures);
+        if solved.is_err() {
+            temperatures.copy_from_slice(&start); // the next search begins where one succeeded
+        }
+        solved
     }
 
     /// Corrections with the factors at hand; whether they led to the solution. `None`: a value failed.
@@ -150,6 +165,9 @@ impl<'a> Newton<'a> {
                 return self.polish(work, temperatures, correction);
             }
             if !self.damp(work, temperatures, &correction) {
+                if state.1 <= self.rounding(temperatures)? {
+                    return Ok(());
+                }
                 break;
             }
         }
@@ -160,11 +178,12 @@ impl<'a> Newton<'a> {
     fn damp(&mut self, work: &mut Workspace, temperatures: &mut [f64], correction: &[f64]) -> bool {
         let before = temperatures.to_vec();
         let size = largest(correction);
-        let mut share = self.positive_share(temperatures, correction);
-        while share >= LEAST_SHARE {
+        let mut share = self.careful_share(temperatures, correction);
+        let least = LEAST_SHARE * share;
+        while share >= least {
             self.apply(correction, share, temperatures);
             if let Ok(next) = self.correction(work, temperatures)
-                && largest(&next) <= (1.0 - 0.25 * share) * size
+                && largest(&next) <= (1.0 - 0.25 * share) * size * (1.0 + ROUNDING)
             {
                 return true;
             }
@@ -174,10 +193,14 @@ impl<'a> Newton<'a> {
         false
     }
 
-    /// The share of a correction that leaves every temperature at least a fifth of what it is.
-    fn positive_share(&self, temperatures: &[f64], correction: &[f64]) -> f64 {
-        let free = self.free.iter().map(|&i| temperatures[i]).zip(correction);
-        free.fold(1.0, |share: f64, (t, dt)| if *dt < -0.8 * t { share.min(-0.8 * t / dt) } else { share })
+    /// The share of a correction that leaves every temperature between a fifth and five times what it is: a straight
+    /// line to a fourth power overshoots by far.
+    fn careful_share(&self, temperatures: &[f64], correction: &[f64]) -> f64 {
+        let free = self.free.iter().map(|&i| temperatures[i].abs().max(1.0)).zip(correction);
+        free.fold(1.0, |share: f64, (t, dt)| {
+            let most = if *dt < 0.0 { 0.8 * t } else { 4.0 * t };
+            if dt.abs() > most { share.min(most / dt.abs()) } else { share }
+        })
     }
 
     /// The last corrections, with the factors at hand, while they shrink.
@@ -200,6 +223,26 @@ impl<'a> Newton<'a> {
         Ok(())
     }
 
+    /// What the last digits of the temperatures make of the corrections in K, with the factors and the Jacobian at hand:
+    /// a network that hangs on a small conductance feels the rounding of its large ones.
+    fn rounding(&mut self, temperatures: &[f64]) -> Result<f64, NewtonError> {
+        let diagonal = self.pattern.diagonal();
+        let heats =
+            diagonal.iter().zip(&self.free).map(|(&slot, &i)| self.values[slot].abs() * temperatures[i]);
+        let mut moved: Vec<f64> = heats.map(|heat| 2.0 * f64::EPSILON * heat.abs()).collect();
+        self.factors.solve_in_place(&mut moved).map_err(NewtonError::Factorization)?;
+        Ok(largest(&moved).min(MOST_ROUNDING))
+    }
+
+    /// The same from the start over pseudo-time only: where that rests depends on where it began.
+    pub(crate) fn settle(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &mut [f64],
+    ) -> Result<(), NewtonError> {
+        self.pseudo_time(work, temperatures)
+    }
+
     fn pseudo_time(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> Result<(), NewtonError> {
         let (mut step, mut left) = (0.01, f64::INFINITY);
         let mut change = (0, f64::INFINITY);
@@ -209,7 +252,7 @@ impl<'a> Newton<'a> {
             let heat = self.left_over();
             change = worst(&correction);
             let before = temperatures.to_vec();
-            let share = self.positive_share(temperatures, &correction);
+            let share = self.careful_share(temperatures, &correction);
             self.apply(&correction, share, temperatures);
             let now = self.system.flow(work, temperatures, &mut self.flow);
             let after = self.left_over();
@@ -232,7 +275,7 @@ impl<'a> Newton<'a> {
     }
 
     /// Factorises `-J`, with `inertia` times the size of its diagonal added.
-    fn factorize(
+    pub(crate) fn factorize(
         &mut self,
         work: &mut Workspace,
         temperatures: &[f64],

@@ -4,16 +4,19 @@ use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::{IntegrateError, Integrator, Statistics};
 use lptn_network::{LimitId, NodeId};
 
+use crate::balance::Balance;
 use crate::error::{SettingsError, StopReason, TransientError};
 use crate::heat::Heat;
 use crate::ledger::Ledger;
 use crate::limit::LimitWatch;
+use crate::reading::Reading;
 use crate::settings::{Record, Transient};
 use crate::solution::{End, Solution};
 use crate::times::Segment;
 use crate::unfold::Unfold;
 use crate::unsolved::Unsolved;
 use crate::watch::{REFINEMENTS, SAMPLES, Seen, Watch};
+use crate::window::Tracked;
 
 /// Halvings of the interval in which a limit is first broken: to the rounding of its length.
 const BISECTIONS: usize = 53;
@@ -40,6 +43,8 @@ pub(crate) struct Recorder<'a> {
     /// For each watched node the points of the present step.
     points: Vec<Vec<(f64, f64)>>,
     limits: LimitWatch<'a>,
+    windows: Vec<Tracked>,
+    reading: Reading<'a>,
     /// What the integrator carries at one time.
     state: Vec<f64>,
     unfold: Unfold<'a>,
@@ -80,7 +85,9 @@ impl<'a> Recorder<'a> {
             watch: settings.watch.clone(),
             seen: Vec::new(),
             points: vec![Vec::new(); settings.watch.len()],
-            limits: LimitWatch::new(network),
+            limits: LimitWatch::new(system),
+            windows: settings.windows.iter().cloned().map(Tracked::new).collect(),
+            reading: Reading::new(system),
             state: vec![0.0; system.states().len()],
             unfold,
             tolerance: settings.tolerance,
@@ -122,7 +129,7 @@ impl<'a> Recorder<'a> {
             self.seen.iter_mut().for_each(|seen| seen.jump(from, nodes[seen.watch.node.index()]));
         }
         let at = (from, self.segment.inside());
-        self.limits.enter(self.system, &self.work, at).map_err(StopReason::Input)?;
+        self.limits.enter(&mut self.work, at).map_err(StopReason::Input)?;
         if self.due(from) {
             self.push()?;
         }
@@ -150,12 +157,34 @@ impl<'a> Recorder<'a> {
         if self.looks() {
             self.look((from, to), &mut |time, state| integrator.interpolate(time, state))?;
         }
-        Ok(())
+        self.track((from, to), &mut |time, state| integrator.interpolate(time, state))
+    }
+
+    /// Takes a step into the windows that it reaches.
+    fn track(&mut self, step: (f64, f64), state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
+        let mut windows = std::mem::take(&mut self.windows);
+        let outcome = windows.iter_mut().try_for_each(|window| {
+            window.step(step, &mut |time, of, values| {
+                self.place_at(time, state_at)?;
+                let at = (time, self.segment.inside());
+                self.reading.place(&mut self.work, at).map_err(StopReason::Input)?;
+                for &quantity in of.quantities() {
+                    let value = self.reading.value(&mut self.work, quantity);
+                    values.push(value.map_err(StopReason::Input)?);
+                }
+                Ok(())
+            })
+        });
+        self.windows = windows;
+        outcome
     }
 
     /// Looks at the watched nodes of a system without state between two times.
     pub(crate) fn look_without_state(&mut self, from: f64, to: f64) -> Result<(), StopReason> {
-        if self.looks() { self.look((from, to), &mut |_, _| Ok(())) } else { Ok(()) }
+        if self.looks() {
+            self.look((from, to), &mut |_, _| Ok(()))?;
+        }
+        self.track((from, to), &mut |_, _| Ok(()))
     }
 
     /// Writes a row from the inputs at `time` for a system without state.
@@ -168,6 +197,16 @@ impl<'a> Recorder<'a> {
     pub(crate) fn at(&mut self, time: f64) -> Result<&mut Workspace, StopReason> {
         self.place(time)?;
         Ok(&mut self.work)
+    }
+
+    /// The workspace at a time and state; as it was where these cannot be had.
+    pub(crate) fn at_state(&mut self, (time, state): (f64, &[f64])) -> &mut Workspace {
+        self.state.copy_from_slice(state);
+        if self.place(time).is_ok() {
+            // brings the heat of sources that depend on temperatures up to date
+            drop(self.reading.place(&mut self.work, (time, self.segment.inside())));
+        }
+        &mut self.work
     }
 
     fn is_last(&self) -> bool {
@@ -219,7 +258,7 @@ impl<'a> Recorder<'a> {
                 list.push((time, nodes[seen.watch.node.index()]));
             }
             let at = (time, self.segment.inside());
-            self.limits.sample(self.system, &self.work, at).map_err(StopReason::Input)?;
+            self.limits.sample(&mut self.work, at).map_err(StopReason::Input)?;
         }
         for i in 0..self.seen.len() {
             self.seen[i].look(&self.points[i]);
@@ -266,10 +305,17 @@ impl<'a> Recorder<'a> {
     fn margin_at(&mut self, id: LimitId, time: f64, state_at: &mut StateAt<'_>) -> Result<f64, StopReason> {
         self.place_at(time, state_at)?;
         let at = (time, self.segment.inside());
-        self.limits.margin(id, (self.system, &self.work), at).map_err(StopReason::Input)
+        self.limits.margin(id, &mut self.work, at).map_err(StopReason::Input)
     }
 
-    pub(crate) fn into_solution(mut self, ledger: Ledger, statistics: Statistics, end: End) -> Solution {
+    pub(crate) fn into_solution(
+        mut self,
+        (ledger, balance): (Ledger, Option<Balance>),
+        statistics: Statistics,
+        end: End,
+    ) -> Solution {
+        let network = self.system.network();
+        let windows = self.windows.into_iter().filter_map(|w| w.into_seen(network, self.tolerance));
         self.rows.truncate(self.next);
         Solution {
             system: self.system.clone(),
@@ -279,6 +325,8 @@ impl<'a> Recorder<'a> {
             temperatures: self.temperatures,
             seen: self.seen,
             limits: self.limits.into_seen(self.tolerance),
+            windows: windows.collect(),
+            balance,
             ledger,
             statistics,
             end,

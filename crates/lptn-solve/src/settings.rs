@@ -1,12 +1,13 @@
 //! The settings of a run, and how it reports on itself.
 
 use lptn_integrate::{LinearSolver, Options};
-use lptn_network::{NodeId, OutputTimes, Time};
+use lptn_network::{End, NodeId, OutputTimes, Time};
 
 use crate::curved::Curved;
 use crate::error::SettingsError;
 use crate::times;
 use crate::watch::Watch;
+use crate::window::Window;
 
 /// Which nodes a solution keeps.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +34,10 @@ pub struct Transient {
     pub record: Record,
     /// Nodes to look at between the rows too.
     pub watch: Vec<Watch>,
+    /// Windows of time over which means and extremes are taken; inside the run.
+    pub windows: Vec<Window>,
+    /// The node or boundary whose heat balance is kept.
+    pub balance: Option<End>,
     /// The linear solver; chosen by size unless said.
     pub linear_solver: LinearSolver,
 }
@@ -67,6 +72,8 @@ impl Transient {
             tolerance: 1e-5,
             record: Record::All,
             watch: Vec::new(),
+            windows: Vec::new(),
+            balance: None,
             linear_solver: LinearSolver::Auto,
         }
     }
@@ -99,6 +106,20 @@ impl Transient {
         self
     }
 
+    /// Takes means and extremes over a window.
+    #[must_use]
+    pub fn window(mut self, window: Window) -> Self {
+        self.windows.push(window);
+        self
+    }
+
+    /// Keeps the heat balance of a node or boundary.
+    #[must_use]
+    pub fn balance(mut self, of: impl Into<End>) -> Self {
+        self.balance = Some(of.into());
+        self
+    }
+
     /// The times in s at which a row is written, from the start to the stop.
     ///
     /// # Errors
@@ -115,6 +136,11 @@ impl Transient {
         }
         if !(self.tolerance.is_finite() && self.tolerance > 0.0) {
             return Err(SettingsError::Tolerance(self.tolerance));
+        }
+        for Window { name, from, to, .. } in &self.windows {
+            if !(start <= *from && from < to && *to <= stop) {
+                return Err(SettingsError::Window { name: name.clone(), from: *from, to: *to });
+            }
         }
         Ok(())
     }

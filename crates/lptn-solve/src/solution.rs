@@ -2,12 +2,18 @@
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::Statistics;
-use lptn_network::{BoundaryId, ConductorId, Network, NodeId, Received, SourceId};
+use lptn_network::{
+    BoundaryId, ConductorId, HeatOf, Network, NodeId, Received, ReportId, SignalId, SourceId,
+};
 
+use crate::balance::Balance;
 use crate::curved::MOST_REMEMBERED;
 use crate::ledger::Ledger;
 use crate::limit::LimitSeen;
+use crate::quantity::Quantity;
+use crate::reading::Reading;
 use crate::watch::Seen;
+use crate::window::WindowSeen;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +39,8 @@ pub struct Solution {
     pub(crate) temperatures: Vec<f64>,
     pub(crate) seen: Vec<Seen>,
     pub(crate) limits: Vec<LimitSeen>,
+    pub(crate) windows: Vec<WindowSeen>,
+    pub(crate) balance: Option<Balance>,
     pub(crate) ledger: Ledger,
     pub(crate) statistics: Statistics,
     pub(crate) end: End,
@@ -62,11 +70,6 @@ impl Solution {
         &self.temperatures[row * width..(row + 1) * width]
     }
 
-    /// Temperature of a node in one row in K; NaN if it was not recorded.
-    pub(crate) fn at(&self, row: usize, node: NodeId) -> f64 {
-        self.recorded.binary_search(&node).map_or(f64::NAN, |column| self.row(row)[column])
-    }
-
     /// Temperature of a node over the rows in K; `None` if it was not recorded.
     pub fn temperature(&self, node: NodeId) -> Option<Vec<f64>> {
         let column = self.recorded.binary_search(&node).ok()?;
@@ -91,23 +94,33 @@ impl Solution {
 
     /// Heat that a boundary gives to the network over the rows in W; `None` unless every node was recorded.
     pub fn boundary_heat(&self, id: BoundaryId) -> Option<Vec<f64>> {
-        let mut heat = Vec::with_capacity(self.times.len());
-        self.is_whole().then(|| self.replay(|at| heat.push(at.boundary_heat()[id.index()])))?;
-        Some(heat)
+        self.is_whole().then(|| self.values(Quantity::Heat(HeatOf::Boundary(id))))
     }
 
     /// Temperature of a boundary over the rows in K.
     pub fn boundary_temperature(&self, id: BoundaryId) -> Vec<f64> {
-        let mut temperature = Vec::with_capacity(self.times.len());
-        self.replay(|at| temperature.push(at.boundary_temperatures()[id.index()]));
-        temperature
+        self.values(Quantity::BoundaryTemperature(id))
     }
 
-    /// Heat of a source over the rows in W.
+    /// Heat of a source over the rows in W; of one that depends on temperatures NaN unless every node was recorded.
     pub fn source_heat(&self, id: SourceId) -> Vec<f64> {
-        let mut heat = Vec::with_capacity(self.times.len());
-        self.replay(|at| heat.push(at.source_powers()[id.index()]));
-        heat
+        self.values(Quantity::Heat(HeatOf::Source(id)))
+    }
+
+    /// A signal over the rows in SI units; NaN where one that nothing uses has no value.
+    pub fn signal(&self, id: SignalId) -> Vec<f64> {
+        self.values(Quantity::Signal(id))
+    }
+
+    /// A report over the rows in SI units; NaN unless every node was recorded.
+    pub fn report(&self, id: ReportId) -> Vec<f64> {
+        self.values(Quantity::Report(id))
+    }
+
+    fn values(&self, quantity: Quantity) -> Vec<f64> {
+        let mut values = Vec::with_capacity(self.times.len());
+        self.replay(|at| values.push(at.value(quantity)));
+        values
     }
 
     /// Whether every node was recorded, so that heat flows can be had.
@@ -117,21 +130,18 @@ impl Solution {
 
     /// Visits the rows in order. Inputs could be read there during the run, so they can be again.
     pub(crate) fn replay(&self, mut visit: impl FnMut(&mut Replay<'_>)) {
-        let mut at = Replay {
-            system: &self.system,
-            work: self.system.workspace(),
-            unknowns: vec![f64::NAN; self.system.unknowns().len()],
-            boundary_heat: vec![f64::NAN; self.network().boundaries().len()],
-        };
+        let (work, reading) = (self.system.workspace(), Reading::new(&self.system));
+        let mut at = Replay { system: &self.system, work, reading };
+        let mut nodes = vec![f64::NAN; self.network().nodes().len()];
         for (row, (&time, &segment)) in self.times.iter().zip(&self.segments).enumerate() {
             if self.system.read_inputs(&mut at.work, time, segment).is_err() {
                 break;
             }
-            if self.is_whole() {
-                self.system.place(&mut at.work, self.row(row));
-                self.system.unknown_temperatures(self.row(row), &mut at.unknowns);
+            self.recorded.iter().zip(self.row(row)).for_each(|(id, t)| nodes[id.index()] = *t);
+            self.system.place(&mut at.work, &nodes);
+            if at.reading.place(&mut at.work, (time, segment)).is_err() {
+                break;
             }
-            at.evaluate();
             visit(&mut at);
         }
     }
@@ -144,6 +154,16 @@ impl Solution {
     /// How each limit of the network fared up to the end that was reached, between the rows too.
     pub fn limits(&self) -> &[LimitSeen] {
         &self.limits
+    }
+
+    /// Means and extremes over the windows that were asked for, as far as the run came.
+    pub fn windows(&self) -> &[WindowSeen] {
+        &self.windows
+    }
+
+    /// The heat balance of the node or boundary that was asked for.
+    pub fn balance(&self) -> Option<&Balance> {
+        self.balance.as_ref()
     }
 
     /// The energy ledger from the start to the end that was reached.
@@ -194,36 +214,20 @@ pub enum Unbounded {
     },
 }
 
-/// The system at one row of a solution. Without all nodes recorded its heat flows are not numbers.
+/// The system at one row of a solution. What follows from a node that was not recorded is NaN.
 pub(crate) struct Replay<'a> {
     system: &'a ThermalSystem,
     work: Workspace,
-    unknowns: Vec<f64>,
-    boundary_heat: Vec<f64>,
+    reading: Reading<'a>,
 }
 
 impl Replay<'_> {
-    /// Heat of boundaries and of sources that depend on temperatures. What could be evaluated in the run can be here.
-    fn evaluate(&mut self) {
-        let heat = self.system.boundary_heat(&mut self.work, &self.unknowns, &mut self.boundary_heat);
-        if heat.is_err() {
-            self.boundary_heat.fill(f64::NAN);
-        }
+    /// One quantity in SI units. What could be evaluated in the run can be here.
+    pub(crate) fn value(&mut self, quantity: Quantity) -> f64 {
+        self.reading.value(&mut self.work, quantity).unwrap_or(f64::NAN)
     }
 
-    pub(crate) fn received(&mut self, id: ConductorId) -> Received {
+    fn received(&mut self, id: ConductorId) -> Received {
         self.system.received(&mut self.work, id).unwrap_or([f64::NAN; 2])
-    }
-
-    pub(crate) fn boundary_heat(&self) -> &[f64] {
-        &self.boundary_heat
-    }
-
-    pub(crate) fn boundary_temperatures(&self) -> &[f64] {
-        self.system.boundary_temperatures(&self.work)
-    }
-
-    pub(crate) fn source_powers(&self) -> &[f64] {
-        self.system.source_powers(&self.work)
     }
 }

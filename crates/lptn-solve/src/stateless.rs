@@ -2,33 +2,32 @@
 
 use lptn_integrate::Statistics;
 
+use crate::balance::Books;
 use crate::error::{StopReason, TransientError};
-use crate::ledger::{self, Ledger};
+use crate::quadrature::GAUSS;
 use crate::recorder::Recorder;
 use crate::solution::{End, Solution};
 use crate::times::Segment;
 
-/// Nodes and weights of the Gauss-Legendre rule of order 10 on (-1, 1), positive half and centre
-/// (Abramowitz and Stegun, Handbook of Mathematical Functions, table 25.4, n = 5).
-const GAUSS: [(f64, f64); 5] = [
-    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
-    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-    (0.0, 0.568_888_888_888_888_9),
-    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
-];
-
 /// Evaluates every row; the ledger integrates between rows by the Gauss rule.
-pub(crate) fn solve(mut recorder: Recorder<'_>, segments: &[Segment]) -> Result<Solution, TransientError> {
+pub(crate) fn solve(
+    mut recorder: Recorder<'_>,
+    segments: &[Segment],
+    books: &Books,
+) -> Result<Solution, TransientError> {
     let system = recorder.system();
-    let mut integrals = vec![0.0; ledger::integrals(system)];
+    let mut integrals = vec![0.0; books.integrals(system)];
     let stored = vec![0.0; system.network().nodes().len()];
-    let (outcome, end) = match rows(&mut recorder, segments, &mut integrals) {
+    let (outcome, end) = match rows(&mut recorder, segments, (books, &mut integrals)) {
         Ok(()) => (None, End::Reached),
         Err((time, reason)) => (Some((time, reason)), End::Failed(time)),
     };
-    let ledger = Ledger::new(system, &integrals, stored, 0.0);
-    let solution = recorder.into_solution(ledger, Statistics::default(), end);
+    let last = match end {
+        End::Failed(time) => time,
+        _ => recorder.span().1,
+    };
+    let closed = books.close(system, recorder.at_state((last, &[])), &integrals, (stored, 0.0));
+    let solution = recorder.into_solution(closed, Statistics::default(), end);
     match outcome {
         None => Ok(solution),
         Some((time, reason)) => Err(TransientError::Stopped { time, reason, partial: Box::new(solution) }),
@@ -38,7 +37,7 @@ pub(crate) fn solve(mut recorder: Recorder<'_>, segments: &[Segment]) -> Result<
 fn rows(
     recorder: &mut Recorder<'_>,
     segments: &[Segment],
-    integrals: &mut [f64],
+    (books, integrals): (&Books, &mut [f64]),
 ) -> Result<(), (f64, StopReason)> {
     let times = recorder.rows().to_vec();
     let last = times.len() - 1;
@@ -49,13 +48,13 @@ fn rows(
         row += usize::from(times[row].to_bits() == segment.from.to_bits());
         let mut from = segment.from;
         while row <= last && (times[row] < segment.to || (i + 1 == segments.len() && row == last)) {
-            interval(recorder, (from, times[row]), integrals).map_err(|e| (from, e))?;
+            interval(recorder, (from, times[row]), (books, integrals)).map_err(|e| (from, e))?;
             from = times[row];
             recorder.push_without_state(from).map_err(|e| (from, e))?;
             row += 1;
         }
         if from < segment.to {
-            interval(recorder, (from, segment.to), integrals).map_err(|e| (from, e))?;
+            interval(recorder, (from, segment.to), (books, integrals)).map_err(|e| (from, e))?;
         }
     }
     Ok(())
@@ -64,7 +63,7 @@ fn rows(
 fn interval(
     recorder: &mut Recorder<'_>,
     (from, to): (f64, f64),
-    integrals: &mut [f64],
+    (books, integrals): (&Books, &mut [f64]),
 ) -> Result<(), StopReason> {
     recorder.look_without_state(from, to)?;
     let system = recorder.system();
@@ -74,7 +73,7 @@ fn interval(
         let work = recorder.at(middle + half * x)?;
         let mut unknowns = vec![0.0; system.unknowns().len()];
         system.unknown_temperatures(system.node_temperatures(work), &mut unknowns);
-        ledger::integrands(system, work, &unknowns, &mut q).map_err(StopReason::Input)?;
+        books.integrands(system, work, &unknowns, &mut q).map_err(StopReason::Input)?;
         integrals.iter_mut().zip(&q).for_each(|(sum, q)| *sum += half * weight * q);
     }
     Ok(())

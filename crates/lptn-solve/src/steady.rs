@@ -2,12 +2,13 @@
 
 use lptn_assembly::{Form, ThermalSystem, Workspace};
 use lptn_integrate::{FactorError, Pattern};
-use lptn_network::{InputError, Network, NodeId, Received};
+use lptn_network::{Evaluation, HeatOf, InputError, Network, NodeId, Received};
 
 use crate::adiabatic::{self, Island};
 use crate::conductances::Conductances;
 use crate::error::SteadyError;
-use crate::newton::{Newton, SMALL};
+use crate::newton::{Newton, NewtonError, SMALL};
+use crate::quantity::Quantity;
 use crate::unsolved::Unsolved;
 
 /// The temperatures at which nothing is stored any more.
@@ -27,6 +28,8 @@ pub struct SteadyState {
     pub boundary_heat: Vec<f64>,
     /// Heat that each stream brings to its two ends together in W, in the order of the conductors.
     pub stream_heat: Vec<f64>,
+    /// The time in s at which its inputs were read.
+    pub time: f64,
     /// The nodes that no path leads from to a boundary: their temperatures follow from the energy at their start.
     pub adiabatic: Vec<NodeId>,
 }
@@ -51,6 +54,7 @@ impl SteadyState {
         };
         system.recover(&mut work, &unknowns);
         let mut steady = Self::from_workspace(system, &mut work, &unknowns).map_err(SteadyError::Input)?;
+        steady.time = time;
         steady.adiabatic = islands.into_iter().flat_map(|island| island.nodes).collect();
         let rest = rounding(system, &steady)
             + unsettled(system, &mut work, &unknowns).map_err(SteadyError::Input)?;
@@ -82,8 +86,44 @@ impl SteadyState {
             source_heat: system.source_powers(work).to_vec(),
             boundary_heat,
             stream_heat,
+            time: 0.0,
             adiabatic: Vec::new(),
         })
+    }
+
+    /// The place where expressions of results (limits, requirements, reports) find this state.
+    pub fn evaluation(&self, network: &Network) -> Evaluation {
+        let mut scope = network.evaluation();
+        scope.set_time(self.time, just_after(self.time));
+        scope.set_temperatures(&self.temperatures, &self.boundary_temperatures);
+        let heats: Vec<f64> = network.named_heats().map(|heat| self.heat(heat)).collect();
+        scope.set_heats(&heats);
+        scope
+    }
+
+    fn heat(&self, heat: HeatOf) -> f64 {
+        match heat {
+            HeatOf::Conductor(id) | HeatOf::ReceivedTo(id) => self.received[id.index()][1],
+            HeatOf::ReceivedFrom(id) => self.received[id.index()][0],
+            HeatOf::Source(id) => self.source_heat[id.index()],
+            HeatOf::Boundary(id) => self.boundary_heat[id.index()],
+        }
+    }
+
+    /// One quantity in SI units; `scope` is [`SteadyState::evaluation`].
+    pub(crate) fn value(
+        &self,
+        network: &Network,
+        quantity: Quantity,
+        scope: &mut Evaluation,
+    ) -> Result<f64, InputError> {
+        match quantity {
+            Quantity::Node(id) => Ok(self.temperatures[id.index()]),
+            Quantity::BoundaryTemperature(id) => Ok(self.boundary_temperatures[id.index()]),
+            Quantity::Heat(heat) => Ok(self.heat(heat)),
+            Quantity::Signal(id) => Ok(scope.signal(id)),
+            Quantity::Report(id) => network.report_value(id, scope),
+        }
     }
 
     /// Heat of all sources, boundaries and streams in W: zero but for rounding.
@@ -146,11 +186,28 @@ fn balanced(
         let all = (0..temperatures.len()).collect();
         let unsolved = |error| SteadyError::Unsolved(Unsolved::new(system, error));
         let mut newton = Newton::new(system, all).map_err(unsolved)?;
-        newton.solve(work, &mut temperatures).map_err(unsolved)?;
+        stable(&mut newton, work, &mut temperatures).map_err(unsolved)?;
     } else {
         adiabatic::solve(system, work, islands, &mut temperatures)?;
     }
     Ok(temperatures)
+}
+
+/// Newton's method may find a state at which nothing stays; then the network is followed from its start.
+fn stable(
+    newton: &mut Newton<'_>,
+    work: &mut Workspace,
+    temperatures: &mut [f64],
+) -> Result<(), NewtonError> {
+    let start = temperatures.to_vec();
+    newton.solve(work, temperatures)?;
+    let Some(unknown) = newton.unstable(work, temperatures)? else { return Ok(()) };
+    temperatures.copy_from_slice(&start);
+    let settled = newton.settle(work, temperatures);
+    match settled.and_then(|()| newton.unstable(work, temperatures)) {
+        Ok(None) => Ok(()),
+        _ => Err(NewtonError::Unstable { unknown }),
+    }
 }
 
 /// Where the search begins: nodes at their start, massless ones in the middle of the boundaries.
@@ -160,8 +217,13 @@ fn start(system: &ThermalSystem, work: &Workspace) -> Vec<f64> {
     let known = boundaries.iter().chain(&temperatures).copied();
     let (sum, count) = known.fold((0.0, 0.0), |(sum, count), t| (sum + t, count + 1.0));
     temperatures.resize(system.unknowns().len(), sum / count);
+    // at 0 K radiation does not tell which way to go
+    temperatures.iter_mut().for_each(|t| *t = t.max(COLDEST_START));
     temperatures
 }
+
+/// No search begins below this temperature in K.
+const COLDEST_START: f64 = 1.0;
 
 /// Temperatures of the states, sought as a rise over one boundary.
 fn states(system: &ThermalSystem, work: &Workspace) -> Result<Vec<f64>, FactorError> {

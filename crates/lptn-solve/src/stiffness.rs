@@ -1,6 +1,6 @@
 //! How far the time constants of the nodes of a network are apart.
 
-use lptn_network::{End, Network, NodeId};
+use lptn_network::{End, Flow, Network, NodeId};
 
 /// The nodes that follow their surroundings fastest and slowest, each with its own time constant C / sum of G in s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,7 +12,7 @@ pub struct Stiffness {
 }
 
 impl Stiffness {
-    /// Of the nodes with a capacity and a path of constant conductance; `None` without any.
+    /// Of the nodes with a capacity and a path or stream of constant conductance; `None` without any.
     ///
     /// These are the time constants that each node would have if its neighbours kept their temperatures, the
     /// diagonal of the system, and not those of the network (its modes); but their ratio says what an explicit
@@ -20,9 +20,15 @@ impl Stiffness {
     pub fn of(network: &Network) -> Option<Self> {
         let mut conductance = vec![0.0; network.nodes().len()];
         for (id, conductor) in network.conductor_ids().zip(network.conductors()) {
-            for end in [conductor.from, conductor.to] {
+            let (ends, size) = match network.flow(id) {
+                // only the end that a stream flows into follows it
+                Flow::Stream(rate) if rate < 0.0 => (vec![conductor.from], -rate),
+                Flow::Stream(rate) => (vec![conductor.to], rate),
+                _ => (vec![conductor.from, conductor.to], network.conductance(id).unwrap_or(0.0)),
+            };
+            for end in ends {
                 if let End::Node(node) = end {
-                    conductance[node.index()] += network.conductance(id).unwrap_or(0.0);
+                    conductance[node.index()] += size;
                 }
             }
         }

@@ -1,8 +1,9 @@
 //! The one table type that writers take: named columns with units.
 
-use lptn_network::{BoundaryId, ConductorId, ConductorKind, Network, NodeId, SourceId};
+use lptn_network::{InputError, Network, NodeId};
 use lptn_units::Unit;
 
+use crate::quantity::{Quantity, shown, unit_of};
 use crate::settings::Record;
 use crate::solution::Solution;
 use crate::steady::SteadyState;
@@ -19,9 +20,10 @@ pub struct Column {
 }
 
 impl Column {
-    /// The column's header in a CSV file: name and unit in brackets.
+    /// The column's header in a CSV file: name and unit in brackets, `-` for a plain number.
     pub fn header(&self) -> String {
-        format!("{} [{}]", self.name, self.unit)
+        let unit = if self.unit == "1" { "-" } else { &self.unit };
+        format!("{} [{unit}]", self.name)
     }
 }
 
@@ -78,97 +80,40 @@ impl Table {
         let network = solution.network();
         let time = Column { name: "time".into(), unit: "s".into(), values: solution.times().to_vec() };
         let mut columns = vec![time];
-        columns.extend(selection.quantities.iter().map(|q| q.column(network, unit)));
-        let mut row = 0;
+        columns.extend(selection.quantities.iter().map(|&q| empty(q, network, unit)));
         solution.replay(|at| {
-            for (column, quantity) in columns[1..].iter_mut().zip(&selection.quantities) {
-                column.values.push(match *quantity {
-                    Quantity::Node(id) => unit.from_si(solution.at(row, id)),
-                    Quantity::BoundaryTemperature(id) => unit.from_si(at.boundary_temperatures()[id.index()]),
-                    Quantity::Source(id) => at.source_powers()[id.index()],
-                    Quantity::Conductor(id) | Quantity::ReceivedTo(id) => at.received(id)[1],
-                    Quantity::ReceivedFrom(id) => at.received(id)[0],
-                    Quantity::Boundary(id) => at.boundary_heat()[id.index()],
-                });
+            for (column, &quantity) in columns[1..].iter_mut().zip(&selection.quantities) {
+                column.values.push(shown(at.value(quantity), quantity.ty(network), unit));
             }
-            row += 1;
         });
         Self { labels: Vec::new(), columns }
     }
 
     /// The selected columns of a steady state as a table of one row, temperatures in `unit`.
-    pub fn of_steady(network: &Network, steady: &SteadyState, selection: &Selection, unit: &Unit) -> Self {
-        let column = |quantity: &Quantity| {
-            let mut column = quantity.column(network, unit);
-            column.values = vec![match *quantity {
-                Quantity::Node(id) => unit.from_si(steady.temperatures[id.index()]),
-                Quantity::BoundaryTemperature(id) => unit.from_si(steady.boundary_temperatures[id.index()]),
-                Quantity::Source(id) => steady.source_heat[id.index()],
-                Quantity::Conductor(id) | Quantity::ReceivedTo(id) => steady.conductor_heat[id.index()],
-                Quantity::ReceivedFrom(id) => steady.received[id.index()][0],
-                Quantity::Boundary(id) => steady.boundary_heat[id.index()],
-            }];
-            column
+    ///
+    /// # Errors
+    /// [`InputError`] if a report cannot be evaluated.
+    pub fn of_steady(
+        network: &Network,
+        steady: &SteadyState,
+        selection: &Selection,
+        unit: &Unit,
+    ) -> Result<Self, InputError> {
+        let mut scope = steady.evaluation(network);
+        let column = |&quantity: &Quantity| {
+            let mut column = empty(quantity, network, unit);
+            let value = steady.value(network, quantity, &mut scope)?;
+            column.values = vec![shown(value, quantity.ty(network), unit)];
+            Ok(column)
         };
-        Self { labels: Vec::new(), columns: selection.quantities.iter().map(column).collect() }
+        let columns: Result<Vec<Column>, InputError> = selection.quantities.iter().map(column).collect();
+        Ok(Self { labels: Vec::new(), columns: columns? })
     }
 }
 
-/// One quantity of a network that can be a column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Quantity {
-    Node(NodeId),
-    BoundaryTemperature(BoundaryId),
-    Conductor(ConductorId),
-    /// Heat that the first end of a stream receives.
-    ReceivedFrom(ConductorId),
-    /// Heat that the second end of a stream receives.
-    ReceivedTo(ConductorId),
-    Source(SourceId),
-    Boundary(BoundaryId),
-}
-
-impl Quantity {
-    /// All of a network: temperatures of nodes and boundaries, heat flows, sources, heat of boundaries.
-    fn all(network: &Network) -> impl Iterator<Item = Self> {
-        let nodes = network.node_ids().map(Self::Node);
-        nodes
-            .chain(network.boundary_ids().map(Self::BoundaryTemperature))
-            .chain(network.conductor_ids().flat_map(|id| Self::of_conductor(network, id)))
-            .chain(network.source_ids().map(Self::Source))
-            .chain(network.boundary_ids().map(Self::Boundary))
-    }
-
-    fn of_conductor(network: &Network, id: ConductorId) -> Vec<Self> {
-        match network.conductors()[id.index()].kind {
-            ConductorKind::Advection => vec![Self::ReceivedFrom(id), Self::ReceivedTo(id)],
-            _ => vec![Self::Conductor(id)],
-        }
-    }
-
-    fn name(self, network: &Network) -> String {
-        match self {
-            Self::ReceivedFrom(id) => format!("{}.Q_from", network.conductors()[id.index()].name),
-            Self::ReceivedTo(id) => format!("{}.Q_to", network.conductors()[id.index()].name),
-            Self::Node(id) => format!("{}.T", network.nodes()[id.index()].name),
-            Self::BoundaryTemperature(id) => format!("{}.T", network.boundaries()[id.index()].name),
-            Self::Conductor(id) => format!("{}.Q", network.conductors()[id.index()].name),
-            Self::Source(id) => format!("{}.P", network.sources()[id.index()].name),
-            Self::Boundary(id) => format!("{}.Q", network.boundaries()[id.index()].name),
-        }
-    }
-
-    fn is_heat_flow(self) -> bool {
-        !matches!(self, Self::Node(_) | Self::BoundaryTemperature(_))
-    }
-
-    fn column(self, network: &Network, temperature: &Unit) -> Column {
-        let unit = match self {
-            Self::Node(_) | Self::BoundaryTemperature(_) => temperature.text.clone(),
-            _ => "W".to_owned(),
-        };
-        Column { name: self.name(network), unit, values: Vec::new() }
-    }
+fn empty(quantity: Quantity, network: &Network, temperature: &Unit) -> Column {
+    let unit = unit_of(quantity.ty(network), temperature);
+    Column { name: quantity.name(network), unit, values: Vec::new() }
 }
 
 /// The columns of a table, chosen by patterns over their names: `*` stands for any characters, `?` for one.
@@ -205,7 +150,7 @@ impl Selection {
 
     /// What a run has to keep so that these columns can be had.
     pub fn record(&self) -> Record {
-        if self.quantities.iter().any(|q| q.is_heat_flow()) {
+        if self.quantities.iter().any(|q| q.needs_all()) {
             return Record::All;
         }
         Record::Nodes(self.nodes().collect())
@@ -214,6 +159,10 @@ impl Selection {
     /// The nodes whose temperature is selected, in the order of the network.
     pub fn nodes(&self) -> impl Iterator<Item = NodeId> + '_ {
         self.quantities.iter().filter_map(|q| if let Quantity::Node(id) = q { Some(*id) } else { None })
+    }
+
+    pub(crate) fn quantities(&self) -> &[Quantity] {
+        &self.quantities
     }
 
     /// Whether no column is selected.

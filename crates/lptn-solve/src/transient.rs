@@ -1,12 +1,12 @@
 //! Temperatures over time.
 
 use lptn_assembly::ThermalSystem;
-use lptn_integrate::{IntegrateError, Integrator, Statistics};
+use lptn_integrate::{FactorError, IntegrateError, Integrator, Statistics};
 
+use crate::balance::Books;
 use crate::curved::Curved;
 use crate::error::{StopReason, TransientError};
 use crate::heat::Heat;
-use crate::ledger::Ledger;
 use crate::newton::NewtonError;
 use crate::recorder::Recorder;
 use crate::settings::{Control, Progress, Transient};
@@ -40,11 +40,17 @@ impl Transient {
         let segments = segments(self.start, self.stop, &breakpoints);
         let recorder = Recorder::new(system, rows, self)?;
         if system.states().is_empty() {
-            return stateless::solve(recorder, &segments);
+            return stateless::solve(recorder, &segments, &Books::new(network, self.balance));
         }
         Run::new(system, recorder, &segments, self)?.through(&segments, observer)
     }
 }
+
+/// Steps shorter than this part of the run, each after others that were refused, get nowhere ..
+const CRAWL: f64 = 1e-9;
+
+/// .. if there are so many of them. The first step of a segment may be one of them by chance.
+const PATIENCE: usize = 8;
 
 /// What ends a run before its stop.
 enum Break {
@@ -57,7 +63,10 @@ struct Run<'a> {
     integrator: Integrator<Heat<'a>>,
     recorder: Recorder<'a>,
     initial: Vec<f64>,
+    books: Books,
     tolerance: f64,
+    /// Steps in a row that were refused before they became so short that they lead nowhere.
+    crawled: usize,
 }
 
 impl<'a> Run<'a> {
@@ -68,13 +77,14 @@ impl<'a> Run<'a> {
         settings: &Transient,
     ) -> Result<Self, TransientError> {
         let initial = system.initial();
-        let heat = Heat::new(system, segments[0].inside())
+        let books = Books::new(system.network(), settings.balance);
+        let heat = Heat::new(system, segments[0].inside(), books.clone())
             .map_err(|e| TransientError::Start(Unsolved::new(system, e)))?;
         let curved = Curved::of(system, segments, recorder.rows());
         recorder.remembered = curved.map_or(0.0, |c| c.remembered);
         let integrator = Integrator::new(heat, settings.start, &initial, &settings.options(curved))
             .map_err(TransientError::Integrator)?;
-        Ok(Self { integrator, recorder, initial, tolerance: settings.tolerance })
+        Ok(Self { integrator, recorder, initial, books, tolerance: settings.tolerance, crawled: 0 })
     }
 
     fn through(
@@ -116,6 +126,7 @@ impl<'a> Run<'a> {
         self.recorder.start(self.integrator.state()).map_err(Break::Failed)?;
         while self.integrator.time() < segment.to {
             let step = self.integrator.step().map_err(|e| self.failed(e))?;
+            self.check_crawl(step.to - step.from)?;
             self.recorder.step(&mut self.integrator, step.from, step.to).map_err(Break::Failed)?;
             let (start, stop) = self.recorder.span();
             if observer(Progress { start, time: step.to, stop }) == Control::Interrupt {
@@ -125,14 +136,35 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Breaks off a run that only creeps up to where its heat can be had no longer, with ever smaller steps.
+    fn check_crawl(&mut self, step: f64) -> Result<(), Break> {
+        let (start, stop) = self.recorder.span();
+        let refused = self.integrator.system_mut().refused.take();
+        if step >= CRAWL * (stop - start) {
+            self.crawled = 0;
+            return Ok(());
+        }
+        self.crawled += usize::from(refused.is_some());
+        match refused {
+            Some(failure) if self.crawled >= PATIENCE => Err(Break::Failed(self.reason(failure))),
+            _ => Ok(()),
+        }
+    }
+
+    fn reason(&self, failure: NewtonError) -> StopReason {
+        match failure {
+            NewtonError::Input(input) => StopReason::Input(input),
+            other => StopReason::Unsolved(Unsolved::new(self.recorder.system(), other)),
+        }
+    }
+
     /// The reason of a failure: what the system knows goes before what the integrator says.
     fn failed(&mut self, error: IntegrateError) -> Break {
         if let Some(failure) = self.integrator.system_mut().failure.take() {
-            let system = self.recorder.system();
-            return Break::Failed(match failure {
-                NewtonError::Input(input) => StopReason::Input(input),
-                other => StopReason::Unsolved(Unsolved::new(system, other)),
-            });
+            return Break::Failed(self.reason(failure));
+        }
+        if let IntegrateError::Linear { cause: FactorError::Singular { index: unknown }, .. } = error {
+            return Break::Failed(self.reason(NewtonError::Singular { unknown }));
         }
         let node = error.component().map(|state| self.recorder.state_name(state));
         Break::Failed(StopReason::Integrator { error, node })
@@ -147,7 +179,10 @@ impl<'a> Run<'a> {
         }
         let statistics: Statistics = self.integrator.statistics();
         let integrals = self.integrator.quadratures().map_err(TransientError::Integrator)?;
-        let ledger = Ledger::new(system, integrals, stored, self.tolerance);
-        Ok(self.recorder.into_solution(ledger, statistics, end))
+        let integrals = integrals.to_vec();
+        let at_the_end = (self.integrator.time(), self.integrator.state());
+        let work = self.recorder.at_state(at_the_end);
+        let books = self.books.close(system, work, &integrals, (stored, self.tolerance));
+        Ok(self.recorder.into_solution(books, statistics, end))
     }
 }

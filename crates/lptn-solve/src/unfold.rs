@@ -89,7 +89,7 @@ fn guess(system: &ThermalSystem) -> f64 {
     if mean.is_finite() { mean } else { lptn_network::ZERO_CELSIUS + 25.0 }
 }
 
-fn outside(system: &ThermalSystem, state: usize, curve: &Enthalpy) -> InputError {
+pub(crate) fn outside(system: &ThermalSystem, state: usize, curve: &Enthalpy) -> InputError {
     let id = system.states()[state];
     let name = system.network().nodes()[id.index()].name.clone();
     let problem = InputProblem::OutsideCapacity { range: curve.range() };

@@ -15,7 +15,7 @@ pub struct Unsolved {
     /// The node at which it failed.
     pub node: String,
     /// Why.
-    pub reason: UnsolvedReason,
+    pub reason: Box<UnsolvedReason>,
 }
 
 /// Why balances could not be solved.
@@ -27,6 +27,8 @@ pub enum UnsolvedReason {
     Undetermined,
     /// The numbers could not be factorised.
     Factorization(FactorError),
+    /// Heat in and out are equal at the temperatures found, but the least disturbance leads away from them.
+    Unstable,
     /// No temperatures were found at which heat in and heat out are equal.
     NotFound {
         /// By how much the node still moved, in K.
@@ -43,25 +45,27 @@ impl Unsolved {
         let (node, reason) = match error {
             NewtonError::Input(error) => (error.name.clone(), UnsolvedReason::Input(error)),
             NewtonError::Singular { unknown } => (name(unknown), UnsolvedReason::Undetermined),
+            NewtonError::Unstable { unknown } => (name(unknown), UnsolvedReason::Unstable),
             NewtonError::Factorization(error) => (String::new(), UnsolvedReason::Factorization(error)),
             NewtonError::Stalled { unknown, change } => (name(unknown), UnsolvedReason::NotFound { change }),
         };
-        Self { node, reason }
+        Self { node, reason: Box::new(reason) }
     }
 
     /// The stable code, as diagnostics print it.
     pub fn code(&self) -> &'static str {
-        match self.reason {
+        match *self.reason {
             UnsolvedReason::Input(_) => "solve::input",
             UnsolvedReason::Undetermined => "solve::undetermined",
             UnsolvedReason::Factorization(_) => "solve::singular",
             UnsolvedReason::NotFound { .. } => "solve::not_found",
+            UnsolvedReason::Unstable => "solve::unstable",
         }
     }
 
     /// The value that failed, if that is the reason.
     pub fn input(&self) -> Option<&InputError> {
-        match &self.reason {
+        match &*self.reason {
             UnsolvedReason::Input(error) => Some(error),
             _ => None,
         }
@@ -69,14 +73,14 @@ impl Unsolved {
 
     /// What to do about it.
     pub fn help(&self) -> Option<String> {
-        match &self.reason {
+        match &*self.reason {
             UnsolvedReason::Input(error) => error.problem.help(),
             UnsolvedReason::Undetermined => Some(format!(
-                "give `{}` a second path, or a capacity, so that it keeps its temperature while nothing flows",
+                "let a path lead from `{}` to a boundary at all times; with capacities `lptn run` follows it meanwhile",
                 self.node
             )),
             UnsolvedReason::Factorization(_) => None,
-            UnsolvedReason::NotFound { .. } => {
+            UnsolvedReason::NotFound { .. } | UnsolvedReason::Unstable => {
                 Some("check for a heat that grows faster with temperature than the cooling does".into())
             }
         }
@@ -86,15 +90,20 @@ impl Unsolved {
 impl fmt::Display for Unsolved {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let node = &self.node;
-        match &self.reason {
+        match &*self.reason {
             UnsolvedReason::Input(error) => error.fmt(f),
             UnsolvedReason::Undetermined => {
                 write!(
                     f,
-                    "nothing determines the temperature of `{node}`: no heat flow that reaches it depends on it"
+                    "nothing determines the temperature of `{node}` and of the nodes it exchanges heat with: no heat \
+                     that leaves them depends on it, as where a stream stands still"
                 )
             }
             UnsolvedReason::Factorization(error) => write!(f, "the balances cannot be factorised: {error}"),
+            UnsolvedReason::Unstable => write!(
+                f,
+                "the only steady state that was found is unstable: from the least disturbance on `{node}` runs away"
+            ),
             UnsolvedReason::NotFound { change } => write!(
                 f,
                 "no temperatures were found at which heat in and out are equal: `{node}` still moved by {} K",

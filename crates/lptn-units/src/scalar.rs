@@ -43,14 +43,14 @@ pub trait Scalar:
     /// A function of this and another number, from its value and its slopes along each.
     fn chain2(self, other: Self, value: f64, slopes: [f64; 2]) -> Self;
 
-    /// The smaller; the first of equal values.
+    /// The smaller; the first of equal values; no number if one of them is none.
     fn min(self, other: Self) -> Self {
-        if other.value() < self.value() { other } else { self }
+        if other.value() < self.value() || other.value().is_nan() { other } else { self }
     }
 
-    /// The larger; the first of equal values.
+    /// The larger; the first of equal values; no number if one of them is none.
     fn max(self, other: Self) -> Self {
-        if other.value() > self.value() { other } else { self }
+        if other.value() > self.value() || other.value().is_nan() { other } else { self }
     }
 }
 

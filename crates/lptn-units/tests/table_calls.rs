@@ -176,3 +176,12 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn calls_are_found_by_name_and_functions_are_none() {
+    let text = "max(loss(speed), 2 * map(speed, abs(x))) + los (1)";
+    let calls = Expression::parse(text).unwrap().calls();
+    let found: Vec<(&str, &str)> =
+        calls.iter().map(|(name, at)| (name.as_str(), &text[at.clone()])).collect();
+    assert_eq!(found, [("loss", "loss"), ("map", "map"), ("los", "los")]);
+}

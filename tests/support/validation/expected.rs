@@ -181,11 +181,13 @@ impl TryFrom<Map<String, Value>> for Expected {
         }
         let common: Map<String, Value> =
             ["tol_abs", "tol_rel"].into_iter().filter_map(|key| map.remove_entry(key)).collect();
+        if common.is_empty() {
+            return Err(failed("no tolerance"));
+        }
         let tolerances: Tolerances =
             serde_json::from_value(Value::Object(common)).map_err(|e| failed(&e.to_string()))?;
         let quantity = serde_json::from_value(Value::Object(map)).map_err(|e| failed(&e.to_string()))?;
-        let expected = Self { quantity, name, value, tolerances };
-        if expected.allowed() > 0.0 { Ok(expected) } else { Err(failed("no tolerance")) }
+        Ok(Self { quantity, name, value, tolerances })
     }
 }
 

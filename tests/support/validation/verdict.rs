@@ -18,12 +18,12 @@ pub enum Verdict {
 
 impl Verdict {
     pub fn of(found: f64, expected: &Expected) -> Self {
-        let share = (found - expected.value).abs() / expected.allowed();
-        if share <= 1.0 {
-            Self::Right(share)
+        let (error, allowed) = ((found - expected.value).abs(), expected.allowed());
+        if error <= allowed {
+            Self::Right(if allowed > 0.0 { error / allowed } else { 0.0 })
         } else {
             // a NaN comes here too
-            Self::Wrong(format!("found {found}, {share:.3} of what is allowed"))
+            Self::Wrong(format!("found {found}, {:.3} of what is allowed", error / allowed))
         }
     }
 }

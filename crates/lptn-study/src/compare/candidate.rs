@@ -218,6 +218,8 @@ fn transient(
         tolerance: run.tolerance,
         record: Record::Nodes(Vec::new()),
         watch,
+        windows: Vec::new(),
+        balance: None,
         linear_solver: LinearSolver::Auto,
     })
 }

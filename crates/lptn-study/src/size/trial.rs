@@ -82,9 +82,7 @@ pub fn requirement_margins(
     let system = ThermalSystem::assemble(network).map_err(SizeError::Assembly)?;
     let steady =
         SteadyState::solve(&system, time).map_err(|error| SizeError::Steady { value: f64::NAN, error })?;
-    let mut scope = network.evaluation();
-    scope.set_time(time, time);
-    scope.set_temperatures(&steady.temperatures, &steady.boundary_temperatures);
+    let mut scope = steady.evaluation(network);
     let margin = |requirement: &Requirement| {
         let failed = |error| SizeError::Requirement { text: requirement.text.clone(), error };
         let margin = requirement.margin(&mut scope).map_err(|error| failed(Some(error)))?;

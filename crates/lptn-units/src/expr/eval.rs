@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::function::Function;
 use super::program::{Arithmetic, NamedTable, Op, Operand, Program};
+use super::tree::Comparison;
 use crate::scalar::Scalar;
 use crate::table::Table;
 
@@ -200,7 +201,7 @@ impl Program {
                 Op::Table(table) => self.table(index, table, accumulator)?,
                 Op::PoppedTable(table) => self.table_of_two(index, table, [pop(stack), accumulator])?,
                 Op::JumpUnless(comparison, target) => {
-                    if !comparison.holds(pop(stack).value(), accumulator.value()) {
+                    if !self.holds(index, comparison, [pop(stack).value(), accumulator.value()])? {
                         next = target;
                     }
                     continue;
@@ -213,6 +214,20 @@ impl Program {
             inspect(index, accumulator)?;
         }
         Ok(accumulator)
+    }
+
+    /// What is no number is neither larger nor smaller: nothing follows from it.
+    #[inline]
+    fn holds(
+        &self,
+        index: usize,
+        comparison: Comparison,
+        [left, right]: [f64; 2],
+    ) -> Result<bool, EvalError> {
+        if left.is_nan() || right.is_nan() {
+            return Err(EvalError::NotFinite { value: f64::NAN, span: self.span(index) });
+        }
+        Ok(comparison.holds(left, right))
     }
 
     #[inline]

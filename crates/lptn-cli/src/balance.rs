@@ -1,0 +1,174 @@
+//! `--balance`: heat into and out of one node or boundary, largest path first.
+
+use lptn_netlist::{Diagnostic, Files, Netlist, Span};
+use lptn_network::{End, Item, Network};
+use lptn_report::{Align, Column, TextTable, WIDTH, decimals, duration, fixed, prefix, significant};
+use lptn_solve::{Balance, Term};
+use lptn_study::Scalar;
+use lptn_units::suggest;
+use serde_json::{Value, json};
+
+use crate::args::Format;
+use crate::exit::Exit;
+use crate::failure::Failure;
+
+/// The node or boundary that the option names.
+pub(crate) fn end(netlist: &Netlist, name: Option<&str>, format: Format) -> Result<Option<End>, Failure> {
+    let Some(name) = name else { return Ok(None) };
+    if format == Format::Csv {
+        let message = "--balance is shown in the table and in JSON: CSV holds columns only";
+        let problem =
+            Diagnostic::error("balance::csv", message).help("leave out `--format csv`, or write json");
+        return Err(Failure::new(Exit::Input, problem));
+    }
+    let network = &netlist.network;
+    match network.item(name.strip_suffix(".T").unwrap_or(name)) {
+        Ok(Item::Node(id)) => Ok(Some(End::Node(id))),
+        Ok(Item::Boundary(id)) => Ok(Some(End::Boundary(id))),
+        found => Err(unknown(network, name, found.ok())),
+    }
+}
+
+fn unknown(network: &Network, name: &str, found: Option<Item>) -> Failure {
+    let mut files = Files::new();
+    let file = files.add("--balance", name);
+    let problem =
+        Diagnostic::error("balance::unknown_node", format!("no node or boundary is named `{name}`"))
+            .at(Span::new(file, 0..name.len()), "");
+    let nodes = network.nodes().iter().map(|node| node.name.as_str());
+    let names: Vec<&str> = nodes.chain(network.boundaries().iter().map(|b| b.name.as_str())).collect();
+    const SHOWN: usize = 8;
+    let list = |names: &[&str]| {
+        names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    };
+    let help = match (found, suggest(name, names.iter().copied())) {
+        (Some(Item::Conductor(id)), _) => {
+            let c = &network.conductors()[id.index()];
+            let ends = [c.from, c.to].map(|end| network.name_of(end.into()));
+            format!(
+                "`{name}` is a path between {}: name one of them",
+                ends.map(|e| format!("`{e}`")).join(" and ")
+            )
+        }
+        (Some(Item::Source(id)), _) => {
+            let into = network.sources()[id.index()].into.iter();
+            let into: Vec<&str> = into.map(|(node, _)| network.name_of(Item::Node(*node))).collect();
+            format!("`{name}` is a source into {}", list(&into))
+        }
+        (_, Some(near)) => format!("did you mean `{near}`?"),
+        (_, None) => format!("its nodes and boundaries are {}", list(&names)),
+    };
+    Failure::at(Exit::Input, files, problem.help(help))
+}
+
+/// Numbers of one quantity in one unit, with their shares.
+struct Amounts {
+    heading: String,
+    cells: Vec<String>,
+    shares: Vec<String>,
+}
+
+impl Amounts {
+    fn new(when: &str, unit: &str, values: &[f64], turned_over: f64) -> Self {
+        let (scale, letter) = prefix(turned_over);
+        let digits = decimals(turned_over / scale, 4, 0);
+        let share = |value: &f64| match turned_over > 0.0 {
+            true => fixed(100.0 * value / turned_over, 1),
+            false => "-".into(),
+        };
+        Self {
+            heading: format!("{when} [{letter}{unit}]"),
+            cells: values.iter().map(|value| fixed(value / scale, digits)).collect(),
+            shares: values.iter().map(share).collect(),
+        }
+    }
+
+    fn columns(self) -> [Column; 2] {
+        [Column::new(self.heading, Align::Right, self.cells), Column::new("%", Align::Right, self.shares)]
+    }
+}
+
+/// The balance as a block; `times` are start and end of the run in s, none for a steady state.
+pub(crate) fn lines(network: &Network, balance: &Balance, times: Option<(f64, f64)>) -> Vec<String> {
+    let terms = balance.largest_first();
+    let name = network.name_of(balance.of.into());
+    let with =
+        |value: &dyn Fn(&Term) -> f64, last: f64| terms.iter().map(value).chain([last]).collect::<Vec<f64>>();
+    let mut names: Vec<String> = terms.iter().map(|term| network.name_of(term.item).to_owned()).collect();
+    names.push(rest(balance, times.is_none()).to_owned());
+    let mut others: Vec<String> = terms.iter().map(|term| other(network, term)).collect();
+    others.push(String::new());
+    let mut columns = vec![
+        Column::new(format!("heat into {name}"), Align::Left, names),
+        Column::new("", Align::Left, others).names(),
+    ];
+    let when = times.map_or("steady".to_owned(), |(_, end)| format!("at {}", duration(end, 4)));
+    let powers = with(&|term| term.power, balance.power());
+    columns.extend(Amounts::new(&when, "W", &powers, balance.power_turned_over()).columns());
+    if let (Some((start, end)), Some(stored), Some(all)) = (times, balance.stored, balance.heat_turned_over())
+    {
+        let heats = with(&|term| term.heat.unwrap_or(f64::NAN), stored);
+        let over = format!("over {}", duration(end - start, 4));
+        columns.extend(Amounts::new(&over, "J", &heats, all).columns());
+    }
+    let mut lines = TextTable::new(columns).lines(WIDTH);
+    lines.push("positive: into it; 100 % is all that comes in or all that goes out, the larger".to_owned());
+    if let Some(open) = open(balance) {
+        lines.push(format!("the paths and what is stored differ by {} J", significant(open, 2)));
+    }
+    lines
+}
+
+/// What the sum of all paths and sources is.
+fn rest(balance: &Balance, steady: bool) -> &'static str {
+    match balance.of {
+        End::Node(_) if steady => "sum",
+        End::Node(_) => "= stored",
+        End::Boundary(_) => "= taken",
+    }
+}
+
+/// What the ledger leaves open, where it can be seen in the table.
+fn open(balance: &Balance) -> Option<f64> {
+    let residual = balance.heat()? - balance.stored?;
+    (residual.abs() > 1e-4 * balance.heat_turned_over()?).then_some(residual)
+}
+
+fn other(network: &Network, term: &Term) -> String {
+    match term.other {
+        Some(end) => {
+            let way = if term.heat.unwrap_or(term.power) < 0.0 { "to" } else { "from" };
+            format!("{way} {}", network.name_of(end.into()))
+        }
+        None => "source".into(),
+    }
+}
+
+/// `{ of, terms: [{ name, other, power, power_share, heat, heat_share }], power, heat, stored, .. }`, in SI, largest
+/// first.
+pub(crate) fn json(network: &Network, balance: &Balance) -> Value {
+    let scalar = |value: f64, unit: &str| Scalar::new(value, unit).json();
+    let heat = |value: Option<f64>| value.map_or(Value::Null, |value| scalar(value, "J"));
+    let share = |value: f64, all: f64| if all > 0.0 { scalar(value / all, "1") } else { Value::Null };
+    let (power, all) = (balance.power_turned_over(), balance.heat_turned_over());
+    let term = |term: &Term| {
+        let shares = term.heat.zip(all).map_or(Value::Null, |(heat, all)| share(heat, all));
+        json!({
+            "name": network.name_of(term.item),
+            "other": term.other.map(|end| network.name_of(end.into())),
+            "power": scalar(term.power, "W"),
+            "power_share": share(term.power, power),
+            "heat": heat(term.heat),
+            "heat_share": shares,
+        })
+    };
+    json!({
+        "of": network.name_of(balance.of.into()),
+        "terms": balance.largest_first().iter().map(term).collect::<Vec<_>>(),
+        "power": scalar(balance.power(), "W"),
+        "power_turned_over": scalar(power, "W"),
+        "heat": heat(balance.heat()),
+        "heat_turned_over": heat(all),
+        "stored": heat(balance.stored),
+    })
+}

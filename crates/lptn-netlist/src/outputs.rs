@@ -1,0 +1,135 @@
+//! What a run reports beside its own columns: expressions of results, and windows of time.
+
+use lptn_network::{Field, Item};
+
+use crate::diagnostic::Diagnostic;
+use crate::elaborate::Elaboration;
+use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::file::Span;
+use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::run::{Setting, TIME};
+use crate::value::{Place, Wanted};
+use crate::vocabulary::WINDOW;
+
+/// A part of the run over which means and extremes are taken.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WindowSettings {
+    /// Its name.
+    pub name: String,
+    /// When it begins, in s; not before the run.
+    pub from: f64,
+    /// When it ends, in s; after `from` and not after the run.
+    pub to: f64,
+}
+
+/// A window before its expressions are evaluated.
+#[derive(Clone, Debug)]
+pub(crate) struct WindowPlan {
+    name: String,
+    from: Setting,
+    to: Setting,
+}
+
+impl<'a> Elaboration<'a> {
+    /// `report = { rise = "ring.T - air.T" }`: each becomes a column.
+    pub(crate) fn reports(&mut self, fields: &Fields<'a>) {
+        for entry in self.members(fields, "report") {
+            self.report_column(entry);
+        }
+    }
+
+    fn report_column(&mut self, entry: &'a RawEntry) -> Option<()> {
+        let owner = Owner::element("report", &entry.key);
+        let place = Place { owner: &owner, key: "", raw: &entry.value };
+        if entry.key == "time" {
+            let problem = Diagnostic::error("netlist::report_name", "`time` is the column of the time");
+            self.report(problem.at(entry.key_span.clone(), "").help("give the report another name"));
+            return None;
+        }
+        let input = self.given(place, Wanted::of_results())?.input();
+        let text = match &entry.value.kind {
+            RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => text.trim(),
+            _ => "",
+        };
+        let item = Item::Report(self.builder.report(&entry.key, input, text));
+        self.map.insert(item, Field::Name, entry.key_span.clone());
+        self.map.value(item, Field::Value, &entry.value);
+        Some(())
+    }
+
+    /// `window = { climb = { from = "10 min", to = "20 min" } }`.
+    pub(crate) fn windows(&mut self, fields: &Fields<'a>) -> Vec<WindowPlan> {
+        let windows =
+            self.members(fields, "window").iter().map(|entry| self.window(entry)).collect::<Vec<_>>();
+        windows.into_iter().flatten().collect()
+    }
+
+    fn window(&mut self, entry: &'a RawEntry) -> Option<WindowPlan> {
+        let fields = Fields::of(&WINDOW, Owner::element(WINDOW.name, &entry.key), entry, &mut self.problems)?;
+        let (from, to) = (self.window_end(&fields, "from"), self.window_end(&fields, "to"));
+        Some(WindowPlan { name: entry.key.clone(), from: from?, to: to? })
+    }
+
+    fn window_end(&mut self, fields: &Fields<'a>, key: &str) -> Option<Setting> {
+        let Some(raw) = fields.get(key) else {
+            if fields.complete {
+                let message = format!("{} has no `{key}`", fields.owner.words());
+                let problem = Diagnostic::error("netlist::missing_field", message);
+                self.report(problem.at(fields.place.clone(), format!("`{key}` is missing")).help(HELP));
+            }
+            return None;
+        };
+        // without a key of its own: elsewhere `from` and `to` are names of nodes
+        let mut setting = self.setting(&fields.owner.inside(key), ("", raw), TIME)?;
+        HELP.clone_into(&mut setting.help);
+        Some(setting)
+    }
+
+    /// The entries of a table in `[run]`.
+    fn members(&mut self, fields: &Fields<'a>, key: &str) -> &'a [RawEntry] {
+        let Some(raw): Option<&'a RawValue> = fields.get(key) else { return &[] };
+        let RawKind::Table(table) = &raw.kind else {
+            self.report(wrong_shape(&fields.owner.field(key), raw, "a table", &sample(key)));
+            return &[];
+        };
+        &table.entries
+    }
+}
+
+const HELP: &str = "write it like this: `window = { climb = { from = \"10 min\", to = \"20 min\" } }`";
+
+impl WindowPlan {
+    /// Both ends, for evaluation.
+    pub(crate) fn ends(&self) -> [&Setting; 2] {
+        [&self.from, &self.to]
+    }
+
+    /// The window between these times in s, or why it is none of a run from `start` to `stop`.
+    pub(crate) fn settings(
+        &self,
+        (from, to): (f64, f64),
+        (start, stop): (f64, f64),
+    ) -> Result<WindowSettings, Diagnostic> {
+        let name = &self.name;
+        let at = |span: &Span| span.clone();
+        let problem = |message| Diagnostic::error("netlist::run_window", message);
+        if to <= from {
+            let message = format!("window `{name}` ends at {to} s, but begins at {from} s");
+            let error =
+                problem(message).at(at(&self.to.span), "ends here").also(at(&self.from.span), "begins here");
+            return Err(
+                error.help("`to` has to be after `from`: swap the two if they are the wrong way round")
+            );
+        }
+        if from < start || to > stop {
+            let (end, time) = if from < start { (&self.from, from) } else { (&self.to, to) };
+            let message = format!(
+                "window `{name}` is not inside the run, which lasts from {start} s to {stop} s: {time} s"
+            );
+            return Err(problem(message)
+                .at(at(&end.span), "outside the run")
+                .help("change the window, or `start` and `stop` of the run"));
+        }
+        Ok(WindowSettings { name: name.clone(), from, to })
+    }
+}

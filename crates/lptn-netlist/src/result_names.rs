@@ -1,0 +1,86 @@
+//! The names of results in expressions: temperatures and heat flows.
+
+use lptn_units::suggest;
+
+use crate::diagnostic::Diagnostic;
+use crate::file::Span;
+use crate::names::Names;
+use crate::value::Place;
+
+impl Names {
+    /// A heat flow: `NAME.Q` of a path or boundary, `NAME.Q_from` or `NAME.Q_to` of a stream, `NAME.P` of a source.
+    pub(crate) fn is_heat(&self, name: &str) -> bool {
+        let Some((base, ending)) = name.rsplit_once('.') else { return false };
+        self.kind_of(base).is_some_and(|kind| heats(kind).contains(&ending))
+    }
+
+    /// An unknown name where results may be named.
+    pub(crate) fn unknown_result(&mut self, place: Place<'_>, name: &str, at: Span) -> Diagnostic {
+        let (words, base) = (place.words(), base(name));
+        let dotted = base.len() < name.len();
+        let kind = self.kind_of(base);
+        let message = match kind {
+            Some(kind) if dotted => format!("{words} uses `{name}`, which {kind} `{base}` does not have"),
+            None if dotted && name.ends_with(".T") => format!("{words}: no node or boundary named `{base}`"),
+            None if dotted => format!("{words}: no element named `{base}`"),
+            _ => format!("{words} uses `{name}`, which is no parameter"),
+        };
+        let error = Diagnostic::error("netlist::unknown_name", message).at(at, "unknown name");
+        match kind.map(|kind| (kind, results_of(kind, base))) {
+            Some((kind, has)) if has.is_empty() => {
+                error.help(format!("`{base}` is a {kind}; results are temperatures and heat flows"))
+            }
+            Some(("node", _)) => error.help(format!("its temperature is `{base}.T`")),
+            Some(("boundary", _)) => {
+                error.help(format!("its temperature is `{base}.T`, the heat it gives is `{base}.Q`"))
+            }
+            Some((kind, has)) => {
+                let has: Vec<String> = has.iter().map(|name| format!("`{name}`")).collect();
+                let article = if kind.starts_with('a') { "an" } else { "a" };
+                error.help(format!("`{base}` is {article} {kind}: write {}", has.join(" or ")))
+            }
+            None => match self.similar_result(name) {
+                Some(near) => error.help(format!("did you mean `{near}`?")),
+                None => error.help(
+                    "name a temperature such as `steel.T`, a heat flow such as `cooling.Q`, a parameter or `t`",
+                ),
+            },
+        }
+    }
+
+    /// The most similar parameter, temperature or heat flow; of equally similar ones the first in the alphabet.
+    fn similar_result(&mut self, name: &str) -> Option<String> {
+        if !self.may_search() {
+            return None;
+        }
+        let mut names: Vec<String> =
+            self.elements.iter().flat_map(|(name, kind)| results_of(kind, name)).collect();
+        names.extend(self.order.iter().cloned());
+        names.sort_unstable();
+        suggest(name, names.iter().map(String::as_str)).map(str::to_owned)
+    }
+}
+
+/// The endings of the heat flows that an element of this section has.
+fn heats(kind: &str) -> &'static [&'static str] {
+    match kind {
+        "source" => &["P"],
+        "advection" => &["Q_from", "Q_to"],
+        "boundary" | "resistor" | "conduction" | "convection" | "contact" | "radiation" => &["Q"],
+        _ => &[],
+    }
+}
+
+/// The results of an element of this section: `steel.T`, `internal.Q`.
+fn results_of(kind: &str, name: &str) -> Vec<String> {
+    let temperature: &[&str] = if matches!(kind, "node" | "boundary") { &["T"] } else { &[] };
+    temperature.iter().chain(heats(kind)).map(|ending| format!("{name}.{ending}")).collect()
+}
+
+/// The element of a result: `steel` of `steel.T`.
+pub(crate) fn base(name: &str) -> &str {
+    match name.rsplit_once('.') {
+        Some((base, "T" | "Q" | "Q_from" | "Q_to" | "P")) => base,
+        _ => name,
+    }
+}

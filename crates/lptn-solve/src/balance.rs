@@ -1,0 +1,188 @@
+//! Heat into and out of one node or boundary: every path and source that reaches it.
+
+use lptn_assembly::{ThermalSystem, Workspace};
+use lptn_network::{ConductorId, End, InputError, Item, Network, SourceId};
+
+use crate::ledger::{self, Ledger};
+use crate::steady::SteadyState;
+
+/// What one path or source brings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Term {
+    /// The conductor or source.
+    pub item: Item,
+    /// The end that a conductor comes from; `None` for a source.
+    pub other: Option<End>,
+    /// Heat flow at the end of the run in W, positive into the node.
+    pub power: f64,
+    /// Heat over the run in J, positive into the node; `None` in steady state.
+    pub heat: Option<f64>,
+}
+
+/// The heat balance of one node or boundary.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Balance {
+    /// The node or boundary.
+    pub of: End,
+    /// Everything that reaches it, in the order of the network: conductors, then sources.
+    pub terms: Vec<Term>,
+    /// What it stores, in J, from its own temperature and capacity; for a boundary what it takes. It differs from the
+    /// sum of the terms by what the ledger leaves open. `None` in steady state.
+    pub stored: Option<f64>,
+}
+
+impl Balance {
+    /// The sum of all heat flows in W: what the node stores, or the boundary takes.
+    pub fn power(&self) -> f64 {
+        self.terms.iter().map(|term| term.power).sum()
+    }
+
+    /// The sum of the heat of all terms in J.
+    pub fn heat(&self) -> Option<f64> {
+        self.terms.iter().map(|term| term.heat).sum()
+    }
+
+    /// The terms with the largest path first: by heat over the run, in steady state by heat flow; of equal ones in the
+    /// order of the network.
+    pub fn largest_first(&self) -> Vec<Term> {
+        let size = |term: &Term| term.heat.unwrap_or(term.power).abs();
+        let mut terms = self.terms.clone();
+        terms.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        terms
+    }
+
+    /// Heat turned over, for shares: all that comes in, which is all that goes out or stays. In W.
+    pub fn power_turned_over(&self) -> f64 {
+        turned_over(self.terms.iter().map(|term| term.power))
+    }
+
+    /// As [`Balance::power_turned_over`], over the run in J.
+    pub fn heat_turned_over(&self) -> Option<f64> {
+        self.stored?;
+        Some(turned_over(self.terms.iter().filter_map(|term| term.heat)))
+    }
+}
+
+/// The larger one of what comes in and what goes out.
+fn turned_over(heat: impl Iterator<Item = f64>) -> f64 {
+    let (into, out) = heat.fold((0.0, 0.0), |(i, o), q: f64| (i + q.max(0.0), o + (-q).max(0.0)));
+    into.max(out)
+}
+
+/// Where a term gets its heat from.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    /// A conductor, and which of its ends the node is.
+    Conductor(ConductorId, usize),
+    /// A source, and the share of its heat.
+    Source(SourceId, f64),
+}
+
+/// The terms of the node that is asked about, and the running integrals of a run.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Books {
+    of: Option<End>,
+    kinds: Vec<Kind>,
+}
+
+impl Books {
+    pub(crate) fn new(network: &Network, of: Option<End>) -> Self {
+        let Some(end) = of else { return Self::default() };
+        let conductors = network.conductors().iter().zip(network.conductor_ids());
+        let mut kinds: Vec<Kind> = conductors
+            .filter_map(|(c, id)| {
+                let side = [c.from, c.to].iter().position(|&e| e == end)?;
+                Some(Kind::Conductor(id, side))
+            })
+            .collect();
+        for (source, id) in network.sources().iter().zip(network.source_ids()) {
+            let shares = source.into.iter().filter(|(node, _)| End::Node(*node) == end);
+            kinds.extend(shares.map(|(_, share)| Kind::Source(id, *share)));
+        }
+        Self { of, kinds }
+    }
+
+    /// Number of running integrals that a run needs: those of the ledger, then the terms.
+    pub(crate) fn integrals(&self, system: &ThermalSystem) -> usize {
+        ledger::integrals(system) + self.kinds.len()
+    }
+
+    /// Their integrands in W at the inputs of `work` and the temperatures `y` of the unknowns.
+    pub(crate) fn integrands(
+        &self,
+        system: &ThermalSystem,
+        work: &mut Workspace,
+        y: &[f64],
+        q: &mut [f64],
+    ) -> Result<(), InputError> {
+        let (of_ledger, terms) = q.split_at_mut(ledger::integrals(system));
+        ledger::integrands(system, work, y, of_ledger)?;
+        if self.kinds.is_empty() {
+            return Ok(());
+        }
+        system.recover(work, y); // eliminated nodes are ends of paths too
+        terms.iter_mut().zip(&self.kinds).try_for_each(|(q, kind)| {
+            *q = kind.power(system, work)?;
+            Ok(())
+        })
+    }
+
+    /// The ledger, and the balance with the heat flows that `work` stands at.
+    pub(crate) fn close(
+        &self,
+        system: &ThermalSystem,
+        work: &mut Workspace,
+        integrals: &[f64],
+        (stored, tolerance): (Vec<f64>, f64),
+    ) -> (Ledger, Option<Balance>) {
+        let (of_ledger, heats) = integrals.split_at(ledger::integrals(system));
+        let ledger = Ledger::new(system, of_ledger, stored, tolerance);
+        let balance = self.of.map(|of| {
+            let stored = match of {
+                End::Node(id) => ledger.stored[id.index()],
+                End::Boundary(id) => -ledger.boundaries[id.index()],
+            };
+            let network = system.network();
+            let terms = self.kinds.iter().zip(heats).map(|(kind, heat)| {
+                let power = kind.power(system, work).unwrap_or(f64::NAN);
+                kind.term(network, power, Some(*heat))
+            });
+            Balance { of, terms: terms.collect(), stored: Some(stored) }
+        });
+        (ledger, balance)
+    }
+}
+
+impl Kind {
+    fn power(self, system: &ThermalSystem, work: &mut Workspace) -> Result<f64, InputError> {
+        Ok(match self {
+            Self::Conductor(id, side) => system.received(work, id)?[side],
+            Self::Source(id, share) => share * system.source_powers(work)[id.index()],
+        })
+    }
+
+    fn term(self, network: &Network, power: f64, heat: Option<f64>) -> Term {
+        match self {
+            Self::Conductor(id, side) => {
+                let conductor = &network.conductors()[id.index()];
+                let other = if side == 0 { conductor.to } else { conductor.from };
+                Term { item: Item::Conductor(id), other: Some(other), power, heat }
+            }
+            Self::Source(id, _) => Term { item: Item::Source(id), other: None, power, heat },
+        }
+    }
+}
+
+impl SteadyState {
+    /// The heat balance of a node or boundary.
+    pub fn balance(&self, network: &Network, of: End) -> Balance {
+        let terms = Books::new(network, Some(of)).kinds.into_iter().map(|kind| {
+            let power = match kind {
+                Kind::Conductor(id, side) => self.received[id.index()][side],
+                Kind::Source(id, share) => share * self.source_heat[id.index()],
+            };
+            kind.term(network, power, None)
+        });
+        Balance { of, terms: terms.collect(), stored: None }
+    }
+}

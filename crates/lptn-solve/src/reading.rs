@@ -1,0 +1,81 @@
+//! Quantities of the results, read where a workspace stands.
+
+use lptn_assembly::{ThermalSystem, Workspace};
+use lptn_network::{Evaluation, HeatOf, InputError};
+
+use crate::quantity::Quantity;
+
+/// Reads quantities from a workspace whose inputs are read and whose nodes are recovered.
+#[derive(Clone, Debug)]
+pub(crate) struct Reading<'a> {
+    system: &'a ThermalSystem,
+    pub(crate) scope: Evaluation,
+    unknowns: Vec<f64>,
+    boundary_heat: Vec<f64>,
+    /// The heat flows that expressions of results name.
+    named: Vec<f64>,
+}
+
+impl<'a> Reading<'a> {
+    pub(crate) fn new(system: &'a ThermalSystem) -> Self {
+        Self {
+            system,
+            scope: system.network().evaluation(),
+            unknowns: vec![f64::NAN; system.unknowns().len()],
+            boundary_heat: vec![f64::NAN; system.network().boundaries().len()],
+            named: Vec::new(),
+        }
+    }
+
+    /// Goes where the workspace is; `at` is the time and a time inside the segment, in s. Where a temperature is not
+    /// known (NaN), what follows from it is NaN.
+    pub(crate) fn place(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
+        let Self { system, scope, unknowns, boundary_heat, named } = self;
+        let network = system.network();
+        let nodes = system.node_temperatures(work);
+        let known = !nodes.iter().any(|t| t.is_nan());
+        scope.set_time(at.0, at.1);
+        scope.set_temperatures(nodes, system.boundary_temperatures(work));
+        if !known {
+            boundary_heat.fill(f64::NAN);
+            return Ok(());
+        }
+        system.unknown_temperatures(system.node_temperatures(work), unknowns);
+        system.boundary_heat(work, unknowns, boundary_heat)?;
+        named.clear();
+        for heat in network.named_heats() {
+            named.push(heat_of(system, boundary_heat, work, heat)?);
+        }
+        scope.set_heats(named);
+        Ok(())
+    }
+
+    /// One quantity in SI units.
+    pub(crate) fn value(&mut self, work: &mut Workspace, quantity: Quantity) -> Result<f64, InputError> {
+        match quantity {
+            Quantity::Node(id) => Ok(self.system.node_temperatures(work)[id.index()]),
+            Quantity::BoundaryTemperature(id) => Ok(self.system.boundary_temperatures(work)[id.index()]),
+            Quantity::Heat(heat) => heat_of(self.system, &self.boundary_heat, work, heat),
+            Quantity::Signal(id) => Ok(self.scope.signal(id)),
+            Quantity::Report(id) => self.system.network().report_value(id, &mut self.scope),
+        }
+    }
+}
+
+fn heat_of(
+    system: &ThermalSystem,
+    boundary_heat: &[f64],
+    work: &mut Workspace,
+    heat: HeatOf,
+) -> Result<f64, InputError> {
+    match heat {
+        HeatOf::Conductor(id) | HeatOf::ReceivedTo(id) => Ok(system.received(work, id)?[1]),
+        HeatOf::ReceivedFrom(id) => Ok(system.received(work, id)?[0]),
+        HeatOf::Source(id) => {
+            let needs = system.network().source_variables(id);
+            let known = needs.is_empty() || !system.node_temperatures(work).iter().any(|t| t.is_nan());
+            Ok(if known { system.source_powers(work)[id.index()] } else { f64::NAN })
+        }
+        HeatOf::Boundary(id) => Ok(boundary_heat[id.index()]),
+    }
+}
