@@ -1,6 +1,6 @@
 //! The table of a run, its heat and its notes.
 
-use lptn_network::{ConductorKind, list_of_names};
+use lptn_network::list_of_names;
 use lptn_report::{
     Align, Column, Flow, TextTable, WIDTH, balance, decimals, duration, fixed, labelled, significant,
     sparkline,
@@ -87,7 +87,9 @@ fn table(view: &View<'_>, nodes: &[NodeSummary]) -> Vec<String> {
     let unit = view.unit;
     let temperatures = nodes.iter().flat_map(|n| [Some(n.start), Some(n.end), Some(n.peak.0), n.steady]);
     let (low, high) = range(temperatures.flatten());
-    let digits = decimals((high - low) / unit.scale, 3, 1);
+    // what the tolerance cannot tell from rest takes no decimals
+    let span = Some(high - low).filter(|span| *span > 10.0 * view.settings.tolerance).unwrap_or(0.0);
+    let digits = decimals(span / unit.scale, 3, 1);
     let number = |kelvin: f64| fixed(unit.from_si(kelvin), digits);
     let column = |title: &str, text: &dyn Fn(&NodeSummary) -> String| {
         Column::new(title, Align::Right, nodes.iter().map(text).collect())
@@ -179,7 +181,9 @@ fn notes(view: &View<'_>, nodes: &[NodeSummary]) -> Vec<String> {
         Err(NoSteady::Network(SteadyError::NoBoundary { .. })) | Ok(_) => {}
         Err(NoSteady::Network(error)) => notes.push(format!("steady is `-`: {error}")),
     }
-    notes.extend(view.solution.statistics().switched_to_lu.map(|time| {
+    let reached = view.solution.end() == End::Reached;
+    let switched = view.solution.statistics().switched_to_lu.filter(|_| reached);
+    notes.extend(switched.map(|time| {
         format!(
             "from {} s on the Newton matrix is unsymmetric: the symmetric one did not converge",
             significant(time, 4)
@@ -238,10 +242,10 @@ fn heat(view: &View<'_>) -> Vec<String> {
     let (network, ledger) = (view.solution.network(), view.solution.ledger());
     let sources = network.sources().iter().map(|s| &s.name).zip(&ledger.sources);
     let boundaries = network.boundaries().iter().map(|b| &b.name).zip(&ledger.boundaries);
-    let streams = network.conductors().iter().filter(|c| c.kind == ConductorKind::Advection);
-    let streams = streams.map(|c| &c.name).zip(&ledger.streams);
     let flow = |(name, &heat): (&String, &f64)| Flow { name: name.clone(), heat };
-    let flows: Vec<Flow> = sources.chain(boundaries).chain(streams).map(flow).collect();
+    let mut flows: Vec<Flow> = sources.chain(boundaries).map(flow).collect();
+    // one stream hands on what another brings: only all of them together say something
+    flows.push(Flow { name: "streams".into(), heat: ledger.streams.iter().sum() });
     let pieces = balance(&flows, ledger.stored.iter().sum(), ledger.turned_over);
     let over = format!("heat over {}:", duration(reached(view) - view.settings.start, 4));
     let width = over.len() + 2;

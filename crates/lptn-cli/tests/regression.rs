@@ -76,3 +76,25 @@ fn a_steady_state_at_rest_is_shown_as_zeros() {
     let ran = Folder::with("still.toml", text).run(&["steady", "still.toml"]).exits(0);
     assert!(ran.out.contains("Q [W]") && !ran.out.contains("00000"), "{}", ran.out);
 }
+
+/// A run at rest showed nine decimals, the noise of the integrator. A cell that 10 W keep 10 K over the air.
+#[test]
+fn a_run_at_rest_shows_no_noise() {
+    let text = "format = 1\n[node]\ncell = { C = \"100 J/K\", T0 = \"30 degC\" }\n[boundary]\n\
+                air = { T = \"20 degC\" }\n[resistor]\nskin = { from = \"cell\", to = \"air\", G = \"1 W/K\" }\n\
+                [source]\nheat = { into = \"cell\", P = \"9.99999 W\" }\n[run]\nstop = \"1 min\"\n";
+    let folder = Folder::with("cell.toml", text);
+    folder.run(&["run", "cell.toml"]).exits(0).prints("cell       30.0  30.0  30.0");
+}
+
+/// Streams that hand on to each other what they carry were listed one by one: only their sum is heat of the network.
+#[test]
+fn the_heat_of_streams_is_one_sum() {
+    let text = "format = 1\n[node]\nsump = { C = \"100 J/K\", T0 = \"20 degC\" }\n[boundary]\n\
+                tank = { T = \"20 degC\" }\n[advection]\nfeed = { from = \"tank\", to = \"sump\", mcp = \"5 W/K\" }\n\
+                drain = { from = \"sump\", to = \"tank\", mcp = \"5 W/K\" }\n\
+                [source]\nheat = { into = \"sump\", P = \"100 W\" }\n[run]\nstop = \"10 min\"\n";
+    let folder = Folder::with("oil.toml", text);
+    // sump rises by 20 K (1 - exp(-t / 20 s)): 2 kJ stored, the rest of 60 kJ leaves with the oil
+    folder.run(&["run", "oil.toml"]).exits(0).prints("in 60.00 kJ = stored 2.00 + tank 58.00 kJ");
+}

@@ -128,12 +128,16 @@ fn load(
         return refused("netlist::not_text", message, "choose `CSV UTF-8` where your program saves it");
     };
     let file = files.add(name.to_string(), text);
-    parse(file, text).map(Arc::new).ok_or_else(|| {
+    let parsed = parse(file, text).ok_or_else(|| {
         Diagnostic::error("netlist::csv_empty", format!("{name} has no header"))
             .at(Span::new(file, 0..0), "the header belongs here")
             .also(value.span.clone(), "read here")
             .help("begin it with the names of the columns and their units: `t [s],speed [rpm]`")
-    })
+    })?;
+    match parsed.too_long(value) {
+        Some(problem) => Err(problem),
+        None => Ok(Arc::new(parsed)),
+    }
 }
 
 /// The header and the rows; lines that are empty or begin with `#` are left out.
@@ -194,6 +198,20 @@ impl Row {
 }
 
 impl CsvFile {
+    /// The first row with a value behind the last column: with a decimal comma every number falls into two.
+    fn too_long(&self, value: &RawValue) -> Option<Diagnostic> {
+        let columns = self.headers.len();
+        let extra = |row: &Row| (columns..row.cells.len()).find(|&i| !row.cell(i).is_empty());
+        let (row, index) = self.rows.iter().find_map(|row| Some((row, extra(row)?)))?;
+        let message = format!("this row has {} values, the header names {columns} columns", row.cells.len());
+        let problem = Diagnostic::error("netlist::csv_extra_value", message)
+            .at(row.place(self.file, index), "belongs to no column")
+            .also(self.header_place.clone(), "the header")
+            .also(value.span.clone(), "read here")
+            .help("write decimal points, not commas: `0.5`, and name every column in the header");
+        Some(problem)
+    }
+
     /// The numbers of the column that `ask` names, in SI units; of type `wanted` where that is known.
     pub(crate) fn column(
         &self,

@@ -290,9 +290,14 @@ impl<'a> Newton<'a> {
             self.values[slot] += inertia * self.values[slot].abs();
         }
         self.ready = false;
+        // a balance without a single term says more than the pivot at which elimination ended
+        let is_empty = |&slot: &usize| self.values[slot].abs() < f64::MIN_POSITIVE;
+        let empty = self.pattern.diagonal().iter().position(is_empty);
         let free = &self.free;
         let failed = |error| match error {
-            FactorError::Singular { index } => NewtonError::Singular { unknown: free[index] },
+            FactorError::Singular { index } => {
+                NewtonError::Singular { unknown: free[empty.unwrap_or(index)] }
+            }
             other => NewtonError::Factorization(other),
         };
         self.factors.factorize(&self.values).map_err(failed)?;

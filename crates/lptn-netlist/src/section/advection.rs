@@ -130,13 +130,13 @@ impl<'a> Elaboration<'a> {
             self.report(problem);
             return None;
         };
-        let known = self.library_fluid(record, cp);
+        let known = self.fluid_of_library(record, cp);
         self.map.insert(Item::Fluid(known.id), Field::Name, raw.span.clone());
         self.known_fluids.insert(name.to_owned(), known);
         Some((known, name, raw))
     }
 
-    fn library_fluid(&mut self, record: &Record, cp: f64) -> KnownFluid {
+    fn fluid_of_library(&mut self, record: &Record, cp: f64) -> KnownFluid {
         let input = |value: f64, dimension| -> Input {
             Quantity { value, deviation: None, ty: Type::of(dimension) }.into()
         };
