@@ -18,6 +18,7 @@ mod diagnostics;
 mod exit;
 mod failure;
 mod files;
+mod gaps;
 mod input;
 mod interrupt;
 mod limits;

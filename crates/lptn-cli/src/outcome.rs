@@ -15,6 +15,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::Folder;
+use crate::gaps::gaps;
 use crate::limits::{self, Judged};
 use crate::run::{Job, NoSteady};
 use crate::summary::View;
@@ -149,7 +150,8 @@ impl Outcome<'_> {
         let mut json = JsonWriter::new(out);
         json.member("format", &json!(1))?;
         json.member("network", &json!(self.job.input.text.stem))?;
-        let warnings: Vec<Diagnostic> = netlist.warnings.iter().cloned().chain(self.doubts()).collect();
+        let warnings: Vec<Diagnostic> =
+            netlist.warnings.iter().cloned().chain(self.doubts()).chain(gaps(netlist, table)).collect();
         json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
         json.table(table)?;
         json.member("events", &json!([]))?;
@@ -185,6 +187,7 @@ impl Outcome<'_> {
         if self.job.format != Format::Table {
             console.warn(&self.job.input.netlist.files, &self.doubts());
         }
+        console.warn(&self.job.input.netlist.files, &gaps(&self.job.input.netlist, table));
         if self.job.format == Format::Table && self.solution.end() == End::Reached {
             let command = next::after_run(self.job.input, self.steady.is_ok());
             command.iter().for_each(|command| console.note(&format!("next   {command}")));

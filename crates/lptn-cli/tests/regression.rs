@@ -98,3 +98,13 @@ fn the_heat_of_streams_is_one_sum() {
     // sump rises by 20 K (1 - exp(-t / 20 s)): 2 kJ stored, the rest of 60 kJ leaves with the oil
     folder.run(&["run", "oil.toml"]).exits(0).prints("in 60.00 kJ = stored 2.00 + tank 58.00 kJ");
 }
+
+/// A report without a value in some row was NaN without a word.
+#[test]
+fn a_report_without_a_value_is_a_warning() {
+    let text = GEARBOX.replace("[run]\n", "[run]\nreport = { odd = \"sqrt(600 - t / 1 [s])\" }\n");
+    let folder = Folder::with("gearbox.toml", &text);
+    let ran = folder.run(&["run", "gearbox.toml", "--format", "json"]).exits(0);
+    ran.says("run::report_without_value").says("has no value at 605 s").says("sqrt(600 - t / 1 [s])");
+    folder.run(&["run", "gearbox.toml"]).exits(0).says("run::report_without_value");
+}
