@@ -12,6 +12,7 @@ use crate::id::{
 };
 use crate::law::{Exchange, Law, Shape, Stream};
 use crate::limit::{Bound, Limit, Severity};
+use crate::names::is_path;
 use crate::network::Network;
 use crate::numbers::Numbers;
 use crate::parts::Parts;
@@ -362,8 +363,7 @@ impl NetworkBuilder {
     }
 
     pub(crate) fn check_name(&mut self, name: &str, item: Item) {
-        let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        if !name.starts_with(|c: char| word(c) && !c.is_ascii_digit()) || !name.chars().all(word) {
+        if !is_path(name) {
             self.error(name, BuildErrorKind::BadName { item });
         } else if RESERVED.contains(&name) {
             self.error(name, BuildErrorKind::ReservedName { item });

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use lptn_network::{End, NodeId};
+use lptn_network::{End, NodeId, is_name};
 use lptn_units::suggest;
 
 use crate::diagnostic::Diagnostic;
@@ -83,11 +83,6 @@ impl<'a> Elaboration<'a> {
             self.ends.iter().filter(|(_, (end, _))| fits(end)).map(|(name, _)| *name).collect();
         suggest(name, candidates.into_iter())
     }
-}
-
-fn is_name(name: &str) -> bool {
-    let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    name.starts_with(|c: char| word(c) && !c.is_ascii_digit()) && name.chars().all(word)
 }
 
 fn example(name: &str, wanted: &str) -> String {
