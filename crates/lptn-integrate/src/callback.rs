@@ -3,6 +3,7 @@
 use std::any::Any;
 use std::ffi::{c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::slice;
 
 use sundials_sys as sys;
 use sys::{N_Vector, realtype};
@@ -34,6 +35,8 @@ pub(crate) struct Shared<S> {
     /// States and algebraic unknowns during a solve; empty if there are none of the latter.
     pub(crate) work: Vec<f64>,
     pub(crate) factors: Box<dyn Factorization>,
+    /// [`OdeSystem::root_count`] as it was at the start.
+    pub(crate) root_count: usize,
     /// The absolute tolerance that CVODE works with.
     pub(crate) absolute: f64,
     pub(crate) counts: Counts,
@@ -79,8 +82,11 @@ impl Failure {
         match cause {
             Cause::Panic(message) => IntegrateError::Panic { callback, time, message },
             Cause::NotFinite(index) => IntegrateError::NotFinite { callback, time, index },
-            Cause::Retry(Retry::SmallerStep) => IntegrateError::Refused { callback, time },
-            Cause::Retry(Retry::Stop) => IntegrateError::Stopped { callback, time },
+            // The state was accepted before the roots were looked for: there is no smaller step to try.
+            Cause::Retry(Retry::SmallerStep) if callback != Callback::Roots => {
+                IntegrateError::Refused { callback, time }
+            }
+            Cause::Retry(_) => IntegrateError::Stopped { callback, time },
             Cause::Linear(cause) => IntegrateError::Linear { time, cause },
         }
     }
@@ -147,6 +153,11 @@ impl<S: OdeSystem> Shared<S> {
     fn integrands(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Cause> {
         self.counts.quadrature += 1;
         self.system.quadrature(t, y, out)?;
+        expect_finite(out)
+    }
+
+    pub(crate) fn roots(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Cause> {
+        self.system.roots(t, y, out)?;
         expect_finite(out)
     }
 
@@ -268,6 +279,23 @@ pub(crate) unsafe extern "C" fn integrands<S: OdeSystem>(
     // SAFETY: as in `derivative`.
     let (shared, y, out) = unsafe { (&mut *data.cast::<Shared<S>>(), values(y), values_mut(out)) };
     shared.guard(Callback::Quadrature, t, |shared| shared.integrands(t, y, out))
+}
+
+/// The functions whose roots are looked for, for CVodeRootInit.
+pub(crate) unsafe extern "C" fn roots<S: OdeSystem>(
+    t: realtype,
+    y: N_Vector,
+    out: *mut realtype,
+    data: *mut c_void,
+) -> c_int {
+    // SAFETY: as in `derivative`; `out` is an array of CVODES with one value per function, not initialised.
+    let (shared, y, out) = unsafe {
+        let shared = &mut *data.cast::<Shared<S>>();
+        out.write_bytes(0, shared.root_count);
+        let out = slice::from_raw_parts_mut(out, shared.root_count);
+        (shared, values(y), out)
+    };
+    shared.guard(Callback::Roots, t, |shared| shared.roots(t, y, out))
 }
 
 /// The weights of the error test, for CVodeWFtolerances.

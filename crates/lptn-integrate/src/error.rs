@@ -11,6 +11,8 @@ pub enum Callback {
     Jacobian,
     /// [`crate::OdeSystem::quadrature`]
     Quadrature,
+    /// [`crate::OdeSystem::roots`]
+    Roots,
     /// The factorisation or the solve of the Newton system, which are not the user's code.
     LinearSolver,
 }
@@ -165,7 +167,8 @@ pub enum IntegrateError {
         /// Time of the last call.
         time: f64,
     },
-    /// A callback returned [`crate::Retry::Stop`].
+    /// A callback returned [`crate::Retry::Stop`], or [`crate::OdeSystem::roots`] failed, for which there is no smaller
+    /// step to try.
     Stopped {
         /// Which callback.
         callback: Callback,
@@ -207,6 +210,7 @@ impl fmt::Display for Callback {
             Self::Flow => "flow",
             Self::Jacobian => "jacobian",
             Self::Quadrature => "quadrature",
+            Self::Roots => "roots",
             Self::LinearSolver => "linear solver",
         })
     }

@@ -1,14 +1,17 @@
 //! Stepping a system from one discontinuity to the next.
 
-use sundials_sys as sys;
+mod failure;
+mod roots;
+
+use roots::Roots;
 
 use crate::context::Context;
 use crate::linear_solver::SolverHandles;
-use crate::memory::{Counters, Flag, Memory, name_of};
+use crate::memory::{Counters, Flag, Memory, Reached};
 use crate::shared::SharedBox;
 use crate::symmetry::{ATTEMPTS, SYMMETRIC_ATTEMPTS, Symmetry};
 use crate::vector::Vector;
-use crate::{IntegrateError, LinearSolverKind, OdeSystem, Options, Statistics, kernels, linear, start};
+use crate::{IntegrateError, LinearSolverKind, OdeSystem, Options, Statistics, linear, start};
 
 /// Steps in a row without progress after which the integration has stalled.
 const STALLED: u32 = 50;
@@ -22,6 +25,8 @@ pub struct Step {
     pub to: f64,
     /// Whether it ended at the stop time.
     pub at_stop: bool,
+    /// Whether it ended at a root: see [`OdeSystem::roots`] and [`Integrator::root_directions`].
+    pub roots: bool,
 }
 
 /// Integrates an [`OdeSystem`] with variable-order BDF.
@@ -44,6 +49,7 @@ pub struct Integrator<S: OdeSystem> {
     stop: f64,
     max_steps: u64,
     symmetry: Symmetry,
+    roots: Roots,
     /// What CVODES had counted when it was last restarted.
     before: Counters,
     restarts: u64,
@@ -68,10 +74,11 @@ impl<S: OdeSystem> Integrator<S> {
             count => Some(Vector::new(&context, count)?),
         };
         let symmetry = Symmetry::of(&system, options.linear_solver);
+        let roots = Roots::new(system.root_count());
         let shared = SharedBox::new(start::shared(system, t0, options)?);
         let handles = SolverHandles::new(&context, shared.as_ptr())?;
         let memory = Memory::new(&context)?;
-        let integrator = Self {
+        let mut integrator = Self {
             memory,
             handles,
             state,
@@ -84,6 +91,7 @@ impl<S: OdeSystem> Integrator<S> {
             stop: f64::INFINITY,
             max_steps: u64::try_from(options.max_steps).unwrap_or(u64::MAX),
             symmetry,
+            roots,
             before: Counters::default(),
             restarts: 0,
             still: 0,
@@ -92,13 +100,14 @@ impl<S: OdeSystem> Integrator<S> {
         Ok(integrator)
     }
 
-    fn set_up(&self, options: &Options) -> Result<(), Flag> {
+    fn set_up(&mut self, options: &Options) -> Result<(), Flag> {
         let pointer = self.shared.as_ptr();
         self.memory.start((self.time, &self.state), pointer)?;
         self.memory.attach_solver::<S>(&self.handles)?;
         if let Some(quadratures) = &self.quadratures {
             self.memory.start_quadratures::<S>(quadratures)?;
         }
+        self.start_roots()?;
         if let Some(step) = options.initial_step {
             self.memory.set_initial_step(step)?;
         }
@@ -166,7 +175,7 @@ impl<S: OdeSystem> Integrator<S> {
     /// See [`IntegrateError`]; [`time`](Self::time) and [`state`](Self::state) are then those of the last good step.
     pub fn step(&mut self) -> Result<Step, IntegrateError> {
         let from = self.time;
-        if self.stop <= from || self.stop.is_nan() {
+        if self.stop <= from || self.stop.is_nan() || self.starts_at_stop() {
             return self.step_at_stop();
         }
         let so_far = self.statistics();
@@ -185,10 +194,11 @@ impl<S: OdeSystem> Integrator<S> {
         }
         let to = self.time;
         match outcome {
-            Ok(at_stop) => {
+            Ok(reached) => {
                 self.from = from;
                 self.watch_progress(to > from)?;
-                Ok(Step { from, to, at_stop: at_stop || to >= self.stop })
+                let at_stop = reached == Reached::Stop || to >= self.stop;
+                Ok(Step { from, to, at_stop, roots: self.roots.met() })
             }
             Err(flag) => {
                 self.from = to;
@@ -197,15 +207,17 @@ impl<S: OdeSystem> Integrator<S> {
         }
     }
 
-    /// One step of CVODES; true: it ended at the stop time.
-    fn advance(&mut self) -> Result<bool, Flag> {
+    /// One step of CVODES.
+    fn advance(&mut self) -> Result<Reached, Flag> {
         self.shared.get_mut().failure = None;
+        self.leave_rest()?;
         // Version 6 cannot forget a stop time; the largest double serves as none. It is set for every step because
         // CVODES forgets it when it is reached and keeps it at a restart.
         let stop = self.stop.min(f64::MAX);
         let towards = if self.stop.is_finite() { stop } else { self.time + self.time.abs().max(1.0) };
         self.memory.set_stop(stop)?;
-        self.memory.step(towards, &mut self.state, &mut self.time)
+        let reached = self.memory.step(towards, &mut self.state, &mut self.time);
+        if self.roots.are_none() { reached } else { self.look_for_roots(towards, reached) }
     }
 
     /// From the last good state on with LU; false if that cannot be had.
@@ -214,7 +226,7 @@ impl<S: OdeSystem> Integrator<S> {
         let Ok(factors) = linear::new(self.system().pattern(), false, choice) else { return false };
         self.shared.get_mut().leave_symmetry(factors);
         self.symmetry.set_switched(self.time);
-        self.quadratures().is_ok()
+        self.read_quadratures().is_ok()
             && self.begin_anew().and_then(|()| self.memory.set_attempts(ATTEMPTS)).is_ok()
     }
 
@@ -245,7 +257,7 @@ impl<S: OdeSystem> Integrator<S> {
         if stop.is_nan() {
             return Err(IntegrateError::InvalidOption { option: "stop", value: stop });
         }
-        Ok(Step { from: time, to: time, at_stop: true })
+        Ok(Step { from: time, to: stop, at_stop: true, roots: false })
     }
 
     /// Writes the state at a time inside the last step, ends included, to `y` (one value per component).
@@ -273,15 +285,16 @@ impl<S: OdeSystem> Integrator<S> {
     /// # Errors
     /// [`IntegrateError::Sundials`] only.
     pub fn quadratures(&mut self) -> Result<&[f64], IntegrateError> {
-        // Before the first step after a (re)start CVODES has no step to evaluate them in; they are as they were set.
-        if self.memory.counters().steps > 0
-            && let Some(quadratures) = &mut self.quadratures
-        {
-            self.memory
-                .quadratures(quadratures)
-                .map_err(|flag| unexpected(flag, self.time, &self.context))?;
-        }
+        self.read_quadratures().map_err(|flag| self.unexpected(flag))?;
         Ok(self.quadratures.as_ref().map_or(&[], Vector::as_slice))
+    }
+
+    fn read_quadratures(&mut self) -> Result<(), Flag> {
+        match &mut self.quadratures {
+            // Before the first step after a (re)start CVODES has no step to evaluate them in; they are as they were set.
+            Some(quadratures) if self.memory.counters().steps > 0 => self.memory.quadratures(quadratures),
+            _ => Ok(()),
+        }
     }
 
     /// Begins anew at [`time`](Self::time), from the present state or from `y`, because `f` or the state jumps here.
@@ -296,6 +309,10 @@ impl<S: OdeSystem> Integrator<S> {
             start::check_state(y)?;
             self.state.as_mut_slice().copy_from_slice(y);
         }
+        self.restart_here()
+    }
+
+    fn restart_here(&mut self) -> Result<(), IntegrateError> {
         self.restarts += 1;
         self.shared.get_mut().jacobian_is_current = false;
         self.begin_anew().map_err(|flag| self.unexpected(flag))
@@ -306,7 +323,8 @@ impl<S: OdeSystem> Integrator<S> {
         let now = self.memory.counters();
         self.before = sum(&self.before, &now);
         self.from = self.time;
-        self.memory.restart(self.time, &self.state, self.quadratures.as_ref())
+        self.memory.restart(self.time, &self.state, self.quadratures.as_ref())?;
+        self.start_roots()
     }
 
     /// Counters since the integrator was made.
@@ -335,50 +353,6 @@ impl<S: OdeSystem> Integrator<S> {
     pub fn linear_solver(&self) -> LinearSolverKind {
         self.shared.get().factors.kind()
     }
-
-    /// The error for a step that CVODES gave up.
-    fn explain(&mut self, flag: Flag) -> IntegrateError {
-        let time = self.time;
-        let failure = self.shared.get_mut().failure.take();
-        match (flag.value, failure) {
-            (sys::CV_ERR_FAILURE, _) => IntegrateError::ErrorTest {
-                time,
-                step: self.memory.counters().current_step,
-                index: self.worst(),
-            },
-            (sys::CV_TOO_MUCH_ACC, _) => {
-                let index = kernels::worst(self.state(), &vec![1.0; self.state().len()]);
-                IntegrateError::ToleranceTooSmall { time, index }
-            }
-            (_, Some(failure)) => failure.into_error(),
-            (sys::CV_CONV_FAILURE, None) => IntegrateError::Newton {
-                time,
-                step: self.memory.counters().current_step,
-                index: self.worst(),
-            },
-            (_, None) => self.unexpected(flag),
-        }
-    }
-
-    /// The component with the largest estimated error in the last step tried.
-    fn worst(&mut self) -> usize {
-        let known = self.memory.local_errors(&mut self.scratch).is_ok();
-        let errors = self.scratch.as_slice();
-        if known { kernels::worst(errors, &vec![1.0; errors.len()]) } else { 0 }
-    }
-
-    fn unexpected(&self, flag: Flag) -> IntegrateError {
-        unexpected(flag, self.time, &self.context)
-    }
-}
-
-fn unexpected(flag: Flag, time: f64, context: &Context) -> IntegrateError {
-    let Flag { function, value } = flag;
-    if value == sys::CV_MEM_FAIL {
-        return IntegrateError::OutOfMemory { function };
-    }
-    let (name, message) = (name_of(value), context.last_message());
-    IntegrateError::Sundials { function, flag: value, name, message, time }
 }
 
 /// Totals of the counters, last values of the rest.

@@ -24,6 +24,17 @@ pub(crate) struct Flag {
     pub(crate) value: c_int,
 }
 
+/// Where a step ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Reached {
+    /// Where the error allowed it to.
+    Step,
+    /// At the stop time.
+    Stop,
+    /// At a root, or at several.
+    Root,
+}
+
 fn check(function: &'static str, value: c_int) -> Result<(), Flag> {
     if value < 0 { Err(Flag { function, value }) } else { Ok(()) }
 }
@@ -92,6 +103,34 @@ impl Memory {
         }
     }
 
+    /// Looks for the roots of `count` functions, all of them taken for active: CVODES leaves a function that was exactly
+    /// zero at a start out of the search, and forgets to take it up again at a restart. Only another number of functions
+    /// makes it forget.
+    pub(crate) fn start_roots<S: OdeSystem>(&self, count: c_int) -> Result<(), Flag> {
+        // SAFETY: the object is alive.
+        unsafe {
+            check("CVodeRootInit", sys::CVodeRootInit(self.raw, 0, None))?;
+            check("CVodeRootInit", sys::CVodeRootInit(self.raw, count, Some(callback::roots::<S>)))?;
+            check("CVodeSetNoInactiveRootWarn", sys::CVodeSetNoInactiveRootWarn(self.raw))
+        }
+    }
+
+    /// Which functions have a root at the end of the last step: 1 rising, -1 falling, 0 none.
+    ///
+    /// `directions` must be as long as the number of functions.
+    pub(crate) fn root_directions(&self, directions: &mut [c_int]) -> Result<(), Flag> {
+        // SAFETY: the object is alive and writes one value per function.
+        check("CVodeGetRootInfo", unsafe { sys::CVodeGetRootInfo(self.raw, directions.as_mut_ptr()) })
+    }
+
+    /// The end of the last internal step, which lies behind the present time after a root.
+    pub(crate) fn internal_time(&self) -> Result<f64, Flag> {
+        let mut t = 0.0;
+        // SAFETY: the object is alive and writes to the place given.
+        check("CVodeGetCurrentTime", unsafe { sys::CVodeGetCurrentTime(self.raw, &raw mut t) })?;
+        Ok(t)
+    }
+
     pub(crate) fn restart(&self, t: f64, y: &Vector, quadratures: Option<&Vector>) -> Result<(), Flag> {
         // SAFETY: the object is alive and copies the vectors.
         unsafe {
@@ -146,13 +185,17 @@ impl Memory {
         check("CVodeSetStopTime", unsafe { sys::CVodeSetStopTime(self.raw, t) })
     }
 
-    /// One internal step; `t` becomes the time reached. True: it ended at the stop time.
-    pub(crate) fn step(&self, towards: f64, y: &mut Vector, t: &mut f64) -> Result<bool, Flag> {
+    /// One internal step, or the part of it up to the next root; `t` becomes the time reached.
+    pub(crate) fn step(&self, towards: f64, y: &mut Vector, t: &mut f64) -> Result<Reached, Flag> {
         // SAFETY: the object and all that its callbacks reach are alive; `y` is its output and not one of its own
         // vectors.
         let flag = unsafe { sys::CVode(self.raw, towards, y.raw(), t, sys::CV_ONE_STEP) };
         check("CVode", flag)?;
-        Ok(flag == sys::CV_TSTOP_RETURN)
+        Ok(match flag {
+            sys::CV_TSTOP_RETURN => Reached::Stop,
+            sys::CV_ROOT_RETURN => Reached::Root,
+            _ => Reached::Step,
+        })
     }
 
     pub(crate) fn interpolate(&self, t: f64, y: &mut Vector) -> Result<(), Flag> {
@@ -164,6 +207,12 @@ impl Memory {
         let mut t = 0.0;
         // SAFETY: the object is alive, `q` is its output.
         check("CVodeGetQuad", unsafe { sys::CVodeGetQuad(self.raw, &raw mut t, q.raw()) })
+    }
+
+    /// The running integrals at a time inside the last internal step.
+    pub(crate) fn quadratures_at(&self, t: f64, q: &mut Vector) -> Result<(), Flag> {
+        // SAFETY: the object is alive, `q` is its output.
+        check("CVodeGetQuadDky", unsafe { sys::CVodeGetQuadDky(self.raw, t, 0, q.raw()) })
     }
 
     /// Estimated local errors of the last step tried.
@@ -222,6 +271,7 @@ pub(crate) fn name_of(flag: c_int) -> &'static str {
         sys::CV_FIRST_RHSFUNC_ERR => "CV_FIRST_RHSFUNC_ERR",
         sys::CV_REPTD_RHSFUNC_ERR => "CV_REPTD_RHSFUNC_ERR",
         sys::CV_UNREC_RHSFUNC_ERR => "CV_UNREC_RHSFUNC_ERR",
+        sys::CV_RTFUNC_FAIL => "CV_RTFUNC_FAIL",
         sys::CV_NLS_INIT_FAIL => "CV_NLS_INIT_FAIL",
         sys::CV_NLS_SETUP_FAIL => "CV_NLS_SETUP_FAIL",
         sys::CV_NLS_FAIL => "CV_NLS_FAIL",

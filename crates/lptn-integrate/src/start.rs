@@ -45,7 +45,7 @@ pub(crate) fn shared<S: OdeSystem>(
     let (jacobian, matrix) = (vec![0.0; slots], vec![0.0; slots]);
     let rows = system.pattern().size();
     let work = vec![0.0; if rows > system.size() { rows } else { 0 }];
-    let counts = Counts::default();
+    let (counts, root_count) = (Counts::default(), system.root_count());
     Ok(Shared {
         system,
         jacobian,
@@ -54,6 +54,7 @@ pub(crate) fn shared<S: OdeSystem>(
         slopes: Vec::new(),
         work,
         factors,
+        root_count,
         absolute: options.tolerance / 3.0,
         counts,
         time: t0,

@@ -23,7 +23,7 @@ pub struct Statistics {
     pub error_test_failures: u64,
     /// Steps repeated because Newton's method did not converge.
     pub newton_failures: u64,
-    /// Calls of [`crate::Integrator::restart`].
+    /// Calls of [`crate::Integrator::restart`] and [`crate::Integrator::rewind`].
     pub restarts: u64,
     /// Time at which symmetric Newton matrices were given up for LU, in units of t; see [`crate::Integrator::step`].
     pub switched_to_lu: Option<f64>,

@@ -94,4 +94,24 @@ pub trait OdeSystem {
     fn quadrature(&mut self, _t: f64, _y: &[f64], _q: &mut [f64]) -> Result<(), Retry> {
         Ok(())
     }
+
+    /// Number of functions whose roots end a step; constant.
+    fn root_count(&self) -> usize {
+        0
+    }
+
+    /// Writes functions of time and state, `g.len() == root_count()`; finite, of any unit. A step ends where one of them
+    /// changes its sign or becomes exactly zero: see [`crate::Step::roots`].
+    ///
+    /// Only a change over a whole step is seen: two crossings inside one step are not, and a function that becomes zero
+    /// and stays there is met at the end of the step only. One that is exactly zero at a start is left out until it is
+    /// not. Roots are those of the polynomial through the step, so that their time
+    /// errs by about the tolerance over the slope of `y`. What the functions mean may change, if a
+    /// [`crate::Integrator::restart`] or [`crate::Integrator::rewind`] follows.
+    ///
+    /// # Errors
+    /// Either value ends the step with an error: the state was accepted already.
+    fn roots(&mut self, _t: f64, _y: &[f64], _g: &mut [f64]) -> Result<(), Retry> {
+        Ok(())
+    }
 }
