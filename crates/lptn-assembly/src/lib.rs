@@ -11,6 +11,7 @@ mod eliminate;
 mod error;
 mod pattern;
 mod radiation;
+mod switching;
 mod system;
 mod workspace;
 

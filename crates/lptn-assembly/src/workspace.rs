@@ -1,6 +1,6 @@
 //! What evaluating a system needs besides the system: one per thread, so that evaluating allocates nothing.
 
-use lptn_network::{Evaluation, InputError, Network};
+use lptn_network::{Evaluation, InputError, Network, Positions};
 
 use crate::element::Slopes;
 
@@ -17,6 +17,8 @@ pub struct Workspace {
     /// Temperature of every vertex in K: nodes, then boundaries.
     pub(crate) temperature: Vec<f64>,
     pub(crate) slopes: Slopes,
+    /// Which controls are on and which comparisons hold.
+    positions: Positions,
     /// Whether the inputs have to be evaluated again when the time changes.
     varies: bool,
     /// The time and segment that the inputs were read for.
@@ -33,6 +35,7 @@ impl Workspace {
             element_heat: vec![0.0; vertices],
             temperature: vec![f64::NAN; vertices],
             slopes: Slopes::default(),
+            positions: network.initial_positions(),
             varies: network.has_time_dependent_inputs(),
             read_at: None,
         }
@@ -51,6 +54,19 @@ impl Workspace {
         network.boundary_temperatures(&mut self.scope, &mut self.temperature[network.nodes().len()..])?;
         self.read_at = Some((time, segment));
         Ok(true)
+    }
+
+    /// Sets which controls are on and which comparisons hold, as the network begins with
+    /// [`Network::initial_positions`]; inputs have to be read again.
+    pub fn set_positions(&mut self, positions: &Positions) {
+        self.scope.set_positions(positions);
+        self.positions.clone_from(positions);
+        self.forget();
+    }
+
+    /// Which controls are on and which comparisons hold.
+    pub fn positions(&self) -> &Positions {
+        &self.positions
     }
 
     /// What was read holds no longer.

@@ -237,6 +237,10 @@ impl Netlist {
                 if field == Field::Density { fluid.density.iter().collect() } else { vec![&fluid.cp] }
             }
             Item::Boundary(id) => vec![&network.boundaries()[id.index()].temperature],
+            Item::Control(id) => {
+                let thermostat = network.thermostat(id).into_iter();
+                thermostat.flat_map(|t| [&t.on, &t.off, &t.min_dwell]).collect()
+            }
             Item::Capacitor(id) => vec![&network.capacitors()[id.index()].capacity],
             Item::Source(id) => vec![&network.sources()[id.index()].power],
             Item::Limit(id) => {

@@ -57,7 +57,7 @@ fn message(error: &BuildError, map: &SourceMap) -> String {
             format!("{} cannot depend on the temperature of a node or boundary", field(*item, *f))
         }
         Kind::ComparesTemperature { item, field: f } => {
-            format!("{} compares a temperature, which is not supported yet", field(*item, *f))
+            format!("{} compares temperatures where the change cannot be followed", field(*item, *f))
         }
         Kind::Evaluation { item, field: f, error: EvalError::NotFinite { value, .. } } => {
             format!("{} comes out as {value}, which is not finite", field(*item, *f))

@@ -90,6 +90,7 @@ impl SourceMap {
             Item::Signal(_) => "signal",
             Item::Table(_) => "table",
             Item::Report(_) => "report",
+            Item::Control(_) => "control",
         }
     }
 

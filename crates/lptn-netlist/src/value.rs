@@ -104,7 +104,7 @@ impl Wanted {
 
     /// Whether it may name the temperature of any node or boundary, `NAME.T`.
     pub(crate) fn names_nodes(self) -> bool {
-        matches!(self.context, Context::Source | Context::Link | Context::Result)
+        matches!(self.context, Context::Control | Context::Source | Context::Link | Context::Result)
     }
 
     /// Whether this is a name of a temperature in this place.
@@ -112,7 +112,7 @@ impl Wanted {
         match self.context {
             Context::Own | Context::Source => name == "T",
             Context::Link => matches!(name, "T_from" | "T_to" | "T_mean" | "dT"),
-            Context::Time | Context::Result => false,
+            Context::Time | Context::Control | Context::Result => false,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Times at which an input bends or jumps: known beforehand, so that no step crosses them.
 
-use lptn_units::{Degree, Program};
+use lptn_units::{Comparison, Degree, Program};
 
 use crate::error::BuildErrorKind;
 use crate::evaluation::Evaluation;
@@ -192,7 +192,7 @@ impl Parts {
         factors.fold(first, |a, b| if a.min(b) > Degree::Constant { Degree::Nonlinear } else { a.max(b) })
     }
 
-    fn course_of(&self, program: &Program) -> Degree {
+    pub(crate) fn course_of(&self, program: &Program) -> Degree {
         let mut worst = Degree::Constant;
         let mut varying = 0;
         for slot in program.slots() {
@@ -212,13 +212,16 @@ impl Parts {
     /// Why a comparison cannot be used: it compares a temperature, or its change is not known beforehand.
     pub(crate) fn comparison_problem(
         &self,
-        comparison: &Program,
+        (comparison, relation): (&Program, Comparison),
         item: Item,
         field: Field,
     ) -> Option<BuildErrorKind> {
         let value = Value::Expression(comparison.clone().into());
-        if self.reads(&value).reads_results() {
-            return Some(BuildErrorKind::ComparesTemperature { item, field });
+        if self.is_switch(comparison) {
+            // an event, unless it cannot be followed
+            let followed = matches!(item, Item::Source(_) | Item::Conductor(_));
+            let equality = matches!(relation, Comparison::Equal | Comparison::NotEqual);
+            return (!followed || equality).then_some(BuildErrorKind::ComparesTemperature { item, field });
         }
         let single = comparison.slots().into_iter().filter(|&s| match self.layout.holds(s) {
             Holds::Signal(id) => self.layout.signals()[id.index()].course.is_monotone(),

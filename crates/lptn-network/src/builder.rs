@@ -352,7 +352,7 @@ impl NetworkBuilder {
         }
     }
 
-    fn check_end(&mut self, name: &str, item: Item, end: End) {
+    pub(crate) fn check_end(&mut self, name: &str, item: Item, end: End) {
         let known = match end {
             End::Node(id) => id.index() < self.parts.nodes.len(),
             End::Boundary(id) => id.index() < self.parts.boundaries.len(),

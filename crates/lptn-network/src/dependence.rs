@@ -1,5 +1,6 @@
 //! What a value depends on: constants, time, or temperatures.
 
+use crate::control::Control;
 use crate::element::{Conductor, Source};
 use crate::id::{End, Item, SignalId};
 use crate::layout::{Holds, slot};
@@ -11,6 +12,8 @@ use crate::value::Value;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Reads {
     pub(crate) time: bool,
+    /// Controls, or the truth of comparisons that is held between events.
+    pub(crate) positions: bool,
     pub(crate) link: bool,
     pub(crate) own: bool,
     /// Nodes and boundaries by name, ascending.
@@ -20,7 +23,7 @@ pub(crate) struct Reads {
 impl Reads {
     /// Whether it reads nothing but parameters.
     pub(crate) fn is_constant(&self) -> bool {
-        !self.time && !self.reads_results()
+        !self.time && !self.positions && !self.reads_results()
     }
 
     /// Whether it reads any temperature.
@@ -39,6 +42,9 @@ pub(crate) struct Dependence {
 }
 
 impl Dependence {
+    /// None at all.
+    pub(crate) const NONE: Self = Self { vertices: Vec::new(), named: Vec::new() };
+
     fn add(&mut self, parts: &Parts, end: End) {
         let vertex = parts.vertex(end);
         let position = self.vertices.iter().position(|&v| v == vertex).unwrap_or_else(|| {
@@ -70,6 +76,7 @@ impl Parts {
                 Holds::Link => reads.link = true,
                 Holds::Own => reads.own = true,
                 Holds::Temperature(end) => reads.temperatures.push(end),
+                Holds::Control(_) | Holds::Switch(_) => reads.positions = true,
                 Holds::Parameter(_) | Holds::Heat(_) => {}
             }
         }
@@ -135,6 +142,16 @@ impl Parts {
         dependence
     }
 
+    /// The temperatures that the thresholds of a control depend on.
+    fn control_dependence(&self, control: &Control) -> Dependence {
+        let mut dependence = Dependence::default();
+        let thresholds = control.thermostat.iter().flat_map(|thermostat| [&thermostat.on, &thermostat.off]);
+        for value in thresholds {
+            self.reads(value).temperatures.into_iter().for_each(|end| dependence.add(self, end));
+        }
+        dependence
+    }
+
     /// Which massless nodes have only constant conductances around them, so that they can be eliminated.
     pub(crate) fn linear_massless(&self) -> Vec<bool> {
         let mut linear: Vec<bool> = self.nodes.iter().map(|node| node.massless).collect();
@@ -162,6 +179,7 @@ impl Parts {
 
     /// Works out once what depends on what.
     pub(crate) fn settle(&mut self) {
+        self.hold_comparisons();
         let conductors = self
             .conductors
             .iter()
@@ -170,5 +188,6 @@ impl Parts {
         let sources = self.sources.iter().map(|s| self.source_dependence(s)).collect();
         self.conductor_dependence = conductors;
         self.source_dependence = sources;
+        self.control_dependence = self.controls.iter().map(|c| self.control_dependence(c)).collect();
     }
 }

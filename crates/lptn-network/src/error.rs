@@ -4,7 +4,7 @@ use std::fmt;
 
 use lptn_units::{EvalError, Type};
 
-use crate::id::{ConductorId, Field, FluidId, Item, NodeId, SignalId, SourceId};
+use crate::id::{ConductorId, ControlId, Field, FluidId, Item, NodeId, SignalId, SourceId};
 
 /// All problems found while a network was built; never empty.
 #[derive(Clone, Debug)]
@@ -112,12 +112,28 @@ pub enum BuildErrorKind {
         /// Its field.
         field: Field,
     },
-    /// A comparison of a temperature: when it changes is not known beforehand, and events are not built yet.
+    /// A comparison of a temperature where its change cannot be followed: in a property, or for equality.
     ComparesTemperature {
         /// The item.
         item: Item,
         /// Its field.
         field: Field,
+    },
+    /// The threshold at which a control switches on lies beyond that at which it switches off, or both are one.
+    ThresholdsCrossed {
+        /// The control.
+        control: ControlId,
+        /// The fields of the thresholds for on and off.
+        fields: [Field; 2],
+        /// On, in K.
+        on: f64,
+        /// Off, in K.
+        off: f64,
+    },
+    /// A control of which nothing says when it switches.
+    NoThermostat {
+        /// The control.
+        control: ControlId,
     },
     /// An emissivity or view factor that is not above 0 and at most 1.
     NotAFraction {
@@ -254,6 +270,8 @@ impl BuildError {
             K::DependsOnResult { .. } => "network::depends_on_result",
             K::ComparisonNotLinear { .. } => "network::comparison_not_linear",
             K::ComparesTemperature { .. } => "network::compares_temperature",
+            K::ThresholdsCrossed { .. } => "network::thresholds_crossed",
+            K::NoThermostat { .. } => "network::no_thermostat",
             K::NotAFraction { .. } => "network::not_a_fraction",
             K::Radii { .. } => "network::radii",
             K::Melting { .. } => "network::melting",
@@ -293,6 +311,8 @@ impl BuildError {
             | K::ComparesTemperature { item, field }
             | K::NotAFraction { item, field, .. }
             | K::Evaluation { item, field, .. } => (item, field),
+            K::ThresholdsCrossed { control, fields, .. } => (Item::Control(control), fields[0]),
+            K::NoThermostat { control } => (Item::Control(control), Field::Name),
             K::Radii { item, .. } => (item, Field::OuterRadius),
             K::Melting { item, .. } => (item, Field::Liquidus),
             K::Shares { source, .. } => (Item::Source(source), Field::Into),

@@ -2,8 +2,12 @@
 
 use std::fmt;
 
+use lptn_units::format_number;
+
 use crate::error::{BuildError, BuildErrorKind};
+use crate::id::Field;
 use crate::names::list_of_names;
+use crate::typed::ZERO_CELSIUS;
 
 impl BuildError {
     /// What to do about it, in words that can be pasted where possible.
@@ -40,9 +44,18 @@ impl BuildError {
                 "compare `t` itself, for example `if(t < 300 [s], 0 [W], 100 [W])`".into()
             }
             K::ComparesTemperature { .. } => {
-                "write a smooth change, for example `0.5 * (1 + tanh((T - 80 [degC]) / 1 [K]))`, or a [table]".into()
+                "sources and paths may compare temperatures, with `<` or `>`; elsewhere write a smooth change, for \
+                 example `0.5 * (1 + tanh((T - 80 [degC]) / 1 [K]))`, or a [table]"
+                    .into()
             }
             K::Radii { .. } => "exchange `r_in` and `r_out`".into(),
+            K::ThresholdsCrossed { fields: [a, b], .. } => match a {
+                Field::OnAbove => format!("make `{}` higher than `{}`", a.key(), b.key()),
+                _ => format!("make `{}` lower than `{}`", a.key(), b.key()),
+            },
+            K::NoThermostat { .. } => {
+                "write `sense`, `on_above` and `off_below`, or `on_below` and `off_above`".into()
+            }
             K::Melting { .. } => "exchange `solidus` and `liquidus`".into(),
             K::Shares { .. } => "make the shares sum to 1".into(),
             K::WhichTemperature { .. } => "name the node, for example `steel.T`".into(),
@@ -66,8 +79,15 @@ impl fmt::Display for OfElements<'_> {
         let name = &self.0.name;
         match &self.0.kind {
             K::ComparesTemperature { field, .. } => {
-                write!(f, "`{}` of `{name}` compares a temperature, which is not supported yet", field.key())
+                write!(f, "`{}` of `{name}` compares temperatures where that cannot be followed", field.key())
             }
+            K::ThresholdsCrossed { fields: [a, b], on, off, .. } => {
+                let celsius = |t: &f64| format_number(t - ZERO_CELSIUS);
+                let (on, off) = (celsius(on), celsius(off));
+                write!(f, "`{}` and `{}` of `{name}` are crossed over: ", a.key(), b.key())?;
+                write!(f, "on at {on} degC, off at {off} degC")
+            }
+            K::NoThermostat { .. } => write!(f, "nothing says when control `{name}` switches"),
             K::NotAFraction { field, value, .. } => {
                 write!(f, "`{}` of `{name}` must be above 0 and at most 1, got {value}", field.key())
             }

@@ -91,6 +91,14 @@ impl Evaluation {
         }
     }
 
+    pub(crate) fn layout(&self) -> &Arc<Layout> {
+        &self.layout
+    }
+
+    pub(crate) fn slot(&self, slot: u32) -> f64 {
+        self.slots[slot as usize]
+    }
+
     /// Why a signal has no value where this stands.
     pub(crate) fn failure(&self) -> Option<(SignalId, InputProblem)> {
         self.failure.clone()

@@ -137,7 +137,7 @@ impl Network {
             name(slots, dependence, &at);
             source.power.on(slots, stack)
         };
-        self.finite(result, Item::Source(id), scope)
+        self.finite(result, (Item::Source(id), Field::Power), scope)
     }
 
     /// As [`Network::source_heat`], and writes its derivatives in W/K by each of [`Network::source_variables`].
@@ -163,24 +163,30 @@ impl Network {
                 name(slots, dependence, &at);
                 source.power.on(slots, stack)
             };
-            let heat = self.finite(result, Item::Source(id), scope)?;
+            let heat = self.finite(result, (Item::Source(id), Field::Power), scope)?;
             value = heat.value;
             slopes.extend_from_slice(&heat.derivatives[..PASS.min(count - first)]);
         }
         Ok(value)
     }
 
-    fn finite<S: Scalar>(
+    pub(crate) fn finite<S: Scalar>(
         &self,
         result: Result<S, EvalError>,
-        item: Item,
+        (item, field): (Item, Field),
         scope: &Evaluation,
     ) -> Result<S, InputError> {
         match result {
             Ok(x) if x.is_finite() => Ok(x),
-            Ok(x) => Err(self.failed(item, (Field::Power, InputProblem::NotFinite(x.value())), scope)),
-            Err(error) => Err(self.failed(item, (Field::Power, error.into()), scope)),
+            Ok(x) => Err(self.failed(item, (field, InputProblem::NotFinite(x.value())), scope)),
+            Err(error) => Err(self.failed(item, (field, error.into()), scope)),
         }
+    }
+
+    /// Puts the temperatures that values name into their slots.
+    pub(crate) fn place_named(&self, of: &Dependence, scope: &mut Evaluation, temperatures: &[f64]) {
+        let at = |k: usize| temperatures[of.vertices[k] as usize];
+        name(scope.plain().0, of, &at);
     }
 
     /// Names what failed: a signal without a value goes before what it was used for.
@@ -265,21 +271,21 @@ impl Network {
 }
 
 /// A temperature with a derivative of 1 by itself, if it is among those of this pass.
-fn seeded(temperature: f64, position: usize, first: usize) -> Slope {
+pub(crate) fn seeded(temperature: f64, position: usize, first: usize) -> Slope {
     match position.checked_sub(first) {
         Some(k) if k < PASS => Slope::variable(temperature, k),
         _ => Slope::constant(temperature),
     }
 }
 
-fn name<S: Scalar>(slots: &mut [S], dependence: &Dependence, at: &dyn Fn(usize) -> S) {
+pub(crate) fn name<S: Scalar>(slots: &mut [S], dependence: &Dependence, at: &dyn Fn(usize) -> S) {
     for &(slot, position) in &dependence.named {
         slots[slot as usize] = at(position);
     }
 }
 
 /// Puts the temperatures that a conductor's values may read into their slots.
-fn place<S: Scalar>(slots: &mut [S], dependence: &Dependence, at: &dyn Fn(usize) -> S) {
+pub(crate) fn place<S: Scalar>(slots: &mut [S], dependence: &Dependence, at: &dyn Fn(usize) -> S) {
     name(slots, dependence, at);
     let (from, to) = (at(0), at(1));
     let mean = (from + to) * S::from_f64(0.5);

@@ -44,6 +44,10 @@ ids! {
     TableId;
     /// A report of the results.
     ReportId;
+    /// A control.
+    ControlId;
+    /// A comparison of temperatures.
+    SwitchId;
 }
 
 /// One end of a conductor.
@@ -94,6 +98,8 @@ pub enum Item {
     Table(TableId),
     /// A report.
     Report(ReportId),
+    /// A control.
+    Control(ControlId),
 }
 
 impl From<End> for Item {
@@ -184,6 +190,18 @@ pub enum Field {
     LatentHeat,
     /// Period of a signal.
     Period,
+    /// What a control feels.
+    Sense,
+    /// What a cooling control switches on above.
+    OnAbove,
+    /// What a cooling control switches off below.
+    OffBelow,
+    /// What a heating control switches on below.
+    OnBelow,
+    /// What a heating control switches off above.
+    OffAbove,
+    /// How long a control stays as it is after a switch.
+    MinDwell,
 }
 
 impl Field {
@@ -228,6 +246,12 @@ impl Field {
             Self::Liquidus => "liquidus",
             Self::LatentHeat => "latent_heat",
             Self::Period => "period",
+            Self::Sense => "sense",
+            Self::OnAbove => "on_above",
+            Self::OffBelow => "off_below",
+            Self::OnBelow => "on_below",
+            Self::OffAbove => "off_above",
+            Self::MinDwell => "min_dwell",
         }
     }
 }

@@ -59,6 +59,13 @@ pub enum InputProblem {
         /// The temperatures it is known for, in K.
         range: (f64, f64),
     },
+    /// The threshold at which a control switches on lies beyond that at which it switches off.
+    ThresholdsCrossed {
+        /// On, in K.
+        on: f64,
+        /// Off, in K.
+        off: f64,
+    },
     /// A node outside the temperatures for which its capacity is known and positive.
     OutsideCapacity {
         /// The temperatures it is known for, in K.
@@ -95,6 +102,9 @@ impl InputProblem {
                  `outside = \"hold\"`"
                     .into(),
             ),
+            Self::ThresholdsCrossed { .. } => {
+                Some("keep a dead band between the two, wide enough for the equipment".into())
+            }
             Self::NoDensity => Some("add `density` to the fluid, or give a mass flow".into()),
             _ => None,
         }
@@ -121,6 +131,11 @@ impl fmt::Display for InputError {
             }
             InputProblem::AfterSignal { time, last } => {
                 write!(f, "is not known at {time} s: its last point is at {last} s")
+            }
+            InputProblem::ThresholdsCrossed { on, off } => {
+                let celsius = |t: &f64| format_number(t - crate::typed::ZERO_CELSIUS);
+                let (on, off) = (celsius(on), celsius(off));
+                write!(f, "crosses over the threshold for off: on at {on} degC, off at {off} degC")
             }
             InputProblem::NoDensity => f.write_str("has no density, which a volume flow needs"),
             InputProblem::OutsideFluid { temperature, range: (from, to) } => {

@@ -243,6 +243,22 @@ impl Law {
             Self::Advection(stream) => stream.parts(),
         }
     }
+
+    /// The same law with other values.
+    pub(crate) fn map(self, mut f: impl FnMut(Field, Value) -> Value) -> Self {
+        match self {
+            Self::Resistance(r) => Self::Resistance(f(Field::Resistance, r)),
+            Self::Conductance(g) => Self::Conductance(f(Field::Conductance, g)),
+            Self::Film { coefficient, area } => {
+                Self::Film { coefficient: f(Field::FilmCoefficient, coefficient), area: f(Field::Area, area) }
+            }
+            Self::Conduction { conductivity, shape } => {
+                Self::Conduction { conductivity: f(Field::Conductivity, conductivity), shape: shape.map(f) }
+            }
+            Self::Radiation(exchange) => Self::Radiation(exchange.map(f)),
+            Self::Advection(stream) => Self::Advection(stream.map(f)),
+        }
+    }
 }
 
 impl Law {

@@ -1,6 +1,6 @@
 //! Where expressions find their numbers: one slot for each thing that a name can mean.
 
-use crate::id::{BoundaryId, End, NodeId, ParameterId, SignalId};
+use crate::id::{BoundaryId, ControlId, End, NodeId, ParameterId, SignalId, SwitchId};
 use crate::result::HeatOf;
 use crate::signal::Signal;
 
@@ -47,6 +47,10 @@ pub(crate) enum Holds {
     Temperature(End),
     /// A heat flow, in results only.
     Heat(HeatOf),
+    /// A control: 0 or 1.
+    Control(ControlId),
+    /// Whether a comparison of temperatures holds: 0 or 1.
+    Switch(SwitchId),
 }
 
 /// The slots of a network.
@@ -61,6 +65,8 @@ pub(crate) struct Layout {
     boundaries: Vec<u32>,
     /// The heat flows that expressions of results name, with their slots.
     heats: Vec<(HeatOf, u32)>,
+    controls: Vec<u32>,
+    switches: Vec<u32>,
 }
 
 impl Default for Layout {
@@ -76,6 +82,8 @@ impl Default for Layout {
             nodes: vec![],
             boundaries: vec![],
             heats: vec![],
+            controls: vec![],
+            switches: vec![],
         }
     }
 }
@@ -129,6 +137,33 @@ impl Layout {
 
     pub(crate) fn heats(&self) -> &[(HeatOf, u32)] {
         &self.heats
+    }
+
+    pub(crate) fn add_control(&mut self, id: ControlId) {
+        let slot = self.push(Holds::Control(id));
+        self.controls.push(slot);
+    }
+
+    pub(crate) fn add_switch(&mut self, id: SwitchId) -> u32 {
+        let slot = self.push(Holds::Switch(id));
+        self.switches.push(slot);
+        slot
+    }
+
+    pub(crate) fn control(&self, id: ControlId) -> u32 {
+        self.controls[id.index()]
+    }
+
+    pub(crate) fn control_count(&self) -> usize {
+        self.controls.len()
+    }
+
+    pub(crate) fn switch(&self, id: SwitchId) -> u32 {
+        self.switches[id.index()]
+    }
+
+    pub(crate) fn switch_count(&self) -> usize {
+        self.switches.len()
     }
 
     pub(crate) fn len(&self) -> usize {

@@ -9,6 +9,7 @@
 mod breakpoints;
 mod builder;
 mod check;
+mod control;
 mod dependence;
 mod element;
 mod enthalpy;
@@ -29,15 +30,18 @@ mod numbers;
 mod output;
 mod parameters;
 mod parts;
+mod positions;
 mod result;
 mod scope;
 mod signal;
 mod stream;
+mod switch;
 mod thermal;
 mod typed;
 mod value;
 
 pub use builder::{NetworkBuilder, Path};
+pub use control::{Acts, Control, Thermostat};
 pub use element::{Boundary, Capacitor, Conductor, ConductorKind, Node, Parameter, Source};
 pub use enthalpy::{Content, Enthalpy};
 pub use error::{BuildError, BuildErrorKind, BuildErrors};
@@ -45,8 +49,8 @@ pub use evaluation::Evaluation;
 pub use flow::{Flow, Received};
 pub use fluid::Fluid;
 pub use id::{
-    BoundaryId, CapacitorId, ConductorId, End, Field, FluidId, Item, LimitId, MaterialId, NodeId,
-    ParameterId, ReportId, SignalId, SourceId, TableId,
+    BoundaryId, CapacitorId, ConductorId, ControlId, End, Field, FluidId, Item, LimitId, MaterialId, NodeId,
+    ParameterId, ReportId, SignalId, SourceId, SwitchId, TableId,
 };
 pub use input_error::{InputError, InputProblem};
 pub use law::{Emissivity, Exchange, Law, Shape, Stream};
@@ -57,10 +61,12 @@ pub use names::{UnknownName, is_name, is_path, list_of_names};
 pub use network::Network;
 pub use output::OutputTimes;
 pub use parameters::{ParameterError, Parameters};
+pub use positions::Positions;
 pub use result::{HeatOf, Report};
 pub use scope::{Context, NetworkScope};
 pub use signal::{AfterEnd, Course, Join, Signal};
 pub use stream::Passing;
+pub use switch::Switch;
 pub use typed::{
     Area, Conductance, FilmCoefficient, HeatCapacity, HeatFlow, Resistance, Temperature, Time, ZERO_CELSIUS,
 };

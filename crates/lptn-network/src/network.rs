@@ -183,7 +183,11 @@ impl Network {
 
     /// A place to evaluate this network's inputs; it stands at time 0.
     pub fn evaluation(&self) -> Evaluation {
-        Evaluation::new(&self.parts.layout, &self.numbers.parameters)
+        let mut scope = Evaluation::new(&self.parts.layout, &self.numbers.parameters);
+        if self.has_events() {
+            scope.set_positions(&self.initial_positions());
+        }
+        scope
     }
 
     /// Writes the temperature of every boundary in K.

@@ -27,6 +27,8 @@ pub(crate) struct Numbers {
     pub(crate) enthalpy: Vec<Option<Arc<Enthalpy>>>,
     /// Heat content of a kg of each fluid whose specific heat is not constant.
     pub(crate) fluids: Vec<Option<Arc<Enthalpy>>>,
+    /// How long each control stays as it is after a switch, in s.
+    pub(crate) min_dwell: Vec<f64>,
 }
 
 impl Numbers {
@@ -48,12 +50,13 @@ impl Numbers {
         let flows = work.flows();
         work.check_inputs();
         work.check_limits();
+        let min_dwell = work.controls();
         if !work.errors.is_empty() {
             return Err(work.errors);
         }
         let (enthalpy, fluids) = (work.enthalpies(&initial), work.fluid_enthalpies());
         if work.errors.is_empty() {
-            Ok(Self { parameters, capacity, initial, flows, enthalpy, fluids })
+            Ok(Self { parameters, capacity, initial, flows, enthalpy, fluids, min_dwell })
         } else {
             Err(work.errors)
         }
@@ -62,7 +65,7 @@ impl Numbers {
 
 /// What a number has to be.
 #[derive(Clone, Copy)]
-enum Range {
+pub(crate) enum Range {
     Finite,
     Positive,
     Temperature,
@@ -70,9 +73,9 @@ enum Range {
     Fraction,
 }
 
-struct Work<'a> {
-    parts: &'a Parts,
-    scope: Evaluation,
+pub(crate) struct Work<'a> {
+    pub(crate) parts: &'a Parts,
+    pub(crate) scope: Evaluation,
     errors: Vec<BuildError>,
 }
 
@@ -122,7 +125,7 @@ impl Work<'_> {
     /// A positive value that may depend on the `T` that was set.
     fn own(&mut self, item: Item, field: Field, value: &Value) -> f64 {
         let reads = self.parts.reads(value);
-        if reads.time {
+        if reads.time || reads.positions {
             self.error(item, BuildErrorKind::DependsOnTime { item, field });
             return f64::NAN;
         }
@@ -255,6 +258,7 @@ impl Work<'_> {
             let reads = self.parts.reads(value);
             let allowed = match item {
                 Item::Conductor(_) => field == Field::Conductivity || !reads.own,
+                Item::Control(_) => !reads.link && !reads.own,
                 Item::Source(id) => !reads.link && self.names_its_node(id, reads.own),
                 _ => !reads.reads_results(),
             };
@@ -347,8 +351,8 @@ impl Work<'_> {
     /// Comparisons have to change at times that are known beforehand.
     fn check_comparisons(&mut self, item: Item, field: Field, value: &Value) {
         for program in value.programs() {
-            for comparison in program.comparisons() {
-                if let Some(kind) = self.parts.comparison_problem(comparison, item, field) {
+            for (comparison, &relation) in program.comparisons().iter().zip(program.relations()) {
+                if let Some(kind) = self.parts.comparison_problem((comparison, relation), item, field) {
                     self.error(item, kind);
                     return;
                 }
@@ -356,13 +360,13 @@ impl Work<'_> {
         }
     }
 
-    fn constant(&mut self, item: Item, field: Field, value: &Value, range: Range) -> f64 {
+    pub(crate) fn constant(&mut self, item: Item, field: Field, value: &Value, range: Range) -> f64 {
         let reads = self.parts.reads(value);
         if reads.reads_results() {
             self.error(item, BuildErrorKind::DependsOnResult { item, field });
             return f64::NAN;
         }
-        if reads.time {
+        if reads.time || reads.positions {
             self.error(item, BuildErrorKind::DependsOnTime { item, field });
             return f64::NAN;
         }
@@ -395,7 +399,7 @@ impl Work<'_> {
         value
     }
 
-    fn error(&mut self, item: Item, kind: BuildErrorKind) {
+    pub(crate) fn error(&mut self, item: Item, kind: BuildErrorKind) {
         self.errors.push(BuildError { kind, name: self.parts.name_of(item).to_owned() });
     }
 }

@@ -5,15 +5,17 @@ use std::sync::Arc;
 
 use lptn_units::TableSymbol;
 
+use crate::control::Control;
 use crate::dependence::Dependence;
 use crate::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
 use crate::fluid::Fluid;
-use crate::id::{BoundaryId, ConductorId, Field, Item, ParameterId, SignalId, SourceId};
+use crate::id::{BoundaryId, ConductorId, ControlId, Field, Item, ParameterId, SignalId, SourceId};
 use crate::layout::Layout;
 use crate::limit::Limit;
 use crate::material::Material;
 use crate::result::Report;
 use crate::signal::Course;
+use crate::switch::Switch;
 use crate::value::Value;
 
 /// Everything that does not change when a parameter does.
@@ -28,6 +30,8 @@ pub(crate) struct Parts {
     pub(crate) sources: Vec<Source>,
     pub(crate) limits: Vec<Limit>,
     pub(crate) reports: Vec<Report>,
+    pub(crate) controls: Vec<Control>,
+    pub(crate) switches: Vec<Switch>,
     pub(crate) materials: Vec<Material>,
     pub(crate) fluids: Vec<Fluid>,
     /// Tables by name, in the order of addition.
@@ -38,6 +42,8 @@ pub(crate) struct Parts {
     pub(crate) conductor_dependence: Vec<Dependence>,
     /// For each source the temperatures it depends on.
     pub(crate) source_dependence: Vec<Dependence>,
+    /// For each control the temperatures that its thresholds depend on.
+    pub(crate) control_dependence: Vec<Dependence>,
     /// Nodes, boundaries and elements share one name space.
     pub(crate) names: HashMap<String, Item>,
     pub(crate) parameter_names: HashMap<String, ParameterId>,
@@ -60,11 +66,12 @@ impl Parts {
             Item::Signal(id) => &self.layout.signals()[id.index()].name,
             Item::Table(id) => &self.tables[id.index()].0,
             Item::Report(id) => &self.reports[id.index()].name,
+            Item::Control(id) => &self.controls[id.index()].name,
         }
     }
 
-    /// Every value that may depend on time: temperatures of boundaries, heat of sources, values of conductors, and
-    /// signals that are expressions.
+    /// Every value that may depend on time: temperatures of boundaries, heat of sources, values of conductors,
+    /// signals that are expressions, thresholds of controls.
     pub(crate) fn inputs(&self) -> impl Iterator<Item = (Item, Field, &Value)> {
         let boundaries = self.boundaries.iter().enumerate();
         let sources = self.sources.iter().enumerate();
@@ -81,5 +88,17 @@ impl Parts {
                 Course::Expression(value) => Some((Item::Signal(SignalId::from_len(i)), Field::Value, value)),
                 _ => None,
             }))
+            .chain(self.thresholds())
+    }
+
+    /// The thresholds of all controls.
+    pub(crate) fn thresholds(&self) -> impl Iterator<Item = (Item, Field, &Value)> {
+        let thermostats =
+            self.controls.iter().enumerate().filter_map(|(i, c)| Some((i, c.thermostat.as_ref()?)));
+        thermostats.flat_map(|(i, thermostat)| {
+            let item = Item::Control(ControlId::from_len(i));
+            let [on, off] = thermostat.acts.fields();
+            [(item, on, &thermostat.on), (item, off, &thermostat.off)]
+        })
     }
 }

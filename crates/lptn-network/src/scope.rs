@@ -9,10 +9,12 @@ use crate::parts::Parts;
 /// Where an expression stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Context {
-    /// Parameters, boundaries, signals: nothing but parameters, `t`, signals and tables.
+    /// Parameters, boundaries, signals: nothing but parameters, `t`, signals, controls and tables.
     Time,
     /// The capacity of a node, a property of a material or fluid: its own `T` too.
     Own,
+    /// A threshold of a control: `NAME.T` of every node and boundary too.
+    Control,
     /// A source: its node's own `T` and `NAME.T` of every node and boundary too.
     Source,
     /// A conductor: `T_from`, `T_to`, `T_mean`, `dT` and `NAME.T` too.
@@ -46,8 +48,12 @@ impl<'a> NetworkScope<'a> {
         Some(Symbol { slot, ty, in_comparison: None })
     }
 
+    fn names_ends(self) -> bool {
+        matches!(self.context, Context::Control | Context::Source | Context::Link | Context::Result)
+    }
+
     fn temperature(self, name: &str) -> Option<Symbol> {
-        if !matches!(self.context, Context::Source | Context::Link | Context::Result) {
+        if !self.names_ends() {
             return None;
         }
         let end = match self.parts.names.get(name)? {
@@ -77,6 +83,9 @@ impl<'a> NetworkScope<'a> {
                 let (slot, ty) = (layout.signal(id), layout.signals()[id.index()].ty);
                 Some(Symbol { slot, ty, in_comparison: Some(slot + 1) })
             }
+            Item::Control(id) => {
+                Some(Symbol { slot: layout.control(id), ty: Type::SCALAR, in_comparison: None })
+            }
             _ => None,
         }
     }
@@ -98,10 +107,12 @@ impl Scope for NetworkScope<'_> {
     fn names(&self) -> Vec<String> {
         let parameters = self.parts.parameters.iter().map(|p| p.name.clone());
         let signals = self.parts.layout.signals().iter().map(|s| s.name.clone());
-        let mut names: Vec<String> = parameters.chain(signals).chain(["t".to_owned()]).collect();
+        let controls = self.parts.controls.iter().map(|c| c.name.clone());
+        let mut names: Vec<String> =
+            parameters.chain(signals).chain(controls).chain(["t".to_owned()]).collect();
         let local = ["T", "T_from", "T_to", "T_mean", "dT"];
         names.extend(local.into_iter().filter(|n| self.local(n).is_some()).map(str::to_owned));
-        if matches!(self.context, Context::Source | Context::Link | Context::Result) {
+        if self.names_ends() {
             let nodes = self.parts.nodes.iter().map(|node| &node.name);
             let boundaries = self.parts.boundaries.iter().map(|boundary| &boundary.name);
             names.extend(nodes.chain(boundaries).map(|name| format!("{name}.T")));

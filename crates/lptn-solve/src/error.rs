@@ -137,6 +137,26 @@ pub enum StopReason {
         /// Its temperature in K.
         temperature: f64,
     },
+    /// A comparison of temperatures changes again and again between two rows: with either truth the temperatures go to
+    /// where it is the other one.
+    Chatter {
+        /// The element and field it stands in.
+        name: String,
+        /// How often it changed.
+        changes: usize,
+    },
+    /// What switches back and forth at one moment, without time going on.
+    Restless {
+        /// The controls by name, comparisons by element and field.
+        names: Vec<String>,
+    },
+    /// More events than a run may have.
+    TooManyEvents {
+        /// How many.
+        count: usize,
+    },
+    /// The network switches, but has no node with a capacity.
+    NothingSwitches,
     /// The integrator gave up.
     Integrator {
         /// Its reason.
@@ -202,7 +222,7 @@ impl TransientError {
             StopReason::Unsolved(unsolved) => Some(&unsolved.node),
             StopReason::BelowAbsoluteZero { name, .. } => Some(name),
             StopReason::Integrator { node, .. } => node.as_deref(),
-            StopReason::Input(_) => None,
+            _ => None,
         }
     }
 
@@ -217,6 +237,10 @@ impl TransientError {
             Self::Start(unsolved) | Self::Stopped { reason: StopReason::Unsolved(unsolved), .. } => {
                 unsolved.code()
             }
+            Self::Stopped { reason: StopReason::Chatter { .. }, .. } => "run::chatter",
+            Self::Stopped { reason: StopReason::Restless { .. }, .. } => "run::restless",
+            Self::Stopped { reason: StopReason::TooManyEvents { .. }, .. } => "run::too_many_events",
+            Self::Stopped { reason: StopReason::NothingSwitches, .. } => "run::no_capacity",
             Self::Integrator(_) | Self::Stopped { .. } => "run::integrator",
         }
     }
@@ -230,7 +254,7 @@ impl TransientError {
             Self::Start(unsolved) | Self::Stopped { reason: StopReason::Unsolved(unsolved), .. } => {
                 unsolved.help()
             }
-            Self::Stopped { reason: StopReason::BelowAbsoluteZero { .. }, .. } => Some(COLD.into()),
+            Self::Stopped { reason, .. } => reason.help(),
             _ => None,
         }
     }
@@ -253,10 +277,62 @@ impl fmt::Display for TransientError {
                 write!(f, "stopped at {} s: ", six_digits(*time))?;
                 cold(f, name, *temperature)
             }
+            Self::Stopped {
+                time,
+                reason:
+                    reason @ (StopReason::Chatter { .. }
+                    | StopReason::Restless { .. }
+                    | StopReason::TooManyEvents { .. }
+                    | StopReason::NothingSwitches),
+                ..
+            } => {
+                write!(f, "stopped at {} s: {}", six_digits(*time), reason.of_events())
+            }
             Self::Stopped { time, reason: StopReason::Integrator { error, node }, .. } => {
                 write!(f, "stopped at {} s: {error}", six_digits(*time))?;
                 node.as_ref().map_or(Ok(()), |node| write!(f, " (largest error at node `{node}`)"))
             }
+        }
+    }
+}
+
+impl StopReason {
+    /// What to do about it, where that does not depend on a value of the network.
+    fn help(&self) -> Option<String> {
+        Some(match self {
+            Self::BelowAbsoluteZero { .. } => COLD.into(),
+            Self::Chatter { .. } => "give it a dead band: a [control] with `on_above` and `off_below`, or \
+                `on_below` and `off_above`, whose name is 0 or 1 in expressions; or a gradual change, \
+                `0.5 * (1 + tanh((T - 80 [degC]) / 1 [K]))`"
+                .into(),
+            Self::Restless { .. } => {
+                "switching changes at once what is compared: let a control feel a node with a \
+                capacity, or give it a `min_dwell`"
+                    .into()
+            }
+            Self::TooManyEvents { .. } => {
+                "what switches this often is better replaced by its mean, or made slower by `min_dwell`"
+                    .into()
+            }
+            Self::NothingSwitches => "give the nodes that are felt a capacity".into(),
+            _ => return None,
+        })
+    }
+
+    fn of_events(&self) -> String {
+        match self {
+            Self::Chatter { name, changes } => format!(
+                "a comparison in `{name}` changed {changes} times between two rows: the temperatures stay where it \
+                 neither holds nor fails"
+            ),
+            Self::Restless { names } if names.len() == 1 => {
+                format!("`{}` switches back and forth at this very moment", names[0])
+            }
+            Self::Restless { names } => {
+                format!("{} switch back and forth at this very moment", lptn_network::list_of_names(names))
+            }
+            Self::TooManyEvents { count } => format!("{count} events, more than a run may have"),
+            _ => "controls and comparisons of temperatures need a node with a capacity".into(),
         }
     }
 }

@@ -2,10 +2,14 @@
 
 use lptn_assembly::{Form, ThermalSystem, Workspace};
 use lptn_integrate::{OdeSystem, Pattern, Retry};
+use lptn_network::Positions;
 
 use crate::balance::Books;
+use crate::error::StopReason;
+use crate::events::Gates;
 use crate::newton::NewtonError;
 use crate::unfold::Unfold;
+use crate::unsolved::Unsolved;
 
 /// A system with what evaluating it needs. Its running integrals are those of the ledger.
 pub(crate) struct Heat<'a> {
@@ -23,6 +27,8 @@ pub(crate) struct Heat<'a> {
     pub(crate) failure: Option<NewtonError>,
     /// The same, overcome by a smaller step or not, until someone takes it.
     pub(crate) refused: Option<NewtonError>,
+    /// What switches.
+    pub(crate) gates: Gates,
 }
 
 impl<'a> Heat<'a> {
@@ -31,7 +37,9 @@ impl<'a> Heat<'a> {
         let form = if system.is_symmetric() { Form::Symmetric } else { Form::Exact };
         let flow = vec![0.0; system.unknowns().len()];
         let (work, unfold) = (system.workspace(), Unfold::new(system)?);
-        Ok(Self { system, pattern, work, unfold, flow, books, form, segment, failure: None, refused: None })
+        let gates = Gates::new(system);
+        let (failure, refused) = (None, None);
+        Ok(Self { system, pattern, work, unfold, flow, books, form, segment, failure, refused, gates })
     }
 
     /// Reads the inputs and takes the state; what fails may be the guess of a step that is too long.
@@ -40,6 +48,52 @@ impl<'a> Heat<'a> {
         inputs.map_err(|error| self.failed(NewtonError::Input(error), Retry::Stop))?;
         let unfolded = self.unfold.temperatures(&mut self.work, y).map(|_| ());
         unfolded.map_err(|error| self.failed(error, Retry::SmallerStep))
+    }
+
+    /// Sets which controls are on and which comparisons hold.
+    pub(crate) fn set_positions(&mut self, positions: &Positions) {
+        self.work.set_positions(positions);
+    }
+
+    /// Takes a state and recovers the temperatures of all nodes.
+    fn recover(&mut self, time: f64, y: &[f64]) -> Result<(), Retry> {
+        self.place(time, y)?;
+        self.system.recover(&mut self.work, self.unfold.last());
+        Ok(())
+    }
+
+    /// Goes to a state of an event; what fails there ends the run.
+    fn arrive(&mut self, time: f64, y: &[f64]) -> Result<(), StopReason> {
+        self.recover(time, y).map_err(|_| match self.failure.take() {
+            Some(NewtonError::Input(input)) => StopReason::Input(input),
+            Some(other) => StopReason::Unsolved(Unsolved::new(self.system, other)),
+            None => StopReason::Unsolved(Unsolved::new(self.system, NewtonError::Singular { unknown: 0 })),
+        })
+    }
+
+    /// Writes how far everything that switches is beyond the point where it does; see [`Gates::excess`].
+    pub(crate) fn excess(&mut self, time: f64, y: &[f64], out: &mut [f64]) -> Result<(), StopReason> {
+        self.arrive(time, y)?;
+        self.gates.excess(self.system, &mut self.work, out).map_err(StopReason::Input)
+    }
+
+    /// Sets how far the sides of comparisons have to be apart; see [`Gates::set_margins`].
+    pub(crate) fn set_margins(&mut self, time: f64, y: &[f64], tolerance: f64) -> Result<(), StopReason> {
+        self.arrive(time, y)?;
+        self.gates.set_margins(self.system, &mut self.work, tolerance).map_err(StopReason::Input)
+    }
+
+    /// Which comparisons hold as they stand.
+    pub(crate) fn comparisons(&mut self, time: f64, y: &[f64]) -> Result<Vec<bool>, StopReason> {
+        self.arrive(time, y)?;
+        let network = self.system.network();
+        let mut holds = Vec::with_capacity(network.switches().len());
+        for (id, switch) in network.switch_ids().zip(network.switches()) {
+            let (difference, _) =
+                self.system.switch_difference(&mut self.work, id).map_err(StopReason::Input)?;
+            holds.push(switch.holds(difference));
+        }
+        Ok(holds)
     }
 
     fn failed(&mut self, error: NewtonError, retry: Retry) -> Retry {
@@ -95,6 +149,16 @@ impl OdeSystem for Heat<'_> {
 
     fn jacobian_is_constant(&self) -> bool {
         self.system.is_linear() && !self.unfold.carries_heat()
+    }
+
+    fn root_count(&self) -> usize {
+        self.gates.count()
+    }
+
+    fn roots(&mut self, time: f64, y: &[f64], g: &mut [f64]) -> Result<(), Retry> {
+        self.recover(time, y)?;
+        let excess = self.gates.excess(self.system, &mut self.work, g);
+        excess.map_err(|error| self.failed(NewtonError::Input(error), Retry::Stop))
     }
 
     fn quadrature_count(&self) -> usize {

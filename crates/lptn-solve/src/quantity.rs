@@ -1,6 +1,6 @@
 //! What can be a column of the results.
 
-use lptn_network::{BoundaryId, HeatOf, Network, NodeId, ReportId, SignalId};
+use lptn_network::{BoundaryId, ControlId, HeatOf, Network, NodeId, ReportId, SignalId};
 use lptn_units::{Dimension, Type, Unit};
 
 /// One quantity of a network that can be a column.
@@ -10,12 +10,13 @@ pub(crate) enum Quantity {
     BoundaryTemperature(BoundaryId),
     Heat(HeatOf),
     Signal(SignalId),
+    Control(ControlId),
     Report(ReportId),
 }
 
 impl Quantity {
     /// All of a network: temperatures of nodes and boundaries, heat flows of paths, sources, and boundaries, signals,
-    /// reports.
+    /// controls, reports.
     pub(crate) fn all(network: &Network) -> impl Iterator<Item = Self> {
         let nodes = network.node_ids().map(Self::Node);
         let paths = network.conductor_ids().flat_map(|id| network.heats_of(id)).map(Self::Heat);
@@ -25,6 +26,7 @@ impl Quantity {
             .chain(network.source_ids().map(|id| Self::Heat(HeatOf::Source(id))))
             .chain(network.boundary_ids().map(|id| Self::Heat(HeatOf::Boundary(id))))
             .chain(network.signal_ids().map(Self::Signal))
+            .chain(network.control_ids().map(Self::Control))
             .chain(network.report_ids().map(Self::Report))
     }
 
@@ -34,6 +36,7 @@ impl Quantity {
             Self::BoundaryTemperature(id) => format!("{}.T", network.boundaries()[id.index()].name),
             Self::Heat(heat) => heat.name(network),
             Self::Signal(id) => network.signals()[id.index()].name.clone(),
+            Self::Control(id) => network.controls()[id.index()].name.clone(),
             Self::Report(id) => network.reports()[id.index()].name.clone(),
         }
     }
@@ -43,6 +46,7 @@ impl Quantity {
             Self::Node(_) | Self::BoundaryTemperature(_) => Type::ABSOLUTE_TEMPERATURE,
             Self::Heat(_) => Type::of(Dimension::POWER),
             Self::Signal(id) => network.signals()[id.index()].ty,
+            Self::Control(_) => Type::SCALAR,
             Self::Report(id) => network.reports()[id.index()].ty,
         }
     }

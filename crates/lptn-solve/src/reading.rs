@@ -34,6 +34,9 @@ impl<'a> Reading<'a> {
         let network = system.network();
         let nodes = system.node_temperatures(work);
         let known = !nodes.iter().any(|t| t.is_nan());
+        if network.has_events() {
+            scope.set_positions(work.positions());
+        }
         scope.set_time(at.0, at.1);
         scope.set_temperatures(nodes, system.boundary_temperatures(work));
         if !known {
@@ -57,6 +60,7 @@ impl<'a> Reading<'a> {
             Quantity::BoundaryTemperature(id) => Ok(self.system.boundary_temperatures(work)[id.index()]),
             Quantity::Heat(heat) => heat_of(self.system, &self.boundary_heat, work, heat),
             Quantity::Signal(id) => Ok(self.scope.signal(id)),
+            Quantity::Control(id) => Ok(self.scope.control(id)),
             Quantity::Report(id) => self.system.network().report_value(id, &mut self.scope),
         }
     }

@@ -2,13 +2,14 @@
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::{IntegrateError, Integrator, Statistics};
-use lptn_network::{LimitId, NodeId};
+use lptn_network::{LimitId, NodeId, Positions};
 
 use crate::balance::Balance;
 use crate::error::{SettingsError, StopReason, TransientError};
+use crate::events::{Event, EventKind};
 use crate::heat::Heat;
 use crate::ledger::Ledger;
-use crate::limit::LimitWatch;
+use crate::limit::{LimitSeen, LimitWatch};
 use crate::reading::Reading;
 use crate::settings::{Record, Transient};
 use crate::solution::{End, Solution};
@@ -36,6 +37,10 @@ pub(crate) struct Recorder<'a> {
     next: usize,
     segment: Segment,
     segments: Vec<f64>,
+    /// The positions that the rows have, one after the other.
+    positions: Vec<Positions>,
+    /// For each row its positions, if there is any.
+    row_positions: Vec<u32>,
     recorded: Vec<NodeId>,
     temperatures: Vec<f64>,
     watch: Vec<Watch>,
@@ -77,6 +82,8 @@ impl<'a> Recorder<'a> {
             system,
             work: system.workspace(),
             segments: Vec::with_capacity(rows.len()),
+            positions: Vec::new(),
+            row_positions: Vec::new(),
             temperatures,
             rows,
             next: 0,
@@ -112,9 +119,24 @@ impl<'a> Recorder<'a> {
         self.system.states().get(state).map_or(String::new(), |id| network.nodes()[id.index()].name.clone())
     }
 
-    /// Enters the next segment: from here on inputs are read as they are inside it.
-    pub(crate) fn enter(&mut self, segment: Segment) {
+    /// Enters the next segment: from here on inputs are read as they are inside it, in these positions.
+    pub(crate) fn enter(&mut self, segment: Segment, positions: Option<&Positions>) {
         self.segment = segment;
+        if let Some(positions) = positions {
+            self.work.set_positions(positions);
+            let known = self.positions.last() == Some(positions);
+            self.positions.extend((!known).then(|| positions.clone()));
+        }
+    }
+
+    /// Ends the segment here: a row at this time is left to what follows.
+    pub(crate) fn cut(&mut self, time: f64) {
+        self.segment.to = time;
+    }
+
+    /// How many rows are written.
+    pub(crate) fn written(&self) -> usize {
+        self.next
     }
 
     /// Writes the row at the start of the segment, if there is one, and starts to watch.
@@ -240,6 +262,8 @@ impl<'a> Recorder<'a> {
         }
         self.temperatures.extend(self.recorded.iter().map(|id| nodes[id.index()]));
         self.segments.push(self.segment.inside());
+        let position = self.positions.len().checked_sub(1).and_then(|i| u32::try_from(i).ok());
+        self.row_positions.extend(position);
         self.next += 1;
         Ok(())
     }
@@ -311,20 +335,24 @@ impl<'a> Recorder<'a> {
     pub(crate) fn into_solution(
         mut self,
         (ledger, balance): (Ledger, Option<Balance>),
-        statistics: Statistics,
+        (statistics, events): (Statistics, Vec<Event>),
         end: End,
     ) -> Solution {
         let network = self.system.network();
         let windows = self.windows.into_iter().filter_map(|w| w.into_seen(network, self.tolerance));
         self.rows.truncate(self.next);
+        let limits = self.limits.into_seen(self.tolerance);
         Solution {
+            positions: self.positions,
+            row_positions: self.row_positions,
+            events: with_limits(events, &limits),
             system: self.system.clone(),
             times: self.rows,
             segments: self.segments,
             recorded: self.recorded,
             temperatures: self.temperatures,
             seen: self.seen,
-            limits: self.limits.into_seen(self.tolerance),
+            limits,
             windows: windows.collect(),
             balance,
             ledger,
@@ -334,4 +362,12 @@ impl<'a> Recorder<'a> {
             remembered: self.remembered,
         }
     }
+}
+
+/// Events with the limits that were broken, in the order of time.
+fn with_limits(mut events: Vec<Event>, limits: &[LimitSeen]) -> Vec<Event> {
+    let broken = limits.iter().filter_map(|seen| Some((seen.limit, seen.broken_at?)));
+    events.extend(broken.map(|(id, time)| Event::new(time, EventKind::Limit(id), true)));
+    events.sort_by(|a, b| a.time.total_cmp(&b.time));
+    events
 }

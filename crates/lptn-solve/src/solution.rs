@@ -3,11 +3,13 @@
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::Statistics;
 use lptn_network::{
-    BoundaryId, ConductorId, HeatOf, Network, NodeId, Received, ReportId, SignalId, SourceId,
+    BoundaryId, ConductorId, ControlId, HeatOf, Network, NodeId, Positions, Received, ReportId, SignalId,
+    SourceId,
 };
 
 use crate::balance::Balance;
 use crate::curved::MOST_REMEMBERED;
+use crate::events::Event;
 use crate::ledger::Ledger;
 use crate::limit::LimitSeen;
 use crate::quantity::Quantity;
@@ -33,6 +35,11 @@ pub struct Solution {
     pub(crate) times: Vec<f64>,
     /// For each row a time inside its segment: comparisons of `t` are read there.
     pub(crate) segments: Vec<f64>,
+    /// The positions that the rows have, one after the other; none where nothing switches.
+    pub(crate) positions: Vec<Positions>,
+    /// For each row its positions, if there is any.
+    pub(crate) row_positions: Vec<u32>,
+    pub(crate) events: Vec<Event>,
     /// The nodes that were recorded, ascending.
     pub(crate) recorded: Vec<NodeId>,
     /// Row by row, one temperature in K for each recorded node.
@@ -134,6 +141,11 @@ impl Solution {
         let mut at = Replay { system: &self.system, work, reading };
         let mut nodes = vec![f64::NAN; self.network().nodes().len()];
         for (row, (&time, &segment)) in self.times.iter().zip(&self.segments).enumerate() {
+            if let Some(&at_row) = self.row_positions.get(row)
+                && (row == 0 || self.row_positions[row - 1] != at_row)
+            {
+                at.work.set_positions(&self.positions[at_row as usize]);
+            }
             if self.system.read_inputs(&mut at.work, time, segment).is_err() {
                 break;
             }
@@ -154,6 +166,17 @@ impl Solution {
     /// How each limit of the network fared up to the end that was reached, between the rows too.
     pub fn limits(&self) -> &[LimitSeen] {
         &self.limits
+    }
+
+    /// What happened at times that were not known beforehand, in the order of time: controls that switched,
+    /// comparisons of temperatures that changed, limits that were broken.
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// A control over the rows: 0 or 1.
+    pub fn control(&self, id: ControlId) -> Vec<f64> {
+        self.values(Quantity::Control(id))
     }
 
     /// Means and extremes over the windows that were asked for, as far as the run came.

@@ -27,7 +27,7 @@ pub(crate) fn solve(
         _ => recorder.span().1,
     };
     let closed = books.close(system, recorder.at_state((last, &[])), &integrals, (stored, 0.0));
-    let solution = recorder.into_solution(closed, Statistics::default(), end);
+    let solution = recorder.into_solution(closed, (Statistics::default(), Vec::new()), end);
     match outcome {
         None => Ok(solution),
         Some((time, reason)) => Err(TransientError::Stopped { time, reason, partial: Box::new(solution) }),
@@ -40,10 +40,13 @@ fn rows(
     (books, integrals): (&Books, &mut [f64]),
 ) -> Result<(), (f64, StopReason)> {
     let times = recorder.rows().to_vec();
+    if recorder.system().network().has_events() {
+        return Err((times[0], StopReason::NothingSwitches));
+    }
     let last = times.len() - 1;
     let mut row = 0;
     for (i, &segment) in segments.iter().enumerate() {
-        recorder.enter(segment);
+        recorder.enter(segment, None);
         recorder.start(&[]).map_err(|e| (segment.from, e))?;
         row += usize::from(times[row].to_bits() == segment.from.to_bits());
         let mut from = segment.from;

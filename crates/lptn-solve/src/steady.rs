@@ -122,6 +122,7 @@ impl SteadyState {
             Quantity::BoundaryTemperature(id) => Ok(self.boundary_temperatures[id.index()]),
             Quantity::Heat(heat) => Ok(self.heat(heat)),
             Quantity::Signal(id) => Ok(scope.signal(id)),
+            Quantity::Control(id) => Ok(scope.control(id)),
             Quantity::Report(id) => network.report_value(id, scope),
         }
     }

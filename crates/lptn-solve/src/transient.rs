@@ -1,11 +1,12 @@
 //! Temperatures over time.
 
 use lptn_assembly::ThermalSystem;
-use lptn_integrate::{FactorError, IntegrateError, Integrator, Statistics};
+use lptn_integrate::{FactorError, IntegrateError, Integrator, Statistics, Step};
 
 use crate::balance::Books;
 use crate::curved::Curved;
 use crate::error::{StopReason, TransientError};
+use crate::events::{Switching, Trouble, find_crossings};
 use crate::heat::Heat;
 use crate::newton::NewtonError;
 use crate::recorder::Recorder;
@@ -65,6 +66,10 @@ struct Run<'a> {
     initial: Vec<f64>,
     books: Books,
     tolerance: f64,
+    /// What has to switch when the next segment begins.
+    due: Vec<usize>,
+    /// Only where something switches.
+    switching: Option<Switching<'a>>,
     /// Steps in a row that were refused before they became so short that they lead nowhere.
     crawled: usize,
 }
@@ -82,9 +87,11 @@ impl<'a> Run<'a> {
             .map_err(|e| TransientError::Start(Unsolved::new(system, e)))?;
         let curved = Curved::of(system, segments, recorder.rows());
         recorder.remembered = curved.map_or(0.0, |c| c.remembered);
+        let switching = system.network().has_events().then(|| Switching::new(system, settings.tolerance));
         let integrator = Integrator::new(heat, settings.start, &initial, &settings.options(curved))
             .map_err(TransientError::Integrator)?;
-        Ok(Self { integrator, recorder, initial, books, tolerance: settings.tolerance, crawled: 0 })
+        let tolerance = settings.tolerance;
+        Ok(Self { integrator, recorder, initial, books, tolerance, due: Vec::new(), switching, crawled: 0 })
     }
 
     fn through(
@@ -117,23 +124,82 @@ impl<'a> Run<'a> {
         first: bool,
         observer: &mut dyn FnMut(Progress) -> Control,
     ) -> Result<(), Break> {
-        self.recorder.enter(segment);
+        self.integrator.system_mut().segment = segment.inside();
+        let due = std::mem::take(&mut self.due);
+        self.switch(&due, first)?;
         if !first {
-            self.integrator.system_mut().segment = segment.inside();
             self.integrator.restart(None).map_err(|e| self.failed(e))?;
         }
-        self.integrator.set_stop(segment.to);
-        self.recorder.start(self.integrator.state()).map_err(Break::Failed)?;
+        self.enter(segment)?;
         while self.integrator.time() < segment.to {
-            let step = self.integrator.step().map_err(|e| self.failed(e))?;
-            self.check_crawl(step.to - step.from)?;
-            self.recorder.step(&mut self.integrator, step.from, step.to).map_err(Break::Failed)?;
+            self.step(segment)?;
             let (start, stop) = self.recorder.span();
-            if observer(Progress { start, time: step.to, stop }) == Control::Interrupt {
+            if observer(Progress { start, time: self.integrator.time(), stop }) == Control::Interrupt {
                 return Err(Break::Interrupted);
             }
         }
         Ok(())
+    }
+
+    /// Enters a segment, or what an event left of it.
+    fn enter(&mut self, segment: Segment) -> Result<(), Break> {
+        self.recorder.enter(segment, self.switching.as_ref().map(|switching| &switching.positions));
+        self.recorder.start(self.integrator.state()).map_err(Break::Failed)
+    }
+
+    /// One step, or the part of it up to an event.
+    fn step(&mut self, segment: Segment) -> Result<(), Break> {
+        let armed = self.switching.as_ref().map_or(f64::INFINITY, |s| s.next_armed(self.integrator.time()));
+        self.integrator.set_stop(segment.to.min(armed));
+        let step = self.integrator.step().map_err(|e| self.failed(e))?;
+        self.check_crawl(step.to - step.from)?;
+        let (due, to) = self.crossings(&step)?;
+        if !due.is_empty() {
+            self.recorder.cut(to);
+        }
+        let row = self.recorder.written();
+        self.recorder.step(&mut self.integrator, step.from, to).map_err(Break::Failed)?;
+        if let (true, Some(switching)) = (self.recorder.written() > row, &mut self.switching) {
+            switching.row();
+        }
+        if to < step.to {
+            self.integrator.rewind(to).map_err(|e| self.failed(e))?;
+        }
+        if to >= segment.to {
+            self.due = due; // the next segment begins with it
+            return Ok(());
+        }
+        let happens = !due.is_empty() || to >= armed;
+        if happens && (self.switch(&due, false)? || !due.is_empty()) {
+            self.integrator.restart(None).map_err(|e| self.failed(e))?;
+            self.enter(Segment { from: to, to: segment.to })?;
+        }
+        Ok(())
+    }
+
+    /// What has to switch inside a step or at its end, and when that is.
+    fn crossings(&mut self, step: &Step) -> Result<(Vec<usize>, f64), Break> {
+        if self.switching.is_none() {
+            return Ok((Vec::new(), step.to));
+        }
+        find_crossings(&mut self.integrator, step).map_err(|trouble| match trouble {
+            Trouble::Integrator(error) => self.failed(error),
+            Trouble::Stop(reason) => Break::Failed(reason),
+        })
+    }
+
+    /// Switches what is due and what follows from it; true if something is different afterwards.
+    fn switch(&mut self, due: &[usize], first: bool) -> Result<bool, Break> {
+        let Some(switching) = &mut self.switching else { return Ok(false) };
+        let (time, state) = (self.integrator.time(), self.integrator.state().to_vec());
+        let before = switching.positions.clone();
+        let heat = self.integrator.system_mut();
+        let switched = match first {
+            true => switching.begin(heat, time, &state),
+            false => switching.settle(heat, time, &state, due),
+        };
+        let changed = switching.positions != before;
+        switched.map_err(Break::Failed).map(|()| changed)
     }
 
     /// Breaks off a run that only creeps up to where its heat can be had no longer, with ever smaller steps.
@@ -183,6 +249,7 @@ impl<'a> Run<'a> {
         let at_the_end = (self.integrator.time(), self.integrator.state());
         let work = self.recorder.at_state(at_the_end);
         let books = self.books.close(system, work, &integrals, (stored, self.tolerance));
-        Ok(self.recorder.into_solution(books, statistics, end))
+        let events = self.switching.map_or_else(Vec::new, |switching| switching.events);
+        Ok(self.recorder.into_solution(books, (statistics, events), end))
     }
 }

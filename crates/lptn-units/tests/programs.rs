@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Names, program, run, values};
-use lptn_units::{Degree, Dimension, EvalError, Expression, Program, Type};
+use lptn_units::{Comparison, Degree, Dimension, Dual, EvalError, Expression, Program, Type};
 
 const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
 const ABSOLUTE: Type = Type::ABSOLUTE_TEMPERATURE;
@@ -46,6 +46,29 @@ fn comparisons_load_frozen_slots_and_their_own_programs_the_ordinary_ones() {
     assert_eq!(inner.ty(), DIFFERENCE);
     let difference = inner.eval(&values(), &mut stack).unwrap();
     assert!((difference - (350.0 - 613.15)).abs() < 1e-12);
+}
+
+#[test]
+fn held_comparisons_take_their_truth_from_slots() {
+    let program =
+        program("if(if(T > 340 [K] + 0 [degC], x, n) > 1, kelvin(T), 0 [K]) + if(x < 3, 1 [K], 2 [K])");
+    assert_eq!(program.relations(), [Comparison::Greater, Comparison::Greater, Comparison::Less]);
+    let held = program.with_held_comparisons(&mut |i| [Some(11), Some(12), None][i]);
+    assert_eq!(held.slots(), [0, 1, 6, 10, 11, 12]);
+    let value = |inner: f64, outer: f64| {
+        let mut slots = values();
+        slots.extend([inner, outer]);
+        let of = |program: &Program| program.eval(&slots, &mut Vec::new()).unwrap();
+        (of(&held), of(&held.comparisons()[1]))
+    };
+    // the outer truth decides; the inner one decides between x = 2 and n = 3, of which 1 is taken
+    assert_eq!(value(0.0, 0.0), (1.0, 2.0));
+    assert_eq!(value(1.0, 1.0), (351.0, 1.0));
+    // derivatives are those of the branch that is held
+    let mut slots: Vec<Dual<1>> = values().into_iter().chain([0.0, 1.0]).map(Dual::constant).collect();
+    slots[6] = Dual::variable(300.0, 0);
+    let slope = held.eval(&slots, &mut Vec::new()).unwrap();
+    assert_eq!((slope.value, slope.derivatives[0]), (301.0, 1.0));
 }
 
 #[test]

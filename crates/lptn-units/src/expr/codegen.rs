@@ -69,6 +69,7 @@ impl<'a> Generator<'a> {
             stack_size: self.most_waiting,
             tables: Arc::clone(self.common.tables),
             comparisons: Vec::new(),
+            relations: Vec::new(),
             kinks: Vec::new(),
             table_calls: Vec::new(),
         }
@@ -77,7 +78,11 @@ impl<'a> Generator<'a> {
     pub(super) fn emit(&mut self, op: Op, origin: Id) {
         match op {
             Op::Push => self.waiting += 1,
-            Op::Popped(_) | Op::PoppedPower | Op::PoppedTable(_) | Op::JumpUnless(..) => self.waiting -= 1,
+            Op::Popped(_)
+            | Op::PoppedPower
+            | Op::PoppedTable(_)
+            | Op::JumpUnless(..)
+            | Op::JumpUnlessSet(..) => self.waiting -= 1,
             _ => {}
         }
         self.most_waiting = self.most_waiting.max(self.waiting);

@@ -33,6 +33,11 @@ pub(crate) fn degree(code: &[Op], slot: u32) -> Degree {
                 let condition = stack.pop().unwrap_or(Degree::Nonlinear).max(current);
                 branches.push(Branch { condition, first: None });
             }
+            Op::JumpUnlessSet(held, _) => {
+                stack.pop();
+                let condition = if held == slot { Degree::Nonlinear } else { Degree::Constant };
+                branches.push(Branch { condition, first: None });
+            }
             Op::Jump(end) => {
                 if let Some(branch) = branches.last_mut() {
                     branch.first = Some((current, end));

@@ -210,6 +210,13 @@ impl Program {
                     next = target;
                     continue;
                 }
+                Op::JumpUnlessSet(slot, target) => {
+                    pop(stack);
+                    if slots[slot as usize].value() == 0.0 {
+                        next = target;
+                    }
+                    continue;
+                }
             };
             inspect(index, accumulator)?;
         }

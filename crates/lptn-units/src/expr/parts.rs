@@ -21,7 +21,8 @@ impl Parts<'_> {
     pub(super) fn add_to(&self, program: &mut Program) {
         for (id, (node, _)) in self.common.tree.nodes().enumerate() {
             match node {
-                Node::Compare(_, left, right) => {
+                Node::Compare(relation, left, right) => {
+                    program.relations.push(*relation);
                     program.comparisons.push(self.difference(*left, *right, id));
                 }
                 Node::Call { function, arguments, .. } => self.call(function, arguments, id, program),

@@ -53,6 +53,8 @@ pub(crate) enum Op {
     /// Goes on at the target unless `popped comparison accumulator` holds.
     JumpUnless(Comparison, usize),
     Jump(usize),
+    /// Goes on at the target if the slot holds 0; drops what was compared.
+    JumpUnlessSet(u32, usize),
 }
 
 /// A table that an expression calls.
@@ -84,6 +86,7 @@ pub struct Program {
     pub(crate) stack_size: usize,
     pub(crate) tables: Arc<[NamedTable]>,
     pub(crate) comparisons: Vec<Program>,
+    pub(crate) relations: Vec<Comparison>,
     pub(crate) kinks: Vec<Program>,
     pub(crate) table_calls: Vec<TableCall>,
 }
@@ -114,6 +117,39 @@ impl Program {
     /// the comparison changes.
     pub fn comparisons(&self) -> &[Program] {
         &self.comparisons
+    }
+
+    /// The same program with the truth of some comparisons read from slots, 0 for no: `slot_of` is asked for each of
+    /// [`Program::comparisons`] by its position. Comparisons inside others are held in these too.
+    #[must_use]
+    pub fn with_held_comparisons(&self, slot_of: &mut dyn FnMut(usize) -> Option<u32>) -> Self {
+        let mut held = self.clone();
+        for (index, comparison) in self.comparisons.iter().enumerate() {
+            let Some(slot) = slot_of(index) else { continue };
+            // both end with the operation that comes from the comparison as a whole
+            let Some(place) = comparison.spans.last() else { continue };
+            held.hold(place, slot);
+            held.comparisons.iter_mut().for_each(|outer| outer.hold(place, slot));
+        }
+        held
+    }
+
+    /// Reads the truth of the comparison at this place of the text from a slot.
+    fn hold(&mut self, place: &Range<usize>, slot: u32) {
+        let ops = self.code.iter_mut().zip(&self.spans);
+        for (op, _) in ops.filter(|(_, span)| *span == place) {
+            if let Op::JumpUnless(_, target) = *op {
+                *op = Op::JumpUnlessSet(slot, target);
+                self.slots.push(slot);
+            }
+        }
+        self.slots.sort_unstable();
+        self.slots.dedup();
+    }
+
+    /// How the two sides of each of [`Program::comparisons`] are compared.
+    pub fn relations(&self) -> &[Comparison] {
+        &self.relations
     }
 
     /// Where the result has a kink: for every `abs` its argument, for every pair of arguments of a `min` or

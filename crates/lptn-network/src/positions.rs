@@ -1,0 +1,65 @@
+//! Positions: which controls are on and which comparisons of temperatures hold, fixed between two events.
+
+use std::sync::Arc;
+
+use crate::evaluation::Evaluation;
+use crate::id::{ControlId, SwitchId};
+use crate::network::Network;
+
+/// The positions of everything that switches. Between two events none of them changes.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Positions {
+    /// For each control whether it is on.
+    pub controls: Vec<bool>,
+    /// For each switch whether its comparison holds.
+    pub switches: Vec<bool>,
+}
+
+impl Network {
+    /// The positions before anything is known of temperatures: controls as their `start` says, no comparison holds.
+    pub fn initial_positions(&self) -> Positions {
+        let start = |id: ControlId| self.thermostat(id).is_some_and(|thermostat| thermostat.start);
+        Positions {
+            controls: self.control_ids().map(start).collect(),
+            switches: vec![false; self.switches().len()],
+        }
+    }
+
+    /// Whether anything switches at times that are not known beforehand.
+    pub fn has_events(&self) -> bool {
+        !(self.controls().is_empty() && self.switches().is_empty())
+    }
+}
+
+impl Evaluation {
+    /// Sets which controls are on and which comparisons hold.
+    pub fn set_positions(&mut self, positions: &Positions) {
+        let layout = Arc::clone(self.layout());
+        let number = |holds: bool| f64::from(u8::from(holds));
+        for (i, &on) in positions.controls.iter().enumerate() {
+            self.set(layout.control(ControlId::from_len(i)), number(on));
+        }
+        for (i, &holds) in positions.switches.iter().enumerate() {
+            self.set(layout.switch(SwitchId::from_len(i)), number(holds));
+        }
+    }
+
+    /// The positions that were set last.
+    pub fn positions(&self) -> Positions {
+        let layout = self.layout();
+        let controls = (0..layout.control_count()).map(|i| self.is_on(ControlId::from_len(i)));
+        let switches =
+            (0..layout.switch_count()).map(|i| self.slot(layout.switch(SwitchId::from_len(i))) != 0.0);
+        Positions { controls: controls.collect(), switches: switches.collect() }
+    }
+
+    /// Whether a control is on.
+    pub fn is_on(&self, id: ControlId) -> bool {
+        self.slot(self.layout().control(id)) != 0.0
+    }
+
+    /// The value of a control, 0 or 1.
+    pub fn control(&self, id: ControlId) -> f64 {
+        self.slot(self.layout().control(id))
+    }
+}

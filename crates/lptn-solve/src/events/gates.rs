@@ -1,0 +1,67 @@
+//! How far everything that switches is beyond the point where it does.
+
+use lptn_assembly::{ThermalSystem, Workspace};
+use lptn_network::InputError;
+
+/// A comparison changes only when its sides are apart by what this part of the tolerance makes of them: without it
+/// rounding at the moment of an event would decide which side it is on.
+const MARGIN: f64 = 0.01;
+
+/// What everything that switches waits for: controls in their order, then comparisons.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Gates {
+    /// For each control whether it may switch; not while it has to stay as it is.
+    pub(crate) armed: Vec<bool>,
+    /// For each comparison how far its sides have to be apart.
+    pub(crate) margins: Vec<f64>,
+}
+
+impl Gates {
+    pub(crate) fn new(system: &ThermalSystem) -> Self {
+        let network = system.network();
+        Self { armed: vec![true; network.controls().len()], margins: vec![0.0; network.switches().len()] }
+    }
+
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.armed.len() + self.margins.len()
+    }
+
+    /// Writes how far each is beyond the point where it switches, positive if it has to; from the inputs, the positions and
+    /// the temperatures that `work` holds.
+    pub(crate) fn excess(
+        &self,
+        system: &ThermalSystem,
+        work: &mut Workspace,
+        out: &mut [f64],
+    ) -> Result<(), InputError> {
+        let (controls, switches) = out.split_at_mut(self.armed.len());
+        for ((id, armed), out) in system.network().control_ids().zip(&self.armed).zip(controls) {
+            let excess = system.control_excess(work, id)?;
+            *out = if *armed { excess } else { -1.0 };
+        }
+        for ((id, margin), out) in system.network().switch_ids().zip(&self.margins).zip(switches) {
+            let (difference, _) = system.switch_difference(work, id)?;
+            let towards_true =
+                if system.network().switches()[id.index()].holds(1.0) { difference } else { -difference };
+            let holds = work.positions().switches[id.index()];
+            *out = if holds { -towards_true } else { towards_true } - margin;
+        }
+        Ok(())
+    }
+
+    /// Sets how far the sides of each comparison have to be apart, for this tolerance in K.
+    pub(crate) fn set_margins(
+        &mut self,
+        system: &ThermalSystem,
+        work: &mut Workspace,
+        tolerance: f64,
+    ) -> Result<(), InputError> {
+        for (id, margin) in system.network().switch_ids().zip(&mut self.margins) {
+            let (difference, slope) = system.switch_difference(work, id)?;
+            // a side that hardly depends on temperature here still has digits to lose
+            *margin = (MARGIN * tolerance * slope).max(4.0 * f64::EPSILON * difference.abs());
+        }
+        Ok(())
+    }
+}

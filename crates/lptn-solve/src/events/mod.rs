@@ -1,0 +1,11 @@
+//! Events: controls that switch, comparisons of temperatures that change, limits that break.
+
+mod crossing;
+mod gates;
+mod log;
+mod switching;
+
+pub(crate) use crossing::{Trouble, find as find_crossings};
+pub(crate) use gates::Gates;
+pub use log::{Event, EventKind};
+pub(crate) use switching::Switching;

@@ -1,0 +1,153 @@
+//! The positions in a run: what switches, when, and whether it gets anywhere.
+
+use lptn_assembly::ThermalSystem;
+use lptn_network::{Network, Positions};
+
+use crate::error::StopReason;
+use crate::events::{Event, EventKind, Gates};
+use crate::heat::Heat;
+
+/// The most rounds in which what switches makes other things switch at one moment.
+const ROUNDS: usize = 64;
+
+/// The most changes of one comparison between two rows.
+const CHATTER: usize = 20;
+
+/// The most events of a run.
+const MOST_EVENTS: usize = 1_000_000;
+
+/// The positions in a run and how they came about.
+pub(crate) struct Switching<'a> {
+    network: &'a Network,
+    pub(crate) positions: Positions,
+    /// When each control switched last, in s.
+    pub(crate) since: Vec<f64>,
+    gates: Gates,
+    excess: Vec<f64>,
+    tolerance: f64,
+    pub(crate) events: Vec<Event>,
+    /// For each comparison how often it changed since the last row.
+    changes: Vec<usize>,
+    /// What stands at each position: controls, then comparisons.
+    kinds: Vec<EventKind>,
+}
+
+impl<'a> Switching<'a> {
+    pub(crate) fn new(system: &'a ThermalSystem, tolerance: f64) -> Self {
+        let (network, gates) = (system.network(), Gates::new(system));
+        let controls = network.control_ids().map(EventKind::Control);
+        let kinds: Vec<EventKind> = controls.chain(network.switch_ids().map(EventKind::Comparison)).collect();
+        Self {
+            network,
+            positions: network.initial_positions(),
+            since: vec![f64::NEG_INFINITY; network.controls().len()],
+            gates,
+            excess: vec![0.0; kinds.len()],
+            tolerance,
+            events: Vec::new(),
+            changes: vec![0; network.switches().len()],
+            kinds,
+        }
+    }
+
+    /// Finds the positions at the start: comparisons as they stand, controls outside their dead band by their condition.
+    pub(crate) fn begin(&mut self, heat: &mut Heat<'_>, time: f64, state: &[f64]) -> Result<(), StopReason> {
+        let controls = self.positions.controls.len();
+        let mut changed = Vec::new();
+        for _ in 0..ROUNDS {
+            self.install(heat);
+            let holds = heat.comparisons(time, state)?;
+            let differ =
+                holds.iter().zip(&self.positions.switches).enumerate().filter(|(_, (now, was))| now != was);
+            changed = differ.map(|(switch, _)| controls + switch).collect();
+            if changed.is_empty() {
+                return self.settle(heat, time, state, &[]);
+            }
+            self.positions.switches = holds;
+        }
+        Err(self.restless(&changed))
+    }
+
+    /// Switches what is due, by its position, and whatever follows from that at the same moment.
+    pub(crate) fn settle(
+        &mut self,
+        heat: &mut Heat<'_>,
+        time: f64,
+        state: &[f64],
+        due: &[usize],
+    ) -> Result<(), StopReason> {
+        let mut flips = due.to_vec();
+        for _ in 0..ROUNDS {
+            flips.iter().for_each(|&position| self.flip(position, time));
+            self.arm(time);
+            self.install(heat);
+            heat.set_margins(time, state, self.tolerance)?;
+            self.gates.margins.clone_from(&heat.gates.margins);
+            heat.excess(time, state, &mut self.excess)?;
+            let beyond = self.excess.iter().enumerate().filter(|(_, excess)| **excess > 0.0);
+            let next: Vec<usize> = beyond.map(|(position, _)| position).collect();
+            if next.is_empty() {
+                return self.check_count();
+            }
+            flips = next;
+        }
+        Err(self.restless(&flips))
+    }
+
+    fn flip(&mut self, position: usize, time: f64) {
+        let state = match position.checked_sub(self.positions.controls.len()) {
+            None => {
+                self.since[position] = time;
+                &mut self.positions.controls[position]
+            }
+            Some(switch) => {
+                self.changes[switch] += 1;
+                &mut self.positions.switches[switch]
+            }
+        };
+        *state = !*state;
+        self.events.push(Event::new(time, self.kinds[position], *state));
+    }
+
+    fn install(&self, heat: &mut Heat<'_>) {
+        heat.set_positions(&self.positions);
+        heat.gates.clone_from(&self.gates);
+    }
+
+    /// Lets those switch whose time to stay is over.
+    fn arm(&mut self, time: f64) {
+        for (i, id) in self.network.control_ids().enumerate() {
+            self.gates.armed[i] = time >= self.since[i] + self.network.min_dwell(id);
+        }
+    }
+
+    /// The next time after `time` at which a control may switch again.
+    pub(crate) fn next_armed(&self, time: f64) -> f64 {
+        let ends = self.network.control_ids().zip(&self.since);
+        let ends = ends.map(|(id, since)| since + self.network.min_dwell(id)).filter(|end| *end > time);
+        ends.fold(f64::INFINITY, f64::min)
+    }
+
+    /// A row was written: what happened before it counts no longer.
+    pub(crate) fn row(&mut self) {
+        self.changes.fill(0);
+    }
+
+    /// Whether the run still gets anywhere.
+    fn check_count(&self) -> Result<(), StopReason> {
+        if let Some(switch) = self.changes.iter().position(|&changes| changes > CHATTER) {
+            let name = self.kinds[self.positions.controls.len() + switch].name(self.network);
+            return Err(StopReason::Chatter { name, changes: self.changes[switch] });
+        }
+        match self.events.len() {
+            0..MOST_EVENTS => Ok(()),
+            count => Err(StopReason::TooManyEvents { count }),
+        }
+    }
+
+    /// What switches back and forth at one moment.
+    fn restless(&self, flips: &[usize]) -> StopReason {
+        let names = flips.iter().map(|&position| self.kinds[position].name(self.network));
+        StopReason::Restless { names: names.collect() }
+    }
+}
