@@ -6,10 +6,10 @@ use std::path::Path;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings};
-use lptn_network::{Field, Item};
+use lptn_network::{Field, Item, Time};
 use lptn_reduce::{Bias, Definition, FitError, Options, Pair, ReduceError, Reduction, port};
 use lptn_report::{plain, significant, write_csv};
-use lptn_solve::{LinearSolver, Record, Transient};
+use lptn_solve::Transient;
 use lptn_units::{Dimension, Type, Unit, parse_quantity};
 
 use crate::args::{ReduceArgs, ReduceFormat};
@@ -164,14 +164,9 @@ fn window(text: &str) -> Result<f64, Failure> {
 fn transient(run: &RunSettings) -> Transient {
     Transient {
         start: run.start,
-        stop: run.stop,
         output: run.output.clone(),
         tolerance: run.tolerance,
-        record: Record::All,
-        watch: Vec::new(),
-        windows: Vec::new(),
-        balance: None,
-        linear_solver: LinearSolver::Auto,
+        ..Transient::until(Time(run.stop))
     }
 }
 

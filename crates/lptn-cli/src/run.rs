@@ -5,10 +5,9 @@ use std::time::Instant;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings};
-use lptn_network::{End, Field};
+use lptn_network::{End, Field, Time};
 use lptn_solve::{
-    LinearSolver, Record, Selection, Solution, SteadyError, SteadyState, Summary, Table, Transient,
-    TransientError, Window,
+    Record, Selection, Solution, SteadyError, SteadyState, Summary, Table, Transient, TransientError, Window,
 };
 use lptn_units::Unit;
 
@@ -138,14 +137,13 @@ impl<'a> Job<'a> {
         };
         Ok(Transient {
             start,
-            stop,
             output,
             tolerance,
             record,
             watch,
             windows: self.settings.windows.iter().map(window).collect(),
             balance: self.balance,
-            linear_solver: LinearSolver::Auto,
+            ..Transient::until(Time(stop))
         })
     }
 

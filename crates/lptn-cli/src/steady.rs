@@ -69,10 +69,11 @@ fn limits(input: &Input, steady: &SteadyState, time: f64) -> Result<Vec<Judged>,
     Ok(network.limit_ids().zip(margins).map(|(limit, margin)| Judged::of_steady(limit, margin)).collect())
 }
 
-/// A network without a path to a boundary has no steady state whatever its numbers: the question does not fit the
+/// That a network cycles is an answer. One without a path to a boundary has no steady state whatever its numbers: the question does not fit the
 /// input, so the exit code is that of a wrong input. Numbers that cannot be solved with are a failure of numbers.
 fn failed(input: &Input, error: &SteadyError) -> Failure {
     let exit = match error {
+        SteadyError::Cycles { .. } => Exit::No,
         SteadyError::NoBoundary { .. } | SteadyError::Input(_) => Exit::Input,
         SteadyError::Unsolved(_)
         | SteadyError::Factorization(_)

@@ -2,13 +2,11 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
-use lptn_network::Network;
+use lptn_network::{Network, Time};
 use lptn_report::{
     Align, Column, JsonWriter, TextTable, WIDTH, duration, labelled, plain, shortened, significant, write_csv,
 };
-use lptn_solve::{
-    Comparison, LinearSolver, NoReference, Record, Reference, Transient, TransientError, Verification,
-};
+use lptn_solve::{Comparison, NoReference, Reference, Transient, TransientError, Verification};
 use lptn_study::Scalar;
 use serde_json::{Value, json};
 
@@ -57,17 +55,7 @@ pub(crate) fn verify(args: &VerifyArgs, console: &Console) -> Result<Exit, Failu
 
 fn transient(run: RunSettings, tolerance: Option<f64>) -> Transient {
     let RunSettings { start, stop, output, .. } = run;
-    Transient {
-        start,
-        stop,
-        output,
-        tolerance: tolerance.unwrap_or(run.tolerance),
-        record: Record::All,
-        watch: Vec::new(),
-        windows: Vec::new(),
-        balance: None,
-        linear_solver: LinearSolver::Auto,
-    }
+    Transient { start, output, tolerance: tolerance.unwrap_or(run.tolerance), ..Transient::until(Time(stop)) }
 }
 
 /// The verification, with progress on a terminal; `None` after Ctrl-C.

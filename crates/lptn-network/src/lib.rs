@@ -57,7 +57,7 @@ pub use law::{Emissivity, Exchange, Law, Shape, Stream};
 pub use layout::slot;
 pub use limit::{Bound, Limit, Severity};
 pub use material::{Lump, Material, Melting, Properties, Size};
-pub use names::{UnknownName, is_name, is_path, list_of_names};
+pub use names::{UnknownName, is_name, is_path, list_of, list_of_names};
 pub use network::Network;
 pub use output::OutputTimes;
 pub use parameters::{ParameterError, Parameters};

@@ -53,14 +53,19 @@ pub fn is_path(text: &str) -> bool {
     })
 }
 
-/// Names as a message lists them: "`a`", "`a` and `b`", "`a`, `b` and 3 more nodes".
+/// Names of nodes as a message lists them: "`a`", "`a` and `b`", "`a`, `b` and 3 more nodes".
 pub fn list_of_names(names: &[String]) -> String {
+    list_of(names, "nodes")
+}
+
+/// Names as a message lists them: "`a`", "`a` and `b`", "`a`, `b` and 3 more" of these.
+pub fn list_of(names: &[String], what: &str) -> String {
     match names {
         [] => String::new(),
         [one] => format!("`{one}`"),
         [one, two] => format!("`{one}` and `{two}`"),
         [one, two, three] => format!("`{one}`, `{two}` and `{three}`"),
-        [one, two, rest @ ..] => format!("`{one}`, `{two}` and {} more nodes", rest.len()),
+        [one, two, rest @ ..] => format!("`{one}`, `{two}` and {} more {what}", rest.len()),
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use lptn_integrate::{FactorError, IntegrateError};
-use lptn_network::{InputError, NodeId, list_of_names};
+use lptn_network::{InputError, NodeId, list_of, list_of_names};
 use lptn_units::format_number;
 
 use crate::solution::Solution;
@@ -34,6 +34,13 @@ pub enum SteadyError {
         /// Its temperature in K.
         temperature: f64,
     },
+    /// Whatever the positions of controls and comparisons, in their steady state something has to switch.
+    Cycles {
+        /// What has to switch, by name.
+        names: Vec<String>,
+        /// How many positions were tried.
+        tried: usize,
+    },
     /// The solution does not balance: heat in and heat out differ by `residual` of the heat turned over.
     Unbalanced {
         /// Relative residual.
@@ -59,6 +66,7 @@ impl SteadyError {
             Self::Unsolved(unsolved) => unsolved.code(),
             Self::Factorization(_) => "steady::singular",
             Self::BelowAbsoluteZero { .. } => "solve::below_absolute_zero",
+            Self::Cycles { .. } => "steady::cycles",
             Self::Unbalanced { .. } => "steady::unbalanced",
         }
     }
@@ -72,6 +80,9 @@ impl SteadyError {
             Self::Factorization(_) | Self::Unbalanced { .. } => {
                 Some("replace the largest conductances by merging the nodes they join".into())
             }
+            Self::Cycles { .. } => Some(
+                "run the network over time, `lptn run`: it shows how often it switches, and the means".into(),
+            ),
             Self::BelowAbsoluteZero { .. } => Some(COLD.into()),
             Self::Input(error) => error.problem.help(),
             Self::Unsolved(unsolved) => unsolved.help(),
@@ -92,6 +103,12 @@ impl fmt::Display for SteadyError {
             Self::Unsolved(unsolved) => unsolved.fmt(f),
             Self::Factorization(error) => write!(f, "the conductances cannot be factorised: {error}"),
             Self::BelowAbsoluteZero { name, temperature } => cold(f, name, *temperature),
+            Self::Cycles { names, tried } => write!(
+                f,
+                "no steady state, it cycles: in each of the {tried} positions that were tried something has to switch, \
+                 among it {}",
+                list_of(names, "things")
+            ),
             Self::Unbalanced { residual } => {
                 write!(f, "heat in and heat out differ by {residual:.1e} of the heat turned over")
             }
@@ -329,7 +346,7 @@ impl StopReason {
                 format!("`{}` switches back and forth at this very moment", names[0])
             }
             Self::Restless { names } => {
-                format!("{} switch back and forth at this very moment", lptn_network::list_of_names(names))
+                format!("{} switch back and forth at this very moment", list_of(names, "things"))
             }
             Self::TooManyEvents { count } => format!("{count} events, more than a run may have"),
             _ => "controls and comparisons of temperatures need a node with a capacity".into(),

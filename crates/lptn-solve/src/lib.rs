@@ -43,7 +43,7 @@ mod window;
 pub use balance::{Balance, Term};
 pub use conductances::Conductances;
 pub use error::{SettingsError, SteadyError, StopReason, TransientError};
-pub use events::{Event, EventKind};
+pub use events::{ControlState, Event, EventKind};
 pub use exact::{Difference, ExactError, ExactSolution};
 pub use ledger::Ledger;
 pub use limit::LimitSeen;

@@ -343,6 +343,7 @@ impl<'a> Recorder<'a> {
         self.rows.truncate(self.next);
         let limits = self.limits.into_seen(self.tolerance);
         Solution {
+            controls: Vec::new(),
             positions: self.positions,
             row_positions: self.row_positions,
             events: with_limits(events, &limits),

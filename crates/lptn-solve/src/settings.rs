@@ -5,6 +5,7 @@ use lptn_network::{End, NodeId, OutputTimes, Time};
 
 use crate::curved::Curved;
 use crate::error::SettingsError;
+use crate::events::ControlState;
 use crate::times;
 use crate::watch::Watch;
 use crate::window::Window;
@@ -38,6 +39,9 @@ pub struct Transient {
     pub windows: Vec<Window>,
     /// The node or boundary whose heat balance is kept.
     pub balance: Option<End>,
+    /// Where the controls stand at the start, in the order of their ids; as the network says unless given. A control
+    /// that has to stay as it is does so from when it switched last, which may be before the start.
+    pub controls: Vec<ControlState>,
     /// The linear solver; chosen by size unless said.
     pub linear_solver: LinearSolver,
 }
@@ -74,6 +78,7 @@ impl Transient {
             watch: Vec::new(),
             windows: Vec::new(),
             balance: None,
+            controls: Vec::new(),
             linear_solver: LinearSolver::Auto,
         }
     }

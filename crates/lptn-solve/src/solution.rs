@@ -9,7 +9,7 @@ use lptn_network::{
 
 use crate::balance::Balance;
 use crate::curved::MOST_REMEMBERED;
-use crate::events::Event;
+use crate::events::{ControlState, Event};
 use crate::ledger::Ledger;
 use crate::limit::LimitSeen;
 use crate::quantity::Quantity;
@@ -40,6 +40,7 @@ pub struct Solution {
     /// For each row its positions, if there is any.
     pub(crate) row_positions: Vec<u32>,
     pub(crate) events: Vec<Event>,
+    pub(crate) controls: Vec<ControlState>,
     /// The nodes that were recorded, ascending.
     pub(crate) recorded: Vec<NodeId>,
     /// Row by row, one temperature in K for each recorded node.
@@ -172,6 +173,11 @@ impl Solution {
     /// comparisons of temperatures that changed, limits that were broken.
     pub fn events(&self) -> &[Event] {
         &self.events
+    }
+
+    /// Where the controls stand at the end that was reached, in the order of their ids.
+    pub fn controls(&self) -> &[ControlState] {
+        &self.controls
     }
 
     /// A control over the rows: 0 or 1.

@@ -2,11 +2,12 @@
 
 use lptn_assembly::{Form, ThermalSystem, Workspace};
 use lptn_integrate::{FactorError, Pattern};
-use lptn_network::{Evaluation, HeatOf, InputError, Network, NodeId, Received};
+use lptn_network::{Evaluation, HeatOf, InputError, Network, NodeId, Positions, Received};
 
 use crate::adiabatic::{self, Island};
 use crate::conductances::Conductances;
 use crate::error::SteadyError;
+use crate::events::find_consistent;
 use crate::newton::{Newton, NewtonError, SMALL};
 use crate::quantity::Quantity;
 use crate::unsolved::Unsolved;
@@ -30,6 +31,8 @@ pub struct SteadyState {
     pub stream_heat: Vec<f64>,
     /// The time in s at which its inputs were read.
     pub time: f64,
+    /// Which controls are on and which comparisons hold.
+    pub positions: Positions,
     /// The nodes that no path leads from to a boundary: their temperatures follow from the energy at their start.
     pub adiabatic: Vec<NodeId>,
 }
@@ -38,13 +41,32 @@ pub struct SteadyState {
 const BALANCE: f64 = 1e-9;
 
 impl SteadyState {
-    /// Solves `G T = q` with the inputs as they are at `time` in s.
+    /// Solves `G T = q` with the inputs as they are at `time` in s. Where something switches, a state is sought in
+    /// which nothing has to, from the positions at the start on; dwell times do not matter.
     ///
     /// # Errors
-    /// [`SteadyError`], in particular for nodes without a path to a boundary.
+    /// [`SteadyError`], in particular for nodes without a path to a boundary, and for networks that cycle.
     pub fn solve(system: &ThermalSystem, time: f64) -> Result<Self, SteadyError> {
+        match system.network().has_events() {
+            true => find_consistent(system, time),
+            false => Self::with_positions(system, time, &Positions::default()),
+        }
+    }
+
+    /// The steady state with these positions, whether or not something has to switch there.
+    ///
+    /// # Errors
+    /// As [`SteadyState::solve`].
+    pub(crate) fn with_positions(
+        system: &ThermalSystem,
+        time: f64,
+        positions: &Positions,
+    ) -> Result<Self, SteadyError> {
         let network = system.network();
         let mut work = system.workspace();
+        if network.has_events() {
+            work.set_positions(positions);
+        }
         system.read_inputs(&mut work, time, just_after(time)).map_err(SteadyError::Input)?;
         let islands = Island::all_of(system);
         let unknowns = if system.is_linear() && islands.is_empty() {
@@ -55,6 +77,7 @@ impl SteadyState {
         system.recover(&mut work, &unknowns);
         let mut steady = Self::from_workspace(system, &mut work, &unknowns).map_err(SteadyError::Input)?;
         steady.time = time;
+        steady.positions.clone_from(positions);
         steady.adiabatic = islands.into_iter().flat_map(|island| island.nodes).collect();
         let rest = rounding(system, &steady)
             + unsettled(system, &mut work, &unknowns).map_err(SteadyError::Input)?;
@@ -87,6 +110,7 @@ impl SteadyState {
             boundary_heat,
             stream_heat,
             time: 0.0,
+            positions: Positions::default(),
             adiabatic: Vec::new(),
         })
     }
@@ -94,6 +118,7 @@ impl SteadyState {
     /// The place where expressions of results (limits, requirements, reports) find this state.
     pub fn evaluation(&self, network: &Network) -> Evaluation {
         let mut scope = network.evaluation();
+        scope.set_positions(&self.positions);
         scope.set_time(self.time, just_after(self.time));
         scope.set_temperatures(&self.temperatures, &self.boundary_temperatures);
         let heats: Vec<f64> = network.named_heats().map(|heat| self.heat(heat)).collect();

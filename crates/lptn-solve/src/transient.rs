@@ -87,7 +87,10 @@ impl<'a> Run<'a> {
             .map_err(|e| TransientError::Start(Unsolved::new(system, e)))?;
         let curved = Curved::of(system, segments, recorder.rows());
         recorder.remembered = curved.map_or(0.0, |c| c.remembered);
-        let switching = system.network().has_events().then(|| Switching::new(system, settings.tolerance));
+        let switching = system
+            .network()
+            .has_events()
+            .then(|| Switching::new(system, &settings.controls, settings.tolerance));
         let integrator = Integrator::new(heat, settings.start, &initial, &settings.options(curved))
             .map_err(TransientError::Integrator)?;
         let tolerance = settings.tolerance;
@@ -159,8 +162,8 @@ impl<'a> Run<'a> {
         }
         let row = self.recorder.written();
         self.recorder.step(&mut self.integrator, step.from, to).map_err(Break::Failed)?;
-        if let (true, Some(switching)) = (self.recorder.written() > row, &mut self.switching) {
-            switching.row();
+        if let Some(switching) = &mut self.switching {
+            switching.reach(to, self.recorder.span(), self.recorder.written() > row);
         }
         if to < step.to {
             self.integrator.rewind(to).map_err(|e| self.failed(e))?;
@@ -249,7 +252,10 @@ impl<'a> Run<'a> {
         let at_the_end = (self.integrator.time(), self.integrator.state());
         let work = self.recorder.at_state(at_the_end);
         let books = self.books.close(system, work, &integrals, (stored, self.tolerance));
+        let controls = self.switching.as_ref().map_or_else(Vec::new, Switching::controls);
         let events = self.switching.map_or_else(Vec::new, |switching| switching.events);
-        Ok(self.recorder.into_solution(books, (statistics, events), end))
+        let mut solution = self.recorder.into_solution(books, (statistics, events), end);
+        solution.controls = controls;
+        Ok(solution)
     }
 }

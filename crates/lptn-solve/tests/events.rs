@@ -302,3 +302,40 @@ fn conductance_that_a_control_opens_is_followed() {
     assert!(fan[row(expected[0].0 - 2.0)] < 0.5 && fan[row(expected[0].0 + 2.0)] > 0.5);
     assert!(solution.ledger().relative_residual().unwrap().abs() < 1e-9);
 }
+
+#[test]
+fn run_that_goes_on_with_the_controls_of_another_switches_as_one_that_was_not_parted() {
+    let whole = Heater { dwell: 30.0, ..Heater::usual() };
+    let expected = switched(&whole.run(400.0, 1e-8));
+    let first = whole.run(170.0, 1e-8); // off for some 20 s, and to stay so for 10 more
+    assert!(!first.controls()[0].on);
+    let body = first.network().node("body").unwrap();
+    let reached = *first.temperature(body).unwrap().last().unwrap() - AMBIENT;
+    let network = Heater { start_at: reached, start_on: true, ..whole }.network();
+    let system = ThermalSystem::assemble(&network).unwrap();
+    let second =
+        Transient { start: 170.0, controls: first.controls().to_vec(), ..Transient::until(Time(400.0)) };
+    let second = Transient { output: lptn_network::OutputTimes::Every(1.0), ..second };
+    let second = switched(&second.tolerance(1e-8).solve(&system).unwrap());
+    let parts: Vec<(f64, u8)> = switched(&first).into_iter().chain(second).collect();
+    assert_times(&parts, &expected, 1e-4);
+}
+
+#[test]
+fn comparison_that_changes_often_over_a_long_run_with_two_rows_is_no_chatter() {
+    // 60 swings of an ambient by 20 K drive the node to and fro
+    let mut b = NetworkBuilder::new();
+    let body = b.node("body", HeatCapacity(600.0), Temperature(AMBIENT));
+    let air =
+        b.expression_in(Context::Time, "20 [degC] + 20 [K] * sin(t / 100 [s] * 1 [rad])", None).unwrap();
+    let air = b.boundary("air", air);
+    b.resistor("skin", body, air, Conductance(30.0));
+    let power = b.expression_in(Context::Source, "if(T > 22 [degC], 0 [W], 1 [W])", None).unwrap();
+    b.source("element", body, power);
+    let network = b.build().unwrap();
+    let system = ThermalSystem::assemble(&network).unwrap();
+    let stop = 60.0 * 100.0 * std::f64::consts::TAU;
+    let solution = Transient::until(Time(stop)).at(&[]).solve(&system).unwrap();
+    assert_eq!(solution.times().len(), 2);
+    assert_eq!(solution.events().len(), 120);
+}

@@ -15,6 +15,15 @@ pub struct Event {
     pub after: u8,
 }
 
+/// Where a control stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ControlState {
+    /// Whether it is on.
+    pub on: bool,
+    /// When it switched last, in s; minus infinity if it never did.
+    pub since: f64,
+}
+
 /// What an event is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EventKind {

@@ -4,7 +4,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_network::{Network, Positions};
 
 use crate::error::StopReason;
-use crate::events::{Event, EventKind, Gates};
+use crate::events::{ControlState, Event, EventKind, Gates};
 use crate::heat::Heat;
 
 /// The most rounds in which what switches makes other things switch at one moment.
@@ -12,6 +12,9 @@ const ROUNDS: usize = 64;
 
 /// The most changes of one comparison between two rows.
 const CHATTER: usize = 20;
+
+/// Parts of a run in which changes are counted where rows are rare.
+const PARTS: f64 = 300.0;
 
 /// The most events of a run.
 const MOST_EVENTS: usize = 1_000_000;
@@ -21,37 +24,47 @@ pub(crate) struct Switching<'a> {
     network: &'a Network,
     pub(crate) positions: Positions,
     /// When each control switched last, in s.
-    pub(crate) since: Vec<f64>,
+    since: Vec<f64>,
     gates: Gates,
     excess: Vec<f64>,
     tolerance: f64,
     pub(crate) events: Vec<Event>,
     /// For each comparison how often it changed since the last row.
     changes: Vec<usize>,
+    /// The part of the run that was reached.
+    part: f64,
     /// What stands at each position: controls, then comparisons.
     kinds: Vec<EventKind>,
 }
 
 impl<'a> Switching<'a> {
-    pub(crate) fn new(system: &'a ThermalSystem, tolerance: f64) -> Self {
+    /// Begins with these states of the controls, or as the network does if there are none.
+    pub(crate) fn new(system: &'a ThermalSystem, controls: &[ControlState], tolerance: f64) -> Self {
         let (network, gates) = (system.network(), Gates::new(system));
-        let controls = network.control_ids().map(EventKind::Control);
-        let kinds: Vec<EventKind> = controls.chain(network.switch_ids().map(EventKind::Comparison)).collect();
+        let ids = network.control_ids().map(EventKind::Control);
+        let kinds: Vec<EventKind> = ids.chain(network.switch_ids().map(EventKind::Comparison)).collect();
+        let mut positions = network.initial_positions();
+        let mut since = vec![f64::NEG_INFINITY; positions.controls.len()];
+        for ((on, since), state) in positions.controls.iter_mut().zip(&mut since).zip(controls) {
+            (*on, *since) = (state.on, state.since);
+        }
         Self {
             network,
-            positions: network.initial_positions(),
-            since: vec![f64::NEG_INFINITY; network.controls().len()],
+            positions,
+            since,
             gates,
             excess: vec![0.0; kinds.len()],
             tolerance,
             events: Vec::new(),
             changes: vec![0; network.switches().len()],
+            part: 0.0,
             kinds,
         }
     }
 
     /// Finds the positions at the start: comparisons as they stand, controls outside their dead band by their condition.
     pub(crate) fn begin(&mut self, heat: &mut Heat<'_>, time: f64, state: &[f64]) -> Result<(), StopReason> {
+        self.arm(time);
         let controls = self.positions.controls.len();
         let mut changed = Vec::new();
         for _ in 0..ROUNDS {
@@ -128,9 +141,20 @@ impl<'a> Switching<'a> {
         ends.fold(f64::INFINITY, f64::min)
     }
 
-    /// A row was written: what happened before it counts no longer.
-    pub(crate) fn row(&mut self) {
-        self.changes.fill(0);
+    /// Where the controls stand.
+    pub(crate) fn controls(&self) -> Vec<ControlState> {
+        let states = self.positions.controls.iter().zip(&self.since);
+        states.map(|(&on, &since)| ControlState { on, since }).collect()
+    }
+
+    /// The run goes on to `time`. What happened before a row, or before the present part of the run where rows are
+    /// rare, counts no longer.
+    pub(crate) fn reach(&mut self, time: f64, (start, stop): (f64, f64), row: bool) {
+        let part = (PARTS * (time - start) / (stop - start)).floor();
+        if row || part > self.part {
+            self.part = part;
+            self.changes.fill(0);
+        }
     }
 
     /// Whether the run still gets anywhere.

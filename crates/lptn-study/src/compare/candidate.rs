@@ -4,10 +4,10 @@ use std::fmt;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
-use lptn_network::{InputError, Network, Severity};
+use lptn_network::{InputError, Network, Severity, Time};
 use lptn_solve::{
-    Control, End, LinearSolver, NodeSummary, OutputTimes, Progress, Record, Solution, SteadyError,
-    SteadyState, Summary, Transient, TransientError, Unsolved,
+    Control, End, NodeSummary, OutputTimes, Progress, Record, Solution, SteadyError, SteadyState, Summary,
+    Transient, TransientError, Unsolved,
 };
 
 use crate::compare::limits::{self, LimitResult};
@@ -213,14 +213,11 @@ fn transient(
     let watch = Summary::watches(system, run.start, &nodes, steady).map_err(CompareError::Start)?;
     Ok(Transient {
         start: run.start,
-        stop: run.stop,
         output: OutputTimes::At(vec![run.stop]),
         tolerance: run.tolerance,
         record: Record::Nodes(Vec::new()),
         watch,
-        windows: Vec::new(),
-        balance: None,
-        linear_solver: LinearSolver::Auto,
+        ..Transient::until(Time(run.stop))
     })
 }
 
