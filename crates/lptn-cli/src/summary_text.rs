@@ -221,6 +221,11 @@ pub(crate) fn not_bounded(solution: &Solution) -> Option<String> {
             "the network remembers about {} steps of inputs that keep changing; compare with a smaller --tolerance",
             significant(steps, 1)
         ),
+        Unbounded::Switches { count } => {
+            format!(
+                "each of {count} switches shifts the times of the next ones; compare with a smaller --tolerance"
+            )
+        }
     };
     Some(format!("error not bounded by the tolerance: it adds up, because {why}"))
 }

@@ -9,7 +9,7 @@ use lptn_network::{
 
 use crate::balance::Balance;
 use crate::curved::MOST_REMEMBERED;
-use crate::events::{ControlState, Event};
+use crate::events::{ControlState, Event, EventKind};
 use crate::ledger::Ledger;
 use crate::limit::LimitSeen;
 use crate::quantity::Quantity;
@@ -227,7 +227,11 @@ impl Solution {
             return Some(Unbounded::NoBoundary(ungrounded));
         }
         let steps = self.remembered;
-        (steps > MOST_REMEMBERED).then_some(Unbounded::LongMemory { steps })
+        if steps > MOST_REMEMBERED {
+            return Some(Unbounded::LongMemory { steps });
+        }
+        let count = self.events.iter().filter(|event| !matches!(event.kind, EventKind::Limit(_))).count();
+        (count > FEW_SWITCHES).then_some(Unbounded::Switches { count })
     }
 }
 
@@ -241,7 +245,16 @@ pub enum Unbounded {
         /// How many.
         steps: f64,
     },
+    /// What switches decides by itself when it does: an error in the time of one switch is not forgotten but moves all
+    /// that follow. On the thermostat of the tests each adds about three tolerances.
+    Switches {
+        /// How many there were.
+        count: usize,
+    },
 }
+
+/// So many switches add less than the ten tolerances that are promised.
+const FEW_SWITCHES: usize = 3;
 
 /// The system at one row of a solution. What follows from a node that was not recorded is NaN.
 pub(crate) struct Replay<'a> {

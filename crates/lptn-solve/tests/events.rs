@@ -10,7 +10,7 @@ use lptn_network::{
     Acts, Conductance, Context, End, HeatCapacity, HeatFlow, Input, Network, NetworkBuilder, Path,
     Temperature, Thermostat, Time,
 };
-use lptn_solve::{Event, EventKind, Solution, StopReason, Transient, TransientError};
+use lptn_solve::{Event, EventKind, Solution, StopReason, Transient, TransientError, Unbounded};
 
 const AMBIENT: f64 = 293.15;
 const TAU: f64 = 200.0; // 600 J/K over 3 W/K
@@ -103,6 +103,8 @@ fn thermostat_switches_at_the_times_of_the_closed_form() {
         let solution = Heater::usual().run(2000.0, tolerance);
         let expected = cycle((0.0, 0.0), (38.0, 42.0), 2000.0);
         assert!(expected.len() > 80);
+        // a shift of one switch shifts the next ones: said, not hidden
+        assert_eq!(solution.why_unbounded(), Some(Unbounded::Switches { count: expected.len() }));
         // 1e-4 s at 1e-7 K; the slope at the switches is 0.2 K/s
         assert_times(&switched(&solution), &expected, (1e3 * tolerance).max(1e-4));
         assert!(solution.ledger().relative_residual().unwrap().abs() < 1e-8, "{:?}", solution.ledger());
