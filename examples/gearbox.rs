@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let ledger = solution.ledger();
     for (source, heat) in network.sources().iter().zip(&ledger.sources) {
-        println!("{:<12}{:>10.1} kJ in", source.name, heat / 1e3);
+        println!("{:<12}{:>10.1} kJ in", source.name(), heat / 1e3);
     }
     println!("{:<12}{:>10.1} kJ", "stored", ledger.stored.iter().sum::<f64>() / 1e3);
     for (boundary, heat) in network.boundaries().iter().zip(&ledger.boundaries) {

@@ -13,7 +13,7 @@ use validation::{Report, judge_network, own_folder};
 /// A file, its case, and where names differ, those of the case with those of the file.
 type Pair = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
 
-const PAIRS: [Pair; 22] = [
+const PAIRS: [Pair; 23] = [
     ("bridge_unbalanced", "bridge_steady", &[]),
     ("chip", "incropera_3_2_chip", &[]),
     ("coolant_reversal", "msl_fhf_one_mass", &[]),
@@ -34,6 +34,7 @@ const PAIRS: [Pair; 22] = [
     ("room_light", "vdi6007_tc4", &[]),
     ("room_sunny", "vdi6007_tc5", &[]),
     ("thermocouple", "incropera_5_1_thermocouple", &[]),
+    ("thermostat", "thermostat_one_node", &[]),
     ("through_flow", "msl_fhf_simple_cooling", &[]),
     ("two_masses", "msl_two_masses", &[("mass1", "hot"), ("mass2", "cold")]),
 ];

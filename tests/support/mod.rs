@@ -26,6 +26,30 @@ pub fn transient(netlist: &lptn::netlist::Netlist) -> Transient {
     transient
 }
 
+/// A netlist that has to parse, assembled.
+pub fn parsed(text: &str) -> (lptn::netlist::Netlist, ThermalSystem) {
+    let netlist = lptn::parse("netlist", text).unwrap_or_else(|rejected| panic!("{rejected}"));
+    let system = ThermalSystem::assemble(&netlist.network).expect("it assembles");
+    (netlist, system)
+}
+
+/// A netlist with its steady state.
+pub fn settled(text: &str) -> (lptn::netlist::Netlist, SteadyState) {
+    let (netlist, system) = parsed(text);
+    let steady = SteadyState::solve(&system, 0.0).expect("it settles");
+    (netlist, steady)
+}
+
+/// The values of a table's column by its name.
+pub fn column(table: &Table, name: &str) -> Vec<f64> {
+    let found = table.columns().iter().find(|column| column.name == name);
+    found.unwrap_or_else(|| panic!("no column {name}")).values.clone()
+}
+
+pub fn close(found: f64, exact: f64, within: f64) {
+    assert!((found - exact).abs() <= within, "{found} is not {exact} within {within:e}");
+}
+
 /// The largest difference of two equally long lists.
 pub fn distance(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());

@@ -1,6 +1,6 @@
 //! The sparse system `C dT/dt = q(t, T)` of a network.
 
-use lptn_network::{ConductorId, ConductorKind, Flow, InputError, Network, NodeId, Received};
+use lptn_network::{ConductorId, ConductorKind, Flow, InputError, Network, NodeId, Received, Surface};
 
 use crate::element::{Element, Form};
 use crate::eliminate::{Elimination, Link, TooMany};
@@ -343,6 +343,15 @@ impl ThermalSystem {
     /// Temperatures of the unknowns in K among those of all nodes.
     pub fn unknown_temperatures(&self, nodes: &[f64], y: &mut [f64]) {
         y.iter_mut().zip(&self.unknowns).for_each(|(t, id)| *t = nodes[id.index()]);
+    }
+
+    /// The surface that a convection, contact or radiation is, from inputs read and nodes recovered; `None` for any other
+    /// conductor.
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::flow`].
+    pub fn surface(&self, work: &mut Workspace, id: ConductorId) -> Result<Option<Surface>, InputError> {
+        self.network.surface(id, &mut work.scope, &work.temperature)
     }
 
     /// The heat that the two ends of a conductor receive in W, from inputs read and nodes recovered: equal and

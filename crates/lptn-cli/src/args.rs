@@ -8,6 +8,7 @@ use lptn_reduce::Definition;
 use lptn_study::SortKey;
 
 use crate::choice::one_of;
+use crate::cycle_args::CycleArgs;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -25,7 +26,8 @@ Examples:
 const STEADY_EXAMPLES: &str = "\
 Examples:
   lptn steady motor.toml
-  lptn steady motor.toml --set P_loss=80W --format json";
+  lptn steady motor.toml --set P_loss=80W --format json
+  lptn steady duty_cycle.toml --periodic";
 
 const MODES_EXAMPLES: &str = "\
 Examples:
@@ -58,6 +60,7 @@ Examples:
 const CHECK_EXAMPLES: &str = "\
 Examples:
   lptn check motor.toml
+  lptn check motor.toml --expand > flat.toml
   lptn check - < motor.toml";
 
 const UNITS_EXAMPLES: &str = "\
@@ -95,7 +98,7 @@ pub(crate) struct Global {
     /// Print results and errors only
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub(crate) quiet: bool,
-    /// Print more about the solver
+    /// Print more about the solver, and list what was not checked
     #[arg(short, long, global = true)]
     pub(crate) verbose: bool,
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto", hide_possible_values = true)]
@@ -209,7 +212,9 @@ pub(crate) struct SteadyArgs {
     /// Show the heat into and out of a node or boundary, largest path first
     #[arg(long, value_name = "NODE")]
     pub(crate) balance: Option<String>,
-    /// Accepted for scripts that pass it to every verb: `steady` writes none.
+    #[command(flatten)]
+    pub(crate) cycle: CycleArgs,
+    /// Accepted for scripts that pass it to every verb: `steady` writes none unless asked.
     #[arg(long, hide = true)]
     pub(crate) no_files: bool,
 }
@@ -364,6 +369,9 @@ pub(crate) struct CheckArgs {
     /// Print a table or json
     #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
     pub(crate) format: CheckFormat,
+    /// Print it flat, in SI units, without templates
+    #[arg(long, conflicts_with = "format")]
+    pub(crate) expand: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -52,7 +52,8 @@ fn unknown(network: &Network, name: &str, found: Option<Item>) -> Failure {
         }
         (Some(Item::Source(id)), _) => {
             let into = network.sources()[id.index()].into.iter();
-            let into: Vec<&str> = into.map(|(node, _)| network.name_of(Item::Node(*node))).collect();
+            let into: Vec<_> = into.map(|(node, _)| network.name_of(Item::Node(*node))).collect();
+            let into: Vec<&str> = into.iter().map(|name| &**name).collect();
             format!("`{name}` is a source into {}", list(&into))
         }
         (_, Some(near)) => format!("did you mean `{near}`?"),
@@ -94,7 +95,7 @@ pub(crate) fn lines(network: &Network, balance: &Balance, times: Option<(f64, f6
     let name = network.name_of(balance.of.into());
     let with =
         |value: &dyn Fn(&Term) -> f64, last: f64| terms.iter().map(value).chain([last]).collect::<Vec<f64>>();
-    let mut names: Vec<String> = terms.iter().map(|term| network.name_of(term.item).to_owned()).collect();
+    let mut names: Vec<String> = terms.iter().map(|term| network.name_of(term.item).into_owned()).collect();
     names.push(rest(balance, times.is_none()).to_owned());
     let mut others: Vec<String> = terms.iter().map(|term| other(network, term)).collect();
     others.push(String::new());
@@ -138,9 +139,17 @@ fn other(network: &Network, term: &Term) -> String {
     match term.other {
         Some(end) => {
             let way = if term.heat.unwrap_or(term.power) < 0.0 { "to" } else { "from" };
-            format!("{way} {}", network.name_of(end.into()))
+            format!("{way} {}", place(network, term, end))
         }
         None => "source".into(),
+    }
+}
+
+/// The name of an end; that of the face for a path to all its cells.
+fn place(network: &Network, term: &Term, end: End) -> String {
+    match (term.item, end) {
+        (Item::Joint(_), End::Node(id)) => network.place_name(id),
+        _ => network.name_of(end.into()).into_owned(),
     }
 }
 
@@ -155,7 +164,7 @@ pub(crate) fn json(network: &Network, balance: &Balance) -> Value {
         let shares = term.heat.zip(all).map_or(Value::Null, |(heat, all)| share(heat, all));
         json!({
             "name": network.name_of(term.item),
-            "other": term.other.map(|end| network.name_of(end.into())),
+            "other": term.other.map(|end| place(network, term, end)),
             "power": scalar(term.power, "W"),
             "power_share": share(term.power, power),
             "heat": heat(term.heat),

@@ -1,8 +1,9 @@
 //! `lptn check`
 
+use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files, Netlist, Severity};
 use lptn_network::{Item, Network, NodeId, list_of_names};
-use lptn_solve::Stiffness;
+use lptn_solve::{Lumping, Stiffness};
 use lptn_study::Scalar;
 use serde_json::{Value, json};
 
@@ -12,12 +13,16 @@ use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Input, Text};
+use crate::lumping;
 use crate::select;
 use crate::summary::{count, counts};
 use lptn_report::{JsonWriter, WIDTH, duration, labelled, significant};
 
 pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure> {
     let text = input::read(&args.source.file)?;
+    if args.expand {
+        return expand(&text, &args.source.set, console);
+    }
     let finding = Finding::of(&text, &args.source.set)?;
     let exit = finding.exit();
     match args.format {
@@ -29,11 +34,26 @@ pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure
             json.member("errors", &finding.list(Severity::Error))?;
             json.member("warnings", &finding.list(Severity::Warning))?;
             json.member("stiffness", &finding.stiffness.as_ref().map_or(Value::Null, Stiff::json))?;
+            json.member("lumping", &finding.lumping_json())?;
             json.finish().map(drop)
         })?,
         CheckFormat::Table => console.print(&finding.text(&text.name, console)).map(drop)?,
     }
     Ok(exit)
+}
+
+/// Writes the network as a flat netlist; what is wrong with it goes to stderr.
+fn expand(text: &Text, set: &[String], console: &Console) -> Result<Exit, Failure> {
+    let mut netlist = input::parse(text).map_err(|rejected| Failure {
+        exit: if rejected.syntax { Exit::Input } else { Exit::No },
+        ..rejected.into()
+    })?;
+    netlist.set(set)?;
+    console.warn(&netlist.files, &netlist.warnings);
+    if let Some(problem) = netlist.not_flat() {
+        return Err(Failure::at(Exit::No, netlist.files, problem));
+    }
+    console.print(&netlist.expanded())
 }
 
 /// Nodes that no path ties to a boundary: a path that was left out looks like this.
@@ -52,6 +72,14 @@ fn adrift(netlist: &Netlist) -> Option<Diagnostic> {
     })
 }
 
+/// How far the nodes are lumps at the start; `None` where the start cannot be had, which a run says.
+fn lumped(netlist: &Netlist, system: &ThermalSystem) -> Option<(Network, Lumping)> {
+    let run = netlist.run.as_ref();
+    let start = run.map_or(0.0, |run| run.start);
+    let lumping = Lumping::at_start(system, start, run.map(|run| run.stop)).ok()?;
+    Some((netlist.network.clone(), lumping))
+}
+
 /// What was found in a netlist.
 struct Finding {
     files: Files,
@@ -60,6 +88,8 @@ struct Finding {
     counts: Option<String>,
     /// How far its time constants are apart.
     stiffness: Option<Stiff>,
+    /// The network with how far its nodes are lumps.
+    lumping: Option<(Network, Lumping)>,
     syntax: bool,
 }
 
@@ -71,7 +101,7 @@ impl Finding {
             Ok(netlist) => netlist,
             Err(rejected) => {
                 let (files, diagnostics, syntax) = (rejected.files, rejected.diagnostics, rejected.syntax);
-                return Ok(Self { files, diagnostics, counts: None, stiffness: None, syntax });
+                return Ok(Self { files, diagnostics, counts: None, stiffness: None, lumping: None, syntax });
             }
         };
         netlist.set(set)?;
@@ -81,10 +111,20 @@ impl Finding {
         let text = Text { bytes: Vec::new(), name: text.name.clone(), stem: text.stem.clone() };
         diagnostics.extend(adrift(&netlist));
         let input = Input { text, netlist };
-        diagnostics.extend(input.assemble().err().into_iter().flat_map(|failure| failure.diagnostics));
+        let mut lumping = None;
+        match input.assemble() {
+            Ok(system) => lumping = lumped(&input.netlist, &system),
+            Err(failure) => diagnostics.extend(failure.diagnostics),
+        }
+        let found = lumping.iter().flat_map(|(_, lumping)| lumping::warnings(&input.netlist, lumping));
+        diagnostics.extend(found);
         let selection = select::of_run(&input.netlist, &[]);
         diagnostics.extend(selection.err().into_iter().flat_map(|failure| failure.diagnostics));
-        Ok(Self { files, diagnostics, counts, stiffness, syntax: false })
+        Ok(Self { files, diagnostics, counts, stiffness, lumping, syntax: false })
+    }
+
+    fn lumping_json(&self) -> Value {
+        self.lumping.as_ref().map_or(Value::Null, |(network, lumping)| lumping::json(network, lumping))
     }
 
     fn number(&self, severity: Severity) -> usize {
@@ -113,7 +153,12 @@ impl Finding {
             (errors, _) => format!("not ok: {name} has {}, {warnings}\n", count(errors, "error")),
         };
         let stiffness = self.stiffness.as_ref().filter(|_| self.exit() == Exit::Done).map(Stiff::text);
-        rendered.collect::<String>() + &stiffness.unwrap_or_default() + &answer
+        let lumping = self.lumping.as_ref().filter(|_| self.exit() == Exit::Done);
+        let lumping = lumping.map_or(Vec::new(), |(network, lumping)| {
+            lumping::lines(network, lumping, ("lumping:   ", console.verbose))
+        });
+        let lumping: String = lumping.into_iter().map(|line| line + "\n").collect();
+        rendered.collect::<String>() + &stiffness.unwrap_or_default() + &lumping + &answer
     }
 }
 

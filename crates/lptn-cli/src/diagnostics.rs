@@ -14,7 +14,13 @@ pub(crate) fn render(files: &Files, diagnostic: &Diagnostic, styled: bool) -> St
     };
     let mut group = Group::with_title(level.primary_title(diagnostic.message.as_str()).id(diagnostic.code));
     for file in files_of(diagnostic) {
-        group = group.element(snippet(files, diagnostic, file));
+        let labels: Vec<&Label> = diagnostic.labels.iter().filter(|label| label.span.file == file).collect();
+        if files.text(file).len() < LONG {
+            group = group.element(snippet(files, (0, files.text(file)), &labels));
+        } else {
+            // the renderer looks at every line it is given
+            group = group.elements(labels.iter().map(|label| snippet(files, line(files, label), &[*label])));
+        }
     }
     group = group.elements(diagnostic.help.iter().map(|help| Level::HELP.message(help.as_str())));
     group = group.elements(diagnostic.notes.iter().map(|note| Level::NOTE.message(note.as_str())));
@@ -35,18 +41,34 @@ fn files_of(diagnostic: &Diagnostic) -> Vec<FileId> {
     found
 }
 
+/// Of texts longer than this, in bytes, only the lines with labels are shown.
+const LONG: usize = 200_000;
+
+/// The line in which a label begins, and its first byte.
+fn line<'a>(files: &'a Files, label: &Label) -> (usize, &'a str) {
+    let text = files.text(label.span.file);
+    let range = inside(&label.span.range, text);
+    let start = text[..range.start].rfind('\n').map_or(0, |at| at + 1);
+    let end = text[range.end..].find('\n').map_or(text.len(), |at| range.end + at);
+    (start, &text[start..end])
+}
+
+/// The labels in a part of their text, which begins at this byte.
 fn snippet<'a>(
     files: &'a Files,
-    diagnostic: &'a Diagnostic,
-    file: FileId,
+    (start, text): (usize, &'a str),
+    labels: &[&'a Label],
 ) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
-    let text = files.text(file);
-    let labels = diagnostic.labels.iter().filter(|label| label.span.file == file);
-    let annotations = labels.map(|label| {
+    let annotations = labels.iter().map(|label| {
         let kind = if label.primary { AnnotationKind::Primary } else { AnnotationKind::Context };
-        kind.span(inside(&label.span.range, text)).label(Some(label.text.as_str()).filter(|t| !t.is_empty()))
+        let range = label.span.range.start.saturating_sub(start)..label.span.range.end.saturating_sub(start);
+        kind.span(inside(&range, text)).label(Some(label.text.as_str()).filter(|t| !t.is_empty()))
     });
-    Snippet::source(text).path(files.name(file)).annotations(annotations)
+    let annotations: Vec<_> = annotations.collect();
+    let snippet = Snippet::source(text).annotations(annotations);
+    let Some(first) = labels.first() else { return snippet };
+    let number = if start == 0 { 1 } else { files.line_column(&first.span).0 };
+    snippet.line_start(number).path(files.name(first.span.file))
 }
 
 /// The range cut to the text, so that a wrong span is shown somewhere and never ends the program.

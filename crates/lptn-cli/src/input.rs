@@ -101,7 +101,7 @@ impl Input {
     }
 
     /// Where the node of this name stands.
-    pub(crate) fn node_place(&self, name: &str) -> Option<&Span> {
+    pub(crate) fn node_place(&self, name: &str) -> Option<Span> {
         let node = self.netlist.network.node(name).ok()?;
         self.netlist.source_map.name(Item::Node(node))
     }

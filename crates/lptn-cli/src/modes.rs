@@ -5,7 +5,7 @@ use lptn_network::Network;
 use lptn_report::{
     Align, Column, JsonWriter, TextTable, WIDTH, duration, fixed, labelled, plain, shortened, write_csv,
 };
-use lptn_solve::{ExactError, Mode, Modes};
+use lptn_solve::{EventKind, ExactError, Mode, Modes};
 use lptn_study::Scalar;
 use serde_json::{Map, Value, json};
 
@@ -58,7 +58,7 @@ fn failed(input: &Input, error: &ExactError) -> Failure {
             "modes::too_large",
             Some("lump nodes until there are at most 2000, or let `lptn run` show how long each node takes"),
         ),
-        ExactError::NotLinear { .. } => (
+        ExactError::NotLinear { .. } | ExactError::Switches { .. } => (
             Exit::Input,
             error.code(),
             Some("only a network of constants has modes; `lptn run` follows it over time"),
@@ -176,6 +176,13 @@ impl View<'_> {
         let mut notes = Vec::new();
         if self.all == 0 {
             notes.push("no node stores heat: temperatures follow the inputs at once".to_owned());
+        }
+        // conductances that switch are refused: what is left are sources and boundaries
+        if let Some(kind) = EventKind::switching(self.network()).next() {
+            let name = kind.name(self.network());
+            notes.push(format!(
+                "`{name}` switches heat, which plays no part in these modes: the network has them between two switches"
+            ));
         }
         if lasting > 0 {
             let verb = if lasting == 1 { "lasts" } else { "last" };

@@ -26,7 +26,7 @@ pub(crate) fn netlist(network: &Network, title: &str, run: Option<&RunSettings>)
     section("resistor", network.conductors().iter().map(|c| resistor(network, c)).collect());
     let source = |s: &lptn_network::Source| {
         let power = value(network, &s.power, Type::of(Dimension::POWER));
-        format!("{} = {{ into = {}, P = {power} }}", s.name, into(network, &s.into))
+        format!("{} = {{ into = {}, P = {power} }}", s.name(), into(network, &s.into))
     };
     section("source", network.sources().iter().map(source).collect());
     section("run", run.map(settings).unwrap_or_default());
@@ -65,7 +65,7 @@ fn nodes(network: &Network) -> Vec<String> {
 
 /// A conductor of a reduced network: all of them are constant.
 fn resistor(network: &Network, conductor: &Conductor) -> String {
-    let end = |end: End| string(network.name_of(end.into()));
+    let end = |end: End| string(&network.name_of(end.into()));
     let law = match &conductor.law {
         Law::Resistance(r) => format!("R = {}", value(network, r, Type::of(Dimension::RESISTANCE))),
         law => {
@@ -73,7 +73,7 @@ fn resistor(network: &Network, conductor: &Conductor) -> String {
             format!("G = {}", quantity(conductance, Type::of(Dimension::CONDUCTANCE)))
         }
     };
-    format!("{} = {{ from = {}, to = {}, {law} }}", conductor.name, end(conductor.from), end(conductor.to))
+    format!("{} = {{ from = {}, to = {}, {law} }}", conductor.name(), end(conductor.from), end(conductor.to))
 }
 
 /// The node that a source heats, or the shares of several.

@@ -2,8 +2,8 @@
 
 use lptn_netlist::Diagnostic;
 use lptn_network::Parameter;
-use lptn_report::{JsonWriter, duration, plain, write_csv, write_rows};
-use lptn_solve::{End, Solution, SteadyState, Table};
+use lptn_report::{JsonWriter, WIDTH, duration, labelled, plain, write_csv, write_rows};
+use lptn_solve::{End, Lumping, Solution, SteadyState, Table};
 use lptn_study::{
     Environment, FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, Scalar, StatisticsRecord,
     Sundials,
@@ -19,37 +19,45 @@ use crate::gaps::gaps;
 use crate::limits::{self, Judged};
 use crate::run::{Job, NoSteady};
 use crate::summary::View;
-use crate::{balance, diagnostics, next, summary_text, window_text};
+use crate::{balance, diagnostics, events, lumping, next, select, state, summary_text, window_text};
 
 /// What came of it.
 pub(crate) struct Outcome<'a> {
     pub(crate) job: Job<'a>,
     pub(crate) steady: Result<SteadyState, NoSteady>,
     pub(crate) solution: Solution,
+    /// How far its nodes are lumps.
+    pub(crate) lumping: Lumping,
     /// Why the run broke off.
     pub(crate) failure: Option<Diagnostic>,
     pub(crate) wall_time: f64,
 }
 
 const RESULT: &str = "result.csv";
+const STATE: &str = "state.json";
+const EVENTS: &str = "events.csv";
 const WINDOWS: &str = "windows.csv";
 const MANIFEST: &str = "manifest.json";
 
 impl Outcome<'_> {
     /// Writes the files; a manifest never stands beside results that are not its own.
-    pub(crate) fn write(&self, args: &RunArgs, folder: &Folder, table: &Table) -> Result<(), Failure> {
-        folder.clear(&[MANIFEST, WINDOWS]);
+    pub(crate) fn write(&self, set: &[String], folder: &Folder, table: &Table) -> Result<(), Failure> {
+        folder.clear(&[MANIFEST, EVENTS, WINDOWS, STATE]);
         let mut results = vec![folder.write(RESULT, |out| write_csv(table, out))?];
+        let state = state::of(self.job.input, &self.solution);
+        results.push(folder.write(STATE, |out| state.write(out))?);
+        let events = events::rows(&self.solution);
+        results.push(folder.write(EVENTS, |out| write_rows(&events, out))?);
         let windows = self.solution.windows();
         if !windows.is_empty() {
             let rows = window_text::rows(windows, &self.job.unit);
             results.push(folder.write(WINDOWS, |out| write_rows(&rows, out))?);
         }
-        let manifest = self.manifest(args, results);
+        let manifest = self.manifest(set, results);
         folder.write(MANIFEST, |out| out.write_all(manifest.text()?.as_bytes())).map(drop)
     }
 
-    fn manifest(&self, args: &RunArgs, results: Vec<FileHash>) -> Manifest {
+    fn manifest(&self, set: &[String], results: Vec<FileHash>) -> Manifest {
         let settings = &self.job.settings;
         let hash = |(name, text): (&str, &str)| FileHash {
             name: name.to_owned(),
@@ -62,12 +70,12 @@ impl Outcome<'_> {
             sundials: Sundials::linked(),
             arguments: std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned()).collect(),
             inputs: self.job.input.netlist.inputs().map(hash).collect(),
-            parameters: self.parameters(&args.source.set),
+            parameters: self.parameters(set),
             start: Scalar::new(settings.start, "s"),
             stop: Scalar::new(settings.stop, "s"),
             tolerance: Scalar::new(settings.tolerance, "K"),
             end: RunEnd::of(&self.solution, settings.stop, self.ended_early()),
-            statistics: StatisticsRecord::new(self.solution.statistics()),
+            statistics: StatisticsRecord::new(&self.solution),
             ledger: self.ledger(),
             limits: limits::members(self.solution.network(), &self.limits()),
             results,
@@ -94,12 +102,12 @@ impl Outcome<'_> {
     }
 
     /// How the limits fared.
-    fn limits(&self) -> Vec<Judged> {
+    pub(crate) fn limits(&self) -> Vec<Judged> {
         self.solution.limits().iter().map(Judged::of_run).collect()
     }
 
     /// The ledger up to the time that was reached.
-    fn ledger(&self) -> LedgerRecord {
+    pub(crate) fn ledger(&self) -> LedgerRecord {
         LedgerRecord::new(self.solution.network(), self.solution.ledger())
     }
 
@@ -119,6 +127,8 @@ impl Outcome<'_> {
                 let title = netlist.network.title().map_or(self.job.input.text.stem.clone(), plain);
                 let view = View {
                     title: &title,
+                    lumping: &self.lumping,
+                    origin: state::origin(self.job.input),
                     solution: &self.solution,
                     steady: self.steady.as_ref(),
                     unit: &self.job.unit,
@@ -132,6 +142,12 @@ impl Outcome<'_> {
             Format::Csv => console.write(|out| write_csv(table, out)),
             Format::Json => console.write(|out| self.json(table, out)),
         }
+    }
+
+    /// What the rows show to be wrong with reports, and with nodes that are no lumps.
+    fn found(&self, table: &Table) -> Vec<Diagnostic> {
+        let netlist = &self.job.input.netlist;
+        gaps(netlist, table).into_iter().chain(lumping::warnings(netlist, &self.lumping)).collect()
     }
 
     /// What a reader should know of the numbers; the table says it in its notes.
@@ -151,10 +167,10 @@ impl Outcome<'_> {
         json.member("format", &json!(1))?;
         json.member("network", &json!(self.job.input.text.stem))?;
         let warnings: Vec<Diagnostic> =
-            netlist.warnings.iter().cloned().chain(self.doubts()).chain(gaps(netlist, table)).collect();
+            netlist.warnings.iter().cloned().chain(self.doubts()).chain(self.found(table)).collect();
         json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
         json.table(table)?;
-        json.member("events", &json!([]))?;
+        json.member("events", &events::json(&self.solution))?;
         json.member("ledger", &serde_json::to_value(self.ledger())?)?;
         if !self.solution.limits().is_empty() {
             let limits = limits::members(self.solution.network(), &self.limits());
@@ -166,7 +182,8 @@ impl Outcome<'_> {
         if let Some(of) = self.solution.balance() {
             json.member("balance", &balance::json(self.solution.network(), of))?;
         }
-        json.member("statistics", &serde_json::to_value(StatisticsRecord::new(self.solution.statistics()))?)?;
+        json.member("lumping", &lumping::json(self.solution.network(), &self.lumping))?;
+        json.member("statistics", &serde_json::to_value(StatisticsRecord::new(&self.solution))?)?;
         if let Some(message) = self.ended_early() {
             let end = RunEnd::of(&self.solution, self.job.settings.stop, Some(message));
             json.member("end", &serde_json::to_value(end)?)?;
@@ -181,13 +198,18 @@ impl Outcome<'_> {
             let took = duration(self.wall_time, 2);
             let rows = table.rows();
             let windows = if self.solution.windows().is_empty() { "" } else { ", windows.csv" };
-            let files = format!("{}{windows}, {MANIFEST}", path.display());
-            console.note(&format!("wrote  {files} ({rows} rows, solved in {took})"));
+            let files = format!("{}, {EVENTS}{windows}, {STATE}, {MANIFEST}", path.display());
+            let mut words: Vec<String> = files.split(' ').map(str::to_owned).collect();
+            words.push(format!("({rows} rows, solved in {took})"));
+            console.note(&labelled("wrote  ", &words, WIDTH).join("\n"));
+        }
+        if let Some(hidden) = select::hidden(&self.job.input.netlist).filter(|_| !self.job.chosen) {
+            console.note(&hidden);
         }
         if self.job.format != Format::Table {
             console.warn(&self.job.input.netlist.files, &self.doubts());
         }
-        console.warn(&self.job.input.netlist.files, &gaps(&self.job.input.netlist, table));
+        console.warn(&self.job.input.netlist.files, &self.found(table));
         if self.job.format == Format::Table && self.solution.end() == End::Reached {
             let command = next::after_run(self.job.input, self.steady.is_ok());
             command.iter().for_each(|command| console.note(&format!("next   {command}")));

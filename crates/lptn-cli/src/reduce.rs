@@ -5,8 +5,8 @@ use std::io::{ErrorKind, Write as _};
 use std::path::Path;
 
 use lptn_assembly::ThermalSystem;
-use lptn_netlist::{Diagnostic, RunSettings};
-use lptn_network::{Field, Item, Time};
+use lptn_netlist::Diagnostic;
+use lptn_network::{Field, Item};
 use lptn_reduce::{Bias, Definition, FitError, Options, Pair, ReduceError, Reduction, port};
 use lptn_report::{plain, significant, write_csv};
 use lptn_solve::Transient;
@@ -31,9 +31,10 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
     let system = input.assemble()?;
     let explain = |error: ReduceError| failed(&input, args, &error);
     let port = port(&input.netlist.network, &args.port).map_err(explain)?;
-    let options = Options { run: run.as_ref().map(transient), window };
-    let reduction = Reduction::new(&system, port, &options).map_err(explain)?;
-    let bias = match &options.run {
+    let run = run.as_ref().map(|run| lptn_study::transient(&input.netlist.network, run));
+    let reduction = Reduction::new(&system, port, &options(&system, run.as_ref(), (window, limit.is_some())));
+    let reduction = reduction.map_err(explain)?;
+    let bias = match &run {
         Some(run) if args.bias => Some(Bias::new(&system, port, run).map_err(explain)?),
         _ => None,
     };
@@ -81,7 +82,9 @@ impl View<'_> {
         if let Some(path) = &self.args.write {
             let path = path.display();
             console.note(&format!("wrote  {path}: one node that stands for {}", self.input.text.name));
-        } else if let (ReduceFormat::Table, Some(file)) = (self.args.format, self.input.typed()) {
+        } else if let (ReduceFormat::Table, Some(file), false) =
+            (self.args.format, self.input.typed(), self.system.network().has_events())
+        {
             let port = quoted(&self.args.port);
             console.note(&format!("next   lptn reduce {file} --port {port} --write {port}.toml"));
         }
@@ -160,16 +163,19 @@ fn window(text: &str) -> Result<f64, Failure> {
     quantity.map(|quantity| quantity.value).map_err(|error| input::wrong_unit("--window", text, &error))
 }
 
-/// The run of the file.
-fn transient(run: &RunSettings) -> Transient {
-    Transient {
-        start: run.start,
-        output: run.output.clone(),
-        tolerance: run.tolerance,
-        ..Transient::until(Time(run.stop))
+/// One node cannot follow a network that switches over its run: the run is left out, but where it is asked for.
+fn options(
+    system: &ThermalSystem,
+    run: Option<&Transient>,
+    (window, wanted): (Option<f64>, bool),
+) -> Options {
+    if wanted || !system.network().has_events() {
+        return Options { run: run.cloned(), window };
     }
+    Options { run: None, window: window.or(run.map(|run| run.stop - run.start)) }
 }
 
+/// The run of the file.
 fn no_run(input: &Input, option: &str) -> Failure {
     let message = format!("{} has no [run], which {option} is about", input.text.name);
     let problem = Diagnostic::error("run::no_run", message)

@@ -1,5 +1,6 @@
 //! A reduction as JSON.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 use lptn_reduce::{Bias, Deviation, Dynamics, FitError, Window};
@@ -13,8 +14,8 @@ use crate::reduce::View;
 pub(crate) fn write(view: &View<'_>, out: impl Write) -> io::Result<()> {
     let netlist = &view.input.netlist;
     let (norton, inputs) = (&view.reduction.norton, &view.reduction.inputs);
-    let boundaries = netlist.network.boundaries().iter().map(|b| b.name.as_str());
-    let sources = netlist.network.sources().iter().map(|s| s.name.as_str());
+    let boundaries = netlist.network.boundaries().iter().map(|b| Cow::from(&b.name));
+    let sources = netlist.network.sources().iter().map(|s| s.name());
     let mut json = JsonWriter::new(out);
     json.member("format", &json!(1))?;
     json.member("network", &json!(view.input.text.stem))?;
@@ -95,6 +96,6 @@ fn scalar_of_count(count: usize) -> Value {
     json!({ "value": count, "unit": "1" })
 }
 
-fn named<'a>(names: impl Iterator<Item = &'a str>, values: &[f64]) -> Value {
-    Value::Object(names.zip(values).map(|(name, &value)| (name.to_owned(), scalar(value, "1"))).collect())
+fn named<'a>(names: impl Iterator<Item = Cow<'a, str>>, values: &[f64]) -> Value {
+    Value::Object(names.zip(values).map(|(name, &value)| (name.into_owned(), scalar(value, "1"))).collect())
 }

@@ -1,5 +1,7 @@
 //! A reduction as text for a terminal.
 
+use std::borrow::Cow;
+
 use lptn_reduce::{Bias, Definition, Deviation, Dynamics, FitError, Pair, Window};
 use lptn_report::{Align, Column, TextTable, WIDTH, decimals, duration, fixed, labelled, plain, significant};
 
@@ -39,8 +41,8 @@ impl View<'_> {
     fn equivalent(&self) -> Vec<String> {
         let network = &self.input.netlist.network;
         let (norton, inputs) = (&self.reduction.norton, &self.reduction.inputs);
-        let boundaries = network.boundaries().iter().map(|b| b.name.as_str());
-        let sources = network.sources().iter().map(|s| s.name.as_str());
+        let boundaries = network.boundaries().iter().map(|b| Cow::from(&b.name));
+        let sources = network.sources().iter().map(|s| s.name());
         let unit = &self.unit;
         let mut rows = vec![
             ["R_eq".to_owned(), format!("{} K/W", significant(norton.resistance, 5)), String::new()],
@@ -149,6 +151,7 @@ impl View<'_> {
                 "the inputs change with time; T_ref and Q_N are those at the start of the run".to_owned(),
             );
         }
+        notes.extend(self.switched());
         notes.extend(self.apart());
         let Some(dynamics) = &self.reduction.dynamics else {
             notes.push("the port sees no capacity: T = T_ref + R_eq Q_N holds at every moment".to_owned());
@@ -183,6 +186,23 @@ impl View<'_> {
 }
 
 impl View<'_> {
+    /// What is said of controls.
+    fn switched(&self) -> Option<String> {
+        let network = &self.input.netlist.network;
+        let stands = |id: lptn_network::ControlId| {
+            let on = network.thermostat(id).is_some_and(|thermostat| thermostat.start);
+            format!("`{}` {}", network.controls()[id.index()].name, if on { "on" } else { "off" })
+        };
+        let stand: Vec<String> = network.control_ids().map(stands).collect();
+        let says = if self.input.netlist.initial().is_some() { "the state" } else { "their `start`" };
+        (!stand.is_empty()).then(|| {
+            format!(
+                "T_ref and Q_N are those with {}, as {says} says; what switches over the run is not compared",
+                stand.join(", ")
+            )
+        })
+    }
+
     /// What is said of nodes that the port does not feel.
     fn apart(&self) -> Option<String> {
         let response = &self.reduction.norton.response;
@@ -196,9 +216,10 @@ impl View<'_> {
 }
 
 /// `0.7 bed + 0.3 air`, the largest first.
-fn weights<'a>(names: impl Iterator<Item = &'a str>, weights: &[f64]) -> String {
+fn weights<'a>(names: impl Iterator<Item = Cow<'a, str>>, weights: &[f64]) -> String {
     const SHOWN: usize = 3;
-    let mut all: Vec<(&str, f64)> = names.zip(weights.iter().copied()).filter(|(_, w)| *w > 0.0).collect();
+    let mut all: Vec<(Cow<'_, str>, f64)> =
+        names.zip(weights.iter().copied()).filter(|(_, w)| *w > 0.0).collect();
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut terms: Vec<String> =
         all.iter().take(SHOWN).map(|(name, w)| format!("{} {name}", significant(*w, 4))).collect();

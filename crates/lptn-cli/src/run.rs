@@ -4,10 +4,11 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use lptn_assembly::ThermalSystem;
-use lptn_netlist::{Diagnostic, RunSettings};
-use lptn_network::{End, Field, Time};
+use lptn_netlist::{Diagnostic, RunSettings, Span};
+use lptn_network::{End, Field, InputError, InputProblem, Item};
 use lptn_solve::{
-    Record, Selection, Solution, SteadyError, SteadyState, Summary, Table, Transient, TransientError, Window,
+    Lumping, Record, Selection, Solution, SteadyError, SteadyState, StopReason, Summary, Table, Transient,
+    TransientError, Window,
 };
 use lptn_units::Unit;
 
@@ -32,10 +33,11 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     let begun = Instant::now();
     let (solution, failure) = job.solve(&system, steady.as_ref().ok(), console)?;
     let wall_time = begun.elapsed().as_secs_f64();
-    let result = Outcome { job, steady, solution, failure, wall_time };
+    let lumping = Lumping::of_run(&solution);
+    let result = Outcome { job, steady, solution, lumping, failure, wall_time };
     let table = Table::of_solution(&result.solution, &result.job.selection, &result.job.unit);
     if let Some(folder) = &folder {
-        result.write(args, folder, &table)?;
+        result.write(&args.source.set, folder, &table)?;
     }
     result.print(args, &table, console)?;
     result.messages(folder.as_ref(), &table, console);
@@ -109,6 +111,10 @@ impl<'a> Job<'a> {
             Err(error) => {
                 let problem = self.explain(&error);
                 match error {
+                    // nothing was computed, and nothing could be: the question does not fit the network
+                    TransientError::Stopped { reason: StopReason::NothingSwitches, .. } => {
+                        Err(self.failed(&error))
+                    }
                     TransientError::Stopped { partial, .. } => Ok((*partial, Some(problem))),
                     error => Err(self.failed(&error)),
                 }
@@ -121,12 +127,12 @@ impl<'a> Job<'a> {
         system: &ThermalSystem,
         steady: Option<&SteadyState>,
     ) -> Result<Transient, TransientError> {
-        let RunSettings { start, stop, tolerance, .. } = self.settings;
-        let output = self.settings.output.clone();
         let (mut record, mut watch) = (self.selection.record(), Vec::new());
         if self.format == Format::Table {
-            let shown = summary::shown(system.network(), &self.selection, steady);
-            watch = Summary::watches(system, start, &shown, steady).map_err(TransientError::Start)?;
+            let selection = Some(&self.selection).filter(|_| self.chosen);
+            let shown = summary::shown(system.network(), selection, steady);
+            watch = Summary::watches(system, self.settings.start, &shown, steady)
+                .map_err(TransientError::Start)?;
             if let Record::Nodes(nodes) = &mut record {
                 nodes.extend(shown);
             }
@@ -136,14 +142,11 @@ impl<'a> Job<'a> {
             Window { name, from: window.from, to: window.to, of }
         };
         Ok(Transient {
-            start,
-            output,
-            tolerance,
             record,
             watch,
             windows: self.settings.windows.iter().map(window).collect(),
             balance: self.balance,
-            ..Transient::until(Time(stop))
+            ..lptn_study::transient(system.network(), &self.settings)
         })
     }
 
@@ -168,12 +171,27 @@ pub(crate) fn explain(input: &Input, error: &TransientError) -> Diagnostic {
         problem = problem.help(help);
     }
     let map = &input.netlist.source_map;
-    let place = error.input().and_then(|e| map.get(e.item, e.field).or_else(|| map.get(e.item, Field::Name)));
+    let place = error.place();
+    let place = place.and_then(|(item, field)| map.get(item, field).or_else(|| map.get(item, Field::Name)));
     let node = || error.node().and_then(|name| input.node_place(name));
-    match place.or_else(node) {
-        Some(span) => problem.at(span.clone(), ""),
+    let problem = match place.or_else(node) {
+        Some(span) => problem.at(span, ""),
+        None => problem,
+    };
+    match other_threshold(input, error) {
+        Some(span) => problem.also(span, "off"),
         None => problem,
     }
+}
+
+/// Of thresholds that crossed over: the one that is not said to be at fault.
+fn other_threshold(input: &Input, error: &TransientError) -> Option<Span> {
+    let InputError { item, problem: InputProblem::ThresholdsCrossed { .. }, .. } = error.input()? else {
+        return None;
+    };
+    let Item::Control(id) = *item else { return None };
+    let thermostat = input.netlist.network.thermostat(id)?;
+    input.netlist.source_map.get(*item, thermostat.acts.fields()[1])
 }
 
 pub(crate) fn no_run(input: &Input) -> Failure {

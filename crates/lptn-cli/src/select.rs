@@ -1,11 +1,13 @@
 //! `--select`: which columns are kept.
 
 use lptn_netlist::{Diagnostic, Files, Netlist, Span};
+use lptn_network::Item;
 use lptn_solve::Selection;
 use lptn_units::suggest;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::summary::count;
 
 /// The columns of a run: those that the command line asks for, else those of `[run]`, else all.
 pub(crate) fn of_run(netlist: &Netlist, option: &[String]) -> Result<Selection, Failure> {
@@ -20,10 +22,24 @@ pub(crate) fn of_option(netlist: &Netlist, option: &[String]) -> Result<Selectio
 
 fn chosen(netlist: &Netlist, patterns: &[String], in_file: bool) -> Result<Selection, Failure> {
     if patterns.is_empty() {
-        return Ok(Selection::all(&netlist.network));
+        // a million columns are of no use to anyone
+        let shown = |item: Item| matches!(item, Item::Boundary(_)) || !netlist.source_map.is_imported(item);
+        return Ok(Selection::of(&netlist.network, shown));
     }
     Selection::matching(&netlist.network, patterns)
         .map_err(|unmatched| no_match(netlist, &unmatched, in_file))
+}
+
+/// What is left out where nothing is selected.
+pub(crate) fn hidden(netlist: &Netlist) -> Option<String> {
+    let (network, map) = (&netlist.network, &netlist.source_map);
+    let imported = |item: &Item| map.is_imported(*item);
+    let nodes = network.node_ids().map(Item::Node).filter(imported).count();
+    let paths = network.conductor_ids().map(Item::Conductor).filter(imported).count();
+    let sources = network.source_ids().map(Item::Source).filter(imported).count();
+    let counts = [(nodes, "node"), (paths, "path"), (sources, "source")];
+    let words: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, noun)| count(*n, noun)).collect();
+    (!words.is_empty()).then(|| format!("hidden {} imported: columns by --select 'NAME.T'", words.join(", ")))
 }
 
 fn no_match(netlist: &Netlist, unmatched: &[String], in_file: bool) -> Failure {
@@ -38,8 +54,12 @@ fn no_match(netlist: &Netlist, unmatched: &[String], in_file: bool) -> Failure {
             let file = files.add("--select", pattern.as_str());
             Some(Span::new(file, 0..pattern.len()))
         };
+        let problem = |message: String| Diagnostic::error("select::no_match", message);
         let message = format!("no column matches `{pattern}`");
-        let problem = Diagnostic::error("select::no_match", message).help(help(pattern, &names));
+        let problem = match netlist.no_instance(pattern) {
+            Some((why, advice)) => problem(format!("{message}: {why}")).help(advice),
+            None => problem(message).help(help(pattern, &names)),
+        };
         match place {
             Some(place) => problem.at(place, ""),
             None => problem,

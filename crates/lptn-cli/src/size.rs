@@ -114,7 +114,10 @@ fn failed(input: &Input, study: &SizeStudy, unit: &Unit, error: &SizeError) -> F
             (Exit::Input, format!("there is no network with {}: {errors}", at(*value)))
         }
         SizeError::Steady { value, error } => {
-            let input = matches!(error, SteadyError::NoBoundary { .. } | SteadyError::Input(_));
+            let input = matches!(
+                error,
+                SteadyError::NoBoundary { .. } | SteadyError::Input(_) | SteadyError::Cycles { .. }
+            );
             let exit = if input { Exit::Input } else { Exit::Failed };
             (exit, format!("there is no steady state with {}: {error}", at(*value)))
         }
@@ -123,9 +126,10 @@ fn failed(input: &Input, study: &SizeStudy, unit: &Unit, error: &SizeError) -> F
     let problem = Diagnostic::error(error.code(), message).at(study.span.clone(), "");
     let problem = match error {
         SizeError::Network { .. }
-        | SizeError::Steady { error: SteadyError::BelowAbsoluteZero { .. }, .. } => {
-            problem.help("`vary` has to leave this value out: let its range begin or end elsewhere")
-        }
+        | SizeError::Steady {
+            error: SteadyError::BelowAbsoluteZero { .. } | SteadyError::Cycles { .. },
+            ..
+        } => problem.help("`vary` has to leave this value out: let its range begin or end elsewhere"),
         _ => problem,
     };
     Failure::at(exit, input.netlist.files.clone(), problem)

@@ -30,6 +30,14 @@ pub(crate) fn possible(input: &Input, parameter: ParameterId) -> Result<(), Fail
     } else if netlist.written_number(parameter).is_some_and(|written| !netlist.is_own(&written)) {
         let problem = Diagnostic::error("size::write", format!("`{name}` stands in a file that is included"));
         problem.help("other netlists may include it too: change it there, or move the parameter here")
+    } else if let Some(other) = netlist.written_together(parameter) {
+        let message = format!("`{name}` is written once for several instances, `{other}` among them");
+        let problem = Diagnostic::error("size::write_shared", message)
+            .help("give each its own value, `set = { .. = [.., ..] }`, or make it a parameter of the file");
+        match netlist.source_map.parameter(parameter) {
+            Some(span) => problem.at(span.clone(), ""),
+            None => problem,
+        }
     } else if netlist.written_number(parameter).is_none() {
         let message = format!("`{name}` is not written as a number, so no other can be written in its place");
         let problem = Diagnostic::error("size::write", message)

@@ -1,7 +1,11 @@
 //! `lptn steady`
 
+use std::collections::HashSet;
+
 use lptn_netlist::{Diagnostic, RunSettings};
-use lptn_network::{ConductorKind, list_of_names};
+use lptn_network::{
+    BoundaryId, ConductorId, GridValue, HeatOf, Item, JointId, Network, NodeId, list_of_names,
+};
 use lptn_report::{
     Align, Column, JsonWriter, TextTable, WIDTH, decimals, fixed, labelled, plain, prefix, shortened,
     significant, write_csv,
@@ -18,9 +22,12 @@ use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::limits::{self, Judged, Judgement};
 use crate::summary::{MOST_NODES, counts};
-use crate::{balance, diagnostics, select};
+use crate::{balance, diagnostics, periodic, select};
 
 pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failure> {
+    if args.cycle.periodic {
+        return periodic::periodic(args, console);
+    }
     let input = Input::load(&args.source)?;
     let netlist = &input.netlist;
     let selection = select::of_option(netlist, &args.shown.select)?;
@@ -52,6 +59,8 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
     if args.shown.format == Format::Table {
         view.messages(console);
     } else {
+        let hidden = select::hidden(netlist).filter(|_| args.shown.select.is_empty());
+        hidden.iter().for_each(|hidden| console.note(hidden));
         console.warn(&netlist.files, &view.doubts());
     }
     Ok(limits::conclude(&Judgement { netlist, unit: &unit, limits: &limits }, console))
@@ -133,12 +142,78 @@ struct View<'a> {
     balance: Option<&'a Balance>,
 }
 
-/// A name with a number of its quantity.
+/// A temperature or heat flow with its value. Names are made for those that are shown.
+#[derive(Clone, Copy)]
 struct Row {
-    name: String,
-    quantity: &'static str,
+    of: Of,
     value: f64,
-    words: String,
+}
+
+#[derive(Clone, Copy)]
+enum Of {
+    Node(NodeId),
+    Boundary(BoundaryId),
+    Grid(GridValue),
+    Heat(HeatOf),
+}
+
+impl Row {
+    /// The name of its column.
+    fn column(self, network: &Network) -> String {
+        match self.of {
+            Of::Node(id) => format!("{}.T", network.name_of(Item::Node(id))),
+            Of::Boundary(id) => format!("{}.T", network.name_of(Item::Boundary(id))),
+            Of::Grid(value) => value.name(network),
+            Of::Heat(heat) => heat.name(network),
+        }
+    }
+
+    /// Its name; `T`, `Q` and `P` go without saying.
+    fn label(self, network: &Network) -> String {
+        match self.of {
+            Of::Node(id) => network.name_of(Item::Node(id)).into_owned(),
+            Of::Boundary(id) => network.name_of(Item::Boundary(id)).into_owned(),
+            Of::Heat(heat) => network.name_of(heat.item()).into_owned(),
+            Of::Grid(GridValue::Mean(_) | GridValue::Min(_) | GridValue::Max(_)) => self.column(network),
+            Of::Grid(_) => self.column(network).trim_end_matches(".T").to_owned(),
+        }
+    }
+
+    fn words(self, network: &Network) -> String {
+        let name = |end: lptn_network::End| network.name_of(end.into());
+        let ends = |id: lptn_network::ConductorId| {
+            let conductor = &network.conductors()[id.index()];
+            (name(conductor.from), name(conductor.to))
+        };
+        match self.of {
+            Of::Node(id) if network.nodes()[id.index()].massless => "junction".into(),
+            Of::Node(_) => "node".into(),
+            Of::Boundary(_) => "boundary".into(),
+            Of::Grid(GridValue::Mean(_)) => "mean of the grid".into(),
+            Of::Grid(GridValue::Min(_)) => "coldest cell".into(),
+            Of::Grid(GridValue::Max(_)) => "hottest cell".into(),
+            Of::Grid(_) => "mean of the face".into(),
+            Of::Heat(HeatOf::Joint(id)) => {
+                let joint = &network.joints()[id.index()];
+                let [from, to] = [joint.from, joint.to].map(|terminal| network.terminal_name(terminal));
+                format!("{from} -> {to}")
+            }
+            Of::Heat(HeatOf::Conductor(id)) => {
+                let (from, to) = ends(id);
+                format!("{from} -> {to}")
+            }
+            Of::Heat(HeatOf::ReceivedFrom(id)) => format!("stream to {}", ends(id).0),
+            Of::Heat(HeatOf::ReceivedTo(id)) => format!("stream to {}", ends(id).1),
+            Of::Heat(HeatOf::Source(id)) => {
+                let into = network.sources()[id.index()].into.iter();
+                let mut into: Vec<String> = into.map(|(node, _)| network.place_name(*node)).collect();
+                into.dedup();
+                format!("source into {}", into.join(", "))
+            }
+            Of::Heat(HeatOf::Boundary(_)) if self.value > 0.0 => "boundary gives".into(),
+            Of::Heat(HeatOf::Boundary(_)) => "boundary takes".into(),
+        }
+    }
 }
 
 impl View<'_> {
@@ -146,13 +221,12 @@ impl View<'_> {
         let network = &self.input.netlist.network;
         let title = network.title().map_or(self.input.text.stem.clone(), plain);
         let mut lines = vec![console.title(&title), counts(network)];
-        let patterns = &args.shown.select;
-        let kept = self.table;
-        let keep = |row: &Row| {
-            patterns.is_empty()
-                || kept.columns().iter().any(|c| c.name == format!("{}.{}", row.name, row.quantity))
-        };
-        let (nodes, flows) = (self.temperatures(), self.flows());
+        let kept: HashSet<&str> = self.table.columns().iter().map(|column| column.name.as_str()).collect();
+        let all = args.shown.select.is_empty();
+        let keep = |row: &Row| all || kept.contains(row.column(network).as_str());
+        // cells and their paths are shown where they are asked for
+        let inside = !all && !network.grids().is_empty();
+        let (nodes, flows) = (self.temperatures(inside), self.flows(inside));
         let blocks = [
             self.node_lines(nodes.into_iter().filter(keep).collect()),
             self.flow_lines(flows.into_iter().filter(keep).collect()),
@@ -172,48 +246,42 @@ impl View<'_> {
         lines.join("\n") + "\n"
     }
 
-    fn temperatures(&self) -> Vec<Row> {
+    fn temperatures(&self, inside: bool) -> Vec<Row> {
         let network = &self.input.netlist.network;
-        let node = |(node, &value): (&lptn_network::Node, &f64)| {
-            let words = if node.massless { "junction" } else { "node" };
-            Row { name: node.name.clone(), quantity: "T", value, words: words.into() }
-        };
-        let boundary = |(boundary, &value): (&lptn_network::Boundary, &f64)| Row {
-            name: boundary.name.clone(),
-            quantity: "T",
-            value,
-            words: "boundary".into(),
-        };
-        let nodes = network.nodes().iter().zip(&self.steady.temperatures).map(node);
-        nodes
-            .chain(network.boundaries().iter().zip(&self.steady.boundary_temperatures).map(boundary))
-            .collect()
+        let ids: Box<dyn Iterator<Item = NodeId>> =
+            if inside { Box::new(network.node_ids()) } else { Box::new(network.outer_nodes()) };
+        let nodes = ids.map(|id| Row { of: Of::Node(id), value: self.steady.temperatures[id.index()] });
+        let idle = network.idle_grid_values().filter(|_| inside);
+        let grids = network
+            .grid_values()
+            .chain(idle)
+            .map(|of| Row { of: Of::Grid(of), value: network.grid_value(of, &self.steady.temperatures) });
+        let boundaries = network.boundary_ids().zip(&self.steady.boundary_temperatures);
+        let boundaries = boundaries.map(|(id, &value)| Row { of: Of::Boundary(id), value });
+        nodes.chain(grids).chain(boundaries).collect()
     }
 
-    fn flows(&self) -> Vec<Row> {
+    /// The heat that the end of a path to a face receives.
+    fn through(&self, id: JointId) -> f64 {
+        let joint = &self.input.netlist.network.joints()[id.index()];
+        joint.conductors().map(|id| self.steady.received[id.index()][1]).sum()
+    }
+
+    fn flows(&self, inside: bool) -> Vec<Row> {
         let network = &self.input.netlist.network;
-        let name = |end: lptn_network::End| network.name_of(end.into());
-        let conductors =
-            network.conductors().iter().zip(&self.steady.received).flat_map(|(c, &[back, on])| {
-                let row = |quantity, value, words| Row { name: c.name.clone(), quantity, value, words };
-                if c.kind != ConductorKind::Advection {
-                    return vec![row("Q", on, format!("{} -> {}", name(c.from), name(c.to)))];
-                }
-                vec![
-                    row("Q_from", back, format!("stream to {}", name(c.from))),
-                    row("Q_to", on, format!("stream to {}", name(c.to))),
-                ]
-            });
-        let sources = network.sources().iter().zip(&self.steady.source_heat).map(|(s, &value)| {
-            let into: Vec<&str> = s.into.iter().map(|(id, _)| name((*id).into())).collect();
-            let words = format!("source into {}", into.join(", "));
-            Row { name: s.name.clone(), quantity: "P", value, words }
+        let row = |heat: HeatOf, value: f64| Row { of: Of::Heat(heat), value };
+        let shown = |id: &ConductorId| inside || network.whole(Item::Conductor(*id)).is_none();
+        let paths = network.conductor_ids().filter(shown).flat_map(|id| {
+            let [back, on] = self.steady.received[id.index()];
+            let heats = network.heats_of(id).into_iter();
+            heats.map(move |heat| row(heat, if heat == HeatOf::ReceivedFrom(id) { back } else { on }))
         });
-        let boundaries = network.boundaries().iter().zip(&self.steady.boundary_heat).map(|(b, &value)| {
-            let words = if value > 0.0 { "boundary gives" } else { "boundary takes" };
-            Row { name: b.name.clone(), quantity: "Q", value, words: words.into() }
-        });
-        sources.chain(conductors).chain(boundaries).collect()
+        let sources = network.source_ids().zip(&self.steady.source_heat);
+        let boundaries = network.boundary_ids().zip(&self.steady.boundary_heat);
+        let sources = sources.map(|(id, &value)| row(HeatOf::Source(id), value));
+        let joints = network.shared_joints().map(|id| row(HeatOf::Joint(id), self.through(id)));
+        let boundaries = boundaries.map(|(id, &value)| row(HeatOf::Boundary(id), value));
+        sources.chain(paths).chain(joints).chain(boundaries).collect()
     }
 
     /// Temperatures with their rise over the coldest boundary, hottest first where there are many.
@@ -222,7 +290,8 @@ impl View<'_> {
         if all > MOST_NODES {
             rows.sort_by(|a, b| b.value.total_cmp(&a.value));
         }
-        let coldest = coldest(&self.input.netlist.network, self.steady);
+        let network = &self.input.netlist.network;
+        let coldest = coldest(network, self.steady).unwrap_or_default();
         let rises = rows.iter().map(|r| (r.value - coldest.1).abs());
         let largest = rises.filter(|rise| *rise > NOISE).fold(0.0, f64::max);
         let digits = decimals(largest / self.unit.scale, 3, 1);
@@ -230,7 +299,7 @@ impl View<'_> {
         let texts = |text: &dyn Fn(&Row) -> String| rows.iter().map(text).collect::<Vec<_>>();
         let over = format!("over {} [{}]", shortened(&coldest.0, 24), difference(self.unit));
         let table = TextTable::new(vec![
-            Column::new("temperature", Align::Left, texts(&|r| r.name.clone())),
+            Column::new("temperature", Align::Left, texts(&|row| row.label(network))),
             Column::new(
                 format!("T [{}]", self.unit.text),
                 Align::Right,
@@ -241,7 +310,7 @@ impl View<'_> {
                 Align::Right,
                 texts(&|r| fixed((r.value - coldest.1) / self.unit.scale, digits)),
             ),
-            Column::new("", Align::Left, texts(&|r| r.words.clone())).optional(),
+            Column::new("", Align::Left, texts(&|r| r.words(network))).optional(),
         ]);
         with_hidden(
             table.lines(WIDTH),
@@ -251,6 +320,7 @@ impl View<'_> {
     }
 
     fn flow_lines(&self, mut rows: Vec<Row>) -> Vec<String> {
+        let network = &self.input.netlist.network;
         let all = rows.len();
         if all > MOST_NODES {
             rows.sort_by(|a, b| b.value.abs().total_cmp(&a.value.abs()));
@@ -261,9 +331,9 @@ impl View<'_> {
         rows.truncate(MOST_NODES);
         let texts = |text: &dyn Fn(&Row) -> String| rows.iter().map(text).collect::<Vec<_>>();
         let table = TextTable::new(vec![
-            Column::new("heat flow", Align::Left, texts(&|r| r.name.clone())),
+            Column::new("heat flow", Align::Left, texts(&|row| row.label(network))),
             Column::new(format!("Q [{letter}W]"), Align::Right, texts(&|r| fixed(r.value / scale, digits))),
-            Column::new("", Align::Left, texts(&|r| r.words.clone())).optional(),
+            Column::new("", Align::Left, texts(&|r| r.words(network))).optional(),
         ]);
         with_hidden(
             table.lines(WIDTH),
@@ -272,9 +342,11 @@ impl View<'_> {
         )
     }
 
-    /// Signals and reports.
+    /// Signals, controls and reports.
     fn other_lines(&self) -> Vec<String> {
-        let shown: Vec<_> = self.table.columns().iter().filter(|c| !c.name.contains('.')).collect();
+        let network = &self.input.netlist.network;
+        let of_item = |name: &str| name.rsplit_once('.').is_some_and(|(item, _)| network.item(item).is_ok());
+        let shown: Vec<_> = self.table.columns().iter().filter(|c| !of_item(&c.name)).collect();
         if shown.is_empty() {
             return Vec::new();
         }
@@ -320,7 +392,7 @@ impl View<'_> {
     }
 }
 
-fn with_hidden(mut lines: Vec<String>, (all, shown): (usize, usize), how: &str) -> Vec<String> {
+pub(crate) fn with_hidden(mut lines: Vec<String>, (all, shown): (usize, usize), how: &str) -> Vec<String> {
     if all == 0 {
         return Vec::new();
     }
@@ -331,15 +403,16 @@ fn with_hidden(mut lines: Vec<String>, (all, shown): (usize, usize), how: &str) 
 }
 
 /// The boundary that rises are measured against; without one the coldest node.
-fn coldest(network: &lptn_network::Network, steady: &SteadyState) -> (String, f64) {
-    let boundaries = network.boundaries().iter().zip(&steady.boundary_temperatures);
-    let boundaries = boundaries.map(|(boundary, &t)| (boundary.name.clone(), t));
-    let nodes = network.nodes().iter().zip(&steady.temperatures).map(|(node, &t)| (node.name.clone(), t));
-    let coldest = |a: &(String, f64), b: &(String, f64)| a.1.total_cmp(&b.1);
-    boundaries.min_by(coldest).or_else(|| nodes.min_by(coldest)).unwrap_or_default()
+fn coldest(network: &Network, steady: &SteadyState) -> Option<(String, f64)> {
+    let coldest = |a: &(Item, f64), b: &(Item, f64)| a.1.total_cmp(&b.1);
+    let boundaries =
+        network.boundary_ids().map(Item::Boundary).zip(steady.boundary_temperatures.iter().copied());
+    let nodes = network.node_ids().map(Item::Node).zip(steady.temperatures.iter().copied());
+    let (item, temperature) = boundaries.min_by(coldest).or_else(|| nodes.min_by(coldest))?;
+    Some((network.name_of(item).into_owned(), temperature))
 }
 
 /// The unit of a difference between two temperatures in `unit`.
-fn difference(unit: &Unit) -> &'static str {
+pub(crate) fn difference(unit: &Unit) -> &'static str {
     if (unit.scale - 1.0).abs() < 1e-12 { "K" } else { "degR" }
 }

@@ -2,7 +2,7 @@
 
 use lptn_netlist::RunSettings;
 use lptn_network::{Network, NodeId};
-use lptn_solve::{Selection, Solution, SteadyState, Table};
+use lptn_solve::{Lumping, Selection, Solution, SteadyState, Table};
 use lptn_units::Unit;
 
 use crate::limits::Judged;
@@ -11,12 +11,16 @@ use crate::run::NoSteady;
 /// More nodes than this do not fit on a screen.
 pub(crate) const MOST_NODES: usize = 30;
 
-/// The nodes that a table shows: those selected, in the order of the file. Of too many the hottest in steady
-/// state, hottest first; where there is none, the first ones.
-pub(crate) fn shown(network: &Network, selection: &Selection, steady: Option<&SteadyState>) -> Vec<NodeId> {
-    let mut nodes: Vec<NodeId> = selection.nodes().collect();
+/// The nodes that a table shows: those selected, in the order of the file; unless any is, all but the cells of grids.
+/// Of too many the hottest in steady state, hottest first; where there is none, the first ones.
+pub(crate) fn shown(
+    network: &Network,
+    selection: Option<&Selection>,
+    steady: Option<&SteadyState>,
+) -> Vec<NodeId> {
+    let mut nodes: Vec<NodeId> = selection.into_iter().flat_map(Selection::nodes).collect();
     if nodes.is_empty() {
-        nodes = network.node_ids().collect();
+        nodes = network.outer_nodes().collect();
     }
     if nodes.len() > MOST_NODES {
         if let Some(steady) = steady {
@@ -29,9 +33,12 @@ pub(crate) fn shown(network: &Network, selection: &Selection, steady: Option<&St
 }
 
 /// Everything that the text of a run is made of.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct View<'a> {
     pub(crate) title: &'a str,
+    pub(crate) lumping: &'a Lumping,
+    /// Where the temperatures at the start come from, if not from the netlist.
+    pub(crate) origin: Option<String>,
     pub(crate) solution: &'a Solution,
     pub(crate) steady: Result<&'a SteadyState, &'a NoSteady>,
     pub(crate) unit: &'a Unit,
@@ -55,14 +62,17 @@ pub(crate) fn count(n: usize, noun: &str) -> String {
     format!("{n} {noun}{ending}")
 }
 
-/// "2 nodes, 2 boundaries, 3 paths, 1 source".
+/// "2 nodes, 2 boundaries, 3 paths, 1 source", and controls if there are any.
 pub(crate) fn counts(network: &Network) -> String {
-    let parts = [
+    let mut parts = vec![
         count(network.nodes().len(), "node"),
         count(network.boundaries().len(), "boundary"),
         count(network.conductors().len(), "path"),
         count(network.sources().len(), "source"),
     ];
+    if !network.controls().is_empty() {
+        parts.push(count(network.controls().len(), "control"));
+    }
     parts.join(", ")
 }
 

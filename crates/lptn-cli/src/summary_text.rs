@@ -1,5 +1,7 @@
 //! The table of a run, its heat and its notes.
 
+use std::borrow::Cow;
+
 use lptn_network::list_of_names;
 use lptn_report::{
     Align, Column, Flow, TextTable, WIDTH, balance, decimals, duration, fixed, labelled, significant,
@@ -23,13 +25,19 @@ pub(crate) fn summary(view: &View<'_>, console: &Console) -> String {
     let mut nodes = Summary::new(view.solution, view.steady.ok()).nodes;
     nodes.iter_mut().for_each(|node| include_rows(view, node));
     let network = view.solution.network();
-    let mut lines = vec![console.title(view.title), counts(network), String::new()];
-    lines.extend(table(view, &nodes));
+    let mut lines = vec![console.title(view.title), counts(network)];
+    lines.extend(view.origin.iter().flat_map(|origin| labelled("", &words(origin), WIDTH)));
     lines.push(String::new());
+    let temperatures = table(view, &nodes);
+    if !temperatures.is_empty() {
+        lines.extend(temperatures);
+        lines.push(String::new());
+    }
     if !view.limits.is_empty() {
         lines.extend(crate::limits::lines(network, view.limits, view.unit));
         lines.push(String::new());
     }
+    lines.extend(crate::events::lines(view.solution, (view.settings.start, reached(view))));
     lines.extend(columns(view));
     lines.extend(window_text::lines(view.solution.windows(), view.unit));
     for note in notes(view, &nodes) {
@@ -47,6 +55,8 @@ pub(crate) fn summary(view: &View<'_>, console: &Console) -> String {
             lines.extend(crate::balance::lines(network, balance, times));
         }
     }
+    let label = format!("{:1$}", "lumping:", over(reached(view) - view.settings.start).len() + 2);
+    lines.extend(crate::lumping::lines(network, view.lumping, (&label, console.verbose)));
     if console.verbose {
         lines.extend(solver(view));
     }
@@ -84,6 +94,9 @@ fn reached(view: &View<'_>) -> f64 {
 }
 
 fn table(view: &View<'_>, nodes: &[NodeSummary]) -> Vec<String> {
+    if nodes.is_empty() {
+        return Vec::new();
+    }
     let unit = view.unit;
     let temperatures = nodes.iter().flat_map(|n| [Some(n.start), Some(n.end), Some(n.peak.0), n.steady]);
     let (low, high) = range(temperatures.flatten());
@@ -112,12 +125,15 @@ fn table(view: &View<'_>, nodes: &[NodeSummary]) -> Vec<String> {
     table.lines(WIDTH)
 }
 
-/// What is no temperature of a node: every report, and the other columns that were asked for by name.
+/// What is no temperature of a node: every report, the values of grids, and the other columns that were asked for by
+/// name.
 fn columns(view: &View<'_>) -> Vec<String> {
     let network = view.solution.network();
     let is_report = |name: &str| network.reports().iter().any(|report| report.name == name);
     let is_node = |name: &str| name.strip_suffix(".T").is_some_and(|name| network.node(name).is_ok());
-    let wanted = |name: &str| is_report(name) || (view.chosen && !is_node(name));
+    let of_grids: Vec<String> = network.grid_values().map(|value| value.name(network)).collect();
+    let is_of_grid = |name: &str| of_grids.iter().any(|value| value == name);
+    let wanted = |name: &str| is_report(name) || is_of_grid(name) || (view.chosen && !is_node(name));
     let all = view.table.columns().get(1..).unwrap_or_default();
     let shown: Vec<_> = all.iter().filter(|column| wanted(&column.name)).take(MOST_NODES).collect();
     if shown.is_empty() {
@@ -243,16 +259,26 @@ pub(crate) fn weak_ledger(solution: &Solution) -> Option<String> {
     })
 }
 
+/// The label of the heat, with which those below it line up.
+fn over(length: f64) -> String {
+    format!("heat over {}:", duration(length, 4))
+}
+
 fn heat(view: &View<'_>) -> Vec<String> {
-    let (network, ledger) = (view.solution.network(), view.solution.ledger());
-    let sources = network.sources().iter().map(|s| &s.name).zip(&ledger.sources);
-    let boundaries = network.boundaries().iter().map(|b| &b.name).zip(&ledger.boundaries);
-    let flow = |(name, &heat): (&String, &f64)| Flow { name: name.clone(), heat };
+    heat_over(view.solution, reached(view) - view.settings.start)
+}
+
+/// The heat of a run of this length in s, and how far the books close.
+pub(crate) fn heat_over(solution: &Solution, length: f64) -> Vec<String> {
+    let (network, ledger) = (solution.network(), solution.ledger());
+    let sources = network.sources().iter().map(|s| s.name()).zip(&ledger.sources);
+    let boundaries = network.boundaries().iter().map(|b| Cow::from(&b.name)).zip(&ledger.boundaries);
+    let flow = |(name, &heat): (Cow<'_, str>, &f64)| Flow { name: name.into_owned(), heat };
     let mut flows: Vec<Flow> = sources.chain(boundaries).map(flow).collect();
     // one stream hands on what another brings: only all of them together say something
     flows.push(Flow { name: "streams".into(), heat: ledger.streams.iter().sum() });
     let pieces = balance(&flows, ledger.stored.iter().sum(), ledger.turned_over);
-    let over = format!("heat over {}:", duration(reached(view) - view.settings.start, 4));
+    let over = over(length);
     let width = over.len() + 2;
     let mut lines = labelled(&format!("{over:width$}"), &pieces, WIDTH);
     let balance = match ledger.relative_residual() {

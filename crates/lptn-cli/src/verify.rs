@@ -1,8 +1,7 @@
 //! `lptn verify`
 
 use lptn_assembly::ThermalSystem;
-use lptn_netlist::RunSettings;
-use lptn_network::{Network, Time};
+use lptn_network::Network;
 use lptn_report::{
     Align, Column, JsonWriter, TextTable, WIDTH, duration, labelled, plain, shortened, significant, write_csv,
 };
@@ -26,11 +25,13 @@ const NODE_WIDTH: usize = 22;
 pub(crate) fn verify(args: &VerifyArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
     let netlist = &input.netlist;
-    let settings = netlist.run.clone().ok_or_else(|| run::no_run(&input))?;
+    let settings = netlist.run.as_ref().ok_or_else(|| run::no_run(&input))?;
     let given = args.tolerance.as_deref().map(input::tolerance).transpose()?;
+    let transient = lptn_study::transient(&netlist.network, settings);
+    let transient = Transient { tolerance: given.unwrap_or(settings.tolerance), ..transient };
     let system = input.assemble()?;
     console.warn(&netlist.files, &netlist.warnings);
-    let found = observed(&system, &transient(settings, given), console);
+    let found = observed(&system, &transient, console);
     let Some(verification) = found.map_err(|error| failed(&input, &error))? else {
         console.message("interrupted: nothing is verified");
         return Ok(Exit::Interrupted);
@@ -51,11 +52,6 @@ pub(crate) fn verify(args: &VerifyArgs, console: &Console) -> Result<Exit, Failu
         console.message(&view.verdict());
     }
     Ok(Exit::No)
-}
-
-fn transient(run: RunSettings, tolerance: Option<f64>) -> Transient {
-    let RunSettings { start, stop, output, .. } = run;
-    Transient { start, output, tolerance: tolerance.unwrap_or(run.tolerance), ..Transient::until(Time(stop)) }
 }
 
 /// The verification, with progress on a terminal; `None` after Ctrl-C.

@@ -189,7 +189,8 @@ fn assert_scalars(value: &Value, units: &[&str]) {
 fn the_json_of_run_has_its_schema() {
     let folder = Folder::with_gearbox();
     let json = folder.run(&["run", "gearbox.toml", "--format", "json"]).exits(0).json();
-    let members = ["format", "network", "warnings", "columns", "rows", "events", "ledger", "statistics"];
+    let members =
+        ["format", "network", "warnings", "columns", "rows", "events", "ledger", "lumping", "statistics"];
     assert_eq!(keys(&json), members);
     assert_eq!((&json["format"], &json["network"]), (&Value::from(1), &Value::from("gearbox")));
     assert_eq!((&json["warnings"], &json["events"]), (&serde_json::json!([]), &serde_json::json!([])));
@@ -216,7 +217,7 @@ fn the_json_of_steady_has_its_schema() {
 fn the_json_of_check_has_its_schema() {
     let folder = Folder::with("gearbox.toml", &GEARBOX.replace("to = \"bed\"", "to = \"bde\""));
     let json = folder.run(&["check", "gearbox.toml", "--format", "json"]).exits(1).json();
-    assert_eq!(keys(&json), ["format", "network", "ok", "errors", "warnings", "stiffness"]);
+    assert_eq!(keys(&json), ["format", "network", "ok", "errors", "warnings", "stiffness", "lumping"]);
     assert_eq!(json["ok"], false);
     let error = &json["errors"][0];
     assert_eq!(keys(error), ["severity", "code", "message", "places", "help", "notes"]);
@@ -232,7 +233,7 @@ fn the_json_of_check_has_its_schema() {
 /// Every example of every help text, in the order in which a newcomer meets them.
 #[test]
 fn the_examples_of_the_help_work() {
-    let folder = Folder::empty();
+    let folder = Folder::with("duty_cycle.toml", include_str!("../../../networks/duty_cycle.toml"));
     let program = std::path::Path::new(env!("CARGO_BIN_EXE_lptn"));
     let path = std::env::join_paths([program.parent().expect("a folder")]).unwrap();
     let mut count = 0;
@@ -253,5 +254,5 @@ fn the_examples_of_the_help_work() {
             count += 1;
         }
     }
-    assert_eq!(count, 17);
+    assert_eq!(count, 19);
 }

@@ -15,10 +15,12 @@ fn manifest(folder: &Folder, name: &str) -> Value {
 }
 
 #[test]
-fn a_run_writes_two_files_and_nothing_else() {
+fn a_run_writes_four_files_and_nothing_else() {
     let folder = Folder::with_gearbox();
     folder.run(&["run", "gearbox.toml"]).exits(0).says("wrote  out/gearbox/result.csv");
-    assert_eq!(folder.files(), ["gearbox.toml", "out/gearbox/manifest.json", "out/gearbox/result.csv"]);
+    let written = ["events.csv", "manifest.json", "result.csv", "state.json"];
+    let written = written.map(|name| format!("out/gearbox/{name}"));
+    assert_eq!(folder.files(), [&["gearbox.toml".to_owned()][..], &written].concat());
     folder.run(&["run", "gearbox.toml", "-o", "elsewhere/deep"]).exits(0);
     assert!(folder.files().contains(&"elsewhere/deep/result.csv".to_owned()));
 }
@@ -36,7 +38,8 @@ fn no_files_means_none() {
 fn stdin_has_a_folder_of_its_own() {
     let folder = Folder::empty();
     folder.run_with(&["run", "-"], GEARBOX).exits(0);
-    assert_eq!(folder.files(), ["out/stdin/manifest.json", "out/stdin/result.csv"]);
+    let written = ["events.csv", "manifest.json", "result.csv", "state.json"];
+    assert_eq!(folder.files(), written.map(|name| format!("out/stdin/{name}")));
     assert_eq!(manifest(&folder, "out/stdin/manifest.json")["inputs"][0]["name"], "<stdin>");
 }
 

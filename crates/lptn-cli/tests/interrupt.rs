@@ -51,7 +51,7 @@ fn a_run_keeps_its_rows() {
         serde_json::from_str(&folder.read("out/gearbox/manifest.json")).unwrap();
     assert_eq!(manifest["end"]["status"], "interrupted");
     assert!(folder.read("out/gearbox/result.csv").starts_with("time [s],steel.T [degC]"));
-    assert_eq!(folder.files().len(), 3, "no temporary file is left");
+    assert_eq!(folder.files().len(), 5, "no temporary file is left");
 }
 
 #[test]

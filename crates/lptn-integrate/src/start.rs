@@ -36,7 +36,7 @@ pub(crate) fn shared<S: OdeSystem>(
     t0: f64,
     options: &Options,
 ) -> Result<Shared<S>, IntegrateError> {
-    let factors = linear::new(system.pattern(), system.symmetric(), options.linear_solver);
+    let factors = linear::for_steps(system.pattern(), system.symmetric(), options.linear_solver);
     let factors = factors.map_err(|cause| match cause {
         FactorError::OutOfMemory => IntegrateError::OutOfMemory { function: "linear solver" },
         cause => IntegrateError::Linear { time: t0, cause },

@@ -72,7 +72,7 @@ impl Symmetry {
     pub(crate) fn leave(&mut self) -> LinearSolver {
         self.held = false;
         match self.choice {
-            LinearSolver::Cholesky => LinearSolver::Lu,
+            LinearSolver::Cholesky | LinearSolver::Pcg => LinearSolver::Lu,
             choice => choice,
         }
     }

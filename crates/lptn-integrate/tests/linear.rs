@@ -192,3 +192,104 @@ fn misuse_is_an_error() {
     }
     assert!(matches!(linear::new(&pattern, false, LinearSolver::Cholesky), Err(FactorError::NotSymmetric)));
 }
+
+/// `M + G` of a cube of `n` cells along each axis, links of 1 between neighbours, masses of `mass`.
+fn cube(n: usize, mass: f64) -> (Pattern, Vec<f64>) {
+    let mut entries = Vec::new();
+    for cell in 0..n * n * n {
+        entries.push((cell, cell, mass));
+        for (stride, place) in [(1, cell % n), (n, cell / n % n), (n * n, cell / (n * n))] {
+            if place + 1 < n {
+                let next = cell + stride;
+                entries.extend([
+                    (cell, cell, 1.0),
+                    (next, next, 1.0),
+                    (cell, next, -1.0),
+                    (next, cell, -1.0),
+                ]);
+            }
+        }
+    }
+    matrix(n * n * n, &entries)
+}
+
+#[test]
+fn conjugate_gradients_solve_what_cholesky_solves() {
+    let networks = [1, 2, 30, 900].map(|n| random_network(n, false));
+    let cubes = [1.0, 1e-2, 1e-4].map(|mass| cube(12, mass));
+    for (pattern, values) in networks.into_iter().chain(cubes) {
+        let n = pattern.size();
+        let mut next = numbers(7);
+        let exact: Vec<f64> = (0..n).map(|_| next() - 0.5).collect();
+        let mut b = vec![0.0; n];
+        pattern.multiply(&values, &exact, &mut b);
+        let mut solver = linear::new(&pattern, true, LinearSolver::Pcg).unwrap();
+        assert_eq!(solver.kind(), LinearSolverKind::Pcg);
+        assert!(solver.solve_in_place(&mut b.clone()).is_err(), "nothing is factorised");
+        for _ in 0..2 {
+            solver.factorize(&values).unwrap();
+            let mut x = vec![0.0; n];
+            let left = solve_refined(solver.as_mut(), (&pattern, &values), &b, &mut x, 1).unwrap();
+            assert!(
+                left < 1e-12 * values.iter().fold(1.0, |most: f64, v| most.max(v.abs())),
+                "{n}: {left:e}"
+            );
+        }
+        let mut nothing = vec![0.0; n];
+        solver.solve_in_place(&mut nothing).unwrap();
+        assert!(nothing.iter().all(|x| *x == 0.0));
+    }
+    assert!(matches!(
+        linear::new(&Pattern::new(1, std::iter::empty()), false, LinearSolver::Pcg),
+        Err(FactorError::NotSymmetric)
+    ));
+}
+
+#[test]
+fn exact_factors_take_over_where_conjugate_gradients_do_not_converge() {
+    // a right side that an island without a boundary cannot take: no iteration can be right
+    let (pattern, values) = cube(6, 0.0);
+    let mut solver = linear::new(&pattern, true, LinearSolver::Pcg).unwrap();
+    solver.factorize(&values).unwrap();
+    let mut b = vec![1.0; pattern.size()];
+    match solver.solve_in_place(&mut b) {
+        // rounding may leave the last pivot of a singular matrix a little above zero
+        Ok(()) => assert!(b.iter().any(|x| x.abs() > 1e9)),
+        Err(error) => assert!(
+            matches!(error, FactorError::NotPositiveDefinite { .. } | FactorError::Singular { .. }),
+            "{error:?}"
+        ),
+    }
+}
+
+#[test]
+fn a_run_takes_conjugate_gradients_for_large_bodies_only() {
+    let kind = |n| {
+        let pattern = cube(n, 1.0).0;
+        linear::for_steps(&pattern, true, LinearSolver::Auto).unwrap().kind()
+    };
+    assert_eq!(kind(8), LinearSolverKind::SparseCholesky);
+    assert_eq!(kind(28), LinearSolverKind::Pcg);
+}
+
+#[test]
+fn values_decide_between_cholesky_and_lu() {
+    let (pattern, values) = cube(13, 1.0);
+    let mut solver = linear::for_exact(&pattern).unwrap();
+    let mut next = numbers(3);
+    let exact: Vec<f64> = (0..pattern.size()).map(|_| next()).collect();
+    // symmetric, then with one entry that is not, then negative: LU serves the last two
+    let mut skew = values.clone();
+    skew[pattern.slot(1, 0).unwrap()] = -0.5;
+    let negative: Vec<f64> = values.iter().map(|v| -v).collect();
+    let kinds = [LinearSolverKind::SparseCholesky, LinearSolverKind::SparseLu, LinearSolverKind::SparseLu];
+    for (values, kind) in [values, skew, negative].into_iter().zip(kinds) {
+        let mut b = vec![0.0; pattern.size()];
+        pattern.multiply(&values, &exact, &mut b);
+        solver.factorize(&values).unwrap();
+        assert_eq!(solver.kind(), kind);
+        solver.solve_in_place(&mut b).unwrap();
+        let error = b.iter().zip(&exact).map(|(x, e)| (x - e).abs()).fold(0.0, f64::max);
+        assert!(error < 1e-12, "{kind:?}: {error:e}");
+    }
+}

@@ -1,102 +1,17 @@
 //! Steps that end at roots: when, which way, and what the books say there.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
+#[path = "common/algebraic.rs"]
+mod algebraic;
 mod common;
+#[path = "common/rooted.rs"]
+mod rooted;
 
 use std::f64::consts::PI;
 
-use lptn_integrate::{Callback, IntegrateError, Integrator, OdeSystem, Options, Pattern, Retry, Step};
-
-/// One function of time and state.
-type Root = Box<dyn Fn(f64, f64) -> f64>;
-
-/// `C T' = P - G T`, with the heats `P`, `G T` and their difference as running integrals.
-struct Node {
-    pattern: Pattern,
-    mass: [f64; 1],
-    power: Box<dyn Fn(f64) -> f64>,
-    conductance: f64,
-    roots: Vec<Root>,
-    fault: Option<Retry>,
-}
-
-impl OdeSystem for Node {
-    fn size(&self) -> usize {
-        1
-    }
-    fn mass(&self) -> &[f64] {
-        &self.mass
-    }
-    fn flow(&mut self, t: f64, y: &[f64], f: &mut [f64]) -> Result<(), Retry> {
-        f[0] = (self.power)(t) - self.conductance * y[0];
-        Ok(())
-    }
-    fn pattern(&self) -> &Pattern {
-        &self.pattern
-    }
-    fn symmetric(&self) -> bool {
-        true
-    }
-    fn jacobian(&mut self, _t: f64, _y: &[f64], values: &mut [f64]) -> Result<(), Retry> {
-        values[0] = -self.conductance;
-        Ok(())
-    }
-    fn jacobian_is_constant(&self) -> bool {
-        true
-    }
-    fn quadrature_count(&self) -> usize {
-        2
-    }
-    fn quadrature(&mut self, t: f64, y: &[f64], q: &mut [f64]) -> Result<(), Retry> {
-        q.copy_from_slice(&[(self.power)(t), self.conductance * y[0]]);
-        Ok(())
-    }
-    fn root_count(&self) -> usize {
-        self.roots.len()
-    }
-    fn roots(&mut self, t: f64, y: &[f64], g: &mut [f64]) -> Result<(), Retry> {
-        if let Some(fault) = self.fault.filter(|_| t > 1.0) {
-            return Err(fault);
-        }
-        g.iter_mut().zip(&self.roots).for_each(|(g, root)| *g = root(t, y[0]));
-        Ok(())
-    }
-}
-
-/// Capacity 2, conductance 1: time constant 2.
-fn node(power: impl Fn(f64) -> f64 + 'static, roots: Vec<Root>) -> Node {
-    let pattern = Pattern::new(1, std::iter::empty());
-    Node { pattern, mass: [2.0], power: Box::new(power), conductance: 1.0, roots, fault: None }
-}
-
-fn started(system: Node, y0: f64, tolerance: f64) -> Integrator<Node> {
-    let options = Options { tolerance, ..Options::default() };
-    let mut integrator = Integrator::new(system, 0.0, &[y0], &options).unwrap();
-    integrator.set_stop(20.0);
-    integrator
-}
-
-fn level(level: f64) -> Root {
-    Box::new(move |_, y| y - level)
-}
-
-/// The next step that ends at a root or at the stop; no step between may be without length.
-fn next_root(integrator: &mut Integrator<Node>) -> Step {
-    loop {
-        let step = integrator.step().unwrap();
-        assert!(step.to > step.from);
-        if step.roots || step.at_stop {
-            return step;
-        }
-    }
-}
-
-/// Stored minus booked heat.
-fn off(integrator: &mut Integrator<Node>, y0: f64) -> f64 {
-    let stored = 2.0 * (integrator.state()[0] - y0);
-    let q = integrator.quadratures().unwrap();
-    stored - (q[0] - q[1])
-}
+use algebraic::Stream;
+use lptn_integrate::{Callback, IntegrateError, Integrator, Options, Retry};
+use rooted::{Root, level, next_root, node, off, started};
 
 /// `T = 80 exp(-t/2)` crosses L at `t = 2 ln(80/L)`.
 #[test]
@@ -360,6 +275,35 @@ fn a_crossing_that_comes_and_goes_inside_a_step() {
     let found = next_root(&mut integrator);
     assert!(found.roots && (found.to - 3.01).abs() < 1e-12);
     assert_eq!(integrator.root_directions(), [1]);
+}
+
+/// The third of three cells swings as `a sin(t - p)` with `a = (1 + 1/k^2)^-1.5` and `p = 3 atan(1/k)`; the symmetric
+/// matrices are given up on the way.
+#[test]
+fn roots_are_found_before_and_after_the_switch_to_lu() {
+    let k = 1e4_f64;
+    let mut system = Stream::new(3, k, 0.0, f64::sin);
+    system.levels = vec![0.0, 1e-5, 0.5];
+    let options = Options { tolerance: 1e-7, ..Options::default() };
+    let mut integrator = Integrator::new(system, 0.0, &[0.0; 3], &options).unwrap();
+    integrator.set_stop(3.0);
+    let (mut times, mut directions) = (Vec::new(), Vec::new());
+    while integrator.time() < 3.0 {
+        let step = integrator.step().unwrap();
+        if step.roots {
+            times.push(step.to);
+            directions.push(integrator.root_directions().to_vec());
+        }
+    }
+    let switched = integrator.statistics().switched_to_lu.unwrap();
+    let (size, delay) = ((1.0 + 1.0 / (k * k)).powf(-1.5), 3.0 * (1.0 / k).atan());
+    let half = (0.5 / size).asin();
+    let expected = [delay + 1e-5 / size, delay + half, delay + PI - half];
+    assert_eq!(directions, [[0, 1, 0], [0, 0, 1], [0, 0, -1]]);
+    for (found, exact) in times.iter().zip(expected).skip(1) {
+        assert!((found - exact).abs() < 1e-5, "{found} {exact}");
+    }
+    assert!(switched < times[1], "{switched}");
 }
 
 #[test]

@@ -27,6 +27,7 @@ mod advection;
 mod conduction;
 mod convection;
 mod electric;
+mod lump;
 mod phase;
 mod radiation;
 
@@ -34,6 +35,7 @@ pub use advection::{advection_from, advection_to, stream_from, stream_to};
 pub use conduction::{cylinder, rod, slab, sphere};
 pub use convection::{contact, film, power_conductance};
 pub use electric::{joule, linear_temperature_factor};
+pub use lump::{biot, diffusion_time};
 pub use phase::{Melting, melt_fraction};
 pub use radiation::{
     STEFAN_BOLTZMANN, effective_emissivity_concentric, effective_emissivity_parallel_plates,

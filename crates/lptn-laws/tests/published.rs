@@ -4,9 +4,9 @@
 use std::f64::consts::PI;
 
 use lptn_laws::{
-    Melting, contact, cylinder, effective_emissivity_concentric, effective_emissivity_parallel_plates, film,
-    joule, linear_temperature_factor, power_conductance, radiation_conductance, radiation_exchange_area, rod,
-    slab, sphere,
+    Melting, biot, contact, cylinder, diffusion_time, effective_emissivity_concentric,
+    effective_emissivity_parallel_plates, film, joule, linear_temperature_factor, power_conductance,
+    radiation_conductance, radiation_exchange_area, rod, slab, sphere,
 };
 
 /// Textbooks round the Stefan-Boltzmann constant to 5.67e-8, which is 6.6e-5 of it too little.
@@ -45,6 +45,27 @@ fn pipe_by_convection_and_radiation() {
 fn chip_on_epoxy_and_aluminium() {
     let below = series(&[contact(1.0 / 0.9e-4, 1.0), slab(239.0, 1.0, 0.008), film(100.0, 1.0)]);
     near(25.0 + 1e4 / (film(100.0, 1.0) + below), 75.31, 0.005);
+}
+
+/// Incropera, 6th edition, example 5.1: a bead of 0.706 mm with a time constant of 1 s at 400 W/(m^2 K); its Biot
+/// number is far below 0.1. The time constant over the diffusion time is the Biot number: h L / k.
+#[test]
+fn thermocouple_is_a_lump() {
+    let (diameter, h, k, rho, cp) = (7.06e-4, 400.0, 20.0, 8500.0, 400.0);
+    let length = diameter / 6.0;
+    near(biot(h, length, k), 2.353e-3, 5e-7);
+    let tau = rho * cp * length / h;
+    near(tau, 1.0, 5e-4);
+    near(diffusion_time(length, k, rho, cp) / tau, biot(h, length, k), 1e-15);
+}
+
+/// Incropera, 6th edition, example 5.4: pipeline wall of 40 mm steel, k = 63.9 W/(m K), in hot oil of 500 W/(m^2 K): Bi =
+/// 0.313, no lump; after 8 min its Fourier number is 5.64 (alpha = 18.8e-6 m^2/s).
+#[test]
+fn pipeline_is_no_lump() {
+    near(biot(500.0, 0.04, 63.9), 0.313, 5e-4);
+    // rho = 7832 kg/m^3, cp = 434 J/(kg K)
+    near(480.0 / diffusion_time(0.04, 63.9, 7832.0, 434.0), 5.64, 5e-3);
 }
 
 /// Incropera, 6th edition, example 3.3: the conductivity of a carbon nanotube between two heated islands on

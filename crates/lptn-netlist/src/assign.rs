@@ -12,6 +12,7 @@ use crate::describe::describe;
 use crate::diagnostic::{Diagnostic, arrange};
 use crate::file::{FileId, Span, on_borders};
 use crate::netlist::{Netlist, Rejected};
+use crate::template::wrong_path;
 
 /// What the text of the assignments is called in diagnostics.
 const FILE: &str = "--set";
@@ -41,8 +42,8 @@ impl Netlist {
                 Ok(())
             }
             Err(mut diagnostics) => {
-                arrange(&mut diagnostics);
-                crate::limits::shorten(&mut diagnostics);
+                arrange(&files, &mut diagnostics);
+                crate::limits::shorten(&mut diagnostics, 0);
                 Err(Rejected { files, diagnostics, syntax: false })
             }
         }
@@ -93,6 +94,9 @@ impl Netlist {
         match error {
             ParameterError::Unknown(unknown) => {
                 let place = Span::new(line.file, start..start + name.len());
+                if let Some(wrong) = self.structure.wrong_path(&unknown.name) {
+                    return wrong_path(("--set", &unknown.name), place, wrong);
+                }
                 let message = format!("there is no parameter `{}`", unknown.name);
                 let problem = Diagnostic::error("netlist::unknown_parameter", message).at(place, "");
                 if let Some(id) = self.signal(&unknown.name) {
@@ -157,7 +161,7 @@ impl Netlist {
 
     fn defined(&self, problem: Diagnostic, id: ParameterId) -> Diagnostic {
         match self.source_map.parameter(id) {
-            Some(span) => problem.also(span.clone(), "its value in the netlist"),
+            Some(span) => problem.also(span, "its value in the netlist"),
             None => problem,
         }
     }
@@ -228,7 +232,11 @@ impl Netlist {
         match item {
             Item::Node(id) => {
                 let node = &network.nodes()[id.index()];
-                let value = if field == Field::Initial { &node.initial } else { &node.capacity };
+                let value = match field {
+                    Field::Initial => &node.initial,
+                    Field::CharacteristicLength => &node.length,
+                    _ => &node.capacity,
+                };
                 value.iter().collect()
             }
             Item::Material(id) => material_values(&network.materials()[id.index()], field),
@@ -255,6 +263,16 @@ impl Netlist {
                 Course::Expression(value) => vec![value],
                 _ => Vec::new(),
             },
+            Item::Grid(id) => {
+                let grid = &network.grids()[id.index()];
+                grid.size.iter().chain(&grid.conductivity).chain(&grid.initial).collect()
+            }
+            Item::Joint(id) => {
+                let joint = &network.joints()[id.index()];
+                // the area of the face depends on the size of its grid
+                let grids = joint.faces().flat_map(|at| &network.grids()[at.grid.index()].size);
+                joint.area.iter().chain(grids).collect()
+            }
             Item::Report(id) => vec![&network.reports()[id.index()].value],
             Item::Parameter(_) | Item::Table(_) => Vec::new(),
         }

@@ -1,6 +1,6 @@
 //! What the network's builder found, said about the file.
 
-use lptn_network::{BuildError, BuildErrorKind as Kind, Field, Item, NodeId};
+use lptn_network::{BuildError, BuildErrorKind as Kind, Field, Item, NodeId, ZERO_CELSIUS};
 use lptn_units::{Dimension, EvalError, format_number};
 
 use crate::diagnostic::Diagnostic;
@@ -12,7 +12,7 @@ use crate::vocabulary::MINIMAL;
 pub(crate) fn describe(error: &BuildError, map: &SourceMap) -> Diagnostic {
     let diagnostic = Diagnostic::error(error.code(), message(error, map));
     let diagnostic = places(diagnostic, error, map);
-    match help(error) {
+    match imported(error, map).or_else(|| help(error)) {
         Some(help) => diagnostic.help(help),
         None => diagnostic,
     }
@@ -57,7 +57,10 @@ fn message(error: &BuildError, map: &SourceMap) -> String {
             format!("{} cannot depend on the temperature of a node or boundary", field(*item, *f))
         }
         Kind::ComparesTemperature { item, field: f } => {
-            format!("{} compares temperatures where the change cannot be followed", field(*item, *f))
+            format!(
+                "{} compares temperatures, or what switches, where the change cannot be followed",
+                field(*item, *f)
+            )
         }
         Kind::Evaluation { item, field: f, error: EvalError::NotFinite { value, .. } } => {
             format!("{} comes out as {value}, which is not finite", field(*item, *f))
@@ -65,6 +68,9 @@ fn message(error: &BuildError, map: &SourceMap) -> String {
         Kind::Evaluation { item, field: f, error } => format!("{}: {error}", field(*item, *f)),
         Kind::SelfLink { conductor } => {
             format!("{} leads from a place to itself", words(Item::Conductor(*conductor)))
+        }
+        Kind::NoInitialTemperature { node } => {
+            format!("{} has no temperature at the start", words(Item::Node(*node)))
         }
         Kind::SourceIntoBoundary { source } => format!("{} heats a boundary", words(Item::Source(*source))),
         _ => message_of_physics(error, map),
@@ -105,6 +111,12 @@ fn message_of_physics(error: &BuildError, map: &SourceMap) -> String {
         Kind::FluidUnknown { fluid, field: f } => {
             format!("{} is not known and positive at any usual temperature", field(Item::Fluid(*fluid), *f))
         }
+        Kind::ThresholdsCrossed { control, fields, on, off } => {
+            crossed(&words(Item::Control(*control)), *fields, (*on, *off))
+        }
+        Kind::Negative { item, field: f, value } => {
+            format!("{} must not be negative, got {}", field(*item, *f), in_unit(*value, *f))
+        }
         Kind::PeriodTooShort { signal, period, span } => format!(
             "the period of {}, {} s, is shorter than its points reach, {} s",
             words(Item::Signal(*signal)),
@@ -113,6 +125,17 @@ fn message_of_physics(error: &BuildError, map: &SourceMap) -> String {
         ),
         _ => error.to_string(),
     }
+}
+
+/// The thresholds of a control for on and off, in K, in the wrong order.
+fn crossed(words: &str, fields: [Field; 2], (on, off): (f64, f64)) -> String {
+    let [on_key, off_key] = fields.map(Field::key);
+    let celsius = |kelvin: f64| short(kelvin - ZERO_CELSIUS);
+    if off.total_cmp(&on).is_eq() {
+        return format!("`{on_key}` and `{off_key}` of {words} are one temperature, {} degC", celsius(on));
+    }
+    let (on, off) = (celsius(on), celsius(off));
+    format!("`{on_key}` and `{off_key}` of {words} are crossed over: on at {on} degC, off at {off} degC")
 }
 
 /// Without the noise of binary arithmetic.
@@ -133,25 +156,28 @@ fn in_unit(value: f64, field: Field) -> String {
         Field::SpecificHeat => Dimension::SPECIFIC_HEAT,
         Field::Conductivity => Dimension::CONDUCTIVITY,
         Field::Exchange => Dimension::AREA,
-        Field::Thickness | Field::InnerRadius | Field::OuterRadius | Field::Length | Field::Diameter => {
-            Dimension::LENGTH
-        }
+        Field::Thickness
+        | Field::InnerRadius
+        | Field::OuterRadius
+        | Field::Length
+        | Field::Diameter
+        | Field::Size
+        | Field::CharacteristicLength => Dimension::LENGTH,
         Field::LatentHeat => Dimension::SPECIFIC_ENERGY,
+        Field::MinDwell => Dimension::TIME,
         _ => return short(value),
     };
     format!("{} {}", short(value), dimension.si_unit())
 }
 
 fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagnostic {
-    let also = |d: Diagnostic, span: Option<&Span>, text: &str| match span {
-        Some(span) => d.also(span.clone(), text),
+    let also = |d: Diagnostic, span: Option<Span>, text: &str| match span {
+        Some(span) => d.also(span, text),
         None => d,
     };
     match &error.kind {
         Kind::DuplicateName { .. } => match map.duplicate(&error.kind) {
-            Some((first, second)) => {
-                diagnostic.at(second.clone(), "named again").also(first.clone(), "first named here")
-            }
+            Some((first, second)) => diagnostic.at(second, "named again").also(first, "first named here"),
             None => diagnostic,
         },
         Kind::FloatingIsland { nodes, .. } => island(diagnostic, nodes, map),
@@ -159,11 +185,17 @@ fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagno
             Some(span) => diagnostic.at(span, ""),
             None => at(diagnostic, map.nearest(*item, *field), ""),
         },
+        Kind::ThresholdsCrossed { control, fields: [on, off], .. } => {
+            let item = Item::Control(*control);
+            let diagnostic = at(diagnostic, map.nearest(item, *on), "on");
+            also(diagnostic, map.get(item, *off), "off")
+        }
         Kind::MasslessWithCapacity { node } => {
             let item = Item::Node(*node);
             let capacity = map.get(item, Field::Capacity);
-            let capacity =
-                capacity.or_else(|| map.get(item, Field::Material)).or_else(|| map.capacitor_of(*node));
+            let capacity = capacity
+                .or_else(|| map.get(item, Field::Material))
+                .or_else(|| map.capacitor_of(*node).cloned());
             let diagnostic = at(diagnostic, map.name(item), "declared massless");
             also(diagnostic, capacity, "given a capacity here")
         }
@@ -172,16 +204,26 @@ fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagno
             let diagnostic = at(diagnostic, map.get(item, Field::To), "the same place");
             also(diagnostic, map.get(item, Field::From), "leads from here")
         }
+        Kind::FaceArea { item, face, .. } => {
+            let diagnostic = at(diagnostic, map.get(*item, Field::Area), "not the area of the face");
+            also(diagnostic, map.get(Item::Grid(face.grid), Field::Size), "which is as large as this says")
+        }
+        Kind::FaceCells { item, faces, .. } | Kind::FaceSides { item, faces, .. } => {
+            let field = if matches!(error.kind, Kind::FaceCells { .. }) { Field::Cells } else { Field::Size };
+            let diagnostic = at(diagnostic, map.get(*item, Field::To), "");
+            let [a, b] = faces.map(|face| map.get(Item::Grid(face.grid), field));
+            also(also(diagnostic, a, "from this grid"), b, "to this grid")
+        }
         kind => match error.place() {
             Some((item, field)) => at(diagnostic, map.nearest(item, field), label(kind)),
-            None => at(diagnostic, map.top(), ""),
+            None => at(diagnostic, map.top().cloned(), ""),
         },
     }
 }
 
-fn at(diagnostic: Diagnostic, span: Option<&Span>, text: &str) -> Diagnostic {
+fn at(diagnostic: Diagnostic, span: Option<Span>, text: &str) -> Diagnostic {
     match span {
-        Some(span) => diagnostic.at(span.clone(), text),
+        Some(span) => diagnostic.at(span, text),
         None => diagnostic,
     }
 }
@@ -199,9 +241,9 @@ fn label(kind: &Kind) -> &'static str {
 fn island(mut diagnostic: Diagnostic, nodes: &[NodeId], map: &SourceMap) -> Diagnostic {
     for (n, span) in nodes.iter().take(8).filter_map(|node| map.name(Item::Node(*node))).enumerate() {
         diagnostic = if n == 0 {
-            diagnostic.at(span.clone(), "not determined")
+            diagnostic.at(span, "not determined")
         } else {
-            diagnostic.also(span.clone(), "connected to it")
+            diagnostic.also(span, "connected to it")
         };
     }
     diagnostic
@@ -213,9 +255,11 @@ fn help(error: &BuildError) -> Option<String> {
         Kind::Empty => format!("add a section [node]; {MINIMAL}").trim_end().to_owned(),
         Kind::DuplicateName { first, .. } => {
             let kinds = match first {
-                Item::Parameter(_) | Item::Signal(_) | Item::Table(_) | Item::Report(_) => {
-                    "parameters, signals, tables and reports"
-                }
+                Item::Parameter(_)
+                | Item::Signal(_)
+                | Item::Control(_)
+                | Item::Table(_)
+                | Item::Report(_) => "parameters, signals, controls, tables and reports",
                 _ => "nodes and elements",
             };
             format!("rename one of them, for example `{}_2`; {kinds} share one set of names", error.name)
@@ -225,6 +269,9 @@ fn help(error: &BuildError) -> Option<String> {
             _ => "something is divided by zero, or a number is too large".into(),
         },
         Kind::NotPositive { field, value, .. } => not_positive(*field, zero(*value)).to_owned(),
+        Kind::Negative { field: Field::MinDwell, .. } => {
+            "leave it out where it may switch again at once".into()
+        }
         Kind::Radii { inner, outer, .. } if inner <= outer => {
             "a wall has a thickness: make `r_out` larger".into()
         }
@@ -241,6 +288,20 @@ fn help(error: &BuildError) -> Option<String> {
     })
 }
 
+/// What to do about a row, where it is not what to do about a field.
+fn imported(error: &BuildError, map: &SourceMap) -> Option<String> {
+    error.place().filter(|(item, _)| map.is_imported(*item))?;
+    Some(match &error.kind {
+        Kind::NotPositive { field: Field::Capacity, value, .. } if value.abs() < f64::MIN_POSITIVE => {
+            "leave the cell empty for a node that stores nothing".to_owned()
+        }
+        Kind::NoInitialTemperature { .. } => {
+            "fill in the column `T0`, or add `T0 = \"25 degC\"` to [default]".to_owned()
+        }
+        _ => return None,
+    })
+}
+
 fn not_positive(field: Field, zero: bool) -> &'static str {
     match field {
         Field::Resistance if zero => "two places without resistance between them are one node: make them one",
@@ -252,9 +313,13 @@ fn not_positive(field: Field, zero: bool) -> &'static str {
         Field::Mass | Field::Volume | Field::Density | Field::SpecificHeat | Field::Conductivity => {
             "a body has a mass, a volume and properties of more than zero"
         }
-        Field::Thickness | Field::InnerRadius | Field::OuterRadius | Field::Length | Field::Diameter => {
-            "a body has measures of more than zero"
-        }
+        Field::Thickness
+        | Field::InnerRadius
+        | Field::OuterRadius
+        | Field::Length
+        | Field::Diameter
+        | Field::Size
+        | Field::CharacteristicLength => "a body has measures of more than zero",
         Field::LatentHeat => "melting takes up heat: give it as a positive number",
         _ => "check the sign: heat flows from the warm to the cold end, whichever is named first",
     }

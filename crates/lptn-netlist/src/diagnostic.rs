@@ -102,6 +102,28 @@ impl fmt::Display for Diagnostic {
 }
 
 impl Files {
+    /// Adds for which instance of a template, and of so many others, the place is read, and where that is made.
+    fn with_copies(&self, mut diagnostic: Diagnostic, others: usize) -> Diagnostic {
+        let mut copy = diagnostic.place().and_then(|place| self.copy(place.copy));
+        if copy.is_none() || diagnostic.labels.iter().any(|label| label.text.ends_with(USED)) {
+            return diagnostic;
+        }
+        // what belongs together in several instances stands in one place of the template
+        let mut seen: Vec<Label> = Vec::new();
+        diagnostic.labels.retain(|label| {
+            let new = !seen.iter().any(|other| other.span.is_same_text(&label.span));
+            seen.push(label.clone());
+            new
+        });
+        let mut more = if others > 0 { format!(" and {others} more") } else { String::new() };
+        while let Some(instance) = copy {
+            let text = format!("in `{}`{}{USED}", instance.name, std::mem::take(&mut more));
+            diagnostic = diagnostic.also(instance.made.clone(), text);
+            copy = self.copy(instance.made.copy);
+        }
+        diagnostic
+    }
+
     /// A diagnostic with its places, help and notes as plain text, without a newline at the end.
     pub fn plain(&self, diagnostic: &Diagnostic) -> String {
         let mut text = diagnostic.to_string();
@@ -124,8 +146,35 @@ impl Files {
     }
 }
 
-/// Sorts by place, and drops what says the same of the same place.
-pub(crate) fn arrange(diagnostics: &mut Vec<Diagnostic>) {
+/// How the place is called where an instance is made.
+const USED: &str = ", used here";
+
+/// Sorts by place, and drops what says the same of the same place; what is wrong in a template is said once, and
+/// of which instance.
+pub(crate) fn arrange(files: &Files, diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.sort_by_key(|d| d.place().map(Span::order));
     diagnostics.dedup_by(|b, a| a.code == b.code && a.place().is_some() && a.place() == b.place());
+    once_for_all_copies(files, diagnostics);
+}
+
+fn once_for_all_copies(files: &Files, diagnostics: &mut Vec<Diagnostic>) {
+    let mut kept: Vec<(Diagnostic, usize)> = Vec::with_capacity(diagnostics.len());
+    // the kept ones of the last place
+    let mut here = 0;
+    for diagnostic in diagnostics.drain(..) {
+        let same = |other: &Diagnostic| match (diagnostic.place(), other.place()) {
+            (Some(a), Some(b)) => a.is_same_text(b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        if kept.last().is_some_and(|(last, _)| !same(last)) {
+            here = kept.len();
+        }
+        let in_copy = diagnostic.place().is_some_and(|place| files.copy(place.copy).is_some());
+        let first = kept.get_mut(here..).unwrap_or_default().iter_mut();
+        match first.filter(|_| in_copy).find(|(other, _)| other.code == diagnostic.code) {
+            Some((_, others)) => *others += 1,
+            None => kept.push((diagnostic, 0)),
+        }
+    }
+    diagnostics.extend(kept.into_iter().map(|(diagnostic, others)| files.with_copies(diagnostic, others)));
 }

@@ -1,20 +1,23 @@
 //! [`RawNetlist`] to network: every element is read by itself, so that all problems are found at once.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
-use lptn_network::{BuildError, BuildErrorKind, End, Input, Item, Network, NetworkBuilder};
+use lptn_network::{BuildError, BuildErrorKind, Input, Item, Network, NetworkBuilder};
 use lptn_units::{Quantity, Type, Unit};
 
 use crate::csv_file::CsvFiles;
 use crate::describe::describe;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::file::Span;
+use crate::initial::StateFile;
 use crate::names::{Names, ValueKind};
 use crate::raw::{RawEntry, RawNetlist};
 use crate::run::RunPlan;
 use crate::section;
 use crate::size::SizeStudy;
 use crate::source_map::SourceMap;
+use crate::template::Structure;
 
 pub(crate) const MISSING_FORMAT: &str = "netlist::missing_format";
 
@@ -25,18 +28,23 @@ pub(crate) struct Elaborated {
     pub(crate) sizes: Vec<SizeStudy>,
     pub(crate) map: SourceMap,
     pub(crate) temperature_unit: Unit,
+    pub(crate) structure: Arc<Structure>,
 }
 
 /// Work in progress: the network as far as it is built, and everything found on the way.
 pub(crate) struct Elaboration<'a> {
     pub(crate) raw: &'a RawNetlist,
+    /// What templates made of it.
+    pub(crate) structure: &'a Structure,
     pub(crate) csv: &'a CsvFiles,
+    /// The state that the run starts from.
+    pub(crate) state: Option<&'a StateFile>,
     pub(crate) builder: NetworkBuilder,
     pub(crate) map: SourceMap,
     pub(crate) names: Names,
-    /// Nodes and boundaries by name.
-    pub(crate) ends: HashMap<&'a str, (End, &'a Span)>,
     pub(crate) problems: Vec<Diagnostic>,
+    /// How many problems of imported rows were not even written down.
+    pub(crate) dropped: usize,
     pub(crate) doubts: Doubts,
     /// Materials by name: those of the file, and those of the library that are used.
     pub(crate) known: HashMap<String, section::Known>,
@@ -62,12 +70,18 @@ pub(crate) struct Doubts {
 }
 
 impl Doubts {
+    /// What an instance would have held may be what is missing.
+    fn of(structure: &Structure) -> Self {
+        let lost = structure.has_lost();
+        Self { sections: lost, paths: lost, parts: lost, ..Self::default() }
+    }
+
     fn cover(&self, error: &BuildError) -> bool {
         use BuildErrorKind as K;
         let item = error.place().is_some_and(|(item, _)| self.items.contains(&item));
         match error.kind {
             K::NoCapacity { .. } => item || self.parts,
-            K::NoInitialTemperature { .. } | K::MasslessWithCapacity { .. } => item,
+            K::NoInitialTemperature { .. } | K::MasslessWithCapacity { .. } | K::NoThermostat { .. } => item,
             K::FloatingIsland { ref nodes, .. } => {
                 self.paths || self.parts || nodes.iter().any(|&n| self.items.contains(&Item::Node(n)))
             }
@@ -77,17 +91,34 @@ impl Doubts {
     }
 }
 
+/// What was found on the way.
+pub(crate) struct Found {
+    pub(crate) problems: Vec<Diagnostic>,
+    /// How many more there are that were not written down.
+    pub(crate) dropped: usize,
+}
+
+/// So many problems of the network as a whole are described.
+const MOST_DESCRIBED: usize = 1000;
+
 /// The network, or every reason why there is none. Warnings come with either.
-pub(crate) fn elaborate(raw: &RawNetlist, csv: &CsvFiles) -> (Option<Elaborated>, Vec<Diagnostic>) {
+pub(crate) fn elaborate(
+    raw: &RawNetlist,
+    structure: &Arc<Structure>,
+    csv: &CsvFiles,
+    state: Option<&StateFile>,
+) -> (Option<Elaborated>, Found) {
     let mut work = Elaboration {
         raw,
+        structure,
         csv,
+        state,
         builder: NetworkBuilder::new(),
         map: SourceMap::default(),
-        names: Names::of(raw),
-        ends: HashMap::new(),
+        names: Names::of(raw, structure),
         problems: Vec::new(),
-        doubts: Doubts::default(),
+        dropped: 0,
+        doubts: Doubts::of(structure),
         known: HashMap::new(),
         used_materials: HashSet::new(),
         known_fluids: HashMap::new(),
@@ -98,14 +129,25 @@ pub(crate) fn elaborate(raw: &RawNetlist, csv: &CsvFiles) -> (Option<Elaborated>
     work.tables();
     work.parameters();
     work.signals();
+    let controls = work.controls();
     let default = work.defaults();
     work.materials();
     work.fluids();
+    let import = work.import();
     work.nodes(default.initial.as_ref());
+    work.import_nodes(import.as_ref(), default.initial.as_ref());
+    work.grids(default.initial.as_ref());
     work.boundaries();
+    work.import_boundaries(import.as_ref());
+    work.connections();
+    work.thermostats(controls);
     work.capacitors();
     work.conductors();
+    work.import_conductors(import.as_ref());
     work.sources();
+    work.import_sources(import.as_ref());
+    work.check_state();
+    work.start_the_others();
     work.limits();
     let run = work.run();
     let sizes = work.sizes();
@@ -118,6 +160,12 @@ impl<'a> Elaboration<'a> {
         crate::names::section(self.raw, kind).map_or(&[], |table| &table.entries)
     }
 
+    /// The section of the element of this name, imported ones included.
+    pub(crate) fn kind_of(&self, name: &str) -> Option<&'static str> {
+        let imported = || self.builder.item(name).map(|item| self.map.kind(item));
+        self.names.kind_of(name).or_else(imported)
+    }
+
     pub(crate) fn report(&mut self, problem: Diagnostic) {
         self.problems.push(problem);
     }
@@ -126,15 +174,16 @@ impl<'a> Elaboration<'a> {
         mut self,
         (run, sizes): (Option<RunPlan>, Vec<SizeStudy>),
         default: section::Default<'_>,
-    ) -> (Option<Elaborated>, Vec<Diagnostic>) {
+    ) -> (Option<Elaborated>, Found) {
         let mut substances = self.unused_materials();
         substances.extend(self.unused_fluids());
         let (map, doubts) = (&self.map, &self.doubts);
         let network = match self.builder.build() {
             Ok(network) => Some(network),
             Err(errors) => {
-                let new = errors.0.iter().filter(|error| !doubts.cover(error));
-                self.problems.extend(new.map(|error| describe(error, map)));
+                let mut new = errors.0.iter().filter(|error| !doubts.cover(error));
+                self.problems.extend(new.by_ref().take(MOST_DESCRIBED).map(|error| describe(error, map)));
+                self.dropped += new.count();
                 None
             }
         };
@@ -145,13 +194,16 @@ impl<'a> Elaboration<'a> {
         if self.problems.iter().any(|problem| problem.severity == Severity::Error) {
             // what is odd may follow from what is wrong
             self.problems.retain(|problem| problem.severity == Severity::Error);
-            return (None, self.problems);
+            return (None, Found { problems: self.problems, dropped: self.dropped });
         }
         self.problems.extend(substances);
-        self.problems.extend(self.names.unused().map(|(kind, name, span)| unused(kind, name, span)));
+        let values = self.names.unused().map(|(kind, name, span)| unused(kind, name, span));
+        self.problems.extend(values);
         let temperature_unit = default.temperature_unit;
-        let done = network.map(|network| Elaborated { network, run, sizes, map: self.map, temperature_unit });
-        (done, self.problems)
+        let (map, structure) = (self.map, self.names.structure);
+        let done =
+            network.map(|network| Elaborated { network, run, sizes, map, temperature_unit, structure });
+        (done, Found { problems: self.problems, dropped: self.dropped })
     }
 }
 
@@ -164,6 +216,7 @@ fn unused(kind: ValueKind, name: &str, span: &Span) -> Diagnostic {
     let code = match kind {
         ValueKind::Parameter => "netlist::unused_parameter",
         ValueKind::Signal => "netlist::unused_signal",
+        ValueKind::Control => "netlist::unused_control",
         ValueKind::Table => "netlist::unused_table",
     };
     Diagnostic::warning(code, format!("nothing uses {} `{name}`", kind.word()))

@@ -1,5 +1,7 @@
 //! Reads one table: which of its keys there are, which are missing, which nobody knows.
 
+use lptn_network::Input;
+
 use crate::diagnostic::Diagnostic;
 use crate::file::Span;
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
@@ -49,6 +51,8 @@ pub(crate) struct Fields<'a> {
     pub(crate) place: &'a Span,
     /// Whether every key is known: a key that is misspelt would be reported as missing as well.
     pub(crate) complete: bool,
+    /// The area that is meant where none is given: that of the face at which a path ends.
+    pub(crate) area: Option<Input>,
     section: &'static [&'static str],
     table: &'a RawTable,
 }
@@ -70,12 +74,18 @@ impl<'a> Fields<'a> {
             complete = false;
             let below = field.key_span.range.start >= table.span.range.end;
             let inner = below && matches!(field.value.kind, RawKind::Table(_));
-            problems.push(match inner && !owner.is_section() {
+            let elsewhere = section.elsewhere.iter().any(|(key, _)| *key == field.key);
+            problems.push(match inner && !owner.is_section() && !elsewhere {
                 true => element_inside(section, (&owner, &entry.key), field),
                 false => unknown(section, &owner, field),
             });
         }
-        Some(Self { owner, place: &entry.key_span, complete, section: section.keys, table })
+        Some(Self { owner, place: &entry.key_span, complete, area: None, section: section.keys, table })
+    }
+
+    /// Whether a key is there or is meant without.
+    pub(crate) fn has(&self, key: &str) -> bool {
+        self.get(key).is_some() || (key == "area" && self.area.is_some())
     }
 
     /// The value of a key, if it is there.
@@ -147,6 +157,11 @@ pub(crate) fn sample_value(key: &str) -> &'static str {
         "vary" => "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
         "require" => "[\"steel.T <= 80 [degC]\"]",
         "over" => "\"steady\"",
+        "template" => "\"planet\"",
+        "count" => "3",
+        "connect" => "{ carrier = \"carrier\" }",
+        "set" => "{ ratio = 0.5 }",
+        "unit" => "\"K/W\"",
         "material" => "\"steel_8620\"",
         "mass" => "\"1.2 kg\"",
         "volume" => "\"150 cm^3\"",
@@ -154,6 +169,8 @@ pub(crate) fn sample_value(key: &str) -> &'static str {
         "cp" => "\"475 J/(kg K)\"",
         "k" => "\"46.6 W/(m K)\"",
         "source" => "\"where the numbers come from\"",
+        "size" => "[\"0.5 m\", \"0.5 m\", \"20 mm\"]",
+        "cells" => "[20, 20, 4]",
         "T0" | "T" => "\"25 degC\"",
         "C" => "\"500 J/K\"",
         "R" => "\"0.3 K/W\"",
@@ -163,16 +180,20 @@ pub(crate) fn sample_value(key: &str) -> &'static str {
         "P" => "\"100 W\"",
         "stop" => "\"25 min\"",
         "start" => "\"0 s\"",
+        "initial" => "\"out/gearbox/state.json\"",
+        "min_dwell" => "\"30 s\"",
         "every" => "\"5 s\"",
         "tolerance" => "\"1e-5 K\"",
         "temperature_unit" => "\"degC\"",
         "select" => "[\"*.T\"]",
         "at" => "[\"0 s\", \"5 s\"]",
         "output" => "{ every = \"5 s\" }",
+        "L_char" => "\"12 mm\"",
         "massless" => "true",
         "integrator" => "\"auto\"",
         "from" => "\"name of a node or boundary\"",
         "to" => "\"name of another node or boundary\"",
+        "sense" => "\"name of a node or boundary\"",
         "node" | "into" => "\"name of a node\"",
         _ => sample_of_law(key).or_else(|| sample_of_curve(key)).unwrap_or("\"..\""),
     }
@@ -181,6 +202,10 @@ pub(crate) fn sample_value(key: &str) -> &'static str {
 /// The right side of a field of a path or of what it is made of.
 fn sample_of_law(key: &str) -> Option<&'static str> {
     Some(match key {
+        "on_above" => "\"60 degC\"",
+        "off_below" => "\"55 degC\"",
+        "on_below" => "\"18 degC\"",
+        "off_above" => "\"20 degC\"",
         "Gr" => "\"0.16 m^2\"",
         "emissivity" => "0.8",
         "view_factor" => "1",
@@ -212,6 +237,10 @@ fn sample_of_curve(key: &str) -> Option<&'static str> {
         "y_unit" => "\"W\"",
         "t_unit" => "\"s\"",
         "csv" => "\"cycle.csv\"",
+        "nodes" => "\"nodes.csv\"",
+        "boundaries" => "\"boundaries.csv\"",
+        "conductors" => "\"conductors.csv\"",
+        "sources" => "\"sources.csv\"",
         "time" => "\"t\"",
         "value" => "\"speed\"",
         "interp" => "\"linear\"",

@@ -1,6 +1,7 @@
 //! The texts that diagnostics point into.
 
 use std::ops::Range;
+use std::sync::{Arc, OnceLock};
 
 /// One text of a [`Files`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -13,12 +14,43 @@ pub struct Span {
     pub file: FileId,
     /// The bytes.
     pub range: Range<usize>,
+    /// For which instance of a template the text is read here.
+    pub(crate) copy: CopyId,
+}
+
+/// An instance of a template, for which the template's text is read once more; or the text itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct CopyId(u32);
+
+impl CopyId {
+    /// The text itself.
+    pub(crate) const WRITTEN: Self = Self(0);
+
+    /// The position among the instances; `None` for the text itself.
+    pub(crate) fn index(self) -> Option<usize> {
+        (self.0 as usize).checked_sub(1)
+    }
 }
 
 impl Span {
     /// A place in `file`.
     pub fn new(file: FileId, range: Range<usize>) -> Self {
-        Self { file, range }
+        Self { file, range, copy: CopyId::WRITTEN }
+    }
+
+    /// Other bytes of the same text, read for the same instance.
+    pub(crate) fn with(&self, range: Range<usize>) -> Self {
+        Self { range, ..self.clone() }
+    }
+
+    /// The same place, read for an instance.
+    pub(crate) fn for_copy(&self, copy: CopyId) -> Self {
+        Self { copy, ..self.clone() }
+    }
+
+    /// Whether it is the same place, for whichever instance.
+    pub(crate) fn is_same_text(&self, other: &Self) -> bool {
+        self.file == other.file && self.range == other.range
     }
 
     pub(crate) fn is_inside(&self, other: &Self) -> bool {
@@ -47,15 +79,34 @@ pub(crate) fn on_borders(text: &str, range: Range<usize>) -> Range<usize> {
 #[derive(Clone, Debug)]
 struct File {
     name: String,
-    text: String,
-    /// Byte at which each line begins.
-    lines: Vec<usize>,
+    /// Shared with what looks for places in it: an imported file is long.
+    text: Arc<str>,
+    /// Byte at which each line begins; counted when a place is first asked for.
+    lines: OnceLock<Vec<usize>>,
+}
+
+impl File {
+    fn lines(&self) -> &[usize] {
+        let count =
+            || std::iter::once(0).chain(self.text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+        self.lines.get_or_init(count)
+    }
+}
+
+/// An instance of a template.
+#[derive(Clone, Debug)]
+pub(crate) struct Copy {
+    /// Its name, `planet[2]`.
+    pub(crate) name: String,
+    /// Where it is made: the name below `[use]`.
+    pub(crate) made: Span,
 }
 
 /// All texts that a netlist was read from. The text of `--set` is one of them.
 #[derive(Clone, Debug, Default)]
 pub struct Files {
     files: Vec<File>,
+    copies: Vec<Copy>,
 }
 
 impl Files {
@@ -65,13 +116,23 @@ impl Files {
     }
 
     /// Keeps a text under the name that diagnostics show.
-    pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
+    pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> FileId {
         // A netlist has a handful of files; the last id is shared in the absurd case of 2^32.
         let id = FileId(u32::try_from(self.files.len()).unwrap_or(u32::MAX));
-        let text = text.into();
-        let lines = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
-        self.files.push(File { name: name.into(), text, lines });
+        self.files.push(File { name: name.into(), text: text.into(), lines: OnceLock::new() });
         id
+    }
+
+    /// Notes an instance of a template.
+    pub(crate) fn add_copy(&mut self, name: String, made: Span) -> CopyId {
+        self.copies.push(Copy { name, made });
+        // more instances than this are refused before
+        CopyId(u32::try_from(self.copies.len()).unwrap_or(u32::MAX))
+    }
+
+    /// The instance for which a place is read; `None` where the text itself is meant.
+    pub(crate) fn copy(&self, id: CopyId) -> Option<&Copy> {
+        self.copies.get(id.index()?)
     }
 
     /// The texts, in the order they were added.
@@ -97,8 +158,9 @@ impl Files {
     /// Line and column at which a place begins, both from 1; the column counts characters.
     pub fn line_column(&self, span: &Span) -> (usize, usize) {
         let Some(file) = self.get(span.file) else { return (1, 1) };
-        let line = file.lines.partition_point(|&start| start <= span.range.start);
-        let start = line.checked_sub(1).and_then(|i| file.lines.get(i)).copied().unwrap_or(0);
+        let lines = file.lines();
+        let line = lines.partition_point(|&start| start <= span.range.start);
+        let start = line.checked_sub(1).and_then(|i| lines.get(i)).copied().unwrap_or(0);
         let before = file.text.get(start..span.range.start).unwrap_or("");
         // a byte order mark is not something a reader sees
         let before = before.strip_prefix('\u{feff}').unwrap_or(before);

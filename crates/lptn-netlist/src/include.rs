@@ -8,6 +8,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::duplicate;
 use crate::fields::wrong_shape;
 use crate::file::{FileId, Files, Span};
+use crate::limits::MOST_BYTES;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::section::check_head;
 use crate::syntax::parse_raw;
@@ -100,6 +101,10 @@ impl Work<'_, '_> {
             Ok(bytes) => bytes,
             Err(error) => return self.unread(cannot_read(&path, &error, value)),
         };
+        if bytes.len() as u64 > MOST_BYTES {
+            let error = io::Error::other(format!("it is longer than {} MB", MOST_BYTES / 1_000_000));
+            return self.unread(cannot_read(&path, &error, value));
+        }
         let Some(text) = std::str::from_utf8(&bytes).ok().filter(|text| !text.contains('\0')) else {
             return self.unread(not_text(&path, value));
         };

@@ -10,6 +10,9 @@ use crate::netlist::{ReadError, Rejected};
 /// The longest netlist in bytes; anything longer is a device or no netlist.
 pub const MOST_BYTES: u64 = 100_000_000;
 
+/// The longest CSV file in bytes: 10^7 rows take about 300 MB.
+pub const MOST_CSV_BYTES: u64 = 2_000_000_000;
+
 /// So many problems of one file are shown; the rest are counted.
 pub const MOST_PROBLEMS: usize = 50;
 
@@ -37,13 +40,13 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     }
 }
 
-/// The bytes of a file that a netlist names, within the same bounds.
+/// The bytes of a file that a netlist names: up to [`MOST_CSV_BYTES`], for it may be a CSV file of a network.
 pub(crate) fn read_named(path: &Path) -> io::Result<Vec<u8>> {
     if is_device(std::fs::metadata(path)?.file_type()) {
         return Err(io::Error::other("it is a device"));
     }
-    let too_long = || io::Error::other(format!("it is longer than {} MB", MOST_BYTES / 1_000_000));
-    limited(std::fs::File::open(path)?, MOST_BYTES)?.ok_or_else(too_long)
+    let too_long = || io::Error::other(format!("it is longer than {} MB", MOST_CSV_BYTES / 1_000_000));
+    limited(std::fs::File::open(path)?, MOST_CSV_BYTES)?.ok_or_else(too_long)
 }
 
 /// All bytes, or `None` if there are more than `most`; at most one more is read.
@@ -71,9 +74,10 @@ fn refused(name: &str, error: Diagnostic) -> ReadError {
     ReadError::Rejected(Rejected { files, diagnostics: vec![error], syntax: false })
 }
 
-/// Keeps the first problems of each file, errors before warnings, and counts the others.
-pub(crate) fn shorten(diagnostics: &mut Vec<Diagnostic>) {
-    if diagnostics.len() <= MOST_PROBLEMS {
+/// Keeps the first problems of each file, errors before warnings, and counts the others, with those errors that were
+/// dropped before.
+pub(crate) fn shorten(diagnostics: &mut Vec<Diagnostic>, dropped: usize) {
+    if diagnostics.len() <= MOST_PROBLEMS && dropped == 0 {
         return;
     }
     let all = diagnostics.len();
@@ -91,11 +95,11 @@ pub(crate) fn shorten(diagnostics: &mut Vec<Diagnostic>) {
     let mut keep = keep.into_iter();
     let errors_before = errors(diagnostics);
     diagnostics.retain(|_| keep.next().unwrap_or(false));
-    let left = all - diagnostics.len();
+    let left = all - diagnostics.len() + dropped;
     if left > 0 {
         let message =
             if left == 1 { "and one more problem".into() } else { format!("and {left} more problems") };
-        let more = match errors_before > errors(diagnostics) {
+        let more = match errors_before + dropped > errors(diagnostics) {
             true => Diagnostic::error("netlist::more", message),
             false => Diagnostic::warning("netlist::more", message),
         };

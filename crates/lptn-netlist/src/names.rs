@@ -1,7 +1,8 @@
 //! The names that expressions may use, and what is said about those they may not.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
+use std::sync::Arc;
 
 use lptn_network::Context;
 use lptn_units::{Expression, is_function, suggest};
@@ -9,38 +10,51 @@ use lptn_units::{Expression, is_function, suggest};
 use crate::diagnostic::Diagnostic;
 use crate::fields::sample_value;
 use crate::file::Span;
+use crate::grid_names::KnownGrid;
+use crate::misplaced::{LOCAL, depends_on_time, not_here};
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable};
 use crate::result_names::base;
+use crate::section::control_not_here;
+use crate::template::{Structure, in_own_words, outside, wrong_path};
 use crate::value::{Place, Wanted};
-use crate::vocabulary::{PARAM, SIGNAL, TABLE};
+use crate::vocabulary::{CONTROL, PARAM, SIGNAL, TABLE};
 
 /// What a name in an expression can stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ValueKind {
     Parameter,
     Signal,
+    Control,
     Table,
 }
 
 impl ValueKind {
     /// Each with its section.
-    const ALL: [(Self, &'static str); 3] =
-        [(Self::Parameter, PARAM), (Self::Signal, SIGNAL.name), (Self::Table, TABLE.name)];
+    const ALL: [(Self, &'static str); 4] = [
+        (Self::Parameter, PARAM),
+        (Self::Signal, SIGNAL.name),
+        (Self::Control, CONTROL.name),
+        (Self::Table, TABLE.name),
+    ];
 
     /// What it is called in messages.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Parameter => "parameter",
             Self::Signal => "signal",
+            Self::Control => "control",
             Self::Table => "table",
         }
     }
 }
 
-/// Parameters, signals and tables, and the other names of the file that someone may mistake for one.
+/// Parameters, signals, controls and tables, and the other names of the file that someone may mistake for one.
 #[derive(Debug, Default)]
 pub(crate) struct Names {
-    values: HashMap<String, (ValueKind, Span)>,
+    /// What names mean inside templates.
+    pub(crate) structure: Arc<Structure>,
+    /// With the place of the key, and the position in the section.
+    values: HashMap<String, (ValueKind, Span, usize)>,
     /// In file order, for suggestions.
     pub(crate) order: Vec<String>,
     pub(crate) elements: HashMap<String, &'static str>,
@@ -53,16 +67,28 @@ pub(crate) struct Names {
     hidden_materials: HashSet<String>,
     /// Fluids that cannot be read.
     hidden_fluids: HashSet<String>,
+    /// A file of names is missing: any name may be what is looked for.
+    all_hidden: bool,
     /// How many similar names were looked for.
     searches: usize,
+    /// Grids by name.
+    pub(crate) grids: BTreeMap<String, KnownGrid>,
+    /// Grids that cannot be read.
+    hidden_grids: HashSet<String>,
+    /// How many names were looked at for that.
+    looks: usize,
 }
 
 /// After so many suggestions no more are looked for: each takes a look at every name.
 const MOST_SEARCHES: usize = 100;
 
+/// After so many looks at names neither.
+const MOST_LOOKS: usize = 4_000_000;
+
 /// The sections whose elements share one set of names.
-const ELEMENTS: [&str; 11] = [
+const ELEMENTS: [&str; 12] = [
     "node",
+    "grid",
     "boundary",
     "source",
     "capacitor",
@@ -76,15 +102,16 @@ const ELEMENTS: [&str; 11] = [
 ];
 
 impl Names {
-    pub(crate) fn of(raw: &RawNetlist) -> Self {
-        let mut names = Self::default();
+    pub(crate) fn of(raw: &RawNetlist, structure: &Arc<Structure>) -> Self {
+        let mut names = Self { structure: Arc::clone(structure), ..Self::default() };
         for (kind, heading) in ValueKind::ALL {
-            for entry in section(raw, heading).into_iter().flat_map(|table| &table.entries) {
+            let entries = section(raw, heading).into_iter().flat_map(|table| &table.entries);
+            for (position, entry) in entries.enumerate() {
                 names.order.push(entry.key.clone());
                 if names.values.contains_key(&entry.key) {
                     names.fail(&entry.key); // taken twice: what is meant cannot be told
                 } else {
-                    names.values.insert(entry.key.clone(), (kind, entry.key_span.clone()));
+                    names.values.insert(entry.key.clone(), (kind, entry.key_span.clone(), position));
                 }
             }
         }
@@ -98,29 +125,28 @@ impl Names {
         names
     }
 
-    /// The line of a parameter or signal; entries stand in the order of the file.
+    /// The line of a parameter or signal.
     pub(crate) fn line<'a>(&self, raw: &'a RawNetlist, name: &str) -> Option<&'a RawEntry> {
-        let (kind, span) = self.values.get(name)?;
+        let (kind, _, position) = self.values.get(name)?;
         let entries = match kind {
             ValueKind::Parameter => &section(raw, PARAM)?.entries,
             ValueKind::Signal => &section(raw, SIGNAL.name)?.entries,
-            ValueKind::Table => return None,
+            ValueKind::Control | ValueKind::Table => return None,
         };
-        let at = entries.binary_search_by_key(&span.range.start, |entry| entry.key_span.range.start).ok()?;
-        entries.get(at)
+        entries.get(*position)
     }
 
     pub(crate) fn is_parameter(&self, name: &str) -> bool {
         self.value_kind(name) == Some(ValueKind::Parameter)
     }
 
-    /// Whether it is a parameter or a signal: a name that stands for a value by itself.
+    /// Whether it is a parameter, a signal or a control: a name that stands for a value by itself.
     pub(crate) fn is_value(&self, name: &str) -> bool {
-        matches!(self.value_kind(name), Some(ValueKind::Parameter | ValueKind::Signal))
+        matches!(self.value_kind(name), Some(kind) if kind != ValueKind::Table)
     }
 
     pub(crate) fn value_kind(&self, name: &str) -> Option<ValueKind> {
-        self.values.get(name).map(|(kind, _)| *kind)
+        self.values.get(name).map(|(kind, ..)| *kind)
     }
 
     pub(crate) fn is_used(&self, name: &str) -> bool {
@@ -155,8 +181,33 @@ impl Names {
         }
     }
 
+    /// Notes that a file of names cannot be read.
+    pub(crate) fn hide_all(&mut self) {
+        self.all_hidden = true;
+    }
+
     pub(crate) fn is_hidden(&self, name: &str) -> bool {
-        self.hidden.contains(name)
+        let inside = || name.match_indices(['.', '[']).any(|(at, _)| self.hidden_grids.contains(&name[..at]));
+        self.all_hidden
+            || self.hidden.contains(name)
+            || (!self.hidden_grids.is_empty() && inside())
+            || self.structure.is_lost(name)
+    }
+
+    /// Notes a grid that cannot be read.
+    pub(crate) fn hide_grid(&mut self, name: &str) {
+        self.hidden.insert(name.to_owned());
+        self.hidden_grids.insert(name.to_owned());
+    }
+
+    /// Notes a name that has been reported.
+    pub(crate) fn hide_name(&mut self, name: &str) {
+        self.hidden.insert(name.to_owned());
+    }
+
+    /// An expression with the names that are meant at its place.
+    pub(crate) fn resolved(&self, place: &Span, expression: Expression) -> Expression {
+        expression.renamed(&|name| self.structure.meaning(place, name))
     }
 
     /// Notes a material that cannot be read.
@@ -185,22 +236,29 @@ impl Names {
         self.failed.contains(name) || self.is_hidden(base(name))
     }
 
+    /// Notes an imported element that an expression names.
+    pub(crate) fn learn(&mut self, name: &str, kind: &'static str) {
+        self.elements.insert(name.to_owned(), kind);
+    }
+
     /// The section of the element of this name.
     pub(crate) fn kind_of(&self, name: &str) -> Option<&'static str> {
         self.elements.get(name).copied()
     }
 
-    /// Whether a similar name may still be looked for: not once a file has shown to be full of unknown names.
-    pub(crate) fn may_search(&mut self) -> bool {
+    /// Whether a similar name may still be looked for among so many: not once a file has shown to be full of unknown
+    /// names.
+    pub(crate) fn may_search(&mut self, names: usize) -> bool {
         self.searches += 1;
-        self.searches <= MOST_SEARCHES
+        self.looks += names;
+        self.searches <= MOST_SEARCHES && self.looks <= MOST_LOOKS.max(names)
     }
 
-    /// The parameters, signals and tables that nothing uses, in file order.
+    /// The parameters, signals, controls and tables that nothing uses, in file order.
     pub(crate) fn unused(&self) -> impl Iterator<Item = (ValueKind, &str, &Span)> {
         let unused = self.order.iter().filter(|name| !self.used.contains(*name));
         unused.filter_map(|name| {
-            let (kind, span) = self.values.get(name)?;
+            let (kind, span, _) = self.values.get(name)?;
             Some((*kind, name.as_str(), span))
         })
     }
@@ -214,7 +272,9 @@ impl Names {
     ) -> Vec<Diagnostic> {
         let names = expression.names().into_iter();
         let problems = names.filter_map(|(name, range)| self.check_name(place, (name, range), wanted));
-        let problems = problems.collect();
+        let problems: Vec<Diagnostic> = problems.collect();
+        let problems =
+            problems.into_iter().map(|problem| in_own_words(&self.structure, place, problem)).collect();
         let calls = expression.calls().into_iter().map(|(name, _)| name);
         self.used.extend(calls.filter(|name| self.values.contains_key(name)));
         problems
@@ -229,18 +289,31 @@ impl Names {
         let at = || place.raw.part(&range);
         if let Some(kind) = self.value_kind(&name) {
             self.used.insert(name.clone());
-            let changes = kind == ValueKind::Signal && !wanted.time;
-            return changes.then(|| depends_on_time(place, &name, at()));
+            return match kind {
+                ValueKind::Signal if !wanted.time => Some(depends_on_time(place, &name, at())),
+                ValueKind::Control if !wanted.controls => Some(control_not_here(place, &name, at())),
+                _ => None,
+            };
         }
         let result = wanted.context == Context::Result;
         let known = (wanted.names_nodes() && self.is_temperature(&name)) || (result && self.is_heat(&name));
-        if known || wanted.is_local(&name) || self.is_hidden(base(&name)) {
+        let template = self.structure.template_at(&place.raw.span);
+        if let (true, Some(template)) = (known && !self.structure.belongs(&place.raw.span, &name), template) {
+            return Some(outside(place, &name, template).at(at(), "not in the template"));
+        }
+        if known || self.is_of_grid(&name, wanted) || wanted.is_local(&name) || self.is_hidden(base(&name)) {
             return None; // what hides it has been reported
         }
         if name == "t" {
             return (!wanted.time).then(|| depends_on_time(place, &name, at()));
         }
         let at = at();
+        if let Some(problem) = self.unknown_of_grid(place, (&name, &at), wanted) {
+            return Some(problem);
+        }
+        if let Some(wrong) = self.structure.wrong_path(&name) {
+            return Some(wrong_path((&place.words(), &name), at, wrong));
+        }
         Some(match LOCAL.contains(&name.as_str()) || (name.ends_with(".T") && !wanted.names_nodes()) {
             true => not_here(place, &name, wanted, at),
             false if wanted.context == Context::Result || (wanted.names_nodes() && name.ends_with(".T")) => {
@@ -261,7 +334,7 @@ impl Names {
         if name.contains(['.', '[']) {
             let message = format!("{words} uses `{name}`, which is no parameter");
             return Diagnostic::error("netlist::unknown_name", message).at(at, "unknown name").help(
-                "expressions may use parameters, tables and, where time is allowed, signals and `t`: write the value itself",
+                "expressions may use parameters, tables and, where time is allowed, signals, controls and `t`: write the value itself",
             );
         }
         let error = Diagnostic::error(
@@ -272,14 +345,16 @@ impl Names {
         if is_function(name) {
             return error.help(format!("`{name}` is a function: write `{name}(..)`"));
         }
-        let search = self.may_search();
+        let search = self.may_search(self.order.len());
         let local = LOCAL.into_iter().filter(|name| wanted.is_local(name));
-        let known = self.order.iter().map(String::as_str).chain(["pi"]).chain(local).filter(|_| search);
+        let inside = self.structure.names_at(&place.raw.span);
+        let known = self.order.iter().map(String::as_str).chain(["pi"]).chain(local).chain(inside);
+        let known = known.filter(|_| search);
         let near = suggest(name, known);
         if let Some(near) = near {
             let error = error.help(format!("did you mean `{near}`?"));
-            return match self.values.get(near) {
-                Some((_, span)) => error.also(span.clone(), "similar name"),
+            return match self.values.get(&self.structure.resolve(&place.raw.span, near)) {
+                Some((_, span, _)) => error.also(span.clone(), "similar name"),
                 None => error,
             };
         }
@@ -293,59 +368,6 @@ impl Names {
             }
         }
     }
-}
-
-const BOUND_HELP: &str =
-    "what changes belongs in `of`: a difference such as `of = \"steel.T - air.T\"` has a constant bound";
-
-/// Temperatures of what is at hand.
-const LOCAL: [&str; 5] = ["T", "T_from", "T_to", "T_mean", "dT"];
-
-/// A temperature in a place that has none of this name.
-fn not_here(place: Place<'_>, name: &str, wanted: Wanted, at: Span) -> Diagnostic {
-    let words = place.words();
-    let message = format!("{words} cannot use the temperature `{name}`");
-    let bound = matches!(place.key, "below" | "above");
-    let help = match wanted.context {
-        _ if bound => BOUND_HELP,
-        Context::Link if name == "T" => {
-            "a path has the temperatures `T_from`, `T_to` and `T_mean`, and the difference `dT`"
-        }
-        Context::Source if LOCAL.contains(&name) => {
-            "a source has `T`, the temperature of its node; that of another place is `NAME.T`"
-        }
-        Context::Time if place.key == "density" => {
-            "the density of a solid is constant: give it at the temperature at which its volume is measured"
-        }
-        Context::Own => "it may depend on `T`, the temperature of what it belongs to, and on no other",
-        Context::Result => "name the node or boundary, for example `steel.T`",
-        _ => {
-            "`P` of a source and the values of paths may depend on temperatures; `C` of a node and the properties \
-             of materials and fluids on their own `T`"
-        }
-    };
-    Diagnostic::error("netlist::temperature_not_here", message).at(at, "").help(help)
-}
-
-/// `t` or a signal where a constant is due.
-fn depends_on_time(place: Place<'_>, name: &str, at: Span) -> Diagnostic {
-    let (what, label) = match name {
-        "t" => ("the time `t`".to_owned(), "time"),
-        _ => (format!("signal `{name}`"), "changes with time"),
-    };
-    let words = place.words();
-    let parameter = words.strip_prefix("parameter `").and_then(|rest| rest.strip_suffix('`'));
-    if let (Some(parameter), RawKind::String { text, .. }) = (parameter, &place.raw.kind) {
-        let message = format!("{words} depends on {what}, but a parameter is constant");
-        let help = format!("make it a signal: below [signal] write `{parameter} = \"{}\"`", text.trim());
-        return Diagnostic::error("netlist::time_in_parameter", message).at(at, label).help(help);
-    }
-    let help = match place.key {
-        "below" | "above" => BOUND_HELP,
-        _ => "sources, boundaries, the values of paths and signals may depend on time; this is constant",
-    };
-    let message = format!("{} has to be constant, but depends on {what}", place.words());
-    Diagnostic::error("network::depends_on_time", message).at(at, label).help(help)
 }
 
 /// The entries of a section.

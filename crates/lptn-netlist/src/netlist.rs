@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use lptn_network::{Network, Parameters};
 use lptn_units::Unit;
@@ -13,6 +14,7 @@ use crate::diagnostic::{Diagnostic, Severity, arrange};
 use crate::elaborate::{Elaborated, elaborate};
 use crate::file::{FileId, Files, Span};
 use crate::include::{self, Loader, Merged};
+use crate::initial::{self, InitialState, StateFile};
 use crate::limits::{read_bytes, read_named, shorten};
 use crate::raw::RawNetlist;
 use crate::run::{RunPlan, RunSettings};
@@ -22,6 +24,7 @@ use crate::source_map::SourceMap;
 use crate::streams;
 use crate::syntax::parse_raw;
 use crate::syntax_error::NOT_CLOSED;
+use crate::template::{self, Expanded, Structure};
 
 /// A network as a netlist describes it, with the way back to the text.
 #[derive(Clone, Debug)]
@@ -41,9 +44,13 @@ pub struct Netlist {
     /// The unit in which temperatures are shown: degC unless the netlist says otherwise.
     pub temperature_unit: Unit,
     pub(crate) plan: Option<RunPlan>,
+    /// The state that runs start from.
+    pub(crate) initial: Option<InitialState>,
     /// Everything that was set so far.
     pub(crate) assigned: Parameters,
     pub(crate) inputs: Vec<FileId>,
+    /// What templates made of it.
+    pub(crate) structure: Arc<Structure>,
 }
 
 impl Netlist {
@@ -186,9 +193,11 @@ fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netl
     if !syntax {
         return included(files, raw, (Path::new(name), file), loader);
     }
-    let (_, found) = elaborate(&raw, &CsvFiles::default());
-    add_certain(&mut diagnostics, found, (&files, file));
-    shorten(&mut diagnostics);
+    // what is wrong with templates may follow from the broken line
+    let Expanded { raw, structure, .. } = template::expand(&mut files, raw);
+    let (_, found) = elaborate(&raw, &structure, &CsvFiles::default(), None);
+    add_certain(&mut diagnostics, found.problems, (&files, file));
+    shorten(&mut diagnostics, found.dropped);
     Err(Rejected { files, diagnostics, syntax })
 }
 
@@ -202,26 +211,36 @@ fn included(
     let Merged { raw, problems: mut diagnostics, incomplete, syntax } =
         include::merge(&mut files, raw, main, loader.as_deref_mut());
     if incomplete {
-        arrange(&mut diagnostics);
-        shorten(&mut diagnostics);
+        arrange(&files, &mut diagnostics);
+        shorten(&mut diagnostics, 0);
         return Err(Rejected { files, diagnostics, syntax });
     }
+    let Expanded { raw, structure, problems } = template::expand(&mut files, raw);
+    diagnostics.extend(problems);
+    let state = StateFile::read(&mut files, &raw, loader.as_deref_mut());
     let csv = CsvFiles::read(&mut files, &raw, loader);
-    let (done, found) = elaborate(&raw, &csv);
+    let (done, mut found) = elaborate(&raw, &structure, &csv, state.as_ref());
+    if include::any_error(&diagnostics) {
+        found.problems.retain(|problem| problem.severity == Severity::Error);
+    }
     let done = done.filter(|_| !include::any_error(&diagnostics));
-    diagnostics.extend(found);
-    arrange(&mut diagnostics);
+    diagnostics.extend(found.problems);
+    arrange(&files, &mut diagnostics);
     match done {
-        Some(done) => finish(files, done, diagnostics),
+        Some(done) => finish(files, (done, state.map(|file| file.state)), diagnostics),
         None => {
-            shorten(&mut diagnostics);
+            shorten(&mut diagnostics, found.dropped);
             Err(Rejected { files, diagnostics, syntax })
         }
     }
 }
 
-fn finish(files: Files, done: Elaborated, mut diagnostics: Vec<Diagnostic>) -> Result<Netlist, Rejected> {
-    let Elaborated { network, run: plan, sizes, map, temperature_unit } = done;
+fn finish(
+    files: Files,
+    (done, initial): (Elaborated, Option<InitialState>),
+    mut diagnostics: Vec<Diagnostic>,
+) -> Result<Netlist, Rejected> {
+    let Elaborated { network, run: plan, sizes, map, temperature_unit, structure } = done;
     let run = plan.as_ref().map(|plan| plan.settings(&network)).transpose();
     let mut problems: Vec<Diagnostic> = sizes.iter().filter_map(|size| size.check(&network)).collect();
     let run = run.unwrap_or_else(|more| {
@@ -231,14 +250,18 @@ fn finish(files: Files, done: Elaborated, mut diagnostics: Vec<Diagnostic>) -> R
     if !problems.is_empty() {
         diagnostics.extend(problems);
         diagnostics.retain(|d| d.severity == Severity::Error);
-        arrange(&mut diagnostics);
-        shorten(&mut diagnostics);
+        arrange(&files, &mut diagnostics);
+        shorten(&mut diagnostics, 0);
         return Err(Rejected { files, diagnostics, syntax: false });
     }
     let start = run.as_ref().map_or(0.0, |run| run.start);
     diagnostics.extend(streams::unbalanced(&network, &map, start));
-    arrange(&mut diagnostics);
-    shorten(&mut diagnostics);
+    diagnostics.extend(initial.iter().flat_map(|state| initial::warnings(state, plan.as_ref(), &network)));
+    let tolerance = run.as_ref().map(|run| run.tolerance);
+    diagnostics
+        .extend(tolerance.into_iter().flat_map(|tolerance| section::narrow(&network, &map, tolerance)));
+    arrange(&files, &mut diagnostics);
+    shorten(&mut diagnostics, 0);
     let assigned = network.overrides();
     let inputs = files.ids().collect();
     let warnings = diagnostics;
@@ -251,8 +274,10 @@ fn finish(files: Files, done: Elaborated, mut diagnostics: Vec<Diagnostic>) -> R
         warnings,
         temperature_unit,
         plan,
+        initial,
         assigned,
         inputs,
+        structure,
     })
 }
 
@@ -271,7 +296,7 @@ fn add_certain(all: &mut Vec<Diagnostic>, found: Vec<Diagnostic>, (files, file):
             && !broken.contains(&line(d))
     });
     all.extend(certain);
-    arrange(all);
+    arrange(files, all);
 }
 
 /// Whether a problem is that something is not there: a broken line may be what is missing.

@@ -99,6 +99,11 @@ impl<'a> Elaboration<'a> {
 const HELP: &str = "write it like this: `window = { climb = { from = \"10 min\", to = \"20 min\" } }`";
 
 impl WindowPlan {
+    /// Its name.
+    pub(crate) fn name(&self) -> &str {
+        &self.name
+    }
+
     /// Both ends, for evaluation.
     pub(crate) fn ends(&self) -> [&Setting; 2] {
         [&self.from, &self.to]

@@ -8,6 +8,7 @@ use lptn_units::{Quantity, Type};
 use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::Owner;
+use crate::file::Span;
 use crate::raw::{RawEntry, RawKind};
 use crate::value::{Place, Text, Wanted};
 use crate::vocabulary::{PARAM, SIGNAL};
@@ -67,10 +68,11 @@ impl<'a> Elaboration<'a> {
             return Pending { entry, owner, text: None, uses: Vec::new() }; // its points are read later
         }
         let place = Place { owner: &owner, key: "", raw: &entry.value };
-        let text = match place.text(None, &self.names) {
+        let wanted = self.names.structure.type_of(&entry.key).cloned();
+        let text = match place.text(wanted.as_ref().map(|(ty, _)| *ty), &self.names) {
             Ok(text) => Some(text),
             Err(problem) => {
-                self.problems.push(problem);
+                self.problems.push(of_type(problem, wanted.as_ref()));
                 None
             }
         };
@@ -86,7 +88,13 @@ impl<'a> Elaboration<'a> {
     fn parameter(&mut self, pending: &mut Pending<'_>) {
         let entry = pending.entry;
         let place = Place { owner: &pending.owner, key: "", raw: &entry.value };
-        let given = pending.text.take().and_then(|text| self.resolve(place, text, Wanted::parameter()));
+        let ty = self.names.structure.type_of(&entry.key).cloned();
+        let wanted = Wanted { ty: ty.as_ref().map(|(ty, _)| *ty), ..Wanted::parameter() };
+        let before = self.problems.len();
+        let given = pending.text.take().and_then(|text| self.resolve(place, text, wanted));
+        if let Some(problem) = self.problems.get_mut(before) {
+            *problem = of_type(problem.clone(), ty.as_ref());
+        }
         if given.is_none() {
             self.names.fail(&entry.key);
         }
@@ -95,6 +103,16 @@ impl<'a> Elaboration<'a> {
         let id = self.builder.parameter(&entry.key, given.map_or_else(stand_in, |given| given.input()));
         self.map.insert(Item::Parameter(id), Field::Name, entry.key_span.clone());
         self.map.value(Item::Parameter(id), Field::Value, &entry.value);
+    }
+}
+
+/// A parameter of a template is of the type that the template gives it.
+fn of_type(problem: Diagnostic, wanted: Option<&(Type, Span)>) -> Diagnostic {
+    match wanted {
+        Some((_, span)) if problem.code == "units::dimension" => {
+            problem.also(span.clone(), "as in the template")
+        }
+        _ => problem,
     }
 }
 

@@ -93,9 +93,9 @@ impl RawValue {
         if range.start >= text.len() {
             // a problem at the end of the text is shown at the closing quote
             let end = start + text.len();
-            return Span::new(self.span.file, end..(end + 1).min(self.span.range.end));
+            return self.span.with(end..(end + 1).min(self.span.range.end));
         }
         let part = on_borders(text, range.start..range.end.max(range.start + 1));
-        Span::new(self.span.file, start + part.start..start + part.end)
+        self.span.with(start + part.start..start + part.end)
     }
 }

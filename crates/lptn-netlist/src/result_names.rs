@@ -4,6 +4,7 @@ use lptn_units::suggest;
 
 use crate::diagnostic::Diagnostic;
 use crate::file::Span;
+use crate::grid_names::VALUES;
 use crate::names::Names;
 use crate::value::Place;
 
@@ -50,7 +51,7 @@ impl Names {
 
     /// The most similar parameter, temperature or heat flow; of equally similar ones the first in the alphabet.
     fn similar_result(&mut self, name: &str) -> Option<String> {
-        if !self.may_search() {
+        if !self.may_search(self.elements.len()) {
             return None;
         }
         let mut names: Vec<String> =
@@ -73,7 +74,11 @@ fn heats(kind: &str) -> &'static [&'static str] {
 
 /// The results of an element of this section: `steel.T`, `internal.Q`.
 fn results_of(kind: &str, name: &str) -> Vec<String> {
-    let temperature: &[&str] = if matches!(kind, "node" | "boundary") { &["T"] } else { &[] };
+    let temperature: &[&str] = match kind {
+        "node" | "boundary" => &["T"],
+        "grid" => &VALUES,
+        _ => &[],
+    };
     temperature.iter().chain(heats(kind)).map(|ending| format!("{name}.{ending}")).collect()
 }
 

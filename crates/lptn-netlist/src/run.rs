@@ -1,10 +1,11 @@
 //! `[run]`: what to simulate.
 
 use lptn_network::{AfterEnd, Evaluation, Network, OutputTimes, Value};
-use lptn_units::{Dimension, Type};
+use lptn_units::{Dimension, Type, format_number};
 
 use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
+use crate::expand::string;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
 use crate::file::Span;
 use crate::outputs::{WindowPlan, WindowSettings};
@@ -33,19 +34,23 @@ pub struct RunSettings {
     pub windows: Vec<WindowSettings>,
     /// Tolerance in K.
     pub tolerance: f64,
+    /// For each control by id how long it has been as it stands at the start, in s, from 0: `None` if it never
+    /// switched. Empty for a run that starts from no state.
+    pub held: Vec<Option<f64>>,
 }
 
 /// `[run]` before its expressions are evaluated: `--set` may change what they use.
 #[derive(Clone, Debug)]
 pub(crate) struct RunPlan {
-    start: Option<Setting>,
-    stop: Setting,
-    output: Option<OutputPlan>,
-    tolerance: Option<Setting>,
-    select: Vec<String>,
+    pub(crate) start: Option<Setting>,
+    pub(crate) stop: Setting,
+    pub(crate) output: Option<OutputPlan>,
+    pub(crate) tolerance: Option<Setting>,
+    pub(crate) select: Vec<String>,
     /// The signals that are used, with their places: they have to last as long as the run.
     signals: Vec<(String, Span)>,
-    windows: Vec<WindowPlan>,
+    pub(crate) windows: Vec<WindowPlan>,
+    held: Vec<Option<f64>>,
 }
 
 /// A value with its place.
@@ -58,10 +63,23 @@ pub(crate) struct Setting {
     pub(crate) help: String,
 }
 
+/// When rows are written.
 #[derive(Clone, Debug)]
-enum OutputPlan {
+pub(crate) enum OutputPlan {
     Every(Setting),
     At(Vec<Setting>),
+}
+
+impl Setting {
+    /// As a field of a netlist, in SI units.
+    pub(crate) fn written(&self) -> String {
+        match &self.value {
+            Value::Constant(number) => format!("\"{} {}\"", format_number(*number), self.unit),
+            other => {
+                other.programs().first().map_or_else(String::new, |program| string(program.text().trim()))
+            }
+        }
+    }
 }
 
 impl<'a> Elaboration<'a> {
@@ -69,6 +87,9 @@ impl<'a> Elaboration<'a> {
         let entry = self.raw.top.get(RUN.name)?;
         let fields = Fields::of(&RUN, Owner::section(RUN.name), entry, &mut self.problems)?;
         self.integrator(&fields);
+        if let Some(raw) = fields.get("initial") {
+            fields.text("initial", raw, &mut self.problems);
+        }
         let stop = fields.require("stop", &mut self.problems);
         let stop = stop.and_then(|raw| self.setting(&fields.owner, ("stop", raw), TIME));
         let start = self.optional(&fields, "start", TIME);
@@ -77,8 +98,8 @@ impl<'a> Elaboration<'a> {
         let select = fields.get("select").map_or_else(Vec::new, |raw| self.select(&fields, raw));
         self.reports(&fields);
         let windows = self.windows(&fields);
-        let signals = self.used_signals();
-        Some(RunPlan { start, stop: stop?, output, tolerance, select, windows, signals })
+        let (signals, held) = (self.used_signals(), self.held());
+        Some(RunPlan { start, stop: stop?, output, tolerance, select, windows, signals, held })
     }
 
     /// The signals with points that something uses.
@@ -191,7 +212,8 @@ impl RunPlan {
         let output = check.output(self.output.as_ref(), (start, stop));
         let windows = self.windows.iter().filter_map(|plan| check.window(plan, (start, stop))).collect();
         if check.problems.is_empty() {
-            Ok(RunSettings { start, stop, output, select: self.select.clone(), windows, tolerance })
+            let (select, held) = (self.select.clone(), self.held.clone());
+            Ok(RunSettings { start, stop, output, select, windows, tolerance, held })
         } else {
             Err(check.problems)
         }
@@ -199,6 +221,11 @@ impl RunPlan {
 }
 
 impl RunPlan {
+    /// Where `start` is written, if it is.
+    pub(crate) fn start_place(&self) -> Option<&Span> {
+        self.start.as_ref().map(|start| &start.span)
+    }
+
     /// A signal that has no value during a part of the run.
     fn short(
         &self,

@@ -70,6 +70,11 @@ impl SizeStudy {
         Ok((self.from.at(&mut scope)?, self.to.at(&mut scope)?))
     }
 
+    /// The least and the largest value as they are written.
+    pub(crate) fn ends(&self) -> [&Value; 2] {
+        [&self.from, &self.to]
+    }
+
     /// What is wrong with the range, if anything.
     pub(crate) fn check(&self, network: &Network) -> Option<Diagnostic> {
         let error = match self.range(network) {

@@ -3,10 +3,11 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use lptn_network::{BuildErrorKind, Field, Item, NodeId, ParameterId};
+use lptn_network::{BuildErrorKind, Field, Item, NodeId, ParameterId, TableId};
 
 use crate::file::Span;
-use crate::raw::{RawKind, RawValue};
+use crate::import::Places;
+use crate::raw::{RawKind, RawTable, RawValue};
 
 /// Leads from the parts of a network to the places they were read from.
 #[derive(Clone, Debug, Default)]
@@ -15,30 +16,69 @@ pub struct SourceMap {
     /// The byte at which the content of a string begins, where no escape changes it.
     contents: HashMap<(Item, Field), usize>,
     select: Vec<Span>,
-    /// The section of each conductor.
-    conductors: Vec<&'static str>,
+    /// The sections of conductors: the first of each run of one section.
+    conductors: Vec<(usize, &'static str)>,
+    conductor_count: usize,
+    /// The section of each path that ends at a face.
+    joints: Vec<&'static str>,
+    /// Nodes and conductors that are parts of grids and joints, by their indices, in order.
+    inner_nodes: Vec<(Range<usize>, Item)>,
+    inner_conductors: Vec<(Range<usize>, Item)>,
     /// The beginning of the file.
     top: Option<Span>,
     /// `T0` of `[default]`.
     default: Option<Span>,
     /// Where a part first names its node.
     parts: HashMap<NodeId, Span>,
+    /// Where the elements of CSV files stand.
+    imports: Vec<Places>,
+    /// The lines of tables of two arguments, which are read from CSV files.
+    maps: HashMap<TableId, RawTable>,
 }
 
 impl SourceMap {
     /// The place of a field's value, quotes included; for [`Field::Name`] the place of the key that names the
-    /// item. A node without a `T0` of its own has the place of the default.
-    pub fn get(&self, item: Item, field: Field) -> Option<&Span> {
-        self.spans.get(&(item, field))
+    /// item. A node without a `T0` of its own has the place of the default, a part of a grid or of a path to a face that
+    /// of the whole. An imported element has the places of its cells; one without a name in the file has its row for a
+    /// name.
+    pub fn get(&self, item: Item, field: Field) -> Option<Span> {
+        let of_whole = || self.spans.get(&(self.whole(item)?, field));
+        let written = self.spans.get(&(item, field)).or_else(of_whole).cloned();
+        written.or_else(|| self.imports.iter().find_map(|places| places.get(item, field)))
+    }
+
+    /// The grid or joint that a node or conductor is a part of.
+    fn whole(&self, item: Item) -> Option<Item> {
+        let (parts, index) = match item {
+            Item::Node(id) => (&self.inner_nodes, id.index()),
+            Item::Conductor(id) => (&self.inner_conductors, id.index()),
+            _ => return None,
+        };
+        let (range, whole) = parts.get(parts.partition_point(|(range, _)| range.end <= index))?;
+        range.contains(&index).then_some(*whole)
+    }
+
+    /// Notes nodes and conductors that are parts of a whole.
+    pub(crate) fn parts(&mut self, (nodes, conductors): (Range<usize>, Range<usize>), whole: Item) {
+        let lists = [(&mut self.inner_nodes, nodes), (&mut self.inner_conductors, conductors)];
+        lists
+            .into_iter()
+            .filter(|(_, range)| !range.is_empty())
+            .for_each(|(list, range)| list.push((range, whole)));
+    }
+
+    /// Notes the section of the next path that ends at a face.
+    pub(crate) fn joint(&mut self, section: &'static str) {
+        self.joints.push(section);
     }
 
     /// The place of an item's name.
-    pub fn name(&self, item: Item) -> Option<&Span> {
+    pub fn name(&self, item: Item) -> Option<Span> {
         self.get(item, Field::Name)
     }
 
     /// The place of a parameter's value, for writing another one there.
-    pub fn parameter(&self, id: ParameterId) -> Option<&Span> {
+    pub fn parameter(&self, id: ParameterId) -> Option<Span> {
         self.get(Item::Parameter(id), Field::Value)
     }
 
@@ -50,21 +90,21 @@ impl SourceMap {
 
     /// How many places are known.
     pub fn len(&self) -> usize {
-        self.spans.len()
+        self.spans.len() + self.imports.iter().map(Places::len).sum::<usize>()
     }
 
     /// Whether no place is known.
     pub fn is_empty(&self) -> bool {
-        self.spans.is_empty()
+        self.len() == 0
     }
 
     /// The place of the field, or of the name of its item where the field is not written.
-    pub(crate) fn nearest(&self, item: Item, field: Field) -> Option<&Span> {
+    pub(crate) fn nearest(&self, item: Item, field: Field) -> Option<Span> {
         self.get(item, field).or_else(|| self.name(item))
     }
 
     /// The two places of a name that is taken twice.
-    pub(crate) fn duplicate(&self, kind: &BuildErrorKind) -> Option<(&Span, &Span)> {
+    pub(crate) fn duplicate(&self, kind: &BuildErrorKind) -> Option<(Span, Span)> {
         let BuildErrorKind::DuplicateName { first, second } = kind else { return None };
         let (first, second) = (self.name(*first)?, self.name(*second)?);
         // the builder sees kinds one after the other, a reader sees the file
@@ -79,10 +119,14 @@ impl SourceMap {
     pub(crate) fn kind(&self, item: Item) -> &'static str {
         match item {
             Item::Parameter(_) => "parameter",
+            Item::Node(_) if self.whole(item).is_some() => "grid",
             Item::Node(_) => "node",
             Item::Boundary(_) => "boundary",
             Item::Capacitor(_) => "capacitor",
-            Item::Conductor(id) => self.conductors.get(id.index()).copied().unwrap_or("path"),
+            Item::Conductor(id) => {
+                let run = self.conductors.partition_point(|(first, _)| *first <= id.index());
+                run.checked_sub(1).map_or("path", |run| self.conductors[run].1)
+            }
             Item::Source(_) => "source",
             Item::Limit(_) => "limit",
             Item::Material(_) => "material",
@@ -91,6 +135,8 @@ impl SourceMap {
             Item::Table(_) => "table",
             Item::Report(_) => "report",
             Item::Control(_) => "control",
+            Item::Grid(_) => "grid",
+            Item::Joint(id) => self.joints.get(id.index()).copied().unwrap_or("path"),
         }
     }
 
@@ -101,7 +147,7 @@ impl SourceMap {
 
     /// Whether the temperature at the start comes from `[default]`.
     pub(crate) fn is_default(&self, item: Item) -> bool {
-        self.default.is_some() && self.get(item, Field::Initial) == self.default.as_ref()
+        self.default.is_some() && self.get(item, Field::Initial) == self.default
     }
 
     pub(crate) fn set_top(&mut self, top: Span) {
@@ -119,7 +165,20 @@ impl SourceMap {
 
     /// Notes the section of the next conductor.
     pub(crate) fn conductor(&mut self, section: &'static str) {
-        self.conductors.push(section);
+        if self.conductors.last().is_none_or(|(_, last)| *last != section) {
+            self.conductors.push((self.conductor_count, section));
+        }
+        self.conductor_count += 1;
+    }
+
+    /// Notes the line of a table of two arguments.
+    pub(crate) fn set_csv_map(&mut self, table: TableId, line: RawTable) {
+        self.maps.insert(table, line);
+    }
+
+    /// The line of a table of two arguments.
+    pub(crate) fn csv_map(&self, table: TableId) -> Option<&RawTable> {
+        self.maps.get(&table)
     }
 
     pub(crate) fn part_of(&mut self, node: NodeId, span: Span) {
@@ -137,17 +196,28 @@ impl SourceMap {
     /// The place of some bytes of a field's string; the whole value where they cannot be told.
     pub(crate) fn part(&self, item: Item, field: Field, range: &Range<usize>) -> Option<Span> {
         let whole = self.get(item, field)?;
-        match self.contents.get(&(item, field)) {
+        match self.content(item, field) {
             Some(start) if !range.is_empty() && start + range.end <= whole.range.end => {
-                Some(Span::new(whole.file, start + range.start..start + range.end))
+                Some(whole.with(start + range.start..start + range.end))
             }
-            _ => Some(whole.clone()),
+            _ => Some(whole),
         }
     }
 
     /// The byte at which the content of a field's string begins, where no escape changes it.
     pub(crate) fn content(&self, item: Item, field: Field) -> Option<usize> {
-        self.contents.get(&(item, field)).copied()
+        let of_whole = || self.contents.get(&(self.whole(item)?, field));
+        self.contents.get(&(item, field)).or_else(of_whole).copied()
+    }
+
+    /// Whether an item stands in a CSV file of `[import]`.
+    pub fn is_imported(&self, item: Item) -> bool {
+        self.imports.iter().any(|places| places.holds(item))
+    }
+
+    /// Notes where the elements of a CSV file stand.
+    pub(crate) fn add_import(&mut self, places: Places) {
+        self.imports.push(places);
     }
 
     pub(crate) fn set_select(&mut self, spans: Vec<Span>) {

@@ -28,11 +28,11 @@ fn warning(network: &Network, map: &SourceMap, passing: Passing) -> Diagnostic {
     );
     let problem = Diagnostic::warning("network::unbalanced_streams", message);
     let problem = match first.and_then(|(_, id)| map.name(Item::Conductor(id))) {
-        Some(span) => problem.at(span.clone(), ""),
+        Some(span) => problem.at(span, ""),
         None => problem,
     };
     let problem = match map.name(Item::Node(node)) {
-        Some(span) => problem.also(span.clone(), "the node"),
+        Some(span) => problem.also(span, "the node"),
         None => problem,
     };
     problem.help(

@@ -20,7 +20,7 @@ pub fn parse_raw(files: &Files, file: FileId) -> (RawNetlist, Vec<Diagnostic>) {
         // next to broken TOML it would only say the same again
         diagnostics = reader.newer;
     }
-    arrange(&mut diagnostics);
+    arrange(files, &mut diagnostics);
     (RawNetlist { top }, diagnostics)
 }
 

@@ -14,6 +14,7 @@ use crate::fields::{Owner, sample, wrong_shape};
 use crate::file::Span;
 use crate::names::Names;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
+use crate::result_names::base;
 
 /// A value whose units are right.
 #[derive(Clone, Debug)]
@@ -64,42 +65,54 @@ pub(crate) struct Wanted {
     pub(crate) context: Context,
     /// Whether it may depend on `t` and on signals.
     pub(crate) time: bool,
+    /// Whether it may depend on controls.
+    pub(crate) controls: bool,
 }
 
 impl Wanted {
     /// A constant of this type.
     pub(crate) fn constant(ty: Type) -> Self {
-        Self { ty: Some(ty), context: Context::Time, time: false }
+        Self { ty: Some(ty), context: Context::Time, time: false, controls: false }
     }
 
     /// A constant of any type.
     pub(crate) fn parameter() -> Self {
-        Self { ty: None, context: Context::Time, time: false }
+        Self { ty: None, context: Context::Time, time: false, controls: false }
     }
 
-    /// A function of time.
-    pub(crate) fn in_time(ty: impl Into<Option<Type>>) -> Self {
-        Self { ty: ty.into(), context: Context::Time, time: true }
+    /// A function of time, and of what is on or off.
+    pub(crate) fn in_time(ty: Type) -> Self {
+        Self { ty: Some(ty), context: Context::Time, time: true, controls: true }
+    }
+
+    /// A function of time of any type, known before the run.
+    pub(crate) fn signal() -> Self {
+        Self { ty: None, context: Context::Time, time: true, controls: false }
+    }
+
+    /// A threshold of a control.
+    pub(crate) fn threshold() -> Self {
+        Self { ty: Some(Type::ABSOLUTE_TEMPERATURE), context: Context::Control, time: true, controls: true }
     }
 
     /// A constant of this type that may depend on the temperature `T` of what it belongs to.
     pub(crate) fn own(ty: Type) -> Self {
-        Self { ty: Some(ty), context: Context::Own, time: false }
+        Self { ty: Some(ty), context: Context::Own, time: false, controls: false }
     }
 
     /// The heat of a source.
     pub(crate) fn of_source(ty: Type) -> Self {
-        Self { ty: Some(ty), context: Context::Source, time: true }
+        Self { ty: Some(ty), context: Context::Source, time: true, controls: true }
     }
 
     /// A value of a path between two ends.
     pub(crate) fn of_link(ty: impl Into<Option<Type>>) -> Self {
-        Self { ty: ty.into(), context: Context::Link, time: true }
+        Self { ty: ty.into(), context: Context::Link, time: true, controls: true }
     }
 
     /// Something that results determine.
     pub(crate) fn of_results() -> Self {
-        Self { ty: None, context: Context::Result, time: true }
+        Self { ty: None, context: Context::Result, time: true, controls: true }
     }
 
     /// Whether it may name the temperature of any node or boundary, `NAME.T`.
@@ -134,11 +147,16 @@ impl Place<'_> {
     /// Reads the text without resolving names.
     pub(crate) fn text(&self, ty: Option<Type>, names: &Names) -> Result<Text, Diagnostic> {
         match &self.raw.kind {
-            RawKind::String { text, .. } => match parse_value(text, ty, &|name| names.is_value(name)) {
-                Ok(Written::Quantity(quantity)) => Ok(Text::Quantity(quantity)),
-                Ok(Written::Expression(expression)) => Ok(Text::Expression(expression)),
-                Err(error) => Err(self.unit_error(&error)),
-            },
+            RawKind::String { text, .. } => {
+                let (place, structure) = (&self.raw.span, &names.structure);
+                match parse_value(text, ty, &|name| names.is_value(&structure.resolve(place, name))) {
+                    Ok(Written::Quantity(quantity)) => Ok(Text::Quantity(quantity)),
+                    Ok(Written::Expression(expression)) => {
+                        Ok(Text::Expression(names.resolved(place, expression)))
+                    }
+                    Err(error) => Err(self.unit_error(&error)),
+                }
+            }
             RawKind::Integer(number) | RawKind::Float(number) => match parse_quantity(number, ty) {
                 Ok(quantity) => Ok(Text::Quantity(quantity)),
                 Err(error) => Err(self.unit_error(&error)),
@@ -219,6 +237,7 @@ impl Elaboration<'_> {
             Text::Quantity(quantity) => return Some(Given::Quantity(quantity)),
             Text::Expression(expression) => expression,
         };
+        self.learn(&expression);
         let problems = self.names.check(place, &expression, wanted);
         if !problems.is_empty() {
             self.problems.extend(problems);
@@ -242,6 +261,18 @@ impl Elaboration<'_> {
                 let explain = |error| with_parameter(names, (place, wanted), &expression, error);
                 self.problems.extend(errors.iter().map(explain));
                 None
+            }
+        }
+    }
+}
+
+impl Elaboration<'_> {
+    /// Tells the names of imported elements from unknown ones.
+    fn learn(&mut self, expression: &Expression) {
+        for (name, _) in expression.names() {
+            let name = base(&name);
+            if let (None, Some(kind)) = (self.names.kind_of(name), self.kind_of(name)) {
+                self.names.learn(name, kind);
             }
         }
     }

@@ -1,5 +1,7 @@
 //! The words of the format: which sections and keys there are, and which are decided but not built yet.
 
+pub(crate) use crate::headings::{MINIMAL, PARAM, SECTIONS, SECTIONS_LATER, TOP_KEYS};
+
 use lptn_units::suggest;
 
 /// A section of elements, or a section that is a table of its own.
@@ -19,15 +21,31 @@ pub(crate) struct Section {
 
 pub(crate) const NODE: Section = Section {
     name: "node",
-    keys: &["T0", "C", "material", "mass", "volume", "massless"],
-    later: &["L_char"],
+    keys: &["T0", "C", "material", "mass", "volume", "L_char", "massless"],
+    later: &[],
     example: "{ T0 = \"25 degC\", C = \"500 J/K\" }",
     elsewhere: &[
         (
             "T",
             "a node's temperature is solved for: `T0` is its start, and a given temperature is a [boundary]",
         ),
+        ("L", "the characteristic length is `L_char`"),
         ("P", "heat is put in by a [source]: `name = { into = \"node\", P = \"100 W\" }`"),
+    ],
+};
+
+/// A block that is cut into cells.
+pub(crate) const GRID: Section = Section {
+    name: "grid",
+    keys: &["size", "cells", "material", "k", "density", "cp", "T0"],
+    later: &[],
+    example: "{ size = [\"0.5 m\", \"0.5 m\", \"20 mm\"], cells = [20, 20, 4], material = \"steel_8620\" }",
+    elsewhere: &[
+        ("rho", "the density is `density`"),
+        ("lambda", "the thermal conductivity is `k`"),
+        ("C", "the capacity of a grid follows from its size and its `material`, or `density` and `cp`"),
+        ("T", "the temperature at the start is `T0`"),
+        ("area", "the areas follow from `size`"),
     ],
 };
 
@@ -147,6 +165,50 @@ pub(crate) const FLUID: Section = Section {
     ],
 };
 
+/// `[template.NAME]`, for help; what it holds is read by itself.
+pub(crate) const TEMPLATE: Section = Section {
+    name: "template",
+    keys: &["param", "port"],
+    later: &[],
+    example: "`port = [\"in\", \"out\"]` and elements below `[template.planet.node]`",
+    elsewhere: &[],
+};
+
+pub(crate) const USE: Section = Section {
+    name: "use",
+    keys: &["template", "count", "connect", "set"],
+    later: &[],
+    example: "{ template = \"planet\", count = 3, connect = { carrier = \"carrier\" } }",
+    elsewhere: &[
+        ("param", "parameters of the template are given in `set`: `set = { ratio = 0.5 }`"),
+        ("port", "what a port leads to stands in `connect`: `connect = { carrier = \"carrier\" }`"),
+        ("ports", "what a port leads to stands in `connect`: `connect = { carrier = \"carrier\" }`"),
+        ("n", "how many there are is `count`"),
+    ],
+};
+
+/// A parameter of a template without a value of its own: `R = { unit = "K/W" }`.
+pub(crate) const OPEN_PARAMETER: Section = Section {
+    name: "param",
+    keys: &["unit"],
+    later: &[],
+    example: "{ unit = \"K/W\" }",
+    elsewhere: &[
+        ("value", "a value of its own stands alone: `m = \"0.2 kg\"`"),
+        ("default", "a value of its own stands alone: `m = \"0.2 kg\"`"),
+    ],
+};
+
+/// What a template cannot hold.
+pub(crate) const NOT_IN_TEMPLATE: [&str; 9] =
+    ["default", "material", "fluid", "run", "size", "template", "import", "sweep", "fit"];
+
+/// The sections whose entries share no names with elements: values, substances, studies.
+pub(crate) const ELSEWHERE: [&str; 14] = [
+    "param", "signal", "table", "control", "material", "fluid", "default", "run", "size", "template", "use",
+    "import", "sweep", "fit",
+];
+
 /// A table of `[table]`, and a property over temperature.
 pub(crate) const TABLE: Section = Section {
     name: "table",
@@ -177,6 +239,35 @@ pub(crate) const SOURCE: Section = Section {
     later: &[],
     example: "{ into = \"a\", P = \"100 W\" }",
     elsewhere: &[("node", "the node that is heated is `into`"), ("to", "the node that is heated is `into`")],
+};
+
+pub(crate) const CONTROL: Section = Section {
+    name: "control",
+    keys: &["sense", "on_above", "off_below", "on_below", "off_above", "start", "min_dwell"],
+    later: &[],
+    example: "{ sense = \"a\", on_above = \"60 degC\", off_below = \"55 degC\" }",
+    elsewhere: &[
+        ("kind", "every control is a thermostat: leave `kind` out"),
+        ("type", "every control is a thermostat: leave `type` out"),
+        ("node", "the node or boundary that is felt is `sense`"),
+        ("of", "the node or boundary that is felt is `sense`"),
+        ("sensor", "the node or boundary that is felt is `sense`"),
+        (
+            "setpoint",
+            "give both thresholds: `on_above` and `off_below` for cooling, `on_below` and `off_above` for heating",
+        ),
+        (
+            "hysteresis",
+            "give both thresholds: `on_above` and `off_below` for cooling, `on_below` and `off_above` for heating",
+        ),
+        (
+            "band",
+            "give both thresholds: `on_above` and `off_below` for cooling, `on_below` and `off_above` for heating",
+        ),
+        ("initial", "whether it is on at the start is `start`"),
+        ("dwell", "the least time between two switches is `min_dwell`"),
+        ("P", "what it switches uses its name, which is 0 or 1: `P = \"100 [W] * name\"` of a [source]"),
+    ],
 };
 
 pub(crate) const LIMIT: Section = Section {
@@ -215,12 +306,27 @@ pub(crate) const DEFAULT: Section = Section {
 
 pub(crate) const RUN: Section = Section {
     name: "run",
-    keys: &["stop", "start", "output", "select", "report", "window", "tolerance", "integrator"],
-    later: &["initial"],
+    keys: &["stop", "start", "initial", "output", "select", "report", "window", "tolerance", "integrator"],
+    later: &[],
     example: "{ stop = \"25 min\" }",
     elsewhere: &[
         ("every", "write `output = { every = \"5 s\" }`"),
         ("at", "write `output = { at = [\"5 s\"] }`"),
+    ],
+};
+
+/// Elements from CSV files.
+pub(crate) const IMPORT: Section = Section {
+    name: "import",
+    keys: &["nodes", "boundaries", "conductors", "sources"],
+    later: &[],
+    example: "{ nodes = \"nodes.csv\", conductors = \"conductors.csv\" }",
+    elsewhere: &[
+        ("node", "did you mean `nodes`?"),
+        ("boundary", "did you mean `boundaries`?"),
+        ("conductor", "did you mean `conductors`?"),
+        ("resistors", "paths between two ends are `conductors`"),
+        ("source", "did you mean `sources`?"),
     ],
 };
 
@@ -263,57 +369,6 @@ pub(crate) const OUTPUT: Section = Section {
     example: "{ every = \"5 s\" }",
     elsewhere: &[],
 };
-
-pub(crate) const TOP_KEYS: [&str; 4] = ["format", "title", "description", "include"];
-
-/// `[param]` has no keys of its own.
-pub(crate) const PARAM: &str = "param";
-
-/// Every section there is.
-pub(crate) const SECTIONS: [&str; 19] = [
-    "param",
-    "table",
-    "signal",
-    "default",
-    "material",
-    "fluid",
-    "node",
-    "capacitor",
-    "boundary",
-    "resistor",
-    "conduction",
-    "convection",
-    "contact",
-    "radiation",
-    "advection",
-    "source",
-    "limit",
-    "run",
-    "size",
-];
-
-/// What the format has for later.
-pub(crate) const SECTIONS_LATER: [&str; 7] = ["control", "grid", "template", "use", "import", "sweep", "fit"];
-
-/// A netlist that runs.
-pub(crate) const MINIMAL: &str = "a small netlist that runs:\n\
-    \n\
-    format = 1\n\
-    \n\
-    [node]\n\
-    block = { T0 = \"25 degC\", C = \"500 J/K\" }\n\
-    \n\
-    [boundary]\n\
-    air = { T = \"25 degC\" }\n\
-    \n\
-    [resistor]\n\
-    cooling = { from = \"block\", to = \"air\", R = \"0.3 K/W\" }\n\
-    \n\
-    [source]\n\
-    loss = { into = \"block\", P = \"100 W\" }\n\
-    \n\
-    [run]\n\
-    stop = \"25 min\"\n";
 
 impl Section {
     /// What to do about a key that this section does not have.

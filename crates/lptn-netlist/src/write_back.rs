@@ -24,7 +24,7 @@ impl Netlist {
     pub fn written_number(&self, id: ParameterId) -> Option<WrittenNumber> {
         let (item, field) = (Item::Parameter(id), Field::Value);
         let span = self.source_map.get(item, field)?;
-        let text = self.files.at(span);
+        let text = self.files.at(&span);
         let quoted = text.starts_with(['"', '\'']);
         let content = if quoted { self.source_map.content(item, field)? } else { span.range.start };
         let inside = self.files.text(span.file).get(content..span.range.end)?;
@@ -32,6 +32,16 @@ impl Netlist {
         let written = written_quantity(inside)?;
         let place = content + written.number.start..content + written.number.end;
         Some(WrittenNumber { unit: written.unit, file: span.file, place })
+    }
+
+    /// Another parameter whose value is written at the same place: that of another instance of a template.
+    pub fn written_together(&self, id: ParameterId) -> Option<String> {
+        let place = self.source_map.parameter(id)?;
+        let others = self.network.parameter_ids().filter(|other| *other != id);
+        let same = |other: &ParameterId| {
+            self.source_map.parameter(*other).is_some_and(|there| there.is_same_text(&place))
+        };
+        others.into_iter().find(same).map(|other| self.network.name_of(Item::Parameter(other)).into_owned())
     }
 
     /// Whether a number stands in the netlist's own file and not in one that it includes.

@@ -214,17 +214,17 @@ fn numbers(netlist: &Netlist) -> Vec<(String, u64)> {
         found.push((network.nodes()[id.index()].name.clone(), network.capacity(id).to_bits()));
     }
     for id in network.conductor_ids() {
-        let name = &network.conductors()[id.index()].name;
+        let name = network.conductors()[id.index()].name();
         let [from, to] = match network.flow(id) {
             Flow::Conductance(x) | Flow::Radiation(x) | Flow::Stream(x) => [x, x],
             Flow::Variable => network.exchange(id, &mut scope, &temperatures).unwrap(),
         };
         found.push((format!("{name} from"), from.to_bits()));
-        found.push((name.clone(), to.to_bits()));
+        found.push((name.into_owned(), to.to_bits()));
     }
     for id in network.source_ids() {
         let heat = network.source_heat(id, &mut scope, &temperatures).unwrap();
-        found.push((network.sources()[id.index()].name.clone(), heat.to_bits()));
+        found.push((network.sources()[id.index()].name().into_owned(), heat.to_bits()));
     }
     for id in network.parameter_ids() {
         let name = network.parameters()[id.index()].name.clone();
@@ -391,7 +391,7 @@ fn places_of_the_new_sections_are_known() {
     let netlist = read(ELEMENTS);
     let at = |name: &str, field| {
         let item = netlist.network.item(name).unwrap();
-        netlist.files.at(netlist.source_map.get(item, field).unwrap())
+        netlist.files.at(&netlist.source_map.get(item, field).unwrap())
     };
     assert_eq!(at("tube", Field::InnerRadius), "\"20 mm\"");
     assert_eq!(at("grey", Field::Emissivity), "\"eps\"");
@@ -399,7 +399,7 @@ fn places_of_the_new_sections_are_known() {
     assert_eq!(at("P_loss", Field::Into), "{ steel = 0.7, ring = 0.3 }");
     for id in netlist.network.signal_ids() {
         let name = netlist.source_map.name(Item::Signal(id)).unwrap();
-        assert_eq!(netlist.files.at(name), netlist.network.signals()[id.index()].name);
+        assert_eq!(netlist.files.at(&name), netlist.network.signals()[id.index()].name);
     }
     let Item::Conductor(wall) = netlist.network.item("wall").unwrap() else { panic!() };
     assert!(matches!(netlist.network.conductors()[wall.index()].law, Law::Conduction { .. }));

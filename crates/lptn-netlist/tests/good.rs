@@ -62,7 +62,7 @@ fn names_and_kinds_follow_the_file() {
     let parts: Vec<&str> = network.capacitors().iter().map(|c| c.name.as_str()).collect();
     assert_eq!(parts, ["gears", "shaft_and_bearings", "housing", "carrier_and_hub"]);
     let skin = &network.conductors()[2];
-    assert_eq!((skin.name.as_str(), skin.kind), ("skin", ConductorKind::Convection));
+    assert_eq!((&*skin.name(), skin.kind), ("skin", ConductorKind::Convection));
     assert_eq!(skin.from, End::Node(network.node("aluminium").unwrap()));
     assert!(matches!(skin.to, End::Boundary(_)));
 }
@@ -108,7 +108,7 @@ fn both_forms_of_a_table_are_the_same() {
 #[test]
 fn places_are_those_of_the_text() {
     let netlist = good(GEARBOX);
-    let at = |item, field| netlist.files.at(netlist.source_map.get(item, field).unwrap());
+    let at = |item, field| netlist.files.at(&netlist.source_map.get(item, field).unwrap());
     let steel = Item::Node(netlist.network.node("steel").unwrap());
     assert_eq!(at(steel, Field::Name), "steel");
     assert_eq!(at(steel, Field::Initial), "\"T_amb\"");
@@ -116,9 +116,9 @@ fn places_are_those_of_the_text() {
     assert_eq!(at(internal, Field::Resistance), "\"1.7 [K] / P_7000\"");
     assert_eq!((at(internal, Field::From), at(internal, Field::To)), ("\"steel\"", "\"aluminium\""));
     let share = netlist.network.parameter("bed_share").unwrap();
-    assert_eq!(netlist.files.at(netlist.source_map.parameter(share).unwrap()), "0.7");
+    assert_eq!(netlist.files.at(&netlist.source_map.parameter(share).unwrap()), "0.7");
     let span = netlist.source_map.name(internal).unwrap();
-    assert_eq!(netlist.files.line_column(span), (28, 1));
+    assert_eq!(netlist.files.line_column(&span), (28, 1));
 }
 
 /// Every part has the place of its name and of each of its values.
@@ -132,7 +132,7 @@ fn no_part_is_without_a_place() {
     let items = items.chain(network.conductor_ids().map(Item::Conductor));
     let items = items.chain(network.source_ids().map(Item::Source));
     for item in items.chain(network.parameter_ids().map(Item::Parameter)) {
-        assert_eq!(netlist.files.at(map.name(item).unwrap()), network.name_of(item));
+        assert_eq!(netlist.files.at(&map.name(item).unwrap()), network.name_of(item));
     }
     let has = |item, field| assert!(map.get(item, field).is_some(), "{item:?} {field:?}");
     network.capacitor_ids().for_each(|id| has(Item::Capacitor(id), Field::Capacity));
@@ -222,7 +222,7 @@ fn line_ends_and_byte_order_mark_do_not_matter() {
     let netlist = good(&windows);
     close(conductance(&netlist, "skin"), 0.3 * 220.6 / 65.5);
     let skin = netlist.network.item("skin").unwrap();
-    assert_eq!(netlist.files.line_column(netlist.source_map.name(skin).unwrap()), (32, 1));
+    assert_eq!(netlist.files.line_column(&netlist.source_map.name(skin).unwrap()), (32, 1));
 }
 
 #[test]
@@ -254,7 +254,7 @@ fn limits_name_temperatures_parameters_and_time() {
     for id in network.limit_ids() {
         let item = Item::Limit(id);
         let span = netlist.source_map.get(item, Field::Of).unwrap();
-        assert_eq!(netlist.files.at(span).trim_matches('"'), limits[id.index()].text);
+        assert_eq!(netlist.files.at(&span).trim_matches('"'), limits[id.index()].text);
         assert!(netlist.source_map.get(item, limits[id.index()].bound.field()).is_some());
     }
     assert!(netlist.warnings.is_empty());
@@ -265,7 +265,7 @@ fn what_has_no_effect_is_a_warning() {
     let text = "format = 1
 [node]
 block = { T0 = \"20 degC\", C = \"500 J/K\" }
-joint = { T0 = \"20 degC\", massless = true }
+joint = { T0 = \"20 degC\", massless = true, L_char = \"1 cm\" }
 [boundary]
 air = { T = \"25 degC\" }
 [resistor]
@@ -280,6 +280,9 @@ pulse = { into = \"block\", P = \"if(t == 5 [s], 100 [W], 0 [W])\" }
 warning[netlist::massless_initial]: `T0` of node `joint` has no effect: the node is massless
  --> a.toml:4:16
   = help: leave `T0` out: a massless node takes the temperature that its neighbours give it
+warning[netlist::massless_length]: `L_char` of node `joint` has no effect: the node is massless
+ --> a.toml:4:53
+  = help: leave it out: a junction is no body
 warning[netlist::moment]: `P` of source `pulse` compares the time by equality, which lasts for no time
  --> a.toml:11:35: never acts
   = help: use `<` or `>=`; a pulse is `if(t < 5 [s], a, if(t < 6 [s], b, a))`";

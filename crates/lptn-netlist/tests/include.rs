@@ -69,7 +69,7 @@ fn what_is_included_counts_as_written_in_front() {
     let parameter = netlist.network.parameter("c").unwrap();
     let span = netlist.source_map.parameter(parameter).unwrap();
     assert!(netlist.files.name(span.file).ends_with("parts/materials.toml"));
-    assert_eq!(netlist.files.at(span), "\"460 J/(kg K)\"");
+    assert_eq!(netlist.files.at(&span), "\"460 J/(kg K)\"");
 }
 
 #[test]

@@ -73,7 +73,7 @@ fn a_material_of_the_file_hides_one_of_the_library_and_parameters_reach_both() {
 fn places_are_known() {
     let netlist = good("[node]\na = { material = \"copper\", mass = \"1.5 kg\" }\n");
     let item = Item::Node(a(&netlist));
-    let at = |field| netlist.files.at(netlist.source_map.get(item, field).unwrap());
+    let at = |field| netlist.files.at(&netlist.source_map.get(item, field).unwrap());
     assert_eq!((at(Field::Mass), at(Field::Material)), ("\"1.5 kg\"", "\"copper\""));
 }
 

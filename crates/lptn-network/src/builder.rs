@@ -5,11 +5,13 @@ use std::sync::Arc;
 use lptn_units::{Dimension, Expression, Program, RESERVED, TableSymbol, Type, UnitError};
 
 use crate::check;
-use crate::element::{Boundary, Capacitor, Conductor, ConductorKind, Node, Parameter, Source};
+use crate::element::{Boundary, Capacitor, ConductorKind, Node, Parameter, Source};
 use crate::error::{BuildError, BuildErrorKind, BuildErrors};
+use crate::grid;
 use crate::id::{
     BoundaryId, CapacitorId, ConductorId, End, Field, Item, LimitId, NodeId, ParameterId, SourceId, TableId,
 };
+use crate::label::is_numbered;
 use crate::law::{Exchange, Law, Shape, Stream};
 use crate::limit::{Bound, Limit, Severity};
 use crate::names::is_path;
@@ -110,7 +112,15 @@ impl NetworkBuilder {
         let lump = capacity.as_ref().and_then(|c| c.lump.clone());
         let capacity = capacity.map(|c| self.typed(at(Field::Capacity), c, CAPACITY));
         let initial = initial.map(|t| self.typed(at(Field::Initial), t, Type::ABSOLUTE_TEMPERATURE));
-        self.parts.nodes.push(Node { name: name.to_owned(), capacity, lump, initial, massless });
+        self.parts.nodes.push(Node {
+            name: name.to_owned(),
+            capacity,
+            lump,
+            initial,
+            molten: 0.0,
+            length: None,
+            massless,
+        });
         Arc::make_mut(&mut self.parts.layout).add_node(id);
         self.register(name, Item::Node(id));
         id
@@ -170,32 +180,14 @@ impl NetworkBuilder {
         (from, to): (End, End),
         path: Path,
     ) -> ConductorId {
-        let id = ConductorId::from_len(self.parts.conductors.len());
-        [from, to].into_iter().for_each(|end| self.check_end(name, Item::Conductor(id), end));
-        let law = self.law(name, Item::Conductor(id), path);
-        self.parts.conductors.push(Conductor { name: name.to_owned(), kind, from, to, law });
+        let id = self.push_conductor(name.into(), kind, (from, to), path);
         self.register(name, Item::Conductor(id));
-        if from == to {
-            self.error(name, BuildErrorKind::SelfLink { conductor: id });
-        }
         id
     }
 
     /// Adds a source that heats a node with `power`, which may depend on `t`.
     pub fn source(&mut self, name: &str, into: impl Into<End>, power: impl Into<Input>) -> SourceId {
-        let id = SourceId::from_len(self.parts.sources.len());
-        let at = (name, Item::Source(id), Field::Power);
-        let power = self.typed(at, power.into(), Type::of(Dimension::POWER));
-        let into = into.into();
-        self.check_end(name, Item::Source(id), into);
-        let node = match into {
-            End::Node(node) => node,
-            End::Boundary(_) => {
-                self.error(name, BuildErrorKind::SourceIntoBoundary { source: id });
-                NodeId(0)
-            }
-        };
-        self.parts.sources.push(Source { name: name.to_owned(), into: vec![(node, 1.0)], power });
+        let id = self.push_source(name.into(), into.into(), power.into());
         self.register(name, Item::Source(id));
         id
     }
@@ -211,7 +203,7 @@ impl NetworkBuilder {
         if !(usable && (sum - 1.0).abs() <= SHARES) {
             self.error(name, BuildErrorKind::Shares { source: id, sum });
         }
-        self.parts.sources.push(Source { name: name.to_owned(), into: into.to_vec(), power });
+        self.parts.sources.push(Source { label: name.into(), into: into.to_vec(), power });
         self.register(name, Item::Source(id));
         id
     }
@@ -282,9 +274,13 @@ impl NetworkBuilder {
             return Err(BuildErrors(self.errors)); // nothing else can be looked up
         }
         check::structure(&self.parts, &mut self.errors);
+        grid::collapse(&self.parts, &mut self.errors);
         self.parts.settle();
+        self.parts.settle_grid_values();
         match Numbers::evaluate(&self.parts, &[]) {
-            Ok(numbers) if self.errors.is_empty() => Ok(Network { parts: Arc::new(self.parts), numbers }),
+            Ok(numbers) if self.errors.is_empty() => {
+                Ok(Network { parts: Arc::new(self.parts), numbers: Arc::new(numbers) })
+            }
             Ok(_) => Err(BuildErrors(self.errors)),
             Err(more) => {
                 self.errors.extend(more);
@@ -293,7 +289,7 @@ impl NetworkBuilder {
         }
     }
 
-    fn law(&mut self, name: &str, item: Item, path: Path) -> Law {
+    pub(crate) fn law(&mut self, name: &str, item: Item, path: Path) -> Law {
         let at = |field| (name, item, field);
         let of = |d| Type::of(d);
         match path {
@@ -309,17 +305,18 @@ impl NetworkBuilder {
             },
             Path::Conduction(k, shape) => Law::Conduction {
                 conductivity: self.typed(at(Field::Conductivity), k, of(Dimension::CONDUCTIVITY)),
-                shape: shape.map(|field, value| self.typed(at(field), value, type_of(field))),
+                shape: Box::new(shape.map(|field, value| self.typed(at(field), value, type_of(field)))),
             },
             Path::Radiation(exchange) => {
-                Law::Radiation(exchange.map(|field, value| self.typed(at(field), value, type_of(field))))
+                let exchange = exchange.map(|field, value| self.typed(at(field), value, type_of(field)));
+                Law::Radiation(Box::new(exchange))
             }
             Path::Advection(stream) => {
                 let volume = matches!(stream, Stream::Volume { .. });
-                Law::Advection(stream.map(|field, value| {
+                Law::Advection(Box::new(stream.map(|field, value| {
                     let ty = if volume && field == Field::Flow { VOLUME_FLOW } else { type_of(field) };
                     self.typed(at(field), value, ty)
-                }))
+                })))
             }
         }
     }
@@ -336,11 +333,11 @@ impl NetworkBuilder {
         input.value
     }
 
-    fn register(&mut self, name: &str, item: Item) {
+    pub(crate) fn register(&mut self, name: &str, item: Item) {
         self.check_name(name, item);
-        match self.parts.names.get(name) {
-            Some(&first) => self.duplicate(name, first, item),
-            None => drop(self.parts.names.insert(name.to_owned(), item)),
+        match self.parts.item(name) {
+            Some(first) => self.duplicate(name, first, item),
+            None => self.parts.names.insert(name, item),
         }
     }
 
@@ -353,19 +350,22 @@ impl NetworkBuilder {
     }
 
     pub(crate) fn check_end(&mut self, name: &str, item: Item, end: End) {
-        let known = match end {
+        if !self.knows(end) {
+            self.error(name, BuildErrorKind::ForeignId { item });
+        }
+    }
+
+    pub(crate) fn knows(&self, end: End) -> bool {
+        match end {
             End::Node(id) => id.index() < self.parts.nodes.len(),
             End::Boundary(id) => id.index() < self.parts.boundaries.len(),
-        };
-        if !known {
-            self.error(name, BuildErrorKind::ForeignId { item });
         }
     }
 
     pub(crate) fn check_name(&mut self, name: &str, item: Item) {
         if !is_path(name) {
             self.error(name, BuildErrorKind::BadName { item });
-        } else if RESERVED.contains(&name) {
+        } else if is_numbered(name) || RESERVED.contains(&name) {
             self.error(name, BuildErrorKind::ReservedName { item });
         }
     }

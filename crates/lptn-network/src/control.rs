@@ -111,7 +111,7 @@ impl Work<'_> {
                 let (item, field, value) = (Item::Control(id), Field::MinDwell, &thermostat.min_dwell);
                 let dwell = self.constant(item, field, value, Range::Finite);
                 if dwell < 0.0 {
-                    self.error(item, BuildErrorKind::NotPositive { item, field, value: dwell });
+                    self.error(item, BuildErrorKind::Negative { item, field, value: dwell });
                 }
                 dwell
             })
@@ -153,6 +153,17 @@ impl Network {
     /// How long a control stays as it is after a switch, in s.
     pub fn min_dwell(&self, id: ControlId) -> f64 {
         self.numbers.min_dwell[id.index()]
+    }
+
+    /// The distance in K between the thresholds of a control; `None` unless both are constant.
+    pub fn dead_band(&self, id: ControlId) -> Option<f64> {
+        let Thermostat { on, off, .. } = self.thermostat(id)?;
+        let mut scope = self.evaluation();
+        let mut constant = |value: &Value| {
+            let is = self.parts.reads(value).is_constant();
+            is.then(|| value.at(&mut scope).ok()).flatten()
+        };
+        Some((constant(on)? - constant(off)?).abs())
     }
 
     /// How far, in K, the temperature that a control feels is beyond the threshold at which it leaves the state that

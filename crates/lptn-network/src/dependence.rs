@@ -2,7 +2,7 @@
 
 use crate::control::Control;
 use crate::element::{Conductor, Source};
-use crate::id::{End, Item, SignalId};
+use crate::id::{ConductorId, End, Item, SignalId};
 use crate::layout::{Holds, slot};
 use crate::parts::Parts;
 use crate::signal::Course;
@@ -41,10 +41,10 @@ pub(crate) struct Dependence {
     pub(crate) named: Vec<(u32, usize)>,
 }
 
-impl Dependence {
-    /// None at all.
-    pub(crate) const NONE: Self = Self { vertices: Vec::new(), named: Vec::new() };
+/// That of a conductor that depends on nothing.
+pub(crate) static NONE: Dependence = Dependence { vertices: Vec::new(), named: Vec::new() };
 
+impl Dependence {
     fn add(&mut self, parts: &Parts, end: End) {
         let vertex = parts.vertex(end);
         let position = self.vertices.iter().position(|&v| v == vertex).unwrap_or_else(|| {
@@ -68,6 +68,9 @@ impl Parts {
     /// What a value reads, signals that are expressions included.
     pub(crate) fn reads(&self, value: &Value) -> Reads {
         let mut reads = Reads::default();
+        if let Value::Constant(_) = value {
+            return reads; // nearly all values of a large network
+        }
         for slot in value.slots() {
             match self.layout.holds(slot) {
                 Holds::Time | Holds::FrozenTime | Holds::Signal(_) | Holds::FrozenSignal(_) => {
@@ -77,7 +80,7 @@ impl Parts {
                 Holds::Own => reads.own = true,
                 Holds::Temperature(end) => reads.temperatures.push(end),
                 Holds::Control(_) | Holds::Switch(_) => reads.positions = true,
-                Holds::Parameter(_) | Holds::Heat(_) => {}
+                Holds::Parameter(_) | Holds::Heat(_) | Holds::Grid(_) => {}
             }
         }
         reads.temperatures.sort_unstable();
@@ -110,12 +113,20 @@ impl Parts {
 
     /// Whether the heat of a conductor is more than a constant times a difference or a stream.
     pub(crate) fn is_variable(&self, conductor: &Conductor) -> bool {
+        if conductor.law.is_number() {
+            return false;
+        }
         let values = conductor.law.parts();
         let fluid = match &conductor.law {
             crate::Law::Advection(stream) => stream.fluid().map(|id| &self.fluids[id.index()].cp),
             _ => None,
         };
         values.into_iter().map(|(_, value)| value).chain(fluid).any(|v| !self.reads(v).is_constant())
+    }
+
+    /// The temperatures that a conductor was found to depend on; none for a constant one.
+    pub(crate) fn dependence(&self, id: ConductorId) -> &Dependence {
+        self.conductor_dependence[id.index()].as_deref().unwrap_or(&NONE)
     }
 
     /// The temperatures a conductor depends on.
@@ -162,10 +173,10 @@ impl Parts {
         };
         for (conductor, dependence) in self.conductors.iter().zip(&self.conductor_dependence) {
             let constant = !matches!(conductor.law, crate::Law::Radiation(_) | crate::Law::Advection(_));
-            if !(constant && dependence.vertices.is_empty()) {
+            if !constant || dependence.is_some() {
                 touch(self.vertex(conductor.from));
                 touch(self.vertex(conductor.to));
-                dependence.vertices.iter().for_each(|&v| touch(v));
+                dependence.iter().flat_map(|of| &of.vertices).for_each(|&v| touch(v));
             }
         }
         for (source, dependence) in self.sources.iter().zip(&self.source_dependence) {
@@ -183,7 +194,7 @@ impl Parts {
         let conductors = self
             .conductors
             .iter()
-            .map(|c| if self.is_variable(c) { self.conductor_dependence(c) } else { Dependence::default() });
+            .map(|c| self.is_variable(c).then(|| Box::new(self.conductor_dependence(c))));
         let conductors = conductors.collect();
         let sources = self.sources.iter().map(|s| self.source_dependence(s)).collect();
         self.conductor_dependence = conductors;

@@ -1,8 +1,11 @@
 //! The parts of a network, as the builder takes them.
 
+use std::borrow::Cow;
+
 use lptn_units::Type;
 
 use crate::id::{End, NodeId};
+use crate::label::Label;
 use crate::law::Law;
 use crate::material::Lump;
 use crate::value::Value;
@@ -31,8 +34,25 @@ pub struct Node {
     pub lump: Option<Lump>,
     /// Its temperature at the start in K.
     pub initial: Option<Value>,
+    /// If it melts at just that temperature: how much is molten then, from 0 to 1.
+    pub molten: f64,
+    /// Its characteristic length in m, volume over surface, if it is to be checked for being a lump.
+    pub length: Option<Value>,
     /// Whether it is a junction that stores nothing.
     pub massless: bool,
+}
+
+impl Node {
+    /// Whether its own capacity and its start are the same values as those of another node.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        let same = |a: &Option<Value>, b: &Option<Value>| match (a, b) {
+            (Some(a), Some(b)) => a.is_same(b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        same(&self.capacity, &other.capacity)
+            && same(&self.initial, &other.initial)
+            && self.molten.to_bits() == other.molten.to_bits()
+    }
 }
 
 /// A part of a node's capacity: the paper's equation (9), a sum over the parts of one lump.
@@ -77,8 +97,7 @@ pub enum ConductorKind {
 /// A path that carries heat between two ends. Parallel conductors add.
 #[derive(Clone, Debug)]
 pub struct Conductor {
-    /// Its name.
-    pub name: String,
+    pub(crate) label: Label,
     /// Its kind.
     pub kind: ConductorKind,
     /// The end that positive heat leaves.
@@ -92,10 +111,23 @@ pub struct Conductor {
 /// A source of heat.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// Its name.
-    pub name: String,
+    pub(crate) label: Label,
     /// The nodes it heats, with the share of each; the shares sum to 1.
     pub into: Vec<(NodeId, f64)>,
     /// Its heat in W, positive into the nodes; may depend on time and on temperatures.
     pub power: Value,
+}
+
+impl Conductor {
+    /// Its name; one without a name of its own is called by its number, `import.conductor[17]`.
+    pub fn name(&self) -> Cow<'_, str> {
+        self.label.of_conductor()
+    }
+}
+
+impl Source {
+    /// Its name; one without a name of its own is called by its number, `import.source[17]`.
+    pub fn name(&self) -> Cow<'_, str> {
+        self.label.of_source()
+    }
 }

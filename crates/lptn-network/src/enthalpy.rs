@@ -121,6 +121,31 @@ impl Enthalpy {
         Some(Self { panels: Arc::clone(&self.panels), scale: self.scale * scale, zero })
     }
 
+    /// The same curve with its zero where `share` of the latent heat at just `start` in K is taken up; `None` if no
+    /// latent heat is taken up at that temperature alone.
+    pub(crate) fn partly_molten(&self, start: f64, share: f64) -> Option<Self> {
+        let latent = self.latent_at(start)?;
+        let mut curve = self.rescaled(1.0, start)?;
+        curve.zero += share * latent;
+        Some(curve)
+    }
+
+    /// What the panels without width at a temperature take up, by the panels.
+    fn latent_at(&self, temperature: f64) -> Option<f64> {
+        let first = self.panels.partition_point(|panel| panel.to < temperature);
+        let here = self.panels[first..].iter().take_while(|panel| panel.from <= temperature);
+        let mut latent = here.filter(|panel| panel.to <= panel.from).map(|panel| panel.rise).peekable();
+        latent.peek().is_some().then(|| latent.sum())
+    }
+
+    /// How much of the latent heat that is taken up at just one temperature is taken up, from 0 to 1; `None` for a
+    /// heat content at another temperature.
+    pub fn melted(&self, heat: f64) -> Option<f64> {
+        let temperature = self.temperature(heat)?.temperature;
+        let latent = self.scale * self.latent_at(temperature)?;
+        Some(((heat - self.heat(temperature)?) / latent).clamp(0.0, 1.0))
+    }
+
     /// The panel of a temperature, the lower one where two meet; `None` outside [`Enthalpy::range`].
     fn panel(&self, temperature: f64) -> Option<&Panel> {
         let (first, last) = self.range();
@@ -441,6 +466,20 @@ mod tests {
         assert!(curve.temperature(5500.0).unwrap().capacity.is_infinite());
         close(curve.temperature(3000.0 + 5000.0 + 700.0).unwrap().temperature, 337.0);
         close(curve.heat(340.0).unwrap(), 9000.0);
+    }
+
+    #[test]
+    fn a_curve_may_begin_amid_melting() {
+        let latent = Latent { solidus: 330.0, liquidus: 330.0, heat: 5000.0 };
+        let curve = Enthalpy::new(&mut |_| Some(100.0), 300.0, &[], &[latent]).unwrap();
+        assert_eq!(curve.melted(2000.0), None);
+        close(curve.melted(3000.0 + 1500.0).unwrap(), 0.3);
+        let amid = curve.rescaled(2.0, 310.0).unwrap().partly_molten(330.0, 0.3).unwrap();
+        close(amid.melted(0.0).unwrap(), 0.3);
+        // 0.7 of 10 kJ are left to melt, then 200 J/K
+        close(amid.temperature(7000.0 + 400.0).unwrap().temperature, 332.0);
+        close(amid.temperature(-3000.0 - 400.0).unwrap().temperature, 328.0);
+        assert!(curve.partly_molten(331.0, 0.3).is_none(), "it melts at 330 K alone");
     }
 
     #[test]

@@ -4,7 +4,8 @@ use std::fmt;
 
 use lptn_units::{EvalError, Type};
 
-use crate::id::{ConductorId, ControlId, Field, FluidId, Item, NodeId, SignalId, SourceId};
+use crate::grid::GridFace;
+use crate::id::{ConductorId, ControlId, Field, FluidId, GridId, Item, NodeId, SignalId, SourceId};
 
 /// All problems found while a network was built; never empty.
 #[derive(Clone, Debug)]
@@ -66,6 +67,15 @@ pub enum BuildErrorKind {
     },
     /// A value that has to be finite and more than zero, but is not.
     NotPositive {
+        /// The item.
+        item: Item,
+        /// Its field.
+        field: Field,
+        /// The value in SI units.
+        value: f64,
+    },
+    /// A value that may be zero, but not less.
+    Negative {
         /// The item.
         item: Item,
         /// Its field.
@@ -162,6 +172,13 @@ pub enum BuildErrorKind {
         /// Liquidus in K.
         liquidus: f64,
     },
+    /// A node of which a part is said to be molten at its start, but that does not melt at just that temperature.
+    NotMelting {
+        /// The node.
+        node: NodeId,
+        /// Its start in K.
+        temperature: f64,
+    },
     /// Shares of a source that are negative or do not sum to 1.
     Shares {
         /// The source.
@@ -252,6 +269,67 @@ pub enum BuildErrorKind {
     ForeignParameters,
     /// A network without any node, and without a path between boundaries.
     Empty,
+    /// Counts of cells that are not one to three, each at least 1.
+    GridCells {
+        /// The grid.
+        grid: GridId,
+        /// The counts.
+        counts: Vec<usize>,
+    },
+    /// More than [`MOST_CELLS`](crate::MOST_CELLS) cells.
+    GridTooLarge {
+        /// The grid.
+        grid: GridId,
+        /// The counts.
+        counts: Vec<usize>,
+    },
+    /// A grid of a material that lacks a property.
+    NoProperty {
+        /// The grid.
+        item: Item,
+        /// The property.
+        field: Field,
+    },
+    /// A stream that ends at a face of a grid, which it cannot mix with.
+    StreamIntoFace {
+        /// The path.
+        item: Item,
+    },
+    /// Two faces that are joined but not divided in the same way.
+    FaceCells {
+        /// The path.
+        item: Item,
+        /// The faces.
+        faces: [GridFace; 2],
+        /// Their names.
+        names: [String; 2],
+        /// How many cells each has along its two axes.
+        cells: [[usize; 2]; 2],
+    },
+    /// Two faces that are joined but not of the same size.
+    FaceSides {
+        /// The path.
+        item: Item,
+        /// The faces.
+        faces: [GridFace; 2],
+        /// Their names.
+        names: [String; 2],
+        /// The lengths of each along its two axes in m.
+        sides: [[f64; 2]; 2],
+    },
+    /// A path whose area is not that of the face it ends at.
+    FaceArea {
+        /// The path.
+        item: Item,
+        /// Its area in m^2.
+        given: f64,
+        /// The face.
+        face: GridFace,
+        /// Its name.
+        name: String,
+        /// The area of the face in m^2.
+        area: f64,
+    },
 }
 
 impl BuildError {
@@ -264,6 +342,7 @@ impl BuildError {
             K::ReservedName { .. } => "network::reserved_name",
             K::WrongType { .. } => "network::wrong_type",
             K::NotPositive { .. } => "network::not_positive",
+            K::Negative { .. } => "network::negative",
             K::NotFinite { .. } => "network::not_finite",
             K::BelowAbsoluteZero { .. } => "network::below_absolute_zero",
             K::DependsOnTime { .. } => "network::depends_on_time",
@@ -275,6 +354,7 @@ impl BuildError {
             K::NotAFraction { .. } => "network::not_a_fraction",
             K::Radii { .. } => "network::radii",
             K::Melting { .. } => "network::melting",
+            K::NotMelting { .. } => "network::not_melting",
             K::Shares { .. } => "network::shares",
             K::WhichTemperature { .. } => "network::which_temperature",
             K::CapacityUnknown { .. } => "network::capacity_unknown",
@@ -291,44 +371,13 @@ impl BuildError {
             K::ForeignId { .. } => "network::foreign_id",
             K::ForeignParameters => "network::foreign_parameters",
             K::Empty => "network::empty",
+            K::GridCells { .. } => "network::grid_cells",
+            K::GridTooLarge { .. } => "network::grid_too_large",
+            K::NoProperty { .. } => "network::no_property",
+            K::StreamIntoFace { .. } => "network::stream_into_face",
+            K::FaceCells { .. } => "network::face_cells",
+            K::FaceSides { .. } => "network::face_sides",
+            K::FaceArea { .. } => "network::face_area",
         }
-    }
-
-    /// Where the problem is, if it is at one item: the item and its field.
-    pub fn place(&self) -> Option<(Item, Field)> {
-        use BuildErrorKind as K;
-        Some(match self.kind {
-            K::DuplicateName { second: item, .. } | K::BadName { item } | K::ReservedName { item } => {
-                (item, Field::Name)
-            }
-            K::WrongType { item, field, .. }
-            | K::NotPositive { item, field, .. }
-            | K::NotFinite { item, field, .. }
-            | K::BelowAbsoluteZero { item, field, .. }
-            | K::DependsOnTime { item, field }
-            | K::DependsOnResult { item, field }
-            | K::ComparisonNotLinear { item, field }
-            | K::ComparesTemperature { item, field }
-            | K::NotAFraction { item, field, .. }
-            | K::Evaluation { item, field, .. } => (item, field),
-            K::ThresholdsCrossed { control, fields, .. } => (Item::Control(control), fields[0]),
-            K::NoThermostat { control } => (Item::Control(control), Field::Name),
-            K::Radii { item, .. } => (item, Field::OuterRadius),
-            K::Melting { item, .. } => (item, Field::Liquidus),
-            K::Shares { source, .. } => (Item::Source(source), Field::Into),
-            K::WhichTemperature { source } => (Item::Source(source), Field::Power),
-            K::CapacityUnknown { node, .. } => (Item::Node(node), Field::Capacity),
-            K::FluidUnknown { fluid, field } => (Item::Fluid(fluid), field),
-            K::PeriodTooShort { signal, .. } => (Item::Signal(signal), Field::Period),
-            K::SignalPoints { signal } => (Item::Signal(signal), Field::Value),
-            K::SelfLink { conductor } => (Item::Conductor(conductor), Field::To),
-            K::SourceIntoBoundary { source } => (Item::Source(source), Field::Into),
-            K::NoCapacity { node } | K::MasslessWithCapacity { node } | K::NoInitialTemperature { node } => {
-                (Item::Node(node), Field::Name)
-            }
-            K::FloatingIsland { ref nodes, .. } => (Item::Node(*nodes.first()?), Field::Name),
-            K::ForeignId { item } => (item, Field::Name),
-            K::ForeignParameters | K::Empty => return None,
-        })
     }
 }

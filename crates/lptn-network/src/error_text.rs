@@ -5,6 +5,7 @@ use std::fmt;
 use lptn_units::format_number;
 
 use crate::error::{BuildError, BuildErrorKind};
+use crate::grid::MOST_CELLS;
 use crate::id::Field;
 use crate::names::list_of_names;
 use crate::typed::ZERO_CELSIUS;
@@ -57,6 +58,9 @@ impl BuildError {
                 "write `sense`, `on_above` and `off_below`, or `on_below` and `off_above`".into()
             }
             K::Melting { .. } => "exchange `solidus` and `liquidus`".into(),
+            K::NotMelting { .. } => {
+                "give the material the solidus and liquidus of the run that wrote the state, or leave the share out".into()
+            }
             K::Shares { .. } => "make the shares sum to 1".into(),
             K::WhichTemperature { .. } => "name the node, for example `steel.T`".into(),
             K::CapacityUnknown { .. } => {
@@ -65,9 +69,80 @@ impl BuildError {
             K::PeriodTooShort { span, .. } => format!("write `period = \"{span} s\"` or more"),
             K::BadName { .. } => "use letters, digits and `_`, not a digit first".into(),
             K::ReservedName { .. } => format!("choose another name, for example `{name}_1`"),
+            _ => return self.help_of_grid(),
+        })
+    }
+
+    fn help_of_grid(&self) -> Option<String> {
+        use BuildErrorKind as K;
+        Some(match &self.kind {
+            K::GridCells { .. } => {
+                "give one to three whole numbers, along x, y and z: `cells = [20, 10, 1]`".into()
+            }
+            K::GridTooLarge { .. } => {
+                "make the cells larger: half as many along each axis have four times the error".into()
+            }
+            K::StreamIntoFace { .. } => {
+                "let the stream pass a node, and join that to the face by a [convection]".into()
+            }
+            K::FaceCells { .. } => "divide both in the same way along the face".into(),
+            K::FaceSides { .. } => "two faces that touch have the same lengths: check `size` of both".into(),
+            K::FaceArea { .. } => {
+                "leave `area` out: it is that of the face; a film on a part of it is given by `G` or `R`"
+                    .into()
+            }
             _ => return None,
         })
     }
+}
+
+/// "1 x 2": counts or lengths along the axes.
+fn by(numbers: &[impl fmt::Display]) -> String {
+    numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(" x ")
+}
+
+/// The words for grids and their faces.
+struct OfGrid<'a>(&'a BuildError);
+
+impl fmt::Display for OfGrid<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use BuildErrorKind as K;
+        let name = &self.0.name;
+        match &self.0.kind {
+            K::GridCells { counts, .. } => {
+                write!(f, "`cells` of `{name}` must be one to three counts of at least 1, got {counts:?}")
+            }
+            K::GridTooLarge { counts, .. } => {
+                let all: f64 = counts.iter().map(|&count| count as f64).product();
+                write!(f, "`{name}` has {} = {all:.3e} cells, more than {MOST_CELLS}", by(counts))
+            }
+            K::NoProperty { field, .. } => write!(f, "the material of `{name}` has no `{}`", field.key()),
+            K::StreamIntoFace { .. } => write!(f, "the stream `{name}` ends at a face, which is solid"),
+            K::FaceCells { names: [a, b], cells: [m, n], .. } => {
+                write!(f, "`{name}` joins `{a}` of {} cells to `{b}` of {} cells", by(m), by(n))
+            }
+            K::FaceSides { names: [a, b], sides: [u, v], .. } => write!(
+                f,
+                "`{name}` joins `{a}`, {} m = {} m^2, to `{b}`, {} m = {} m^2",
+                by(&u.map(rounded)),
+                rounded(u[0] * u[1]),
+                by(&v.map(rounded)),
+                rounded(v[0] * v[1])
+            ),
+            K::FaceArea { given, name: face, area, .. } => write!(
+                f,
+                "the area of `{name}`, {} m^2, is not that of the face `{face}`, {} m^2",
+                rounded(*given),
+                rounded(*area)
+            ),
+            _ => f.write_str(self.0.code()),
+        }
+    }
+}
+
+/// Without the noise of binary arithmetic.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
 }
 
 /// The words for what only some kinds of elements can have wrong.
@@ -79,15 +154,27 @@ impl fmt::Display for OfElements<'_> {
         let name = &self.0.name;
         match &self.0.kind {
             K::ComparesTemperature { field, .. } => {
-                write!(f, "`{}` of `{name}` compares temperatures where that cannot be followed", field.key())
+                write!(
+                    f,
+                    "`{}` of `{name}` compares temperatures, or what switches, where that cannot be followed",
+                    field.key()
+                )
             }
             K::ThresholdsCrossed { fields: [a, b], on, off, .. } => {
                 let celsius = |t: &f64| format_number(t - ZERO_CELSIUS);
+                let one = on.total_cmp(off).is_eq();
                 let (on, off) = (celsius(on), celsius(off));
-                write!(f, "`{}` and `{}` of `{name}` are crossed over: ", a.key(), b.key())?;
+                write!(f, "`{}` and `{}` of `{name}` are ", a.key(), b.key())?;
+                if one {
+                    return write!(f, "one temperature, {on} degC");
+                }
+                write!(f, "crossed over: ")?;
                 write!(f, "on at {on} degC, off at {off} degC")
             }
             K::NoThermostat { .. } => write!(f, "nothing says when control `{name}` switches"),
+            K::Negative { field, value, .. } => {
+                write!(f, "`{}` of `{name}` must not be negative, got {value}", field.key())
+            }
             K::NotAFraction { field, value, .. } => {
                 write!(f, "`{}` of `{name}` must be above 0 and at most 1, got {value}", field.key())
             }
@@ -96,6 +183,9 @@ impl fmt::Display for OfElements<'_> {
             }
             K::Melting { solidus, liquidus, .. } => {
                 write!(f, "`liquidus` of `{name}`, {liquidus} K, is below `solidus`, {solidus} K")
+            }
+            K::NotMelting { temperature, .. } => {
+                write!(f, "`{name}` is to start partly molten, but does not melt at just {temperature} K")
             }
             K::Shares { sum, .. } => {
                 write!(f, "the shares of `{name}` must not be negative and must sum to 1, got {sum}")
@@ -115,7 +205,7 @@ impl fmt::Display for OfElements<'_> {
             K::SignalPoints { .. } => {
                 write!(f, "the points of `{name}` are no rising times with one finite value each")
             }
-            _ => f.write_str(self.0.code()),
+            _ => OfGrid(self.0).fmt(f),
         }
     }
 }

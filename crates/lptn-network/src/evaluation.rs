@@ -58,6 +58,9 @@ impl Evaluation {
         for (slot, &value) in self.layout.temperatures().zip(nodes.iter().chain(boundaries)) {
             self.slots[slot as usize] = value;
         }
+        for (slot, value) in self.layout.grid_temperatures(nodes) {
+            self.slots[slot as usize] = value;
+        }
     }
 
     /// Sets the heat flows that expressions of results name, in W, in the order of [`crate::Network::named_heats`].

@@ -40,7 +40,7 @@ impl Network {
 
     /// The vertices (nodes, then boundaries) on whose temperatures a conductor depends: its ends first.
     pub fn conductor_variables(&self, id: ConductorId) -> &[u32] {
-        &self.parts.conductor_dependence[id.index()].vertices
+        &self.parts.dependence(id).vertices
     }
 
     /// The vertices on whose temperatures a source depends; none if it depends on time at most.
@@ -76,7 +76,7 @@ impl Network {
         temperatures: &[f64],
     ) -> Result<Received, InputError> {
         let conductor = &self.conductors()[id.index()];
-        let dependence = &self.parts.conductor_dependence[id.index()];
+        let dependence = self.parts.dependence(id);
         let at = |k: usize| temperatures[dependence.vertices[k] as usize];
         let result = {
             let (slots, stack) = scope.plain();
@@ -99,7 +99,7 @@ impl Network {
         slopes: &mut Vec<Received>,
     ) -> Result<Received, InputError> {
         let conductor = &self.conductors()[id.index()];
-        let dependence = &self.parts.conductor_dependence[id.index()];
+        let dependence = self.parts.dependence(id);
         let count = dependence.vertices.len();
         slopes.clear();
         let mut values = [0.0; 2];
@@ -197,7 +197,7 @@ impl Network {
             }
             _ => (item, field, problem),
         };
-        InputError { item, field, name: self.name_of(item).to_owned(), problem }
+        InputError { item, field, name: self.name_of(item).into_owned(), problem }
     }
 
     /// Heat received by the ends, where the slots stand.

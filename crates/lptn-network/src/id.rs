@@ -48,6 +48,10 @@ ids! {
     ControlId;
     /// A comparison of temperatures.
     SwitchId;
+    /// A grid: a block cut into cells.
+    GridId;
+    /// A path that ends at a face of a grid.
+    JointId;
 }
 
 /// One end of a conductor.
@@ -100,6 +104,10 @@ pub enum Item {
     Report(ReportId),
     /// A control.
     Control(ControlId),
+    /// A grid.
+    Grid(GridId),
+    /// A path that ends at a face of a grid.
+    Joint(JointId),
 }
 
 impl From<End> for Item {
@@ -202,6 +210,12 @@ pub enum Field {
     OffAbove,
     /// How long a control stays as it is after a switch.
     MinDwell,
+    /// Lengths of a grid.
+    Size,
+    /// How many cells a grid has along each axis.
+    Cells,
+    /// Characteristic length of a node.
+    CharacteristicLength,
 }
 
 impl Field {
@@ -252,6 +266,9 @@ impl Field {
             Self::OnBelow => "on_below",
             Self::OffAbove => "off_above",
             Self::MinDwell => "min_dwell",
+            Self::Size => "size",
+            Self::Cells => "cells",
+            Self::CharacteristicLength => "L_char",
         }
     }
 }

@@ -133,7 +133,7 @@ impl fmt::Display for InputError {
                 write!(f, "is not known at {time} s: its last point is at {last} s")
             }
             InputProblem::ThresholdsCrossed { on, off } => {
-                let celsius = |t: &f64| format_number(t - crate::typed::ZERO_CELSIUS);
+                let celsius = |t: &f64| six_digits(t - crate::typed::ZERO_CELSIUS);
                 let (on, off) = (celsius(on), celsius(off));
                 write!(f, "crosses over the threshold for off: on at {on} degC, off at {off} degC")
             }
@@ -149,6 +149,11 @@ impl fmt::Display for InputError {
             }
         }
     }
+}
+
+/// A number without the digits that tell a reader nothing.
+fn six_digits(x: f64) -> String {
+    format!("{x:.5e}").parse().map_or_else(|_| x.to_string(), format_number)
 }
 
 impl std::error::Error for InputError {}

@@ -29,12 +29,12 @@ pub enum Law {
         /// Thermal conductivity in W/(m K).
         conductivity: Value,
         /// The body.
-        shape: Shape,
+        shape: Box<Shape>,
     },
     /// Radiation between two surfaces: `q = sigma Gr (T_from^4 - T_to^4)`.
-    Radiation(Exchange),
+    Radiation(Box<Exchange>),
     /// Heat carried by a stream from `from` to `to`.
-    Advection(Stream),
+    Advection(Box<Stream>),
 }
 
 /// A body that conducts between two of its faces; lengths in m, areas in m^2.
@@ -226,6 +226,21 @@ impl<T> Stream<T> {
 }
 
 impl Law {
+    /// Whether it is a constant resistance or conductance, as nearly all of a large network are.
+    pub(crate) fn is_number(&self) -> bool {
+        matches!(self, Self::Resistance(Value::Constant(_)) | Self::Conductance(Value::Constant(_)))
+    }
+
+    /// The conductance in W/K of a constant resistance or conductance that is as it should be.
+    pub(crate) fn number(&self) -> Option<f64> {
+        let conductance = match self {
+            Self::Conductance(Value::Constant(conductance)) => *conductance,
+            Self::Resistance(Value::Constant(resistance)) if *resistance > 0.0 => 1.0 / resistance,
+            _ => return None,
+        };
+        (conductance.is_finite() && conductance > 0.0).then_some(conductance)
+    }
+
     /// Its values with their fields.
     pub fn parts(&self) -> Vec<(Field, &Value)> {
         match self {
@@ -252,16 +267,26 @@ impl Law {
             Self::Film { coefficient, area } => {
                 Self::Film { coefficient: f(Field::FilmCoefficient, coefficient), area: f(Field::Area, area) }
             }
-            Self::Conduction { conductivity, shape } => {
-                Self::Conduction { conductivity: f(Field::Conductivity, conductivity), shape: shape.map(f) }
-            }
-            Self::Radiation(exchange) => Self::Radiation(exchange.map(f)),
-            Self::Advection(stream) => Self::Advection(stream.map(f)),
+            Self::Conduction { conductivity, shape } => Self::Conduction {
+                conductivity: f(Field::Conductivity, conductivity),
+                shape: Box::new(shape.map(f)),
+            },
+            Self::Radiation(exchange) => Self::Radiation(Box::new(exchange.map(f))),
+            Self::Advection(stream) => Self::Advection(Box::new(stream.map(f))),
         }
     }
 }
 
 impl Law {
+    /// Whether it is the same law with the same values; `false` where that is not looked at.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        let (own, others) = (self.parts(), other.parts());
+        let comparable = !matches!(self, Self::Advection(_))
+            && std::mem::discriminant(self) == std::mem::discriminant(other)
+            && own.len() == others.len();
+        comparable && own.iter().zip(&others).all(|(a, b)| a.0 == b.0 && a.1.is_same(b.1))
+    }
+
     /// The conductance in W/K where `scope` stands; 0 for a stream.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 //! Where expressions find their numbers: one slot for each thing that a name can mean.
 
+use crate::grid::GridValue;
 use crate::id::{BoundaryId, ControlId, End, NodeId, ParameterId, SignalId, SwitchId};
 use crate::result::HeatOf;
 use crate::signal::Signal;
@@ -51,6 +52,8 @@ pub(crate) enum Holds {
     Control(ControlId),
     /// Whether a comparison of temperatures holds: 0 or 1.
     Switch(SwitchId),
+    /// A temperature of a grid as a whole, in results only.
+    Grid(GridValue),
 }
 
 /// The slots of a network.
@@ -67,6 +70,9 @@ pub(crate) struct Layout {
     heats: Vec<(HeatOf, u32)>,
     controls: Vec<u32>,
     switches: Vec<u32>,
+    /// The same for temperatures of grids, and the nodes that each is made of.
+    grid_values: Vec<(GridValue, u32)>,
+    members: Vec<Vec<u32>>,
 }
 
 impl Default for Layout {
@@ -84,6 +90,8 @@ impl Default for Layout {
             heats: vec![],
             controls: vec![],
             switches: vec![],
+            grid_values: vec![],
+            members: vec![],
         }
     }
 }
@@ -164,6 +172,33 @@ impl Layout {
 
     pub(crate) fn switch_count(&self) -> usize {
         self.switches.len()
+    }
+
+    /// Gives a temperature of a grid a slot, unless it has one.
+    pub(crate) fn add_grid_value(&mut self, value: GridValue) {
+        if self.grid_value(value).is_none() {
+            let slot = self.push(Holds::Grid(value));
+            self.grid_values.push((value, slot));
+        }
+    }
+
+    pub(crate) fn grid_value(&self, value: GridValue) -> Option<u32> {
+        self.grid_values.iter().find(|(known, _)| *known == value).map(|(_, slot)| *slot)
+    }
+
+    pub(crate) fn grid_values(&self) -> &[(GridValue, u32)] {
+        &self.grid_values
+    }
+
+    /// Sets the nodes that each temperature of a grid is made of, in the order of [`Layout::grid_values`].
+    pub(crate) fn set_members(&mut self, members: Vec<Vec<u32>>) {
+        self.members = members;
+    }
+
+    /// The temperatures of grids that expressions name, as slots and values, from the temperatures of all nodes.
+    pub(crate) fn grid_temperatures<'a>(&'a self, nodes: &'a [f64]) -> impl Iterator<Item = (u32, f64)> + 'a {
+        let values = self.grid_values.iter().zip(&self.members);
+        values.map(|((value, slot), members)| (*slot, value.of(members, nodes)))
     }
 
     pub(crate) fn len(&self) -> usize {

@@ -6,30 +6,40 @@
 //!
 //! Units: SI inside, temperatures in K. Sign: heat is positive from `from` to `to`, and into a node.
 
+mod body;
 mod breakpoints;
 mod builder;
 mod check;
+mod checks;
+mod conductances;
 mod control;
 mod dependence;
 mod element;
 mod enthalpy;
 mod error;
+mod error_place;
 mod error_text;
 mod evaluation;
 mod flow;
 mod fluid;
+mod grid;
 mod id;
 mod input_error;
+mod label;
 mod law;
 mod layout;
 mod limit;
+mod lookup;
 mod material;
+mod name_index;
 mod names;
 mod network;
+mod numbered;
 mod numbers;
 mod output;
 mod parameters;
 mod parts;
+mod periodicity;
 mod positions;
 mod result;
 mod scope;
@@ -40,6 +50,7 @@ mod thermal;
 mod typed;
 mod value;
 
+pub use body::{NoMaterial, Surface};
 pub use builder::{NetworkBuilder, Path};
 pub use control::{Acts, Control, Thermostat};
 pub use element::{Boundary, Capacitor, Conductor, ConductorKind, Node, Parameter, Source};
@@ -48,9 +59,10 @@ pub use error::{BuildError, BuildErrorKind, BuildErrors};
 pub use evaluation::Evaluation;
 pub use flow::{Flow, Received};
 pub use fluid::Fluid;
+pub use grid::{Block, Face, Grid, GridFace, GridValue, Joint, MOST_CELLS, Substance, Terminal};
 pub use id::{
-    BoundaryId, CapacitorId, ConductorId, ControlId, End, Field, FluidId, Item, LimitId, MaterialId, NodeId,
-    ParameterId, ReportId, SignalId, SourceId, SwitchId, TableId,
+    BoundaryId, CapacitorId, ConductorId, ControlId, End, Field, FluidId, GridId, Item, JointId, LimitId,
+    MaterialId, NodeId, ParameterId, ReportId, SignalId, SourceId, SwitchId, TableId,
 };
 pub use input_error::{InputError, InputProblem};
 pub use law::{Emissivity, Exchange, Law, Shape, Stream};
@@ -61,6 +73,7 @@ pub use names::{UnknownName, is_name, is_path, list_of, list_of_names};
 pub use network::Network;
 pub use output::OutputTimes;
 pub use parameters::{ParameterError, Parameters};
+pub use periodicity::{NoCommonPeriod, NotPeriodic};
 pub use positions::Positions;
 pub use result::{HeatOf, Report};
 pub use scope::{Context, NetworkScope};

@@ -1,8 +1,11 @@
 //! Materials: capacities from masses and volumes.
 
+use std::sync::Arc;
+
 use lptn_units::{Dimension, Type};
 
 use crate::builder::NetworkBuilder;
+use crate::error::BuildErrorKind;
 use crate::id::{Field, Item, MaterialId, NodeId};
 use crate::network::Network;
 use crate::value::{Input, Value};
@@ -102,6 +105,17 @@ impl NetworkBuilder {
         id
     }
 
+    /// Says how much of a node is molten at its start, from 0 to 1; the start then has to be the one temperature at
+    /// which it melts.
+    pub fn molten(&mut self, node: NodeId, share: f64) {
+        if !(0.0..=1.0).contains(&share) {
+            let name = self.parts.nodes[node.index()].name.clone();
+            let (item, field) = (Item::Node(node), Field::LatentHeat);
+            self.error(&name, BuildErrorKind::NotAFraction { item, field, value: share });
+        }
+        self.parts.nodes[node.index()].molten = share;
+    }
+
     /// The conductivity of a material, for [`Path::Conduction`](crate::Path::Conduction); it may depend on the
     /// temperature, which is then the mean of the ends.
     pub fn conductivity(&self, material: MaterialId) -> Option<Input> {
@@ -125,7 +139,7 @@ impl NetworkBuilder {
                 (ty, vec![volume.value.clone(), density, cp], Size::Volume(volume.value))
             }
         };
-        let value = Value::Product(factors.into());
+        let value = Value::Product(Arc::new(factors));
         Some(Input { value, ty, deviation: None, lump: Some(Lump { material, size }) })
     }
 }

@@ -1,12 +1,13 @@
 //! A thermal network whose invariants hold.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
 use crate::error::{BuildError, BuildErrorKind, BuildErrors};
 use crate::evaluation::Evaluation;
 use crate::flow::Flow;
-use crate::id::{BoundaryId, CapacitorId, ConductorId, Field, Item, NodeId, ParameterId, SourceId};
+use crate::id::{BoundaryId, CapacitorId, ConductorId, Field, Item, NodeId, ParameterId, SourceId, TableId};
 use crate::input_error::{InputError, InputProblem};
 use crate::names::UnknownName;
 use crate::numbers::Numbers;
@@ -23,7 +24,7 @@ use crate::value::Value;
 #[derive(Clone, Debug)]
 pub struct Network {
     pub(crate) parts: Arc<Parts>,
-    pub(crate) numbers: Numbers,
+    pub(crate) numbers: Arc<Numbers>,
 }
 
 impl Network {
@@ -62,6 +63,11 @@ impl Network {
         &self.parts.sources
     }
 
+    /// Ids of all tables.
+    pub fn table_ids(&self) -> impl ExactSizeIterator<Item = TableId> + use<> {
+        (0..self.parts.tables.len()).map(TableId::from_len)
+    }
+
     /// Ids of all nodes.
     pub fn node_ids(&self) -> impl ExactSizeIterator<Item = NodeId> + use<> {
         (0..self.parts.nodes.len()).map(NodeId::from_len)
@@ -97,8 +103,9 @@ impl Network {
     /// # Errors
     /// [`UnknownName`] with the most similar name.
     pub fn item(&self, name: &str) -> Result<Item, UnknownName> {
-        self.parts.names.get(name).copied().ok_or_else(|| {
-            let mut names: Vec<&str> = self.parts.names.keys().map(String::as_str).collect();
+        self.parts.item(name).ok_or_else(|| {
+            let names = self.parts.element_names();
+            let mut names: Vec<&str> = names.iter().map(|name| &**name).collect();
             names.sort_unstable();
             UnknownName::new(name, &names)
         })
@@ -109,8 +116,8 @@ impl Network {
     /// # Errors
     /// [`UnknownName`] if no node has it.
     pub fn node(&self, name: &str) -> Result<NodeId, UnknownName> {
-        match self.parts.names.get(name) {
-            Some(Item::Node(id)) => Ok(*id),
+        match self.parts.item(name) {
+            Some(Item::Node(id)) => Ok(id),
             _ => {
                 let names: Vec<&str> = self.nodes().iter().map(|n| n.name.as_str()).collect();
                 Err(UnknownName::new(name, &names))
@@ -178,7 +185,7 @@ impl Network {
             return Err(BuildErrors(vec![BuildError { kind: BuildErrorKind::ForeignParameters, name }]));
         }
         let numbers = Numbers::evaluate(&self.parts, parameters.values()).map_err(BuildErrors)?;
-        Ok(Self { parts: Arc::clone(&self.parts), numbers })
+        Ok(Self { parts: Arc::clone(&self.parts), numbers: Arc::new(numbers) })
     }
 
     /// A place to evaluate this network's inputs; it stands at time 0.
@@ -228,7 +235,7 @@ impl Network {
     }
 
     /// The name of an item.
-    pub fn name_of(&self, item: Item) -> &str {
+    pub fn name_of(&self, item: Item) -> Cow<'_, str> {
         self.parts.name_of(item)
     }
 

@@ -2,15 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::element::{Conductor, Parameter};
+use crate::element::Parameter;
 use crate::enthalpy::Enthalpy;
 use crate::error::{BuildError, BuildErrorKind};
 use crate::evaluation::Evaluation;
 use crate::flow::Flow;
-use crate::id::{
-    CapacitorId, ConductorId, Field, FluidId, Item, LimitId, MaterialId, NodeId, ParameterId, SourceId,
-};
-use crate::law::{At, Law, Stream};
+use crate::grid;
+use crate::id::{CapacitorId, Field, FluidId, Item, NodeId, ParameterId, SourceId};
 use crate::layout::slot;
 use crate::parts::Parts;
 use crate::thermal::Curves;
@@ -41,20 +39,25 @@ impl Numbers {
         }
         work.check_materials();
         work.check_fluids();
+        work.check_grids();
         work.check_lumps();
         if !work.errors.is_empty() {
+            grid::collapse(parts, &mut work.errors);
             return Err(work.errors); // and so would the capacities
         }
         let initial = work.initials();
         let capacity = work.capacities(&initial);
         let flows = work.flows();
+        work.check_joints();
         work.check_inputs();
         work.check_limits();
         let min_dwell = work.controls();
+        grid::collapse(parts, &mut work.errors);
         if !work.errors.is_empty() {
             return Err(work.errors);
         }
         let (enthalpy, fluids) = (work.enthalpies(&initial), work.fluid_enthalpies());
+        grid::collapse(parts, &mut work.errors);
         if work.errors.is_empty() {
             Ok(Self { parameters, capacity, initial, flows, enthalpy, fluids, min_dwell })
         } else {
@@ -76,7 +79,7 @@ pub(crate) enum Range {
 pub(crate) struct Work<'a> {
     pub(crate) parts: &'a Parts,
     pub(crate) scope: Evaluation,
-    errors: Vec<BuildError>,
+    pub(crate) errors: Vec<BuildError>,
 }
 
 impl Work<'_> {
@@ -102,6 +105,10 @@ impl Work<'_> {
         for (i, node) in parts.nodes.iter().enumerate() {
             let item = Item::Node(NodeId::from_len(i));
             let own = node.capacity.as_ref();
+            if parts.is_like_the_last_node(i) {
+                capacity.push(capacity[i - 1]);
+                continue;
+            }
             capacity.push(own.map_or(0.0, |c| self.capacity(item, c, initial[i])));
         }
         for (i, part) in parts.capacitors.iter().enumerate() {
@@ -138,11 +145,15 @@ impl Work<'_> {
 
     fn enthalpies(&mut self, initial: &[f64]) -> Vec<Option<Arc<Enthalpy>>> {
         let varying = self.parts.varying_capacities();
-        let mut curves = Vec::with_capacity(varying.len());
-        let mut known = Curves::new();
+        let mut curves: Vec<Option<Arc<Enthalpy>>> = Vec::with_capacity(varying.len());
+        let mut known = Curves::new(self.parts);
         for (i, varies) in varying.into_iter().enumerate() {
             let id = NodeId::from_len(i);
-            let curve = varies.then(|| self.parts.enthalpy_of(id, initial[i], &mut self.scope, &mut known));
+            if varies && self.parts.is_like_the_last_node(i) && self.parts.has_no_capacitors(i) {
+                curves.push(curves[i - 1].clone());
+                continue;
+            }
+            let curve = varies.then(|| self.parts.content_of(id, initial[i], &mut self.scope, &mut known));
             curves.push(curve.and_then(|curve| match curve {
                 Ok(curve) => Some(curve),
                 Err(kind) => {
@@ -179,78 +190,6 @@ impl Work<'_> {
             .collect()
     }
 
-    fn flows(&mut self) -> Vec<Flow> {
-        let conductors = self.parts.conductors.iter().enumerate();
-        conductors.map(|(i, c)| self.flow(Item::Conductor(ConductorId::from_len(i)), c)).collect()
-    }
-
-    fn flow(&mut self, item: Item, conductor: &Conductor) -> Flow {
-        let errors_before = self.errors.len();
-        let law = &conductor.law;
-        for (field, value) in law.parts() {
-            if self.parts.reads(value).is_constant() {
-                self.constant(item, field, value, range_of_field(field));
-            }
-        }
-        self.check_shape(item, law);
-        if self.errors.len() > errors_before || self.parts.is_variable(conductor) {
-            return Flow::Variable;
-        }
-        let (slots, stack) = self.scope.plain();
-        let mut at = At { slots, stack };
-        let (flow, number) = match law {
-            Law::Advection(stream) => {
-                let rate = self.capacity_rate(stream);
-                return Flow::Stream(self.in_range(item, stream.parts()[0].0, rate, Range::Finite));
-            }
-            Law::Radiation(exchange) => {
-                let gr = at.exchange_area(exchange).unwrap_or(f64::NAN);
-                (Flow::Radiation(gr), gr)
-            }
-            _ => {
-                let conductance = at.conductance(law).unwrap_or(f64::NAN);
-                (Flow::Conductance(conductance), conductance)
-            }
-        };
-        // 1/R and h A can still leave the range of numbers
-        let field = law.parts().last().map_or(Field::Conductance, |(field, _)| *field);
-        self.in_range(item, field, number, Range::Positive);
-        flow
-    }
-
-    /// A constant capacity rate in W/K.
-    fn capacity_rate(&mut self, stream: &Stream) -> f64 {
-        let parts = self.parts;
-        let mut at = |value: &Value| value.at(&mut self.scope).unwrap_or(f64::NAN);
-        let flow = at(stream.parts()[0].1);
-        let Some(fluid) = stream.fluid().map(|id| &parts.fluids[id.index()]) else { return flow };
-        let density = match stream {
-            Stream::Volume { at: measured, .. } => {
-                let temperature = at(measured);
-                self.scope.set(slot::OWN, temperature);
-                fluid.density.as_ref().map_or(f64::NAN, |d| d.at(&mut self.scope).unwrap_or(f64::NAN))
-            }
-            _ => 1.0,
-        };
-        flow * density * fluid.cp.at(&mut self.scope).unwrap_or(f64::NAN)
-    }
-
-    fn check_shape(&mut self, item: Item, law: &Law) {
-        let parts = law.parts();
-        let constant = |field: Field| {
-            let (_, value) = parts.iter().find(|(f, _)| *f == field)?;
-            self.parts.reads(value).is_constant().then_some(value)
-        };
-        let (Some(inner), Some(outer)) = (constant(Field::InnerRadius), constant(Field::OuterRadius)) else {
-            return;
-        };
-        if let (Ok(inner), Ok(outer)) = (inner.at(&mut self.scope), outer.at(&mut self.scope))
-            && inner >= outer
-        {
-            self.error(item, BuildErrorKind::Radii { item, inner, outer });
-        }
-    }
-
     /// Inputs may depend on time, sources and conductors on temperatures too: a constant one is checked now, the
     /// others when they are read.
     fn check_inputs(&mut self) {
@@ -282,74 +221,8 @@ impl Work<'_> {
         true
     }
 
-    fn check_materials(&mut self) {
-        for (i, material) in self.parts.materials.iter().enumerate() {
-            let item = Item::Material(MaterialId::from_len(i));
-            let properties = [(Field::SpecificHeat, &material.cp), (Field::Conductivity, &material.k)];
-            if let Some(value) = &material.density {
-                self.constant(item, Field::Density, value, Range::Positive);
-            }
-            for (field, value) in properties {
-                if let Some(value) = value {
-                    self.property(item, field, value);
-                }
-            }
-            if let Some(melting) = &material.melting {
-                let solidus = self.constant(item, Field::Solidus, &melting.solidus, Range::Temperature);
-                let liquidus = self.constant(item, Field::Liquidus, &melting.liquidus, Range::Temperature);
-                self.constant(item, Field::LatentHeat, &melting.heat, Range::Positive);
-                if liquidus < solidus {
-                    self.error(item, BuildErrorKind::Melting { item, solidus, liquidus });
-                }
-            }
-        }
-    }
-
-    fn check_fluids(&mut self) {
-        for (i, fluid) in self.parts.fluids.iter().enumerate() {
-            let item = Item::Fluid(FluidId::from_len(i));
-            let density = fluid.density.as_ref().map(|value| (Field::Density, value));
-            for (field, value) in density.into_iter().chain([(Field::SpecificHeat, &fluid.cp)]) {
-                self.property(item, field, value);
-            }
-        }
-    }
-
-    /// A property may depend on `T`; it is then checked where it is used.
-    fn property(&mut self, item: Item, field: Field, value: &Value) {
-        if self.parts.reads(value).own {
-            self.check_comparisons(item, field, value);
-        } else {
-            self.constant(item, field, value, Range::Positive);
-        }
-    }
-
-    /// A product of two negative numbers would pass for a capacity.
-    fn check_lumps(&mut self) {
-        let parts = self.parts;
-        let nodes = parts.nodes.iter().enumerate();
-        let nodes = nodes.map(|(i, node)| (Item::Node(NodeId::from_len(i)), &node.lump));
-        let capacitors = parts.capacitors.iter().enumerate();
-        let capacitors = capacitors.map(|(i, part)| (Item::Capacitor(CapacitorId::from_len(i)), &part.lump));
-        for (item, lump) in nodes.chain(capacitors) {
-            if let Some(lump) = lump {
-                let (field, value) = lump.size.field();
-                self.constant(item, field, value, Range::Positive);
-            }
-        }
-    }
-
-    /// The values of limits are constant; what they limit is evaluated with results.
-    fn check_limits(&mut self) {
-        for (i, limit) in self.parts.limits.iter().enumerate() {
-            let item = Item::Limit(LimitId::from_len(i));
-            let range = if limit.ty.absolute { Range::Temperature } else { Range::Finite };
-            self.constant(item, limit.bound.field(), &limit.value, range);
-        }
-    }
-
     /// Comparisons have to change at times that are known beforehand.
-    fn check_comparisons(&mut self, item: Item, field: Field, value: &Value) {
+    pub(crate) fn check_comparisons(&mut self, item: Item, field: Field, value: &Value) {
         for program in value.programs() {
             for (comparison, &relation) in program.comparisons().iter().zip(program.relations()) {
                 if let Some(kind) = self.parts.comparison_problem((comparison, relation), item, field) {
@@ -383,7 +256,7 @@ impl Work<'_> {
         }
     }
 
-    fn in_range(&mut self, item: Item, field: Field, value: f64, range: Range) -> f64 {
+    pub(crate) fn in_range(&mut self, item: Item, field: Field, value: f64, range: Range) -> f64 {
         let kind = match range {
             Range::Positive if !(value.is_finite() && value > 0.0) => {
                 BuildErrorKind::NotPositive { item, field, value }
@@ -400,7 +273,7 @@ impl Work<'_> {
     }
 
     pub(crate) fn error(&mut self, item: Item, kind: BuildErrorKind) {
-        self.errors.push(BuildError { kind, name: self.parts.name_of(item).to_owned() });
+        self.errors.push(BuildError { kind, name: self.parts.name_of(item).into_owned() });
     }
 }
 
@@ -408,7 +281,7 @@ fn range_of(parameter: &Parameter) -> Range {
     if parameter.ty.absolute { Range::Temperature } else { Range::Finite }
 }
 
-fn range_of_field(field: Field) -> Range {
+pub(crate) fn range_of_field(field: Field) -> Range {
     match field {
         Field::Emissivity | Field::ViewFactor => Range::Fraction,
         Field::StreamCapacity | Field::Flow => Range::Finite,

@@ -1,5 +1,6 @@
 //! What a network is made of, before any number is computed from it.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -9,10 +10,12 @@ use crate::control::Control;
 use crate::dependence::Dependence;
 use crate::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
 use crate::fluid::Fluid;
+use crate::grid::{Grid, Inner, Joint};
 use crate::id::{BoundaryId, ConductorId, ControlId, Field, Item, ParameterId, SignalId, SourceId};
 use crate::layout::Layout;
 use crate::limit::Limit;
 use crate::material::Material;
+use crate::name_index::NameIndex;
 use crate::result::Report;
 use crate::signal::Course;
 use crate::switch::Switch;
@@ -34,32 +37,62 @@ pub(crate) struct Parts {
     pub(crate) switches: Vec<Switch>,
     pub(crate) materials: Vec<Material>,
     pub(crate) fluids: Vec<Fluid>,
+    pub(crate) grids: Vec<Grid>,
+    pub(crate) joints: Vec<Joint>,
+    /// The nodes and conductors that are parts of grids and joints, in order.
+    pub(crate) inner_nodes: Vec<Inner>,
+    pub(crate) inner_conductors: Vec<Inner>,
     /// Tables by name, in the order of addition.
     pub(crate) tables: Vec<(String, TableSymbol)>,
     /// The signals are here, with the slots of everything that expressions may name.
     pub(crate) layout: Arc<Layout>,
-    /// For each conductor that is no constant: the temperatures it depends on.
-    pub(crate) conductor_dependence: Vec<Dependence>,
+    /// For each conductor that is no constant the temperatures it depends on.
+    pub(crate) conductor_dependence: Vec<Option<Box<Dependence>>>,
     /// For each source the temperatures it depends on.
     pub(crate) source_dependence: Vec<Dependence>,
     /// For each control the temperatures that its thresholds depend on.
     pub(crate) control_dependence: Vec<Dependence>,
     /// Nodes, boundaries and elements share one name space.
-    pub(crate) names: HashMap<String, Item>,
+    pub(crate) names: NameIndex,
+    /// The first conductor without a name of its own, and its number.
+    pub(crate) numbered_conductors: Option<(usize, u32)>,
+    /// The first source without a name of its own, and its number.
+    pub(crate) numbered_sources: Option<(usize, u32)>,
     pub(crate) parameter_names: HashMap<String, ParameterId>,
     /// Parameters, signals and tables share another.
     pub(crate) value_names: HashMap<String, Item>,
 }
 
 impl Parts {
-    pub(crate) fn name_of(&self, item: Item) -> &str {
-        match item {
+    /// What has this name among nodes, boundaries and elements.
+    pub(crate) fn item(&self, name: &str) -> Option<Item> {
+        let is = |item: Item| match item {
+            // found most often by far
+            Item::Node(id) => self.nodes[id.index()].name == name,
+            _ => self.name_of(item) == name,
+        };
+        self.names.find(name, is).or_else(|| self.numbered(name))
+    }
+
+    /// The names of all nodes, boundaries and elements.
+    pub(crate) fn element_names(&self) -> Vec<Cow<'_, str>> {
+        let nodes = self.nodes.iter().map(|node| Cow::from(&node.name));
+        let boundaries = self.boundaries.iter().map(|boundary| Cow::from(&boundary.name));
+        let capacitors = self.capacitors.iter().map(|capacitor| Cow::from(&capacitor.name));
+        let conductors = self.conductors.iter().map(Conductor::name);
+        let sources = self.sources.iter().map(Source::name);
+        let limits = self.limits.iter().map(|limit| Cow::from(&limit.name));
+        nodes.chain(boundaries).chain(capacitors).chain(conductors).chain(sources).chain(limits).collect()
+    }
+
+    pub(crate) fn name_of(&self, item: Item) -> Cow<'_, str> {
+        let name: &str = match item {
             Item::Parameter(id) => &self.parameters[id.index()].name,
             Item::Node(id) => &self.nodes[id.index()].name,
             Item::Boundary(id) => &self.boundaries[id.index()].name,
             Item::Capacitor(id) => &self.capacitors[id.index()].name,
-            Item::Conductor(id) => &self.conductors[id.index()].name,
-            Item::Source(id) => &self.sources[id.index()].name,
+            Item::Conductor(id) => return self.conductors[id.index()].name(),
+            Item::Source(id) => return self.sources[id.index()].name(),
             Item::Limit(id) => &self.limits[id.index()].name,
             Item::Material(id) => &self.materials[id.index()].name,
             Item::Fluid(id) => &self.fluids[id.index()].name,
@@ -67,7 +100,10 @@ impl Parts {
             Item::Table(id) => &self.tables[id.index()].0,
             Item::Report(id) => &self.reports[id.index()].name,
             Item::Control(id) => &self.controls[id.index()].name,
-        }
+            Item::Grid(id) => &self.grids[id.index()].name,
+            Item::Joint(id) => &self.joints[id.index()].name,
+        };
+        name.into()
     }
 
     /// Every value that may depend on time: temperatures of boundaries, heat of sources, values of conductors,
@@ -75,7 +111,8 @@ impl Parts {
     pub(crate) fn inputs(&self) -> impl Iterator<Item = (Item, Field, &Value)> {
         let boundaries = self.boundaries.iter().enumerate();
         let sources = self.sources.iter().enumerate();
-        let conductors = self.conductors.iter().enumerate();
+        let conductors =
+            self.conductors.iter().enumerate().filter(|(_, conductor)| !conductor.law.is_number());
         let signals = self.layout.signals().iter().enumerate();
         boundaries
             .map(|(i, b)| (Item::Boundary(BoundaryId::from_len(i)), Field::Temperature, &b.temperature))

@@ -5,7 +5,7 @@ use lptn_units::{Expression, Program, Type, UnitError};
 use crate::builder::NetworkBuilder;
 use crate::element::ConductorKind;
 use crate::evaluation::Evaluation;
-use crate::id::{BoundaryId, ConductorId, Field, Item, ReportId, SourceId};
+use crate::id::{BoundaryId, ConductorId, Field, Item, JointId, ReportId, SourceId};
 use crate::input_error::InputError;
 use crate::network::Network;
 use crate::parts::Parts;
@@ -25,6 +25,8 @@ pub enum HeatOf {
     Source(SourceId),
     /// `NAME.Q` of a boundary: what it gives to the network.
     Boundary(BoundaryId),
+    /// `NAME.Q` of a path that ends at a face of a grid: the sum over its conductors.
+    Joint(JointId),
 }
 
 /// A named quantity that follows from the results: a column of its own.
@@ -46,15 +48,24 @@ impl HeatOf {
         self.name_in(&network.parts)
     }
 
+    /// What it is the heat of.
+    pub fn item(self) -> Item {
+        match self {
+            Self::Conductor(id) | Self::ReceivedFrom(id) | Self::ReceivedTo(id) => Item::Conductor(id),
+            Self::Source(id) => Item::Source(id),
+            Self::Boundary(id) => Item::Boundary(id),
+            Self::Joint(id) => Item::Joint(id),
+        }
+    }
+
     fn name_in(self, parts: &Parts) -> String {
-        let (item, ending) = match self {
-            Self::Conductor(id) => (Item::Conductor(id), "Q"),
-            Self::ReceivedFrom(id) => (Item::Conductor(id), "Q_from"),
-            Self::ReceivedTo(id) => (Item::Conductor(id), "Q_to"),
-            Self::Source(id) => (Item::Source(id), "P"),
-            Self::Boundary(id) => (Item::Boundary(id), "Q"),
+        let ending = match self {
+            Self::Conductor(_) | Self::Boundary(_) | Self::Joint(_) => "Q",
+            Self::ReceivedFrom(_) => "Q_from",
+            Self::ReceivedTo(_) => "Q_to",
+            Self::Source(_) => "P",
         };
-        format!("{}.{ending}", parts.name_of(item))
+        format!("{}.{ending}", parts.name_of(self.item()))
     }
 }
 
@@ -63,12 +74,13 @@ impl Parts {
     pub(crate) fn heat(&self, name: &str) -> Option<HeatOf> {
         let (base, ending) = name.rsplit_once('.')?;
         let stream = |id: &ConductorId| self.conductors[id.index()].kind == ConductorKind::Advection;
-        match (self.names.get(base)?, ending) {
-            (Item::Conductor(id), "Q") if !stream(id) => Some(HeatOf::Conductor(*id)),
-            (Item::Conductor(id), "Q_from") if stream(id) => Some(HeatOf::ReceivedFrom(*id)),
-            (Item::Conductor(id), "Q_to") if stream(id) => Some(HeatOf::ReceivedTo(*id)),
-            (Item::Source(id), "P") => Some(HeatOf::Source(*id)),
-            (Item::Boundary(id), "Q") => Some(HeatOf::Boundary(*id)),
+        match (self.item(base)?, ending) {
+            (Item::Conductor(id), "Q") if !stream(&id) => Some(HeatOf::Conductor(id)),
+            (Item::Conductor(id), "Q_from") if stream(&id) => Some(HeatOf::ReceivedFrom(id)),
+            (Item::Conductor(id), "Q_to") if stream(&id) => Some(HeatOf::ReceivedTo(id)),
+            (Item::Source(id), "P") => Some(HeatOf::Source(id)),
+            (Item::Boundary(id), "Q") => Some(HeatOf::Boundary(id)),
+            (Item::Joint(id), "Q") => Some(HeatOf::Joint(id)),
             _ => None,
         }
     }
@@ -85,18 +97,20 @@ impl Parts {
         let conductors = (0..self.conductors.len()).flat_map(|i| self.heats_of(ConductorId::from_len(i)));
         let sources = (0..self.sources.len()).map(|i| HeatOf::Source(SourceId::from_len(i)));
         let boundaries = (0..self.boundaries.len()).map(|i| HeatOf::Boundary(BoundaryId::from_len(i)));
-        conductors.chain(sources).chain(boundaries).map(|heat| heat.name_in(self))
+        let joints = self.shared_joints().map(HeatOf::Joint);
+        conductors.chain(sources).chain(boundaries).chain(joints).map(|heat| heat.name_in(self))
     }
 }
 
 impl NetworkBuilder {
-    /// Gives a place to every heat flow (`NAME.Q`, `NAME.Q_from`, `NAME.Q_to`, `NAME.P`) that an expression names, so
-    /// that it can be compiled for [`Context::Result`].
+    /// Gives a place to every heat flow (`NAME.Q`, `NAME.Q_from`, `NAME.Q_to`, `NAME.P`) and every temperature of a grid
+    /// (`NAME.mean`, `NAME.x1.T`) that an expression names, so that it can be compiled for [`Context::Result`].
     pub fn name_heats(&mut self, expression: &Expression) {
         for (name, _) in expression.names() {
             if let Some(heat) = self.parts.heat(&name) {
                 std::sync::Arc::make_mut(&mut self.parts.layout).add_heat(heat);
             }
+            self.name_grid_value(&name);
         }
     }
 

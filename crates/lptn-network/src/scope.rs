@@ -56,9 +56,9 @@ impl<'a> NetworkScope<'a> {
         if !self.names_ends() {
             return None;
         }
-        let end = match self.parts.names.get(name)? {
-            Item::Node(id) => End::Node(*id),
-            Item::Boundary(id) => End::Boundary(*id),
+        let end = match self.parts.item(name)? {
+            Item::Node(id) => End::Node(id),
+            Item::Boundary(id) => End::Boundary(id),
             _ => return None,
         };
         let slot = self.parts.layout.temperature(end);
@@ -70,6 +70,13 @@ impl<'a> NetworkScope<'a> {
         let heat = self.parts.heat(name).filter(|_| self.context == Context::Result)?;
         let slot = self.parts.layout.heat(heat)?;
         Some(Symbol { slot, ty: Type::of(Dimension::POWER), in_comparison: None })
+    }
+
+    /// A temperature of a grid that has a place: see [`crate::NetworkBuilder::name_heats`].
+    fn grid(self, name: &str) -> Option<Symbol> {
+        let value = self.parts.grid_value(name).filter(|_| self.context == Context::Result)?;
+        let slot = self.parts.layout.grid_value(value)?;
+        Some(Symbol { slot, ty: Type::ABSOLUTE_TEMPERATURE, in_comparison: None })
     }
 
     fn value(self, name: &str) -> Option<Symbol> {
@@ -97,11 +104,12 @@ impl Scope for NetworkScope<'_> {
             let ty = Type::of(Dimension::TIME);
             return Some(Symbol { slot: slot::TIME, ty, in_comparison: Some(slot::SEGMENT) });
         }
-        match name.rsplit_once('.') {
-            Some((name, "T")) => self.temperature(name),
-            Some(_) => self.heat(name),
-            None => self.local(name).or_else(|| self.value(name)),
-        }
+        let own = match name.rsplit_once('.') {
+            Some((base, "T")) => self.temperature(base).or_else(|| self.grid(name)),
+            Some(_) => self.heat(name).or_else(|| self.grid(name)),
+            None => self.local(name),
+        };
+        own.or_else(|| self.value(name))
     }
 
     fn names(&self) -> Vec<String> {
@@ -119,6 +127,7 @@ impl Scope for NetworkScope<'_> {
         }
         if self.context == Context::Result {
             names.extend(self.parts.heat_names());
+            names.extend(self.parts.grid_value_names());
         }
         names
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use lptn_units::{Comparison, Program};
 
-use crate::dependence::Dependence;
+use crate::dependence::{Dependence, NONE};
 use crate::evaluation::{Evaluation, PASS};
 use crate::flow::{name, place, seeded};
 use crate::id::{ConductorId, Field, Item, SourceId, SwitchId};
@@ -33,8 +33,6 @@ impl Switch {
         self.relation.holds(difference, 0.0)
     }
 }
-
-static NOTHING: Dependence = Dependence::NONE;
 
 impl Parts {
     /// Whether the truth of a comparison is not known beforehand: it compares temperatures, or something that a
@@ -74,9 +72,8 @@ impl Parts {
         match value {
             Value::Constant(_) => {}
             Value::Product(factors) => {
-                let mut own = factors.to_vec();
-                own.iter_mut().for_each(|factor| self.hold((item, field), factor));
-                *factors = own.into();
+                let own = Arc::make_mut(factors).iter_mut();
+                own.for_each(|factor| self.hold((item, field), factor));
             }
             Value::Expression(program) => *program = Arc::new(self.held((item, field), program)),
         }
@@ -151,9 +148,9 @@ impl Network {
 
     fn switch_dependence(&self, switch: &Switch) -> (&Dependence, bool) {
         match switch.item {
-            Item::Conductor(id) => (&self.parts.conductor_dependence[id.index()], true),
+            Item::Conductor(id) => (self.parts.dependence(id), true),
             Item::Source(id) => (&self.parts.source_dependence[id.index()], false),
-            _ => (&NOTHING, false),
+            _ => (&NONE, false),
         }
     }
 }

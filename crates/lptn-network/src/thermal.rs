@@ -47,8 +47,29 @@ fn edges(value: &Value, scope: &mut Evaluation) -> Vec<f64> {
     edges
 }
 
-/// Heat contents by what makes their form.
-pub(crate) type Curves = BTreeMap<String, Enthalpy>;
+/// What the heat contents of many nodes have in common.
+pub(crate) struct Curves {
+    /// Those that were made, by what makes their form.
+    made: BTreeMap<String, Enthalpy>,
+    /// The capacitors by their node, then in their order.
+    capacitors: Vec<(NodeId, usize)>,
+}
+
+impl Curves {
+    /// None yet.
+    pub(crate) fn new(parts: &Parts) -> Self {
+        let capacitors = parts.capacitors.iter().enumerate();
+        let mut capacitors: Vec<(NodeId, usize)> = capacitors.map(|(i, part)| (part.node, i)).collect();
+        capacitors.sort_unstable();
+        Self { made: BTreeMap::new(), capacitors }
+    }
+
+    /// The capacitors of a node.
+    fn of(&self, id: NodeId) -> impl Iterator<Item = usize> {
+        let first = self.capacitors.partition_point(|(node, _)| *node < id);
+        self.capacitors[first..].iter().take_while(move |(node, _)| *node == id).map(|(_, i)| *i)
+    }
+}
 
 /// A value as a product of others.
 fn factors(value: &Value) -> Vec<&Value> {
@@ -77,10 +98,10 @@ fn form(parts: &[Vec<&Value>], latent: &[Latent]) -> String {
 
 impl Parts {
     /// The capacities that make up a node: its own and those of its capacitors, with their lumps.
-    fn capacities_of(&self, id: NodeId) -> Vec<(&Value, Option<&Lump>)> {
+    fn capacities_of(&self, id: NodeId, known: &Curves) -> Vec<(&Value, Option<&Lump>)> {
         let node = &self.nodes[id.index()];
         let own = node.capacity.iter().map(|value| (value, node.lump.as_ref()));
-        let parts = self.capacitors.iter().filter(|part| part.node == id);
+        let parts = known.of(id).map(|i| &self.capacitors[i]);
         own.chain(parts.map(|part| (&part.capacity, part.lump.as_ref()))).collect()
     }
 
@@ -98,18 +119,37 @@ impl Parts {
         for part in &self.capacitors {
             varying[part.node.index()] |= varies(&part.capacity, part.lump.as_ref());
         }
+        // one that is said to be molten has to be able to melt
+        varying.iter_mut().zip(&self.nodes).for_each(|(varies, node)| *varies |= node.molten > 0.0);
         varying
     }
 
-    /// The heat content of a node around its start in K. Curves of one form are made once and kept in `known`.
-    pub(crate) fn enthalpy_of(
+    /// The heat content of a node around its start in K, a share of it molten there. See [`Parts::enthalpy_of`].
+    pub(crate) fn content_of(
         &self,
         id: NodeId,
         start: f64,
         scope: &mut Evaluation,
         known: &mut Curves,
     ) -> Result<Arc<Enthalpy>, BuildErrorKind> {
-        let parts = self.capacities_of(id);
+        let curve = self.enthalpy_of(id, start, scope, known)?;
+        let share = self.nodes[id.index()].molten;
+        if share <= 0.0 {
+            return Ok(curve);
+        }
+        let amid = curve.partly_molten(start, share).map(Arc::new);
+        amid.ok_or(BuildErrorKind::NotMelting { node: id, temperature: start })
+    }
+
+    /// The heat content of a node around its start in K. Curves of one form are made once and kept in `known`.
+    fn enthalpy_of(
+        &self,
+        id: NodeId,
+        start: f64,
+        scope: &mut Evaluation,
+        known: &mut Curves,
+    ) -> Result<Arc<Enthalpy>, BuildErrorKind> {
+        let parts = self.capacities_of(id, known);
         let mut factors: Vec<Vec<&Value>> = parts.iter().map(|(value, _)| factors(value)).collect();
         // a single part is a size times a property: the curve is that of the property
         let mut scale = 1.0;
@@ -121,7 +161,7 @@ impl Parts {
             parts.iter().filter_map(|(_, lump)| self.latent((*lump)?, scope)).collect();
         latent.iter_mut().for_each(|l| l.heat /= scale);
         let form = form(&factors, &latent);
-        let shared = known.get(&form).and_then(|curve| curve.rescaled(scale, start));
+        let shared = known.made.get(&form).and_then(|curve| curve.rescaled(scale, start));
         if let Some(curve) = shared {
             return Ok(Arc::new(curve));
         }
@@ -130,7 +170,7 @@ impl Parts {
             |t: f64| factors.iter().try_fold(0.0, |sum, part| Some(sum + product(part, t, scope)?));
         let curve = Enthalpy::new(&mut capacity, start, &bends, &latent);
         let scaled = curve.as_ref().and_then(|curve| curve.rescaled(scale, start));
-        known.extend(curve.map(|curve| (form, curve)));
+        known.made.extend(curve.map(|curve| (form, curve)));
         scaled.map(Arc::new).ok_or(BuildErrorKind::CapacityUnknown { node: id, temperature: start })
     }
 

@@ -14,7 +14,7 @@ pub enum Value {
     /// An expression over the slots of [`slot`](crate::slot).
     Expression(Arc<Program>),
     /// A product of values, such as a mass and a specific heat.
-    Product(Arc<[Value]>),
+    Product(Arc<Vec<Value>>),
 }
 
 impl Value {
@@ -35,6 +35,16 @@ impl Value {
             Self::Product(factors) => {
                 factors.iter().try_fold(S::from_f64(1.0), |product, f| Ok(product * f.on(slots, stack)?))
             }
+        }
+    }
+
+    /// Whether it is the same number, or the same expression in the same memory.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Constant(a), Self::Constant(b)) => a.to_bits() == b.to_bits(),
+            (Self::Expression(a), Self::Expression(b)) => Arc::ptr_eq(a, b),
+            (Self::Product(a), Self::Product(b)) => Arc::ptr_eq(a, b),
+            _ => false,
         }
     }
 

@@ -26,6 +26,11 @@ pub enum ReduceError {
         /// The name of the first item that makes it so.
         name: String,
     },
+    /// Sources or boundaries switch by themselves, which one node without the places that are felt cannot follow.
+    Switches {
+        /// The name of the first control.
+        name: String,
+    },
     /// A source or boundary has no value.
     Input(InputError),
     /// The conductances span more than the numbers can hold.
@@ -48,6 +53,7 @@ impl ReduceError {
             Self::BoundaryPort { .. } => "reduce::boundary_port",
             Self::NoGround { .. } => "reduce::no_ground",
             Self::NotLinear { .. } => "reduce::not_linear",
+            Self::Switches { .. } => "reduce::switches",
             Self::Input(_) => "solve::input",
             Self::Factorization(_) => "reduce::singular",
             Self::Modes => "reduce::modes",
@@ -76,6 +82,9 @@ impl ReduceError {
             Self::NotLinear { name } => Some(format!(
                 "put a constant conductance, capacity or heat in place of `{name}`, as it is in steady state: `lptn steady`"
             )),
+            Self::Switches { name } => {
+                Some(format!("write 0 or 1 in place of `{name}`, and reduce what is then there"))
+            }
             Self::Window(_) => Some("write for example --window \"25 min\"".into()),
             _ => None,
         }
@@ -94,6 +103,9 @@ impl fmt::Display for ReduceError {
                 f,
                 "`{name}` is more than a constant: only linear networks have one equivalent resistance"
             ),
+            Self::Switches { name } => {
+                write!(f, "`{name}` switches during a run, which an equivalent of one node cannot follow")
+            }
             Self::Input(error) => error.fmt(f),
             Self::Factorization(error) => write!(f, "the conductances cannot be factorised: {error}"),
             Self::Modes => f.write_str("the time constants at the port cannot be computed"),

@@ -106,7 +106,7 @@ impl OneNode<'_> {
         for (source, &weight) in network.sources().iter().zip(&self.norton.source_weights) {
             if weight > 0.0 {
                 let value = input(builder, &source.power, Type::of(Dimension::POWER), weight)?;
-                builder.source(&source.name, node, value);
+                builder.source(&source.name(), node, value);
             }
         }
         Ok(())

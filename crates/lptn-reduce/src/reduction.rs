@@ -2,7 +2,7 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Network, NodeId};
-use lptn_solve::{Transient, TransientError};
+use lptn_solve::{EventKind, Transient, TransientError};
 
 use crate::capacity::least_squares;
 use crate::definition::{Definition, Pair, Recommended, recommended};
@@ -86,10 +86,14 @@ impl Reduction {
     /// Reduces `system` at `port` and measures what the result is worth.
     ///
     /// # Errors
-    /// [`ReduceError`], in particular for a port without a path to a boundary.
+    /// [`ReduceError`], in particular for a port without a path to a boundary, and for a run of a network that switches;
+    /// without a run its inputs are those of [`Network::initial_positions`].
     pub fn new(system: &ThermalSystem, port: NodeId, options: &Options) -> Result<Self, ReduceError> {
         if let Some(window) = options.window.filter(|w| !(w.is_finite() && *w > 0.0)) {
             return Err(ReduceError::Window(window));
+        }
+        if options.run.is_some() {
+            still(system.network())?;
         }
         grounded(system.network(), port)?;
         let mut rises = Rises::new(system)?;
@@ -109,13 +113,14 @@ impl Reduction {
     /// node has the name of the port.
     ///
     /// # Errors
-    /// [`ReduceError::Equivalent`] if an input cannot be expressed in it.
+    /// [`ReduceError::Equivalent`] if an input cannot be expressed in it, [`ReduceError::Switches`].
     pub fn network(
         &self,
         system: &ThermalSystem,
         start: f64,
         pair: Option<&Pair>,
     ) -> Result<Network, ReduceError> {
+        still(system.network())?;
         let capacity = pair.map(|pair| pair.capacity).filter(|capacity| *capacity > 0.0);
         self.one_node(system, start).network(capacity)
     }
@@ -179,6 +184,14 @@ impl Reduction {
             *deviation = whole.deviation(&Record::of(&reduced, port, &run)?);
         }
         Ok(Comparison { deviations, tolerance, rise: whole.rise() })
+    }
+}
+
+/// Nothing may switch by itself in a network that one node is to follow over time.
+fn still(network: &Network) -> Result<(), ReduceError> {
+    match EventKind::switching(network).next() {
+        Some(kind) => Err(ReduceError::Switches { name: kind.name(network) }),
+        None => Ok(()),
     }
 }
 

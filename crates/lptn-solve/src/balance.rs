@@ -1,7 +1,7 @@
 //! Heat into and out of one node or boundary: every path and source that reaches it.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{ConductorId, End, InputError, Item, Network, SourceId};
+use lptn_network::{ConductorId, End, InputError, Item, JointId, Network, SourceId};
 
 use crate::ledger::{self, Ledger};
 use crate::steady::SteadyState;
@@ -9,9 +9,9 @@ use crate::steady::SteadyState;
 /// What one path or source brings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
-    /// The conductor or source.
+    /// The conductor, the path to a face of a grid, or the source.
     pub item: Item,
-    /// The end that a conductor comes from; `None` for a source.
+    /// The end that a conductor comes from, the first one of a path to a face; `None` for a source.
     pub other: Option<End>,
     /// Heat flow at the end of the run in W, positive into the node.
     pub power: f64,
@@ -74,6 +74,8 @@ fn turned_over(heat: impl Iterator<Item = f64>) -> f64 {
 enum Kind {
     /// A conductor, and which of its ends the node is.
     Conductor(ConductorId, usize),
+    /// A path to a face of a grid, and which of its ends the node is.
+    Joint(JointId, usize),
     /// A source, and the share of its heat.
     Source(SourceId, f64),
 }
@@ -89,12 +91,22 @@ impl Books {
     pub(crate) fn new(network: &Network, of: Option<End>) -> Self {
         let Some(end) = of else { return Self::default() };
         let conductors = network.conductors().iter().zip(network.conductor_ids());
+        let alone = network.whole(end.into()).is_none();
         let mut kinds: Vec<Kind> = conductors
             .filter_map(|(c, id)| {
                 let side = [c.from, c.to].iter().position(|&e| e == end)?;
-                Some(Kind::Conductor(id, side))
+                Some(match network.whole(Item::Conductor(id)) {
+                    Some(Item::Joint(whole)) if alone => Kind::Joint(whole, side),
+                    _ => Kind::Conductor(id, side),
+                })
             })
             .collect();
+        // the parts of a path to a face follow one another
+        kinds.dedup_by_key(|kind| match *kind {
+            Kind::Joint(id, _) => (Some(id), None),
+            Kind::Conductor(id, _) => (None, Some(Item::Conductor(id))),
+            Kind::Source(id, _) => (None, Some(Item::Source(id))),
+        });
         for (source, id) in network.sources().iter().zip(network.source_ids()) {
             let shares = source.into.iter().filter(|(node, _)| End::Node(*node) == end);
             kinds.extend(shares.map(|(_, share)| Kind::Source(id, *share)));
@@ -157,6 +169,10 @@ impl Kind {
     fn power(self, system: &ThermalSystem, work: &mut Workspace) -> Result<f64, InputError> {
         Ok(match self {
             Self::Conductor(id, side) => system.received(work, id)?[side],
+            Self::Joint(id, side) => {
+                let parts = system.network().joints()[id.index()].conductors();
+                parts.map(|part| Ok(system.received(work, part)?[side])).sum::<Result<f64, InputError>>()?
+            }
             Self::Source(id, share) => share * system.source_powers(work)[id.index()],
         })
     }
@@ -167,6 +183,12 @@ impl Kind {
                 let conductor = &network.conductors()[id.index()];
                 let other = if side == 0 { conductor.to } else { conductor.from };
                 Term { item: Item::Conductor(id), other: Some(other), power, heat }
+            }
+            Self::Joint(id, side) => {
+                let first = network.joints()[id.index()].conductors().next();
+                let first = first.map(|id| &network.conductors()[id.index()]);
+                let other = first.map(|c| if side == 0 { c.to } else { c.from });
+                Term { item: Item::Joint(id), other, power, heat }
             }
             Self::Source(id, _) => Term { item: Item::Source(id), other: None, power, heat },
         }
@@ -179,6 +201,10 @@ impl SteadyState {
         let terms = Books::new(network, Some(of)).kinds.into_iter().map(|kind| {
             let power = match kind {
                 Kind::Conductor(id, side) => self.received[id.index()][side],
+                Kind::Joint(id, side) => {
+                    let parts = network.joints()[id.index()].conductors();
+                    parts.map(|part| self.received[part.index()][side]).sum()
+                }
                 Kind::Source(id, share) => share * self.source_heat[id.index()],
             };
             kind.term(network, power, None)

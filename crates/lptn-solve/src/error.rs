@@ -3,7 +3,7 @@
 use std::fmt;
 
 use lptn_integrate::{FactorError, IntegrateError};
-use lptn_network::{InputError, NodeId, list_of, list_of_names};
+use lptn_network::{Field, InputError, Item, NodeId, list_of, list_of_names};
 use lptn_units::format_number;
 
 use crate::solution::Solution;
@@ -161,6 +161,8 @@ pub enum StopReason {
         name: String,
         /// How often it changed.
         changes: usize,
+        /// The element and the field.
+        place: (Item, Field),
     },
     /// What switches back and forth at one moment, without time going on.
     Restless {
@@ -215,6 +217,8 @@ pub enum SettingsError {
     },
     /// The distance between outputs is not positive, or so small that there would be too many.
     OutputEvery(f64),
+    /// The state to begin with is one of another network, or not finite.
+    State,
 }
 
 impl TransientError {
@@ -226,6 +230,14 @@ impl TransientError {
                 unsolved.input()
             }
             _ => None,
+        }
+    }
+
+    /// The element and field at fault, if that is the reason.
+    pub fn place(&self) -> Option<(Item, Field)> {
+        match self {
+            Self::Stopped { reason: StopReason::Chatter { place, .. }, .. } => Some(*place),
+            _ => self.input().map(|input| (input.item, input.field)),
         }
     }
 
@@ -338,7 +350,7 @@ impl StopReason {
 
     fn of_events(&self) -> String {
         match self {
-            Self::Chatter { name, changes } => format!(
+            Self::Chatter { name, changes, .. } => format!(
                 "a comparison in `{name}` changed {changes} times between two rows: the temperatures stay where it \
                  neither holds nor fails"
             ),
@@ -387,6 +399,7 @@ impl fmt::Display for SettingsError {
             Self::OutputEvery(every) => {
                 write!(f, "outputs every {every} s are none, or more than 10 million")
             }
+            Self::State => f.write_str("the state to begin with is not one of this network"),
         }
     }
 }

@@ -6,7 +6,7 @@
 //! D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508), which ends where a network that stores heat in every node would.
 
 use lptn_assembly::{Form, ThermalSystem, Workspace};
-use lptn_integrate::linear::{self, Factorization, LinearSolver};
+use lptn_integrate::linear::{self, Factorization};
 use lptn_integrate::{FactorError, Pattern};
 use lptn_network::InputError;
 
@@ -92,7 +92,7 @@ impl<'a> Newton<'a> {
             }
         }
         let pattern = Pattern::new(free.len(), entries.into_iter());
-        let factors = linear::new(&pattern, false, LinearSolver::Auto).map_err(NewtonError::Factorization)?;
+        let factors = linear::for_exact(&pattern).map_err(NewtonError::Factorization)?;
         let (values, whole) = (vec![0.0; pattern.len()], vec![0.0; whole.len()]);
         let flow = vec![0.0; system.unknowns().len()];
         Ok(Self { system, free, pattern, slots, factors, ready: false, whole, values, flow })

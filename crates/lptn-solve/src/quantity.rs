@@ -1,12 +1,14 @@
 //! What can be a column of the results.
 
-use lptn_network::{BoundaryId, ControlId, HeatOf, Network, NodeId, ReportId, SignalId};
+use lptn_network::{BoundaryId, ControlId, GridValue, HeatOf, Item, Network, NodeId, ReportId, SignalId};
 use lptn_units::{Dimension, Type, Unit};
 
 /// One quantity of a network that can be a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Quantity {
     Node(NodeId),
+    /// A temperature of a grid as a whole.
+    Grid(GridValue),
     BoundaryTemperature(BoundaryId),
     Heat(HeatOf),
     Signal(SignalId),
@@ -15,14 +17,16 @@ pub(crate) enum Quantity {
 }
 
 impl Quantity {
-    /// All of a network: temperatures of nodes and boundaries, heat flows of paths, sources, and boundaries, signals,
-    /// controls, reports.
+    /// All of a network but what is inside grids: temperatures of nodes, grids and boundaries, heat flows of paths,
+    /// sources and boundaries, signals, controls, reports.
     pub(crate) fn all(network: &Network) -> impl Iterator<Item = Self> {
-        let nodes = network.node_ids().map(Self::Node);
-        let paths = network.conductor_ids().flat_map(|id| network.heats_of(id)).map(Self::Heat);
+        let nodes = network.outer_nodes().map(Self::Node);
+        let paths = network.outer_conductors().flat_map(|id| network.heats_of(id));
+        let joints = network.shared_joints().map(HeatOf::Joint);
         nodes
+            .chain(network.grid_values().map(Self::Grid))
             .chain(network.boundary_ids().map(Self::BoundaryTemperature))
-            .chain(paths)
+            .chain(paths.chain(joints).map(Self::Heat))
             .chain(network.source_ids().map(|id| Self::Heat(HeatOf::Source(id))))
             .chain(network.boundary_ids().map(|id| Self::Heat(HeatOf::Boundary(id))))
             .chain(network.signal_ids().map(Self::Signal))
@@ -30,9 +34,51 @@ impl Quantity {
             .chain(network.report_ids().map(Self::Report))
     }
 
+    /// What is inside grids: temperatures of cells and surfaces, heat flows of their paths, faces that nothing is
+    /// attached to. There may be hundreds of thousands.
+    pub(crate) fn inner(network: &Network) -> impl Iterator<Item = Self> {
+        let nodes = network.node_ids().filter(|id| network.whole(Item::Node(*id)).is_some());
+        let paths = network.conductor_ids().filter(|id| network.whole(Item::Conductor(*id)).is_some());
+        let paths = paths.flat_map(|id| network.heats_of(id)).map(Self::Heat);
+        nodes.map(Self::Node).chain(network.idle_grid_values().map(Self::Grid)).chain(paths)
+    }
+
+    /// What sorts quantities as [`Quantity::all`] does, followed by those of [`Quantity::inner`].
+    pub(crate) fn order(self, network: &Network) -> (bool, u8, usize, u8) {
+        let inner = network.whole(self.item()).is_some();
+        let (kind, index, end) = match self {
+            Self::Node(id) => (0, id.index(), 0),
+            Self::Grid(value) => (1, value.grid().index(), 0),
+            Self::BoundaryTemperature(id) => (2, id.index(), 0),
+            Self::Heat(HeatOf::Conductor(id) | HeatOf::ReceivedFrom(id)) => (3, id.index(), 0),
+            Self::Heat(HeatOf::ReceivedTo(id)) => (3, id.index(), 1),
+            Self::Heat(HeatOf::Joint(id)) => (4, id.index(), 0),
+            Self::Heat(HeatOf::Source(id)) => (5, id.index(), 0),
+            Self::Heat(HeatOf::Boundary(id)) => (6, id.index(), 0),
+            Self::Signal(id) => (7, id.index(), 0),
+            Self::Control(id) => (8, id.index(), 0),
+            Self::Report(id) => (9, id.index(), 0),
+        };
+        (inner, kind, index, end)
+    }
+
+    /// The quantity of this name, without a look at all the others; not for signals and reports.
+    pub(crate) fn named(network: &Network, name: &str) -> Option<Self> {
+        let item = network.item(name.rsplit_once('.')?.0).ok()?;
+        let all = match item {
+            Item::Node(id) => vec![Self::Node(id)],
+            Item::Boundary(id) => vec![Self::BoundaryTemperature(id), Self::Heat(HeatOf::Boundary(id))],
+            Item::Conductor(id) => network.heats_of(id).into_iter().map(Self::Heat).collect(),
+            Item::Source(id) => vec![Self::Heat(HeatOf::Source(id))],
+            _ => Vec::new(),
+        };
+        all.into_iter().find(|quantity| quantity.name(network) == name)
+    }
+
     pub(crate) fn name(self, network: &Network) -> String {
         match self {
             Self::Node(id) => format!("{}.T", network.nodes()[id.index()].name),
+            Self::Grid(value) => value.name(network),
             Self::BoundaryTemperature(id) => format!("{}.T", network.boundaries()[id.index()].name),
             Self::Heat(heat) => heat.name(network),
             Self::Signal(id) => network.signals()[id.index()].name.clone(),
@@ -41,9 +87,22 @@ impl Quantity {
         }
     }
 
+    /// What it is a quantity of.
+    pub(crate) fn item(self) -> Item {
+        match self {
+            Self::Node(id) => Item::Node(id),
+            Self::BoundaryTemperature(id) => Item::Boundary(id),
+            Self::Heat(heat) => heat.item(),
+            Self::Signal(id) => Item::Signal(id),
+            Self::Report(id) => Item::Report(id),
+            Self::Control(id) => Item::Control(id),
+            Self::Grid(value) => Item::Grid(value.grid()),
+        }
+    }
+
     pub(crate) fn ty(self, network: &Network) -> Type {
         match self {
-            Self::Node(_) | Self::BoundaryTemperature(_) => Type::ABSOLUTE_TEMPERATURE,
+            Self::Node(_) | Self::Grid(_) | Self::BoundaryTemperature(_) => Type::ABSOLUTE_TEMPERATURE,
             Self::Heat(_) => Type::of(Dimension::POWER),
             Self::Signal(id) => network.signals()[id.index()].ty,
             Self::Control(_) => Type::SCALAR,
@@ -53,7 +112,7 @@ impl Quantity {
 
     /// Whether it can be had only where the temperature of every node is known.
     pub(crate) fn needs_all(self) -> bool {
-        matches!(self, Self::Heat(_) | Self::Report(_))
+        matches!(self, Self::Heat(_) | Self::Report(_) | Self::Grid(_))
     }
 }
 

@@ -57,6 +57,9 @@ impl<'a> Reading<'a> {
     pub(crate) fn value(&mut self, work: &mut Workspace, quantity: Quantity) -> Result<f64, InputError> {
         match quantity {
             Quantity::Node(id) => Ok(self.system.node_temperatures(work)[id.index()]),
+            Quantity::Grid(value) => {
+                Ok(self.system.network().grid_value(value, self.system.node_temperatures(work)))
+            }
             Quantity::BoundaryTemperature(id) => Ok(self.system.boundary_temperatures(work)[id.index()]),
             Quantity::Heat(heat) => heat_of(self.system, &self.boundary_heat, work, heat),
             Quantity::Signal(id) => Ok(self.scope.signal(id)),
@@ -81,5 +84,9 @@ fn heat_of(
             Ok(if known { system.source_powers(work)[id.index()] } else { f64::NAN })
         }
         HeatOf::Boundary(id) => Ok(boundary_heat[id.index()]),
+        HeatOf::Joint(id) => {
+            let parts = system.network().joints()[id.index()].conductors();
+            parts.map(|part| Ok(system.received(work, part)?[1])).sum()
+        }
     }
 }

@@ -8,11 +8,13 @@ use crate::balance::Balance;
 use crate::error::{SettingsError, StopReason, TransientError};
 use crate::events::{Event, EventKind};
 use crate::heat::Heat;
+use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::{LimitSeen, LimitWatch};
 use crate::reading::Reading;
 use crate::settings::{Record, Transient};
 use crate::solution::{End, Solution};
+use crate::state::State;
 use crate::times::Segment;
 use crate::unfold::Unfold;
 use crate::unsolved::Unsolved;
@@ -339,6 +341,11 @@ impl<'a> Recorder<'a> {
         end: End,
     ) -> Solution {
         let network = self.system.network();
+        let time = match end {
+            End::Reached => self.span().1,
+            End::Interrupted(time) | End::Failed(time) => time,
+        };
+        let last = LastState::new(self.system, &self.work, (time, &self.state));
         let windows = self.windows.into_iter().filter_map(|w| w.into_seen(network, self.tolerance));
         self.rows.truncate(self.next);
         let limits = self.limits.into_seen(self.tolerance);
@@ -356,11 +363,13 @@ impl<'a> Recorder<'a> {
             limits,
             windows: windows.collect(),
             balance,
+            last,
             ledger,
             statistics,
             end,
             tolerance: self.tolerance,
             remembered: self.remembered,
+            end_state: State::of_carried(Vec::new()),
         }
     }
 }

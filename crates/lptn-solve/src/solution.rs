@@ -10,10 +10,12 @@ use lptn_network::{
 use crate::balance::Balance;
 use crate::curved::MOST_REMEMBERED;
 use crate::events::{ControlState, Event, EventKind};
+use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::LimitSeen;
 use crate::quantity::Quantity;
 use crate::reading::Reading;
+use crate::state::State;
 use crate::watch::Seen;
 use crate::window::WindowSeen;
 
@@ -49,11 +51,13 @@ pub struct Solution {
     pub(crate) limits: Vec<LimitSeen>,
     pub(crate) windows: Vec<WindowSeen>,
     pub(crate) balance: Option<Balance>,
+    pub(crate) last: LastState,
     pub(crate) ledger: Ledger,
     pub(crate) statistics: Statistics,
     pub(crate) end: End,
     pub(crate) tolerance: f64,
     pub(crate) remembered: f64,
+    pub(crate) end_state: State,
 }
 
 impl Solution {
@@ -195,9 +199,19 @@ impl Solution {
         self.balance.as_ref()
     }
 
+    /// Where the run ended, every node included, recorded or not: what another run can start from.
+    pub fn last(&self) -> &LastState {
+        &self.last
+    }
+
     /// The energy ledger from the start to the end that was reached.
     pub fn ledger(&self) -> &Ledger {
         &self.ledger
+    }
+
+    /// The state at the end that was reached, where another run may begin.
+    pub fn last_state(&self) -> &State {
+        &self.end_state
     }
 
     /// Counters of the integrator; all zero for a network without state.
@@ -267,6 +281,11 @@ impl Replay<'_> {
     /// One quantity in SI units. What could be evaluated in the run can be here.
     pub(crate) fn value(&mut self, quantity: Quantity) -> f64 {
         self.reading.value(&mut self.work, quantity).unwrap_or(f64::NAN)
+    }
+
+    /// The workspace of this row.
+    pub(crate) fn work(&mut self) -> &mut Workspace {
+        &mut self.work
     }
 
     fn received(&mut self, id: ConductorId) -> Received {

@@ -121,17 +121,21 @@ impl SteadyState {
         scope.set_positions(&self.positions);
         scope.set_time(self.time, just_after(self.time));
         scope.set_temperatures(&self.temperatures, &self.boundary_temperatures);
-        let heats: Vec<f64> = network.named_heats().map(|heat| self.heat(heat)).collect();
+        let heats: Vec<f64> = network.named_heats().map(|heat| self.heat(network, heat)).collect();
         scope.set_heats(&heats);
         scope
     }
 
-    fn heat(&self, heat: HeatOf) -> f64 {
+    fn heat(&self, network: &Network, heat: HeatOf) -> f64 {
         match heat {
             HeatOf::Conductor(id) | HeatOf::ReceivedTo(id) => self.received[id.index()][1],
             HeatOf::ReceivedFrom(id) => self.received[id.index()][0],
             HeatOf::Source(id) => self.source_heat[id.index()],
             HeatOf::Boundary(id) => self.boundary_heat[id.index()],
+            HeatOf::Joint(id) => {
+                let parts = network.joints()[id.index()].conductors();
+                parts.map(|part| self.received[part.index()][1]).sum()
+            }
         }
     }
 
@@ -144,8 +148,9 @@ impl SteadyState {
     ) -> Result<f64, InputError> {
         match quantity {
             Quantity::Node(id) => Ok(self.temperatures[id.index()]),
+            Quantity::Grid(value) => Ok(network.grid_value(value, &self.temperatures)),
             Quantity::BoundaryTemperature(id) => Ok(self.boundary_temperatures[id.index()]),
-            Quantity::Heat(heat) => Ok(self.heat(heat)),
+            Quantity::Heat(heat) => Ok(self.heat(network, heat)),
             Quantity::Signal(id) => Ok(scope.signal(id)),
             Quantity::Control(id) => Ok(scope.control(id)),
             Quantity::Report(id) => network.report_value(id, scope),

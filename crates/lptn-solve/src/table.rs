@@ -1,6 +1,6 @@
 //! The one table type that writers take: named columns with units.
 
-use lptn_network::{InputError, Network, NodeId};
+use lptn_network::{InputError, Item, Network, NodeId};
 use lptn_units::Unit;
 
 use crate::quantity::{Quantity, shown, unit_of};
@@ -128,19 +128,41 @@ impl Selection {
         Self { quantities: Quantity::all(network).collect() }
     }
 
+    /// The columns of some items; `of` tells which.
+    pub fn of(network: &Network, of: impl Fn(Item) -> bool) -> Self {
+        Self { quantities: Quantity::all(network).filter(|quantity| of(quantity.item())).collect() }
+    }
+
     /// The columns that match any of `patterns`, in the order of the network.
     ///
     /// # Errors
     /// The patterns that match no column.
     pub fn matching(network: &Network, patterns: &[String]) -> Result<Self, Vec<String>> {
-        let named: Vec<(Quantity, String)> = Quantity::all(network).map(|q| (q, q.name(network))).collect();
-        let idle = |p: &&String| !named.iter().any(|(_, name)| matches(p, name));
-        let unmatched: Vec<String> = patterns.iter().filter(idle).cloned().collect();
-        if !unmatched.is_empty() {
-            return Err(unmatched);
+        if let Some(mut quantities) = named(network, patterns) {
+            quantities.sort_unstable_by_key(|quantity| quantity.order(network));
+            quantities.dedup();
+            return Ok(Self { quantities });
         }
-        let chosen = named.into_iter().filter(|(_, name)| patterns.iter().any(|p| matches(p, name)));
-        Ok(Self { quantities: chosen.map(|(quantity, _)| quantity).collect() })
+        // of a large network not all names are held at once
+        let mut found = vec![false; patterns.len()];
+        let mut chosen = |quantity: &Quantity, asked: &dyn Fn(&str) -> bool| {
+            let name = quantity.name(network);
+            let mut any = false;
+            for (pattern, found) in patterns.iter().zip(&mut found).filter(|(pattern, _)| asked(pattern)) {
+                let fits = matches(pattern, &name);
+                (*found, any) = (*found || fits, any || fits);
+            }
+            any
+        };
+        let mut quantities: Vec<Quantity> =
+            Quantity::all(network).filter(|quantity| chosen(quantity, &|_| true)).collect();
+        let reaching = |p: &str| p.contains('[') || !p.contains(['*', '?']);
+        if patterns.iter().any(|pattern| reaching(pattern)) {
+            quantities.extend(Quantity::inner(network).filter(|quantity| chosen(quantity, &reaching)));
+        }
+        let unmatched = patterns.iter().zip(found).filter(|(_, found)| !found);
+        let unmatched: Vec<String> = unmatched.map(|(pattern, _)| pattern.clone()).collect();
+        if unmatched.is_empty() { Ok(Self { quantities }) } else { Err(unmatched) }
     }
 
     /// The names of all columns that a network has.
@@ -169,6 +191,14 @@ impl Selection {
     pub fn is_empty(&self) -> bool {
         self.quantities.is_empty()
     }
+}
+
+/// The quantities of patterns that are plain names; `None` if one of them is not.
+fn named(network: &Network, patterns: &[String]) -> Option<Vec<Quantity>> {
+    if patterns.iter().any(|pattern| pattern.contains(['*', '?'])) {
+        return None;
+    }
+    patterns.iter().map(|pattern| Quantity::named(network, pattern)).collect()
 }
 
 /// Whether `name` has the form of `pattern`. Greedy with one place to go back to, so linear but for the

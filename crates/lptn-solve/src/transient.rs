@@ -5,13 +5,14 @@ use lptn_integrate::{FactorError, IntegrateError, Integrator, Statistics, Step};
 
 use crate::balance::Books;
 use crate::curved::Curved;
-use crate::error::{StopReason, TransientError};
+use crate::error::{SettingsError, StopReason, TransientError};
 use crate::events::{Switching, Trouble, find_crossings};
 use crate::heat::Heat;
 use crate::newton::NewtonError;
 use crate::recorder::Recorder;
 use crate::settings::{Control, Progress, Transient};
 use crate::solution::{End, Solution};
+use crate::state::{self, State};
 use crate::stateless;
 use crate::times::{Segment, segments, snap};
 use crate::unsolved::Unsolved;
@@ -34,6 +35,22 @@ impl Transient {
         system: &ThermalSystem,
         observer: &mut dyn FnMut(Progress) -> Control,
     ) -> Result<Solution, TransientError> {
+        self.solve_from(system, &State::initial(system), observer)
+    }
+
+    /// As [`Transient::solve_observed`] from another state than the network's own start.
+    ///
+    /// # Errors
+    /// As [`Transient::solve`]; a state of another network is a fault of the settings.
+    pub fn solve_from(
+        &self,
+        system: &ThermalSystem,
+        from: &State,
+        observer: &mut dyn FnMut(Progress) -> Control,
+    ) -> Result<Solution, TransientError> {
+        if !state::fits(system, from) {
+            return Err(TransientError::Settings(SettingsError::State));
+        }
         let rows = self.rows().map_err(TransientError::Settings)?;
         let network = system.network();
         let mut breakpoints = network.breakpoints(self.start, self.stop).map_err(TransientError::Input)?;
@@ -43,7 +60,7 @@ impl Transient {
         if system.states().is_empty() {
             return stateless::solve(recorder, &segments, &Books::new(network, self.balance));
         }
-        Run::new(system, recorder, &segments, self)?.through(&segments, observer)
+        Run::new(recorder, &segments, self, from)?.through(&segments, observer)
     }
 }
 
@@ -76,12 +93,13 @@ struct Run<'a> {
 
 impl<'a> Run<'a> {
     fn new(
-        system: &'a ThermalSystem,
         mut recorder: Recorder<'a>,
         segments: &[Segment],
         settings: &Transient,
+        from: &State,
     ) -> Result<Self, TransientError> {
-        let initial = system.initial();
+        let system = recorder.system();
+        let initial = from.carried().to_vec();
         let books = Books::new(system.network(), settings.balance);
         let heat = Heat::new(system, segments[0].inside(), books.clone())
             .map_err(|e| TransientError::Start(Unsolved::new(system, e)))?;
@@ -254,8 +272,8 @@ impl<'a> Run<'a> {
         let books = self.books.close(system, work, &integrals, (stored, self.tolerance));
         let controls = self.switching.as_ref().map_or_else(Vec::new, Switching::controls);
         let events = self.switching.map_or_else(Vec::new, |switching| switching.events);
-        let mut solution = self.recorder.into_solution(books, (statistics, events), end);
-        solution.controls = controls;
-        Ok(solution)
+        let end_state = State::of_carried(self.integrator.state().to_vec());
+        let solution = self.recorder.into_solution(books, (statistics, events), end);
+        Ok(Solution { end_state, controls, ..solution })
     }
 }

@@ -89,6 +89,15 @@ fn guess(system: &ThermalSystem) -> f64 {
     if mean.is_finite() { mean } else { lptn_network::ZERO_CELSIUS + 25.0 }
 }
 
+/// What is carried in K for one of the states at a temperature in K.
+pub(crate) fn carried(system: &ThermalSystem, state: usize, temperature: f64) -> Result<f64, InputError> {
+    let network = system.network();
+    let id = system.states()[state];
+    let Some(curve) = network.enthalpy(id) else { return Ok(temperature) };
+    let heat = curve.heat(temperature).ok_or_else(|| outside(system, state, curve))?;
+    Ok(network.initial(id) + heat / system.capacity()[state])
+}
+
 pub(crate) fn outside(system: &ThermalSystem, state: usize, curve: &Enthalpy) -> InputError {
     let id = system.states()[state];
     let name = system.network().nodes()[id.index()].name.clone();

@@ -157,7 +157,7 @@ fn the_balance_of_steel_is_that_of_the_exponentials() {
     let solution = Transient::until(Time(1500.0)).tolerance(1e-7).balance(steel).solve(&system).unwrap();
     let balance = solution.balance().unwrap();
     let terms = balance.largest_first();
-    let names: Vec<&str> = terms.iter().map(|term| system.network().name_of(term.item)).collect();
+    let names: Vec<_> = terms.iter().map(|term| system.network().name_of(term.item)).collect();
     assert_eq!(names, ["P_disp", "internal"]);
     let through = G * (integral(0, 1500.0) - integral(1, 1500.0));
     assert!((terms[0].heat.unwrap() - P * 1500.0).abs() < 1e-6);

@@ -15,6 +15,7 @@ mod manifest;
 mod moment;
 mod parallel;
 mod record;
+mod run;
 mod size;
 
 pub use compare::{Candidate, CompareError, CompareRow, LimitResult, Peak, SortKey, compare_table, order};
@@ -23,6 +24,7 @@ pub use manifest::{Environment, FileHash, Manifest, ParameterRecord, RunEnd, Sun
 pub use moment::utc;
 pub use parallel::{available_threads, in_parallel};
 pub use record::{LedgerRecord, Scalar, StatisticsRecord};
+pub use run::transient;
 pub use size::{
     Coolant, Cooling, CoolingError, CoolingTask, Flow, SizeError, SizeTask, Sizing, Trial, Verdict,
     requirement_margins, size,

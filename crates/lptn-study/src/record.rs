@@ -1,7 +1,9 @@
 //! Ledger and counters in the form in which they are written.
 
-use lptn_network::{ConductorKind, Network};
-use lptn_solve::{Ledger, Statistics};
+use std::borrow::Cow;
+
+use lptn_network::{Conductor, ConductorKind, Network, Source};
+use lptn_solve::{Ledger, Solution};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -52,11 +54,11 @@ pub struct LedgerRecord {
 impl LedgerRecord {
     /// The ledger of a run of `network`.
     pub fn new(network: &Network, ledger: &Ledger) -> Self {
-        let sources = network.sources().iter().map(|s| s.name.as_str());
-        let boundaries = network.boundaries().iter().map(|b| b.name.as_str());
+        let sources = network.sources().iter().map(Source::name);
+        let boundaries = network.boundaries().iter().map(|b| Cow::from(&b.name));
         let streams = network.conductors().iter().filter(|c| c.kind == ConductorKind::Advection);
-        let streams = streams.map(|c| c.name.as_str());
-        let nodes = network.nodes().iter().map(|n| n.name.as_str());
+        let streams = streams.map(Conductor::name);
+        let nodes = network.nodes().iter().map(|n| Cow::from(&n.name));
         Self {
             sources: by_name(sources, &ledger.sources),
             boundaries: by_name(boundaries, &ledger.boundaries),
@@ -71,8 +73,8 @@ impl LedgerRecord {
     }
 }
 
-fn by_name<'a>(names: impl Iterator<Item = &'a str>, heat: &[f64]) -> Map<String, Value> {
-    names.zip(heat).map(|(name, &heat)| (name.to_owned(), Scalar::new(heat, "J").json())).collect()
+fn by_name<'a>(names: impl Iterator<Item = Cow<'a, str>>, heat: &[f64]) -> Map<String, Value> {
+    names.zip(heat).map(|(name, &heat)| (name.into_owned(), Scalar::new(heat, "J").json())).collect()
 }
 
 /// The integrator's counters by name, whole numbers with the unit `1`.
@@ -81,8 +83,9 @@ fn by_name<'a>(names: impl Iterator<Item = &'a str>, heat: &[f64]) -> Map<String
 pub struct StatisticsRecord(Map<String, Value>);
 
 impl StatisticsRecord {
-    /// The counters of a run.
-    pub fn new(statistics: &Statistics) -> Self {
+    /// The counters of a run, with the number of its events.
+    pub fn new(solution: &Solution) -> Self {
+        let statistics = solution.statistics();
         let counters = [
             ("steps", statistics.steps),
             ("flow_evaluations", statistics.flow_evaluations),
@@ -93,6 +96,7 @@ impl StatisticsRecord {
             ("error_test_failures", statistics.error_test_failures),
             ("newton_failures", statistics.newton_failures),
             ("restarts", statistics.restarts),
+            ("events", solution.events().len() as u64),
         ];
         let member = |(name, count): (&str, u64)| {
             (name.to_owned(), serde_json::json!({ "value": count, "unit": "1" }))

@@ -137,3 +137,21 @@ fn deep_nesting_is_an_error_and_long_sums_are_not() {
     let long = vec!["x"; 100_000].join(" + ");
     assert!((run(&long).unwrap() - 200_000.0).abs() < 1e-6);
 }
+
+#[test]
+fn names_may_stand_for_others() {
+    let expression = Expression::parse("R * (1 + R / 2) + loss(gear.T) - pi").unwrap();
+    let meaning =
+        |name: &str| matches!(name, "R" | "loss" | "gear.T" | "pi").then(|| format!("planet[2].{name}"));
+    let renamed = expression.renamed(&meaning);
+    assert_eq!(
+        renamed.meant(),
+        "planet[2].R * (1 + planet[2].R / 2) + planet[2].loss(planet[2].gear.T) - pi"
+    );
+    // places are those of the text that was written
+    assert_eq!(renamed.text(), "R * (1 + R / 2) + loss(gear.T) - pi");
+    assert_eq!(renamed.names()[2], ("planet[2].gear.T".to_owned(), 23..29));
+    let (left, _, right) =
+        Expression::parse("R <= 2 * R").unwrap().renamed(&meaning).split_comparison().unwrap();
+    assert_eq!((left.meant().as_str(), right.meant().as_str()), ("planet[2].R", "2 * planet[2].R"));
+}

@@ -48,11 +48,6 @@ impl Case {
         }
     }
 
-    /// Whether heat is switched by a thermostat.
-    pub fn has_gate(&self) -> bool {
-        self.sources.iter().any(|source| matches!(source, Source::Heat { gate: Some(_), .. }))
-    }
-
     /// A hundredth of the smallest tolerance of a transient temperature, at least 1e-9 K; 1e-7 K if there is none.
     pub fn tolerance(&self) -> f64 {
         let transient = self.expected.iter().filter(|e| e.is_transient_temperature());

@@ -5,6 +5,7 @@
 mod answer;
 mod case;
 mod expected;
+mod gate;
 mod mean;
 mod network;
 mod size;

@@ -10,7 +10,7 @@ use lptn::network::{
 use lptn::prelude::*;
 use lptn::units::{Dimension, Interpolation as Join, Outside, Table as Curve, Table1, TableSymbol, Type};
 
-use super::case::{At, CapacityCurve, Case, Edge, Interpolation, Node, Source, Table, TimeFunction};
+use super::case::{At, CapacityCurve, Case, Edge, Gate, Interpolation, Node, Source, Table, TimeFunction};
 
 /// The Stefan-Boltzmann constant of the SI in W/(m^2 K^4), which lptn computes with.
 const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
@@ -73,8 +73,8 @@ impl Model {
     }
 }
 
-struct Building {
-    b: NetworkBuilder,
+pub struct Building {
+    pub b: NetworkBuilder,
     zero: f64,
     ends: BTreeMap<String, End>,
     edges: BTreeMap<String, ConductorId>,
@@ -83,7 +83,7 @@ struct Building {
 
 /// A unit as expressions write it, and its type.
 #[derive(Clone, Copy)]
-enum Unit {
+pub enum Unit {
     Kelvin,
     Watt,
     WattPerKelvin,
@@ -109,17 +109,17 @@ impl Unit {
 
 /// A name that lptn accepts and that says what it stands for: names of a case may be reserved words, and a node and
 /// an edge may share one.
-fn name(kind: &str, id: &str) -> String {
+pub fn name(kind: &str, id: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
     format!("{kind}_{}", id.chars().map(plain).collect::<String>())
 }
 
 impl Building {
-    fn end(&self, id: &str) -> Result<End, String> {
+    pub fn end(&self, id: &str) -> Result<End, String> {
         self.ends.get(id).copied().ok_or_else(|| format!("there is no node `{id}`"))
     }
 
-    fn expression(&self, context: Context, text: &str) -> Result<Input, String> {
+    pub fn expression(&self, context: Context, text: &str) -> Result<Input, String> {
         let program = self.b.expression_in(context, text, None);
         program.map(Input::from).map_err(|errors| format!("`{text}`: {errors:?}"))
     }
@@ -213,25 +213,31 @@ impl Building {
     fn source(&mut self, source: &Source) -> Result<(), String> {
         let rise = |reference: f64| format!("(T - absolute({} [K]))", reference + self.zero);
         let (id, node, power) = match source {
-            Source::Heat { gate: Some(_), .. } | Source::Resistor { gate: Some(_), .. } => {
-                return Err("lptn has no thermostat yet".to_owned());
-            }
-            Source::Heat { id, node, heat, coefficient: None, .. } => {
+            Source::Heat { id, node, heat, coefficient: None, gate: None } => {
                 (id, node, self.of_time(heat, Unit::Watt)?)
             }
-            Source::Heat { id, node, heat, coefficient: Some(c), .. } => {
-                let factor = format!("(1 + ({} [1/K]) * {})", c.alpha, rise(c.reference));
+            Source::Heat { id, node, heat, coefficient, gate } => {
+                let factor = coefficient
+                    .as_ref()
+                    .map_or("1".to_owned(), |c| format!("(1 + ({} [1/K]) * {})", c.alpha, rise(c.reference)));
                 let heat = self.text(heat, Unit::Watt)?;
-                (id, node, self.expression(Context::Source, &format!("({heat}) * {factor}"))?)
+                (id, node, self.gated((id, gate.as_ref()), &format!("({heat}) * {factor}"))?)
             }
-            Source::Resistor { id, node, voltage, resistance, alpha, reference, .. } => {
+            Source::Resistor { id, node, voltage, resistance, alpha, reference, gate } => {
                 let cold = voltage * voltage / resistance;
                 let text = format!("{cold} [W] / (1 + ({alpha} [1/K]) * {})", rise(*reference));
-                (id, node, self.expression(Context::Source, &text)?)
+                (id, node, self.gated((id, gate.as_ref()), &text)?)
             }
         };
         self.b.source(&name("source", id), self.end(node)?, power);
         Ok(())
+    }
+
+    /// The heat of a source, where a gate lets it through.
+    fn gated(&mut self, (id, gate): (&str, Option<&Gate>), heat: &str) -> Result<Input, String> {
+        let Some(gate) = gate else { return self.expression(Context::Source, heat) };
+        let open = self.gate(id, gate)?;
+        self.expression(Context::Source, &format!("{heat} * {open}"))
     }
 
     fn of_time(&mut self, of_time: &TimeFunction, unit: Unit) -> Result<Input, String> {
@@ -249,7 +255,7 @@ impl Building {
     }
 
     /// A function of time as an expression; a table becomes a signal first.
-    fn text(&mut self, of_time: &TimeFunction, unit: Unit) -> Result<String, String> {
+    pub fn text(&mut self, of_time: &TimeFunction, unit: Unit) -> Result<String, String> {
         let literal = |value: f64| match unit {
             Unit::Kelvin => format!("absolute({} [K])", value + self.zero),
             _ => format!("{value} [{}]", unit.text()),

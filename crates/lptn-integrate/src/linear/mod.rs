@@ -1,4 +1,4 @@
-//! Direct solvers for `A x = b` with one sparsity pattern and many sets of values.
+//! Solvers for `A x = b` with one sparsity pattern and many sets of values.
 //!
 //! Used for the Newton matrices `M - gamma J` of the integrator, and by others for steady states `G x = b`. The
 //! analysis of the pattern happens once, in `new`; [`Factorization::factorize`] and
@@ -6,11 +6,15 @@
 
 mod cholesky;
 mod dense;
+mod either;
 mod lu;
+mod pcg;
 
 pub use cholesky::SparseCholesky;
 pub use dense::Dense;
+pub use either::Either;
 pub use lu::SparseLu;
+pub use pcg::Pcg;
 
 use faer::MatMut;
 use faer::dyn_stack::{MemBuffer, StackReq};
@@ -36,6 +40,8 @@ pub enum LinearSolver {
     Cholesky,
     /// Sparse LU.
     Lu,
+    /// Preconditioned conjugate gradients; an error for matrices that are not symmetric.
+    Pcg,
 }
 
 /// The solver in use.
@@ -49,6 +55,8 @@ pub enum LinearSolverKind {
     SparseCholesky,
     /// Sparse LU, column approximate minimum degree ordering.
     SparseLu,
+    /// Conjugate gradients with an incomplete Cholesky factor.
+    Pcg,
 }
 
 /// A matrix that can be factorised again and again with other values in the same pattern.
@@ -107,8 +115,11 @@ pub fn new(
     symmetric: bool,
     choice: LinearSolver,
 ) -> Result<Box<dyn Factorization>, FactorError> {
-    if choice == LinearSolver::Cholesky && !symmetric {
+    if matches!(choice, LinearSolver::Cholesky | LinearSolver::Pcg) && !symmetric {
         return Err(FactorError::NotSymmetric);
+    }
+    if choice == LinearSolver::Pcg {
+        return Ok(Box::new(Pcg::new(pattern)));
     }
     if is_dense(choice, pattern.size()) {
         return Ok(Box::new(Dense::new(pattern, symmetric)));
@@ -117,6 +128,43 @@ pub fn new(
         return Ok(Box::new(SparseCholesky::new(pattern)?));
     }
     Ok(Box::new(SparseLu::new(pattern)?))
+}
+
+/// The factors of a Cholesky decomposition hold more numbers than this, and more than so many times those of the matrix,
+/// where a body is cut into cells along three axes: 8 million and 41 times for 30 x 30 x 30 cells, 27 million and 60 times
+/// for 40 x 40 x 40, but 4 million and 8 times for 300 x 300.
+const FILL: (usize, usize) = (5_000_000, 25);
+
+/// As [`new`], for the matrices `M - gamma J` of the steps of a run: [`LinearSolver::Auto`] takes [`Pcg`] where exact
+/// factors fill up.
+///
+/// # Errors
+/// As [`new`].
+pub fn for_steps(
+    pattern: &Pattern,
+    symmetric: bool,
+    choice: LinearSolver,
+) -> Result<Box<dyn Factorization>, FactorError> {
+    let factors = new(pattern, symmetric, choice)?;
+    let fills = factors.fill() > FILL.0 && factors.fill() / FILL.1 > pattern.len();
+    if choice == LinearSolver::Auto && factors.kind() == LinearSolverKind::SparseCholesky && fills {
+        return Ok(Box::new(Pcg::new(pattern)));
+    }
+    Ok(factors)
+}
+
+/// From so many rows on the exact Jacobians of Newton's method are looked at for symmetry: below it LU is soon done.
+const LARGE: usize = 2000;
+
+/// As [`new`], for exact Jacobians: not symmetric in general, but often by their values.
+///
+/// # Errors
+/// As [`new`].
+pub fn for_exact(pattern: &Pattern) -> Result<Box<dyn Factorization>, FactorError> {
+    if pattern.size() < LARGE {
+        return new(pattern, false, LinearSolver::Auto);
+    }
+    Ok(Box::new(Either::new(pattern)))
 }
 
 /// Solves `A x = b` with `steps` steps of iterative refinement, for which `A` (pattern and values) is needed beside

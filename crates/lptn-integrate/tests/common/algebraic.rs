@@ -196,6 +196,8 @@ pub(crate) struct Stream {
     pub(crate) hold: f64,
     pub(crate) inlet: fn(f64) -> f64,
     pub(crate) left_at: usize,
+    /// Values of the last cell that end a step.
+    pub(crate) levels: Vec<f64>,
     mass: Vec<f64>,
     pattern: Pattern,
 }
@@ -203,7 +205,7 @@ pub(crate) struct Stream {
 impl Stream {
     pub(crate) fn new(n: usize, rate: f64, hold: f64, inlet: fn(f64) -> f64) -> Self {
         let pattern = Pattern::new(n, (1..n).map(|i| (i - 1, i)));
-        Self { rate, hold, inlet, left_at: 0, mass: vec![1.0; n], pattern }
+        Self { rate, hold, inlet, left_at: 0, levels: Vec::new(), mass: vec![1.0; n], pattern }
     }
 }
 
@@ -247,6 +249,13 @@ impl OdeSystem for Stream {
     }
     fn quadrature(&mut self, t: f64, y: &[f64], q: &mut [f64]) -> Result<(), Retry> {
         q.copy_from_slice(&[self.rate * (self.inlet)(t), self.rate * y[y.len() - 1]]);
+        Ok(())
+    }
+    fn root_count(&self) -> usize {
+        self.levels.len()
+    }
+    fn roots(&mut self, _t: f64, y: &[f64], g: &mut [f64]) -> Result<(), Retry> {
+        g.iter_mut().zip(&self.levels).for_each(|(g, level)| *g = y[y.len() - 1] - level);
         Ok(())
     }
 }

@@ -1,10 +1,10 @@
 //! All laws with the ranges they are tested in. Inputs stand in the order of the function's arguments.
 
 use lptn_laws::{
-    Melting, advection_from, advection_to, contact, cylinder, effective_emissivity_concentric,
-    effective_emissivity_parallel_plates, film, joule, linear_temperature_factor, melt_fraction,
-    power_conductance, radiation_conductance, radiation_exchange_area, rod, slab, sphere, stream_from,
-    stream_to,
+    Melting, advection_from, advection_to, biot, contact, cylinder, diffusion_time,
+    effective_emissivity_concentric, effective_emissivity_parallel_plates, film, joule,
+    linear_temperature_factor, melt_fraction, power_conductance, radiation_conductance,
+    radiation_exchange_area, rod, slab, sphere, stream_from, stream_to,
 };
 use lptn_units::{Dual, Scalar};
 
@@ -169,6 +169,13 @@ fn advection() -> Vec<Law> {
 
 fn electric() -> Vec<Law> {
     vec![
+        law!("biot", |x| biot(x[0], x[1], x[2]), [[FILM, (1e-4, 0.5), CONDUCTIVITY]], [[0.0, 0.01, 20.0]]),
+        law!(
+            "diffusion_time",
+            |x| diffusion_time(x[0], x[1], x[2], x[3]),
+            [[(1e-4, 0.5), CONDUCTIVITY, (1.0, 2e4), (100.0, 5000.0)]],
+            [[0.0, 20.0, 8000.0, 400.0]]
+        ),
         law!(
             "linear_temperature_factor",
             |x| linear_temperature_factor(x[0], x[1], x[2]),

@@ -1,6 +1,6 @@
 //! `[boundary]`.
 
-use lptn_network::{End, Field, Item};
+use lptn_network::{Field, Item};
 use lptn_units::Type;
 
 use crate::elaborate::{Elaboration, stand_in};
@@ -35,6 +35,5 @@ impl<'a> Elaboration<'a> {
         if let Some(raw) = raw {
             self.map.value(item, Field::Temperature, raw);
         }
-        self.ends.entry(&entry.key).or_insert((End::Boundary(id), &entry.key_span));
     }
 }

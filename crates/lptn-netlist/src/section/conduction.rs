@@ -49,7 +49,7 @@ impl<'a> Elaboration<'a> {
         let (name, _) = BODIES.iter().find(|(_, other)| *other == body)?;
         let takes = crate::vocabulary::list(measures);
         self.refuse_keys(fields, &others, &format!("means nothing for a {name}, which takes {takes}"));
-        let missing = measures.iter().find(|key| fields.get(key).is_none());
+        let missing = measures.iter().find(|key| !fields.has(key));
         if let Some(key) = missing.filter(|_| fields.complete) {
             let message = format!("{} is a {name} without `{key}`", fields.owner.words());
             let problem = Diagnostic::error("netlist::missing_field", message)

@@ -1,7 +1,7 @@
 //! The sections of paths between two ends: `[resistor]`, `[convection]`, `[contact]` here, the others in files of
 //! their own.
 
-use lptn_network::{ConductorKind, End, Field, Input, Item, Path};
+use lptn_network::{ConductorKind, Field, Input, Item, Path, Terminal};
 use lptn_units::{Dimension, Type};
 
 use crate::diagnostic::Diagnostic;
@@ -17,7 +17,7 @@ const CONVECTION_FORMS: &[&[&str]] = &[&["R"], &["h", "area"]];
 const CONTACT_FORMS: &[&[&str]] = &[&["h", "area"]];
 
 /// The sections of paths, in the order in which their columns stand.
-const PATHS: [(&Section, ConductorKind); 6] = [
+pub(crate) const PATHS: [(&Section, ConductorKind); 6] = [
     (&RESISTOR, ConductorKind::Resistor),
     (&CONDUCTION, ConductorKind::Conduction),
     (&CONVECTION, ConductorKind::Convection),
@@ -61,15 +61,22 @@ impl<'a> Elaboration<'a> {
 
     fn conductor(&mut self, entry: &'a RawEntry, section: &Section, kind: ConductorKind) -> Option<()> {
         let owner = Owner::element(section.name, &entry.key);
-        let fields = Fields::of(section, owner, entry, &mut self.problems)?;
-        let (from, to) = (self.end(&fields, "from"), self.end(&fields, "to"));
+        let mut fields = Fields::of(section, owner, entry, &mut self.problems)?;
+        let (from, to) = (self.terminal(&fields, "from"), self.terminal(&fields, "to"));
+        fields.area = self.area_of(&fields, [&from, &to]);
         // a stand-in where the law is wrong, so that the ends still count
         let path = self.path(&fields, kind);
         let path = path.unwrap_or_else(|| Path::Resistance(stand_in(Type::of(Dimension::RESISTANCE))));
         let (from, to) = (from?, to?);
-        let id = self.builder.conductor(&entry.key, kind, (from.0, to.0), path);
-        self.map.conductor(section.name);
-        let item = Item::Conductor(id);
+        let before = self.builder.sizes();
+        let item = self.builder.connect(&entry.key, kind, (from.0, to.0), path);
+        match item {
+            Item::Joint(_) => {
+                self.map.joint(section.name);
+                self.note_parts(before, item, section.name);
+            }
+            _ => self.map.conductor(section.name),
+        }
         self.map_fields(item, &fields, (from, to));
         self.map.insert(item, Field::Name, entry.key_span.clone());
         Some(())
@@ -79,7 +86,7 @@ impl<'a> Elaboration<'a> {
         &mut self,
         item: Item,
         fields: &Fields<'a>,
-        (from, to): ((End, &RawValue), (End, &RawValue)),
+        (from, to): ((Terminal, &RawValue), (Terminal, &RawValue)),
     ) {
         self.map.value(item, Field::From, from.1);
         self.map.value(item, Field::To, to.1);
@@ -118,7 +125,9 @@ impl<'a> Elaboration<'a> {
     /// The value of a field of a path, which may depend on time and temperatures; a stand-in if it is wrong.
     pub(crate) fn law(&mut self, fields: &Fields<'a>, key: &str, ty: Type) -> Option<Input> {
         let known = fields.known(key);
-        let raw = fields.get(key).filter(|_| known)?;
+        let Some(raw) = fields.get(key).filter(|_| known) else {
+            return fields.area.clone().filter(|_| known && key == "area");
+        };
         let given = self.given(Place { owner: &fields.owner, key, raw }, Wanted::of_link(ty));
         Some(given.map_or_else(|| stand_in(ty), |given| given.input()))
     }
@@ -131,7 +140,7 @@ pub(crate) fn check_forms(fields: &Fields<'_>, forms: &[&[&str]]) -> Option<Diag
     match begun.as_slice() {
         [] if fields.complete => Some(no_form(fields, forms)),
         [] => None,
-        [form] => form.iter().find(|key| fields.get(key).is_none()).and_then(|key| half(fields, form, key)),
+        [form] => form.iter().find(|key| !fields.has(key)).and_then(|key| half(fields, form, key)),
         _ => Some(two_forms(fields, &begun)),
     }
 }

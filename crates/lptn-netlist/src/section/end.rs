@@ -1,16 +1,117 @@
 //! Names of nodes and boundaries, where something is connected to them.
 
-use std::collections::BTreeSet;
+use std::sync::Arc;
 
-use lptn_network::{End, NodeId, is_name};
-use lptn_units::suggest;
+use lptn_network::{End, GridFace, Input, NodeId, Terminal, is_name};
+use lptn_units::{Dimension, Type, suggest};
 
 use crate::diagnostic::Diagnostic;
-use crate::elaborate::Elaboration;
-use crate::fields::Fields;
-use crate::raw::RawValue;
+use crate::elaborate::{Elaboration, stand_in};
+use crate::fields::{Fields, Owner};
+use crate::file::Span;
+use crate::grid_names::GridPart;
+use crate::raw::{RawKind, RawValue};
+use crate::template::{by_port, wrong_path};
+use crate::vocabulary::{USE, list};
 
 impl<'a> Elaboration<'a> {
+    /// The node, boundary or face of a grid that a field names.
+    pub(crate) fn terminal(&mut self, fields: &Fields<'a>, key: &str) -> Option<(Terminal, &'a RawValue)> {
+        let raw = fields.require(key, &mut self.problems)?;
+        let name = fields.text(key, raw, &mut self.problems)?;
+        match self.face_at(&raw.span, name) {
+            Some(at) => Some((at.into(), raw)),
+            _ => self.named_end(fields, key, (name, raw)).map(|(end, raw)| (end.into(), raw)),
+        }
+    }
+
+    /// The area of the face at which a path ends; of two it is the first.
+    pub(crate) fn area_of(
+        &self,
+        fields: &Fields<'_>,
+        ends: [&Option<(Terminal, &RawValue)>; 2],
+    ) -> Option<Input> {
+        let area = ends.into_iter().flatten().find_map(|(terminal, _)| match terminal {
+            Terminal::Face(at) => self.builder.face_area(*at),
+            Terminal::End(_) => None,
+        });
+        // a name that was meant to be that of a face has been reported
+        let meant = |key: &str| match fields.get(key).map(|raw| &raw.kind) {
+            Some(RawKind::String { text, .. }) => {
+                text.contains(['.', '[']) || self.names.grids.contains_key(text)
+            }
+            _ => false,
+        };
+        let lost = ends.into_iter().zip(["from", "to"]).any(|(end, key)| end.is_none() && meant(key));
+        area.or_else(|| lost.then(|| stand_in(Type::of(Dimension::AREA))))
+    }
+
+    /// What a name means that is that of a grid or begins with it, and is no other name.
+    pub(crate) fn part_of_grid<'n>(&self, name: &'n str) -> Option<(&'n str, GridPart)> {
+        let other = self.builder.end(name).is_some_and(|end| !self.builder.is_part(end.into()));
+        if other { None } else { self.names.grid_part(name) }
+    }
+
+    /// The face that a name means at `place`, also the end of a rod, whose one surface has the same name.
+    fn face_at(&self, place: &Span, name: &str) -> Option<GridFace> {
+        let full = self.names.structure.inside(place, name)?;
+        match self.names.grid_part(&full)? {
+            (_, GridPart::Face(at)) => Some(at),
+            _ => None,
+        }
+    }
+
+    /// What a name that is written at `place` means of a grid; inside a template it has to be one of the template's.
+    pub(crate) fn part_of_grid_at(&self, place: &Span, name: &str) -> Option<GridPart> {
+        let full = self.names.structure.inside(place, name)?;
+        self.part_of_grid(&full).map(|(_, part)| part)
+    }
+
+    /// The node of a cell or of one cell of a face.
+    fn end_in_grid(
+        &mut self,
+        fields: &Fields<'a>,
+        key: &str,
+        (name, raw): (&str, &'a RawValue),
+        (grid, part): (&str, GridPart),
+    ) -> Option<(End, &'a RawValue)> {
+        let (code, message, help) = match part {
+            GridPart::Surface(at) if self.builder.node_named(name).is_none() => (
+                "netlist::unknown_cell",
+                format!(
+                    "{}: nothing is attached to face `{grid}.{}`",
+                    fields.owner.field(key),
+                    at.face.name()
+                ),
+                format!("name a cell of `{grid}` itself, or attach a path to the face"),
+            ),
+            GridPart::Cell | GridPart::Surface(_) => {
+                let node = self.builder.node_named(name)?;
+                return Some((End::Node(node), raw));
+            }
+            GridPart::Nothing(why, help) => {
+                ("netlist::unknown_cell", format!("{}: {why}", fields.owner.field(key)), help)
+            }
+            GridPart::Whole(_) => (
+                "netlist::not_an_end",
+                format!("{} names a grid as a whole", fields.owner.field(key)),
+                format!("name a face such as `{grid}.x1`, or a cell by its indices"),
+            ),
+            GridPart::Face(_) => (
+                "netlist::not_a_node",
+                format!("{} names a face of a grid", fields.owner.field(key)),
+                "name one cell by its indices".to_owned(),
+            ),
+        };
+        let problem = Diagnostic::error(code, message).at(raw.span.clone(), "");
+        let problem = match self.names.grids.get(grid) {
+            Some(known) => problem.also(known.span.clone(), "the grid"),
+            None => problem,
+        };
+        self.report(problem.help(help));
+        None
+    }
+
     /// The node or boundary that a field names.
     pub(crate) fn end(&mut self, fields: &Fields<'a>, key: &str) -> Option<(End, &'a RawValue)> {
         let raw = fields.require(key, &mut self.problems)?;
@@ -25,14 +126,63 @@ impl<'a> Elaboration<'a> {
         key: &str,
         (name, raw): (&str, &'a RawValue),
     ) -> Option<(End, &'a RawValue)> {
-        match self.ends.get(name) {
-            Some((end, _)) => Some((*end, raw)),
+        let structure = Arc::clone(&self.names.structure);
+        let meant = structure.meaning(&raw.span, name);
+        if let (None, Some(template)) = (&meant, structure.template_at(&raw.span)) {
+            let problem = self.not_inside(fields, key, (name, raw), template);
+            self.report(problem);
+            return None;
+        }
+        let name = meant.as_deref().unwrap_or(name);
+        if let Some(part) = self.part_of_grid(name) {
+            return self.end_in_grid(fields, key, (name, raw), part);
+        }
+        match self.builder.end(name) {
+            Some(end) => Some((end, raw)),
             None if self.names.is_hidden(name) => None, // what hides it has been reported
             None => {
-                let problem = self.unknown_end(fields, key, (name, raw));
+                let problem = self.unknown_end((&fields.owner.field(key), key), (name, &raw.span));
                 self.report(problem);
                 None
             }
+        }
+    }
+
+    /// Whether every port leads to a node or boundary; what does not is reported once, and not where it is used.
+    pub(crate) fn connections(&mut self) {
+        for (line, connection) in self.structure.connections() {
+            let (owner, value) = (Owner::element(USE.name, &line.key), &connection.value);
+            let Some(fields) = Fields::of(&USE, owner.inside("connect"), line, &mut Vec::new()) else {
+                continue;
+            };
+            let RawKind::String { text, .. } = &value.kind else { continue };
+            if self.named_end(&fields, &connection.port, (text, value)).is_none() {
+                self.names.hide_name(&connection.target);
+            }
+        }
+    }
+
+    /// A name in a template that is none of its own.
+    fn not_inside(
+        &self,
+        fields: &Fields<'_>,
+        key: &str,
+        (name, raw): (&str, &RawValue),
+        template: &str,
+    ) -> Diagnostic {
+        let words = fields.owner.field(key);
+        if self.builder.end(name).is_some() {
+            let message = format!("{words} names `{name}`, which is not in template `{template}`");
+            let problem = Diagnostic::error("netlist::outside_template", message);
+            return problem.at(raw.span.clone(), "not in the template").help(by_port(name));
+        }
+        let message =
+            format!("template `{template}` has no node, boundary or port `{name}`, which {words} refers to");
+        let problem = Diagnostic::error("netlist::unknown_node", message).at(raw.span.clone(), "");
+        let names = self.structure.names_at(&raw.span);
+        match suggest(name, names.iter().copied()) {
+            Some(near) => problem.help(format!("did you mean `{near}`?")),
+            None => problem.help(format!("its names are {}", list(&names))),
         }
     }
 
@@ -53,35 +203,48 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    fn unknown_end(&mut self, fields: &Fields<'_>, key: &str, (name, raw): (&str, &RawValue)) -> Diagnostic {
+    /// A name that no node or boundary has, which `from` refers to.
+    pub(crate) fn unknown_end(&mut self, (from, key): (&str, &str), (name, at): (&str, &Span)) -> Diagnostic {
         let wanted = if matches!(key, "node" | "into") { "node" } else { "node or boundary" };
-        let message = format!("no {wanted} named `{name}`, which {} refers to", fields.owner.field(key));
-        let error = Diagnostic::error("netlist::unknown_node", message)
-            .at(raw.span.clone(), format!("no such {wanted}"));
+        let message = format!("no {wanted} named `{name}`, which {from} refers to");
+        let error =
+            Diagnostic::error("netlist::unknown_node", message).at(at.clone(), format!("no such {wanted}"));
+        if let Some(wrong) = self.structure.wrong_path(name) {
+            return wrong_path((from, name), at.clone(), wrong);
+        }
         if let Some(near) = self.similar_end(name, wanted == "node") {
             let error = error.help(format!("did you mean `{near}`?"));
-            return match self.ends.get(near) {
-                Some((_, span)) => error.also((*span).clone(), "similar name"),
+            return match self.builder.end(&near).and_then(|end| self.map.name(end.into())) {
+                Some(span) => error.also(span, "similar name"),
                 None => error,
             };
         }
-        match self.names.kind_of(name) {
+        let value = || self.names.value_kind(name).map(|kind| kind.word());
+        match self.kind_of(name).or_else(value) {
             Some(kind) => error.help(format!("`{name}` is a {kind}; name the {wanted} itself")),
+            None if self.similar_grid(name).is_some() => {
+                let near = self.similar_grid(name).unwrap_or_default();
+                error.help(format!("did you mean grid `{near}`?"))
+            }
             None if is_name(name) => error.help(format!("add it, for example {}", example(name, wanted))),
             None => error.help("write the name as it stands below [node] or [boundary]"),
         }
     }
 
-    /// The most similar name of an end; of equally similar ones the first in the alphabet, as nothing may depend
-    /// on hash order.
-    fn similar_end(&mut self, name: &str, only_nodes: bool) -> Option<&'a str> {
-        if !self.names.may_search() {
+    /// The grid that the beginning of a name resembles.
+    fn similar_grid(&self, name: &str) -> Option<&str> {
+        let (base, _) = name.split_once(['.', '['])?;
+        suggest(base, self.names.grids.keys().map(String::as_str))
+    }
+
+    /// The most similar name of an end; of equally similar ones the first in the alphabet.
+    fn similar_end(&mut self, name: &str, only_nodes: bool) -> Option<String> {
+        if !self.names.may_search(self.builder.node_count()) {
             return None;
         }
-        let fits = |end: &End| !only_nodes || matches!(end, End::Node(_));
-        let candidates: BTreeSet<&'a str> =
-            self.ends.iter().filter(|(_, (end, _))| fits(end)).map(|(name, _)| *name).collect();
-        suggest(name, candidates.into_iter())
+        let mut candidates: Vec<&str> = self.builder.end_names(only_nodes).collect();
+        candidates.sort_unstable();
+        suggest(name, candidates.into_iter()).map(str::to_owned)
     }
 }
 

@@ -39,17 +39,16 @@ impl<'a> Elaboration<'a> {
         let nothing = || (stand_in(Type::ABSOLUTE_TEMPERATURE), None, String::new());
         let Some(raw) = fields.require("of", &mut self.problems) else { return nothing() };
         let place = Place { owner: &fields.owner, key: "of", raw };
-        match (self.given(place, Wanted::of_results()), &raw.kind) {
-            (Some(Given::Quantity(_)), _) => {
+        match self.given(place, Wanted::of_results()) {
+            Some(Given::Quantity(_)) => {
                 self.report(constant(place));
                 nothing()
             }
-            (Some(given @ Given::Expression(_)), RawKind::String { text, .. }) => {
-                let input = given.input();
-                let ty = input.ty();
-                (input, Some(ty), text.trim().to_owned())
+            Some(Given::Expression(program)) => {
+                let (ty, text) = (program.ty(), program.text().trim().to_owned());
+                (program.into(), Some(ty), text)
             }
-            _ => nothing(),
+            None => nothing(),
         }
     }
 

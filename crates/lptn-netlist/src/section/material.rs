@@ -15,8 +15,8 @@ use crate::vocabulary::{FLUID, MATERIAL};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
     pub(crate) id: MaterialId,
-    density: bool,
-    cp: bool,
+    pub(crate) density: bool,
+    pub(crate) cp: bool,
     pub(crate) k: bool,
 }
 
@@ -181,8 +181,8 @@ impl<'a> Elaboration<'a> {
         let message =
             format!("{} needs `{property}` of material `{name}`, which has none", fields.owner.words());
         let problem = Diagnostic::error("netlist::no_property", message).at(raw.span.clone(), "");
-        let own = self.map.name(Item::Material(id)).filter(|span| **span != raw.span);
-        let problem = match own {
+        let own = self.map.name(Item::Material(id)).filter(|span| *span != raw.span);
+        let problem = match &own {
             Some(span) => problem.also(span.clone(), format!("`{property}` is missing")),
             None => problem,
         };

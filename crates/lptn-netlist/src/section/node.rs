@@ -1,14 +1,14 @@
 //! `[node]`.
 
-use lptn_network::{End, Field, Input, Item};
-use lptn_units::Type;
+use lptn_network::{Field, Input, Item, NodeId};
+use lptn_units::{Dimension, Type};
 
 use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample, wrong_shape};
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::section::default::Initial;
-use crate::value::{Place, Wanted};
+use crate::value::{Given, Place, Wanted};
 use crate::vocabulary::NODE;
 
 impl<'a> Elaboration<'a> {
@@ -31,20 +31,43 @@ impl<'a> Elaboration<'a> {
         let capacity = fields.as_ref().and_then(|fields| self.capacity(fields));
         let own = fields.as_ref().and_then(|fields| self.initial(fields));
         let initial_at = initial_at.or(default.map(|(_, raw)| *raw));
-        let initial = own.or_else(|| default.map(|(input, _)| input.clone()));
+        let (initial, in_state) = match self.start_of(entry, massless) {
+            Some((input, place)) => (Some(input), place),
+            None => (own.or_else(|| default.map(|(input, _)| input.clone())), None),
+        };
         let id = self.builder.add_node(&entry.key, capacity, initial, massless);
+        self.molten(&entry.key, id);
         let item = Item::Node(id);
         self.map.insert(item, Field::Name, entry.key_span.clone());
         if let Some(fields) = &fields {
             self.map_capacity(item, fields);
+            self.length(fields, (id, massless));
         }
         if let Some(raw) = initial_at {
             self.map.value(item, Field::Initial, raw);
         }
+        self.place_in_state(id, in_state);
         if doubtful || fields.is_none_or(|fields| !fields.complete) {
             self.doubts.items.insert(item);
         }
-        self.ends.entry(&entry.key).or_insert((End::Node(id), &entry.key_span));
+    }
+
+    /// The characteristic length, for the Biot number.
+    fn length(&mut self, fields: &Fields<'a>, (id, massless): (NodeId, bool)) {
+        let Some(raw) = fields.get("L_char") else { return };
+        let ty = Type::of(Dimension::LENGTH);
+        let place = Place { owner: &fields.owner, key: "L_char", raw };
+        let given = self.given(place, Wanted::constant(ty));
+        self.builder.length(id, given.map_or_else(|| stand_in(ty), Given::input));
+        self.map.value(Item::Node(id), Field::CharacteristicLength, raw);
+        if massless {
+            let message = format!("{} has no effect: the node is massless", fields.owner.field("L_char"));
+            self.report(
+                Diagnostic::warning("netlist::massless_length", message)
+                    .at(raw.span.clone(), "")
+                    .help("leave it out: a junction is no body"),
+            );
+        }
     }
 
     fn massless(&mut self, fields: Option<&Fields<'_>>) -> bool {
@@ -59,7 +82,7 @@ impl<'a> Elaboration<'a> {
         false
     }
 
-    fn initial(&mut self, fields: &Fields<'_>) -> Option<Input> {
+    pub(crate) fn initial(&mut self, fields: &Fields<'_>) -> Option<Input> {
         let raw = fields.get("T0")?;
         let ty = Type::ABSOLUTE_TEMPERATURE;
         if is_steady(raw) {

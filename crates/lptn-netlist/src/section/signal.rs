@@ -48,7 +48,7 @@ impl<'a> Elaboration<'a> {
             })
         } else {
             let place = Place { owner: &pending.owner, key: "", raw: &entry.value };
-            let given = pending.text.take().and_then(|text| self.resolve(place, text, Wanted::in_time(None)));
+            let given = pending.text.take().and_then(|text| self.resolve(place, text, Wanted::signal()));
             given.map(|given| Item::Signal(self.builder.signal_expression(&entry.key, given.input())))
         };
         let item = id.unwrap_or_else(|| {

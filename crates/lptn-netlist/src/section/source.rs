@@ -7,6 +7,7 @@ use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner};
 use crate::file::Span;
+use crate::grid_names::GridPart;
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 use crate::value::{Place, Wanted};
 use crate::vocabulary::SOURCE;
@@ -26,8 +27,11 @@ impl<'a> Elaboration<'a> {
             _ => None,
         };
         let ends = match shared {
-            Some((table, _)) => Ends::Several(self.shares(&fields, table)),
-            None => Ends::One(self.end(&fields, "into")),
+            Some((table, raw)) => Ends::Several(self.shares(&fields, table), raw),
+            None => match self.heated_grid(&fields) {
+                Some(into) => Ends::Several(Some(into.0), into.1),
+                None => Ends::One(self.end(&fields, "into")),
+            },
         };
         let raw = fields.require("P", &mut self.problems);
         let ty = Type::of(Dimension::POWER);
@@ -39,7 +43,7 @@ impl<'a> Elaboration<'a> {
                 let (end, at) = end?;
                 (Item::Source(self.builder.source(&entry.key, end, power)), at.span.clone())
             }
-            Ends::Several(nodes) => (self.shared(&entry.key, &nodes?, power), shared?.1.span.clone()),
+            Ends::Several(nodes, raw) => (self.shared(&entry.key, &nodes?, power), raw.span.clone()),
         };
         self.map.insert(item, Field::Name, entry.key_span.clone());
         self.map.insert(item, Field::Into, at);
@@ -56,13 +60,32 @@ impl<'a> Elaboration<'a> {
     /// `into = { a = 0.5, b = 0.5 }`.
     fn shares(&mut self, fields: &Fields<'a>, table: &'a RawTable) -> Option<Vec<(NodeId, f64)>> {
         let shares: Vec<_> = table.entries.iter().map(|entry| self.share(fields, entry)).collect();
-        shares.into_iter().collect()
+        shares.into_iter().collect::<Option<Vec<_>>>().map(|shares| shares.concat())
     }
 
-    fn share(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<(NodeId, f64)> {
+    /// A grid is heated by volume, a face by area.
+    fn heated_grid(&mut self, fields: &Fields<'a>) -> Option<(Vec<(NodeId, f64)>, &'a RawValue)> {
+        let raw = fields.get("into")?;
+        let RawKind::String { text, .. } = &raw.kind else { return None };
+        Some((self.parts_of_grid(&raw.span, text)?, raw))
+    }
+
+    fn parts_of_grid(&mut self, place: &Span, name: &str) -> Option<Vec<(NodeId, f64)>> {
+        match self.part_of_grid_at(place, name)? {
+            GridPart::Whole(id) => Some(self.builder.shares_of_volume(id)),
+            GridPart::Face(at) => Some(self.builder.shares_of_face(at)),
+            _ => None,
+        }
+    }
+
+    fn share(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<Vec<(NodeId, f64)>> {
         let share = self.share_number(fields, entry);
+        if let Some(parts) = self.parts_of_grid(&entry.value.span, &entry.key) {
+            let share = share?;
+            return Some(parts.into_iter().map(|(node, part)| (node, part * share)).collect());
+        }
         match self.named_end(fields, "into", (&entry.key, &entry.value)) {
-            Some((End::Node(id), _)) => Some((id, share?)),
+            Some((End::Node(id), _)) => Some(vec![(id, share?)]),
             Some((End::Boundary(_), _)) => {
                 self.report(boundary(fields, &entry.key_span));
                 None
@@ -92,7 +115,7 @@ impl<'a> Elaboration<'a> {
 /// Where the heat of a source goes.
 enum Ends<'a> {
     One(Option<(End, &'a RawValue)>),
-    Several(Option<Vec<(NodeId, f64)>>),
+    Several(Option<Vec<(NodeId, f64)>>, &'a RawValue),
 }
 
 fn boundary(fields: &Fields<'_>, at: &Span) -> Diagnostic {

@@ -11,7 +11,7 @@ use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner};
 use crate::points::{Axis, Points};
-use crate::raw::RawEntry;
+use crate::raw::{RawEntry, RawKind};
 use crate::vocabulary::TABLE;
 
 const INTERPOLATIONS: [(&str, Interpolation); 2] =
@@ -25,8 +25,12 @@ impl<'a> Elaboration<'a> {
         for entry in self.elements(TABLE.name) {
             match self.table(entry) {
                 Some(symbol) => {
+                    let two = matches!(*symbol.table, Table::Two(_));
                     let id = self.builder.table(&entry.key, symbol);
                     self.map.insert(Item::Table(id), Field::Name, entry.key_span.clone());
+                    if let (true, RawKind::Table(line)) = (two, &entry.value.kind) {
+                        self.map.set_csv_map(id, line.clone());
+                    }
                 }
                 None => self.names.fail(&entry.key),
             }

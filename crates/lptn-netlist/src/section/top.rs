@@ -85,7 +85,7 @@ fn misplaced_format(entries: &[RawEntry]) -> Option<(&str, &RawEntry)> {
 }
 
 fn whole(entry: &RawEntry) -> Span {
-    Span::new(entry.key_span.file, entry.key_span.range.start..entry.value.span.range.end)
+    entry.key_span.with(entry.key_span.range.start..entry.value.span.range.end)
 }
 
 fn missing_format(entries: &[RawEntry], inside: Option<(&str, &RawEntry)>) -> Diagnostic {

@@ -42,6 +42,12 @@ impl Event {
 }
 
 impl EventKind {
+    /// Everything of a network that switches at times that are not known beforehand: controls, then comparisons.
+    pub fn switching(network: &Network) -> impl Iterator<Item = Self> + use<> {
+        let controls = network.control_ids().map(Self::Control);
+        controls.chain(network.switch_ids().map(Self::Comparison))
+    }
+
     /// The word for its kind in tables.
     pub fn word(self) -> &'static str {
         match self {

@@ -41,8 +41,7 @@ impl<'a> Switching<'a> {
     /// Begins with these states of the controls, or as the network does if there are none.
     pub(crate) fn new(system: &'a ThermalSystem, controls: &[ControlState], tolerance: f64) -> Self {
         let (network, gates) = (system.network(), Gates::new(system));
-        let ids = network.control_ids().map(EventKind::Control);
-        let kinds: Vec<EventKind> = ids.chain(network.switch_ids().map(EventKind::Comparison)).collect();
+        let kinds: Vec<EventKind> = EventKind::switching(network).collect();
         let mut positions = network.initial_positions();
         let mut since = vec![f64::NEG_INFINITY; positions.controls.len()];
         for ((on, since), state) in positions.controls.iter_mut().zip(&mut since).zip(controls) {
@@ -161,7 +160,9 @@ impl<'a> Switching<'a> {
     fn check_count(&self) -> Result<(), StopReason> {
         if let Some(switch) = self.changes.iter().position(|&changes| changes > CHATTER) {
             let name = self.kinds[self.positions.controls.len() + switch].name(self.network);
-            return Err(StopReason::Chatter { name, changes: self.changes[switch] });
+            let at = &self.network.switches()[switch];
+            let place = (at.item, at.field);
+            return Err(StopReason::Chatter { name, changes: self.changes[switch], place });
         }
         match self.events.len() {
             0..MOST_EVENTS => Ok(()),

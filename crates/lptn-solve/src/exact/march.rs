@@ -139,6 +139,22 @@ impl<'a> March<'a> {
         }
     }
 
+    /// Forgets everything that a boundary takes: a start from which a cycle shows what it brings.
+    pub(crate) fn forget(&mut self) {
+        for Driven { island, amplitude, .. } in &mut self.islands {
+            island.rates.iter().zip(amplitude).filter(|(rate, _)| **rate > 0.0).for_each(|(_, y)| *y = 0.0);
+        }
+    }
+
+    /// After a cycle of `period` in s from [`March::forget`]: the amplitudes that it leads back to. With what the cycle
+    /// brings, c, they obey `y = exp(-r period) y + c`.
+    pub(crate) fn repeat(&mut self, period: f64) {
+        for Driven { island, amplitude, .. } in &mut self.islands {
+            let forgetful = island.rates.iter().zip(amplitude).filter(|(rate, _)| **rate > 0.0);
+            forgetful.for_each(|(rate, y)| *y /= -(-rate * period).exp_m1());
+        }
+    }
+
     /// Rises of the states.
     pub(crate) fn rises(&self) -> Vec<f64> {
         self.superposed(|island, k| island.amplitude[k])

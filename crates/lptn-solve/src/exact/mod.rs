@@ -10,6 +10,7 @@
 mod inputs;
 mod legendre;
 mod march;
+mod periodic;
 mod reduced;
 mod spectrum;
 
@@ -18,10 +19,12 @@ use std::fmt;
 use lptn_network::{InputError, Network, NodeId};
 use lptn_units::EvalError;
 
+use crate::events::EventKind;
 use crate::solution::Solution;
 use crate::times::{Segment, segments};
 use inputs::Inputs;
 use march::March;
+pub(crate) use periodic::ExactCycle;
 pub(crate) use reduced::Reduced;
 pub(crate) use spectrum::{Island, islands};
 
@@ -69,6 +72,11 @@ pub enum ExactError {
         /// The name of the first item that makes it so.
         name: String,
     },
+    /// It switches at times that are not known beforehand.
+    Switches {
+        /// The name of the first control or comparison.
+        name: String,
+    },
     /// The conductances of the massless nodes span more than the numbers can hold.
     Singular,
     /// The eigenvalues were not found.
@@ -88,6 +96,7 @@ impl ExactError {
             Self::Times => "exact::times",
             Self::Input(_) | Self::Value(_) => "solve::input",
             Self::NotLinear { .. } => "exact::not_linear",
+            Self::Switches { .. } => "exact::switches",
             Self::Singular => "exact::singular",
             Self::Modes => "exact::modes",
             Self::Quadrature { .. } => "exact::quadrature",
@@ -107,6 +116,9 @@ impl fmt::Display for ExactError {
             Self::NotLinear { name } => {
                 write!(f, "`{name}` makes the network more than constant capacities and conductances")
             }
+            Self::Switches { name } => {
+                write!(f, "`{name}` switches at times that depend on the temperatures")
+            }
             Self::Singular => {
                 f.write_str("the conductances of the massless nodes span more than the numbers can hold")
             }
@@ -123,7 +135,7 @@ impl ExactSolution {
     /// of an input the temperatures are those after it, except at the last time.
     ///
     /// # Errors
-    /// [`ExactError`]; more than 2000 nodes are refused.
+    /// [`ExactError`]; more than 2000 nodes are refused, and networks that switch by themselves.
     pub fn solve(network: &Network, start: f64, times: &[f64]) -> Result<Self, ExactError> {
         let ascending = times.windows(2).all(|pair| pair[0] < pair[1]);
         let (Some(&first), Some(&stop), true) = (times.first(), times.last(), ascending) else {
@@ -131,6 +143,9 @@ impl ExactSolution {
         };
         if !(start <= first && start < stop && start.is_finite() && stop.is_finite()) {
             return Err(ExactError::Times);
+        }
+        if let Some(kind) = EventKind::switching(network).next() {
+            return Err(ExactError::Switches { name: kind.name(network) });
         }
         let breakpoints = network.breakpoints(start, stop).map_err(ExactError::Input)?;
         let reduced = Reduced::new(network)?;

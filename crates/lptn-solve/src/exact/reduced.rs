@@ -49,7 +49,7 @@ impl Reduced {
             return Err(ExactError::TooLarge { nodes });
         }
         if let Some(item) = network.first_nonlinear() {
-            return Err(ExactError::NotLinear { name: network.name_of(item).to_owned() });
+            return Err(ExactError::NotLinear { name: network.name_of(item).into_owned() });
         }
         let elements = Elements::read(network).map_err(ExactError::Value)?;
         let capacities = capacities(network).map_err(ExactError::Value)?;

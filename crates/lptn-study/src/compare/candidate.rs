@@ -4,7 +4,7 @@ use std::fmt;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
-use lptn_network::{InputError, Network, Severity, Time};
+use lptn_network::{InputError, Network, Severity};
 use lptn_solve::{
     Control, End, NodeSummary, OutputTimes, Progress, Record, Solution, SteadyError, SteadyState, Summary,
     Transient, TransientError, Unsolved,
@@ -212,12 +212,10 @@ fn transient(
     let nodes: Vec<_> = network.node_ids().collect();
     let watch = Summary::watches(system, run.start, &nodes, steady).map_err(CompareError::Start)?;
     Ok(Transient {
-        start: run.start,
         output: OutputTimes::At(vec![run.stop]),
-        tolerance: run.tolerance,
         record: Record::Nodes(Vec::new()),
         watch,
-        ..Transient::until(Time(run.stop))
+        ..crate::run::transient(network, run)
     })
 }
 

@@ -75,6 +75,8 @@ pub struct Expression {
     /// The part of the text that this expression is; the whole unless it was split off.
     part: Range<usize>,
     tree: Tree,
+    /// Names that stand for others, in the order of the text.
+    renamed: Vec<(Range<usize>, String)>,
 }
 
 impl Expression {
@@ -89,7 +91,29 @@ impl Expression {
     /// The first mistake in the syntax, an unknown unit, a literal temperature below absolute zero.
     pub fn parse(text: &str) -> Result<Self, UnitError> {
         let tree = parser::parse(text)?;
-        Ok(Self { text: text.to_owned(), part: 0..text.len(), tree })
+        Ok(Self { text: text.to_owned(), part: 0..text.len(), tree, renamed: Vec::new() })
+    }
+
+    /// The same expression with other names: where `meaning` gives a name for one, in the place of a value or of a
+    /// table that is called, that name is meant. Spans still count in the text that was parsed;
+    /// [`Program::text`] has the new names.
+    #[must_use]
+    pub fn renamed(mut self, meaning: &dyn Fn(&str) -> Option<String>) -> Self {
+        let renamed = self.tree.rename(meaning);
+        self.renamed.extend(renamed);
+        self.renamed.sort_by_key(|(span, _)| span.start);
+        self
+    }
+
+    /// The text with the names that are meant, for a reader who does not know what they stand for.
+    pub fn meant(&self) -> String {
+        let (mut text, mut at) = (String::new(), self.part.start);
+        for (span, name) in self.renamed.iter().filter(|(span, _)| self.part.contains(&span.start)) {
+            text += self.text.get(at..span.start).unwrap_or_default();
+            text += name;
+            at = span.end;
+        }
+        text + self.text.get(at..self.part.end).unwrap_or_default()
     }
 
     /// The text that was parsed. Spans are byte ranges of it; those of a side that
@@ -143,14 +167,19 @@ impl Expression {
     /// that contain an error raise no further ones.
     pub fn compile(&self, scope: &dyn Scope, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
         let checked = check::check(&self.text, &self.tree, scope, expected)?;
-        Ok(codegen::generate(self.text(), &self.tree, checked))
+        Ok(codegen::generate(&self.meant(), &self.tree, checked))
     }
 
     /// For `a <= b`: the two sides as expressions, and the comparison between them. `None` if the
     /// expression as a whole is not a comparison. Spans still count from the start of the original text.
     pub fn split_comparison(&self) -> Option<(Expression, Comparison, Expression)> {
         let Node::Compare(comparison, left, right) = self.tree.node(self.tree.root()) else { return None };
-        let side = |tree: Tree| Expression { part: tree.span(tree.root()), text: self.text.clone(), tree };
+        let side = |tree: Tree| Expression {
+            part: tree.span(tree.root()),
+            text: self.text.clone(),
+            tree,
+            renamed: self.renamed.clone(),
+        };
         let (left, right) = (self.tree.subtree(0, *left), self.tree.subtree(left + 1, *right));
         Some((side(left), *comparison, side(right)))
     }

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
+use super::function::is_function;
 use crate::rational::Rational;
 use crate::types::Type;
 
@@ -117,6 +118,25 @@ impl Tree {
     /// Operands before what uses them.
     pub(crate) fn nodes(&self) -> impl Iterator<Item = &(Node, Range<usize>)> {
         self.nodes.iter()
+    }
+
+    /// Puts other names in the place of those that have a meaning; where these stand, and what they are now.
+    pub(crate) fn rename(&mut self, meaning: &dyn Fn(&str) -> Option<String>) -> Vec<(Range<usize>, String)> {
+        let mut renamed = Vec::new();
+        for (node, span) in &mut self.nodes {
+            let (name, place) = match node {
+                Node::Name(name) if name != "pi" => (name, span.clone()),
+                Node::Call { function, name_span, .. } if !is_function(function) => {
+                    (function, name_span.clone())
+                }
+                _ => continue,
+            };
+            if let Some(other) = meaning(name) {
+                renamed.push((place, other.clone()));
+                *name = other;
+            }
+        }
+        renamed
     }
 
     /// The nodes from `first` to `root`, where these are a tree of their own: all operands of a node stand

@@ -1,0 +1,208 @@
+//! Whether nodes are lumps, in words: Biot numbers, diffusion times, and what was not checked.
+
+use lptn_netlist::{Diagnostic, Netlist};
+use lptn_network::{Field, Item, Network, NodeId};
+use lptn_report::{Align, Column, TextTable, WIDTH, duration, labelled, significant};
+use lptn_solve::{Biot, LumpCheck, Lumping, NotChecked, Stretch};
+use lptn_study::Scalar;
+use serde_json::{Map, Value, json};
+
+use crate::summary::count;
+
+/// So many nodes are warned of one by one, the worst of them.
+const MOST_WARNINGS: usize = 5;
+
+const SOURCE: &str = "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, section 5.2";
+
+/// A warning for each of the worst nodes that are no lumps, and one that counts the others.
+pub(crate) fn warnings(netlist: &Netlist, lumping: &Lumping) -> Vec<Diagnostic> {
+    let (thick, slow) = (lumping.too_thick(), lumping.too_slow());
+    let mut found: Vec<Diagnostic> = Vec::new();
+    found.extend(thick.iter().take(MOST_WARNINGS).map(|(check, biot)| too_thick(netlist, check, biot)));
+    found.extend(more("lumping::biot", thick.len(), "Biot numbers above 0.1"));
+    let each = slow.iter().take(MOST_WARNINGS);
+    found.extend(each.map(|(check, time, stretch)| too_slow(netlist, check, (*time, *stretch))));
+    found.extend(more("lumping::diffusion_time", slow.len(), "diffusion times that are not short"));
+    found
+}
+
+fn more(code: &'static str, all: usize, what: &str) -> Option<Diagnostic> {
+    let more = all.checked_sub(MOST_WARNINGS).filter(|more| *more > 0)?;
+    let message = format!("{} more with {what}", count(more, "node"));
+    Some(Diagnostic::warning(code, message).help("-v lists all of them"))
+}
+
+fn too_thick(netlist: &Netlist, check: &LumpCheck, biot: &Biot) -> Diagnostic {
+    let name = &netlist.network.nodes()[check.node.index()].name;
+    let message =
+        format!("node `{name}` is no lump: its Biot number is {}, above 0.1", significant(biot.number, 3));
+    let numbers = format!(
+        "Bi = h L_char / k with h = {} W/(m^2 K) at {}, k = {} W/(m K); below 0.1 the error of one temperature is small \
+         ({SOURCE})",
+        significant(biot.coefficient, 3),
+        duration(biot.time, 3),
+        significant(biot.conductivity, 3)
+    );
+    at(netlist, check, Diagnostic::warning("lumping::biot", message)).note(numbers)
+}
+
+fn too_slow(netlist: &Netlist, check: &LumpCheck, (time, stretch): (f64, Stretch)) -> Diagnostic {
+    let name = &netlist.network.nodes()[check.node.index()].name;
+    let message = format!(
+        "inside node `{name}` heat takes {} to spread, more than a tenth of the {} between two changes",
+        duration(time, 3),
+        duration(stretch.to - stretch.from, 3)
+    );
+    let numbers = format!(
+        "L_char^2 / alpha; from {} to {} no source and no boundary jumps, and for about so long after a jump one \
+         temperature is not that of the body",
+        duration(stretch.from, 4),
+        duration(stretch.to, 4)
+    );
+    at(netlist, check, Diagnostic::warning("lumping::diffusion_time", message)).note(numbers)
+}
+
+fn at(netlist: &Netlist, check: &LumpCheck, warning: Diagnostic) -> Diagnostic {
+    let map = &netlist.source_map;
+    let item = Item::Node(check.node);
+    let warning = match map.get(item, Field::CharacteristicLength).or_else(|| map.name(item)) {
+        Some(place) => warning.at(place.clone(), ""),
+        None => warning,
+    };
+    warning.help("make it several nodes with [conduction] between them; L_char is volume over surface")
+}
+
+/// A few lines below a result: the largest numbers, and what was not checked.
+pub(crate) fn lines(network: &Network, lumping: &Lumping, (label, verbose): (&str, bool)) -> Vec<String> {
+    let name = |id: NodeId| &network.nodes()[id.index()].name;
+    let mut pieces = Vec::new();
+    let biots = lumping.checks.iter().filter_map(|check| Some((check.node, check.biot.ok()?.number)));
+    let times = lumping.checks.iter().filter_map(|check| Some((check.node, check.diffusion.ok()?)));
+    if let Some((node, number)) = biots.max_by(|a, b| a.1.total_cmp(&b.1)) {
+        pieces.push(format!("Bi up to {} ({}),", significant(number, 2), name(node)));
+    }
+    if let Some((node, time)) = times.max_by(|a, b| a.1.total_cmp(&b.1)) {
+        pieces.push(format!("L^2/alpha up to {} ({}),", duration(time, 2), name(node)));
+    }
+    pieces.extend(not_checked(lumping));
+    if let Some(last) = pieces.last_mut().filter(|last| last.ends_with(',')) {
+        last.pop();
+    }
+    if pieces.is_empty() {
+        return Vec::new();
+    }
+    let mut lines = labelled(label, &pieces, WIDTH);
+    if verbose {
+        lines.extend(details(network, lumping));
+    }
+    lines
+}
+
+/// How many nodes were not checked, by reason.
+fn not_checked(lumping: &Lumping) -> Vec<String> {
+    let mut reasons: Vec<(String, usize)> = vec![("no L_char".into(), lumping.without_length.len())];
+    let mut found: Vec<NotChecked> = lumping.checks.iter().filter_map(|check| check.biot.err()).collect();
+    found.sort_unstable();
+    for reason in found {
+        let words = words(reason).to_owned();
+        match reasons.iter_mut().find(|(known, _)| *known == words) {
+            Some((_, count)) => *count += 1,
+            None => reasons.push((words, 1)),
+        }
+    }
+    reasons.retain(|(_, count)| *count > 0);
+    let pieces = reasons.iter().enumerate().map(|(i, (words, nodes))| {
+        let start = if i == 0 { "not checked: " } else { "" };
+        format!("{start}{} ({words}),", count(*nodes, "node"))
+    });
+    pieces.collect()
+}
+
+fn words(reason: NotChecked) -> &'static str {
+    match reason {
+        NotChecked::NoMaterial => "no material",
+        NotChecked::SeveralMaterials => "several materials",
+        NotChecked::NoConductivity => "material without k",
+        NotChecked::NoHeatCapacity => "material without density or cp",
+        NotChecked::NoSurface => "no surface with h",
+        NotChecked::NoArea(_) => "surface without area",
+        NotChecked::NoValue => "h has no value",
+    }
+}
+
+fn code(reason: NotChecked) -> &'static str {
+    match reason {
+        NotChecked::NoMaterial => "no_material",
+        NotChecked::SeveralMaterials => "several_materials",
+        NotChecked::NoConductivity => "no_conductivity",
+        NotChecked::NoHeatCapacity => "no_heat_capacity",
+        NotChecked::NoSurface => "no_surface",
+        NotChecked::NoArea(_) => "no_area",
+        NotChecked::NoValue => "no_value",
+    }
+}
+
+/// Every node.
+fn details(network: &Network, lumping: &Lumping) -> Vec<String> {
+    let name = |id: NodeId| network.nodes()[id.index()].name.clone();
+    let cells = |text: &dyn Fn(&LumpCheck) -> String| lumping.checks.iter().map(text).collect::<Vec<_>>();
+    let of_biot =
+        |part: fn(&Biot) -> f64| move |c: &LumpCheck| c.biot.map_or("-".into(), |b| significant(part(&b), 3));
+    let right = |title: &str, cells| Column::new(title, Align::Right, cells);
+    let mut lines = Vec::new();
+    if !lumping.checks.is_empty() {
+        lines.push(String::new());
+        let table = TextTable::new(vec![
+            Column::new("lump", Align::Left, cells(&|c| name(c.node))),
+            right("L_char [mm]", cells(&|c| significant(1e3 * c.length, 3))),
+            right("h [W/(m^2 K)]", cells(&of_biot(|b| b.coefficient))),
+            right("k [W/(m K)]", cells(&of_biot(|b| b.conductivity))),
+            right("Bi", cells(&of_biot(|b| b.number))),
+            right("L^2/alpha", cells(&|c| c.diffusion.map_or("-".into(), |t| duration(t, 3)))),
+        ]);
+        lines.extend(table.lines(WIDTH));
+    }
+    let unknown = |id: &NodeId| ("no L_char", *id);
+    let mut reasons: Vec<(&str, NodeId)> = lumping.without_length.iter().map(unknown).collect();
+    reasons.extend(lumping.checks.iter().filter_map(|check| Some((words(check.biot.err()?), check.node))));
+    // by reason; within one in the order of the file
+    reasons.sort_by_key(|(words, _)| *words);
+    for group in reasons.chunk_by(|a, b| a.0 == b.0) {
+        let names: Vec<String> = group.iter().map(|(_, id)| name(*id)).collect();
+        lines.extend(labelled(&format!("{}: ", group[0].0), &names, WIDTH));
+    }
+    lines
+}
+
+/// The member `lumping` of JSON.
+pub(crate) fn json(network: &Network, lumping: &Lumping) -> Value {
+    let mut nodes = Map::new();
+    for check in &lumping.checks {
+        let mut node = Map::new();
+        let mut scalar = |key: &str, value: f64, unit: &str| {
+            drop(node.insert(key.to_owned(), Scalar::new(value, unit).json()))
+        };
+        scalar("L_char", check.length, "m");
+        if let Ok(biot) = check.biot {
+            scalar("biot", biot.number, "1");
+            scalar("h", biot.coefficient, "W/(m^2 K)");
+            scalar("k", biot.conductivity, "W/(m K)");
+            scalar("at", biot.time, "s");
+        }
+        if let Ok(time) = check.diffusion {
+            scalar("diffusion_time", time, "s");
+        }
+        let reasons = [("biot", check.biot.err()), ("diffusion_time", check.diffusion.err())];
+        let missing =
+            reasons.iter().filter_map(|(key, reason)| Some(((*key).to_owned(), json!(code((*reason)?)))));
+        let missing: Map<String, Value> = missing.collect();
+        if !missing.is_empty() {
+            node.insert("not_checked".to_owned(), Value::Object(missing));
+        }
+        nodes.insert(network.nodes()[check.node.index()].name.clone(), Value::Object(node));
+    }
+    let stretch = lumping.shortest.map(|stretch| {
+        json!({ "from": Scalar::new(stretch.from, "s").json(), "to": Scalar::new(stretch.to, "s").json() })
+    });
+    json!({ "nodes": nodes, "without_length": lumping.without_length.len(), "shortest_stretch": stretch })
+}

@@ -1,0 +1,44 @@
+//! The state that a run leaves for another one to start from.
+
+use lptn_netlist::{State, StateControl, StateEnd};
+use lptn_report::duration;
+use lptn_solve::{End, Solution};
+
+use crate::input::Input;
+
+/// The state at the end that a run reached.
+pub(crate) fn of<'a>(input: &'a Input, solution: &'a Solution) -> State<'a> {
+    let nodes = solution.network().nodes();
+    let last = solution.last();
+    State {
+        network: &input.text.stem,
+        title: solution.network().title(),
+        time: last.time,
+        end: match solution.end() {
+            End::Reached => StateEnd::Reached,
+            End::Interrupted(_) => StateEnd::Interrupted,
+            End::Failed(_) => StateEnd::Failed,
+        },
+        temperatures: nodes
+            .iter()
+            .map(|node| node.name.as_str())
+            .zip(last.temperatures.iter().copied())
+            .collect(),
+        melted: last.melted.iter().map(|(id, share)| (nodes[id.index()].name.as_str(), *share)).collect(),
+        controls: controls(solution),
+    }
+}
+
+fn controls(solution: &Solution) -> Vec<StateControl<'_>> {
+    let states = solution.network().controls().iter().zip(solution.controls());
+    let held = |since: f64| since.is_finite().then(|| solution.last().time - since);
+    states
+        .map(|(control, at)| StateControl { name: &control.name, on: at.on, held: held(at.since) })
+        .collect()
+}
+
+/// Where the temperatures at the start come from, if not from the netlist.
+pub(crate) fn origin(input: &Input) -> Option<String> {
+    let state = input.netlist.initial()?;
+    Some(format!("starts from {}, the state at {}", state.file, duration(state.time, 4)))
+}

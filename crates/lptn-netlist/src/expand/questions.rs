@@ -1,0 +1,77 @@
+//! `[run]` and `[size]`: what is asked of the network.
+
+use super::Writer;
+use super::text::{Fields, key, string, value};
+use crate::run::OutputPlan;
+use crate::size::{Goal, SizeStudy};
+
+impl Writer<'_> {
+    pub(super) fn run(&mut self) {
+        let Some(plan) = &self.netlist.plan else { return };
+        let mut fields = Fields::default();
+        for (name, setting) in [("start", plan.start.as_ref()), ("stop", Some(&plan.stop))] {
+            if let Some(setting) = setting {
+                fields.put(name, setting.written());
+            }
+        }
+        match &plan.output {
+            Some(OutputPlan::Every(every)) => {
+                fields.put("output", format!("{{ every = {} }}", every.written()));
+            }
+            Some(OutputPlan::At(times)) => {
+                let times: Vec<String> = times.iter().map(|time| time.written()).collect();
+                fields.put("output", format!("{{ at = [{}] }}", times.join(", ")));
+            }
+            None => {}
+        }
+        if !plan.select.is_empty() {
+            fields.put("select", strings(&plan.select));
+        }
+        let mut reports = Fields::default();
+        for report in self.netlist.network.reports() {
+            reports.word(&report.name, &report.text);
+        }
+        if !reports.is_empty() {
+            fields.put("report", reports.inline());
+        }
+        let mut windows = Fields::default();
+        for window in &plan.windows {
+            let [from, to] = window.ends().map(crate::run::Setting::written);
+            windows.put(window.name(), format!("{{ from = {from}, to = {to} }}"));
+        }
+        if !windows.is_empty() {
+            fields.put("window", windows.inline());
+        }
+        if let Some(tolerance) = &plan.tolerance {
+            fields.put("tolerance", tolerance.written());
+        }
+        self.section("run", &fields);
+    }
+
+    pub(super) fn sizes(&mut self) {
+        for size in &self.netlist.sizes {
+            let fields = self.size(size);
+            self.section(&format!("size.{}", key(&size.name)), &fields);
+        }
+    }
+
+    fn size(&self, size: &SizeStudy) -> Fields {
+        let network = &self.netlist.network;
+        let mut fields = Fields::default();
+        let goal = if size.goal == Goal::Minimise { "minimise" } else { "maximise" };
+        fields.word(goal, &size.parameter);
+        if let Ok(id) = network.parameter(&size.parameter) {
+            let ty = network.parameters()[id.index()].ty;
+            let [from, to] = size.ends().map(|end| value(end, ty));
+            fields.put("vary", format!("{{ {} = {{ from = {from}, to = {to} }} }}", key(&size.parameter)));
+        }
+        let texts: Vec<String> = size.requirements.iter().map(|r| r.text.clone()).collect();
+        fields.put("require", strings(&texts));
+        fields
+    }
+}
+
+fn strings(texts: &[String]) -> String {
+    let texts: Vec<String> = texts.iter().map(|text| string(text)).collect();
+    format!("[{}]", texts.join(", "))
+}

@@ -1,0 +1,114 @@
+//! `[material]` and `[fluid]`: those of the file that something uses.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use lptn_network::{Law, Lump, MaterialId, Value};
+use lptn_units::{Dimension, Table, Type};
+
+use super::Writer;
+use super::text::{Fields, quantity, value};
+use super::values::over_temperature;
+use crate::library;
+
+impl Writer<'_> {
+    pub(super) fn materials(&mut self) {
+        let (network, mut section) = (&self.netlist.network, Fields::default());
+        let used = self.used_materials();
+        for (id, material) in network.material_ids().zip(network.materials()) {
+            let source = material.source.as_deref();
+            let shipped =
+                library::find(&material.name).is_some_and(|record| Some(record.source.as_str()) == source);
+            if shipped || !used.contains(&id) {
+                continue;
+            }
+            let mut fields = Fields::default();
+            let properties = [
+                ("density", &material.density, Dimension::DENSITY),
+                ("cp", &material.cp, Dimension::SPECIFIC_HEAT),
+                ("k", &material.k, Dimension::CONDUCTIVITY),
+            ];
+            for (key, property, dimension) in properties {
+                if let Some(property) = property {
+                    fields.put(key, self.property(property, key, Type::of(dimension)));
+                }
+            }
+            if let Some(melting) = &material.melting {
+                fields.put("solidus", value(&melting.solidus, Type::ABSOLUTE_TEMPERATURE));
+                fields.put("liquidus", value(&melting.liquidus, Type::ABSOLUTE_TEMPERATURE));
+                fields.put("latent_heat", value(&melting.heat, Type::of(Dimension::SPECIFIC_ENERGY)));
+            }
+            if let Some(source) = source {
+                fields.word("source", source);
+            }
+            section.put(&material.name, fields.inline());
+        }
+        self.section("material", &section);
+    }
+
+    pub(super) fn fluids(&mut self) {
+        let (network, mut section) = (&self.netlist.network, Fields::default());
+        let streams = network.conductors().iter().filter_map(|conductor| match &conductor.law {
+            Law::Advection(stream) => stream.fluid(),
+            _ => None,
+        });
+        let used: BTreeSet<_> = streams.collect();
+        for (id, fluid) in network.fluid_ids().zip(network.fluids()) {
+            let source = fluid.source.as_deref();
+            let shipped = library::fluids()
+                .iter()
+                .any(|record| record.name == fluid.name && Some(record.source.as_str()) == source);
+            if shipped || !used.contains(&id) {
+                continue;
+            }
+            let mut fields = Fields::default();
+            if let Some(density) = &fluid.density {
+                fields.put("density", self.property(density, "density", Type::of(Dimension::DENSITY)));
+            }
+            fields.put("cp", self.property(&fluid.cp, "cp", Type::of(Dimension::SPECIFIC_HEAT)));
+            if let Some(source) = source {
+                fields.word("source", source);
+            }
+            section.put(&fluid.name, fields.inline());
+        }
+        self.section("fluid", &section);
+    }
+
+    /// A constant, an expression in `T`, or a table over it.
+    fn property(&self, property: &Value, key: &str, ty: Type) -> String {
+        if let Value::Expression(program) = property
+            && program.text() == format!("{key}(T)")
+            && let [call] = program.table_calls()
+            && self.name_of_table(&call.table).is_none()
+            && let Table::One(table) = &*call.table
+        {
+            return over_temperature(table, ty);
+        }
+        match property {
+            Value::Constant(number) => quantity(*number, ty),
+            other => value(other, ty),
+        }
+    }
+
+    fn used_materials(&self) -> BTreeSet<MaterialId> {
+        let network = &self.netlist.network;
+        let nodes = network.nodes().iter().map(|node| &node.lump);
+        let lumps = nodes.chain(network.capacitors().iter().map(|capacitor| &capacitor.lump));
+        let lumps = lumps.flatten().map(|Lump { material, .. }| *material);
+        let bodies = network.conductors().iter().filter_map(|conductor| match &conductor.law {
+            Law::Conduction { conductivity, .. } => self.material_of(conductivity),
+            _ => None,
+        });
+        lumps.chain(bodies).collect()
+    }
+
+    /// The material whose conductivity this is; a constant is written as it is.
+    pub(super) fn material_of(&self, conductivity: &Value) -> Option<MaterialId> {
+        let Value::Expression(program) = conductivity else { return None };
+        let network = &self.netlist.network;
+        network.material_ids().find(|id| match &network.materials()[id.index()].k {
+            Some(Value::Expression(own)) => Arc::ptr_eq(own, program),
+            _ => false,
+        })
+    }
+}

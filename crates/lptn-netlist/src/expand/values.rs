@@ -1,0 +1,167 @@
+//! `[param]`, `[table]`, `[signal]`, `[default]`.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+use lptn_network::{AfterEnd, Course, Evaluation, Item, Parameter, ParameterId, Signal, Value};
+use lptn_units::{Dimension, Interpolation, Outside, Table, Table1, TableSymbol, Type, format_number};
+
+use super::Writer;
+use super::text::{Fields, celsius, list, quantity, string, value};
+use crate::raw::{RawKind, RawTable};
+
+const TIME: Type = Type::of(Dimension::TIME);
+
+impl Writer<'_> {
+    pub(super) fn parameters(&mut self) {
+        let (network, mut fields) = (&self.netlist.network, Fields::default());
+        let mut scope = network.evaluation();
+        for (id, parameter) in network.parameter_ids().zip(network.parameters()) {
+            fields.put(&parameter.name, self.parameter((id, parameter), &mut scope));
+        }
+        self.section("param", &fields);
+    }
+
+    /// An expression, unless another value was set.
+    fn parameter(&self, (id, parameter): (ParameterId, &Parameter), scope: &mut Evaluation) -> String {
+        let network = &self.netlist.network;
+        let number = network.parameter_value(id);
+        let own = parameter.value.at(scope);
+        if let (Value::Expression(program), true) =
+            (&parameter.value, own.is_ok_and(|own| own.to_bits() == number.to_bits()))
+        {
+            return string(program.text().trim());
+        }
+        match (parameter.deviation, parameter.ty.absolute) {
+            (None, true) => format!("\"absolute({} [K])\"", format_number(number)),
+            (None, false) => quantity(number, parameter.ty),
+            (Some(deviation), true) => {
+                format!("\"{} ± {} degC\"", celsius(number), format_number(deviation))
+            }
+            (Some(deviation), false) => {
+                let unit = match parameter.ty.is_scalar() {
+                    true => String::new(),
+                    false => format!(" {}", parameter.ty.dimension.si_unit()),
+                };
+                format!("\"{} ± {}{unit}\"", format_number(number), format_number(deviation))
+            }
+        }
+    }
+
+    pub(super) fn tables(&mut self) {
+        let (network, mut fields) = (&self.netlist.network, Fields::default());
+        for (id, (name, symbol)) in network.table_ids().zip(network.tables()) {
+            let written = match (&*symbol.table, self.netlist.source_map.csv_map(id)) {
+                (Table::One(table), _) => of_one(table, symbol).inline(),
+                (Table::Two(_), Some(raw)) => self.csv_map(raw),
+                (Table::Two(_), None) => continue,
+            };
+            fields.put(name, written);
+        }
+        self.section("table", &fields);
+    }
+
+    /// A table of two arguments, which has no other form than its file.
+    fn csv_map(&self, raw: &RawTable) -> String {
+        let files = &self.netlist.files;
+        let folder = |name: &str| Path::new(name).parent().unwrap_or(Path::new("")).to_owned();
+        let main = self.netlist.inputs().next().map(|(name, _)| folder(name)).unwrap_or_default();
+        let mut fields = Fields::default();
+        for entry in &raw.entries {
+            let RawKind::String { text, .. } = &entry.value.kind else { continue };
+            if entry.key == "csv" {
+                let path = folder(files.name(entry.value.span.file)).join(text);
+                let path = path.strip_prefix(&main).unwrap_or(&path);
+                fields.word(&entry.key, &path.display().to_string());
+            } else {
+                fields.word(&entry.key, text);
+            }
+        }
+        fields.inline()
+    }
+
+    pub(super) fn signals(&mut self) {
+        let mut fields = Fields::default();
+        for signal in self.netlist.network.signals() {
+            fields.put(&signal.name, course(signal));
+        }
+        self.section("signal", &fields);
+    }
+
+    pub(super) fn default(&mut self) {
+        let mut fields = Fields::default();
+        let unit = &self.netlist.temperature_unit.text;
+        if unit != "degC" {
+            fields.word("temperature_unit", unit);
+        }
+        self.section("default", &fields);
+    }
+
+    /// The name of a table of the network.
+    pub(super) fn name_of_table(&self, table: &std::sync::Arc<Table>) -> Option<&str> {
+        let mut named =
+            self.netlist.network.tables().filter(|(_, symbol)| std::sync::Arc::ptr_eq(&symbol.table, table));
+        named.next().map(|(name, _)| name)
+    }
+
+    /// The places of names, for what is asked of them.
+    pub(super) fn name(&self, item: impl Into<Item>) -> Cow<'_, str> {
+        self.netlist.network.name_of(item.into())
+    }
+}
+
+/// A table of one argument.
+fn of_one(table: &Table1, symbol: &TableSymbol) -> Fields {
+    let argument = symbol.arguments.first().copied().unwrap_or(Type::SCALAR);
+    let mut fields = Fields::default();
+    fields.list("x", list(table.knots(), argument));
+    fields.list("y", list(table.values(), symbol.ty));
+    joined(&mut fields, table);
+    fields
+}
+
+/// A property over temperature; its argument is a point on the temperature scale in any case.
+pub(super) fn over_temperature(table: &Table1, ty: Type) -> String {
+    let mut fields = Fields::default();
+    let (knots, _) = list(table.knots(), Type::SCALAR);
+    fields.list("x", (knots, Some("K".to_owned())));
+    fields.list("y", list(table.values(), ty));
+    joined(&mut fields, table);
+    fields.inline()
+}
+
+/// How the points of a table are joined, where that is not the usual way.
+fn joined(fields: &mut Fields, table: &Table1) {
+    if table.interpolation() == Interpolation::Pchip {
+        fields.word("interp", "pchip");
+    }
+    if table.outside() == Outside::Hold {
+        fields.word("outside", "hold");
+    }
+}
+
+fn course(signal: &Signal) -> String {
+    let (times, values, interpolation) = match &signal.course {
+        Course::Expression(expression) => return value(expression, signal.ty),
+        Course::Steps { times, values, .. } => (times.as_slice(), values.as_slice(), Some("previous")),
+        Course::Curve { points, .. } => {
+            let pchip = points.interpolation() == Interpolation::Pchip;
+            (points.knots(), points.values(), pchip.then_some("pchip"))
+        }
+    };
+    let mut fields = Fields::default();
+    fields.list("t", list(times, TIME));
+    fields.list("v", list(values, signal.ty));
+    if let Some(interpolation) = interpolation {
+        fields.word("interp", interpolation);
+    }
+    match signal.course.after() {
+        AfterEnd::Error => {}
+        AfterEnd::Hold => fields.word("after_end", "hold"),
+        AfterEnd::Repeat(period) => {
+            fields.word("after_end", "repeat");
+            fields.put("period", quantity(period, TIME));
+        }
+    }
+    fields.inline()
+}

@@ -1,0 +1,414 @@
+//! `initial` of `[run]`: temperatures and controls at the start, from the state that another run left.
+
+mod control;
+
+use std::borrow::Cow;
+use std::collections::{HashMap, HashSet};
+use std::path::Path;
+
+use lptn_network::{End, Field, Input, Item, Network, NodeId, Temperature};
+use lptn_units::{Quantity, Type, suggest};
+
+use crate::diagnostic::Diagnostic;
+use crate::elaborate::Elaboration;
+use crate::file::{Files, Span};
+use crate::include::{Loader, reason};
+use crate::json::{Json, JsonValue};
+use crate::netlist::Netlist;
+use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
+use crate::run::RunPlan;
+use crate::state::{FORMAT, StateEnd};
+use crate::vocabulary::RUN;
+use control::Stand;
+
+const KEY: &str = "initial";
+
+/// Where a node whose state is not known is looked at for other mistakes, in K.
+const ANYWHERE: f64 = 298.15;
+
+/// What a state file holds, and nothing else.
+const MEMBERS: [&str; 8] =
+    ["format", "network", "title", "time", "end", "temperatures", "melted", "controls"];
+
+/// The state that a run starts from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InitialState {
+    /// The file that holds it.
+    pub file: String,
+    /// The time in s that it stands at.
+    pub time: f64,
+    /// How the run ended that wrote it.
+    pub end: StateEnd,
+    /// Where the netlist names it.
+    pub place: Span,
+}
+
+/// Values by name, each with its place, in the order of the file.
+#[derive(Clone, Debug)]
+struct Named<T> {
+    all: Vec<(String, T, Span)>,
+    index: HashMap<String, usize>,
+}
+
+type Numbers = Named<f64>;
+
+impl<T: Copy> Named<T> {
+    fn new() -> Self {
+        Self { all: Vec::new(), index: HashMap::new() }
+    }
+
+    fn get(&self, name: &str) -> Option<(T, &Span)> {
+        self.index.get(name).map(|&i| (self.all[i].1, &self.all[i].2))
+    }
+
+    /// Adds a value; false if there is one of this name already.
+    fn insert(&mut self, name: &str, value: T, place: Span) -> bool {
+        let before = self.index.insert(name.to_owned(), self.all.len());
+        self.all.push((name.to_owned(), value, place));
+        before.is_none()
+    }
+}
+
+/// A state file, or what is wrong with it.
+#[derive(Clone, Debug)]
+pub(crate) struct StateFile {
+    pub(crate) state: InitialState,
+    temperatures: Numbers,
+    melted: Numbers,
+    controls: Named<Stand>,
+    problems: Vec<Diagnostic>,
+    /// Whether a file was named.
+    usable: bool,
+}
+
+impl StateFile {
+    /// Reads the file that `initial` of `[run]` names; `None` if nothing does.
+    pub(crate) fn read(files: &mut Files, raw: &RawNetlist, loader: Option<&mut Loader<'_>>) -> Option<Self> {
+        let RawKind::Table(run) = &raw.top.get(RUN.name)?.value.kind else { return None };
+        let value = &run.get(KEY)?.value;
+        let RawKind::String { text, .. } = &value.kind else {
+            // said where `[run]` is read; nodes are not missing a start for it
+            return Some(Self { usable: false, ..Self::empty(String::new(), value) });
+        };
+        let from = Path::new(files.name(value.span.file)).parent().unwrap_or(Path::new("")).to_owned();
+        let path = from.join(text);
+        let mut state = Self::empty(path.display().to_string(), value);
+        match load(files, &path, value, loader) {
+            Ok(json) => state.take(files, json),
+            Err(problem) => state.problems.push(problem),
+        }
+        Some(state)
+    }
+
+    fn empty(file: String, value: &RawValue) -> Self {
+        let place = value.span.clone();
+        let state = InitialState { file, time: f64::NAN, end: StateEnd::Reached, place };
+        let (temperatures, melted, controls) = (Named::new(), Named::new(), Named::new());
+        Self { state, temperatures, melted, controls, problems: Vec::new(), usable: true }
+    }
+
+    fn take(&mut self, files: &Files, file: crate::FileId) {
+        let whole = match (Json { file, text: files.text(file) }).read() {
+            Ok(whole) => whole,
+            Err((words, place)) => return self.refuse("netlist::state_not_json", words, place),
+        };
+        let Some(members) = whole.members() else {
+            let words = "the state is no JSON object".to_owned();
+            return self.refuse("netlist::state_not_json", words, Span::new(file, 0..0));
+        };
+        let format = member(&members, "format");
+        if format.map(JsonValue::written) != Some(FORMAT) {
+            let words = match format {
+                Some(found) => {
+                    format!("the state has format {}, but this lptn reads {FORMAT}", found.written())
+                }
+                None => "the file has no `format`, so it is no state of a run".to_owned(),
+            };
+            let place = format.map_or(Span::new(file, 0..0), JsonValue::span);
+            return self.refuse("netlist::state_format", words, place);
+        }
+        for (name, value) in members.iter().filter(|(name, _)| !MEMBERS.contains(&&**name)) {
+            let words = format!("a state has no member `{name}`");
+            self.refuse("netlist::state_member", words, value.span());
+        }
+        let top = Span::new(file, 0..0);
+        self.time(&members, &top);
+        self.end(&members);
+        if let Some(values) = self.in_unit(&members, ("temperatures", "values", "K"), &top) {
+            self.temperatures = self.numbers(values, "temperatures");
+        }
+        self.check_range();
+        if let Some(melted) = member(&members, "melted") {
+            self.melted = self.numbers(melted, "melted");
+            self.check_shares();
+        }
+        if let Some(controls) = member(&members, "controls") {
+            self.take_controls(controls);
+        }
+    }
+
+    fn refuse(&mut self, code: &'static str, words: String, place: Span) {
+        let help = "use the `state.json` that `lptn run` writes beside its results";
+        let problem =
+            Diagnostic::error(code, words).at(place, "").also(self.state.place.clone(), "read here");
+        self.problems.push(problem.help(help));
+    }
+
+    /// What a member holds in this unit; what is wrong with it is reported.
+    fn in_unit<'a>(
+        &mut self,
+        members: &Members<'a>,
+        (name, inside, unit): (&str, &str, &str),
+        top: &Span,
+    ) -> Option<JsonValue<'a>> {
+        let Some(value) = member(members, name) else {
+            self.refuse("netlist::state_member", format!("the state has no `{name}`"), top.clone());
+            return None;
+        };
+        let inner = value.members().unwrap_or_default();
+        let found = member(&inner, "unit").and_then(JsonValue::string);
+        if found.as_deref() != Some(unit) {
+            let words = format!("`{name}` of a state has to have `\"unit\": \"{unit}\"`");
+            self.refuse("netlist::state_unit", words, value.span());
+            return None;
+        }
+        let held = member(&inner, inside);
+        if held.is_none() {
+            let words = format!("`{name}` of the state has no `{inside}`");
+            self.refuse("netlist::state_member", words, value.span());
+        }
+        held
+    }
+
+    fn time(&mut self, members: &Members<'_>, top: &Span) {
+        let Some(time) = self.in_unit(members, ("time", "value", "s"), top) else { return };
+        match time.number() {
+            Some(number) => self.state.time = number,
+            None => {
+                let words = "`time` of the state is no number".to_owned();
+                self.refuse("netlist::state_not_a_number", words, time.span());
+            }
+        }
+    }
+
+    fn end(&mut self, members: &Members<'_>) {
+        let Some(value) = member(members, "end") else { return };
+        match value.string().and_then(|word| StateEnd::of(&word)) {
+            Some(end) => self.state.end = end,
+            None => {
+                let words = "`end` of a state is \"reached\", \"interrupted\" or \"failed\"".to_owned();
+                self.refuse("netlist::state_member", words, value.span());
+            }
+        }
+    }
+
+    /// The numbers of an object by name.
+    fn numbers(&mut self, value: JsonValue<'_>, what: &str) -> Numbers {
+        let mut numbers = Numbers::new();
+        let Some(members) = value.members() else {
+            let words = format!("`{what}` of a state is an object of numbers");
+            self.refuse("netlist::state_member", words, value.span());
+            return numbers;
+        };
+        for (name, value) in members {
+            let Some(number) = value.number() else {
+                let words = format!("`{name}` in `{what}` of the state is no number: {}", value.written());
+                self.refuse("netlist::state_not_a_number", words, value.span());
+                continue;
+            };
+            if !numbers.insert(&name, number, value.span()) {
+                let words = format!("`{name}` stands twice in `{what}` of the state");
+                self.refuse("netlist::state_twice", words, value.span());
+            }
+        }
+        numbers
+    }
+
+    fn check_range(&mut self) {
+        let cold = self.temperatures.all.iter().filter(|(_, number, _)| *number < 0.0).cloned();
+        for (name, number, place) in cold.collect::<Vec<_>>() {
+            let words =
+                format!("the temperature of `{name}` in the state is below absolute zero: {number} K");
+            self.refuse("netlist::state_below_absolute_zero", words, place);
+        }
+    }
+
+    fn check_shares(&mut self) {
+        let wrong = self.melted.all.iter().filter(|(_, share, _)| !(0.0..=1.0).contains(share)).cloned();
+        for (name, share, place) in wrong.collect::<Vec<_>>() {
+            let words = format!("how much of `{name}` is molten must be from 0 to 1, got {share}");
+            self.refuse("netlist::state_share", words, place);
+        }
+    }
+
+    fn unknown(&self, (what, name, place): (&str, &str, &Span), near: Option<&str>) -> Diagnostic {
+        let message = format!("the state has a {what} `{name}` that the network does not have");
+        let problem = Diagnostic::error("netlist::state_unknown_name", message)
+            .at(place.clone(), "")
+            .also(self.state.place.clone(), "read here");
+        problem.help(match near {
+            Some(near) => {
+                format!("was `{near}` renamed? a state belongs to the network that it was computed with")
+            }
+            None => "a state belongs to the network that it was computed with".to_owned(),
+        })
+    }
+}
+
+type Members<'a> = [(Cow<'a, str>, JsonValue<'a>)];
+
+fn member<'a>(members: &Members<'a>, name: &str) -> Option<JsonValue<'a>> {
+    members.iter().find(|(found, _)| found == name).map(|(_, value)| *value)
+}
+
+fn load(
+    files: &mut Files,
+    path: &Path,
+    value: &RawValue,
+    loader: Option<&mut Loader<'_>>,
+) -> Result<crate::FileId, Diagnostic> {
+    let refused = |code, message: String, help: &str| {
+        Err(Diagnostic::error(code, message).at(value.span.clone(), "").help(help))
+    };
+    let Some(loader) = loader else {
+        let message = "this netlist is not read from a file, so it cannot read a state".to_owned();
+        return refused("netlist::state_without_folder", message, "save it, and give the name of the file");
+    };
+    let name = path.display();
+    match loader(path) {
+        Ok(bytes) => match std::str::from_utf8(&bytes) {
+            Ok(text) => Ok(files.add(name.to_string(), text)),
+            Err(_) => {
+                let message = format!("{name} is not a text file in UTF-8");
+                refused("netlist::not_text", message, "use the `state.json` that `lptn run` writes")
+            }
+        },
+        Err(error) => {
+            let message = format!("cannot read {name}: {}", reason(&error));
+            let help = "paths are relative to the netlist; `lptn run` writes `out/NAME/state.json`";
+            refused("netlist::state_not_found", message, help)
+        }
+    }
+}
+
+impl<'a> Elaboration<'a> {
+    /// The temperature of a node in the state that the run starts from; `None` if it starts from none.
+    pub(crate) fn start_of(&mut self, entry: &RawEntry, massless: bool) -> Option<(Input, Option<Span>)> {
+        let file = self.state?;
+        let kelvin = |value| Quantity { value, deviation: None, ty: Type::ABSOLUTE_TEMPERATURE }.into();
+        if let Some((value, place)) = file.temperatures.get(&entry.key) {
+            return Some((kelvin(value), Some(place.clone())));
+        }
+        if file.usable && file.problems.is_empty() && !massless {
+            let message = format!("the state has no temperature of node `{}`", entry.key);
+            let problem = Diagnostic::error("netlist::state_missing_node", message)
+                .at(entry.key_span.clone(), "")
+                .also(file.state.place.clone(), "the state is read here");
+            self.report(problem.help("a state belongs to the network that it was computed with"));
+        }
+        Some((kelvin(ANYWHERE), None))
+    }
+
+    /// How much of a node is molten in the state that the run starts from.
+    pub(crate) fn molten(&mut self, name: &str, id: NodeId) {
+        let share = self.state.and_then(|file| file.melted.get(name));
+        if let Some((share, _)) = share.filter(|(share, _)| (0.0..=1.0).contains(share)) {
+            self.builder.molten(id, share);
+        }
+    }
+
+    /// The nodes of grids and imports, which stand in no `[node]`: their temperatures in the state take the place of
+    /// those that the file gives them.
+    pub(crate) fn start_the_others(&mut self) {
+        let Some(file) = self.state.filter(|file| file.usable && file.problems.is_empty()) else { return };
+        let written: HashSet<&str> = self.elements("node").iter().map(|entry| entry.key.as_str()).collect();
+        let names: Vec<String> = self.builder.end_names(true).map(str::to_owned).collect();
+        let mut missing = Vec::new();
+        for (id, name) in self.builder.node_ids().zip(names) {
+            if written.contains(name.as_str()) || self.builder.is_massless(id) {
+                continue;
+            }
+            match file.temperatures.get(&name) {
+                Some((value, _)) => {
+                    self.builder.start_at(id, Temperature(value));
+                    self.molten(&name, id);
+                }
+                None => missing.push(name),
+            }
+        }
+        if let Some(first) = missing.first() {
+            let more =
+                if missing.len() > 1 { format!(" and of {} more", missing.len() - 1) } else { String::new() };
+            let message = format!("the state has no temperature of node `{first}`{more}");
+            let problem = Diagnostic::error("netlist::state_missing_node", message);
+            let problem = problem.at(file.state.place.clone(), "the state is read here");
+            self.report(problem.help("a state belongs to the network that it was computed with"));
+        }
+    }
+
+    /// Reports what is wrong with the state that the run starts from, and what it names beyond the network.
+    pub(crate) fn check_state(&mut self) {
+        let Some(file) = self.state else { return };
+        self.problems.extend(file.problems.iter().cloned());
+        let node = |name: &str| matches!(self.builder.end(name), Some(End::Node(_)));
+        let lists = [&file.temperatures, &file.melted].into_iter().flat_map(|numbers| &numbers.all);
+        let mut unknown = Vec::new();
+        for (name, _, place) in lists.filter(|(name, ..)| !node(name)) {
+            let nodes = self.elements("node").iter().map(|entry| entry.key.as_str());
+            let missing = nodes.filter(|name| file.temperatures.get(name).is_none());
+            unknown.push(file.unknown(("node", name, place), suggest(name, missing)));
+        }
+        self.problems.extend(unknown);
+        self.check_controls(file);
+    }
+
+    /// Where `T0` of a node is that the state takes the place of.
+    pub(crate) fn place_in_state(&mut self, id: NodeId, place: Option<Span>) {
+        if let Some(place) = place {
+            self.map.insert(Item::Node(id), Field::Initial, place);
+        }
+    }
+}
+
+/// What a reader should know of where a run starts.
+pub(crate) fn warnings(state: &InitialState, plan: Option<&RunPlan>, network: &Network) -> Vec<Diagnostic> {
+    let Some(plan) = plan else { return Vec::new() };
+    let Ok(run) = plan.settings(network) else { return Vec::new() };
+    let written = plan.start_place();
+    let apart = (run.start - state.time).abs() > 1e-9 * run.start.abs().max(state.time.abs());
+    let at = |problem: Diagnostic| problem.at(state.place.clone(), "");
+    let mut warnings = Vec::new();
+    if apart && (written.is_some() || network.has_time_dependent_inputs()) {
+        let message = format!("the run starts at {} s, from a state at {} s", run.start, state.time);
+        let warning = at(Diagnostic::warning("netlist::initial_time", message));
+        let warning = match written {
+            Some(place) => warning.also(place.clone(), "`t` begins here"),
+            None => warning.note("`t` begins at 0 s, and the inputs depend on it"),
+        };
+        warnings.push(warning.help(format!("to go on where it ended write `start = \"{} s\"`", state.time)));
+    }
+    if state.end != StateEnd::Reached && (apart || written.is_none()) {
+        let message =
+            format!("the state is of a run that {} at {} s, before its stop", ended(state.end), state.time);
+        warnings.push(
+            at(Diagnostic::warning("netlist::initial_unfinished", message))
+                .help(format!("to finish that run write `start = \"{} s\"`", state.time)),
+        );
+    }
+    warnings
+}
+
+fn ended(end: StateEnd) -> &'static str {
+    match end {
+        StateEnd::Reached => "ended",
+        StateEnd::Interrupted => "was interrupted",
+        StateEnd::Failed => "failed",
+    }
+}
+
+impl Netlist {
+    /// The state that runs start from, where `initial` of `[run]` names one.
+    pub fn initial(&self) -> Option<&InitialState> {
+        self.initial.as_ref()
+    }
+}

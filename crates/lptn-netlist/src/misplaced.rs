@@ -1,0 +1,64 @@
+//! What is said about names that expressions use where they may not.
+
+use lptn_network::Context;
+
+use crate::diagnostic::Diagnostic;
+use crate::file::Span;
+use crate::raw::RawKind;
+use crate::value::{Place, Wanted};
+
+pub(crate) const BOUND_HELP: &str =
+    "what changes belongs in `of`: a difference such as `of = \"steel.T - air.T\"` has a constant bound";
+
+/// Temperatures of what is at hand.
+pub(crate) const LOCAL: [&str; 5] = ["T", "T_from", "T_to", "T_mean", "dT"];
+
+/// A temperature in a place that has none of this name.
+pub(crate) fn not_here(place: Place<'_>, name: &str, wanted: Wanted, at: Span) -> Diagnostic {
+    let words = place.words();
+    let message = format!("{words} cannot use the temperature `{name}`");
+    let bound = matches!(place.key, "below" | "above");
+    let help = match wanted.context {
+        _ if bound => BOUND_HELP,
+        Context::Link if name == "T" => {
+            "a path has the temperatures `T_from`, `T_to` and `T_mean`, and the difference `dT`"
+        }
+        Context::Source if LOCAL.contains(&name) => {
+            "a source has `T`, the temperature of its node; that of another place is `NAME.T`"
+        }
+        Context::Control if LOCAL.contains(&name) => {
+            "name the place: a threshold may use the temperature `NAME.T` of any node or boundary"
+        }
+        Context::Time if place.key == "density" => {
+            "the density of a solid is constant: give it at the temperature at which its volume is measured"
+        }
+        Context::Own => "it may depend on `T`, the temperature of what it belongs to, and on no other",
+        Context::Result => "name the node or boundary, for example `steel.T`",
+        _ => {
+            "`P` of a source and the values of paths may depend on temperatures; `C` of a node and the properties \
+             of materials and fluids on their own `T`"
+        }
+    };
+    Diagnostic::error("netlist::temperature_not_here", message).at(at, "").help(help)
+}
+
+/// `t` or a signal where a constant is due.
+pub(crate) fn depends_on_time(place: Place<'_>, name: &str, at: Span) -> Diagnostic {
+    let (what, label) = match name {
+        "t" => ("the time `t`".to_owned(), "time"),
+        _ => (format!("signal `{name}`"), "changes with time"),
+    };
+    let words = place.words();
+    let parameter = words.strip_prefix("parameter `").and_then(|rest| rest.strip_suffix('`'));
+    if let (Some(parameter), RawKind::String { text, .. }) = (parameter, &place.raw.kind) {
+        let message = format!("{words} depends on {what}, but a parameter is constant");
+        let help = format!("make it a signal: below [signal] write `{parameter} = \"{}\"`", text.trim());
+        return Diagnostic::error("netlist::time_in_parameter", message).at(at, label).help(help);
+    }
+    let help = match place.key {
+        "below" | "above" => BOUND_HELP,
+        _ => "sources, boundaries, the values of paths and signals may depend on time; this is constant",
+    };
+    let message = format!("{} has to be constant, but depends on {what}", place.words());
+    Diagnostic::error("network::depends_on_time", message).at(at, label).help(help)
+}

@@ -1,0 +1,199 @@
+//! `[control]`: thermostats.
+
+use lptn_network::{Acts, ControlId, Field, Input, Item, Network, Thermostat};
+use lptn_units::{Dimension, Quantity, Type, format_number};
+
+use crate::diagnostic::Diagnostic;
+use crate::elaborate::Elaboration;
+use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::file::Span;
+use crate::misplaced::BOUND_HELP;
+use crate::raw::{RawEntry, RawKind};
+use crate::source_map::SourceMap;
+use crate::value::{Place, Wanted};
+use crate::vocabulary::CONTROL;
+
+const TIME: Type = Type::of(Dimension::TIME);
+
+/// A dead band of fewer tolerances than this is no wider than the error of a run.
+const NARROW: f64 = 10.0;
+
+impl<'a> Elaboration<'a> {
+    /// Names every control, so that what is read afterwards may use it.
+    pub(crate) fn controls(&mut self) -> Vec<(ControlId, &'a RawEntry)> {
+        let mut declared = Vec::new();
+        for entry in self.elements(CONTROL.name) {
+            let id = self.builder.control(&entry.key);
+            self.map.insert(Item::Control(id), Field::Name, entry.key_span.clone());
+            declared.push((id, entry));
+        }
+        declared
+    }
+
+    /// Says when each control switches, once the places that it can feel are known.
+    pub(crate) fn thermostats(&mut self, declared: Vec<(ControlId, &'a RawEntry)>) {
+        for (id, entry) in declared {
+            if self.thermostat(id, entry).is_none() {
+                self.doubts.items.insert(Item::Control(id)); // what is wrong with it has been reported
+            }
+        }
+    }
+
+    fn thermostat(&mut self, id: ControlId, entry: &'a RawEntry) -> Option<()> {
+        let owner = Owner::element(CONTROL.name, &entry.key);
+        let fields = Fields::of(&CONTROL, owner, entry, &mut self.problems)?;
+        let sense = self.end(&fields, "sense");
+        let thresholds = self.thresholds(id, &fields);
+        let (start, min_dwell) = (self.begins_on(&fields), self.dwell(id, &fields));
+        let (sense, at) = sense?;
+        self.map.value(Item::Control(id), Field::Sense, at);
+        let (acts, [on, off]) = thresholds?;
+        let (start, min_dwell) = (self.stands(&entry.key).unwrap_or(start?), min_dwell?);
+        self.builder.thermostat(id, Thermostat { sense, acts, on, off, start, min_dwell });
+        Some(())
+    }
+
+    /// Which way it acts, and when it goes on and off.
+    fn thresholds(&mut self, id: ControlId, fields: &Fields<'a>) -> Option<(Acts, [Input; 2])> {
+        let acts = self.acts(fields);
+        let every = [Acts::Cooling, Acts::Heating].map(Acts::fields);
+        let mut given = Vec::new();
+        for &field in every.as_flattened() {
+            let Some(raw) = fields.get(field.key()) else { continue };
+            self.map.value(Item::Control(id), field, raw);
+            let place = Place { owner: &fields.owner, key: field.key(), raw };
+            given.extend(self.given(place, Wanted::threshold()).map(|value| (field, value.input())));
+        }
+        let acts = acts?;
+        let of =
+            |field: Field| given.iter().find(|(other, _)| *other == field).map(|(_, value)| value.clone());
+        let [on, off] = acts.fields().map(of);
+        Some((acts, [on?, off?]))
+    }
+
+    /// Exactly one pair of thresholds, and all of it.
+    fn acts(&mut self, fields: &Fields<'a>) -> Option<Acts> {
+        let has = |acts: Acts| acts.fields().map(|field| fields.get(field.key()).is_some());
+        let half = |acts: Acts, on: bool| {
+            let [on_key, off_key] = acts.fields().map(Field::key);
+            let (there, missing) = if on { (on_key, off_key) } else { (off_key, on_key) };
+            fields.complete.then(|| half_a_pair(fields, there, missing))
+        };
+        let problem = match (has(Acts::Cooling), has(Acts::Heating)) {
+            ([true, true], [false, false]) => return Some(Acts::Cooling),
+            ([false, false], [true, true]) => return Some(Acts::Heating),
+            ([false, false], [false, false]) => fields.complete.then(|| no_thresholds(fields)),
+            ([on, _], [false, false]) => half(Acts::Cooling, on),
+            ([false, false], [on, _]) => half(Acts::Heating, on),
+            _ => Some(mixed(fields)),
+        };
+        self.problems.extend(problem);
+        None
+    }
+
+    /// Whether it is on at the start.
+    fn begins_on(&mut self, fields: &Fields<'a>) -> Option<bool> {
+        match fields.get("start") {
+            Some(raw) if !matches!(raw.kind, RawKind::String { .. }) => {
+                let words = fields.owner.field("start");
+                self.report(wrong_shape(&words, raw, "\"off\" or \"on\"", "start = \"on\""));
+                None
+            }
+            _ => self.choice(fields, "start", &[("off", false), ("on", true)]),
+        }
+    }
+
+    fn dwell(&mut self, id: ControlId, fields: &Fields<'a>) -> Option<Input> {
+        let Some(raw) = fields.get("min_dwell") else {
+            return Some(Quantity { value: 0.0, deviation: None, ty: TIME }.into());
+        };
+        self.map.value(Item::Control(id), Field::MinDwell, raw);
+        let place = Place { owner: &fields.owner, key: "min_dwell", raw };
+        self.given(place, Wanted::constant(TIME)).map(|given| given.input())
+    }
+}
+
+/// A control where something has to be known before the run.
+pub(crate) fn control_not_here(place: Place<'_>, name: &str, at: Span) -> Diagnostic {
+    let words = place.words();
+    let message = format!("{words} cannot use control `{name}`, which switches during the run");
+    let help = match place.key {
+        "below" | "above" => BOUND_HELP,
+        "" if words.starts_with("signal") => {
+            "a signal is a function of time; use the control where the signal is used, for example in a source"
+        }
+        "" => "a parameter is constant; use the control where the parameter is used, for example in a source",
+        _ => {
+            "sources, boundaries, the values of paths, thresholds of other controls and limits may use controls; this is \
+             constant"
+        }
+    };
+    Diagnostic::error("netlist::control_not_here", message).at(at, "0 or 1, as it switches").help(help)
+}
+
+/// Both pairs, as they could be written.
+fn both_pairs() -> String {
+    let [cooling, heating] =
+        [Acts::Cooling, Acts::Heating].map(|acts| acts.fields().map(|field| sample(field.key())).join(", "));
+    format!("`{cooling}` for cooling or `{heating}` for heating")
+}
+
+fn no_thresholds(fields: &Fields<'_>) -> Diagnostic {
+    let message = format!("{} does not say when it switches", fields.owner.words());
+    Diagnostic::error("netlist::no_thresholds", message)
+        .at(fields.place.clone(), "has no thresholds")
+        .help(format!("add {}", both_pairs()))
+}
+
+fn half_a_pair(fields: &Fields<'_>, there: &str, missing: &str) -> Diagnostic {
+    let message = format!("{} has `{there}` but no `{missing}`", fields.owner.words());
+    Diagnostic::error("netlist::missing_field", message)
+        .at(fields.place.clone(), format!("`{missing}` is missing"))
+        .help(format!("add `{}`: a thermostat needs a dead band between two temperatures", sample(missing)))
+}
+
+/// Thresholds of both pairs.
+fn mixed(fields: &Fields<'_>) -> Diagnostic {
+    let message = format!("{} has thresholds for cooling as well as for heating", fields.owner.words());
+    let mut error = Diagnostic::error("netlist::two_thermostats", message);
+    let labels = [("cooling", Acts::Cooling), ("heating", Acts::Heating)];
+    let keys = labels.into_iter().flat_map(|(word, acts)| acts.fields().map(|field| (word, field.key())));
+    for (n, (word, span)) in keys.filter_map(|(word, key)| Some((word, fields.key(key)?))).enumerate() {
+        let label = format!("for {word}");
+        error = if n == 0 { error.at(span.clone(), label) } else { error.also(span.clone(), label) };
+    }
+    error.help(format!("keep one pair, {}", both_pairs()))
+}
+
+/// A warning for each control whose dead band the tolerance of the run, in K, does not resolve.
+pub(crate) fn narrow(network: &Network, map: &SourceMap, tolerance: f64) -> Vec<Diagnostic> {
+    let bands = network.control_ids().filter_map(|id| Some((id, network.dead_band(id)?)));
+    // as written: the difference of two temperatures has lost digits
+    let narrow = bands.filter(|(_, band)| *band < NARROW * tolerance * (1.0 - 1e-6));
+    narrow.map(|(id, band)| narrow_band(network, map, (id, band, tolerance))).collect()
+}
+
+fn narrow_band(
+    network: &Network,
+    map: &SourceMap,
+    (id, band, tolerance): (ControlId, f64, f64),
+) -> Diagnostic {
+    let short = |x: f64| format_number(format!("{x:.2e}").parse().unwrap_or(x));
+    let name = &network.controls()[id.index()].name;
+    let message = format!(
+        "the dead band of control `{name}`, {} K, is less than {NARROW} times the tolerance of the run, {} K",
+        short(band),
+        short(tolerance)
+    );
+    let problem = Diagnostic::warning("netlist::narrow_dead_band", message);
+    let fields = network.thermostat(id).map(|thermostat| thermostat.acts.fields());
+    let places = fields.into_iter().flatten().filter_map(|field| map.get(Item::Control(id), field));
+    let problem = places.enumerate().fold(problem, |problem, (n, span)| match n {
+        0 => problem.at(span.clone(), ""),
+        _ => problem.also(span.clone(), ""),
+    });
+    problem.help(format!(
+        "widen it, or write `tolerance = \"{} K\"` in [run]: when it switches is not resolved",
+        short(band / NARROW)
+    ))
+}

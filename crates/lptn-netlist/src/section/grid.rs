@@ -1,0 +1,260 @@
+//! `[grid]`: blocks that are cut into cells, and what ends at their faces.
+
+use lptn_network::{Block, Field, GridId, Input, Item, Substance};
+use lptn_units::{Dimension, Type};
+
+use crate::diagnostic::Diagnostic;
+use crate::elaborate::{Elaboration, stand_in};
+use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::grid_names::{GridPart, KnownGrid};
+use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::section::conductor::PATHS;
+use crate::section::default::Initial;
+use crate::value::{Given, Place, Wanted};
+use crate::vocabulary::{GRID, SOURCE};
+
+const LENGTH: Type = Type::of(Dimension::LENGTH);
+const CONDUCTIVITY: Type = Type::of(Dimension::CONDUCTIVITY);
+
+/// Where the values of a grid stand.
+const FIELDS: [Field; 7] = [
+    Field::Size,
+    Field::Cells,
+    Field::Material,
+    Field::Conductivity,
+    Field::Density,
+    Field::SpecificHeat,
+    Field::Initial,
+];
+
+impl<'a> Elaboration<'a> {
+    /// The grids, and the surfaces of the faces that anything names: expressions may use their temperatures before the
+    /// path that ends there is read.
+    pub(crate) fn grids(&mut self, default: Option<&Initial<'a>>) {
+        for entry in self.elements(GRID.name) {
+            if self.grid(entry, default).is_none() {
+                self.names.hide_grid(&entry.key);
+                self.doubts.paths = true;
+                self.doubts.sections = true;
+            }
+        }
+        if self.names.grids.is_empty() {
+            return;
+        }
+        let sections = PATHS.iter().map(|(section, _)| section.name).chain([SOURCE.name]);
+        let entries: Vec<&'a RawEntry> = sections.flat_map(|name| self.elements(name)).collect();
+        for entry in entries {
+            if let RawKind::Table(table) = &entry.value.kind {
+                let named = table.entries.iter().filter(|f| matches!(f.key.as_str(), "from" | "to" | "into"));
+                named.for_each(|field| self.attach(&field.value));
+            }
+        }
+    }
+
+    /// Makes the surfaces of a face that is named here.
+    fn attach(&mut self, raw: &RawValue) {
+        let names = match &raw.kind {
+            RawKind::String { text, .. } => vec![text.as_str()],
+            RawKind::Table(table) => table.entries.iter().map(|entry| entry.key.as_str()).collect(),
+            _ => Vec::new(),
+        };
+        for name in names {
+            let Some(full) = self.names.structure.inside(&raw.span, name) else { continue };
+            let Some((own, GridPart::Face(at) | GridPart::Surface(at))) = self.names.grid_part(&full) else {
+                continue;
+            };
+            let before = self.builder.sizes();
+            self.builder.surfaces(at.grid, at.face);
+            self.note_parts(before, Item::Grid(at.grid), GRID.name);
+            if let Some(known) = self.names.grids.get_mut(own)
+                && !known.attached.contains(&at.face)
+            {
+                known.attached.push(at.face);
+            }
+        }
+    }
+
+    /// Notes that the nodes and conductors made since `before` are parts of `whole`.
+    pub(crate) fn note_parts(&mut self, before: (usize, usize), whole: Item, section: &'static str) {
+        let (nodes, conductors) = self.builder.sizes();
+        self.map.parts((before.0..nodes, before.1..conductors), whole);
+        (before.1..conductors).for_each(|_| self.map.conductor(section));
+    }
+
+    fn grid(&mut self, entry: &'a RawEntry, default: Option<&Initial<'a>>) -> Option<()> {
+        let owner = Owner::element(GRID.name, &entry.key);
+        let fields = Fields::of(&GRID, owner, entry, &mut self.problems)?;
+        let size = self.lengths(&fields);
+        let cells = self.cell_counts(&fields);
+        let substance = self.substance(&fields);
+        let own = self.initial(&fields);
+        let initial_at = fields.get("T0").or(default.map(|(_, raw)| *raw));
+        let initial = own.or_else(|| default.map(|(input, _)| input.clone()));
+        let initial = initial.or_else(|| (!fields.complete).then(|| stand_in(Type::ABSOLUTE_TEMPERATURE)));
+        let ((substance, conductivity), cells) = (substance?, cells?);
+        let before = self.builder.sizes();
+        let block = Block { size: size?, cells: cells.clone(), conductivity, substance, initial };
+        let id = self.builder.grid(&entry.key, block);
+        let item = Item::Grid(id);
+        self.note_parts(before, item, GRID.name);
+        self.map.insert(item, Field::Name, entry.key_span.clone());
+        for field in FIELDS {
+            if let Some(raw) = fields.get(field.key()) {
+                self.map.value(item, field, raw);
+            }
+        }
+        if let Some(raw) = initial_at {
+            self.map.value(item, Field::Initial, raw);
+        }
+        self.know_grid(entry, id, cells);
+        Some(())
+    }
+
+    fn know_grid(&mut self, entry: &RawEntry, id: GridId, cells: Vec<usize>) {
+        let known = KnownGrid { id, cells, span: entry.key_span.clone(), attached: Vec::new() };
+        self.names.grids.entry(entry.key.clone()).or_insert(known);
+    }
+
+    /// `size = ["0.5 m", "0.5 m", "20 mm"]`.
+    fn lengths(&mut self, fields: &Fields<'a>) -> Option<[Input; 3]> {
+        let raw = fields.require("size", &mut self.problems)?;
+        let RawKind::Array(list) = &raw.kind else {
+            self.report(wrong_shape(
+                &fields.owner.field("size"),
+                raw,
+                "a list of three lengths",
+                &sample("size"),
+            ));
+            return None;
+        };
+        let [x, y, z] = list.as_slice() else {
+            let message = format!("{} has {}, not three", fields.owner.field("size"), lengths(list.len()));
+            let problem = Diagnostic::error("netlist::grid_size", message).at(raw.span.clone(), "");
+            self.report(problem.help(format!(
+                "a block has three lengths, along x, y and z, also where it is not divided: `{}`",
+                sample("size")
+            )));
+            return None;
+        };
+        let mut length = |raw: &'a RawValue| {
+            let place = Place { owner: &fields.owner, key: "size", raw };
+            self.given(place, Wanted::constant(LENGTH)).map_or_else(|| stand_in(LENGTH), Given::input)
+        };
+        Some([length(x), length(y), length(z)])
+    }
+
+    /// `cells = [20, 20, 4]`.
+    fn cell_counts(&mut self, fields: &Fields<'a>) -> Option<Vec<usize>> {
+        let raw = fields.require("cells", &mut self.problems)?;
+        let RawKind::Array(list) = &raw.kind else {
+            let wanted = "a list of one to three whole numbers";
+            self.report(wrong_shape(&fields.owner.field("cells"), raw, wanted, &sample("cells")));
+            return None;
+        };
+        if list.is_empty() || list.len() > 3 {
+            let message =
+                format!("{} has {} counts, not one to three", fields.owner.field("cells"), list.len());
+            let problem = Diagnostic::error("netlist::grid_cells", message).at(raw.span.clone(), "");
+            self.report(problem.help(format!("give the cells along x, y and z: `{}`", sample("cells"))));
+            return None;
+        }
+        let counts: Vec<Option<usize>> = list.iter().map(|raw| self.cell_count(fields, raw)).collect();
+        counts.into_iter().collect()
+    }
+
+    fn cell_count(&mut self, fields: &Fields<'a>, raw: &RawValue) -> Option<usize> {
+        let text = match &raw.kind {
+            RawKind::Integer(text) | RawKind::Float(text) => text,
+            _ => {
+                let words = fields.owner.field("cells");
+                self.report(wrong_shape(&words, raw, "a list of whole numbers", &sample("cells")));
+                return None;
+            }
+        };
+        let count = text.parse().ok().filter(|count: &usize| *count > 0);
+        if count.is_none() {
+            let message =
+                format!("{} must be whole numbers of at least 1, got {text}", fields.owner.field("cells"));
+            let problem = Diagnostic::error("netlist::grid_cells", message).at(raw.span.clone(), "");
+            self.report(problem.help("an axis along which the block is not divided has 1 cell"));
+        }
+        count
+    }
+
+    /// What the grid is made of, and its conductivity along x, y and z.
+    fn substance(&mut self, fields: &Fields<'a>) -> Option<(Substance<Input>, [Input; 3])> {
+        let k = fields.get("k").map(|raw| self.conductivities(fields, raw));
+        if fields.get("material").is_some() {
+            self.refuse_keys(fields, &["density", "cp"], "is that of the material");
+            return self.of_material(fields, k);
+        }
+        if fields.complete && ["k", "density", "cp"].iter().all(|key| fields.get(key).is_none()) {
+            let message =
+                format!("{} has neither a `material` nor `k`, `density` and `cp`", fields.owner.words());
+            let problem = Diagnostic::error("netlist::missing_field", message);
+            self.report(
+                problem
+                    .at(fields.place.clone(), "does not say what it is made of")
+                    .help(format!("add `{}`, or the properties themselves", sample("material"))),
+            );
+            return None;
+        }
+        for key in ["k", "density", "cp"] {
+            fields.require(key, &mut self.problems);
+        }
+        let density = self.solid_property(fields, "density", Wanted::constant(Type::of(Dimension::DENSITY)));
+        let cp = self.solid_property(fields, "cp", Wanted::own(Type::of(Dimension::SPECIFIC_HEAT)));
+        Some((Substance::Properties { density: density?, cp: cp? }, k?))
+    }
+
+    fn of_material(
+        &mut self,
+        fields: &Fields<'a>,
+        k: Option<[Input; 3]>,
+    ) -> Option<(Substance<Input>, [Input; 3])> {
+        let raw = fields.get("material")?;
+        let name = fields.text("material", raw, &mut self.problems)?;
+        let known = self.known_material(fields, name, raw)?;
+        let needs = [("density", known.density), ("cp", known.cp), ("k", known.k || k.is_some())];
+        let missing: Vec<&str> = needs.into_iter().filter(|(_, has)| !has).map(|(key, _)| key).collect();
+        for property in &missing {
+            let problem = self.without_property(fields, (name, raw), known.id, property);
+            self.report(problem);
+        }
+        if !missing.is_empty() {
+            return None;
+        }
+        let own = || self.builder.conductivity(known.id);
+        let k = k.or_else(|| own().map(|k| [k.clone(), k.clone(), k]))?;
+        Some((Substance::Material(known.id), k))
+    }
+
+    /// One conductivity, or those along x, y and z.
+    fn conductivities(&mut self, fields: &Fields<'a>, raw: &'a RawValue) -> [Input; 3] {
+        let wanted = Wanted::own(CONDUCTIVITY);
+        let RawKind::Array(list) = &raw.kind else {
+            let k = self.solid_property(fields, "k", wanted).unwrap_or_else(|| stand_in(CONDUCTIVITY));
+            return [k.clone(), k.clone(), k];
+        };
+        let [x, y, z] = list.as_slice() else {
+            let message = format!("{} has {} values", fields.owner.field("k"), list.len());
+            let problem = Diagnostic::error("netlist::grid_conductivity", message).at(raw.span.clone(), "");
+            self.report(
+                problem.help(format!(
+                    "give one for all directions, `{}`, or three, along x, y and z",
+                    sample("k")
+                )),
+            );
+            return [(); 3].map(|()| stand_in(CONDUCTIVITY));
+        };
+        let mut one = |raw: &'a RawValue| {
+            let place = Place { owner: &fields.owner, key: "k", raw };
+            self.given(place, wanted).map_or_else(|| stand_in(CONDUCTIVITY), Given::input)
+        };
+        [one(x), one(y), one(z)]
+    }
+}
+
+fn lengths(count: usize) -> String {
+    if count == 1 { "one length".into() } else { format!("{count} lengths") }
+}

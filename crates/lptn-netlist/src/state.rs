@@ -1,0 +1,110 @@
+//! The state of a network at one time, as the file `state.json` holds it: what a run can start from.
+
+use std::fmt::Display;
+use std::io::{self, Write};
+
+/// The version of the file's format.
+pub(crate) const FORMAT: &str = "1";
+
+/// How the run ended that wrote a state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StateEnd {
+    /// At its stop.
+    Reached,
+    /// Before its stop, by Ctrl-C.
+    Interrupted,
+    /// Before its stop, because the numbers failed.
+    Failed,
+}
+
+impl StateEnd {
+    /// Its word in the file.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Reached => "reached",
+            Self::Interrupted => "interrupted",
+            Self::Failed => "failed",
+        }
+    }
+
+    /// The end of this word.
+    pub(crate) fn of(word: &str) -> Option<Self> {
+        [Self::Reached, Self::Interrupted, Self::Failed].into_iter().find(|end| end.word() == word)
+    }
+}
+
+/// A state that is to be written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State<'a> {
+    /// What the network is called: its file without the ending.
+    pub network: &'a str,
+    /// Its title, if it has one.
+    pub title: Option<&'a str>,
+    /// The time in s.
+    pub time: f64,
+    /// How the run ended.
+    pub end: StateEnd,
+    /// Temperature of every node by name, in K.
+    pub temperatures: Vec<(&'a str, f64)>,
+    /// How much is molten, from 0 to 1, of each node whose temperature does not tell.
+    pub melted: Vec<(&'a str, f64)>,
+    /// Where every control stands.
+    pub controls: Vec<StateControl<'a>>,
+}
+
+/// Where a control stands in a state that is to be written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StateControl<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Whether it is on.
+    pub on: bool,
+    /// How long it has been so, in s, from 0; `None` if it never switched.
+    pub held: Option<f64>,
+}
+
+impl State<'_> {
+    /// Writes the file; every number reads back as the same `f64`.
+    ///
+    /// # Errors
+    /// What the stream reports.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let text = |text: &str| serde_json::Value::from(text);
+        writeln!(out, "{{\n  \"format\": {FORMAT},\n  \"network\": {},", text(self.network))?;
+        if let Some(title) = self.title {
+            writeln!(out, "  \"title\": {},", text(title))?;
+        }
+        let time = serde_json::Value::from(self.time);
+        writeln!(out, "  \"time\": {{ \"value\": {time}, \"unit\": \"s\" }},")?;
+        writeln!(out, "  \"end\": \"{}\",", self.end.word())?;
+        write!(out, "  \"temperatures\": {{ \"unit\": \"K\", \"values\": ")?;
+        object(out, self.temperatures.iter().map(number))?;
+        write!(out, " }},\n  \"melted\": ")?;
+        object(out, self.melted.iter().map(number))?;
+        write!(out, ",\n  \"controls\": ")?;
+        object(out, self.controls.iter().map(|control| (control.name, control.text())))?;
+        writeln!(out, "\n}}")
+    }
+}
+
+impl StateControl<'_> {
+    fn text(&self) -> String {
+        let held = self.held.map(serde_json::Value::from);
+        let held = held.map(|held| format!(", \"held\": {{ \"value\": {held}, \"unit\": \"s\" }}"));
+        format!("{{ \"on\": {}{} }}", self.on, held.unwrap_or_default())
+    }
+}
+
+fn number<'a>((name, number): &(&'a str, f64)) -> (&'a str, serde_json::Value) {
+    (name, serde_json::Value::from(*number))
+}
+
+fn object<'a>(out: &mut dyn Write, members: impl Iterator<Item = (&'a str, impl Display)>) -> io::Result<()> {
+    let mut begun = false;
+    for (name, value) in members {
+        let separator = if begun { "," } else { "{" };
+        write!(out, "{separator}\n    {}: {value}", serde_json::Value::from(name))?;
+        begun = true;
+    }
+    out.write_all(if begun { b"\n  }" } else { b"{}" })
+}

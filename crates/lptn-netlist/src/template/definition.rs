@@ -1,0 +1,221 @@
+//! `[template.NAME]`: what a part consists of, before it is used.
+
+use lptn_network::is_name;
+use lptn_units::{RESERVED, Type, Unit, parse_quantity, suggest};
+
+use crate::diagnostic::Diagnostic;
+use crate::fields::{Fields, Owner, wrong_shape};
+use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
+use crate::value::Place;
+use crate::vocabulary::{NOT_IN_TEMPLATE, OPEN_PARAMETER, PARAM, SECTIONS, TEMPLATE, USE};
+
+const PORT: &str = "port";
+
+/// A template, checked as far as it can be without being used.
+#[derive(Debug)]
+pub(super) struct Template<'r> {
+    /// Its line.
+    pub(super) entry: &'r RawEntry,
+    pub(super) parameters: Vec<Parameter<'r>>,
+    /// The names of its ports, in order.
+    pub(super) ports: Vec<(&'r str, &'r RawValue)>,
+    /// Its sections of elements, in order.
+    pub(super) sections: Vec<(&'r RawEntry, &'r RawTable)>,
+    /// What it uses itself.
+    pub(super) uses: &'r [RawEntry],
+    /// Whether something about it is wrong: then it cannot be used.
+    pub(super) broken: bool,
+}
+
+/// A parameter of a template.
+#[derive(Debug)]
+pub(super) struct Parameter<'r> {
+    pub(super) entry: &'r RawEntry,
+    /// Whether it has a value of its own.
+    pub(super) default: bool,
+    /// Its type, where that is written: that of its value, or of its unit.
+    pub(super) ty: Option<Type>,
+}
+
+impl<'r> Template<'r> {
+    pub(super) fn name(&self) -> &'r str {
+        &self.entry.key
+    }
+
+    pub(super) fn parameter(&self, name: &str) -> Option<&Parameter<'r>> {
+        self.parameters.iter().find(|parameter| parameter.entry.key == name)
+    }
+
+    /// Reads a template and reports what is wrong with it.
+    pub(super) fn read(entry: &'r RawEntry, problems: &mut Vec<Diagnostic>) -> Self {
+        let mut template = Self {
+            entry,
+            parameters: Vec::new(),
+            ports: Vec::new(),
+            sections: Vec::new(),
+            uses: &[],
+            broken: false,
+        };
+        let before = problems.len();
+        match &entry.value.kind {
+            RawKind::Table(table) => table.entries.iter().for_each(|part| template.part(part, problems)),
+            kind => problems.push(no_table(&format!("template `{}`", entry.key), &entry.value, kind)),
+        }
+        problems.extend(template.names());
+        template.broken = problems.len() > before;
+        template
+    }
+
+    fn part(&mut self, part: &'r RawEntry, problems: &mut Vec<Diagnostic>) {
+        let words = format!("`{}` of template `{}`", part.key, self.name());
+        if part.key == PORT {
+            return self.ports(part, problems);
+        }
+        if NOT_IN_TEMPLATE.contains(&part.key.as_str()) || !SECTIONS.contains(&part.key.as_str()) {
+            return problems.push(unknown_part(self.name(), part));
+        }
+        let RawKind::Table(table) = &part.value.kind else {
+            return problems.push(no_table(&words, &part.value, &part.value.kind));
+        };
+        match part.key.as_str() {
+            PARAM => {
+                for entry in &table.entries {
+                    let parameter = self.read_parameter(entry, problems);
+                    self.parameters.extend(parameter);
+                }
+            }
+            name if name == USE.name => self.uses = &table.entries,
+            _ => self.sections.push((part, table)),
+        }
+    }
+
+    fn ports(&mut self, part: &'r RawEntry, problems: &mut Vec<Diagnostic>) {
+        let words = format!("`port` of template `{}`", self.name());
+        let example = "port = [\"in\", \"out\"]";
+        let RawKind::Array(list) = &part.value.kind else {
+            return problems.push(wrong_shape(&words, &part.value, "a list of names", example));
+        };
+        for value in list {
+            match &value.kind {
+                RawKind::String { text, .. } => self.ports.push((text, value)),
+                _ => problems.push(wrong_shape(&words, value, "a list of names", example)),
+            }
+        }
+    }
+
+    /// `m = "0.2 kg"` with a value of its own; `R = { unit = "K/W" }` has to be set.
+    fn read_parameter(&self, entry: &'r RawEntry, problems: &mut Vec<Diagnostic>) -> Option<Parameter<'r>> {
+        let owner = Owner::element("parameter", &format!("{}.{}", self.name(), entry.key));
+        let text = match &entry.value.kind {
+            RawKind::Table(_) => {
+                let fields = Fields::of(&OPEN_PARAMETER, owner, entry, problems)?;
+                let raw = fields.require("unit", problems)?;
+                let text = fields.text("unit", raw, problems)?;
+                return match Unit::parse(text) {
+                    Ok(unit) => Some(Parameter { entry, default: false, ty: Some(unit.ty) }),
+                    Err(error) => {
+                        problems.push(Place { owner: &fields.owner, key: "unit", raw }.unit_error(&error));
+                        None
+                    }
+                };
+            }
+            RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => text,
+            _ => {
+                let example = "m = \"0.2 kg\"";
+                problems.push(wrong_shape(owner.words(), &entry.value, "a value", example));
+                return None;
+            }
+        };
+        let ty = parse_quantity(text, None).ok().map(|quantity| quantity.ty);
+        Some(Parameter { entry, default: true, ty })
+    }
+
+    /// What is wrong with the names inside.
+    fn names(&self) -> Vec<Diagnostic> {
+        let parameters = self.parameters.iter().map(|parameter| ("parameter", parameter.entry));
+        let uses = self.uses.iter().map(|entry| (USE.name, entry));
+        let all: Vec<(&str, &RawEntry)> = parameters.chain(self.elements()).chain(uses).collect();
+        let mut problems: Vec<Diagnostic> = all
+            .iter()
+            .filter_map(|(kind, entry)| self.unusable((kind, &entry.key), &entry.key_span))
+            .collect();
+        for (position, (name, value)) in self.ports.iter().enumerate() {
+            problems.extend(self.unusable(("port", name), &value.span));
+            let earlier = self.ports.iter().take(position).find(|(other, _)| other == name);
+            let first = earlier.map(|(_, value)| ("port", &value.span));
+            let taken = all.iter().find(|(_, entry)| entry.key == *name);
+            if let Some(first) = first.or(taken.map(|(kind, entry)| (*kind, &entry.key_span))) {
+                problems.push(taken_twice((name, &value.span), "port", first));
+            }
+        }
+        for entry in self.uses {
+            if let Some((kind, other)) = self.elements().find(|(_, other)| other.key == entry.key) {
+                problems.push(taken_twice((&entry.key, &entry.key_span), USE.name, (kind, &other.key_span)));
+            }
+        }
+        problems
+    }
+
+    /// The elements, each with its section.
+    pub(super) fn elements(&self) -> impl Iterator<Item = (&'r str, &'r RawEntry)> {
+        let sections = self.sections.iter();
+        sections.flat_map(|(section, table)| table.entries.iter().map(|entry| (section.key.as_str(), entry)))
+    }
+
+    fn unusable(&self, (kind, name): (&str, &str), span: &crate::file::Span) -> Option<Diagnostic> {
+        let words = format!("{kind} `{name}` of template `{}`", self.name());
+        if !is_name(name) {
+            let message = format!("{words} has a name that cannot be used");
+            let help = "use letters, digits and `_`, and no digit first";
+            return Some(Diagnostic::error("network::bad_name", message).at(span.clone(), "").help(help));
+        }
+        let reserved = RESERVED.contains(&name);
+        let message = format!("{words} has a name with a meaning of its own in expressions");
+        reserved.then(|| {
+            let help = format!("choose another one, for example `{name}_1`");
+            Diagnostic::error("network::reserved_name", message).at(span.clone(), "").help(help)
+        })
+    }
+}
+
+/// One name for two things.
+pub(super) fn taken_twice(
+    (name, span): (&str, &crate::file::Span),
+    kind: &str,
+    (other, first): (&str, &crate::file::Span),
+) -> Diagnostic {
+    let message = match kind == other {
+        true => format!("two {kind}s are named `{name}`"),
+        false => format!("the name `{name}` is taken twice: by a {other} and by a {kind}"),
+    };
+    Diagnostic::error("network::duplicate_name", message)
+        .at(span.clone(), "named again")
+        .also(first.clone(), "first named here")
+        .help(format!("rename one of them, for example `{name}_2`"))
+}
+
+fn no_table(words: &str, value: &RawValue, kind: &RawKind) -> Diagnostic {
+    let message = format!("{words} must be a table, got {}", kind.with_article());
+    Diagnostic::error("netlist::not_a_table", message)
+        .at(value.span.clone(), "")
+        .help(format!("write it like this: `[template.planet]`, then {}", TEMPLATE.example))
+}
+
+fn unknown_part(template: &str, part: &RawEntry) -> Diagnostic {
+    let key = part.key.as_str();
+    if NOT_IN_TEMPLATE.contains(&key) {
+        let message = format!("`[{key}]` cannot stand in template `{template}`");
+        return Diagnostic::error("netlist::not_in_template", message).at(part.key_span.clone(), "").help(
+            format!("a template holds `param`, `port` and elements: move `[{key}]` to the top of the file"),
+        );
+    }
+    let inside = SECTIONS.iter().filter(|section| !NOT_IN_TEMPLATE.contains(section)).copied();
+    let inside: Vec<&str> = [PORT].into_iter().chain(inside).collect();
+    let problem =
+        Diagnostic::error("netlist::unknown_section", format!("template `{template}` cannot hold `{key}`"))
+            .at(part.key_span.clone(), "");
+    problem.help(match suggest(key, inside.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("a template holds {}", crate::vocabulary::list(&inside)),
+    })
+}

@@ -1,0 +1,84 @@
+//! Templates: parts that are written once and used several times.
+//!
+//! The work is done on what is written, before anything is read: each instance becomes elements of its own, with
+//! full names (`planet[2].gear`), and values as they stand in the template. A place knows for which instance it is
+//! read, and that decides what a name there means ([`Structure::meaning`]); so no section has to know of templates.
+
+mod definition;
+mod inside;
+mod instance;
+mod nesting;
+mod pattern;
+mod plan;
+mod structure;
+mod wrong_path;
+
+use std::collections::HashSet;
+use std::sync::Arc;
+
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::file::Files;
+use crate::include::any_error;
+use crate::raw::{RawEntry, RawKind, RawNetlist};
+use crate::vocabulary::{TEMPLATE, USE};
+use definition::Template;
+use instance::Maker;
+
+pub(crate) use inside::{by_port, in_own_words, outside};
+pub(crate) use structure::Structure;
+pub(crate) use wrong_path::wrong_path;
+
+/// A netlist without templates: every instance is written out.
+#[derive(Debug)]
+pub(crate) struct Expanded {
+    pub(crate) raw: RawNetlist,
+    pub(crate) structure: Arc<Structure>,
+    pub(crate) problems: Vec<Diagnostic>,
+}
+
+/// Puts elements in the place of every use.
+pub(crate) fn expand(files: &mut Files, mut raw: RawNetlist) -> Expanded {
+    let (main, mut problems) = (raw.top.span.file, Vec::new());
+    let (written, uses) = (take(&mut raw, TEMPLATE.name), take(&mut raw, USE.name));
+    let mut templates: Vec<Template<'_>> =
+        written.iter().map(|entry| Template::read(entry, &mut problems)).collect();
+    let sizes = nesting::check(&mut templates, &mut problems);
+    let mut maker = Maker::new(files, (&templates, &sizes), &mut raw);
+    maker.top(&uses);
+    let (structure, found, used) = maker.finish();
+    problems.extend(found);
+    problems.extend(pattern::expand(&mut raw, &structure));
+    problems.extend(unused(&templates, &used).filter(|d| d.place().is_some_and(|at| at.file == main)));
+    if any_error(&problems) {
+        // what is odd may follow from what is wrong
+        problems.retain(|problem| problem.severity == Severity::Error);
+    }
+    Expanded { raw, structure: Arc::new(structure), problems }
+}
+
+/// Takes the entries of a section out of a netlist; a section that is no table is left, to be reported.
+fn take(raw: &mut RawNetlist, name: &str) -> Vec<RawEntry> {
+    let entries = &mut raw.top.entries;
+    let section = entries.iter().position(|entry| entry.key == name && is_table(entry));
+    match section.map(|position| entries.remove(position).value.kind) {
+        Some(RawKind::Table(table)) => table.entries,
+        _ => Vec::new(),
+    }
+}
+
+fn is_table(entry: &RawEntry) -> bool {
+    matches!(entry.value.kind, RawKind::Table(_))
+}
+
+/// A file of templates that is included is there to be chosen from; in its own file a template is for use.
+fn unused<'t>(templates: &'t [Template<'t>], used: &HashSet<usize>) -> impl Iterator<Item = Diagnostic> {
+    let unused = templates.iter().enumerate().filter(|(position, _)| !used.contains(position));
+    unused.map(|(_, template)| {
+        Diagnostic::warning(
+            "netlist::unused_template",
+            format!("nothing uses template `{}`", template.name()),
+        )
+        .at(template.entry.key_span.clone(), "")
+        .help(format!("use it, `[use.name]` with `template = \"{}\"`, or remove it", template.name()))
+    })
+}

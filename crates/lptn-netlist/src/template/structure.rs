@@ -1,0 +1,160 @@
+//! What templates made of a netlist: which instances there are, and what names mean inside them.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use lptn_units::Type;
+
+use crate::file::{CopyId, Span};
+use crate::raw::{RawEntry, RawValue};
+
+/// The instances of a netlist.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Structure {
+    /// What is inside each template that is used.
+    pub(super) insides: Vec<Inside>,
+    /// The instances, by [`CopyId`].
+    pub(super) instances: Vec<Instance>,
+    /// Every use by its full name, without index.
+    pub(super) uses: BTreeMap<String, Used>,
+    /// The lines of the uses that connect ports.
+    pub(super) lines: Vec<RawEntry>,
+    pub(super) connections: Vec<Connection>,
+    /// The types of parameters of instances that are set, and where a type is written.
+    pub(super) types: HashMap<String, (Type, Span)>,
+    /// Uses that could not be read: what they would have made is missing.
+    pub(super) lost: Vec<String>,
+}
+
+/// The names inside a template.
+#[derive(Clone, Debug)]
+pub(super) struct Inside {
+    pub(super) template: String,
+    /// Parameters, elements and uses.
+    pub(super) own: HashSet<String>,
+    pub(super) ports: Vec<String>,
+}
+
+/// One instance.
+#[derive(Clone, Debug)]
+pub(super) struct Instance {
+    /// Its name, `planet[2]`.
+    pub(super) path: String,
+    /// Its template, as a position in [`Structure::insides`].
+    pub(super) inside: usize,
+    /// What each port stands for.
+    pub(super) ports: Vec<String>,
+}
+
+/// A `[use.NAME]`.
+#[derive(Clone, Debug)]
+pub(super) struct Used {
+    /// How many instances; `None` for one without index.
+    pub(super) count: Option<usize>,
+    pub(super) span: Span,
+}
+
+/// An end that a port is connected to.
+#[derive(Clone, Debug)]
+pub(crate) struct Connection {
+    /// The line of the use, as a position in [`Structure::lines`].
+    line: usize,
+    pub(crate) port: String,
+    pub(crate) value: RawValue,
+    /// What is meant, in full.
+    pub(crate) target: String,
+}
+
+impl Connection {
+    pub(super) fn new(line: usize, port: &str, value: RawValue, target: String) -> Self {
+        Self { line, port: port.to_owned(), value, target }
+    }
+}
+
+/// The part of a path before the first `.` or `[`.
+pub(super) fn root(path: &str) -> &str {
+    path.split(['.', '[']).next().unwrap_or(path)
+}
+
+impl Structure {
+    fn instance(&self, copy: CopyId) -> Option<(&Instance, &Inside)> {
+        let instance = self.instances.get(copy.index()?)?;
+        Some((instance, self.insides.get(instance.inside)?))
+    }
+
+    /// What a name means that is written at `place`, if that is inside a template and the name belongs to it.
+    pub(crate) fn meaning(&self, place: &Span, name: &str) -> Option<String> {
+        let (instance, inside) = self.instance(place.copy)?;
+        let first = root(name);
+        if let Some(port) = inside.ports.iter().position(|port| port == first) {
+            return Some(format!("{}{}", instance.ports.get(port)?, name.get(first.len()..)?));
+        }
+        inside.own.contains(first).then(|| format!("{}.{name}", instance.path))
+    }
+
+    /// What a name means at `place`.
+    pub(crate) fn resolve(&self, place: &Span, name: &str) -> String {
+        self.meaning(place, name).unwrap_or_else(|| name.to_owned())
+    }
+
+    /// What a name means at `place`; `None` for one in a template that is none of its own.
+    pub(crate) fn inside(&self, place: &Span, name: &str) -> Option<String> {
+        let own = || self.template_at(place).is_none().then(|| name.to_owned());
+        self.meaning(place, name).or_else(own)
+    }
+
+    /// The template that a place stands in.
+    pub(crate) fn template_at(&self, place: &Span) -> Option<&str> {
+        self.instance(place.copy).map(|(_, inside)| inside.template.as_str())
+    }
+
+    /// The name of the instance that a place is read for.
+    pub(crate) fn instance_at(&self, place: &Span) -> Option<&str> {
+        self.instance(place.copy).map(|(instance, _)| instance.path.as_str())
+    }
+
+    /// The names that belong to the template at `place`, sorted; nothing may depend on hash order.
+    pub(crate) fn names_at(&self, place: &Span) -> Vec<&str> {
+        let Some((_, inside)) = self.instance(place.copy) else { return Vec::new() };
+        let mut names: Vec<&str> = inside.own.iter().chain(&inside.ports).map(String::as_str).collect();
+        names.sort_unstable();
+        names
+    }
+
+    /// Whether what is meant by `full` belongs to the instance at `place`, or is one of its ports.
+    pub(crate) fn belongs(&self, place: &Span, full: &str) -> bool {
+        let under = |whole: &str| {
+            full.strip_prefix(whole).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        };
+        self.instance(place.copy).is_some_and(|(instance, _)| {
+            under(&instance.path) || instance.ports.iter().any(|port| under(port))
+        })
+    }
+
+    /// Whether a path is part of a use that could not be read.
+    pub(crate) fn is_lost(&self, path: &str) -> bool {
+        self.lost.iter().any(|lost| {
+            path.strip_prefix(lost.as_str())
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        })
+    }
+
+    /// Whether a use could not be read.
+    pub(crate) fn has_lost(&self) -> bool {
+        !self.lost.is_empty()
+    }
+
+    /// Every connection with the line of its use.
+    pub(crate) fn connections(&self) -> impl Iterator<Item = (&RawEntry, &Connection)> {
+        self.connections.iter().filter_map(|connection| Some((self.lines.get(connection.line)?, connection)))
+    }
+
+    /// The type that a parameter of an instance has to have, and where that is written.
+    pub(crate) fn type_of(&self, parameter: &str) -> Option<&(Type, Span)> {
+        self.types.get(parameter)
+    }
+
+    /// The use of this full name: how many instances it makes.
+    pub(super) fn count(&self, name: &str) -> Option<Option<usize>> {
+        self.uses.get(name).map(|used| used.count)
+    }
+}

@@ -1,0 +1,88 @@
+//! Paths that lead to no instance: an index too many, too few or too large.
+
+use super::structure::Structure;
+use crate::diagnostic::Diagnostic;
+use crate::file::Span;
+use crate::netlist::Netlist;
+
+/// What is wrong with the indices of a path.
+#[derive(Debug)]
+pub(crate) struct WrongPath {
+    /// What is wrong, after "names `planet[9].gear`, but".
+    pub(crate) why: String,
+    /// What to write.
+    pub(crate) help: String,
+    /// Where the instances are made.
+    pub(crate) made: Span,
+}
+
+impl Structure {
+    /// Why a path leads nowhere, if an index of an instance is to blame.
+    pub(crate) fn wrong_path(&self, path: &str) -> Option<WrongPath> {
+        let mut before = String::new();
+        for part in path.split('.') {
+            let (name, index) = match part.split_once('[') {
+                Some((name, rest)) => (name, Some(rest.strip_suffix(']').unwrap_or(rest))),
+                None => (part, None),
+            };
+            let full = format!("{before}{name}");
+            if let Some(used) = self.uses.get(&full) {
+                let tail = path.get(before.len() + part.len()..).unwrap_or_default();
+                let wrong =
+                    |why: String, help: String| Some(WrongPath { why, help, made: used.span.clone() });
+                match (used.count, index) {
+                    (Some(count), Some("*")) => {
+                        let help = format!(
+                            "name one, {}; all of them may stand in `of` of a limit, in `into` of a source \
+                             and in `select`",
+                            range((&full, tail), count)
+                        );
+                        return wrong("a pattern cannot stand here".to_owned(), help);
+                    }
+                    (Some(count), None) => {
+                        let why = format!("`{full}` has {}", instances(count));
+                        return wrong(why, format!("say which: {}", range((&full, tail), count)));
+                    }
+                    (None, Some(_)) => {
+                        let why = format!("`{full}` has no index: its use has no `count`");
+                        return wrong(why, format!("write `{full}{tail}`"));
+                    }
+                    (Some(count), Some(index))
+                        if !index.parse::<usize>().is_ok_and(|i| (1..=count).contains(&i)) =>
+                    {
+                        let why = format!("`{full}` has {}", instances(count));
+                        return wrong(why, format!("write {}", range((&full, tail), count)));
+                    }
+                    _ => {}
+                }
+            }
+            before = format!("{before}{part}.");
+        }
+        None
+    }
+}
+
+impl Netlist {
+    /// Why a path such as `planet[9].gear` leads nowhere, and what to write, if its index is to blame.
+    pub fn no_instance(&self, path: &str) -> Option<(String, String)> {
+        self.structure.wrong_path(path).map(|wrong| (wrong.why, wrong.help))
+    }
+}
+
+/// `words` names a path at `place` that is wrong in this way.
+pub(crate) fn wrong_path((words, path): (&str, &str), place: Span, wrong: WrongPath) -> Diagnostic {
+    let message = format!("{words} names `{path}`, but {}", wrong.why);
+    let problem = Diagnostic::error("netlist::no_instance", message).at(place, "");
+    problem.also(wrong.made, "made here").help(wrong.help)
+}
+
+fn instances(count: usize) -> String {
+    if count == 1 { "1 instance".to_owned() } else { format!("{count} instances") }
+}
+
+fn range((name, tail): (&str, &str), count: usize) -> String {
+    match count {
+        1 => format!("`{name}[1]{tail}`"),
+        _ => format!("`{name}[1]{tail}` to `{name}[{count}]{tail}`"),
+    }
+}

@@ -1,0 +1,137 @@
+//! What a node is as a body: its length, its material, the surfaces through which it gives off heat.
+
+use lptn_units::{Dimension, Type};
+
+use crate::builder::NetworkBuilder;
+use crate::element::ConductorKind;
+use crate::evaluation::Evaluation;
+use crate::flow::place;
+use crate::id::{ConductorId, Field, Item, MaterialId, NodeId};
+use crate::input_error::{InputError, InputProblem};
+use crate::law::{At, Exchange, Law};
+use crate::layout::slot;
+use crate::network::Network;
+use crate::value::{Input, Value};
+
+/// A surface that gives off heat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// Its conductance in W/K, that of radiation at the temperatures of both ends; not negative.
+    pub conductance: f64,
+    /// Its area in m^2, that of radiation times the view factor; `None` where it is not given.
+    pub area: Option<f64>,
+}
+
+/// Why a node has not one material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoMaterial {
+    /// Its capacity is given as a number.
+    Unnamed,
+    /// Its parts are of several materials.
+    Several,
+}
+
+impl NetworkBuilder {
+    /// Gives a node its characteristic length, volume over surface, so that it can be checked for being a lump.
+    pub fn length(&mut self, node: NodeId, length: impl Into<Input>) {
+        let name = self.parts.nodes[node.index()].name.clone();
+        let at = (name.as_str(), Item::Node(node), Field::CharacteristicLength);
+        let length = self.typed(at, length.into(), Type::of(Dimension::LENGTH));
+        self.parts.nodes[node.index()].length = Some(length);
+    }
+}
+
+impl Network {
+    /// The characteristic length of a node in m, volume over surface; `None` if it was not given.
+    pub fn length(&self, id: NodeId) -> Option<f64> {
+        match self.nodes()[id.index()].length.as_ref()? {
+            Value::Constant(length) => Some(*length),
+            value => value.at(&mut self.evaluation()).ok(),
+        }
+    }
+
+    /// The one material that a node with all its parts is made of.
+    ///
+    /// # Errors
+    /// [`NoMaterial`] if a part has none, or another one.
+    pub fn material_of(&self, id: NodeId) -> Result<MaterialId, NoMaterial> {
+        let node = &self.nodes()[id.index()];
+        let own = node.capacity.iter().map(|_| node.lump.as_ref());
+        let parts = self.capacitors().iter().filter(|part| part.node == id).map(|part| part.lump.as_ref());
+        let materials: Option<Vec<MaterialId>> =
+            own.chain(parts).map(|lump| lump.map(|lump| lump.material)).collect();
+        match materials.as_deref() {
+            Some([first, others @ ..]) if others.iter().all(|other| other == first) => Ok(*first),
+            Some([_, ..]) => Err(NoMaterial::Several),
+            _ => Err(NoMaterial::Unnamed),
+        }
+    }
+
+    /// Density in kg/m^3, specific heat in J/(kg K) or conductivity in W/(m K) of a material at a temperature in K;
+    /// `None` where it is not known. `scope` is any [`Network::evaluation`].
+    pub fn property(
+        &self,
+        (id, field): (MaterialId, Field),
+        temperature: f64,
+        scope: &mut Evaluation,
+    ) -> Option<f64> {
+        let material = &self.materials()[id.index()];
+        let value = match field {
+            Field::Density => material.density.as_ref(),
+            Field::SpecificHeat => material.cp.as_ref(),
+            Field::Conductivity => material.k.as_ref(),
+            _ => None,
+        };
+        scope.set(slot::OWN, temperature);
+        value?.at(scope).ok().filter(|value| value.is_finite() && *value > 0.0)
+    }
+
+    /// The surface that a convection, contact or radiation is, at the time of `scope` and these temperatures of all
+    /// vertices in K; `None` for any other conductor.
+    ///
+    /// # Errors
+    /// [`InputError`] if a value fails, or is one that its field cannot have.
+    pub fn surface(
+        &self,
+        id: ConductorId,
+        scope: &mut Evaluation,
+        temperatures: &[f64],
+    ) -> Result<Option<Surface>, InputError> {
+        let conductor = &self.conductors()[id.index()];
+        let kinds = [ConductorKind::Convection, ConductorKind::Contact, ConductorKind::Radiation];
+        if !kinds.contains(&conductor.kind) {
+            return Ok(None);
+        }
+        let dependence = self.parts.dependence(id);
+        let ends = [conductor.from, conductor.to].map(|end| temperatures[self.vertex(end)]);
+        let at = |k: usize| match ends.get(k) {
+            Some(end) => *end,
+            None => temperatures[dependence.vertices[k] as usize],
+        };
+        let result = {
+            let (slots, stack) = scope.plain();
+            place(slots, dependence, &at);
+            surface(&conductor.law, At { slots, stack })
+        };
+        result.map(Some).map_err(|failed| self.failed(Item::Conductor(id), failed, scope))
+    }
+}
+
+fn surface(law: &Law, mut at: At<'_, f64>) -> Result<Surface, (Field, InputProblem)> {
+    let conductance = at.conductance(law)?;
+    let area = match law {
+        Law::Film { area, .. } => Some(at.get(Field::Area, area)?),
+        Law::Radiation(exchange) => match &**exchange {
+            Exchange::Surfaces { area, view_factor, .. } => {
+                Some(at.get(Field::Area, area)? * at.get(Field::ViewFactor, view_factor)?)
+            }
+            Exchange::Area(_) => None,
+        },
+        _ => None,
+    };
+    if conductance.is_finite() && conductance >= 0.0 {
+        return Ok(Surface { conductance, area });
+    }
+    let field = law.parts().first().map_or(Field::Conductance, |(field, _)| *field);
+    Err((field, InputProblem::NegativeConductance(conductance)))
+}

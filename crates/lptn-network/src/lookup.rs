@@ -1,0 +1,71 @@
+//! What a builder holds so far, by name and by number.
+
+use crate::builder::NetworkBuilder;
+use crate::id::{End, Item, NodeId};
+use crate::value::Value;
+
+impl NetworkBuilder {
+    /// What has this name among the nodes, boundaries and elements added so far; the first, if several have it.
+    pub fn item(&self, name: &str) -> Option<Item> {
+        self.parts.item(name)
+    }
+
+    /// The node or boundary of this name.
+    pub fn end(&self, name: &str) -> Option<End> {
+        match self.item(name)? {
+            Item::Node(id) => Some(End::Node(id)),
+            Item::Boundary(id) => Some(End::Boundary(id)),
+            _ => None,
+        }
+    }
+
+    /// The names of all nodes, and of all boundaries unless only nodes are asked for.
+    pub fn end_names(&self, only_nodes: bool) -> impl Iterator<Item = &str> {
+        let nodes = self.parts.nodes.iter().map(|node| node.name.as_str());
+        let boundaries = self.parts.boundaries.iter().map(|boundary| boundary.name.as_str());
+        nodes.chain(boundaries.filter(move |_| !only_nodes))
+    }
+
+    /// Whether it is a part of a grid or of a path to a face.
+    pub fn is_part(&self, item: Item) -> bool {
+        self.parts.whole(item).is_some()
+    }
+
+    /// Ids of the nodes added so far.
+    pub fn node_ids(&self) -> impl Iterator<Item = NodeId> + use<> {
+        (0..self.parts.nodes.len()).map(NodeId::from_len)
+    }
+
+    /// Whether a node was added as one without capacity.
+    pub fn is_massless(&self, node: NodeId) -> bool {
+        self.parts.nodes[node.index()].massless
+    }
+
+    /// Sets another temperature at the start of a node with capacity, in K.
+    pub fn start_at(&mut self, node: NodeId, temperature: crate::Temperature) {
+        let start = &mut self.parts.nodes[node.index()];
+        if !start.massless {
+            start.initial = Some(Value::Constant(temperature.0));
+        }
+    }
+
+    /// How many nodes were added.
+    pub fn node_count(&self) -> usize {
+        self.parts.nodes.len()
+    }
+
+    /// How many boundaries were added.
+    pub fn boundary_count(&self) -> usize {
+        self.parts.boundaries.len()
+    }
+
+    /// How many conductors were added.
+    pub fn conductor_count(&self) -> usize {
+        self.parts.conductors.len()
+    }
+
+    /// How many sources were added.
+    pub fn source_count(&self) -> usize {
+        self.parts.sources.len()
+    }
+}

@@ -1,0 +1,144 @@
+//! The map from the start of a cycle to its end.
+
+use lptn_assembly::ThermalSystem;
+use lptn_network::{ControlId, OutputTimes};
+
+use super::error::PeriodicError;
+use super::secants::Shot;
+use crate::events::{ControlState, Event, EventKind};
+use crate::settings::{Control, Progress, Record, Transient};
+use crate::solution::{End, Solution};
+use crate::state::State;
+
+/// What watches and may interrupt.
+pub(super) type Observer<'a> = dyn FnMut(Progress) -> Control + 'a;
+
+/// Integrates cycles and counts them.
+pub(super) struct Cycles<'a> {
+    pub(super) system: &'a ThermalSystem,
+    settings: &'a Transient,
+    observer: &'a mut Observer<'a>,
+    /// Cycles integrated to their end.
+    pub(super) count: usize,
+    /// Steps of the integrator in all of them.
+    pub(super) steps: u64,
+    /// Evaluations of the heat flows in all of them.
+    pub(super) flow_evaluations: u64,
+    /// Start less end of the last cycle in K.
+    last: Option<f64>,
+    /// Where the controls stand when the next cycle begins.
+    controls: Vec<ControlState>,
+    /// Whether they stood there too at the start of the last one, and everything switched as in the cycle before it.
+    pub(super) repeats: bool,
+    /// Whether they then had as long to stay as they are.
+    pub(super) same_times: bool,
+    /// What switched in the last cycle, in order.
+    switched: Vec<(EventKind, u8)>,
+}
+
+impl<'a> Cycles<'a> {
+    pub(super) fn new(
+        system: &'a ThermalSystem,
+        settings: &'a Transient,
+        observer: &'a mut Observer<'a>,
+    ) -> Self {
+        let repeats = !system.network().has_events();
+        let (controls, switched) = (settings.controls.clone(), Vec::new());
+        Self {
+            system,
+            settings,
+            observer,
+            count: 0,
+            steps: 0,
+            flow_evaluations: 0,
+            last: None,
+            controls,
+            repeats,
+            same_times: repeats,
+            switched,
+        }
+    }
+
+    /// Start and length of the cycle in s.
+    pub(super) fn span(&self) -> (f64, f64) {
+        (self.settings.start, self.settings.stop - self.settings.start)
+    }
+
+    /// Integrates one cycle to a tolerance in K and keeps nothing but its end.
+    pub(super) fn shoot(&mut self, start: Vec<f64>, tolerance: f64) -> Result<Shot, PeriodicError> {
+        self.run(&self.bare(tolerance), start).map(|(shot, _)| shot)
+    }
+
+    /// The cycle from the network's own start, with its ledger.
+    pub(super) fn first(&mut self) -> Result<Solution, PeriodicError> {
+        let bare = self.bare(self.settings.tolerance);
+        self.run(&bare, self.system.initial()).map(|(_, solution)| solution)
+    }
+
+    fn bare(&self, tolerance: f64) -> Transient {
+        Transient {
+            output: OutputTimes::At(Vec::new()),
+            record: Record::Nodes(Vec::new()),
+            watch: Vec::new(),
+            windows: Vec::new(),
+            balance: None,
+            tolerance,
+            ..self.settings.clone()
+        }
+    }
+
+    /// Integrates one cycle as it was asked for, but to this tolerance in K.
+    pub(super) fn record(
+        &mut self,
+        start: Vec<f64>,
+        tolerance: f64,
+    ) -> Result<(Shot, Solution), PeriodicError> {
+        self.run(&Transient { tolerance, ..self.settings.clone() }, start)
+    }
+
+    fn run(&mut self, settings: &Transient, start: Vec<f64>) -> Result<(Shot, Solution), PeriodicError> {
+        let from = State::of_carried(start);
+        let settings = &Transient { controls: self.controls.clone(), ..settings.clone() };
+        let solution =
+            settings.solve_from(self.system, &from, self.observer).map_err(PeriodicError::Cycle)?;
+        self.steps += solution.statistics().steps;
+        self.flow_evaluations += solution.statistics().flow_evaluations;
+        if let End::Interrupted(_) = solution.end() {
+            return Err(PeriodicError::Interrupted { cycles: self.count, residual: self.last });
+        }
+        self.count += 1;
+        if self.system.network().has_events() {
+            self.compare(settings, &solution);
+        }
+        let (start, end) = (from.carried().to_vec(), solution.last_state().carried().to_vec());
+        let shot = Shot { start, end, noise: settings.tolerance };
+        self.last = Some(shot.residual());
+        Ok((shot, solution))
+    }
+
+    /// Whether controls end where they began, with as long to stay there, and what switched is what did before.
+    fn compare(&mut self, settings: &Transient, solution: &Solution) {
+        let (network, period) = (self.system.network(), settings.stop - settings.start);
+        let back = |state: &ControlState| ControlState { since: state.since - period, ..*state };
+        let next: Vec<ControlState> = solution.controls().iter().map(back).collect();
+        // what is left of the time for which each has to stay
+        let rest = |(id, state): (ControlId, &ControlState)| {
+            (state.since + network.min_dwell(id) - settings.start).max(0.0)
+        };
+        let stays =
+            |states: &[ControlState]| -> Vec<f64> { network.control_ids().zip(states).map(rest).collect() };
+        let (before, after) = (stays(&self.controls), stays(&next));
+        let long =
+            before.iter().zip(&after).all(|(a, b)| (a - b).abs() <= SAME_TIME * settings.tolerance * period);
+        let on = |states: &[ControlState]| -> Vec<bool> { states.iter().map(|state| state.on).collect() };
+        let limit = |event: &&Event| !matches!(event.kind, EventKind::Limit(_));
+        let switched: Vec<(EventKind, u8)> =
+            solution.events().iter().filter(limit).map(|event| (event.kind, event.after)).collect();
+        self.same_times = long;
+        self.repeats = on(&self.controls) == on(&next) && switched == self.switched;
+        (self.controls, self.switched) = (next, switched);
+    }
+}
+
+/// Times of controls are the same that differ by this part of a cycle for each K of tolerance.
+const SAME_TIME: f64 = 0.1;

@@ -1,0 +1,173 @@
+//! The periodic state of a repeating cycle, by shooting: the start of a cycle that is its end as well.
+
+mod cycle;
+mod error;
+mod memory;
+mod search;
+mod secants;
+
+use lptn_assembly::ThermalSystem;
+
+use crate::adiabatic::Island;
+use crate::exact::ExactCycle;
+use crate::settings::{Control, Progress, Transient};
+use crate::solution::Solution;
+use crate::state::State;
+use cycle::{Cycles, Observer};
+pub use error::PeriodicError;
+use search::{Found, Search};
+
+/// How a periodic state was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// In closed form, mode by mode: a linear network.
+    Modes,
+    /// By accelerated cycles.
+    Shooting,
+    /// Without a search: the network has no state.
+    Stateless,
+}
+
+/// The cycle of a network that has settled.
+#[derive(Clone, Debug)]
+pub struct Periodic {
+    /// The state at the start of the cycle.
+    pub state: State,
+    /// The cycle from there on, as the settings asked for.
+    pub solution: Solution,
+    /// How it was found.
+    pub method: Method,
+    /// Cycles that were integrated, that of the solution included.
+    pub cycles: usize,
+    /// Steps of the integrator in all cycles.
+    pub steps: u64,
+    /// Evaluations of the heat flows in all cycles.
+    pub flow_evaluations: u64,
+    /// The largest difference in K between the start of the cycle and its end, as integrated, of what is carried (see
+    /// [`State`]).
+    pub residual: f64,
+    /// The largest part of a disturbance that one cycle leaves over, from 0 to 1; for a network that is not linear an
+    /// estimate, the larger one of what the cycles integrated show and of what the slowest time constant of its balances,
+    /// as they are at the start and in the middle of the cycle, makes of it. `None` without states, or where nothing forgets.
+    pub multiplier: Option<f64>,
+    /// By how much in K the state may differ from one that repeats itself exactly. By modes: rounding, and series in
+    /// place of inputs. By shooting: residual and rounding over `1 - multiplier`, what all later cycles would add up to if the slowest
+    /// part of the network had all of the residual. The error of the integration, ten tolerances, comes on top.
+    pub error: f64,
+}
+
+impl Periodic {
+    /// The periodic state of a network whose inputs repeat after `settings.stop - settings.start`, and the cycle from
+    /// there on.
+    ///
+    /// A linear network of up to 2000 nodes is solved in closed form. Others are integrated cycle by cycle from the
+    /// network's own start (which a network with several periodic states leads to one of them), coarsely at first, each
+    /// cycle beginning where those before it make the next difference smallest; until the error is below ten
+    /// tolerances, or the residual is and comes no further.
+    ///
+    /// # Errors
+    /// [`PeriodicError`].
+    pub fn find(system: &ThermalSystem, settings: &Transient) -> Result<Self, PeriodicError> {
+        Self::find_observed(system, settings, &mut |_| Control::Continue)
+    }
+
+    /// As [`Periodic::find`], with an observer that is called after every step of every cycle and may interrupt.
+    ///
+    /// # Errors
+    /// As [`Periodic::find`].
+    pub fn find_observed(
+        system: &ThermalSystem,
+        settings: &Transient,
+        observer: &mut dyn FnMut(Progress) -> Control,
+    ) -> Result<Self, PeriodicError> {
+        settings.check().map_err(|e| PeriodicError::Cycle(crate::error::TransientError::Settings(e)))?;
+        let (network, period) = (system.network(), settings.stop - settings.start);
+        let repeats = network.check_period(settings.start, period).map_err(PeriodicError::Input)?;
+        repeats.map_err(PeriodicError::NotPeriodic)?;
+        let mut observer = |progress: Progress| observer(progress);
+        let observer: &mut Observer<'_> = &mut observer;
+        let mut cycles = Cycles::new(system, settings, observer);
+        if system.states().is_empty() {
+            let (_, solution) = cycles.record(Vec::new(), settings.tolerance)?;
+            return Ok(Self::stateless(solution));
+        }
+        check_balance(&mut cycles)?;
+        let exact = if system.is_linear() && !network.has_events() { exact(system, settings) } else { None };
+        let method = if exact.is_some() { Method::Modes } else { Method::Shooting };
+        let found = match exact {
+            Some((start, exact)) => by_modes(&mut cycles, start, (&exact, settings.tolerance))?,
+            None => Search::new(&mut cycles, settings.tolerance).find(system.initial())?,
+        };
+        Ok(Self::of(found, method, &cycles))
+    }
+
+    fn of(found: Found, method: Method, cycles: &Cycles<'_>) -> Self {
+        Self {
+            residual: found.shot.residual(),
+            state: State::of_carried(found.shot.start),
+            solution: found.solution,
+            method,
+            cycles: cycles.count,
+            steps: cycles.steps,
+            flow_evaluations: cycles.flow_evaluations,
+            multiplier: found.multiplier,
+            error: found.error,
+        }
+    }
+
+    fn stateless(solution: Solution) -> Self {
+        Self {
+            state: State::of_carried(Vec::new()),
+            solution,
+            method: Method::Stateless,
+            cycles: 1,
+            steps: 0,
+            flow_evaluations: 0,
+            residual: 0.0,
+            multiplier: None,
+            error: 0.0,
+        }
+    }
+}
+
+/// A linear network in closed form; `None` where it is too large for that, or its inputs are.
+fn exact(system: &ThermalSystem, settings: &Transient) -> Option<(Vec<f64>, ExactCycle)> {
+    let period = settings.stop - settings.start;
+    let exact = ExactCycle::solve(system.network(), settings.start, period).ok()?;
+    let start = State::of_temperatures(system, &exact.temperatures).ok()?;
+    let usable = start.carried().iter().all(|y| y.is_finite());
+    usable.then(|| (start.carried().to_vec(), exact))
+}
+
+/// The cycle is integrated from the state in closed form: its end tells whether both agree.
+fn by_modes(
+    cycles: &mut Cycles<'_>,
+    start: Vec<f64>,
+    (exact, tolerance): (&ExactCycle, f64),
+) -> Result<Found, PeriodicError> {
+    let (shot, solution) = cycles.record(start, tolerance)?;
+    let forgets = exact.multiplier > 0.0;
+    Ok(Found { shot, solution, multiplier: forgets.then_some(exact.multiplier), error: exact.error })
+}
+
+/// Heat that a cycle leaves in nodes without a way out is real if it is so many times what the books leave open.
+const REAL: f64 = 10.0;
+
+/// Refuses nodes that lead to no boundary and that a cycle does not leave with the heat they had.
+fn check_balance(cycles: &mut Cycles<'_>) -> Result<(), PeriodicError> {
+    let islands = Island::all_of(cycles.system);
+    if islands.is_empty() {
+        return Ok(());
+    }
+    let solution = cycles.first()?;
+    let ledger = solution.ledger();
+    for Island { nodes, .. } in islands {
+        let heat: f64 = nodes.iter().map(|id| ledger.stored[id.index()]).sum();
+        if heat.abs() > REAL * ledger.bound * ledger.turned_over {
+            let network = cycles.system.network();
+            let names = nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
+            return Err(PeriodicError::NoBalance { nodes, names, heat });
+        }
+    }
+    Ok(())
+}

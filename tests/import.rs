@@ -1,0 +1,122 @@
+//! A network from CSV files is the network that TOML writes: the same bits of every result.
+
+use std::fmt::Write as _;
+use std::io::{Error, ErrorKind};
+use std::path::Path;
+
+use lptn::netlist::{Netlist, parse_with};
+use lptn::network::End;
+use lptn::prelude::*;
+
+const SIDE: usize = 7;
+
+/// Numbers that are no round ones, one for each element: the fractions of multiples of the golden ratio.
+fn spread(k: usize) -> f64 {
+    (k as f64 * 0.618_033_988_749_895).fract() + 0.05
+}
+
+/// A plate with a junction in every fifth cell, as rows of its four files.
+#[derive(Default)]
+struct Plate {
+    nodes: Vec<(String, Option<f64>)>,
+    conductors: Vec<(String, String, f64)>,
+    sources: Vec<(String, f64)>,
+}
+
+fn plate() -> Plate {
+    let mut plate = Plate::default();
+    for k in 0..SIDE * SIDE {
+        plate.nodes.push((format!("n{k}"), (k % 5 != 0).then(|| 1.0 + spread(k))));
+        if k % SIDE + 1 < SIDE {
+            plate.conductors.push((format!("n{k}"), format!("n{}", k + 1), spread(3 * k)));
+        }
+        if k + SIDE < SIDE * SIDE {
+            plate.conductors.push((format!("n{}", k + SIDE), format!("n{k}"), spread(3 * k + 1)));
+        }
+        plate.conductors.push((format!("n{k}"), "air".into(), 0.1 * spread(3 * k + 2)));
+        if k % 3 == 0 {
+            plate.sources.push((format!("n{k}"), 10.0 * spread(k)));
+        }
+    }
+    plate
+}
+
+const RUN: &str = "[run]\nstop = \"20 s\"\noutput = { every = \"0.5 s\" }\n";
+
+fn toml() -> Netlist {
+    let (plate, mut text) = (plate(), "format = 1\n[default]\nT0 = \"20 degC\"\n[node]\n".to_owned());
+    for (name, capacity) in &plate.nodes {
+        let _ = match capacity {
+            Some(c) => writeln!(text, "{name} = {{ C = \"{c} J/K\" }}"),
+            None => writeln!(text, "{name} = {{ massless = true }}"),
+        };
+    }
+    text += "[boundary]\nair = { T = \"18.5 degC\" }\n[resistor]\n";
+    for (i, (from, to, g)) in plate.conductors.iter().enumerate() {
+        let _ = writeln!(text, "r{i} = {{ from = \"{from}\", to = \"{to}\", G = \"{g} W/K\" }}");
+    }
+    text += "[source]\n";
+    for (i, (into, power)) in plate.sources.iter().enumerate() {
+        let _ = writeln!(text, "s{i} = {{ into = \"{into}\", P = \"{power} W\" }}");
+    }
+    parse_with("plate.toml", &(text + RUN), &mut |_| Err(Error::from(ErrorKind::NotFound))).expect("it reads")
+}
+
+fn csv() -> Netlist {
+    let plate = plate();
+    let mut nodes = "name,C [J/K],T0 [degC]\n".to_owned();
+    for (name, capacity) in &plate.nodes {
+        let _ = writeln!(nodes, "{name},{},20", capacity.map_or(String::new(), |c| c.to_string()));
+    }
+    let mut conductors = "from,to,G [W/K]\n".to_owned();
+    plate.conductors.iter().for_each(|(from, to, g)| {
+        let _ = writeln!(conductors, "{from},{to},{g}");
+    });
+    let mut sources = "into,P [W]\n".to_owned();
+    plate.sources.iter().for_each(|(into, power)| {
+        let _ = writeln!(sources, "{into},{power}");
+    });
+    let main = "format = 1\n[import]\nnodes = \"n.csv\"\nboundaries = \"b.csv\"\nconductors = \"c.csv\"\n\
+                sources = \"s.csv\"\n";
+    parse_with("plate.toml", &format!("{main}{RUN}"), &mut |path: &Path| match path.to_str() {
+        Some("n.csv") => Ok(nodes.clone().into_bytes()),
+        Some("b.csv") => Ok(b"name,T [degC]\nair,18.5\n".to_vec()),
+        Some("c.csv") => Ok(conductors.clone().into_bytes()),
+        Some("s.csv") => Ok(sources.clone().into_bytes()),
+        _ => Err(Error::from(ErrorKind::NotFound)),
+    })
+    .expect("it reads")
+}
+
+fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|value| value.to_bits()).collect()
+}
+
+#[test]
+fn an_import_equals_the_same_network_in_toml_to_the_bit() {
+    let (toml, csv) = (toml(), csv());
+    let (a, b) = (&toml.network, &csv.network);
+    assert_eq!((a.nodes().len(), a.conductors().len()), (b.nodes().len(), b.conductors().len()));
+    let ends = |c: &lptn::network::Conductor| [c.from, c.to];
+    let all = |network: &Network| network.conductors().iter().flat_map(ends).collect::<Vec<End>>();
+    assert_eq!(all(a), all(b));
+    let systems = [a, b].map(|network| ThermalSystem::assemble(network).expect("it assembles"));
+    let [steady_a, steady_b] =
+        [&systems[0], &systems[1]].map(|s| SteadyState::solve(s, 0.0).expect("it rests"));
+    assert_eq!(bits(&steady_a.temperatures), bits(&steady_b.temperatures));
+    assert_eq!(bits(&steady_a.conductor_heat), bits(&steady_b.conductor_heat));
+    let run = |system: &ThermalSystem| {
+        let solution = Transient::until(Time(20.0)).every(Time(0.5)).solve(system).expect("it runs");
+        (0..solution.times().len()).flat_map(|row| bits(solution.row(row))).collect::<Vec<u64>>()
+    };
+    assert_eq!(run(&systems[0]), run(&systems[1]));
+}
+
+#[test]
+fn an_import_repeats_to_the_bit() {
+    let steady = || {
+        let system = ThermalSystem::assemble(&csv().network).expect("it assembles");
+        bits(&SteadyState::solve(&system, 0.0).expect("it rests").temperatures)
+    };
+    assert_eq!(steady(), steady());
+}
