@@ -13,6 +13,7 @@ mod pattern;
 mod radiation;
 mod switching;
 mod system;
+mod tangent;
 mod workspace;
 
 pub use element::Form;

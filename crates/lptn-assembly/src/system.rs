@@ -139,6 +139,10 @@ impl ThermalSystem {
         &self.pattern
     }
 
+    pub(crate) fn elimination(&self) -> &Elimination {
+        &self.elimination
+    }
+
     /// A workspace for this system.
     pub fn workspace(&self) -> Workspace {
         Workspace::new(&self.network)

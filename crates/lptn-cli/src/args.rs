@@ -9,6 +9,8 @@ use lptn_study::SortKey;
 
 use crate::choice::one_of;
 use crate::cycle_args::CycleArgs;
+use crate::fit::FitArgs;
+use crate::uncertainty_args::UncertaintyArgs;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -75,7 +77,7 @@ Examples:
   lptn materials steel_8620
   lptn materials --format csv > materials.csv";
 
-const TEMPLATE: &str = "{before-help}{about-with-newline}\n{usage-heading} {usage}\n\n{all-args}";
+pub(crate) const TEMPLATE: &str = "{before-help}{about-with-newline}\n{usage-heading} {usage}\n\n{all-args}";
 
 /// Simulates lumped-parameter thermal networks
 #[derive(Debug, Parser)]
@@ -133,6 +135,9 @@ pub(crate) enum Verb {
     /// Find the cooling, or the value of a parameter, that keeps a limit
     #[command(before_help = SIZE_EXAMPLES, help_template = TEMPLATE)]
     Size(SizeArgs),
+    /// Take time constants, resistances and heat from measured records
+    #[command(help_template = TEMPLATE)]
+    Fit(FitArgs),
     /// Replace a network by one node, and say how wrong that is
     #[command(before_help = REDUCE_EXAMPLES, help_template = TEMPLATE)]
     Reduce(ReduceArgs),
@@ -201,6 +206,8 @@ pub(crate) struct RunArgs {
     /// Write no files
     #[arg(long)]
     pub(crate) no_files: bool,
+    #[command(flatten)]
+    pub(crate) uncertainty: UncertaintyArgs,
 }
 
 #[derive(Debug, Arguments)]

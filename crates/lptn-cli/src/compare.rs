@@ -132,7 +132,7 @@ enum NoResult {
 /// Every candidate, with progress on a terminal; after Ctrl-C those that were finished by then.
 fn evaluate_all(loaded: &[Loaded], threads: usize, console: &Console) -> Vec<Result<Candidate, NoResult>> {
     let interrupt = Interrupt::listen();
-    let progress = ProgressOfAll::new(console.quiet, loaded.len());
+    let progress = ProgressOfAll::new(console.quiet, loaded.len(), "candidates");
     let numbered: Vec<(usize, &Loaded)> = loaded.iter().enumerate().collect();
     let done = in_parallel(&numbered, threads, |&(number, loaded)| {
         let outcome = evaluate(loaded, &interrupt, &mut |step| progress.update(number, step));

@@ -66,6 +66,8 @@ fn cannot_read(name: &str, error: &std::io::Error, help: Option<String>) -> Fail
 
 /// The file of the same folder whose name is nearest.
 fn similar(file: &Path) -> Option<String> {
+    let record = file.extension().is_some_and(|ending| ending == "csv");
+    let ending = if record { ".csv" } else { ".toml" };
     let with_ending = file.with_extension("toml");
     if file.extension().is_none() && with_ending.is_file() {
         return Some(format!("did you mean {}?", with_ending.display()));
@@ -73,13 +75,13 @@ fn similar(file: &Path) -> Option<String> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
     let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
     let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    let mut names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
+    let mut names: Vec<String> = names.filter(|name| name.ends_with(ending)).collect();
     names.sort_unstable();
     // the ending, which all of them share, makes no two names alike
     let wanted = file.file_stem()?.to_str()?;
-    let mut stems = names.iter().filter_map(|name| name.strip_suffix(".toml"));
+    let mut stems = names.iter().filter_map(|name| name.strip_suffix(ending));
     let same = stems.clone().find(|stem| *stem == wanted);
-    let near = format!("{}.toml", same.or_else(|| suggest(wanted, &mut stems))?);
+    let near = format!("{}{ending}", same.or_else(|| suggest(wanted, &mut stems))?);
     let near = folder.map_or_else(|| near.clone().into(), |folder| folder.join(&near));
     Some(format!("did you mean {}?", near.display()))
 }
@@ -158,12 +160,19 @@ pub(crate) fn tolerance(text: &str) -> Result<f64, Failure> {
 
 /// The unit for temperatures: that of the command line, or that of the netlist.
 pub(crate) fn temperature_unit(text: Option<&str>, netlist: &Netlist) -> Result<Unit, Failure> {
-    const OPTION: &str = "--temperature-unit";
-    let (name, unit) = match text {
-        Some(text) => (OPTION, Unit::parse(text).map_err(|error| wrong_unit(OPTION, text, &error))?),
-        None => ("temperature_unit", netlist.temperature_unit.clone()),
-    };
-    scale(&unit).ok_or_else(|| {
+    match text {
+        Some(text) => scale_of("--temperature-unit", text),
+        None => checked("temperature_unit", &netlist.temperature_unit),
+    }
+}
+
+/// The scale of temperature that an option names.
+pub(crate) fn scale_of(option: &str, text: &str) -> Result<Unit, Failure> {
+    checked(option, &Unit::parse(text).map_err(|error| wrong_unit(option, text, &error))?)
+}
+
+fn checked(name: &str, unit: &Unit) -> Result<Unit, Failure> {
+    scale(unit).ok_or_else(|| {
         let message = format!("{name} must be a temperature scale, got `{}`", unit.text);
         let problem = Diagnostic::error("units::dimension", message);
         Failure::new(Exit::Input, problem.help("choose degC, K, degF or degR"))

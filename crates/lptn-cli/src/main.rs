@@ -20,6 +20,7 @@ mod events;
 mod exit;
 mod failure;
 mod files;
+mod fit;
 mod gaps;
 mod input;
 mod interrupt;
@@ -47,6 +48,10 @@ mod state;
 mod steady;
 mod summary;
 mod summary_text;
+mod uncertainty;
+mod uncertainty_args;
+mod uncertainty_files;
+mod uncertainty_text;
 mod units;
 mod verify;
 mod window_text;
@@ -86,6 +91,7 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
         Some(Verb::Verify(args)) => verify::verify(args, console),
         Some(Verb::Compare(args)) => compare::compare(args, console),
         Some(Verb::Size(args)) => size::size(args, console),
+        Some(Verb::Fit(args)) => fit::fit(args, console),
         Some(Verb::Reduce(args)) => reduce::reduce(args, console),
         Some(Verb::New(args)) => new::new(args, console),
         Some(Verb::Units(args)) => units::units(args, console),

@@ -19,7 +19,11 @@ use crate::gaps::gaps;
 use crate::limits::{self, Judged};
 use crate::run::{Job, NoSteady};
 use crate::summary::View;
-use crate::{balance, diagnostics, events, lumping, next, select, state, summary_text, window_text};
+use crate::uncertainty::Study;
+use crate::{
+    balance, diagnostics, events, lumping, next, select, state, summary_text, uncertainty, uncertainty_files,
+    window_text,
+};
 
 /// What came of it.
 pub(crate) struct Outcome<'a> {
@@ -31,18 +35,22 @@ pub(crate) struct Outcome<'a> {
     /// Why the run broke off.
     pub(crate) failure: Option<Diagnostic>,
     pub(crate) wall_time: f64,
+    /// How sure it is, where that was asked.
+    pub(crate) uncertainty: Option<Result<Study, Failure>>,
 }
 
 const RESULT: &str = "result.csv";
 const STATE: &str = "state.json";
 const EVENTS: &str = "events.csv";
 const WINDOWS: &str = "windows.csv";
+const UNCERTAINTY: &str = "uncertainty.csv";
+const RANKING: &str = "ranking.csv";
 const MANIFEST: &str = "manifest.json";
 
 impl Outcome<'_> {
     /// Writes the files; a manifest never stands beside results that are not its own.
     pub(crate) fn write(&self, set: &[String], folder: &Folder, table: &Table) -> Result<(), Failure> {
-        folder.clear(&[MANIFEST, EVENTS, WINDOWS, STATE]);
+        folder.clear(&[MANIFEST, EVENTS, WINDOWS, STATE, UNCERTAINTY, RANKING]);
         let mut results = vec![folder.write(RESULT, |out| write_csv(table, out))?];
         let state = state::of(self.job.input, &self.solution);
         results.push(folder.write(STATE, |out| state.write(out))?);
@@ -52,6 +60,13 @@ impl Outcome<'_> {
         if !windows.is_empty() {
             let rows = window_text::rows(windows, &self.job.unit);
             results.push(folder.write(WINDOWS, |out| write_rows(&rows, out))?);
+        }
+        if let Some(study) = self.uncertainty() {
+            let network = self.solution.network();
+            let bands = uncertainty_files::bands(network, &study.found, &self.job.unit);
+            results.push(folder.write(UNCERTAINTY, |out| write_csv(&bands, out))?);
+            let ranking = uncertainty_files::ranking(network, &study.found);
+            results.push(folder.write(RANKING, |out| write_csv(&ranking, out))?);
         }
         let manifest = self.manifest(set, results);
         folder.write(MANIFEST, |out| out.write_all(manifest.text()?.as_bytes())).map(drop)
@@ -78,6 +93,12 @@ impl Outcome<'_> {
             statistics: StatisticsRecord::new(&self.solution),
             ledger: self.ledger(),
             limits: limits::members(self.solution.network(), &self.limits()),
+            uncertainty: self.uncertainty().map(|study| {
+                let mut members = uncertainty_files::method(&study.found);
+                let parameters = uncertainty_files::parameters(self.solution.network(), &study.found);
+                members.insert("parameters".into(), parameters);
+                Value::Object(members)
+            }),
             results,
             environment: Environment {
                 written: lptn_study::utc(std::time::SystemTime::now()),
@@ -99,6 +120,11 @@ impl Outcome<'_> {
             ParameterRecord { name: parameter.name.clone(), value, unit, set: set(&parameter.name) }.member()
         };
         network.parameters().iter().zip(network.parameter_ids()).map(record).collect()
+    }
+
+    /// How sure the result is, where that was asked and is known.
+    fn uncertainty(&self) -> Option<&Study> {
+        self.uncertainty.as_ref()?.as_ref().ok()
     }
 
     /// How the limits fared.
@@ -134,12 +160,20 @@ impl Outcome<'_> {
                     unit: &self.job.unit,
                     settings: &self.job.settings,
                     limits: &self.limits(),
+                    uncertainty: self.uncertainty(),
                     table,
                     chosen: self.job.chosen,
                 };
                 console.print(&summary_text::summary(&view, console)).map(drop)
             }
-            Format::Csv => console.write(|out| write_csv(table, out)),
+            Format::Csv => match self.uncertainty() {
+                Some(study) => {
+                    let bands =
+                        uncertainty_files::bands(self.solution.network(), &study.found, &self.job.unit);
+                    console.write(|out| write_csv(&bands, out))
+                }
+                None => console.write(|out| write_csv(table, out)),
+            },
             Format::Json => console.write(|out| self.json(table, out)),
         }
     }
@@ -147,7 +181,9 @@ impl Outcome<'_> {
     /// What the rows show to be wrong with reports, and with nodes that are no lumps.
     fn found(&self, table: &Table) -> Vec<Diagnostic> {
         let netlist = &self.job.input.netlist;
-        gaps(netlist, table).into_iter().chain(lumping::warnings(netlist, &self.lumping)).collect()
+        let certain = self.uncertainty().map_or_else(Vec::new, |_| uncertainty::elsewhere(netlist));
+        let lumps = lumping::warnings(netlist, &self.lumping);
+        gaps(netlist, table).into_iter().chain(lumps).chain(certain).collect()
     }
 
     /// What a reader should know of the numbers; the table says it in its notes.
@@ -176,6 +212,9 @@ impl Outcome<'_> {
             let limits = limits::members(self.solution.network(), &self.limits());
             json.member("limits", &Value::Object(limits))?;
         }
+        if let Some(study) = self.uncertainty() {
+            json.member("uncertainty", &uncertainty_files::json(self.solution.network(), study))?;
+        }
         if !self.job.settings.windows.is_empty() {
             json.member("windows", &Value::Object(window_text::members(self.solution.windows())))?;
         }
@@ -198,7 +237,8 @@ impl Outcome<'_> {
             let took = duration(self.wall_time, 2);
             let rows = table.rows();
             let windows = if self.solution.windows().is_empty() { "" } else { ", windows.csv" };
-            let files = format!("{}, {EVENTS}{windows}, {STATE}, {MANIFEST}", path.display());
+            let bands = if self.uncertainty().is_some() { ", uncertainty.csv, ranking.csv" } else { "" };
+            let files = format!("{}{bands}, {EVENTS}{windows}, {STATE}, {MANIFEST}", path.display());
             let mut words: Vec<String> = files.split(' ').map(str::to_owned).collect();
             words.push(format!("({rows} rows, solved in {took})"));
             console.note(&labelled("wrote  ", &words, WIDTH).join("\n"));
@@ -236,6 +276,10 @@ impl Outcome<'_> {
             let problem = does_not_close(&self.solution);
             console.report(&self.job.input.netlist.files, &[problem]);
             return Exit::Failed;
+        }
+        if let Some(Err(failure)) = &self.uncertainty {
+            console.report(&failure.files, &failure.diagnostics);
+            return failure.exit;
         }
         let (netlist, unit) = (&self.job.input.netlist, &self.job.unit);
         limits::conclude(&limits::Judgement { netlist, unit, limits: &self.limits() }, console)

@@ -54,7 +54,9 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
     let wall_time = begun.elapsed().as_secs_f64();
     let solution = found.solution.clone();
     let lumping = Lumping::of_run(&solution);
-    let outcome = Outcome { job, steady: Err(NoSteady::Inputs), solution, lumping, failure: None, wall_time };
+    let (failure, uncertainty) = (None, None);
+    let steady = Err(NoSteady::Inputs);
+    let outcome = Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty };
     let table = Table::of_solution(&outcome.solution, &outcome.job.selection, &outcome.job.unit);
     let view = View { outcome: &outcome, found: &found, table: &table };
     if let Some(folder) = &folder {

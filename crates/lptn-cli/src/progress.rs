@@ -77,13 +77,15 @@ pub(crate) struct ProgressOfAll {
     /// The line, and the part of each run that is done.
     state: Mutex<(ProgressLine, Vec<f64>)>,
     wanted: bool,
+    /// What they are, in the plural.
+    noun: &'static str,
 }
 
 impl ProgressOfAll {
-    pub(crate) fn new(quiet: bool, runs: usize) -> Self {
+    pub(crate) fn new(quiet: bool, runs: usize, noun: &'static str) -> Self {
         let line = ProgressLine::new(quiet);
         let wanted = line.wanted;
-        Self { state: Mutex::new((line, vec![0.0; runs])), wanted }
+        Self { state: Mutex::new((line, vec![0.0; runs])), wanted, noun }
     }
 
     /// One run is so far. It never waits for another one: the next step says more.
@@ -94,20 +96,25 @@ impl ProgressOfAll {
         let Ok(mut state) = self.state.try_lock() else { return };
         let (line, parts) = &mut *state;
         parts[run] = share(progress);
-        line.show(|| {
-            let done = parts.iter().filter(|part| **part >= 1.0).count();
-            let all: f64 = parts.iter().sum::<f64>() / parts.len() as f64;
-            format!("{:5.1} %  {done} of {} candidates", 100.0 * all, parts.len())
-        });
+        line.show(|| how_far(parts, self.noun));
     }
 
     /// One run is over, however it ended.
     pub(crate) fn finished(&self, run: usize) {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner).1[run] = 1.0;
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        let (line, parts) = &mut *state;
+        parts[run] = 1.0;
+        line.show(|| how_far(parts, self.noun));
     }
 
     /// Leaves the line empty for what comes next.
     pub(crate) fn clear(&self) {
         self.state.lock().unwrap_or_else(PoisonError::into_inner).0.clear();
     }
+}
+
+fn how_far(parts: &[f64], noun: &str) -> String {
+    let done = parts.iter().filter(|part| **part >= 1.0).count();
+    let all: f64 = parts.iter().sum::<f64>() / parts.len() as f64;
+    format!("{:5.1} %  {done} of {} {noun}", 100.0 * all, parts.len())
 }

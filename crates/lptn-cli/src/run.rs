@@ -21,20 +21,24 @@ use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
 use crate::outcome::Outcome;
 use crate::progress::ProgressLine;
-use crate::{balance, select, summary};
+use crate::{balance, select, summary, uncertainty};
 
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
     let job = Job::new(args, &input)?;
+    uncertainty::check(&args.uncertainty, &input.netlist)?;
     let system = input.assemble()?;
     let folder = (!args.no_files).then(|| Folder::prepare(job.folder(args))).transpose()?;
     console.warn(&input.netlist.files, &input.netlist.warnings);
     let steady = steady(&system, job.settings.start);
     let begun = Instant::now();
     let (solution, failure) = job.solve(&system, steady.as_ref().ok(), console)?;
+    // what broke off or was interrupted is not asked how sure it is
+    let whole = matches!(solution.end(), lptn_solve::End::Reached);
+    let uncertainty = if whole { uncertainty::study(&args.uncertainty, &job, console) } else { None };
     let wall_time = begun.elapsed().as_secs_f64();
     let lumping = Lumping::of_run(&solution);
-    let result = Outcome { job, steady, solution, lumping, failure, wall_time };
+    let result = Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty };
     let table = Table::of_solution(&result.solution, &result.job.selection, &result.job.unit);
     if let Some(folder) = &folder {
         result.write(&args.source.set, folder, &table)?;

@@ -85,7 +85,7 @@ fn parameter(input: &Input, study: &SizeStudy) -> Result<ParameterId, Failure> {
 }
 
 /// The unit in which the file writes the parameter, else the usual one of its type.
-fn unit(input: &Input, parameter: ParameterId) -> Unit {
+pub(crate) fn unit(input: &Input, parameter: ParameterId) -> Unit {
     let ty = input.netlist.network.parameters()[parameter.index()].ty;
     let written = input.netlist.written_number(parameter).map(|written| written.unit);
     let si = |ty: Type| Unit { text: ty.dimension.si_unit(), scale: 1.0, offset: 0.0, ty };

@@ -20,19 +20,28 @@ const DIGITS: std::ops::RangeInclusive<usize> = 6..=17;
 
 /// Refuses before anything is computed what could not be written afterwards.
 pub(crate) fn possible(input: &Input, parameter: ParameterId) -> Result<(), Failure> {
+    can_be_written(input, parameter, ["size::write", "size::write_shared"])
+}
+
+/// The same with the codes of another verb.
+pub(crate) fn can_be_written(
+    input: &Input,
+    parameter: ParameterId,
+    [code, shared]: [&'static str; 2],
+) -> Result<(), Failure> {
     let netlist = &input.netlist;
     let name = &netlist.network.parameters()[parameter.index()].name;
     let problem = if input.typed().is_none() {
-        Diagnostic::error("size::write", "there is no file to write into: the netlist came from stdin")
+        Diagnostic::error(code, "there is no file to write into: the netlist came from stdin")
     } else if is_protected(&input.text.name) {
         let message = format!("{} is protected against writing", input.text.name);
-        Diagnostic::error("size::write", message).help("allow it with `chmod u+w`, or leave `--write` out")
+        Diagnostic::error(code, message).help("allow it with `chmod u+w`, or leave `--write` out")
     } else if netlist.written_number(parameter).is_some_and(|written| !netlist.is_own(&written)) {
-        let problem = Diagnostic::error("size::write", format!("`{name}` stands in a file that is included"));
+        let problem = Diagnostic::error(code, format!("`{name}` stands in a file that is included"));
         problem.help("other netlists may include it too: change it there, or move the parameter here")
     } else if let Some(other) = netlist.written_together(parameter) {
         let message = format!("`{name}` is written once for several instances, `{other}` among them");
-        let problem = Diagnostic::error("size::write_shared", message)
+        let problem = Diagnostic::error(shared, message)
             .help("give each its own value, `set = { .. = [.., ..] }`, or make it a parameter of the file");
         match netlist.source_map.parameter(parameter) {
             Some(span) => problem.at(span.clone(), ""),
@@ -40,7 +49,7 @@ pub(crate) fn possible(input: &Input, parameter: ParameterId) -> Result<(), Fail
         }
     } else if netlist.written_number(parameter).is_none() {
         let message = format!("`{name}` is not written as a number, so no other can be written in its place");
-        let problem = Diagnostic::error("size::write", message)
+        let problem = Diagnostic::error(code, message)
             .help("give it a value of its own, for example `\"5 W/K\"`, or leave `--write` out");
         match netlist.source_map.parameter(parameter) {
             Some(span) => problem.at(span.clone(), ""),
@@ -62,6 +71,14 @@ pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Resu
         let problem = Diagnostic::error("size::write", "no number of 17 digits keeps what is required");
         return Err(Failure::new(Exit::Failed, problem));
     };
+    put(file, &text)?;
+    let unit = if answer.unit.text == "1" { String::new() } else { format!(" {}", answer.unit.text) };
+    console.note(&format!("wrote  {}: {} = {number}{unit}", file.display(), answer.study.parameter));
+    Ok(())
+}
+
+/// Replaces a netlist by another text.
+pub(crate) fn put(file: &Path, text: &str) -> Result<(), Failure> {
     // a link stays a link: what it leads to is written
     let place = std::fs::canonicalize(file).map_err(|error| cannot_write(file, &reason(&error)))?;
     let name = place.file_name().map(|name| name.to_string_lossy().into_owned());
@@ -69,10 +86,7 @@ pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Resu
         return Err(cannot_write(file, "it has no name"));
     };
     let folder = Folder::prepare(folder.to_owned()).map_err(as_it_was)?;
-    folder.write(&name, |out| out.write_all(text.as_bytes())).map_err(as_it_was)?;
-    let unit = if answer.unit.text == "1" { String::new() } else { format!(" {}", answer.unit.text) };
-    console.note(&format!("wrote  {}: {} = {number}{unit}", file.display(), answer.study.parameter));
-    Ok(())
+    folder.write(&name, |out| out.write_all(text.as_bytes())).map(drop).map_err(as_it_was)
 }
 
 /// The help of a folder is about results.

@@ -7,6 +7,7 @@ use lptn_units::Unit;
 
 use crate::limits::Judged;
 use crate::run::NoSteady;
+use crate::uncertainty::Study;
 
 /// More nodes than this do not fit on a screen.
 pub(crate) const MOST_NODES: usize = 30;
@@ -44,6 +45,7 @@ pub(crate) struct View<'a> {
     pub(crate) unit: &'a Unit,
     pub(crate) settings: &'a RunSettings,
     pub(crate) limits: &'a [Judged],
+    pub(crate) uncertainty: Option<&'a Study>,
     pub(crate) table: &'a Table,
     /// Whether columns were asked for by name.
     pub(crate) chosen: bool,

@@ -37,6 +37,8 @@ pub(crate) fn summary(view: &View<'_>, console: &Console) -> String {
         lines.extend(crate::limits::lines(network, view.limits, view.unit));
         lines.push(String::new());
     }
+    let uncertain = view.uncertainty.map(|found| crate::uncertainty_text::lines(network, found, view.unit));
+    lines.extend(uncertain.into_iter().flatten());
     lines.extend(crate::events::lines(view.solution, (view.settings.start, reached(view))));
     lines.extend(columns(view));
     lines.extend(window_text::lines(view.solution.windows(), view.unit));

@@ -10,7 +10,7 @@ use sys::{N_Vector, realtype};
 
 use crate::linear::Factorization;
 use crate::vector::{values, values_mut};
-use crate::{Callback, FactorError, IntegrateError, OdeSystem, Retry, kernels};
+use crate::{Callback, FactorError, IntegrateError, OdeSystem, Retry, kernels, vectors};
 
 /// What CVODES understands: done, try a smaller step, give up.
 pub(crate) const DONE: c_int = 0;
@@ -34,6 +34,10 @@ pub(crate) struct Shared<S> {
     pub(crate) slopes: Vec<f64>,
     /// States and algebraic unknowns during a solve; empty if there are none of the latter.
     pub(crate) work: Vec<f64>,
+    /// The sensitivities that go into a call of [`OdeSystem::sensitivity_flow`] and their flows that come out of it, the
+    /// blocks one behind the other; empty if there are none.
+    pub(crate) sensitivities: Vec<f64>,
+    pub(crate) sensitivity_flows: Vec<f64>,
     pub(crate) factors: Box<dyn Factorization>,
     /// [`OdeSystem::root_count`] as it was at the start.
     pub(crate) root_count: usize,
@@ -54,6 +58,7 @@ pub(crate) struct Counts {
     pub(crate) flow: u64,
     pub(crate) jacobian: u64,
     pub(crate) quadrature: u64,
+    pub(crate) sensitivity: u64,
     pub(crate) setups: u64,
     pub(crate) factorizations: u64,
     pub(crate) solves: u64,
@@ -154,6 +159,17 @@ impl<S: OdeSystem> Shared<S> {
         self.counts.quadrature += 1;
         self.system.quadrature(t, y, out)?;
         expect_finite(out)
+    }
+
+    /// From `sensitivities` to `sensitivity_flows`, divided by the mass.
+    fn sensitivity_flow(&mut self, t: f64, y: &[f64]) -> Result<(), Cause> {
+        self.counts.sensitivity += 1;
+        self.system.sensitivity_flow(t, y, &self.sensitivities, &mut self.sensitivity_flows)?;
+        let mass = self.system.mass();
+        for block in self.sensitivity_flows.chunks_exact_mut(y.len()) {
+            kernels::zip_in_place(block, mass, |flow, mass| flow / mass);
+        }
+        expect_finite(&self.sensitivity_flows)
     }
 
     pub(crate) fn roots(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Cause> {
@@ -279,6 +295,35 @@ pub(crate) unsafe extern "C" fn integrands<S: OdeSystem>(
     // SAFETY: as in `derivative`.
     let (shared, y, out) = unsafe { (&mut *data.cast::<Shared<S>>(), values(y), values_mut(out)) };
     shared.guard(Callback::Quadrature, t, |shared| shared.integrands(t, y, out))
+}
+
+/// The derivatives of the sensitivities by time, for CVodeSensInit.
+#[allow(clippy::too_many_arguments, reason = "the signature is CVODES'")]
+pub(crate) unsafe extern "C" fn sensitivities<S: OdeSystem>(
+    count: c_int,
+    t: realtype,
+    y: N_Vector,
+    _flow: N_Vector,
+    s: *mut N_Vector,
+    out: *mut N_Vector,
+    data: *mut c_void,
+    _work1: N_Vector,
+    _work2: N_Vector,
+) -> c_int {
+    let count = usize::try_from(count).unwrap_or(0);
+    // SAFETY: as in `derivative`; `s` and `out` are arrays of CVODES with `count` of our vectors each.
+    let (shared, y, s, out) = unsafe {
+        let shared = &mut *data.cast::<Shared<S>>();
+        (shared, values(y), slice::from_raw_parts(s, count), slice::from_raw_parts(out, count))
+    };
+    // SAFETY: nobody writes to the vectors of `s` meanwhile.
+    unsafe { vectors::gather(s, &mut shared.sensitivities) };
+    let flag = shared.guard(Callback::Sensitivity, t, |shared| shared.sensitivity_flow(t, y));
+    if flag == DONE {
+        // SAFETY: nobody else uses the vectors of `out` meanwhile; none of them is `y`.
+        unsafe { vectors::scatter(&shared.sensitivity_flows, out) };
+    }
+    flag
 }
 
 /// The functions whose roots are looked for, for CVodeRootInit.

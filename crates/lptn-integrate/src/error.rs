@@ -13,6 +13,8 @@ pub enum Callback {
     Quadrature,
     /// [`crate::OdeSystem::roots`]
     Roots,
+    /// [`crate::OdeSystem::sensitivity_flow`]
+    Sensitivity,
     /// The factorisation or the solve of the Newton system, which are not the user's code.
     LinearSolver,
 }
@@ -66,7 +68,7 @@ pub enum IntegrateError {
         /// Its value.
         value: f64,
     },
-    /// A component of a start state is not finite.
+    /// A component of a start state, or of start sensitivities, is not finite.
     InvalidState {
         /// The component.
         index: usize,
@@ -157,7 +159,7 @@ pub enum IntegrateError {
         callback: Callback,
         /// Time of the call.
         time: f64,
-        /// First component (for the Jacobian: slot) that is not finite.
+        /// First component that is not finite (for the Jacobian: slot; for sensitivities: in all blocks together).
         index: usize,
     },
     /// A callback asked for smaller steps until none was left.
@@ -211,6 +213,7 @@ impl fmt::Display for Callback {
             Self::Jacobian => "jacobian",
             Self::Quadrature => "quadrature",
             Self::Roots => "roots",
+            Self::Sensitivity => "sensitivity",
             Self::LinearSolver => "linear solver",
         })
     }

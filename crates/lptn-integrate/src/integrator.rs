@@ -2,8 +2,11 @@
 
 mod failure;
 mod roots;
+mod running;
+mod sensitivities;
 
 use roots::Roots;
+use sensitivities::Sensitivities;
 
 use crate::context::Context;
 use crate::linear_solver::SolverHandles;
@@ -41,6 +44,7 @@ pub struct Integrator<S: OdeSystem> {
     state: Vector,
     scratch: Vector,
     quadratures: Option<Vector>,
+    sensitivities: Sensitivities,
     context: Context,
     shared: SharedBox<S>,
     time: f64,
@@ -65,6 +69,7 @@ impl<S: OdeSystem> Integrator<S> {
     pub fn new(system: S, t0: f64, y0: &[f64], options: &Options) -> Result<Self, IntegrateError> {
         start::check_options(t0, options)?;
         start::check_system(&system, y0)?;
+        start::check_scales(&system, options)?;
         let context = Context::new()?;
         let mut state = Vector::new(&context, y0.len())?;
         state.as_mut_slice().copy_from_slice(y0);
@@ -73,6 +78,7 @@ impl<S: OdeSystem> Integrator<S> {
             0 => None,
             count => Some(Vector::new(&context, count)?),
         };
+        let sensitivities = Sensitivities::new(&context, &system)?;
         let symmetry = Symmetry::of(&system, options.linear_solver);
         let roots = Roots::new(system.root_count());
         let shared = SharedBox::new(start::shared(system, t0, options)?);
@@ -84,6 +90,7 @@ impl<S: OdeSystem> Integrator<S> {
             state,
             scratch,
             quadratures,
+            sensitivities,
             context,
             shared,
             time: t0,
@@ -107,6 +114,7 @@ impl<S: OdeSystem> Integrator<S> {
         if let Some(quadratures) = &self.quadratures {
             self.memory.start_quadratures::<S>(quadratures)?;
         }
+        self.start_sensitivities(options)?;
         self.start_roots()?;
         if let Some(step) = options.initial_step {
             self.memory.set_initial_step(step)?;
@@ -226,7 +234,7 @@ impl<S: OdeSystem> Integrator<S> {
         let Ok(factors) = linear::new(self.system().pattern(), false, choice) else { return false };
         self.shared.get_mut().leave_symmetry(factors);
         self.symmetry.set_switched(self.time);
-        self.read_quadratures().is_ok()
+        self.read_running().is_ok()
             && self.begin_anew().and_then(|()| self.memory.set_attempts(ATTEMPTS)).is_ok()
     }
 
@@ -279,31 +287,14 @@ impl<S: OdeSystem> Integrator<S> {
         Ok(())
     }
 
-    /// The running integrals from the start to [`time`](Self::time), restarts included; one per
-    /// [`OdeSystem::quadrature_count`].
-    ///
-    /// # Errors
-    /// [`IntegrateError::Sundials`] only.
-    pub fn quadratures(&mut self) -> Result<&[f64], IntegrateError> {
-        self.read_quadratures().map_err(|flag| self.unexpected(flag))?;
-        Ok(self.quadratures.as_ref().map_or(&[], Vector::as_slice))
-    }
-
-    fn read_quadratures(&mut self) -> Result<(), Flag> {
-        match &mut self.quadratures {
-            // Before the first step after a (re)start CVODES has no step to evaluate them in; they are as they were set.
-            Some(quadratures) if self.memory.counters().steps > 0 => self.memory.quadratures(quadratures),
-            _ => Ok(()),
-        }
-    }
-
     /// Begins anew at [`time`](Self::time), from the present state or from `y`, because `f` or the state jumps here.
-    /// The running integrals go on.
+    /// The running integrals go on, and so do the sensitivities, unless they jump too: see
+    /// [`set_sensitivities`](Self::set_sensitivities).
     ///
     /// # Errors
     /// A state of the wrong length or not finite.
     pub fn restart(&mut self, y: Option<&[f64]>) -> Result<(), IntegrateError> {
-        self.quadratures()?;
+        self.read_running().map_err(|flag| self.unexpected(flag))?;
         if let Some(y) = y {
             start::expect_length("y", self.state.as_slice().len(), y.len())?;
             start::check_state(y)?;
@@ -318,13 +309,12 @@ impl<S: OdeSystem> Integrator<S> {
         self.begin_anew().map_err(|flag| self.unexpected(flag))
     }
 
-    /// Restarts CVODES from the present state with the running integrals read last.
+    /// Restarts CVODES from the present state with the running integrals and the sensitivities read last.
     fn begin_anew(&mut self) -> Result<(), Flag> {
         let now = self.memory.counters();
         self.before = sum(&self.before, &now);
         self.from = self.time;
-        self.memory.restart(self.time, &self.state, self.quadratures.as_ref())?;
-        self.start_roots()
+        self.memory_at(self.time)
     }
 
     /// Counters since the integrator was made.
@@ -336,6 +326,7 @@ impl<S: OdeSystem> Integrator<S> {
             flow_evaluations: counts.flow,
             jacobian_evaluations: counts.jacobian,
             quadrature_evaluations: counts.quadrature,
+            sensitivity_evaluations: counts.sensitivity,
             linear_setups: counts.setups,
             factorizations: counts.factorizations,
             linear_solves: counts.solves,

@@ -1,7 +1,8 @@
 //! CVODES with own vectors and with faer as its linear solver, behind a safe interface.
 //!
 //! A system `M y' = f(t, y)` with a diagonal, positive `M` is described by the trait [`OdeSystem`]; an [`Integrator`]
-//! owns the system, steps it from one discontinuity to the next and keeps its books ([`OdeSystem::quadrature`]).
+//! owns the system, steps it from one discontinuity to the next, keeps its books ([`OdeSystem::quadrature`]) and carries
+//! the derivatives of the state by parameters along with it ([`OdeSystem::sensitivity_flow`]).
 //! Algebraic unknowns are the system's to solve; the Newton matrix holds them beside the states, see [`OdeSystem`].
 //! The crate knows nothing of what the numbers mean: "units of y" below is whatever unit the system uses.
 //!
@@ -45,6 +46,7 @@ mod statistics;
 mod symmetry;
 mod system;
 mod vector;
+mod vectors;
 mod version;
 
 pub use error::{Callback, FactorError, IntegrateError};

@@ -20,6 +20,10 @@ pub struct Options {
     /// Newton's method stops when its estimated error is below this fraction of the local tolerance; positive.
     /// `None`: a choice by linear solver that closes the books, see [`crate::Integrator`].
     pub newton_coefficient: Option<f64>,
+    /// What size each parameter of [`crate::OdeSystem::sensitivity_flow`] is of, positive, in units of `p_i`: the error
+    /// allowed in `s_i` is the tolerance over this, so that `s_i` times the scale, a change of y, is as accurate as y.
+    /// As many as there are parameters; empty: all 1.
+    pub sensitivity_scales: Vec<f64>,
 }
 
 impl Default for Options {
@@ -31,6 +35,7 @@ impl Default for Options {
             max_step_size: None,
             linear_solver: LinearSolver::Auto,
             newton_coefficient: None,
+            sensitivity_scales: Vec::new(),
         }
     }
 }

@@ -45,6 +45,7 @@ pub(crate) fn shared<S: OdeSystem>(
     let (jacobian, matrix) = (vec![0.0; slots], vec![0.0; slots]);
     let rows = system.pattern().size();
     let work = vec![0.0; if rows > system.size() { rows } else { 0 }];
+    let blocks = system.sensitivity_count() * system.size();
     let (counts, root_count) = (Counts::default(), system.root_count());
     Ok(Shared {
         system,
@@ -53,6 +54,8 @@ pub(crate) fn shared<S: OdeSystem>(
         matrix,
         slopes: Vec::new(),
         work,
+        sensitivities: vec![0.0; blocks],
+        sensitivity_flows: vec![0.0; blocks],
         factors,
         root_count,
         absolute: options.tolerance / 3.0,
@@ -76,6 +79,18 @@ pub(crate) fn check_options(t0: f64, options: &Options) -> Result<(), IntegrateE
     let usable = |value: f64| value > 0.0 && value.is_finite();
     match positive.into_iter().find_map(|(option, value)| Some((option, value.filter(|&v| !usable(v))?))) {
         Some((option, value)) => Err(IntegrateError::InvalidOption { option, value }),
+        None => Ok(()),
+    }
+}
+
+/// One positive scale per parameter, or none at all.
+pub(crate) fn check_scales(system: &impl OdeSystem, options: &Options) -> Result<(), IntegrateError> {
+    let scales = &options.sensitivity_scales;
+    if !scales.is_empty() {
+        expect_length("sensitivity_scales", system.sensitivity_count(), scales.len())?;
+    }
+    match scales.iter().find(|&&scale| !(scale > 0.0 && scale.is_finite())) {
+        Some(&value) => Err(IntegrateError::InvalidOption { option: "sensitivity_scales", value }),
         None => Ok(()),
     }
 }

@@ -11,6 +11,8 @@ pub struct Statistics {
     pub jacobian_evaluations: u64,
     /// Calls of [`crate::OdeSystem::quadrature`].
     pub quadrature_evaluations: u64,
+    /// Calls of [`crate::OdeSystem::sensitivity_flow`].
+    pub sensitivity_evaluations: u64,
     /// Times CVODE asked for a new Newton matrix.
     pub linear_setups: u64,
     /// Numerical factorisations.

@@ -54,7 +54,12 @@ impl Symmetry {
     /// Whether CVODES gave up a step for a reason that better Newton iterates may remove. All of these are counted
     /// together, so that each must be forgiven here or would end the integration sooner than without a switch.
     pub(crate) fn is_to_blame(&self, flag: &Flag) -> bool {
-        let reasons = [sys::CV_CONV_FAILURE, sys::CV_REPTD_RHSFUNC_ERR, sys::CV_REPTD_QRHSFUNC_ERR];
+        let reasons = [
+            sys::CV_CONV_FAILURE,
+            sys::CV_REPTD_RHSFUNC_ERR,
+            sys::CV_REPTD_QRHSFUNC_ERR,
+            sys::CV_REPTD_SRHSFUNC_ERR,
+        ];
         self.held && reasons.contains(&flag.value)
     }
 

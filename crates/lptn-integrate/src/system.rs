@@ -95,6 +95,35 @@ pub trait OdeSystem {
         Ok(())
     }
 
+    /// Number of parameters by which the derivatives of the state are carried along; constant.
+    fn sensitivity_count(&self) -> usize {
+        0
+    }
+
+    /// Writes the right sides of the sensitivity equations `M s_i' = g_i` with `s_i = dy/dp_i`, for all parameters at
+    /// once: `s` and `g` hold [`sensitivity_count`](Self::sensitivity_count) blocks of [`size`](Self::size) values, one
+    /// behind the other, in units of y and of f per unit of `p_i`.
+    ///
+    /// Differentiating `M y' = f` by `p_i` gives
+    ///
+    /// ```text
+    /// g_i = df/dy s_i + df/dp_i - (dM/dp_i + dM/dy s_i) y'
+    /// ```
+    ///
+    /// where `y'` is `f / M` and the last term is the system's to add, if its mass depends on a parameter or on the
+    /// state. Derivatives here must be exact, unlike those of [`jacobian`](Self::jacobian); with algebraic unknowns they
+    /// are those of `f(t, y, z(t, y, p), p)`. The last [`flow`](Self::flow) before a call was at the same `t` and `y`, so
+    /// that what it worked out may be used; other callbacks may come between.
+    ///
+    /// Source: A. C. Hindmarsh and R. Serban, *User Documentation for CVODES*, section 2.6 (forward sensitivity
+    /// analysis).
+    ///
+    /// # Errors
+    /// Whether a smaller step may help.
+    fn sensitivity_flow(&mut self, _t: f64, _y: &[f64], _s: &[f64], _g: &mut [f64]) -> Result<(), Retry> {
+        Ok(())
+    }
+
     /// Number of functions whose roots end a step; constant.
     fn root_count(&self) -> usize {
         0

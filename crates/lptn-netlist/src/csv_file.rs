@@ -25,7 +25,7 @@ const CSV: &str = "csv";
 #[derive(Debug, Default)]
 pub(crate) struct CsvFiles {
     files: HashMap<Span, Result<Arc<CsvFile>, Diagnostic>>,
-    /// Those of `[import]`, which are too long to be held as cells.
+    /// Those of `[import]`, which are too long to be held as cells, and of `[fit]`, which are read by column.
     texts: HashMap<Span, Result<CsvText, Diagnostic>>,
 }
 
@@ -75,14 +75,14 @@ impl CsvFiles {
             }
             read.files.insert(value.span.clone(), result);
         }
-        for (text, value) in imported(raw) {
+        for (text, value) in imported(raw).chain(crate::fit::files(raw)) {
             let result = load_text(files, &path(files, text, value), value, loader.as_deref_mut());
             read.texts.insert(value.span.clone(), result);
         }
         read
     }
 
-    /// The text of the file of `[import]` that a value names, as for [`CsvFiles::get`].
+    /// The text of the file of `[import]` or `[fit]` that a value names, as for [`CsvFiles::get`].
     pub(crate) fn text(&self, value: &RawValue) -> Option<Result<&CsvText, &Diagnostic>> {
         self.texts.get(&value.span).map(Result::as_ref)
     }

@@ -51,7 +51,14 @@ pub(crate) fn position(cells: &csv::StringRecord) -> usize {
 
 /// A record of `text`, with its place.
 pub(crate) fn row(cells: csv::StringRecord, text: &str) -> Row {
-    let mut start = position(&cells).min(text.len());
+    let place = line(text, position(&cells));
+    let plain = !text.get(place.clone()).unwrap_or_default().contains('"');
+    Row { cells, place, plain }
+}
+
+/// The line of the record that the reader looked for from this byte on.
+pub(crate) fn line(text: &str, from: usize) -> std::ops::Range<usize> {
+    let mut start = from.min(text.len());
     if start == 0 && text.starts_with('\u{feff}') {
         start = '\u{feff}'.len_utf8(); // the reader leaves out a mark at the beginning, and only there
     }
@@ -62,9 +69,7 @@ pub(crate) fn row(cells: csv::StringRecord, text: &str) -> Row {
         start += rest.find(ends).map_or(rest.len(), |end| end + 1);
         rest = text.get(start..).unwrap_or_default();
     }
-    let line = rest.split(ends).next().unwrap_or_default();
-    let plain = !line.contains('"');
-    Row { cells, place: start..start + line.len(), plain }
+    start..start + rest.find(ends).unwrap_or(rest.len())
 }
 
 impl Row {
@@ -271,7 +276,7 @@ pub(crate) fn number(cell: &str) -> Result<f64, Wrong> {
     }
 }
 
-fn text_help(name: &str, cell: &str) -> String {
+pub(crate) fn text_help(name: &str, cell: &str) -> String {
     let point = cell.replacen(',', ".", 1);
     if cell.contains(',') && point.parse::<f64>().is_ok() {
         return format!("write numbers with a point: `{point}`");

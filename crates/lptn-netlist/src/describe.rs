@@ -139,7 +139,7 @@ fn crossed(words: &str, fields: [Field; 2], (on, off): (f64, f64)) -> String {
 }
 
 /// Without the noise of binary arithmetic.
-fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     format!("{value:.9e}").parse().map_or_else(|_| value.to_string(), format_number)
 }
 

@@ -10,6 +10,7 @@ use crate::csv_file::CsvFiles;
 use crate::describe::describe;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::file::Span;
+use crate::fit::FitStudy;
 use crate::initial::StateFile;
 use crate::names::{Names, ValueKind};
 use crate::raw::{RawEntry, RawNetlist};
@@ -26,6 +27,7 @@ pub(crate) struct Elaborated {
     pub(crate) network: Network,
     pub(crate) run: Option<RunPlan>,
     pub(crate) sizes: Vec<SizeStudy>,
+    pub(crate) fits: Vec<FitStudy>,
     pub(crate) map: SourceMap,
     pub(crate) temperature_unit: Unit,
     pub(crate) structure: Arc<Structure>,
@@ -151,7 +153,8 @@ pub(crate) fn elaborate(
     work.limits();
     let run = work.run();
     let sizes = work.sizes();
-    work.finish((run, sizes), default)
+    let fits = work.fits();
+    work.finish((run, sizes, fits), default)
 }
 
 impl<'a> Elaboration<'a> {
@@ -172,7 +175,7 @@ impl<'a> Elaboration<'a> {
 
     fn finish(
         mut self,
-        (run, sizes): (Option<RunPlan>, Vec<SizeStudy>),
+        (run, sizes, fits): (Option<RunPlan>, Vec<SizeStudy>, Vec<FitStudy>),
         default: section::Default<'_>,
     ) -> (Option<Elaborated>, Found) {
         let mut substances = self.unused_materials();
@@ -202,7 +205,7 @@ impl<'a> Elaboration<'a> {
         let temperature_unit = default.temperature_unit;
         let (map, structure) = (self.map, self.names.structure);
         let done =
-            network.map(|network| Elaborated { network, run, sizes, map, temperature_unit, structure });
+            network.map(|network| Elaborated { network, run, sizes, fits, map, temperature_unit, structure });
         (done, Found { problems: self.problems, dropped: self.dropped })
     }
 }

@@ -6,7 +6,7 @@ pub(crate) const TOP_KEYS: [&str; 4] = ["format", "title", "description", "inclu
 pub(crate) const PARAM: &str = "param";
 
 /// Every section there is.
-pub(crate) const SECTIONS: [&str; 24] = [
+pub(crate) const SECTIONS: [&str; 25] = [
     "param",
     "table",
     "signal",
@@ -31,10 +31,11 @@ pub(crate) const SECTIONS: [&str; 24] = [
     "use",
     "run",
     "size",
+    "fit",
 ];
 
 /// What the format has for later.
-pub(crate) const SECTIONS_LATER: [&str; 2] = ["sweep", "fit"];
+pub(crate) const SECTIONS_LATER: [&str; 1] = ["sweep"];
 
 /// A netlist that runs.
 pub(crate) const MINIMAL: &str = "a small netlist that runs:\n\

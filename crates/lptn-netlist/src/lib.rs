@@ -36,6 +36,7 @@ mod elaborate;
 mod expand;
 mod fields;
 mod file;
+mod fit;
 mod grid_names;
 mod habit;
 mod headings;
@@ -53,6 +54,7 @@ mod parameters;
 mod plausible;
 mod points;
 mod raw;
+mod record;
 mod result_names;
 mod run;
 mod section;
@@ -70,12 +72,16 @@ mod write_back;
 
 pub use diagnostic::{Diagnostic, Label, Severity};
 pub use file::{FileId, Files, Span};
+pub use fit::{FitPlan, FitRecord, FitStudy, Observed, Varied, VariedName};
 pub use include::Loader;
 pub use initial::InitialState;
 pub use limits::{MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS, read_bytes};
 pub use netlist::{Netlist, ReadError, Rejected, parse, parse_bytes, parse_file, parse_with, read};
 pub use outputs::WindowSettings;
 pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
+pub use record::{
+    DataSheet, Record, RecordColumn, RecordName, RecordQuery, Saturation, read_record, read_sheet,
+};
 pub use run::RunSettings;
 pub use size::{Goal, Requirement, SizeStudy};
 pub use source_map::SourceMap;

@@ -13,6 +13,7 @@ use crate::csv_file::CsvFiles;
 use crate::diagnostic::{Diagnostic, Severity, arrange};
 use crate::elaborate::{Elaborated, elaborate};
 use crate::file::{FileId, Files, Span};
+use crate::fit::FitStudy;
 use crate::include::{self, Loader, Merged};
 use crate::initial::{self, InitialState, StateFile};
 use crate::limits::{read_bytes, read_named, shorten};
@@ -35,6 +36,8 @@ pub struct Netlist {
     pub run: Option<RunSettings>,
     /// What to size, in file order.
     pub sizes: Vec<SizeStudy>,
+    /// What to find from records, in file order.
+    pub fits: Vec<FitStudy>,
     /// Where each part of the network stands.
     pub source_map: SourceMap,
     /// The texts that places refer to.
@@ -240,9 +243,10 @@ fn finish(
     (done, initial): (Elaborated, Option<InitialState>),
     mut diagnostics: Vec<Diagnostic>,
 ) -> Result<Netlist, Rejected> {
-    let Elaborated { network, run: plan, sizes, map, temperature_unit, structure } = done;
+    let Elaborated { network, run: plan, sizes, fits, map, temperature_unit, structure } = done;
     let run = plan.as_ref().map(|plan| plan.settings(&network)).transpose();
     let mut problems: Vec<Diagnostic> = sizes.iter().filter_map(|size| size.check(&network)).collect();
+    problems.extend(fits.iter().flat_map(|fit| fit.check(&network)));
     let run = run.unwrap_or_else(|more| {
         problems.extend(more);
         None
@@ -269,6 +273,7 @@ fn finish(
         network,
         run,
         sizes,
+        fits,
         source_map: map,
         files,
         warnings,

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use lptn_network::{BuildErrorKind, Field, Item, NodeId, ParameterId, TableId};
 
-use crate::file::Span;
+use crate::file::{Files, Span};
 use crate::import::Places;
 use crate::raw::{RawKind, RawTable, RawValue};
 
@@ -80,6 +80,19 @@ impl SourceMap {
     /// The place of a parameter's value, for writing another one there.
     pub fn parameter(&self, id: ParameterId) -> Option<Span> {
         self.get(Item::Parameter(id), Field::Value)
+    }
+
+    /// The places of values that carry `±` although they are no parameters: nothing varies them. In the order of the files,
+    /// each text once.
+    pub fn deviations_elsewhere(&self, files: &Files) -> Vec<Span> {
+        let no_parameter =
+            |(item, field): &(Item, Field)| !matches!(item, Item::Parameter(_)) && *field != Field::Name;
+        let carries = |span: &Span| files.at(span).contains('±') || files.at(span).contains("+-");
+        let found = self.spans.iter().filter(|(place, span)| no_parameter(place) && carries(span));
+        let mut spans: Vec<Span> = found.map(|(_, span)| span.clone()).collect();
+        spans.sort_by_key(Span::order);
+        spans.dedup_by(|a, b| a.is_same_text(b));
+        spans
     }
 
     /// The place of each pattern of `select` in `[run]`, in the order of

@@ -1,5 +1,6 @@
 //! The words of the format: which sections and keys there are, and which are decided but not built yet.
 
+pub(crate) use crate::fit::words::{FIT, FIT_COLUMN};
 pub(crate) use crate::headings::{MINIMAL, PARAM, SECTIONS, SECTIONS_LATER, TOP_KEYS};
 
 use lptn_units::suggest;
@@ -343,13 +344,18 @@ pub(crate) const SIZE: Section = Section {
     ],
 };
 
-/// `p = { from = .., to = .. }` in `vary` of a size.
+/// `p = { from = .., to = .. }` in `vary` of a size or fit.
 pub(crate) const VARY: Section = Section {
     name: "vary",
     keys: &["from", "to"],
     later: &[],
     example: "{ from = \"1 W/K\", to = \"10 W/K\" }",
-    elsewhere: &[],
+    elsewhere: &[
+        ("min", "the least value is `from`"),
+        ("lower", "the least value is `from`"),
+        ("max", "the largest value is `to`"),
+        ("upper", "the largest value is `to`"),
+    ],
 };
 
 /// `climb = { from = .., to = .. }` in `window` of `[run]`.

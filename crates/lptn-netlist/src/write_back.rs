@@ -53,8 +53,21 @@ impl Netlist {
     /// standard deviation stay. A number in place of another cannot change what a string or a comment is, so the
     /// text is cut at the number's own place rather than parsed and printed again.
     pub fn text_with_number(&self, written: &WrittenNumber, number: &str) -> String {
-        let text = self.files.text(written.file);
-        let (before, after) = (text.get(..written.place.start), text.get(written.place.end..));
-        [before.unwrap_or_default(), number, after.unwrap_or_default()].concat()
+        self.text_with_numbers(&[(written.clone(), number.to_owned())])
+    }
+
+    /// The same for several numbers of one file, each at a place of its own. The text of the first one's file.
+    pub fn text_with_numbers(&self, numbers: &[(WrittenNumber, String)]) -> String {
+        let Some((first, _)) = numbers.first() else { return String::new() };
+        let mut numbers: Vec<_> = numbers.iter().filter(|(written, _)| written.file == first.file).collect();
+        numbers.sort_by_key(|(written, _)| written.place.start);
+        let text = self.files.text(first.file);
+        let (mut whole, mut end) = (String::with_capacity(text.len()), 0);
+        for (written, number) in numbers {
+            whole += text.get(end..written.place.start).unwrap_or_default();
+            whole += number;
+            end = written.place.end;
+        }
+        whole + text.get(end..).unwrap_or_default()
     }
 }

@@ -25,7 +25,11 @@ fn parse(path: &Path) -> Result<Netlist, Rejected> {
     let bytes = std::fs::read(path).unwrap();
     match std::str::from_utf8(&bytes) {
         // the CSV files and states of a case, and what it includes, stand beside it
-        Ok(text) if ["csv = ", "initial = ", "[import]", ".inc\""].iter().any(|key| text.contains(key)) => {
+        Ok(text)
+            if ["csv = ", "data = ", "initial = ", "[import]", ".inc\""]
+                .iter()
+                .any(|key| text.contains(key)) =>
+        {
             parse_with(name, text, &mut |path| std::fs::read(folder().join(path)))
         }
         _ => parse_bytes(name, &bytes),

@@ -96,6 +96,19 @@ fn an_expansion_is_the_same_network_and_its_own_expansion() {
             netlist.sizes.iter().map(text).collect::<Vec<_>>()
         };
         assert_eq!(sizes(&again), sizes(&original));
+        let fits = |netlist: &Netlist| {
+            let text = |fit: &lptn_netlist::FitStudy| {
+                let columns: Vec<_> =
+                    fit.observed.iter().map(|o| (o.column.clone(), o.text.clone())).collect();
+                let plan = fit.plan(&netlist.network, &netlist.overrides()).unwrap();
+                let varied: Vec<_> =
+                    plan.varied.iter().map(|v| (v.id, v.start, v.from, v.to, v.prior)).collect();
+                let records: Vec<_> = fit.records.iter().map(|record| record.record.time.clone()).collect();
+                (fit.name.clone(), columns, varied, plan.sigmas, records)
+            };
+            netlist.fits.iter().map(text).collect::<Vec<_>>()
+        };
+        assert_eq!(fits(&again), fits(&original));
         assert_eq!(again.expanded(), text, "{}", path.display());
     }
 }

@@ -161,6 +161,14 @@ impl Enthalpy {
         (self.panels[0].from, self.panels[self.panels.len() - 1].to)
     }
 
+    /// The ends of its smooth pieces strictly between two temperatures in K, ascending.
+    pub(crate) fn stops(&self, from: f64, to: f64) -> Vec<f64> {
+        let ends = self.panels.iter().map(|panel| panel.to).filter(|t| *t > from && *t < to);
+        let mut stops: Vec<f64> = ends.collect();
+        stops.dedup();
+        stops
+    }
+
     /// Heat content at a temperature in K; `None` outside [`Enthalpy::range`]. At the temperature of an isothermal
     /// change of phase: before it.
     pub fn heat(&self, temperature: f64) -> Option<f64> {

@@ -201,7 +201,7 @@ impl Network {
     }
 
     /// Heat received by the ends, where the slots stand.
-    fn received<S: Scalar>(
+    pub(crate) fn received<S: Scalar>(
         &self,
         conductor: &Conductor,
         mut at: At<'_, S>,

@@ -46,6 +46,7 @@ mod scope;
 mod signal;
 mod stream;
 mod switch;
+mod tangent;
 mod thermal;
 mod typed;
 mod value;
@@ -80,6 +81,7 @@ pub use scope::{Context, NetworkScope};
 pub use signal::{AfterEnd, Course, Join, Signal};
 pub use stream::Passing;
 pub use switch::Switch;
+pub use tangent::{NoTangents, Tangents};
 pub use typed::{
     Area, Conductance, FilmCoefficient, HeatCapacity, HeatFlow, Resistance, Temperature, Time, ZERO_CELSIUS,
 };

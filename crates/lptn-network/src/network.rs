@@ -175,6 +175,15 @@ impl Network {
         Parameters::new(Arc::clone(&self.parts))
     }
 
+    /// The parameters that this network was given in place of its own values, to change others beside them.
+    pub fn given(&self) -> Parameters {
+        let mut parameters = self.overrides();
+        for id in self.parameter_ids().filter(|id| self.numbers.given[id.index()]) {
+            parameters.set(id, self.parameter_value(id));
+        }
+        parameters
+    }
+
     /// The same network with other parameters: nothing is parsed, and the structure is shared.
     ///
     /// # Errors

@@ -18,6 +18,8 @@ use crate::value::Value;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Numbers {
     pub(crate) parameters: Vec<f64>,
+    /// For each parameter whether its value was given in place of its own.
+    pub(crate) given: Vec<bool>,
     pub(crate) capacity: Vec<f64>,
     pub(crate) initial: Vec<f64>,
     pub(crate) flows: Vec<Flow>,
@@ -59,7 +61,9 @@ impl Numbers {
         let (enthalpy, fluids) = (work.enthalpies(&initial), work.fluid_enthalpies());
         grid::collapse(parts, &mut work.errors);
         if work.errors.is_empty() {
-            Ok(Self { parameters, capacity, initial, flows, enthalpy, fluids, min_dwell })
+            let is_given = |i: usize| overrides.get(i).is_some_and(Option::is_some);
+            let given = (0..parameters.len()).map(is_given).collect();
+            Ok(Self { parameters, given, capacity, initial, flows, enthalpy, fluids, min_dwell })
         } else {
             Err(work.errors)
         }

@@ -14,12 +14,14 @@ use crate::parts::Parts;
 pub struct Parameters {
     parts: Arc<Parts>,
     values: Vec<Option<f64>>,
+    /// One standard deviation in SI units, where the text that set a value gave one.
+    deviations: Vec<Option<f64>>,
 }
 
 impl Parameters {
     pub(crate) fn new(parts: Arc<Parts>) -> Self {
-        let values = vec![None; parts.parameters.len()];
-        Self { parts, values }
+        let count = parts.parameters.len();
+        Self { parts, values: vec![None; count], deviations: vec![None; count] }
     }
 
     pub(crate) fn belong_to(&self, parts: &Arc<Parts>) -> bool {
@@ -35,7 +37,13 @@ impl Parameters {
         self.values[id.index()] = Some(value);
     }
 
-    /// Sets a parameter by name to a written quantity, such as `"5000 rpm"`, whose unit is checked.
+    /// One standard deviation in SI units of a parameter that was set by a text with `±`.
+    pub fn deviation(&self, id: ParameterId) -> Option<f64> {
+        self.deviations[id.index()]
+    }
+
+    /// Sets a parameter by name to a written quantity, such as `"5000 rpm"`, whose unit is checked. A `±` in the text
+    /// takes the place of the parameter's own, see [`Parameters::deviation`].
     ///
     /// # Errors
     /// [`ParameterError`] for an unknown name, a unit of another type or a number that cannot be read.
@@ -51,6 +59,7 @@ impl Parameters {
             error: Box::new(error),
         })?;
         self.set(id, quantity.value);
+        self.deviations[id.index()] = quantity.deviation.or(self.deviations[id.index()]);
         Ok(id)
     }
 }

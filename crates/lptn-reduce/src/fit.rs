@@ -25,20 +25,7 @@ pub struct ExponentialFit {
 /// [`FitError`], in particular where the record does not bend.
 pub fn fit_exponential(times: &[f64], temperatures: &[f64]) -> Result<ExponentialFit, FitError> {
     let record = Record::new(times, temperatures)?;
-    let mut log_tau = record.search()?;
-    let mut best = record.project(log_tau);
-    for _ in 0..50 {
-        let step = record.step(log_tau, &best).clamp(-0.5, 0.5);
-        let next = record.project(log_tau + step);
-        if next.squares > best.squares || !step.is_finite() {
-            break;
-        }
-        log_tau += step;
-        best = next;
-        if step.abs() < 1e-13 {
-            break;
-        }
-    }
+    let (log_tau, best) = record.refined(record.search()?);
     let rms = (best.squares / record.count()).sqrt();
     Ok(ExponentialFit { initial: best.initial, settled: best.initial + best.rise, tau: log_tau.exp(), rms })
 }
@@ -52,6 +39,8 @@ struct Record<'a> {
 struct Projected {
     initial: f64,
     rise: f64,
+    /// `1 - exp(-t / tau)`.
+    shape: Vec<f64>,
     /// Sum of the squares of what it misses.
     squares: f64,
 }
@@ -78,60 +67,105 @@ impl<'a> Record<'a> {
         self.times.len() as f64
     }
 
+    /// The minimum near a logarithm of the time constant.
+    fn refined(&self, mut log_tau: f64) -> (f64, Projected) {
+        let mut best = self.project(log_tau);
+        for _ in 0..50 {
+            let step = self.step(log_tau, &best).clamp(-0.5, 0.5);
+            let next = self.project(log_tau + step);
+            if next.squares > best.squares || !step.is_finite() {
+                break;
+            }
+            log_tau += step;
+            best = next;
+            if step.abs() < 1e-13 {
+                break;
+            }
+        }
+        (log_tau, best)
+    }
+
     /// The logarithm of the best time constant of a grid, from a tenth of the shortest distance of two points to
     /// a thousand times the length.
+    ///
+    /// A long record is looked at through the means of its stretches first, which show all but time constants that are
+    /// as short as these.
     fn search(&self) -> Result<f64, FitError> {
+        if self.times.len() >= 2 * FEW {
+            let (times, temperatures) = (means(self.times), means(self.temperatures));
+            let few = Record { times: &times, temperatures: &temperatures };
+            let stretch = (times[times.len() - 1] - times[0]) / few.count();
+            match few.grid(100) {
+                Ok(log_tau) if log_tau.exp() > 5.0 * stretch => return Ok(few.refined(log_tau).0),
+                _ => {}
+            }
+        }
+        self.grid(300)
+    }
+
+    /// The best of so many time constants, and whether it is inside.
+    fn grid(&self, count: i32) -> Result<f64, FitError> {
         let shortest = self.times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
         let from = (0.1 * shortest).ln();
         let to = (1e3 * (self.times[self.times.len() - 1] - self.times[0])).ln();
-        let count = 300;
         let at = |k: i32| from + (to - from) * f64::from(k) / f64::from(count);
         let squares = |k: i32| self.project(at(k)).squares;
-        let best = (0..=count).min_by(|a, b| squares(*a).total_cmp(&squares(*b))).unwrap_or(0);
+        let all = (0..=count).map(|k| (k, squares(k)));
+        let best = all.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(k, _)| k);
         if best == 0 || best == count {
             return Err(FitError::NoCurvature { tau: at(best).exp() });
         }
         Ok(at(best))
     }
 
-    /// `1 - exp(-t / tau)`.
-    fn shape(&self, log_tau: f64) -> impl Iterator<Item = f64> {
-        let tau = log_tau.exp();
-        self.times.iter().map(move |t| -f64::exp_m1(-t / tau))
-    }
-
     fn project(&self, log_tau: f64) -> Projected {
-        let (initial, rise) = self.line(log_tau, self.temperatures.iter().copied());
-        let misses = self.temperatures.iter().zip(self.shape(log_tau)).map(|(t, s)| t - initial - rise * s);
-        Projected { initial, rise, squares: misses.map(|m| m * m).sum() }
-    }
-
-    /// Offset and factor of the shape that are nearest to `values`.
-    fn line(&self, log_tau: f64, values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
-        let n = self.count();
-        let mean_shape = self.shape(log_tau).sum::<f64>() / n;
-        let mean = values.clone().sum::<f64>() / n;
-        let (mut square, mut product) = (0.0, 0.0);
-        for (s, v) in self.shape(log_tau).zip(values) {
-            square += (s - mean_shape) * (s - mean_shape);
-            product += (s - mean_shape) * (v - mean);
-        }
-        let factor = if square > 0.0 { product / square } else { 0.0 };
-        (mean - factor * mean_shape, factor)
+        let tau = log_tau.exp();
+        let shape: Vec<f64> = self.times.iter().map(|t| -f64::exp_m1(-t / tau)).collect();
+        let (initial, rise) = line(&shape, self.temperatures);
+        let misses = self.temperatures.iter().zip(&shape).map(|(t, s)| t - initial - rise * s);
+        let squares = misses.map(|m| m * m).sum();
+        Projected { initial, rise, shape, squares }
     }
 
     /// The Gauss-Newton step of the logarithm: what is missed against the part of the derivative that offset and
     /// factor cannot follow.
     fn step(&self, log_tau: f64, at: &Projected) -> f64 {
         let tau = log_tau.exp();
-        let slope = self.times.iter().map(|t| -at.rise * (t / tau) * (-t / tau).exp());
-        let (offset, factor) = self.line(log_tau, slope.clone());
+        let slope = |(t, s): (&f64, &f64)| -at.rise * (t / tau) * (1.0 - s);
+        let slopes: Vec<f64> = self.times.iter().zip(&at.shape).map(slope).collect();
+        let (offset, factor) = line(&at.shape, &slopes);
         let (mut square, mut product) = (0.0, 0.0);
-        for ((slope, shape), t) in slope.zip(self.shape(log_tau)).zip(self.temperatures) {
+        for ((slope, shape), t) in slopes.iter().zip(&at.shape).zip(self.temperatures) {
             let free = slope - offset - factor * shape;
             square += free * free;
             product += free * (t - at.initial - at.rise * shape);
         }
         product / square
     }
+}
+
+/// Offset and factor of the shape that are nearest to `values`.
+fn line(shape: &[f64], values: &[f64]) -> (f64, f64) {
+    let mean_shape = mean(shape);
+    let mean_value = mean(values);
+    let (mut square, mut product) = (0.0, 0.0);
+    for (s, v) in shape.iter().zip(values) {
+        square += (s - mean_shape) * (s - mean_shape);
+        product += (s - mean_shape) * (v - mean_value);
+    }
+    let factor = if square > 0.0 { product / square } else { 0.0 };
+    (mean_value - factor * mean_shape, factor)
+}
+
+#[expect(clippy::cast_precision_loss, reason = "records are shorter than 2^52")]
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// At least this many stretches stand for a long record.
+const FEW: usize = 200;
+
+/// The means of [`FEW`] stretches or some more.
+fn means(values: &[f64]) -> Vec<f64> {
+    values.chunks(values.len() / FEW).map(mean).collect()
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use lptn_integrate::{FactorError, IntegrateError};
-use lptn_network::{Field, InputError, Item, NodeId, list_of, list_of_names};
+use lptn_network::{Field, InputError, Item, NoTangents, NodeId, list_of, list_of_names};
 use lptn_units::format_number;
 
 use crate::solution::Solution;
@@ -219,6 +219,8 @@ pub enum SettingsError {
     OutputEvery(f64),
     /// The state to begin with is one of another network, or not finite.
     State,
+    /// Sensitivities are asked for that do not exist or are not to be had.
+    Sensitivity(NoTangents),
 }
 
 impl TransientError {
@@ -382,6 +384,9 @@ impl std::error::Error for TransientError {}
 impl fmt::Display for SettingsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Sensitivity(refusal) => {
+                write!(f, "no exact sensitivities: {refusal}")
+            }
             Self::Interval { start, stop } => {
                 write!(f, "a run must stop after it starts, got {start} s to {stop} s")
             }

@@ -8,6 +8,7 @@ use crate::balance::Books;
 use crate::error::StopReason;
 use crate::events::Gates;
 use crate::newton::NewtonError;
+use crate::tangent::Tangent;
 use crate::unfold::Unfold;
 use crate::unsolved::Unsolved;
 
@@ -29,6 +30,8 @@ pub(crate) struct Heat<'a> {
     pub(crate) refused: Option<NewtonError>,
     /// What switches.
     pub(crate) gates: Gates,
+    /// The sensitivities that are followed.
+    pub(crate) tangent: Option<Tangent<'a>>,
 }
 
 impl<'a> Heat<'a> {
@@ -38,8 +41,20 @@ impl<'a> Heat<'a> {
         let flow = vec![0.0; system.unknowns().len()];
         let (work, unfold) = (system.workspace(), Unfold::new(system)?);
         let gates = Gates::new(system);
-        let (failure, refused) = (None, None);
-        Ok(Self { system, pattern, work, unfold, flow, books, form, segment, failure, refused, gates })
+        Ok(Self {
+            system,
+            pattern,
+            work,
+            unfold,
+            flow,
+            books,
+            form,
+            segment,
+            failure: None,
+            refused: None,
+            gates,
+            tangent: None,
+        })
     }
 
     /// Reads the inputs and takes the state; what fails may be the guess of a step that is too long.
@@ -96,6 +111,23 @@ impl<'a> Heat<'a> {
         Ok(holds)
     }
 
+    /// Begins to follow sensitivities; gives what is carried of them where every node starts from `y`, of which
+    /// `own_start` says whether it is the start of the network itself.
+    pub(crate) fn follow(
+        &mut self,
+        mut tangent: Tangent<'a>,
+        (time, y, own_start): (f64, &[f64], bool),
+    ) -> Result<Vec<f64>, NewtonError> {
+        let mut carried = vec![0.0; y.len() * tangent.parameters().len()];
+        if !own_start {
+            self.recover(time, y)
+                .map_err(|_| self.failure.take().unwrap_or(NewtonError::Singular { unknown: 0 }))?;
+            tangent.carried_at(&self.work, &mut carried);
+        }
+        self.tangent = Some(tangent);
+        Ok(carried)
+    }
+
     fn failed(&mut self, error: NewtonError, retry: Retry) -> Retry {
         self.refused = Some(error.clone());
         self.failure = Some(error);
@@ -149,6 +181,18 @@ impl OdeSystem for Heat<'_> {
 
     fn jacobian_is_constant(&self) -> bool {
         self.system.is_linear() && !self.unfold.carries_heat()
+    }
+
+    fn sensitivity_count(&self) -> usize {
+        self.tangent.as_ref().map_or(0, |tangent| tangent.parameters().len())
+    }
+
+    fn sensitivity_flow(&mut self, time: f64, y: &[f64], s: &[f64], g: &mut [f64]) -> Result<(), Retry> {
+        self.recover(time, y)?;
+        let Self { tangent, work, unfold, .. } = self;
+        let Some(tangent) = tangent else { return Ok(()) };
+        let driven = tangent.flow(work, unfold, s, g);
+        driven.map_err(|error| self.failed(error, Retry::SmallerStep))
     }
 
     fn root_count(&self) -> usize {

@@ -12,6 +12,7 @@ use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::{LimitSeen, LimitWatch};
 use crate::reading::Reading;
+use crate::sensed::{Sensed, SensitivityRows};
 use crate::settings::{Record, Transient};
 use crate::solution::{End, Solution};
 use crate::state::State;
@@ -54,6 +55,7 @@ pub(crate) struct Recorder<'a> {
     reading: Reading<'a>,
     /// What the integrator carries at one time.
     state: Vec<f64>,
+    sensed: Option<Sensed<'a>>,
     unfold: Unfold<'a>,
     tolerance: f64,
     /// How many steps under curved inputs the network remembers.
@@ -98,6 +100,7 @@ impl<'a> Recorder<'a> {
             windows: settings.windows.iter().cloned().map(Tracked::new).collect(),
             reading: Reading::new(system),
             state: vec![0.0; system.states().len()],
+            sensed: Sensed::of(system, &settings.sensitivities)?,
             unfold,
             tolerance: settings.tolerance,
             remembered: 0.0,
@@ -142,9 +145,10 @@ impl<'a> Recorder<'a> {
     }
 
     /// Writes the row at the start of the segment, if there is one, and starts to watch.
-    pub(crate) fn start(&mut self, state: &[f64]) -> Result<(), StopReason> {
+    pub(crate) fn start(&mut self, state: &[f64], sensitivities: &[f64]) -> Result<(), StopReason> {
         let from = self.segment.from;
         self.state.copy_from_slice(state);
+        self.sensed.iter_mut().for_each(|sensed| sensed.carry(sensitivities));
         self.place(from)?;
         let nodes = self.system.node_temperatures(&self.work);
         if self.seen.is_empty() {
@@ -176,6 +180,10 @@ impl<'a> Recorder<'a> {
         while self.due(to) && (self.rows[self.next] < self.segment.to || self.is_last()) {
             let time = self.rows[self.next];
             self.place_at(time, &mut |time, state| integrator.interpolate(time, state))?;
+            if let Some(sensed) = &mut self.sensed {
+                let read = integrator.interpolate_sensitivities(time, sensed.carried());
+                read.map_err(|error| StopReason::Integrator { error, node: None })?;
+            }
             self.push()?;
         }
         if self.looks() {
@@ -263,6 +271,10 @@ impl<'a> Recorder<'a> {
             return Err(StopReason::BelowAbsoluteZero { name, temperature: nodes[i] });
         }
         self.temperatures.extend(self.recorded.iter().map(|id| nodes[id.index()]));
+        if let Some(sensed) = &mut self.sensed {
+            let pushed = sensed.push(&mut self.work, &self.unfold, &self.recorded);
+            pushed.map_err(|e| StopReason::Unsolved(Unsolved::new(self.system, e)))?;
+        }
         self.segments.push(self.segment.inside());
         let position = self.positions.len().checked_sub(1).and_then(|i| u32::try_from(i).ok());
         self.row_positions.extend(position);
@@ -369,6 +381,7 @@ impl<'a> Recorder<'a> {
             end,
             tolerance: self.tolerance,
             remembered: self.remembered,
+            sensitivities: self.sensed.map_or_else(SensitivityRows::default, Sensed::into_rows),
             end_state: State::of_carried(Vec::new()),
         }
     }

@@ -1,7 +1,7 @@
 //! The settings of a run, and how it reports on itself.
 
 use lptn_integrate::{LinearSolver, Options};
-use lptn_network::{End, NodeId, OutputTimes, Time};
+use lptn_network::{End, Network, NodeId, OutputTimes, ParameterId, Time};
 
 use crate::curved::Curved;
 use crate::error::SettingsError;
@@ -42,6 +42,8 @@ pub struct Transient {
     /// Where the controls stand at the start, in the order of their ids; as the network says unless given. A control
     /// that has to stay as it is does so from when it switched last, which may be before the start.
     pub controls: Vec<ControlState>,
+    /// The parameters by which temperatures are differentiated, each once: see [`crate::Solution::sensitivity`].
+    pub sensitivities: Vec<ParameterId>,
     /// The linear solver; chosen by size unless said.
     pub linear_solver: LinearSolver,
 }
@@ -79,6 +81,7 @@ impl Transient {
             windows: Vec::new(),
             balance: None,
             controls: Vec::new(),
+            sensitivities: Vec::new(),
             linear_solver: LinearSolver::Auto,
         }
     }
@@ -108,6 +111,13 @@ impl Transient {
     #[must_use]
     pub fn record(mut self, nodes: &[NodeId]) -> Self {
         self.record = Record::Nodes(nodes.to_vec());
+        self
+    }
+
+    /// Follows the derivatives of all temperatures by these parameters.
+    #[must_use]
+    pub fn sensitivities(mut self, parameters: &[ParameterId]) -> Self {
+        self.sensitivities = parameters.to_vec();
         self
     }
 
@@ -151,12 +161,28 @@ impl Transient {
     }
 
     /// The options of the integrator, with what curved inputs ask for.
-    pub(crate) fn options(&self, curved: Option<Curved>) -> Options {
+    pub(crate) fn options(&self, network: &Network, curved: Option<Curved>) -> Options {
         Options {
+            sensitivity_scales: self.sensitivities.iter().map(|&id| scale(network, id)).collect(),
             tolerance: self.tolerance * curved.map_or(1.0, |c| c.share),
             linear_solver: self.linear_solver,
             max_step_size: curved.map(|c| c.step),
             ..Options::default()
         }
     }
+}
+
+/// The change of a temperature in K whose effect is to be as accurate as the temperatures are.
+const USUAL_CHANGE: f64 = 10.0;
+
+/// The change of a parameter, in its SI unit, whose effect is to be as accurate as the temperatures are: all of it, or
+/// what `±` says of one that is zero.
+fn scale(network: &Network, id: ParameterId) -> f64 {
+    let parameter = &network.parameters()[id.index()];
+    let size = match parameter.ty.absolute {
+        true => USUAL_CHANGE,
+        false => network.parameter_value(id).abs(),
+    };
+    let usual = [size, parameter.deviation.unwrap_or(0.0)];
+    usual.into_iter().find(|scale| scale.is_finite() && *scale > 0.0).unwrap_or(1.0)
 }

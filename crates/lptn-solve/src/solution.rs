@@ -3,8 +3,8 @@
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::Statistics;
 use lptn_network::{
-    BoundaryId, ConductorId, ControlId, HeatOf, Network, NodeId, Positions, Received, ReportId, SignalId,
-    SourceId,
+    BoundaryId, ConductorId, ControlId, HeatOf, Network, NodeId, ParameterId, Positions, Received, ReportId,
+    SignalId, SourceId,
 };
 
 use crate::balance::Balance;
@@ -15,6 +15,7 @@ use crate::ledger::Ledger;
 use crate::limit::LimitSeen;
 use crate::quantity::Quantity;
 use crate::reading::Reading;
+use crate::sensed::SensitivityRows;
 use crate::state::State;
 use crate::watch::Seen;
 use crate::window::WindowSeen;
@@ -58,6 +59,7 @@ pub struct Solution {
     pub(crate) tolerance: f64,
     pub(crate) remembered: f64,
     pub(crate) end_state: State,
+    pub(crate) sensitivities: SensitivityRows,
 }
 
 impl Solution {
@@ -87,6 +89,16 @@ impl Solution {
         let column = self.recorded.binary_search(&node).ok()?;
         let rows = self.temperatures.chunks_exact(self.recorded.len());
         Some(rows.map(|row| row[column]).collect())
+    }
+
+    /// How the temperature of a node changes with a parameter, over the rows in K per SI unit of the parameter, all other
+    /// parameters that were asked for held; `None` if it was not recorded or not among [`crate::Transient::sensitivities`].
+    ///
+    /// Its error against the exact derivative obeys the tolerance over the size of the parameter, as that of the
+    /// temperature obeys the tolerance.
+    pub fn sensitivity(&self, parameter: ParameterId, node: NodeId) -> Option<Vec<f64>> {
+        let column = self.recorded.binary_search(&node).ok()?;
+        self.sensitivities.of(parameter, (column, self.recorded.len()))
     }
 
     /// Heat flow of a conductor over the rows in W, positive from `from` to `to`, what `to` receives; `None` unless

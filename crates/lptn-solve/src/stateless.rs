@@ -47,7 +47,7 @@ fn rows(
     let mut row = 0;
     for (i, &segment) in segments.iter().enumerate() {
         recorder.enter(segment, None);
-        recorder.start(&[]).map_err(|e| (segment.from, e))?;
+        recorder.start(&[], &[]).map_err(|e| (segment.from, e))?;
         row += usize::from(times[row].to_bits() == segment.from.to_bits());
         let mut from = segment.from;
         while row <= last && (times[row] < segment.to || (i + 1 == segments.len() && row == last)) {

@@ -14,6 +14,7 @@ use crate::settings::{Control, Progress, Transient};
 use crate::solution::{End, Solution};
 use crate::state::{self, State};
 use crate::stateless;
+use crate::tangent::Tangent;
 use crate::times::{Segment, segments, snap};
 use crate::unsolved::Unsolved;
 
@@ -101,16 +102,26 @@ impl<'a> Run<'a> {
         let system = recorder.system();
         let initial = from.carried().to_vec();
         let books = Books::new(system.network(), settings.balance);
-        let heat = Heat::new(system, segments[0].inside(), books.clone())
-            .map_err(|e| TransientError::Start(Unsolved::new(system, e)))?;
+        let unsolved = |e| TransientError::Start(Unsolved::new(system, e));
+        let mut heat = Heat::new(system, segments[0].inside(), books.clone()).map_err(unsolved)?;
+        let mut carried = Vec::new();
+        if !settings.sensitivities.is_empty() {
+            let tangent = Tangent::new(system, &settings.sensitivities)?;
+            let own_start = *from == State::initial(system);
+            carried = heat.follow(tangent, (settings.start, &initial, own_start)).map_err(unsolved)?;
+        }
         let curved = Curved::of(system, segments, recorder.rows());
         recorder.remembered = curved.map_or(0.0, |c| c.remembered);
         let switching = system
             .network()
             .has_events()
             .then(|| Switching::new(system, &settings.controls, settings.tolerance));
-        let integrator = Integrator::new(heat, settings.start, &initial, &settings.options(curved))
-            .map_err(TransientError::Integrator)?;
+        let options = settings.options(system.network(), curved);
+        let mut integrator =
+            Integrator::new(heat, settings.start, &initial, &options).map_err(TransientError::Integrator)?;
+        if !carried.is_empty() {
+            integrator.set_sensitivities(&carried).map_err(TransientError::Integrator)?;
+        }
         let tolerance = settings.tolerance;
         Ok(Self { integrator, recorder, initial, books, tolerance, due: Vec::new(), switching, crawled: 0 })
     }
@@ -165,7 +176,9 @@ impl<'a> Run<'a> {
     /// Enters a segment, or what an event left of it.
     fn enter(&mut self, segment: Segment) -> Result<(), Break> {
         self.recorder.enter(segment, self.switching.as_ref().map(|switching| &switching.positions));
-        self.recorder.start(self.integrator.state()).map_err(Break::Failed)
+        let sensitivities = self.integrator.sensitivities().map(<[f64]>::to_vec);
+        let sensitivities = sensitivities.map_err(|e| self.failed(e))?;
+        self.recorder.start(self.integrator.state(), &sensitivities).map_err(Break::Failed)
     }
 
     /// One step, or the part of it up to an event.

@@ -11,12 +11,15 @@
 
 mod compare;
 mod digest;
+pub mod fit;
 mod manifest;
 mod moment;
 mod parallel;
 mod record;
 mod run;
+mod sensitivity;
 mod size;
+pub mod uncertainty;
 
 pub use compare::{Candidate, CompareError, CompareRow, LimitResult, Peak, SortKey, compare_table, order};
 pub use digest::{Hashing, sha256};
@@ -25,6 +28,7 @@ pub use moment::utc;
 pub use parallel::{available_threads, in_parallel};
 pub use record::{LedgerRecord, Scalar, StatisticsRecord};
 pub use run::transient;
+pub use sensitivity::{Gradient, SensitiveError, SensitiveRun, sensitive_run};
 pub use size::{
     Coolant, Cooling, CoolingError, CoolingTask, Flow, SizeError, SizeTask, Sizing, Trial, Verdict,
     requirement_margins, size,

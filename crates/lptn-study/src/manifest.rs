@@ -36,6 +36,10 @@ pub struct Manifest {
     /// What became of every limit, in the order of the netlist: `of`, `below` or `above`, `worst` (the value with the
     /// least `margin`), `worst_at`, `broken_at`, `severity`, `kept`. Up to the time in `end`.
     pub limits: Map<String, Value>,
+    /// How the uncertainty of the results was found: method, seed, samples, parameters with their standard deviations; only
+    /// where it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<Value>,
     /// Every file that was written, this one apart.
     pub results: Vec<FileHash>,
     /// What changes from run to run; nothing else does.

@@ -6,7 +6,9 @@ use lptn::network::{BoundaryId, ConductorId, End, NodeId};
 use lptn::prelude::*;
 use lptn::reduce::{Bias, ExponentialFit, NortonEquivalent, fit_exponential, transfer_resistance};
 use lptn::solve::{Mode, Modes};
+use lptn::study::fit::network::NetworkFit;
 
+use super::calibration;
 use super::case::Case;
 use super::expected::{Direction, Expected, Fit, Moment, Quantity, Side};
 use super::gate;
@@ -37,6 +39,7 @@ pub struct Laboratory<'a> {
     steady: OnceCell<Result<SteadyState, Trouble>>,
     run: OnceCell<Result<Solution, Trouble>>,
     means: OnceCell<Means>,
+    fit: OnceCell<Result<NetworkFit, Trouble>>,
 }
 
 impl<'a> Laboratory<'a> {
@@ -47,7 +50,7 @@ impl<'a> Laboratory<'a> {
     /// The case at work on a network from elsewhere.
     pub fn of(case: &'a Case, json: &'a serde_json::Value, model: Model) -> Self {
         let (steady, run, means) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
-        Self { case, json, model, steady, run, means }
+        Self { case, json, model, steady, run, means, fit: OnceCell::new() }
     }
 
     pub fn system(&self) -> &ThermalSystem {
@@ -92,7 +95,8 @@ impl<'a> Laboratory<'a> {
             Quantity::GateFirstSwitch { .. } | Quantity::GateOnTime { .. } | Quantity::GatePeriod { .. } => {
                 gate::answer(self.whole_run()?, &expected.quantity)
             }
-            Quantity::Calibrated { .. } | Quantity::CalibrationRms {} => Err(Trouble::Missing("calibration")),
+            Quantity::Calibrated { param } => calibration::value(self.case, self.calibrated()?, param),
+            Quantity::CalibrationRms {} => Ok(self.calibrated()?.rms),
         }
     }
 
@@ -121,6 +125,10 @@ impl<'a> Laboratory<'a> {
     /// The latest time that any value asks for, in s.
     fn end(&self) -> f64 {
         self.case.expected.iter().map(Expected::latest).fold(self.case.t_end.unwrap_or(0.0), f64::max)
+    }
+
+    fn calibrated(&self) -> Result<&NetworkFit, Trouble> {
+        self.fit.get_or_init(|| calibration::fit(self.case)).as_ref().map_err(Trouble::clone)
     }
 
     pub fn steady(&self) -> Result<&SteadyState, Trouble> {

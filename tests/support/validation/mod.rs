@@ -3,6 +3,7 @@
 #![allow(dead_code, unreachable_pub, reason = "the format is read whole; each test file uses a part of this")]
 
 mod answer;
+mod calibration;
 mod case;
 mod expected;
 mod gate;
@@ -43,11 +44,17 @@ pub fn cases(folder: &Path) -> Vec<String> {
     names
 }
 
-/// `case.json` of a case, not yet understood.
+/// `case.json` of a case, not yet understood, with the path of its record.
 pub fn json(folder: &Path, id: &str) -> Value {
     let path = folder.join(id).join("case.json");
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    serde_json::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+    let mut json: Value = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    if let Some(data) = json.pointer_mut("/calibration/data")
+        && let Some(name) = data.as_str()
+    {
+        *data = Value::from(folder.join(id).join(name).to_string_lossy().into_owned());
+    }
+    json
 }
 
 /// Runs a case and judges every value.

@@ -1,5 +1,6 @@
 //! The network of a case, built through the public API.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -10,7 +11,10 @@ use lptn::network::{
 use lptn::prelude::*;
 use lptn::units::{Dimension, Interpolation as Join, Outside, Table as Curve, Table1, TableSymbol, Type};
 
-use super::case::{At, CapacityCurve, Case, Edge, Gate, Interpolation, Node, Source, Table, TimeFunction};
+use super::calibration;
+use super::case::{
+    At, Calibrated, CapacityCurve, Case, Edge, Gate, Interpolation, Node, Source, Table, Target, TimeFunction,
+};
 
 /// The Stefan-Boltzmann constant of the SI in W/(m^2 K^4), which lptn computes with.
 const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
@@ -28,16 +32,38 @@ impl Model {
     /// # Errors
     /// What lptn says about it, or that lptn has no such element.
     pub fn new(case: &Case) -> Result<Self, String> {
+        Self::built(case, &[])
+    }
+
+    /// Builds the network with what is to be calibrated as parameters.
+    ///
+    /// # Errors
+    /// What lptn says about it, or a field that cannot be calibrated here.
+    pub fn calibrating(case: &Case) -> Result<Self, String> {
+        Self::built(case, case.calibration.as_ref().map_or(&[], |calibration| &calibration.parameters))
+    }
+
+    fn built(case: &Case, calibrated: &[Calibrated]) -> Result<Self, String> {
         let mut building = Building {
             b: NetworkBuilder::new(),
             zero: case.zero(),
             ends: BTreeMap::new(),
             edges: BTreeMap::new(),
             signals: 0,
+            targets: Vec::new(),
+            met: Cell::new(0),
         };
+        for parameter in calibrated {
+            let name = calibration::parameter(&parameter.name);
+            building.b.parameter(&name, Input::number(parameter.initial));
+            building.targets.extend(parameter.targets.iter().map(|target| (target.clone(), name.clone())));
+        }
         case.nodes.iter().try_for_each(|node| building.node(node))?;
         case.edges.iter().try_for_each(|edge| building.edge(edge))?;
         case.sources.iter().try_for_each(|source| building.source(source))?;
+        if building.met.get() != building.targets.len() {
+            return Err("a field of a target cannot be calibrated".to_owned());
+        }
         let Building { b, ends, edges, .. } = building;
         let network = b.build().map_err(|e| e.to_string())?;
         let system = ThermalSystem::assemble(&network).map_err(|e| e.to_string())?;
@@ -79,6 +105,10 @@ pub struct Building {
     ends: BTreeMap<String, End>,
     edges: BTreeMap<String, ConductorId>,
     signals: usize,
+    /// Fields that are parameters, and their names.
+    targets: Vec<(Target, String)>,
+    /// How many of them were met.
+    met: Cell<usize>,
 }
 
 /// A unit as expressions write it, and its type.
@@ -119,6 +149,23 @@ impl Building {
         self.ends.get(id).copied().ok_or_else(|| format!("there is no node `{id}`"))
     }
 
+    /// What a field is a multiple of, if it is calibrated: the parameter, with its scale.
+    fn factor(&self, place: (&str, &str, &str)) -> Option<String> {
+        let is_it = |(target, _): &&(Target, String)| {
+            (target.list.as_str(), target.id.as_str(), target.field.as_str()) == place
+        };
+        let (target, name) = self.targets.iter().find(is_it)?;
+        self.met.set(self.met.get() + 1);
+        Some(format!("{name} * {}", target.scale.unwrap_or(1.0)))
+    }
+
+    /// A constant of the case, or the parameter in its place.
+    fn number(&self, place: (&str, &str, &str), plain: impl Into<Input>) -> Result<Input, String> {
+        let plain = plain.into();
+        let Some(factor) = self.factor(place) else { return Ok(plain) };
+        self.expression(Context::Time, &format!("{factor} * 1 [{}]", plain.ty().dimension.si_unit()))
+    }
+
     pub fn expression(&self, context: Context, text: &str) -> Result<Input, String> {
         let program = self.b.expression_in(context, text, None);
         program.map(Input::from).map_err(|errors| format!("`{text}`: {errors:?}"))
@@ -128,7 +175,7 @@ impl Building {
         let (id, end) = match node {
             Node::Capacitance { id, capacity, initial, over_temperature } => {
                 let capacity = match over_temperature {
-                    None => HeatCapacity(*capacity).into(),
+                    None => self.number(("nodes", id, "C"), HeatCapacity(*capacity))?,
                     Some(curve) => self.capacity(id, *capacity, curve)?,
                 };
                 let initial = Temperature(initial + self.zero);
@@ -169,11 +216,13 @@ impl Building {
     fn edge(&mut self, edge: &Edge) -> Result<(), String> {
         let ((id, a, b), kind, path) = match edge {
             Edge::Conductance { id, a, b, conductance } => {
-                ((id, a, b), ConductorKind::Resistor, Conductance(*conductance).into())
+                let conductance = self.number(("edges", id, "G"), Conductance(*conductance))?;
+                ((id, a, b), ConductorKind::Resistor, Path::Conductance(conductance))
             }
             Edge::Convection { id, a, b, h, area } => {
-                let path = Path::Film(FilmCoefficient(*h).into(), Area(*area).into());
-                ((id, a, b), ConductorKind::Convection, path)
+                let h = self.number(("edges", id, "h"), FilmCoefficient(*h))?;
+                let area = self.number(("edges", id, "A"), Area(*area))?;
+                ((id, a, b), ConductorKind::Convection, Path::Film(h, area))
             }
             Edge::ConvectionPower { id, a, b, c, n } => {
                 let g = format!("{c} [W/K] * abs(dT / 1 [K])^({n})");
@@ -195,8 +244,14 @@ impl Building {
             }
             Edge::Radiation { id, a, b, exchange, sigma } => {
                 // books print 5.67e-8: their constant goes into the area, for lptn has the exact one
-                let area = Area(exchange * (sigma / STEFAN_BOLTZMANN));
-                ((id, a, b), ConductorKind::Radiation, Path::Radiation(Exchange::Area(area.into())))
+                let share = sigma / STEFAN_BOLTZMANN;
+                let area = match self.factor(("edges", id, "epsA")) {
+                    None => Area(exchange * share).into(),
+                    Some(factor) => {
+                        self.expression(Context::Time, &format!("{factor} * {share} * 1 [m^2]"))?
+                    }
+                };
+                ((id, a, b), ConductorKind::Radiation, Path::Radiation(Exchange::Area(area)))
             }
             Edge::Advection { id, a, b, mcp } => {
                 let stream = Stream::Capacity(self.of_time(mcp, Unit::WattPerKelvin)?);
@@ -214,7 +269,7 @@ impl Building {
         let rise = |reference: f64| format!("(T - absolute({} [K]))", reference + self.zero);
         let (id, node, power) = match source {
             Source::Heat { id, node, heat, coefficient: None, gate: None } => {
-                (id, node, self.of_time(heat, Unit::Watt)?)
+                (id, node, self.heat(id, heat)?)
             }
             Source::Heat { id, node, heat, coefficient, gate } => {
                 let factor = coefficient
@@ -231,6 +286,18 @@ impl Building {
         };
         self.b.source(&name("source", id), self.end(node)?, power);
         Ok(())
+    }
+
+    /// The heat of a source. A parameter stands for it, or multiplies its table.
+    fn heat(&mut self, id: &str, heat: &TimeFunction) -> Result<Input, String> {
+        let Some(factor) = self.factor(("sources", id, "Q")) else { return self.of_time(heat, Unit::Watt) };
+        match heat {
+            TimeFunction::Constant(_) => self.expression(Context::Source, &format!("{factor} * 1 [W]")),
+            table => {
+                let table = self.text(table, Unit::Watt)?;
+                self.expression(Context::Source, &format!("{factor} * ({table})"))
+            }
+        }
     }
 
     /// The heat of a source, where a gate lets it through.

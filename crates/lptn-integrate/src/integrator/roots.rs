@@ -76,7 +76,7 @@ impl<S: OdeSystem> Integrator<S> {
     }
 
     /// Goes back to a time inside the last step, ends included, and begins anew there as [`restart`](Self::restart) does:
-    /// with the state of [`interpolate`](Self::interpolate) and the running integrals at that time.
+    /// with the state of [`interpolate`](Self::interpolate), the running integrals and the sensitivities at that time.
     ///
     /// # Errors
     /// [`IntegrateError::OutsideLastStep`]; then nothing is changed.
@@ -85,18 +85,19 @@ impl<S: OdeSystem> Integrator<S> {
         if !(from..=to).contains(&t) {
             return Err(IntegrateError::OutsideLastStep { time: t, from, to });
         }
-        let read = if t < to { self.read_at(t) } else { self.read_quadratures() };
+        let read = if t < to { self.read_at(t) } else { self.read_running() };
         read.map_err(|flag| self.unexpected(flag))?;
         self.time = t;
         self.restart_here()
     }
 
-    /// State and running integrals at a time inside the last step.
+    /// State, running integrals and sensitivities at a time inside the last step.
     fn read_at(&mut self, t: f64) -> Result<(), Flag> {
         self.memory.interpolate(t, &mut self.scratch)?;
         if let Some(quadratures) = &mut self.quadratures {
             self.memory.quadratures_at(t, quadratures)?;
         }
+        self.read_sensitivities_at(t)?;
         self.state.as_mut_slice().copy_from_slice(self.scratch.as_slice());
         Ok(())
     }
@@ -123,8 +124,9 @@ impl<S: OdeSystem> Integrator<S> {
     }
 
     /// Lets CVODES start from the present state at another time.
-    fn memory_at(&mut self, t: f64) -> Result<(), Flag> {
+    pub(super) fn memory_at(&mut self, t: f64) -> Result<(), Flag> {
         self.memory.restart(t, &self.state, self.quadratures.as_ref())?;
+        self.restart_sensitivities()?;
         self.start_roots()
     }
 
@@ -135,7 +137,7 @@ impl<S: OdeSystem> Integrator<S> {
             return Ok(());
         }
         if self.roots.stale || self.memory.internal_time()? > self.stop {
-            self.read_quadratures()?;
+            self.read_running()?;
             self.begin_anew()?;
         }
         Ok(())
@@ -154,7 +156,7 @@ impl<S: OdeSystem> Integrator<S> {
         } else if was_met && given_up == Some(sys::CV_ILL_INPUT) {
             // A function that stays exactly zero behind its root: a start leaves it out, CVODES itself gives up.
             self.put_state_back()?;
-            self.read_quadratures()?;
+            self.read_running()?;
             self.begin_anew()?;
             reached = self.memory.step(towards, &mut self.state, &mut self.time);
         }

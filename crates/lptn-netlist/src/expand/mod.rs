@@ -28,7 +28,7 @@ impl Netlist {
     /// kept. Materials of the library are named, those of the file written if they are used. Read again it is the
     /// same network, and is written as the same text.
     ///
-    /// A table of two arguments still names its CSV file, which has to be beside the text.
+    /// A table of two arguments, and a fit, still name their CSV files, which have to be beside the text.
     pub fn expanded(&self) -> String {
         let mut writer = Writer { netlist: self, text: "format = 1\n".to_owned() };
         if let Some(title) = self.network.title() {
@@ -49,6 +49,7 @@ impl Netlist {
         writer.limits();
         writer.run();
         writer.sizes();
+        writer.fits();
         writer.text
     }
 }

@@ -1,9 +1,11 @@
-//! `[run]` and `[size]`: what is asked of the network.
+//! `[run]`, `[size]` and `[fit]`: what is asked of the network.
 
 use super::Writer;
 use super::text::{Fields, key, string, value};
+use crate::fit::{FitRecord, FitStudy, Observed, VariedName};
 use crate::run::OutputPlan;
 use crate::size::{Goal, SizeStudy};
+use lptn_units::Type;
 
 impl Writer<'_> {
     pub(super) fn run(&mut self) {
@@ -67,6 +69,62 @@ impl Writer<'_> {
         }
         let texts: Vec<String> = size.requirements.iter().map(|r| r.text.clone()).collect();
         fields.put("require", strings(&texts));
+        fields
+    }
+}
+
+impl Writer<'_> {
+    pub(super) fn fits(&mut self) {
+        for fit in &self.netlist.fits {
+            let fields = self.fit(fit);
+            self.section(&format!("fit.{}", key(&fit.name)), &fields);
+        }
+    }
+
+    fn fit(&self, fit: &FitStudy) -> Fields {
+        let ty = |name: &str| {
+            let id = self.netlist.network.parameter(name).ok();
+            id.map_or(Type::SCALAR, |id| self.netlist.network.parameters()[id.index()].ty)
+        };
+        let mut fields = Fields::default();
+        let record = |record: &FitRecord| {
+            let csv = string(&record.csv);
+            let set: Vec<String> = record
+                .set
+                .iter()
+                .map(|(name, own)| format!("{} = {}", key(name), value(own, ty(name))))
+                .collect();
+            if set.is_empty() { csv } else { format!("{{ csv = {csv}, set = {{ {} }} }}", set.join(", ")) }
+        };
+        let records: Vec<String> = fit.records.iter().map(record).collect();
+        fields.put("data", format!("[{}]", records.join(", ")));
+        if let Some(time) = &fit.time {
+            fields.word("time", time);
+        }
+        let column = |observed: &Observed| {
+            let (name, of) = (key(&observed.column), string(&observed.text));
+            match &observed.sigma {
+                None => format!("{name} = {of}"),
+                Some(sigma) => {
+                    let sigma = value(sigma, Type::of(observed.ty.dimension));
+                    format!("{name} = {{ of = {of}, sigma = {sigma} }}")
+                }
+            }
+        };
+        let columns: Vec<String> = fit.observed.iter().map(column).collect();
+        fields.put("column", format!("{{ {} }}", columns.join(", ")));
+        let varied = |varied: &VariedName| {
+            let ends = [("from", &varied.from), ("to", &varied.to)].into_iter();
+            let ends: Vec<String> = ends
+                .filter_map(|(name, end)| {
+                    Some(format!("{name} = {}", value(end.as_ref()?, ty(&varied.name))))
+                })
+                .collect();
+            let range = if ends.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", ends.join(", ")) };
+            format!("{} = {range}", key(&varied.name))
+        };
+        let varied: Vec<String> = fit.varied.iter().map(varied).collect();
+        fields.put("vary", format!("{{ {} }}", varied.join(", ")));
         fields
     }
 }

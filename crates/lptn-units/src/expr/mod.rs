@@ -9,6 +9,7 @@ mod eval;
 mod fix;
 mod fold;
 mod function;
+mod infer;
 mod lexer;
 mod operands;
 mod parser;
@@ -18,6 +19,7 @@ mod tree;
 
 use std::ops::Range;
 
+use crate::dimension::Dimension;
 use crate::error::UnitError;
 use crate::table::TableSymbol;
 use crate::types::Type;
@@ -130,6 +132,13 @@ impl Expression {
             _ => None,
         });
         named.collect()
+    }
+
+    /// The names that `scope` does not know, in order of appearance, each with the dimension it must have so that the
+    /// whole is of type `expected`: with a rotation `omega`, power is due from `a * omega + b * omega^3` only if `a` is
+    /// in W s/rad and `b` in W s^3/rad^3. `None` where the expression leaves a choice, as in `a * b`.
+    pub fn unknown_names(&self, scope: &dyn Scope, expected: Type) -> Vec<(String, Option<Dimension>)> {
+        infer::unknown_names(&self.tree, scope, expected)
     }
 
     /// The names that are called and are no functions, in order of appearance: tables, such as `loss` in

@@ -1,0 +1,157 @@
+//! The files of `lptn fit law FOLDER`: the tables of the paper's Figures 7, 8 and 9, and their manifest.
+
+use std::io;
+
+use lptn_report::{JsonWriter, write_csv};
+use lptn_solve::{Column, Label, Table};
+use lptn_study::fit::law::{Candidate, RunFit, Systematic};
+use lptn_study::{Environment, Scalar, utc};
+use serde_json::{Map, Value, json};
+
+use super::output;
+use super::runs::Runs;
+use crate::failure::Failure;
+use crate::files::Folder;
+
+/// What is written.
+pub(crate) const NAMES: [&str; 5] =
+    ["figure_7_rise.csv", "figure_8_time_constant.csv", "figure_9_power.csv", "laws.csv", "manifest.json"];
+
+pub(crate) fn write(found: &Runs, folder: &Folder) -> Result<(), Failure> {
+    let [rise_name, tau_name, power_name, laws, manifest] = NAMES;
+    folder.clear(&[manifest]);
+    let mut results = Vec::new();
+    for (name, table) in [
+        (rise_name, rise(found)),
+        (tau_name, time_constant(found)),
+        (power_name, power(found)),
+        (laws, output::table(&found.answer)),
+    ] {
+        results.push(folder.write(name, |out| write_csv(&table, out))?);
+    }
+    let environment = Environment {
+        written: utc(std::time::SystemTime::now()),
+        host: std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default().trim().to_owned(),
+        wall_time: Scalar::new(found.wall_time, "s"),
+    };
+    let arguments: Vec<String> =
+        std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned()).collect();
+    let text = json!({
+        "format": 1,
+        "lptn": env!("CARGO_PKG_VERSION"),
+        "arguments": arguments,
+        "inputs": found.inputs,
+        "results": results,
+        "environment": environment,
+    });
+    folder.write(manifest, |out| out.write_all(format!("{text:#}\n").as_bytes())).map(drop)
+}
+
+/// Runs and their speeds, before other columns.
+fn table(found: &Runs, columns: Vec<Column>) -> Table {
+    let unit = &found.answer.data.unit;
+    let name = "run".to_owned();
+    let label = Label { name, cells: found.study.runs.iter().map(|run| run.0.clone()).collect() };
+    let speeds = found.study.runs.iter().map(|run| unit.0.from_si(run.1)).collect();
+    let speed = Column { name: "omega".into(), unit: unit.0.text.clone(), values: speeds };
+    Table::labelled(vec![label], [vec![speed], columns].concat())
+}
+
+/// Name, unit and values of a column.
+type Part<'a> = (&'a str, &'a str, &'a dyn Fn(&RunFit) -> f64);
+
+/// Columns of every thermocouple.
+fn each(found: &Runs, parts: &[Part<'_>]) -> Vec<Column> {
+    let column = |of: &lptn_study::fit::law::ColumnFits, part: &Part<'_>| Column {
+        name: format!("{}.{}", of.column, part.0),
+        unit: part.1.to_owned(),
+        values: of.fits.iter().map(part.2).collect(),
+    };
+    found.columns().iter().flat_map(|of| parts.iter().map(move |part| column(of, part))).collect()
+}
+
+/// Figure 7: rise over speed.
+fn rise(found: &Runs) -> Table {
+    let columns = each(
+        found,
+        &[
+            ("dT", "K", &|f| f.power.rise.value),
+            ("dT_sd", "K", &|f| f.power.rise.random),
+            ("dT_systematic", "K", &|f| f.power.rise.systematic),
+        ],
+    );
+    table(found, columns)
+}
+
+/// Figure 8: time constant over speed.
+fn time_constant(found: &Runs) -> Table {
+    let columns = each(
+        found,
+        &[
+            ("t_RC", "min", &|f| f.fit.tau.value / 60.0),
+            ("t_RC_sd", "min", &|f| f.fit.tau.standard_error / 60.0),
+            ("t_RC_95", "min", &|f| f.fit.tau.half_width / 60.0),
+        ],
+    );
+    table(found, columns)
+}
+
+/// Figure 9: power over speed, with what each law says.
+pub(crate) fn power(found: &Runs) -> Table {
+    let first = found.columns().first().map_or(&[][..], |column| &column.fits);
+    let column = |name: &str, unit: &str, value: &dyn Fn(&RunFit) -> f64| Column {
+        name: name.to_owned(),
+        unit: unit.to_owned(),
+        values: first.iter().map(value).collect(),
+    };
+    let mut columns = vec![
+        column("dT", "K", &|f| f.power.rise.value),
+        column("t_RC", "min", &|f| f.fit.tau.value / 60.0),
+        column("P", "W", &|f| f.power.power.value),
+        column("P_sd", "W", &|f| f.power.power.random),
+        column("P_systematic", "W", &|f| f.power.power.systematic),
+    ];
+    let law = |candidate: &Candidate| {
+        let values = candidate.fitted()?.values.clone();
+        Some(Column { name: candidate.law.to_string(), unit: "W".to_owned(), values })
+    };
+    columns.extend(found.answer.study.candidates.iter().filter_map(law));
+    table(found, columns)
+}
+
+pub(crate) fn json(found: &Runs, out: impl io::Write) -> io::Result<()> {
+    let mut json = JsonWriter::new(out);
+    output::members(&found.answer, &mut json)?;
+    json.member("runs", &runs(found))?;
+    let systematic = found.best().and_then(|(best, fit)| {
+        let errors = found.study.systematic(best)?;
+        let named = fit.coefficients.iter().zip(errors);
+        let part = |e: &Systematic| json!({ "capacity": e.capacity, "offset": e.offset, "gain": e.gain, "total": e.total() });
+        Some(named.map(|(c, e)| (c.name.clone(), part(&e))).collect::<Map<String, Value>>())
+    });
+    json.member("systematic", &json!(systematic))?;
+    json.finish().map(drop)
+}
+
+fn runs(found: &Runs) -> Value {
+    let number =
+        |value: f64, unit: &str, error: f64| json!({ "value": value, "unit": unit, "standard_error": error });
+    let column = |f: &RunFit| {
+        let parted = |p: lptn_study::fit::step::Parted, unit: &str| json!({ "value": p.value, "unit": unit, "standard_error": p.random, "systematic": p.systematic });
+        json!({
+            "T_i": number(f.fit.initial.value, "K", f.fit.initial.standard_error),
+            "T_f": number(f.fit.settled.value, "K", f.fit.settled.standard_error),
+            "t_RC": number(f.fit.tau.value, "s", f.fit.tau.standard_error),
+            "rms": Scalar::new(f.fit.rms, "K").json(),
+            "dT": parted(f.power.rise, "K"),
+            "R_eq": parted(f.power.resistance, "K/W"),
+            "P_disp": parted(f.power.power, "W"),
+            "reference": f.power.reference,
+        })
+    };
+    let run = |(i, (name, speed)): (usize, &(String, f64))| {
+        let columns = found.columns().iter().map(|of| (of.column.clone(), column(&of.fits[i])));
+        json!({ "run": name, "speed": Scalar::new(*speed, "rad/s").json(), "columns": columns.collect::<Map<_, _>>() })
+    };
+    found.study.runs.iter().enumerate().map(run).collect()
+}

@@ -1,0 +1,181 @@
+//! `lptn fit network`
+
+use lptn_netlist::{Diagnostic, FitStudy};
+use lptn_report::write_csv;
+use lptn_solve::{Column, Label, Table};
+use lptn_study::fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network};
+use lptn_study::{SensitiveError, available_threads};
+use lptn_units::Unit;
+
+use crate::args::{Format, Source};
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::fit::args::NetworkArgs;
+use crate::fit::{network_json, network_text, network_words, network_write};
+use crate::input::Input;
+use crate::size;
+
+/// What came of a fit, and of what.
+pub(crate) struct Answer<'a> {
+    pub(crate) input: &'a Input,
+    pub(crate) study: &'a FitStudy,
+    pub(crate) task: NetworkFitTask<'a>,
+    /// In which each parameter is shown.
+    pub(crate) units: Vec<Unit>,
+    pub(crate) fit: NetworkFit,
+    /// Where a parameter sits on a bound, and what else is doubtful.
+    pub(crate) doubts: Vec<Diagnostic>,
+}
+
+pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Failure> {
+    let input = Input::load(&Source { file: args.file.clone(), set: args.set.clone() })?;
+    let study = study(&input, args.name.as_deref())?;
+    console.warn(&input.netlist.files, &input.netlist.warnings);
+    let mut task = NetworkFitTask::of(&input.netlist, study, available_threads())
+        .map_err(|error| failed(&input, study, &error))?;
+    task.more_starts = args.starts.map_or(task.more_starts, usize::from);
+    if args.write {
+        network_write::possible(&input, &task)?;
+    }
+    let fit = fit_network(&task).map_err(|error| failed(&input, study, &error))?;
+    if let Some(stop) = fit.not_converged {
+        let message = format!("fit `{}` did not converge: {}", study.name, stop.text());
+        let problem = Diagnostic::error("fit::not_converged", message).at(study.span.clone(), "").help(
+            "give the parameters start values nearer to what is expected, and bounds with `from` and `to`",
+        );
+        return Err(Failure::at(Exit::Failed, input.netlist.files.clone(), problem));
+    }
+    let units = task.parameters.iter().map(|varied| size::unit(&input, varied.parameter)).collect();
+    let mut answer = Answer { input: &input, study, task, units, fit, doubts: Vec::new() };
+    answer.doubts = network_words::doubts(&answer);
+    console.warn(&input.netlist.files, &answer.doubts);
+    match args.format {
+        Format::Table => console.print(&network_text::text(&answer, console)).map(drop)?,
+        Format::Csv => console.write(|out| write_csv(&answer.table(), out))?,
+        Format::Json => console.write(|out| network_json::json(&answer, out))?,
+    }
+    if !answer.is_whole() {
+        if args.format != Format::Table {
+            console.message(&network_words::verdict(&answer));
+        }
+        return Ok(Exit::No);
+    }
+    if args.write {
+        network_write::write(&answer, &args.file, console)?;
+    }
+    Ok(Exit::Done)
+}
+
+/// The study of this name, or the only one.
+fn study<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a FitStudy, Failure> {
+    let fits = &input.netlist.fits;
+    let known = || fits.iter().map(|study| study.name.as_str());
+    let list = || known().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    let file = &input.text.name;
+    let problem = match (name, fits.as_slice()) {
+        (None, [only]) => return Ok(only),
+        (None, []) => Diagnostic::error(
+            "fit::no_study",
+            format!("{file} has no [fit.NAME]: what is to be fitted to what?"),
+        )
+        .help(
+            "add for example:\n\n[fit.heating]\ndata = \"record.csv\"\ncolumn = { ring_gear = \"steel.T\" }\n\
+                     sigma = \"0.2 K\"\nvary = { R_int = { from = \"1 mK/W\", to = \"1 K/W\" } }",
+        ),
+        (None, _) => Diagnostic::error("fit::which_study", format!("{file} has several [fit.NAME]"))
+            .help(format!("name one of {}", list())),
+        (Some(name), _) => match fits.iter().find(|study| study.name == name) {
+            Some(study) => return Ok(study),
+            None => {
+                let problem = Diagnostic::error("fit::no_study", format!("{file} has no [fit.{name}]"));
+                match lptn_units::suggest(name, known()) {
+                    Some(near) => problem.help(format!("did you mean `{near}`?")),
+                    None if fits.is_empty() => problem,
+                    None => problem.help(format!("name one of {}", list())),
+                }
+            }
+        },
+    };
+    Err(Failure::new(Exit::Input, problem))
+}
+
+fn failed(input: &Input, study: &FitStudy, error: &NetworkFitError) -> Failure {
+    let span = match error {
+        NetworkFitError::StartOutside { parameter } => {
+            study.varied.get(*parameter).map(|varied| &varied.span)
+        }
+        NetworkFitError::Observed { column, .. } => {
+            study.observed.iter().find(|observed| observed.column == *column).map(|observed| &observed.span)
+        }
+        NetworkFitError::Times { record, .. } | NetworkFitError::Start { record, .. } => {
+            study.records.iter().find(|own| own.csv == *record).map(|own| &own.span)
+        }
+        _ => None,
+    };
+    let problem =
+        Diagnostic::error(error.code(), error.to_string()).at(span.unwrap_or(&study.span).clone(), "");
+    let numbers =
+        matches!(error, NetworkFitError::Start { error, .. } if matches!(**error, SensitiveError::Run(_)));
+    let exit =
+        if numbers || matches!(error, NetworkFitError::Search(_)) { Exit::Failed } else { Exit::Input };
+    let problem = match error {
+        NetworkFitError::Times { start, .. } => problem.help(format!(
+            "the times of a record are times of the run, which begins at {start} s: set `start` in [run] to the time at \
+             which the network stood as `T0` says, or take the rows before it out of the record"
+        )),
+        NetworkFitError::TooFew { .. } => problem.help("vary fewer parameters, or give some a prior with `±`"),
+        _ => problem,
+    };
+    Failure::at(exit, input.netlist.files.clone(), problem)
+}
+
+impl Answer<'_> {
+    /// Whether every parameter is determined.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.fit.identifiability.as_ref().is_some_and(|known| known.is_whole())
+    }
+
+    pub(crate) fn name(&self, i: usize) -> &str {
+        &self.task.network.parameters()[self.task.parameters[i].parameter.index()].name
+    }
+
+    /// A parameter's value in its unit.
+    pub(crate) fn shown(&self, i: usize, si: f64) -> f64 {
+        self.units[i].from_si(si)
+    }
+
+    /// A difference of two values of a parameter in its unit.
+    pub(crate) fn shown_difference(&self, i: usize, si: f64) -> f64 {
+        si / self.units[i].scale
+    }
+
+    /// One row for each parameter, in its unit.
+    fn table(&self) -> Table {
+        let all = 0..self.fit.parameters.len();
+        let parameter = |i: usize| &self.fit.parameters[i];
+        let label = |name: &str, cell: &dyn Fn(usize) -> String| Label {
+            name: name.to_owned(),
+            cells: all.clone().map(cell).collect(),
+        };
+        let column = |name: &str, value: &dyn Fn(usize) -> f64| Column {
+            name: name.to_owned(),
+            unit: "unit".to_owned(),
+            values: all.clone().map(value).collect(),
+        };
+        let error =
+            |i: usize| parameter(i).standard_error.map_or(f64::NAN, |se| self.shown_difference(i, se));
+        Table::labelled(
+            vec![
+                label("parameter", &|i| self.name(i).to_owned()),
+                label("unit", &|i| self.units[i].text.clone()),
+                label("state", &|i| network_words::state(self, i).to_owned()),
+            ],
+            vec![
+                column("value", &|i| self.shown(i, parameter(i).value)),
+                column("standard_error", &error),
+                column("start", &|i| self.shown(i, parameter(i).start)),
+            ],
+        )
+    }
+}

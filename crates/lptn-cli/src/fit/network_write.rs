@@ -1,0 +1,49 @@
+//! `lptn fit network --write`: the values go into the netlist.
+
+use std::path::Path;
+
+use lptn_netlist::{Diagnostic, WrittenNumber, parse_file};
+use lptn_report::Shortest;
+use lptn_study::fit::network::NetworkFitTask;
+
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::fit::network::Answer;
+use crate::input::Input;
+use crate::size_write::{can_be_written, put};
+
+/// Digits that are written: a tenth of a standard error never is beyond them.
+const DIGITS: usize = 9;
+
+/// Refuses before anything is computed what could not be written afterwards.
+pub(crate) fn possible(input: &Input, task: &NetworkFitTask<'_>) -> Result<(), Failure> {
+    let codes = ["fit::write", "fit::write_shared"];
+    task.parameters.iter().try_for_each(|varied| can_be_written(input, varied.parameter, codes))
+}
+
+pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Result<(), Failure> {
+    let netlist = &answer.input.netlist;
+    let numbers: Vec<(WrittenNumber, String)> = (0..answer.units.len())
+        .filter_map(|i| {
+            let written = netlist.written_number(answer.task.parameters[i].parameter)?;
+            let value = answer.shown(i, answer.fit.parameters[i].value);
+            let rounded = format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value);
+            Some((written, Shortest::new().text(rounded).to_owned()))
+        })
+        .collect();
+    let text = netlist.text_with_numbers(&numbers);
+    if parse_file(Path::new(&answer.input.text.name), text.as_bytes()).is_err() {
+        let problem = Diagnostic::error("fit::write", "the netlist would not hold the new values");
+        return Err(Failure::new(Exit::Failed, problem.help("write them into it by hand")));
+    }
+    put(file, &text)?;
+    for (i, (_, number)) in numbers.iter().enumerate() {
+        let unit = match answer.units[i].text.as_str() {
+            "1" => String::new(),
+            text => format!(" {text}"),
+        };
+        console.note(&format!("wrote  {}: {} = {number}{unit}", file.display(), answer.name(i)));
+    }
+    Ok(())
+}

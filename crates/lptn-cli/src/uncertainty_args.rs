@@ -1,0 +1,28 @@
+//! The options of `lptn run --uncertainty`.
+
+use clap::{Args as Arguments, ValueEnum};
+
+/// What the `±` of parameters do to the results.
+#[derive(Debug, Arguments)]
+#[command(next_help_heading = "Uncertainty")]
+pub(crate) struct UncertaintyArgs {
+    /// Bands from every `±`, by linear or sobol
+    #[arg(long, value_name = "METHOD", hide_possible_values = true)]
+    pub(crate) uncertainty: Option<Method>,
+    /// Base points of sobol, a power of two [512]
+    #[arg(long, value_name = "N", requires = "uncertainty")]
+    #[arg(value_parser = clap::value_parser!(u32).range(64..=65536))]
+    pub(crate) samples: Option<u32>,
+    /// Seed of sobol [1]
+    #[arg(long, value_name = "S", requires = "uncertainty")]
+    pub(crate) seed: Option<u32>,
+    /// Use so many threads; the result is the same
+    #[arg(long, value_name = "N", requires = "uncertainty")]
+    pub(crate) threads: Option<usize>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Method {
+    Linear,
+    Sobol,
+}

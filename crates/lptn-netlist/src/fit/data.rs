@@ -1,0 +1,221 @@
+//! Reads `data` of `[fit.NAME]`: the records.
+
+use std::sync::Arc;
+
+use lptn_network::{Context, Value};
+use lptn_units::{Scope as _, suggest};
+
+use crate::diagnostic::Diagnostic;
+use crate::elaborate::Elaboration;
+use crate::fields::{Fields, sample, wrong_shape};
+use crate::fit::read::Column;
+use crate::fit::{FitRecord, VariedName};
+use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::record::{self, Record, RecordName, RecordQuery};
+use crate::value::{Place, Wanted};
+use crate::vocabulary::{FIT, list};
+
+/// The keys of one of several records.
+const KEYS: [&str; 2] = ["csv", "set"];
+
+/// The values of `[fit]` that name files.
+pub(crate) fn files(raw: &crate::raw::RawNetlist) -> Vec<(&str, &RawValue)> {
+    let fits = crate::names::section(raw, FIT.name).into_iter().flat_map(|table| &table.entries);
+    let data = fits.filter_map(|fit| match &fit.value.kind {
+        RawKind::Table(table) => table.get("data"),
+        _ => None,
+    });
+    let mut found = Vec::new();
+    for entry in data {
+        let items = match &entry.value.kind {
+            RawKind::Array(list) => list.as_slice(),
+            _ => std::slice::from_ref(&entry.value),
+        };
+        found.extend(items.iter().filter_map(csv_of));
+    }
+    found
+}
+
+/// The file that a string, or `csv` of a table, names.
+fn csv_of(item: &RawValue) -> Option<(&str, &RawValue)> {
+    match &item.kind {
+        RawKind::String { text, .. } => Some((text, item)),
+        RawKind::Table(table) => match &table.get("csv")?.value {
+            value @ RawValue { kind: RawKind::String { text, .. }, .. } => Some((text, value)),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+impl<'a> Elaboration<'a> {
+    /// The records; `None` if something is wrong with one, which is then reported.
+    pub(crate) fn fit_records(
+        &mut self,
+        fields: &Fields<'a>,
+        columns: &[Column<'a>],
+        time: Option<(&str, &RawValue)>,
+    ) -> Option<Vec<FitRecord>> {
+        let raw = fields.require("data", &mut self.problems)?;
+        let items = match &raw.kind {
+            RawKind::Array(list) if !list.is_empty() => list.as_slice(),
+            RawKind::String { .. } | RawKind::Table(_) => std::slice::from_ref(raw),
+            _ => {
+                let words = fields.owner.field("data");
+                self.report(wrong_shape(&words, raw, "a CSV file or a list of them", &sample("data")));
+                return None;
+            }
+        };
+        let name = |column: &Column<'_>| RecordName {
+            name: column.entry.key.clone(),
+            ty: column.observed.as_ref().map(|observed| observed.ty),
+            span: Some(column.entry.key_span.clone()),
+        };
+        let time =
+            time.map(|(name, raw)| RecordName { span: Some(raw.span.clone()), ..RecordName::new(name) });
+        let columns = columns.iter().map(name).collect();
+        let query = RecordQuery { time, columns, ..RecordQuery::default() };
+        let mut records: Vec<FitRecord> = Vec::new();
+        let mut complete = true;
+        for item in items {
+            match self.fit_record(fields, item, &query) {
+                Some(record) => {
+                    if let Some(first) = records.iter().find(|other| other.csv == record.csv) {
+                        let problem = twice(&record, first);
+                        self.report(problem);
+                    }
+                    records.push(record);
+                }
+                None => complete = false,
+            }
+        }
+        complete.then_some(records)
+    }
+
+    fn fit_record(
+        &mut self,
+        fields: &Fields<'a>,
+        item: &'a RawValue,
+        query: &RecordQuery,
+    ) -> Option<FitRecord> {
+        let mut set = Vec::new();
+        let mut sound = true;
+        if let RawKind::Table(table) = &item.kind {
+            for entry in &table.entries {
+                sound &= match entry.key.as_str() {
+                    "csv" => true,
+                    "set" => self.record_set(fields, entry, &mut set),
+                    key => {
+                        self.report(unknown_key(fields, entry, key));
+                        false
+                    }
+                };
+            }
+        }
+        let Some((text, raw)) = csv_of(item) else {
+            if sound {
+                let words = fields.owner.field("data");
+                self.report(wrong_shape(&words, item, "a CSV file or a table with `csv`", &sample("data")));
+            }
+            return None;
+        };
+        let record = self.fit_file(raw, query)?;
+        sound.then(|| FitRecord { csv: text.to_owned(), record, set, span: raw.span.clone() })
+    }
+
+    /// The record that a value names. Without columns to read there is nothing to be said of its inside.
+    fn fit_file(&mut self, raw: &RawValue, query: &RecordQuery) -> Option<Arc<Record>> {
+        let csv: &'a crate::csv_file::CsvFiles = self.csv;
+        let text = match csv.text(raw)? {
+            Ok(text) => text,
+            Err(problem) => {
+                self.report(problem.clone());
+                return None;
+            }
+        };
+        if query.columns.is_empty() {
+            return None;
+        }
+        match record::read_text(text.file, (&text.name, &text.text), query) {
+            Ok(mut record) => {
+                self.problems.append(&mut record.warnings);
+                Some(Arc::new(record))
+            }
+            Err(problems) => {
+                self.problems.extend(problems);
+                None
+            }
+        }
+    }
+
+    /// `set = { omega = "1000 rpm" }`.
+    fn record_set(
+        &mut self,
+        fields: &Fields<'a>,
+        entry: &'a RawEntry,
+        set: &mut Vec<(String, Value)>,
+    ) -> bool {
+        let owner = fields.owner.inside("data").inside("set");
+        let RawKind::Table(table) = &entry.value.kind else {
+            let sample = "set = { omega = \"1000 rpm\" }";
+            self.report(wrong_shape(owner.words(), &entry.value, "a table of parameters", sample));
+            return false;
+        };
+        let mut sound = true;
+        for entry in &table.entries {
+            let name = &entry.key;
+            if !self.is_parameter_here(owner.words(), name, &entry.key_span) {
+                sound = false;
+                continue;
+            }
+            let value = self.builder.scope(Context::Time).symbol(name).and_then(|symbol| {
+                let owner = owner.inside(name);
+                let place = Place { owner: &owner, key: "", raw: &entry.value };
+                self.given(place, Wanted::constant(symbol.ty))
+            });
+            match value {
+                Some(value) => set.push((name.clone(), value.value())),
+                None => sound = false,
+            }
+        }
+        sound
+    }
+
+    /// A parameter cannot have a value of a record and be sought as well.
+    pub(crate) fn set_and_varied(
+        &mut self,
+        fields: &Fields<'a>,
+        records: &[FitRecord],
+        varied: &[VariedName],
+    ) {
+        for record in records {
+            for (name, _) in &record.set {
+                let Some(sought) = varied.iter().find(|varied| varied.name == *name) else { continue };
+                let message =
+                    format!("{} varies `{name}`, which the record {} sets", fields.owner.words(), record.csv);
+                let problem = Diagnostic::error("netlist::fit_set_and_varied", message)
+                    .at(sought.span.clone(), "varied")
+                    .also(record.span.clone(), "set for this record");
+                self.report(problem.help(format!("leave `{name}` out of `vary`, or out of every `set`")));
+            }
+        }
+    }
+}
+
+fn unknown_key(fields: &Fields<'_>, entry: &RawEntry, key: &str) -> Diagnostic {
+    let message = format!("a record of {} has no field `{key}`", fields.owner.words());
+    let problem =
+        Diagnostic::error("netlist::unknown_key", message).at(entry.key_span.clone(), "unknown key");
+    match suggest(key, KEYS.into_iter()) {
+        Some(near) => problem.help(format!("did you mean `{near}`?")),
+        None => problem.help(format!("the keys here are {}", list(&KEYS))),
+    }
+}
+
+fn twice(record: &FitRecord, first: &FitRecord) -> Diagnostic {
+    let message = format!("{} is named twice: its samples would count twice", record.csv);
+    Diagnostic::error("netlist::fit_record_twice", message)
+        .at(record.span.clone(), "again")
+        .also(first.span.clone(), "first here")
+        .help("name each record once")
+}

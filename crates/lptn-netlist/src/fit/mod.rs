@@ -1,0 +1,194 @@
+//! `[fit.NAME]`: parameters to find, and the records that tell of them.
+
+mod data;
+mod read;
+pub(crate) mod words;
+
+pub(crate) use data::files;
+
+use std::sync::Arc;
+
+use lptn_network::{End, Network, ParameterId, Parameters, Value};
+use lptn_units::{EvalError, Type};
+
+use crate::diagnostic::Diagnostic;
+use crate::file::Span;
+use crate::record::Record;
+
+/// One `[fit.NAME]`, as it is written; [`FitStudy::plan`] has its numbers.
+#[derive(Clone, Debug)]
+pub struct FitStudy {
+    /// Its name.
+    pub name: String,
+    /// Where it stands.
+    pub span: Span,
+    /// The records, in file order; at least one.
+    pub records: Vec<FitRecord>,
+    /// What their columns measured; at least one.
+    pub observed: Vec<Observed>,
+    /// The names of the parameters to find, in file order; at least one, none twice.
+    pub varied: Vec<VariedName>,
+    /// The column of the times, where it is named.
+    pub(crate) time: Option<String>,
+}
+
+/// A record of a fit, and the network that it was measured on.
+#[derive(Clone, Debug)]
+pub struct FitRecord {
+    /// The file, as the netlist names it.
+    pub csv: String,
+    /// The columns that are observed, in the order of [`FitStudy::observed`].
+    pub record: Arc<Record>,
+    /// Parameters with values of their own for this record, by name.
+    pub(crate) set: Vec<(String, Value)>,
+    /// The place of what names the file.
+    pub span: Span,
+}
+
+/// A column of the records, and the result it measures.
+#[derive(Clone, Debug)]
+pub struct Observed {
+    /// The column.
+    pub column: String,
+    /// The result as it is written, `steel.T`: a temperature, a heat flow, or an expression of results.
+    pub text: String,
+    /// The node or boundary, where the result is the temperature of one.
+    pub end: Option<End>,
+    /// The result; it reads temperatures and heats, see [`lptn_network::Evaluation::set_temperatures`].
+    pub value: Value,
+    /// The type of the result.
+    pub ty: Type,
+    /// The standard deviation of one sample, where it is given.
+    pub(crate) sigma: Option<Value>,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// A parameter to find.
+#[derive(Clone, Debug)]
+pub struct VariedName {
+    /// Its name.
+    pub name: String,
+    /// Where it is named.
+    pub span: Span,
+    pub(crate) from: Option<Value>,
+    pub(crate) to: Option<Value>,
+}
+
+/// The numbers of a [`FitStudy`] for the parameters of a network, in SI units.
+#[derive(Clone, Debug)]
+pub struct FitPlan {
+    /// The parameters to find, in file order.
+    pub varied: Vec<Varied>,
+    /// The standard deviation of one sample of each of [`FitStudy::observed`], in the unit of its type (K for a
+    /// temperature); `None` where none is given.
+    pub sigmas: Vec<Option<f64>>,
+    /// For each of [`FitStudy::records`] the parameters that its run starts from: everything that was set, and what the
+    /// record sets. The varied parameters are to be set in addition.
+    pub parameters: Vec<Parameters>,
+}
+
+/// A parameter to find, with numbers in SI units.
+#[derive(Clone, Debug)]
+pub struct Varied {
+    /// Which parameter.
+    pub id: ParameterId,
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: Type,
+    /// Its own value, from which the search starts.
+    pub start: f64,
+    /// The least value it may take; minus infinity without one.
+    pub from: f64,
+    /// The largest value it may take; infinity without one.
+    pub to: f64,
+    /// One standard deviation of what was known before: the parameter's own `±`, around [`Varied::start`].
+    pub prior: Option<f64>,
+}
+
+impl FitStudy {
+    /// The numbers for the parameters of `network`; `set` is what was set in it, see
+    /// [`Netlist::overrides`](crate::Netlist::overrides).
+    ///
+    /// # Errors
+    /// What the evaluation of a bound, a deviation or a value of a record reports.
+    pub fn plan(&self, network: &Network, set: &Parameters) -> Result<FitPlan, EvalError> {
+        let mut scope = network.evaluation();
+        let mut at = |value: &Value| value.at(&mut scope);
+        let mut varied = Vec::with_capacity(self.varied.len());
+        for entry in &self.varied {
+            let Ok(id) = network.parameter(&entry.name) else { continue };
+            let parameter = &network.parameters()[id.index()];
+            varied.push(Varied {
+                id,
+                name: entry.name.clone(),
+                ty: parameter.ty,
+                start: network.parameter_value(id),
+                from: entry.from.as_ref().map_or(Ok(f64::NEG_INFINITY), &mut at)?,
+                to: entry.to.as_ref().map_or(Ok(f64::INFINITY), &mut at)?,
+                prior: parameter.deviation.filter(|deviation| *deviation > 0.0),
+            });
+        }
+        let sigmas: Result<_, _> =
+            self.observed.iter().map(|observed| observed.sigma.as_ref().map(&mut at).transpose()).collect();
+        let mut parameters = Vec::with_capacity(self.records.len());
+        for record in &self.records {
+            let mut own = set.clone();
+            for (name, value) in &record.set {
+                if let Ok(id) = network.parameter(name) {
+                    own.set(id, at(value)?);
+                }
+            }
+            parameters.push(own);
+        }
+        Ok(FitPlan { varied, sigmas: sigmas?, parameters })
+    }
+
+    /// What is wrong with the numbers.
+    pub(crate) fn check(&self, network: &Network) -> Vec<Diagnostic> {
+        let plan = match self.plan(network, &network.overrides()) {
+            Ok(plan) => plan,
+            Err(error) => {
+                let message = format!("fit `{}`: {error}", self.name);
+                return vec![Diagnostic::error(error.code(), message).at(self.span.clone(), "")];
+            }
+        };
+        let mut problems = Vec::new();
+        for (entry, varied) in self.varied.iter().zip(&plan.varied) {
+            problems.extend(self.check_range(entry, varied));
+        }
+        for (observed, sigma) in self.observed.iter().zip(&plan.sigmas) {
+            if sigma.is_some_and(|sigma| !(sigma > 0.0 && sigma.is_finite())) {
+                let message = format!(
+                    "the standard deviation of column `{}` has to be more than zero",
+                    observed.column
+                );
+                let problem = Diagnostic::error("netlist::fit_sigma", message).at(observed.span.clone(), "");
+                problems
+                    .push(problem.help("write how far one sample scatters, for example `sigma = \"0.2 K\"`"));
+            }
+        }
+        problems
+    }
+
+    fn check_range(&self, entry: &VariedName, varied: &Varied) -> Option<Diagnostic> {
+        let (name, fit) = (&entry.name, &self.name);
+        let at =
+            |message: String| Diagnostic::error("netlist::fit_range", message).at(entry.span.clone(), "");
+        if varied.from >= varied.to {
+            let message = format!("`vary` of fit `{fit}`: `from` of `{name}` has to be less than `to`");
+            return Some(at(message).help("write the least value as `from` and the largest as `to`"));
+        }
+        if (varied.from..=varied.to).contains(&varied.start) {
+            return None;
+        }
+        let unit = if varied.ty.absolute { "K".to_owned() } else { varied.ty.dimension.si_unit() };
+        let start = crate::describe::short(varied.start);
+        let message = format!(
+            "`vary` of fit `{fit}`: the range of `{name}` does not hold its own value, {start} {unit}, from which the \
+             search starts"
+        );
+        Some(at(message).help("make the range wider, or give the parameter another value in [param]"))
+    }
+}

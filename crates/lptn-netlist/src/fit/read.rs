@@ -1,0 +1,211 @@
+//! Reads `[fit.NAME]`: what is varied and what is observed.
+
+use lptn_network::{Context, Value};
+use lptn_units::{Scope as _, Type, suggest};
+
+use crate::diagnostic::Diagnostic;
+use crate::elaborate::Elaboration;
+use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::file::Span;
+use crate::fit::{FitStudy, Observed, VariedName};
+use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::value::{Place, Wanted};
+use crate::vocabulary::{FIT, FIT_COLUMN, PARAM, VARY, list};
+
+/// A column whose result could not be read is still looked for in the records.
+pub(crate) struct Column<'a> {
+    pub(crate) entry: &'a RawEntry,
+    pub(crate) observed: Option<Observed>,
+}
+
+impl<'a> Elaboration<'a> {
+    pub(crate) fn fits(&mut self) -> Vec<FitStudy> {
+        let entries = self.elements(FIT.name);
+        if let Some(first) = entries.iter().find(|entry| FIT.keys.contains(&entry.key.as_str())) {
+            let message = format!("`{}` belongs to a fit with a name", first.key);
+            let problem = Diagnostic::error("netlist::fit_without_name", message);
+            let problem = problem.at(first.key_span.clone(), "below [fit]");
+            self.report(problem.help("give it one in its heading, for example `[fit.heat_up]`"));
+            return Vec::new();
+        }
+        entries.iter().filter_map(|entry| self.fit_study(entry)).collect()
+    }
+
+    fn fit_study(&mut self, entry: &'a RawEntry) -> Option<FitStudy> {
+        let owner = Owner::element(FIT.name, &entry.key);
+        let fields = Fields::of(&FIT, owner, entry, &mut self.problems)?;
+        self.all_there(&fields)?;
+        let varied = self.varied(&fields);
+        let columns = self.observed(&fields);
+        let time = fields.get("time").map(|raw| (fields.text("time", raw, &mut self.problems), raw));
+        let records = self.fit_records(&fields, &columns, time.map(|(text, raw)| (text.unwrap_or("t"), raw)));
+        let records = records?;
+        self.set_and_varied(&fields, &records, varied.as_deref().unwrap_or_default());
+        let observed: Option<Vec<Observed>> = columns.into_iter().map(|column| column.observed).collect();
+        let observed = observed.filter(|observed| !observed.is_empty())?;
+        Some(FitStudy {
+            name: entry.key.clone(),
+            span: entry.key_span.clone(),
+            records,
+            observed,
+            varied: varied?,
+            time: time.and_then(|(text, _)| text).map(str::to_owned),
+        })
+    }
+
+    /// Whether it says what to read and what to find; all that is missing is one problem, for it has one place.
+    fn all_there(&mut self, fields: &Fields<'a>) -> Option<()> {
+        let missing: Vec<&str> =
+            ["data", "column", "vary"].into_iter().filter(|key| fields.get(key).is_none()).collect();
+        if missing.len() < 2 || !fields.complete {
+            return Some(());
+        }
+        let message = format!("{} has no {}", fields.owner.words(), list(&missing));
+        let lines: Vec<String> = missing.iter().map(|key| sample(key)).collect();
+        let problem = Diagnostic::error("netlist::missing_field", message).at(fields.place.clone(), "");
+        self.report(problem.help(format!("add for example:\n\n{}", lines.join("\n"))));
+        None
+    }
+
+    /// `vary = { R_int = { from = .., to = .. } }`, or a list of names.
+    fn varied(&mut self, fields: &Fields<'a>) -> Option<Vec<VariedName>> {
+        let raw = fields.require("vary", &mut self.problems)?;
+        let all: Vec<Option<VariedName>> = match &raw.kind {
+            RawKind::Table(table) if !table.entries.is_empty() => {
+                table.entries.iter().map(|entry| self.varied_entry(fields, entry)).collect()
+            }
+            RawKind::Array(list) if !list.is_empty() => {
+                list.iter().map(|raw| self.varied_name(fields, raw)).collect()
+            }
+            _ => {
+                let problem = wrong_shape(
+                    &fields.owner.field("vary"),
+                    raw,
+                    "a table of parameters or a list of their names",
+                    &sample("vary"),
+                );
+                self.report(problem);
+                return None;
+            }
+        };
+        let all: Option<Vec<VariedName>> = all.into_iter().collect();
+        let all = all?;
+        for (i, entry) in all.iter().enumerate() {
+            if let Some(first) = all[..i].iter().find(|other| other.name == entry.name) {
+                let message = format!("{} names `{}` twice", fields.owner.field("vary"), entry.name);
+                let problem = Diagnostic::error("netlist::fit_vary", message)
+                    .at(entry.span.clone(), "again")
+                    .also(first.span.clone(), "first here");
+                self.report(problem.help("name each parameter once"));
+                return None;
+            }
+        }
+        Some(all)
+    }
+
+    fn varied_name(&mut self, fields: &Fields<'a>, raw: &'a RawValue) -> Option<VariedName> {
+        let name = fields.text("vary", raw, &mut self.problems)?;
+        self.can_vary(fields, name, &raw.span)?;
+        Some(VariedName { name: name.to_owned(), span: raw.span.clone(), from: None, to: None })
+    }
+
+    fn varied_entry(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<VariedName> {
+        let name = &entry.key;
+        let known = self.can_vary(fields, name, &entry.key_span);
+        let range = Fields::of(&VARY, fields.owner.inside("vary").inside(name), entry, &mut self.problems)?;
+        known?;
+        let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
+        let mut end = |key: &str| match range.get(key) {
+            None => Some(None),
+            Some(raw) => {
+                // an owner without a key: the key `from` of a path takes something else
+                let owner = range.owner.inside(key);
+                Some(Some(self.given(Place { owner: &owner, key: "", raw }, Wanted::constant(ty))?.value()))
+            }
+        };
+        let (from, to) = (end("from"), end("to"));
+        Some(VariedName { name: name.clone(), span: entry.key_span.clone(), from: from?, to: to? })
+    }
+
+    /// Whether a name is that of a parameter that something depends on.
+    fn can_vary(&mut self, fields: &Fields<'a>, name: &str, place: &Span) -> Option<()> {
+        let words = fields.owner.field("vary");
+        if !self.is_parameter_here(&words, name, place) {
+            return None;
+        }
+        if !self.names.is_used(name) {
+            let message = format!("{words} names `{name}`, which nothing in the network uses");
+            let problem = Diagnostic::error("netlist::fit_unused", message).at(place.clone(), "");
+            self.report(problem.help("use it in an element, or leave it out: no record can tell its value"));
+            return None;
+        }
+        (!self.names.has_failed(name)).then_some(())
+    }
+
+    /// Whether a name is that of a parameter; if not, it is reported.
+    pub(crate) fn is_parameter_here(&mut self, words: &str, name: &str, place: &Span) -> bool {
+        if self.names.is_parameter(name) {
+            return true;
+        }
+        let message = format!("{words} has to name parameters, got `{name}`");
+        let problem = Diagnostic::error("netlist::unknown_parameter", message).at(place.clone(), "");
+        let parameters = crate::names::section(self.raw, PARAM);
+        let names = parameters.into_iter().flat_map(|table| &table.entries).map(|entry| entry.key.as_str());
+        let help = match suggest(name, names) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => match self.names.value_kind(name) {
+                Some(kind) => format!("`{name}` is a {}; only the values of [param] are found", kind.word()),
+                None => "give the value a name in [param] and use it in the element".to_owned(),
+            },
+        };
+        self.report(problem.help(help));
+        false
+    }
+
+    /// `column = { ring_gear = "steel.T", housing = { of = "aluminium.T", sigma = "0.2 K" } }`.
+    fn observed(&mut self, fields: &Fields<'a>) -> Vec<Column<'a>> {
+        let Some(raw) = fields.require("column", &mut self.problems) else { return Vec::new() };
+        let entries = match &raw.kind {
+            RawKind::Table(table) if !table.entries.is_empty() => &table.entries,
+            _ => {
+                let (words, sample) = (fields.owner.field("column"), sample("column"));
+                self.report(wrong_shape(&words, raw, "a table of columns and what they measure", &sample));
+                return Vec::new();
+            }
+        };
+        let column = |entry| Column { entry, observed: self.observed_column(fields, entry) };
+        entries.iter().map(column).collect()
+    }
+
+    fn observed_column(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<Observed> {
+        let owner = fields.owner.inside("column").inside(&entry.key);
+        let (of, own) = match &entry.value.kind {
+            RawKind::Table(_) => {
+                let inner = Fields::of(&FIT_COLUMN, owner.clone(), entry, &mut self.problems)?;
+                (inner.require("of", &mut self.problems)?, inner.get("sigma"))
+            }
+            _ => (&entry.value, None),
+        };
+        let RawKind::String { text, .. } = &of.kind else {
+            self.report(wrong_shape(owner.words(), of, "the name of a result", "\"steel.T\""));
+            return None;
+        };
+        let given = self.given(Place { owner: &owner, key: "", raw: of }, Wanted::of_results())?;
+        let ty = given.ty();
+        let sigma = match own.or_else(|| fields.get("sigma")) {
+            None => None,
+            Some(raw) => Some(self.sigma(&owner.inside("sigma"), raw, ty)?),
+        };
+        let text = text.trim();
+        let end = text.strip_suffix(".T").and_then(|name| self.builder.end(name));
+        let column = entry.key.clone();
+        let span = entry.key_span.clone();
+        Some(Observed { column, text: text.to_owned(), end, value: given.value(), ty, sigma, span })
+    }
+
+    /// The deviation of a sample: a difference where a temperature is measured.
+    fn sigma(&mut self, owner: &Owner, raw: &'a RawValue, ty: Type) -> Option<Value> {
+        let wanted = Wanted::constant(Type::of(ty.dimension));
+        Some(self.given(Place { owner, key: "", raw }, wanted)?.value())
+    }
+}

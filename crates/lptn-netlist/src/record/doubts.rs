@@ -1,0 +1,194 @@
+//! What is doubtful about the values of a column.
+
+use crate::describe::short;
+use crate::diagnostic::Diagnostic;
+use crate::file::Span;
+use crate::record::{Record, RecordColumn, Saturation};
+
+const ZERO_CELSIUS: f64 = 273.15;
+
+/// The fewest rows, and the least share of the record, that an extreme value is held for.
+const LEAST_RUN: usize = 8;
+const LEAST_SHARE: f64 = 0.01;
+
+/// Where a column seems to be at its end, and what is to be said about its values.
+pub(crate) fn of(
+    record: &Record,
+    column: &RecordColumn,
+    text: &str,
+) -> (Option<Saturation>, Vec<Diagnostic>) {
+    let rows: Vec<usize> = (0..column.values.len()).filter(|&i| !column.values[i].is_nan()).collect();
+    let line = |row: usize| record.line_in(text, row);
+    let mut warnings = Vec::new();
+    warnings.extend(gaps(column, &line));
+    let value = |i: usize| column.values[rows[i]];
+    let constant = (1..rows.len()).all(|i| value(i).total_cmp(&value(0)).is_eq());
+    if constant && rows.len() > 1 {
+        warnings.push(unchanging(column));
+        return (None, warnings);
+    }
+    warnings.extend(jump(column, &rows, &line));
+    warnings.extend(implausible(column));
+    let saturation = saturation(record, column, &rows);
+    warnings.extend(saturation.map(|found| saturated(record, column, (found, &line))));
+    (saturation, warnings)
+}
+
+/// A value of the column in its own unit.
+fn shown(column: &RecordColumn, si: f64) -> String {
+    let unit = if column.unit.text == "1" { "" } else { &column.unit.text };
+    format!("{} {unit}", short(column.unit.from_si(si))).trim().to_owned()
+}
+
+fn gaps(column: &RecordColumn, line: &dyn Fn(usize) -> Span) -> Option<Diagnostic> {
+    let first = column.values.iter().position(|value| value.is_nan())?;
+    let (count, all) = (column.gaps, column.values.len());
+    let which = if count == 1 { "gap, which is" } else { "gaps, which are" };
+    let message = format!("column `{}` has {count} {which} left out of its {all} rows", column.name);
+    let label = if count == 1 { "here" } else { "the first" };
+    Some(Diagnostic::warning("record::gaps", message).at(line(first), label))
+}
+
+fn unchanging(column: &RecordColumn) -> Diagnostic {
+    let value = column.values.iter().copied().find(|value| !value.is_nan()).unwrap_or(f64::NAN);
+    let message =
+        format!("column `{}` does not change: it is {} throughout", column.name, shown(column, value));
+    Diagnostic::warning("record::constant", message).at(column.span.clone(), "")
+}
+
+/// A jump as a change of the unit makes one.
+fn jump(column: &RecordColumn, rows: &[usize], line: &dyn Fn(usize) -> Span) -> Option<Diagnostic> {
+    if !column.unit.ty.absolute {
+        return None;
+    }
+    let steps = || rows.windows(2).map(|pair| [column.values[pair[0]], column.values[pair[1]]]);
+    let mut sizes: Vec<f64> = steps().map(|[a, b]| (b - a).abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let usual = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+    let large = |a: f64, b: f64| (b - a).abs() > 20.0_f64.max(20.0 * usual);
+    // as the numbers stand in the file
+    let written = |si: f64| column.unit.from_si(si);
+    let (at, (before, after)) = steps().enumerate().find_map(|(i, [a, b])| {
+        let units = changed_unit(written(a), written(b)).filter(|_| large(a, b))?;
+        Some((i, units))
+    })?;
+    let message = format!(
+        "column `{}` jumps from {} to {}, as if its unit changed from {before} to {after}",
+        column.name,
+        shown(column, column.values[rows[at]]),
+        shown(column, column.values[rows[at + 1]])
+    );
+    let warning = Diagnostic::warning("record::unit_changes", message)
+        .at(line(rows[at + 1]), "after the jump")
+        .also(line(rows[at]), "before it");
+    Some(warning.help("convert one of the parts: a column has one unit, that of its header"))
+}
+
+/// The two units between which two neighbours are the same temperature, to a few kelvin.
+fn changed_unit(a: f64, b: f64) -> Option<(&'static str, &'static str)> {
+    let near = |x: f64, y: f64| (x - y).abs() < 3.0 + 0.02 * y.abs();
+    let fahrenheit = |celsius: f64| 1.8 * celsius + 32.0;
+    [
+        (near(b, a + ZERO_CELSIUS), ("degC", "K")),
+        (near(a, b + ZERO_CELSIUS), ("K", "degC")),
+        (near(b, fahrenheit(a)), ("degC", "degF")),
+        (near(a, fahrenheit(b)), ("degF", "degC")),
+    ]
+    .into_iter()
+    .find_map(|(is, units)| is.then_some(units))
+}
+
+/// Kelvin that read like degrees Celsius, and the other way round.
+fn implausible(column: &RecordColumn) -> Option<Diagnostic> {
+    if !column.unit.ty.absolute {
+        return None;
+    }
+    let written =
+        column.values.iter().filter(|value| !value.is_nan()).map(|&value| column.unit.from_si(value));
+    let (low, high) = written.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+    let unit = column.unit.text.as_str();
+    let other = match unit {
+        "K" if high < 150.0 => "degC",
+        "degC" | "°C" if low > 260.0 && high < 500.0 && high - low < 120.0 => "K",
+        _ => return None,
+    };
+    let message = format!(
+        "column `{}` goes from {} to {} {unit}: is it in {other}?",
+        column.name,
+        short(low),
+        short(high)
+    );
+    let warning = Diagnostic::warning("record::which_unit", message).at(column.span.clone(), "");
+    Some(warning.help(format!("if so, write `{} [{other}]`", column.name)))
+}
+
+/// An extreme value that is come to steeply and then held: a body that settles slows down before it stands still.
+fn saturation(record: &Record, column: &RecordColumn, rows: &[usize]) -> Option<Saturation> {
+    let values: Vec<f64> = rows.iter().map(|&row| column.values[row]).collect();
+    let highest = values.iter().copied().max_by(f64::total_cmp)?;
+    let lowest = values.iter().copied().min_by(f64::total_cmp)?;
+    [highest, lowest].into_iter().find_map(|extreme| {
+        let (first, last) = longest_run(&values, extreme)?;
+        let length = last - first + 1;
+        #[expect(clippy::cast_precision_loss, reason = "a share of the rows")]
+        let share = length as f64 / values.len() as f64;
+        if first == 0 || length < LEAST_RUN || share < LEAST_SHARE {
+            return None;
+        }
+        let abrupt = is_abrupt(&values[..first], length, (extreme, highest - lowest));
+        let held = Saturation { value: extreme, first: rows[first], last: rows[last] };
+        (abrupt && record.time[held.last] > record.time[held.first]).then_some(held)
+    })
+}
+
+/// The longest run of one value: its first and its last position.
+fn longest_run(values: &[f64], value: f64) -> Option<(usize, usize)> {
+    let mut best: Option<(usize, usize)> = None;
+    let mut start = None;
+    for (i, v) in values.iter().enumerate() {
+        if v.total_cmp(&value).is_ne() {
+            start = None;
+            continue;
+        }
+        let from = *start.get_or_insert(i);
+        if best.is_none_or(|(a, b)| i - from > b - a) {
+            best = Some((from, i));
+        }
+    }
+    best
+}
+
+/// Whether the values before a run come to it as fast at the end as before, and it lasts much longer than at that
+/// speed a value would that is rounded: over the last tenth of the range in no more than 1.5 times the rows of the
+/// tenth before it, and for 4 times the rows of one step between values. A body that settles, `exp(-t / tau)`, takes
+/// longer and longer for the same stretch; where its record ends before it slows down, its last value lasts no longer
+/// than the steps before.
+fn is_abrupt(before: &[f64], length: usize, (extreme, range): (f64, f64)) -> bool {
+    let reached = |share: f64| before.iter().rposition(|value| (value - extreme).abs() > share * range);
+    let (Some(last), Some(earlier)) = (reached(0.1), reached(0.2)) else { return false };
+    let end = before.len() - 1 - last;
+    let steps = before.iter().map(|value| (value - extreme).abs()).filter(|&step| step > 0.0);
+    let step = steps.fold(range, f64::min);
+    #[expect(clippy::cast_precision_loss, reason = "counts of rows")]
+    let usual = (end as f64) * step / (0.1 * range);
+    #[expect(clippy::cast_precision_loss, reason = "counts of rows")]
+    let held = length as f64;
+    2 * end <= 3 * (last - earlier) && held > 4.0 * usual
+}
+
+/// That a column is at its end.
+fn saturated(
+    record: &Record,
+    column: &RecordColumn,
+    (found, line): (Saturation, &dyn Fn(usize) -> Span),
+) -> Diagnostic {
+    let [from, to] = [found.first, found.last].map(|row| short(record.time[row]));
+    let message = format!(
+        "column `{}` stays at {}, its most extreme value, from {from} s to {to} s: its sensor seems to be at its end",
+        column.name,
+        shown(column, found.value)
+    );
+    Diagnostic::warning("record::saturated", message)
+        .at(line(found.first), "the first row of the run")
+        .help(format!("leave out what comes after {from} s, or measure again with a range that is larger"))
+}

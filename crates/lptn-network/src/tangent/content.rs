@@ -1,0 +1,212 @@
+//! How the heat content of a node changes with a parameter, its temperature held.
+//!
+//! `H(T) = integral of C from T0 to T`, so that `dH = integral of dC - C(T0) dT0`. For a constant capacity this is
+//! `dC (T - T0) - C dT0`; where all of a varying one is scaled by a size, `H dln(size) - C(T0) dT0`.
+
+use lptn_units::Scalar;
+
+use super::live::Live;
+use super::refusal::NoTangents;
+use super::{Pass, Tangents};
+use crate::enthalpy::Enthalpy;
+use crate::evaluation::{PASS, Slope};
+use crate::id::NodeId;
+use crate::layout::slot;
+use crate::material::{Lump, Melting};
+use crate::network::Network;
+use crate::value::Value;
+
+/// The derivatives of one node, for every pass.
+#[derive(Clone, Debug)]
+pub(super) struct Content {
+    node: NodeId,
+    /// `dT0` in K.
+    initial: Vec<[f64; PASS]>,
+    change: Change,
+}
+
+/// How the capacity of a node changes.
+#[derive(Clone, Debug)]
+enum Change {
+    /// `dC` of a constant one in J/K.
+    Constant(Vec<[f64; PASS]>),
+    /// `dln(size)` of one that is scaled as a whole.
+    Scaled(Vec<[f64; PASS]>),
+    /// That of one whose parts change by themselves: integrated.
+    Parts(Vec<Value>),
+}
+
+/// Points and weights of Gauss and Legendre's rule on (-1, 1), exact to degree 9.
+const GAUSS: [(f64, f64); 5] = [
+    (-0.906_179_845_938_664, 0.236_926_885_056_189_08),
+    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+    (0.0, 0.568_888_888_888_888_9),
+    (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_08),
+];
+
+/// The nodes with capacity whose heat content changes.
+pub(super) fn all_of(
+    network: &Network,
+    live: &Live<'_>,
+    passes: &mut [Pass],
+) -> Result<Vec<Content>, NoTangents> {
+    let mut capacitors: Vec<Vec<&Value>> = vec![Vec::new(); network.nodes().len()];
+    for part in network.capacitors() {
+        capacitors[part.node.index()].push(&part.capacity);
+    }
+    let may_melt = network.materials().iter().any(|material| material.melting.is_some());
+    let mut contents = Vec::new();
+    for (id, parts) in network.node_ids().zip(capacitors) {
+        let node = &network.nodes()[id.index()];
+        let values: Vec<&Value> = node.capacity.iter().chain(parts).collect();
+        let starts = node.initial.as_ref().filter(|_| !node.massless).is_some_and(|t| live.value(t));
+        let changes = values.iter().any(|value| live.value(value)) || may_melt && live.melting(id);
+        if starts || changes {
+            if starts && node.molten > 0.0 {
+                return Err(NoTangents::Melting { node: id });
+            }
+            contents.push(Content::new(network, id, &values, (live, passes))?);
+        }
+    }
+    Ok(contents)
+}
+
+impl Content {
+    fn new(
+        network: &Network,
+        node: NodeId,
+        values: &[&Value],
+        (live, passes): (&Live<'_>, &mut [Pass]),
+    ) -> Result<Self, NoTangents> {
+        let none = Value::Constant(0.0);
+        let start = network.nodes()[node.index()].initial.as_ref().unwrap_or(&none);
+        let initial = slopes(&[start], passes);
+        let melts = melts(network, node);
+        let change = match (network.enthalpy(node).is_some(), size_of(values, live)) {
+            (false, _) => Change::Constant(slopes(values, passes)),
+            (true, Some(size)) if !melts || latent_scales(network, node, (&size, live)) => {
+                Change::Scaled(logarithmic(&size, passes))
+            }
+            (true, _) if !melts => Change::Parts(values.iter().map(|&value| value.clone()).collect()),
+            (true, _) => return Err(NoTangents::Melting { node }),
+        };
+        Ok(Self { node, initial, change })
+    }
+
+    /// `dH` in J for one pass, at a temperature in K.
+    fn at(&self, network: &Network, pass: (usize, &mut Pass), temperature: f64) -> [f64; PASS] {
+        let (index, pass) = pass;
+        let start = network.initial(self.node);
+        let first = network.capacity(self.node);
+        let mut change = match &self.change {
+            Change::Constant(slopes) => slopes[index].map(|slope| slope * (temperature - start)),
+            Change::Scaled(slopes) => {
+                let heat = network.enthalpy(self.node).and_then(|curve| curve.heat(temperature));
+                slopes[index].map(|slope| slope * heat.unwrap_or(f64::NAN))
+            }
+            Change::Parts(values) => match network.enthalpy(self.node) {
+                Some(curve) => integral(values, curve, (start, temperature), pass),
+                None => [f64::NAN; PASS],
+            },
+        };
+        change.iter_mut().zip(&self.initial[index]).for_each(|(dh, dt)| *dh -= first * dt);
+        change
+    }
+}
+
+/// The factors of the only part that all of a capacity is proportional to and that alone changes with the parameters:
+/// its size. `None` if something else changes too.
+fn size_of(values: &[&Value], live: &Live<'_>) -> Option<Vec<Value>> {
+    let [value] = values else {
+        return values.iter().all(|value| !live.value(value)).then(Vec::new);
+    };
+    let factors: Vec<Value> = match value {
+        Value::Product(factors) => factors.to_vec(),
+        one => vec![(*one).clone()],
+    };
+    let reads_own = |factor: &Value| factor.slots().contains(&slot::OWN);
+    let changing: Vec<Value> = factors.into_iter().filter(|factor| live.value(factor)).collect();
+    changing.iter().all(|factor| !reads_own(factor)).then_some(changing)
+}
+
+/// The lumps of a node that melt.
+pub(super) fn melting(network: &Network, node: NodeId) -> impl Iterator<Item = (&Lump, &Melting)> {
+    let own = network.nodes()[node.index()].lump.iter();
+    let parts = network.capacitors().iter().filter(move |part| part.node == node);
+    own.chain(parts.filter_map(|part| part.lump.as_ref())).filter_map(|lump| {
+        let material = &network.materials()[lump.material.index()];
+        Some((lump, material.melting.as_ref()?))
+    })
+}
+
+fn melts(network: &Network, node: NodeId) -> bool {
+    network.nodes()[node.index()].molten > 0.0 || melting(network, node).next().is_some()
+}
+
+/// Whether latent heat is proportional to these factors of a capacity too, and else does not change.
+fn latent_scales(network: &Network, node: NodeId, (size, live): (&[Value], &Live<'_>)) -> bool {
+    melting(network, node).all(|(lump, melting)| {
+        let density = network.materials()[lump.material.index()].density.as_ref();
+        let amount = [Some(lump.size.field().1), density];
+        let fixed = [&melting.solidus, &melting.liquidus, &melting.heat];
+        let scales = |factor: &Value| amount.into_iter().flatten().any(|value| value.is_same(factor));
+        !fixed.into_iter().any(|value| live.value(value)) && size.iter().all(scales)
+    })
+}
+
+fn sum(values: &[&Value], pass: &mut Pass) -> Slope {
+    let zero = Slope::constant(0.0);
+    values.iter().fold(zero, |sum, value| {
+        sum + value.on(&pass.slots, &mut pass.stack).unwrap_or(Slope::constant(f64::NAN))
+    })
+}
+
+fn slopes(values: &[&Value], passes: &mut [Pass]) -> Vec<[f64; PASS]> {
+    passes.iter_mut().map(|pass| sum(values, pass).derivatives).collect()
+}
+
+fn logarithmic(factors: &[Value], passes: &mut [Pass]) -> Vec<[f64; PASS]> {
+    let one = |pass: &mut Pass| {
+        let product =
+            factors.iter().fold(Slope::constant(1.0), |product, factor| product * sum(&[factor], pass));
+        product.derivatives.map(|slope| slope / product.value())
+    };
+    passes.iter_mut().map(one).collect()
+}
+
+/// The integral of the derivatives of the sum of `values` over a stretch of temperature, panel by panel of the curve
+/// that was found to be smooth on each.
+fn integral(values: &[Value], curve: &Enthalpy, (from, to): (f64, f64), pass: &mut Pass) -> [f64; PASS] {
+    let values: Vec<&Value> = values.iter().collect();
+    let mut stops = curve.stops(from.min(to), from.max(to));
+    stops.insert(0, from.min(to));
+    stops.push(from.max(to));
+    let mut total = [0.0; PASS];
+    for pair in stops.windows(2) {
+        let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
+        for (x, weight) in GAUSS {
+            pass.slots[slot::OWN as usize] = Slope::constant(middle + half * x);
+            let slope = sum(&values, pass);
+            let weight = half * weight * (to - from).signum();
+            total.iter_mut().zip(slope.derivatives).for_each(|(sum, d)| *sum += weight * d);
+        }
+    }
+    total
+}
+
+impl Tangents {
+    /// Writes by how much the heat content of every node over that at its start changes in J per SI unit of each
+    /// parameter, at these temperatures of all nodes in K: blocks of as many values as there are nodes.
+    pub fn contents(&mut self, network: &Network, temperatures: &[f64], out: &mut [f64]) {
+        let nodes = network.nodes().len();
+        out.fill(0.0);
+        for (index, (first, count)) in self.spans().enumerate() {
+            for content in &self.contents {
+                let node = content.node.index();
+                let change = content.at(network, (index, &mut self.passes[index]), temperatures[node]);
+                (0..count).for_each(|k| out[(first + k) * nodes + node] = change[k]);
+            }
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! How the heat flows of a network change with a parameter, temperatures of nodes held.
+
+use lptn_units::Scalar;
+
+use super::{Pass, Tangents};
+use crate::dependence::Dependence;
+use crate::evaluation::{Evaluation, PASS, Slope};
+use crate::flow::{name, place};
+use crate::id::{Field, Item};
+use crate::input_error::InputError;
+use crate::law::At;
+use crate::layout::slot;
+use crate::network::Network;
+use crate::signal::Course;
+
+impl Tangents {
+    /// Writes by how much the heat that every vertex (nodes, then boundaries) receives changes in W per SI unit of each
+    /// parameter: where `scope` stands, at these temperatures of all vertices in K, those of the nodes held and those
+    /// of the boundaries as they change. Blocks of as many values as there are vertices.
+    ///
+    /// # Errors
+    /// [`InputError`] for a value that has no finite derivative here.
+    pub fn heat(
+        &mut self,
+        network: &Network,
+        scope: &Evaluation,
+        temperatures: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), InputError> {
+        out.fill(0.0);
+        let vertices = temperatures.len();
+        for (index, (first, count)) in self.spans().enumerate() {
+            self.read_inputs(index, network, scope, temperatures)?;
+            let block = &mut out[first * vertices..(first + count) * vertices];
+            self.add_conductors(index, network, (scope, temperatures), block)?;
+            self.add_sources(index, network, (scope, temperatures), block)?;
+        }
+        Ok(())
+    }
+
+    /// Takes the time and the signals of `scope`, and the temperatures of the boundaries.
+    fn read_inputs(
+        &mut self,
+        index: usize,
+        network: &Network,
+        scope: &Evaluation,
+        temperatures: &[f64],
+    ) -> Result<(), InputError> {
+        let Pass { slots, stack, boundaries } = &mut self.passes[index];
+        let layout = scope.layout();
+        let mut copy = |slot: u32| slots[slot as usize] = Slope::constant(scope.slot(slot));
+        [slot::TIME, slot::SEGMENT].into_iter().for_each(&mut copy);
+        for id in network.signal_ids() {
+            let now = layout.signal(id);
+            [now, now + 1].into_iter().for_each(&mut copy);
+        }
+        for &id in &self.signals {
+            if let Course::Expression(value) = &network.signals()[id.index()].course {
+                let dual = value.on(slots, stack);
+                slots[layout.signal(id) as usize] =
+                    network.finite(dual, (Item::Signal(id), Field::Value), scope)?;
+            }
+        }
+        let given = &temperatures[network.nodes().len()..];
+        boundaries.iter_mut().zip(given).for_each(|(dual, t)| *dual = Slope::constant(*t));
+        for &id in &self.boundaries {
+            let dual = network.boundaries()[id.index()].temperature.on(slots, stack);
+            boundaries[id.index()] = network.finite(dual, (Item::Boundary(id), Field::Temperature), scope)?;
+        }
+        Ok(())
+    }
+
+    fn add_conductors(
+        &mut self,
+        index: usize,
+        network: &Network,
+        (scope, temperatures): (&Evaluation, &[f64]),
+        out: &mut [f64],
+    ) -> Result<(), InputError> {
+        let pass = &mut self.passes[index];
+        for &id in &self.conductors {
+            let conductor = &network.conductors()[id.index()];
+            let ends = [conductor.from, conductor.to].map(|end| network.vertex(end));
+            let dependence = network.parts.dependence(id);
+            let Pass { slots, stack, boundaries } = pass;
+            let dual = |vertex: usize| of_vertex(vertex, network, boundaries, temperatures);
+            place_ends(slots, dependence, ends, &dual);
+            let (from, to) = (dual(ends[0]), dual(ends[1]));
+            let received = network.received(conductor, At { slots, stack }, from, to);
+            let received = received.map_err(|failed| network.failed(Item::Conductor(id), failed, scope))?;
+            for (vertex, heat) in ends.into_iter().zip(received) {
+                add(out, vertex, temperatures.len(), &heat.derivatives);
+            }
+        }
+        Ok(())
+    }
+
+    fn add_sources(
+        &mut self,
+        index: usize,
+        network: &Network,
+        (scope, temperatures): (&Evaluation, &[f64]),
+        out: &mut [f64],
+    ) -> Result<(), InputError> {
+        let Pass { slots, stack, boundaries } = &mut self.passes[index];
+        for &id in &self.sources {
+            let source = &network.sources()[id.index()];
+            let dependence = &network.parts.source_dependence[id.index()];
+            let dual = |vertex: usize| of_vertex(vertex, network, boundaries, temperatures);
+            name(slots, dependence, &|k| dual(dependence.vertices[k] as usize));
+            let power = source.power.on(slots, stack);
+            let power = network.finite(power, (Item::Source(id), Field::Power), scope)?;
+            for &(node, share) in &source.into {
+                let shared = power.derivatives.map(|d| share * d);
+                add(out, node.index(), temperatures.len(), &shared);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The temperature of a vertex: that of a node is held.
+fn of_vertex(vertex: usize, network: &Network, boundaries: &[Slope], temperatures: &[f64]) -> Slope {
+    match vertex.checked_sub(network.nodes().len()) {
+        Some(boundary) => boundaries[boundary],
+        None => Slope::from_f64(temperatures[vertex]),
+    }
+}
+
+/// As [`place`], for constant conductors too, of which no dependence is kept.
+fn place_ends(slots: &mut [Slope], of: &Dependence, ends: [usize; 2], dual: &dyn Fn(usize) -> Slope) {
+    let at = |k: usize| dual(of.vertices.get(k).map_or_else(|| ends[k], |&vertex| vertex as usize));
+    place(slots, of, &at);
+}
+
+fn add(out: &mut [f64], vertex: usize, vertices: usize, derivatives: &[f64; PASS]) {
+    for (block, d) in out.chunks_mut(vertices).zip(derivatives) {
+        block[vertex] += d;
+    }
+}

@@ -1,0 +1,114 @@
+//! What depends on the parameters that a network is differentiated by.
+
+use crate::id::{BoundaryId, ConductorId, ControlId, Item, NodeId, ParameterId, SignalId, SourceId};
+use crate::law::Law;
+use crate::layout::{Holds, slot};
+use crate::network::Network;
+use crate::signal::Course;
+use crate::value::Value;
+
+/// For each slot whether its number changes with one of the parameters.
+pub(super) struct Live<'a> {
+    network: &'a Network,
+    slots: Vec<bool>,
+}
+
+impl<'a> Live<'a> {
+    pub(super) fn new(network: &'a Network, parameters: &[ParameterId]) -> Self {
+        let layout = &network.parts.layout;
+        let mut live = Self { network, slots: vec![false; layout.len()] };
+        for id in network.parameter_ids() {
+            let given = network.numbers.given[id.index()];
+            let follows = !given && live.value(&network.parameters()[id.index()].value);
+            live.slots[layout.parameter(id) as usize] = follows || parameters.contains(&id);
+        }
+        for id in network.signal_ids() {
+            if let Course::Expression(value) = &network.signals()[id.index()].course {
+                let follows = live.value(value);
+                let now = layout.signal(id) as usize;
+                live.slots[now] = follows;
+                live.slots[now + 1] = follows; // where comparisons read it
+            }
+        }
+        let nodes = network.nodes().len();
+        let temperatures: Vec<u32> = layout.temperatures().skip(nodes).collect();
+        for (boundary, slot) in network.boundaries().iter().zip(temperatures) {
+            live.slots[slot as usize] = live.value(&boundary.temperature);
+        }
+        live
+    }
+
+    /// Whether a value changes with one of the parameters, temperatures of nodes held.
+    pub(super) fn value(&self, value: &Value) -> bool {
+        !matches!(value, Value::Constant(_)) && value.slots().iter().any(|&slot| self.slots[slot as usize])
+    }
+
+    pub(super) fn signal(&self, id: SignalId) -> bool {
+        self.slots[self.network.signal_slot(id) as usize]
+    }
+
+    pub(super) fn boundary(&self, id: BoundaryId) -> bool {
+        self.value(&self.network.boundaries()[id.index()].temperature)
+    }
+
+    pub(super) fn source(&self, id: SourceId) -> bool {
+        self.value(&self.network.sources()[id.index()].power)
+    }
+
+    /// Whether the heat of a conductor changes: by its values, or because a boundary does that it ends at.
+    pub(super) fn conductor(&self, id: ConductorId) -> bool {
+        let conductor = &self.network.conductors()[id.index()];
+        let ends = [conductor.from, conductor.to].into_iter().any(|end| match end {
+            crate::End::Boundary(id) => self.boundary(id),
+            crate::End::Node(_) => false,
+        });
+        let fluid = match &conductor.law {
+            Law::Advection(stream) => stream.fluid(),
+            _ => None,
+        };
+        let fluid = fluid.map(|id| &self.network.fluids()[id.index()]);
+        let properties = fluid.into_iter().flat_map(|fluid| fluid.density.iter().chain([&fluid.cp]));
+        let values = || conductor.law.parts().into_iter().map(|(_, value)| value);
+        ends || !conductor.law.is_number() && values().any(|v| self.value(v))
+            || properties.into_iter().any(|v| self.value(v))
+    }
+
+    /// Whether how or when a node melts changes.
+    pub(super) fn melting(&self, id: NodeId) -> bool {
+        super::content::melting(self.network, id).any(|(lump, melting)| {
+            let density = self.network.materials()[lump.material.index()].density.as_ref();
+            let values = [&melting.solidus, &melting.liquidus, &melting.heat, lump.size.field().1];
+            values.into_iter().chain(density).any(|value| self.value(value))
+        })
+    }
+
+    /// The first input with a comparison that changes its truth at a time which depends on one of the parameters.
+    pub(super) fn moving_jump(&self) -> Option<Item> {
+        let moves = |value: &Value| {
+            value.programs().into_iter().flat_map(|program| program.comparisons()).any(|comparison| {
+                let slots = comparison.slots();
+                slots.iter().any(|&s| self.slots[s as usize]) && slots.iter().any(|&s| self.varies(s))
+            })
+        };
+        let limits = |item: &Item| matches!(item, Item::Control(_));
+        let inputs = self.network.inputs().filter(|(item, _, _)| !limits(item));
+        inputs.filter(|(_, _, value)| moves(value)).map(|(item, _, _)| item).next()
+    }
+
+    /// Whether a slot changes during a run.
+    fn varies(&self, slot: u32) -> bool {
+        slot == slot::TIME
+            || slot == slot::SEGMENT
+            || !matches!(self.network.parts.layout.holds(slot), Holds::Parameter(_))
+    }
+
+    /// The first control or comparison of temperatures.
+    pub(super) fn event(&self) -> Option<Item> {
+        self.network.has_events().then(|| match self.network.controls().is_empty() {
+            false => Item::Control(ControlId::from_len(0)),
+            true => {
+                self.network.switches().first().map_or(Item::Parameter(ParameterId::from_len(0)), |s| s.item)
+            }
+        })
+    }
+}

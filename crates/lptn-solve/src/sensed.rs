@@ -1,0 +1,80 @@
+//! The rows of sensitivities, written beside those of temperatures.
+
+use lptn_assembly::{ThermalSystem, Workspace};
+use lptn_network::{NodeId, ParameterId};
+
+use crate::error::TransientError;
+use crate::newton::NewtonError;
+use crate::tangent::Tangent;
+use crate::unfold::Unfold;
+
+/// Sensitivities that are being recorded.
+pub(crate) struct Sensed<'a> {
+    tangent: Tangent<'a>,
+    /// What the integrator carries of them at one time.
+    carried: Vec<f64>,
+    /// Those of all vertices by one parameter.
+    vertices: Vec<f64>,
+    rows: SensitivityRows,
+}
+
+/// Sensitivities of the recorded nodes in K per SI unit: row by row, in it parameter by parameter.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SensitivityRows {
+    parameters: Vec<ParameterId>,
+    values: Vec<f64>,
+}
+
+impl<'a> Sensed<'a> {
+    /// Ready to record; `None` if no parameters are asked for.
+    pub(crate) fn of(
+        system: &'a ThermalSystem,
+        parameters: &[ParameterId],
+    ) -> Result<Option<Self>, TransientError> {
+        if parameters.is_empty() {
+            return Ok(None);
+        }
+        let tangent = Tangent::new(system, parameters)?;
+        let carried = vec![0.0; system.states().len() * parameters.len()];
+        let rows = SensitivityRows { parameters: parameters.to_vec(), values: Vec::new() };
+        Ok(Some(Self { tangent, carried, vertices: Vec::new(), rows }))
+    }
+
+    /// Takes what the integrator carries.
+    pub(crate) fn carry(&mut self, carried: &[f64]) {
+        self.carried.copy_from_slice(carried);
+    }
+
+    /// Where the integrator writes what it carries.
+    pub(crate) fn carried(&mut self) -> &mut [f64] {
+        &mut self.carried
+    }
+
+    /// Writes a row, from inputs read and nodes recovered.
+    pub(crate) fn push(
+        &mut self,
+        work: &mut Workspace,
+        unfold: &Unfold<'_>,
+        recorded: &[NodeId],
+    ) -> Result<(), NewtonError> {
+        self.tangent.recover(work, unfold, &self.carried)?;
+        for k in 0..self.rows.parameters.len() {
+            self.tangent.vertices_of(k, &mut self.vertices);
+            self.rows.values.extend(recorded.iter().map(|id| self.vertices[id.index()]));
+        }
+        Ok(())
+    }
+
+    pub(crate) fn into_rows(self) -> SensitivityRows {
+        self.rows
+    }
+}
+
+impl SensitivityRows {
+    /// Those of one of `width` recorded nodes over the rows.
+    pub(crate) fn of(&self, parameter: ParameterId, (column, width): (usize, usize)) -> Option<Vec<f64>> {
+        let place = self.parameters.iter().position(|own| *own == parameter)?;
+        let rows = self.values.chunks_exact(width * self.parameters.len());
+        Some(rows.map(|row| row[place * width + column]).collect())
+    }
+}

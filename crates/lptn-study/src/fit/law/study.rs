@@ -1,0 +1,112 @@
+//! Laws side by side.
+
+use super::candidate::{Candidate, Fitted, Outcome};
+use super::criteria::{aicc, dispersion};
+use super::model::Law;
+use super::points::Points;
+use super::solve;
+
+/// Laws whose criteria differ by less than this cannot be told apart (K. P. Burnham, D. R. Anderson, Model Selection and
+/// Multimodel Inference, 2nd edition, Springer 2002, section 2.6).
+pub const ALIKE: f64 = 2.0;
+
+/// Laws that were fitted to the same points, best first.
+#[derive(Clone, Debug)]
+pub struct LawStudy {
+    /// The points.
+    pub points: Points,
+    /// The laws: those that may be the answer by AICc, then the others.
+    pub candidates: Vec<Candidate>,
+    /// By how much the variance is larger than the standard errors given say, at least 1; see
+    /// [`Fitted::aicc`](super::Fitted::aicc).
+    pub dispersion: f64,
+}
+
+impl LawStudy {
+    /// Fits every law to the points and ranks them.
+    pub fn new(points: Points, laws: Vec<Law>) -> Self {
+        let fitted = |law: Law| {
+            let outcome = solve::fit(&law, &points);
+            Candidate { law, outcome }
+        };
+        let mut candidates: Vec<Candidate> = laws.into_iter().map(fitted).collect();
+        let dispersion = dispersion(&candidates, &points);
+        for candidate in &mut candidates {
+            if let Outcome::Fitted(fit) = &mut candidate.outcome {
+                fit.aicc = aicc(fit, &points, dispersion);
+            }
+        }
+        candidates.sort_by(|a, b| order(a).0.cmp(&order(b).0).then(order(a).1.total_cmp(&order(b).1)));
+        Self { points, candidates, dispersion }
+    }
+
+    /// The law with the least AICc; `None` where no law has one.
+    pub fn best(&self) -> Option<&Candidate> {
+        self.candidates.first().filter(|first| first.eligible())
+    }
+
+    /// By how much the AICc of a law is above that of the best.
+    pub fn behind(&self, candidate: &Candidate) -> Option<f64> {
+        let aicc = |candidate: &Candidate| candidate.fitted()?.aicc;
+        Some(aicc(candidate)? - aicc(self.best()?)?)
+    }
+
+    /// The laws other than the best that may be the answer too: less than [`ALIKE`] behind.
+    pub fn rivals(&self) -> Vec<&Candidate> {
+        let close = |c: &&Candidate| c.eligible() && self.behind(c).is_some_and(|behind| behind < ALIKE);
+        self.candidates.iter().skip(1).filter(close).collect()
+    }
+
+    /// The laws of one power with the standard exponents, best first: the kinds of loss by themselves.
+    pub fn single_powers(&self) -> Vec<&Candidate> {
+        let single = |c: &&Candidate| matches!(&c.law, Law::Powers(exponents) if exponents.len() == 1);
+        self.candidates.iter().filter(single).collect()
+    }
+
+    /// The law with the least root of the mean square of what it misses (the paper's choice).
+    pub fn least_rmse(&self) -> Option<&Candidate> {
+        self.least(|fit| Some(fit.rmse))
+    }
+
+    /// The law that best foretells a point it was not fitted to.
+    pub fn least_leave_one_out(&self) -> Option<&Candidate> {
+        self.least(|fit| fit.leave_one_out)
+    }
+
+    fn least(&self, of: impl Fn(&Fitted) -> Option<f64>) -> Option<&Candidate> {
+        let value = |c: &Candidate| c.fitted().and_then(&of).unwrap_or(f64::INFINITY);
+        let eligible = self.candidates.iter().filter(|c| c.eligible());
+        eligible.filter(|c| value(c).is_finite()).min_by(|a, b| value(a).total_cmp(&value(b)))
+    }
+
+    /// The answer in one sentence.
+    pub fn verdict(&self) -> String {
+        let Some(best) = self.best() else {
+            return format!("{} points are too few to choose a law", self.points.len());
+        };
+        let rivals = self.rivals();
+        let Some(second) = self.candidates.iter().skip(1).find(|c| c.eligible()) else {
+            return format!("{} is the only law that these points allow", best.law);
+        };
+        if rivals.is_empty() {
+            let behind = self.behind(second).unwrap_or(f64::NAN);
+            return format!("{} is best: the next, {}, is {behind:.1} AICc behind", best.law, second.law);
+        }
+        let names: Vec<String> = rivals.iter().map(|c| c.law.to_string()).collect();
+        let close = rivals.last().and_then(|c| self.behind(c)).unwrap_or(f64::NAN);
+        format!(
+            "{} and {} cannot be told apart by these points (AICc within {close:.1})",
+            best.law,
+            names.join(", ")
+        )
+    }
+}
+
+/// Answers first, by AICc; then what was fitted, by its misses; then what was not.
+fn order(candidate: &Candidate) -> (u8, f64) {
+    match candidate.fitted() {
+        Some(fit) if candidate.eligible() => (0, fit.aicc.unwrap_or(f64::INFINITY)),
+        Some(fit) => (1, fit.rmse),
+        None => (2, 0.0),
+    }
+}

@@ -1,0 +1,76 @@
+//! What is to be fitted to what.
+
+use lptn_network::{Network, NodeId, ParameterId, Parameters};
+use lptn_solve::Transient;
+
+/// A fit of parameters of a network to records of its temperatures.
+#[derive(Clone, Debug)]
+pub struct NetworkFitTask<'a> {
+    /// The network; the start values of the parameters are its own.
+    pub network: &'a Network,
+    /// What is varied; each parameter once.
+    pub parameters: Vec<Varied>,
+    /// The records, each of a run of its own.
+    pub runs: Vec<MeasuredRun>,
+    /// How many searches begin elsewhere between the bounds, beside the one from the own values.
+    pub more_starts: usize,
+    /// How many runs are computed at once; nothing depends on it.
+    pub threads: usize,
+}
+
+/// A parameter that is varied. All numbers are in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Varied {
+    /// Which one.
+    pub parameter: ParameterId,
+    /// The least and the greatest value it may take; infinite where there is none.
+    pub bounds: (f64, f64),
+    /// One standard deviation of what is known of it beforehand, which is its own value; `None` if nothing is.
+    pub prior: Option<f64>,
+}
+
+/// A record, and the run that it is one of.
+#[derive(Clone, Debug)]
+pub struct MeasuredRun {
+    /// The name of the record.
+    pub name: String,
+    /// The values that the parameters have in this run, but for the varied ones; see [`Network::overrides`].
+    pub parameters: Parameters,
+    /// Start and controls of the run; its stop, rows and tolerance follow from the record.
+    pub settings: Transient,
+    /// The times of the rows in s, ascending, on the clock of the run: none before its start, at least one behind it.
+    pub times: Vec<f64>,
+    /// What was measured.
+    pub columns: Vec<Measured>,
+}
+
+/// A measured column.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// Its name.
+    pub name: String,
+    /// The temperature that was measured: the sum of temperatures of nodes times these factors.
+    pub of: Vec<(NodeId, f64)>,
+    /// Standard deviation of one value in K; `None` counts as 1 K.
+    pub sigma: Option<f64>,
+    /// One value in K for each time; NaN where nothing was measured.
+    pub values: Vec<f64>,
+}
+
+impl Measured {
+    /// The standard deviation that residuals are divided by, in K.
+    pub(crate) fn weight(&self) -> f64 {
+        self.sigma.unwrap_or(1.0)
+    }
+}
+
+impl MeasuredRun {
+    /// The nodes that its columns need, ascending.
+    pub(crate) fn nodes(&self) -> Vec<NodeId> {
+        let mut nodes: Vec<NodeId> =
+            self.columns.iter().flat_map(|column| column.of.iter().map(|(node, _)| *node)).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+}

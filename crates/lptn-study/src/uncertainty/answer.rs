@@ -1,0 +1,82 @@
+//! One number of a run, how uncertain it is, and what makes it so.
+
+use std::borrow::Cow;
+
+use lptn_network::{Item, LimitId, Network, NodeId};
+
+use crate::uncertainty::estimate::Estimate;
+
+/// A number that a run answers with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AnswerOf {
+    /// The temperature of a node at the stop, in K.
+    End(NodeId),
+    /// Its highest temperature, between the rows too, in K.
+    Max(NodeId),
+    /// The least margin of a limit in SI units of its quantity, a difference in K for temperatures; negative where it is
+    /// broken.
+    Margin(LimitId),
+}
+
+impl AnswerOf {
+    /// `steel.T end`, `steel.T max`, `seals margin`.
+    pub fn name(self, network: &Network) -> String {
+        let name = |item: Item| -> Cow<'_, str> { network.name_of(item) };
+        match self {
+            Self::End(id) => format!("{}.T end", name(Item::Node(id))),
+            Self::Max(id) => format!("{}.T max", name(Item::Node(id))),
+            Self::Margin(id) => format!("{} margin", name(Item::Limit(id))),
+        }
+    }
+}
+
+/// What one parameter does to an answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contribution {
+    /// The parameter, as its place in [`Uncertainty::inputs`](crate::uncertainty::Uncertainty::inputs).
+    pub input: usize,
+    /// What one standard deviation more of the parameter adds to the answer, in its unit: exact for a small deviation
+    /// where the method is linear, the mean slope over the samples else.
+    pub effect: f64,
+    /// The share of the answer's variance that this parameter makes by itself, its first-order index.
+    pub share: Estimate,
+    /// The share that it makes by itself and together with others, its total index; `None` where the method is linear,
+    /// which knows no together.
+    pub total: Option<Estimate>,
+}
+
+impl Contribution {
+    /// What the ranking goes by: the total share, or the share where there is no total.
+    pub fn weight(&self) -> f64 {
+        self.total.unwrap_or(self.share).value
+    }
+}
+
+/// One answer of a run with its uncertainty.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// What it is.
+    pub of: AnswerOf,
+    /// Its value in SI units with every parameter at its own.
+    pub value: f64,
+    /// One standard deviation, in K for temperatures.
+    pub deviation: Estimate,
+    /// 2.5 % of the answers are below this.
+    pub low: Estimate,
+    /// Half of the answers are below this; `None` where the method is linear: it is the value.
+    pub median: Option<Estimate>,
+    /// 2.5 % of the answers are above this.
+    pub high: Estimate,
+    /// The share of answers below zero: of a margin the probability that the limit is broken.
+    pub below_zero: Estimate,
+    /// Every uncertain parameter, the one that matters most first.
+    pub ranking: Vec<Contribution>,
+}
+
+impl Answer {
+    /// Sorts the parameters by weight; of equals the first one of the network stays first.
+    pub(crate) fn sorted(mut self) -> Self {
+        self.ranking.sort_by(|a, b| b.weight().total_cmp(&a.weight()));
+        self
+    }
+}

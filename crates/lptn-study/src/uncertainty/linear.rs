@@ -1,0 +1,81 @@
+//! Straight lines from the exact sensitivities of one run.
+
+mod line;
+mod margins;
+
+use lptn_assembly::ThermalSystem;
+use lptn_solve::Control;
+
+use crate::uncertainty::answer::{Answer, AnswerOf, Contribution};
+use crate::uncertainty::error::UncertaintyError;
+use crate::uncertainty::estimate::Estimate;
+use crate::uncertainty::input::uncertain;
+use crate::uncertainty::linear::line::Line;
+use crate::uncertainty::normal::{BAND, share_below};
+use crate::uncertainty::result::{Method, Uncertainty};
+use crate::uncertainty::sample::Sample;
+use crate::uncertainty::task::UncertaintyTask;
+
+impl UncertaintyTask<'_> {
+    /// Bands and shares of the variance from `dT/dp`: the variance of a result is the sum of `(dT/dp sigma)^2`, its band
+    /// 1.96 standard deviations to each side of the value (ISO/IEC Guide 98-3, 5.1.2). A maximum changes as the temperature
+    /// does at its time, a margin as it does when it is least. Where a network has no exact sensitivities they are
+    /// differences of runs, and the method says so.
+    ///
+    /// # Errors
+    /// [`UncertaintyError`].
+    pub fn linear(&self) -> Result<Uncertainty, UncertaintyError> {
+        let inputs = uncertain(self.network, &self.parameters)?;
+        let system = ThermalSystem::assemble(self.network).map_err(UncertaintyError::Assembly)?;
+        let solution = self.solve(&system, true, &|| Control::Continue);
+        let solution = solution.map_err(|error| UncertaintyError::Run(Box::new(error)))?;
+        let sample = Sample::of(&solution, true);
+        let line = Line::new(self, &inputs, &solution)?;
+        let margins = margins::effects(self, &line, &solution)?;
+        let answer = |(of, &value): (AnswerOf, &f64)| {
+            let effects = match of {
+                AnswerOf::End(node) => line.effects(node, line.end()),
+                AnswerOf::Max(node) => line.effects_on_maximum(node),
+                AnswerOf::Margin(limit) => margins[limit.index()].clone(),
+            };
+            answer(of, value, &effects)
+        };
+        Ok(Uncertainty {
+            method: Method::Linear { differences: line.differences() },
+            times: self.times()?,
+            bands: self.nodes.iter().map(|&node| line.bands(node)).collect(),
+            answers: self.questions().into_iter().zip(&sample.answers).map(answer).collect(),
+            inputs,
+        })
+    }
+}
+
+/// Effects below this part of a result (3e-7 K at room temperature) are rounding of the run.
+const ROUNDING: f64 = 1e-9;
+
+/// A result whose change with one standard deviation more of each parameter is known.
+fn answer(of: AnswerOf, value: f64, effects: &[f64]) -> Answer {
+    let least = ROUNDING * value.abs();
+    let effects: Vec<f64> = effects.iter().map(|e| if e.abs() > least { *e } else { 0.0 }).collect();
+    let variance: f64 = effects.iter().map(|effect| effect * effect).sum();
+    let deviation = variance.sqrt();
+    let share = |effect: f64| if variance > 0.0 { effect * effect / variance } else { 0.0 };
+    let part = |(input, &effect): (usize, &f64)| Contribution {
+        input,
+        effect,
+        share: Estimate::exact(share(effect)),
+        total: None,
+    };
+    let below_zero = if deviation > 0.0 { share_below(-value / deviation) } else { f64::from(value < 0.0) };
+    Answer {
+        of,
+        value,
+        deviation: Estimate::exact(deviation),
+        low: Estimate::exact(value - BAND * deviation),
+        median: None,
+        high: Estimate::exact(value + BAND * deviation),
+        below_zero: Estimate::exact(below_zero),
+        ranking: effects.iter().enumerate().map(part).collect(),
+    }
+    .sorted()
+}

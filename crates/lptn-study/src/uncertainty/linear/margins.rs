@@ -1,0 +1,80 @@
+//! How the margins of limits change with the parameters.
+
+use lptn_assembly::ThermalSystem;
+use lptn_network::{LimitId, OutputTimes};
+use lptn_solve::{LimitSeen, Record, Solution, Transient, limit_margins_at};
+
+use crate::sensitivity::{Gradient, SensitiveRun, sensitive_run};
+use crate::uncertainty::error::UncertaintyError;
+use crate::uncertainty::input::Uncertain;
+use crate::uncertainty::linear::line::{Line, ids, joined, refused};
+use crate::uncertainty::task::UncertaintyTask;
+
+/// The part of a standard deviation over which the expression of a limit is differentiated. Its temperatures are moved
+/// along their sensitivities, so that the limit of a temperature is exact to rounding; what bends within a thousandth
+/// of a standard deviation is wrong in the seventh digit.
+const PART: f64 = 1e-3;
+
+/// For each limit what one standard deviation more of each parameter adds to its margin, in SI units.
+pub(super) fn effects(
+    task: &UncertaintyTask<'_>,
+    line: &Line<'_>,
+    solution: &Solution,
+) -> Result<Vec<Vec<f64>>, UncertaintyError> {
+    let seen = solution.limits();
+    if seen.is_empty() {
+        return Ok(Vec::new());
+    }
+    if line.run.gradient != Gradient::Exact {
+        let of_runs = |limit: &LimitSeen, input: &Uncertain| {
+            line.run.margin(input.parameter, limit.limit).unwrap_or(f64::NAN) * input.deviation
+        };
+        let all = |limit: &LimitSeen| line.inputs.iter().map(|input| of_runs(limit, input)).collect();
+        return Ok(seen.iter().map(all).collect());
+    }
+    let ends = [task.run.start, task.run.stop];
+    let output = OutputTimes::At(joined(&ends, seen.iter().map(|limit| limit.worst_at)));
+    let settings = Transient { output, record: Record::All, watch: Vec::new(), ..task.watched() };
+    let run = sensitive_run(task.network, &settings, &ids(line.inputs)).map_err(refused)?;
+    let all = |limit: &LimitSeen| {
+        line.inputs.iter().map(|input| of_expression(task, &run, (limit, input))).collect()
+    };
+    seen.iter().map(all).collect()
+}
+
+/// The margin at the time at which it is least, with the parameter and the temperatures moved to both sides.
+fn of_expression(
+    task: &UncertaintyTask<'_>,
+    run: &SensitiveRun,
+    (limit, input): (&LimitSeen, &Uncertain),
+) -> Result<f64, UncertaintyError> {
+    let times = run.solution.times();
+    let distance = |place: &usize| (times[*place] - limit.worst_at).abs();
+    let place = (0..times.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
+    let slopes: Vec<f64> = task
+        .network
+        .node_ids()
+        .map(|node| run.sensitivity(input.parameter, node).map_or(0.0, |slopes| slopes[place]))
+        .collect();
+    let moved = |change: f64| {
+        let mut parameters = task.parameters.clone();
+        parameters.set(input.parameter, input.value + change);
+        let temperatures: Vec<f64> =
+            run.solution.row(place).iter().zip(&slopes).map(|(t, slope)| t + slope * change).collect();
+        margin(task, &parameters, (limit.limit, times[place]), &temperatures)
+    };
+    let change = PART * input.deviation;
+    Ok((moved(change)? - moved(-change)?) / (2.0 * PART))
+}
+
+fn margin(
+    task: &UncertaintyTask<'_>,
+    parameters: &lptn_network::Parameters,
+    (limit, time): (LimitId, f64),
+    temperatures: &[f64],
+) -> Result<f64, UncertaintyError> {
+    let network = task.network.with(parameters).map_err(UncertaintyError::Network)?;
+    let system = ThermalSystem::assemble(&network).map_err(UncertaintyError::Assembly)?;
+    let margins = limit_margins_at(&system, time, temperatures).map_err(UncertaintyError::Limit)?;
+    Ok(margins[limit.index()])
+}

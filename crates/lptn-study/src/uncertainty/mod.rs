@@ -1,0 +1,29 @@
+//! What the `±` of parameters do to the results of a run.
+//!
+//! Every parameter with `±` is normal, the number after `±` one standard deviation, and independent of the others.
+//! [`UncertaintyTask::sobol`] runs the network at scrambled Sobol points of the parameters: no assumption about how
+//! the results depend on them. [`UncertaintyTask::linear`] takes the exact sensitivities of one run and assumes that
+//! results are straight lines in the parameters as far as these may be off. [`discrepancies`] says where the two
+//! disagree.
+
+mod answer;
+mod difference;
+mod error;
+mod estimate;
+mod input;
+mod linear;
+mod normal;
+mod points;
+mod result;
+mod sample;
+mod sobol;
+mod task;
+
+pub use answer::{Answer, AnswerOf, Contribution};
+pub use difference::{Discrepancy, discrepancies};
+pub use error::UncertaintyError;
+pub use estimate::Estimate;
+pub use input::{Uncertain, uncertain};
+pub use result::{Bands, Lost, Method, Uncertainty};
+pub use sobol::{GROUPS, Sobol};
+pub use task::UncertaintyTask;

@@ -1,0 +1,82 @@
+//! What came of it.
+
+use std::fmt;
+
+use lptn_network::NodeId;
+
+use crate::uncertainty::answer::Answer;
+use crate::uncertainty::input::Uncertain;
+
+/// How the uncertainty of the results was found.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Method {
+    /// From the sensitivities of one run.
+    Linear {
+        /// Why they are differences of runs, where they are not exact.
+        differences: Option<String>,
+    },
+    /// From runs at scrambled Sobol points.
+    Sobol {
+        /// Base points: each gives two runs for the bands and one for each parameter.
+        samples: usize,
+        /// The seed of the scrambling.
+        seed: u32,
+        /// All runs that were made.
+        runs: usize,
+        /// Those without a result: the bands are those of the others.
+        lost: Vec<Lost>,
+    },
+}
+
+/// Runs without a result, all for the same reason.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lost {
+    /// How many.
+    pub count: usize,
+    /// Whether the network refused the parameters, such as a resistance below zero; else the run failed.
+    pub refused: bool,
+    /// The stable code of the reason.
+    pub code: &'static str,
+    /// What the network or the run said of the first of them.
+    pub message: String,
+}
+
+impl fmt::Display for Lost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let how = if self.refused { "refused" } else { "failed" };
+        let runs = if self.count == 1 { "run" } else { "runs" };
+        write!(f, "{} {runs} {how} ({}): {}", self.count, self.code, self.message)
+    }
+}
+
+/// The temperature of a node over the rows, in K, with its band of 95 %.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bands {
+    /// The node.
+    pub node: NodeId,
+    /// With every parameter at its own value.
+    pub value: Vec<f64>,
+    /// One standard deviation.
+    pub deviation: Vec<f64>,
+    /// 2.5 % of the answers are below this.
+    pub low: Vec<f64>,
+    /// Half of them are below this; `None` where the method is linear.
+    pub median: Option<Vec<f64>>,
+    /// 2.5 % of them are above this.
+    pub high: Vec<f64>,
+}
+
+/// The results of a run with their uncertainty.
+#[derive(Clone, Debug)]
+pub struct Uncertainty {
+    /// How it was found.
+    pub method: Method,
+    /// The parameters that carry `±`, in the order of the network.
+    pub inputs: Vec<Uncertain>,
+    /// The time of each row in s.
+    pub times: Vec<f64>,
+    /// The nodes that were asked for.
+    pub bands: Vec<Bands>,
+    /// For each of these nodes its end and its maximum, then the margin of every limit.
+    pub answers: Vec<Answer>,
+}

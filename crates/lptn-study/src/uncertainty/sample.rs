@@ -1,0 +1,82 @@
+//! What one run gives, or why it gives nothing.
+
+use lptn_assembly::AssemblyError;
+use lptn_network::BuildErrors;
+use lptn_solve::{Solution, TransientError};
+
+use crate::uncertainty::result::Lost;
+
+/// What one run gives.
+#[derive(Clone, Debug)]
+pub(crate) struct Sample {
+    /// The temperatures of the first node at all rows in K, then those of the next; empty unless asked for.
+    pub(crate) rows: Vec<f64>,
+    /// The answers in the order of the task's questions.
+    pub(crate) answers: Vec<f64>,
+}
+
+impl Sample {
+    /// The rows, ends, peaks and margins of a run whose recorded nodes are its watched ones.
+    pub(crate) fn of(solution: &Solution, rows: bool) -> Self {
+        let columns: Vec<Vec<f64>> =
+            solution.recorded().iter().map(|node| solution.temperature(*node).unwrap_or_default()).collect();
+        let of_node = |(seen, column): (&lptn_solve::Seen, &Vec<f64>)| {
+            // a network without state is not watched between its rows
+            let max = column.iter().copied().fold(seen.peak.0, f64::max);
+            [column.last().copied().unwrap_or(f64::NAN), max]
+        };
+        let nodes = solution.seen().iter().zip(&columns).flat_map(of_node);
+        let answers = nodes.chain(solution.limits().iter().map(|limit| limit.margin)).collect();
+        Self { rows: if rows { columns.concat() } else { Vec::new() }, answers }
+    }
+}
+
+/// Why a sample has no result.
+#[derive(Clone, Debug)]
+pub(crate) enum NoSample {
+    /// The whole study was interrupted.
+    Interrupted,
+    /// It was not tried: another run of the same base point has no result.
+    Skipped,
+    /// The reason, and what to group it by.
+    Lost { key: String, lost: Lost },
+}
+
+impl NoSample {
+    pub(crate) fn refused(errors: &BuildErrors) -> Self {
+        let first = errors.0.first();
+        let code = first.map_or("network::refused", lptn_network::BuildError::code);
+        let (name, message) =
+            (first.map_or("", |e| e.name.as_str()), first.map_or(String::new(), ToString::to_string));
+        Self::lost((code, name), true, message)
+    }
+
+    pub(crate) fn assembly(error: &AssemblyError) -> Self {
+        Self::lost((error.code(), ""), true, error.to_string())
+    }
+
+    pub(crate) fn failed(error: &TransientError) -> Self {
+        Self::lost((error.code(), ""), false, error.to_string())
+    }
+
+    pub(crate) fn ledger() -> Self {
+        Self::lost(("run::ledger", ""), false, "its books do not close".into())
+    }
+
+    fn lost((code, name): (&'static str, &str), refused: bool, message: String) -> Self {
+        Self::Lost { key: format!("{code} {name}"), lost: Lost { count: 1, refused, code, message } }
+    }
+}
+
+/// Counts those without a result by their reason, in the order in which the reasons first appear.
+pub(crate) fn count<'a>(all: impl Iterator<Item = &'a NoSample>) -> Vec<Lost> {
+    let mut found: Vec<(&str, Lost)> = Vec::new();
+    for no_sample in all {
+        let NoSample::Lost { key, lost } = no_sample else { continue };
+        match found.iter_mut().find(|(known, _)| known == key) {
+            Some((_, known)) => known.count += 1,
+            None => found.push((key, lost.clone())),
+        }
+    }
+    found.into_iter().map(|(_, lost)| lost).collect()
+}

@@ -1,0 +1,187 @@
+//! Runs at scrambled Sobol points.
+
+mod indices;
+mod rows;
+
+use lptn_solve::Control;
+
+use crate::parallel::in_parallel;
+use crate::uncertainty::error::UncertaintyError;
+use crate::uncertainty::input::{Uncertain, uncertain};
+use crate::uncertainty::points::{self, MOST_DIMENSIONS, MOST_POINTS};
+use crate::uncertainty::result::{Method, Uncertainty};
+use crate::uncertainty::sample::{NoSample, Sample, count};
+use crate::uncertainty::task::UncertaintyTask;
+
+/// Independent scramblings that the samples are made of: their spread is the error of sampling.
+pub const GROUPS: usize = 8;
+
+/// The least number of samples.
+pub(crate) const LEAST: usize = 64;
+
+/// Bytes that the temperatures of all samples at all rows may take.
+const MOST_BYTES: usize = 1 << 31;
+
+/// How to sample.
+#[derive(Clone, Copy)]
+pub struct Sobol<'a> {
+    /// Base points, 64 to 65536, rounded up to a power of two. With d uncertain parameters there are d + 2 runs for each:
+    /// two with every parameter sampled, from which bands are taken, and d that share all parameters but one with the
+    /// first of the two.
+    pub samples: usize,
+    /// The seed of the scrambling: the same seed gives the same result to the last digit.
+    pub seed: u32,
+    /// Threads; the result does not depend on their number.
+    pub threads: usize,
+    /// Called after every step of every run; may interrupt the study.
+    pub control: &'a (dyn Fn() -> Control + Sync),
+    /// Called when a base point is finished.
+    pub finished: &'a (dyn Fn() + Sync),
+}
+
+impl UncertaintyTask<'_> {
+    /// Bands, probabilities and variance shares from runs at Owen-scrambled Sobol points (crate `sobol_burley`: directions
+    /// of S. Joe and F. Y. Kuo, scrambling of B. Burley, JCGT 9 (2020) 4), in eight independent scramblings whose spread
+    /// gives the standard errors.
+    ///
+    /// Parameters that the network refuses, such as a resistance below zero, are left out and counted: the distribution
+    /// is cut off there.
+    ///
+    /// # Errors
+    /// [`UncertaintyError`]; runs that fail are an error only where too few are left.
+    pub fn sobol(&self, how: &Sobol<'_>) -> Result<Uncertainty, UncertaintyError> {
+        let inputs = uncertain(self.network, &self.parameters)?;
+        let samples = self.checked(how.samples, &inputs)?;
+        let nominal = self.sample(&self.parameters, true, how.control).map_err(|error| nothing(&error))?;
+        let design = Design { task: self, inputs: &inputs, per_group: samples / GROUPS, seed: how.seed };
+        let numbers: Vec<usize> = (0..samples).collect();
+        let blocks = in_parallel(&numbers, how.threads, |&number| {
+            let block = design.block(number, how.control);
+            (how.finished)();
+            block
+        });
+        let blocks = Blocks::of(blocks, samples)?;
+        let (runs, lost) = (blocks.runs + 1, blocks.lost.clone());
+        Ok(Uncertainty {
+            method: Method::Sobol { samples, seed: how.seed, runs, lost },
+            times: self.times()?,
+            bands: rows::bands(self, &nominal, &blocks, how.threads),
+            answers: indices::answers(self, &nominal, &blocks, &design),
+            inputs,
+        })
+    }
+
+    /// The number of samples that is taken, if these can be.
+    fn checked(&self, samples: usize, inputs: &[Uncertain]) -> Result<usize, UncertaintyError> {
+        if !(LEAST..=MOST_POINTS).contains(&samples) {
+            return Err(UncertaintyError::Samples(samples));
+        }
+        if 2 * inputs.len() > MOST_DIMENSIONS {
+            return Err(UncertaintyError::TooManyParameters(inputs.len()));
+        }
+        let samples = samples.next_power_of_two();
+        let rows = self.times()?.len();
+        let bytes = 2 * samples * rows * self.nodes.len() * size_of::<f64>();
+        if bytes > MOST_BYTES { Err(UncertaintyError::TooLarge(bytes)) } else { Ok(samples) }
+    }
+}
+
+/// Why there is not even the run with every parameter at its value.
+fn nothing(error: &NoSample) -> UncertaintyError {
+    match error {
+        NoSample::Interrupted => UncertaintyError::Interrupted,
+        error => UncertaintyError::TooFew(count(std::iter::once(error))),
+    }
+}
+
+/// Where the points of the samples lie.
+struct Design<'a> {
+    task: &'a UncertaintyTask<'a>,
+    inputs: &'a [Uncertain],
+    per_group: usize,
+    seed: u32,
+}
+
+/// The runs of one base point.
+struct Block {
+    /// Both with every parameter sampled, independently of each other.
+    base: [Result<Sample, NoSample>; 2],
+    /// For each parameter the answers with this one of the second and all others of the first.
+    mixed: Vec<Result<Vec<f64>, NoSample>>,
+}
+
+impl Design<'_> {
+    /// A parameter in standard deviations: of the first base run from the first half of the dimensions, of the second one
+    /// from the second half.
+    fn normal(&self, number: usize, which: usize, input: usize) -> f64 {
+        #[expect(clippy::cast_possible_truncation, reason = "there are eight groups")]
+        let group = (number / self.per_group) as u32;
+        let seed = self.seed.wrapping_mul(GROUPS as u32).wrapping_add(group);
+        points::normal(number % self.per_group, which * self.inputs.len() + input, seed)
+    }
+
+    /// A run whose parameter `i` is that of base run `which(i)`.
+    fn run(
+        &self,
+        number: usize,
+        which: &dyn Fn(usize) -> usize,
+        rows: bool,
+        control: &(dyn Fn() -> Control + Sync),
+    ) -> Result<Sample, NoSample> {
+        let mut parameters = self.task.parameters.clone();
+        for (i, input) in self.inputs.iter().enumerate() {
+            let off = self.normal(number, which(i), i) * input.deviation;
+            parameters.set(input.parameter, input.value + off);
+        }
+        self.task.sample(&parameters, rows, control)
+    }
+
+    fn block(&self, number: usize, control: &(dyn Fn() -> Control + Sync)) -> Block {
+        let base = [0, 1].map(|which| self.run(number, &|_| which, true, control));
+        let both = base.iter().all(Result::is_ok);
+        let mixed = |input: usize| {
+            if !both {
+                return Err(NoSample::Skipped);
+            }
+            self.run(number, &|i| usize::from(i == input), false, control).map(|sample| sample.answers)
+        };
+        Block { mixed: (0..self.inputs.len()).map(mixed).collect(), base }
+    }
+}
+
+/// All runs.
+struct Blocks {
+    blocks: Vec<Block>,
+    per_group: usize,
+    runs: usize,
+    lost: Vec<crate::uncertainty::result::Lost>,
+}
+
+impl Blocks {
+    fn of(blocks: Vec<Block>, samples: usize) -> Result<Self, UncertaintyError> {
+        let (mut runs, mut failures) = (0, Vec::new());
+        for block in &blocks {
+            let mixed = block.mixed.iter().map(|mixed| mixed.as_ref().err());
+            for error in block.base.iter().map(|base| base.as_ref().err()).chain(mixed) {
+                runs += usize::from(!matches!(error, Some(NoSample::Skipped)));
+                failures.extend(error);
+            }
+        }
+        if failures.iter().any(|error| matches!(error, NoSample::Interrupted)) {
+            return Err(UncertaintyError::Interrupted);
+        }
+        let lost = count(failures.into_iter());
+        let found = Self { per_group: samples / GROUPS, runs, lost, blocks };
+        let enough = |group: usize| found.base().filter(|(of, _)| *of == group).count() >= LEAST / GROUPS;
+        if (0..GROUPS).all(enough) { Ok(found) } else { Err(UncertaintyError::TooFew(found.lost)) }
+    }
+
+    /// The runs that bands are taken from, each with its group.
+    fn base(&self) -> impl Iterator<Item = (usize, &Sample)> {
+        let numbered = self.blocks.iter().enumerate();
+        numbered.flat_map(|(number, block)| {
+            let group = number / self.per_group;
+            block.base.iter().filter_map(move |base| base.as_ref().ok().map(|sample| (group, sample)))
+        })
+    }
+}
