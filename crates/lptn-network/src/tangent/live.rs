@@ -90,9 +90,7 @@ impl<'a> Live<'a> {
                 slots.iter().any(|&s| self.slots[s as usize]) && slots.iter().any(|&s| self.varies(s))
             })
         };
-        let limits = |item: &Item| matches!(item, Item::Control(_));
-        let inputs = self.network.inputs().filter(|(item, _, _)| !limits(item));
-        inputs.filter(|(_, _, value)| moves(value)).map(|(item, _, _)| item).next()
+        self.network.inputs().find(|(_, _, value)| moves(value)).map(|(item, _, _)| item)
     }
 
     /// Whether a slot changes during a run.
@@ -104,11 +102,7 @@ impl<'a> Live<'a> {
 
     /// The first control or comparison of temperatures.
     pub(super) fn event(&self) -> Option<Item> {
-        self.network.has_events().then(|| match self.network.controls().is_empty() {
-            false => Item::Control(ControlId::from_len(0)),
-            true => {
-                self.network.switches().first().map_or(Item::Parameter(ParameterId::from_len(0)), |s| s.item)
-            }
-        })
+        let control = (!self.network.controls().is_empty()).then(|| Item::Control(ControlId::from_len(0)));
+        control.or_else(|| self.network.switches().first().map(|switch| switch.item))
     }
 }
