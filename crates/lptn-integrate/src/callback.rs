@@ -24,6 +24,8 @@ const FLAT: f64 = 1e-30;
 /// Everything the callbacks work on. Reached through one raw pointer only, see the crate documentation.
 pub(crate) struct Shared<S> {
     pub(crate) system: S,
+    /// What CVODES' time is counted from.
+    pub(crate) origin: f64,
     /// The matrix of [`OdeSystem::jacobian`] in the slots of the pattern.
     pub(crate) jacobian: Vec<f64>,
     /// Whether `jacobian` is that of a constant matrix and need not be asked for again.
@@ -282,6 +284,7 @@ pub(crate) unsafe extern "C" fn derivative<S: OdeSystem>(
     // SAFETY: `data` is the `Shared<S>` given to CVodeSetUserData, to which no reference exists while CVODES runs; the
     // vectors are ours and different, one to be read, one to be written.
     let (shared, y, out) = unsafe { (&mut *data.cast::<Shared<S>>(), values(y), values_mut(out)) };
+    let t = shared.origin + t;
     shared.guard(Callback::Flow, t, |shared| shared.derivative(t, y, out))
 }
 
@@ -294,6 +297,7 @@ pub(crate) unsafe extern "C" fn integrands<S: OdeSystem>(
 ) -> c_int {
     // SAFETY: as in `derivative`.
     let (shared, y, out) = unsafe { (&mut *data.cast::<Shared<S>>(), values(y), values_mut(out)) };
+    let t = shared.origin + t;
     shared.guard(Callback::Quadrature, t, |shared| shared.integrands(t, y, out))
 }
 
@@ -318,6 +322,7 @@ pub(crate) unsafe extern "C" fn sensitivities<S: OdeSystem>(
     };
     // SAFETY: nobody writes to the vectors of `s` meanwhile.
     unsafe { vectors::gather(s, &mut shared.sensitivities) };
+    let t = shared.origin + t;
     let flag = shared.guard(Callback::Sensitivity, t, |shared| shared.sensitivity_flow(t, y));
     if flag == DONE {
         // SAFETY: nobody else uses the vectors of `out` meanwhile; none of them is `y`.
@@ -340,6 +345,7 @@ pub(crate) unsafe extern "C" fn roots<S: OdeSystem>(
         let out = slice::from_raw_parts_mut(out, shared.root_count);
         (shared, values(y), out)
     };
+    let t = shared.origin + t;
     shared.guard(Callback::Roots, t, |shared| shared.roots(t, y, out))
 }
 

@@ -16,6 +16,9 @@ use crate::symmetry::{ATTEMPTS, SYMMETRIC_ATTEMPTS, Symmetry};
 use crate::vector::Vector;
 use crate::{IntegrateError, LinearSolverKind, OdeSystem, Options, Statistics, linear, start};
 
+/// A step that is longer than the longest by this factor is so by rounding.
+const ROOM: f64 = 1.0 + 1e-9;
+
 /// Steps in a row without progress after which the integration has stalled.
 const STALLED: u32 = 50;
 
@@ -32,7 +35,19 @@ pub struct Step {
     pub roots: bool,
 }
 
+/// Times as the caller counts them: the last double that is not after what CVODES says, so that one is before the stop
+/// as long as the other is.
+#[derive(Clone, Copy)]
+struct Shown {
+    time: f64,
+    from: f64,
+    stop: f64,
+}
+
 /// Integrates an [`OdeSystem`] with variable-order BDF.
+///
+/// Steps may be shorter than the distance of two doubles at a time far from 0; the flow is then asked for at times that
+/// are rounded.
 ///
 /// The running integrals obey the same formula as the state, so a balance such as `sum of M (y1 - y0) = integral of the
 /// total flow` holds up to what Newton's method leaves over. The defaults keep that small; see
@@ -47,10 +62,19 @@ pub struct Integrator<S: OdeSystem> {
     sensitivities: Sensitivities,
     context: Context,
     shared: SharedBox<S>,
+    /// What CVODES counts its time from. It begins at 0: a step may be shorter than what a double tells of a time far
+    /// from 0.
+    origin: f64,
+    /// In CVODES' time.
     time: f64,
-    /// Start of the last step; equal to `time` if there is none to interpolate in.
+    /// Start of the last step; equal to `time` if there is none to interpolate in. In CVODES' time.
     from: f64,
+    /// In CVODES' time.
     stop: f64,
+    /// `time`, `from` and `stop` as the caller counts.
+    shown: Shown,
+    /// From now on no step is longer.
+    longest: f64,
     max_steps: u64,
     symmetry: Symmetry,
     roots: Roots,
@@ -93,9 +117,12 @@ impl<S: OdeSystem> Integrator<S> {
             sensitivities,
             context,
             shared,
-            time: t0,
-            from: t0,
+            origin: t0,
+            time: 0.0,
+            from: 0.0,
             stop: f64::INFINITY,
+            shown: Shown { time: t0, from: t0, stop: f64::INFINITY },
+            longest: options.max_step_size.unwrap_or(f64::INFINITY),
             max_steps: u64::try_from(options.max_steps).unwrap_or(u64::MAX),
             symmetry,
             roots,
@@ -119,9 +146,6 @@ impl<S: OdeSystem> Integrator<S> {
         if let Some(step) = options.initial_step {
             self.memory.set_initial_step(step)?;
         }
-        if let Some(step) = options.max_step_size {
-            self.memory.set_max_step(step)?;
-        }
         if self.symmetry.is_held() {
             self.memory.set_attempts(SYMMETRIC_ATTEMPTS)?;
         }
@@ -139,7 +163,24 @@ impl<S: OdeSystem> Integrator<S> {
 
     /// Present time.
     pub fn time(&self) -> f64 {
-        self.time
+        self.shown.time
+    }
+
+    /// CVODES' time of a time inside the last step.
+    fn within(&self, t: f64) -> f64 {
+        (t - self.origin).clamp(self.from, self.time)
+    }
+
+    /// The time as the caller counts it.
+    fn show(&mut self) {
+        let Shown { time, stop, .. } = self.shown;
+        if self.time >= self.stop {
+            self.shown.time = stop;
+            return;
+        }
+        let near = self.origin + self.time;
+        let not_after = if near - self.origin > self.time { near.next_down() } else { near };
+        self.shown.time = not_after.min(stop.next_down()).max(time);
     }
 
     /// State at [`time`](Self::time), in units of y.
@@ -168,7 +209,13 @@ impl<S: OdeSystem> Integrator<S> {
     /// From now on no step crosses `t`, until another stop time is set; `f64::INFINITY` means no stop. The first step
     /// after a start is at most a tenth of the way to the stop time.
     pub fn set_stop(&mut self, t: f64) {
-        self.stop = t;
+        self.stop = t - self.origin;
+        self.shown.stop = t;
+    }
+
+    /// From now on no step is longer than this, positive, in units of t; in place of [`Options::max_step_size`].
+    pub fn set_longest_step(&mut self, step: f64) {
+        self.longest = step;
     }
 
     /// Takes one step of the size that the error allows. At the stop time it does nothing, says so, and returns a step
@@ -188,7 +235,7 @@ impl<S: OdeSystem> Integrator<S> {
         }
         let so_far = self.statistics();
         if so_far.steps >= self.max_steps {
-            return Err(IntegrateError::TooManySteps { time: from, steps: so_far.steps });
+            return Err(IntegrateError::TooManySteps { time: self.shown.time, steps: so_far.steps });
         }
         if self.symmetry.stalls(&so_far) {
             self.leave_symmetry();
@@ -201,15 +248,18 @@ impl<S: OdeSystem> Integrator<S> {
             outcome = self.advance();
         }
         let to = self.time;
+        self.shown.from = self.shown.time;
+        self.show();
         match outcome {
-            Ok(reached) => {
+            Ok(_) => {
                 self.from = from;
                 self.watch_progress(to > from)?;
-                let at_stop = reached == Reached::Stop || to >= self.stop;
-                Ok(Step { from, to, at_stop, roots: self.roots.met() })
+                let Shown { from, time, .. } = self.shown;
+                Ok(Step { from, to: time, at_stop: to >= self.stop, roots: self.roots.met() })
             }
             Err(flag) => {
                 self.from = to;
+                self.shown.from = self.shown.time;
                 Err(self.explain(flag))
             }
         }
@@ -221,11 +271,20 @@ impl<S: OdeSystem> Integrator<S> {
         self.leave_rest()?;
         // Version 6 cannot forget a stop time; the largest double serves as none. It is set for every step because
         // CVODES forgets it when it is reached and keeps it at a restart.
-        let stop = self.stop.min(f64::MAX);
-        let towards = if self.stop.is_finite() { stop } else { self.time + self.time.abs().max(1.0) };
+        let stop = self.held_stop().min(f64::MAX);
+        let towards = if self.stop.is_finite() { self.stop } else { self.time + self.time.abs().max(1.0) };
         self.memory.set_stop(stop)?;
+        self.memory.set_max_step(if self.longest.is_finite() { self.longest } else { 0.0 })?;
         let reached = self.memory.step(towards, &mut self.state, &mut self.time);
         if self.roots.are_none() { reached } else { self.look_for_roots(towards, reached) }
+    }
+
+    /// The stop time, or an earlier one where CVODES would take a step that is too long: it chose the size when the step
+    /// before ended, by what was the longest then. After a root it first takes the rest of a step.
+    fn held_stop(&self) -> f64 {
+        let Counters { steps, current_step, .. } = self.memory.counters();
+        let too_long = steps > 0 && current_step > self.longest * ROOM && !self.roots.met();
+        if too_long { self.stop.min(self.time + self.longest) } else { self.stop }
     }
 
     /// From the last good state on with LU; false if that cannot be had.
@@ -233,7 +292,7 @@ impl<S: OdeSystem> Integrator<S> {
         let choice = self.symmetry.leave();
         let Ok(factors) = linear::new(self.system().pattern(), false, choice) else { return false };
         self.shared.get_mut().leave_symmetry(factors);
-        self.symmetry.set_switched(self.time);
+        self.symmetry.set_switched(self.shown.time);
         self.read_running().is_ok()
             && self.begin_anew().and_then(|()| self.memory.set_attempts(ATTEMPTS)).is_ok()
     }
@@ -250,7 +309,7 @@ impl<S: OdeSystem> Integrator<S> {
             return Ok(());
         }
         self.still = 0;
-        let (time, step) = (self.time, self.memory.counters().current_step);
+        let (time, step) = (self.shown.time, self.memory.counters().current_step);
         match self.shared.get_mut().overcome.take() {
             Some(failure) => Err(failure.into_error()),
             None => Err(IntegrateError::Stalled { time, step, index: self.worst() }),
@@ -258,7 +317,7 @@ impl<S: OdeSystem> Integrator<S> {
     }
 
     fn step_at_stop(&self) -> Result<Step, IntegrateError> {
-        let (time, stop) = (self.time, self.stop);
+        let Shown { time, stop, .. } = self.shown;
         if stop < time {
             return Err(IntegrateError::StopBehind { time, stop });
         }
@@ -274,11 +333,12 @@ impl<S: OdeSystem> Integrator<S> {
     /// [`IntegrateError::OutsideLastStep`] (after a start or a restart only the present time is inside), a wrong length.
     pub fn interpolate(&mut self, t: f64, y: &mut [f64]) -> Result<(), IntegrateError> {
         start::expect_length("y", self.state.as_slice().len(), y.len())?;
-        let (from, to) = (self.from, self.time);
+        let Shown { from, time: to, .. } = self.shown;
         if !(from..=to).contains(&t) {
             return Err(IntegrateError::OutsideLastStep { time: t, from, to });
         }
-        if t >= to {
+        let t = self.within(t);
+        if t >= self.time {
             y.copy_from_slice(self.state.as_slice());
             return Ok(());
         }
@@ -314,6 +374,7 @@ impl<S: OdeSystem> Integrator<S> {
         let now = self.memory.counters();
         self.before = sum(&self.before, &now);
         self.from = self.time;
+        self.shown.from = self.shown.time;
         self.memory_at(self.time)
     }
 

@@ -100,6 +100,7 @@ pub(crate) unsafe extern "C" fn form_matrix<S: OdeSystem>(
     // is ours, only read; the flag is a place to write to.
     let (shared, y, current) =
         unsafe { (&mut *data.cast::<Shared<S>>(), values(y), &mut *jacobian_is_current) };
+    let t = shared.origin + t;
     shared.guard(Callback::Jacobian, t, |shared| {
         let renewed = shared.form_matrix((t, y), gamma, jacobian_ok != 0)?;
         // A constant Jacobian is as good as new: CVODES must not ask for another because Newton is slow.

@@ -49,6 +49,7 @@ pub(crate) fn shared<S: OdeSystem>(
     let (counts, root_count) = (Counts::default(), system.root_count());
     Ok(Shared {
         system,
+        origin: t0,
         jacobian,
         jacobian_is_current: false,
         matrix,

@@ -197,3 +197,34 @@ fn the_version_is_that_of_the_headers() {
     assert_eq!(linked.version, linked.headers);
     assert!(linked.version.starts_with(['6', '7']));
 }
+
+/// Steps of a cell with a time constant of 1 us, far from 0 where doubles are 0.016 s apart, are those from 0.
+#[test]
+fn a_start_far_from_zero_changes_no_step() {
+    let run = |start: f64| {
+        let cell = Linear::network(vec![1e-6], &[(0, None, 1.0)], Box::new(|_, b| b[0] = 50.0));
+        let mut integrator = Integrator::new(cell, start, &[0.0], &Options::default()).unwrap();
+        integrator.set_stop(start + 0.015_625);
+        let mut last = start;
+        while !integrator.step().unwrap().at_stop {
+            assert!(integrator.time() >= last && integrator.time() < start + 0.015_625);
+            last = integrator.time();
+        }
+        assert!((integrator.time() - start - 0.015_625).abs() <= 0.0);
+        (integrator.statistics(), integrator.state()[0].to_bits())
+    };
+    assert_eq!(run(0.0), run(1e14));
+}
+
+#[test]
+fn the_longest_step_may_change_on_the_way() {
+    let mut integrator = Integrator::new(plate(3, 1.0), 0.0, &[0.0; 9], &Options::default()).unwrap();
+    integrator.set_stop(1000.0);
+    while integrator.time() < 1000.0 {
+        let longest = if integrator.time() < 300.0 { 5.0 } else { 0.25 };
+        integrator.set_longest_step(longest);
+        let step = integrator.step().unwrap();
+        assert!(step.to - step.from <= longest * 1.000_001, "{step:?}");
+        assert_eq!(step.at_stop, step.to >= 1000.0);
+    }
+}

@@ -9,6 +9,7 @@ use crate::input_error::{InputError, InputProblem};
 use crate::layout::Holds;
 use crate::network::Network;
 use crate::parts::Parts;
+use crate::signal::Course;
 use crate::value::Value;
 
 /// Parts of a stretch in which a curve is looked at for a place where it bends.
@@ -20,9 +21,15 @@ const BISECTIONS: usize = 60;
 /// A stretch of time without a point of a signal inside, from and to in s.
 type Stretch = (f64, f64);
 
+/// What is evaluated over time: values, and the signals that they read.
+pub(crate) struct Watched<'a> {
+    pub(crate) values: Vec<&'a Value>,
+    pub(crate) signals: Vec<bool>,
+}
+
 impl Network {
-    /// The times inside `(start, stop)` in s at which an input may bend or jump, ascending: points of signals,
-    /// changes of comparisons, kinks of `abs`, `min` and `max`, knots of tables.
+    /// The times inside `(start, stop)` in s at which an input of the heat flows may bend or jump, ascending: points of
+    /// signals, changes of comparisons, kinks of `abs`, `min` and `max`, knots of tables.
     ///
     /// A comparison goes straight between points of signals (the builder refuses others), so its two sides meet at
     /// most once there. Kinks of curves are looked for in small steps.
@@ -32,13 +39,39 @@ impl Network {
     /// # Errors
     /// [`InputProblem::TooManyPoints`] for a signal that is repeated beyond reason.
     pub fn breakpoints(&self, start: f64, stop: f64) -> Result<Vec<f64>, InputError> {
-        let mut times = self.points((start, stop), true)?;
-        let mut ends = self.points((start, stop), false)?;
+        self.times_of(&self.parts.driving(), (start, stop))
+    }
+
+    /// The same for results: limits, reports and signals, which are evaluated over time too but change no heat flow. A
+    /// result at one of these times is to be read inside the stretch on its right.
+    ///
+    /// # Errors
+    /// As [`Network::breakpoints`].
+    pub fn result_breakpoints(
+        &self,
+        items: &[Item],
+        (start, stop): (f64, f64),
+    ) -> Result<Vec<f64>, InputError> {
+        self.times_of(&self.parts.results(items), (start, stop))
+    }
+
+    /// Everything that is evaluated over time beside the inputs of the heat flows: limits, reports, and signals that
+    /// drive nothing.
+    pub fn results(&self) -> Vec<Item> {
+        let driving = self.parts.driving().signals;
+        let idle = self.signal_ids().filter(|id| !driving[id.index()]);
+        let limits = self.limit_ids().map(Item::Limit);
+        limits.chain(self.report_ids().map(Item::Report)).chain(idle.map(Item::Signal)).collect()
+    }
+
+    fn times_of(&self, what: &Watched<'_>, (start, stop): Stretch) -> Result<Vec<f64>, InputError> {
+        let mut times = self.points(&what.signals, (start, stop), true)?;
+        let mut ends = self.points(&what.signals, (start, stop), false)?;
         ends.insert(0, start);
         ends.push(stop);
         let stretches: Vec<Stretch> = ends.windows(2).map(|pair| (pair[0], pair[1])).collect();
         let mut scope = self.evaluation();
-        for (_, _, value) in self.inputs() {
+        for value in &what.values {
             for difference in self.differences(value) {
                 for &stretch in &stretches {
                     // what stands in a branch that is not taken may have no value there
@@ -51,16 +84,10 @@ impl Network {
     }
 
     /// Points of the signals that are used; with `bends` only those at which one may bend or jump.
-    fn points(&self, span: (f64, f64), bends: bool) -> Result<Vec<f64>, InputError> {
-        let signals = self.parts.layout.signals();
-        let mut used = vec![false; signals.len()];
-        for slot in self.inputs().flat_map(|(_, _, value)| value.slots()) {
-            if let Holds::Signal(id) | Holds::FrozenSignal(id) = self.parts.layout.holds(slot) {
-                used[id.index()] = true;
-            }
-        }
+    fn points(&self, used: &[bool], span: (f64, f64), bends: bool) -> Result<Vec<f64>, InputError> {
         let mut times = Vec::new();
-        for (i, (signal, _)) in signals.iter().zip(used).enumerate().filter(|(_, (_, used))| *used) {
+        let signals = self.signals().iter().zip(used).enumerate();
+        for (i, (signal, _)) in signals.filter(|(_, (_, used))| **used) {
             signal.course.points(span, bends, &mut times).map_err(|count| InputError {
                 item: Item::Signal(SignalId::from_len(i)),
                 field: Field::Period,
@@ -97,15 +124,6 @@ impl Network {
     /// How a value goes over time between [`Network::breakpoints`], temperatures held.
     pub fn course(&self, value: &Value) -> Degree {
         self.parts.course(value)
-    }
-
-    /// The inputs whose course over time is not known to be a straight line between breakpoints, as functions of
-    /// time: an integrator has to look at them often enough to see what they do.
-    pub fn curved_inputs(&self) -> impl Iterator<Item = &Value> {
-        let values = self.inputs().map(|(_, _, value)| value);
-        values.filter(|value| {
-            !self.parts.reads(value).reads_results() && self.parts.course(value) == Degree::Nonlinear
-        })
     }
 }
 
@@ -172,18 +190,54 @@ fn bisect(
 
 /// Sorts times, keeps those inside, and makes two that differ by rounding only one.
 fn tidy(times: &mut Vec<f64>, start: f64, stop: f64) {
-    let margin = margin(start, stop);
+    let margin = same_time(start, stop);
     times.retain(|&time| time > start + margin && time < stop - margin);
     times.sort_unstable_by(f64::total_cmp);
     times.dedup_by(|a, b| (*a - *b).abs() <= margin);
 }
 
-/// Times closer than this are one: rounding, and what no step could be taken between.
-fn margin(start: f64, stop: f64) -> f64 {
+/// Times of a run from `start` to `stop` that are closer than this are one, all in s: rounding, and what no step could be
+/// taken between.
+pub fn same_time(start: f64, stop: f64) -> f64 {
     (1e-12 * (stop - start)).max(64.0 * f64::EPSILON * start.abs().max(stop.abs()))
 }
 
 impl Parts {
+    /// What the heat flows depend on, and what decides when something switches.
+    pub(crate) fn driving(&self) -> Watched<'_> {
+        let roots = self.inputs().filter(|(item, _, _)| !matches!(item, Item::Signal(_)));
+        self.watched(roots.map(|(_, _, value)| value).collect(), &[])
+    }
+
+    /// What results of these items depend on: limits, reports and signals.
+    pub(crate) fn results(&self, items: &[Item]) -> Watched<'_> {
+        let (mut values, mut signals) = (Vec::new(), Vec::new());
+        for item in items {
+            match *item {
+                Item::Limit(id) => values.push(&self.limits[id.index()].of),
+                Item::Report(id) => values.push(&self.reports[id.index()].value),
+                Item::Signal(id) => signals.push(id),
+                _ => {}
+            }
+        }
+        self.watched(values, &signals)
+    }
+
+    /// With the signals that are read, by other signals too.
+    pub(crate) fn watched<'a>(&'a self, mut values: Vec<&'a Value>, signals: &[SignalId]) -> Watched<'a> {
+        let mut used = vec![false; self.layout.signals().len()];
+        values.iter().for_each(|value| self.mark_signals(value, &mut used));
+        signals.iter().for_each(|id| used[id.index()] = true);
+        // a signal reads only those before it
+        for (i, signal) in self.layout.signals().iter().enumerate().rev() {
+            if let (true, Course::Expression(value)) = (used[i], &signal.course) {
+                self.mark_signals(value, &mut used);
+                values.push(value);
+            }
+        }
+        Watched { values, signals: used }
+    }
+
     /// How a value goes over time between the points of the signals it reads; temperatures held.
     pub(crate) fn course(&self, value: &Value) -> Degree {
         let mut factors = value.programs().into_iter().map(|program| self.course_of(program));

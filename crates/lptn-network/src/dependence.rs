@@ -5,7 +5,6 @@ use crate::element::{Conductor, Source};
 use crate::id::{ConductorId, End, Item, SignalId};
 use crate::layout::{Holds, slot};
 use crate::parts::Parts;
-use crate::signal::Course;
 use crate::value::Value;
 
 /// What the slots of a value hold.
@@ -89,26 +88,21 @@ impl Parts {
 
     /// Whether a value of an item reads a signal, through other signals too.
     pub(crate) fn uses_signal(&self, item: Item, signal: SignalId) -> bool {
-        let signals = self.layout.signals();
-        let mut used = vec![false; signals.len()];
-        let mark = |value: &Value, used: &mut Vec<bool>| {
-            for slot in value.slots() {
-                if let Holds::Signal(id) | Holds::FrozenSignal(id) = self.layout.holds(slot) {
-                    used[id.index()] = true;
-                }
-            }
+        let own = self.inputs().filter(|(of, _, _)| *of == item).map(|(_, _, value)| value);
+        let limit = match item {
+            Item::Limit(id) => Some(&self.limits[id.index()].of),
+            _ => None,
         };
-        self.inputs().filter(|(of, _, _)| *of == item).for_each(|(_, _, value)| mark(value, &mut used));
-        if let Item::Limit(id) = item {
-            mark(&self.limits[id.index()].of, &mut used);
-        }
-        // a signal reads only those before it
-        for (i, s) in signals.iter().enumerate().rev() {
-            if let (true, Course::Expression(value)) = (used[i], &s.course) {
-                mark(value, &mut used);
+        self.watched(own.chain(limit).collect(), &[]).signals[signal.index()]
+    }
+
+    /// Marks the signals that a value reads itself.
+    pub(crate) fn mark_signals(&self, value: &Value, used: &mut [bool]) {
+        for slot in value.slots() {
+            if let Holds::Signal(id) | Holds::FrozenSignal(id) = self.layout.holds(slot) {
+                used[id.index()] = true;
             }
         }
-        used[signal.index()]
     }
 
     /// Whether the heat of a conductor is more than a constant times a difference or a stream.

@@ -13,6 +13,7 @@ mod check;
 mod checks;
 mod conductances;
 mod control;
+mod curves;
 mod dependence;
 mod element;
 mod enthalpy;
@@ -52,8 +53,10 @@ mod typed;
 mod value;
 
 pub use body::{NoMaterial, Surface};
+pub use breakpoints::same_time;
 pub use builder::{NetworkBuilder, Path};
 pub use control::{Acts, Control, Thermostat};
+pub use curves::Curve;
 pub use element::{Boundary, Capacitor, Conductor, ConductorKind, Node, Parameter, Source};
 pub use enthalpy::{Content, Enthalpy};
 pub use error::{BuildError, BuildErrorKind, BuildErrors};

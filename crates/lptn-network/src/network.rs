@@ -253,6 +253,14 @@ impl Network {
         self.inputs().any(|(_, _, value)| self.depends_on_time(value))
     }
 
+    /// Whether anything that is evaluated over a run depends on the time by itself: inputs, what switches, limits, reports.
+    pub fn reads_time(&self) -> bool {
+        let limits = self.limits().iter().map(|limit| &limit.of);
+        let mut results = limits.chain(self.reports().iter().map(|report| &report.value));
+        let timed = !self.signals().is_empty() || results.any(|value| self.depends_on_time(value));
+        timed || self.has_events() || self.has_time_dependent_inputs()
+    }
+
     /// Whether a value changes with time by itself.
     pub fn depends_on_time(&self, value: &Value) -> bool {
         self.parts.reads(value).time

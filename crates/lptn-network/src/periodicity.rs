@@ -5,7 +5,7 @@ use lptn_units::EvalError;
 use crate::evaluation::Evaluation;
 use crate::id::{Field, Item, SignalId};
 use crate::input_error::InputError;
-use crate::layout::{Holds, slot};
+use crate::layout::slot;
 use crate::network::Network;
 use crate::signal::AfterEnd;
 use crate::value::Value;
@@ -82,13 +82,7 @@ impl Network {
     }
 
     fn repeated_signals(&self) -> impl Iterator<Item = (SignalId, f64)> + '_ {
-        let layout = &self.parts.layout;
-        let mut used = vec![false; layout.signals().len()];
-        for slot in self.inputs().flat_map(|(_, _, value)| value.slots()) {
-            if let Holds::Signal(id) | Holds::FrozenSignal(id) = layout.holds(slot) {
-                used[id.index()] = true;
-            }
-        }
+        let used = self.parts.driving().signals;
         self.signal_ids().filter_map(move |id| match self.signals()[id.index()].course.after() {
             AfterEnd::Repeat(period) if used[id.index()] => Some((id, period)),
             _ => None,

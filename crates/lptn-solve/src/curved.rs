@@ -2,31 +2,18 @@
 //!
 //! The integrator sees an input only at the ends of its steps: a pulse between two of them would be missed without
 //! a trace, and the books would close all the same. So the inputs are looked at before the run, and no step is
-//! longer than what resolves them.
+//! longer than what resolves them where it is.
 
 use lptn_assembly::{Form, ThermalSystem};
-use lptn_network::{Evaluation, Value};
 
+use crate::cells::{Stretch, stretches};
 use crate::times::Segment;
 
-/// Steps of the whole run to begin with.
-const COARSE: f64 = 300.0;
-
-/// How often the step is halved at most.
-const HALVINGS: usize = 7;
-
-/// Parts of a step that the inputs are looked at in.
-const PARTS: u32 = 16;
-
-/// The share of its variation by which an input may differ from the chords of the steps: a sine has then at least
-/// seven steps in a period.
-const MISSED: f64 = 0.1;
-
 /// What curved inputs ask of the integrator.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Curved {
-    /// The longest step in s.
-    pub(crate) step: f64,
+    /// The longest step everywhere.
+    stretches: Vec<Stretch>,
     /// The share of the tolerance that the integrator gets.
     pub(crate) share: f64,
     /// How many of the steps the network remembers.
@@ -46,32 +33,61 @@ const LEAST_SHARE: f64 = 1e-3;
 impl Curved {
     /// `None` if no input is curved.
     ///
-    /// The step is at most a three-hundredth of the run and the longest distance of rows, and is halved until every
-    /// curved input, looked at in sixteen parts of each step, stays near the chords of the steps. A pulse shorter than a part of the first step can still be missed: write it with `if(t < ..)`, which is
-    /// met exactly.
+    /// A pulse shorter than a part of the first steps can still be missed: write it with `if(t < ..)`, which is met exactly.
     ///
-    /// The share falls with the number of such steps that the network remembers: curved inputs excite it in every
+    /// The share falls with the number of steps that the network remembers: curved inputs excite it in every
     /// one of them, and the errors of the steps add up over its memory (`tests/tolerance.rs` measures it).
     pub(crate) fn of(system: &ThermalSystem, segments: &[Segment], rows: &[f64]) -> Option<Self> {
         let network = system.network();
-        let inputs: Vec<&Value> = network.curved_inputs().collect();
-        if inputs.is_empty() {
+        let curves = network.curves();
+        if curves.is_empty() {
             return None;
         }
-        let span = segments[segments.len() - 1].to - segments[0].from;
-        let gap = rows.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-        let mut step = (span / COARSE).min(gap);
-        let mut scope = network.evaluation();
-        for _ in 0..HALVINGS {
-            if inputs.iter().all(|input| segments.iter().all(|s| resolves(input, *s, step, &mut scope))) {
+        let stretches = stretches(network, &curves, segments, longest_gap(rows));
+        let remembered = most_steps(&stretches, memory(system, segments[0].inside()));
+        let share = (1.0 + remembered / REMEMBERED).recip().max(LEAST_SHARE);
+        Some(Self { stretches, share, remembered })
+    }
+
+    /// The longest step from `time` on, in s: one that leads into a stretch of shorter steps ends soon behind its beginning.
+    pub(crate) fn longest(&self, time: f64) -> f64 {
+        let here = self.stretches.partition_point(|s| s.to <= time).min(self.stretches.len() - 1);
+        let mut longest = self.stretches[here].step;
+        for next in &self.stretches[here + 1..] {
+            let way = next.from - time;
+            if way >= longest {
                 break;
             }
-            step *= 0.5;
+            longest = longest.min(way + next.step);
         }
-        let remembered = memory(system, segments[0].inside()).min(span) / step;
-        let share = (1.0 + remembered / REMEMBERED).recip().max(LEAST_SHARE);
-        Some(Self { step, share, remembered })
+        longest
     }
+}
+
+/// The longest distance of two rows in s.
+pub(crate) fn longest_gap(rows: &[f64]) -> f64 {
+    rows.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
+}
+
+/// The most steps of the longest size within so many s.
+fn most_steps(stretches: &[Stretch], memory: f64) -> f64 {
+    let mut ends = vec![(stretches[0].from, 0.0)];
+    for s in stretches {
+        let (_, before) = ends[ends.len() - 1];
+        ends.push((s.to, before + (s.to - s.from) / s.step));
+    }
+    let (start, (stop, all)) = (stretches[0].from, ends[ends.len() - 1]);
+    if memory >= stop - start {
+        return all;
+    }
+    let up_to = |time: f64| {
+        let i = ends.partition_point(|end| end.0 < time).clamp(1, ends.len() - 1);
+        let ((a, before), (b, after)) = (ends[i - 1], ends[i]);
+        before + (after - before) * ((time - a) / (b - a))
+    };
+    let windows = ends.iter().flat_map(|&(end, _)| [end, end - memory]);
+    let inside = windows.map(|from| from.clamp(start, stop - memory));
+    inside.map(|from| up_to(from + memory) - up_to(from)).fold(0.0, f64::max)
 }
 
 /// How long a network remembers, in s: all capacity over all conductance that leads out. The slowest time constant
@@ -90,28 +106,4 @@ fn memory(system: &ThermalSystem, time: f64) -> f64 {
     // what leaves all nodes together for a rise of all by 1 K
     let out = -values.iter().sum::<f64>();
     if out > 0.0 { system.capacity().iter().sum::<f64>() / out } else { f64::INFINITY }
-}
-
-/// Whether steps of this length see the input over the segment. What cannot be evaluated is left to the run.
-fn resolves(input: &Value, segment: Segment, step: f64, scope: &mut Evaluation) -> bool {
-    let steps = ((segment.to - segment.from) / step).ceil().max(1.0);
-    let points = steps * f64::from(PARTS);
-    let mut at = |k: f64| {
-        scope.set_time(segment.from + (segment.to - segment.from) * (k / points), segment.inside());
-        input.at(scope).unwrap_or(0.0)
-    };
-    let first = at(0.0);
-    let (mut missed, mut variation, mut left, mut k) = (0.0, 0.0, first, 0.0);
-    while k < points {
-        let right = at(k + f64::from(PARTS));
-        for part in 1..=PARTS {
-            let share = f64::from(part) / f64::from(PARTS);
-            let value = at(k + f64::from(part));
-            missed += (value - (left + share * (right - left))).abs();
-            variation += (value - first).abs();
-        }
-        left = right;
-        k += f64::from(PARTS);
-    }
-    missed <= MISSED * variation
 }

@@ -199,6 +199,20 @@ pub enum SettingsError {
     Tolerance(f64),
     /// An output time is outside the run or not after the one before it.
     OutputTime(f64),
+    /// Two rows are at the same time, because a double cannot tell theirs apart.
+    SameTime {
+        /// The time in s.
+        time: f64,
+    },
+    /// Something depends on the time, and so far from 0 a double cannot tell times of the run apart well enough.
+    FarFromZero {
+        /// Start in s.
+        start: f64,
+        /// Stop in s.
+        stop: f64,
+        /// The distance of two doubles at the larger one of them, in s.
+        resolution: f64,
+    },
     /// A window is not inside the run, or its end not after its beginning.
     Window {
         /// Its name.
@@ -286,7 +300,8 @@ impl TransientError {
                 unsolved.help()
             }
             Self::Stopped { reason, .. } => reason.help(),
-            _ => None,
+            Self::Settings(error) => error.help(),
+            Self::Integrator(_) => None,
         }
     }
 }
@@ -381,6 +396,20 @@ pub(crate) fn six_digits(x: f64) -> String {
 
 impl std::error::Error for TransientError {}
 
+impl SettingsError {
+    /// What to do about it.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::SameTime { .. } | Self::FarFromZero { .. } => Some(
+                "count the time from the beginning of the run, `start = \"0 s\"`; where an expression needs \
+                 the other time, write `(t + 1.7e9 [s])` in place of `t`"
+                    .into(),
+            ),
+            _ => None,
+        }
+    }
+}
+
 impl fmt::Display for SettingsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -391,6 +420,18 @@ impl fmt::Display for SettingsError {
                 write!(f, "a run must stop after it starts, got {start} s to {stop} s")
             }
             Self::Tolerance(value) => write!(f, "the tolerance must be a positive number of K, got {value}"),
+            Self::SameTime { time } => write!(
+                f,
+                "two rows have the same time, {time} s: numbers of this size are {} s apart",
+                six_digits(time.abs().next_up() - time.abs())
+            ),
+            Self::FarFromZero { start, stop, resolution } => write!(
+                f,
+                "the run from {start} s lasts {} s, but numbers of this size are {} s apart, too coarse for what \
+                 depends on the time",
+                six_digits(stop - start),
+                six_digits(*resolution)
+            ),
             Self::Window { name, from, to } => {
                 write!(f, "window `{name}` from {from} s to {to} s is not a part of the run")
             }

@@ -8,6 +8,7 @@
 
 mod adiabatic;
 mod balance;
+mod cells;
 mod conductances;
 mod curved;
 mod error;
@@ -26,6 +27,7 @@ mod periodic;
 mod quadrature;
 mod quantity;
 mod reading;
+mod readings;
 mod recorder;
 mod sensed;
 mod settings;

@@ -12,6 +12,7 @@ use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::{LimitSeen, LimitWatch};
 use crate::reading::Reading;
+use crate::readings::{Readings, pieces};
 use crate::sensed::{Sensed, SensitivityRows};
 use crate::settings::{Record, Transient};
 use crate::solution::{End, Solution};
@@ -39,6 +40,9 @@ pub(crate) struct Recorder<'a> {
     rows: Vec<f64>,
     next: usize,
     segment: Segment,
+    readings: Readings,
+    /// A time inside the stretch in which results are read now.
+    inside: f64,
     segments: Vec<f64>,
     /// The positions that the rows have, one after the other.
     positions: Vec<Positions>,
@@ -65,7 +69,7 @@ pub(crate) struct Recorder<'a> {
 impl<'a> Recorder<'a> {
     pub(crate) fn new(
         system: &'a ThermalSystem,
-        rows: Vec<f64>,
+        (rows, readings): (Vec<f64>, Readings),
         settings: &Transient,
     ) -> Result<Self, TransientError> {
         let network = system.network();
@@ -92,6 +96,8 @@ impl<'a> Recorder<'a> {
             rows,
             next: 0,
             segment: Segment { from: start, to: stop },
+            inside: readings.inside(start),
+            readings,
             recorded,
             watch: settings.watch.clone(),
             seen: Vec::new(),
@@ -147,6 +153,7 @@ impl<'a> Recorder<'a> {
     /// Writes the row at the start of the segment, if there is one, and starts to watch.
     pub(crate) fn start(&mut self, state: &[f64], sensitivities: &[f64]) -> Result<(), StopReason> {
         let from = self.segment.from;
+        self.inside = self.readings.inside(from);
         self.state.copy_from_slice(state);
         self.sensed.iter_mut().for_each(|sensed| sensed.carry(sensitivities));
         self.place(from)?;
@@ -156,8 +163,7 @@ impl<'a> Recorder<'a> {
         } else {
             self.seen.iter_mut().for_each(|seen| seen.jump(from, nodes[seen.watch.node.index()]));
         }
-        let at = (from, self.segment.inside());
-        self.limits.enter(&mut self.work, at).map_err(StopReason::Input)?;
+        self.limits.enter(&mut self.work, (from, self.inside)).map_err(StopReason::Input)?;
         if self.due(from) {
             self.push()?;
         }
@@ -179,6 +185,7 @@ impl<'a> Recorder<'a> {
     ) -> Result<(), StopReason> {
         while self.due(to) && (self.rows[self.next] < self.segment.to || self.is_last()) {
             let time = self.rows[self.next];
+            self.inside = self.readings.inside(time);
             self.place_at(time, &mut |time, state| integrator.interpolate(time, state))?;
             if let Some(sensed) = &mut self.sensed {
                 let read = integrator.interpolate_sensitivities(time, sensed.carried());
@@ -186,10 +193,30 @@ impl<'a> Recorder<'a> {
             }
             self.push()?;
         }
+        self.look_between((from, to), &mut |time, state| integrator.interpolate(time, state))
+    }
+
+    /// Looks at watched nodes and limits and into the windows between two times, anew where results may jump.
+    fn look_between(&mut self, step: (f64, f64), state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
         if self.looks() {
-            self.look((from, to), &mut |time, state| integrator.interpolate(time, state))?;
+            for (piece, begins) in pieces(&self.readings.limits, step) {
+                self.inside = self.readings.inside(piece.0);
+                if begins {
+                    self.place_at(piece.0, state_at)?;
+                    let at = (piece.0, self.inside);
+                    self.limits.enter(&mut self.work, at).map_err(StopReason::Input)?;
+                }
+                self.look(piece, state_at)?;
+            }
         }
-        self.track((from, to), &mut |time, state| integrator.interpolate(time, state))
+        if !self.windows.is_empty() {
+            for (piece, _) in pieces(&self.readings.windows, step) {
+                self.inside = self.readings.inside(piece.0);
+                self.track(piece, state_at)?;
+            }
+        }
+        self.inside = self.readings.inside_before(step.1);
+        Ok(())
     }
 
     /// Takes a step into the windows that it reaches.
@@ -198,7 +225,7 @@ impl<'a> Recorder<'a> {
         let outcome = windows.iter_mut().try_for_each(|window| {
             window.step(step, &mut |time, of, values| {
                 self.place_at(time, state_at)?;
-                let at = (time, self.segment.inside());
+                let at = (time, self.inside);
                 self.reading.place(&mut self.work, at).map_err(StopReason::Input)?;
                 for &quantity in of.quantities() {
                     let value = self.reading.value(&mut self.work, quantity);
@@ -213,20 +240,19 @@ impl<'a> Recorder<'a> {
 
     /// Looks at the watched nodes of a system without state between two times.
     pub(crate) fn look_without_state(&mut self, from: f64, to: f64) -> Result<(), StopReason> {
-        if self.looks() {
-            self.look((from, to), &mut |_, _| Ok(()))?;
-        }
-        self.track((from, to), &mut |_, _| Ok(()))
+        self.look_between((from, to), &mut |_, _| Ok(()))
     }
 
     /// Writes a row from the inputs at `time` for a system without state.
     pub(crate) fn push_without_state(&mut self, time: f64) -> Result<(), StopReason> {
+        self.inside = self.readings.inside(time);
         self.place(time)?;
         self.push()
     }
 
     /// The workspace at `time`, for a system without state.
     pub(crate) fn at(&mut self, time: f64) -> Result<&mut Workspace, StopReason> {
+        self.inside = self.readings.inside(time);
         self.place(time)?;
         Ok(&mut self.work)
     }
@@ -234,9 +260,10 @@ impl<'a> Recorder<'a> {
     /// The workspace at a time and state; as it was where these cannot be had.
     pub(crate) fn at_state(&mut self, (time, state): (f64, &[f64])) -> &mut Workspace {
         self.state.copy_from_slice(state);
+        self.inside = self.readings.inside_before(time);
         if self.place(time).is_ok() {
             // brings the heat of sources that depend on temperatures up to date
-            drop(self.reading.place(&mut self.work, (time, self.segment.inside())));
+            drop(self.reading.place(&mut self.work, (time, self.inside)));
         }
         &mut self.work
     }
@@ -257,7 +284,7 @@ impl<'a> Recorder<'a> {
 
     /// Brings the workspace to `time` and the temperatures in `state`.
     fn place(&mut self, time: f64) -> Result<(), StopReason> {
-        self.system.read_inputs(&mut self.work, time, self.segment.inside()).map_err(StopReason::Input)?;
+        self.system.read_inputs(&mut self.work, time, self.inside).map_err(StopReason::Input)?;
         let unfolded = self.unfold.temperatures(&mut self.work, &self.state);
         let temperatures = unfolded.map_err(|e| StopReason::Unsolved(Unsolved::new(self.system, e)))?;
         self.system.recover(&mut self.work, temperatures);
@@ -275,7 +302,7 @@ impl<'a> Recorder<'a> {
             let pushed = sensed.push(&mut self.work, &self.unfold, &self.recorded);
             pushed.map_err(|e| StopReason::Unsolved(Unsolved::new(self.system, e)))?;
         }
-        self.segments.push(self.segment.inside());
+        self.segments.push(self.inside);
         let position = self.positions.len().checked_sub(1).and_then(|i| u32::try_from(i).ok());
         self.row_positions.extend(position);
         self.next += 1;
@@ -295,7 +322,7 @@ impl<'a> Recorder<'a> {
             for (list, seen) in self.points.iter_mut().zip(&self.seen) {
                 list.push((time, nodes[seen.watch.node.index()]));
             }
-            let at = (time, self.segment.inside());
+            let at = (time, self.inside);
             self.limits.sample(&mut self.work, at).map_err(StopReason::Input)?;
         }
         for i in 0..self.seen.len() {
@@ -342,7 +369,7 @@ impl<'a> Recorder<'a> {
 
     fn margin_at(&mut self, id: LimitId, time: f64, state_at: &mut StateAt<'_>) -> Result<f64, StopReason> {
         self.place_at(time, state_at)?;
-        let at = (time, self.segment.inside());
+        let at = (time, self.inside);
         self.limits.margin(id, &mut self.work, at).map_err(StopReason::Input)
     }
 

@@ -141,7 +141,11 @@ impl Transient {
     /// [`SettingsError`] if the settings contradict themselves.
     pub fn rows(&self) -> Result<Vec<f64>, SettingsError> {
         self.check()?;
-        times::rows(&self.output, self.start, self.stop)
+        let rows = times::rows(&self.output, self.start, self.stop)?;
+        match rows.windows(2).find(|pair| pair[0] >= pair[1]) {
+            Some(pair) => Err(SettingsError::SameTime { time: pair[1] }),
+            None => Ok(rows),
+        }
     }
 
     pub(crate) fn check(&self) -> Result<(), SettingsError> {
@@ -161,12 +165,11 @@ impl Transient {
     }
 
     /// The options of the integrator, with what curved inputs ask for.
-    pub(crate) fn options(&self, network: &Network, curved: Option<Curved>) -> Options {
+    pub(crate) fn options(&self, network: &Network, curved: Option<&Curved>) -> Options {
         Options {
             sensitivity_scales: self.sensitivities.iter().map(|&id| scale(network, id)).collect(),
             tolerance: self.tolerance * curved.map_or(1.0, |c| c.share),
             linear_solver: self.linear_solver,
-            max_step_size: curved.map(|c| c.step),
             ..Options::default()
         }
     }

@@ -1,6 +1,6 @@
 //! Output times and the segments between known discontinuities.
 
-use lptn_network::OutputTimes;
+use lptn_network::{Network, OutputTimes};
 
 use crate::error::SettingsError;
 
@@ -40,14 +40,34 @@ fn regular(every: f64, start: f64, stop: f64) -> Result<Vec<f64>, SettingsError>
     Ok((0..).map(time).take_while(|&t| t < stop - margin).collect())
 }
 
-/// Moves breakpoints that are a row's time but for rounding onto it, so that the row is after the jump.
-pub(crate) fn snap(breakpoints: &mut [f64], rows: &[f64]) {
+/// Moves breakpoints of a run that are a row's time but for rounding onto it, so that the row is after the jump.
+pub(crate) fn snap(breakpoints: &mut [f64], rows: &[f64], (start, stop): (f64, f64)) {
     for time in breakpoints {
         let after = rows.partition_point(|row| row < time);
-        let near = |row: &&f64| (**row - *time).abs() <= 1e-11 * row.abs().max(time.abs());
+        // far from 0 times are rounded more than the run is long
+        let near = |row: &&f64| {
+            let size = row.abs().max(time.abs());
+            (**row - *time).abs() <= (1e-11 * size.min(stop - start)).max(4.0 * f64::EPSILON * size)
+        };
         if let Some(&row) = rows[after.saturating_sub(1)..].iter().take(2).find(near) {
             *time = row;
         }
+    }
+}
+
+/// Doubles that a run has to have between its start and its stop where something depends on the time: a step of a
+/// three-hundredth of it is then still a hundred thousand of them.
+const LEAST_DOUBLES: f64 = 3e7;
+
+/// Refuses a run so far from 0 that times inside it cannot be told apart well enough for what depends on them.
+pub(crate) fn check_resolution(network: &Network, start: f64, stop: f64) -> Result<(), SettingsError> {
+    let far = start.abs().max(stop.abs());
+    let resolution = far.next_up() - far;
+    let fine = stop - start >= LEAST_DOUBLES * resolution;
+    if fine || !network.reads_time() {
+        Ok(())
+    } else {
+        Err(SettingsError::FarFromZero { start, stop, resolution })
     }
 }
 

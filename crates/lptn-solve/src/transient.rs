@@ -9,13 +9,14 @@ use crate::error::{SettingsError, StopReason, TransientError};
 use crate::events::{Switching, Trouble, find_crossings};
 use crate::heat::Heat;
 use crate::newton::NewtonError;
+use crate::readings::Readings;
 use crate::recorder::Recorder;
 use crate::settings::{Control, Progress, Transient};
 use crate::solution::{End, Solution};
 use crate::state::{self, State};
 use crate::stateless;
 use crate::tangent::Tangent;
-use crate::times::{Segment, segments, snap};
+use crate::times::{Segment, check_resolution, segments, snap};
 use crate::unsolved::Unsolved;
 
 impl Transient {
@@ -54,10 +55,14 @@ impl Transient {
         }
         let rows = self.rows().map_err(TransientError::Settings)?;
         let network = system.network();
+        check_resolution(network, self.start, self.stop).map_err(TransientError::Settings)?;
         let mut breakpoints = network.breakpoints(self.start, self.stop).map_err(TransientError::Input)?;
-        snap(&mut breakpoints, &rows);
+        snap(&mut breakpoints, &rows, (self.start, self.stop));
+        breakpoints.dedup();
         let segments = segments(self.start, self.stop, &breakpoints);
-        let recorder = Recorder::new(system, rows, self)?;
+        let readings =
+            Readings::new(network, &segments, &rows, &self.windows).map_err(TransientError::Input)?;
+        let recorder = Recorder::new(system, (rows, readings), self)?;
         if system.states().is_empty() {
             return stateless::solve(recorder, &segments, &Books::new(network, self.balance));
         }
@@ -86,6 +91,8 @@ struct Run<'a> {
     tolerance: f64,
     /// What has to switch when the next segment begins.
     due: Vec<usize>,
+    /// Only where an input curves.
+    curved: Option<Curved>,
     /// Only where something switches.
     switching: Option<Switching<'a>>,
     /// Steps in a row that were refused before they became so short that they lead nowhere.
@@ -111,19 +118,20 @@ impl<'a> Run<'a> {
             carried = heat.follow(tangent, (settings.start, &initial, own_start)).map_err(unsolved)?;
         }
         let curved = Curved::of(system, segments, recorder.rows());
-        recorder.remembered = curved.map_or(0.0, |c| c.remembered);
+        recorder.remembered = curved.as_ref().map_or(0.0, |c| c.remembered);
         let switching = system
             .network()
             .has_events()
             .then(|| Switching::new(system, &settings.controls, settings.tolerance));
-        let options = settings.options(system.network(), curved);
+        let options = settings.options(system.network(), curved.as_ref());
         let mut integrator =
             Integrator::new(heat, settings.start, &initial, &options).map_err(TransientError::Integrator)?;
         if !carried.is_empty() {
             integrator.set_sensitivities(&carried).map_err(TransientError::Integrator)?;
         }
         let tolerance = settings.tolerance;
-        Ok(Self { integrator, recorder, initial, books, tolerance, due: Vec::new(), switching, crawled: 0 })
+        let due = Vec::new();
+        Ok(Self { integrator, recorder, initial, books, tolerance, due, switching, curved, crawled: 0 })
     }
 
     fn through(
@@ -185,6 +193,9 @@ impl<'a> Run<'a> {
     fn step(&mut self, segment: Segment) -> Result<(), Break> {
         let armed = self.switching.as_ref().map_or(f64::INFINITY, |s| s.next_armed(self.integrator.time()));
         self.integrator.set_stop(segment.to.min(armed));
+        if let Some(curved) = &self.curved {
+            self.integrator.set_longest_step(curved.longest(self.integrator.time()));
+        }
         let step = self.integrator.step().map_err(|e| self.failed(e))?;
         self.check_crawl(step.to - step.from)?;
         let (due, to) = self.crossings(&step)?;

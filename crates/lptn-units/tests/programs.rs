@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Names, program, run, values};
-use lptn_units::{Comparison, Degree, Dimension, Dual, EvalError, Expression, Program, Type};
+use lptn_units::{Comparison, Degree, Dimension, Dual, EvalError, Expression, Program, SlotKind, Type};
 
 const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
 const ABSOLUTE: Type = Type::ABSOLUTE_TEMPERATURE;
@@ -154,4 +154,37 @@ fn names_may_stand_for_others() {
     let (left, _, right) =
         Expression::parse("R <= 2 * R").unwrap().renamed(&meaning).split_comparison().unwrap();
     assert_eq!((left.meant().as_str(), right.meant().as_str()), ("planet[2].R", "2 * planet[2].R"));
+}
+
+/// `x`, `n` and `fan` vary, temperatures are foreign, everything else is fixed.
+fn split(text: &str) -> (Vec<f64>, bool) {
+    let kind = |slot| match slot {
+        0..=2 => SlotKind::Varying,
+        6..=10 => SlotKind::Foreign,
+        _ => SlotKind::Fixed,
+    };
+    let split = program(text).split(&kind);
+    let values: Vec<f64> =
+        split.parts.iter().map(|part| part.eval(&values(), &mut Vec::new()).unwrap()).collect();
+    (values, split.entangled)
+}
+
+/// With x = 2, n = 3, fan = 0.25.
+#[test]
+fn parts_that_read_no_temperature_are_found_wherever_they_stand() {
+    let whole = |text: &str, value: f64| assert_eq!(split(text), (vec![value], false), "{text}");
+    whole("x^2 + n", 7.0);
+    whole("P / (220 [W]) * x^2 * (1 + kelvin(T) / (1 [K]))", 4.0);
+    whole("(1 + kelvin(T) / (1 [K])) * x^2", 4.0);
+    whole("kelvin(T) / (1 [K]) * n", 3.0);
+    whole("n * kelvin(T)", 3.0);
+    whole("kelvin(T) - exp(x - 2) * 1 [K]", 1.0);
+    whole("if(T > T_amb, x^2, kelvin(T) / (1 [K]))", 4.0);
+    whole("if(x < 5, kelvin(T) / (1 [K]), sin(x - 2) + 7)", 7.0);
+    whole("if(x < 5, x, n) * kelvin(T)", 2.0);
+    whole("max(kelvin(T) / (1 [K]), x + n)", 5.0);
+    assert_eq!(split("x * kelvin(T) * fan + n^2 * 1 [K]"), (vec![2.0, 0.25, 9.0], false));
+    assert_eq!(split("sin(n * (kelvin(T) - (350 [K])) / (1 [K]) + x)"), (vec![3.0, 2.0], true));
+    assert_eq!(split("1 / (1 + x * kelvin(T) / (1 [K]))"), (vec![2.0], true));
+    assert_eq!(split("kelvin(T) + P / (1 [W/K])"), (vec![], false));
 }

@@ -10,7 +10,7 @@ use crate::{IntegrateError, OdeSystem, kernels};
 impl<S: OdeSystem> Integrator<S> {
     /// The error for a step that CVODES gave up.
     pub(super) fn explain(&mut self, flag: Flag) -> IntegrateError {
-        let time = self.time;
+        let time = self.shown.time;
         let failure = self.shared.get_mut().failure.take();
         match (flag.value, failure) {
             (sys::CV_ERR_FAILURE, _) => IntegrateError::ErrorTest {
@@ -40,7 +40,7 @@ impl<S: OdeSystem> Integrator<S> {
     }
 
     pub(super) fn unexpected(&self, flag: Flag) -> IntegrateError {
-        unexpected(flag, self.time, &self.context)
+        unexpected(flag, self.shown.time, &self.context)
     }
 }
 

@@ -5,7 +5,7 @@ use std::ffi::c_int;
 
 use sundials_sys as sys;
 
-use super::Integrator;
+use super::{Integrator, Shown};
 use crate::memory::{Flag, Reached};
 use crate::{Callback, IntegrateError, OdeSystem};
 
@@ -81,13 +81,14 @@ impl<S: OdeSystem> Integrator<S> {
     /// # Errors
     /// [`IntegrateError::OutsideLastStep`]; then nothing is changed.
     pub fn rewind(&mut self, t: f64) -> Result<(), IntegrateError> {
-        let (from, to) = (self.from, self.time);
+        let Shown { from, time: to, .. } = self.shown;
         if !(from..=to).contains(&t) {
             return Err(IntegrateError::OutsideLastStep { time: t, from, to });
         }
-        let read = if t < to { self.read_at(t) } else { self.read_running() };
+        let back = self.within(t);
+        let read = if back < self.time { self.read_at(back) } else { self.read_running() };
         read.map_err(|flag| self.unexpected(flag))?;
-        self.time = t;
+        (self.time, self.shown.time) = (back, t);
         self.restart_here()
     }
 
@@ -117,8 +118,8 @@ impl<S: OdeSystem> Integrator<S> {
         let is_close = self.from >= self.time && is_within(TOO_CLOSE, self.time, self.stop);
         let starts = is_close && self.memory.counters().steps == 0 && self.memory_at(self.stop).is_ok();
         if starts {
-            self.time = self.stop;
-            self.from = self.stop;
+            (self.time, self.from) = (self.stop, self.stop);
+            (self.shown.time, self.shown.from) = (self.shown.stop, self.shown.stop);
         }
         starts
     }
@@ -194,6 +195,7 @@ impl<S: OdeSystem> Integrator<S> {
         let Roots { before, now, .. } = &mut self.roots;
         let places = [(end, self.scratch.as_slice(), before), (self.time, self.state.as_slice(), now)];
         for (t, y, out) in places {
+            let t = self.origin + t;
             let flag = self.shared.get_mut().guard(Callback::Roots, t, |shared| shared.roots(t, y, out));
             if flag != crate::callback::DONE {
                 return Err(Flag { function: "CVode", value: sys::CV_RTFUNC_FAIL });

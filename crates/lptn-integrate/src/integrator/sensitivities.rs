@@ -1,6 +1,6 @@
 //! The derivatives of the state by parameters, carried along with it.
 
-use super::Integrator;
+use super::{Integrator, Shown};
 use crate::context::Context;
 use crate::memory::Flag;
 use crate::vectors::Vectors;
@@ -61,11 +61,12 @@ impl<S: OdeSystem> Integrator<S> {
     /// [`IntegrateError::OutsideLastStep`] (after a start or a restart only the present time is inside), a wrong length.
     pub fn interpolate_sensitivities(&mut self, t: f64, s: &mut [f64]) -> Result<(), IntegrateError> {
         start::expect_length("sensitivities", self.sensitivities.blocks.len(), s.len())?;
-        let (from, to) = (self.from, self.time);
+        let Shown { from, time: to, .. } = self.shown;
         if !(from..=to).contains(&t) {
             return Err(IntegrateError::OutsideLastStep { time: t, from, to });
         }
-        let read = if t < to { self.read_sensitivities_at(t) } else { self.read_sensitivities() };
+        let t = self.within(t);
+        let read = if t < self.time { self.read_sensitivities_at(t) } else { self.read_sensitivities() };
         read.map_err(|flag| self.unexpected(flag))?;
         self.sensitivities.vectors.copy_to(s);
         Ok(())

@@ -15,7 +15,7 @@ const TARGET: f64 = 1e-10;
 const MOST_PANELS: u64 = 5_000_000;
 
 /// Panels at least, where a series stands for an input.
-const LEAST_PANELS: f64 = 64.0;
+const LEAST_PANELS: f64 = 300.0;
 
 /// An island with what the inputs do to its modes.
 struct Driven<'a> {

@@ -15,6 +15,7 @@ mod operands;
 mod parser;
 mod parts;
 mod program;
+mod split;
 mod tree;
 
 use std::ops::Range;
@@ -30,6 +31,7 @@ pub use degree::Degree;
 pub use eval::EvalError;
 pub use function::is_function;
 pub use program::{Program, TableCall};
+pub use split::{SlotKind, Split};
 pub use tree::Comparison;
 
 /// Names with a meaning of their own, which no parameter, signal, control or table may take: the time `t`, `pi`,

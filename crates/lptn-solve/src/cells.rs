@@ -1,0 +1,206 @@
+//! Where values curve over time, and how short the steps have to be that see it.
+
+use lptn_network::{Curve, Evaluation, Network};
+
+use crate::times::Segment;
+
+/// Steps of the whole run to begin with.
+const COARSE: f64 = 300.0;
+
+/// How often a step is halved at most.
+const HALVINGS: usize = 7;
+
+/// Parts of a step that the values are looked at in.
+const PARTS: usize = 16;
+
+/// The share of what bends within steps that may be something else than the values at their ends foretell. Of a sine that
+/// leaves at least six steps in a period.
+const MISSED: f64 = 0.2;
+
+/// Steps on both sides that are judged together: a bend has its size from its neighbours.
+const AROUND: usize = 3;
+
+/// What is smaller than this part of the largest value is rounding.
+const ROUNDING: f64 = 1e-10;
+
+/// Steps at least in a segment: as many as it takes to foretell anything.
+const LEAST: f64 = 4.0;
+
+/// Steps that are looked at in one go.
+const CHUNK: usize = 4096;
+
+/// A stretch of time in which no step may be longer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Stretch {
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+    pub(crate) step: f64,
+}
+
+/// Looks at curves over the segments of a run and gives stretches that cover it, ascending. No step is longer than `gap`
+/// or a three-hundredth of the run, and where a curve does something between the ends of its steps that the values there
+/// do not foretell, they are halved, up to seven times. All in s.
+pub(crate) fn stretches(network: &Network, curves: &[Curve], segments: &[Segment], gap: f64) -> Vec<Stretch> {
+    let span = segments[segments.len() - 1].to - segments[0].from;
+    let coarse = span / COARSE;
+    // not finer than what is looked for: rows may be many
+    let first = coarse.min(gap).max(coarse / f64::from(1_u32 << HALVINGS));
+    let mut scope = network.evaluation();
+    let mut open: Vec<Look<'_>> = curves.iter().map(|curve| Look { network, curve, rounding: 0.0 }).collect();
+    for look in &mut open {
+        look.rounding = ROUNDING * look.largest(segments, first, &mut scope);
+    }
+    let mut stretches = Vec::new();
+    for &segment in segments {
+        let count = ((segment.to - segment.from) / first).ceil().max(LEAST);
+        let cells = Cells { segment, step: (segment.to - segment.from) / count };
+        let mut finer = Vec::new();
+        for look in &open {
+            cells
+                .whole(count)
+                .for_each(|range| look.refine(cells, range, (HALVINGS, &mut finer), &mut scope));
+        }
+        let whole = Stretch { from: segment.from, to: segment.to, step: cells.step };
+        flatten(whole, finer, gap, &mut stretches);
+    }
+    stretches
+}
+
+/// Steps of one length from the start of a segment on.
+#[derive(Clone, Copy)]
+struct Cells {
+    segment: Segment,
+    step: f64,
+}
+
+/// Some of them, from and to.
+type Range = (usize, usize);
+
+impl Cells {
+    fn count(&self) -> usize {
+        whole_number((self.segment.to - self.segment.from) / self.step)
+    }
+
+    fn whole(&self, count: f64) -> impl Iterator<Item = Range> + use<> {
+        let count = whole_number(count);
+        (0..count).step_by(CHUNK).map(move |from| (from, (from + CHUNK).min(count)))
+    }
+
+    fn start_of(&self, cell: usize) -> f64 {
+        self.place((cell * PARTS) as f64)
+    }
+
+    /// The time so many parts of a step after the start.
+    fn place(&self, parts: f64) -> f64 {
+        (self.segment.from + parts / PARTS as f64 * self.step).min(self.segment.to)
+    }
+
+    fn halved(self) -> Self {
+        Self { step: 0.5 * self.step, ..self }
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of steps, at least 0")]
+fn whole_number(x: f64) -> usize {
+    x.round() as usize
+}
+
+/// One curve that is looked at.
+struct Look<'a> {
+    network: &'a Network,
+    curve: &'a Curve,
+    rounding: f64,
+}
+
+impl Look<'_> {
+    fn at(&self, time: f64, segment: Segment, scope: &mut Evaluation) -> f64 {
+        // what cannot be evaluated is left to the run
+        self.network.curve_at(self.curve, scope, (time, segment.inside())).unwrap_or(f64::NAN)
+    }
+
+    /// The largest value at the ends and in the middle of the steps.
+    fn largest(&self, segments: &[Segment], step: f64, scope: &mut Evaluation) -> f64 {
+        let mut largest = 0.0_f64;
+        for &segment in segments {
+            let count = (2.0 * (segment.to - segment.from) / step).ceil().max(LEAST);
+            for k in 0..=whole_number(count) {
+                let share = (k as f64 / count).min(1.0);
+                let time = segment.from + share * (segment.to - segment.from);
+                largest = largest.max(self.at(time, segment, scope).abs());
+            }
+        }
+        largest
+    }
+
+    /// Adds the stretches in which the steps of a range have to be halved, and looks there again.
+    fn refine(
+        &self,
+        cells: Cells,
+        (from, to): Range,
+        (halvings, finer): (usize, &mut Vec<Stretch>),
+        scope: &mut Evaluation,
+    ) {
+        let (first, last) = (from.saturating_sub(AROUND), (to + AROUND).min(cells.count()));
+        let samples =
+            (first * PARTS..=last * PARTS).map(|k| self.at(cells.place(k as f64), cells.segment, scope));
+        let bends = bends(&samples.collect::<Vec<f64>>());
+        let unseen = |cell: &usize| {
+            let around = cell.saturating_sub(AROUND).max(first)..(cell + AROUND + 1).min(last);
+            let sum = bends[around.start - first..around.end - first].iter();
+            let (missed, bent) = sum.fold((0.0, 0.0), |sum, bend| (sum.0 + bend.0, sum.1 + bend.1));
+            missed > MISSED * bent && missed > self.rounding * (around.len() * PARTS) as f64
+        };
+        let unseen: Vec<usize> = (from..to).filter(unseen).collect();
+        for run in unseen.chunk_by(|a, b| a + 1 == *b) {
+            let (a, b) = (run[0], run[run.len() - 1] + 1);
+            let half = cells.halved();
+            finer.push(Stretch { from: cells.start_of(a), to: cells.start_of(b), step: half.step });
+            if halvings > 1 {
+                self.refine(half, (2 * a, 2 * b), (halvings - 1, &mut *finer), scope);
+            }
+        }
+    }
+}
+
+/// For each step of [`PARTS`] samples how far they are from the cubic through the ends of steps, and from the chord. Where
+/// a sample is no number, nothing is known.
+fn bends(samples: &[f64]) -> Vec<(f64, f64)> {
+    let count = samples.len() / PARTS;
+    let end = |cell: usize| samples[cell * PARTS];
+    let one = |cell: usize| {
+        let first = cell.saturating_sub(1).min(count.saturating_sub(3));
+        let [y0, y1, y2, y3] = [0, 1, 2, 3].map(|k| end((first + k).min(count)));
+        let (d1, d2, d3) = (y1 - y0, y2 - 2.0 * y1 + y0, y3 - 3.0 * (y2 - y1) - y0);
+        let (mut missed, mut bent) = (0.0, 0.0);
+        for part in 1..PARTS {
+            let (value, share) = (samples[cell * PARTS + part], part as f64 / PARTS as f64);
+            let u = (cell - first) as f64 + share;
+            let cubic = y0 + u * (d1 + (u - 1.0) / 2.0 * (d2 + (u - 2.0) / 3.0 * d3));
+            missed += (value - cubic).abs();
+            bent += (value - (end(cell) + share * (end(cell + 1) - end(cell)))).abs();
+        }
+        if (missed + bent).is_finite() { (missed, bent) } else { (0.0, 0.0) }
+    };
+    (0..count).map(one).collect()
+}
+
+/// The shortest step everywhere, as stretches that follow each other.
+fn flatten(whole: Stretch, mut finer: Vec<Stretch>, gap: f64, out: &mut Vec<Stretch>) {
+    let mut ends: Vec<f64> = finer.iter().flat_map(|s| [s.from, s.to]).collect();
+    ends.extend([whole.from, whole.to]);
+    ends.sort_by(f64::total_cmp);
+    ends.dedup();
+    finer.sort_by(|a, b| b.step.total_cmp(&a.step));
+    let mut steps = vec![whole.step; ends.len() - 1];
+    for stretch in finer {
+        let place = |time: f64| ends.partition_point(|&end| end < time);
+        steps[place(stretch.from)..place(stretch.to)].fill(stretch.step);
+    }
+    for (pair, step) in ends.windows(2).zip(steps) {
+        let step = step.min(gap);
+        match out.last_mut() {
+            Some(last) if last.to >= pair[0] && last.step.to_bits() == step.to_bits() => last.to = pair[1],
+            _ => out.push(Stretch { from: pair[0], to: pair[1], step }),
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Where in time results are read: limits, reports, windows and signals may bend and jump at times that the heat flows
+//! do not know of, and the integrator need not stop there.
+
+use lptn_network::{Curve, InputError, Item, Network, same_time};
+
+use crate::cells::{Stretch, stretches};
+use crate::curved::longest_gap;
+use crate::quantity::Quantity;
+use crate::times::{Segment, segments, snap};
+use crate::window::Window;
+
+/// The times at which anything that is evaluated over a run may bend or jump, and those at which looks between the rows
+/// have to begin anew.
+#[derive(Clone, Debug)]
+pub(crate) struct Readings {
+    /// Start, breakpoints of inputs and results, stop; ascending.
+    ends: Vec<f64>,
+    /// Where looks at limits begin anew.
+    pub(crate) limits: Vec<f64>,
+    /// Where looks into windows begin anew.
+    pub(crate) windows: Vec<f64>,
+}
+
+impl Readings {
+    /// For a run of these segments and rows, with these windows.
+    pub(crate) fn new(
+        network: &Network,
+        driving: &[Segment],
+        rows: &[f64],
+        windows: &[Window],
+    ) -> Result<Self, InputError> {
+        let (start, stop) = (driving[0].from, driving[driving.len() - 1].to);
+        let all = Around { network, span: (start, stop), rows, known: &[] };
+        let inner: Vec<f64> = driving[1..].iter().map(|segment| segment.from).collect();
+        let inner = merged(inner, all.breakpoints(&network.results())?, same_time(start, stop));
+        let own = Around { known: &inner, ..all };
+        let limits: Vec<Item> = network.limit_ids().map(Item::Limit).collect();
+        let limits = own.looks(&limits)?;
+        let mut of_windows: Vec<Item> = windows.iter().flat_map(items_of).collect();
+        of_windows.sort_unstable();
+        of_windows.dedup();
+        let windows = own.looks(&of_windows)?;
+        let ends = [start].into_iter().chain(inner).chain([stop]).collect();
+        Ok(Self { ends, limits, windows })
+    }
+
+    /// A time inside the stretch in which a result at `time` is read: the one that begins there, at the stop the last.
+    pub(crate) fn inside(&self, time: f64) -> f64 {
+        let after = self.ends.partition_point(|&end| end <= time).clamp(1, self.ends.len() - 1);
+        0.5 * (self.ends[after - 1] + self.ends[after])
+    }
+
+    /// The same before what happens at `time`.
+    pub(crate) fn inside_before(&self, time: f64) -> f64 {
+        let after = self.ends.partition_point(|&end| end < time).clamp(1, self.ends.len() - 1);
+        0.5 * (self.ends[after - 1] + self.ends[after])
+    }
+}
+
+/// The parts of a step between some times, ascending; each with whether it begins at one of them.
+pub(crate) fn pieces(ends: &[f64], (from, to): (f64, f64)) -> Vec<((f64, f64), bool)> {
+    let first = ends.partition_point(|&end| end < from);
+    let mut begins = ends.get(first).is_some_and(|end| end.to_bits() == from.to_bits());
+    let mut pieces = Vec::new();
+    let mut at = from;
+    for &end in ends[first + usize::from(begins)..].iter().take_while(|&&end| end < to) {
+        pieces.push(((at, end), begins));
+        (at, begins) = (end, true);
+    }
+    pieces.push(((at, to), begins));
+    pieces
+}
+
+/// Two ascending lists as one; of times that differ by rounding only that of the first.
+fn merged(main: Vec<f64>, more: Vec<f64>, rounding: f64) -> Vec<f64> {
+    let known = |time: &f64| nearest(&main, *time).is_some_and(|near| (near - time).abs() <= rounding);
+    let new: Vec<f64> = more.into_iter().filter(|time| !known(time)).collect();
+    let mut all = [main, new].concat();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+fn nearest(times: &[f64], time: f64) -> Option<f64> {
+    let after = times.partition_point(|&t| t < time);
+    let near = times[after.saturating_sub(1)..].iter().take(2);
+    near.copied().min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()))
+}
+
+/// What a window takes in that heat flows do not tell.
+fn items_of(window: &Window) -> impl Iterator<Item = Item> + '_ {
+    window.of.quantities().iter().filter_map(|quantity| match *quantity {
+        Quantity::Report(id) => Some(Item::Report(id)),
+        Quantity::Signal(id) => Some(Item::Signal(id)),
+        _ => None,
+    })
+}
+
+/// A run in which results are looked at.
+#[derive(Clone, Copy)]
+struct Around<'a> {
+    network: &'a Network,
+    span: (f64, f64),
+    rows: &'a [f64],
+    /// All breakpoints.
+    known: &'a [f64],
+}
+
+impl Around<'_> {
+    fn breakpoints(&self, items: &[Item]) -> Result<Vec<f64>, InputError> {
+        let mut times =
+            if items.is_empty() { Vec::new() } else { self.network.result_breakpoints(items, self.span)? };
+        snap(&mut times, self.rows, self.span);
+        times.dedup();
+        Ok(times)
+    }
+
+    /// The times at which looks at these items have to begin anew: where they may bend or jump, and between the looks
+    /// that their curves ask for.
+    fn looks(&self, items: &[Item]) -> Result<Vec<f64>, InputError> {
+        let own = self.breakpoints(items)?.into_iter();
+        let own: Vec<f64> = own.filter_map(|time| nearest(self.known, time)).collect();
+        let curves = if items.is_empty() { Vec::new() } else { self.network.result_curves(items) };
+        Ok(if curves.is_empty() { own } else { merged(own.clone(), self.curved(&curves, &own), 0.0) })
+    }
+
+    fn curved(&self, curves: &[Curve], breakpoints: &[f64]) -> Vec<f64> {
+        let segments = segments(self.span.0, self.span.1, breakpoints);
+        let stretches = stretches(self.network, curves, &segments, longest_gap(self.rows));
+        let times = stretches.iter().flat_map(parts);
+        times.filter(|time| *time > self.span.0 && *time < self.span.1).collect()
+    }
+}
+
+/// The beginnings of the steps in a stretch.
+fn parts(stretch: &Stretch) -> impl Iterator<Item = f64> + use<> {
+    let Stretch { from, to, step } = *stretch;
+    let count = ((to - from) / step - 1e-6).ceil().max(1.0);
+    (0..).map(f64::from).take_while(move |k| *k < count).map(move |k| from + (to - from) * (k / count))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{merged, pieces};
+
+    #[test]
+    fn a_step_is_cut_where_a_result_jumps() {
+        let ends = [1.0, 2.0, 3.0];
+        assert_eq!(pieces(&ends, (0.0, 0.5)), [((0.0, 0.5), false)]);
+        assert_eq!(pieces(&ends, (0.5, 2.0)), [((0.5, 1.0), false), ((1.0, 2.0), true)]);
+        assert_eq!(pieces(&ends, (2.0, 2.5)), [((2.0, 2.5), true)]);
+        assert_eq!(pieces(&[], (2.0, 2.5)), [((2.0, 2.5), false)]);
+    }
+
+    #[test]
+    fn times_that_differ_by_rounding_are_one() {
+        assert_eq!(merged(vec![1.0, 3.0], vec![1.0 + 1e-14, 2.0], 1e-12), [1.0, 2.0, 3.0]);
+    }
+}
