@@ -42,7 +42,8 @@ fn names(rows: &[CompareRow]) -> Vec<String> {
 fn overview(comparison: &Comparison) -> Vec<String> {
     let (rows, unit) = (&comparison.rows, &comparison.unit);
     let all = rows.iter().filter_map(CompareRow::candidate);
-    let temperatures: Vec<f64> = all.flat_map(|c| [Some(c.peak.temperature), c.steady]).flatten().collect();
+    let of = |c: &Candidate| [c.peak.map(|peak| peak.temperature), c.steady];
+    let temperatures: Vec<f64> = all.flat_map(of).flatten().collect();
     let low = temperatures.iter().copied().fold(f64::INFINITY, f64::min);
     let high = temperatures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     // finer than that is the error of the runs
@@ -57,9 +58,9 @@ fn overview(comparison: &Comparison) -> Vec<String> {
     let answers = rows.iter().zip(&comparison.ends).map(|(row, end)| verdict(row, *end).to_owned());
     let mut columns = vec![
         Column::new(format!("T [{}]", unit.text), Align::Left, names(rows)),
-        Column::new("hottest", Align::Left, cells(&|c| Some(c.hottest.clone()))).names(),
-        column("peak", &|c| Some(number(c.peak.temperature))),
-        column("at", &|c| c.peak.at.map(|time| duration(time, 3))).optional(),
+        Column::new("hottest", Align::Left, cells(&|c| c.hottest.clone())).names(),
+        column("peak", &|c| c.peak.map(|peak| number(peak.temperature))),
+        column("at", &|c| c.peak?.at.map(|time| duration(time, 3))).optional(),
         column("steady", &|c| c.steady.map(number)),
         column("95 % after", &|c| c.time_to_95.map(|time| duration(time, 3))),
         column("C [J/K]", &|c| Some(significant(c.capacity, 4))).optional(),

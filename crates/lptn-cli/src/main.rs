@@ -2,7 +2,7 @@
 //!
 //! Verbs are one module each. Results go to stdout, everything else to stderr; every failure is a
 //! [`lptn_netlist::Diagnostic`] with a stable code, shown the way rustc shows its own, and ends with one of the
-//! codes of [`exit`].
+//! codes of [`exit`]. A fault of the program itself is one of them too: see [`panic_net`].
 
 mod args;
 mod balance;
@@ -32,6 +32,7 @@ mod netlist_text;
 mod new;
 mod next;
 mod outcome;
+mod panic_net;
 mod periodic;
 mod periodic_text;
 mod progress;
@@ -68,7 +69,8 @@ use failure::Failure;
 fn main() -> ExitCode {
     let args = Args::parse();
     let console = Console::new(&args.global);
-    let exit = dispatch(&args, &console).unwrap_or_else(|failure| {
+    let outcome = panic_net::caught(|| dispatch(&args, &console));
+    let exit = outcome.unwrap_or_else(|failure| {
         console.report(&failure.files, &failure.diagnostics);
         failure.exit
     });

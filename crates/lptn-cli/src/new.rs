@@ -1,7 +1,6 @@
 //! `lptn new`
 
-use std::fs::File;
-use std::io::{ErrorKind, Write as _};
+use std::io::ErrorKind;
 use std::path::PathBuf;
 
 use lptn_netlist::Diagnostic;
@@ -10,6 +9,7 @@ use crate::args::NewArgs;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
+use crate::files;
 use crate::input::quoted;
 
 const TEMPLATE: &str = include_str!("new.toml");
@@ -27,8 +27,7 @@ pub(crate) fn new(args: &NewArgs, console: &Console) -> Result<Exit, Failure> {
     }
     let typed = quoted(&path.display().to_string());
     let text = TEMPLATE.replace("FILE", &typed).replace("NAME", &name);
-    let outcome = File::create_new(&path).and_then(|mut file| file.write_all(text.as_bytes()));
-    outcome.map_err(|error| cannot_write(&path, &error))?;
+    files::write_new(&path, &text).map_err(|error| cannot_write(&path, &error))?;
     console.print(&format!("wrote {}: a motor with a winding and a housing in a room\n", path.display()))?;
     console.note(&format!("next   lptn run {typed}"));
     Ok(Exit::Done)

@@ -15,6 +15,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::Folder;
+use crate::files::names::{EVENTS, MANIFEST, RANKING, RESULT, STATE, UNCERTAINTY, WINDOWS};
 use crate::gaps::gaps;
 use crate::limits::{self, Judged};
 use crate::run::{Job, NoSteady};
@@ -39,37 +40,30 @@ pub(crate) struct Outcome<'a> {
     pub(crate) uncertainty: Option<Result<Study, Failure>>,
 }
 
-const RESULT: &str = "result.csv";
-const STATE: &str = "state.json";
-const EVENTS: &str = "events.csv";
-const WINDOWS: &str = "windows.csv";
-const UNCERTAINTY: &str = "uncertainty.csv";
-const RANKING: &str = "ranking.csv";
-const MANIFEST: &str = "manifest.json";
-
 impl Outcome<'_> {
-    /// Writes the files; a manifest never stands beside results that are not its own.
+    /// Writes the files: all of them take their places together, the manifest last.
     pub(crate) fn write(&self, set: &[String], folder: &Folder, table: &Table) -> Result<(), Failure> {
-        folder.clear(&[MANIFEST, EVENTS, WINDOWS, STATE, UNCERTAINTY, RANKING]);
-        let mut results = vec![folder.write(RESULT, |out| write_csv(table, out))?];
+        let mut files = folder.batch();
+        files.write(RESULT, |out| write_csv(table, out))?;
         let state = state::of(self.job.input, &self.solution);
-        results.push(folder.write(STATE, |out| state.write(out))?);
+        files.write(STATE, |out| state.write(out))?;
         let events = events::rows(&self.solution);
-        results.push(folder.write(EVENTS, |out| write_rows(&events, out))?);
+        files.write(EVENTS, |out| write_rows(&events, out))?;
         let windows = self.solution.windows();
         if !windows.is_empty() {
             let rows = window_text::rows(windows, &self.job.unit);
-            results.push(folder.write(WINDOWS, |out| write_rows(&rows, out))?);
+            files.write(WINDOWS, |out| write_rows(&rows, out))?;
         }
         if let Some(study) = self.uncertainty() {
             let network = self.solution.network();
             let bands = uncertainty_files::bands(network, &study.found, &self.job.unit);
-            results.push(folder.write(UNCERTAINTY, |out| write_csv(&bands, out))?);
+            files.write(UNCERTAINTY, |out| write_csv(&bands, out))?;
             let ranking = uncertainty_files::ranking(network, &study.found);
-            results.push(folder.write(RANKING, |out| write_csv(&ranking, out))?);
+            files.write(RANKING, |out| write_csv(&ranking, out))?;
         }
-        let manifest = self.manifest(set, results);
-        folder.write(MANIFEST, |out| out.write_all(manifest.text()?.as_bytes())).map(drop)
+        let manifest = self.manifest(set, files.written().to_vec());
+        files.write(MANIFEST, |out| out.write_all(manifest.text()?.as_bytes()))?;
+        files.commit(&[EVENTS, WINDOWS, UNCERTAINTY, RANKING])
     }
 
     fn manifest(&self, set: &[String], results: Vec<FileHash>) -> Manifest {

@@ -16,6 +16,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::Folder;
+use crate::files::names::{MANIFEST, RESULT, WINDOWS};
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
 use crate::limits::{self, Judgement};
@@ -68,8 +69,8 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
         Format::Json => console.write(|out| view.json(out)).map(drop)?,
     }
     if let Some(folder) = &folder {
-        let path = folder.path().join("result.csv");
-        console.note(&format!("wrote  {}, windows.csv, manifest.json", path.display()));
+        let path = folder.path().join(RESULT);
+        console.note(&format!("wrote  {}, {WINDOWS}, {MANIFEST}", path.display()));
     }
     Ok(view.conclude(console))
 }

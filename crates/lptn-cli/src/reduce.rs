@@ -1,7 +1,6 @@
 //! `lptn reduce`
 
-use std::fs::File;
-use std::io::{ErrorKind, Write as _};
+use std::io::ErrorKind;
 use std::path::Path;
 
 use lptn_assembly::ThermalSystem;
@@ -17,7 +16,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
 use crate::input::{self, Input, quoted};
-use crate::{netlist_text, reduce_json, reduce_text};
+use crate::{files, netlist_text, reduce_json, reduce_text};
 
 pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
@@ -222,11 +221,7 @@ fn failed(input: &Input, args: &ReduceArgs, error: &ReduceError) -> Failure {
 
 /// Writes a file that is not there yet.
 fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
-    let outcome = File::create_new(path).and_then(|mut file| {
-        // half a netlist would be in the way of the next try
-        file.write_all(text.as_bytes()).inspect_err(|_| drop(std::fs::remove_file(path)))
-    });
-    outcome.map_err(|error| {
+    files::write_new(path, text).map_err(|error| {
         let path = path.display();
         let problem = match error.kind() {
             ErrorKind::AlreadyExists => Diagnostic::error(

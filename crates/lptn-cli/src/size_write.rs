@@ -85,8 +85,10 @@ pub(crate) fn put(file: &Path, text: &str) -> Result<(), Failure> {
     let (Some(folder), Some(name)) = (place.parent(), name) else {
         return Err(cannot_write(file, "it has no name"));
     };
-    let folder = Folder::prepare(folder.to_owned()).map_err(as_it_was)?;
-    folder.write(&name, |out| out.write_all(text.as_bytes())).map(drop).map_err(as_it_was)
+    let folder = Folder::prepare_for_a_moment(folder.to_owned()).map_err(as_it_was)?;
+    let mut files = folder.batch();
+    let written = files.write(&name, |out| out.write_all(text.as_bytes()));
+    written.and_then(|()| files.commit(&[])).map_err(as_it_was)
 }
 
 /// The help of a folder is about results.

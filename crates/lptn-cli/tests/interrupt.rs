@@ -8,14 +8,7 @@ mod common;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use common::{Folder, GEARBOX, Ran};
-
-/// A run that would take minutes.
-fn endless() -> String {
-    let long =
-        GEARBOX.replace("\"25 min\"", "\"2000 d\"").replace("{ every = \"5 s\" }", "{ every = \"1 d\" }");
-    long.replace("P = \"P_7000\"", "P = \"P_7000 * (1 + 0.5 * sin(t / 10 [s]))\"")
-}
+use common::{Folder, GEARBOX, Ran, endless};
 
 /// A finished candidate and one that would take minutes.
 fn two() -> Folder {

@@ -108,3 +108,72 @@ fn a_report_without_a_value_is_a_warning() {
     ran.says("run::report_without_value").says("has no value at 605 s").says("sqrt(600 - t / 1 [s])");
     folder.run(&["run", "gearbox.toml"]).exits(0).says("run::report_without_value");
 }
+
+/// A pipe across a room: boundaries alone.
+const PIPE: &str = "format = 1\n[boundary]\npipe = { T = \"200 degC\" }\nroom = { T = \"25 degC\" }\n\
+    [resistor]\nwall = { from = \"pipe\", to = \"room\", R = \"0.5 K/W\" }\n\
+    [limit]\nloss = { of = \"wall.Q\", below = \"400 W\" }\n";
+
+/// A network without nodes was a panic, and took the other candidates with it.
+#[test]
+fn a_network_without_nodes_is_compared_by_what_it_has() {
+    let folder = Folder::with("pipe.toml", &format!("{PIPE}[run]\nstop = \"1 min\"\n"));
+    folder.write("still.toml", PIPE);
+    folder.write("gearbox.toml", GEARBOX);
+    for sort in ["margin", "peak", "steady", "time", "capacity", "given"] {
+        let arguments =
+            ["compare", "pipe.toml", "still.toml", "gearbox.toml", "--format", "json", "--sort", sort];
+        let json = folder.run(&arguments).exits(0).json();
+        let names: Vec<&str> =
+            json["columns"].as_array().unwrap().iter().map(|c| c["name"].as_str().unwrap()).collect();
+        let rows = json["rows"].as_array().unwrap();
+        let at = |row: usize, name: &str| &rows[row][names.iter().position(|own| *own == name).unwrap()];
+        assert_eq!(rows.len(), 3);
+        for row in (0..3).filter(|&row| at(row, "file") != "gearbox.toml") {
+            assert_eq!((at(row, "hottest").as_str(), at(row, "status").as_str()), (Some(""), Some("kept")));
+            assert!(at(row, "peak").is_null() && at(row, "steady").is_null());
+            // 175 K through 0.5 K/W are 350 W
+            assert!((at(row, "loss.margin").as_f64().unwrap() - 50.0).abs() < 1e-9);
+        }
+    }
+    folder.run(&["compare", "pipe.toml"]).exits(0).prints("pipe");
+    folder.run(&["compare", "pipe.toml", "gearbox.toml"]).exits(0).prints("steel");
+}
+
+/// A block at `at` degC behind a path whose conductance has no value there.
+fn undefined(conductance: &str, at: f64) -> String {
+    format!(
+        "format = 1\n[table]\nfilm = {{ x = [\"20 degC\", \"80 degC\"], y = [\"4 W/K\", \"9 W/K\"] }}\n\
+         [node]\nblock = {{ C = \"100 J/K\", T0 = \"{at} degC\" }}\ncore = {{ C = \"100 J/K\", T0 = \"{at} degC\" }}\n\
+         [boundary]\nroom = {{ T = \"20 degC\" }}\n\
+         [resistor]\ngap = {{ from = \"block\", to = \"room\", G = \"{conductance}\" }}\n\
+         foot = {{ from = \"core\", to = \"block\", R = \"1 K/W\" }}\n[run]\nstop = \"15 min\"\n"
+    )
+}
+
+/// A table that is left at the start, a division by 0 and a root of less than 0 there were panics while results were
+/// written: half a CSV, half a JSON.
+#[test]
+fn a_run_that_fails_at_its_first_instant_has_no_rows() {
+    for (conductance, at) in
+        [("film(T_from)", 90.0), ("1 [W/K] / (dT / 1 [K])", 20.0), ("1 [W/K] * (dT / 1 [K])^0.5", 10.0)]
+    {
+        let folder = Folder::with("first.toml", &undefined(conductance, at));
+        for columns in [&[][..], &["--select", "block.T"], &["--select", "*.Q"]] {
+            let run = |more: &[&str]| {
+                let ran = folder.run(&[&["run", "first.toml"], more, columns].concat());
+                ran.exits(3).says("solve::input").says("gap = ")
+            };
+            run(&["--no-files"]);
+            let (headers, rows) = common::csv(&run(&["--no-files", "--format", "csv"]).out);
+            assert!(headers[0] == "time [s]" && headers.len() > 1 && rows.is_empty(), "{headers:?} {rows:?}");
+            let json = run(&["--no-files", "--format", "json"]).json();
+            assert_eq!((&json["rows"], &json["end"]["status"]), (&serde_json::json!([]), &"failed".into()));
+            run(&["-o", "out"]);
+            assert!(common::csv(&folder.read("out/result.csv")).1.is_empty());
+            let manifest: serde_json::Value =
+                serde_json::from_str(&folder.read("out/manifest.json")).unwrap();
+            assert_eq!(manifest["end"]["status"], "failed");
+        }
+    }
+}

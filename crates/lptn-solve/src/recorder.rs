@@ -165,9 +165,21 @@ impl<'a> Recorder<'a> {
         }
         self.limits.enter(&mut self.work, (from, self.inside)).map_err(StopReason::Input)?;
         if self.due(from) {
+            self.check_heat()?;
             self.push()?;
         }
         Ok(())
+    }
+
+    /// A row is whole: its heat can be had as its temperatures can. Before the first step nothing else has looked at
+    /// that, and a row lies between two looks of the integrator. A linear system always has its heat.
+    fn check_heat(&mut self) -> Result<(), StopReason> {
+        if self.system.is_linear() {
+            return Ok(());
+        }
+        self.reading
+            .place(&mut self.work, (self.rows[self.next], self.segment.inside()))
+            .map_err(StopReason::Input)
     }
 
     /// Whether something is to be looked at between the rows.
@@ -190,6 +202,9 @@ impl<'a> Recorder<'a> {
             if let Some(sensed) = &mut self.sensed {
                 let read = integrator.interpolate_sensitivities(time, sensed.carried());
                 read.map_err(|error| StopReason::Integrator { error, node: None })?;
+            }
+            if self.is_whole() {
+                self.check_heat()?;
             }
             self.push()?;
         }
@@ -247,6 +262,7 @@ impl<'a> Recorder<'a> {
     pub(crate) fn push_without_state(&mut self, time: f64) -> Result<(), StopReason> {
         self.inside = self.readings.inside(time);
         self.place(time)?;
+        self.check_heat()?;
         self.push()
     }
 
@@ -266,6 +282,11 @@ impl<'a> Recorder<'a> {
             drop(self.reading.place(&mut self.work, (time, self.inside)));
         }
         &mut self.work
+    }
+
+    /// Whether every node is recorded, so that heat flows are asked for.
+    fn is_whole(&self) -> bool {
+        self.recorded.len() == self.system.network().nodes().len()
     }
 
     fn is_last(&self) -> bool {

@@ -152,10 +152,11 @@ impl Solution {
         self.recorded.len() == self.network().nodes().len()
     }
 
-    /// Visits the rows in order. Inputs could be read there during the run, so they can be again.
+    /// Visits every row in order. Inputs and heat could be read there during the run, so they can be again; a row at
+    /// which that should fail has no values (NaN), for columns have to be of one length.
     pub(crate) fn replay(&self, mut visit: impl FnMut(&mut Replay<'_>)) {
         let (work, reading) = (self.system.workspace(), Reading::new(&self.system));
-        let mut at = Replay { system: &self.system, work, reading };
+        let mut at = Replay { system: &self.system, work, reading, known: true };
         let mut nodes = vec![f64::NAN; self.network().nodes().len()];
         for (row, (&time, &segment)) in self.times.iter().zip(&self.segments).enumerate() {
             if let Some(&at_row) = self.row_positions.get(row)
@@ -163,14 +164,10 @@ impl Solution {
             {
                 at.work.set_positions(&self.positions[at_row as usize]);
             }
-            if self.system.read_inputs(&mut at.work, time, segment).is_err() {
-                break;
-            }
+            let read = self.system.read_inputs(&mut at.work, time, segment);
             self.recorded.iter().zip(self.row(row)).for_each(|(id, t)| nodes[id.index()] = *t);
             self.system.place(&mut at.work, &nodes);
-            if at.reading.place(&mut at.work, (time, segment)).is_err() {
-                break;
-            }
+            at.known = read.and_then(|()| at.reading.place(&mut at.work, (time, segment))).is_ok();
             visit(&mut at);
         }
     }
@@ -287,12 +284,15 @@ pub(crate) struct Replay<'a> {
     system: &'a ThermalSystem,
     work: Workspace,
     reading: Reading<'a>,
+    /// Whether its values can be had.
+    known: bool,
 }
 
 impl Replay<'_> {
     /// One quantity in SI units. What could be evaluated in the run can be here.
     pub(crate) fn value(&mut self, quantity: Quantity) -> f64 {
-        self.reading.value(&mut self.work, quantity).unwrap_or(f64::NAN)
+        let value = if self.known { self.reading.value(&mut self.work, quantity).ok() } else { None };
+        value.unwrap_or(f64::NAN)
     }
 
     /// The workspace of this row.

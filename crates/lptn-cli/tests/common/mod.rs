@@ -9,6 +9,13 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// The gearbox of the seed paper, `networks/gearbox.toml`.
 pub const GEARBOX: &str = include_str!("../../../../networks/gearbox.toml");
 
+/// A run that would take minutes.
+pub fn endless() -> String {
+    let long =
+        GEARBOX.replace("\"25 min\"", "\"2000 d\"").replace("{ every = \"5 s\" }", "{ every = \"1 d\" }");
+    long.replace("P = \"P_7000\"", "P = \"P_7000 * (1 + 0.5 * sin(t / 10 [s]))\"")
+}
+
 /// A temporary folder that is removed in the end.
 pub struct Folder {
     path: PathBuf,

@@ -24,10 +24,10 @@ pub struct Peak {
 /// What is compared of a candidate. Temperatures in K, times in s.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// The name of the node that gets hottest.
-    pub hottest: String,
+    /// The name of the node that gets hottest; `None` where a network consists of boundaries alone.
+    pub hottest: Option<String>,
     /// Its peak during the run, or its steady temperature where there is no run.
-    pub peak: Peak,
+    pub peak: Option<Peak>,
     /// Its temperature in steady state; `None` where inputs change with time or there is none.
     pub steady: Option<f64>,
     /// How long it takes to get 95 % of the way from its start to its steady state; `None` if the run ends before.
@@ -141,12 +141,12 @@ impl Candidate {
         let network = system.network();
         let steady = SteadyState::solve(system, 0.0).map_err(CompareError::Steady)?;
         let margins = steady.limit_margins(network, 0.0).map_err(CompareError::Input)?;
-        let hottest = hottest(&steady.temperatures);
-        let temperature = steady.temperatures[hottest];
+        let hottest = hottest(network.node_ids().zip(steady.temperatures.iter().copied()));
+        let temperature = hottest.map(|(_, temperature)| temperature);
         Ok(Self {
-            hottest: network.nodes()[hottest].name.clone(),
-            peak: Peak { temperature, at: None },
-            steady: Some(temperature),
+            hottest: hottest.map(|(id, _)| network.nodes()[id.index()].name.clone()),
+            peak: temperature.map(|temperature| Peak { temperature, at: None }),
+            steady: temperature,
             time_to_95: None,
             limits: limits::in_steady_state(network, &margins),
             shares: shares(network, &steady.boundary_heat),
@@ -174,14 +174,13 @@ impl Candidate {
             return Err(CompareError::Ledger(residual.abs(), ledger.bound));
         }
         let nodes = Summary::new(&solution, steady.as_ref()).nodes;
-        let peaks: Vec<f64> = nodes.iter().map(|node| node.peak.0).collect();
-        let node: &NodeSummary = &nodes[hottest(&peaks)];
+        let node = hottest(nodes.iter().map(|node| (node, node.peak.0))).map(|(node, _)| node);
         let heat = heat_at_the_end(system, &solution, run).map_err(CompareError::Input)?;
         Ok(Self {
-            hottest: network.nodes()[node.node.index()].name.clone(),
-            peak: peak(node, run),
-            steady: node.steady,
-            time_to_95: node.time_to_95,
+            hottest: node.map(|node| network.nodes()[node.node.index()].name.clone()),
+            peak: node.map(|node| peak(node, run)),
+            steady: node.and_then(|node| node.steady),
+            time_to_95: node.and_then(|node| node.time_to_95),
             limits: limits::over_time(network, solution.limits()),
             shares: shares(network, &heat),
             capacity: capacity(network),
@@ -219,10 +218,10 @@ fn transient(
     })
 }
 
-/// The position of the largest value; of equals the first.
-fn hottest(temperatures: &[f64]) -> usize {
-    let positions = (0..temperatures.len()).rev();
-    positions.max_by(|&a, &b| temperatures[a].total_cmp(&temperatures[b])).unwrap_or(0)
+/// What has the largest value; of equals the first.
+fn hottest<T>(mut of: impl Iterator<Item = (T, f64)>) -> Option<(T, f64)> {
+    let first = of.next()?;
+    Some(of.fold(first, |best, other| if other.1.total_cmp(&best.1).is_gt() { other } else { best }))
 }
 
 fn capacity(network: &Network) -> f64 {

@@ -54,7 +54,8 @@ pub fn order(candidates: &[Option<&Candidate>], key: SortKey) -> Vec<usize> {
 }
 
 fn compare(a: &Candidate, b: &Candidate, key: SortKey) -> Ordering {
-    let peak = || a.peak.temperature.total_cmp(&b.peak.temperature);
+    let temperature = |of: &Candidate| of.peak.map(|peak| peak.temperature);
+    let peak = || ascending(temperature(a), temperature(b));
     match key {
         SortKey::Margin => {
             let worst = |c: &Candidate| c.worst().map_or(f64::NEG_INFINITY, |limit| limit.margin);

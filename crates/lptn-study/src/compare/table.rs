@@ -83,7 +83,7 @@ pub fn compare_table(rows: &[CompareRow], unit: &Unit) -> Table {
         name: name.to_owned(),
         cells: rows.iter().map(|row| text(row).to_owned()).collect(),
     };
-    let hottest = |row: &CompareRow| row.candidate().map_or(String::new(), |c| c.hottest.clone());
+    let hottest = |row: &CompareRow| row.candidate().and_then(|c| c.hottest.clone()).unwrap_or_default();
     let worst = |row: &CompareRow| {
         row.candidate().and_then(Candidate::worst).map_or(String::new(), |limit| limit.name.clone())
     };
@@ -114,8 +114,8 @@ fn general(rows: &[CompareRow], unit: &Unit) -> Vec<Column> {
     };
     let mut columns = vec![
         of("worst_margin", "K", &|c| c.worst().map(|limit| limit.margin)),
-        of("peak", &unit.text, &|c| Some(unit.from_si(c.peak.temperature))),
-        of("peak_at", "s", &|c| c.peak.at),
+        of("peak", &unit.text, &|c| c.peak.map(|peak| unit.from_si(peak.temperature))),
+        of("peak_at", "s", &|c| c.peak?.at),
         of("steady", &unit.text, &|c| c.steady.map(|kelvin| unit.from_si(kelvin))),
         of("time_to_95", "s", &|c| c.time_to_95),
         of("capacity", "J/K", &|c| Some(c.capacity)),

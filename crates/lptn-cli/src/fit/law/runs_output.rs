@@ -12,22 +12,20 @@ use super::output;
 use super::runs::Runs;
 use crate::failure::Failure;
 use crate::files::Folder;
+use crate::files::names::{LAWS, MANIFEST, POWER, RISE, TIME_CONSTANT};
 
 /// What is written.
-pub(crate) const NAMES: [&str; 5] =
-    ["figure_7_rise.csv", "figure_8_time_constant.csv", "figure_9_power.csv", "laws.csv", "manifest.json"];
+pub(crate) const NAMES: [&str; 5] = [RISE, TIME_CONSTANT, POWER, LAWS, MANIFEST];
 
 pub(crate) fn write(found: &Runs, folder: &Folder) -> Result<(), Failure> {
-    let [rise_name, tau_name, power_name, laws, manifest] = NAMES;
-    folder.clear(&[manifest]);
-    let mut results = Vec::new();
+    let mut files = folder.batch();
     for (name, table) in [
-        (rise_name, rise(found)),
-        (tau_name, time_constant(found)),
-        (power_name, power(found)),
-        (laws, output::table(&found.answer)),
+        (RISE, rise(found)),
+        (TIME_CONSTANT, time_constant(found)),
+        (POWER, power(found)),
+        (LAWS, output::table(&found.answer)),
     ] {
-        results.push(folder.write(name, |out| write_csv(&table, out))?);
+        files.write(name, |out| write_csv(&table, out))?;
     }
     let environment = Environment {
         written: utc(std::time::SystemTime::now()),
@@ -41,10 +39,11 @@ pub(crate) fn write(found: &Runs, folder: &Folder) -> Result<(), Failure> {
         "lptn": env!("CARGO_PKG_VERSION"),
         "arguments": arguments,
         "inputs": found.inputs,
-        "results": results,
+        "results": files.written(),
         "environment": environment,
     });
-    folder.write(manifest, |out| out.write_all(format!("{text:#}\n").as_bytes())).map(drop)
+    files.write(MANIFEST, |out| out.write_all(format!("{text:#}\n").as_bytes()))?;
+    files.commit(&[])
 }
 
 /// Runs and their speeds, before other columns.

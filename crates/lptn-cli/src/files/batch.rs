@@ -1,0 +1,105 @@
+//! The files of one run on their way.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use lptn_netlist::Diagnostic;
+use lptn_study::{FileHash, Hashing};
+
+use super::Folder;
+use super::commit::Commit;
+use super::names::{COMMIT, temporary};
+use crate::exit::Exit;
+use crate::failure::{Failure, reason};
+
+/// Files under temporary names, until all of them are whole and take their places together. Dropped before that, by an
+/// error or a panic, they are removed and what was there stays.
+pub(crate) struct Batch<'a> {
+    folder: &'a Folder,
+    /// Of every file that was begun.
+    temporaries: Vec<PathBuf>,
+    written: Vec<FileHash>,
+    decided: bool,
+}
+
+impl<'a> Batch<'a> {
+    pub(super) fn new(folder: &'a Folder) -> Self {
+        Self { folder, temporaries: Vec::new(), written: Vec::new(), decided: false }
+    }
+
+    /// Writes one file. It gets the owner and the permissions of the one whose place it is to take.
+    pub(crate) fn write(
+        &mut self,
+        name: &str,
+        content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let place = self.folder.path.join(name);
+        if place.is_dir() {
+            return Err(self.cannot_write(name, &io::ErrorKind::IsADirectory.into()));
+        }
+        let path = self.folder.path.join(temporary(name, std::process::id()));
+        self.temporaries.push(path.clone());
+        let outcome = File::create(&path)
+            .and_then(|file| like(&place, &path).map(|()| file))
+            .and_then(|file| write_hashed(file, content));
+        let sha256 = outcome.map_err(|error| self.cannot_write(name, &error))?;
+        self.written.push(FileHash { name: name.to_owned(), sha256 });
+        Ok(())
+    }
+
+    /// What is written so far.
+    pub(crate) fn written(&self) -> &[FileHash] {
+        &self.written
+    }
+
+    /// Puts every file into its place, and removes those of `ours`, the names that runs of this kind write, that this one
+    /// did not: they are of an earlier run.
+    pub(crate) fn commit(mut self, ours: &[&str]) -> Result<(), Failure> {
+        let rename: Vec<String> = self.written.iter().map(|file| file.name.clone()).collect();
+        let is_over =
+            |name: &&&str| !rename.iter().any(|own| own == **name) && self.folder.path.join(name).exists();
+        let remove = ours.iter().filter(is_over).map(|name| (*name).to_owned()).collect();
+        let commit = Commit { process: std::process::id(), rename, remove };
+        let outcome = commit.carry_out(&self.folder.path);
+        // what is decided is left for the next process to finish
+        self.decided = outcome.is_ok() || self.folder.path.join(COMMIT).exists();
+        outcome.map_err(|error| self.cannot_write("", &error))
+    }
+
+    fn cannot_write(&self, name: &str, error: &io::Error) -> Failure {
+        let message = format!("cannot write {}: {}", self.folder.path.join(name).display(), reason(error));
+        let problem = Diagnostic::error("output::cannot_write", message)
+            .help("choose another folder with -o DIR, or write none with --no-files");
+        Failure::new(Exit::Failed, problem)
+    }
+}
+
+impl Drop for Batch<'_> {
+    fn drop(&mut self) {
+        for path in self.temporaries.iter().filter(|_| !self.decided) {
+            drop(fs::remove_file(path));
+        }
+    }
+}
+
+/// Gives a new file the owner and permissions of the one whose place it takes, before anything is in it.
+fn like(old: &Path, new: &Path) -> io::Result<()> {
+    let Ok(old) = fs::metadata(old) else { return Ok(()) };
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::{MetadataExt as _, chown};
+        // only root may give a file away
+        drop(chown(new, Some(old.uid()), Some(old.gid())));
+    }
+    fs::set_permissions(new, old.permissions())
+}
+
+/// Writes a file and gives the SHA-256 of its content.
+fn write_hashed(file: File, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<String> {
+    let mut out = Hashing::new(BufWriter::with_capacity(1 << 16, file));
+    content(&mut out)?;
+    let (mut file, hash) = out.finish();
+    file.flush()?;
+    Ok(hash)
+}

@@ -1,0 +1,60 @@
+//! The names of everything that is written into a folder of results.
+
+pub(crate) const RESULT: &str = "result.csv";
+pub(crate) const STATE: &str = "state.json";
+pub(crate) const EVENTS: &str = "events.csv";
+pub(crate) const WINDOWS: &str = "windows.csv";
+pub(crate) const UNCERTAINTY: &str = "uncertainty.csv";
+pub(crate) const RANKING: &str = "ranking.csv";
+pub(crate) const RISE: &str = "figure_7_rise.csv";
+pub(crate) const TIME_CONSTANT: &str = "figure_8_time_constant.csv";
+pub(crate) const POWER: &str = "figure_9_power.csv";
+pub(crate) const LAWS: &str = "laws.csv";
+pub(crate) const MANIFEST: &str = "manifest.json";
+
+/// The record of results that are whole and about to take their places.
+pub(super) const COMMIT: &str = ".commit.json";
+
+/// The file whose lock says that somebody writes here.
+pub(super) const LOCK: &str = ".lptn.lock";
+
+const RESULTS: [&str; 11] =
+    [RESULT, STATE, EVENTS, WINDOWS, UNCERTAINTY, RANKING, RISE, TIME_CONSTANT, POWER, LAWS, MANIFEST];
+
+/// Whether a file of this name may be one of results.
+pub(super) fn is_result(name: &str) -> bool {
+    RESULTS.contains(&name)
+}
+
+/// What a file is called until it is whole.
+pub(super) fn temporary(name: &str, process: u32) -> String {
+    format!(".{name}.{process}.tmp")
+}
+
+/// Whether this program calls a file so that is not whole yet: a result, the record of results, a netlist.
+pub(super) fn is_temporary(name: &str) -> bool {
+    let parts = name
+        .strip_prefix('.')
+        .and_then(|rest| rest.strip_suffix(".tmp"))
+        .and_then(|rest| rest.rsplit_once('.'));
+    let Some((name, process)) = parts else { return false };
+    let ours = is_result(name) || name == COMMIT || name.ends_with(".toml");
+    ours && process.parse::<u32>().is_ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{COMMIT, RESULT, is_temporary, temporary};
+
+    #[test]
+    fn only_our_own_temporaries_are_known_as_such() {
+        for name in [RESULT, COMMIT, "motor.toml"] {
+            assert!(is_temporary(&temporary(name, 4_194_304)), "{name}");
+        }
+        for name in
+            ["result.csv", ".result.csv.tmp", ".result.csv.x1.tmp", ".thesis.csv.12.tmp", ".12.tmp", "..tmp"]
+        {
+            assert!(!is_temporary(name), "{name}");
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! What happens where the program itself is at fault.
+
+use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind, set_hook, take_hook};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use lptn_netlist::Diagnostic;
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::quoted;
+
+/// Does the work of the command; a panic in it, or in a thread that it waits for, is a failure like others. On the way
+/// up what is half written is dropped: temporary files go, the results of earlier runs stay.
+pub(crate) fn caught(work: impl FnOnce() -> Result<Exit, Failure>) -> Result<Exit, Failure> {
+    let first: Arc<Mutex<Option<String>>> = Arc::default();
+    let noted = Arc::clone(&first);
+    let usual = take_hook();
+    set_hook(Box::new(move |panic| {
+        // the first one is the cause; that a thread has panicked is what follows from it
+        noted.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert_with(|| described(panic));
+        if std::env::var_os("RUST_BACKTRACE").is_some() {
+            usual(panic);
+        }
+    }));
+    let outcome = catch_unwind(AssertUnwindSafe(work));
+    drop(take_hook());
+    outcome.unwrap_or_else(|_| {
+        let what = first.lock().unwrap_or_else(PoisonError::into_inner).take();
+        Err(Failure::new(Exit::Failed, fault(&what.unwrap_or_default(), std::env::args_os().skip(1))))
+    })
+}
+
+fn described(panic: &PanicHookInfo<'_>) -> String {
+    let what = panic.payload_as_str().unwrap_or("no reason is given");
+    panic.location().map_or_else(|| what.to_owned(), |place| format!("{what}, at {place}"))
+}
+
+/// What is told to the user, with what those who mend it have to know.
+fn fault(what: &str, arguments: impl Iterator<Item = std::ffi::OsString>) -> Diagnostic {
+    let message = format!("lptn has stopped because of a fault of its own, not of your input: {what}");
+    let words: Vec<String> = arguments.map(|word| quoted(&word.to_string_lossy())).collect();
+    let (version, os) = (env!("CARGO_PKG_VERSION"), std::env::consts::OS);
+    Diagnostic::error("program::fault", message).help(format!(
+        "result files of earlier runs are as they were, and what was printed of this one is not to be used. Please report \
+         the fault with the line above, these two, and the files that the command reads:\n\n\
+         lptn {version}, {os}\nlptn {}",
+        words.join(" ")
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{caught, fault};
+    use crate::exit::Exit;
+    use crate::files::Folder;
+    use crate::files::names::{RESULT, STATE};
+    use crate::files::tests::Place;
+
+    /// One test, for a hook belongs to the whole process.
+    #[test]
+    fn a_panic_is_a_failure_that_leaves_old_results_whole() {
+        let place = Place::new();
+        place.write(RESULT, "old");
+        let failure = caught(|| {
+            let folder = Folder::prepare(place.0.clone())?;
+            let mut files = folder.batch();
+            files.write(RESULT, |out| out.write_all(b"new"))?;
+            files.write(STATE, |_| panic!("row {} is missing", 0))?;
+            files.commit(&[])?;
+            Ok(Exit::Done)
+        })
+        .unwrap_err();
+        assert_eq!(failure.exit, Exit::Failed);
+        assert_eq!(failure.diagnostics[0].code, "program::fault");
+        let message = &failure.diagnostics[0].message;
+        assert!(message.contains("row 0 is missing") && message.contains("panic_net.rs"), "{message}");
+        assert_eq!(place.read(RESULT), "old");
+        assert_eq!(place.files(), [RESULT]);
+
+        let work = |&i: &usize| if i == 3 { panic!("worker {i}") } else { i };
+        let failure = caught(|| {
+            lptn_study::in_parallel(&[0, 1, 2, 3, 4, 5], 3, work);
+            Ok(Exit::Done)
+        });
+        let message = failure.unwrap_err().diagnostics[0].message.clone();
+        assert!(message.contains("worker 3"), "{message}");
+        assert_eq!(caught(|| Ok(Exit::No)).unwrap(), Exit::No);
+    }
+
+    #[test]
+    fn a_report_can_be_pasted() {
+        let arguments = ["run", "my motor.toml", "--set", "P=3W"].map(std::ffi::OsString::from);
+        let help = fault("what", arguments.into_iter()).help.unwrap();
+        assert!(help.ends_with("\nlptn run 'my motor.toml' --set 'P=3W'"), "{help}");
+        assert!(help.contains(concat!("\nlptn ", env!("CARGO_PKG_VERSION"))), "{help}");
+    }
+}
