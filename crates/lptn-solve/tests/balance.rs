@@ -277,3 +277,18 @@ fn tables_over_temperature_are_left_with_a_name() {
     assert_eq!(error.code(), "solve::input");
     assert!(error.to_string().contains("`wall`") && error.to_string().contains("`g`"), "{error}");
 }
+
+#[test]
+fn natural_convection_starts_from_ambient() {
+    // regression: the slope of abs(dT)^0.25 is infinite at dT = 0
+    let mut b = NetworkBuilder::new();
+    let plate = b.node("plate", HeatCapacity(500.0), Temperature(300.0));
+    let room = b.boundary("room", Temperature(300.0));
+    let h = link(&b, "1.3 [W/(m^2 K^1.25)] * abs(dT)^0.25");
+    b.convection("film", plate, room, Path::Film(h, quantity("1 m^2")));
+    b.source("heater", plate, quantity("100 W"));
+    let found = elements::run(&system(b), 20_000.0, 1e-6);
+    // 1.3 x^1.25 = 100
+    let rise = (100.0_f64 / 1.3).powf(0.8);
+    assert!((elements::last(&found, plate) - 300.0 - rise).abs() < 1e-3, "{rise}");
+}

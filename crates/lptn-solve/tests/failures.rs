@@ -4,8 +4,6 @@
 #[path = "common/elements.rs"]
 mod elements;
 
-use std::time::Instant;
-
 use elements::{ABSOLUTE, link, of, own, power, quantity, radiation, stream, system, table};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
@@ -229,9 +227,8 @@ fn a_massless_node_without_a_solution() {
 }
 
 #[test]
-fn a_thousand_nodes_of_one_capacity_are_built_at_once() {
+fn a_thousand_nodes_of_one_capacity_have_it_each_at_its_own_start() {
     for text in ["20 [J/K] * exp((T - 20 [degC]) / 150 [K])", "heat(T)"] {
-        let begin = Instant::now();
         let mut b = NetworkBuilder::new();
         let (x, y): (Vec<f64>, Vec<f64>) =
             (0..50).map(|i| (200.0 + 20.0 * f64::from(i), 10.0 + f64::from(i % 7))).unzip();
@@ -241,13 +238,17 @@ fn a_thousand_nodes_of_one_capacity_are_built_at_once() {
             b.node(&format!("n{i}"), capacity, Temperature(300.0 + 0.05 * f64::from(i)));
         }
         let network = b.build().unwrap();
-        println!("1000 nodes with C = {text}: {:?}", begin.elapsed());
-        assert_eq!(network.nodes().len(), 1000);
+        for (id, i) in network.node_ids().zip(0..) {
+            let (start, curve) = (300.0 + 0.05 * f64::from(i), network.enthalpy(id).unwrap());
+            assert!(curve.heat(start).unwrap().abs() < 1e-9, "the heat content is 0 at the start");
+            let exact = 20.0 * ((start - 293.15) / 150.0).exp();
+            assert!(text == "heat(T)" || (network.capacity(id) / exact - 1.0).abs() < 1e-9);
+        }
     }
 }
 
 #[test]
-fn ten_thousand_radiating_nodes_run_in_seconds() {
+fn ten_thousand_radiating_nodes_run_and_their_books_close() {
     let mut b = NetworkBuilder::new();
     let side = 100;
     let nodes: Vec<NodeId> =
@@ -267,8 +268,6 @@ fn ten_thousand_radiating_nodes_run_in_seconds() {
     }
     b.source("fire", nodes[0], quantity("2000 W"));
     let system = system(b);
-    let begin = Instant::now();
     let found = Transient::until(Time(100.0)).tolerance(1e-3).solve(&system).unwrap();
-    println!("10000 nodes over 100 s: {:?}, {} steps", begin.elapsed(), found.statistics().steps);
     assert!(found.ledger().closes());
 }

@@ -4,8 +4,6 @@
 #[path = "common/elements.rs"]
 mod elements;
 
-use std::time::Instant;
-
 use elements::{Random, SIGMA, link, own, power, quantity, radiation, stream, system};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
@@ -386,7 +384,7 @@ fn conductivity_of_temperature_in_a_wall_of_cells() {
 }
 
 #[test]
-fn ten_thousand_radiating_nodes_take_seconds() {
+fn ten_thousand_radiating_nodes_give_all_heat_to_space() {
     let mut b = NetworkBuilder::new();
     let side = 100;
     let nodes: Vec<NodeId> =
@@ -406,8 +404,6 @@ fn ten_thousand_radiating_nodes_take_seconds() {
     }
     b.source("fire", nodes[0], HeatFlow(2000.0));
     let system = system(b);
-    let begin = Instant::now();
     let found = steady(&system);
-    println!("steady state of 10000 nodes: {:?}", begin.elapsed());
     assert!((found.boundary_heat[0] + 2000.0).abs() < 1e-6);
 }

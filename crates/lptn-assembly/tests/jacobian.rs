@@ -1,40 +1,18 @@
 //! Tolerance: the Jacobian of every law against central differences of the heat flows, and where it must stay finite.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-#[path = "common/elements.rs"]
-mod elements;
+#[path = "common/networks.rs"]
+mod networks;
 
-use elements::{ABSOLUTE, Random, link, map, of, own, power, quantity, radiation, stream, system, table};
 use lptn_assembly::{Form, ThermalSystem};
 use lptn_network::{
     ConductorKind, Emissivity, End, Exchange, HeatCapacity, Network, NetworkBuilder, NodeId, Path, Shape,
     Stream, Temperature,
 };
 use lptn_units::{Dimension, Interpolation};
-
-/// The Jacobian as a dense matrix, by rows.
-fn dense(system: &ThermalSystem, time: f64, y: &[f64], form: Form) -> Vec<Vec<f64>> {
-    let mut work = system.workspace();
-    system.read_inputs(&mut work, time, time).unwrap();
-    let mut values = vec![f64::NAN; system.pattern().entries()];
-    system.jacobian_at(&mut work, y, form, &mut values).unwrap_or_else(|e| panic!("{e} at {y:?}"));
-    let symbolic = system.pattern().symbolic();
-    let mut matrix = vec![vec![0.0; y.len()]; y.len()];
-    for (column, _) in y.iter().enumerate() {
-        for slot in symbolic.col_ptr()[column]..symbolic.col_ptr()[column + 1] {
-            matrix[symbolic.row_idx()[slot]][column] = values[slot];
-        }
-    }
-    matrix
-}
-
-fn flow(system: &ThermalSystem, time: f64, y: &[f64]) -> Vec<f64> {
-    let mut work = system.workspace();
-    system.read_inputs(&mut work, time, time).unwrap();
-    let mut flow = vec![f64::NAN; y.len()];
-    system.flow(&mut work, y, &mut flow).unwrap_or_else(|e| panic!("{e} at {y:?}"));
-    flow
-}
+use networks::{
+    ABSOLUTE, Random, dense, flow, link, map, of, own, power, quantity, radiation, stream, table,
+};
 
 /// Central differences with two step lengths, extrapolated.
 fn differences(system: &ThermalSystem, time: f64, y: &[f64], column: usize) -> Vec<f64> {
@@ -299,19 +277,4 @@ fn the_symmetric_form_is_symmetric_and_never_warms_what_gives_heat() {
             }
         }
     });
-}
-
-#[test]
-fn natural_convection_starts_from_ambient() {
-    // regression: the slope of abs(dT)^0.25 is infinite at dT = 0
-    let mut b = NetworkBuilder::new();
-    let plate = b.node("plate", HeatCapacity(500.0), Temperature(300.0));
-    let room = b.boundary("room", Temperature(300.0));
-    let h = link(&b, "1.3 [W/(m^2 K^1.25)] * abs(dT)^0.25");
-    b.convection("film", plate, room, Path::Film(h, quantity("1 m^2")));
-    b.source("heater", plate, quantity("100 W"));
-    let found = elements::run(&system(b), 20_000.0, 1e-6);
-    // 1.3 x^1.25 = 100
-    let rise = (100.0_f64 / 1.3).powf(0.8);
-    assert!((elements::last(&found, plate) - 300.0 - rise).abs() < 1e-3, "{rise}");
 }
