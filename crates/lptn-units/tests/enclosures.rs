@@ -97,6 +97,9 @@ fn every_value_and_slope_lies_within_the_bounds() {
                     low - slack <= found.value && found.value <= high + slack,
                     "{text} at {x}: {low} {found:?} {high}"
                 );
+                if i == 0 || i == 50 {
+                    continue; // a kink at an end has its slope from outside
+                }
                 let steepest = bounds.largest(1) * (1.0 + 1e-9) + 1e-12;
                 assert!(found.derivatives[0].abs() <= steepest, "{text} at {x}: {found:?}, {steepest}");
             }

@@ -14,7 +14,7 @@ use interval::Interval;
 /// How many coefficients are carried: the value, and derivatives to the ninth.
 const ORDERS: usize = 10;
 
-/// Bounds on `f(x)` and on `f'(x)`, `f''(x)/2!`, .. for every x of an interval.
+/// Bounds on `f(x)` for every x of an interval, and on `f'(x)`, `f''(x)/2!`, .. for every x between its ends.
 ///
 /// ```
 /// use lptn_units::Taylor;
