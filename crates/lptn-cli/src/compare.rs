@@ -20,6 +20,7 @@ use crate::failure::{Failure, reason};
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressOfAll;
+use crate::sense;
 
 pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Failure> {
     let files = files(&args.files)?;
@@ -222,7 +223,10 @@ impl Comparison {
         match input {
             Ok(input) => {
                 title = input.netlist.network.title().map_or(String::new(), plain);
-                self.warnings.push((input.netlist.files, input.netlist.warnings));
+                let beyond = outcome.as_ref().ok().and_then(|found| found.beyond.as_ref());
+                let beyond = beyond.map(|beyond| sense::warning(&input.netlist, beyond));
+                let warnings = input.netlist.warnings.into_iter().chain(beyond).collect();
+                self.warnings.push((input.netlist.files, warnings));
             }
             Err(not_read) => failure = Some(not_read),
         }

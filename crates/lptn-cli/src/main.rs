@@ -41,6 +41,7 @@ mod reduce_json;
 mod reduce_text;
 mod run;
 mod select;
+mod sense;
 mod size;
 mod size_cooling;
 mod size_text;

@@ -3,7 +3,7 @@
 use lptn_netlist::Diagnostic;
 use lptn_network::Parameter;
 use lptn_report::{JsonWriter, WIDTH, duration, labelled, plain, write_csv, write_rows};
-use lptn_solve::{End, Lumping, Solution, SteadyState, Table};
+use lptn_solve::{Beyond, End, Lumping, Solution, SteadyState, Table};
 use lptn_study::{
     Environment, FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, Scalar, StatisticsRecord,
     Sundials,
@@ -22,8 +22,8 @@ use crate::run::{Job, NoSteady};
 use crate::summary::View;
 use crate::uncertainty::Study;
 use crate::{
-    balance, diagnostics, events, lumping, next, select, state, summary_text, uncertainty, uncertainty_files,
-    window_text,
+    balance, diagnostics, events, lumping, next, select, sense, state, summary_text, uncertainty,
+    uncertainty_files, window_text,
 };
 
 /// What came of it.
@@ -177,7 +177,8 @@ impl Outcome<'_> {
         let netlist = &self.job.input.netlist;
         let certain = self.uncertainty().map_or_else(Vec::new, |_| uncertainty::elsewhere(netlist));
         let lumps = lumping::warnings(netlist, &self.lumping);
-        gaps(netlist, table).into_iter().chain(lumps).chain(certain).collect()
+        let beyond = Beyond::of_run(&self.solution).map(|beyond| sense::warning(netlist, &beyond));
+        gaps(netlist, table).into_iter().chain(beyond).chain(lumps).chain(certain).collect()
     }
 
     /// What a reader should know of the numbers; the table says it in its notes.

@@ -6,7 +6,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings};
 use lptn_network::OutputTimes;
 use lptn_report::{JsonWriter, duration, write_rows};
-use lptn_solve::{Lumping, Method, Periodic, PeriodicError, Table, Transient, Window, WindowSeen};
+use lptn_solve::{Beyond, Lumping, Method, Periodic, PeriodicError, Table, Transient, Window, WindowSeen};
 use lptn_study::{Scalar, StatisticsRecord};
 use lptn_units::{Dimension, Type, parse_quantity};
 use serde_json::{Map, Value, json};
@@ -24,7 +24,7 @@ use crate::outcome::Outcome;
 use crate::progress::ProgressLine;
 use crate::run::{Job, NoSteady, explain};
 use crate::window_text::symbol;
-use crate::{balance, diagnostics, periodic_text, select};
+use crate::{balance, diagnostics, periodic_text, select, sense};
 
 /// The name of the window over the cycle.
 const CYCLE: &str = "cycle";
@@ -68,6 +68,8 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
         Format::Csv => console.write(|out| write_rows(&view.rows(), out)).map(drop)?,
         Format::Json => console.write(|out| view.json(out)).map(drop)?,
     }
+    let beyond = Beyond::of_run(&outcome.solution).map(|beyond| sense::warning(netlist, &beyond));
+    console.warn(&netlist.files, &Vec::from_iter(beyond));
     if let Some(folder) = &folder {
         let path = folder.path().join(RESULT);
         console.note(&format!("wrote  {}, {WINDOWS}, {MANIFEST}", path.display()));

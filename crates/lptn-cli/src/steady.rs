@@ -10,7 +10,7 @@ use lptn_report::{
     Align, Column, JsonWriter, TextTable, WIDTH, decimals, fixed, labelled, plain, prefix, shortened,
     significant, write_csv,
 };
-use lptn_solve::{Balance, Selection, SteadyError, SteadyState, Table};
+use lptn_solve::{Balance, Beyond, Selection, SteadyError, SteadyState, Table};
 use lptn_study::Scalar;
 use lptn_units::Unit;
 use serde_json::{Map, Value, json};
@@ -22,7 +22,7 @@ use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::limits::{self, Judged, Judgement};
 use crate::summary::{MOST_NODES, counts};
-use crate::{balance, diagnostics, periodic, select};
+use crate::{balance, diagnostics, periodic, select, sense};
 
 pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failure> {
     if args.cycle.periodic {
@@ -63,6 +63,7 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
         hidden.iter().for_each(|hidden| console.note(hidden));
         console.warn(&netlist.files, &view.doubts());
     }
+    console.warn(&netlist.files, &view.beyond());
     Ok(limits::conclude(&Judgement { netlist, unit: &unit, limits: &limits }, console))
 }
 
@@ -366,7 +367,8 @@ impl View<'_> {
         let mut json = JsonWriter::new(out);
         json.member("format", &json!(1))?;
         json.member("network", &json!(self.input.text.stem))?;
-        let warnings: Vec<Diagnostic> = netlist.warnings.iter().cloned().chain(self.doubts()).collect();
+        let found = self.doubts().into_iter().chain(self.beyond());
+        let warnings: Vec<Diagnostic> = netlist.warnings.iter().cloned().chain(found).collect();
         json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
         json.member("values", &Value::Object(values))?;
         if !self.limits.is_empty() {
@@ -383,6 +385,13 @@ impl View<'_> {
     fn doubts(&self) -> Vec<Diagnostic> {
         let netlist = &self.input.netlist;
         doubt(netlist).into_iter().chain(adiabatic(&netlist.network, self.steady)).collect()
+    }
+
+    /// What makes no sense.
+    fn beyond(&self) -> Vec<Diagnostic> {
+        let netlist = &self.input.netlist;
+        let beyond = Beyond::of_steady(&netlist.network, self.steady);
+        beyond.iter().map(|beyond| sense::warning(netlist, beyond)).collect()
     }
 
     fn messages(&self, console: &Console) {

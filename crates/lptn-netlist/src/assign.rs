@@ -6,13 +6,14 @@ use lptn_network::{
     BuildError, Course, Field, Item, Material, Network, ParameterError, ParameterId, Parameters, SignalId,
     Value,
 };
-use lptn_units::Expression;
+use lptn_units::{Expression, UnitErrorKind};
 
 use crate::describe::describe;
 use crate::diagnostic::{Diagnostic, arrange};
 use crate::file::{FileId, Span, on_borders};
 use crate::netlist::{Netlist, Rejected};
 use crate::template::wrong_path;
+use crate::value::celsius_or_kelvin;
 
 /// What the text of the assignments is called in diagnostics.
 const FILE: &str = "--set";
@@ -39,6 +40,9 @@ impl Netlist {
         match result {
             Ok((network, run)) => {
                 (self.network, self.run, self.files, self.assigned) = (network, run, files, new);
+                if !assignments.is_empty() {
+                    self.judge();
+                }
                 Ok(())
             }
             Err(mut diagnostics) => {
@@ -121,6 +125,12 @@ impl Netlist {
                     Ok(id) => self.defined(problem, id),
                     Err(_) => problem,
                 };
+                if matches!(error.kind, UnitErrorKind::AbsoluteWanted { .. }) {
+                    let line = |text: &str| format!("`--set \"{}={text}\"`", name.trim());
+                    if let Some(help) = celsius_or_kelvin(value, line, "") {
+                        return problem.help(help);
+                    }
+                }
                 if self.is_expression(value) {
                     return problem
                         .help("`--set` takes a number or a quantity, not an expression: `omega=5000rpm`");

@@ -108,6 +108,9 @@ fn message_of_physics(error: &BuildError, map: &SourceMap) -> String {
             words(Item::Node(*node)),
             short(*temperature)
         ),
+        Kind::TooQuick { item, field: f } => {
+            format!("{} changes too quickly with temperature to be integrated", field(*item, *f))
+        }
         Kind::FluidUnknown { fluid, field: f } => {
             format!("{} is not known and positive at any usual temperature", field(Item::Fluid(*fluid), *f))
         }

@@ -15,6 +15,7 @@ use crate::initial::StateFile;
 use crate::names::{Names, ValueKind};
 use crate::raw::{RawEntry, RawNetlist};
 use crate::run::RunPlan;
+use crate::scales::Scales;
 use crate::section;
 use crate::size::SizeStudy;
 use crate::source_map::SourceMap;
@@ -48,6 +49,7 @@ pub(crate) struct Elaboration<'a> {
     /// How many problems of imported rows were not even written down.
     pub(crate) dropped: usize,
     pub(crate) doubts: Doubts,
+    pub(crate) scales: Scales,
     /// Materials by name: those of the file, and those of the library that are used.
     pub(crate) known: HashMap<String, section::Known>,
     pub(crate) used_materials: HashSet<String>,
@@ -121,6 +123,7 @@ pub(crate) fn elaborate(
         problems: Vec::new(),
         dropped: 0,
         doubts: Doubts::of(structure),
+        scales: Scales::default(),
         known: HashMap::new(),
         used_materials: HashSet::new(),
         known_fluids: HashMap::new(),
@@ -200,6 +203,7 @@ impl<'a> Elaboration<'a> {
             return (None, Found { problems: self.problems, dropped: self.dropped });
         }
         self.problems.extend(substances);
+        self.problems.extend(self.scales.doubts());
         let values = self.names.unused().map(|(kind, name, span)| unused(kind, name, span));
         self.problems.extend(values);
         let temperature_unit = default.temperature_unit;

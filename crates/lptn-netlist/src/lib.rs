@@ -57,6 +57,7 @@ mod raw;
 mod record;
 mod result_names;
 mod run;
+mod scales;
 mod section;
 mod size;
 mod source_map;

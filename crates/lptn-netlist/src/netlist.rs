@@ -17,6 +17,7 @@ use crate::fit::FitStudy;
 use crate::include::{self, Loader, Merged};
 use crate::initial::{self, InitialState, StateFile};
 use crate::limits::{read_bytes, read_named, shorten};
+use crate::plausible;
 use crate::raw::RawNetlist;
 use crate::run::{RunPlan, RunSettings};
 use crate::section;
@@ -42,8 +43,10 @@ pub struct Netlist {
     pub source_map: SourceMap,
     /// The texts that places refer to.
     pub files: Files,
-    /// What is probably not meant as it is written.
+    /// What is probably not meant as it is written, or as it comes out with the parameters that were set.
     pub warnings: Vec<Diagnostic>,
+    /// Those of them that follow from the text alone.
+    pub(crate) written: Vec<Diagnostic>,
     /// The unit in which temperatures are shown: degC unless the netlist says otherwise.
     pub temperature_unit: Unit,
     pub(crate) plan: Option<RunPlan>,
@@ -60,6 +63,24 @@ impl Netlist {
     /// The files it was read from, its own first, then those it includes and its CSV files: name and text.
     pub fn inputs(&self) -> impl Iterator<Item = (&str, &str)> {
         self.inputs.iter().map(|&id| (self.files.name(id), self.files.text(id)))
+    }
+
+    /// Finds the warnings anew, for the parameters as they are now.
+    pub(crate) fn judge(&mut self) {
+        let (network, map) = (&self.network, &self.source_map);
+        let start = self.run.as_ref().map_or(0.0, |run| run.start);
+        let mut all = self.written.clone();
+        all.extend(streams::unbalanced(network, map, start));
+        all.extend(plausible::materials(network, map));
+        all.extend(plausible::neighbours(network, map));
+        all.extend(
+            self.initial.iter().flat_map(|state| initial::warnings(state, self.plan.as_ref(), network)),
+        );
+        let tolerance = self.run.iter().map(|run| run.tolerance);
+        all.extend(tolerance.flat_map(|tolerance| section::narrow(network, map, tolerance)));
+        arrange(&self.files, &mut all);
+        shorten(&mut all, 0);
+        self.warnings = all;
     }
 
     /// The parameters as they were set, for [`Network::with`] with further ones.
@@ -258,32 +279,26 @@ fn finish(
         shorten(&mut diagnostics, 0);
         return Err(Rejected { files, diagnostics, syntax: false });
     }
-    let start = run.as_ref().map_or(0.0, |run| run.start);
-    diagnostics.extend(streams::unbalanced(&network, &map, start));
-    diagnostics.extend(initial.iter().flat_map(|state| initial::warnings(state, plan.as_ref(), &network)));
-    let tolerance = run.as_ref().map(|run| run.tolerance);
-    diagnostics
-        .extend(tolerance.into_iter().flat_map(|tolerance| section::narrow(&network, &map, tolerance)));
-    arrange(&files, &mut diagnostics);
-    shorten(&mut diagnostics, 0);
     let assigned = network.overrides();
     let inputs = files.ids().collect();
-    let warnings = diagnostics;
-    Ok(Netlist {
+    let mut netlist = Netlist {
         network,
         run,
         sizes,
         fits,
         source_map: map,
         files,
-        warnings,
+        warnings: Vec::new(),
+        written: diagnostics,
         temperature_unit,
         plan,
         initial,
         assigned,
         inputs,
         structure,
-    })
+    };
+    netlist.judge();
+    Ok(netlist)
 }
 
 /// Problems that are there whatever the broken lines should have said.

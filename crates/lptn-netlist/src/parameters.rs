@@ -69,7 +69,8 @@ impl<'a> Elaboration<'a> {
         }
         let place = Place { owner: &owner, key: "", raw: &entry.value };
         let wanted = self.names.structure.type_of(&entry.key).cloned();
-        let text = match place.text(wanted.as_ref().map(|(ty, _)| *ty), &self.names) {
+        let ty = wanted.as_ref().map(|(ty, _)| *ty);
+        let text = match place.kelvin_for(ty).map_or_else(|| place.text(ty, &self.names), Err) {
             Ok(text) => Some(text),
             Err(problem) => {
                 self.problems.push(of_type(problem, wanted.as_ref()));

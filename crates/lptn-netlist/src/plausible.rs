@@ -1,7 +1,20 @@
-//! Properties that no solid has: nearly always a unit that is a thousand times too large or too small.
+//! Values that nothing real has: nearly always a unit that is a thousand times too large or too small, or one of
+//! another scale. They are looked at as they come out, not as they are written, so that parameters, expressions and
+//! tables are seen too.
+
+use lptn_network::{ConductorId, End, Field, Flow, Item, Network, Substance, Value, ZERO_CELSIUS, slot};
 
 use crate::diagnostic::Diagnostic;
-use crate::value::Place;
+use crate::source_map::SourceMap;
+
+/// So many pairs of conductors are named.
+const MOST_PAIRS: usize = 5;
+
+/// Conductances that meet in a node and are further apart than this.
+const DECADES: f64 = 1e9;
+
+/// Where a property is looked at if no node has a start, in K.
+const ROOM: f64 = 298.15;
 
 /// A property, with the range that covers solids from foams to metals with a factor to spare, in SI units.
 struct Range {
@@ -44,15 +57,68 @@ const RANGES: [Range; 3] = [
     },
 ];
 
-/// A warning if no solid has such a value, given in SI units.
-pub(crate) fn check(place: Place<'_>, value: f64) -> Option<Diagnostic> {
-    let range = RANGES.iter().find(|range| range.key == place.key)?;
-    if value <= 0.0 || (range.from..=range.to).contains(&value) {
-        return None; // what is not positive is an error elsewhere
+/// A warning for each property of a material or grid of the file that no solid has at the temperatures from which nodes
+/// start.
+pub(crate) fn materials(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
+    let starts = || network.node_ids().map(|id| network.initial(id)).filter(|t| t.is_finite());
+    let least = starts().fold(f64::INFINITY, f64::min);
+    let temperatures = match least.is_finite() {
+        true => [least, starts().fold(least, f64::max)],
+        false => [ROOM; 2],
+    };
+    let check = |property: &Property<'_>| implausible((network, map), property, temperatures);
+    properties(network).iter().filter_map(check).collect()
+}
+
+/// A property: of what, which, and its value.
+type Property<'a> = (Item, Field, &'a Value);
+
+fn properties(network: &Network) -> Vec<Property<'_>> {
+    let mut all: Vec<Property<'_>> = Vec::new();
+    for (id, material) in network.material_ids().zip(network.materials()) {
+        let item = Item::Material(id);
+        all.extend(material.cp.iter().map(|value| (item, Field::SpecificHeat, value)));
+        all.extend(material.density.iter().map(|value| (item, Field::Density, value)));
+        all.extend(material.k.iter().map(|value| (item, Field::Conductivity, value)));
     }
-    let message = format!("{} is {} {}, which no solid has", place.words(), short(value), range.unit);
+    for (id, grid) in network.grid_ids().zip(network.grids()) {
+        let item = Item::Grid(id);
+        if let Substance::Properties { density, cp } = &grid.substance {
+            all.extend([(item, Field::SpecificHeat, cp), (item, Field::Density, density)]);
+            all.push((item, Field::Conductivity, &grid.conductivity[0]));
+        }
+    }
+    all
+}
+
+fn implausible(
+    (network, map): (&Network, &SourceMap),
+    &(item, field, property): &Property<'_>,
+    temperatures: [f64; 2],
+) -> Option<Diagnostic> {
+    // a material of the library has no place
+    let place = map.get(item, field).or_else(|| map.name(item))?;
+    let range = RANGES.iter().find(|range| range.key == field.key())?;
+    let mut scope = network.evaluation();
+    let odd = |t: &f64| {
+        let value = network.property_of(property, *t, &mut scope)?;
+        (!(range.from..=range.to).contains(&value)).then_some((*t, value))
+    };
+    let (temperature, value) = temperatures.iter().find_map(odd)?;
+    let at = match property.slots().contains(&slot::OWN) {
+        true => format!(" at {} degC", short(temperature - ZERO_CELSIUS)),
+        false => String::new(),
+    };
+    let message = format!(
+        "`{}` of {} `{}` is {} {}{at}, which no solid has",
+        range.key,
+        map.kind(item),
+        network.name_of(item),
+        short(value),
+        range.unit
+    );
     let warning = Diagnostic::warning("netlist::implausible_property", message)
-        .at(place.raw.span.clone(), format!("solids have {}", range.solids));
+        .at(place, format!("solids have {}", range.solids));
     let fits = |scale: f64| (range.from..=range.to).contains(&(value * scale));
     Some(if fits(1e3) {
         warning.help(format!("did you mean {} {}?", short(value), range.larger))
@@ -61,6 +127,62 @@ pub(crate) fn check(place: Place<'_>, value: f64) -> Option<Diagnostic> {
     } else {
         warning.help("check the unit and the number of zeros")
     })
+}
+
+/// A warning for constant conductances that meet in a node and are nine decades apart.
+pub(crate) fn neighbours(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
+    let mut extremes: Vec<Option<[(f64, ConductorId); 2]>> = vec![None; network.nodes().len()];
+    for (id, conductor) in network.conductor_ids().zip(network.conductors()) {
+        let Flow::Conductance(conductance) = network.flow(id) else { continue };
+        for end in [conductor.from, conductor.to] {
+            let End::Node(node) = end else { continue };
+            let this = (conductance, id);
+            let [least, most] = extremes[node.index()].get_or_insert([this; 2]);
+            *least = if this.0 < least.0 { this } else { *least };
+            *most = if this.0 > most.0 { this } else { *most };
+        }
+    }
+    let mut pairs: Vec<[(f64, ConductorId); 2]> =
+        extremes.into_iter().flatten().filter(|[least, most]| most.0 >= DECADES * least.0).collect();
+    pairs.sort_by_key(|[least, most]| (least.1, most.1));
+    pairs.dedup_by_key(|[least, most]| (least.1, most.1));
+    let mut warnings: Vec<Diagnostic> =
+        pairs.iter().take(MOST_PAIRS).map(|pair| apart((network, map), pair)).collect();
+    if let Some(more) = pairs.len().checked_sub(MOST_PAIRS).filter(|more| *more > 0) {
+        let message = format!("{more} more pairs of resistances that meet in a node are nine decades apart");
+        warnings.push(Diagnostic::warning("network::decades_apart", message));
+    }
+    warnings
+}
+
+fn apart(
+    (network, map): (&Network, &SourceMap),
+    &[(least, weak), (most, strong)]: &[(f64, ConductorId); 2],
+) -> Diagnostic {
+    let words = |id: ConductorId| {
+        let item = Item::Conductor(id);
+        format!("{} `{}`", map.kind(item), network.name_of(item))
+    };
+    let message = format!(
+        "{}, {} K/W, and {}, {} K/W, meet in a node and are {:.0} decades apart",
+        words(weak),
+        short(1.0 / least),
+        words(strong),
+        short(1.0 / most),
+        (most / least).log10()
+    );
+    let warning = Diagnostic::warning("network::decades_apart", message);
+    let place = |id: ConductorId| map.name(Item::Conductor(id));
+    let warning = match place(weak) {
+        Some(span) => warning.at(span, ""),
+        None => warning,
+    };
+    let warning = match place(strong) {
+        Some(span) => warning.also(span, "beside it"),
+        None => warning,
+    };
+    warning
+        .help("check the prefix of the unit: m is a thousandth, M a million; leave out what carries no heat")
 }
 
 /// Without the noise of a change of units.

@@ -198,7 +198,7 @@ impl<'a> Elaboration<'a> {
         };
         // an owner without a key: the key `from` of a path takes something else
         let owner = range.owner.inside(key);
-        Some(self.given(Place { owner: &owner, key: "", raw }, Wanted::constant(ty))?.value())
+        Some(self.given(Place { owner: &owner, key: "", raw }, Wanted::like(ty))?.value())
     }
 
     fn require(&mut self, fields: &Fields<'a>) -> Option<Vec<Requirement>> {

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use lptn_network::{Context, Input, Value};
 use lptn_units::{
-    Dimension, Expression, Program, Quantity, Type, UnitError, UnitErrorKind, Written, parse_quantity,
-    parse_value,
+    Dimension, Expression, Program, Quantity, Type, UnitError, UnitErrorKind, Written, kelvin_alone,
+    parse_quantity, parse_value,
 };
 
 use crate::diagnostic::Diagnostic;
@@ -67,52 +67,65 @@ pub(crate) struct Wanted {
     pub(crate) time: bool,
     /// Whether it may depend on controls.
     pub(crate) controls: bool,
+    /// Whether its type is its own, or follows from what something else is: `300 K` is a difference then.
+    pub(crate) derived: bool,
 }
 
 impl Wanted {
     /// A constant of this type.
     pub(crate) fn constant(ty: Type) -> Self {
-        Self { ty: Some(ty), context: Context::Time, time: false, controls: false }
+        Self { ty: Some(ty), context: Context::Time, time: false, controls: false, derived: false }
+    }
+
+    /// A constant of the type that something else has: a parameter's new value, a bound.
+    pub(crate) fn like(ty: Type) -> Self {
+        Self { derived: true, ..Self::constant(ty) }
     }
 
     /// A constant of any type.
     pub(crate) fn parameter() -> Self {
-        Self { ty: None, context: Context::Time, time: false, controls: false }
+        Self { ty: None, context: Context::Time, time: false, controls: false, derived: false }
     }
 
     /// A function of time, and of what is on or off.
     pub(crate) fn in_time(ty: Type) -> Self {
-        Self { ty: Some(ty), context: Context::Time, time: true, controls: true }
+        Self { ty: Some(ty), context: Context::Time, time: true, controls: true, derived: false }
     }
 
     /// A function of time of any type, known before the run.
     pub(crate) fn signal() -> Self {
-        Self { ty: None, context: Context::Time, time: true, controls: false }
+        Self { ty: None, context: Context::Time, time: true, controls: false, derived: false }
     }
 
     /// A threshold of a control.
     pub(crate) fn threshold() -> Self {
-        Self { ty: Some(Type::ABSOLUTE_TEMPERATURE), context: Context::Control, time: true, controls: true }
+        Self {
+            ty: Some(Type::ABSOLUTE_TEMPERATURE),
+            context: Context::Control,
+            time: true,
+            controls: true,
+            derived: false,
+        }
     }
 
     /// A constant of this type that may depend on the temperature `T` of what it belongs to.
     pub(crate) fn own(ty: Type) -> Self {
-        Self { ty: Some(ty), context: Context::Own, time: false, controls: false }
+        Self { ty: Some(ty), context: Context::Own, time: false, controls: false, derived: false }
     }
 
     /// The heat of a source.
     pub(crate) fn of_source(ty: Type) -> Self {
-        Self { ty: Some(ty), context: Context::Source, time: true, controls: true }
+        Self { ty: Some(ty), context: Context::Source, time: true, controls: true, derived: false }
     }
 
     /// A value of a path between two ends.
     pub(crate) fn of_link(ty: impl Into<Option<Type>>) -> Self {
-        Self { ty: ty.into(), context: Context::Link, time: true, controls: true }
+        Self { ty: ty.into(), context: Context::Link, time: true, controls: true, derived: false }
     }
 
     /// Something that results determine.
     pub(crate) fn of_results() -> Self {
-        Self { ty: None, context: Context::Result, time: true, controls: true }
+        Self { ty: None, context: Context::Result, time: true, controls: true, derived: false }
     }
 
     /// Whether it may name the temperature of any node or boundary, `NAME.T`.
@@ -169,6 +182,19 @@ impl Place<'_> {
         }
     }
 
+    /// What is wrong with a whole string in kelvin for an absolute temperature where `K` is a difference.
+    pub(crate) fn kelvin_for(&self, ty: Option<Type>) -> Option<Diagnostic> {
+        let RawKind::String { text, .. } = &self.raw.kind else { return None };
+        let error = ty.filter(|ty| ty.absolute).and_then(|_| kelvin_alone(text))?;
+        let problem = self.unit_error(&error);
+        let key = if self.key.is_empty() { String::new() } else { format!("{} = ", self.key) };
+        let line = |value: &str| format!("`{key}\"{value}\"`");
+        Some(match celsius_or_kelvin(text, line, "") {
+            Some(help) => problem.help(help),
+            None => problem,
+        })
+    }
+
     /// Puts a mistake in the string at its place in the file.
     pub(crate) fn unit_error(&self, error: &UnitError) -> Diagnostic {
         let (words, says) = (self.words(), error.to_string());
@@ -222,7 +248,8 @@ impl Elaboration<'_> {
     /// The value of a field; `None` if something is wrong with it, which is then reported, or with a parameter it
     /// uses, which has been reported.
     pub(crate) fn given(&mut self, place: Place<'_>, wanted: Wanted) -> Option<Given> {
-        match place.text(wanted.ty, &self.names) {
+        let kelvin = wanted.derived.then(|| place.kelvin_for(wanted.ty)).flatten();
+        match kelvin.map_or_else(|| place.text(wanted.ty, &self.names), Err) {
             Ok(text) => self.resolve(place, text, wanted),
             Err(problem) => {
                 self.problems.push(problem);
@@ -234,7 +261,10 @@ impl Elaboration<'_> {
     /// Resolves the names of a text and checks its type.
     pub(crate) fn resolve(&mut self, place: Place<'_>, text: Text, wanted: Wanted) -> Option<Given> {
         let expression = match text {
-            Text::Quantity(quantity) => return Some(Given::Quantity(quantity)),
+            Text::Quantity(quantity) => {
+                self.scales.note(place, &quantity);
+                return Some(Given::Quantity(quantity));
+            }
             Text::Expression(expression) => expression,
         };
         self.learn(&expression);
@@ -327,9 +357,15 @@ fn parameter_help(entry: &RawEntry, ty: Type) -> Option<String> {
         return Some(format!("write {} in [param]", line(&format!("{text} {}", ty.usual_unit()))));
     }
     if ty.absolute && found == Type::of(Dimension::TEMPERATURE) {
-        let number = text.strip_suffix('K')?.trim_end();
-        let (celsius, kelvin) = (line(&format!("{number} degC")), line(&format!("absolute({number} [K])")));
-        return Some(format!("write {celsius} in [param], or {kelvin} if kelvin is meant"));
+        return celsius_or_kelvin(text, line, " in [param]");
     }
     None
+}
+
+/// What to write for a number of kelvin that is meant as an absolute temperature, as `line` writes it `where_to`.
+pub(crate) fn celsius_or_kelvin(text: &str, line: impl Fn(&str) -> String, where_to: &str) -> Option<String> {
+    let number = text.trim().strip_suffix('K')?.trim_end().trim_end_matches('*').trim_end();
+    let ends_in_digit = number.ends_with(|c: char| c.is_ascii_digit() || c == '.');
+    let (celsius, kelvin) = (line(&format!("{number} degC")), line(&format!("absolute({number} [K])")));
+    ends_in_digit.then(|| format!("write {celsius}{where_to}, or {kelvin} if kelvin is meant"))
 }

@@ -82,8 +82,14 @@ impl Network {
             Field::Conductivity => material.k.as_ref(),
             _ => None,
         };
+        self.property_of(value?, temperature, scope)
+    }
+
+    /// A value that may depend on a temperature of its own, at that temperature in K, in SI units; `None` where it is not
+    /// known and positive. `scope` is any [`Network::evaluation`].
+    pub fn property_of(&self, value: &Value, temperature: f64, scope: &mut Evaluation) -> Option<f64> {
         scope.set(slot::OWN, temperature);
-        value?.at(scope).ok().filter(|value| value.is_finite() && *value > 0.0)
+        value.at(scope).ok().filter(|value| value.is_finite() && *value > 0.0)
     }
 
     /// The surface that a convection, contact or radiation is, at the time of `scope` and these temperatures of all

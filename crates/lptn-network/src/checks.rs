@@ -1,6 +1,7 @@
 //! Properties of substances, lumps and limits, which have to be physical before anything is computed from them.
 
 use crate::element::Node;
+use crate::enthalpy::is_one_temperature;
 use crate::error::BuildErrorKind;
 use crate::id::{CapacitorId, Field, FluidId, Item, LimitId, MaterialId, NodeId};
 use crate::numbers::{Range, Work};
@@ -23,7 +24,7 @@ impl<'a> Work<'a> {
                 let solidus = self.constant(item, Field::Solidus, &melting.solidus, Range::Temperature);
                 let liquidus = self.constant(item, Field::Liquidus, &melting.liquidus, Range::Temperature);
                 self.constant(item, Field::LatentHeat, &melting.heat, Range::Positive);
-                if liquidus < solidus {
+                if liquidus < solidus && !is_one_temperature(solidus, liquidus) {
                     self.error(item, BuildErrorKind::Melting { item, solidus, liquidus });
                 }
             }

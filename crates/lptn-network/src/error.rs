@@ -198,6 +198,13 @@ pub enum BuildErrorKind {
         /// Its start in K.
         temperature: f64,
     },
+    /// A capacity that changes so quickly with temperature that its integral cannot be followed.
+    TooQuick {
+        /// The node or fluid.
+        item: Item,
+        /// The value.
+        field: Field,
+    },
     /// A property of a fluid that is not known and positive where it is needed.
     FluidUnknown {
         /// The fluid.
@@ -358,6 +365,7 @@ impl BuildError {
             K::Shares { .. } => "network::shares",
             K::WhichTemperature { .. } => "network::which_temperature",
             K::CapacityUnknown { .. } => "network::capacity_unknown",
+            K::TooQuick { .. } => "network::capacity_too_quick",
             K::FluidUnknown { .. } => "network::fluid_unknown",
             K::PeriodTooShort { .. } => "network::period_too_short",
             K::SignalPoints { .. } => "network::signal_points",

@@ -21,6 +21,7 @@ impl BuildError {
             | K::ComparisonNotLinear { item, field }
             | K::ComparesTemperature { item, field }
             | K::NotAFraction { item, field, .. }
+            | K::TooQuick { item, field }
             | K::Evaluation { item, field, .. } => (item, field),
             K::ThresholdsCrossed { control, fields, .. } => (Item::Control(control), fields[0]),
             K::NoThermostat { control } => (Item::Control(control), Field::Name),

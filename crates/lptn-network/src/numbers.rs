@@ -173,12 +173,11 @@ impl Work<'_> {
         let mut curves = Vec::with_capacity(self.parts.fluids.len());
         for i in 0..self.parts.fluids.len() {
             let fluid = FluidId::from_len(i);
-            let curve = self.parts.fluid_enthalpy(fluid, &mut self.scope);
-            if curve.is_err() {
-                let field = Field::SpecificHeat;
-                self.error(Item::Fluid(fluid), BuildErrorKind::FluidUnknown { fluid, field });
-            }
-            curves.push(curve.ok().flatten());
+            let curve = self.parts.fluid_enthalpy(fluid, &mut self.scope).unwrap_or_else(|kind| {
+                self.error(Item::Fluid(fluid), kind);
+                None
+            });
+            curves.push(curve);
         }
         curves
     }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use lptn_units::{Type, UnitError, parse_quantity};
+use lptn_units::{Expression, Quantity, Scope, Symbol, Type, UnitError, kelvin_alone, parse_quantity};
 
 use crate::id::ParameterId;
 use crate::names::UnknownName;
@@ -42,8 +42,9 @@ impl Parameters {
         self.deviations[id.index()]
     }
 
-    /// Sets a parameter by name to a written quantity, such as `"5000 rpm"`, whose unit is checked. A `±` in the text
-    /// takes the place of the parameter's own, see [`Parameters::deviation`].
+    /// Sets a parameter by name to a written quantity, such as `"5000 rpm"`, whose unit is checked as in a netlist: `"300 K"`
+    /// is a difference. An expression without names will do, `"absolute(300 [K])"`. A `±` in the text takes the place of
+    /// the parameter's own, see [`Parameters::deviation`].
     ///
     /// # Errors
     /// [`ParameterError`] for an unknown name, a unit of another type or a number that cannot be read.
@@ -53,7 +54,7 @@ impl Parameters {
             return Err(ParameterError::Unknown(UnknownName::new(name, &names)));
         };
         let ty = self.parts.parameters[id.index()].ty;
-        let quantity = parse_quantity(text, Some(ty)).map_err(|error| ParameterError::Unit {
+        let quantity = read(text, ty).map_err(|error| ParameterError::Unit {
             name: name.to_owned(),
             ty,
             error: Box::new(error),
@@ -62,6 +63,33 @@ impl Parameters {
         self.deviations[id.index()] = quantity.deviation.or(self.deviations[id.index()]);
         Ok(id)
     }
+}
+
+fn read(text: &str, ty: Type) -> Result<Quantity, UnitError> {
+    match kelvin_alone(text).filter(|_| ty.absolute) {
+        Some(error) => Err(error),
+        None => parse_quantity(text, Some(ty)).or_else(|error| constant(text, ty).ok_or(error)),
+    }
+}
+
+/// No names but those of functions.
+struct Nothing;
+
+impl Scope for Nothing {
+    fn symbol(&self, _: &str) -> Option<Symbol> {
+        None
+    }
+
+    fn names(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+/// The value of an expression that names nothing.
+fn constant(text: &str, ty: Type) -> Option<Quantity> {
+    let program = Expression::parse(text).ok()?.compile(&Nothing, Some(ty)).ok()?;
+    let value = program.eval::<f64>(&[], &mut Vec::new()).ok()?;
+    Some(Quantity { value, deviation: None, ty })
 }
 
 /// Why a parameter could not be set.

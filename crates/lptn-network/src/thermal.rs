@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::enthalpy::{Enthalpy, Latent};
+use lptn_units::Taylor;
+
+use crate::enthalpy::{Capacity, Enthalpy, Latent, NoCurve};
 use crate::error::BuildErrorKind;
 use crate::evaluation::Evaluation;
-use crate::id::{FluidId, NodeId};
+use crate::id::{Field, FluidId, Item, NodeId};
 use crate::layout::slot;
 use crate::material::{Lump, Size};
 use crate::parts::Parts;
@@ -14,9 +16,6 @@ use crate::value::Value;
 
 /// Where the heat content of a fluid is zero, in K: 25 degC.
 const FLUID_ZERO: f64 = 298.15;
-
-/// A property that is not known and positive at any usual temperature.
-pub(crate) struct Unknown;
 
 /// A value at a temperature of its own, and where it may bend.
 fn at(value: &Value, temperature: f64, scope: &mut Evaluation) -> Option<f64> {
@@ -79,8 +78,31 @@ fn factors(value: &Value) -> Vec<&Value> {
     }
 }
 
-fn product(factors: &[&Value], temperature: f64, scope: &mut Evaluation) -> Option<f64> {
-    factors.iter().try_fold(1.0, |product, factor| Some(product * at(factor, temperature, scope)?))
+/// A sum of products of values, over the temperature that is their own.
+struct Sum<'a, 'b> {
+    parts: &'b [Vec<&'a Value>],
+    scope: &'b mut Evaluation,
+}
+
+impl Capacity for Sum<'_, '_> {
+    fn at(&mut self, temperature: f64) -> Option<f64> {
+        let mut product = |factors: &Vec<&Value>| {
+            factors
+                .iter()
+                .try_fold(1.0, |product, factor| Some(product * at(factor, temperature, self.scope)?))
+        };
+        self.parts.iter().try_fold(0.0, |sum, part| Some(sum + product(part)?))
+    }
+
+    fn over(&mut self, from: f64, to: f64) -> Taylor {
+        let (slots, _) = self.scope.plain();
+        let product = |factors: &Vec<&Value>| {
+            factors
+                .iter()
+                .fold(Taylor::constant(1.0), |product, factor| product * factor.enclose([from, to], slots))
+        };
+        self.parts.iter().fold(Taylor::constant(0.0), |sum, part| sum + product(part))
+    }
 }
 
 /// What two curves have in common that are the same.
@@ -166,11 +188,13 @@ impl Parts {
             return Ok(Arc::new(curve));
         }
         let bends: Vec<f64> = parts.iter().flat_map(|(value, _)| edges(value, scope)).collect();
-        let mut capacity =
-            |t: f64| factors.iter().try_fold(0.0, |sum, part| Some(sum + product(part, t, scope)?));
-        let curve = Enthalpy::new(&mut capacity, start, &bends, &latent);
-        let scaled = curve.as_ref().and_then(|curve| curve.rescaled(scale, start));
-        known.made.extend(curve.map(|curve| (form, curve)));
+        let curve = Enthalpy::new(&mut Sum { parts: &factors, scope }, start, &bends, &latent);
+        let curve = curve.map_err(|reason| match reason {
+            NoCurve::Unknown => BuildErrorKind::CapacityUnknown { node: id, temperature: start },
+            NoCurve::TooQuick => BuildErrorKind::TooQuick { item: Item::Node(id), field: Field::Capacity },
+        })?;
+        let scaled = curve.rescaled(scale, start);
+        known.made.insert(form, curve);
         scaled.map(Arc::new).ok_or(BuildErrorKind::CapacityUnknown { node: id, temperature: start })
     }
 
@@ -181,11 +205,8 @@ impl Parts {
             Size::Mass(mass) => mass.at(scope).ok()?,
             Size::Volume(volume) => volume.at(scope).ok()? * material.density.as_ref()?.at(scope).ok()?,
         };
-        Some(Latent {
-            solidus: melting.solidus.at(scope).ok()?,
-            liquidus: melting.liquidus.at(scope).ok()?,
-            heat: mass * melting.heat.at(scope).ok()?,
-        })
+        let between = (melting.solidus.at(scope).ok()?, melting.liquidus.at(scope).ok()?);
+        Some(Latent::new(between, mass * melting.heat.at(scope).ok()?))
     }
 
     /// The heat content of a kg of a fluid whose specific heat depends on its temperature; `None` for one whose
@@ -194,7 +215,7 @@ impl Parts {
         &self,
         id: FluidId,
         scope: &mut Evaluation,
-    ) -> Result<Option<Arc<Enthalpy>>, Unknown> {
+    ) -> Result<Option<Arc<Enthalpy>>, BuildErrorKind> {
         let cp = &self.fluids[id.index()].cp;
         if !self.reads(cp).own {
             return Ok(None);
@@ -202,9 +223,13 @@ impl Parts {
         let bends = edges(cp, scope);
         // where it is known: from 25 degC, or from the middle of its table
         let middle = bends.iter().sum::<f64>() / bends.len().max(1) as f64;
-        let starts = [FLUID_ZERO, middle];
-        let mut capacity = |t: f64| at(cp, t, scope);
-        let curve = starts.into_iter().find_map(|start| Enthalpy::new(&mut capacity, start, &bends, &[]));
-        curve.map(|curve| Some(Arc::new(curve))).ok_or(Unknown)
+        let mut curve = |start| Enthalpy::new(&mut Sum { parts: &[vec![cp]], scope }, start, &bends, &[]);
+        let curve = curve(FLUID_ZERO).or_else(|_| curve(middle)).map_err(|reason| match reason {
+            NoCurve::Unknown => BuildErrorKind::FluidUnknown { fluid: id, field: Field::SpecificHeat },
+            NoCurve::TooQuick => {
+                BuildErrorKind::TooQuick { item: Item::Fluid(id), field: Field::SpecificHeat }
+            }
+        })?;
+        Ok(Some(Arc::new(curve)))
     }
 }

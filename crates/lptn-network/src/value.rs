@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use lptn_units::{EvalError, Program, Quantity, Scalar, Type};
+use lptn_units::{EvalError, Program, Quantity, Scalar, Taylor, Type};
 
+use crate::layout::slot;
 use crate::material::Lump;
 
 /// The value of one field in SI units.
@@ -34,6 +35,17 @@ impl Value {
             Self::Expression(program) => program.eval(slots, stack),
             Self::Product(factors) => {
                 factors.iter().try_fold(S::from_f64(1.0), |product, f| Ok(product * f.on(slots, stack)?))
+            }
+        }
+    }
+
+    /// Bounds on the value while the temperature that is its own runs through an interval, in SI units.
+    pub(crate) fn enclose(&self, over: [f64; 2], slots: &[f64]) -> Taylor {
+        match self {
+            Self::Constant(value) => Taylor::constant(*value),
+            Self::Expression(program) => program.enclose(slot::OWN, over, slots),
+            Self::Product(factors) => {
+                factors.iter().fold(Taylor::constant(1.0), |product, f| product * f.enclose(over, slots))
             }
         }
     }

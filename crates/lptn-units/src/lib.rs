@@ -33,6 +33,7 @@ mod scalar;
 mod separators;
 mod suggest;
 pub mod table;
+mod taylor;
 mod types;
 mod unit;
 mod unit_parser;
@@ -47,11 +48,12 @@ pub use expr::{
     is_function,
 };
 pub use format::number as format_number;
-pub use quantity::{Quantity, WrittenQuantity, parse_quantity, written_quantity};
+pub use quantity::{Quantity, WrittenQuantity, kelvin_alone, parse_quantity, written_quantity};
 pub use rational::Rational;
 pub use scalar::Scalar;
 pub use suggest::suggest;
 pub use table::{Interpolation, Outside, Table, Table1, Table2, TableError, TableSymbol};
+pub use taylor::Taylor;
 pub use types::Type;
 pub use unit::Unit;
 pub use value::{Written, parse_value};

@@ -38,6 +38,16 @@ pub fn parse_quantity(text: &str, expected: Option<Type>) -> Result<Quantity, Un
     read(text)?.conclude(expected)
 }
 
+/// The mistake in a whole string in kelvin, such as `300 K`, where an absolute temperature is due in a place that has
+/// no type of its own: its type follows from something else, as that of a parameter's new value or of a bound does.
+/// `K` is a difference there, as it is in the parameter itself. `None` for any other text.
+pub fn kelvin_alone(text: &str) -> Option<UnitError> {
+    let reading = read(text).ok()?;
+    let found = reading.conclude(None).ok()?.ty;
+    let difference = Type::of(Dimension::TEMPERATURE);
+    (found == difference).then(|| reading.mismatch(found, Type::ABSOLUTE_TEMPERATURE))
+}
+
 /// A quantity's number and unit as they stand in a text.
 #[derive(Clone, Debug)]
 pub struct WrittenQuantity {

@@ -7,7 +7,7 @@ use lptn_network::{
 use lptn_units::{Dimension, Type, format_number};
 
 use super::Writer;
-use super::text::{Fields, string, value};
+use super::text::{Fields, like, string, value};
 
 const KINDS: [(&str, ConductorKind); 6] = [
     ("resistor", ConductorKind::Resistor),
@@ -150,7 +150,7 @@ impl Writer<'_> {
                 Bound::Below => "below",
                 Bound::Above => "above",
             };
-            fields.put(bound, value(&limit.value, limit.ty));
+            fields.put(bound, like(&limit.value, limit.ty));
             if limit.severity == Severity::Warning {
                 fields.word("severity", "warning");
             }

@@ -1,7 +1,7 @@
 //! `[run]`, `[size]` and `[fit]`: what is asked of the network.
 
 use super::Writer;
-use super::text::{Fields, key, string, value};
+use super::text::{Fields, key, like, string, value};
 use crate::fit::{FitRecord, FitStudy, Observed, VariedName};
 use crate::run::OutputPlan;
 use crate::size::{Goal, SizeStudy};
@@ -64,7 +64,7 @@ impl Writer<'_> {
         fields.word(goal, &size.parameter);
         if let Ok(id) = network.parameter(&size.parameter) {
             let ty = network.parameters()[id.index()].ty;
-            let [from, to] = size.ends().map(|end| value(end, ty));
+            let [from, to] = size.ends().map(|end| like(end, ty));
             fields.put("vary", format!("{{ {} = {{ from = {from}, to = {to} }} }}", key(&size.parameter)));
         }
         let texts: Vec<String> = size.requirements.iter().map(|r| r.text.clone()).collect();
@@ -92,7 +92,7 @@ impl Writer<'_> {
             let set: Vec<String> = record
                 .set
                 .iter()
-                .map(|(name, own)| format!("{} = {}", key(name), value(own, ty(name))))
+                .map(|(name, own)| format!("{} = {}", key(name), like(own, ty(name))))
                 .collect();
             if set.is_empty() { csv } else { format!("{{ csv = {csv}, set = {{ {} }} }}", set.join(", ")) }
         };
@@ -116,9 +116,7 @@ impl Writer<'_> {
         let varied = |varied: &VariedName| {
             let ends = [("from", &varied.from), ("to", &varied.to)].into_iter();
             let ends: Vec<String> = ends
-                .filter_map(|(name, end)| {
-                    Some(format!("{name} = {}", value(end.as_ref()?, ty(&varied.name))))
-                })
+                .filter_map(|(name, end)| Some(format!("{name} = {}", like(end.as_ref()?, ty(&varied.name)))))
                 .collect();
             let range = if ends.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", ends.join(", ")) };
             format!("{} = {range}", key(&varied.name))

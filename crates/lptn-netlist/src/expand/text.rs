@@ -47,6 +47,19 @@ pub(super) fn value(value: &Value, ty: Type) -> String {
     }
 }
 
+/// A constant of the type that something else has: there `K` would be a difference.
+pub(super) fn like(value: &Value, ty: Type) -> String {
+    match value {
+        Value::Constant(number) if ty.absolute => point(*number),
+        other => self::value(other, ty),
+    }
+}
+
+/// A point on the temperature scale, wherever it stands.
+pub(super) fn point(kelvin: f64) -> String {
+    format!("\"absolute({} [K])\"", format_number(kelvin))
+}
+
 /// A point on the temperature scale in degC, with the fewest digits that give back the same number in K.
 pub(super) fn celsius(kelvin: f64) -> String {
     let celsius = kelvin - ZERO_CELSIUS;

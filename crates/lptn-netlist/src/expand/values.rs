@@ -7,7 +7,7 @@ use lptn_network::{AfterEnd, Course, Evaluation, Item, Parameter, ParameterId, S
 use lptn_units::{Dimension, Interpolation, Outside, Table, Table1, TableSymbol, Type, format_number};
 
 use super::Writer;
-use super::text::{Fields, celsius, list, quantity, string, value};
+use super::text::{Fields, celsius, list, point, quantity, string, value};
 use crate::raw::{RawKind, RawTable};
 
 const TIME: Type = Type::of(Dimension::TIME);
@@ -33,7 +33,7 @@ impl Writer<'_> {
             return string(program.text().trim());
         }
         match (parameter.deviation, parameter.ty.absolute) {
-            (None, true) => format!("\"absolute({} [K])\"", format_number(number)),
+            (None, true) => point(number),
             (None, false) => quantity(number, parameter.ty),
             (Some(deviation), true) => {
                 format!("\"{} ± {} degC\"", celsius(number), format_number(deviation))

@@ -171,7 +171,7 @@ impl<'a> Elaboration<'a> {
             let value = self.builder.scope(Context::Time).symbol(name).and_then(|symbol| {
                 let owner = owner.inside(name);
                 let place = Place { owner: &owner, key: "", raw: &entry.value };
-                self.given(place, Wanted::constant(symbol.ty))
+                self.given(place, Wanted::like(symbol.ty))
             });
             match value {
                 Some(value) => set.push((name.clone(), value.value())),

@@ -120,7 +120,7 @@ impl<'a> Elaboration<'a> {
             Some(raw) => {
                 // an owner without a key: the key `from` of a path takes something else
                 let owner = range.owner.inside(key);
-                Some(Some(self.given(Place { owner: &owner, key: "", raw }, Wanted::constant(ty))?.value()))
+                Some(Some(self.given(Place { owner: &owner, key: "", raw }, Wanted::like(ty))?.value()))
             }
         };
         let (from, to) = (end("from"), end("to"));

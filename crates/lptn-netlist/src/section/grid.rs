@@ -202,8 +202,8 @@ impl<'a> Elaboration<'a> {
         for key in ["k", "density", "cp"] {
             fields.require(key, &mut self.problems);
         }
-        let density = self.solid_property(fields, "density", Wanted::constant(Type::of(Dimension::DENSITY)));
-        let cp = self.solid_property(fields, "cp", Wanted::own(Type::of(Dimension::SPECIFIC_HEAT)));
+        let density = self.property(fields, "density", Wanted::constant(Type::of(Dimension::DENSITY)));
+        let cp = self.property(fields, "cp", Wanted::own(Type::of(Dimension::SPECIFIC_HEAT)));
         Some((Substance::Properties { density: density?, cp: cp? }, k?))
     }
 
@@ -233,7 +233,7 @@ impl<'a> Elaboration<'a> {
     fn conductivities(&mut self, fields: &Fields<'a>, raw: &'a RawValue) -> [Input; 3] {
         let wanted = Wanted::own(CONDUCTIVITY);
         let RawKind::Array(list) = &raw.kind else {
-            let k = self.solid_property(fields, "k", wanted).unwrap_or_else(|| stand_in(CONDUCTIVITY));
+            let k = self.property(fields, "k", wanted).unwrap_or_else(|| stand_in(CONDUCTIVITY));
             return [k.clone(), k.clone(), k];
         };
         let [x, y, z] = list.as_slice() else {

@@ -66,7 +66,7 @@ impl<'a> Elaboration<'a> {
         };
         let place = Place { owner: &fields.owner, key: bound.field().key(), raw };
         // without the type of what is limited nothing can be said of the unit
-        let given = ty.and_then(|ty| self.given(place, Wanted::constant(ty)));
+        let given = ty.and_then(|ty| self.given(place, Wanted::like(ty)));
         let input = given.map_or_else(|| stand_in(ty.unwrap_or(Type::ABSOLUTE_TEMPERATURE)), Given::input);
         (bound, Some(raw), input)
     }

@@ -43,9 +43,9 @@ impl<'a> Elaboration<'a> {
             self.names.hide_material(&entry.key);
             return;
         };
-        let density = self.solid_property(&fields, "density", Wanted::constant(Type::of(Dimension::DENSITY)));
-        let cp = self.solid_property(&fields, "cp", Wanted::own(Type::of(Dimension::SPECIFIC_HEAT)));
-        let k = self.solid_property(&fields, "k", Wanted::own(Type::of(Dimension::CONDUCTIVITY)));
+        let density = self.property(&fields, "density", Wanted::constant(Type::of(Dimension::DENSITY)));
+        let cp = self.property(&fields, "cp", Wanted::own(Type::of(Dimension::SPECIFIC_HEAT)));
+        let k = self.property(&fields, "k", Wanted::own(Type::of(Dimension::CONDUCTIVITY)));
         let melting = self.melting(&fields);
         let source = fields.get("source").and_then(|raw| fields.text("source", raw, &mut self.problems));
         // an unknown key may be the property that is missing

@@ -6,7 +6,6 @@ use lptn_units::{Dimension, Type};
 use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, sample, wrong_shape};
-use crate::plausible;
 use crate::raw::RawKind;
 use crate::value::{Given, Place, Wanted};
 
@@ -36,18 +35,6 @@ impl<'a> Elaboration<'a> {
             _ => {}
         }
         Some(self.given(place, wanted).map_or_else(|| stand_in(ty), Given::input))
-    }
-
-    /// As [`Elaboration::property`], with a warning if no solid has such a value.
-    pub(crate) fn solid_property(&mut self, fields: &Fields<'a>, key: &str, wanted: Wanted) -> Option<Input> {
-        let raw = fields.get(key)?;
-        let place = Place { owner: &fields.owner, key, raw };
-        if let (RawKind::String { .. }, Ok(crate::value::Text::Quantity(quantity))) =
-            (&raw.kind, place.text(wanted.ty, &self.names))
-        {
-            self.problems.extend(plausible::check(place, quantity.value));
-        }
-        self.property(fields, key, wanted)
     }
 
     /// How a material melts.

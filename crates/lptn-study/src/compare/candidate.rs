@@ -6,8 +6,8 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
 use lptn_network::{InputError, Network, Severity};
 use lptn_solve::{
-    Control, End, NodeSummary, OutputTimes, Progress, Record, Solution, SteadyError, SteadyState, Summary,
-    Transient, TransientError, Unsolved,
+    Beyond, Control, End, NodeSummary, OutputTimes, Progress, Record, Solution, SteadyError, SteadyState,
+    Summary, Transient, TransientError, Unsolved,
 };
 
 use crate::compare::limits::{self, LimitResult};
@@ -41,6 +41,8 @@ pub struct Candidate {
     pub capacity: f64,
     /// Mass of all nodes in kg; `None` where that of a node with capacity is not known.
     pub mass: Option<f64>,
+    /// A temperature that nothing real has.
+    pub beyond: Option<Beyond>,
 }
 
 /// Why a candidate has no results.
@@ -152,6 +154,7 @@ impl Candidate {
             shares: shares(network, &steady.boundary_heat),
             capacity: capacity(network),
             mass: mass(network),
+            beyond: Beyond::of_steady(network, &steady),
         })
     }
 
@@ -185,6 +188,7 @@ impl Candidate {
             shares: shares(network, &heat),
             capacity: capacity(network),
             mass: mass(network),
+            beyond: Beyond::of_run(&solution),
         })
     }
 }

@@ -5,6 +5,7 @@ mod call;
 mod check;
 mod codegen;
 mod degree;
+mod enclose;
 mod eval;
 mod fix;
 mod fold;

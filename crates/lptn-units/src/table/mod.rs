@@ -3,6 +3,7 @@
 //! All numbers are in SI units; a table knows nothing of units. [`Scope::table`](crate::Scope::table) says
 //! what its arguments and its result are.
 
+mod enclose;
 mod error;
 mod one;
 mod pchip;

@@ -16,13 +16,13 @@ use super::{Interpolation, Outside, Place, TableError, line, pchip, place};
 /// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Table1 {
-    x: Vec<f64>,
-    y: Vec<f64>,
+    pub(super) x: Vec<f64>,
+    pub(super) y: Vec<f64>,
     /// The slope at every knot; empty for straight lines.
-    slopes: Vec<f64>,
+    pub(super) slopes: Vec<f64>,
     /// The integral from the first knot to each.
     areas: Vec<f64>,
-    outside: Outside,
+    pub(super) outside: Outside,
 }
 
 impl Table1 {

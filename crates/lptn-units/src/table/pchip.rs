@@ -56,3 +56,9 @@ pub(super) fn cubic([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], [d0, d1]: [f64; 2], 
     let slope = 6.0 * t * u * (rise / width) + d0 * (u * (u - 2.0 * t)) + d1 * (t * (t - 2.0 * u));
     (value, slope)
 }
+
+/// The same piece by powers of `t` from 0 to 1, with the slopes by `t`.
+pub(super) fn powers([y0, y1]: [f64; 2], [d0, d1]: [f64; 2]) -> [f64; 4] {
+    let rise = y1 - y0;
+    [y0, d0, 3.0 * rise - 2.0 * d0 - d1, d0 + d1 - 2.0 * rise]
+}

@@ -1,0 +1,48 @@
+//! Degrees Celsius that were written as kelvin.
+
+use lptn_network::ZERO_CELSIUS;
+use lptn_units::{Quantity, format_number};
+
+use crate::diagnostic::Diagnostic;
+use crate::raw::RawKind;
+use crate::value::Place;
+
+/// Nobody who also writes degC writes a temperature below this many K, -100 degC, without a reason.
+const COLD: f64 = ZERO_CELSIUS - 100.0;
+
+/// The scales in which absolute temperatures are written.
+#[derive(Debug, Default)]
+pub(crate) struct Scales {
+    /// Whether one is in degC or degF.
+    celsius: bool,
+    /// What is said of those in K that are so cold.
+    cold: Vec<Diagnostic>,
+}
+
+impl Scales {
+    /// Notes a temperature that stands in a field.
+    pub(crate) fn note(&mut self, place: Place<'_>, quantity: &Quantity) {
+        let RawKind::String { text, .. } = &place.raw.kind else { return };
+        if !quantity.ty.absolute {
+            return;
+        }
+        let number = text.trim().strip_suffix('K').map(str::trim_end);
+        let plain = number.filter(|number| number.parse::<f64>().is_ok());
+        self.celsius |= number.is_none();
+        // absolute zero is meant: it stands for a sky that gives nothing back
+        if let Some(number) = plain.filter(|_| quantity.value > 0.0 && quantity.value < COLD) {
+            let celsius = format_number(((quantity.value - ZERO_CELSIUS) * 1e6).round() / 1e6);
+            let message = format!("{} is {} K, {celsius} degC", place.words(), format_number(quantity.value));
+            let key = if place.key.is_empty() { String::new() } else { format!("{} = ", place.key) };
+            let warning = Diagnostic::warning("netlist::cold", message)
+                .at(place.raw.span.clone(), "other temperatures of the netlist are in degC")
+                .help(format!("did you mean `{key}\"{number} degC\"`?"));
+            self.cold.push(warning);
+        }
+    }
+
+    /// A warning for each temperature that is probably meant in degC, as others are.
+    pub(crate) fn doubts(self) -> Vec<Diagnostic> {
+        if self.celsius { self.cold } else { Vec::new() }
+    }
+}

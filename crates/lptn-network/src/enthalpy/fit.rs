@@ -1,0 +1,217 @@
+//! Polynomials on panels in place of a capacity.
+//!
+//! What a panel misses is bounded by the form of the capacity over the whole of it (see [`Taylor`]), not judged at some
+//! points: a peak between them, however narrow, is met.
+
+use lptn_units::Taylor;
+
+use super::panel::{Panel, TERMS};
+
+/// Relative difference between a capacity and its polynomials.
+const ACCURACY: f64 = 1e-12;
+
+/// Width of a panel in K to begin with.
+const PANEL: f64 = 64.0;
+
+/// How near to its end a range of temperatures is followed, in K.
+const NARROWEST: f64 = 1e-6;
+
+/// Nothing is asked above this temperature in K.
+const HOTTEST: f64 = 16_384.0;
+
+/// How often a nearer edge is looked for before the capacity counts as unknown.
+const EDGES: usize = 50;
+
+/// How many panels are tried in either direction; the curve ends where they are used up. One that is smooth takes some
+/// hundreds, a jump or a kink some forty more.
+const TRIES: usize = 100_000;
+
+/// Where a panel is interpolated: the zeros of Chebyshev's polynomial of degree 9.
+const POINTS: [f64; TERMS] = [
+    -0.984_807_753_012_208,
+    -0.866_025_403_784_438_7,
+    -0.642_787_609_686_539_4,
+    -0.342_020_143_325_668_7,
+    0.0,
+    0.342_020_143_325_668_7,
+    0.642_787_609_686_539_4,
+    0.866_025_403_784_438_7,
+    0.984_807_753_012_208,
+];
+
+/// The largest absolute value on (-1, 1) of the product of all `x - point`.
+const PRODUCT: f64 = 1.0 / 256.0;
+
+/// Differences are judged relative to the capacity, but no smaller one than this part of that at the start.
+const FLOOR: f64 = 1e-6;
+
+/// A capacity over temperature in K.
+pub(crate) trait Capacity {
+    /// Its value; `None` where it has none.
+    fn at(&mut self, temperature: f64) -> Option<f64>;
+
+    /// Bounds on it and its derivatives between two temperatures.
+    fn over(&mut self, from: f64, to: f64) -> Taylor;
+}
+
+/// Why there is no curve.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum NoCurve {
+    /// The capacity is not known and positive at the start.
+    Unknown,
+    /// It changes so quickly there that it cannot be followed.
+    TooQuick,
+}
+
+/// Why a stretch is not covered.
+enum Stop {
+    /// A temperature at which the capacity is not known and positive.
+    Outside(f64),
+    /// Too many panels.
+    TooQuick,
+}
+
+pub(super) struct Fit<'a> {
+    capacity: &'a mut dyn Capacity,
+    panels: Vec<Panel>,
+    /// The least capacity that differences are judged by.
+    floor: f64,
+    /// How many panels may still be tried.
+    tries: usize,
+}
+
+impl<'a> Fit<'a> {
+    /// The panels of a capacity around a start, ascending. `stops` are temperatures at which it may bend.
+    pub(super) fn panels(
+        capacity: &'a mut dyn Capacity,
+        start: f64,
+        stops: &[f64],
+    ) -> Result<Vec<Panel>, NoCurve> {
+        let mut fit = Self { capacity, panels: Vec::new(), floor: 0.0, tries: TRIES };
+        fit.floor = FLOOR * fit.at(start).ok_or(NoCurve::Unknown)?;
+        fit.walk(start, stops, -1.0);
+        if fit.tries == 0 && fit.panels.is_empty() {
+            return Err(NoCurve::TooQuick);
+        }
+        fit.tries = TRIES;
+        fit.walk(start, stops, 1.0);
+        if fit.panels.is_empty() {
+            return Err(if fit.tries == 0 { NoCurve::TooQuick } else { NoCurve::Unknown });
+        }
+        fit.panels.sort_by(|a, b| a.from.total_cmp(&b.from));
+        Ok(fit.panels)
+    }
+
+    fn at(&mut self, temperature: f64) -> Option<f64> {
+        self.capacity.at(temperature).filter(|c| c.is_finite() && *c > 0.0)
+    }
+
+    /// Covers the temperatures from `start` on in one direction with panels, as far as the capacity is defined.
+    fn walk(&mut self, start: f64, stops: &[f64], direction: f64) {
+        let mut here = start;
+        while here > 0.0 && here < HOTTEST || here <= 0.0 && direction > 0.0 {
+            let next = (here + direction * PANEL).clamp(0.0, HOTTEST);
+            let ahead = |t: &&f64| (**t - here) * direction > 0.0 && (next - **t) * direction > 0.0;
+            let nearest = |a: &&f64, b: &&f64| ((**a - here).abs()).total_cmp(&(**b - here).abs());
+            let next = stops.iter().filter(ahead).min_by(nearest).copied().unwrap_or(next);
+            match self.stretch(here, next) {
+                Ok(()) => here = next,
+                Err(Stop::Outside(outside)) => return self.last(here, outside),
+                Err(Stop::TooQuick) => return,
+            }
+        }
+    }
+
+    /// Covers what is left up to the first temperature at which the capacity is not defined.
+    fn last(&mut self, here: f64, mut outside: f64) {
+        for _ in 0..EDGES {
+            let Some(inside) = self.edge(here, outside) else { return };
+            match self.stretch(here, inside) {
+                Err(Stop::Outside(nearer)) => outside = nearer,
+                Ok(()) | Err(Stop::TooQuick) => return,
+            }
+        }
+    }
+
+    /// Covers the temperatures between `here` and `next`, or nothing.
+    fn stretch(&mut self, here: f64, next: f64) -> Result<(), Stop> {
+        let before = self.panels.len();
+        let done = match self.at(next) {
+            Some(_) => self.cover(here.min(next), here.max(next)),
+            None => Err(Stop::Outside(next)),
+        };
+        if done.is_err() {
+            self.panels.truncate(before);
+        }
+        done
+    }
+
+    /// The last temperature between one where the capacity is defined and one where it is not.
+    fn edge(&mut self, mut inside: f64, mut outside: f64) -> Option<f64> {
+        let first = inside;
+        while (outside - inside).abs() > NARROWEST {
+            let middle = 0.5 * (inside + outside);
+            if self.at(middle).is_some() { inside = middle } else { outside = middle }
+        }
+        ((inside - first).abs() > NARROWEST).then_some(inside)
+    }
+
+    /// Adds panels from `from` to `to`, halved until it is certain that they agree with the capacity.
+    fn cover(&mut self, from: f64, to: f64) -> Result<(), Stop> {
+        self.tries = self.tries.checked_sub(1).ok_or(Stop::TooQuick)?;
+        let half = 0.5 * (to - from);
+        let mut values = [0.0; TERMS];
+        for (value, x) in values.iter_mut().zip(POINTS) {
+            let place = from + half * (1.0 + x);
+            *value = self.at(place).ok_or(Stop::Outside(place))?;
+        }
+        let bounds = self.capacity.over(from, to);
+        let terms = (bounds.degree() + 1).min(TERMS);
+        let mut capacity = interpolate(&values);
+        capacity[terms..].fill(0.0);
+        let middle = from.midpoint(to);
+        if self.is_met(&capacity, &bounds, half) {
+            self.panels.push(Panel::new((from, to), capacity, terms));
+        } else if to - from <= 4.0 * f64::EPSILON * to {
+            // hardly a number lies between the ends: each has been looked at
+            let mut mean = [0.0; TERMS];
+            mean[0] = values.iter().sum::<f64>() / values.len() as f64;
+            self.panels.push(Panel::new((from, to), mean, 1));
+        } else {
+            self.cover(from, middle)?;
+            self.cover(middle, to)?;
+        }
+        Ok(())
+    }
+
+    /// Whether a capacity is certainly positive on a panel and that of the polynomial: as its ninth derivative bounds
+    /// what an interpolation misses, or as it hardly changes.
+    fn is_met(&self, capacity: &[f64; TERMS], bounds: &Taylor, half: f64) -> bool {
+        let Some([least, most]) = bounds.range() else { return false };
+        let missed = bounds.largest(TERMS) * half.powi(9) * PRODUCT;
+        let swing: f64 = capacity[1..].iter().map(|c| c.abs()).sum();
+        let least = least.max(capacity[0] - swing - missed);
+        let enough = ACCURACY * least.max(self.floor);
+        // of a kink or jump that is left, no more than so much heat per K
+        let hidden = (most - least) * (2.0 * half).min(1.0);
+        least > 0.0 && (missed <= enough || hidden <= enough)
+    }
+}
+
+/// The polynomial through the values at [`POINTS`], by powers: Newton's divided differences, multiplied out.
+fn interpolate(values: &[f64; TERMS]) -> [f64; TERMS] {
+    let mut divided = *values;
+    for order in 1..TERMS {
+        for i in (order..TERMS).rev() {
+            divided[i] = (divided[i] - divided[i - 1]) / (POINTS[i] - POINTS[i - order]);
+        }
+    }
+    let mut powers = [0.0; TERMS];
+    for i in (0..TERMS).rev() {
+        for k in (1..TERMS).rev() {
+            powers[k] = powers[k - 1] - POINTS[i] * powers[k];
+        }
+        powers[0] = divided[i] - POINTS[i] * powers[0];
+    }
+    powers
+}

@@ -1,0 +1,106 @@
+//! Results that nothing real has: nearly always the unit of one value.
+
+use lptn_network::{ConductorId, End, Network, NodeId, SourceId};
+
+use crate::solution::Solution;
+use crate::steady::{SteadyState, just_after};
+
+/// Nothing is solid above this temperature in K, 4000 degC: tungsten melts at 3422 degC, tantalum hafnium carbide at about
+/// 3900 degC.
+const HOTTEST: f64 = 4273.15;
+
+/// Below this temperature in K, -100 degC, a node is only brought by something that is as cold.
+const COLDEST: f64 = 173.15;
+
+/// A node with a temperature that nothing real has, and what probably did it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beyond {
+    /// The node.
+    pub node: NodeId,
+    /// Its temperature in K.
+    pub temperature: f64,
+    /// When, in s; `None` in steady state.
+    pub time: Option<f64>,
+    /// The path of the network with the largest difference between its ends, in K: what keeps the heat in.
+    pub path: Option<(ConductorId, f64)>,
+    /// The source that gives it the most heat in W, whatever the sign; of any if none heats the node.
+    pub source: Option<(SourceId, f64)>,
+}
+
+/// A node, its temperature in K and the time in s.
+type Place = (NodeId, f64, Option<f64>);
+
+impl Beyond {
+    /// What a run shows, if anything: the hottest node where it is hotter than 4000 degC, or the coldest where it is colder
+    /// than -100 degC although neither a start nor a boundary is.
+    pub fn of_run(solution: &Solution) -> Option<Self> {
+        let network = solution.network();
+        let last = solution.last();
+        let rows = solution.times().iter().enumerate().flat_map(|(row, &time)| {
+            let nodes = solution.recorded().iter().zip(solution.row(row));
+            nodes.map(move |(&node, &temperature)| (node, temperature, Some(time)))
+        });
+        let peaks = solution.seen().iter().map(|seen| (seen.watch.node, seen.peak.0, Some(seen.peak.1)));
+        let ends = network.node_ids().zip(&last.temperatures).map(|(id, &t)| (id, t, Some(last.time)));
+        let mut scope = network.evaluation();
+        scope.set_time(last.time, just_after(last.time));
+        let mut boundaries = vec![f64::NAN; network.boundaries().len()];
+        network.boundary_temperatures(&mut scope, &mut boundaries).ok()?;
+        let ids = network.boundary_ids();
+        let colder = ids.flat_map(|id| solution.boundary_temperature(id)).chain(boundaries.iter().copied());
+        let place = odd(network, rows.chain(peaks).chain(ends), colder)?;
+        let temperatures: Vec<f64> = last.temperatures.iter().chain(&boundaries).copied().collect();
+        let heat = |id: SourceId| network.source_heat(id, &mut scope, &temperatures).ok();
+        let sources: Vec<Option<f64>> = network.source_ids().map(heat).collect();
+        Some(Self::beside(network, place, (&temperatures, &sources)))
+    }
+
+    /// What a steady state shows, if anything: as [`Beyond::of_run`].
+    pub fn of_steady(network: &Network, steady: &SteadyState) -> Option<Self> {
+        let nodes = network.node_ids().zip(&steady.temperatures).map(|(id, &t)| (id, t, None));
+        let boundaries = &steady.boundary_temperatures;
+        let place = odd(network, nodes, boundaries.iter().copied())?;
+        let temperatures: Vec<f64> = steady.temperatures.iter().chain(boundaries).copied().collect();
+        let sources: Vec<Option<f64>> = steady.source_heat.iter().map(|heat| Some(*heat)).collect();
+        Some(Self::beside(network, place, (&temperatures, &sources)))
+    }
+
+    fn beside(
+        network: &Network,
+        (node, temperature, time): Place,
+        (temperatures, heat): (&[f64], &[Option<f64>]),
+    ) -> Self {
+        let at = |end: End| temperatures[network.vertex(end)];
+        let paths = network.conductor_ids().zip(network.conductors());
+        let paths = paths.map(|(id, conductor)| (id, (at(conductor.from) - at(conductor.to)).abs()));
+        let largest = |a: &(SourceId, f64), b: &(SourceId, f64)| a.1.abs().total_cmp(&b.1.abs());
+        let sources = || network.source_ids().zip(heat).filter_map(|(id, heat)| Some((id, (*heat)?)));
+        let heats = |id: SourceId| network.sources()[id.index()].into.iter().any(|(into, _)| *into == node);
+        let source = sources().filter(|(id, _)| heats(*id)).max_by(largest);
+        Self {
+            node,
+            temperature,
+            time,
+            path: paths.max_by(|a, b| a.1.total_cmp(&b.1)),
+            source: source.or_else(|| sources().max_by(largest)),
+        }
+    }
+}
+
+/// The hottest or the coldest, where nothing real is as hot, or nothing else that cold. `others` are the temperatures of
+/// boundaries in K.
+fn odd(
+    network: &Network,
+    places: impl Iterator<Item = Place>,
+    others: impl Iterator<Item = f64>,
+) -> Option<Place> {
+    let (mut hottest, mut coldest): (Option<Place>, Option<Place>) = (None, None);
+    for place in places.filter(|place| place.1.is_finite()) {
+        hottest = hottest.filter(|known| known.1 >= place.1).or(Some(place));
+        coldest = coldest.filter(|known| known.1 <= place.1).or(Some(place));
+    }
+    let starts = network.node_ids().map(|id| network.initial(id));
+    let cold_anyway = || others.chain(starts).any(|t| t < COLDEST);
+    let hot = hottest.filter(|place| place.1 > HOTTEST);
+    hot.or_else(|| coldest.filter(|place| place.1 < COLDEST).filter(|_| !cold_anyway()))
+}

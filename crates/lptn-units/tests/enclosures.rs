@@ -1,0 +1,164 @@
+//! Bounds on expressions hold everywhere, and their Taylor coefficients are those of the published series.
+
+use std::sync::Arc;
+
+use lptn_units::{
+    Dimension, Dual, Expression, Interpolation, Outside, Program, Scope, Symbol, Table, Table1, Table2,
+    TableSymbol, Taylor, Type,
+};
+
+/// `x` in slot 0, `a` in slot 1, and three tables.
+struct Names;
+
+impl Scope for Names {
+    fn symbol(&self, name: &str) -> Option<Symbol> {
+        let slot = ["x", "a"].iter().position(|known| *known == name)?;
+        Some(Symbol { slot: u32::try_from(slot).unwrap(), ty: Type::SCALAR, in_comparison: None })
+    }
+
+    fn names(&self) -> Vec<String> {
+        vec!["x".into(), "a".into()]
+    }
+
+    fn table(&self, name: &str) -> Option<TableSymbol> {
+        let (x, y) = (vec![-4.0, -1.0, 0.5, 2.0, 5.0], vec![3.0, 1.0, 1.0, -2.0, 7.0]);
+        let table = match name {
+            "lines" => Table::One(Table1::new(x, y, Interpolation::Linear, Outside::Hold).unwrap()),
+            "smooth" => Table::One(Table1::new(x, y, Interpolation::Pchip, Outside::Error).unwrap()),
+            "map" => {
+                let values = vec![0.0, 4.0, -1.0, 10.0, 16.0, 3.0];
+                Table::Two(Table2::new(vec![0.0, 1.0], vec![-1.0, 0.0, 2.0], values, Outside::Hold).unwrap())
+            }
+            _ => return None,
+        };
+        let arguments = vec![Type::of(Dimension::NONE); table.dimension()];
+        Some(TableSymbol { table: Arc::new(table), arguments, ty: Type::SCALAR })
+    }
+}
+
+fn program(text: &str) -> Program {
+    Expression::parse(text).unwrap().compile(&Names, None).unwrap()
+}
+
+const A: f64 = 0.7;
+
+fn over(text: &str, from: f64, to: f64) -> Taylor {
+    program(text).enclose(0, [from, to], &[f64::NAN, A])
+}
+
+/// Value and slope at a number.
+fn at(program: &Program, x: f64) -> Option<Dual<1>> {
+    let slots = [Dual::variable(x, 0), Dual::constant(A)];
+    program.eval(&slots, &mut Vec::new()).ok()
+}
+
+const EXPRESSIONS: [&str; 24] = [
+    "x",
+    "3 - 2 * x + x^2 - 0.1 * x^3",
+    "a * x^4 - x^5",
+    "1 / (x - 6)",
+    "x / (1 + x^2)",
+    "(x - 1) / (x^2 + a)",
+    "exp(-0.5 * ((x - 1.3) / 0.2)^2)",
+    "ln(x + 5)",
+    "sqrt(x^2 + 1)",
+    "sqrt(x + 4)",
+    "(x + 4.5)^1.7 + (x + 4.5)^-0.3",
+    "(x^2 + 1)^a",
+    "a^x",
+    "sin(3 * x) * cos(x - 2)",
+    "tanh(5 * (x - 0.2))",
+    "abs(x - 0.5) + abs(sin(x))",
+    "min(x, 1, 2 - x) + max(x, a)",
+    "if(x < 0.9, x^2, 3 - x)",
+    "if(x >= 0.9, if(x == 2, 5, x), -x)",
+    "lines(x) + lines(2 * x - 1)",
+    "smooth(0.9 * x)",
+    "map(x / 4, x - 1) + map(a, x)",
+    "x^-2 + 1 / x",
+    "mean(x, 2 * x, a)^6",
+];
+
+#[test]
+fn every_value_and_slope_lies_within_the_bounds() {
+    for text in EXPRESSIONS {
+        let program = program(text);
+        for (from, width) in
+            [-4.0, -1.1, -0.3, 0.4, 0.89, 1.9, 3.5].iter().flat_map(|f| [(*f, 0.01), (*f, 0.3), (*f, 1.2)])
+        {
+            let bounds = program.enclose(0, [from, from + width], &[f64::NAN, A]);
+            for i in 0..=50 {
+                let x = from + width * f64::from(i) / 50.0;
+                let found = at(&program, x);
+                let Some([low, high]) = bounds.range() else { continue };
+                let found = found.unwrap_or_else(|| panic!("{text} has no value at {x}, but bounds"));
+                let slack = 1e-12 * (1.0 + found.value.abs());
+                assert!(
+                    low - slack <= found.value && found.value <= high + slack,
+                    "{text} at {x}: {low} {found:?} {high}"
+                );
+                if i == 0 || i == 50 {
+                    continue; // a kink at an end has its slope from outside
+                }
+                let steepest = bounds.largest(1) * (1.0 + 1e-9) + 1e-12;
+                assert!(found.derivatives[0].abs() <= steepest, "{text} at {x}: {found:?}, {steepest}");
+            }
+        }
+    }
+}
+
+/// Halving an interval often enough bounds every smooth function as narrowly as is asked.
+#[test]
+fn bounds_close_in_on_the_function() {
+    for text in EXPRESSIONS {
+        let program = program(text);
+        let x = 1.234_567;
+        let bounds = program.enclose(0, [x, x + 1e-9], &[f64::NAN, A]);
+        let [low, high] = bounds.range().unwrap_or_else(|| panic!("{text}"));
+        assert!(high - low < 1e-6, "{text}: {low} {high}");
+        for order in 0..=Taylor::ORDER {
+            assert!(bounds.largest(order).is_finite(), "{text}: order {order}");
+        }
+    }
+}
+
+/// The Maclaurin series, as in Abramowitz and Stegun 3.6.8, 4.1.24, 4.2.1, 4.3.65, 4.3.66 and 4.5.64.
+#[test]
+fn coefficients_are_those_of_the_series() {
+    let factorial = |k: usize| (1..=k).map(|i| i as f64).product::<f64>();
+    let odd = |k: usize| k % 2 == 1;
+    let binomial = |k: usize| (0..k).map(|i| (0.5 - i as f64) / (i as f64 + 1.0)).product::<f64>().abs();
+    let tanh = [0.0, 1.0, 0.0, 1.0 / 3.0, 0.0, 2.0 / 15.0, 0.0, 17.0 / 315.0, 0.0, 62.0 / 2835.0];
+    for k in 0..=Taylor::ORDER {
+        let cases = [
+            ("exp(x)", 1.0 / factorial(k)),
+            ("ln(1 + x)", if k == 0 { 0.0 } else { 1.0 / k as f64 }),
+            ("sin(x)", if odd(k) { 1.0 / factorial(k) } else { 0.0 }),
+            ("cos(x)", if odd(k) { 0.0 } else { 1.0 / factorial(k) }),
+            ("1 / (1 + x)", 1.0),
+            ("sqrt(1 + x)", binomial(k)),
+            ("tanh(x)", tanh[k]),
+            ("(2 + x)^3", [8.0, 12.0, 6.0, 1.0].get(k).copied().unwrap_or(0.0)),
+        ];
+        for (text, right) in cases {
+            let found = over(text, 0.0, 0.0).largest(k);
+            assert!((found - right).abs() < 1e-14, "{text}, order {k}: {found}, not {right}");
+        }
+    }
+}
+
+#[test]
+fn what_may_have_no_value_has_no_bounds() {
+    for text in ["1 / x", "ln(x)", "sqrt(x)", "x^0.5", "x^-1", "smooth(5 * x)", "0 * sqrt(x)"] {
+        assert_eq!(over(text, -1.0, 1.5).range(), None, "{text}");
+    }
+}
+
+#[test]
+fn the_degree_is_that_of_the_polynomial() {
+    for (text, degree) in
+        [("a", 0), ("2 * x + a", 1), ("x^2 * x", 3), ("lines(x)", 1), ("smooth(x)", 3), ("exp(x)", 9)]
+    {
+        assert_eq!(over(text, 0.6, 1.0).degree(), degree, "{text}");
+    }
+}
