@@ -76,13 +76,36 @@ fn every_toml_block_parses() {
             };
             let place = format!("{}:{line}", page.display());
             // CSV files are looked for beside the page
-            if let Err(error) = lptn::netlist::parse_file(Path::new(&place), netlist.as_bytes()) {
-                panic!("{place}\n{netlist}\n{error}");
+            match lptn::netlist::parse_file(Path::new(&place), netlist.as_bytes()) {
+                Err(error) => panic!("{place}\n{netlist}\n{error}"),
+                Ok(read) => expands(&read, Path::new(&place)),
             }
             count += 1;
         }
     }
     assert!(count >= 6, "only {count} blocks were found");
+}
+
+/// The expansion of a netlist is read as the same network, written as the same text, and runs to the same temperatures.
+fn expands(netlist: &lptn::netlist::Netlist, place: &Path) {
+    if netlist.not_flat().is_some() {
+        return;
+    }
+    let text = netlist.expanded();
+    let again = lptn::netlist::prove(&text, place, &netlist.network, (0.0, 3600.0));
+    let again = again.unwrap_or_else(|error| panic!("{}\n{text}\n{error}", place.display()));
+    assert_eq!(again.expanded(), text, "{}", place.display());
+    let end = |netlist: &lptn::netlist::Netlist| {
+        let system = lptn::prelude::ThermalSystem::assemble(&netlist.network).expect("it assembles");
+        netlist.run.as_ref()?;
+        let solution = support::transient(netlist).solve(&system).expect("it runs");
+        Some(solution.row(solution.times().len() - 1).to_vec())
+    };
+    let (found, expected) = (end(&again).unwrap_or_default(), end(netlist).unwrap_or_default());
+    assert_eq!(found.len(), expected.len(), "{}", place.display());
+    for (found, expected) in found.iter().zip(&expected) {
+        assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{}: {found} {expected}", place.display());
+    }
 }
 
 #[test]

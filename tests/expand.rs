@@ -35,6 +35,15 @@ fn steady_states_and_runs_are_the_same_to_the_last_digit() {
             continue;
         }
         let (again, flat) = expanded(&name, &netlist.expanded());
+        assert_eq!(again.expanded(), netlist.expanded(), "{name}");
+        if let Err(error) = lptn::netlist::prove(
+            &netlist.expanded(),
+            &networks().join(&name),
+            &netlist.network,
+            (0.0, 3600.0),
+        ) {
+            panic!("{name}: {error}");
+        }
         let steady = |system: &ThermalSystem| {
             SteadyState::solve(system, 0.0).map(|s| bits(&s.temperatures)).map_err(|error| error.code())
         };

@@ -1,5 +1,7 @@
 //! `lptn check`
 
+use std::path::Path;
+
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files, Netlist, Severity};
 use lptn_network::{Item, Network, NodeId, list_of_names};
@@ -16,6 +18,7 @@ use crate::input::{self, Input, Text};
 use crate::lumping;
 use crate::select;
 use crate::summary::{count, counts};
+use crate::written::proven;
 use lptn_report::{JsonWriter, WIDTH, duration, labelled, significant};
 
 pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure> {
@@ -53,7 +56,8 @@ fn expand(text: &Text, set: &[String], console: &Console) -> Result<Exit, Failur
     if let Some(problem) = netlist.not_flat() {
         return Err(Failure::at(Exit::No, netlist.files, problem));
     }
-    console.print(&netlist.expanded())
+    let flat = netlist.expanded();
+    console.print(&proven(flat, Path::new(&text.name), &netlist.network, netlist.run.as_ref())?)
 }
 
 /// Nodes that no path ties to a boundary: a path that was left out looks like this.

@@ -28,7 +28,6 @@ mod limits;
 mod lumping;
 mod materials;
 mod modes;
-mod netlist_text;
 mod new;
 mod next;
 mod outcome;
@@ -57,6 +56,7 @@ mod uncertainty_text;
 mod units;
 mod verify;
 mod window_text;
+mod written;
 
 use std::process::ExitCode;
 

@@ -3,7 +3,7 @@
 use std::io::ErrorKind;
 use std::path::PathBuf;
 
-use lptn_netlist::Diagnostic;
+use lptn_netlist::{Diagnostic, parse_bytes};
 
 use crate::args::NewArgs;
 use crate::console::Console;
@@ -11,6 +11,7 @@ use crate::exit::Exit;
 use crate::failure::{Failure, reason};
 use crate::files;
 use crate::input::quoted;
+use crate::written::proven;
 
 const TEMPLATE: &str = include_str!("new.toml");
 
@@ -27,6 +28,8 @@ pub(crate) fn new(args: &NewArgs, console: &Console) -> Result<Exit, Failure> {
     }
     let typed = quoted(&path.display().to_string());
     let text = TEMPLATE.replace("FILE", &typed).replace("NAME", &name);
+    let network = parse_bytes(&path.display().to_string(), text.as_bytes())?.network;
+    let text = proven(text, &path, &network, None)?;
     files::write_new(&path, &text).map_err(|error| cannot_write(&path, &error))?;
     console.print(&format!("wrote {}: a motor with a winding and a housing in a room\n", path.display()))?;
     console.note(&format!("next   lptn run {typed}"));

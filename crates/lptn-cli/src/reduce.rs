@@ -4,7 +4,7 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use lptn_assembly::ThermalSystem;
-use lptn_netlist::Diagnostic;
+use lptn_netlist::{Derived, Diagnostic};
 use lptn_network::{Field, Item};
 use lptn_reduce::{Bias, Definition, FitError, Options, Pair, ReduceError, Reduction, port};
 use lptn_report::{plain, significant, write_csv};
@@ -16,7 +16,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
 use crate::input::{self, Input, quoted};
-use crate::{files, netlist_text, reduce_json, reduce_text};
+use crate::{files, reduce_json, reduce_text, written};
 
 pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
@@ -66,7 +66,7 @@ impl View<'_> {
 
     fn show(&self, console: &Console) -> Result<(), Failure> {
         if let Some(path) = &self.args.write {
-            write_new(path, &self.netlist()?)?;
+            write_new(path, &self.netlist(Some(path))?)?;
         }
         match self.args.format {
             ReduceFormat::Table => console.print(&reduce_text::text(self, console)).map(drop)?,
@@ -76,7 +76,7 @@ impl View<'_> {
                 self.notes().iter().for_each(|note| console.note(&format!("note: {note}")));
             }
             ReduceFormat::Json => console.write(|out| reduce_json::write(self, out))?,
-            ReduceFormat::Toml => console.print(&self.netlist()?).map(drop)?,
+            ReduceFormat::Toml => console.print(&self.netlist(None)?).map(drop)?,
         }
         if let Some(path) = &self.args.write {
             let path = path.display();
@@ -90,8 +90,8 @@ impl View<'_> {
         Ok(())
     }
 
-    /// The one-node network as a netlist that runs.
-    fn netlist(&self) -> Result<String, Failure> {
+    /// The one-node network as a netlist that runs where it is going to stand, or beside the whole one.
+    fn netlist(&self, place: Option<&Path>) -> Result<String, Failure> {
         let run = self.input.netlist.run.as_ref();
         let start = run.map_or(0.0, |run| run.start);
         let pair = self.pair();
@@ -99,7 +99,10 @@ impl View<'_> {
         let network = network.map_err(|error| failed(self.input, self.args, &error))?;
         let title = self.input.netlist.network.title().map_or(self.input.text.stem.clone(), plain);
         let title = format!("{title}, seen from {}", self.args.port);
-        Ok(self.comment() + &netlist_text::netlist(&network, &title, run))
+        let folder = place.map(|place| place.parent().unwrap_or(Path::new("")));
+        let made = Derived { network: &network, title: &title, run, folder };
+        let text = self.comment() + &self.input.netlist.derived(&made);
+        written::proven(text, place.unwrap_or(Path::new(&self.input.text.name)), &network, run)
     }
 
     fn comment(&self) -> String {

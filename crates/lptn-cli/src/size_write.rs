@@ -14,6 +14,7 @@ use crate::files::Folder;
 use crate::input::Input;
 use crate::size::Answer;
 use crate::size_text::rounded;
+use crate::written::with_numbers;
 
 /// Digits that are tried, the fewest first.
 const DIGITS: std::ops::RangeInclusive<usize> = 6..=17;
@@ -67,11 +68,11 @@ fn is_protected(file: &str) -> bool {
 }
 
 pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Result<(), Failure> {
-    let Some((number, text)) = proven(answer) else {
+    let Some(number) = proven(answer) else {
         let problem = Diagnostic::error("size::write", "no number of 17 digits keeps what is required");
         return Err(Failure::new(Exit::Failed, problem));
     };
-    put(file, &text)?;
+    put(file, &with_numbers(answer.input, &[(answer.parameter, number.clone())])?)?;
     let unit = if answer.unit.text == "1" { String::new() } else { format!(" {}", answer.unit.text) };
     console.note(&format!("wrote  {}: {} = {number}{unit}", file.display(), answer.study.parameter));
     Ok(())
@@ -104,8 +105,8 @@ fn cannot_write(file: &Path, why: &str) -> Failure {
     Failure::new(Exit::Failed, Diagnostic::error("output::cannot_write", message))
 }
 
-/// The number with the fewest digits whose netlist, read again from its text, keeps every requirement; and that text.
-fn proven(answer: &Answer<'_>) -> Option<(String, String)> {
+/// The number with the fewest digits whose netlist, read again from its text, keeps every requirement.
+fn proven(answer: &Answer<'_>) -> Option<String> {
     let netlist = &answer.input.netlist;
     let written = netlist.written_number(answer.parameter)?;
     let value = answer.unit.from_si(answer.sizing.trial.value);
@@ -114,7 +115,7 @@ fn proven(answer: &Answer<'_>) -> Option<(String, String)> {
         let number = Shortest::new().text(rounded(value, digits, up)).to_owned();
         let text = netlist.text_with_number(&written, &number);
         let again = parse_file(Path::new(&answer.input.text.name), text.as_bytes()).ok()?;
-        keeps(answer, &again)?.then_some((number, text))
+        keeps(answer, &again)?.then_some(number)
     })
 }
 

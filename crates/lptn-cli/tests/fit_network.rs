@@ -145,6 +145,30 @@ fn columns_measure_temperatures() {
     assert!(run.err.contains("fit::observed"), "{}", run.err);
 }
 
+/// An offset in a column that starts at 0 was read as if it were not there, and then sought without any effect.
+#[test]
+fn regression_a_parameter_in_a_column_does_not_vanish_when_it_is_zero() {
+    let own = format!("{OWN}\no1 = \"0 K\"\nshare = 0.5");
+    let folder = Folder::empty();
+    folder.write("record.csv", &record(67.2, 810.0));
+    let columns = [
+        "body.T + o1",
+        "body.T + 0 * o1",
+        "body.T + share * (body.T - body.T)",
+        "if(body.T > 900 [degC], body.T + 5 [K], body.T)",
+        "body.T + o1 * sin(t / 1 [s])",
+        "air.T",
+        "max(body.T, body.T)",
+    ];
+    for column in columns {
+        let text = netlist(&own, "vary = [\"P\", \"R\"]").replace("\"body.T\"", &format!("\"{column}\""));
+        folder.write("body.toml", &text);
+        let run = folder.run(&["fit", "network", "body.toml"]).exits(2);
+        assert!(run.err.contains("fit::observed") && run.err.contains("ring ="), "{column}: {}", run.err);
+        assert!(run.err.contains("mean(steel.T, bed.T)"), "{column}: {}", run.err);
+    }
+}
+
 /// The power leaps up where G passes 3.2 W/K, before the misfit has its minimum: there is none.
 #[test]
 fn a_search_that_finds_no_minimum_exits_3_and_prints_no_value() {

@@ -31,6 +31,12 @@ fn message(error: &BuildError, map: &SourceMap) -> String {
             (a, b) if a == b => format!("two {a}s are named `{name}`"),
             (a, b) => format!("the name `{name}` is taken twice: by a {a} and by a {b}"),
         },
+        Kind::NameInside { item, whole } if matches!(whole, Item::Grid(_)) => {
+            format!("{} has a name that belongs to a grid, as those of its cells and faces do", words(*item))
+        }
+        Kind::NameInside { item, whole } => {
+            format!("{} has the name of a result: that of a {}", words(*item), map.kind(*whole))
+        }
         Kind::BadName { item } => format!("{} has a name that cannot be used", words(*item)),
         Kind::ReservedName { item } => {
             format!("{} has a name with a meaning of its own in expressions", words(*item))
@@ -183,6 +189,10 @@ fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagno
             Some((first, second)) => diagnostic.at(second, "named again").also(first, "first named here"),
             None => diagnostic,
         },
+        Kind::NameInside { item, whole } => {
+            let grid = if matches!(whole, Item::Grid(_)) { "the grid" } else { "the element" };
+            also(at(diagnostic, map.name(*item), "named here"), map.name(*whole), grid)
+        }
         Kind::FloatingIsland { nodes, .. } => island(diagnostic, nodes, map),
         Kind::Evaluation { item, field, error } => match map.part(*item, *field, &error.span()) {
             Some(span) => diagnostic.at(span, ""),
@@ -266,6 +276,10 @@ fn help(error: &BuildError) -> Option<String> {
                 _ => "nodes and elements",
             };
             format!("rename one of them, for example `{}_2`; {kinds} share one set of names", error.name)
+        }
+        Kind::NameInside { .. } => {
+            let free = error.name.replace(['.', '[', ','], "_").replace(']', "");
+            format!("rename one of them, for example `{free}`")
         }
         Kind::NotPositive { field, value, .. } if value.is_nan() || value.is_infinite() => match field {
             Field::Resistance => "leave the path out if no heat flows through it".into(),

@@ -72,6 +72,7 @@ mod vocabulary;
 mod write_back;
 
 pub use diagnostic::{Diagnostic, Label, Severity};
+pub use expand::{Derived, WrittenError, prove};
 pub use file::{FileId, Files, Span};
 pub use fit::{FitPlan, FitRecord, FitStudy, Observed, Varied, VariedName};
 pub use include::Loader;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use lptn_units::{Dimension, Expression, Program, RESERVED, TableSymbol, Type, UnitError};
 
 use crate::check;
+use crate::clash;
 use crate::element::{Boundary, Capacitor, ConductorKind, Node, Parameter, Source};
 use crate::error::{BuildError, BuildErrorKind, BuildErrors};
 use crate::grid;
@@ -274,6 +275,7 @@ impl NetworkBuilder {
             return Err(BuildErrors(self.errors)); // nothing else can be looked up
         }
         check::structure(&self.parts, &mut self.errors);
+        clash::names(&self.parts, &mut self.errors);
         grid::collapse(&self.parts, &mut self.errors);
         self.parts.settle();
         self.parts.settle_grid_values();

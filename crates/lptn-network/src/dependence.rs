@@ -3,7 +3,10 @@
 use crate::control::Control;
 use crate::element::{Conductor, Source};
 use crate::id::{ConductorId, End, Item, SignalId};
+use lptn_units::Degree;
+
 use crate::layout::{Holds, slot};
+use crate::network::Network;
 use crate::parts::Parts;
 use crate::value::Value;
 
@@ -51,6 +54,19 @@ impl Dependence {
             self.vertices.len() - 1
         });
         self.named.push((parts.layout.temperature(end), position));
+    }
+}
+
+impl Network {
+    /// Whether a result reads temperatures of nodes, and means of grids, and nothing else, each in the first degree at
+    /// most. That is told from its code and not from its numbers: a parameter that happens to be 0 is read all the same.
+    pub fn reads_node_temperatures_only(&self, result: &Value) -> bool {
+        let is_node = |slot: &u32| {
+            matches!(self.parts.layout.holds(*slot), Holds::Temperature(End::Node(_)) | Holds::Grid(_))
+        };
+        let affine =
+            |slot: &u32| result.programs().iter().all(|program| program.degree_in(*slot) <= Degree::Affine);
+        result.slots().iter().all(|slot| is_node(slot) && affine(slot))
     }
 }
 

@@ -44,6 +44,13 @@ pub enum BuildErrorKind {
         /// The item that took it again.
         second: Item,
     },
+    /// A name that stands for something inside another item, or for one of its results.
+    NameInside {
+        /// The item with this name.
+        item: Item,
+        /// The grid or element whose part or result has it.
+        whole: Item,
+    },
     /// A name that is not `[A-Za-z_][A-Za-z0-9_]*`.
     BadName {
         /// The item.
@@ -344,7 +351,7 @@ impl BuildError {
     pub fn code(&self) -> &'static str {
         use BuildErrorKind as K;
         match &self.kind {
-            K::DuplicateName { .. } => "network::duplicate_name",
+            K::DuplicateName { .. } | K::NameInside { .. } => "network::duplicate_name",
             K::BadName { .. } => "network::bad_name",
             K::ReservedName { .. } => "network::reserved_name",
             K::WrongType { .. } => "network::wrong_type",

@@ -8,9 +8,10 @@ impl BuildError {
     pub fn place(&self) -> Option<(Item, Field)> {
         use BuildErrorKind as K;
         Some(match self.kind {
-            K::DuplicateName { second: item, .. } | K::BadName { item } | K::ReservedName { item } => {
-                (item, Field::Name)
-            }
+            K::DuplicateName { second: item, .. }
+            | K::NameInside { item, .. }
+            | K::BadName { item }
+            | K::ReservedName { item } => (item, Field::Name),
             K::WrongType { item, field, .. }
             | K::NotPositive { item, field, .. }
             | K::Negative { item, field, .. }

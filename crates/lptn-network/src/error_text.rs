@@ -226,6 +226,11 @@ impl fmt::Display for BuildError {
         let name = &self.name;
         match &self.kind {
             K::DuplicateName { .. } => write!(f, "the name `{name}` is taken twice"),
+            K::NameInside { whole, .. } => {
+                let what =
+                    if matches!(whole, crate::id::Item::Grid(_)) { "a grid" } else { "another element" };
+                write!(f, "the name `{name}` is taken by a part or a result of {what}")
+            }
             K::BadName { .. } => write!(f, "`{name}` is not a name"),
             K::ReservedName { .. } => write!(f, "`{name}` has a meaning of its own in expressions"),
             K::WrongType { field, wanted, found, .. } => {

@@ -11,6 +11,7 @@ mod breakpoints;
 mod builder;
 mod check;
 mod checks;
+mod clash;
 mod conductances;
 mod control;
 mod curves;

@@ -125,6 +125,23 @@ pub enum UnitErrorKind {
         /// The string with a deviation in degrees.
         fix: Option<String>,
     },
+    /// A deviation in percent that reads in two ways: `0.8 ± 5 %`, `80 % ± 5 %`, `220 ± 5 % W`.
+    PercentDeviation {
+        /// The string if the percentage is one of the same kind as the value, with numbers that say so.
+        points: String,
+        /// The string if it is a part of the value.
+        part: String,
+    },
+    /// A deviation without a unit behind a value that has one: `5 kW ± 1`.
+    BareDeviation {
+        /// The string with one unit for both.
+        fix: String,
+    },
+    /// A fraction in the place of a number: `3/8 in`, `1 1/2 in`.
+    Fraction {
+        /// The string with the number that the fraction is.
+        fix: String,
+    },
     /// `2 * m` while `m` is both a unit and a parameter.
     TwoReadings {
         /// The name that is both.

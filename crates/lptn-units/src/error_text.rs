@@ -26,6 +26,9 @@ pub(crate) fn code(kind: &Kind) -> &'static str {
         Kind::BelowAbsoluteZero { .. } => "units::below_absolute_zero",
         Kind::NegativeDeviation { .. } => "units::negative_deviation",
         Kind::RelativeDeviation { .. } => "units::relative_deviation",
+        Kind::PercentDeviation { .. } => "units::percent_deviation",
+        Kind::BareDeviation { .. } => "units::bare_number",
+        Kind::Fraction { .. } => "units::fraction",
         Kind::TwoReadings { .. } => "units::two_readings",
         Kind::UnbracketedUnit { .. } => "units::unbracketed_unit",
         Kind::MisplacedBracket { .. } => "units::misplaced_bracket",
@@ -105,6 +108,9 @@ fn text_message(kind: &Kind) -> String {
         Kind::Exponent { text } => format!("exponent `{text}` cannot be used"),
         Kind::NegativeDeviation { text } => format!("negative standard deviation `{text}`"),
         Kind::RelativeDeviation { .. } => "percentage of an absolute temperature".to_owned(),
+        Kind::PercentDeviation { .. } => "a deviation in percent that reads in two ways".to_owned(),
+        Kind::BareDeviation { .. } => "the deviation has no unit, but the value has one".to_owned(),
+        Kind::Fraction { .. } => "fraction in the place of a number".to_owned(),
         Kind::TwoReadings { name, .. } => {
             format!("`{name}` is a unit and also a parameter, so that this reads in two ways")
         }
@@ -135,7 +141,12 @@ pub(crate) fn help(kind: &Kind) -> Option<String> {
         | Kind::VariableExponent { fix, .. }
         | Kind::TruthValue { fix }
         | Kind::TruthWanted { fix }
+        | Kind::BareDeviation { fix }
+        | Kind::Fraction { fix }
         | Kind::NotATable { fix, .. } => Some(write(fix)),
+        Kind::PercentDeviation { points, part } => {
+            Some(format!("write \"{part}\" for a part of the value, or \"{points}\" for percentage points"))
+        }
         Kind::AmbiguousProduct { fix } | Kind::RelativeDeviation { fix } => fix.as_deref().map(write),
         Kind::DigitGroups { fix } => {
             Some(fix.as_deref().map_or_else(|| "write the digits without separators".to_owned(), write))
@@ -163,6 +174,7 @@ pub(crate) fn help(kind: &Kind) -> Option<String> {
         }),
         Kind::Dimension { wanted, fix, .. } => Some(match fix {
             Some(fix) => write(fix),
+            None if wanted.is_scalar() => "the value must come out without a unit".to_owned(),
             None => format!("the value must come out in {}", wanted.usual_unit()),
         }),
         Kind::Rotation { fix } => Some(match fix {

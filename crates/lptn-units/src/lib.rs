@@ -18,6 +18,7 @@
 //! # Ok::<(), lptn_units::UnitError>(())
 //! ```
 
+mod deviation;
 mod dimension;
 mod dual;
 mod error;

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::deviation::{self, Deviation};
 use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind};
 use crate::format::{number, rounded};
@@ -22,12 +23,13 @@ pub struct Quantity {
     pub ty: Type,
 }
 
-/// Reads a quantity: `0.3 K/W`, `87 ± 15 uW/rpm^(5/3)`, `20 +- 5 % W`, `25.5 degC`, `0.7`.
+/// Reads a quantity: `0.3 K/W`, `87 ± 15 uW/rpm^(5/3)`, `20 W +- 5 %`, `25.5 degC`, `0.7`.
 ///
 /// `expected` is the type of the field, where it is known; the quantity must then be of this type, or have
 /// exactly one radian more (see [`Type::conforms_to`]). `300 K` is an absolute temperature only where one is
 /// expected. The deviation stands after the number (`25 ± 0.5 degC`) or, with a unit of its own, at the
-/// end (`25 degC ± 0.5 K`); `± 5 %` is always relative to the value.
+/// end (`25 degC ± 0.5 K`); behind a unit `± 5 %` is relative to the value. `50 ± 5 %` is `0.5 ± 0.05`, as for
+/// every other unit.
 ///
 /// # Errors
 ///
@@ -68,18 +70,10 @@ pub fn written_quantity(text: &str) -> Option<WrittenQuantity> {
 /// A quantity as written, before its type is settled.
 #[derive(Debug)]
 pub(crate) struct Reading<'a> {
-    text: &'a str,
-    number: Number,
-    deviation: Option<Deviation>,
-    unit: Option<(ParsedUnit, Range<usize>)>,
-}
-
-#[derive(Debug)]
-struct Deviation {
-    number: Number,
-    percent: bool,
-    /// A unit of its own: scale and dimension.
-    unit: Option<(f64, Dimension)>,
+    pub(crate) text: &'a str,
+    pub(crate) number: Number,
+    pub(crate) deviation: Option<Deviation>,
+    pub(crate) unit: Option<(ParsedUnit, Range<usize>)>,
 }
 
 /// Reads the text without a look at the type.
@@ -91,14 +85,15 @@ pub(crate) fn read(text: &str) -> Result<Reading<'_>, UnitError> {
     }
     let Some(number) = number::scan(text, start, true)? else { return Err(no_number(text, start..end)) };
     separators::check(text, &number)?;
+    separators::check_fraction(text, &number)?;
     let after_number = number.span.end;
-    let (mut deviation, unit_start) = deviation(text, after_number)?;
+    let (mut deviation, unit_start) = deviation::leading(text, after_number)?;
     let mut unit_end = end;
     if deviation.is_none()
-        && let Some(at) = plus_minus(text, unit_start)
+        && let Some(at) = deviation::plus_minus(text, unit_start)
     {
         unit_end = at.start;
-        deviation = Some(trailing_deviation(text, at.end)?);
+        deviation = Some(deviation::trailing(text, at.end)?);
     }
     let unit = unit_at(text, unit_start..unit_end)?;
     let reading = Reading { text, number, deviation, unit };
@@ -117,55 +112,23 @@ fn no_number(text: &str, span: Range<usize>) -> UnitError {
     UnitError::new(UnitErrorKind::Syntax { wanted: "a number", found }, span)
 }
 
-const PLUS_MINUS: [&str; 3] = ["±", "+/-", "+-"];
-
-/// The first `±` from `at` on.
-fn plus_minus(text: &str, at: usize) -> Option<Range<usize>> {
-    let rest = text.get(at..)?;
-    PLUS_MINUS
-        .iter()
-        .filter_map(|sign| rest.find(sign).map(|i| at + i..at + i + sign.len()))
-        .min_by_key(|range| range.start)
-}
-
-fn skip_space(text: &str, at: usize) -> usize {
+pub(crate) fn skip_space(text: &str, at: usize) -> usize {
     let rest = text.get(at..).unwrap_or_default();
     at + rest.len() - rest.trim_start().len()
 }
 
-/// The deviation directly after the number, and where the unit begins.
-fn deviation(text: &str, at: usize) -> Result<(Option<Deviation>, usize), UnitError> {
-    let start = skip_space(text, at);
-    let Some(sign) = plus_minus(text, start).filter(|sign| sign.start == start) else {
-        return Ok((None, at));
-    };
-    let number = deviation_number(text, sign.end)?;
-    let after = skip_space(text, number.span.end);
-    let percent = text.get(after..).unwrap_or_default().starts_with('%');
-    let end = if percent { after + 1 } else { number.span.end };
-    Ok((Some(Deviation { number, percent, unit: None }), end))
-}
-
-fn deviation_number(text: &str, at: usize) -> Result<Number, UnitError> {
+pub(crate) fn deviation_number(text: &str, at: usize) -> Result<Number, UnitError> {
     let start = skip_space(text, at);
     let number = number::scan(text, start, true)?.ok_or_else(|| no_number(text, start..text.len()))?;
     separators::check(text, &number)?;
     Ok(number)
 }
 
-/// `± 0.5 K` after the unit.
-fn trailing_deviation(text: &str, at: usize) -> Result<Deviation, UnitError> {
-    let number = deviation_number(text, at)?;
-    let rest = number.span.end..text.len();
-    if text.get(rest.clone()).unwrap_or_default().trim() == "%" {
-        return Ok(Deviation { number, percent: true, unit: None });
-    }
-    let unit = unit_at(text, rest)?.map_or((1.0, Dimension::NONE), |(unit, _)| (unit.scale, unit.dimension));
-    Ok(Deviation { number, percent: false, unit: Some(unit) })
-}
-
 /// The unit that fills this part of the text, `None` if it is blank.
-fn unit_at(text: &str, part: Range<usize>) -> Result<Option<(ParsedUnit, Range<usize>)>, UnitError> {
+pub(crate) fn unit_at(
+    text: &str,
+    part: Range<usize>,
+) -> Result<Option<(ParsedUnit, Range<usize>)>, UnitError> {
     let written = text.get(part.clone()).unwrap_or_default();
     // `2 * m` is a number times a unit.
     let product = written.trim_start();
@@ -240,7 +203,7 @@ impl Reading<'_> {
         Ok(Quantity { value, deviation, ty })
     }
 
-    fn scale(&self) -> f64 {
+    pub(crate) fn scale(&self) -> f64 {
         self.unit.as_ref().map_or(1.0, |(unit, _)| unit.scale)
     }
 
@@ -257,7 +220,7 @@ impl Reading<'_> {
         }
     }
 
-    fn in_range(&self, value: f64) -> Result<f64, UnitError> {
+    pub(crate) fn in_range(&self, value: f64) -> Result<f64, UnitError> {
         if value.is_finite() {
             return Ok(value);
         }
@@ -265,49 +228,11 @@ impl Reading<'_> {
         Err(UnitError::new(UnitErrorKind::OutOfRange { number }, self.number.span.clone()))
     }
 
-    fn deviation_in_si(&self, value: f64, ty: Type) -> Result<Option<f64>, UnitError> {
-        let Some(deviation) = &self.deviation else { return Ok(None) };
-        let size = deviation.number.value;
-        let si = match (deviation.percent, ty.absolute) {
-            (true, true) => return Err(self.relative_deviation(deviation)),
-            (true, false) => value.abs() * size / 100.0,
-            (false, _) => size * self.deviation_scale(deviation)?,
-        };
-        self.in_range(si).map(Some)
-    }
-
-    /// A unit of its own must measure the same as that of the value.
-    fn deviation_scale(&self, deviation: &Deviation) -> Result<f64, UnitError> {
-        let dimension = self.unit.as_ref().map_or(Dimension::NONE, |(unit, _)| unit.dimension);
-        let wanted = Type::of(dimension);
-        let kind = match deviation.unit {
-            None => return Ok(self.scale()),
-            Some((scale, own)) if own == dimension => return Ok(scale),
-            Some((_, Dimension::NONE)) => {
-                let fix = format!("{} {}", self.text.trim(), wanted.usual_unit());
-                UnitErrorKind::BareNumber { wanted, fix }
-            }
-            Some((_, own)) => UnitErrorKind::Dimension {
-                wanted: Box::new(wanted),
-                found: Box::new(Type::of(own)),
-                fix: None,
-            },
-        };
-        Err(UnitError::new(kind, deviation.number.span.clone()))
-    }
-
-    fn relative_deviation(&self, deviation: &Deviation) -> UnitError {
-        let size = (self.number.value * deviation.number.value / 100.0).abs();
-        let fix = format!("{} ± {} {}", self.number_text(), rounded(size, 12), self.unit_text());
-        let kind = UnitErrorKind::RelativeDeviation { fix: Some(fix) };
-        UnitError::new(kind, deviation.number.span.clone())
-    }
-
-    fn number_text(&self) -> &str {
+    pub(crate) fn number_text(&self) -> &str {
         self.text.get(self.number.span.clone()).unwrap_or_default()
     }
 
-    fn unit_text(&self) -> &str {
+    pub(crate) fn unit_text(&self) -> &str {
         self.unit.as_ref().and_then(|(_, span)| self.text.get(span.clone())).unwrap_or_default()
     }
 
@@ -321,16 +246,24 @@ impl Reading<'_> {
         skip_space(self.text, 0)..self.text.trim_end().len()
     }
 
+    /// What stands behind the unit: a deviation with a unit of its own.
+    fn tail(&self) -> &str {
+        let end = self.unit.as_ref().map_or(self.text.len(), |(_, span)| span.end);
+        self.text.get(end..).unwrap_or_default().trim_end()
+    }
+
     fn mismatch(&self, found: Type, wanted: Type) -> UnitError {
-        let amount = self.amount_text();
-        let kind = if self.unit.is_none() {
+        let (amount, tail) = (self.amount_text(), self.tail());
+        let kind = if let Some(fix) = self.percent_of_bare_number(wanted) {
+            UnitErrorKind::BareNumber { wanted, fix }
+        } else if self.unit.is_none() {
             UnitErrorKind::BareNumber { wanted, fix: format!("{amount} {}", wanted.usual_unit()) }
         } else if wanted.absolute && found.dimension == Dimension::TEMPERATURE {
-            UnitErrorKind::AbsoluteWanted { fix: format!("{amount} degC") }
+            UnitErrorKind::AbsoluteWanted { fix: format!("{amount} degC{tail}") }
         } else if found.absolute && wanted.dimension == Dimension::TEMPERATURE {
-            UnitErrorKind::DifferenceWanted { fix: self.as_difference() }
+            UnitErrorKind::DifferenceWanted { fix: self.as_difference() + tail }
         } else if is_frequency_for_rotation(found, wanted) {
-            UnitErrorKind::Rotation { fix: Some(self.in_revolutions()) }
+            UnitErrorKind::Rotation { fix: self.in_revolutions() }
         } else {
             let fix = self.mismatch_fix(found, wanted);
             UnitErrorKind::Dimension { wanted: Box::new(wanted), found: Box::new(found), fix }
@@ -344,21 +277,47 @@ impl Reading<'_> {
         format!("{} {}", self.amount_text(), if fahrenheit { "degR" } else { "K" })
     }
 
-    fn in_revolutions(&self) -> String {
+    /// None for a deviation that would not be converted.
+    fn in_revolutions(&self) -> Option<String> {
         let scale = self.scale();
-        if (scale - 1.0).abs() < 1e-12 {
-            return format!("{} rev/s", self.amount_text());
-        }
-        format!("{} rev/s", rounded(self.number.value * scale, 12))
+        let (unscaled, tail) = ((scale - 1.0).abs() < 1e-12, self.tail());
+        let amount =
+            if unscaled { self.amount_text().to_owned() } else { rounded(self.number.value * scale, 12) };
+        let complete = unscaled || self.deviation.is_none() || tail.ends_with('%');
+        complete.then(|| format!("{amount} rev/s{tail}"))
     }
 
-    /// The inverse of what is wanted is a conductance for a resistance; anything else only gets its unit.
+    /// The inverse of what is due where both are in use. A unit that measures nothing known is one with a slip, of
+    /// another quantity nobody knows what was meant.
     fn mismatch_fix(&self, found: Type, wanted: Type) -> Option<String> {
-        if Dimension::NONE.checked_div(found.dimension) == Some(wanted.dimension) && !found.absolute {
-            return Some(format!("1 / ({} [{}])", number(self.number.value), self.unit_text()));
+        if is_inverse(found, wanted) {
+            let inverse = || format!("1 / ({} [{}])", number(self.number.value), self.unit_text());
+            return (self.deviation.is_none() && has_inverse(found, wanted)).then(inverse);
         }
-        Some(format!("{} {}", self.amount_text(), wanted.usual_unit()).trim_end_matches(" 1").to_owned())
+        let slip = !found.absolute && found.dimension.quantity_name().is_none();
+        let fix =
+            || format!("{} {}", self.amount_text(), wanted.usual_unit()).trim_end_matches(" 1").to_owned();
+        slip.then(|| fix() + self.tail())
     }
+}
+
+/// Whether the inverse of what was found is what is due, and both are quantities that people write: a conductance and
+/// a resistance, a time and a frequency. The inverse of a length is a slip.
+pub(crate) fn has_inverse(found: Type, wanted: Type) -> bool {
+    const WRITTEN: [Dimension; 5] = [
+        Dimension::RESISTANCE,
+        Dimension::CONDUCTANCE,
+        Dimension::FILM_COEFFICIENT,
+        Dimension::CONDUCTIVITY,
+        Dimension::TIME,
+    ];
+    let written = WRITTEN.contains(&wanted.dimension) || WRITTEN.contains(&found.dimension);
+    written && is_inverse(found, wanted)
+}
+
+fn is_inverse(found: Type, wanted: Type) -> bool {
+    let inverse = Dimension::NONE.checked_div(found.dimension) == Some(wanted.dimension);
+    inverse && !found.absolute && !wanted.is_scalar()
 }
 
 /// Is a frequency given where a rotation is due?

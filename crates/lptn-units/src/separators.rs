@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use crate::error::{UnitError, UnitErrorKind};
 use crate::expr::Expression;
-use crate::number::Number;
+use crate::format::number as format_number;
+use crate::number::{self, Number};
 use crate::quantity;
 
 /// Longer texts get no proposal: each is read again to see whether it is one.
@@ -24,6 +25,47 @@ pub(crate) fn check(text: &str, number: &Number) -> Result<(), UnitError> {
         UnitErrorKind::DigitGroups { fix: digits.and_then(|digits| run.proposal(text, &digits)) }
     };
     Err(UnitError::new(kind, run.first.clone()))
+}
+
+/// Refuses `3/8 in`, `1 1/2 in` and `1-1/2 in`, which are 0.375 and 1.5 of a unit to whoever writes them and would be
+/// a number over a unit as an expression.
+pub(crate) fn check_fraction(text: &str, first: &Number) -> Result<(), UnitError> {
+    let Some((value, end)) = fraction_at(text, first).filter(|_| text.len() <= LONGEST) else {
+        return Ok(());
+    };
+    let fix = format!("{} {}", format_number(value), text.get(end..).unwrap_or_default().trim());
+    // without a unit it is a quotient, and behind it may stand the rest of an expression
+    if quantity::read(&fix).is_err() || text.get(end..).is_none_or(|unit| unit.trim().is_empty()) {
+        return Ok(());
+    }
+    Err(UnitError::new(UnitErrorKind::Fraction { fix }, first.span.start..end))
+}
+
+/// The value of the fraction that begins with this number, and where it ends.
+fn fraction_at(text: &str, first: &Number) -> Option<(f64, usize)> {
+    if let Some((below, end)) = divisor(text, first.span.end) {
+        return Some((first.value / below, end));
+    }
+    let rest = text.get(first.span.end..)?;
+    let between = rest.trim_start_matches([' ', '-', '+']);
+    let at = text.len() - between.len();
+    // `1 - 1/2` is a difference
+    let joint = text.get(first.span.end..at)?;
+    let joined = joint == "-" || (!joint.is_empty() && matches!(joint.trim(), "" | "+"));
+    let above =
+        number::scan(text, at, false).ok()?.filter(|above| joined && above.value.fract().abs() == 0.0)?;
+    let (below, end) = divisor(text, above.span.end)?;
+    let part = above.value / below;
+    let proper = part < 1.0 && first.value.fract().abs() == 0.0;
+    proper.then_some((first.value + part.copysign(first.value), end))
+}
+
+/// A whole number behind a bar, and where it ends.
+fn divisor(text: &str, at: usize) -> Option<(f64, usize)> {
+    let rest = text.get(at..)?.trim_start().strip_prefix(['/', '⁄'])?.trim_start();
+    let number = number::scan(text, text.len() - rest.len(), false).ok()??;
+    let sound = number.value > 0.0 && number.value.is_finite();
+    sound.then_some((number.value, number.span.end))
 }
 
 /// Digits with separators.

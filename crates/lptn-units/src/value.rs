@@ -84,6 +84,9 @@ fn more_helpful(
     if let Some(error) = missing_operator(text, &as_quantity, is_parameter) {
         return error;
     }
+    if matches!(as_quantity.kind, UnitErrorKind::Fraction { .. }) && !mentions_parameter(text, is_parameter) {
+        return as_quantity;
+    }
     if matches!(as_expression.kind, UnitErrorKind::AmbiguousSign { .. }) {
         return as_expression;
     }

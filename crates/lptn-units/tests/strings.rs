@@ -156,11 +156,8 @@ fn deviations() {
         ("25 degC ± 0.5 K", 298.15, 0.5),
         ("25 degC ± 0.9 degF", 298.15, 0.5),
         ("77 ± 0.9 degF", 298.15, 0.5),
-        ("20 +- 5 % W", 20.0, 1.0),
         ("20 W +/- 5 %", 20.0, 1.0),
-        ("-20 ± 5 % W", -20.0, 1.0),
-        ("0.8 ± 5 %", 0.8, 0.04),
-        ("80 % ± 5 %", 0.8, 0.04),
+        ("-20 W ± 5 %", -20.0, 1.0),
         ("5 ± 0 K", 5.0, 0.0),
         ("2 kW ± 30 W", 2000.0, 30.0),
     ];
@@ -168,6 +165,27 @@ fn deviations() {
         let quantity = parse_quantity(text, None).unwrap_or_else(|e| panic!("{text}: {e}"));
         assert!(close(quantity.value, value), "{text}");
         assert!(close(quantity.deviation.unwrap(), deviation), "{text}");
+    }
+}
+
+/// `50 %` is 0.5, and `50 ± 5 %` was 50 ± 2.5.
+#[test]
+fn percent_is_a_unit_like_any_other_before_a_deviation_too() {
+    let table = [
+        ("50 ± 5 %", 0.5, 0.05),
+        ("-50 +- 5 %", -0.5, 0.05),
+        ("97 ± 1%", 0.97, 0.01),
+        ("0.4 ± 0.1 %/K", 0.004, 0.001),
+        ("0.4 %/K ± 5 %", 0.004, 0.0002),
+    ];
+    for (text, value, deviation) in table {
+        let quantity = parse_quantity(text, None).unwrap_or_else(|e| panic!("{text}: {e}"));
+        assert!(close(quantity.value, value), "{text}");
+        assert!(close(quantity.deviation.unwrap(), deviation), "{text}");
+    }
+    let code = "units::percent_deviation";
+    for text in ["0.8 ± 5 %", "80 % ± 5 %", "20 +- 5 % W", "1.2 ± 5 % mK/W", "0 ± 1 %", "3 ± 10 %"] {
+        assert_eq!(parse_quantity(text, None).unwrap_err().code(), code, "{text}");
     }
 }
 
@@ -197,8 +215,8 @@ fn wrong_types_say_what_is_due() {
         ("5", Some(ABSOLUTE), "units::bare_number", "5", Some("write \"5 degC\" or \"5 K\"")),
         ("0.42 K/W/s", Some(RESISTANCE), "units::dimension", "0.42 K/W/s", Some("write \"0.42 K/W\"")),
         ("0.42 W/K", Some(RESISTANCE), "units::dimension", "0.42 W/K", Some("write \"1 / (0.42 [W/K])\"")),
-        ("5 W", Some(NONE), "units::dimension", "5 W", Some("write \"5\"")),
-        ("25 degC", Some(POWER), "units::dimension", "25 degC", Some("write \"25 W\"")),
+        ("5 W", Some(NONE), "units::dimension", "5 W", Some("the value must come out without a unit")),
+        ("25 degC", Some(POWER), "units::dimension", "25 degC", Some("the value must come out in W")),
         ("5 degC", Some(DIFFERENCE), "units::difference_wanted", "5 degC", Some("write \"5 K\"")),
         ("9 degF", Some(DIFFERENCE), "units::difference_wanted", "9 degF", Some("write \"9 degR\"")),
         ("5 K W/W", Some(ABSOLUTE), "units::absolute_wanted", "5 K W/W", Some("write \"5 degC\"")),
@@ -221,7 +239,7 @@ fn wrong_types_say_what_is_due() {
             Some(Type::of(Dimension::FREQUENCY)),
             "units::dimension",
             "50 rev/s",
-            Some("write \"50 1/s\""),
+            Some("the value must come out in 1/s"),
         ),
         ("5 W rad^2", Some(POWER), "units::dimension", "5 W rad^2", Some("write \"5 W\"")),
     ]);
@@ -245,9 +263,9 @@ fn wrong_numbers() {
         ("-300 degC", None, "units::below_absolute_zero", "-300", zero),
         ("-1 K", Some(ABSOLUTE), "units::below_absolute_zero", "-1", zero),
         ("5 ± -1 K", None, "units::negative_deviation", "-1", positive),
-        ("5 degC ± 1", None, "units::bare_number", "1", Some("write \"5 degC ± 1 K\"")),
+        ("5 degC ± 1", None, "units::bare_number", "1", Some("write \"5 ± 1 degC\"")),
         ("5 degC ± 1 W", None, "units::dimension", "1", Some("the value must come out in K")),
-        ("5 kW ± 1", None, "units::bare_number", "1", Some("write \"5 kW ± 1 W\"")),
+        ("5 kW ± 1", None, "units::bare_number", "1", Some("write \"5 ± 1 kW\"")),
         ("25 ± 5 % degC", None, "units::relative_deviation", "5", Some("write \"25 ± 1.25 degC\"")),
         (
             "5 m^(1/0)",

@@ -124,6 +124,10 @@ fn failed(input: &Input, study: &FitStudy, error: &NetworkFitError) -> Failure {
             "the times of a record are times of the run, which begins at {start} s: set `start` in [run] to the time at \
              which the network stood as `T0` says, or take the rows before it out of the record"
         )),
+        NetworkFitError::Observed { .. } => problem.help(
+            "write the temperature of a node, `\"steel.T\"`, or a mean, `\"mean(steel.T, bed.T)\"`; parameters, signals, \
+             boundaries, heat flows and `t` cannot stand there, and an offset of a sensor is not fitted",
+        ),
         NetworkFitError::TooFew { .. } => problem.help("vary fewer parameters, or give some a prior with `±`"),
         _ => problem,
     };

@@ -2,16 +2,16 @@
 
 use std::path::Path;
 
-use lptn_netlist::{Diagnostic, WrittenNumber, parse_file};
+use lptn_network::ParameterId;
 use lptn_report::Shortest;
 use lptn_study::fit::network::NetworkFitTask;
 
 use crate::console::Console;
-use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::fit::network::Answer;
 use crate::input::Input;
 use crate::size_write::{can_be_written, put};
+use crate::written::with_numbers;
 
 /// Digits that are written: a tenth of a standard error never is beyond them.
 const DIGITS: usize = 9;
@@ -24,20 +24,16 @@ pub(crate) fn possible(input: &Input, task: &NetworkFitTask<'_>) -> Result<(), F
 
 pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Result<(), Failure> {
     let netlist = &answer.input.netlist;
-    let numbers: Vec<(WrittenNumber, String)> = (0..answer.units.len())
+    let numbers: Vec<(ParameterId, String)> = (0..answer.units.len())
         .filter_map(|i| {
-            let written = netlist.written_number(answer.task.parameters[i].parameter)?;
+            let parameter = answer.task.parameters[i].parameter;
+            netlist.written_number(parameter)?;
             let value = answer.shown(i, answer.fit.parameters[i].value);
             let rounded = format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value);
-            Some((written, Shortest::new().text(rounded).to_owned()))
+            Some((parameter, Shortest::new().text(rounded).to_owned()))
         })
         .collect();
-    let text = netlist.text_with_numbers(&numbers);
-    if parse_file(Path::new(&answer.input.text.name), text.as_bytes()).is_err() {
-        let problem = Diagnostic::error("fit::write", "the netlist would not hold the new values");
-        return Err(Failure::new(Exit::Failed, problem.help("write them into it by hand")));
-    }
-    put(file, &text)?;
+    put(file, &with_numbers(answer.input, &numbers)?)?;
     for (i, (_, number)) in numbers.iter().enumerate() {
         let unit = match answer.units[i].text.as_str() {
             "1" => String::new(),

@@ -7,7 +7,7 @@ use super::text::{Fields, value};
 
 impl Writer<'_> {
     pub(super) fn controls(&mut self) {
-        let (network, mut section) = (&self.netlist.network, Fields::default());
+        let (network, mut section) = (&self.network, Fields::default());
         for (id, control) in network.control_ids().zip(network.controls()) {
             let Some(thermostat) = network.thermostat(id) else { continue };
             let mut fields = Fields::default();

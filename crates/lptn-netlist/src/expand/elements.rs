@@ -21,7 +21,7 @@ const KINDS: [(&str, ConductorKind); 6] = [
 impl Writer<'_> {
     pub(super) fn nodes(&mut self) {
         let mut section = Fields::default();
-        for node in self.netlist.network.nodes() {
+        for node in self.network.nodes() {
             let mut fields = Fields::default();
             self.capacity(&mut fields, node.capacity.as_ref(), node.lump.as_ref());
             if node.massless {
@@ -52,7 +52,7 @@ impl Writer<'_> {
 
     pub(super) fn capacitors(&mut self) {
         let mut section = Fields::default();
-        for capacitor in self.netlist.network.capacitors() {
+        for capacitor in self.network.capacitors() {
             let mut fields = Fields::default();
             fields.word("node", &self.name(Item::Node(capacitor.node)));
             self.capacity(&mut fields, Some(&capacitor.capacity), capacitor.lump.as_ref());
@@ -63,7 +63,7 @@ impl Writer<'_> {
 
     pub(super) fn boundaries(&mut self) {
         let mut section = Fields::default();
-        for boundary in self.netlist.network.boundaries() {
+        for boundary in self.network.boundaries() {
             let mut fields = Fields::default();
             fields.put("T", value(&boundary.temperature, Type::ABSOLUTE_TEMPERATURE));
             section.put(&boundary.name, fields.inline());
@@ -74,7 +74,7 @@ impl Writer<'_> {
     pub(super) fn conductors(&mut self) {
         for (heading, kind) in KINDS {
             let mut section = Fields::default();
-            let conductors = self.netlist.network.conductors().iter();
+            let conductors = self.network.conductors().iter();
             for conductor in conductors.filter(|conductor| conductor.kind == kind) {
                 section.put(&conductor.name(), self.conductor(conductor));
             }
@@ -123,7 +123,7 @@ impl Writer<'_> {
 
     pub(super) fn sources(&mut self) {
         let mut section = Fields::default();
-        for source in self.netlist.network.sources() {
+        for source in self.network.sources() {
             let mut fields = Fields::default();
             match source.into.as_slice() {
                 [(node, _)] => fields.word("into", &self.name(Item::Node(*node))),
@@ -143,7 +143,7 @@ impl Writer<'_> {
 
     pub(super) fn limits(&mut self) {
         let mut section = Fields::default();
-        for limit in self.netlist.network.limits() {
+        for limit in self.network.limits() {
             let mut fields = Fields::default();
             fields.put("of", string(&limit.text));
             let bound = match limit.bound {

@@ -6,20 +6,97 @@
 mod controls;
 mod elements;
 mod flat;
+mod proof;
 mod questions;
 mod substances;
 mod text;
 mod values;
 
+use std::path::{Component, Path, PathBuf};
+
+use lptn_network::Network;
+
+use crate::file::FileId;
 use crate::netlist::Netlist;
+use crate::run::RunSettings;
+pub use proof::{WrittenError, prove};
 pub(crate) use text::string;
 
 use text::Fields;
 
+/// A network that was made from that of a netlist, and what is written with it.
+#[derive(Clone, Copy, Debug)]
+pub struct Derived<'a> {
+    /// The network; its tables are those of the netlist.
+    pub network: &'a Network,
+    /// Its title.
+    pub title: &'a str,
+    /// The run that goes with it.
+    pub run: Option<&'a RunSettings>,
+    /// The folder in which the text is going to stand, which paths of CSV files are relative to; `None` for that of the
+    /// netlist.
+    pub folder: Option<&'a Path>,
+}
+
 /// The netlist as far as it is written.
 struct Writer<'n> {
-    netlist: &'n Netlist,
+    network: &'n Network,
+    /// Where the network comes from, for what only a file says.
+    origin: &'n Netlist,
+    /// The folder that paths are relative to.
+    folder: PathBuf,
     text: String,
+}
+
+impl<'n> Writer<'n> {
+    fn new(network: &'n Network, origin: &'n Netlist, folder: Option<&Path>) -> Self {
+        let own = || origin.inputs().next().map(|(name, _)| parent(name)).unwrap_or_default();
+        let folder = folder.map_or_else(own, Path::to_owned);
+        Self { network, origin, folder, text: "format = 1\n".to_owned() }
+    }
+
+    fn title(&mut self, title: &str) {
+        self.text += &format!("title = {}\n", string(title));
+    }
+
+    /// A path that a file names, as the text has to name it.
+    fn path(&self, file: FileId, path: &str) -> String {
+        if Path::new(path).is_absolute() {
+            return path.to_owned();
+        }
+        let path = parent(self.origin.files.name(file)).join(path);
+        relative(&path, &self.folder).display().to_string()
+    }
+}
+
+fn parent(file: &str) -> PathBuf {
+    Path::new(file).parent().unwrap_or(Path::new("")).to_owned()
+}
+
+/// A path as it is named from a folder.
+fn relative(path: &Path, folder: &Path) -> PathBuf {
+    if let Ok(inside) = path.strip_prefix(folder) {
+        return inside.to_owned();
+    }
+    let (Ok(path), Ok(folder)) = (std::path::absolute(path), std::path::absolute(folder)) else {
+        return path.to_owned();
+    };
+    let (path, folder) = (resolved(&path), resolved(&folder));
+    let shared = path.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
+    let up = folder.components().skip(shared).map(|_| Component::ParentDir);
+    up.chain(path.components().skip(shared)).collect()
+}
+
+/// An absolute path without `..`.
+fn resolved(path: &Path) -> PathBuf {
+    path.components().fold(PathBuf::new(), |mut all, part| {
+        match part {
+            Component::ParentDir => drop(all.pop()),
+            Component::CurDir => {}
+            part => all.push(part),
+        }
+        all
+    })
 }
 
 impl Netlist {
@@ -30,31 +107,45 @@ impl Netlist {
     ///
     /// A table of two arguments, and a fit, still name their CSV files, which have to be beside the text.
     pub fn expanded(&self) -> String {
-        let mut writer = Writer { netlist: self, text: "format = 1\n".to_owned() };
+        let mut writer = Writer::new(&self.network, self, None);
         if let Some(title) = self.network.title() {
-            writer.text += &format!("title = {}\n", string(title));
+            writer.title(title);
         }
-        writer.parameters();
-        writer.tables();
-        writer.signals();
-        writer.default();
-        writer.materials();
-        writer.fluids();
-        writer.nodes();
-        writer.capacitors();
-        writer.boundaries();
-        writer.controls();
-        writer.conductors();
-        writer.sources();
-        writer.limits();
+        writer.elements();
         writer.run();
         writer.sizes();
         writer.fits();
         writer.text
     }
+
+    /// A network that was made from this one as a flat netlist, in the same form, with its run.
+    pub fn derived(&self, made: &Derived<'_>) -> String {
+        let mut writer = Writer::new(made.network, self, made.folder);
+        writer.title(made.title);
+        writer.elements();
+        made.run.into_iter().for_each(|run| writer.settings(run));
+        writer.text
+    }
 }
 
 impl Writer<'_> {
+    /// Everything that is there, and nothing of what is asked of it.
+    fn elements(&mut self) {
+        self.parameters();
+        self.tables();
+        self.signals();
+        self.default();
+        self.materials();
+        self.fluids();
+        self.nodes();
+        self.capacitors();
+        self.boundaries();
+        self.controls();
+        self.conductors();
+        self.sources();
+        self.limits();
+    }
+
     /// A section with one line for each element; none if it is empty.
     fn section(&mut self, heading: &str, fields: &Fields) {
         if !fields.is_empty() {

@@ -1,15 +1,16 @@
 //! `[run]`, `[size]` and `[fit]`: what is asked of the network.
 
 use super::Writer;
-use super::text::{Fields, key, like, string, value};
+use super::text::{Fields, key, like, quantity, string, value};
 use crate::fit::{FitRecord, FitStudy, Observed, VariedName};
-use crate::run::OutputPlan;
+use crate::run::{OutputPlan, RunSettings};
 use crate::size::{Goal, SizeStudy};
-use lptn_units::Type;
+use lptn_network::OutputTimes;
+use lptn_units::{Dimension, Type};
 
 impl Writer<'_> {
     pub(super) fn run(&mut self) {
-        let Some(plan) = &self.netlist.plan else { return };
+        let Some(plan) = &self.origin.plan else { return };
         let mut fields = Fields::default();
         for (name, setting) in [("start", plan.start.as_ref()), ("stop", Some(&plan.stop))] {
             if let Some(setting) = setting {
@@ -30,7 +31,7 @@ impl Writer<'_> {
             fields.put("select", strings(&plan.select));
         }
         let mut reports = Fields::default();
-        for report in self.netlist.network.reports() {
+        for report in self.network.reports() {
             reports.word(&report.name, &report.text);
         }
         if !reports.is_empty() {
@@ -50,15 +51,35 @@ impl Writer<'_> {
         self.section("run", &fields);
     }
 
+    /// The numbers of a run.
+    pub(super) fn settings(&mut self, run: &RunSettings) {
+        let mut fields = Fields::default();
+        let time = |seconds: f64| quantity(seconds, Type::of(Dimension::TIME));
+        if run.start.abs() > 0.0 {
+            fields.put("start", time(run.start));
+        }
+        fields.put("stop", time(run.stop));
+        let output = match &run.output {
+            OutputTimes::Every(every) => format!("{{ every = {} }}", time(*every)),
+            OutputTimes::At(times) => {
+                let times: Vec<String> = times.iter().map(|at| time(*at)).collect();
+                format!("{{ at = [{}] }}", times.join(", "))
+            }
+        };
+        fields.put("output", output);
+        fields.put("tolerance", quantity(run.tolerance, Type::of(Dimension::TEMPERATURE)));
+        self.section("run", &fields);
+    }
+
     pub(super) fn sizes(&mut self) {
-        for size in &self.netlist.sizes {
+        for size in &self.origin.sizes {
             let fields = self.size(size);
             self.section(&format!("size.{}", key(&size.name)), &fields);
         }
     }
 
     fn size(&self, size: &SizeStudy) -> Fields {
-        let network = &self.netlist.network;
+        let network = &self.network;
         let mut fields = Fields::default();
         let goal = if size.goal == Goal::Minimise { "minimise" } else { "maximise" };
         fields.word(goal, &size.parameter);
@@ -75,7 +96,7 @@ impl Writer<'_> {
 
 impl Writer<'_> {
     pub(super) fn fits(&mut self) {
-        for fit in &self.netlist.fits {
+        for fit in &self.origin.fits {
             let fields = self.fit(fit);
             self.section(&format!("fit.{}", key(&fit.name)), &fields);
         }
@@ -83,12 +104,12 @@ impl Writer<'_> {
 
     fn fit(&self, fit: &FitStudy) -> Fields {
         let ty = |name: &str| {
-            let id = self.netlist.network.parameter(name).ok();
-            id.map_or(Type::SCALAR, |id| self.netlist.network.parameters()[id.index()].ty)
+            let id = self.network.parameter(name).ok();
+            id.map_or(Type::SCALAR, |id| self.network.parameters()[id.index()].ty)
         };
         let mut fields = Fields::default();
         let record = |record: &FitRecord| {
-            let csv = string(&record.csv);
+            let csv = string(&self.path(record.span.file, &record.csv));
             let set: Vec<String> = record
                 .set
                 .iter()

@@ -13,7 +13,7 @@ use crate::library;
 
 impl Writer<'_> {
     pub(super) fn materials(&mut self) {
-        let (network, mut section) = (&self.netlist.network, Fields::default());
+        let (network, mut section) = (&self.network, Fields::default());
         let used = self.used_materials();
         for (id, material) in network.material_ids().zip(network.materials()) {
             let source = material.source.as_deref();
@@ -47,7 +47,7 @@ impl Writer<'_> {
     }
 
     pub(super) fn fluids(&mut self) {
-        let (network, mut section) = (&self.netlist.network, Fields::default());
+        let (network, mut section) = (&self.network, Fields::default());
         let streams = network.conductors().iter().filter_map(|conductor| match &conductor.law {
             Law::Advection(stream) => stream.fluid(),
             _ => None,
@@ -91,7 +91,7 @@ impl Writer<'_> {
     }
 
     fn used_materials(&self) -> BTreeSet<MaterialId> {
-        let network = &self.netlist.network;
+        let network = &self.network;
         let nodes = network.nodes().iter().map(|node| &node.lump);
         let lumps = nodes.chain(network.capacitors().iter().map(|capacitor| &capacitor.lump));
         let lumps = lumps.flatten().map(|Lump { material, .. }| *material);
@@ -105,7 +105,7 @@ impl Writer<'_> {
     /// The material whose conductivity this is; a constant is written as it is.
     pub(super) fn material_of(&self, conductivity: &Value) -> Option<MaterialId> {
         let Value::Expression(program) = conductivity else { return None };
-        let network = &self.netlist.network;
+        let network = &self.network;
         network.material_ids().find(|id| match &network.materials()[id.index()].k {
             Some(Value::Expression(own)) => Arc::ptr_eq(own, program),
             _ => false,

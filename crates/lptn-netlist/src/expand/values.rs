@@ -1,7 +1,7 @@
 //! `[param]`, `[table]`, `[signal]`, `[default]`.
 
 use std::borrow::Cow;
-use std::path::Path;
+use std::sync::Arc;
 
 use lptn_network::{AfterEnd, Course, Evaluation, Item, Parameter, ParameterId, Signal, Value};
 use lptn_units::{Dimension, Interpolation, Outside, Table, Table1, TableSymbol, Type, format_number};
@@ -14,7 +14,7 @@ const TIME: Type = Type::of(Dimension::TIME);
 
 impl Writer<'_> {
     pub(super) fn parameters(&mut self) {
-        let (network, mut fields) = (&self.netlist.network, Fields::default());
+        let (network, mut fields) = (&self.network, Fields::default());
         let mut scope = network.evaluation();
         for (id, parameter) in network.parameter_ids().zip(network.parameters()) {
             fields.put(&parameter.name, self.parameter((id, parameter), &mut scope));
@@ -24,7 +24,7 @@ impl Writer<'_> {
 
     /// An expression, unless another value was set.
     fn parameter(&self, (id, parameter): (ParameterId, &Parameter), scope: &mut Evaluation) -> String {
-        let network = &self.netlist.network;
+        let network = &self.network;
         let number = network.parameter_value(id);
         let own = parameter.value.at(scope);
         if let (Value::Expression(program), true) =
@@ -49,9 +49,9 @@ impl Writer<'_> {
     }
 
     pub(super) fn tables(&mut self) {
-        let (network, mut fields) = (&self.netlist.network, Fields::default());
-        for (id, (name, symbol)) in network.table_ids().zip(network.tables()) {
-            let written = match (&*symbol.table, self.netlist.source_map.csv_map(id)) {
+        let (network, mut fields) = (&self.network, Fields::default());
+        for (name, symbol) in network.tables() {
+            let written = match (&*symbol.table, self.map_of(&symbol.table)) {
                 (Table::One(table), _) => of_one(table, symbol).inline(),
                 (Table::Two(_), Some(raw)) => self.csv_map(raw),
                 (Table::Two(_), None) => continue,
@@ -61,18 +61,21 @@ impl Writer<'_> {
         self.section("table", &fields);
     }
 
+    /// The line of a table of two arguments in the netlist that it comes from.
+    fn map_of(&self, table: &Arc<Table>) -> Option<&RawTable> {
+        let known = &self.origin.network;
+        let mut named = known.table_ids().zip(known.tables());
+        let (id, _) = named.find(|(_, (_, symbol))| Arc::ptr_eq(&symbol.table, table))?;
+        self.origin.source_map.csv_map(id)
+    }
+
     /// A table of two arguments, which has no other form than its file.
     fn csv_map(&self, raw: &RawTable) -> String {
-        let files = &self.netlist.files;
-        let folder = |name: &str| Path::new(name).parent().unwrap_or(Path::new("")).to_owned();
-        let main = self.netlist.inputs().next().map(|(name, _)| folder(name)).unwrap_or_default();
         let mut fields = Fields::default();
         for entry in &raw.entries {
             let RawKind::String { text, .. } = &entry.value.kind else { continue };
             if entry.key == "csv" {
-                let path = folder(files.name(entry.value.span.file)).join(text);
-                let path = path.strip_prefix(&main).unwrap_or(&path);
-                fields.word(&entry.key, &path.display().to_string());
+                fields.word(&entry.key, &self.path(entry.value.span.file, text));
             } else {
                 fields.word(&entry.key, text);
             }
@@ -82,7 +85,7 @@ impl Writer<'_> {
 
     pub(super) fn signals(&mut self) {
         let mut fields = Fields::default();
-        for signal in self.netlist.network.signals() {
+        for signal in self.network.signals() {
             fields.put(&signal.name, course(signal));
         }
         self.section("signal", &fields);
@@ -90,7 +93,7 @@ impl Writer<'_> {
 
     pub(super) fn default(&mut self) {
         let mut fields = Fields::default();
-        let unit = &self.netlist.temperature_unit.text;
+        let unit = &self.origin.temperature_unit.text;
         if unit != "degC" {
             fields.word("temperature_unit", unit);
         }
@@ -98,15 +101,14 @@ impl Writer<'_> {
     }
 
     /// The name of a table of the network.
-    pub(super) fn name_of_table(&self, table: &std::sync::Arc<Table>) -> Option<&str> {
-        let mut named =
-            self.netlist.network.tables().filter(|(_, symbol)| std::sync::Arc::ptr_eq(&symbol.table, table));
+    pub(super) fn name_of_table(&self, table: &Arc<Table>) -> Option<&str> {
+        let mut named = self.network.tables().filter(|(_, symbol)| Arc::ptr_eq(&symbol.table, table));
         named.next().map(|(name, _)| name)
     }
 
     /// The places of names, for what is asked of them.
     pub(super) fn name(&self, item: impl Into<Item>) -> Cow<'_, str> {
-        self.netlist.network.name_of(item.into())
+        self.network.name_of(item.into())
     }
 }
 

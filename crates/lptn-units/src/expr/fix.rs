@@ -2,11 +2,11 @@
 
 use super::check::is_temperature;
 use super::lexer::splice;
-use super::tree::{Id, Node, Tree};
+use super::tree::{Id, Node, Operator, Tree};
 use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind as Kind};
-use crate::format::rounded;
-use crate::quantity::is_frequency_for_rotation;
+use crate::format::{number, rounded};
+use crate::quantity::{has_inverse, is_frequency_for_rotation};
 use crate::types::Type;
 
 /// The text and its tree.
@@ -118,11 +118,25 @@ impl Source<'_> {
         } else if let Node::Number { .. } = self.tree.node(root) {
             Kind::BareNumber { wanted, fix: format!("{whole} {}", wanted.usual_unit()) }
         } else {
-            let inverse = Dimension::NONE.checked_div(found.dimension) == Some(wanted.dimension);
-            let fix = (inverse && !found.absolute).then(|| format!("1 / ({whole})"));
+            let inverse = || has_inverse(found, wanted).then(|| format!("1 / ({whole})"));
+            let fix = self.fraction(root, wanted).or_else(inverse);
             Kind::Dimension { wanted: Box::new(wanted), found: Box::new(found), fix }
         };
         UnitError::new(kind, span)
+    }
+
+    /// `3/8 [in]`, a number over inches, as `0.375 [in]`, where inches are due.
+    fn fraction(&self, root: Id, wanted: Type) -> Option<String> {
+        let Node::Binary(Operator::Divide, above, below) = self.tree.node(root) else { return None };
+        let (Node::Number { value, .. }, Node::Literal { ty, .. }) =
+            (self.tree.node(*above), self.tree.node(*below))
+        else {
+            return None;
+        };
+        let divisor: f64 = self.literal_number(*below)?.replace('_', "").parse().ok()?;
+        let unit = self.text_of(*below).split_once('[')?.1;
+        let fits = *ty == wanted && divisor.abs() > 0.0;
+        fits.then(|| format!("{} [{unit}", number(value / divisor)))
     }
 
     /// Two values of different types that should have one.

@@ -96,7 +96,7 @@ impl fmt::Display for NetworkFitError {
             }
             Self::Observed { column, result } => write!(
                 f,
-                "column `{column}` measures `{result}`: only temperatures of nodes and means of them can be fitted"
+                "column `{column}` measures `{result}`, which is not a temperature of a node or a mean of some"
             ),
             Self::Plan(error) => error.fmt(f),
             Self::Search(error) => error.fmt(f),

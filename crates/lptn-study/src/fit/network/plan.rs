@@ -66,9 +66,13 @@ fn weights(network: &Network, observed: &Observed) -> Result<Vec<(NodeId, f64)>,
     linear(network, observed).ok_or_else(refused)
 }
 
-/// The factors of a result that is a weighted sum of temperatures of nodes. Found by raising them one after the other; a
-/// result that answers otherwise when all are raised by different amounts is none.
+/// The factors of a result that is a weighted sum of temperatures of nodes. What it reads is known from its code:
+/// a parameter that is 0 now may be another number later. The factors are found by raising the temperatures one after
+/// the other; a result that answers otherwise when all are raised by different amounts is none.
 fn linear(network: &Network, observed: &Observed) -> Option<Vec<(NodeId, f64)>> {
+    if !network.reads_node_temperatures_only(&observed.value) {
+        return None;
+    }
     let mut scope = network.evaluation();
     let count = network.nodes().len();
     let boundaries = |t: f64| vec![t; network.boundaries().len()];
@@ -92,6 +96,6 @@ fn linear(network: &Network, observed: &Observed) -> Option<Vec<(NodeId, f64)>> 
     let uneven: Vec<f64> =
         (0..count).map(|i| BASE + RAISED * (1.0 + (i % 7) as f64 - (i % 3) as f64)).collect();
     let sum: f64 = weights.iter().map(|(id, weight)| weight * uneven[id.index()]).sum();
-    let is_sum = |value: f64| (value - sum).abs() <= 1e-9 * sum.abs();
+    let is_sum = |value: f64| (value - sum).abs() <= 1e-12 * sum.abs();
     (!weights.is_empty() && is_sum(at(&uneven, BASE)?) && is_sum(at(&uneven, 2.0 * BASE)?)).then_some(weights)
 }

@@ -1,0 +1,157 @@
+//! What was written is read again before anybody gets it.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::Path;
+
+use lptn_network::{Flow, Item, Network};
+
+use crate::netlist::{Netlist, parse_file};
+
+/// A netlist that was written is not the network that it was written for: a mistake of this program.
+#[derive(Clone, Debug)]
+pub enum WrittenError {
+    /// It is not read.
+    Rejected {
+        /// The first reason.
+        reason: String,
+    },
+    /// It is read as another network.
+    Differs {
+        /// What differs, such as "node `steel`".
+        what: String,
+    },
+}
+
+impl fmt::Display for WrittenError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Rejected { reason } => write!(f, "the netlist to be written would not be read: {reason}"),
+            Self::Differs { what } => {
+                write!(f, "the netlist to be written would be read as another network: {what} differs")
+            }
+        }
+    }
+}
+
+impl std::error::Error for WrittenError {}
+
+/// How far two numbers may be apart that come from one text, relative to their size: rounding of a unit.
+const ROUNDING: f64 = 1e-12;
+
+/// Reads a netlist that was written for a network as the file at `place` is going to be read, and compares: the same
+/// names, and the same numbers at several times from `start` to `stop` in s.
+///
+/// # Errors
+/// [`WrittenError`] with the first difference.
+pub fn prove(
+    text: &str,
+    place: &Path,
+    network: &Network,
+    (start, stop): (f64, f64),
+) -> Result<Netlist, WrittenError> {
+    let again = parse_file(place, text.as_bytes()).map_err(|rejected| {
+        let reason = rejected.diagnostics.first().map(|problem| problem.message.clone()).unwrap_or_default();
+        WrittenError::Rejected { reason }
+    })?;
+    // times that no grid of points of a signal meets
+    let times: Vec<f64> = [0.0, 0.071, 0.293, 0.517, 0.839, 1.0].map(|x| start + x * (stop - start)).to_vec();
+    let (found, wanted) = (Facts::of(&again.network, &times), Facts::of(network, &times));
+    match found.difference(&wanted) {
+        None => Ok(again),
+        Some(what) => Err(WrittenError::Differs { what }),
+    }
+}
+
+/// What each item of a network comes to, by kind and name.
+struct Facts(BTreeMap<String, Vec<f64>>);
+
+impl Facts {
+    fn of(network: &Network, times: &[f64]) -> Self {
+        let mut facts = Self(BTreeMap::new());
+        facts.constants(network);
+        facts.names(network);
+        let temperatures = temperatures(network);
+        for &time in times {
+            facts.at(network, time, &temperatures);
+        }
+        facts
+    }
+
+    fn add(&mut self, kind: &str, name: &str, number: f64) {
+        self.0.entry(format!("{kind} `{name}`")).or_default().push(number);
+    }
+
+    fn constants(&mut self, network: &Network) {
+        for (id, parameter) in network.parameter_ids().zip(network.parameters()) {
+            self.add("parameter", &parameter.name, network.parameter_value(id));
+        }
+        for (id, node) in network.node_ids().zip(network.nodes()) {
+            self.add("node", &node.name, network.capacity(id));
+            self.add("node", &node.name, network.initial(id));
+        }
+        for (name, symbol) in network.tables() {
+            let knots = (0..symbol.table.dimension()).flat_map(|argument| symbol.table.knots(argument));
+            knots.for_each(|knot| self.add("table", name, *knot));
+        }
+    }
+
+    /// What has nothing but a name and a text.
+    fn names(&mut self, network: &Network) {
+        let controls = network.controls().iter().map(|control| ("control", control.name.as_str()));
+        let limits = network.limits().iter().map(|limit| ("limit", limit.name.as_str()));
+        let capacitors = network.capacitors().iter().map(|capacitor| ("capacitor", capacitor.name.as_str()));
+        for (kind, name) in controls.chain(limits).chain(capacitors) {
+            self.add(kind, name, 0.0);
+        }
+    }
+
+    /// What changes with time; what has no value there is NaN in both.
+    fn at(&mut self, network: &Network, time: f64, temperatures: &[f64]) {
+        let mut scope = network.evaluation();
+        scope.set_time(time, time);
+        for (id, signal) in network.signal_ids().zip(network.signals()) {
+            self.add("signal", &signal.name, scope.signal(id));
+        }
+        for boundary in network.boundaries() {
+            self.add("boundary", &boundary.name, boundary.temperature.at(&mut scope).unwrap_or(f64::NAN));
+        }
+        for id in network.source_ids() {
+            let heat = network.source_heat(id, &mut scope, temperatures).unwrap_or(f64::NAN);
+            self.add("source", &network.name_of(Item::Source(id)), heat);
+        }
+        for id in network.conductor_ids() {
+            let name = network.name_of(Item::Conductor(id));
+            match network.flow(id) {
+                Flow::Conductance(number) | Flow::Radiation(number) | Flow::Stream(number) => {
+                    self.add("path", &name, number);
+                }
+                Flow::Variable => {
+                    let heats = network.exchange(id, &mut scope, temperatures).unwrap_or([f64::NAN; 2]);
+                    heats.into_iter().for_each(|heat| self.add("path", &name, heat));
+                }
+            }
+        }
+    }
+
+    fn difference(&self, wanted: &Self) -> Option<String> {
+        let near = |a: f64, b: f64| {
+            a.to_bits() == b.to_bits()
+                || (a.is_nan() && b.is_nan())
+                || (a - b).abs() <= ROUNDING * a.abs().max(b.abs())
+        };
+        let same = |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| near(*a, *b));
+        let missing = self.0.keys().find(|name| !wanted.0.contains_key(*name));
+        let differs = || wanted.0.iter().find(|(name, b)| self.0.get(*name).is_none_or(|a| !same(a, b)));
+        missing.or_else(|| differs().map(|(name, _)| name)).cloned()
+    }
+}
+
+/// A temperature for every vertex that its name tells, so that the order does not matter: 280 K to 340 K.
+fn temperatures(network: &Network) -> Vec<f64> {
+    let of = |name: &str| {
+        280.0 + f64::from(name.bytes().fold(7_u32, |sum, b| (31 * sum + u32::from(b)) % 6007)) / 100.0
+    };
+    let nodes = network.nodes().iter().map(|node| of(&node.name));
+    nodes.chain(network.boundaries().iter().map(|boundary| of(&boundary.name))).collect()
+}
