@@ -204,3 +204,25 @@ fn flatten(whole: Stretch, mut finer: Vec<Stretch>, gap: f64, out: &mut Vec<Stre
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{MISSED, PARTS, bends};
+
+    /// What the cubic misses over what bends, for all steps of samples of a function of the steps.
+    fn share(count: usize, of: impl Fn(f64) -> f64) -> f64 {
+        let samples: Vec<f64> = (0..=count * PARTS).map(|k| of(k as f64 / PARTS as f64)).collect();
+        let sum = bends(&samples).into_iter().fold((0.0, 0.0), |sum, bend| (sum.0 + bend.0, sum.1 + bend.1));
+        sum.0 / sum.1
+    }
+
+    #[test]
+    fn a_sine_needs_six_steps_in_a_period_and_a_pulse_in_a_step_is_seen() {
+        let sine = |steps: f64| share(60, |x| (2.0 * std::f64::consts::PI * x / steps).sin());
+        assert!(sine(6.0) < MISSED && sine(5.0) > MISSED, "{} {}", sine(6.0), sine(5.0));
+        let pulse = |width: f64| share(20, |x| 1e-3 * x * x + (-((x - 9.4) / width).powi(2)).exp());
+        assert!(pulse(0.1) > MISSED && pulse(3.0) < MISSED, "{} {}", pulse(0.1), pulse(3.0));
+        // a cubic is foretold, whatever its size
+        assert!(share(7, |x| 1e6 * (x - 3.0).powi(3)) < 1e-9);
+    }
+}

@@ -107,3 +107,30 @@ fn memory(system: &ThermalSystem, time: f64) -> f64 {
     let out = -values.iter().sum::<f64>();
     if out > 0.0 { system.capacity().iter().sum::<f64>() / out } else { f64::INFINITY }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Curved, Stretch, most_steps};
+
+    fn stretches() -> Vec<Stretch> {
+        let all = [(0.0, 10.0, 5.0), (10.0, 12.0, 0.5), (12.0, 20.0, 5.0)];
+        all.map(|(from, to, step)| Stretch { from, to, step }).to_vec()
+    }
+
+    #[test]
+    fn steps_shrink_before_a_stretch_of_short_ones() {
+        let curved = Curved { stretches: stretches(), share: 1.0, remembered: 0.0 };
+        let expected =
+            [(0.0, 5.0), (7.0, 3.5), (9.75, 0.75), (10.0, 0.5), (11.9, 0.5), (12.0, 5.0), (20.0, 5.0)];
+        for (time, longest) in expected {
+            assert!((curved.longest(time) - longest).abs() < 1e-12, "{} at {time}", curved.longest(time));
+        }
+    }
+
+    #[test]
+    fn the_most_steps_within_a_time_are_counted_where_they_are_short() {
+        let most = |memory: f64| most_steps(&stretches(), memory);
+        assert!((most(1.0) - 2.0).abs() < 1e-12 && (most(4.0) - 4.4).abs() < 1e-12);
+        assert!((most(1e9) - 7.6).abs() < 1e-12);
+    }
+}

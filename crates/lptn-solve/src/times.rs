@@ -1,6 +1,6 @@
 //! Output times and the segments between known discontinuities.
 
-use lptn_network::{Network, OutputTimes};
+use lptn_network::OutputTimes;
 
 use crate::error::SettingsError;
 
@@ -60,15 +60,11 @@ pub(crate) fn snap(breakpoints: &mut [f64], rows: &[f64], (start, stop): (f64, f
 const LEAST_DOUBLES: f64 = 3e7;
 
 /// Refuses a run so far from 0 that times inside it cannot be told apart well enough for what depends on them.
-pub(crate) fn check_resolution(network: &Network, start: f64, stop: f64) -> Result<(), SettingsError> {
+pub(crate) fn check_resolution(start: f64, stop: f64) -> Result<(), SettingsError> {
     let far = start.abs().max(stop.abs());
     let resolution = far.next_up() - far;
     let fine = stop - start >= LEAST_DOUBLES * resolution;
-    if fine || !network.reads_time() {
-        Ok(())
-    } else {
-        Err(SettingsError::FarFromZero { start, stop, resolution })
-    }
+    if fine { Ok(()) } else { Err(SettingsError::FarFromZero { start, stop, resolution }) }
 }
 
 /// A part of a run inside which every input is smooth.

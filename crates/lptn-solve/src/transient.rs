@@ -55,7 +55,9 @@ impl Transient {
         }
         let rows = self.rows().map_err(TransientError::Settings)?;
         let network = system.network();
-        check_resolution(network, self.start, self.stop).map_err(TransientError::Settings)?;
+        if network.reads_time() || !self.windows.is_empty() {
+            check_resolution(self.start, self.stop).map_err(TransientError::Settings)?;
+        }
         let mut breakpoints = network.breakpoints(self.start, self.stop).map_err(TransientError::Input)?;
         snap(&mut breakpoints, &rows, (self.start, self.stop));
         breakpoints.dedup();

@@ -76,7 +76,7 @@ impl Seen {
     pub(crate) fn promising(&self, points: &[(f64, f64)]) -> Option<f64> {
         let tops = points.windows(3).filter_map(|p| top([p[0], p[1], p[2]]));
         let (height, time) = tops.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let known = points.iter().any(|p| (p.0 - time).abs() <= 1e-12 * time.abs());
+        let known = points.iter().any(|p| is_same(p.0, time, (points[0].0, points[points.len() - 1].0)));
         (height > self.peak.0 && !known).then_some(time)
     }
 
@@ -95,6 +95,11 @@ impl Seen {
             self.crossed = Some(self.last.0 + (time - self.last.0) * (before / (before - after)));
         }
     }
+}
+
+/// Whether two times between these ends are one: far from 0 those of a short step are all near each other.
+pub(crate) fn is_same(a: f64, b: f64, (from, to): (f64, f64)) -> bool {
+    (a - b).abs() <= (1e-12 * b.abs()).min(1e-9 * (to - from))
 }
 
 /// The top (value, time) of the parabola through three points (time, value) of ascending time, if it has one

@@ -7,7 +7,7 @@ use crate::error::StopReason;
 use crate::quadrature::{self, Point};
 use crate::quantity::{shown, unit_of};
 use crate::table::Selection;
-use crate::watch::{REFINEMENTS, top};
+use crate::watch::{REFINEMENTS, is_same, top};
 
 /// A part of a run over which columns are averaged and their extremes found.
 #[derive(Clone, Debug)]
@@ -169,7 +169,8 @@ fn extreme(
         let of = |p: &Point| (p.time, sign * p.values[column]);
         let tops = points.windows(3).filter_map(|w| top([of(&w[0]), of(&w[1]), of(&w[2])]));
         let Some((height, time)) = tops.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
-        let known = points.iter().any(|p| (p.time - time).abs() <= 1e-12 * time.abs());
+        let ends = (points[0].time, points[points.len() - 1].time);
+        let known = points.iter().any(|p| is_same(p.time, time, ends));
         if known || height <= sign * best.0 + 1e-14 * best.0.abs() {
             break;
         }
