@@ -31,7 +31,10 @@ pub(crate) fn caught(work: impl FnOnce() -> Result<Exit, Failure>) -> Result<Exi
 }
 
 fn described(panic: &PanicHookInfo<'_>) -> String {
-    let what = panic.payload_as_str().unwrap_or("no reason is given");
+    let payload = panic.payload();
+    let text =
+        payload.downcast_ref::<String>().map(String::as_str).or(payload.downcast_ref::<&str>().copied());
+    let what = text.unwrap_or("no reason is given");
     panic.location().map_or_else(|| what.to_owned(), |place| format!("{what}, at {place}"))
 }
 

@@ -158,19 +158,14 @@ impl Answer<'_> {
 
     /// One row: the value in its unit, the margin of every requirement in SI units.
     fn table(&self) -> Table {
-        let column = |name: &str, unit: &str, value: f64| lptn_solve::Column {
-            name: name.to_owned(),
-            unit: unit.to_owned(),
-            values: vec![value],
-        };
+        let mut table = Table::of(&[()]);
         let value = self.unit.from_si(self.sizing.trial.value);
-        let mut columns = vec![
-            column(&self.study.parameter, &self.unit.text, value),
-            column("feasible", "-", if self.sizing.feasible() { 1.0 } else { 0.0 }),
-        ];
-        let requirements = self.study.requirements.iter().zip(&self.sizing.trial.margins);
-        columns.extend(requirements.map(|(r, &margin)| column(&r.text, &r.ty.dimension.si_unit(), margin)));
-        Table::labelled(Vec::new(), columns)
+        table.column(&self.study.parameter, &self.unit.text, |()| value);
+        table.column("feasible", "-", |()| if self.sizing.feasible() { 1.0 } else { 0.0 });
+        for (r, &margin) in self.study.requirements.iter().zip(&self.sizing.trial.margins) {
+            table.column(&r.text, r.ty.dimension.si_unit(), |()| margin);
+        }
+        table.done()
     }
 
     fn json(&self, out: impl std::io::Write) -> std::io::Result<()> {

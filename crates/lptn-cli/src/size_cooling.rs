@@ -98,12 +98,9 @@ impl Answer {
     }
 
     fn table(&self) -> Table {
-        let column = |(name, value, unit): (&str, f64, &str)| lptn_solve::Column {
-            name: name.to_owned(),
-            unit: unit.to_owned(),
-            values: vec![value],
-        };
-        Table::labelled(Vec::new(), self.values().map(column).to_vec())
+        let mut table = Table::of(&[()]);
+        self.values().into_iter().for_each(|(name, value, unit)| table.column(name, unit, |()| value));
+        table.done()
     }
 
     fn json(&self, out: impl std::io::Write) -> std::io::Result<()> {

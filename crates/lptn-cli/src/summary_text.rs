@@ -7,7 +7,7 @@ use lptn_report::{
     Align, Column, Flow, TextTable, WIDTH, balance, decimals, duration, fixed, labelled, significant,
     sparkline,
 };
-use lptn_solve::{End, NodeSummary, Solution, SteadyError, Summary, Unbounded};
+use lptn_solve::{End, NodeSummary, Solution, SteadyError, Summary, Unbounded, first_there};
 
 use crate::console::Console;
 use crate::run::NoSteady;
@@ -75,12 +75,8 @@ fn include_rows(view: &View<'_>, node: &mut NodeSummary) {
             node.peak = (value, time);
         }
     }
-    let same = |value: f64| node.peak.0 - value <= 10.0 * view.settings.tolerance;
-    if same(node.start) {
-        node.peak.1 = view.settings.start;
-    } else if same(node.end) {
-        node.peak.1 = reached(view);
-    }
+    let ends = [(node.start, view.settings.start), (node.end, reached(view))];
+    node.peak.1 = first_there(node.peak, ends, 10.0 * view.settings.tolerance);
 }
 
 fn words(text: &str) -> Vec<String> {

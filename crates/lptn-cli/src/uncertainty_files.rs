@@ -1,7 +1,7 @@
 //! Uncertain results as files and as JSON.
 
 use lptn_network::{Item, Network};
-use lptn_solve::{Column, Label, Table};
+use lptn_solve::Table;
 use lptn_study::Scalar;
 use lptn_study::uncertainty::{
     Answer, AnswerOf, Contribution, Discrepancy, Estimate, Lost, Method, Uncertainty,
@@ -14,24 +14,25 @@ use crate::uncertainty::Study;
 /// The rows of `uncertainty.csv`: the time, then for each node its temperature as in `result.csv`, one standard deviation
 /// and the band of 95 %.
 pub(crate) fn bands(network: &Network, found: &Uncertainty, unit: &Unit) -> Table {
-    let time = Column { name: "time".into(), unit: "s".into(), values: found.times.clone() };
-    let mut columns = vec![time];
+    let rows: Vec<usize> = (0..found.times.len()).collect();
+    let mut table = Table::of(&rows);
+    let mut add = |name: String, unit: &str, value: &dyn Fn(usize) -> Option<f64>| {
+        table.column(name, unit, |&row| value(row).unwrap_or(f64::NAN));
+    };
+    add("time".into(), "s", &|row| found.times.get(row).copied());
     for bands in &found.bands {
-        let name = format!("{}.T", network.name_of(Item::Node(bands.node)));
-        let shown = |values: &[f64]| values.iter().map(|kelvin| unit.from_si(*kelvin)).collect();
-        let mut add = |ending: &str, unit: &str, values: Vec<f64>| {
-            columns.push(Column { name: format!("{name}{ending}"), unit: unit.to_owned(), values });
-        };
-        add("", &unit.text, shown(&bands.value));
-        let deviation = bands.deviation.iter().map(|kelvin| kelvin / unit.scale).collect();
-        add(".sd", difference(unit), deviation);
-        add(".low", &unit.text, shown(&bands.low));
+        let name = |ending: &str| format!("{}.T{ending}", network.name_of(Item::Node(bands.node)));
+        let shown = |values: &[f64], row: usize| values.get(row).map(|kelvin| unit.from_si(*kelvin));
+        add(name(""), &unit.text, &|row| shown(&bands.value, row));
+        let deviation = |row: usize| bands.deviation.get(row).map(|kelvin| kelvin / unit.scale);
+        add(name(".sd"), difference(unit), &deviation);
+        add(name(".low"), &unit.text, &|row| shown(&bands.low, row));
         if let Some(median) = &bands.median {
-            add(".median", &unit.text, shown(median));
+            add(name(".median"), &unit.text, &|row| shown(median, row));
         }
-        add(".high", &unit.text, shown(&bands.high));
+        add(name(".high"), &unit.text, &|row| shown(&bands.high, row));
     }
-    Table::labelled(Vec::new(), columns)
+    table.done()
 }
 
 /// The unit of a difference of two temperatures in `unit`.
@@ -47,31 +48,21 @@ pub(crate) fn ranking(network: &Network, found: &Uncertainty) -> Table {
         .iter()
         .flat_map(|answer| answer.ranking.iter().map(move |part| (answer, part)))
         .collect();
-    let label = |name: &str, text: &dyn Fn(&(&Answer, &Contribution)) -> String| Label {
-        name: name.into(),
-        cells: rows.iter().map(text).collect(),
+    let mut table = Table::of(&rows);
+    table.label("result", |(answer, _)| answer.of.name(network));
+    table.label("unit", |(answer, _)| unit_of(network, answer.of));
+    table.label("parameter", |(_, part)| parameter(network, found, part.input));
+    table.column("effect", "SI", |(_, part)| part.effect);
+    let mut column = |name: &str, value: &dyn Fn(&Contribution) -> Option<f64>| {
+        table.column(name, "1", |(_, part)| value(part).unwrap_or(f64::NAN));
     };
-    let column = |name: &str, value: &dyn Fn(&(&Answer, &Contribution)) -> Option<f64>| Column {
-        name: name.into(),
-        unit: "1".into(),
-        values: rows.iter().map(|row| value(row).unwrap_or(f64::NAN)).collect(),
-    };
-    let labels = vec![
-        label("result", &|(answer, _)| answer.of.name(network)),
-        label("unit", &|(answer, _)| unit_of(network, answer.of)),
-        label("parameter", &|(_, part)| parameter(network, found, part.input)),
-    ];
-    let effect = rows.iter().map(|(_, part)| part.effect).collect();
-    let mut columns = vec![
-        Column { name: "effect".into(), unit: "SI".into(), values: effect },
-        column("share", &|(_, part)| Some(part.share.value)),
-    ];
+    column("share", &|part| Some(part.share.value));
     if matches!(found.method, Method::Sobol { .. }) {
-        columns.push(column("share_error", &|(_, part)| part.share.error));
-        columns.push(column("total", &|(_, part)| part.total.map(|total| total.value)));
-        columns.push(column("total_error", &|(_, part)| part.total?.error));
+        column("share_error", &|part| part.share.error);
+        column("total", &|part| part.total.map(|total| total.value));
+        column("total_error", &|part| part.total?.error);
     }
-    Table::labelled(labels, columns)
+    table.done()
 }
 
 /// The name of an uncertain parameter.

@@ -177,3 +177,75 @@ fn a_run_that_fails_at_its_first_instant_has_no_rows() {
         }
     }
 }
+
+/// An extreme that lasts until the end of a window was said to be first there at the end. Air that jumps from 20 to 30 degC
+/// at 60 s and back at 80 s in the second file; a core of 100 J/K behind 1 K/W, a skin without capacity halfway to the air.
+#[test]
+fn an_extreme_that_lasts_is_where_it_begins() {
+    let text = |air: &str| {
+        format!(
+            "format = 1\n[boundary]\nair = {{ T = \"{air}\" }}\nwall = {{ T = \"20 degC\" }}\n[node]\n\
+             core = {{ C = \"100 J/K\", T0 = \"20 degC\" }}\nskin = {{ massless = true }}\n[resistor]\n\
+             foot = {{ from = \"core\", to = \"air\", R = \"1 K/W\" }}\nin = {{ from = \"air\", to = \"skin\", R = \"1 K/W\" }}\n\
+             out = {{ from = \"skin\", to = \"wall\", R = \"1 K/W\" }}\n[run]\nstop = \"2 min\"\n\
+             window = {{ all = {{ from = \"10 s\", to = \"100 s\" }} }}\n"
+        )
+    };
+    let folder = Folder::with("up.toml", &text("if(t < 60 [s], 20 [degC], 30 [degC])"));
+    folder.write("both.toml", &text("if(t < 60 [s], 20 [degC], if(t < 80 [s], 30 [degC], 20 [degC]))"));
+    // value in K or W and time of the least and of the largest value. The core: 10 K (1 - exp(-t/100 s)), then back
+    let rise = |time: f64| 293.15 - 10.0 * f64::exp_m1(-time / 100.0);
+    let up = [
+        ("air.T", (293.15, 10.0), (303.15, 60.0)),
+        ("skin.T", (293.15, 10.0), (298.15, 60.0)),
+        ("in.Q", (0.0, 10.0), (5.0, 60.0)),
+        ("core.T", (293.15, 10.0), (rise(40.0), 100.0)),
+        ("foot.Q", (-10.0, 60.0), (0.0, 10.0)),
+    ];
+    let both = [("air.T", (293.15, 10.0), (303.15, 60.0)), ("core.T", (293.15, 10.0), (rise(20.0), 80.0))];
+    for (file, expected) in [("up.toml", &up[..]), ("both.toml", &both)] {
+        let json = folder.run(&["run", file, "--no-files", "--format", "json"]).exits(0).json();
+        for (name, min, max) in expected {
+            let column = &json["windows"]["all"]["columns"][name];
+            let number = |key: &str| column[key]["value"].as_f64().unwrap();
+            for ((value, time), (key, at)) in [(min, ("min", "min_at")), (max, ("max", "max_at"))] {
+                assert!((number(key) - value).abs() < 1e-4, "{file} {name} {key}: {}", number(key));
+                assert!((number(at) - time).abs() < 1e-6, "{file} {name} {at}: {}", number(at));
+            }
+        }
+    }
+    // the peak of a comparison, of a part that nothing delays
+    let only = text("if(t < 60 [s], 20 [degC], 30 [degC])").replace("C = \"100 J/K\"", "C = \"1e9 J/K\"");
+    folder.write("skin.toml", &only);
+    let ran = folder.run(&["compare", "skin.toml", "--format", "csv"]).exits(0);
+    assert!(ran.out.contains(",skin,,NaN,25,60,"), "{}", ran.out);
+}
+
+/// A signal from a file took twenty times the memory of the file: every cell was held with its place. 1.5 million rows of 20 MB,
+/// which took 460 MB; the place of a row is still known where something is wrong with it.
+#[cfg(unix)]
+#[test]
+fn a_long_signal_takes_little_more_memory_than_its_numbers() {
+    let rows = 1_500_000;
+    let mut csv = String::from("t [s],P [W]\n");
+    (0..rows).for_each(|i| csv.push_str(&format!("{i}.5,{}.25\n", i % 977)));
+    let text = "format = 1\n[signal]\nf = { csv = \"long.csv\", time = \"t\", value = \"P\" }\n[node]\n\
+                block = { C = \"100 J/K\", T0 = \"20 degC\" }\n[source]\nheat = { into = \"block\", P = \"f\" }\n\
+                [boundary]\nroom = { T = \"20 degC\" }\n[resistor]\n\
+                foot = { from = \"block\", to = \"room\", R = \"1 K/W\" }\n";
+    let folder = Folder::with("long.toml", text);
+    let check = || {
+        let mut command = std::process::Command::new("sh");
+        let script = "ulimit -v 350000; exec \"$0\" check long.toml";
+        command.args(["-c", script, env!("CARGO_BIN_EXE_lptn")]).current_dir(folder.path());
+        common::Ran::of(command.output().unwrap())
+    };
+    folder.write("long.csv", &csv);
+    check().exits(0);
+    csv.push_str("7.5,1\n");
+    folder.write("long.csv", &csv);
+    check().exits(1).prints("long.csv:1500002:1").prints("this one is below the one before it");
+    // a file without content that is as long as no file may be
+    std::fs::File::create(folder.path().join("long.csv")).unwrap().set_len(2_000_000_001).unwrap();
+    check().exits(1).prints("netlist::csv_too_long").prints("longer than 2000 MB");
+}

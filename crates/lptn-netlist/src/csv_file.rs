@@ -10,7 +10,8 @@ use crate::csv_head::{Head, Row, number, reader, row};
 use crate::diagnostic::Diagnostic;
 use crate::file::{FileId, Files, Span};
 use crate::include::{Loader, reason};
-use crate::points::Points;
+use crate::limits::MOST_PROBLEMS;
+use crate::points::{Places, Points};
 use crate::raw::{RawKind, RawNetlist, RawTable, RawValue};
 use crate::value::Place;
 use crate::vocabulary::IMPORT;
@@ -47,12 +48,16 @@ impl CsvText {
     }
 }
 
-/// One CSV file: a header, and rows of cells.
+/// One CSV file: a header, and rows of cells. The rows stand in the text alone and are read again for every column: held as
+/// cells they would take twenty times the memory of the file.
 #[derive(Debug)]
 pub(crate) struct CsvFile {
     head: Head,
-    rows: Vec<Row>,
+    text: Arc<str>,
 }
+
+/// So many rows of a column are looked at for what is wrong with them; of millions the rest are like those.
+const MOST_WRONG: usize = 20 * MOST_PROBLEMS;
 
 impl CsvFiles {
     /// Reads every file that the netlist names, through the loader that reads what it includes.
@@ -125,7 +130,8 @@ fn load(
     loader: Option<&mut Loader<'_>>,
 ) -> Result<Arc<CsvFile>, Diagnostic> {
     let text = load_text(files, path, value, loader)?;
-    let parsed = parse(text.file, &text.text).ok_or_else(|| text.empty(value, "t [s],speed [rpm]"))?;
+    let parsed =
+        parse(text.file, Arc::clone(&text.text)).ok_or_else(|| text.empty(value, "t [s],speed [rpm]"))?;
     match parsed.too_long(value) {
         Some(problem) => Err(problem),
         None => Ok(Arc::new(parsed)),
@@ -152,6 +158,10 @@ fn load_text(
     };
     let bytes = match loader(path) {
         Ok(bytes) => bytes,
+        Err(error) if error.kind() == std::io::ErrorKind::FileTooLarge => {
+            let help = "leave out rows between which nothing changes, or split the file by its columns";
+            return refused("netlist::csv_too_long", format!("cannot read {name}: {error}"), help);
+        }
         Err(error) => {
             let message = format!("cannot read {name}: {}", reason(&error));
             return refused(
@@ -161,7 +171,7 @@ fn load_text(
             );
         }
     };
-    let Some(text) = std::str::from_utf8(&bytes).ok().filter(|text| !text.contains('\0')) else {
+    let Some(text) = String::from_utf8(bytes).ok().filter(|text| !text.contains('\0')) else {
         let message = format!("{name} is not a text file in UTF-8");
         return refused("netlist::not_text", message, "choose `CSV UTF-8` where your program saves it");
     };
@@ -170,23 +180,60 @@ fn load_text(
     Ok(CsvText { file, name: name.to_string(), text })
 }
 
-/// The header and the rows.
-fn parse(file: FileId, text: &str) -> Option<CsvFile> {
-    let mut reader = reader(text);
-    let mut rows = reader.records().filter_map(Result::ok).map(|cells| row(cells, text));
-    let head = Head::new(file, &rows.next()?);
-    Some(CsvFile { head, rows: rows.collect() })
+/// The header, before the rows.
+fn parse(file: FileId, text: Arc<str>) -> Option<CsvFile> {
+    let cells = reader(&text).records().find_map(Result::ok)?;
+    let head = Head::new(file, &row(cells, &text));
+    Some(CsvFile { head, text })
 }
 
 impl CsvFile {
+    /// Visits the cells of the rows in their order, until the visitor has found what it looked for.
+    fn visit<T>(&self, mut visit: impl FnMut(&csv::StringRecord) -> Option<T>) -> Option<T> {
+        let (mut reader, mut cells) = (reader(&self.text), csv::StringRecord::new());
+        let mut is_head = true;
+        loop {
+            match reader.read_record(&mut cells) {
+                Ok(false) => return None,
+                Ok(true) if !std::mem::take(&mut is_head) => {
+                    if let Some(found) = visit(&cells) {
+                        return Some(found);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// The record as a row with its place.
+    fn row(&self, cells: &csv::StringRecord) -> Row {
+        row(cells.clone(), &self.text)
+    }
+
+    /// The place of a cell, or of its line; rows are counted from 0.
+    pub(crate) fn place(&self, index: usize, column: usize) -> Option<Span> {
+        let mut left = index;
+        self.visit(|cells| match left.checked_sub(1) {
+            None => Some(self.row(cells).place(self.head.file(), column)),
+            Some(fewer) => {
+                left = fewer;
+                None
+            }
+        })
+    }
+
     /// The first row with a value behind the last column.
     fn too_long(&self, value: &RawValue) -> Option<Diagnostic> {
-        self.rows.iter().find_map(|row| self.head.extra(row, &value.span))
+        let columns = self.head.columns.len();
+        self.visit(|cells| {
+            let longer = cells.len() > columns;
+            longer.then(|| self.head.extra(&self.row(cells), &value.span)).flatten()
+        })
     }
 
     /// The numbers of the column that `ask` names, in SI units; of type `wanted` where that is known.
     pub(crate) fn column(
-        &self,
+        self: &Arc<Self>,
         name: &str,
         wanted: Option<Type>,
         ask: Place<'_>,
@@ -194,18 +241,20 @@ impl CsvFile {
         let head = &self.head;
         let index = head.find(name, ask).map_err(|problem| vec![problem])?;
         let unit = head.unit(index, wanted, ask).map_err(|problem| vec![problem])?;
-        let mut points = Points::new(unit.ty, head.columns[index].place.clone());
+        let mut numbers = Vec::with_capacity(self.text.bytes().filter(|&byte| byte == b'\n').count());
         let mut problems = Vec::new();
-        for row in &self.rows {
-            match number(row.cell(index)) {
+        self.visit(|cells| {
+            match number(cells.get(index).unwrap_or_default().trim()) {
                 Ok(number) if unit.ty.absolute && unit.to_si(number) < 0.0 => {
-                    problems.push(head.cold(row, index, ask));
+                    problems.push(head.cold(&self.row(cells), index, ask));
                 }
-                Ok(number) => points.push(unit.to_si(number), row.place(head.file(), index)),
-                Err(wrong) => problems.push(head.no_number(row, index, (wrong, ask))),
+                Ok(number) => numbers.push(unit.to_si(number)),
+                Err(wrong) => problems.push(head.no_number(&self.row(cells), index, (wrong, ask))),
             }
-        }
-        if problems.is_empty() { Ok(points) } else { Err(problems) }
+            (problems.len() >= MOST_WRONG).then_some(())
+        });
+        let (whole, places) = (head.columns[index].place.clone(), Places::Column(Arc::clone(self), index));
+        if problems.is_empty() { Ok(Points { numbers, ty: unit.ty, places, whole }) } else { Err(problems) }
     }
 
     /// The place of the header.
@@ -224,14 +273,12 @@ mod tests {
             "\u{feff}# cycle\r\n\r\nt [s], speed [rpm]\r\n\r\n0, 10\r\n# more\r\n 1 ,20\r\n\"2\",30\n3,40";
         let mut files = Files::new();
         let id = files.add("a.csv", text);
-        let file = parse(id, text).unwrap();
+        let file = parse(id, text.into()).unwrap();
         assert_eq!(files.line_column(&file.head.place), (3, 1));
         assert_eq!(files.at(&file.head.columns[1].place), "speed [rpm]");
-        let rows: Vec<(usize, &str)> = file
-            .rows
-            .iter()
-            .map(|row| (files.line_column(&row.place(id, 1)).0, files.at(&row.place(id, 1))))
-            .collect();
+        let places: Vec<_> = (0..).map_while(|row| file.place(row, 1)).collect();
+        let rows: Vec<(usize, &str)> =
+            places.iter().map(|place| (files.line_column(place).0, files.at(place))).collect();
         let expected = [(5, "10"), (7, "20"), (8, "\"2\",30"), (9, "40")];
         assert_eq!(rows, expected);
     }

@@ -42,10 +42,15 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
 
 /// The bytes of a file that a netlist names: up to [`MOST_CSV_BYTES`], for it may be a CSV file of a network.
 pub(crate) fn read_named(path: &Path) -> io::Result<Vec<u8>> {
-    if is_device(std::fs::metadata(path)?.file_type()) {
+    let metadata = std::fs::metadata(path)?;
+    if is_device(metadata.file_type()) {
         return Err(io::Error::other("it is a device"));
     }
-    let too_long = || io::Error::other(format!("it is longer than {} MB", MOST_CSV_BYTES / 1_000_000));
+    let message = format!("it is longer than {} MB", MOST_CSV_BYTES / 1_000_000);
+    let too_long = || io::Error::new(io::ErrorKind::FileTooLarge, message);
+    if metadata.len() > MOST_CSV_BYTES {
+        return Err(too_long()); // before gigabytes are read in vain
+    }
     limited(std::fs::File::open(path)?, MOST_CSV_BYTES)?.ok_or_else(too_long)
 }
 

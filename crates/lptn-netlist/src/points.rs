@@ -17,19 +17,29 @@ use crate::value::Place;
 pub(crate) struct Points {
     pub(crate) numbers: Vec<f64>,
     pub(crate) ty: Type,
-    pub(crate) places: Vec<Span>,
+    pub(crate) places: Places,
     /// The list, or the header of the column.
     pub(crate) whole: Span,
 }
 
-impl Points {
-    pub(crate) fn new(ty: Type, whole: Span) -> Self {
-        Self { numbers: Vec::new(), ty, places: Vec::new(), whole }
-    }
+/// Where the numbers of a curve stand.
+#[derive(Clone, Debug)]
+pub(crate) enum Places {
+    /// Each item of a list.
+    Items(Vec<Span>),
+    /// The rows of a file, one for each number, and the position of the column: a file may have millions, and the places
+    /// of two of them are asked for, where something is wrong.
+    Column(Arc<CsvFile>, usize),
+}
 
-    pub(crate) fn push(&mut self, number: f64, place: Span) {
-        self.numbers.push(number);
-        self.places.push(place);
+impl Points {
+    /// Where a number stands.
+    pub(crate) fn place(&self, index: usize) -> Span {
+        let place = match &self.places {
+            Places::Items(places) => places.get(index).cloned(),
+            Places::Column(file, column) => file.place(index, *column),
+        };
+        place.unwrap_or_else(|| self.whole.clone())
     }
 }
 
@@ -114,7 +124,7 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn column(
         &mut self,
         fields: &Fields<'a>,
-        file: &CsvFile,
+        file: &Arc<CsvFile>,
         axis: Axis<'_>,
         name: Option<(&str, &RawValue)>,
     ) -> Option<Points> {
@@ -154,19 +164,22 @@ impl<'a> Elaboration<'a> {
             Some(unit) => Some(unit?),
         };
         let ty = axis.ty.or(unit.as_ref().map(|unit| unit.ty));
-        let mut points = Points::new(ty.unwrap_or(Type::SCALAR), raw.span.clone());
+        let (mut numbers, mut places) = (Vec::new(), Vec::new());
+        let mut of = ty.unwrap_or(Type::SCALAR);
         let before = self.problems.len();
         for (n, item) in items.iter().enumerate() {
-            let known = ty.or((n > 0).then_some(points.ty));
+            let known = ty.or((n > 0).then_some(of));
             match self.point((place, item), unit.as_ref(), (axis, known)) {
                 Some((number, found)) => {
-                    points.ty = known.unwrap_or(found);
-                    points.push(number, item.span.clone());
+                    of = known.unwrap_or(found);
+                    numbers.push(number);
+                    places.push(item.span.clone());
                 }
                 None if n == 0 && ty.is_none() => return None, // the others cannot be judged
                 None => {}
             }
         }
+        let points = Points { numbers, ty: of, places: Places::Items(places), whole: raw.span.clone() };
         (self.problems.len() == before).then_some(points)
     }
 
@@ -304,8 +317,8 @@ fn rising(words: &str, arguments: &str, x: &Points, index: usize) -> Diagnostic 
         TableError::NotIncreasing { index }.code(),
         format!("{arguments} of {words} must rise, but {says}"),
     )
-    .at(x.places[index].clone(), if repeated { "again" } else { "falls" })
-    .also(x.places[index - 1].clone(), "the one before it")
+    .at(x.place(index), if repeated { "again" } else { "falls" })
+    .also(x.place(index - 1), "the one before it")
 }
 
 fn cold(place: Place<'_>) -> Diagnostic {

@@ -1,8 +1,8 @@
 //! A reduction as a table for files.
 
-use lptn_solve::{Column, Label, Table};
+use lptn_solve::Table;
 
-use crate::definition::{Definition, Pair};
+use crate::definition::Pair;
 use crate::deviation::Deviation;
 use crate::reduction::Reduction;
 
@@ -16,31 +16,24 @@ impl Reduction {
             None => vec![None],
         };
         let recommended = self.dynamics.as_ref().map(|dynamics| dynamics.recommended.definition);
-        let label = |name: &str, text: &dyn Fn(Definition) -> &'static str, nothing: &str| Label {
-            name: name.to_owned(),
-            cells: pairs.iter().map(|p| p.map_or(nothing, |p| text(p.definition)).to_owned()).collect(),
-        };
-        let labels = vec![
-            label("definition", &Definition::key, ""),
-            label("recommended", &|d| if recommended == Some(d) { "yes" } else { "no" }, "no"),
-        ];
-        let column = |name: &str, unit: &str, value: &dyn Fn(&Pair) -> Option<f64>| Column {
-            name: name.to_owned(),
-            unit: unit.to_owned(),
-            values: pairs.iter().map(|pair| pair.and_then(value).unwrap_or(f64::NAN)).collect(),
-        };
+        let mut table = Table::of(&pairs);
+        table.label("definition", |pair| pair.map_or("", |pair| pair.definition.key()).to_owned());
+        let is_recommended =
+            |pair: &Option<&Pair>| pair.is_some_and(|pair| recommended == Some(pair.definition));
+        table.label("recommended", |pair| if is_recommended(pair) { "yes" } else { "no" }.to_owned());
         let r = self.norton.resistance;
-        let mut columns = vec![
-            Column { name: "R_eq".into(), unit: "K/W".into(), values: vec![r; pairs.len()] },
-            column("C_eq", "J/K", &|pair| Some(pair.capacity)),
-            column("tau", "s", &|pair| Some(r * pair.capacity)),
-        ];
+        table.column("R_eq", "K/W", |_| r);
+        let mut column = |name: &str, unit: &str, value: &dyn Fn(&Pair) -> Option<f64>| {
+            table.column(name, unit, |pair| pair.and_then(value).unwrap_or(f64::NAN));
+        };
+        column("C_eq", "J/K", &|pair| Some(pair.capacity));
+        column("tau", "s", &|pair| Some(r * pair.capacity));
         let step: &dyn Fn(&Pair) -> Option<Deviation> = &|pair| Some(pair.step);
         for (name, of) in [("step", step), ("run", &|pair: &Pair| pair.run)] {
-            columns.push(column(&format!("{name}.max"), "K", &|pair| Some(of(pair)?.kelvin)));
-            columns.push(column(&format!("{name}.relative"), "-", &|pair| of(pair)?.relative));
-            columns.push(column(&format!("{name}.time"), "s", &|pair| Some(of(pair)?.time)));
+            column(&format!("{name}.max"), "K", &|pair| Some(of(pair)?.kelvin));
+            column(&format!("{name}.relative"), "-", &|pair| of(pair)?.relative);
+            column(&format!("{name}.time"), "s", &|pair| Some(of(pair)?.time));
         }
-        Table::labelled(labels, columns)
+        table.done()
     }
 }

@@ -69,9 +69,9 @@ pub use state::State;
 pub use steady::SteadyState;
 pub use stiffness::Stiffness;
 pub use summary::{NodeSummary, Summary};
-pub use table::{Column, Label, Selection, Table};
+pub use table::{Column, Label, Selection, Table, TableOf};
 pub use unsolved::{Unsolved, UnsolvedReason};
 pub use verification::{Comparison, LEAST_TOLERANCE, NoReference, Reference, Verification, allowed_error};
 
-pub use watch::{Seen, Watch, top};
+pub use watch::{Seen, Watch, first_there, top};
 pub use window::{ColumnSeen, Window, WindowSeen};

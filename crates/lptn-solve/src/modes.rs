@@ -3,7 +3,7 @@
 use lptn_network::{Network, NodeId};
 
 use crate::exact::{ExactError, Island, Reduced, islands};
-use crate::table::{Column, Table};
+use crate::table::Table;
 
 /// One way in which a network forgets: a pattern of temperatures that keeps its shape and dies away as
 /// `exp(-t / tau)`.
@@ -65,17 +65,13 @@ impl Modes {
 
     /// One row a mode: `tau`, then `NAME.shape` and `NAME.participation` of every node.
     pub fn table(&self, network: &Network) -> Table {
-        let column = |name: String, unit: &str, value: &dyn Fn(&Mode) -> f64| Column {
-            name,
-            unit: unit.to_owned(),
-            values: self.modes.iter().map(value).collect(),
-        };
-        let mut columns = vec![column("tau".into(), "s", &Mode::tau)];
+        let mut table = Table::of(&self.modes);
+        table.column("tau", "s", Mode::tau);
         for (i, node) in network.nodes().iter().enumerate() {
-            columns.push(column(format!("{}.shape", node.name), "-", &|m| m.shape[i]));
-            columns.push(column(format!("{}.participation", node.name), "-", &|m| m.participation[i]));
+            table.column(format!("{}.shape", node.name), "-", |m| m.shape[i]);
+            table.column(format!("{}.participation", node.name), "-", |m| m.participation[i]);
         }
-        Table::labelled(Vec::new(), columns)
+        table.done()
     }
 }
 

@@ -86,6 +86,7 @@ impl<'a> Recorder<'a> {
         let size = size.ok_or(TransientError::Settings(too_much.clone()))?;
         temperatures.try_reserve_exact(size).map_err(|_| TransientError::Settings(too_much))?;
         let unfold = Unfold::new(system).map_err(|e| TransientError::Start(Unsolved::new(system, e)))?;
+        let windows = settings.windows.iter().cloned().map(|window| Tracked::new(window, network));
         Ok(Self {
             system,
             work: system.workspace(),
@@ -103,7 +104,7 @@ impl<'a> Recorder<'a> {
             seen: Vec::new(),
             points: vec![Vec::new(); settings.watch.len()],
             limits: LimitWatch::new(system),
-            windows: settings.windows.iter().cloned().map(Tracked::new).collect(),
+            windows: windows.collect(),
             reading: Reading::new(system),
             state: vec![0.0; system.states().len()],
             sensed: Sensed::of(system, &settings.sensitivities)?,
@@ -133,6 +134,7 @@ impl<'a> Recorder<'a> {
     /// Enters the next segment: from here on inputs are read as they are inside it, in these positions.
     pub(crate) fn enter(&mut self, segment: Segment, positions: Option<&Positions>) {
         self.segment = segment;
+        self.windows.iter_mut().for_each(Tracked::jump);
         if let Some(positions) = positions {
             self.work.set_positions(positions);
             let known = self.positions.last() == Some(positions);

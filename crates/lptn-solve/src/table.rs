@@ -43,14 +43,41 @@ pub struct Table {
     columns: Vec<Column>,
 }
 
+/// A table under way, with one row for each item of a list. A column is told how to read one item, and so is as long as all
+/// others.
+#[derive(Debug)]
+pub struct TableOf<'a, T> {
+    items: &'a [T],
+    table: Table,
+}
+
+impl<'a, T> TableOf<'a, T> {
+    /// A column of words.
+    pub fn label(&mut self, name: impl Into<String>, cell: impl FnMut(&'a T) -> String) {
+        self.table.labels.push(Label { name: name.into(), cells: self.items.iter().map(cell).collect() });
+    }
+
+    /// A column of numbers.
+    pub fn column(
+        &mut self,
+        name: impl Into<String>,
+        unit: impl Into<String>,
+        value: impl FnMut(&'a T) -> f64,
+    ) {
+        let values = self.items.iter().map(value).collect();
+        self.table.columns.push(Column { name: name.into(), unit: unit.into(), values });
+    }
+
+    /// The table.
+    pub fn done(self) -> Table {
+        self.table
+    }
+}
+
 impl Table {
-    /// A table of columns of words and columns of numbers; all are cut to the length of the shortest.
-    pub fn labelled(mut labels: Vec<Label>, mut columns: Vec<Column>) -> Self {
-        let lengths = labels.iter().map(|l| l.cells.len()).chain(columns.iter().map(|c| c.values.len()));
-        let rows = lengths.min().unwrap_or(0);
-        labels.iter_mut().for_each(|label| label.cells.truncate(rows));
-        columns.iter_mut().for_each(|column| column.values.truncate(rows));
-        Self { labels, columns }
+    /// A table with one row for each of `items`.
+    pub fn of<T>(items: &[T]) -> TableOf<'_, T> {
+        TableOf { items, table: Self { labels: Vec::new(), columns: Vec::new() } }
     }
 
     /// The columns of words.
@@ -228,7 +255,19 @@ fn matches(pattern: &str, name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::matches;
+    use super::{Table, matches};
+
+    /// A list of columns was cut to the shortest without a word; now every column has a value for every item.
+    #[test]
+    fn columns_are_as_long_as_the_list_they_are_of() {
+        let mut table = Table::of(&[1.0, 2.0, 3.0]);
+        table.column("square", "1", |x| x * x);
+        table.label("name", |x| format!("n{x}"));
+        let table = table.done();
+        assert_eq!((table.rows(), table.columns()[0].values.as_slice()), (3, &[1.0, 4.0, 9.0][..]));
+        assert_eq!(table.labels()[0].cells, ["n1", "n2", "n3"]);
+        assert_eq!(Table::of::<f64>(&[]).done().rows(), 0);
+    }
 
     #[test]
     fn patterns_match_whole_names() {

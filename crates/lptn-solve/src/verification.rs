@@ -7,7 +7,7 @@ use crate::error::TransientError;
 use crate::exact::{Difference, ExactError, ExactSolution};
 use crate::settings::{Control, Progress, Record, Transient};
 use crate::solution::{End, Solution};
-use crate::table::{Column, Table};
+use crate::table::Table;
 
 /// How far runs of a network are from its exact solution.
 #[derive(Clone, Debug)]
@@ -149,21 +149,15 @@ impl Verification {
     /// One row a run: `tolerance`, `difference` (the largest), `allowed`, `time` (of the largest difference),
     /// and `NAME.difference` of every node.
     pub fn table(&self, network: &Network) -> Table {
-        let column = |name: String, unit: &str, value: &dyn Fn(&Comparison) -> f64| Column {
-            name,
-            unit: unit.to_owned(),
-            values: self.comparisons.iter().map(value).collect(),
-        };
-        let mut columns = vec![
-            column("tolerance".into(), "K", &|c| c.tolerance),
-            column("difference".into(), "K", &|c| c.difference.largest),
-            column("allowed".into(), "K", &|c| c.allowed),
-            column("time".into(), "s", &|c| c.difference.time),
-        ];
+        let mut table = Table::of(&self.comparisons);
+        table.column("tolerance", "K", |c| c.tolerance);
+        table.column("difference", "K", |c| c.difference.largest);
+        table.column("allowed", "K", |c| c.allowed);
+        table.column("time", "s", |c| c.difference.time);
         for (i, node) in network.nodes().iter().enumerate() {
-            columns.push(column(format!("{}.difference", node.name), "K", &|c| c.difference.by_node[i]));
+            table.column(format!("{}.difference", node.name), "K", |c| c.difference.by_node[i]);
         }
-        Table::labelled(Vec::new(), columns)
+        table.done()
     }
 }
 

@@ -30,6 +30,25 @@ pub(crate) const SAMPLES: u32 = 8;
 /// How often the top of a curve is approached by another parabola.
 pub(crate) const REFINEMENTS: usize = 4;
 
+/// Values that differ by less than this share are one and the same but for rounding: an extreme that lasts, in a node that
+/// nothing delays, has it over and over.
+pub(crate) const LASTS: f64 = 16.0 * f64::EPSILON;
+
+/// When an extreme (value, time) was first there, of a curve that begins and ends with these values at these times. An
+/// extreme that differs from the first value by no more than `margin` cannot be told from it, and is there. One that
+/// differs from the last value by no more than that is there, unless it is the last value to rounding: then it has lasted
+/// until the end and was there before.
+pub fn first_there((value, time): (f64, f64), [first, last]: [(f64, f64); 2], margin: f64) -> f64 {
+    let apart = |end: f64| (end - value).abs();
+    if apart(first.0) <= margin {
+        first.1
+    } else if apart(last.0) <= margin && apart(last.0) > LASTS * value.abs() {
+        last.1
+    } else {
+        time
+    }
+}
+
 impl Seen {
     pub(crate) fn new(watch: Watch, time: f64, temperature: f64) -> Self {
         Self {
@@ -67,7 +86,7 @@ impl Seen {
 
     /// Takes in a temperature that may be the highest.
     pub(crate) fn peak_at(&mut self, (time, temperature): (f64, f64)) {
-        if temperature > self.peak.0 {
+        if temperature > self.peak.0 + LASTS * temperature {
             self.peak = (temperature, time);
         }
     }

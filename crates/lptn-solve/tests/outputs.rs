@@ -124,7 +124,8 @@ fn a_jump_inside_a_window_is_met_and_both_sides_count() {
     let window = &solution.windows()[0];
     let heater = column(window, "heater.P");
     assert!((heater.mean - 20.0).abs() < 1e-12, "{}", heater.mean);
-    assert_eq!((heater.min, heater.max), ((10.0, 20.0), (30.0, 120.0)));
+    // both last, the larger one until the end: they are where they begin
+    assert_eq!((heater.min, heater.max), ((10.0, 20.0), (30.0, 70.0)));
     // 300.2 K at 20 s, 300.7 K at 70 s, 302.2 K at 120 s
     let mean = 0.5 * (300.45 + 301.45);
     assert!((column(window, "block.T").mean - mean).abs() < 1e-5);

@@ -2,7 +2,7 @@
 
 use lptn_netlist::{Diagnostic, FitStudy};
 use lptn_report::write_csv;
-use lptn_solve::{Column, Label, Table};
+use lptn_solve::Table;
 use lptn_study::fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network};
 use lptn_study::{SensitiveError, available_threads};
 use lptn_units::Unit;
@@ -156,30 +156,17 @@ impl Answer<'_> {
 
     /// One row for each parameter, in its unit.
     fn table(&self) -> Table {
-        let all = 0..self.fit.parameters.len();
+        let all: Vec<usize> = (0..self.fit.parameters.len()).collect();
         let parameter = |i: usize| &self.fit.parameters[i];
-        let label = |name: &str, cell: &dyn Fn(usize) -> String| Label {
-            name: name.to_owned(),
-            cells: all.clone().map(cell).collect(),
-        };
-        let column = |name: &str, value: &dyn Fn(usize) -> f64| Column {
-            name: name.to_owned(),
-            unit: "unit".to_owned(),
-            values: all.clone().map(value).collect(),
-        };
         let error =
             |i: usize| parameter(i).standard_error.map_or(f64::NAN, |se| self.shown_difference(i, se));
-        Table::labelled(
-            vec![
-                label("parameter", &|i| self.name(i).to_owned()),
-                label("unit", &|i| self.units[i].text.clone()),
-                label("state", &|i| network_words::state(self, i).to_owned()),
-            ],
-            vec![
-                column("value", &|i| self.shown(i, parameter(i).value)),
-                column("standard_error", &error),
-                column("start", &|i| self.shown(i, parameter(i).start)),
-            ],
-        )
+        let mut table = Table::of(&all);
+        table.label("parameter", |&i| self.name(i).to_owned());
+        table.label("unit", |&i| self.units[i].text.clone());
+        table.label("state", |&i| network_words::state(self, i).to_owned());
+        table.column("value", "unit", |&i| self.shown(i, parameter(i).value));
+        table.column("standard_error", "unit", |&i| error(i));
+        table.column("start", "unit", |&i| self.shown(i, parameter(i).start));
+        table.done()
     }
 }

@@ -1,7 +1,7 @@
 //! What came of `lptn fit step`, for programs.
 
 use lptn_report::JsonWriter;
-use lptn_solve::{Column as Numbers, Label, Table};
+use lptn_solve::Table;
 use lptn_study::Scalar;
 use lptn_study::fit::step::{Estimated, Off, Parted, Power, TwoExponentials};
 use serde_json::{Map, Value, json};
@@ -14,11 +14,10 @@ use crate::fit::step::{Answer, Column};
 /// One row for each column that has a fit.
 pub(crate) fn table(answer: &Answer<'_>) -> Table {
     let unit = &answer.request.unit;
-    let mut columns: Vec<Numbers> = Vec::new();
-    let mut put = |name: &str, unit: &str, value: &dyn Fn(&Column<'_>) -> f64| {
-        let values = answer.columns.iter().map(value).collect();
-        columns.push(Numbers { name: name.to_owned(), unit: unit.to_owned(), values });
-    };
+    let mut table = Table::of(&answer.columns);
+    table.label("column", |column| column.column.name.clone());
+    let mut put =
+        |name: &str, unit: &str, value: &dyn Fn(&Column<'_>) -> f64| table.column(name, unit, value);
     put("T_i", &unit.text, &|c| unit.from_si(c.fit.initial.value));
     put("T_i_error", "K", &|c| c.fit.initial.standard_error);
     put("T_f", &unit.text, &|c| unit.from_si(c.fit.settled.value));
@@ -37,8 +36,7 @@ pub(crate) fn table(answer: &Answer<'_>) -> Table {
         parted("R_eq", "K/W", |power| &power.resistance);
         parted("P_disp", "W", |power| &power.power);
     }
-    let names = answer.columns.iter().map(|column| column.column.name.clone()).collect();
-    Table::labelled(vec![Label { name: "column".into(), cells: names }], columns)
+    table.done()
 }
 
 pub(crate) fn json(answer: &Answer<'_>, out: impl std::io::Write) -> std::io::Result<()> {

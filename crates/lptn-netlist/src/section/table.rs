@@ -198,8 +198,8 @@ impl Grid<'_> {
     fn repeated(&self, row: usize, first: usize) -> Diagnostic {
         let message = format!("{} has two rows for the same point", self.fields.owner.words());
         Diagnostic::error("netlist::grid_repeated", message)
-            .at(self.axes[0].places[row].clone(), "again")
-            .also(self.axes[0].places[first].clone(), "first here")
+            .at(self.axes[0].place(row), "again")
+            .also(self.axes[0].place(first), "first here")
             .also(self.fields.place.clone(), "read here")
             .help("keep one of the two rows")
     }
@@ -220,7 +220,7 @@ impl Grid<'_> {
         for (axis, knot, text) in parts {
             let same = |number: &f64| number.total_cmp(&self.knots[axis][knot]).is_eq();
             if let Some(row) = self.axes[axis].numbers.iter().position(same) {
-                problem = problem.also(self.axes[axis].places[row].clone(), text);
+                problem = problem.also(self.axes[axis].place(row), text);
             }
         }
         problem.also(self.fields.place.clone(), "read here")

@@ -7,7 +7,7 @@ use lptn_netlist::RunSettings;
 use lptn_network::{InputError, Network, Severity};
 use lptn_solve::{
     Beyond, Control, End, NodeSummary, OutputTimes, Progress, Record, Solution, SteadyError, SteadyState,
-    Summary, Transient, TransientError, Unsolved,
+    Summary, Transient, TransientError, Unsolved, first_there,
 };
 
 use crate::compare::limits::{self, LimitResult};
@@ -195,14 +195,8 @@ impl Candidate {
 
 /// The peak of a node; one that the tolerance cannot tell from the start or from the end is there.
 fn peak(node: &NodeSummary, run: &RunSettings) -> Peak {
-    let (temperature, time) = node.peak;
-    let same = |value: f64| temperature - value <= 10.0 * run.tolerance;
-    let at = match (same(node.start), same(node.end)) {
-        (true, _) => run.start,
-        (false, true) => run.stop,
-        (false, false) => time,
-    };
-    Peak { temperature, at: Some(at) }
+    let ends = [(node.start, run.start), (node.end, run.stop)];
+    Peak { temperature: node.peak.0, at: Some(first_there(node.peak, ends, 10.0 * run.tolerance)) }
 }
 
 /// The run of the file without its rows, and with every node watched: peaks and limits are looked at between rows.

@@ -1,7 +1,7 @@
 //! A comparison as a table for files.
 
 use lptn_network::Severity;
-use lptn_solve::{Column, Label, Table};
+use lptn_solve::{Table, TableOf};
 use lptn_units::Unit;
 
 use crate::compare::candidate::Candidate;
@@ -79,56 +79,45 @@ impl CompareRow {
 /// One line for each row: what it is and how it ended, then its numbers, temperatures in `unit`; what a candidate does
 /// not have is NaN.
 pub fn compare_table(rows: &[CompareRow], unit: &Unit) -> Table {
-    let label = |name: &str, text: &dyn Fn(&CompareRow) -> &str| Label {
-        name: name.to_owned(),
-        cells: rows.iter().map(|row| text(row).to_owned()).collect(),
-    };
     let hottest = |row: &CompareRow| row.candidate().and_then(|c| c.hottest.clone()).unwrap_or_default();
     let worst = |row: &CompareRow| {
         row.candidate().and_then(Candidate::worst).map_or(String::new(), |limit| limit.name.clone())
     };
-    let labels = vec![
-        label("file", &|row| &row.file),
-        label("title", &|row| &row.title),
-        label("status", &|row| row.status()),
-        Label { name: "hottest".into(), cells: rows.iter().map(hottest).collect() },
-        Label { name: "worst_limit".into(), cells: rows.iter().map(worst).collect() },
-    ];
-    let mut columns = general(rows, unit);
-    columns.extend(CompareRow::limit_names(rows).into_iter().flat_map(|name| of_limit(rows, name)));
-    for name in CompareRow::boundary_names(rows) {
-        let share = |row: &CompareRow| row.share(name).unwrap_or(f64::NAN);
-        columns.push(column(rows, &format!("{name}.share"), "-", &share));
+    let mut table = Table::of(rows);
+    table.label("file", |row| row.file.clone());
+    table.label("title", |row| row.title.clone());
+    table.label("status", |row| row.status().to_owned());
+    table.label("hottest", hottest);
+    table.label("worst_limit", worst);
+    general(rows, unit, &mut table);
+    for name in CompareRow::limit_names(rows) {
+        of_limit(rows, name, &mut table);
     }
-    Table::labelled(labels, columns)
-}
-
-fn column(rows: &[CompareRow], name: &str, unit: &str, value: &dyn Fn(&CompareRow) -> f64) -> Column {
-    Column { name: name.to_owned(), unit: unit.to_owned(), values: rows.iter().map(value).collect() }
+    for name in CompareRow::boundary_names(rows) {
+        table.column(format!("{name}.share"), "-", |row| row.share(name).unwrap_or(f64::NAN));
+    }
+    table.done()
 }
 
 /// The numbers that every candidate has.
-fn general(rows: &[CompareRow], unit: &Unit) -> Vec<Column> {
-    let of = |name: &str, unit: &str, value: &dyn Fn(&Candidate) -> Option<f64>| {
-        column(rows, name, unit, &|row| row.candidate().and_then(value).unwrap_or(f64::NAN))
+fn general(rows: &[CompareRow], unit: &Unit, table: &mut TableOf<'_, CompareRow>) {
+    let mut of = |name: &str, unit: &str, value: &dyn Fn(&Candidate) -> Option<f64>| {
+        table.column(name, unit, |row| row.candidate().and_then(value).unwrap_or(f64::NAN));
     };
-    let mut columns = vec![
-        of("worst_margin", "K", &|c| c.worst().map(|limit| limit.margin)),
-        of("peak", &unit.text, &|c| c.peak.map(|peak| unit.from_si(peak.temperature))),
-        of("peak_at", "s", &|c| c.peak?.at),
-        of("steady", &unit.text, &|c| c.steady.map(|kelvin| unit.from_si(kelvin))),
-        of("time_to_95", "s", &|c| c.time_to_95),
-        of("capacity", "J/K", &|c| Some(c.capacity)),
-    ];
+    of("worst_margin", "K", &|c| c.worst().map(|limit| limit.margin));
+    of("peak", &unit.text, &|c| c.peak.map(|peak| unit.from_si(peak.temperature)));
+    of("peak_at", "s", &|c| c.peak?.at);
+    of("steady", &unit.text, &|c| c.steady.map(|kelvin| unit.from_si(kelvin)));
+    of("time_to_95", "s", &|c| c.time_to_95);
+    of("capacity", "J/K", &|c| Some(c.capacity));
     if rows.iter().filter_map(CompareRow::candidate).any(|candidate| candidate.mass.is_some()) {
-        columns.push(of("mass", "kg", &|c| c.mass));
+        of("mass", "kg", &|c| c.mass);
     }
-    columns
 }
 
 /// The margins of the limits of a name and when they break. Candidates may mean different quantities by one name: each
 /// quantity has a column of its own, told apart by the unit.
-fn of_limit(rows: &[CompareRow], name: &str) -> Vec<Column> {
+fn of_limit(rows: &[CompareRow], name: &str, table: &mut TableOf<'_, CompareRow>) {
     let unit = |limit: &LimitResult| limit.ty.dimension.si_unit();
     let mut units: Vec<String> = Vec::new();
     for found in rows.iter().filter_map(|row| row.limit(name)).map(unit) {
@@ -136,13 +125,11 @@ fn of_limit(rows: &[CompareRow], name: &str) -> Vec<Column> {
             units.push(found);
         }
     }
-    let margin = |of: &str| {
-        let value =
-            |row: &CompareRow| row.limit(name).filter(|l| unit(l) == of).map_or(f64::NAN, |l| l.margin);
-        column(rows, &format!("{name}.margin"), of, &value)
-    };
+    for of in &units {
+        let own =
+            |row: &CompareRow| row.limit(name).filter(|l| unit(l) == *of).map_or(f64::NAN, |l| l.margin);
+        table.column(format!("{name}.margin"), of, own);
+    }
     let broken = |row: &CompareRow| row.limit(name).and_then(|limit| limit.broken_at).unwrap_or(f64::NAN);
-    let mut columns: Vec<Column> = units.iter().map(|unit| margin(unit)).collect();
-    columns.push(column(rows, &format!("{name}.broken_at"), "s", &broken));
-    columns
+    table.column(format!("{name}.broken_at"), "s", broken);
 }

@@ -194,20 +194,14 @@ fn power(value: f64) -> String {
 
 /// The comparison at three speeds.
 fn table(found: &Consistency, unit: &SpeedUnit) -> Table {
-    let column = |name: &str, unit: &str, value: &dyn Fn(&AtSpeed) -> f64| lptn_solve::Column {
-        name: name.to_owned(),
-        unit: unit.to_owned(),
-        values: found.at.iter().map(value).collect(),
-    };
-    let columns = vec![
-        column("omega", &unit.0.text, &|at| unit.0.from_si(at.speed)),
-        column("dT", "K", &|at| at.rise),
-        column("t_RC", "s", &|at| at.time_constant),
-        column("P_implied", "W", &|at| at.implied),
-        column("P", "W", &|at| at.power),
-        column("t_RC_needed", "s", &|at| at.needed),
-    ];
-    Table::labelled(Vec::new(), columns)
+    let mut table = Table::of(&found.at);
+    table.column("omega", &unit.0.text, |at| unit.0.from_si(at.speed));
+    table.column("dT", "K", |at| at.rise);
+    table.column("t_RC", "s", |at| at.time_constant);
+    table.column("P_implied", "W", |at| at.implied);
+    table.column("P", "W", |at| at.power);
+    table.column("t_RC_needed", "s", |at| at.needed);
+    table.done()
 }
 
 /// The comparison as JSON.

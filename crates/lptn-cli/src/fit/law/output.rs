@@ -3,7 +3,7 @@
 use std::io;
 
 use lptn_report::JsonWriter;
-use lptn_solve::{Label, Table};
+use lptn_solve::Table;
 use lptn_study::fit::law::{Candidate, Coefficient, Fitted};
 use serde_json::{Value, json};
 
@@ -22,36 +22,22 @@ pub(crate) fn table(answer: &Answer) -> Table {
             None => rows.push((candidate, None)),
         }
     }
-    let label = |name: &str, cell: &dyn Fn(&Row<'_>) -> String| Label {
-        name: name.to_owned(),
-        cells: rows.iter().map(cell).collect(),
+    let mut table = Table::of(&rows);
+    table.label("law", |(candidate, _)| candidate.law.to_string());
+    table.label("coefficient", |(_, row)| row.map_or(String::new(), |(_, c)| c.name.clone()));
+    table.label("unit", |(_, row)| row.map_or(String::new(), |(_, c)| c.dimension.si_unit()));
+    table.label("remark", |(candidate, _)| candidate.remark().unwrap_or_default());
+    let mut column = |name: &str, unit: &str, value: &dyn Fn(&Fitted, &Coefficient) -> Option<f64>| {
+        table.column(name, unit, |(_, row)| row.and_then(|(f, c)| value(f, c)).unwrap_or(f64::NAN));
     };
-    let column =
-        |name: &str, unit: &str, value: &dyn Fn(&Fitted, &Coefficient) -> Option<f64>| lptn_solve::Column {
-            name: name.to_owned(),
-            unit: unit.to_owned(),
-            values: rows
-                .iter()
-                .map(|(_, row)| row.and_then(|(f, c)| value(f, c)).unwrap_or(f64::NAN))
-                .collect(),
-        };
-    let labels = vec![
-        label("law", &|(candidate, _)| candidate.law.to_string()),
-        label("coefficient", &|(_, row)| row.map_or(String::new(), |(_, c)| c.name.clone())),
-        label("unit", &|(_, row)| row.map_or(String::new(), |(_, c)| c.dimension.si_unit())),
-        label("remark", &|(candidate, _)| candidate.remark().unwrap_or_default()),
-    ];
-    let columns = vec![
-        column("value", "SI", &|_, c| Some(c.value)),
-        column("standard_error", "SI", &|_, c| c.standard_error),
-        column("rmse", "W", &|f, _| Some(f.rmse)),
-        column("leave_one_out", "W", &|f, _| f.leave_one_out),
-        column("squares", if answer.data.points.deviation().is_some() { "1" } else { "W^2" }, &|f, _| {
-            Some(f.squares)
-        }),
-        column("aicc", "1", &|f, _| f.aicc),
-    ];
-    Table::labelled(labels, columns)
+    column("value", "SI", &|_, c| Some(c.value));
+    column("standard_error", "SI", &|_, c| c.standard_error);
+    column("rmse", "W", &|f, _| Some(f.rmse));
+    column("leave_one_out", "W", &|f, _| f.leave_one_out);
+    let squares = if answer.data.points.deviation().is_some() { "1" } else { "W^2" };
+    column("squares", squares, &|f, _| Some(f.squares));
+    column("aicc", "1", &|f, _| f.aicc);
+    table.done()
 }
 
 pub(crate) fn json(answer: &Answer, out: impl io::Write) -> io::Result<()> {

@@ -3,8 +3,8 @@
 use std::io;
 
 use lptn_report::{JsonWriter, write_csv};
-use lptn_solve::{Column, Label, Table};
-use lptn_study::fit::law::{Candidate, RunFit, Systematic};
+use lptn_solve::{Table, TableOf};
+use lptn_study::fit::law::{RunFit, Systematic};
 use lptn_study::{Environment, Scalar, utc};
 use serde_json::{Map, Value, json};
 
@@ -46,76 +46,77 @@ pub(crate) fn write(found: &Runs, folder: &Folder) -> Result<(), Failure> {
     files.commit(&[])
 }
 
-/// Runs and their speeds, before other columns.
-fn table(found: &Runs, columns: Vec<Column>) -> Table {
-    let unit = &found.answer.data.unit;
-    let name = "run".to_owned();
-    let label = Label { name, cells: found.study.runs.iter().map(|run| run.0.clone()).collect() };
-    let speeds = found.study.runs.iter().map(|run| unit.0.from_si(run.1)).collect();
-    let speed = Column { name: "omega".into(), unit: unit.0.text.clone(), values: speeds };
-    Table::labelled(vec![label], [vec![speed], columns].concat())
+/// A table of runs and their speeds, for other columns: one value a run.
+fn table<'a>(found: &Runs, rows: &'a [usize]) -> TableOf<'a, usize> {
+    let (unit, runs) = (&found.answer.data.unit, &found.study.runs);
+    let mut table = Table::of(rows);
+    table.label("run", |&row| runs[row].0.clone());
+    table.column("omega", &unit.0.text, |&row| unit.0.from_si(runs[row].1));
+    table
+}
+
+fn rows(found: &Runs) -> Vec<usize> {
+    (0..found.study.runs.len()).collect()
 }
 
 /// Name, unit and values of a column.
 type Part<'a> = (&'a str, &'a str, &'a dyn Fn(&RunFit) -> f64);
 
 /// Columns of every thermocouple.
-fn each(found: &Runs, parts: &[Part<'_>]) -> Vec<Column> {
-    let column = |of: &lptn_study::fit::law::ColumnFits, part: &Part<'_>| Column {
-        name: format!("{}.{}", of.column, part.0),
-        unit: part.1.to_owned(),
-        values: of.fits.iter().map(part.2).collect(),
-    };
-    found.columns().iter().flat_map(|of| parts.iter().map(move |part| column(of, part))).collect()
+fn each(found: &Runs, parts: &[Part<'_>]) -> Table {
+    let rows = rows(found);
+    let mut table = table(found, &rows);
+    for (of, part) in found.columns().iter().flat_map(|of| parts.iter().map(move |part| (of, part))) {
+        let value = |&row: &usize| of.fits.get(row).map_or(f64::NAN, part.2);
+        table.column(format!("{}.{}", of.column, part.0), part.1, value);
+    }
+    table.done()
 }
 
 /// Figure 7: rise over speed.
 fn rise(found: &Runs) -> Table {
-    let columns = each(
+    each(
         found,
         &[
             ("dT", "K", &|f| f.power.rise.value),
             ("dT_sd", "K", &|f| f.power.rise.random),
             ("dT_systematic", "K", &|f| f.power.rise.systematic),
         ],
-    );
-    table(found, columns)
+    )
 }
 
 /// Figure 8: time constant over speed.
 fn time_constant(found: &Runs) -> Table {
-    let columns = each(
+    each(
         found,
         &[
             ("t_RC", "min", &|f| f.fit.tau.value / 60.0),
             ("t_RC_sd", "min", &|f| f.fit.tau.standard_error / 60.0),
             ("t_RC_95", "min", &|f| f.fit.tau.half_width / 60.0),
         ],
-    );
-    table(found, columns)
+    )
 }
 
 /// Figure 9: power over speed, with what each law says.
 pub(crate) fn power(found: &Runs) -> Table {
     let first = found.columns().first().map_or(&[][..], |column| &column.fits);
-    let column = |name: &str, unit: &str, value: &dyn Fn(&RunFit) -> f64| Column {
-        name: name.to_owned(),
-        unit: unit.to_owned(),
-        values: first.iter().map(value).collect(),
+    let rows = rows(found);
+    let mut table = table(found, &rows);
+    let mut column = |name: &str, unit: &str, value: &dyn Fn(&RunFit) -> f64| {
+        table.column(name, unit, |&row| first.get(row).map_or(f64::NAN, value));
     };
-    let mut columns = vec![
-        column("dT", "K", &|f| f.power.rise.value),
-        column("t_RC", "min", &|f| f.fit.tau.value / 60.0),
-        column("P", "W", &|f| f.power.power.value),
-        column("P_sd", "W", &|f| f.power.power.random),
-        column("P_systematic", "W", &|f| f.power.power.systematic),
-    ];
-    let law = |candidate: &Candidate| {
-        let values = candidate.fitted()?.values.clone();
-        Some(Column { name: candidate.law.to_string(), unit: "W".to_owned(), values })
-    };
-    columns.extend(found.answer.study.candidates.iter().filter_map(law));
-    table(found, columns)
+    column("dT", "K", &|f| f.power.rise.value);
+    column("t_RC", "min", &|f| f.fit.tau.value / 60.0);
+    column("P", "W", &|f| f.power.power.value);
+    column("P_sd", "W", &|f| f.power.power.random);
+    column("P_systematic", "W", &|f| f.power.power.systematic);
+    for candidate in &found.answer.study.candidates {
+        if let Some(fit) = candidate.fitted() {
+            let value = |&row: &usize| fit.values.get(row).copied().unwrap_or(f64::NAN);
+            table.column(candidate.law.to_string(), "W", value);
+        }
+    }
+    table.done()
 }
 
 pub(crate) fn json(found: &Runs, out: impl io::Write) -> io::Result<()> {
