@@ -335,11 +335,10 @@ impl Reading<'_> {
     }
 
     fn in_revolutions(&self) -> String {
-        let scale = self.scale();
-        if (scale - 1.0).abs() < 1e-12 {
-            return format!("{} rev/s", self.amount_text());
+        match revolutions(self.scale()) {
+            Some(unit) => format!("{} {unit}", self.amount_text()),
+            None => format!("{} rev/s", rounded(self.number.value * self.scale(), 12)),
         }
-        format!("{} rev/s", rounded(self.number.value * scale, 12))
     }
 
     /// The inverse of what is wanted is a conductance for a resistance; anything else only gets its unit.
@@ -349,6 +348,12 @@ impl Reading<'_> {
         }
         Some(format!("{} {}", self.amount_text(), wanted.usual_unit()).trim_end_matches(" 1").to_owned())
     }
+}
+
+/// The unit in which the number of a frequency is that of revolutions: `1/min` means rpm.
+pub(crate) fn revolutions(scale: f64) -> Option<&'static str> {
+    let is = |other: f64| (scale / other - 1.0).abs() < 1e-12;
+    if is(1.0) { Some("rev/s") } else { is(1.0 / 60.0).then_some("rpm") }
 }
 
 /// Is a frequency given where a rotation is due?
