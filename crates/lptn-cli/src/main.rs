@@ -66,7 +66,10 @@ use exit::Exit;
 use failure::Failure;
 
 fn main() -> ExitCode {
-    let args = Args::parse();
+    let args = match Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => return ExitCode::from(command::refuse(&error) as u8),
+    };
     let console = Console::new(&args.global);
     let exit = dispatch(&args, &console).unwrap_or_else(|failure| {
         console.report(&failure.files, &failure.diagnostics);
