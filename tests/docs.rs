@@ -1,45 +1,25 @@
 //! Every TOML block of the documentation is a netlist that parses: complete ones as they stand, fragments
-//! (` ```toml fragment`) as additions to a small base.
+//! (` ```toml fragment`) as additions to a small base. What pages show of commands is kept by
+//! `crates/lptn-cli/tests/documents.rs`.
 
+#[path = "support/pages.rs"]
+mod pages;
 mod support;
 
 use std::path::{Path, PathBuf};
+
+use pages::{blocks, lines, pages};
 
 /// What fragments may refer to.
 const BASE: &str = "format = 1\n[default]\nT0 = \"20 degC\"\n[node]\nbase_node = { C = \"1 kJ/K\" }\n\
                     [boundary]\nbase_air = { T = \"20 degC\" }\n[resistor]\n\
                     base_path = { from = \"base_node\", to = \"base_air\", R = \"1 K/W\" }\n";
 
-fn pages() -> Vec<PathBuf> {
+fn all_pages() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut pages = Vec::new();
-    for folder in ["docs", "docs/elements"] {
-        let docs = std::fs::read_dir(root.join(folder)).expect("the folder of documentation");
-        pages.extend(docs.map(|entry| entry.expect("an entry").path()));
-    }
-    pages.extend(["README.md", "ARCHITECTURE.md", "CHANGELOG.md"].map(|name| root.join(name)));
-    pages.retain(|path| path.extension().is_some_and(|e| e == "md"));
-    pages.sort();
+    let mut pages = pages(root);
+    pages.extend(["ARCHITECTURE.md", "CHANGELOG.md"].map(|name| root.join(name)));
     pages
-}
-
-/// The blocks of a page with their info string and line.
-fn blocks(text: &str) -> Vec<(String, usize, String)> {
-    let mut found = Vec::new();
-    let mut open: Option<(String, usize, String)> = None;
-    for (number, line) in text.lines().enumerate() {
-        match (&mut open, line.strip_prefix("```")) {
-            (None, Some(info)) => open = Some((info.to_owned(), number + 1, String::new())),
-            (Some(_), Some(_)) => found.extend(open.take()),
-            (Some((_, _, block)), None) => {
-                block.push_str(line);
-                block.push('\n');
-            }
-            (None, None) => {}
-        }
-    }
-    assert!(open.is_none(), "a block is not closed");
-    found
 }
 
 /// The base with the fragment's lines put under the headings that both have.
@@ -66,15 +46,16 @@ fn completed(fragment: &str) -> String {
 #[test]
 fn every_toml_block_parses() {
     let mut count = 0;
-    for page in pages() {
-        let text = std::fs::read_to_string(&page).expect("a page");
-        for (info, line, block) in blocks(&text) {
-            let netlist = match info.as_str() {
-                "toml" => block,
-                "toml fragment" => completed(&block),
+    for page in all_pages() {
+        let lines = lines(&page);
+        for block in blocks(&lines) {
+            let text = lines[block.lines.clone()].join("\n") + "\n";
+            let netlist = match block.words() {
+                ("toml", "fragment") => completed(&text),
+                ("toml", _) => text,
                 _ => continue,
             };
-            let place = format!("{}:{line}", page.display());
+            let place = format!("{}:{}", page.display(), block.lines.start);
             // CSV files are looked for beside the page
             match lptn::netlist::parse_file(Path::new(&place), netlist.as_bytes()) {
                 Err(error) => panic!("{place}\n{netlist}\n{error}"),
@@ -110,7 +91,7 @@ fn expands(netlist: &lptn::netlist::Netlist, place: &Path) {
 
 #[test]
 fn every_link_to_a_file_leads_somewhere() {
-    for page in pages() {
+    for page in all_pages() {
         let text = std::fs::read_to_string(&page).expect("a page");
         let folder = page.parent().expect("a folder");
         for part in text.split("](").skip(1) {

@@ -82,7 +82,7 @@ pub(crate) const TEMPLATE: &str = "{before-help}{about-with-newline}\n{usage-hea
 /// Simulates lumped-parameter thermal networks
 #[derive(Debug, Parser)]
 #[command(name = "lptn", before_help = EXAMPLES, help_template = TEMPLATE, disable_version_flag = true)]
-#[command(disable_help_subcommand = true, term_width = 80)]
+#[command(term_width = 80)]
 pub(crate) struct Args {
     /// Print the versions of lptn and of the SUNDIALS it runs with
     #[arg(short = 'V', long)]

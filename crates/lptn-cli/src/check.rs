@@ -4,7 +4,7 @@ use std::path::Path;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files, Netlist, Severity};
-use lptn_network::{Item, Network, NodeId, list_of_names};
+use lptn_network::{Network, NodeId};
 use lptn_solve::{Lumping, Stiffness};
 use lptn_study::Scalar;
 use serde_json::{Value, json};
@@ -60,22 +60,6 @@ fn expand(text: &Text, set: &[String], console: &Console) -> Result<Exit, Failur
     console.print(&proven(flat, Path::new(&text.name), &netlist.network, netlist.run.as_ref())?)
 }
 
-/// Nodes that no path ties to a boundary: a path that was left out looks like this.
-fn adrift(netlist: &Netlist) -> Option<Diagnostic> {
-    let network = &netlist.network;
-    let nodes: Vec<_> = network.ungrounded().into_iter().flatten().collect();
-    let first = *nodes.first()?;
-    let names: Vec<String> = nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
-    let message = format!("no path leads to a boundary from {}", list_of_names(&names));
-    let warning = Diagnostic::warning("network::no_boundary", message).help(
-        "add a path if heat is to get out; without one the energy at the start decides the steady state",
-    );
-    Some(match netlist.source_map.name(Item::Node(first)) {
-        Some(span) => warning.at(span.clone(), ""),
-        None => warning,
-    })
-}
-
 /// How far the nodes are lumps at the start; `None` where the start cannot be had, which a run says.
 fn lumped(netlist: &Netlist, system: &ThermalSystem) -> Option<(Network, Lumping)> {
     let run = netlist.run.as_ref();
@@ -113,7 +97,6 @@ impl Finding {
         let stiffness = Stiff::of(&netlist.network);
         let (files, mut diagnostics) = (netlist.files.clone(), netlist.warnings.clone());
         let text = Text { bytes: Vec::new(), name: text.name.clone(), stem: text.stem.clone() };
-        diagnostics.extend(adrift(&netlist));
         let input = Input { text, netlist };
         let mut lumping = None;
         match input.assemble() {

@@ -1,8 +1,42 @@
 //! The parser as clap builds it.
 
-use clap::CommandFactory as _;
+use std::path::Path;
 
-use crate::args::Args;
+use clap::CommandFactory as _;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use lptn_netlist::{Diagnostic, Files};
+
+use crate::args::{Args, Color, Global};
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::input::quoted;
+
+/// Prints why a command line cannot be understood, or the help that it asks for.
+pub(crate) fn refuse(error: &clap::Error) -> Exit {
+    let verb = match error.get(ContextKind::InvalidSubcommand) {
+        Some(ContextValue::String(verb)) if error.kind() == ErrorKind::InvalidSubcommand => Some(verb),
+        _ => None,
+    };
+    let Some(problem) = verb.and_then(|verb| file_as_verb(verb)) else {
+        error.exit();
+    };
+    let console = Console::new(&Global { quiet: false, verbose: false, color: Color::Auto });
+    console.report(&Files::new(), &[problem]);
+    Exit::Input
+}
+
+/// The name of a file in the place of a verb.
+fn file_as_verb(word: &str) -> Option<Diagnostic> {
+    let ending = Path::new(word).extension()?.to_str()?.to_lowercase();
+    let (is, verb) = match ending.as_str() {
+        "toml" => ("netlist", "run"),
+        "csv" => ("CSV file", "fit step"),
+        _ => return None,
+    };
+    let message = format!("{word} is a {is}, and a verb is due: what is to be done with it?");
+    let help = format!("`lptn {verb} {}`, or another verb: `lptn help` lists them", quoted(word));
+    Some(Diagnostic::error("input::no_verb", message).help(help))
+}
 
 /// The help of the program.
 pub(crate) fn help() -> String {

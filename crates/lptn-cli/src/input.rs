@@ -5,10 +5,10 @@ use std::path::Path;
 
 use lptn_assembly::{AssemblyError, ThermalSystem};
 use lptn_netlist::{
-    Diagnostic, Files, MOST_BYTES, Netlist, ReadError, Rejected, Span, parse_bytes, parse_file,
+    Diagnostic, Files, MOST_BYTES, Netlist, ReadError, Rejected, Span, parse_bytes, parse_file, similar_file,
 };
 use lptn_network::Item;
-use lptn_units::{Dimension, Type, Unit, UnitError, parse_quantity, suggest};
+use lptn_units::{Dimension, Type, Unit, UnitError, parse_quantity};
 
 use crate::args::Source;
 use crate::exit::Exit;
@@ -45,7 +45,7 @@ pub(crate) fn read(file: &Path) -> Result<Text, Failure> {
         Err(ReadError::Io { error, .. }) => {
             // what is there but cannot be read is not misspelt
             let missing = error.kind() == ErrorKind::NotFound;
-            return Err(cannot_read(&name, &error, if missing { similar(file) } else { None }));
+            return Err(cannot_read(&name, &error, if missing { similar(file) } else { example(file) }));
         }
         Err(ReadError::Rejected(rejected)) => return Err(rejected.into()),
     };
@@ -64,26 +64,16 @@ fn cannot_read(name: &str, error: &std::io::Error, help: Option<String>) -> Fail
     )
 }
 
-/// The file of the same folder whose name is nearest.
 fn similar(file: &Path) -> Option<String> {
-    let record = file.extension().is_some_and(|ending| ending == "csv");
-    let ending = if record { ".csv" } else { ".toml" };
-    let with_ending = file.with_extension("toml");
-    if file.extension().is_none() && with_ending.is_file() {
-        return Some(format!("did you mean {}?", with_ending.display()));
-    }
-    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
-    let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    let mut names: Vec<String> = names.filter(|name| name.ends_with(ending)).collect();
-    names.sort_unstable();
-    // the ending, which all of them share, makes no two names alike
-    let wanted = file.file_stem()?.to_str()?;
-    let mut stems = names.iter().filter_map(|name| name.strip_suffix(ending));
-    let same = stems.clone().find(|stem| *stem == wanted);
-    let near = format!("{}{ending}", same.or_else(|| suggest(wanted, &mut stems))?);
-    let near = folder.map_or_else(|| near.clone().into(), |folder| folder.join(&near));
-    Some(format!("did you mean {}?", near.display()))
+    similar_file(file).map(|near| format!("did you mean {}?", near.display()))
+}
+
+/// A netlist of the folder that is given in the place of one.
+fn example(folder: &Path) -> Option<String> {
+    let entries = std::fs::read_dir(folder).ok()?;
+    let paths = entries.filter_map(|entry| entry.ok().map(|entry| folder.join(entry.file_name())));
+    let netlists = paths.filter(|path| path.extension().is_some_and(|ending| ending == "toml"));
+    netlists.min().map(|first| format!("name a netlist in it, for example {}", first.display()))
 }
 
 /// A network with everything the command line changes in it.

@@ -68,7 +68,10 @@ use exit::Exit;
 use failure::Failure;
 
 fn main() -> ExitCode {
-    let args = Args::parse();
+    let args = match Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => return ExitCode::from(command::refuse(&error) as u8),
+    };
     let console = Console::new(&args.global);
     let outcome = panic_net::caught(|| dispatch(&args, &console));
     let exit = outcome.unwrap_or_else(|failure| {

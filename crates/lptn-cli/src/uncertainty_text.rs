@@ -68,7 +68,15 @@ fn temperatures(network: &Network, found: &Uncertainty, unit: &Unit) -> Vec<Stri
     if !same {
         columns.extend(peak);
     }
-    if ends.is_empty() { Vec::new() } else { TextTable::new(columns).lines(WIDTH) }
+    if ends.is_empty() {
+        return Vec::new();
+    }
+    let mut lines = TextTable::new(columns).lines(WIDTH);
+    let more = is(|of| matches!(of, AnswerOf::End(_))).count() - ends.len();
+    if more > 0 {
+        lines.push(format!("not shown: {}, which uncertainty.csv has", count(more, "more node")));
+    }
+    lines
 }
 
 fn name(network: &Network, of: AnswerOf) -> String {
@@ -111,14 +119,36 @@ fn margins(network: &Network, found: &Uncertainty) -> Vec<String> {
         column("sd", &|a| number(a, a.deviation.value)),
         column("2.5 %", &|a| number(a, a.low.value)),
         column("97.5 %", &|a| number(a, a.high.value)),
-        column("P(broken)", &|a| probability(a.below_zero)),
+        column("P(broken)", &|a| probability(a.below_zero, sampled(found))),
     ])
     .lines(WIDTH)
 }
 
-/// A probability in percent, with its standard error where it was sampled.
-fn probability(of: Estimate) -> String {
+/// How many samples there are; 0 where nothing is sampled.
+fn sampled(found: &Uncertainty) -> usize {
+    match &found.method {
+        Method::Linear { .. } => 0,
+        Method::Sobol { samples, lost, .. } => {
+            samples.saturating_sub(lost.iter().map(|lost| lost.count).sum::<usize>())
+        }
+    }
+}
+
+/// A probability in percent, with its standard error where it was sampled; of none or all of the samples the bound that
+/// holds at 95 % (1 - 0.05^(1/n), the rule of three: J. A. Hanley, A. Lippman-Hand, JAMA 249 (1983) 1743).
+fn probability(of: Estimate, samples: usize) -> String {
     let percent = |share: f64| fixed(100.0 * share, if share >= 0.1 { 0 } else { 1 });
+    if of.error.is_some() && samples > 0 && (of.value <= 0.0 || of.value >= 1.0) {
+        let bound = 100.0 * (1.0 - 0.05_f64.powf(1.0 / samples as f64));
+        // a bound is rounded up
+        let digits = decimals(bound, 1, 1);
+        let step = 0.1_f64.powi(i32::try_from(digits).unwrap_or(1));
+        let bound = (bound / step).ceil() * step;
+        return match of.value <= 0.0 {
+            true => format!("< {} %", fixed(bound, digits)),
+            false => format!("> {} %", fixed(100.0 - bound, digits)),
+        };
+    }
     match of.error {
         Some(error) => format!("{} ± {} %", percent(of.value), significant(100.0 * error, 2)),
         None if of.value > 0.0 && of.value < 5e-4 => format!("{} %", significant(100.0 * of.value, 2)),
@@ -137,7 +167,16 @@ fn ranking(network: &Network, found: &Uncertainty) -> Vec<String> {
     let mut tables: Vec<Vec<String>> = fitting.collect();
     let narrow = |table: &Vec<String>| table.iter().all(|line| line.chars().count() <= WIDTH);
     let place = tables.iter().position(narrow).unwrap_or(tables.len().saturating_sub(1));
-    if tables.is_empty() { Vec::new() } else { tables.swap_remove(place) }
+    if tables.is_empty() {
+        return Vec::new();
+    }
+    let mut table = tables.swap_remove(place);
+    let more = varied.len() - (most - place);
+    if more > 0 {
+        let results = if more == 1 { "result" } else { "results" };
+        table.push(format!("not shown: the rankings of {more} more {results}, which ranking.csv has"));
+    }
+    table
 }
 
 fn side_by_side(network: &Network, found: &Uncertainty, answers: &[&Answer]) -> Vec<String> {

@@ -68,6 +68,29 @@ fn candidates_that_were_not_begun_are_missing_too() {
     assert_eq!(json["errors"].as_array().map(Vec::len), Some(2));
 }
 
+/// A fit of seconds: many starts, and a heat that swings.
+fn long_fit() -> Folder {
+    let text = GEARBOX.replace("P = \"P_7000\"", "P = \"P_7000 * (1 + 0.5 * sin(t / 10 [s]))\"");
+    let fit = "[fit.heating]\ndata = \"record.csv\"\ncolumn = { ring = \"steel.T\" }\n\
+               vary = { bed_share = { from = 0.1, to = 0.9 }, T_amb = { from = \"0 degC\", to = \"50 degC\" } }\n";
+    let folder = Folder::with("gearbox.toml", &format!("{text}\n{fit}"));
+    let rows: String = (0..150).map(|i| format!("{},{}\n", 10 * i, 25.0 + 0.4 * f64::from(i))).collect();
+    folder.write("record.csv", &format!("t [s],ring [degC]\n{rows}"));
+    folder
+}
+
+/// It went on, or ended without a word.
+#[test]
+fn a_fit_of_a_network_shows_the_best_values_so_far() {
+    let line = ["fit", "network", "gearbox.toml", "--starts", "200"];
+    let ran = interrupted(&long_fit(), &line).exits(130).says("interrupted in search ");
+    let ran = ran.says("these values are not a result").says("lptn fit network gearbox.toml --set ");
+    assert!(ran.out.starts_with("parameter  best so far  unit"), "{}", ran.out);
+    assert!(ran.out.contains("bed_share") && ran.out.contains("T_amb"), "{}", ran.out);
+    let json = interrupted(&long_fit(), &[&line[..], &["--format", "json"]].concat()).exits(130);
+    assert_eq!(json.out, "", "a part of a fit is no result for a program");
+}
+
 #[test]
 fn a_verification_says_that_there_is_none() {
     let folder = Folder::with("slow.toml", &endless());
@@ -97,6 +120,8 @@ fn a_terminal_sees_progress_unless_quiet() {
     assert!(compare.contains(" %  1 of 2 candidates"), "{compare}");
     let verify = on_terminal(&folder, "verify slow.toml").unwrap();
     assert!(verify.contains("\rat 1e-5 K: ") && verify.contains(" of 2000 d"), "{verify}");
+    let fit = on_terminal(&long_fit(), "fit network gearbox.toml --starts 200").unwrap();
+    assert!(fit.contains("\rsearch ") && fit.contains(" of 201, round "), "{fit}");
     let quiet = on_terminal(&folder, "--quiet compare slow.toml").unwrap();
     assert!(!quiet.contains(" %  "), "{quiet}");
 }

@@ -6,11 +6,13 @@ use std::sync::Arc;
 
 use lptn_units::Type;
 
+use crate::csv_form;
 use crate::csv_head::{Head, Row, number, reader, row};
 use crate::diagnostic::Diagnostic;
 use crate::file::{FileId, Files, Span};
 use crate::include::{Loader, reason};
 use crate::limits::MOST_PROBLEMS;
+use crate::near_file;
 use crate::points::{Places, Points};
 use crate::raw::{RawKind, RawNetlist, RawTable, RawValue};
 use crate::value::Place;
@@ -18,6 +20,9 @@ use crate::vocabulary::IMPORT;
 
 /// The sections in which `csv` names a file of numbers.
 const READERS: [&str; 4] = ["table", "signal", "material", "fluid"];
+
+/// A header as it could be.
+const EXAMPLE: &str = "t [s],speed [rpm]";
 
 /// The key that names the file.
 const CSV: &str = "csv";
@@ -130,9 +135,10 @@ fn load(
     loader: Option<&mut Loader<'_>>,
 ) -> Result<Arc<CsvFile>, Diagnostic> {
     let text = load_text(files, path, value, loader)?;
-    let parsed =
-        parse(text.file, Arc::clone(&text.text)).ok_or_else(|| text.empty(value, "t [s],speed [rpm]"))?;
-    match parsed.too_long(value) {
+    let parsed = parse(text.file, Arc::clone(&text.text)).ok_or_else(|| text.empty(value, EXAMPLE))?;
+    let form = csv_form::check(&parsed.head, (&text.name, &text.text), (csv_form::NETLIST, EXAMPLE));
+    let form = form.map(|problem| problem.also(value.span.clone(), "read here"));
+    match form.or_else(|| parsed.too_long(value)) {
         Some(problem) => Err(problem),
         None => Ok(Arc::new(parsed)),
     }
@@ -164,20 +170,13 @@ fn load_text(
         }
         Err(error) => {
             let message = format!("cannot read {name}: {}", reason(&error));
-            return refused(
-                "netlist::csv_not_found",
-                message,
-                "paths are relative to the file that names it",
-            );
+            return refused("netlist::csv_not_found", message, &near_file::help(value, path, &error));
         }
     };
-    let Some(text) = String::from_utf8(bytes).ok().filter(|text| !text.contains('\0')) else {
-        let message = format!("{name} is not a text file in UTF-8");
-        return refused("netlist::not_text", message, "choose `CSV UTF-8` where your program saves it");
-    };
-    let text: Arc<str> = text.into();
-    let file = files.add(name.to_string(), Arc::clone(&text));
-    Ok(CsvText { file, name: name.to_string(), text })
+    let name = name.to_string();
+    let read = csv_form::text_of(files, &name, &bytes);
+    let (file, text) = read.map_err(|problem| problem.also(value.span.clone(), "read here"))?;
+    Ok(CsvText { file, name, text })
 }
 
 /// The header, before the rows.

@@ -3,6 +3,7 @@
 
 use lptn_units::{Type, Unit, suggest};
 
+use crate::csv_form::{extra_help, other_brackets, text_help};
 use crate::diagnostic::Diagnostic;
 use crate::file::{FileId, Span};
 use crate::points::fit;
@@ -137,7 +138,7 @@ impl Head {
             .at(row.place(self.file, index), "belongs to no column")
             .also(self.place.clone(), "the header")
             .also(asked.clone(), "read here")
-            .help("write decimal points, not commas: `0.5`, and name every column in the header");
+            .help(extra_help(row));
         Some(problem)
     }
 
@@ -187,20 +188,9 @@ impl Head {
             .at(self.place.clone(), "the columns")
             .also(ask.raw.span.clone(), "read here");
         let names = || self.columns.iter().map(|header| header.name.as_str());
-        if let [one] = self.columns.as_slice()
-            && let Some(other) = [';', '\t'].into_iter().find(|c| one.written.contains(*c))
-        {
-            let other = if other == ';' { "`;`" } else { "tabs" };
-            return problem.help(format!("the columns are separated by {other}: save the file with commas"));
-        }
-        let other_form = self.columns.iter().find(|header| {
-            let rest = header.name.strip_prefix(name).map(str::trim_start);
-            header.unit.is_none() && rest.is_some_and(|rest| rest.starts_with(['(', '/', ',', '{']))
-        });
+        let other_form = names().find_map(|other| other_brackets(other).filter(|(bare, _)| *bare == name));
         match (other_form, suggest(name, names())) {
-            (Some(header), _) => {
-                let rest = header.name.get(name.len()..).unwrap_or_default();
-                let unit = rest.trim().trim_matches(['(', ')', '/', ',', '{', '}', ' ']);
+            (Some((_, unit)), _) => {
                 problem.help(format!("write its unit in square brackets: `{name} [{unit}]`"))
             }
             (None, Some(near)) => problem.help(format!("did you mean `{near}`?")),
@@ -274,17 +264,4 @@ pub(crate) fn number(cell: &str) -> Result<f64, Wrong> {
         Ok(_) => Err(Wrong::NotFinite),
         Err(_) => Err(Wrong::Text),
     }
-}
-
-pub(crate) fn text_help(name: &str, cell: &str) -> String {
-    let point = cell.replacen(',', ".", 1);
-    if cell.contains(',') && point.parse::<f64>().is_ok() {
-        return format!("write numbers with a point: `{point}`");
-    }
-    let number: String = cell.chars().take_while(|c| c.is_ascii_digit() || "+-.".contains(*c)).collect();
-    let unit = cell.get(number.len()..).unwrap_or_default().trim();
-    if !number.is_empty() && number.parse::<f64>().is_ok() && Unit::parse(unit).is_ok() {
-        return format!("write the unit once, in the header: `{name} [{unit}]`");
-    }
-    "a cell holds one number; its unit stands in the header".to_owned()
 }

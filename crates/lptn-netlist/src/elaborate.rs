@@ -6,6 +6,7 @@ use std::sync::Arc;
 use lptn_network::{BuildError, BuildErrorKind, Input, Item, Network, NetworkBuilder};
 use lptn_units::{Quantity, Type, Unit};
 
+use crate::adrift;
 use crate::csv_file::CsvFiles;
 use crate::describe::describe;
 use crate::diagnostic::{Diagnostic, Severity};
@@ -206,6 +207,10 @@ impl<'a> Elaboration<'a> {
         self.problems.extend(self.scales.doubts());
         let values = self.names.unused().map(|(kind, name, span)| unused(kind, name, span));
         self.problems.extend(values);
+        if let Some(network) = &network {
+            let is_read = |name: &str| self.names.reads(name);
+            self.problems.extend(adrift::warnings(network, &self.map, &is_read));
+        }
         let temperature_unit = default.temperature_unit;
         let (map, structure) = (self.map, self.names.structure);
         let done =

@@ -9,6 +9,7 @@ use crate::duplicate;
 use crate::fields::wrong_shape;
 use crate::file::{FileId, Files, Span};
 use crate::limits::MOST_BYTES;
+use crate::near_file;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::section::check_head;
 use crate::syntax::parse_raw;
@@ -256,7 +257,7 @@ fn cannot_read(path: &Path, error: &io::Error, value: &RawValue) -> Diagnostic {
     let message = format!("cannot include {}: {}", path.display(), reason(error));
     Diagnostic::error("netlist::include_not_found", message)
         .at(value.span.clone(), "")
-        .help("paths are relative to the file that includes")
+        .help(near_file::help(value, path, error))
 }
 
 /// Why a file could not be read, in words.

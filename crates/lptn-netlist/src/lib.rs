@@ -26,8 +26,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod adrift;
 mod assign;
 mod csv_file;
+mod csv_form;
 mod csv_head;
 mod describe;
 mod diagnostic;
@@ -37,6 +39,7 @@ mod expand;
 mod fields;
 mod file;
 mod fit;
+mod foreign;
 mod grid_names;
 mod habit;
 mod headings;
@@ -48,6 +51,7 @@ pub mod library;
 mod limits;
 mod misplaced;
 mod names;
+mod near_file;
 mod netlist;
 mod outputs;
 mod parameters;
@@ -78,6 +82,7 @@ pub use fit::{FitPlan, FitRecord, FitStudy, Observed, Varied, VariedName};
 pub use include::Loader;
 pub use initial::InitialState;
 pub use limits::{MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS, read_bytes};
+pub use near_file::similar_file;
 pub use netlist::{Netlist, ReadError, Rejected, parse, parse_bytes, parse_file, parse_with, read};
 pub use outputs::WindowSettings;
 pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};

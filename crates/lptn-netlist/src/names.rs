@@ -61,6 +61,8 @@ pub(crate) struct Names {
     /// Values that are wrong: what uses them is not reported again.
     failed: HashSet<String>,
     used: HashSet<String>,
+    /// Nodes and boundaries whose results expressions read.
+    read: HashSet<String>,
     /// Names in sections that are not known: they may be what is looked for.
     hidden: HashSet<String>,
     /// Materials that cannot be read.
@@ -254,6 +256,11 @@ impl Names {
         self.searches <= MOST_SEARCHES && self.looks <= MOST_LOOKS.max(names)
     }
 
+    /// Whether an expression reads the temperature or the heat of the node or boundary of this name.
+    pub(crate) fn reads(&self, name: &str) -> bool {
+        self.read.contains(name)
+    }
+
     /// The parameters, signals, controls and tables that nothing uses, in file order.
     pub(crate) fn unused(&self) -> impl Iterator<Item = (ValueKind, &str, &Span)> {
         let unused = self.order.iter().filter(|name| !self.used.contains(*name));
@@ -297,6 +304,9 @@ impl Names {
         }
         let result = wanted.context == Context::Result;
         let known = (wanted.names_nodes() && self.is_temperature(&name)) || (result && self.is_heat(&name));
+        if known {
+            self.read.insert(base(&name).to_owned());
+        }
         let template = self.structure.template_at(&place.raw.span);
         if let (true, Some(template)) = (known && !self.structure.belongs(&place.raw.span, &name), template) {
             return Some(outside(place, &name, template).at(at(), "not in the template"));
@@ -344,6 +354,9 @@ impl Names {
         .at(at, "unknown name");
         if is_function(name) {
             return error.help(format!("`{name}` is a function: write `{name}(..)`"));
+        }
+        if wanted.time && ["time", "Time", "zeit", "Zeit"].contains(&name) {
+            return error.help("the time of the run is `t`, as in `sin(2 * pi * t / 1 [h])`");
         }
         let search = self.may_search(self.order.len());
         let local = LOCAL.into_iter().filter(|name| wanted.is_local(name));

@@ -14,6 +14,7 @@ use crate::diagnostic::{Diagnostic, Severity, arrange};
 use crate::elaborate::{Elaborated, elaborate};
 use crate::file::{FileId, Files, Span};
 use crate::fit::FitStudy;
+use crate::foreign;
 use crate::include::{self, Loader, Merged};
 use crate::initial::{self, InitialState, StateFile};
 use crate::limits::{read_bytes, read_named, shorten};
@@ -210,6 +211,9 @@ fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netl
     let file = files.add(name, text);
     let (raw, mut diagnostics) = parse_raw(&files, file);
     let syntax = !diagnostics.is_empty();
+    if diagnostics.first().is_some_and(|problem| problem.code == foreign::CODE) {
+        return Err(Rejected { files, diagnostics, syntax });
+    }
     if raw.top.entries.is_empty() && !syntax {
         let empty = section::empty(text, Span::new(file, 0..0));
         return Err(Rejected { files, diagnostics: vec![empty], syntax });

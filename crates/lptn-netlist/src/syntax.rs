@@ -5,6 +5,7 @@ use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::diagnostic::{Diagnostic, arrange};
 use crate::file::{FileId, Files, Span};
+use crate::foreign;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::syntax_error;
 use crate::toml_1_1;
@@ -19,6 +20,8 @@ pub fn parse_raw(files: &Files, file: FileId) -> (RawNetlist, Vec<Diagnostic>) {
     if diagnostics.is_empty() {
         // next to broken TOML it would only say the same again
         diagnostics = reader.newer;
+    } else if let Some(other) = foreign::recognise(files.name(file), (file, text), diagnostics.len()) {
+        return (RawNetlist { top: RawTable { entries: Vec::new(), ..top } }, vec![other]);
     }
     arrange(files, &mut diagnostics);
     (RawNetlist { top }, diagnostics)

@@ -129,6 +129,8 @@ fn one(message: &str, place: &Place<'_>, top: &RawTable) -> Diagnostic {
             .help("write it like this: `[resistor]`")
     } else if is_string(message) {
         string_open(place)
+    } else if let Some(found) = name_in_two(place).or_else(|| odd_letter(message, place)) {
+        found
     } else if says("key with no value") || says("missing assignment") || says("missing value for key") {
         error("key without a value")
             .at(here(), "`=` and a value are missing here")
@@ -146,12 +148,39 @@ fn one(message: &str, place: &Place<'_>, top: &RawTable) -> Diagnostic {
     } else if says("unexpected leading zero") {
         error("number with a zero in front").at(here(), "remove this zero")
     } else if says("missing escaped value") {
-        error("backslash that begins no escape")
-            .at(here(), "after this backslash")
-            .help("write two backslashes, or put the string in single quotes: 'a\\b'")
+        let path =
+            [".csv", ".toml", ".json"].iter().any(|ending| place.line().1.to_lowercase().contains(ending));
+        error("backslash that begins no escape").at(here(), "after this backslash").help(match path {
+            true => "write the path with `/`: \"records/bench.csv\"",
+            false => "write two backslashes, or put the string in single quotes: 'a\\b'",
+        })
     } else {
         error(&message.replacen("unquoted keys", "keys", 1)).at(here(), "")
     }
+}
+
+/// `steel part = ..`: a name with a blank in it.
+fn name_in_two(place: &Place<'_>) -> Option<Diagnostic> {
+    let (start, line) = place.line();
+    let (name, _) = line.split_once('=')?;
+    let words: Vec<&str> = name.split_whitespace().collect();
+    let plain = |word: &&str| word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    if words.len() < 2 || !words.iter().all(plain) {
+        return None;
+    }
+    let from = start + (name.len() - name.trim_start().len());
+    let span = Span::new(place.file, from..start + name.trim_end().len());
+    let help = format!("write it in one word: `{}`", words.join("_"));
+    Some(Diagnostic::error(SYNTAX, "name with a blank in it").at(span, "").help(help))
+}
+
+/// A letter that names cannot hold: `gehäuse`.
+fn odd_letter(message: &str, place: &Place<'_>) -> Option<Diagnostic> {
+    if !message.starts_with("invalid unquoted key") {
+        return None;
+    }
+    let help = "names are made of the letters a to z and A to Z, digits and `_`: `gehaeuse`, `T_1`";
+    Some(Diagnostic::error(SYNTAX, "name with a letter that cannot be used").at(place.span(), "").help(help))
 }
 
 /// The newcomer's first mistake: a quantity without quotes.

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use lptn_network::{Context, Input, Value};
 use lptn_units::{
-    Dimension, Expression, Program, Quantity, Type, UnitError, UnitErrorKind, Written, kelvin_alone,
-    parse_quantity, parse_value,
+    Dimension, Expression, Program, Quantity, Scope as _, Type, UnitError, UnitErrorKind, Written,
+    kelvin_alone, parse_quantity, parse_value,
 };
 
 use crate::diagnostic::Diagnostic;
@@ -288,8 +288,18 @@ impl Elaboration<'_> {
             }
             Err(errors) => {
                 let names = (self.raw, &self.names);
-                let explain = |error| with_parameter(names, (place, wanted), &expression, error);
-                self.problems.extend(errors.iter().map(explain));
+                let scope = self.builder.scope(wanted.context);
+                let turning = |name: &str| scope.symbol(name).is_some_and(|symbol| symbol.ty == FREQUENCY);
+                let explain = |error| {
+                    let told = with_parameter(names, (place, wanted), &expression, error);
+                    if left_over_radians(error) {
+                        with_frequencies(names, &expression, &turning, told)
+                    } else {
+                        told
+                    }
+                };
+                let problems: Vec<Diagnostic> = errors.iter().map(explain).collect();
+                self.problems.extend(problems);
                 None
             }
         }
@@ -314,6 +324,48 @@ fn moment(place: Place<'_>, at: Span) -> Diagnostic {
     Diagnostic::warning("netlist::moment", message)
         .at(at, "never acts")
         .help("use `<` or `>=`; a pulse is `if(t < 5 [s], a, if(t < 6 [s], b, a))`")
+}
+
+const FREQUENCY: Type = Type::of(Dimension::FREQUENCY);
+
+/// Whether a power of rad is what is too much or too little.
+fn left_over_radians(error: &UnitError) -> bool {
+    match &error.kind {
+        UnitErrorKind::Dimension { wanted, found, .. } => found.differs_by_radians(**wanted),
+        UnitErrorKind::Operands { left, right, .. } => left.differs_by_radians(**right),
+        _ => false,
+    }
+}
+
+/// Parameters of parameters are followed so far.
+const DEEPEST: usize = 8;
+
+/// The lines of the frequencies that may have been meant as speeds are shown as well, those of parameters that
+/// parameters are made of too.
+fn with_frequencies(
+    (raw, all): (&RawNetlist, &Names),
+    expression: &Expression,
+    is_frequency: &dyn Fn(&str) -> bool,
+    told: Diagnostic,
+) -> Diagnostic {
+    let mut names: Vec<String> = expression.names().into_iter().map(|(name, _)| name).collect();
+    for _ in 0..DEEPEST {
+        let lines: Vec<(String, &RawEntry)> =
+            names.into_iter().filter_map(|name| all.line(raw, &name).map(|line| (name, line))).collect();
+        let found = lines.iter().filter(|(name, _)| is_frequency(name)).map(|(_, entry)| *entry);
+        let found: Vec<&RawEntry> = found.collect();
+        if !found.is_empty() {
+            return found
+                .into_iter()
+                .fold(told, |told, entry| told.also(entry.value.span.clone(), "a frequency"));
+        }
+        let texts = lines.iter().filter_map(|(_, entry)| match &entry.value.kind {
+            RawKind::String { text, .. } => Expression::parse(text).ok(),
+            _ => None,
+        });
+        names = texts.flat_map(|expression| expression.names()).map(|(name, _)| name).collect();
+    }
+    told
 }
 
 /// A mistake in an expression of one parameter or signal may be that of the parameter: its line is shown as well.
@@ -355,6 +407,10 @@ fn parameter_help(entry: &RawEntry, ty: Type) -> Option<String> {
     let line = |value: &str| format!("`{} = \"{value}\"`", entry.key);
     if found.is_scalar() && text.ends_with(|c: char| c.is_ascii_digit()) {
         return Some(format!("write {} in [param]", line(&format!("{text} {}", ty.usual_unit()))));
+    }
+    if ty.absolute && found == Type::of(Dimension::ANGLE) {
+        let number = text.trim_end_matches(|c: char| !c.is_ascii_digit());
+        return Some(format!("write {} in [param]", line(&format!("{number} degC"))));
     }
     if ty.absolute && found == Type::of(Dimension::TEMPERATURE) {
         return celsius_or_kelvin(text, line, " in [param]");

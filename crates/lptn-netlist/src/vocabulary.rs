@@ -89,6 +89,8 @@ pub(crate) const CONVECTION: Section = Section {
     elsewhere: &[
         ("G", "a convection takes `R`, or `h` and `area`; a path given by `G` belongs in [resistor]"),
         ("A", "the area is `area`"),
+        ("alpha", "the film coefficient is `h`"),
+        ("htc", "the film coefficient is `h`"),
     ],
 };
 

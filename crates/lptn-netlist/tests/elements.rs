@@ -360,13 +360,13 @@ fn streams_that_balance_are_no_warning() {
         codes.join(" ")
     };
     let feed = "x = { from = \"in\", to = \"a\", mcp = \"2 W/K\" }\n";
-    assert_eq!(of(feed), "network::unbalanced_streams");
+    assert_eq!(of(feed), "network::idle_boundary network::unbalanced_streams");
     assert_eq!(of(&format!("{feed}y = {{ from = \"a\", to = \"out\", mcp = \"2 W/K\" }}\n")), "");
     assert_eq!(of(&format!("{feed}y = {{ from = \"out\", to = \"a\", mcp = \"-2 W/K\" }}\n")), "");
     // what varies is judged as it stands at the start
     let varies = "x = { from = \"in\", to = \"a\", mcp = \"2 [W/K] + 1 [W/(K s)] * t\" }\n";
-    assert_eq!(of(varies), "network::unbalanced_streams");
-    assert_eq!(of(&varies.replace("2 [W/K]", "0 [W/K]")), "");
+    assert_eq!(of(varies), "network::idle_boundary network::unbalanced_streams");
+    assert_eq!(of(&varies.replace("2 [W/K]", "0 [W/K]")), "network::idle_boundary");
 }
 
 /// A tabulated property is constant in all but the temperature, whatever unit its list has.
@@ -411,6 +411,7 @@ fn what_nothing_uses_is_a_warning() {
                 [fluid]\nz = { cp = \"1 kJ/(kg K)\" }\n[node]\na = { C = \"1 J/K\", T0 = \"0 degC\" }\n";
     let netlist = parse("a.toml", text).unwrap();
     let codes: Vec<&str> = netlist.warnings.iter().map(|w| w.code).collect();
-    assert_eq!(codes, ["netlist::unused_table", "netlist::unused_signal", "netlist::unused_fluid"]);
+    let unused = ["netlist::unused_table", "netlist::unused_signal", "netlist::unused_fluid"];
+    assert_eq!(codes, [&unused[..], &["network::no_boundary"]].concat());
     assert!(netlist.warnings.iter().all(|w| w.severity == Severity::Warning));
 }

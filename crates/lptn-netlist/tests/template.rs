@@ -352,7 +352,7 @@ set = { R_pin = "0.1 K/W" }
 fn a_template_that_nothing_uses_is_a_warning() {
     let netlist = good(&format!("{HEAD}{PLANET}"));
     let codes: Vec<&str> = netlist.warnings.iter().map(|warning| warning.code).collect();
-    assert_eq!(codes, ["netlist::unused_parameter", "netlist::unused_template"]);
+    assert_eq!(codes, ["netlist::unused_parameter", "network::no_boundary", "netlist::unused_template"]);
     assert!(netlist.warnings.iter().all(|warning| warning.severity == Severity::Warning));
 }
 

@@ -1,5 +1,7 @@
 //! Text in columns.
 
+use std::collections::BTreeSet;
+
 use unicode_width::UnicodeWidthStr;
 
 /// Columns of a terminal that tables are made for.
@@ -56,7 +58,12 @@ impl Column {
 
     fn shorten(&mut self, room: usize) {
         self.title = shortened(&self.title, room);
-        self.cells.iter_mut().for_each(|name| *name = shortened(name, room));
+        let short = |names: &[String]| names.iter().map(|name| shortened(name, room)).collect::<Vec<_>>();
+        let kept = |names: &[String]| names.iter().collect::<BTreeSet<_>>().len();
+        let shorter = short(&self.cells);
+        // names that differ in their middle only would be one name
+        let lost = kept(&shorter) < kept(&self.cells);
+        self.cells = if lost { short(&differing(&self.cells)) } else { shorter };
     }
 
     fn width(&self) -> usize {
@@ -138,6 +145,28 @@ pub fn shortened(name: &str, room: usize) -> String {
     format!("{start}..{end}")
 }
 
+/// The part of each name in which the names differ, from one border of words to another: `1000rpm` and `7000rpm` of
+/// `runs/1000rpm.csv` and `runs/7000rpm.csv`. The names themselves where a part would be empty, or all are the same.
+pub fn differing(names: &[String]) -> Vec<String> {
+    let Some(first) = names.first() else { return Vec::new() };
+    let is_border = |c: char| !c.is_alphanumeric();
+    let same = |length: usize, end: bool| {
+        names.iter().all(|name| match end {
+            false => name.get(..length) == first.get(..length),
+            true => {
+                name.len() >= length && name.get(name.len() - length..) == first.get(first.len() - length..)
+            }
+        })
+    };
+    let borders = || first.char_indices().filter(|(_, c)| is_border(*c));
+    let head = borders().map(|(at, c)| at + c.len_utf8()).filter(|&length| same(length, false)).max();
+    let tail = borders().map(|(at, _)| first.len() - at).filter(|&length| same(length, true)).max();
+    let (head, tail) = (head.unwrap_or(0), tail.unwrap_or(0));
+    let part = |name: &String| Some(name.get(head..name.len().checked_sub(tail)?)?.to_owned());
+    let parts: Option<Vec<String>> = names.iter().map(|name| part(name).filter(|p| !p.is_empty())).collect();
+    parts.unwrap_or_else(|| names.to_vec())
+}
+
 /// Pieces of a sentence behind a label, wrapped between pieces where they would be longer than `width`; further
 /// lines stand under the first piece.
 pub fn labelled(label: &str, pieces: &[String], width: usize) -> Vec<String> {
@@ -165,7 +194,7 @@ pub fn plain(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Align, Column, TextTable, labelled, plain};
+    use super::{Align, Column, TextTable, differing, labelled, plain};
 
     fn texts(cells: &[&str]) -> Vec<String> {
         cells.iter().map(|&c| c.to_owned()).collect()
@@ -178,6 +207,23 @@ mod tests {
             Column::new("T", Align::Right, numbers.clone()),
             Column::new("curve", Align::Left, vec!["▁▂▃".to_owned(); names.len()]).optional(),
         ])
+    }
+
+    #[test]
+    fn names_are_told_apart_by_the_part_that_differs() {
+        let names = |all: &[&str]| all.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+        let records = names(&["runs/1000rpm_a.csv", "runs/7000rpm_a.csv"]);
+        assert_eq!(differing(&records), ["1000rpm", "7000rpm"]);
+        for alone in [names(&["a.csv"]), names(&["a.csv", "a.csv"]), names(&["ab", "abc"])] {
+            assert_eq!(differing(&alone), alone);
+        }
+        let middle = names(&[
+            "records_of_spring/1000rpm_run/logger_7_of_8.csv",
+            "records_of_spring/2000rpm_run/logger_7_of_8.csv",
+        ]);
+        let mut column = Column::new("record", Align::Left, middle).names();
+        column.shorten(20);
+        assert_eq!(column.cells, ["1000rpm", "2000rpm"]);
     }
 
     #[test]

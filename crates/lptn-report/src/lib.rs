@@ -14,6 +14,6 @@ mod sparkline;
 pub use csv::{write_csv, write_rows};
 pub use heat::{Flow, balance};
 pub use json::JsonWriter;
-pub use layout::{Align, Column, TextTable, WIDTH, labelled, plain, shortened};
+pub use layout::{Align, Column, TextTable, WIDTH, differing, labelled, plain, shortened};
 pub use number::{Shortest, decimals, duration, fixed, prefix, significant};
 pub use sparkline::sparkline;

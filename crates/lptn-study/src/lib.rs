@@ -28,7 +28,7 @@ pub use moment::utc;
 pub use parallel::{available_threads, in_parallel};
 pub use record::{LedgerRecord, Scalar, StatisticsRecord};
 pub use run::transient;
-pub use sensitivity::{Gradient, SensitiveError, SensitiveRun, sensitive_run};
+pub use sensitivity::{Gradient, SensitiveError, SensitiveRun, sensitive_run, sensitive_run_observed};
 pub use size::{
     Coolant, Cooling, CoolingError, CoolingTask, Flow, SizeError, SizeTask, Sizing, Trial, Verdict,
     requirement_margins, size,

@@ -4,7 +4,7 @@ use std::fmt;
 
 use lptn_assembly::{AssemblyError, ThermalSystem};
 use lptn_network::{BuildErrors, LimitId, Network, NoTangents, NodeId, ParameterId};
-use lptn_solve::{SettingsError, Solution, Transient, TransientError};
+use lptn_solve::{Control, End, Progress, SettingsError, Solution, Transient, TransientError};
 
 /// By which part of itself a parameter is changed for a difference of runs. With the tolerances of fits (1e-7 K) the
 /// difference of two runs and the curvature between them leave about four digits.
@@ -42,6 +42,8 @@ pub enum SensitiveError {
     Build(BuildErrors),
     /// The same.
     Assembly(AssemblyError),
+    /// It was interrupted.
+    Interrupted,
 }
 
 /// Runs a network and follows its sensitivities by `parameters`: exactly, or by differences where a network has no exact
@@ -54,9 +56,26 @@ pub fn sensitive_run(
     settings: &Transient,
     parameters: &[ParameterId],
 ) -> Result<SensitiveRun, SensitiveError> {
+    sensitive_run_observed(network, (settings, parameters), &|_| Control::Continue)
+}
+
+/// The same; `observer` is called after every step of every run and may interrupt them.
+///
+/// # Errors
+/// [`SensitiveError`] if one of the runs fails or is interrupted.
+pub fn sensitive_run_observed(
+    network: &Network,
+    (settings, parameters): (&Transient, &[ParameterId]),
+    observer: &dyn Fn(Progress) -> Control,
+) -> Result<SensitiveRun, SensitiveError> {
     let run = |network: &Network, settings: &Transient| {
         let system = ThermalSystem::assemble(network).map_err(SensitiveError::Assembly)?;
-        settings.solve(&system).map_err(SensitiveError::Run)
+        let solution = settings.solve_observed(&system, &mut |step| observer(step));
+        let solution = solution.map_err(SensitiveError::Run)?;
+        match solution.end() {
+            End::Interrupted(_) => Err(SensitiveError::Interrupted),
+            _ => Ok(solution),
+        }
     };
     match run(network, &settings.clone().sensitivities(parameters)) {
         Err(SensitiveError::Run(TransientError::Settings(SettingsError::Sensitivity(why)))) => {
@@ -127,6 +146,7 @@ impl fmt::Display for SensitiveError {
             Self::Run(error) => error.fmt(f),
             Self::Build(error) => error.fmt(f),
             Self::Assembly(error) => error.fmt(f),
+            Self::Interrupted => f.write_str("the run was interrupted"),
         }
     }
 }

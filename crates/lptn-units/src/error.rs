@@ -50,6 +50,11 @@ pub enum UnitErrorKind {
         /// The string without the separators.
         fix: Option<String>,
     },
+    /// `7.7*10^-3 K/W` for `7.7e-3 K/W`.
+    PowerOfTen {
+        /// The string with an exponent.
+        fix: String,
+    },
     /// `2 P` for `2 * P`.
     MissingOperator {
         /// The parameter that stands in the place of a unit.

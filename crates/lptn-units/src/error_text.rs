@@ -11,6 +11,7 @@ pub(crate) fn code(kind: &Kind) -> &'static str {
         Kind::NotFinite { .. } => "units::not_finite",
         Kind::DecimalComma { .. } => "units::decimal_comma",
         Kind::DigitGroups { .. } => "units::digit_groups",
+        Kind::PowerOfTen { .. } => "units::power_of_ten",
         Kind::MissingOperator { .. } => "units::missing_operator",
         Kind::TooDeep { .. } => "units::too_deep",
         Kind::UnknownUnit { .. } => "units::unknown_unit",
@@ -101,6 +102,7 @@ fn text_message(kind: &Kind) -> String {
         Kind::DecimalComma { thousands: None, .. } => "decimal comma".to_owned(),
         Kind::DecimalComma { .. } => "comma in a number".to_owned(),
         Kind::DigitGroups { .. } => "number with its digits in groups".to_owned(),
+        Kind::PowerOfTen { .. } => "a power of ten is part of a number".to_owned(),
         Kind::MissingOperator { name, .. } => format!("`{name}` is a parameter, not a unit"),
         Kind::TooDeep { limit } => format!("nested more than {limit} deep"),
         Kind::UnknownUnit { name, .. } => format!("unknown unit `{name}`"),
@@ -132,7 +134,8 @@ pub(crate) fn help(kind: &Kind) -> Option<String> {
     match kind {
         Kind::BareNumber { wanted, fix } => Some(bare_number(wanted, fix)),
         Kind::DecimalComma { decimal, thousands } => Some(comma(decimal.as_deref(), thousands.as_deref())),
-        Kind::MissingOperator { fix, .. }
+        Kind::PowerOfTen { fix }
+        | Kind::MissingOperator { fix, .. }
         | Kind::UnbracketedUnit { fix }
         | Kind::MisplacedBracket { fix }
         | Kind::AbsoluteWanted { fix }
@@ -151,6 +154,7 @@ pub(crate) fn help(kind: &Kind) -> Option<String> {
         Kind::DigitGroups { fix } => {
             Some(fix.as_deref().map_or_else(|| "write the digits without separators".to_owned(), write))
         }
+        Kind::Operands { left, right, fix, .. } if left.differs_by_radians(**right) => Some(turning(fix)),
         Kind::Operands { fix: Some(fix), .. } => Some(write(fix)),
         Kind::Operands { left, right, .. } => {
             let unit = |ty: &Type| match ty.is_scalar() {
@@ -172,6 +176,7 @@ pub(crate) fn help(kind: &Kind) -> Option<String> {
             Some(fix) => write(fix),
             None => format!("the argument must come out in {}", wanted.usual_unit()),
         }),
+        Kind::Dimension { wanted, found, fix } if found.differs_by_radians(**wanted) => Some(turning(fix)),
         Kind::Dimension { wanted, fix, .. } => Some(match fix {
             Some(fix) => write(fix),
             None if wanted.is_scalar() => "the value must come out without a unit".to_owned(),
@@ -206,6 +211,17 @@ fn fixed_help(kind: &Kind) -> Option<&'static str> {
     }
 }
 
+/// A power of rad is left over.
+fn turning(fix: &Option<String>) -> String {
+    let ask = "a power of rad is left over: is a frequency (Hz, 1/s) meant as a rotational speed?";
+    match fix {
+        Some(fix) => {
+            format!("{ask} {} for revolutions, or give the speed in rpm, rev/s or rad/s", write(fix))
+        }
+        None => format!("{ask} speeds are given in rpm, rev/s or rad/s"),
+    }
+}
+
 /// What a comma in a number may mean.
 fn comma(decimal: Option<&str>, thousands: Option<&str>) -> String {
     match (decimal, thousands) {
@@ -236,6 +252,7 @@ fn syntax_help(wanted: &str, found: &str) -> Option<&'static str> {
         (WANTED_CALL | WANTED_CHOICE, _) | (_, "`then`" | "`else`") => Some(
             "write `if(condition, value, other value)`, for example \"if(t < 10 [min], 100 [W], 0 [W])\"",
         ),
+        (_, "`:`") => Some("a time is one number with its unit: \"25 min\""),
         (_, "`and`" | "`or`" | "`not`" | "`&`" | "`|`" | "`!`") => {
             Some("conditions are combined by nesting: \"if(a < b, if(c < d, x, y), y)\"")
         }

@@ -279,12 +279,12 @@ impl Reading<'_> {
 
     /// None for a deviation that would not be converted.
     fn in_revolutions(&self) -> Option<String> {
-        let scale = self.scale();
-        let (unscaled, tail) = ((scale - 1.0).abs() < 1e-12, self.tail());
-        let amount =
-            if unscaled { self.amount_text().to_owned() } else { rounded(self.number.value * scale, 12) };
-        let complete = unscaled || self.deviation.is_none() || tail.ends_with('%');
-        complete.then(|| format!("{amount} rev/s{tail}"))
+        let (scale, tail) = (self.scale(), self.tail());
+        if let Some(unit) = revolutions(scale) {
+            return Some(format!("{} {unit}{tail}", self.amount_text()));
+        }
+        let complete = self.deviation.is_none() || tail.ends_with('%');
+        complete.then(|| format!("{} rev/s{tail}", rounded(self.number.value * scale, 12)))
     }
 
     /// The inverse of what is due where both are in use. A unit that measures nothing known is one with a slip, of
@@ -318,6 +318,12 @@ pub(crate) fn has_inverse(found: Type, wanted: Type) -> bool {
 fn is_inverse(found: Type, wanted: Type) -> bool {
     let inverse = Dimension::NONE.checked_div(found.dimension) == Some(wanted.dimension);
     inverse && !found.absolute && !wanted.is_scalar()
+}
+
+/// The unit in which the number of a frequency is that of revolutions: `1/min` means rpm.
+pub(crate) fn revolutions(scale: f64) -> Option<&'static str> {
+    let is = |other: f64| (scale / other - 1.0).abs() < 1e-12;
+    if is(1.0) { Some("rev/s") } else { is(1.0 / 60.0).then_some("rpm") }
 }
 
 /// Is a frequency given where a rotation is due?

@@ -1,6 +1,6 @@
 //! Proposes the unit that was probably meant by a text that is none.
 
-use crate::unit_parser::{self, superscript};
+use crate::unit_parser::{self, is_name_start, superscript};
 use crate::unit_table;
 
 /// Texts longer than this are not a unit with a slip of the pen.
@@ -12,9 +12,10 @@ pub(crate) fn unit(text: &str) -> Option<String> {
     if text.len() > LONGEST {
         return None;
     }
-    if ["u/min", "r/min", "rot/min"].contains(&text.trim().to_lowercase().as_str()) {
+    if ["u/min", "r/min", "rot/min", "min-1"].contains(&text.trim().to_lowercase().as_str()) {
         return Some("rpm".to_owned());
     }
+    let text = without_dots(text).replace("**", "^").replace(" per ", "/");
     let mut repaired = String::new();
     for (i, part) in split(text.trim(), |c| c == '/').iter().enumerate() {
         let words = words(part)?;
@@ -26,6 +27,12 @@ pub(crate) fn unit(text: &str) -> Option<String> {
         }
     }
     unit_parser::parse(&repaired).ok().map(|_| repaired)
+}
+
+/// `kg.K` as `kg K`: a point before a letter multiplies.
+fn without_dots(text: &str) -> String {
+    let next = text.chars().skip(1).chain([' ']);
+    text.chars().zip(next).map(|(c, next)| if c == '.' && is_name_start(next) { ' ' } else { c }).collect()
 }
 
 /// The factors of a product, each corrected.
@@ -79,7 +86,7 @@ fn word(text: &str) -> Option<Vec<String>> {
     let mut rest = text;
     let mut found = Vec::new();
     while !rest.is_empty() {
-        let end = rest.find(|c: char| !unit_parser::is_name_start(c)).unwrap_or(rest.len());
+        let end = rest.find(|c: char| !is_name_start(c)).unwrap_or(rest.len());
         let (name, tail) = rest.split_at_checked(end)?;
         let (exponent, tail) = exponent(tail)?;
         let unit = known(name)?;
@@ -96,7 +103,7 @@ fn known(name: &str) -> Option<String> {
     let plain = unit_table::plain_name(name);
     match unit_table::find(&plain) {
         Some(_) => Some(name.to_owned()),
-        None => unit_table::meant(&plain).map(str::to_owned),
+        None => unit_table::meant(&plain),
     }
 }
 

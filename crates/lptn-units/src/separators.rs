@@ -132,6 +132,20 @@ impl<'a> Run<'a> {
     }
 }
 
+/// `7.7*10^-3 K/W` and `7.7x10-3 K/W` as `7.7e-3 K/W`, where that is a quantity.
+pub(crate) fn power_of_ten(text: &str) -> Option<String> {
+    let text = text.trim();
+    let at = text.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))).filter(|&at| at > 0)?;
+    let (mantissa, rest) = text.split_at_checked(at)?;
+    let rest =
+        rest.trim_start().strip_prefix(['*', 'x', 'X', '×', '·', '⋅'])?.trim_start().strip_prefix("10")?;
+    let rest = rest.strip_prefix("**").or_else(|| rest.strip_prefix('^')).unwrap_or(rest);
+    let exponent = rest.find(|c: char| !(c.is_ascii_digit() || "+-()".contains(c))).unwrap_or(rest.len());
+    let (exponent, unit) = rest.split_at_checked(exponent)?;
+    let fixed = format!("{mantissa}e{}{unit}", exponent.trim_matches(['(', ')']));
+    (text.len() <= LONGEST && quantity::read(&fixed).is_ok()).then_some(fixed)
+}
+
 fn digits(text: &str) -> usize {
     text.find(|c: char| !c.is_ascii_digit() && c != '_').unwrap_or(text.len())
 }

@@ -52,6 +52,18 @@ impl Type {
         *self == wanted || one_radian_too_many()
     }
 
+    /// Do the two differ by nothing but a power of rad? Then a frequency was probably meant to be a rotational
+    /// speed, which [`Dimension`] tells apart.
+    ///
+    /// `other` is what is due.
+    pub fn differs_by_radians(&self, other: Type) -> bool {
+        let apart = self.dimension.checked_div(other.dimension).map(|ratio| ratio.exponents());
+        // where a frequency is due a speed is what is wrong
+        let due = other.dimension == Dimension::FREQUENCY || self.absolute || other.absolute;
+        apart.is_some_and(|[rest @ .., rad]| rest.iter().all(|exponent| exponent.is_zero()) && !rad.is_zero())
+            && !due
+    }
+
     /// With the article a sentence needs: `a thermal resistance (K/W)`.
     pub fn with_article(&self) -> String {
         if !self.absolute && self.dimension.quantity_name().is_none() {

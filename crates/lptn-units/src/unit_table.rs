@@ -125,6 +125,7 @@ const ALIASES: &[(&str, &str)] = &[
     ("°k", "K"),
     ("c", "degC"),
     ("celsius", "degC"),
+    ("gradc", "degC"),
     ("centigrade", "degC"),
     ("f", "degF"),
     ("fahrenheit", "degF"),
@@ -134,6 +135,10 @@ const ALIASES: &[(&str, &str)] = &[
     ("secs", "s"),
     ("second", "s"),
     ("seconds", "s"),
+    ("sekunden", "s"),
+    ("minuten", "min"),
+    ("stunden", "h"),
+    ("std", "h"),
     ("mins", "min"),
     ("minute", "min"),
     ("minutes", "min"),
@@ -164,6 +169,10 @@ const ALIASES: &[(&str, &str)] = &[
     ("degrees", "deg"),
     ("radian", "rad"),
     ("radians", "rad"),
+    ("rads", "rad"),
+    ("revs", "rev"),
+    ("bars", "bar"),
+    ("ccm", "cm^3"),
     ("turn", "rev"),
     ("percent", "%"),
     ("newton", "N"),
@@ -211,8 +220,24 @@ pub(crate) fn plain_name(written: &str) -> String {
     name.replace(['µ', 'μ'], "u").replace(['Ω', '\u{2126}'], "ohm")
 }
 
+/// `kgK` as `kg K` and `mPas` as `mPa s`: units that were run together. Other letters at the end of a name are slips.
+fn run_together(name: &str) -> Option<String> {
+    let joined = |last: &str, of: &dyn Fn(&str) -> bool| {
+        let first = name.strip_suffix(last).filter(|first| of(first))?;
+        find(first).map(|_| format!("{first} {last}"))
+    };
+    let by_time = |first: &str| ["Pa", "J", "W"].iter().any(|unit| first.ends_with(unit));
+    joined("K", &|_| true).or_else(|| joined("s", &by_time))
+}
+
+/// Names of units that there are not, each too near to another one: the metric horsepower is no pascal.
+const NO_SLIPS: [&str; 2] = ["PS", "ps"];
+
 /// The unit that was probably meant by an unknown name.
-pub(crate) fn meant(name: &str) -> Option<&'static str> {
+pub(crate) fn meant(name: &str) -> Option<String> {
+    if NO_SLIPS.contains(&name) {
+        return None;
+    }
     let lower = name.to_lowercase();
     let alias = ALIASES.iter().find(|(word, _)| *word == lower).map(|(_, unit)| *unit);
     const PREFIXED: [&str; 24] = [
@@ -220,5 +245,8 @@ pub(crate) fn meant(name: &str) -> Option<&'static str> {
         "kWh", "kHz", "mA", "mV", "cSt", "cP", "kcal", "ms",
     ];
     let names = UNITS.iter().map(|entry| entry.name).chain(PREFIXED);
-    alias.or_else(|| crate::suggest::suggest(name, names))
+    let near = alias.or_else(|| crate::suggest::suggest(name, names));
+    // a slip in the case of letters is likelier than two units, and those likelier than another slip
+    let certain = near.filter(|near| alias.is_some() || near.eq_ignore_ascii_case(name)).map(str::to_owned);
+    certain.or_else(|| run_together(name)).or_else(|| near.map(str::to_owned))
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::error::{UnitError, UnitErrorKind};
 use crate::expr::{Expression, bracketed};
 use crate::quantity::{self, Quantity, Reading};
+use crate::separators;
 use crate::types::Type;
 use crate::unit_parser::is_name_start;
 
@@ -89,6 +90,10 @@ fn more_helpful(
     }
     if matches!(as_expression.kind, UnitErrorKind::AmbiguousSign { .. }) {
         return as_expression;
+    }
+    if let Some(fix) = separators::power_of_ten(text) {
+        let span = 0..text.len();
+        return UnitError::new(UnitErrorKind::PowerOfTen { fix }, span);
     }
     let has_fix = as_quantity.help().is_some();
     if looks_like_quantity(text) && has_fix && !mentions_parameter(text, is_parameter) {

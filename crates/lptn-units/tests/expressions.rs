@@ -231,6 +231,50 @@ fn errors_of_dimensions() {
 }
 
 #[test]
+fn a_bare_number_beside_a_temperature_gets_the_unit_that_is_right_in_its_place() {
+    let code = "units::operands";
+    check_wrong(&[
+        ("T_amb + 5", Some(ABSOLUTE), code, "T_amb + 5", Some("write \"T_amb + 5 [K]\"")),
+        ("5 + T_amb", Some(ABSOLUTE), code, "5 + T_amb", Some("write \"5 [K] + T_amb\"")),
+        ("T_amb - 5", None, code, "T_amb - 5", Some("write \"T_amb - 5 [K]\"")),
+        ("T_amb - 5", Some(DIFFERENCE), code, "T_amb - 5", Some("write \"T_amb - 5 [degC]\"")),
+        (
+            "1 + 0.004 [1/K] * (T - 20)",
+            Some(SCALAR),
+            code,
+            "T - 20",
+            Some("write \"1 + 0.004 [1/K] * (T - 20 [degC])\""),
+        ),
+        ("1 + 0.004 * (T - 20)", Some(SCALAR), code, "T - 20", Some("write \"1 + 0.004 * (T - 20 [degC])\"")),
+        (
+            "T_amb - 5 [degC]",
+            Some(ABSOLUTE),
+            "units::absolute_wanted",
+            "T_amb - 5 [degC]",
+            Some("write \"T_amb - 5 [K]\""),
+        ),
+        ("min(T_amb, 40)", Some(ABSOLUTE), code, "T_amb, 40", Some("write \"min(T_amb, 40 [degC])\"")),
+    ]);
+}
+
+#[test]
+fn a_power_of_rad_left_over_asks_for_a_frequency_meant_as_a_speed() {
+    let ask = "a power of rad is left over: is a frequency (Hz, 1/s) meant as a rotational speed?";
+    let fix = |fix: &str| {
+        format!("{ask} write \"{fix}\" for revolutions, or give the speed in rpm, rev/s or rad/s")
+    };
+    let help = |text: &str| compile(text, Some(POWER)).unwrap_err()[0].help().unwrap();
+    assert_eq!(
+        help("87 [uW/rpm^(5/3)] * (7000 [Hz])^(5/3)"),
+        fix("87 [uW/rpm^(5/3)] * (7000 [rev/s])^(5/3)")
+    );
+    assert_eq!(help("1 [W s^2/rad^2] * (3000 [1/min])^2"), fix("1 [W s^2/rad^2] * (3000 [rpm])^2"));
+    // the coefficient may be the one in the wrong unit
+    let other = help("87 [W s^2] * omega^2");
+    assert_eq!(other, format!("{ask} speeds are given in rpm, rev/s or rad/s"));
+}
+
+#[test]
 fn errors_of_rotations_and_results() {
     let resistance = Some(Type::of(Dimension::RESISTANCE));
     let rotation = Some(Type::of(Dimension::ANGULAR_VELOCITY));

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-use lptn_units::{Type, parse_quantity, parse_value};
+use lptn_units::{Dimension, Type, parse_quantity, parse_value};
 use wrong::{check_wrong, is_parameter};
 
 #[path = "common/wrong.rs"]
@@ -66,6 +66,49 @@ fn units_as_they_are_said_show_those_as_they_are_written() {
         ("12 W/(sqm K)", None, unknown, "sqm", Some("did you mean \"12 W/(m^2 K)\"?")),
         ("7000 U/min", None, unknown, "U", Some("did you mean \"7000 rpm\"?")),
     ]);
+}
+
+#[test]
+fn units_that_are_joined_otherwise_show_their_product() {
+    let unknown = "units::unknown_unit";
+    check_wrong(&[
+        ("475 J/kgK", None, unknown, "kgK", Some("did you mean \"475 J/(kg K)\"?")),
+        ("475 J/(kg.K)", None, unknown, ".", Some("did you mean \"475 J/(kg K)\"?")),
+        ("475 J.kg-1.K-1", None, unknown, ".", Some("did you mean \"475 J kg^-1 K^-1\"?")),
+        ("475 J kg-1 K-1", None, unknown, "-", Some("did you mean \"475 J kg^-1 K^-1\"?")),
+        ("3 mPas", None, unknown, "mPas", Some("did you mean \"3 mPa s\"?")),
+        ("12 W/m2K", None, unknown, "m2K", Some("did you mean \"12 W/(m^2 K)\"?")),
+        ("2 Kw", None, unknown, "Kw", Some("did you mean \"2 kW\"?")),
+        ("2 kgs", None, unknown, "kgs", Some("did you mean \"2 kg\"?")),
+        ("12 W/(m**2*K)", None, unknown, "*", Some("did you mean \"12 W/(m^2 K)\"?")),
+        ("7 K per W", None, unknown, "per", Some("did you mean \"7 K/W\"?")),
+        ("25 Minuten", None, unknown, "Minuten", Some("did you mean \"25 min\"?")),
+        ("0.2 PS", None, unknown, "PS", None),
+    ]);
+}
+
+#[test]
+fn powers_of_ten_and_units_without_brackets_show_what_reads_and_is_right() {
+    let ten = "units::power_of_ten";
+    let bracket = "units::unbracketed_unit";
+    check_wrong(&[
+        ("7.7*10^-3 K/W", None, ten, "7.7*10^-3 K/W", Some("write \"7.7e-3 K/W\"")),
+        ("7.7x10-3 K/W", None, ten, "7.7x10-3 K/W", Some("write \"7.7e-3 K/W\"")),
+        ("2 × 10^(5) W", None, ten, "2 × 10^(5) W", Some("write \"2e5 W\"")),
+        ("T_amb + 5 degC", None, bracket, "degC", Some("write \"T_amb + 5 [K]\"")),
+        ("10 K * fan + 25 degC", None, bracket, "K", Some("write \"10 [K] * fan + 25 [degC]\"")),
+        ("1200-1300 J/K", None, "units::syntax", "-", None),
+    ]);
+}
+
+#[test]
+fn a_speed_per_minute_shows_rpm() {
+    let speed = Some(Type::of(Dimension::ANGULAR_VELOCITY));
+    let help = |text: &str| parse_value(text, speed, &is_parameter).expect_err(text).help().unwrap();
+    assert_eq!(help("3000 1/min"), "write \"3000 rpm\" for revolutions, or use rad/s, deg/s or rpm");
+    assert_eq!(help("3000 /min"), "write \"3000 rpm\" for revolutions, or use rad/s, deg/s or rpm");
+    assert_eq!(help("50 Hz"), "write \"50 rev/s\" for revolutions, or use rad/s, deg/s or rpm");
+    assert_eq!(help("3000 min-1"), "did you mean \"3000 rpm\"?");
 }
 
 #[test]

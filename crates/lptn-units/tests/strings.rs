@@ -232,7 +232,7 @@ fn wrong_types_say_what_is_due() {
             Some(ROTATION),
             "units::rotation",
             "3000 1/min",
-            Some("write \"50 rev/s\" for revolutions, or use rad/s, deg/s or rpm"),
+            Some("write \"3000 rpm\" for revolutions, or use rad/s, deg/s or rpm"),
         ),
         (
             "50 rev/s",

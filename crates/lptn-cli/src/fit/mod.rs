@@ -6,6 +6,7 @@ mod estimate;
 mod law;
 mod model;
 mod network;
+mod network_interrupted;
 mod network_json;
 mod network_text;
 mod network_words;

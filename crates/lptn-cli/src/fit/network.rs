@@ -1,9 +1,11 @@
 //! `lptn fit network`
 
+use std::sync::{Mutex, PoisonError};
+
 use lptn_netlist::{Diagnostic, FitStudy};
 use lptn_report::write_csv;
 use lptn_solve::Table;
-use lptn_study::fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network};
+use lptn_study::fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network_observed};
 use lptn_study::{SensitiveError, available_threads};
 use lptn_units::Unit;
 
@@ -12,8 +14,10 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::fit::args::NetworkArgs;
-use crate::fit::{network_json, network_text, network_words, network_write};
+use crate::fit::{network_interrupted, network_json, network_text, network_words, network_write};
 use crate::input::Input;
+use crate::interrupt::Interrupt;
+use crate::progress::ProgressLine;
 use crate::size;
 
 /// What came of a fit, and of what.
@@ -38,7 +42,12 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
     if args.write {
         network_write::possible(&input, &task)?;
     }
-    let fit = fit_network(&task).map_err(|error| failed(&input, study, &error))?;
+    let fit = match observed(&task, console) {
+        Err(NetworkFitError::Interrupted { stage, best }) => {
+            return network_interrupted::tell((&input, &task), (stage, best), (args, console));
+        }
+        outcome => outcome.map_err(|error| failed(&input, study, &error))?,
+    };
     if let Some(stop) = fit.not_converged {
         let message = format!("fit `{}` did not converge: {}", study.name, stop.text());
         let problem = Diagnostic::error("fit::not_converged", message).at(study.span.clone(), "").help(
@@ -65,6 +74,21 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
         network_write::write(&answer, &args.file, console)?;
     }
     Ok(Exit::Done)
+}
+
+/// The fit, with its progress, until Ctrl-C.
+fn observed(task: &NetworkFitTask<'_>, console: &Console) -> Result<NetworkFit, NetworkFitError> {
+    let interrupt = Interrupt::listen();
+    let line = Mutex::new(ProgressLine::new(console.quiet));
+    let outcome = fit_network_observed(task, &|stage, step| {
+        // no run waits for the line: the next step says more
+        if let Ok(mut line) = line.try_lock() {
+            line.update_of(&stage.to_string(), step);
+        }
+        interrupt.control()
+    });
+    line.into_inner().unwrap_or_else(PoisonError::into_inner).clear();
+    outcome
 }
 
 /// The study of this name, or the only one.

@@ -1,6 +1,6 @@
 //! What came of a fit of a network, for reading.
 
-use lptn_report::{Align, Column, TextTable, WIDTH, labelled, plain, significant};
+use lptn_report::{Align, Column, TextTable, WIDTH, differing, labelled, plain, significant};
 use lptn_study::Gradient;
 
 use crate::console::Console;
@@ -98,10 +98,12 @@ fn columns(answer: &Answer<'_>) -> Vec<String> {
         Column::new(title, Align::Right, (0..misfits.len()).map(cell).collect())
     };
     let several = answer.task.runs.len() > 1;
+    let records: Vec<String> = answer.task.runs.iter().map(|run| run.name.clone()).collect();
+    let records = differing(&records);
     let name = |i: usize| {
         let run = &answer.task.runs[misfits[i].run];
         let name = &run.columns[misfits[i].column].name;
-        if several { format!("{name} ({})", run.name) } else { name.clone() }
+        if several { format!("{name} ({})", records[misfits[i].run]) } else { name.clone() }
     };
     let sigma = |i: usize| misfits[i].sigma.map_or("-".to_owned(), |sigma| significant(sigma, 3));
     let table = TextTable::new(vec![

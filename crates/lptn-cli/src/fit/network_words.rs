@@ -49,7 +49,7 @@ pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
         doubts.push(doubt.help("write how far one value scatters, for example `sigma = \"0.2 K\"`"));
     }
     doubts.extend((0..answer.fit.parameters.len()).filter_map(|i| off_prior(answer, i)));
-    doubts.extend(answer.fit.columns.iter().filter_map(|column| misfit(answer, column)));
+    doubts.extend(misfits(answer));
     doubts
 }
 
@@ -77,19 +77,39 @@ fn off_prior(answer: &Answer<'_>, i: usize) -> Option<Diagnostic> {
     })
 }
 
-/// A column that the model misses by far more than its values scatter.
-fn misfit(answer: &Answer<'_>, column: &ColumnMisfit) -> Option<Diagnostic> {
-    let sigma = column.sigma.filter(|sigma| column.rms > FAR * sigma)?;
-    let run = &answer.task.runs[column.run];
-    let message = format!(
-        "the model does not describe column `{}` of {}: it misses it by {} K rms, where `sigma` is {} K",
-        run.columns[column.column].name,
-        run.name,
-        significant(column.rms, 3),
-        significant(sigma, 3)
-    );
+/// The columns that the model misses by far more than their values scatter: each once, with the record in which it is
+/// worst.
+fn misfits(answer: &Answer<'_>) -> Vec<Diagnostic> {
+    let name = |column: &ColumnMisfit| &answer.task.runs[column.run].columns[column.column].name;
+    let off = |column: &ColumnMisfit| column.sigma.map_or(0.0, |sigma| column.rms / sigma);
+    let mut found: Vec<(&ColumnMisfit, usize)> = Vec::new();
+    for column in answer.fit.columns.iter().filter(|column| off(column) > FAR) {
+        match found.iter_mut().find(|(other, _)| name(other) == name(column)) {
+            Some((worst, count)) => {
+                *count += 1;
+                *worst = if off(column) > off(worst) { column } else { *worst };
+            }
+            None => found.push((column, 1)),
+        }
+    }
+    let doubts = found.into_iter().map(|(worst, count)| misfit(answer, worst, (name(worst), count)));
+    doubts.collect()
+}
+
+fn misfit(answer: &Answer<'_>, worst: &ColumnMisfit, (name, count): (&str, usize)) -> Diagnostic {
+    let record = &answer.task.runs[worst.run].name;
+    let (rms, sigma) = (significant(worst.rms, 3), significant(worst.sigma.unwrap_or(f64::NAN), 3));
+    let message = match count {
+        1 => format!(
+            "the model does not describe column `{name}` of {record}: it misses it by {rms} K rms, where `sigma` is {sigma} K"
+        ),
+        _ => format!(
+            "the model does not describe column `{name}` in {count} records: it misses it by more than {FAR} times `sigma`, \
+             most in {record}, by {rms} K rms, where `sigma` is {sigma} K"
+        ),
+    };
     let doubt = Diagnostic::warning("fit::misfit", message).at(answer.study.span.clone(), "");
-    Some(doubt.help("look for what the network leaves out, or for a `sigma` that is too small"))
+    doubt.help("look for what the network leaves out, or for a `sigma` that is too small")
 }
 
 /// "`P`, `R` and `C`".

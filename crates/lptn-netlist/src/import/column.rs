@@ -3,6 +3,7 @@
 use lptn_network::{End, Field, Input};
 use lptn_units::{Dimension, Quantity, Type, Unit, suggest};
 
+use crate::csv_form;
 use crate::csv_head::{Wrong, number};
 use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
@@ -55,8 +56,10 @@ impl<'a> Elaboration<'a> {
             self.report(text.empty(place.raw, contents.example));
             return None;
         };
-        if let Some(problem) = sheet.other_separator(contents.columns) {
-            self.report(problem);
+        if let Some(problem) =
+            csv_form::check(&sheet.head, (&text.name, &text.text), (csv_form::NETLIST, contents.example))
+        {
+            self.report(problem.also(place.raw.span.clone(), "read here"));
             return None;
         }
         let unknown: Vec<Diagnostic> = sheet.unknown_columns(contents.columns).collect();
@@ -208,12 +211,6 @@ impl Sheet<'_> {
                 None => problem.help(format!("the columns are {}", crate::vocabulary::list(known))),
             }
         })
-    }
-
-    /// A header that is one column because another character separates them.
-    fn other_separator(&self, known: &[&str]) -> Option<Diagnostic> {
-        let [one] = self.head.columns.as_slice() else { return None };
-        one.written.contains([';', '\t']).then(|| self.head.no_column(known.first().unwrap_or(&""), self.ask))
     }
 
     fn two_laws(&self, conductance: usize, resistance: usize) -> Diagnostic {

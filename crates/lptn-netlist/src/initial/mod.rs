@@ -14,6 +14,7 @@ use crate::elaborate::Elaboration;
 use crate::file::{Files, Span};
 use crate::include::{Loader, reason};
 use crate::json::{Json, JsonValue};
+use crate::near_file;
 use crate::netlist::Netlist;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
 use crate::run::RunPlan;
@@ -285,8 +286,9 @@ fn load(
         },
         Err(error) => {
             let message = format!("cannot read {name}: {}", reason(&error));
-            let help = "paths are relative to the netlist; `lptn run` writes `out/NAME/state.json`";
-            refused("netlist::state_not_found", message, help)
+            let near = near_file::help(value, path, &error);
+            let help = format!("{near}; `lptn run` writes `out/NAME/state.json`");
+            refused("netlist::state_not_found", message, &help)
         }
     }
 }

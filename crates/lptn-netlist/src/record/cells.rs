@@ -1,11 +1,15 @@
 //! The rows of a record, one after the other.
 
-use crate::csv_head::{Head, Row, Wrong, number, position, reader, row, text_help};
+use crate::csv_form::{self, extra_help, text_help};
+use crate::csv_head::{Head, Row, Wrong, number, position, reader, row};
 use crate::diagnostic::Diagnostic;
 use crate::file::{FileId, Span};
-use crate::record::columns::{Chosen, check_head, choose};
+use crate::record::columns::{Chosen, choose};
 use crate::record::times::Order;
 use crate::record::{Counted, Record, RecordColumn, RecordQuery};
+
+/// A header as it could be.
+const EXAMPLE: &str = "t [s],ring [degC]";
 
 /// Words for a value that was not measured.
 const GAPS: [&str; 5] = ["nan", "na", "n/a", "null", "none"];
@@ -35,7 +39,7 @@ pub(crate) fn read(
     let mut rows = reader.records().filter_map(Result::ok).peekable();
     let Some(head) = rows.next() else { return Err(vec![empty(file, name)]) };
     let head = Head::new(file, &row(head, text));
-    if let Some(problem) = check_head(&head, rows.peek()) {
+    if let Some(problem) = csv_form::check(&head, (name, text), (csv_form::RECORD, EXAMPLE)) {
         return Err(vec![problem]);
     }
     let (time, chosen) = choose(&head, rows.peek(), query)?;
@@ -50,7 +54,7 @@ pub(crate) fn read(
 fn empty(file: FileId, name: &str) -> Diagnostic {
     Diagnostic::error("record::empty", format!("{name} is empty"))
         .at(Span::new(file, 0..0), "the header belongs here")
-        .help("begin it with the names of the columns and their units: `t [s],ring [degC]`")
+        .help(format!("begin it with the names of the columns and their units: `{EXAMPLE}`"))
 }
 
 impl<'t> Work<'t> {
@@ -165,20 +169,14 @@ impl<'t> Work<'t> {
 
     /// A row whose time is no number.
     fn no_time(&self, row: &Row, wrong: Wrong) -> Diagnostic {
-        let (index, name) = (self.time.index, &self.record.time_name);
+        let index = self.time.index;
         let cell = row.cell(index);
         if matches!(wrong, Wrong::Missing) || is_gap(cell) {
             return Diagnostic::error("record::row_without_time", "this row has no time")
                 .at(row.place(self.record.file, index), "")
                 .help("remove the row: when it was measured cannot be told");
         }
-        let problem = no_number(&self.head, row, (index, wrong));
-        match cell.contains(':') || cell.matches('-').count() > 1 {
-            true => problem.help(format!(
-                "times are numbers counted from any moment, in one unit: `{name} [s]`, not clock times or dates"
-            )),
-            false => problem,
-        }
+        no_number(&self.head, row, (index, wrong))
     }
 
     fn finish(mut self) -> Result<Record, Vec<Diagnostic>> {
@@ -232,17 +230,11 @@ pub(crate) fn is_gap(cell: &str) -> bool {
 
 pub(crate) fn extra_value(head: &Head, row: &Row, index: usize) -> Diagnostic {
     let columns = head.columns.len();
-    let problem = Diagnostic::error(
-        "record::extra_value",
-        format!("this row has {} values, the header names {columns} columns", row.cells.len()),
-    )
-    .at(row.place(head.file(), index), "belongs to no column")
-    .also(head.place.clone(), "the header");
-    let whole = |cell: &str| cell.trim_start_matches(['+', '-']).chars().all(|c| c.is_ascii_digit());
-    match (0..row.cells.len()).all(|i| whole(row.cell(i))) {
-        true => problem.help("write decimal points, not commas: `25.5`; with a comma every number is two"),
-        false => problem.help("name every column in the header"),
-    }
+    let message = format!("this row has {} values, the header names {columns} columns", row.cells.len());
+    Diagnostic::error("record::extra_value", message)
+        .at(row.place(head.file(), index), "belongs to no column")
+        .also(head.place.clone(), "the header")
+        .help(extra_help(row))
 }
 
 pub(crate) fn no_number(head: &Head, row: &Row, (index, wrong): (usize, Wrong)) -> Diagnostic {

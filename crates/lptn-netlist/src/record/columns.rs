@@ -2,9 +2,9 @@
 
 use lptn_units::{Dimension, Type, Unit, suggest};
 
+use crate::csv_form::other_brackets;
 use crate::csv_head::{Head, Header, number};
 use crate::diagnostic::Diagnostic;
-use crate::file::{FileId, Files, Span};
 use crate::points::fit;
 use crate::record::{RecordName, RecordQuery};
 use crate::vocabulary::list;
@@ -146,15 +146,6 @@ fn no_unit(header: &Header, wanted: Option<Type>) -> Diagnostic {
     problem.help(if wanted.is_some() { help } else { format!("{help}; a plain number is `{name} [-]`") })
 }
 
-/// The name and the unit of `ring (degC)`, `ring/degC`, `ring_degC`.
-fn other_brackets(name: &str) -> Option<(&str, &str)> {
-    let at = name.find(['(', '/', '{']).or_else(|| name.rfind(['_', ' ']))?;
-    let (bare, unit) = name.split_at(at);
-    let unit = unit.trim_matches(['(', ')', '/', '{', '}', '_', ' ']);
-    let unit = if matches!(unit, "C" | "°C") { "degC" } else { unit };
-    (!bare.trim().is_empty() && Unit::parse(unit).is_ok()).then_some((bare.trim(), unit))
-}
-
 fn no_column(head: &Head, asked: &RecordName) -> Diagnostic {
     let message = format!("there is no column `{}`", asked.name);
     let problem = Diagnostic::error("record::no_column", message);
@@ -205,53 +196,4 @@ fn no_time(head: &Head) -> Diagnostic {
             problem.help("add a column of times, `t [s]`, or correct the unit of the one that holds them")
         }
     }
-}
-
-/// What the header says of how the file was saved: with another separator, or without names.
-pub(crate) fn check_head(head: &Head, first: Option<&csv::StringRecord>) -> Option<Diagnostic> {
-    if head.columns.iter().all(|header| header.written.replace(',', ".").parse::<f64>().is_ok()) {
-        let problem = Diagnostic::error("record::no_header", "the first line holds numbers, not names")
-            .at(head.place.clone(), "the header belongs above this line");
-        return Some(
-            problem.help("begin with the names of the columns and their units: `t [s],ring [degC]`"),
-        );
-    }
-    let [one] = head.columns.as_slice() else { return None };
-    let other = [';', '\t', '|'].into_iter().find(|c| one.written.contains(*c))?;
-    let words = if other == '\t' { "tabs".to_owned() } else { format!("`{other}`") };
-    let pattern = if other == '\t' { "\\t".to_owned() } else { other.to_string() };
-    let decimal = first.is_some_and(|cells| cells.len() > 1);
-    let problem = Diagnostic::error(
-        "record::separator",
-        format!("the columns are separated by {words}, not by commas"),
-    )
-    .at(one.place.clone(), "one column, as it stands");
-    Some(match decimal {
-        true => problem.help(format!(
-            "save it with commas between the columns and decimal points, or change both:\n\
-             sed 's/,/./g; s/{pattern}/,/g' record.csv > with_commas.csv"
-        )),
-        false => problem.help(format!(
-            "save it with commas between the columns, or change them:\n\
-             sed 's/{pattern}/,/g' record.csv > with_commas.csv"
-        )),
-    })
-}
-
-/// A file that is no text in UTF-8.
-pub(crate) fn not_text(files: &Files, file: FileId, (name, bytes): (&str, &[u8])) -> Diagnostic {
-    let text = files.text(file);
-    let at = text.find(char::REPLACEMENT_CHARACTER).unwrap_or(0);
-    let end = at + text.get(at..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
-    let wide = bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]);
-    let why = if wide { ": it looks like UTF-16" } else { "" };
-    // the degree sign of the encodings of Western Europe
-    let degree = bytes.contains(&0xb0) || bytes.contains(&0xf8);
-    let help = match degree && !wide {
-        true => "write `degC` for the degree sign, or save it as `CSV UTF-8`",
-        false => "choose `CSV UTF-8` where your program saves it",
-    };
-    Diagnostic::error("netlist::not_text", format!("{name} is not a text file in UTF-8{why}"))
-        .at(Span::new(file, at..end), "")
-        .help(help)
 }

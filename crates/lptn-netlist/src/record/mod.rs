@@ -29,6 +29,7 @@ use std::path::Path;
 
 use lptn_units::{Type, Unit};
 
+use crate::csv_form;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::file::{FileId, Files, Span};
 use crate::limits::shorten;
@@ -159,15 +160,8 @@ fn parse(
     query: &RecordQuery,
 ) -> Result<Record, Vec<Diagnostic>> {
     let name = path.display().to_string();
-    let text = match std::str::from_utf8(bytes) {
-        Ok(text) if !text.contains('\0') => text,
-        _ => {
-            let file = files.add(&name, String::from_utf8_lossy(bytes).replace('\0', " "));
-            return Err(vec![columns::not_text(files, file, (&name, bytes))]);
-        }
-    };
-    let file = files.add(&name, text);
-    read_text(file, (&name, text), query)
+    let (file, text) = csv_form::text_of(files, &name, bytes).map_err(|problem| vec![problem])?;
+    read_text(file, (&name, &text), query)
 }
 
 /// Reads a record from a text of this name, with what is doubtful about it.

@@ -2,14 +2,18 @@
 
 use std::path::Path;
 
+use crate::csv_form;
 use crate::csv_head::{Head, Row, Wrong, number, reader, row};
 use crate::diagnostic::{Diagnostic, arrange};
 use crate::file::{FileId, Files, Span};
 use crate::limits::shorten;
 use crate::netlist::Rejected;
 use crate::record::cells::{cold, extra_value, is_gap, no_number};
-use crate::record::columns::{Chosen, all, check_head, not_text, of_any};
+use crate::record::columns::{Chosen, all, of_any};
 use crate::record::{Counted, RecordColumn};
+
+/// A header as it could be.
+const EXAMPLE: &str = "omega [rpm],P [W]";
 
 /// Columns of numbers with units, and columns of words under headers without.
 #[derive(Clone, Debug)]
@@ -50,19 +54,13 @@ pub fn read_sheet(path: &Path, bytes: &[u8]) -> Result<(DataSheet, Files), Rejec
 }
 
 fn parse(files: &mut Files, name: &str, bytes: &[u8]) -> Result<DataSheet, Vec<Diagnostic>> {
-    let text = match std::str::from_utf8(bytes) {
-        Ok(text) if !text.contains('\0') => text,
-        _ => {
-            let file = files.add(name, String::from_utf8_lossy(bytes).replace('\0', " "));
-            return Err(vec![not_text(files, file, (name, bytes))]);
-        }
-    };
-    let file = files.add(name, text);
+    let (file, text) = csv_form::text_of(files, name, bytes).map_err(|problem| vec![problem])?;
+    let text = text.as_ref();
     let mut reader = reader(text);
     let mut records = reader.records().filter_map(Result::ok).peekable();
     let Some(head) = records.next() else { return Err(vec![empty(file, name)]) };
     let head = Head::new(file, &row(head, text));
-    if let Some(problem) = check_head(&head, records.peek()) {
+    if let Some(problem) = csv_form::check(&head, (name, text), (csv_form::RECORD, EXAMPLE)) {
         return Err(vec![problem]);
     }
     let mut work = Work::new(head, records.peek())?;
@@ -75,7 +73,7 @@ fn parse(files: &mut Files, name: &str, bytes: &[u8]) -> Result<DataSheet, Vec<D
 fn empty(file: FileId, name: &str) -> Diagnostic {
     Diagnostic::error("record::empty", format!("{name} is empty"))
         .at(Span::new(file, 0..0), "the header belongs here")
-        .help("begin it with the names of the columns and their units: `omega [rpm],P [W]`")
+        .help(format!("begin it with the names of the columns and their units: `{EXAMPLE}`"))
 }
 
 /// A file that is being read.

@@ -249,8 +249,11 @@ impl<'a> Elaboration<'a> {
 }
 
 fn example(name: &str, wanted: &str) -> String {
+    let node = format!("`{name} = {{ T0 = \"25 degC\", C = \"500 J/K\" }}` below [node]");
     match wanted {
-        "node" => format!("`{name} = {{ T0 = \"25 degC\", C = \"500 J/K\" }}` below [node]"),
-        _ => format!("`{name} = {{ T = \"25 degC\" }}` below [boundary]"),
+        "node" => node,
+        _ => format!(
+            "{node}, or, if its temperature is given, `{name} = {{ T = \"25 degC\" }}` below [boundary]"
+        ),
     }
 }

@@ -120,6 +120,26 @@ fn check_section(entry: &RawEntry) -> Option<Diagnostic> {
     }
 }
 
+/// What sections are called elsewhere.
+const OTHER_NAMES: [(&str, &str); 16] = [
+    ("resistance", "resistor"),
+    ("resistances", "resistor"),
+    ("conductor", "resistor"),
+    ("conductance", "resistor"),
+    ("link", "resistor"),
+    ("capacity", "node"),
+    ("capacitance", "node"),
+    ("mass", "node"),
+    ("ambient", "boundary"),
+    ("environment", "boundary"),
+    ("heat", "source"),
+    ("load", "source"),
+    ("loss", "source"),
+    ("variables", "param"),
+    ("simulation", "run"),
+    ("solver", "run"),
+];
+
 fn unknown(entry: &RawEntry) -> Diagnostic {
     let (name, place) = (entry.key.as_str(), entry.key_span.clone());
     let is_table = matches!(entry.value.kind, RawKind::Table(_) | RawKind::Array(_));
@@ -133,8 +153,10 @@ fn unknown(entry: &RawEntry) -> Diagnostic {
     } else {
         ("netlist::unknown_key", format!("there is no key `{name}` at the top of a netlist"))
     };
+    let other = OTHER_NAMES.iter().find(|(other, _)| name.eq_ignore_ascii_case(other)).filter(|_| is_table);
     let known = SECTIONS.iter().chain(&SECTIONS_LATER).chain(&TOP_KEYS).copied();
-    let help = match suggest(name, known) {
+    let near = other.map(|(_, section)| *section).or_else(|| suggest(name, known));
+    let help = match near {
         Some(near) if TOP_KEYS.contains(&near) => format!("did you mean `{near}`?"),
         Some(near) => format!("did you mean `[{near}]`?"),
         None if is_table => format!("the sections are {}", list(&SECTIONS)),

@@ -26,13 +26,51 @@ pub(crate) fn bracketed(text: &str, is_parameter: &dyn Fn(&str) -> bool) -> Opti
         result.push_str(text.get(number.span.clone())?);
         at = number.span.end;
         if end > start {
-            result.push_str(&format!(" [{}]", repair::unit(text.get(start..end)?)?));
+            let unit = repair::unit(text.get(start..end)?)?;
+            let unit =
+                if is_added_to_temperature(text, number.span.start) { difference(&unit) } else { &unit };
+            result.push_str(&format!(" [{unit}]"));
             first.get_or_insert(start..end);
             at = end;
         }
     }
-    let expression = super::Expression::parse(&result).ok();
-    expression.and(first).map(|span| (result.trim().to_owned(), span))
+    let expression = super::Expression::parse(&result).ok()?;
+    // without names it can be told whether it is right
+    let constant = expression.names().is_empty() && expression.calls().is_empty();
+    if constant && expression.compile(&Nothing, None).is_err() {
+        return None;
+    }
+    first.map(|span| (result.trim().to_owned(), span))
+}
+
+/// No names.
+struct Nothing;
+
+impl super::Scope for Nothing {
+    fn symbol(&self, _: &str) -> Option<super::Symbol> {
+        None
+    }
+
+    fn names(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+/// Whether the number at this byte is added to a name that is one of a temperature by its looks: `T_amb + 5 degC`.
+fn is_added_to_temperature(text: &str, number: usize) -> bool {
+    let before = text.get(..number).unwrap_or_default().trim_end();
+    let Some(before) = before.strip_suffix('+') else { return false };
+    let name = before.trim_end().rsplit(|c: char| !(c.is_alphanumeric() || "_.[]".contains(c))).next();
+    name.is_some_and(|name| name == "T" || name.starts_with("T_") || name.ends_with(".T"))
+}
+
+/// The unit of a difference of temperatures in place of that of a temperature.
+fn difference(unit: &str) -> &str {
+    match unit {
+        "degC" => "K",
+        "degF" => "degR",
+        other => other,
+    }
 }
 
 fn skip_space(text: &str, at: usize) -> usize {

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::call;
-use super::fix::Source;
+use super::fix::{Judge, Source};
 use super::function::{self, Function};
 use super::operands;
 use super::program::NamedTable;
@@ -51,9 +51,17 @@ pub(crate) fn check(
     scope: &dyn Scope,
     expected: Option<Type>,
 ) -> Result<Resolved, Vec<UnitError>> {
-    let source = Source { text, tree };
+    types(Source { text, tree, judge: Some(Judge { scope, expected }) }, scope, expected)
+}
+
+/// The types of all nodes, or every mistake.
+pub(crate) fn types(
+    source: Source<'_>,
+    scope: &dyn Scope,
+    expected: Option<Type>,
+) -> Result<Resolved, Vec<UnitError>> {
     let mut checker = Checker { source, scope, found: Vec::new(), tables: Vec::new(), errors: Vec::new() };
-    for (id, (node, _)) in tree.nodes().enumerate() {
+    for (id, (node, _)) in source.tree.nodes().enumerate() {
         let found = checker.node(id, node);
         checker.found.push(found);
     }

@@ -1,19 +1,36 @@
 //! Errors of expressions that show the corrected text.
 
-use super::check::is_temperature;
+use super::Scope;
+use super::check::{self, is_temperature};
 use super::lexer::splice;
 use super::tree::{Id, Node, Operator, Tree};
 use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind as Kind};
 use crate::format::{number, rounded};
-use crate::quantity::{has_inverse, is_frequency_for_rotation};
+use crate::quantity::{has_inverse, is_frequency_for_rotation, revolutions};
 use crate::types::Type;
+use crate::unit::Unit;
+
+const SPEED: Type = Type::of(Dimension::ANGULAR_VELOCITY);
+
+fn is_frequency(ty: Type) -> bool {
+    is_frequency_for_rotation(ty, SPEED)
+}
 
 /// The text and its tree.
 #[derive(Clone, Copy)]
 pub(crate) struct Source<'a> {
     pub(crate) text: &'a str,
     pub(crate) tree: &'a Tree,
+    /// What tries a correction; `None` while one is tried.
+    pub(crate) judge: Option<Judge<'a>>,
+}
+
+/// The names and the type that a corrected text has to do with.
+#[derive(Clone, Copy)]
+pub(crate) struct Judge<'a> {
+    pub(crate) scope: &'a dyn Scope,
+    pub(crate) expected: Option<Type>,
 }
 
 impl Source<'_> {
@@ -37,6 +54,40 @@ impl Source<'_> {
     /// A literal with another unit.
     pub(crate) fn relabel(&self, id: Id, unit: &str) -> Option<String> {
         self.literal_number(id).map(|number| self.replace(id, &format!("{number} [{unit}]")))
+    }
+
+    /// How many mistakes are left when these names and numbers are of another type; `None` while that is tried.
+    fn mistakes_with(&self, ids: &[Id], ty: Type) -> Option<usize> {
+        let Judge { scope, expected } = self.judge?;
+        let tree = self.tree.with_literals(ids, ty);
+        let source = Source { tree: &tree, judge: None, ..*self };
+        // a temperature that something is done to shows that it should have been a difference
+        let weight = |error: &UnitError| if let Kind::AbsoluteOperand { .. } = error.kind { 2 } else { 1 };
+        let errors = check::types(source, scope, expected).err().unwrap_or_default();
+        Some(errors.iter().map(weight).sum())
+    }
+
+    /// The text with the one frequency in it made a speed, where that makes it right.
+    fn turning(&self) -> Option<String> {
+        let scope = self.judge?.scope;
+        let frequency = |node: &Node| match node {
+            Node::Literal { ty, .. } => is_frequency(*ty),
+            Node::Name(name) => scope.symbol(name).is_some_and(|symbol| is_frequency(symbol.ty)),
+            _ => false,
+        };
+        let found = self.tree.nodes().enumerate().filter(|(_, (node, _))| frequency(node));
+        let ids: Vec<Id> = found.map(|(id, _)| id).collect();
+        let same = |id: &Id| self.text_of(*id) == self.text_of(ids[0]);
+        let right = !ids.is_empty() && ids.iter().all(same) && self.mistakes_with(&ids, SPEED) == Some(0);
+        right.then(|| {
+            let mut text = self.text.to_owned();
+            for &id in ids.iter().rev() {
+                let turned = self.literal_in_revolutions(id);
+                let turned = turned.unwrap_or_else(|| format!("({} * 1 [rev])", self.text_of(id)));
+                text.replace_range(self.tree.span(id), &turned);
+            }
+            text.trim().to_owned()
+        })
     }
 
     /// `[K]` for a temperature literal, or `[degR]` if it was in Fahrenheit.
@@ -111,7 +162,8 @@ impl Source<'_> {
         let kind = if is_frequency_for_rotation(found, wanted) {
             Kind::Rotation { fix: Some(self.in_revolutions(root).unwrap_or(format!("({whole}) * 1 [rev]"))) }
         } else if wanted.absolute && is_temperature(found) {
-            Kind::AbsoluteWanted { fix: format!("absolute({whole})") }
+            let made = || format!("absolute({whole})");
+            Kind::AbsoluteWanted { fix: self.less_a_difference(root).unwrap_or_else(made) }
         } else if found.absolute && is_temperature(wanted) {
             let fix = self.as_difference(root).unwrap_or_else(|| format!("{whole} - 0 [degC]"));
             Kind::DifferenceWanted { fix }
@@ -119,7 +171,8 @@ impl Source<'_> {
             Kind::BareNumber { wanted, fix: format!("{whole} {}", wanted.usual_unit()) }
         } else {
             let inverse = || has_inverse(found, wanted).then(|| format!("1 / ({whole})"));
-            let fix = self.fraction(root, wanted).or_else(inverse);
+            let turning = || found.differs_by_radians(wanted).then(|| self.turning()).flatten();
+            let fix = self.fraction(root, wanted).or_else(inverse).or_else(turning);
             Kind::Dimension { wanted: Box::new(wanted), found: Box::new(found), fix }
         };
         UnitError::new(kind, span)
@@ -139,6 +192,13 @@ impl Source<'_> {
         fits.then(|| format!("{} [{unit}", number(value / divisor)))
     }
 
+    /// `T - 5 [degC]`, where a temperature is due, as `T - 5 [K]`.
+    fn less_a_difference(&self, root: Id) -> Option<String> {
+        let Node::Binary(Operator::Subtract, _, right) = self.tree.node(root) else { return None };
+        let right_then = self.mistakes_with(&[*right], Type::of(Dimension::TEMPERATURE)) == Some(0);
+        if right_then { self.as_difference(*right) } else { None }
+    }
+
     /// Two values of different types that should have one.
     pub(crate) fn unlike(&self, operation: &'static str, a: (Id, Type), b: (Id, Type)) -> UnitError {
         for (this, other) in [(a, b), (b, a)] {
@@ -147,18 +207,23 @@ impl Source<'_> {
                 return UnitError::new(Kind::Rotation { fix }, self.tree.span(this.0));
             }
         }
-        let fix = self.like(b, a.1).or_else(|| self.like(a, b.1));
+        let turning = || a.1.differs_by_radians(b.1).then(|| self.turning()).flatten();
+        let fix = self.like(operation, b, a.1).or_else(|| self.like(operation, a, b.1)).or_else(turning);
         let span = self.tree.span(a.0).start..self.tree.span(b.0).end;
         let (left, right) = (Box::new(a.1), Box::new(b.1));
         UnitError::new(Kind::Operands { operation, left, right, fix }, span)
     }
 
     /// A plain number or a temperature made the type of the other operand.
-    fn like(&self, this: (Id, Type), other: Type) -> Option<String> {
+    fn like(&self, operation: &str, this: (Id, Type), other: Type) -> Option<String> {
         let (id, ty) = this;
         match self.tree.node(id) {
             Node::Number { .. } if ty.is_scalar() => {
-                Some(self.replace(id, &format!("{} [{}]", self.text_of(id), other.usual_unit())))
+                let unit = match other.absolute && matches!(operation, "`+`" | "`-`") {
+                    true => self.beside_temperature(id),
+                    false => other.usual_unit(),
+                };
+                Some(self.replace(id, &format!("{} [{unit}]", self.text_of(id))))
             }
             Node::Literal { .. } if is_temperature(ty) && other.absolute => self.relabel(id, "degC"),
             Node::Literal { .. } if ty.absolute && is_temperature(other) => self.as_difference(id),
@@ -169,13 +234,26 @@ impl Source<'_> {
         }
     }
 
-    /// `50 [Hz]` as `50 [rev/s]`.
+    /// The unit of a number that is added to a temperature or subtracted: a difference, unless it is wrong that
+    /// the outcome is a temperature again, as in `0.004 [1/K] * (T - 20)`.
+    fn beside_temperature(&self, id: Id) -> String {
+        let mistakes = |ty| self.mistakes_with(&[id], ty).unwrap_or(0);
+        let absolute = mistakes(Type::ABSOLUTE_TEMPERATURE) < mistakes(Type::of(Dimension::TEMPERATURE));
+        if absolute { "degC".to_owned() } else { "K".to_owned() }
+    }
+
+    /// The text with `50 [Hz]` as `50 [rev/s]`.
     fn in_revolutions(&self, id: Id) -> Option<String> {
-        match self.tree.node(id) {
-            Node::Literal { value, .. } => {
-                Some(self.replace(id, &format!("{} [rev/s]", rounded(*value, 12))))
-            }
-            _ => None,
-        }
+        self.literal_in_revolutions(id).map(|literal| self.replace(id, &literal))
+    }
+
+    fn literal_in_revolutions(&self, id: Id) -> Option<String> {
+        let Node::Literal { value, .. } = self.tree.node(id) else { return None };
+        let (number, unit) = self.text_of(id).split_once('[')?;
+        let scale = Unit::parse(unit.trim_end_matches(']')).ok()?.scale;
+        Some(match revolutions(scale) {
+            Some(unit) => format!("{} [{unit}]", number.trim()),
+            None => format!("{} [rev/s]", rounded(*value, 12)),
+        })
     }
 }

@@ -120,6 +120,15 @@ impl Tree {
         self.nodes.iter()
     }
 
+    /// The same tree with literals of a type in the place of some nodes that have no operands.
+    pub(crate) fn with_literals(&self, ids: &[Id], ty: Type) -> Self {
+        let mut tree = self.clone();
+        for &id in ids {
+            tree.nodes[id].0 = Node::Literal { value: 1.0, ty };
+        }
+        tree
+    }
+
     /// Puts other names in the place of those that have a meaning; where these stand, and what they are now.
     pub(crate) fn rename(&mut self, meaning: &dyn Fn(&str) -> Option<String>) -> Vec<(Range<usize>, String)> {
         let mut renamed = Vec::new();

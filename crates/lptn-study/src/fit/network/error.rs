@@ -6,6 +6,7 @@ use lptn_units::EvalError;
 
 use crate::SensitiveError;
 use crate::fit::least_squares::LeastSquaresError;
+use crate::fit::network::task::FitStage;
 
 /// Why a network cannot be fitted. That the search does not converge is an answer and no error.
 #[derive(Debug)]
@@ -52,7 +53,24 @@ pub enum NetworkFitError {
     /// A number of the study has no value.
     Plan(EvalError),
     /// The sum of squares cannot be minimised.
-    Search(LeastSquaresError<std::convert::Infallible>),
+    Search(LeastSquaresError<Interrupted>),
+    /// It was interrupted.
+    Interrupted {
+        /// How far it was.
+        stage: FitStage,
+        /// The values in SI units that describe the records best among those that were tried.
+        best: Option<Vec<f64>>,
+    },
+}
+
+/// That a search was interrupted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Interrupted;
+
+impl fmt::Display for Interrupted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the search was interrupted")
+    }
 }
 
 impl NetworkFitError {
@@ -68,7 +86,9 @@ impl NetworkFitError {
                 SensitiveError::Run(error) => error.code(),
                 SensitiveError::Build(_) => "fit::network",
                 SensitiveError::Assembly(error) => error.code(),
+                SensitiveError::Interrupted => "fit::interrupted",
             },
+            Self::Interrupted { .. } => "fit::interrupted",
             Self::Observed { .. } => "fit::observed",
             Self::Plan(error) => error.code(),
             Self::Search(error) => error.code().unwrap_or("fit::search"),
@@ -100,6 +120,7 @@ impl fmt::Display for NetworkFitError {
             ),
             Self::Plan(error) => error.fmt(f),
             Self::Search(error) => error.fmt(f),
+            Self::Interrupted { stage, .. } => write!(f, "the fit was interrupted in {stage}"),
         }
     }
 }

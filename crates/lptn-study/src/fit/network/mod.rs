@@ -22,11 +22,13 @@ mod search;
 mod task;
 
 pub use combination::Kind;
-pub use error::NetworkFitError;
+pub use error::{Interrupted, NetworkFitError};
 pub use fitted::{ColumnMisfit, FittedParameter, NetworkFit};
 pub use identify::{Combination, Identifiability, Unseparated};
 pub use search::Starts;
-pub use task::{Measured, MeasuredRun, NetworkFitTask, Varied};
+pub use task::{FitObserver, FitStage, Measured, MeasuredRun, NetworkFitTask, Varied};
+
+use lptn_solve::Control;
 
 use crate::Gradient;
 use crate::fit::network::coordinates::Coordinates;
@@ -51,18 +53,32 @@ const DIFFERENCES: f64 = 1e-4;
 /// [`NetworkFitError`] for a task that asks for nothing, or where the own values have no run. That the search does not
 /// converge is an answer: [`NetworkFit::not_converged`].
 pub fn fit_network(task: &NetworkFitTask<'_>) -> Result<NetworkFit, NetworkFitError> {
+    fit_network_observed(task, &|_, _| Control::Continue)
+}
+
+/// The same; `observer` is called after every step of every run and may interrupt the fit.
+///
+/// # Errors
+/// As [`fit_network`]; [`NetworkFitError::Interrupted`] with the best values so far.
+pub fn fit_network_observed(
+    task: &NetworkFitTask<'_>,
+    observer: &FitObserver<'_>,
+) -> Result<NetworkFit, NetworkFitError> {
     check(task)?;
     let own: Vec<f64> = task.parameters.iter().map(|v| task.network.parameter_value(v.parameter)).collect();
     let absolute: Vec<bool> = task.parameters.iter().map(|v| is_temperature(task, *v)).collect();
     let sizes = sizes(task, &own);
     let coordinates = Coordinates::new(&task.parameters, &absolute);
     let Found { estimate, outcome, starts, gradient, mut model, searches } =
-        search(task, &coordinates, &own)?;
+        search((task, observer), &coordinates, &own)?;
     let (values, _) = coordinates.values(&estimate.parameters);
     let Ok(at_end) = model.at(&values).cloned() else {
         return Err(NetworkFitError::NoData); // the search ends where there are runs
     };
     let identifiability = told_apart(task, (&at_end, &sizes), &mut model, &gradient);
+    if model.interrupted {
+        return Err(model.broken_off());
+    }
     let errors = Errors::new(task, &model, (&at_end, &estimate.free(), identifiability.as_ref()));
     let covariance = errors.covariance();
     let standard_error = |i: usize| {

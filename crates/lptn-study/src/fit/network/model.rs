@@ -1,15 +1,15 @@
 //! The runs of all records for one set of parameters, with their derivatives.
 
-use std::convert::Infallible;
 use std::ops::Range;
 
 use lptn_network::{Network, OutputTimes, ParameterId};
 use lptn_solve::{Record, Transient};
 
-use crate::fit::least_squares::Problem;
+use crate::fit::least_squares::{LeastSquaresError, Problem};
 use crate::fit::network::coordinates::Coordinates;
-use crate::fit::network::task::{MeasuredRun, NetworkFitTask};
-use crate::{Gradient, SensitiveError, SensitiveRun, in_parallel, sensitive_run};
+use crate::fit::network::error::{Interrupted, NetworkFitError};
+use crate::fit::network::task::{FitObserver, FitStage, MeasuredRun, NetworkFitTask};
+use crate::{Gradient, SensitiveError, SensitiveRun, in_parallel, sensitive_run_observed};
 
 /// The residuals of one column of one record.
 #[derive(Clone, Debug)]
@@ -42,18 +42,57 @@ pub(crate) struct Model<'a> {
     last: Option<Evaluated>,
     /// How often the runs of all records were computed.
     pub(crate) evaluations: usize,
+    /// How far the fit is, but for the evaluations of this model.
+    pub(crate) stage: FitStage,
+    /// The least sum of squares so far, and its values.
+    pub(crate) best: Option<(f64, Vec<f64>)>,
+    /// Whether the observer has interrupted the fit.
+    pub(crate) interrupted: bool,
+    observer: &'a FitObserver<'a>,
 }
 
 impl<'a> Model<'a> {
     /// With at most `most` rows of each record, taken at equal intervals.
     pub(crate) fn new(
-        task: &'a NetworkFitTask<'a>,
+        (task, observer): (&'a NetworkFitTask<'a>, &'a FitObserver<'a>),
         coordinates: &'a Coordinates,
         (most, tolerance): (usize, f64),
     ) -> Self {
         let rows: Vec<Vec<usize>> = task.runs.iter().map(|run| chosen(run.times.len(), most)).collect();
         let blocks = blocks(task, &rows);
-        Self { task, coordinates, rows, blocks, tolerance, gradient: None, last: None, evaluations: 0 }
+        let stage = FitStage { search: 0, of: 1, evaluations: 0 };
+        Self {
+            task,
+            coordinates,
+            rows,
+            blocks,
+            tolerance,
+            gradient: None,
+            last: None,
+            evaluations: 0,
+            stage,
+            best: None,
+            interrupted: false,
+            observer,
+        }
+    }
+
+    /// Why a search ended without an answer.
+    pub(crate) fn ended(&self, error: LeastSquaresError<Interrupted>) -> NetworkFitError {
+        match error {
+            LeastSquaresError::Problem(Interrupted) => self.broken_off(),
+            error => NetworkFitError::Search(error),
+        }
+    }
+
+    /// That the fit was interrupted, with the best values.
+    pub(crate) fn broken_off(&self) -> NetworkFitError {
+        let best = self.best.as_ref().map(|(_, values)| values.clone());
+        NetworkFitError::Interrupted { stage: self.stage_now(), best }
+    }
+
+    pub(crate) fn stage_now(&self) -> FitStage {
+        FitStage { evaluations: self.stage.evaluations + self.evaluations, ..self.stage }
     }
 
     /// Number of residuals of the records; those of the priors follow.
@@ -74,7 +113,14 @@ impl<'a> Model<'a> {
     pub(crate) fn at(&mut self, values: &[f64]) -> Result<&Evaluated, (usize, SensitiveError)> {
         if self.last.as_ref().is_none_or(|last| last.values != values) {
             self.last = None;
-            self.last = Some(self.evaluate(values)?);
+            let found = self.evaluate(values).inspect_err(|(_, error)| {
+                self.interrupted |= matches!(error, SensitiveError::Interrupted);
+            })?;
+            let squares: f64 = found.residuals.iter().map(|residual| residual * residual).sum();
+            if squares.is_finite() && self.best.as_ref().is_none_or(|(least, _)| squares < *least) {
+                self.best = Some((squares, values.to_vec()));
+            }
+            self.last = Some(found);
         }
         self.last.as_ref().ok_or_else(|| unreachable!("it was just set"))
     }
@@ -122,7 +168,9 @@ impl<'a> Model<'a> {
         let (run, rows) = (&self.task.runs[i], &self.rows[i]);
         let network = self.task.network_of(run, values)?;
         let ids: Vec<ParameterId> = self.task.parameters.iter().map(|varied| varied.parameter).collect();
-        let found = sensitive_run(&network, &settings(run, rows, self.tolerance), &ids)?;
+        let (settings, stage) = (settings(run, rows, self.tolerance), self.stage_now());
+        let found =
+            sensitive_run_observed(&network, (&settings, &ids), &|step| (self.observer)(stage, step))?;
         Ok(measure(run, rows, (&found, &ids)))
     }
 }
@@ -222,7 +270,7 @@ fn combined(
 }
 
 impl Problem for Model<'_> {
-    type Error = Infallible;
+    type Error = Interrupted;
 
     fn parameters(&self) -> usize {
         self.task.parameters.len()
@@ -234,7 +282,7 @@ impl Problem for Model<'_> {
         p: &[f64],
         residuals: &mut Vec<f64>,
         jacobian: Option<&mut Vec<f64>>,
-    ) -> Result<(), Infallible> {
+    ) -> Result<(), Interrupted> {
         let (values, slopes) = self.coordinates.values(p);
         let count = self.data() + self.priors().len();
         match self.at(&values) {
@@ -246,6 +294,7 @@ impl Problem for Model<'_> {
                     scaled.for_each(|(column, slope)| jacobian.extend(column.iter().map(|x| x * slope)));
                 }
             }
+            Err((_, SensitiveError::Interrupted)) => return Err(Interrupted),
             Err(_) => {
                 residuals.resize(count, f64::NAN);
                 if let Some(jacobian) = jacobian {

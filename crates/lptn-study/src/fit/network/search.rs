@@ -1,11 +1,11 @@
 //! Searches from several starts.
 
-use crate::Gradient;
 use crate::fit::least_squares::{Estimate, Outcome, Settings, Stop, minimise};
 use crate::fit::network::coordinates::Coordinates;
 use crate::fit::network::error::NetworkFitError;
 use crate::fit::network::model::Model;
-use crate::fit::network::task::NetworkFitTask;
+use crate::fit::network::task::{FitObserver, FitStage, NetworkFitTask};
+use crate::{Gradient, SensitiveError};
 
 /// Rows of a record that the searches look at before the best of them goes on with all.
 const COARSE_ROWS: usize = 150;
@@ -50,13 +50,18 @@ pub(crate) struct Found<'a> {
 
 /// Finds the best minimum.
 pub(crate) fn search<'a>(
-    task: &'a NetworkFitTask<'a>,
+    (task, observer): (&'a NetworkFitTask<'a>, &'a FitObserver<'a>),
     coordinates: &'a Coordinates,
     own: &[f64],
 ) -> Result<Found<'a>, NetworkFitError> {
     let tolerance = |least: f64| task.runs.iter().fold(least, |t, run| t.min(run.settings.tolerance));
-    let mut coarse = Model::new(task, coordinates, (COARSE_ROWS, tolerance(TOLERANCES[0])));
+    let starts = starts(task, coordinates, own);
+    let mut coarse = Model::new((task, observer), coordinates, (COARSE_ROWS, tolerance(TOLERANCES[0])));
+    coarse.stage = FitStage { search: 1, of: starts.len(), evaluations: 0 };
     if let Err((run, error)) = coarse.at(own) {
+        if let SensitiveError::Interrupted = error {
+            return Err(coarse.broken_off());
+        }
         return Err(NetworkFitError::Start { record: task.runs[run].name.clone(), error: Box::new(error) });
     }
     let gradient = coarse.gradient.unwrap_or(Gradient::Exact);
@@ -68,17 +73,21 @@ pub(crate) fn search<'a>(
         ..Settings::default()
     };
     let mut ends = Vec::new();
-    for start in starts(task, coordinates, own) {
-        let search = minimise(&mut coarse, &coordinates.of(&start), &settings(1e-4, 1e-6));
-        ends.push(search.map_err(NetworkFitError::Search)?);
+    for (i, start) in starts.iter().enumerate() {
+        coarse.stage.search = i + 1;
+        let search = minimise(&mut coarse, &coordinates.of(start), &settings(1e-4, 1e-6));
+        ends.push(search.map_err(|error| coarse.ended(error))?);
     }
     let (best, starts) = best(&ends, &coarse, tolerance(TOLERANCES[0]));
-    let mut model = Model::new(task, coordinates, (usize::MAX, tolerance(TOLERANCES[1])));
+    let mut model = Model::new((task, observer), coordinates, (usize::MAX, tolerance(TOLERANCES[1])));
+    model.best = Some((f64::INFINITY, coordinates.values(&ends[best].parameters).0));
+    model.stage = FitStage { search: 0, ..coarse.stage_now() };
     let exact = match gradient {
         Gradient::Exact => settings(1e-7, 1e-10),
         Gradient::Differences(_) => settings(1e-5, 1e-8),
     };
-    let estimate = minimise(&mut model, &ends[best].parameters, &exact).map_err(NetworkFitError::Search)?;
+    let estimate = minimise(&mut model, &ends[best].parameters, &exact);
+    let estimate = estimate.map_err(|error| model.ended(error))?;
     let outcome = outcome(&estimate, floor(&model, tolerance(TOLERANCES[1])), &gradient);
     Ok(Found { estimate, outcome, starts, gradient, searches: coarse.evaluations, model })
 }

@@ -1,7 +1,9 @@
 //! What is to be fitted to what.
 
+use std::fmt;
+
 use lptn_network::{Network, NodeId, ParameterId, Parameters};
-use lptn_solve::Transient;
+use lptn_solve::{Control, Progress, Transient};
 
 /// A fit of parameters of a network to records of its temperatures.
 #[derive(Clone, Debug)]
@@ -17,6 +19,30 @@ pub struct NetworkFitTask<'a> {
     /// How many runs are computed at once; nothing depends on it.
     pub threads: usize,
 }
+
+/// How far a fit is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FitStage {
+    /// The search, from 1; 0 for what goes on from the best of them with all rows.
+    pub search: usize,
+    /// How many searches there are.
+    pub of: usize,
+    /// How often the runs of all records were begun.
+    pub evaluations: usize,
+}
+
+impl fmt::Display for FitStage {
+    /// `search 2 of 5, round 14`, `the last search, round 3`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.search {
+            0 => write!(f, "the last search, round {}", self.evaluations),
+            search => write!(f, "search {search} of {}, round {}", self.of, self.evaluations),
+        }
+    }
+}
+
+/// Is called after every step of every run, on its thread, and may interrupt the fit.
+pub type FitObserver<'a> = dyn Fn(FitStage, Progress) -> Control + Sync + 'a;
 
 /// A parameter that is varied. All numbers are in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -118,6 +118,7 @@ pub(super) fn refused(error: SensitiveError) -> UncertaintyError {
         SensitiveError::Run(error) => UncertaintyError::Run(Box::new(error)),
         SensitiveError::Build(errors) => UncertaintyError::Network(errors),
         SensitiveError::Assembly(error) => UncertaintyError::Assembly(error),
+        SensitiveError::Interrupted => UncertaintyError::Interrupted,
     }
 }
 

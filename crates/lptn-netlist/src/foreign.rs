@@ -1,0 +1,81 @@
+//! Files of other kinds that are given in the place of a netlist. They are named once: what is wrong with each of their
+//! lines as TOML helps nobody.
+
+use crate::diagnostic::Diagnostic;
+use crate::file::{FileId, Span};
+use crate::headings::SECTIONS;
+
+/// The file is not a netlist at all.
+pub(crate) const CODE: &str = "netlist::not_a_netlist";
+
+/// Lines that are looked at.
+const ENOUGH: usize = 50;
+
+/// A text with fewer broken lines is a netlist with mistakes in it.
+const MANY: usize = 8;
+
+const NEW: &str = "a netlist is a TOML file; `lptn new NAME` writes one to start from";
+
+/// What a text is that is not TOML, if it is plainly something else; so many of its lines are broken.
+pub(crate) fn recognise(name: &str, (file, text): (FileId, &str), broken: usize) -> Option<Diagnostic> {
+    let all: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    if all.iter().any(|line| is_heading(line)) {
+        return None;
+    }
+    let lines = &all[..all.len().min(ENOUGH)];
+    let first = lines.iter().find(|line| !line.starts_with('#'))?;
+    let ending = name.rsplit_once('.').map(|(_, ending)| ending.to_lowercase()).unwrap_or_default();
+    let (is, help) = if first.starts_with('{') || (ending == "json" && first.starts_with('[')) {
+        ("JSON", json_help(text))
+    } else if first.starts_with('<') {
+        ("XML or HTML", NEW.to_owned())
+    } else if ["cir", "ckt", "sp", "spi", "spice"].contains(&ending.as_str()) || is_spice(lines) {
+        ("a circuit for SPICE", SPICE.to_owned())
+    } else if ending == "csv" || is_csv(lines) {
+        ("a CSV file", format!("{NEW}, and names CSV files; `lptn fit step {name}` fits a measured record"))
+    } else if broken >= MANY && 2 * broken >= all.len() {
+        ("another kind of text", NEW.to_owned())
+    } else {
+        return None;
+    };
+    let start = text.find(first).unwrap_or(0);
+    let problem = Diagnostic::error(CODE, format!("{name} is not a netlist: it looks like {is}"));
+    Some(problem.at(Span::new(file, start..start + first.len()), "not TOML").help(help))
+}
+
+const SPICE: &str = "a netlist is a TOML file: `R1 a b 0.3` is, below [resistor], \
+                     `R1 = { from = \"a\", to = \"b\", R = \"0.3 K/W\" }`; `lptn new NAME` writes one to start from";
+
+fn json_help(text: &str) -> String {
+    match text.contains("\"temperatures\"") {
+        true => "a run starts from a state that its netlist names below [run]: `initial = \"state.json\"`"
+            .to_owned(),
+        false => NEW.to_owned(),
+    }
+}
+
+/// The heading of a section that there is.
+fn is_heading(line: &str) -> bool {
+    let inner = line.split('#').next().unwrap_or_default().trim().trim_matches(['[', ']']).trim();
+    line.starts_with('[') && SECTIONS.contains(&inner.split('.').next().unwrap_or_default().trim())
+}
+
+/// Two lines or more, all of them with the same separator and none with an equals sign.
+fn is_csv(lines: &[&str]) -> bool {
+    let mut cells = lines.iter().filter(|line| !line.starts_with('#')).peekable();
+    let separator = |line: &str| [',', ';', '\t'].into_iter().find(|c| line.contains(*c));
+    let Some(first) = cells.peek().and_then(|line| separator(line)) else { return false };
+    lines.len() > 1 && cells.all(|line| line.contains(first) && !line.contains('='))
+}
+
+/// Control lines, or elements between two nodes.
+fn is_spice(lines: &[&str]) -> bool {
+    let control = [".end", ".tran", ".op", ".ac", ".dc", ".model", ".subckt", ".include"];
+    let is_control = |line: &&str| control.iter().any(|word| line.to_lowercase().starts_with(word));
+    let element = |line: &&str| {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let named = line.starts_with(|c: char| "RCVILrcvil".contains(c));
+        named && words.len() >= 4 && !line.contains(['=', ',', ';', ':'])
+    };
+    lines.iter().any(is_control) || lines.iter().filter(|line| element(line)).count() * 2 > lines.len()
+}

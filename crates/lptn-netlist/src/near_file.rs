@@ -1,0 +1,76 @@
+//! The file that was probably meant by a path that leads nowhere.
+
+use std::io::{Error, ErrorKind};
+use std::path::{Component, Path, PathBuf};
+
+use lptn_units::suggest;
+
+use crate::raw::{RawKind, RawValue};
+
+/// The file that is nearest to a path that leads nowhere: with `/` in place of `\`, in other letters of case, with the
+/// ending that was left out, or, in the same folder and with the same ending, of a similar name.
+pub fn similar_file(path: &Path) -> Option<PathBuf> {
+    let turned = PathBuf::from(path.to_str()?.replace('\\', "/"));
+    let endings = [turned.clone(), turned.with_extension("toml")];
+    let bare = turned.extension().is_none();
+    let mut known = endings.iter().take(if bare { 2 } else { 1 }).filter_map(|path| in_any_case(path));
+    known.find(|found| found != path).or_else(|| of_similar_name(&turned))
+}
+
+/// A file whose path differs in case only.
+fn in_any_case(path: &Path) -> Option<PathBuf> {
+    let mut found = PathBuf::new();
+    for component in path.components() {
+        let there = found.join(component);
+        found = match component {
+            Component::Normal(name) if !there.exists() => {
+                let name = name.to_str()?;
+                found.join(
+                    names(&found)?.into_iter().find(|other| other.to_lowercase() == name.to_lowercase())?,
+                )
+            }
+            _ => there,
+        };
+    }
+    found.is_file().then_some(found)
+}
+
+fn of_similar_name(path: &Path) -> Option<PathBuf> {
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
+    let ending = if ["csv", "json"].contains(&ending.as_str()) { ending } else { "toml".to_owned() };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let files = names(folder)?.into_iter().map(PathBuf::from).filter(|name| {
+        name.extension().and_then(|other| other.to_str()).is_some_and(|other| other.to_lowercase() == ending)
+    });
+    let files: Vec<PathBuf> = files.collect();
+    // the ending, which all of them share, makes no two names alike
+    let mut stems = files.iter().filter_map(|file| file.file_stem()?.to_str());
+    let wanted = path.file_stem()?.to_str()?;
+    let near = suggest(wanted, &mut stems)?;
+    files.iter().find(|file| file.file_stem().is_some_and(|stem| stem == near)).map(|file| folder.join(file))
+}
+
+/// What stands in a folder, in the order of the alphabet.
+fn names(folder: &Path) -> Option<Vec<String>> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let entries = std::fs::read_dir(folder).ok()?;
+    let mut names: Vec<String> =
+        entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
+    names.sort_unstable();
+    Some(names)
+}
+
+/// What to write in place of a value that names a file, by a path relative to that of the netlist, which could not be
+/// read.
+pub(crate) fn help(value: &RawValue, path: &Path, error: &Error) -> String {
+    let RawKind::String { text: written, .. } = &value.kind else { return String::new() };
+    if written.contains(char::is_control) {
+        return "a backslash begins an escape in a string: write the path with `/`".to_owned();
+    }
+    let near = if error.kind() == ErrorKind::NotFound { similar_file(path) } else { None };
+    let folder = path.to_str().and_then(|path| path.strip_suffix(written.as_str())).unwrap_or("");
+    match near {
+        Some(near) => format!("did you mean \"{}\"?", near.strip_prefix(folder).unwrap_or(&near).display()),
+        None => "paths are relative to the file that names it".to_owned(),
+    }
+}

@@ -1,0 +1,50 @@
+//! The pages of the documentation and the blocks in them.
+#![allow(dead_code, unreachable_pub, reason = "each test file uses a part of it")]
+
+use std::path::{Path, PathBuf};
+
+/// README and everything below `docs`, sorted; `root` is the folder of the project.
+pub fn pages(root: &Path) -> Vec<PathBuf> {
+    let mut pages = vec![root.join("README.md")];
+    for folder in ["docs", "docs/elements"] {
+        let docs = std::fs::read_dir(root.join(folder)).expect("the folder of documentation");
+        pages.extend(docs.map(|entry| entry.expect("an entry").path()));
+    }
+    pages.retain(|path| path.extension().is_some_and(|ending| ending == "md"));
+    pages.sort();
+    pages
+}
+
+/// A block of a page.
+pub struct Block {
+    /// What stands behind the opening fence.
+    pub info: String,
+    /// Its lines, counted from 0.
+    pub lines: std::ops::Range<usize>,
+}
+
+impl Block {
+    /// The words of the info string: the language, and what else is said.
+    pub fn words(&self) -> (&str, &str) {
+        self.info.split_once(' ').unwrap_or((&self.info, ""))
+    }
+}
+
+/// The blocks of a page's lines.
+pub fn blocks(lines: &[String]) -> Vec<Block> {
+    let (mut found, mut open) = (Vec::new(), None);
+    for (number, line) in lines.iter().enumerate() {
+        match (open.take(), line.strip_prefix("```")) {
+            (None, Some(info)) => open = Some((info.trim().to_owned(), number + 1)),
+            (Some((info, start)), Some(_)) => found.push(Block { info, lines: start..number }),
+            (still, None) => open = still,
+        }
+    }
+    assert!(open.is_none(), "a block is not closed");
+    found
+}
+
+/// The lines of a page.
+pub fn lines(page: &Path) -> Vec<String> {
+    std::fs::read_to_string(page).expect("a page").lines().map(str::to_owned).collect()
+}
