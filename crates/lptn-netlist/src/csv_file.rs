@@ -195,6 +195,7 @@ impl CsvFile {
         let index = head.find(name, ask).map_err(|problem| vec![problem])?;
         let unit = head.unit(index, wanted, ask).map_err(|problem| vec![problem])?;
         let mut points = Points::new(unit.ty, head.columns[index].place.clone());
+        points.unit = Some(unit.clone());
         let mut problems = Vec::new();
         for row in &self.rows {
             match number(row.cell(index)) {

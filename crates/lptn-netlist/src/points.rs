@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lptn_units::{Dimension, Expression, TableError, Type, Unit, parse_quantity, suggest};
+use lptn_units::{Dimension, Expression, TableError, Type, Unit, parse_quantity, suggest, written_quantity};
 
 use crate::csv_file::CsvFile;
 use crate::diagnostic::Diagnostic;
@@ -20,11 +20,13 @@ pub(crate) struct Points {
     pub(crate) places: Vec<Span>,
     /// The list, or the header of the column.
     pub(crate) whole: Span,
+    /// The unit that they are given in, of several that of the first.
+    pub(crate) unit: Option<Unit>,
 }
 
 impl Points {
     pub(crate) fn new(ty: Type, whole: Span) -> Self {
-        Self { numbers: Vec::new(), ty, places: Vec::new(), whole }
+        Self { numbers: Vec::new(), ty, places: Vec::new(), whole, unit: None }
     }
 
     pub(crate) fn push(&mut self, number: f64, place: Span) {
@@ -155,6 +157,7 @@ impl<'a> Elaboration<'a> {
         };
         let ty = axis.ty.or(unit.as_ref().map(|unit| unit.ty));
         let mut points = Points::new(ty.unwrap_or(Type::SCALAR), raw.span.clone());
+        points.unit = unit.clone().or_else(|| first_unit(items));
         let before = self.problems.len();
         for (n, item) in items.iter().enumerate() {
             let known = ty.or((n > 0).then_some(points.ty));
@@ -294,6 +297,14 @@ impl<'a> Elaboration<'a> {
             }
         };
         self.report(problem);
+    }
+}
+
+/// The unit of the first of some quantities.
+fn first_unit(items: &[RawValue]) -> Option<Unit> {
+    match &items.first()?.kind {
+        RawKind::String { text, .. } => written_quantity(text).map(|written| written.unit),
+        _ => None,
     }
 }
 

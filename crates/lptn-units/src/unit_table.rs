@@ -219,6 +219,17 @@ pub(crate) fn meant(name: &str) -> Option<&'static str> {
         "mm", "cm", "km", "um", "kW", "mW", "uW", "MW", "kJ", "MJ", "mK", "kPa", "MPa", "hPa", "mbar", "mL",
         "kWh", "kHz", "mA", "mV", "cSt", "cP", "kcal", "ms",
     ];
+    if let Some([milli, mega]) = TWO_SIZES.iter().find(|[milli, _]| milli.to_lowercase() == lower) {
+        // the prefix as it is written; without any capital letter nobody knows
+        return match name.starts_with('M') {
+            true => Some(*mega),
+            false => (name != lower).then_some(*milli),
+        };
+    }
     let names = UNITS.iter().map(|entry| entry.name).chain(PREFIXED);
     alias.or_else(|| crate::suggest::suggest(name, names))
 }
+
+/// Units in use with both prefixes that differ in their case only, a thousandth and a million.
+const TWO_SIZES: [[&str; 2]; 5] =
+    [["mW", "MW"], ["mJ", "MJ"], ["mPa", "MPa"], ["mHz", "MHz"], ["mWh", "MWh"]];
