@@ -253,7 +253,8 @@ impl CsvFile {
             (problems.len() >= MOST_WRONG).then_some(())
         });
         let (whole, places) = (head.columns[index].place.clone(), Places::Column(Arc::clone(self), index));
-        if problems.is_empty() { Ok(Points { numbers, ty: unit.ty, places, whole }) } else { Err(problems) }
+        let points = Points { numbers, ty: unit.ty, places, whole, unit: Some(unit) };
+        if problems.is_empty() { Ok(points) } else { Err(problems) }
     }
 
     /// The place of the header.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lptn_units::{Dimension, Expression, TableError, Type, Unit, parse_quantity, suggest};
+use lptn_units::{Dimension, Expression, TableError, Type, Unit, parse_quantity, suggest, written_quantity};
 
 use crate::csv_file::CsvFile;
 use crate::diagnostic::Diagnostic;
@@ -20,6 +20,8 @@ pub(crate) struct Points {
     pub(crate) places: Places,
     /// The list, or the header of the column.
     pub(crate) whole: Span,
+    /// The unit that they are given in, of several that of the first.
+    pub(crate) unit: Option<Unit>,
 }
 
 /// Where the numbers of a curve stand.
@@ -179,7 +181,9 @@ impl<'a> Elaboration<'a> {
                 None => {}
             }
         }
-        let points = Points { numbers, ty: of, places: Places::Items(places), whole: raw.span.clone() };
+        let (places, whole) = (Places::Items(places), raw.span.clone());
+        let unit = unit.or_else(|| first_unit(items));
+        let points = Points { numbers, ty: of, places, whole, unit };
         (self.problems.len() == before).then_some(points)
     }
 
@@ -307,6 +311,14 @@ impl<'a> Elaboration<'a> {
             }
         };
         self.report(problem);
+    }
+}
+
+/// The unit of the first of some quantities.
+fn first_unit(items: &[RawValue]) -> Option<Unit> {
+    match &items.first()?.kind {
+        RawKind::String { text, .. } => written_quantity(text).map(|written| written.unit),
+        _ => None,
     }
 }
 

@@ -180,7 +180,7 @@ fn inputs_may_depend_on_time() {
 
 #[test]
 fn deviations_stay_with_their_parameters() {
-    let netlist = good(&format!("{BLOCK}[param]\na = '87 ± 15 W'\nb = '100 +- 5 % W'\n"));
+    let netlist = good(&format!("{BLOCK}[param]\na = '87 ± 15 W'\nb = '100 W +- 5 %'\n"));
     let deviations: Vec<Option<f64>> = netlist.network.parameters().iter().map(|p| p.deviation).collect();
     assert_eq!(deviations, [Some(15.0), Some(5.0)]);
     let warnings: Vec<&str> = netlist.warnings.iter().map(|w| w.code).collect();

@@ -117,6 +117,14 @@ impl Layout {
         id
     }
 
+    pub(crate) fn show_signal_in(&mut self, id: SignalId, unit: lptn_units::Unit) {
+        let signal =
+            self.signals.get_mut(id.index()).filter(|signal| signal.ty.dimension == unit.ty.dimension);
+        if let Some(signal) = signal {
+            signal.unit = Some(unit);
+        }
+    }
+
     pub(crate) fn signals(&self) -> &[Signal] {
         &self.signals
     }

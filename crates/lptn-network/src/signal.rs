@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lptn_units::{Interpolation, Table1, TableSymbol, Type};
+use lptn_units::{Interpolation, Table1, TableSymbol, Type, Unit};
 
 use crate::builder::NetworkBuilder;
 use crate::error::BuildErrorKind;
@@ -20,6 +20,8 @@ pub struct Signal {
     pub ty: Type,
     /// How it goes over time.
     pub course: Course,
+    /// The unit in which it is given and shown; `None` for that of SI. Nothing is computed with it.
+    pub unit: Option<Unit>,
 }
 
 /// How a signal goes over time.
@@ -208,7 +210,7 @@ impl NetworkBuilder {
         let constant = Course::Expression(Value::Constant(f64::NAN));
         let course = if sound { course } else { constant }; // nothing reads it: the network is refused
         let layout = Arc::make_mut(&mut self.parts.layout);
-        let id = layout.add_signal(Signal { name: name.to_owned(), ty, course: course.clone() });
+        let id = layout.add_signal(Signal { name: name.to_owned(), ty, course: course.clone(), unit: None });
         if let AfterEnd::Repeat(period) = course.after() {
             let (first, last) = course.span();
             let covers = period > 0.0 && period.is_finite() && period >= (last - first) * (1.0 - 1e-12);
@@ -221,6 +223,11 @@ impl NetworkBuilder {
         }
         self.register_value(name, Item::Signal(id));
         id
+    }
+
+    /// Has a signal shown in a unit of its own; one of another dimension is left alone.
+    pub fn show_signal_in(&mut self, id: SignalId, unit: Unit) {
+        Arc::make_mut(&mut self.parts.layout).show_signal_in(id, unit);
     }
 
     /// Adds a signal that an expression of `t`, parameters and earlier signals describes.

@@ -137,7 +137,15 @@ fn a_capacity_of_a_table_bends_at_its_points() {
     let points =
         Table1::new(vec![280.0, 320.0, 400.0], vec![10.0, 30.0, 14.0], Interpolation::Linear, Outside::Hold);
     let table = Table::One(points.unwrap()).into();
-    b.table("c", TableSymbol { table, arguments: vec![common::ABSOLUTE], ty: Type::of(Dimension::CAPACITY) });
+    b.table(
+        "c",
+        TableSymbol {
+            table,
+            arguments: vec![common::ABSOLUTE],
+            ty: Type::of(Dimension::CAPACITY),
+            units: Vec::new(),
+        },
+    );
     let c = own(&b, "c(T)");
     let x = b.node("x", c, Temperature(320.0));
     let network = b.build().unwrap();

@@ -147,7 +147,7 @@ fn breakpoints_of_expressions() {
             Table1::new(vec![-10.0, 5.0, 300.0], vec![1.0, 2.0, 0.0], Interpolation::Linear, Outside::Error);
         let table = lptn_units::Table::One(table.unwrap()).into();
         let arguments = vec![Type::of(Dimension::TIME)];
-        b.table("of_time", lptn_units::TableSymbol { table, arguments, ty: POWER });
+        b.table("of_time", lptn_units::TableSymbol { table, arguments, ty: POWER, units: Vec::new() });
     };
     all_near(&of("of_time(2 * t)", table), &[2.5]);
     // 40 W + 20 W sin(2 pi t / 60 s) > 50 W from t = 5 s to 25 s, in every period

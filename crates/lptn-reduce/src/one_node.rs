@@ -71,7 +71,8 @@ impl OneNode<'_> {
                     builder.signal_expression(&signal.name, value);
                 }
                 course => {
-                    builder.signal(&signal.name, signal.ty, course.clone());
+                    let id = builder.signal(&signal.name, signal.ty, course.clone());
+                    signal.unit.iter().for_each(|unit| builder.show_signal_in(id, unit.clone()));
                 }
             }
         }

@@ -116,12 +116,37 @@ impl Quantity {
     }
 }
 
-/// The unit in which a value of this type is shown: `temperature` for points on the scale, else SI; `1` for a number.
-pub(crate) fn unit_of(ty: Type, temperature: &Unit) -> String {
-    if ty.absolute { temperature.text.clone() } else { ty.dimension.si_unit() }
+/// How a quantity is shown: in a unit of its own, as a signal that is given in one, else by its type.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Shown {
+    ty: Type,
+    own: Option<Unit>,
 }
 
-/// A value in the unit of [`unit_of`].
-pub(crate) fn shown(value: f64, ty: Type, temperature: &Unit) -> f64 {
-    if ty.absolute { temperature.from_si(value) } else { value }
+impl Shown {
+    pub(crate) fn of(quantity: Quantity, network: &Network) -> Self {
+        let own = match quantity {
+            Quantity::Signal(id) => network.signals()[id.index()].unit.clone(),
+            _ => None,
+        };
+        Self { ty: quantity.ty(network), own }
+    }
+
+    /// The unit: `temperature` for points on the scale, else its own, else SI; `1` for a number.
+    pub(crate) fn unit(&self, temperature: &Unit) -> String {
+        match &self.own {
+            _ if self.ty.absolute => temperature.text.clone(),
+            Some(own) => own.text.clone(),
+            None => self.ty.dimension.si_unit(),
+        }
+    }
+
+    /// A value in that unit.
+    pub(crate) fn value(&self, si: f64, temperature: &Unit) -> f64 {
+        match &self.own {
+            _ if self.ty.absolute => temperature.from_si(si),
+            Some(own) => own.from_si(si),
+            None => si,
+        }
+    }
 }

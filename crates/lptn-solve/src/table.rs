@@ -3,7 +3,7 @@
 use lptn_network::{InputError, Item, Network, NodeId};
 use lptn_units::Unit;
 
-use crate::quantity::{Quantity, shown, unit_of};
+use crate::quantity::{Quantity, Shown};
 use crate::settings::Record;
 use crate::solution::Solution;
 use crate::steady::SteadyState;
@@ -108,9 +108,11 @@ impl Table {
         let time = Column { name: "time".into(), unit: "s".into(), values: solution.times().to_vec() };
         let mut columns = vec![time];
         columns.extend(selection.quantities.iter().map(|&q| empty(q, network, unit)));
+        let shown: Vec<Shown> = selection.quantities.iter().map(|&q| Shown::of(q, network)).collect();
         solution.replay(|at| {
-            for (column, &quantity) in columns[1..].iter_mut().zip(&selection.quantities) {
-                column.values.push(shown(at.value(quantity), quantity.ty(network), unit));
+            let columns = columns[1..].iter_mut().zip(&shown);
+            for ((column, shown), &quantity) in columns.zip(&selection.quantities) {
+                column.values.push(shown.value(at.value(quantity), unit));
             }
         });
         Self { labels: Vec::new(), columns }
@@ -130,7 +132,7 @@ impl Table {
         let column = |&quantity: &Quantity| {
             let mut column = empty(quantity, network, unit);
             let value = steady.value(network, quantity, &mut scope)?;
-            column.values = vec![shown(value, quantity.ty(network), unit)];
+            column.values = vec![Shown::of(quantity, network).value(value, unit)];
             Ok(column)
         };
         let columns: Result<Vec<Column>, InputError> = selection.quantities.iter().map(column).collect();
@@ -139,7 +141,7 @@ impl Table {
 }
 
 fn empty(quantity: Quantity, network: &Network, temperature: &Unit) -> Column {
-    let unit = unit_of(quantity.ty(network), temperature);
+    let unit = Shown::of(quantity, network).unit(temperature);
     Column { name: quantity.name(network), unit, values: Vec::new() }
 }
 

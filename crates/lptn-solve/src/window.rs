@@ -5,7 +5,7 @@ use lptn_units::{Type, Unit};
 
 use crate::error::StopReason;
 use crate::quadrature::{Interval, POINTS, Quadrature};
-use crate::quantity::{Quantity, shown, unit_of};
+use crate::quantity::{Quantity, Shown};
 use crate::table::Selection;
 use crate::watch::{LASTS, REFINEMENTS, first_there, is_same, top};
 
@@ -35,17 +35,19 @@ pub struct ColumnSeen {
     pub min: (f64, f64),
     /// The largest value and when it was first there, in s.
     pub max: (f64, f64),
+    shown: Shown,
 }
 
 impl ColumnSeen {
-    /// The unit that its values are shown in: `temperature` for points on the scale, else SI; `1` for a number.
+    /// The unit that its values are shown in: `temperature` for points on the scale, that of a signal which has one,
+    /// else SI; `1` for a number.
     pub fn unit(&self, temperature: &Unit) -> String {
-        unit_of(self.ty, temperature)
+        self.shown.unit(temperature)
     }
 
     /// A value in that unit.
     pub fn shown(&self, value: f64, temperature: &Unit) -> f64 {
-        shown(value, self.ty, temperature)
+        self.shown.value(value, temperature)
     }
 }
 
@@ -138,7 +140,8 @@ impl Tracked {
             };
             let mean = self.sums.integral[i] / length;
             let name = quantity.name(network);
-            ColumnSeen { name, ty, mean, min: settle(self.min[i]), max: settle(self.max[i]) }
+            let shown = Shown::of(*quantity, network);
+            ColumnSeen { name, ty, mean, min: settle(self.min[i]), max: settle(self.max[i]), shown }
         };
         (length > 0.0).then(|| WindowSeen {
             name: self.window.name.clone(),

@@ -244,9 +244,20 @@ pub(crate) fn meant(name: &str) -> Option<String> {
         "mm", "cm", "km", "um", "kW", "mW", "uW", "MW", "kJ", "MJ", "mK", "kPa", "MPa", "hPa", "mbar", "mL",
         "kWh", "kHz", "mA", "mV", "cSt", "cP", "kcal", "ms",
     ];
+    if let Some([milli, mega]) = TWO_SIZES.iter().find(|[milli, _]| milli.to_lowercase() == lower) {
+        // the prefix as it is written; without any capital letter nobody knows
+        return match name.starts_with('M') {
+            true => Some((*mega).to_owned()),
+            false => (name != lower).then(|| (*milli).to_owned()),
+        };
+    }
     let names = UNITS.iter().map(|entry| entry.name).chain(PREFIXED);
     let near = alias.or_else(|| crate::suggest::suggest(name, names));
     // a slip in the case of letters is likelier than two units, and those likelier than another slip
     let certain = near.filter(|near| alias.is_some() || near.eq_ignore_ascii_case(name)).map(str::to_owned);
     certain.or_else(|| run_together(name)).or_else(|| near.map(str::to_owned))
 }
+
+/// Units in use with both prefixes that differ in their case only, a thousandth and a million.
+const TWO_SIZES: [[&str; 2]; 5] =
+    [["mW", "MW"], ["mJ", "MJ"], ["mPa", "MPa"], ["mHz", "MHz"], ["mWh", "MWh"]];

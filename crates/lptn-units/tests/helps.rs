@@ -130,6 +130,19 @@ fn deviations_lead_to_deviations() {
     assert_eq!(offers("220 ± 5 % W", POWER), ["220 W ± 5 %", "2.2 ± 0.05 W"]);
 }
 
+/// `mPA` was taken for MPa, and `mw` for mW: a factor of 1e9 to guess.
+#[test]
+fn a_prefix_keeps_its_case_and_without_any_nothing_is_offered() {
+    let pressure = Type::of(Dimension::PRESSURE);
+    leads_to("5 mPA", pressure, 5e-3, None);
+    leads_to("5 MPA", pressure, 5e6, None);
+    leads_to("5 Mw", POWER, 5e6, None);
+    leads_to("5 KW", POWER, 5e3, None);
+    for (text, ty) in [("5 mpa", pressure), ("5 mw", POWER), ("5 mj", Type::of(Dimension::ENERGY))] {
+        assert!(offers(text, ty).is_empty(), "{text}: {:?}", offers(text, ty));
+    }
+}
+
 const UNITS: [(&str, f64, Dimension); 6] = [
     ("in", INCH, Dimension::LENGTH),
     ("mm", 1e-3, Dimension::LENGTH),

@@ -35,7 +35,12 @@ impl Scope for Nothing {
         let points =
             Table1::new(vec![0.0, 1.0], vec![0.0, 1.0], Interpolation::Linear, Outside::Error).unwrap();
         let table = Arc::new(Table::One(points));
-        (name == "loss").then_some(TableSymbol { table, arguments: vec![Type::SCALAR], ty: Type::SCALAR })
+        (name == "loss").then_some(TableSymbol {
+            table,
+            arguments: vec![Type::SCALAR],
+            ty: Type::SCALAR,
+            units: Vec::new(),
+        })
     }
 
     fn table_names(&self) -> Vec<String> {

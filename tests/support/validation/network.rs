@@ -204,8 +204,12 @@ impl Building {
                 let x = temperatures.iter().map(|t| t + self.zero).collect();
                 let points = points(x, factor.clone())?;
                 let arguments = vec![Type::ABSOLUTE_TEMPERATURE];
-                let table_of =
-                    TableSymbol { table: Arc::new(Curve::One(points)), arguments, ty: Type::SCALAR };
+                let table_of = TableSymbol {
+                    table: Arc::new(Curve::One(points)),
+                    arguments,
+                    ty: Type::SCALAR,
+                    units: Vec::new(),
+                };
                 self.b.table(&table, table_of);
                 format!("{capacity} [J/K] * {table}(T)")
             }

@@ -54,13 +54,18 @@ pub fn system(builder: NetworkBuilder) -> ThermalSystem {
 /// A table of one argument.
 pub fn table(x: &[f64], y: &[f64], interp: Interpolation, types: (Type, Type)) -> TableSymbol {
     let table = Table1::new(x.to_vec(), y.to_vec(), interp, Outside::Error).unwrap();
-    TableSymbol { table: Table::One(table).into(), arguments: vec![types.0], ty: types.1 }
+    TableSymbol { table: Table::One(table).into(), arguments: vec![types.0], ty: types.1, units: Vec::new() }
 }
 
 /// A table of two arguments.
 pub fn map(x: &[f64], y: &[f64], z: &[f64], types: (Type, Type, Type)) -> TableSymbol {
     let table = Table2::new(x.to_vec(), y.to_vec(), z.to_vec(), Outside::Error).unwrap();
-    TableSymbol { table: Table::Two(table).into(), arguments: vec![types.0, types.1], ty: types.2 }
+    TableSymbol {
+        table: Table::Two(table).into(),
+        arguments: vec![types.0, types.1],
+        ty: types.2,
+        units: Vec::new(),
+    }
 }
 
 pub const ABSOLUTE: Type = Type::ABSOLUTE_TEMPERATURE;

@@ -1,7 +1,7 @@
 //! What is written: keys, strings, numbers in SI units.
 
 use lptn_network::{Value, ZERO_CELSIUS, is_name};
-use lptn_units::{Type, format_number};
+use lptn_units::{Type, Unit, format_number};
 
 /// A key; a path stands in quotes.
 pub(super) fn key(name: &str) -> String {
@@ -69,6 +69,24 @@ pub(super) fn celsius(kelvin: f64) -> String {
     let shortest = (0..=17).map(|digits| format!("{celsius:.digits$}")).find(exact);
     let text = shortest.unwrap_or_else(|| format!("{celsius}"));
     if text == "-0" { "0".to_owned() } else { text }
+}
+
+/// A list of numbers in the unit that people gave them in, if that gives back the same numbers.
+pub(super) fn list_in(numbers: &[f64], ty: Type, unit: Option<&Unit>) -> (String, Option<String>) {
+    let own = |unit: &&Unit| !ty.absolute && unit.text != "1";
+    let written = |unit: &Unit| numbers.iter().map(|&si| exact(si, unit)).collect::<Option<Vec<String>>>();
+    match unit.filter(own).and_then(|unit| Some((written(unit)?, unit))) {
+        Some((written, unit)) => (format!("[{}]", written.join(", ")), Some(unit.text.clone())),
+        None => list(numbers, ty),
+    }
+}
+
+/// The shortest text in a unit that is read as this number to the last bit.
+fn exact(si: f64, unit: &Unit) -> Option<String> {
+    let value = unit.from_si(si);
+    let texts = (0..17).filter_map(|digits| format!("{value:.digits$e}").parse().ok());
+    let found = texts.into_iter().find(|text: &f64| unit.to_si(*text).to_bits() == si.to_bits());
+    found.map(format_number)
 }
 
 /// A list of numbers, and their unit where they have one; points on the temperature scale in degC, as `K` would be

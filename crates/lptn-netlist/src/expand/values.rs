@@ -7,7 +7,7 @@ use lptn_network::{AfterEnd, Course, Evaluation, Item, Parameter, ParameterId, S
 use lptn_units::{Dimension, Interpolation, Outside, Table, Table1, TableSymbol, Type, format_number};
 
 use super::Writer;
-use super::text::{Fields, celsius, list, point, quantity, string, value};
+use super::text::{Fields, celsius, list, list_in, point, quantity, string, value};
 use crate::raw::{RawKind, RawTable};
 
 const TIME: Type = Type::of(Dimension::TIME);
@@ -116,8 +116,8 @@ impl Writer<'_> {
 fn of_one(table: &Table1, symbol: &TableSymbol) -> Fields {
     let argument = symbol.arguments.first().copied().unwrap_or(Type::SCALAR);
     let mut fields = Fields::default();
-    fields.list("x", list(table.knots(), argument));
-    fields.list("y", list(table.values(), symbol.ty));
+    fields.list("x", list_in(table.knots(), argument, symbol.units.first()));
+    fields.list("y", list_in(table.values(), symbol.ty, symbol.units.get(1)));
     joined(&mut fields, table);
     fields
 }
@@ -153,7 +153,7 @@ fn course(signal: &Signal) -> String {
     };
     let mut fields = Fields::default();
     fields.list("t", list(times, TIME));
-    fields.list("v", list(values, signal.ty));
+    fields.list("v", list_in(values, signal.ty, signal.unit.as_ref()));
     if let Some(interpolation) = interpolation {
         fields.word("interp", interpolation);
     }

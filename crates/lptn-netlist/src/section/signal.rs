@@ -1,7 +1,7 @@
 //! `[signal]`: courses over time.
 
 use lptn_network::{AfterEnd, Course, Field, Item, Join};
-use lptn_units::{Dimension, Interpolation, Outside, Table1, Type, parse_quantity};
+use lptn_units::{Dimension, Interpolation, Outside, Table1, Type, Unit, parse_quantity};
 
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::Fields;
@@ -39,8 +39,10 @@ impl<'a> Elaboration<'a> {
         let id = if let RawKind::Table(_) = entry.value.kind {
             let fields = Fields::of(&SIGNAL, pending.owner, entry, &mut self.problems);
             let course = fields.as_ref().and_then(|fields| self.course(fields));
-            course.map(|(ty, course)| {
-                let item = Item::Signal(self.builder.signal(&entry.key, ty, course));
+            course.map(|(ty, unit, course)| {
+                let id = self.builder.signal(&entry.key, ty, course);
+                unit.into_iter().for_each(|unit| self.builder.show_signal_in(id, unit));
+                let item = Item::Signal(id);
                 if let Some(raw) = fields.as_ref().and_then(|fields| fields.get("period")) {
                     self.map.value(item, Field::Period, raw);
                 }
@@ -60,8 +62,8 @@ impl<'a> Elaboration<'a> {
         self.map.value(item, Field::Value, &entry.value);
     }
 
-    /// The type of a signal and its course, from points.
-    fn course(&mut self, fields: &Fields<'a>) -> Option<(Type, Course)> {
+    /// The type of a signal, the unit it is given in, and its course, from points.
+    fn course(&mut self, fields: &Fields<'a>) -> Option<(Type, Option<Unit>, Course)> {
         let join = self.choice(fields, "interp", &JOINS);
         let after = self.choice(fields, "after_end", &AFTER);
         let period = self.period(fields, after);
@@ -90,7 +92,7 @@ impl<'a> Elaboration<'a> {
             Join::Previous => Course::Steps { times: times.numbers, values: values.numbers, after },
             Join::Linear | Join::Pchip => Course::Curve { points, after },
         };
-        Some((values.ty, course))
+        Some((values.ty, values.unit, course))
     }
 
     /// The period, if one is written; `None` if it is wrong.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use lptn_network::{Field, Input, Item, slot};
 use lptn_units::{
     Expression, Interpolation, Outside, Scope, Symbol, Table, Table1, Table2, TableError, TableSymbol, Type,
+    Unit,
 };
 
 use crate::diagnostic::Diagnostic;
@@ -55,7 +56,7 @@ impl<'a> Elaboration<'a> {
         match Table1::new(numbers, values, interpolation?, outside?) {
             Ok(table) => {
                 let table = Arc::new(Table::One(table));
-                Some(TableSymbol { table, arguments: vec![x.ty], ty: y.ty })
+                Some(TableSymbol { table, arguments: vec![x.ty], ty: y.ty, units: units([&x, &y]) })
             }
             Err(error) => {
                 self.report_points(fields, (&x, &y), ("the arguments", &error));
@@ -101,7 +102,8 @@ impl<'a> Elaboration<'a> {
         match Table2::new(xs, ys, values, outside.filter(|_| linear)?) {
             Ok(table) => {
                 let table = Arc::new(Table::Two(table));
-                Some(TableSymbol { table, arguments: vec![x.ty, y.ty], ty: value.ty })
+                let units = units([&x, &y, &value]);
+                Some(TableSymbol { table, arguments: vec![x.ty, y.ty], ty: value.ty, units })
             }
             Err(error) => {
                 self.report_points(fields, (&x, &value), ("the arguments", &error));
@@ -153,6 +155,15 @@ impl Scope for OfTemperature<'_> {
     fn table(&self, name: &str) -> Option<TableSymbol> {
         (name == self.name).then(|| self.table.clone())
     }
+}
+
+/// The units that all of them are given in; none where one is not known.
+fn units<const N: usize>(points: [&Points; N]) -> Vec<Unit> {
+    let of = |points: &Points| match points.ty.is_scalar() && points.unit.is_none() {
+        true => Unit::parse("1").ok(),
+        false => points.unit.clone(),
+    };
+    points.into_iter().map(of).collect::<Option<_>>().unwrap_or_default()
 }
 
 /// The different numbers of a column, rising.

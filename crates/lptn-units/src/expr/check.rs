@@ -215,7 +215,8 @@ impl Checker<'_> {
         right?;
         let known = self.tables.iter().position(|table| table.name == name);
         let index = known.unwrap_or_else(|| {
-            self.tables.push(NamedTable { name: name.to_owned(), table: Arc::clone(&symbol.table) });
+            let (table, units) = (Arc::clone(&symbol.table), symbol.units.clone().into());
+            self.tables.push(NamedTable { name: name.to_owned(), table, units });
             self.tables.len() - 1
         });
         Some(Checked { table: Some(index), ..Checked::of(symbol.ty) })

@@ -6,8 +6,10 @@ use std::ops::Range;
 use super::function::Function;
 use super::program::{Arithmetic, NamedTable, Op, Operand, Program};
 use super::tree::Comparison;
+use crate::format::rounded;
 use crate::scalar::Scalar;
 use crate::table::Table;
+use crate::unit::Unit;
 
 /// What can go wrong at run time.
 #[derive(Clone, PartialEq, Debug)]
@@ -43,6 +45,8 @@ pub enum EvalError {
         from: f64,
         /// The last knot, in SI units.
         to: f64,
+        /// The unit in which the table gives this argument, where that is known.
+        unit: Option<Box<Unit>>,
         /// The call in the text.
         span: Range<usize>,
     },
@@ -106,11 +110,16 @@ impl fmt::Display for EvalError {
                 write!(f, "negative base {base} with the exponent {exponent}, which is not a whole number")
             }
             Self::Domain { function, argument, .. } => write!(f, "`{function}` of {argument}"),
-            Self::OutsideTable { table, value, from, to, argument, .. } => {
+            Self::OutsideTable { table, value, from, to, argument, unit, .. } => {
                 let which = if *argument == 0 { "first" } else { "second" };
+                let unit = unit.as_deref();
+                let [first, last, found] = [*from, *to, *value].map(|si| in_unit(si, unit, 12));
+                let is_end = found == first || found == last;
+                let found = if is_end { in_unit(*value, unit, 17) } else { found };
+                let si = if unit.is_none() { " (SI units)" } else { "" };
                 write!(
                     f,
-                    "table `{table}` reaches from {from} to {to} in its {which} argument, got {value} (SI units)"
+                    "table `{table}` reaches from {first} to {last} in its {which} argument, got {found}{si}"
                 )
             }
             Self::NotFinite { value, .. } => write!(f, "result {value} or its derivative is not finite"),
@@ -122,6 +131,15 @@ impl fmt::Display for EvalError {
 }
 
 impl std::error::Error for EvalError {}
+
+/// A number with the unit in which people give it.
+fn in_unit(si: f64, unit: Option<&Unit>, digits: usize) -> String {
+    match unit {
+        None => format!("{si}"),
+        Some(unit) if unit.text == "1" => rounded(si, digits),
+        Some(unit) => format!("{} {}", rounded(unit.from_si(si), digits), unit.text),
+    }
+}
 
 impl Program {
     /// Evaluates the program on the values of its slots, in SI units.
@@ -286,13 +304,14 @@ impl Program {
     /// An argument that is not finite gives a value that is not either, so that its own place is reported.
     #[cold]
     fn outside<S: Scalar>(&self, index: usize, table: usize, arguments: &[S]) -> Result<S, EvalError> {
-        let NamedTable { name, table } = self.named(table);
+        let NamedTable { name, table, units } = self.named(table);
         for (argument, value) in arguments.iter().map(|argument| argument.value()).enumerate() {
             let knots = table.knots(argument);
             let (Some(&from), Some(&to)) = (knots.first(), knots.last()) else { continue };
             if value.is_finite() && !table.reaches(argument, value) {
                 let (table, span) = (name.clone(), self.span(index));
-                return Err(EvalError::OutsideTable { table, argument, value, from, to, span });
+                let unit = units.get(argument).cloned().map(Box::new);
+                return Err(EvalError::OutsideTable { table, argument, value, from, to, unit, span });
             }
         }
         Ok(S::from_f64(f64::NAN))

@@ -8,6 +8,7 @@ use super::function::Function;
 use super::tree::Comparison;
 use crate::table::Table;
 use crate::types::Type;
+use crate::unit::Unit;
 
 /// Where an operation finds its right operand.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -62,6 +63,8 @@ pub(crate) enum Op {
 pub(crate) struct NamedTable {
     pub(crate) name: String,
     pub(crate) table: Arc<Table>,
+    /// Those of [`crate::TableSymbol::units`].
+    pub(crate) units: Arc<[Unit]>,
 }
 
 /// One call of a table, and where its arguments are.

@@ -12,6 +12,7 @@ mod two;
 use std::sync::Arc;
 
 use crate::types::Type;
+use crate::unit::Unit;
 
 pub use error::TableError;
 pub use one::Table1;
@@ -87,6 +88,9 @@ pub struct TableSymbol {
     pub arguments: Vec<Type>,
     /// The type of the value.
     pub ty: Type,
+    /// The units in which people give them, arguments first, then the value; none where that is not known. Nothing is
+    /// computed with them.
+    pub units: Vec<Unit>,
 }
 
 impl TableSymbol {

@@ -76,7 +76,7 @@ impl Scope for Names {
             "tempo" => (Arc::clone(&self.plain), vec![Type::of(Dimension::TIME)], Type::SCALAR),
             _ => return None,
         };
-        Some(TableSymbol { table, arguments, ty })
+        Some(TableSymbol { table, arguments, ty, units: Vec::new() })
     }
 
     fn table_names(&self) -> Vec<String> {
