@@ -266,3 +266,23 @@ fn sources_of_temperatures_share_their_heat() {
     let powers = system.source_powers(&work);
     assert!((powers[1] - 60.0).abs() < 1e-11 && powers[0].to_bits() == 11.0_f64.to_bits(), "{powers:?}");
 }
+
+/// Three boundaries and one node: what goes from one boundary to another past the node.
+#[test]
+fn bridges_lead_to_every_boundary() {
+    let mut b = NetworkBuilder::new();
+    let x = b.node("x", HeatCapacity(1.0), Temperature(300.0));
+    let ends = [(280.0, "a"), (250.0, "b"), (310.0, "c")].map(|(t, n)| b.boundary(n, Temperature(t)));
+    for (i, (from, to, g)) in [(0, 1, 2.0), (1, 2, 5.0), (2, 0, 0.5)].into_iter().enumerate() {
+        b.resistor(&format!("r{i}"), ends[from], ends[to], Conductance(g));
+    }
+    b.resistor("tie", x, ends[2], Conductance(3.0));
+    let system = system(b);
+    let mut work = system.workspace();
+    system.read_inputs(&mut work, 0.0, 0.0).unwrap();
+    let mut heat = [f64::NAN; 3];
+    system.boundary_heat(&mut work, &[300.0], &mut heat).unwrap();
+    let expected = [2.0 * 30.0 - 0.5 * 30.0, -2.0 * 30.0 - 5.0 * 60.0, 5.0 * 60.0 + 0.5 * 30.0 + 3.0 * 10.0];
+    heat.iter().zip(expected).for_each(|(f, e)| assert!((f - e).abs() < 1e-10, "{heat:?} {expected:?}"));
+    assert!((system.boundary_conductance() - 10.5).abs() < 1e-12);
+}

@@ -4,9 +4,11 @@ mod failure;
 mod roots;
 mod running;
 mod sensitivities;
+mod times;
 
 use roots::Roots;
 use sensitivities::Sensitivities;
+use times::Shown;
 
 use crate::context::Context;
 use crate::linear_solver::SolverHandles;
@@ -15,9 +17,6 @@ use crate::shared::SharedBox;
 use crate::symmetry::{ATTEMPTS, SYMMETRIC_ATTEMPTS, Symmetry};
 use crate::vector::Vector;
 use crate::{IntegrateError, LinearSolverKind, OdeSystem, Options, Statistics, linear, start};
-
-/// A step that is longer than the longest by this factor is so by rounding.
-const ROOM: f64 = 1.0 + 1e-9;
 
 /// Steps in a row without progress after which the integration has stalled.
 const STALLED: u32 = 50;
@@ -33,15 +32,6 @@ pub struct Step {
     pub at_stop: bool,
     /// Whether it ended at a root: see [`OdeSystem::roots`] and [`Integrator::root_directions`].
     pub roots: bool,
-}
-
-/// Times as the caller counts them: the last double that is not after what CVODES says, so that one is before the stop
-/// as long as the other is.
-#[derive(Clone, Copy)]
-struct Shown {
-    time: f64,
-    from: f64,
-    stop: f64,
 }
 
 /// Integrates an [`OdeSystem`] with variable-order BDF.
@@ -166,23 +156,6 @@ impl<S: OdeSystem> Integrator<S> {
         self.shown.time
     }
 
-    /// CVODES' time of a time inside the last step.
-    fn within(&self, t: f64) -> f64 {
-        (t - self.origin).clamp(self.from, self.time)
-    }
-
-    /// The time as the caller counts it.
-    fn show(&mut self) {
-        let Shown { time, stop, .. } = self.shown;
-        if self.time >= self.stop {
-            self.shown.time = stop;
-            return;
-        }
-        let near = self.origin + self.time;
-        let not_after = if near - self.origin > self.time { near.next_down() } else { near };
-        self.shown.time = not_after.min(stop.next_down()).max(time);
-    }
-
     /// State at [`time`](Self::time), in units of y.
     pub fn state(&self) -> &[f64] {
         self.state.as_slice()
@@ -211,11 +184,6 @@ impl<S: OdeSystem> Integrator<S> {
     pub fn set_stop(&mut self, t: f64) {
         self.stop = t - self.origin;
         self.shown.stop = t;
-    }
-
-    /// From now on no step is longer than this, positive, in units of t; in place of [`Options::max_step_size`].
-    pub fn set_longest_step(&mut self, step: f64) {
-        self.longest = step;
     }
 
     /// Takes one step of the size that the error allows. At the stop time it does nothing, says so, and returns a step
@@ -277,14 +245,6 @@ impl<S: OdeSystem> Integrator<S> {
         self.memory.set_max_step(if self.longest.is_finite() { self.longest } else { 0.0 })?;
         let reached = self.memory.step(towards, &mut self.state, &mut self.time);
         if self.roots.are_none() { reached } else { self.look_for_roots(towards, reached) }
-    }
-
-    /// The stop time, or an earlier one where CVODES would take a step that is too long: it chose the size when the step
-    /// before ended, by what was the longest then. After a root it first takes the rest of a step.
-    fn held_stop(&self) -> f64 {
-        let Counters { steps, current_step, .. } = self.memory.counters();
-        let too_long = steps > 0 && current_step > self.longest * ROOM && !self.roots.met();
-        if too_long { self.stop.min(self.time + self.longest) } else { self.stop }
     }
 
     /// From the last good state on with LU; false if that cannot be had.

@@ -340,6 +340,10 @@ fn wrong_grids_and_joints_are_refused_once_for_the_whole() {
     assert_eq!(joined(sized(["9 m", "0.4 m", "0.2 m"])), [""; 0]);
     assert_eq!(joined(sized(["0.6 m", "0.5 m", "0.2 m"])), ["network::face_sides"]);
     assert_eq!(joined(sized(["0.6 m", "0.4 m", "0.21 m"])), ["network::face_sides"]);
+}
+
+#[test]
+fn wrong_values_of_a_block_are_refused_once() {
     let one = |change: &dyn Fn(Block) -> Block| {
         let mut b = NetworkBuilder::new();
         b.grid("wall", change(block(&[3, 4])));

@@ -192,3 +192,47 @@ fn courses_between_breakpoints() {
     }
     assert_eq!(network.curves().len(), 3);
 }
+
+/// Where a comparison or a kink meets a curve: a monotone one may be compared, others may only bend a value.
+#[test]
+fn comparisons_of_curves() {
+    let (mut b, a, _) = cooled();
+    // 16 W (3 u^2 - 2 u^3) over 0 s to 10 s, flat at both ends: 2.5 W at a quarter of the way, 13.5 W at three
+    let rise = curve(&[-5.0, 0.0, 10.0, 15.0], &[0.0, 0.0, 16.0, 16.0], Interpolation::Pchip, AfterEnd::Hold);
+    b.signal("rise", POWER, rise);
+    let p = time(&b, "if(rise > 2.5 [W], 1 [W], 2 [W])");
+    b.source("p", a, p);
+    let p = time(&b, "max(rise, 13.5 [W])");
+    b.source("q", a, p);
+    let found = b.build().unwrap().breakpoints(0.0, 12.0).unwrap();
+    assert_eq!(found.len(), 2, "{found:?}");
+    found.iter().zip([2.5, 7.5]).for_each(|(f, e)| assert!((f - e).abs() < 1e-8, "{found:?}"));
+    let refused = |text: &str| {
+        let (mut b, a, _) = cooled();
+        let rise = curve(&[0.0, 10.0], &[0.0, 16.0], Interpolation::Pchip, AfterEnd::Hold);
+        b.signal("rise", POWER, rise);
+        let p = time(&b, text);
+        b.source("p", a, p);
+        common::codes(b) == ["network::comparison_not_linear"]
+    };
+    assert!(!refused("if(2 * rise > 5 [W], 1 [W], 2 [W])"));
+    assert!(refused("if(rise * rise > 5 [W^2], 1 [W], 2 [W])"));
+    assert!(refused("if(sin(t / 1 [s]) > 0.5, 1 [W], 2 [W])"));
+}
+
+#[test]
+fn breakpoints_closer_than_rounding_are_one_and_none_lies_at_an_end() {
+    let (mut b, a, _) = cooled();
+    let course = steps(
+        &[0.0, 10.0, 10.0 + 1e-12, 20.0, 30.0 - 1e-12, 30.0],
+        &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0],
+        AfterEnd::Hold,
+    );
+    b.signal("s", POWER, course);
+    let p = time(&b, "s + if(t < 10 [s], 1 [W], 2 [W])");
+    b.source("p", a, p);
+    let network = b.build().unwrap();
+    all_near(&network.breakpoints(0.0, 30.0).unwrap(), &[10.0, 20.0]);
+    all_near(&network.breakpoints(10.0, 25.0).unwrap(), &[20.0]);
+    all_near(&network.breakpoints(1e-3, 20.0).unwrap(), &[10.0]);
+}

@@ -23,7 +23,7 @@ const AROUND: usize = 3;
 /// What is smaller than this part of the largest value is rounding.
 const ROUNDING: f64 = 1e-10;
 
-/// Steps at least in a segment: as many as it takes to foretell anything.
+/// Parts of a segment at least, to be judged as steps: as many as it takes to foretell anything.
 const LEAST: f64 = 4.0;
 
 /// Steps that are looked at in one go.
@@ -52,15 +52,18 @@ pub(crate) fn stretches(network: &Network, curves: &[Curve], segments: &[Segment
     }
     let mut stretches = Vec::new();
     for &segment in segments {
-        let count = ((segment.to - segment.from) / first).ceil().max(LEAST);
-        let cells = Cells { segment, step: (segment.to - segment.from) / count };
+        let length = segment.to - segment.from;
+        let count = (length / first).ceil().max(LEAST);
+        let cells = Cells { segment, step: length / count };
         let mut finer = Vec::new();
-        for look in &open {
-            cells
-                .whole(count)
-                .for_each(|range| look.refine(cells, range, (HALVINGS, &mut finer), &mut scope));
+        // a segment that is as short as what is looked for is left to the steps with which the integrator begins
+        let looks = if length > coarse / PARTS as f64 { &open[..] } else { &[] };
+        for look in looks {
+            let ranges = cells.whole(count);
+            ranges.for_each(|range| look.refine(cells, range, (HALVINGS, &mut finer), &mut scope));
         }
-        let whole = Stretch { from: segment.from, to: segment.to, step: cells.step };
+        let step = if count > LEAST { cells.step } else { first };
+        let whole = Stretch { from: segment.from, to: segment.to, step };
         flatten(whole, finer, gap, &mut stretches);
     }
     stretches
@@ -122,7 +125,7 @@ impl Look<'_> {
     fn largest(&self, segments: &[Segment], step: f64, scope: &mut Evaluation) -> f64 {
         let mut largest = 0.0_f64;
         for &segment in segments {
-            let count = (2.0 * (segment.to - segment.from) / step).ceil().max(LEAST);
+            let count = (2.0 * (segment.to - segment.from) / step).ceil().max(1.0);
             for k in 0..=whole_number(count) {
                 let share = (k as f64 / count).min(1.0);
                 let time = segment.from + share * (segment.to - segment.from);

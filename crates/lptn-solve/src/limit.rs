@@ -4,6 +4,7 @@ use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{InputError, LimitId, Network};
 use lptn_units::Dimension;
 
+use crate::events::{Event, EventKind};
 use crate::reading::Reading;
 use crate::steady::SteadyState;
 use crate::watch::top;
@@ -170,6 +171,14 @@ pub fn limit_margins_at(
     reading.place(&mut work, (time, time))?;
     let network = system.network();
     network.limit_ids().map(|id| network.limit_margin(id, &mut reading.scope)).collect()
+}
+
+/// Events with the limits that were broken, in the order of time.
+pub(crate) fn with_limits(mut events: Vec<Event>, limits: &[LimitSeen]) -> Vec<Event> {
+    let broken = limits.iter().filter_map(|seen| Some((seen.limit, seen.broken_at?)));
+    events.extend(broken.map(|(id, time)| Event::new(time, EventKind::Limit(id), true)));
+    events.sort_by(|a, b| a.time.total_cmp(&b.time));
+    events
 }
 
 fn is_temperature(network: &Network, id: LimitId) -> bool {

@@ -5,16 +5,17 @@ use lptn_integrate::{IntegrateError, Integrator, Statistics};
 use lptn_network::{LimitId, NodeId, Positions};
 
 use crate::balance::Balance;
-use crate::error::{SettingsError, StopReason, TransientError};
-use crate::events::{Event, EventKind};
+use crate::error::{StopReason, TransientError};
+use crate::events::Event;
 use crate::heat::Heat;
 use crate::last::LastState;
 use crate::ledger::Ledger;
-use crate::limit::{LimitSeen, LimitWatch};
+use crate::limit::{LimitWatch, with_limits};
 use crate::reading::Reading;
 use crate::readings::{Readings, pieces};
 use crate::sensed::{Sensed, SensitivityRows};
 use crate::settings::{Record, Transient};
+use crate::settings_error::SettingsError;
 use crate::solution::{End, Solution};
 use crate::state::State;
 use crate::times::Segment;
@@ -435,12 +436,4 @@ impl<'a> Recorder<'a> {
             end_state: State::of_carried(Vec::new()),
         }
     }
-}
-
-/// Events with the limits that were broken, in the order of time.
-fn with_limits(mut events: Vec<Event>, limits: &[LimitSeen]) -> Vec<Event> {
-    let broken = limits.iter().filter_map(|seen| Some((seen.limit, seen.broken_at?)));
-    events.extend(broken.map(|(id, time)| Event::new(time, EventKind::Limit(id), true)));
-    events.sort_by(|a, b| a.time.total_cmp(&b.time));
-    events
 }

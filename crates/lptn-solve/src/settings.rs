@@ -4,8 +4,8 @@ use lptn_integrate::{LinearSolver, Options};
 use lptn_network::{End, Network, NodeId, OutputTimes, ParameterId, Time};
 
 use crate::curved::Curved;
-use crate::error::SettingsError;
 use crate::events::ControlState;
+use crate::settings_error::SettingsError;
 use crate::times;
 use crate::watch::Watch;
 use crate::window::Window;

@@ -10,8 +10,9 @@ use lptn_assembly::{Form, ThermalSystem, Workspace};
 use lptn_integrate::Pattern;
 use lptn_network::{ParameterId, Tangents};
 
-use crate::error::{SettingsError, TransientError};
+use crate::error::TransientError;
 use crate::newton::{Newton, NewtonError};
+use crate::settings_error::SettingsError;
 use crate::unfold::Unfold;
 use crate::unsolved::Unsolved;
 

@@ -2,7 +2,7 @@
 
 use lptn_network::OutputTimes;
 
-use crate::error::SettingsError;
+use crate::settings_error::SettingsError;
 
 /// The times of all rows, strictly increasing, from `start` to `stop`.
 pub(crate) fn rows(output: &OutputTimes, start: f64, stop: f64) -> Result<Vec<f64>, SettingsError> {

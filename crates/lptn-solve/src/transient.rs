@@ -5,13 +5,14 @@ use lptn_integrate::{FactorError, IntegrateError, Integrator, Statistics, Step};
 
 use crate::balance::Books;
 use crate::curved::Curved;
-use crate::error::{SettingsError, StopReason, TransientError};
+use crate::error::{StopReason, TransientError};
 use crate::events::{Switching, Trouble, find_crossings};
 use crate::heat::Heat;
 use crate::newton::NewtonError;
 use crate::readings::Readings;
 use crate::recorder::Recorder;
 use crate::settings::{Control, Progress, Transient};
+use crate::settings_error::SettingsError;
 use crate::solution::{End, Solution};
 use crate::state::{self, State};
 use crate::stateless;

@@ -162,3 +162,23 @@ fn the_degree_is_that_of_the_polynomial() {
         assert_eq!(over(text, 0.6, 1.0).degree(), degree, "{text}");
     }
 }
+
+/// A kink inside the interval is no part of a polynomial, at the end of a table that is held neither.
+#[test]
+fn a_kink_bounds_no_slope() {
+    for text in [
+        "abs(x)",
+        "max(x, 0)",
+        "lines(x + 0.5)",
+        "smooth(x + 0.5)",
+        "map(x, 0.5)",
+        "map(x + 1, 0.5)",
+        "map(0.5, x)",
+        "map(a, x - 1)",
+        "lines(x - 4)",
+        "if(x < 0, x, 2 * x)",
+    ] {
+        assert_eq!(over(text, -0.1, 0.1).largest(2), f64::INFINITY, "{text}");
+        assert!(over(text, 0.0, 0.1).largest(2) < 1e3 || text.starts_with("if"), "{text}");
+    }
+}

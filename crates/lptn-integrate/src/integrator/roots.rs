@@ -5,7 +5,8 @@ use std::ffi::c_int;
 
 use sundials_sys as sys;
 
-use super::{Integrator, Shown};
+use super::Integrator;
+use super::times::Shown;
 use crate::memory::{Flag, Reached};
 use crate::{Callback, IntegrateError, OdeSystem};
 

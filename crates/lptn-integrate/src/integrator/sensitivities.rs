@@ -1,6 +1,7 @@
 //! The derivatives of the state by parameters, carried along with it.
 
-use super::{Integrator, Shown};
+use super::Integrator;
+use super::times::Shown;
 use crate::context::Context;
 use crate::memory::Flag;
 use crate::vectors::Vectors;

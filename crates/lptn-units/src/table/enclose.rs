@@ -74,13 +74,14 @@ impl Table2 {
         else {
             return Taylor::unknown();
         };
+        let bent = [&in_x, &in_y].iter().any(|part| matches!(part, Part::Over(..)));
         let cells = [in_x, in_y].map(|part| match part {
             Part::Held(end) => (end, end),
             Part::Within(first) => (first, first + 1),
             Part::Over(first, last) => (first, last),
         });
         let [(i, k), (j, l)] = cells;
-        if k - i > 1 || l - j > 1 {
+        if bent {
             let rows = (i..=k).flat_map(|row| self.row(row)[j..=l].iter().copied());
             return Taylor::rough(hull(rows));
         }

@@ -102,13 +102,14 @@ impl Taylor {
     }
 
     fn whole_power(self, exponent: u32) -> Self {
+        if self.is_unknown() {
+            return self;
+        }
         let mut power = Self::constant(1.0);
         for _ in 0..exponent {
             power = power * self;
         }
-        if !self.is_unknown() {
-            power.terms[0] = self.value().power(exponent);
-        }
+        power.terms[0] = self.value().power(exponent);
         power
     }
 
