@@ -32,7 +32,7 @@ impl Scope for Names {
             _ => return None,
         };
         let arguments = vec![Type::of(Dimension::NONE); table.dimension()];
-        Some(TableSymbol { table: Arc::new(table), arguments, ty: Type::SCALAR })
+        Some(TableSymbol { table: Arc::new(table), arguments, ty: Type::SCALAR, units: Vec::new() })
     }
 }
 
