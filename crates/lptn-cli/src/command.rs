@@ -5,6 +5,7 @@ use std::path::Path;
 use clap::CommandFactory as _;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use lptn_netlist::{Diagnostic, Files};
+use lptn_units::suggest;
 
 use crate::args::{Args, Color, Global};
 use crate::console::Console;
@@ -17,7 +18,7 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
         Some(ContextValue::String(verb)) if error.kind() == ErrorKind::InvalidSubcommand => Some(verb),
         _ => None,
     };
-    let Some(problem) = verb.and_then(|verb| file_as_verb(verb)) else {
+    let Some(problem) = verb.and_then(|verb| file_as_verb(verb).or_else(|| near_verb(verb))) else {
         error.exit();
     };
     let console = Console::new(&Global { quiet: false, verbose: false, color: Color::Auto });
@@ -36,6 +37,14 @@ fn file_as_verb(word: &str) -> Option<Diagnostic> {
     let message = format!("{word} is a {is}, and a verb is due: what is to be done with it?");
     let help = format!("`lptn {verb} {}`, or another verb: `lptn help` lists them", quoted(word));
     Some(Diagnostic::error("input::no_verb", message).help(help))
+}
+
+/// A word that is nearly a verb.
+fn near_verb(word: &str) -> Option<Diagnostic> {
+    let command = Args::command();
+    let near = suggest(word, command.get_subcommands().map(clap::Command::get_name))?;
+    let problem = Diagnostic::error("input::no_verb", format!("there is no verb `{word}`"));
+    Some(problem.help(format!("did you mean `lptn {near}`?")))
 }
 
 /// The help of the program.

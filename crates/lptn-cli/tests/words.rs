@@ -79,7 +79,7 @@ fn help_is_a_verb_and_a_file_is_none() {
     assert!(folder.run(&["help", "fit", "network"]).exits(0).out.contains("--starts"));
     folder.run(&["gearbox.toml"]).exits(2).says("input::no_verb").says("`lptn run gearbox.toml`");
     folder.run(&["record.csv"]).exits(2).says("`lptn fit step record.csv`");
-    folder.run(&["rnu", "gearbox.toml"]).exits(2).says("run");
+    folder.run(&["rnu", "gearbox.toml"]).exits(2).says("did you mean `lptn run`?");
 }
 
 /// A path in other letters of case, or with backslashes, was only said not to be there.

@@ -32,7 +32,7 @@ pub(crate) fn recognise(name: &str, (file, text): (FileId, &str), broken: usize)
     } else if ["cir", "ckt", "sp", "spi", "spice"].contains(&ending.as_str()) || is_spice(lines) {
         ("a circuit for SPICE", SPICE.to_owned())
     } else if ending == "csv" || is_csv(lines) {
-        ("a CSV file", format!("{NEW}, and names CSV files; `lptn fit step {name}` fits a measured record"))
+        ("a CSV file", csv_help(name))
     } else if broken >= MANY && 2 * broken >= all.len() {
         ("another kind of text", NEW.to_owned())
     } else {
@@ -45,6 +45,13 @@ pub(crate) fn recognise(name: &str, (file, text): (FileId, &str), broken: usize)
 
 const SPICE: &str = "a netlist is a TOML file: `R1 a b 0.3` is, below [resistor], \
                      `R1 = { from = \"a\", to = \"b\", R = \"0.3 K/W\" }`; `lptn new NAME` writes one to start from";
+
+fn csv_help(name: &str) -> String {
+    format!(
+        "a netlist is a TOML file that names CSV files: `lptn new NAME` writes one to start from; a measured record is fitted \
+         by `lptn fit step {name}`"
+    )
+}
 
 fn json_help(text: &str) -> String {
     match text.contains("\"temperatures\"") {
