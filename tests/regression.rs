@@ -325,3 +325,34 @@ fn time_constants_of_nodes_count_the_streams_into_them() {
 fn rate(value: f64) -> lptn::network::Stream<lptn::network::Input> {
     lptn::network::Stream::Capacity(Conductance(value).into())
 }
+
+/// Two materials with tables of cp shared one curve, the first: the text that calls a table was the same for both. Each
+/// node takes 1 kJ: 2 K at 500 J/K, 1 K at 1000 J/K.
+#[test]
+fn tables_of_two_materials_are_two() {
+    let (netlist, system) = support::parsed(
+        "format = 1\n[material]\n\
+         a = { cp = { x = [0, 100], y = [500, 500], x_unit = \"degC\", y_unit = \"J/(kg K)\" } }\n\
+         b = { cp = { x = [0, 100], y = [1000, 1000], x_unit = \"degC\", y_unit = \"J/(kg K)\" } }\n[node]\n\
+         a = { material = \"a\", mass = \"1 kg\", T0 = \"20 degC\" }\n\
+         b = { material = \"b\", mass = \"1 kg\", T0 = \"20 degC\" }\n[source]\n\
+         heat_a = { into = \"a\", P = \"10 W\" }\nheat_b = { into = \"b\", P = \"10 W\" }\n[run]\nstop = \"100 s\"\n",
+    );
+    let solution = support::transient(&netlist).solve(&system).unwrap();
+    let last = solution.row(solution.times().len() - 1);
+    support::close(last[0], 295.15, 1e-6);
+    support::close(last[1], 294.15, 1e-6);
+}
+
+/// `at` and `stop` that are the same time in two units gave two rows at the end, or were refused.
+#[test]
+fn a_row_at_the_stop_in_another_unit_is_the_stop() {
+    for (stop, at) in [("1.0161111111111112 h", "3658 s"), ("3658 s", "1.0161111111111112 h")] {
+        let text = format!(
+            "format = 1\n[node]\na = {{ C = \"1 J/K\", T0 = \"20 degC\" }}\n[run]\nstop = \"{stop}\"\n\
+             output = {{ at = [\"100 s\", \"{at}\"] }}\n"
+        );
+        let (netlist, _) = support::parsed(&text);
+        assert_eq!(support::transient(&netlist).rows().unwrap().len(), 3, "{text}");
+    }
+}

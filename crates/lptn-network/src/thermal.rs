@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lptn_units::Taylor;
+use lptn_units::{Program, Table, Taylor};
 
 use crate::enthalpy::{Capacity, Enthalpy, Latent, NoCurve};
 use crate::error::BuildErrorKind;
@@ -105,13 +105,19 @@ impl Capacity for Sum<'_, '_> {
     }
 }
 
-/// What two curves have in common that are the same.
+/// What two curves have in common that are the same. Tables of different materials are called by the same text, so
+/// each counts as itself.
 fn form(parts: &[Vec<&Value>], latent: &[Latent]) -> String {
+    let program = |program: &Arc<Program>| {
+        let tables: Vec<*const Table> =
+            program.table_calls().iter().map(|call| Arc::as_ptr(&call.table)).collect();
+        format!("{:?} {tables:?}", program.text())
+    };
     let of = |value: &&Value| match value {
         Value::Constant(number) => format!("{:x}", number.to_bits()),
         other => {
-            let texts: Vec<&str> = other.programs().into_iter().map(|program| program.text()).collect();
-            format!("{texts:?} {:?}", other.slots())
+            let programs: Vec<String> = other.programs().into_iter().map(program).collect();
+            format!("{programs:?} {:?}", other.slots())
         }
     };
     let parts: Vec<Vec<String>> = parts.iter().map(|part| part.iter().map(of).collect()).collect();
