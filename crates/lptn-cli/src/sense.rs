@@ -3,7 +3,12 @@
 use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Item, ZERO_CELSIUS};
 use lptn_report::{duration, significant};
-use lptn_solve::Beyond;
+use lptn_solve::{Beyond, SteadyState};
+
+/// What makes no sense of a steady state.
+pub(crate) fn of_steady(netlist: &Netlist, steady: &SteadyState) -> Vec<Diagnostic> {
+    Beyond::of_steady(&netlist.network, steady).iter().map(|beyond| warning(netlist, beyond)).collect()
+}
 
 /// A warning that names the node, and the path and the source that probably did it.
 pub(crate) fn warning(netlist: &Netlist, beyond: &Beyond) -> Diagnostic {

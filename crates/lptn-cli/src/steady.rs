@@ -10,7 +10,7 @@ use lptn_report::{
     Align, Column, JsonWriter, TextTable, WIDTH, decimals, fixed, labelled, plain, prefix, shortened,
     significant, write_csv,
 };
-use lptn_solve::{Balance, Beyond, Selection, SteadyError, SteadyState, Table};
+use lptn_solve::{Balance, Selection, SteadyError, SteadyState, Table};
 use lptn_study::Scalar;
 use lptn_units::Unit;
 use serde_json::{Map, Value, json};
@@ -63,7 +63,7 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
         hidden.iter().for_each(|hidden| console.note(hidden));
         console.warn(&netlist.files, &view.doubts());
     }
-    console.warn(&netlist.files, &view.beyond());
+    console.warn(&netlist.files, &sense::of_steady(netlist, &steady));
     Ok(limits::conclude(&Judgement { netlist, unit: &unit, limits: &limits }, console))
 }
 
@@ -367,7 +367,7 @@ impl View<'_> {
         let mut json = JsonWriter::new(out);
         json.member("format", &json!(1))?;
         json.member("network", &json!(self.input.text.stem))?;
-        let found = self.doubts().into_iter().chain(self.beyond());
+        let found = self.doubts().into_iter().chain(sense::of_steady(netlist, self.steady));
         let warnings: Vec<Diagnostic> = netlist.warnings.iter().cloned().chain(found).collect();
         json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
         json.member("values", &Value::Object(values))?;
@@ -385,13 +385,6 @@ impl View<'_> {
     fn doubts(&self) -> Vec<Diagnostic> {
         let netlist = &self.input.netlist;
         doubt(netlist).into_iter().chain(adiabatic(&netlist.network, self.steady)).collect()
-    }
-
-    /// What makes no sense.
-    fn beyond(&self) -> Vec<Diagnostic> {
-        let netlist = &self.input.netlist;
-        let beyond = Beyond::of_steady(&netlist.network, self.steady);
-        beyond.iter().map(|beyond| sense::warning(netlist, beyond)).collect()
     }
 
     fn messages(&self, console: &Console) {

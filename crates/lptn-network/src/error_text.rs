@@ -66,9 +66,7 @@ impl BuildError {
             K::CapacityUnknown { .. } => {
                 "let the table or expression reach `T0` and stay positive there".into()
             }
-            K::TooQuick { .. } => {
-                "write what it follows on average in place of what swings, or a [table] of its values".into()
-            }
+            K::TooQuick { .. } => "write its mean in place of what swings, or a [table] of its values".into(),
             K::PeriodTooShort { span, .. } => format!("write `period = \"{span} s\"` or more"),
             K::BadName { .. } => "use letters, digits and `_`, not a digit first".into(),
             K::ReservedName { .. } => format!("choose another name, for example `{name}_1`"),
@@ -148,6 +146,9 @@ fn rounded(value: f64) -> f64 {
     format!("{value:.9e}").parse().unwrap_or(value)
 }
 
+/// What is wrong with a capacity that cannot be followed.
+const TOO_QUICK: &str = "changes too quickly with temperature to be integrated";
+
 /// The words for what only some kinds of elements can have wrong.
 struct OfElements<'a>(&'a BuildError);
 
@@ -199,13 +200,7 @@ impl fmt::Display for OfElements<'_> {
             K::CapacityUnknown { temperature, .. } => {
                 write!(f, "the capacity of `{name}` is not known and positive at its start, {temperature} K")
             }
-            K::TooQuick { field, .. } => {
-                write!(
-                    f,
-                    "`{}` of `{name}` changes too quickly with temperature to be integrated",
-                    field.key()
-                )
-            }
+            K::TooQuick { field, .. } => write!(f, "`{}` of `{name}` {TOO_QUICK}", field.key()),
             K::FluidUnknown { field, .. } => {
                 write!(f, "`{}` of `{name}` is not known and positive at any usual temperature", field.key())
             }
