@@ -121,7 +121,7 @@ impl Tracked {
                 first.clone_from(&interval.values[0]);
             }
             last.clone_from(&interval.values[POINTS - 1]);
-            look(interval, smooth, (&mut min[..], &mut max[..]));
+            look(interval, smooth, min, max);
         })?;
         self.reached = to;
         Ok(())
@@ -166,7 +166,7 @@ fn kinds(of: &Selection, network: &Network) -> Vec<usize> {
 }
 
 /// Takes the extremes of all columns over an interval into those found so far.
-fn look(interval: &Interval, smooth: bool, (min, max): (&mut [(f64, f64)], &mut [(f64, f64)])) {
+fn look(interval: &Interval, smooth: bool, min: &mut [(f64, f64)], max: &mut [(f64, f64)]) {
     let times: [f64; POINTS] = std::array::from_fn(|point| interval.time(point));
     for (column, (min, max)) in min.iter_mut().zip(max).enumerate() {
         let values: [f64; POINTS] = std::array::from_fn(|point| interval.values[point][column]);
