@@ -18,6 +18,16 @@ pub(crate) fn describe(error: &BuildError, map: &SourceMap) -> Diagnostic {
     }
 }
 
+/// Whose part or result has the name of something else.
+fn inside(words: &str, whole: Item, map: &SourceMap) -> String {
+    match whole {
+        Item::Grid(_) => {
+            format!("{words} has a name that belongs to a grid, as those of its cells and faces do")
+        }
+        other => format!("{words} has the name of a result: that of a {}", map.kind(other)),
+    }
+}
+
 fn message(error: &BuildError, map: &SourceMap) -> String {
     let name = &error.name;
     let words = |item: Item| format!("{} `{name}`", map.kind(item));
@@ -31,12 +41,7 @@ fn message(error: &BuildError, map: &SourceMap) -> String {
             (a, b) if a == b => format!("two {a}s are named `{name}`"),
             (a, b) => format!("the name `{name}` is taken twice: by a {a} and by a {b}"),
         },
-        Kind::NameInside { item, whole } if matches!(whole, Item::Grid(_)) => {
-            format!("{} has a name that belongs to a grid, as those of its cells and faces do", words(*item))
-        }
-        Kind::NameInside { item, whole } => {
-            format!("{} has the name of a result: that of a {}", words(*item), map.kind(*whole))
-        }
+        Kind::NameInside { item, whole } => inside(&words(*item), *whole, map),
         Kind::BadName { item } => format!("{} has a name that cannot be used", words(*item)),
         Kind::ReservedName { item } => {
             format!("{} has a name with a meaning of its own in expressions", words(*item))

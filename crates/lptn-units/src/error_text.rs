@@ -147,9 +147,7 @@ pub(crate) fn help(kind: &Kind) -> Option<String> {
         | Kind::BareDeviation { fix }
         | Kind::Fraction { fix }
         | Kind::NotATable { fix, .. } => Some(write(fix)),
-        Kind::PercentDeviation { points, part } => {
-            Some(format!("write \"{part}\" for a part of the value, or \"{points}\" for percentage points"))
-        }
+        Kind::PercentDeviation { points, part } => Some(percent(points, part)),
         Kind::AmbiguousProduct { fix } | Kind::RelativeDeviation { fix } => fix.as_deref().map(write),
         Kind::DigitGroups { fix } => {
             Some(fix.as_deref().map_or_else(|| "write the digits without separators".to_owned(), write))
@@ -231,6 +229,11 @@ fn comma(decimal: Option<&str>, thousands: Option<&str>) -> String {
         (Some(fix), None) | (None, Some(fix)) => write(fix),
         (None, None) => "write a decimal point, and no separators between the digits".to_owned(),
     }
+}
+
+/// What a deviation in percent may mean.
+fn percent(points: &str, part: &str) -> String {
+    format!("write \"{part}\" for a part of the value, or \"{points}\" for percentage points")
 }
 
 /// A temperature without a unit may be in kelvin as well.
