@@ -87,12 +87,12 @@ fn normal(line: &str) -> String {
             words.splice(i + 1..i + 3, ["<duration>".to_owned()]);
         }
     }
-    for i in 0..words.len() {
-        let bare = words[i].trim_matches([',', ';', ')', '(']).to_owned();
+    for word in &mut words {
+        let bare = word.trim_matches([',', ';', ')', '(']).to_owned();
         let rounding = bare.contains("e-") && bare.parse::<f64>().is_ok_and(|number| number.abs() < 1e-12);
         let hash = bare.len() == 64 && bare.chars().all(|c| c.is_ascii_hexdigit());
         if rounding || hash {
-            words[i] = words[i].replace(&bare, if hash { "<hash>" } else { "<rounding>" });
+            *word = word.replace(&bare, if hash { "<hash>" } else { "<rounding>" });
         }
     }
     words.join(" ")
