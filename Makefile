@@ -1,15 +1,17 @@
 # make demo    installs what is missing, builds lptn, runs the gearbox
 # make test    the same set-up, then every test
+# make audit   licences, doubles and known holes of the dependencies; the tests of the unsafe crate under valgrind
 # make mutants installs cargo-mutants if it is missing, breaks lptn-assembly, -reduce, -network and -units in one place after
 #              another (5,496 in all) and runs the tests of the crate each time: some ten hours on two cores. Results go to
 #              target/mutants/CRATE. MUTANTS="--shard 1/40" takes every fortieth place, in a quarter of an hour.
+# make fuzz    feeds six readers with inputs guided by coverage, FUZZ_MINUTES (5) each; fuzz/run says how
 # SUNDIALS=bundled make demo    builds SUNDIALS itself: needs gcc, cmake and libclang only
 
 SUNDIALS ?= system
 export SUNDIALS
 features = $(if $(filter bundled,$(SUNDIALS)),--features lptn/bundled)
 
-.PHONY: demo test build setup setup-tests bench mutants clean
+.PHONY: demo test build setup setup-tests bench audit fuzz mutants clean
 
 demo: build
 	./target/release/lptn run networks/gearbox.toml
@@ -31,6 +33,12 @@ mutants: setup-tests
 	    cargo mutants --package $$crate --output target/mutants/$$crate $(MUTANTS); \
 	    case $$? in 0|2|3) ;; *) exit 1 ;; esac; \
 	done
+
+fuzz:
+	@./fuzz/run
+
+audit:
+	@./.ci/audit
 
 setup:
 	@./.ci/setup
