@@ -3,6 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod common;
+#[cfg(unix)]
+#[path = "common/interrupt.rs"]
+mod interrupt;
 
 use common::Folder;
 
@@ -59,28 +62,19 @@ fn thresholds_that_cross_over_in_a_run_are_shown_with_both_places() {
     folder.run(&["run", "net.toml", "--set", "x=1"]).exits(2);
 }
 
+#[cfg(unix)]
 #[test]
 fn an_interrupted_run_keeps_its_events_whole() {
-    #[cfg(unix)]
-    {
-        let long = THERMOSTAT.replace("\"2000 s\"", "\"300 d\"").replace("\"5 s\"", "\"1 d\"");
-        let folder = Folder::with("net.toml", &long);
-        let mut command = folder.command(&["run", "net.toml"]);
-        let child = command.stdout(std::process::Stdio::piped()).stderr(std::process::Stdio::piped());
-        let child = child.spawn().unwrap();
-        std::thread::sleep(std::time::Duration::from_millis(1500));
-        let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-        assert!(kill.unwrap().success());
-        common::Ran::of(child.wait_with_output().unwrap()).exits(130).says("interrupted at");
-        let events = folder.read("out/net/events.csv");
-        assert!(events.starts_with("time [s],kind,name,before,after\n") && events.ends_with('\n'));
-        assert!(events.lines().all(|line| line.split(',').count() == 5));
-        let manifest: serde_json::Value =
-            serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
-        let count = manifest["statistics"]["events"]["value"].as_u64().unwrap();
-        assert_eq!(count, events.lines().skip(1).count() as u64);
-        assert_eq!(manifest["end"]["status"], "interrupted");
-    }
+    let long = THERMOSTAT.replace("\"2000 s\"", "\"300 d\"").replace("\"5 s\"", "\"1 d\"");
+    let folder = Folder::with("net.toml", &long);
+    interrupt::interrupted(&folder, &["run", "net.toml"]).exits(130).says("interrupted at");
+    let events = folder.read("out/net/events.csv");
+    assert!(events.starts_with("time [s],kind,name,before,after\n") && events.ends_with('\n'));
+    assert!(events.lines().all(|line| line.split(',').count() == 5));
+    let manifest: serde_json::Value = serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
+    let count = manifest["statistics"]["events"]["value"].as_u64().unwrap();
+    assert_eq!(count, events.lines().skip(1).count() as u64);
+    assert_eq!(manifest["end"]["status"], "interrupted");
 }
 
 #[test]

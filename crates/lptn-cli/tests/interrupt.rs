@@ -4,35 +4,19 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod common;
+#[path = "common/interrupt.rs"]
+mod interrupt;
 
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::{Command, Stdio};
 
-use common::{Folder, GEARBOX, Ran, endless};
+use common::{Folder, GEARBOX, endless};
+use interrupt::interrupted;
 
 /// A finished candidate and one that would take minutes.
 fn two() -> Folder {
     let folder = Folder::with_gearbox();
     folder.write("slow.toml", &endless());
     folder
-}
-
-/// Starts the program and presses Ctrl-C when it has used half a second of CPU, far more than the gearbox needs.
-fn interrupted(folder: &Folder, arguments: &[&str]) -> Ran {
-    let child = folder.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    let begun = Instant::now();
-    while cpu_ticks(&child).is_none_or(|ticks| ticks < 50) && begun.elapsed() < Duration::from_secs(20) {
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    let signal = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    assert!(signal.success());
-    Ran::of(child.wait_with_output().unwrap())
-}
-
-/// User time in hundredths of a second, where the system says.
-fn cpu_ticks(child: &Child) -> Option<u64> {
-    let text = std::fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
-    text.rsplit_once(") ")?.1.split(' ').nth(11)?.parse().ok()
 }
 
 #[test]

@@ -66,7 +66,7 @@ fn thresholds_may_depend_on_time_and_temperatures() {
     let error = network.control_excess(fan, &mut scope, &[300.0, 290.0]).unwrap_err();
     assert_eq!((error.item, error.field), (Item::Control(fan), Field::OnAbove));
     assert!(
-        matches!(error.problem, InputProblem::ThresholdsCrossed { on, off } if on == 310.0 && off == 330.0),
+        matches!(error.problem, InputProblem::ThresholdsCrossed { on, off } if (on, off) == (310.0, 330.0)),
         "{error}"
     );
     scope.set_time(15.0, 15.0);

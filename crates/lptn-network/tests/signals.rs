@@ -49,7 +49,7 @@ fn straight_lines() {
         network(curve(&[1.0, 3.0, 7.0], &[10.0, 20.0, 0.0], Interpolation::Linear, AfterEnd::Hold));
     all_near(&seen(&network, &[1.0, 2.0, 3.0, 4.0, 7.0, 9.0, 1e6]), &[10.0, 15.0, 20.0, 15.0, 0.0, 0.0, 0.0]);
     let before = value(&network, 0.5, 0.5).unwrap_err();
-    assert!(matches!(before, InputProblem::BeforeSignal { time, first } if time == 0.5 && first == 1.0));
+    assert!(matches!(before, InputProblem::BeforeSignal { time, first } if (time, first) == (0.5, 1.0)));
     assert!(value(&network, 1.0 - 1e-10, 1.0).is_ok(), "rounding does not carry it past its end");
     all_near(&network.breakpoints(0.0 + 1.0, 10.0).unwrap(), &[3.0, 7.0]);
     all_near(&network.breakpoints(3.5, 7.0).unwrap(), &[]);
@@ -67,7 +67,7 @@ fn the_end_of_a_signal_that_says_no_more_is_an_error() {
     near(value(&network, 3.0, 3.0).unwrap(), 20.0);
     near(value(&network, 3.0 + 1e-10, 3.0).unwrap(), 20.0);
     let after = value(&network, 3.5, 3.5).unwrap_err();
-    assert!(matches!(after, InputProblem::AfterSignal { time, last } if time == 3.5 && last == 3.0));
+    assert!(matches!(after, InputProblem::AfterSignal { time, last } if (time, last) == (3.5, 3.0)));
 }
 
 #[test]

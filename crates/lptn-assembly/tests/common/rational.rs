@@ -41,7 +41,7 @@ impl Sub for Rational {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
-        self + Self { over: -other.over, ..other }
+        Self::new(self.over * other.under - other.over * self.under, self.under * other.under)
     }
 }
 
