@@ -41,6 +41,7 @@ mod reduce_text;
 mod run;
 mod select;
 mod size;
+mod size_changing;
 mod size_cooling;
 mod size_text;
 mod size_write;

@@ -9,6 +9,7 @@
 mod body;
 mod breakpoints;
 mod builder;
+mod changing;
 mod check;
 mod checks;
 mod conductances;
@@ -42,6 +43,7 @@ mod parts;
 mod periodicity;
 mod positions;
 mod result;
+mod rising;
 mod scope;
 mod signal;
 mod stream;
@@ -53,6 +55,7 @@ mod value;
 
 pub use body::{NoMaterial, Surface};
 pub use builder::{NetworkBuilder, Path};
+pub use changing::Changing;
 pub use control::{Acts, Control, Thermostat};
 pub use element::{Boundary, Capacitor, Conductor, ConductorKind, Node, Parameter, Source};
 pub use enthalpy::{Content, Enthalpy};

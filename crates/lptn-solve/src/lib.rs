@@ -8,6 +8,7 @@
 
 mod adiabatic;
 mod balance;
+mod branch;
 mod conductances;
 mod curved;
 mod error;
@@ -62,7 +63,7 @@ pub use periodic::{Method, Periodic, PeriodicError};
 pub use settings::{Control, Progress, Record, Transient};
 pub use solution::{End, Solution, Unbounded};
 pub use state::State;
-pub use steady::SteadyState;
+pub use steady::{Others, SteadyState};
 pub use stiffness::Stiffness;
 pub use summary::{NodeSummary, Summary};
 pub use table::{Column, Label, Selection, Table};

@@ -43,7 +43,8 @@ pub use dimension::Dimension;
 pub use dual::Dual;
 pub use error::{UnitError, UnitErrorKind};
 pub use expr::{
-    Comparison, Degree, EvalError, Expression, Program, RESERVED, Scope, Symbol, TableCall, is_function,
+    Comparison, Degree, EvalError, Expression, Program, RESERVED, Scope, Symbol, TableCall, Trend,
+    is_function,
 };
 pub use format::number as format_number;
 pub use quantity::{Quantity, WrittenQuantity, parse_quantity, written_quantity};

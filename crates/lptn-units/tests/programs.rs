@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Names, program, run, values};
-use lptn_units::{Comparison, Degree, Dimension, Dual, EvalError, Expression, Program, Type};
+use lptn_units::{Comparison, Degree, Dimension, Dual, EvalError, Expression, Program, Trend, Type};
 
 const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
 const ABSOLUTE: Type = Type::ABSOLUTE_TEMPERATURE;
@@ -154,4 +154,25 @@ fn names_may_stand_for_others() {
     let (left, _, right) =
         Expression::parse("R <= 2 * R").unwrap().renamed(&meaning).split_comparison().unwrap();
     assert_eq!((left.meant().as_str(), right.meant().as_str()), ("planet[2].R", "2 * planet[2].R"));
+}
+
+/// Of a film coefficient over the magnitude of x: what rises surely is told from what may fall.
+#[test]
+fn trends_are_told_only_where_they_are_sure() {
+    let trend = |text: &str| {
+        program(text).trend(&|slot| if slot == 0 { Trend::SIGNED } else { Trend::constant(3.0) })
+    };
+    let rising =
+        ["1.6 * abs(x)^0.25 + n", "2 + x^2", "max(5, abs(x))", "1 - 0.5 * exp(-abs(x))", "abs(2 * x) / n"];
+    for text in rising {
+        let found = trend(text);
+        assert!(found.rises && !found.falls && found.low >= 0.0, "{text}: {found:?}");
+    }
+    let others =
+        ["x", "1 + x", "5 - abs(x)", "abs(x) * exp(-abs(x))", "n / (1 + abs(x))", "if(x < 2, 1, abs(x))"];
+    for text in others {
+        let found = trend(text);
+        assert!(!(found.rises && found.low >= 0.0), "{text}: {found:?}");
+    }
+    assert!(trend("n / (1 + abs(x))").falls && trend("n * 2 - 1").is_held());
 }

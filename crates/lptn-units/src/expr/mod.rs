@@ -16,6 +16,7 @@ mod parser;
 mod parts;
 mod program;
 mod tree;
+mod trend;
 
 use std::ops::Range;
 
@@ -31,6 +32,7 @@ pub use eval::EvalError;
 pub use function::is_function;
 pub use program::{Program, TableCall};
 pub use tree::Comparison;
+pub use trend::Trend;
 
 /// Names with a meaning of their own, which no parameter, signal, control or table may take: the time `t`, `pi`,
 /// the temperatures of the element at hand, and all functions.
