@@ -9,6 +9,7 @@
 mod element;
 mod eliminate;
 mod error;
+mod monotone;
 mod pattern;
 mod radiation;
 mod switching;

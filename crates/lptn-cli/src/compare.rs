@@ -97,8 +97,14 @@ fn load(file: &Path, set: &[String]) -> Loaded {
 
 /// Without a run a candidate is looked at once: what comes later is not seen.
 fn inputs_vary(netlist: &Netlist, name: &str) -> Option<Diagnostic> {
-    let vary = netlist.run.is_none() && netlist.network.has_time_dependent_inputs();
-    let message = format!("{name}: the inputs change with time; without a [run] they are taken at 0 s");
+    let network = &netlist.network;
+    let judged: Vec<_> = network.limits().iter().flat_map(|limit| [&limit.of, &limit.value]).collect();
+    let changes = || !network.changing_inputs().is_empty() || !network.changing_inputs_of(&judged).is_empty();
+    let vary = netlist.run.is_none() && changes();
+    let message = format!(
+        "{name}: the inputs change with time; without a [run] they are taken at 0 s, and no limit is judged that \
+         depends on them"
+    );
     vary.then(|| Diagnostic::warning("steady::inputs_vary", message).help("add a [run] to compare over time"))
 }
 

@@ -92,6 +92,9 @@ fn margins(rows: &[CompareRow]) -> Vec<Column> {
 }
 
 fn margin(limit: &LimitResult) -> String {
+    if limit.is_open() {
+        return NOTHING.into();
+    }
     let unit = limit.ty.dimension.si_unit();
     let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
     let number = if limit.is_temperature() {
@@ -160,6 +163,9 @@ pub(crate) fn answer(comparison: &Comparison) -> String {
         Exit::No => format!("limit broken: {}", broken(&comparison.rows, &names)),
         _ if comparison.rows.iter().all(|row| row.candidate().is_some_and(|c| c.limits.is_empty())) => {
             "no candidate has a [limit]".into()
+        }
+        _ if comparison.rows.iter().any(|row| row.status() == "not judged") => {
+            "limits are not judged where inputs change with time and there is no [run]".into()
         }
         _ if comparison.rows.len() == 1 => "the candidate keeps its limits".into(),
         _ => "all candidates keep their limits".into(),

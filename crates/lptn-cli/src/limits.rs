@@ -18,7 +18,7 @@ const DIGITS: usize = 4;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Judged {
     limit: LimitId,
-    /// Least margin in SI units.
+    /// Least margin in SI units; NaN if it is not judged.
     margin: f64,
     /// When that was, in s; `None` in steady state.
     worst_at: Option<f64>,
@@ -34,6 +34,16 @@ impl Judged {
 
     pub(crate) fn of_steady(limit: LimitId, margin: f64) -> Self {
         Self { limit, margin, worst_at: None, broken_at: None }
+    }
+
+    /// One that a steady state says nothing about, since it depends on inputs that change with time.
+    pub(crate) fn open(limit: LimitId) -> Self {
+        Self::of_steady(limit, f64::NAN)
+    }
+
+    /// Whether it was judged at all.
+    pub(crate) fn is_open(&self) -> bool {
+        self.margin.is_nan()
     }
 
     fn is_broken(&self) -> bool {
@@ -60,7 +70,7 @@ pub(crate) fn lines(network: &Network, limits: &[Judged], unit: &Unit) -> Vec<St
     let mut columns = vec![
         Column::new("limit", Align::Left, cells(&|j| of(j).name.clone())),
         Column::new("wanted", Align::Left, cells(&|j| wanted(network, j.limit, unit))).names(),
-        Column::new("margin", Align::Right, cells(&|j| number(j.margin, of(j).margin_type(), unit))),
+        Column::new("margin", Align::Right, cells(&|j| margin(j, of(j), unit))),
     ];
     if limits.iter().any(|judged| judged.worst_at.is_some()) {
         let least = |j: &Judged| j.worst_at.map_or("-".into(), |time| duration(time, 3));
@@ -83,7 +93,14 @@ fn bound(network: &Network, limit: &Limit) -> f64 {
     limit.value.at(&mut network.evaluation()).unwrap_or(f64::NAN)
 }
 
+fn margin(judged: &Judged, limit: &Limit, unit: &Unit) -> String {
+    if judged.is_open() { "-".into() } else { number(judged.margin, limit.margin_type(), unit) }
+}
+
 fn verdict(judged: &Judged, limit: &Limit) -> String {
+    if judged.is_open() {
+        return "not judged".into();
+    }
     match (judged.is_broken(), judged.broken_at, limit.severity) {
         (false, ..) => "kept".into(),
         (true, Some(time), Severity::Error) => format!("BROKEN from {}", duration(time, 4)),
@@ -108,12 +125,16 @@ fn number(value: f64, ty: Type, unit: &Unit) -> String {
 }
 
 /// Members by the limit's name: `{ of, below or above, worst, margin, worst_at, broken_at, severity, kept }`, in the
-/// results and in the manifest. `worst` is the value of `of` where the margin is least.
+/// results and in the manifest. `worst` is the value of `of` where the margin is least; where a limit is not judged `worst`,
+/// `margin` and `kept` are null.
 pub(crate) fn members(network: &Network, limits: &[Judged]) -> Map<String, Value> {
     let one = |judged: &Judged| {
         let limit = &network.limits()[judged.limit.index()];
         let time = |time: Option<f64>| time.map_or(Value::Null, |time| Scalar::new(time, "s").json());
-        let scalar = |value: f64| Scalar::new(value, &limit.ty.dimension.si_unit()).json();
+        let scalar = |value: f64| match value.is_nan() {
+            true => Value::Null,
+            false => Scalar::new(value, &limit.ty.dimension.si_unit()).json(),
+        };
         let bound = bound(network, limit);
         let worst = match limit.bound {
             Bound::Below => bound - judged.margin,
@@ -127,7 +148,7 @@ pub(crate) fn members(network: &Network, limits: &[Judged]) -> Map<String, Value
             "worst_at": time(judged.worst_at),
             "broken_at": time(judged.broken_at),
             "severity": if limit.severity == Severity::Error { "error" } else { "warning" },
-            "kept": !judged.is_broken(),
+            "kept": (!judged.is_open()).then_some(!judged.is_broken()),
         });
         (limit.name.clone(), member)
     };

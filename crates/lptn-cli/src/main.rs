@@ -42,6 +42,7 @@ mod run;
 mod select;
 mod sense;
 mod size;
+mod size_changing;
 mod size_cooling;
 mod size_text;
 mod size_write;

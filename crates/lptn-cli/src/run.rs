@@ -58,7 +58,7 @@ pub(crate) enum NoSteady {
 }
 
 fn steady(system: &ThermalSystem, start: f64) -> Result<SteadyState, NoSteady> {
-    if system.network().has_time_dependent_inputs() {
+    if !system.network().changing_inputs().is_empty() {
         return Err(NoSteady::Inputs);
     }
     SteadyState::solve(system, start).map_err(NoSteady::Network)

@@ -13,12 +13,11 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::{diagnostics, size_cooling, size_text, size_write, steady};
+use crate::{diagnostics, size_changing, size_cooling, size_text, size_write};
 
 pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
     let Some(file) = &args.file else { return size_cooling::cooling(args, console) };
-    let mut input = Input::load(&Source { file: file.clone(), set: args.set.clone() })?;
-    input.netlist.warnings.extend(steady::doubt(&input.netlist));
+    let input = Input::load(&Source { file: file.clone(), set: args.set.clone() })?;
     let study = study(&input, args.name.as_deref())?;
     let parameter = parameter(&input, study)?;
     let unit = unit(&input, parameter);
@@ -108,6 +107,10 @@ fn solve(input: &Input, study: &SizeStudy, parameter: ParameterId) -> Result<Siz
 }
 
 fn failed(input: &Input, study: &SizeStudy, unit: &Unit, error: &SizeError) -> Failure {
+    if let SizeError::Changing(changing) = error {
+        let problem = size_changing::explained(input, study, (error, changing));
+        return Failure::at(Exit::Input, input.netlist.files.clone(), problem);
+    }
     let at = |value: f64| size_text::quantity(&study.parameter, value, unit);
     let (exit, message) = match error {
         SizeError::Network { value, errors } => {

@@ -192,7 +192,10 @@ fn notes(view: &View<'_>, nodes: &[NodeSummary]) -> Vec<String> {
     notes.extend(short_record(nodes));
     match view.steady {
         Err(NoSteady::Inputs) => notes.push("steady is `-`: the inputs change with time".into()),
-        Err(NoSteady::Network(SteadyError::NoBoundary { .. })) | Ok(_) => {}
+        Ok(steady) => {
+            notes.extend(crate::steady::others(network, steady, view.unit).map(|found| found.message))
+        }
+        Err(NoSteady::Network(SteadyError::NoBoundary { .. })) => {}
         Err(NoSteady::Network(error)) => notes.push(format!("steady is `-`: {error}")),
     }
     let reached = view.solution.end() == End::Reached;
@@ -286,7 +289,7 @@ pub(crate) fn heat_over(solution: &Solution, length: f64) -> Vec<String> {
         }
         None => format!("residual {} J; no heat was turned over", significant(ledger.residual(), 2)),
     };
-    lines.push(format!("{:width$}{balance}", "balance:"));
+    lines.extend(labelled(&format!("{:width$}", "balance:"), &words(&balance), WIDTH));
     lines
 }
 

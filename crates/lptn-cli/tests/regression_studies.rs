@@ -23,26 +23,92 @@ fn warns(json: &serde_json::Value, code: &str) -> bool {
     json["warnings"].as_array().unwrap().iter().any(|warning| warning["code"] == code)
 }
 
-/// Sizing read inputs that change with time at the start of the run and did not say so.
+/// A load that changes with time in three ways, in place of the power of [`block`].
+const CYCLE: &str = "[signal]\nload = { t = [0, 60, 120], v = [0, 100, 0], t_unit = \"s\", v_unit = \"W\", \
+     after_end = \"repeat\" }\n";
+
+/// Sizing took the load at the start of its cycle, 0 W, and found that no cooling at all keeps 40 degC; the run reaches 90.
 #[test]
-fn sizing_says_that_inputs_change_with_time() {
-    let more = sized("{ from = \"1 W/K\", to = \"10 W/K\" }");
-    let folder = Folder::with("a.toml", &block("if(t < 10 [s], 1 [W], 100 [W])", &more));
-    folder.run(&["size", "a.toml"]).exits(0).says("warning[steady::inputs_vary]");
-    let json = folder.run(&["size", "a.toml", "--format", "json"]).exits(0).json();
+fn sizing_refuses_inputs_that_change_with_time_and_says_what_to_write() {
+    let study = sized("{ from = \"1 W/K\", to = \"10 W/K\" }");
+    let folder = Folder::with("a.toml", &block("load", &(CYCLE.to_owned() + &study)));
+    let ran = folder.run(&["size", "a.toml"]).exits(2).says("error[size::inputs_change]: size `x`: ");
+    // the line of the signal, and what can be pasted
+    let line = 1 + folder.read("a.toml").lines().position(|line| line.starts_with("load =")).unwrap();
+    assert!(ran.err.contains(&format!("a.toml:{line}:")), "{}", ran.err);
+    let joined = ran.err.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(joined.contains("`load = \"100 W\"`"), "{joined}");
+    assert!(joined.contains("lptn run a.toml --set \"p=1 W/K\""), "{joined}");
+    folder.run(&["size", "a.toml", "--write"]).exits(2);
+    // 100 W over 20 K, as the message says
+    let constant = CYCLE.lines().next().unwrap().to_owned() + "\nload = \"100 W\"\n" + &study;
+    folder.write("b.toml", &block("load", &constant));
+    folder.run(&["size", "b.toml"]).exits(0).prints("p = 5 W/K keeps every requirement");
+    // an expression of the time has a line too
+    folder.write("c.toml", &block("if(t < 10 [s], 1 [W], 100 [W])", &study));
+    folder.run(&["size", "c.toml"]).exits(2).says("size::inputs_change").says("c.toml:12:");
+}
+
+/// Only what the required quantity depends on counts, and only what really changes.
+#[test]
+fn sizing_takes_inputs_that_do_not_matter_as_they_are() {
+    let study = sized("{ from = \"1 W/K\", to = \"10 W/K\" }");
+    // another block behind the boundary, a signal of one value, a signal that nothing uses, a constant expression
+    let other = "one = { t = [0, 1], v = [50, 50], t_unit = \"s\", v_unit = \"W\", after_end = \"hold\" }\nhalf = \"one * 2\"\n\
+         [node.b]\nC = \"100 J/K\"\nT0 = \"20 degC\"\n[resistor.rb]\nfrom = \"b\"\nto = \"amb\"\nR = \"1 K/W\"\n\
+         [source.sb]\ninto = \"b\"\nP = \"load\"\n";
+    let folder = Folder::with("a.toml", &block("half", &(CYCLE.to_owned() + other + &study)));
+    let ran = folder.run(&["size", "a.toml"]).exits(0).prints("p = 5 W/K keeps every requirement");
+    assert!(!ran.err.contains("change"), "{}", ran.err);
+    // a requirement that follows a signal by itself is one that changes
+    let of_signal = study.replace("a.T <= 40 [degC]", "a.T - 40 [degC] <= load * q / 1 [W]");
+    folder.write("b.toml", &block("half", &(CYCLE.to_owned() + other + &of_signal)));
+    folder.run(&["size", "b.toml"]).exits(2).says("size::inputs_change").says("`load`");
+}
+
+/// A steady state of a load that repeats itself judged its limits at the start of the cycle and called them kept.
+#[test]
+fn a_steady_state_of_changing_inputs_judges_no_limit_and_names_the_cycle() {
+    let limits = "[limit]\nhot = { of = \"a.T\", below = \"40 degC\" }\nair = { of = \"amb.T\", below = \"30 degC\" }\n";
+    let folder = Folder::with("a.toml", &block("load", &(CYCLE.to_owned() + limits)));
+    let ran = folder.run(&["steady", "a.toml"]).exits(0).prints("not judged");
+    let joined = ran.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        joined.contains("inputs change with time, `load`: they are taken as they are at 0 s"),
+        "{joined}"
+    );
+    assert!(joined.contains("`lptn steady --periodic a.toml` looks at the whole cycle"), "{joined}");
+    let json = folder.run(&["steady", "a.toml", "--format", "json"]).exits(0).json();
+    let null = serde_json::Value::Null;
+    assert_eq!((&json["limits"]["hot"]["kept"], &json["limits"]["hot"]["margin"]), (&null, &null));
+    // what no changing input reaches is judged
+    assert_eq!(json["limits"]["air"]["kept"], true);
+    assert!(warns(&json, "steady::inputs_vary"), "{json}");
+    // so is everything where a signal matters to nothing; where it matters to the limit alone it is not
+    folder.write("b.toml", &block("1 W", &(CYCLE.to_owned() + limits)));
+    let json = folder.run(&["steady", "b.toml", "--format", "json"]).exits(0).json();
+    assert_eq!(json["limits"]["hot"]["kept"], true);
+    assert!(!warns(&json, "steady::inputs_vary"), "{json}");
+    let own = limits.replace("\"a.T\"", "\"a.T + load * q / 1 [W]\"");
+    folder.write("c.toml", &block("1 W", &(CYCLE.to_owned() + &own)));
+    let json = folder.run(&["steady", "c.toml", "--format", "json"]).exits(0).json();
+    assert_eq!(json["limits"]["hot"]["kept"], null);
     assert!(warns(&json, "steady::inputs_vary"), "{json}");
 }
 
-/// So did a comparison of networks without a run.
+/// A comparison of networks without a run did the same.
 #[test]
-fn comparing_steady_states_says_that_inputs_change_with_time() {
-    let folder = Folder::with("a.toml", &block("if(t < 10 [s], 1 [W], 100 [W])", ""));
-    folder.run(&["compare", "a.toml"]).exits(0).says("warning[steady::inputs_vary]: a.toml: ");
+fn comparing_steady_states_of_changing_inputs_judges_no_limit() {
+    let limit = "[limit]\nhot = { of = \"a.T\", below = \"25 degC\" }\n";
+    let power = "if(t < 10 [s], 1 [W], 100 [W])";
+    let folder = Folder::with("a.toml", &block(power, limit));
+    let ran = folder.run(&["compare", "a.toml"]).exits(0).says("warning[steady::inputs_vary]: a.toml: ");
+    assert!(ran.out.contains("not judged") && ran.err.contains("limits are not judged"), "{}", ran.out);
     let json = folder.run(&["compare", "a.toml", "--format", "json"]).exits(0).json();
     assert!(warns(&json, "steady::inputs_vary"), "{json}");
     // a run looks at every time
-    folder.write("b.toml", &block("if(t < 10 [s], 1 [W], 100 [W])", "[run]\nstop = \"1 min\""));
-    assert!(!folder.run(&["compare", "b.toml"]).exits(0).err.contains("inputs_vary"));
+    folder.write("b.toml", &block(power, &(limit.to_owned() + "[run]\nstop = \"1 min\"")));
+    assert!(!folder.run(&["compare", "b.toml"]).exits(1).err.contains("inputs_vary"));
 }
 
 /// Limits of one name in two candidates, one of a temperature and one of a heat: both margins stood in a column of K.

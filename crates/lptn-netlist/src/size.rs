@@ -40,6 +40,11 @@ impl Requirement {
     pub fn margin(&self, scope: &mut Evaluation) -> Result<f64, EvalError> {
         Ok(self.high.at(scope)? - self.low.at(scope)?)
     }
+
+    /// Both sides.
+    pub fn sides(&self) -> [&Value; 2] {
+        [&self.low, &self.high]
+    }
 }
 
 /// One `[size.NAME]`.

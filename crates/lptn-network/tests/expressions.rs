@@ -12,7 +12,12 @@ use lptn_units::{Dimension, Expression, Interpolation, Outside, Scope, Table, Ta
 fn ramp() -> TableSymbol {
     let table = Table1::new(vec![0.0, 10.0], vec![1.0, 5.0], Interpolation::Linear, Outside::Error).unwrap();
     let arguments = vec![Type::of(Dimension::TIME)];
-    TableSymbol { table: Table::One(table).into(), arguments, ty: Type::of(Dimension::POWER), units: Vec::new() }
+    TableSymbol {
+        table: Table::One(table).into(),
+        arguments,
+        ty: Type::of(Dimension::POWER),
+        units: Vec::new(),
+    }
 }
 
 #[test]

@@ -23,11 +23,15 @@ pub(crate) struct Heat<'a> {
     /// Which Jacobian is written.
     form: Form,
     /// Comparisons of `t` keep the truth they have here while a segment lasts.
-    pub(crate) segment: f64,
+    segment: f64,
+    /// The time at which inputs are held, and one inside its segment.
+    pub(crate) held: Option<(f64, f64)>,
     /// Why the heat could not be had.
     pub(crate) failure: Option<NewtonError>,
     /// The same, overcome by a smaller step or not, until someone takes it.
     pub(crate) refused: Option<NewtonError>,
+    /// The earliest time at which a massless node could not go on, until someone takes it.
+    pub(crate) fold: Option<f64>,
     /// What switches.
     pub(crate) gates: Gates,
     /// The sensitivities that are followed.
@@ -50,8 +54,10 @@ impl<'a> Heat<'a> {
             books,
             form,
             segment,
+            held: None,
             failure: None,
             refused: None,
+            fold: None,
             gates,
             tangent: None,
         })
@@ -59,15 +65,88 @@ impl<'a> Heat<'a> {
 
     /// Reads the inputs and takes the state; what fails may be the guess of a step that is too long.
     fn place(&mut self, time: f64, y: &[f64]) -> Result<(), Retry> {
-        let inputs = self.system.read_inputs(&mut self.work, time, self.segment);
+        let (at, segment) = self.held.unwrap_or((time, self.segment));
+        let inputs = self.system.read_inputs(&mut self.work, at, segment);
         inputs.map_err(|error| self.failed(NewtonError::Input(error), Retry::Stop))?;
         let unfolded = self.unfold.temperatures(&mut self.work, y).map(|_| ());
-        unfolded.map_err(|error| self.failed(error, Retry::SmallerStep))
+        unfolded.map_err(|error| {
+            if let NewtonError::Fold { .. } = error {
+                self.fold = Some(self.fold.map_or(time, |earlier| earlier.min(time)));
+            }
+            self.failed(error, Retry::SmallerStep)
+        })
+    }
+
+    /// Enters a segment: inputs may jump, and massless nodes with them.
+    pub(crate) fn enter(&mut self, segment: f64) {
+        self.segment = segment;
+        self.unfold.may_leap();
     }
 
     /// Sets which controls are on and which comparisons hold.
     pub(crate) fn set_positions(&mut self, positions: &Positions) {
         self.work.set_positions(positions);
+        self.unfold.may_leap();
+    }
+
+    /// Capacity of each state at its start in J/K.
+    pub(crate) fn capacities(&self) -> &[f64] {
+        self.system.capacity()
+    }
+
+    /// Whether massless nodes may have several solutions; see [`Heat::branch`].
+    pub(crate) fn is_guarded(&self) -> bool {
+        self.unfold.is_guarded()
+    }
+
+    /// The temperatures of the massless nodes that are solved for, in K, at a state that was reached. They have to be ones
+    /// at which the nodes stay.
+    pub(crate) fn branch(&mut self, time: f64, y: &[f64]) -> Result<Vec<f64>, StopReason> {
+        self.arrive(time, y)?;
+        let now = self.unfold.algebraic().to_vec();
+        let stays = self.unfold.stays(&mut self.work, &now);
+        stays.map_err(|error| StopReason::Unsolved(Unsolved::new(self.system, error)))?;
+        Ok(now)
+    }
+
+    /// Temperatures of the massless nodes that are solved for in K, as they were last.
+    pub(crate) fn algebraic(&self) -> &[f64] {
+        self.unfold.algebraic()
+    }
+
+    /// Begins the next look with massless nodes at these temperatures in K.
+    pub(crate) fn seed(&mut self, branch: &[f64]) {
+        self.unfold.seed(branch);
+    }
+
+    /// Whether massless nodes come to this state from these temperatures in K without a leap.
+    pub(crate) fn comes_to(&mut self, (time, y): (f64, &[f64]), branch: &[f64]) -> bool {
+        self.unfold.seed(branch);
+        self.branch(time, y).is_ok()
+    }
+
+    /// Temperatures of all unknowns in K at a state that was reached.
+    pub(crate) fn temperatures(
+        &mut self,
+        time: f64,
+        y: &[f64],
+    ) -> Result<(&[f64], &mut Workspace), StopReason> {
+        self.arrive(time, y)?;
+        Ok((self.unfold.last(), &mut self.work))
+    }
+
+    /// Lets massless nodes leap as they do at `beyond`, and brings them back to `here`; both are a time and a state.
+    /// Whether they are on another branch then; if not, nothing has changed.
+    pub(crate) fn leap(&mut self, beyond: (f64, &[f64]), here: (f64, &[f64])) -> bool {
+        let before = self.unfold.algebraic().to_vec();
+        self.unfold.may_leap();
+        let leapt = self.place(beyond.0, beyond.1).is_ok() && self.place(here.0, here.1).is_ok();
+        if leapt && self.unfold.stays(&mut self.work, &before).is_err() {
+            self.fold = None;
+            return true;
+        }
+        self.unfold.seed(&before);
+        false
     }
 
     /// Takes a state and recovers the temperatures of all nodes.

@@ -8,6 +8,7 @@
 
 mod adiabatic;
 mod balance;
+mod branch;
 mod cells;
 mod conductances;
 mod curved;
@@ -68,7 +69,7 @@ pub use settings::{Control, Progress, Record, Transient};
 pub use settings_error::SettingsError;
 pub use solution::{End, Solution, Unbounded};
 pub use state::State;
-pub use steady::SteadyState;
+pub use steady::{Others, SteadyState};
 pub use stiffness::Stiffness;
 pub use summary::{NodeSummary, Summary};
 pub use table::{Column, Label, Selection, Table, TableOf};

@@ -27,6 +27,11 @@ pub(crate) enum NewtonError {
         /// The unknown that moves most.
         unknown: usize,
     },
+    /// The solution that was followed ends here: beyond, the balances have another one, elsewhere.
+    Fold {
+        /// The unknown that cannot go on.
+        unknown: usize,
+    },
     /// No solution was found.
     Stalled {
         /// The unknown that still moved most.
@@ -72,7 +77,9 @@ pub(crate) struct Newton<'a> {
     pub(crate) factors: Box<dyn Factorization>,
     /// Whether the factors are those of some earlier point.
     ready: bool,
-    whole: Vec<f64>,
+    /// Whether the balances may have several solutions, so that one must not be left for another.
+    pub(crate) guarded: bool,
+    pub(crate) whole: Vec<f64>,
     pub(crate) values: Vec<f64>,
     flow: Vec<f64>,
 }
@@ -95,7 +102,7 @@ impl<'a> Newton<'a> {
         let factors = linear::for_exact(&pattern).map_err(NewtonError::Factorization)?;
         let (values, whole) = (vec![0.0; pattern.len()], vec![0.0; whole.len()]);
         let flow = vec![0.0; system.unknowns().len()];
-        Ok(Self { system, free, pattern, slots, factors, ready: false, whole, values, flow })
+        Ok(Self { system, free, pattern, slots, factors, ready: false, guarded: false, whole, values, flow })
     }
 
     /// Moves the free ones of `temperatures` (all unknowns, in K) from the solution of a moment ago to that of now.
@@ -109,7 +116,17 @@ impl<'a> Newton<'a> {
             return Ok(());
         }
         temperatures.copy_from_slice(&start);
-        let solved = self.solve(work, temperatures);
+        let mut solved = self.solve(work, temperatures);
+        if self.guarded {
+            solved = match solved {
+                Ok(()) => self.stays(work, &start, temperatures),
+                // at the end of a branch there is no solution nearby, and none may have been found elsewhere
+                Err(NewtonError::Stalled { unknown, .. } | NewtonError::Singular { unknown }) => {
+                    Err(NewtonError::Fold { unknown })
+                }
+                other => other,
+            };
+        }
         if solved.is_err() {
             temperatures.copy_from_slice(&start); // the next search begins where one succeeded
         }
@@ -155,7 +172,11 @@ impl<'a> Newton<'a> {
         }
     }
 
-    fn damped(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> Result<(), NewtonError> {
+    pub(crate) fn damped(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &mut [f64],
+    ) -> Result<(), NewtonError> {
         let mut state = (0, f64::INFINITY);
         for _ in 0..ITERATIONS {
             self.factorize(work, temperatures, 0.0)?;
@@ -274,6 +295,21 @@ impl<'a> Newton<'a> {
         Err(NewtonError::Stalled { unknown: self.free[change.0], change: change.1 })
     }
 
+    /// Takes `-J` into the values.
+    pub(crate) fn linearize(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &[f64],
+    ) -> Result<(), NewtonError> {
+        self.ready = false;
+        let jacobian = self.system.jacobian_at(work, temperatures, Form::Exact, &mut self.whole);
+        jacobian.map_err(NewtonError::Input)?;
+        for (value, &slot) in self.values.iter_mut().zip(&self.slots) {
+            *value = -self.whole[slot];
+        }
+        Ok(())
+    }
+
     /// Factorises `-J`, with `inertia` times the size of its diagonal added.
     pub(crate) fn factorize(
         &mut self,
@@ -281,15 +317,10 @@ impl<'a> Newton<'a> {
         temperatures: &[f64],
         inertia: f64,
     ) -> Result<(), NewtonError> {
-        let jacobian = self.system.jacobian_at(work, temperatures, Form::Exact, &mut self.whole);
-        jacobian.map_err(NewtonError::Input)?;
-        for (value, &slot) in self.values.iter_mut().zip(&self.slots) {
-            *value = -self.whole[slot];
-        }
+        self.linearize(work, temperatures)?;
         for &slot in self.pattern.diagonal() {
             self.values[slot] += inertia * self.values[slot].abs();
         }
-        self.ready = false;
         // a balance without a single term says more than the pivot at which elimination ended
         let is_empty = |&slot: &usize| self.values[slot].abs() < f64::MIN_POSITIVE;
         let empty = self.pattern.diagonal().iter().position(is_empty);
@@ -307,7 +338,11 @@ impl<'a> Newton<'a> {
     }
 
     /// The correction of the free unknowns, in K, with the factors at hand.
-    fn correction(&mut self, work: &mut Workspace, temperatures: &[f64]) -> Result<Vec<f64>, NewtonError> {
+    pub(crate) fn correction(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &[f64],
+    ) -> Result<Vec<f64>, NewtonError> {
         self.system.flow(work, temperatures, &mut self.flow).map_err(NewtonError::Input)?;
         let mut correction: Vec<f64> = self.free.iter().map(|&i| self.flow[i]).collect();
         self.factors.solve_in_place(&mut correction).map_err(NewtonError::Factorization)?;
@@ -319,12 +354,12 @@ impl<'a> Newton<'a> {
         self.free.iter().map(|&i| self.flow[i].abs()).fold(0.0, f64::max)
     }
 
-    fn apply(&self, correction: &[f64], share: f64, temperatures: &mut [f64]) {
+    pub(crate) fn apply(&self, correction: &[f64], share: f64, temperatures: &mut [f64]) {
         self.free.iter().zip(correction).for_each(|(&i, dt)| temperatures[i] += share * dt);
     }
 }
 
-fn largest(values: &[f64]) -> f64 {
+pub(crate) fn largest(values: &[f64]) -> f64 {
     worst(values).1
 }
 

@@ -22,6 +22,11 @@ pub(crate) struct Readings {
 }
 
 impl Readings {
+    /// For a run whose results nobody reads.
+    pub(crate) fn none(segment: Segment) -> Self {
+        Self { ends: vec![segment.from, segment.to], limits: Vec::new(), windows: Vec::new() }
+    }
+
     /// For a run of these segments and rows, with these windows.
     pub(crate) fn new(
         network: &Network,

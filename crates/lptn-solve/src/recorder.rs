@@ -65,6 +65,13 @@ pub(crate) struct Recorder<'a> {
     tolerance: f64,
     /// How many steps under curved inputs the network remembers.
     pub(crate) remembered: f64,
+    /// Where the massless nodes of several solutions stood when the present step began, in K: every row of the step is
+    /// found from there, whatever else is looked at.
+    branch: Vec<f64>,
+    /// And where they stand when it ends.
+    branch_ahead: Vec<f64>,
+    /// Whether nothing is to be written or looked at.
+    pub(crate) idle: bool,
 }
 
 impl<'a> Recorder<'a> {
@@ -112,6 +119,9 @@ impl<'a> Recorder<'a> {
             unfold,
             tolerance: settings.tolerance,
             remembered: 0.0,
+            branch: Vec::new(),
+            branch_ahead: Vec::new(),
+            idle: false,
         })
     }
 
@@ -136,11 +146,28 @@ impl<'a> Recorder<'a> {
     pub(crate) fn enter(&mut self, segment: Segment, positions: Option<&Positions>) {
         self.segment = segment;
         self.windows.iter_mut().for_each(Tracked::jump);
+        self.unfold.may_leap();
         if let Some(positions) = positions {
             self.work.set_positions(positions);
             let known = self.positions.last() == Some(positions);
             self.positions.extend((!known).then(|| positions.clone()));
         }
+    }
+
+    /// Says where the massless nodes of several solutions stand now, in K.
+    pub(crate) fn set_branch(&mut self, branch: Vec<f64>) {
+        self.branch.clone_from(&branch);
+        self.branch_ahead = branch;
+    }
+
+    /// Says where they stand at the end of the step that is to be written, in K.
+    pub(crate) fn set_branch_ahead(&mut self, branch: Vec<f64>) {
+        self.branch_ahead = branch;
+    }
+
+    /// As they were said last.
+    pub(crate) fn branch(&self) -> &[f64] {
+        &self.branch
     }
 
     /// Ends the segment here: a row at this time is left to what follows.
@@ -155,6 +182,9 @@ impl<'a> Recorder<'a> {
 
     /// Writes the row at the start of the segment, if there is one, and starts to watch.
     pub(crate) fn start(&mut self, state: &[f64], sensitivities: &[f64]) -> Result<(), StopReason> {
+        if self.idle {
+            return Ok(());
+        }
         let from = self.segment.from;
         self.inside = self.readings.inside(from);
         self.state.copy_from_slice(state);
@@ -198,6 +228,9 @@ impl<'a> Recorder<'a> {
         from: f64,
         to: f64,
     ) -> Result<(), StopReason> {
+        if self.idle {
+            return Ok(());
+        }
         while self.due(to) && (self.rows[self.next] < self.segment.to || self.is_last()) {
             let time = self.rows[self.next];
             self.inside = self.readings.inside(time);
@@ -309,9 +342,19 @@ impl<'a> Recorder<'a> {
     /// Brings the workspace to `time` and the temperatures in `state`.
     fn place(&mut self, time: f64) -> Result<(), StopReason> {
         self.system.read_inputs(&mut self.work, time, self.inside).map_err(StopReason::Input)?;
-        let unfolded = self.unfold.temperatures(&mut self.work, &self.state);
-        let temperatures = unfolded.map_err(|e| StopReason::Unsolved(Unsolved::new(self.system, e)))?;
-        self.system.recover(&mut self.work, temperatures);
+        if !self.branch.is_empty() {
+            self.unfold.seed(&self.branch);
+        }
+        let mut failed = self.unfold.temperatures(&mut self.work, &self.state).err();
+        if failed.is_some() && !self.branch_ahead.is_empty() {
+            // near the end of a branch it is the nearer of the two that leads there
+            self.unfold.seed(&self.branch_ahead);
+            failed = self.unfold.temperatures(&mut self.work, &self.state).err();
+        }
+        if let Some(error) = failed {
+            return Err(StopReason::Unsolved(Unsolved::new(self.system, error)));
+        }
+        self.system.recover(&mut self.work, self.unfold.last());
         Ok(())
     }
 

@@ -51,7 +51,7 @@ impl Newton<'_> {
     }
 
     /// The place that shows that the values are no M-matrix; `None` if they are one. `new`: they are not factorised yet.
-    fn runs_away(&mut self, new: bool) -> Option<usize> {
+    pub(crate) fn runs_away(&mut self, new: bool) -> Option<usize> {
         let diagonal = self.pattern.diagonal();
         if let Some(place) = diagonal.iter().position(|&slot| self.values[slot] <= 0.0) {
             return Some(place);

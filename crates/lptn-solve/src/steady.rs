@@ -10,6 +10,7 @@ use crate::error::SteadyError;
 use crate::events::find_consistent;
 use crate::newton::{Newton, NewtonError, SMALL};
 use crate::quantity::Quantity;
+use crate::transient::rest;
 use crate::unsolved::Unsolved;
 
 /// The temperatures at which nothing is stored any more.
@@ -35,7 +36,27 @@ pub struct SteadyState {
     pub positions: Positions,
     /// The nodes that no path leads from to a boundary: their temperatures follow from the energy at their start.
     pub adiabatic: Vec<NodeId>,
+    /// What is known of other steady states with the same inputs.
+    pub others: Others,
 }
+
+/// What is known of other steady states than the one that was found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Others {
+    /// There is none, or none was met: this is where the network comes to from its start.
+    #[default]
+    None,
+    /// There is at least this one, temperatures of the nodes in K; from its start the network does not come there.
+    At(Vec<f64>),
+    /// There may be others, and the network could not be followed from its start to this one.
+    NotKnown,
+}
+
+/// How far from where the network was left it may come to rest, in K.
+const MOVED: f64 = 0.01;
+
+/// Two steady states that differ by less, in K, are one.
+const SAME: f64 = 1e-5;
 
 /// How far heat in and heat out of a steady state may differ, relative to the heat turned over.
 const BALANCE: f64 = 1e-9;
@@ -44,13 +65,48 @@ impl SteadyState {
     /// Solves `G T = q` with the inputs as they are at `time` in s. Where something switches, a state is sought in
     /// which nothing has to, from the positions at the start on; dwell times do not matter.
     ///
+    /// Unless the form of the network tells that there is one steady state at most, the network is followed from its start,
+    /// and the state is the one that it comes to: see [`SteadyState::others`].
+    ///
     /// # Errors
     /// [`SteadyError`], in particular for nodes without a path to a boundary, and for networks that cycle.
     pub fn solve(system: &ThermalSystem, time: f64) -> Result<Self, SteadyError> {
-        match system.network().has_events() {
+        let switches = system.network().has_events();
+        let found = match switches {
             true => find_consistent(system, time),
             false => Self::with_positions(system, time, &Positions::default()),
+        };
+        let decided = matches!(
+            found,
+            Err(SteadyError::NoBoundary { .. } | SteadyError::Input(_) | SteadyError::Cycles { .. })
+        );
+        let unique = !switches && system.is_monotone();
+        if decided || unique || system.states().is_empty() {
+            return found;
         }
+        match (found, Self::reached(system, time)) {
+            (Ok(found), None) => Ok(Self { others: Others::NotKnown, ..found }),
+            (Err(error), None) => Err(error),
+            (Ok(found), Some(reached)) if found.is_near(&reached) => Ok(found),
+            (Ok(found), Some(reached)) => Ok(Self { others: Others::At(found.temperatures), ..reached }),
+            (Err(_), Some(reached)) => Ok(reached),
+        }
+    }
+
+    /// The steady state that the network comes to from its start, if it could be followed there.
+    fn reached(system: &ThermalSystem, time: f64) -> Option<Self> {
+        let rest = rest(system, time)?;
+        let steady = Self::from_start(system, time, &rest.positions, Some(&rest.temperatures)).ok()?;
+        let mut unknowns = vec![0.0; rest.temperatures.len()];
+        system.unknown_temperatures(&steady.temperatures, &mut unknowns);
+        let moved = unknowns.iter().zip(&rest.temperatures).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        (moved <= MOVED).then_some(steady)
+    }
+
+    /// Whether it is the same state but for rounding.
+    fn is_near(&self, other: &Self) -> bool {
+        let pairs = self.temperatures.iter().zip(&other.temperatures);
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) <= SAME
     }
 
     /// The steady state with these positions, whether or not something has to switch there.
@@ -62,6 +118,16 @@ impl SteadyState {
         time: f64,
         positions: &Positions,
     ) -> Result<Self, SteadyError> {
+        Self::from_start(system, time, positions, None)
+    }
+
+    /// The same, sought from these temperatures of the unknowns in K in place of those at the start.
+    fn from_start(
+        system: &ThermalSystem,
+        time: f64,
+        positions: &Positions,
+        start: Option<&[f64]>,
+    ) -> Result<Self, SteadyError> {
         let network = system.network();
         let mut work = system.workspace();
         if network.has_events() {
@@ -72,7 +138,7 @@ impl SteadyState {
         let unknowns = if system.is_linear() && islands.is_empty() {
             states(system, &work).map_err(SteadyError::Factorization)?
         } else {
-            balanced(system, &mut work, &islands)?
+            balanced(system, &mut work, &islands, start)?
         };
         system.recover(&mut work, &unknowns);
         let mut steady = Self::from_workspace(system, &mut work, &unknowns).map_err(SteadyError::Input)?;
@@ -112,6 +178,7 @@ impl SteadyState {
             time: 0.0,
             positions: Positions::default(),
             adiabatic: Vec::new(),
+            others: Others::None,
         })
     }
 
@@ -211,8 +278,9 @@ fn balanced(
     system: &ThermalSystem,
     work: &mut Workspace,
     islands: &[Island],
+    from: Option<&[f64]>,
 ) -> Result<Vec<f64>, SteadyError> {
-    let mut temperatures = start(system, work);
+    let mut temperatures = from.map_or_else(|| start(system, work), <[f64]>::to_vec);
     if islands.is_empty() {
         let all = (0..temperatures.len()).collect();
         let unsolved = |error| SteadyError::Unsolved(Unsolved::new(system, error));

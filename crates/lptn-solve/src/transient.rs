@@ -1,5 +1,8 @@
 //! Temperatures over time.
 
+mod fold;
+mod rest;
+
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::{FactorError, IntegrateError, Integrator, Statistics, Step};
 
@@ -19,6 +22,8 @@ use crate::stateless;
 use crate::tangent::Tangent;
 use crate::times::{Segment, check_resolution, segments, snap};
 use crate::unsolved::Unsolved;
+
+pub(crate) use rest::rest;
 
 impl Transient {
     /// Runs to the stop.
@@ -63,13 +68,14 @@ impl Transient {
         snap(&mut breakpoints, &rows, (self.start, self.stop));
         breakpoints.dedup();
         let segments = segments(self.start, self.stop, &breakpoints);
+        let curved = Curved::of(system, &segments, &rows);
         let readings =
             Readings::new(network, &segments, &rows, &self.windows).map_err(TransientError::Input)?;
         let recorder = Recorder::new(system, (rows, readings), self)?;
         if system.states().is_empty() {
             return stateless::solve(recorder, &segments, &Books::new(network, self.balance));
         }
-        Run::new(recorder, &segments, self, from)?.through(&segments, observer)
+        Run::new(recorder, (segments[0], curved), self, from)?.through(&segments, observer)
     }
 }
 
@@ -86,7 +92,7 @@ enum Break {
 }
 
 /// A run under way.
-struct Run<'a> {
+pub(crate) struct Run<'a> {
     integrator: Integrator<Heat<'a>>,
     recorder: Recorder<'a>,
     initial: Vec<f64>,
@@ -100,12 +106,16 @@ struct Run<'a> {
     switching: Option<Switching<'a>>,
     /// Steps in a row that were refused before they became so short that they lead nowhere.
     crawled: usize,
+    /// Failed steps in a row in front of a fold.
+    stuck: usize,
+    /// The last time in s and state at which massless nodes of several solutions were seen to stay.
+    stood: Option<(f64, Vec<f64>)>,
 }
 
 impl<'a> Run<'a> {
     fn new(
         mut recorder: Recorder<'a>,
-        segments: &[Segment],
+        (first, curved): (Segment, Option<Curved>),
         settings: &Transient,
         from: &State,
     ) -> Result<Self, TransientError> {
@@ -113,14 +123,13 @@ impl<'a> Run<'a> {
         let initial = from.carried().to_vec();
         let books = Books::new(system.network(), settings.balance);
         let unsolved = |e| TransientError::Start(Unsolved::new(system, e));
-        let mut heat = Heat::new(system, segments[0].inside(), books.clone()).map_err(unsolved)?;
+        let mut heat = Heat::new(system, first.inside(), books.clone()).map_err(unsolved)?;
         let mut carried = Vec::new();
         if !settings.sensitivities.is_empty() {
             let tangent = Tangent::new(system, &settings.sensitivities)?;
             let own_start = *from == State::initial(system);
             carried = heat.follow(tangent, (settings.start, &initial, own_start)).map_err(unsolved)?;
         }
-        let curved = Curved::of(system, segments, recorder.rows());
         recorder.remembered = curved.as_ref().map_or(0.0, |c| c.remembered);
         let switching = system
             .network()
@@ -133,8 +142,19 @@ impl<'a> Run<'a> {
             integrator.set_sensitivities(&carried).map_err(TransientError::Integrator)?;
         }
         let tolerance = settings.tolerance;
-        let due = Vec::new();
-        Ok(Self { integrator, recorder, initial, books, tolerance, due, switching, curved, crawled: 0 })
+        Ok(Self {
+            integrator,
+            recorder,
+            initial,
+            books,
+            tolerance,
+            due: Vec::new(),
+            switching,
+            curved,
+            crawled: 0,
+            stuck: 0,
+            stood: None,
+        })
     }
 
     fn through(
@@ -167,13 +187,7 @@ impl<'a> Run<'a> {
         first: bool,
         observer: &mut dyn FnMut(Progress) -> Control,
     ) -> Result<(), Break> {
-        self.integrator.system_mut().segment = segment.inside();
-        let due = std::mem::take(&mut self.due);
-        self.switch(&due, first)?;
-        if !first {
-            self.integrator.restart(None).map_err(|e| self.failed(e))?;
-        }
-        self.enter(segment)?;
+        self.begin(segment, first)?;
         while self.integrator.time() < segment.to {
             self.step(segment)?;
             let (start, stop) = self.recorder.span();
@@ -184,8 +198,20 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Goes over to the inputs of a segment.
+    fn begin(&mut self, segment: Segment, first: bool) -> Result<(), Break> {
+        self.integrator.system_mut().enter(segment.inside());
+        let due = std::mem::take(&mut self.due);
+        self.switch(&due, first)?;
+        if !first {
+            self.integrator.restart(None).map_err(|e| self.failed(e))?;
+        }
+        self.enter(segment)
+    }
+
     /// Enters a segment, or what an event left of it.
     fn enter(&mut self, segment: Segment) -> Result<(), Break> {
+        self.stand()?;
         self.recorder.enter(segment, self.switching.as_ref().map(|switching| &switching.positions));
         let sensitivities = self.integrator.sensitivities().map(<[f64]>::to_vec);
         let sensitivities = sensitivities.map_err(|e| self.failed(e))?;
@@ -199,9 +225,17 @@ impl<'a> Run<'a> {
         if let Some(curved) = &self.curved {
             self.integrator.set_longest_step(curved.longest(self.integrator.time()));
         }
-        let step = self.integrator.step().map_err(|e| self.failed(e))?;
+        let step = match self.integrator.step() {
+            Ok(step) => step,
+            Err(error) => return self.leap_or_fail(segment, error),
+        };
+        self.stuck = 0;
         self.check_crawl(step.to - step.from)?;
-        let (due, to) = self.crossings(&step)?;
+        let (mut due, crossed) = self.crossings(&step)?;
+        let to = self.reaches(step.from, crossed)?;
+        if to < crossed {
+            due.clear();
+        }
         if !due.is_empty() {
             self.recorder.cut(to);
         }
@@ -220,9 +254,9 @@ impl<'a> Run<'a> {
         let happens = !due.is_empty() || to >= armed;
         if happens && (self.switch(&due, false)? || !due.is_empty()) {
             self.integrator.restart(None).map_err(|e| self.failed(e))?;
-            self.enter(Segment { from: to, to: segment.to })?;
+            return self.enter(Segment { from: to, to: segment.to });
         }
-        Ok(())
+        self.stand_or_leap(segment)
     }
 
     /// What has to switch inside a step or at its end, and when that is.
@@ -254,6 +288,7 @@ impl<'a> Run<'a> {
     fn check_crawl(&mut self, step: f64) -> Result<(), Break> {
         let (start, stop) = self.recorder.span();
         let refused = self.integrator.system_mut().refused.take();
+        let refused = refused.filter(|failure| !matches!(failure, NewtonError::Fold { .. }));
         if step >= CRAWL * (stop - start) {
             self.crawled = 0;
             return Ok(());

@@ -19,6 +19,8 @@ pub(crate) struct Unfold<'a> {
     temperatures: Vec<f64>,
     /// Derivative of the temperature of every unknown by what is carried for it.
     slopes: Vec<f64>,
+    /// Whether the algebraic unknowns may leap to another solution at the next look, because what they depend on has.
+    leaps: bool,
 }
 
 /// A capacity of which nothing is left to tell: melting at one temperature.
@@ -33,15 +35,16 @@ impl<'a> Unfold<'a> {
             .enumerate()
             .filter_map(|(i, &id)| Some((i, network.enthalpy(id)?, network.initial(id))));
         let count = system.unknowns().len();
-        let algebraic = match states.len() {
+        let mut algebraic = match states.len() {
             n if n == count => None,
             n => Some(Newton::new(system, (n..count).collect())?),
         };
+        algebraic.iter_mut().for_each(|newton| newton.guarded = !system.is_monotone());
         let mut temperatures = system.initial();
         let mean = guess(system);
         temperatures.resize(count, mean);
         let contents = contents.collect();
-        Ok(Self { system, contents, algebraic, temperatures, slopes: vec![1.0; count] })
+        Ok(Self { system, contents, algebraic, temperatures, slopes: vec![1.0; count], leaps: true })
     }
 
     /// Whether what is carried is not the temperature somewhere.
@@ -76,9 +79,42 @@ impl<'a> Unfold<'a> {
             self.slopes[*state] = (capacity / content.capacity).max(LEAST_SLOPE);
         }
         if let Some(newton) = &mut self.algebraic {
-            newton.follow(work, &mut self.temperatures)?;
+            match std::mem::take(&mut self.leaps) && newton.guarded {
+                true => newton.leap(work, &mut self.temperatures)?,
+                false => newton.follow(work, &mut self.temperatures)?,
+            }
         }
         Ok(&self.temperatures)
+    }
+
+    /// Whether algebraic unknowns may have several solutions, so that it matters which one is followed.
+    pub(crate) fn is_guarded(&self) -> bool {
+        self.algebraic.as_ref().is_some_and(|newton| newton.guarded)
+    }
+
+    /// Lets the algebraic unknowns leap at the next look: inputs or positions have.
+    pub(crate) fn may_leap(&mut self) {
+        self.leaps = true;
+    }
+
+    /// Temperatures of the algebraic unknowns in K, as last unfolded.
+    pub(crate) fn algebraic(&self) -> &[f64] {
+        &self.temperatures[self.system.states().len()..]
+    }
+
+    /// Begins the next look at these temperatures of the algebraic unknowns.
+    pub(crate) fn seed(&mut self, algebraic: &[f64]) {
+        let states = self.system.states().len();
+        self.temperatures[states..].copy_from_slice(algebraic);
+        self.leaps = false;
+    }
+
+    /// Refuses the solution last found if it is not on one branch with these temperatures of the algebraic unknowns.
+    pub(crate) fn stays(&mut self, work: &mut Workspace, from: &[f64]) -> Result<(), NewtonError> {
+        let Some(newton) = &mut self.algebraic else { return Ok(()) };
+        let mut start = self.temperatures.clone();
+        start[self.system.states().len()..].copy_from_slice(from);
+        newton.stays(work, &start, &self.temperatures)
     }
 }
 

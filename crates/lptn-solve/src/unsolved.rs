@@ -29,6 +29,9 @@ pub enum UnsolvedReason {
     Factorization(FactorError),
     /// Heat in and out are equal at the temperatures found, but the least disturbance leads away from them.
     Unstable,
+    /// Heat in and out were equal at temperatures that end here: they are equal elsewhere only, and without a capacity
+    /// nothing says how the node gets there.
+    Fold,
     /// No temperatures were found at which heat in and heat out are equal.
     NotFound {
         /// By how much the node still moved, in K.
@@ -46,6 +49,7 @@ impl Unsolved {
             NewtonError::Input(error) => (error.name.clone(), UnsolvedReason::Input(error)),
             NewtonError::Singular { unknown } => (name(unknown), UnsolvedReason::Undetermined),
             NewtonError::Unstable { unknown } => (name(unknown), UnsolvedReason::Unstable),
+            NewtonError::Fold { unknown } => (name(unknown), UnsolvedReason::Fold),
             NewtonError::Factorization(error) => (String::new(), UnsolvedReason::Factorization(error)),
             NewtonError::Stalled { unknown, change } => (name(unknown), UnsolvedReason::NotFound { change }),
         };
@@ -60,6 +64,7 @@ impl Unsolved {
             UnsolvedReason::Factorization(_) => "solve::singular",
             UnsolvedReason::NotFound { .. } => "solve::not_found",
             UnsolvedReason::Unstable => "solve::unstable",
+            UnsolvedReason::Fold => "solve::fold",
         }
     }
 
@@ -77,6 +82,10 @@ impl Unsolved {
             UnsolvedReason::Input(error) => error.problem.help(),
             UnsolvedReason::Undetermined => Some(format!(
                 "let a path lead from `{}` to a boundary at all times; with capacities `lptn run` follows it meanwhile",
+                self.node
+            )),
+            UnsolvedReason::Fold => Some(format!(
+                "give `{}` a small capacity in place of `massless = true`, such as `C = \"1 mJ/K\"`, and a `T0`",
                 self.node
             )),
             UnsolvedReason::Factorization(_) => None,
@@ -103,6 +112,11 @@ impl fmt::Display for Unsolved {
             UnsolvedReason::Unstable => write!(
                 f,
                 "the only steady state that was found is unstable: from the least disturbance on `{node}` runs away"
+            ),
+            UnsolvedReason::Fold => write!(
+                f,
+                "the balance of the massless node `{node}` has more than one solution, and the one that it had so far \
+                 ends here: it jumps, and where to is not known"
             ),
             UnsolvedReason::NotFound { change } => write!(
                 f,

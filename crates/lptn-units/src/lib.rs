@@ -46,7 +46,7 @@ pub use dual::Dual;
 pub use error::{UnitError, UnitErrorKind};
 pub use expr::{
     Comparison, Degree, EvalError, Expression, Program, RESERVED, Scope, SlotKind, Split, Symbol, TableCall,
-    is_function,
+    Trend, is_function,
 };
 pub use format::number as format_number;
 pub use quantity::{Quantity, WrittenQuantity, kelvin_alone, parse_quantity, written_quantity};

@@ -5,7 +5,9 @@
 mod common;
 
 use common::{Names, program, run, values};
-use lptn_units::{Comparison, Degree, Dimension, Dual, EvalError, Expression, Program, SlotKind, Type};
+use lptn_units::{
+    Comparison, Degree, Dimension, Dual, EvalError, Expression, Program, SlotKind, Trend, Type,
+};
 
 const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
 const ABSOLUTE: Type = Type::ABSOLUTE_TEMPERATURE;
@@ -187,4 +189,25 @@ fn parts_that_read_no_temperature_are_found_wherever_they_stand() {
     assert_eq!(split("sin(n * (kelvin(T) - (350 [K])) / (1 [K]) + x)"), (vec![3.0, 2.0], true));
     assert_eq!(split("1 / (1 + x * kelvin(T) / (1 [K]))"), (vec![2.0], true));
     assert_eq!(split("kelvin(T) + P / (1 [W/K])"), (vec![], false));
+}
+
+/// Of a film coefficient over the magnitude of x: what rises surely is told from what may fall.
+#[test]
+fn trends_are_told_only_where_they_are_sure() {
+    let trend = |text: &str| {
+        program(text).trend(&|slot| if slot == 0 { Trend::SIGNED } else { Trend::constant(3.0) })
+    };
+    let rising =
+        ["1.6 * abs(x)^0.25 + n", "2 + x^2", "max(5, abs(x))", "1 - 0.5 * exp(-abs(x))", "abs(2 * x) / n"];
+    for text in rising {
+        let found = trend(text);
+        assert!(found.rises && !found.falls && found.low >= 0.0, "{text}: {found:?}");
+    }
+    let others =
+        ["x", "1 + x", "5 - abs(x)", "abs(x) * exp(-abs(x))", "n / (1 + abs(x))", "if(x < 2, 1, abs(x))"];
+    for text in others {
+        let found = trend(text);
+        assert!(!(found.rises && found.low >= 0.0), "{text}: {found:?}");
+    }
+    assert!(trend("n / (1 + abs(x))").falls && trend("n * 2 - 1").is_held());
 }

@@ -133,7 +133,8 @@ impl Candidate {
     /// a limit of a temperature.
     pub fn worst(&self) -> Option<&LimitResult> {
         let of = |severity| {
-            let limits = self.limits.iter().filter(move |l| l.is_temperature() && l.severity == severity);
+            let judged = self.limits.iter().filter(|l| !l.is_open());
+            let limits = judged.filter(move |l| l.is_temperature() && l.severity == severity);
             limits.min_by(|a, b| a.margin.total_cmp(&b.margin))
         };
         of(Severity::Error).or_else(|| of(Severity::Warning))
@@ -142,13 +143,19 @@ impl Candidate {
     fn in_steady_state(system: &ThermalSystem) -> Result<Self, CompareError> {
         let network = system.network();
         let steady = SteadyState::solve(system, 0.0).map_err(CompareError::Steady)?;
-        let margins = steady.limit_margins(network, 0.0).map_err(CompareError::Input)?;
+        let mut margins = steady.limit_margins(network, 0.0).map_err(CompareError::Input)?;
+        for (limit, margin) in network.limits().iter().zip(&mut margins) {
+            if !network.changing_inputs_of(&[&limit.of, &limit.value]).is_empty() {
+                *margin = f64::NAN;
+            }
+        }
+        let constant = network.changing_inputs().is_empty();
         let hottest = hottest(network.node_ids().zip(steady.temperatures.iter().copied()));
         let temperature = hottest.map(|(_, temperature)| temperature);
         Ok(Self {
             hottest: hottest.map(|(id, _)| network.nodes()[id.index()].name.clone()),
             peak: temperature.map(|temperature| Peak { temperature, at: None }),
-            steady: temperature,
+            steady: temperature.filter(|_| constant),
             time_to_95: None,
             limits: limits::in_steady_state(network, &margins),
             shares: shares(network, &steady.boundary_heat),
@@ -164,7 +171,7 @@ impl Candidate {
         observer: &mut dyn FnMut(Progress) -> Control,
     ) -> Result<Self, CompareError> {
         let network = system.network();
-        let constant = !network.has_time_dependent_inputs();
+        let constant = network.changing_inputs().is_empty();
         let steady = if constant { SteadyState::solve(system, run.start).ok() } else { None };
         let transient = transient(system, run, steady.as_ref())?;
         let solution = transient.solve_observed(system, observer);

@@ -13,13 +13,19 @@ pub struct LimitResult {
     pub ty: Type,
     /// What it means if it is broken.
     pub severity: Severity,
-    /// The least margin, in SI units: positive while the limit is kept.
+    /// The least margin, in SI units: positive while the limit is kept; NaN where it is not judged, since it depends on
+    /// inputs that change with time and was looked at in steady state only.
     pub margin: f64,
     /// When it is first broken, in s; `None` if it is kept, or was looked at in steady state only.
     pub broken_at: Option<f64>,
 }
 
 impl LimitResult {
+    /// Whether it is neither kept nor broken, because it was not judged.
+    pub fn is_open(&self) -> bool {
+        self.margin.is_nan()
+    }
+
     /// Whether it is broken.
     pub fn broken(&self) -> bool {
         self.margin < 0.0

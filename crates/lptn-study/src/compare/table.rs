@@ -24,7 +24,8 @@ impl CompareRow {
         self.outcome.as_ref().ok()
     }
 
-    /// `none` without limits, `kept`, `warning` where only limits of that severity are broken, `broken`, or the code of the problem.
+    /// `none` without limits, `kept`, `warning` where only limits of that severity are broken, `broken`, `not judged`
+    /// where inputs change with time and there is no run, or the code of the problem.
     pub fn status(&self) -> &str {
         let candidate = match &self.outcome {
             Ok(candidate) => candidate,
@@ -35,6 +36,7 @@ impl CompareRow {
             (true, _) => "broken",
             (false, true) => "warning",
             (false, false) if candidate.limits.is_empty() => "none",
+            (false, false) if candidate.limits.iter().any(LimitResult::is_open) => "not judged",
             (false, false) => "kept",
         }
     }

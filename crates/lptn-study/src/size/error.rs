@@ -3,7 +3,7 @@
 use std::fmt;
 
 use lptn_assembly::AssemblyError;
-use lptn_network::BuildErrors;
+use lptn_network::{BuildErrors, Changing};
 use lptn_solve::SteadyError;
 use lptn_units::EvalError;
 
@@ -19,6 +19,8 @@ pub enum SizeError {
     },
     /// Nothing is required.
     NoRequirement,
+    /// What is required depends on inputs that change with time: there is no one steady state to judge. At least one.
+    Changing(Vec<Changing>),
     /// The network does not exist for a value inside the range.
     Network {
         /// The value in SI units.
@@ -50,6 +52,7 @@ impl SizeError {
         match self {
             Self::Range { .. } => "size::range",
             Self::NoRequirement => "size::no_requirement",
+            Self::Changing(_) => "size::inputs_change",
             Self::Network { .. } => "size::network",
             Self::Assembly(error) => error.code(),
             Self::Steady { error, .. } => error.code(),
@@ -65,6 +68,10 @@ impl fmt::Display for SizeError {
                 write!(f, "the range has to begin before it ends, got {from} to {to}")
             }
             Self::NoRequirement => f.write_str("nothing is required, so nothing can be sized"),
+            Self::Changing(_) => f.write_str(
+                "what is required depends on inputs that change with time, and a steady state knows only one moment of \
+                 them",
+            ),
             Self::Network { value, errors } => write!(f, "there is no network at {value}: {errors}"),
             Self::Assembly(error) => error.fmt(f),
             Self::Steady { value, error } => write!(f, "there is no steady state at {value}: {error}"),

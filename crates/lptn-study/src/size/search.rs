@@ -4,7 +4,8 @@
 //! found and one that breaks again behind the answer is told. Then the border nearest to the best end is
 //! narrowed to neighbouring numbers, with the full network at every step.
 
-use lptn_netlist::Goal;
+use lptn_netlist::{Goal, Requirement};
+use lptn_network::Value;
 
 use crate::size::error::SizeError;
 use crate::size::root::{last_kept, norton_guess};
@@ -77,6 +78,11 @@ pub fn size(task: &SizeTask<'_>) -> Result<Sizing, SizeError> {
     }
     if task.requirements.is_empty() {
         return Err(SizeError::NoRequirement);
+    }
+    let required: Vec<&Value> = task.requirements.iter().flat_map(Requirement::sides).collect();
+    let changing = task.network.changing_inputs_of(&required);
+    if !changing.is_empty() {
+        return Err(SizeError::Changing(changing));
     }
     let trials = Trials::new(task);
     let scan = places(task).map(|value| trials.at(value)).collect::<Result<Vec<_>, _>>()?;

@@ -18,6 +18,7 @@ mod parts;
 mod program;
 mod split;
 mod tree;
+mod trend;
 
 use std::ops::Range;
 
@@ -34,6 +35,7 @@ pub use function::is_function;
 pub use program::{Program, TableCall};
 pub use split::{SlotKind, Split};
 pub use tree::Comparison;
+pub use trend::Trend;
 
 /// Names with a meaning of their own, which no parameter, signal, control or table may take: the time `t`, `pi`,
 /// the temperatures of the element at hand, and all functions.

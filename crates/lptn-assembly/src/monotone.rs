@@ -1,0 +1,49 @@
+//! Whether balances have one solution at most, as far as the form of the network tells.
+
+use lptn_network::{ConductorKind, End, Flow, Network};
+
+use crate::system::ThermalSystem;
+
+/// By how much more than enters a node may leave it, relative, and still be the same stream.
+const SAME: f64 = 1e-12;
+
+impl ThermalSystem {
+    /// Whether its flow is known to be monotone: with inputs and the positions of controls held, warming one node never
+    /// cools another, and takes from the node itself at least the heat that the others receive. All temperatures that
+    /// balance, of the whole network or of some nodes with the others held, are then the only ones: the negative Jacobian
+    /// is an M-matrix everywhere, hence a P-matrix, and a map whose Jacobian is that on a rectangle takes no value twice
+    /// (D. Gale and H. Nikaido, Math. Annalen 159 (1965) 81, theorem 4).
+    ///
+    /// Known are constant conductances and exchange areas, film coefficients that rise with `|dT|`, heat that falls with
+    /// the temperature of its own node, and constant streams of which no node gives more than it gets. `false` for
+    /// everything else, and where a balance really has several solutions.
+    pub fn is_monotone(&self) -> bool {
+        self.is_linear() || elements_are_monotone(self.network())
+    }
+}
+
+fn elements_are_monotone(network: &Network) -> bool {
+    let sources = network.source_ids().all(|id| {
+        let reads = network.source_variables(id);
+        reads.is_empty() || network.source_falls(id)
+    });
+    let mut gets = vec![(0.0, 0.0); network.nodes().len()];
+    let mut conductor = |(conductor, id): (&lptn_network::Conductor, _)| match network.flow(id) {
+        Flow::Conductance(_) | Flow::Radiation(_) => true,
+        Flow::Stream(rate) => {
+            let (from, to) =
+                if rate < 0.0 { (conductor.to, conductor.from) } else { (conductor.from, conductor.to) };
+            if let End::Node(node) = from {
+                gets[node.index()].1 += rate.abs();
+            }
+            if let End::Node(node) = to {
+                gets[node.index()].0 += rate.abs();
+            }
+            true
+        }
+        Flow::Variable => conductor.kind != ConductorKind::Advection && network.heat_rises(id),
+    };
+    sources
+        && network.conductors().iter().zip(network.conductor_ids()).all(&mut conductor)
+        && gets.into_iter().all(|(inward, outward)| outward <= inward * (1.0 + SAME))
+}

@@ -1,0 +1,94 @@
+//! Which heat flows surely go one way with temperature, from the form of their laws.
+
+use lptn_units::Trend;
+
+use crate::element::Conductor;
+use crate::id::{ConductorId, End, SourceId};
+use crate::law::Law;
+use crate::layout::{Holds, slot};
+use crate::network::Network;
+use crate::value::Value;
+
+impl Network {
+    /// Whether the heat that a conductor carries is known to rise with the temperature of its first end and to fall with
+    /// that of its second, whatever the temperatures: so does that of radiation, and of a film coefficient that rises with
+    /// the magnitude of `dT`. `false` where that is not known, and for a stream.
+    pub fn heat_rises(&self, id: ConductorId) -> bool {
+        let conductor = &self.conductors()[id.index()];
+        let depends = self.parts.dependence(id);
+        if depends.vertices.len() > 2 || !depends.named.is_empty() {
+            return false;
+        }
+        let trend = |value: &Value| self.trend(value, &|holds, at| link(holds, at));
+        let conductance = match &conductor.law {
+            Law::Conductance(g) => trend(g),
+            Law::Film { coefficient, area } => trend(coefficient).times(trend(area)),
+            Law::Resistance(r) => {
+                let r = trend(r);
+                return r.falls && r.low >= 0.0;
+            }
+            // an exchange area that no temperature changes leaves a difference of fourth powers
+            Law::Radiation(exchange) => return exchange.parts().into_iter().all(|(_, v)| trend(v).is_held()),
+            Law::Conduction { .. } => return self.is_held(conductor),
+            Law::Advection(_) => return false,
+        };
+        // a conductance is refused where it is negative
+        conductance.rises
+    }
+
+    /// Whether no value of it depends on a temperature.
+    fn is_held(&self, conductor: &Conductor) -> bool {
+        let parts = conductor.law.parts();
+        parts.into_iter().all(|(_, value)| self.trend(value, &|holds, at| link(holds, at)).is_held())
+    }
+
+    /// Whether a source heats one node, and is known not to heat it more where that is warmer.
+    pub fn source_falls(&self, id: SourceId) -> bool {
+        let source = &self.sources()[id.index()];
+        let [(node, _)] = source.into.as_slice() else { return false };
+        let own = |holds: Holds, _: u32| match holds {
+            Holds::Own => Trend::VARIABLE,
+            Holds::Temperature(End::Node(of)) if of == *node => Trend::VARIABLE,
+            other => elsewhere(other),
+        };
+        self.trend(&source.power, &own).falls
+    }
+
+    fn trend(&self, value: &Value, of: &dyn Fn(Holds, u32) -> Trend) -> Trend {
+        match value {
+            Value::Constant(value) => Trend::constant(*value),
+            Value::Expression(program) => program.trend(&|at| {
+                let holds = self.parts.layout.holds(at);
+                match holds {
+                    Holds::Parameter(id) => Trend::constant(self.parameter_value(id)),
+                    _ => of(holds, at),
+                }
+            }),
+            Value::Product(factors) => {
+                let one = Trend::constant(1.0);
+                factors.iter().fold(one, |product, factor| product.times(self.trend(factor, of)))
+            }
+        }
+    }
+}
+
+/// What is known of a slot while the difference between the ends of a conductor grows.
+fn link(holds: Holds, at: u32) -> Trend {
+    match holds {
+        Holds::Link if at == slot::DIFFERENCE => Trend::SIGNED,
+        other => elsewhere(other),
+    }
+}
+
+/// What is known of what is not the variable itself.
+fn elsewhere(holds: Holds) -> Trend {
+    match holds {
+        Holds::Time
+        | Holds::FrozenTime
+        | Holds::Signal(_)
+        | Holds::FrozenSignal(_)
+        | Holds::Control(_)
+        | Holds::Switch(_) => Trend::HELD,
+        _ => Trend::UNKNOWN,
+    }
+}

@@ -1,0 +1,143 @@
+//! Balances of massless nodes that have more than one solution: one is followed while it lasts, and left only where it
+//! ends.
+//!
+//! A massless node is the limit of one with a small capacity: `c dz/ds = g(y, z)` with c towards 0. A solution of `g = 0`
+//! at which that rests lasts until its Jacobian becomes singular (a fold), where it meets one at which nothing rests.
+//! Beyond, z moves in no time to where `c dz/ds = g` leads from there (the reduction of singularly perturbed systems, A. N.
+//! Tikhonov, Mat. Sb. 31 (1952) 575). Newton's method alone knows nothing of this: it falls to any other solution, sooner
+//! or later than the fold.
+
+use lptn_assembly::Workspace;
+use lptn_integrate::Pattern;
+
+use crate::newton::{Newton, NewtonError, largest};
+
+/// Places between two solutions at which the balances are looked at.
+const PLACES: u32 = 16;
+
+/// The longest step of a leap in K.
+const STRIDE: f64 = 0.25;
+
+/// Steps of a leap.
+const STRIDES: usize = 20_000;
+
+/// From one step of a leap to the next.
+const LONGER: f64 = 1.5;
+
+/// The shortest step, over the time constant of the node.
+const SHORTEST: f64 = 1e-12;
+
+impl Newton<'_> {
+    /// Refuses a solution between which and `start` there are temperatures at which nothing rests: it lies on another
+    /// branch. What moves moves on a straight line here, so that for one massless node this is all there is to tell, but
+    /// for a fold that fits between two of the places.
+    ///
+    /// # Errors
+    /// [`NewtonError::Fold`]; that a value or the factorisation fails.
+    pub(crate) fn stays(
+        &mut self,
+        work: &mut Workspace,
+        start: &[f64],
+        end: &[f64],
+    ) -> Result<(), NewtonError> {
+        let mut between = end.to_vec();
+        let same = self.free.iter().all(|&i| start[i].to_bits() == end[i].to_bits());
+        let places = if same { 1 } else { PLACES };
+        for place in 1..=places {
+            let share = f64::from(place) / f64::from(places);
+            for &i in &self.free {
+                between[i] = start[i] + share * (end[i] - start[i]);
+            }
+            let unstable = match self.unstable(work, &between) {
+                Err(NewtonError::Singular { unknown }) => Some(unknown),
+                other => other?,
+            };
+            if let Some(unknown) = unstable {
+                return Err(NewtonError::Fold { unknown });
+            }
+        }
+        self.factorize(work, end, 0.0)
+    }
+
+    /// Goes to where the free unknowns come to rest from `temperatures` while nothing else moves: the same solution where
+    /// it still is, another one where that has ended.
+    ///
+    /// # Errors
+    /// [`NewtonError`] if that is nowhere.
+    pub(crate) fn leap(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> Result<(), NewtonError> {
+        match self.follow(work, temperatures) {
+            Ok(()) => Ok(()),
+            Err(NewtonError::Input(error)) => Err(NewtonError::Input(error)),
+            Err(_) => self.come_to_rest(work, temperatures),
+        }
+    }
+
+    /// Follows `c dz/ds = g` by linearly implicit steps so short that none passes a place of rest.
+    fn come_to_rest(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> Result<(), NewtonError> {
+        let capacity = self.small_capacities(work, temperatures)?;
+        let mut step = 0.01;
+        for _ in 0..STRIDES {
+            if let Some(rest) = self.rest_nearby(work, temperatures) {
+                temperatures.copy_from_slice(&rest);
+                return self.factorize(work, temperatures, 0.0);
+            }
+            let Some(stride) = self.stride(work, temperatures, (&capacity, &mut step))? else { break };
+            self.apply(&stride, 1.0, temperatures);
+            step *= LONGER;
+        }
+        Err(NewtonError::Stalled { unknown: self.free[0], change: STRIDE })
+    }
+
+    /// One step, shortened until it is one that the differential equation would take; `None` if there is none.
+    fn stride(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &[f64],
+        (capacity, step): (&[f64], &mut f64),
+    ) -> Result<Option<Vec<f64>>, NewtonError> {
+        while *step > SHORTEST {
+            self.linearize(work, temperatures)?;
+            for (&slot, c) in self.pattern.diagonal().iter().zip(capacity) {
+                self.values[slot] += c / *step;
+            }
+            if self.runs_away(true).is_some() {
+                *step *= 0.25;
+                continue;
+            }
+            let correction = self.correction(work, temperatures)?;
+            if largest(&correction) <= STRIDE {
+                return Ok(Some(correction));
+            }
+            *step *= 0.5;
+        }
+        Ok(None)
+    }
+
+    /// The solution that is so near that the steps would come to it.
+    fn rest_nearby(&mut self, work: &mut Workspace, temperatures: &[f64]) -> Option<Vec<f64>> {
+        if !matches!(self.unstable(work, temperatures), Ok(None)) {
+            return None;
+        }
+        self.factorize(work, temperatures, 0.0).ok()?;
+        if largest(&self.correction(work, temperatures).ok()?) > STRIDE {
+            return None;
+        }
+        let mut rest = temperatures.to_vec();
+        self.damped(work, &mut rest).ok()?;
+        let far = rest.iter().zip(temperatures).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        (far <= 2.0 * STRIDE && self.stays(work, temperatures, &rest).is_ok()).then_some(rest)
+    }
+
+    /// What stands for the capacities: for each free unknown all the heat flows that its temperature changes, in W/K, so
+    /// that their time constants are much alike.
+    fn small_capacities(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &[f64],
+    ) -> Result<Vec<f64>, NewtonError> {
+        self.linearize(work, temperatures)?;
+        let whole = Pattern::from_symbolic(self.system.pattern().symbolic());
+        let size = |i: usize| whole.column(i).map(|slot| self.whole[slot].abs()).sum::<f64>();
+        Ok(self.free.iter().map(|&i| size(i)).map(|c| if c > 0.0 { c } else { 1.0 }).collect())
+    }
+}

@@ -1,0 +1,163 @@
+//! Folds: where the solution that a massless node follows ends, so that it leaps to another one.
+//!
+//! Heat refuses to leave the branch (`branch.rs`), so that the integrator gets to the fold in ever shorter steps. So near
+//! that it does not matter when, the state is taken a little further along its present course, the node leaps there, and
+//! the run goes on from where it was.
+
+use lptn_integrate::{IntegrateError, OdeSystem};
+
+use crate::error::StopReason;
+use crate::times::Segment;
+use crate::transient::{Break, Run};
+use crate::unsolved::UnsolvedReason;
+
+/// How late a massless node may be at a fold: the share of the tolerance by which another node moves meanwhile.
+const LATE: f64 = 1e-2;
+
+/// How far a state stays in front of a fold, as a share of that: the last digits of the balances tell the same there to
+/// everyone who looks.
+const MARGIN: f64 = 0.1;
+
+/// The shortest distance to a fold that is looked beyond, as a part of the longest.
+const LEAST: f64 = 1e-3;
+
+/// Failed attempts in a row to get nearer to a fold.
+const ATTEMPTS: usize = 40;
+
+/// Halvings of a step in search of the fold in it.
+const BISECTIONS: usize = 50;
+
+/// How often the distance to a fold is doubled in search of what lies beyond it.
+const DOUBLINGS: usize = 16;
+
+impl Run<'_> {
+    /// Remembers where massless nodes of several solutions stand.
+    pub(super) fn stand(&mut self) -> Result<(), Break> {
+        if !self.integrator.system().is_guarded() {
+            return Ok(());
+        }
+        let (time, state) = (self.integrator.time(), self.integrator.state().to_vec());
+        let branch = self.integrator.system_mut().branch(time, &state).map_err(Break::Failed)?;
+        self.recorder.set_branch(branch);
+        self.stood = Some((time, state));
+        Ok(())
+    }
+
+    /// A small stretch along the course of a step.
+    fn margin(&mut self, from: f64, to: f64) -> Result<Vec<f64>, Break> {
+        let mut ahead = self.integrator.state().to_vec();
+        let mut before = ahead.clone();
+        self.integrator.interpolate(from, &mut before).map_err(|e| self.failed(e))?;
+        self.integrator.interpolate(to, &mut ahead).map_err(|e| self.failed(e))?;
+        ahead.iter_mut().zip(&before).for_each(|(to, from)| *to -= from);
+        let most = ahead.iter().fold(f64::MIN_POSITIVE, |most, change| most.max(change.abs()));
+        ahead.iter_mut().for_each(|change| *change *= MARGIN * LATE * self.tolerance / most);
+        Ok(ahead)
+    }
+
+    /// How far a step gets, up to `to`, before a massless node is at the end of its branch. What the last correction of a
+    /// step adds may lie beyond it.
+    pub(super) fn reaches(&mut self, from: f64, to: f64) -> Result<f64, Break> {
+        if !self.integrator.system().is_guarded() {
+            return Ok(to);
+        }
+        let mut state = self.integrator.state().to_vec();
+        let branch = self.recorder.branch().to_vec();
+        let ahead = self.margin(from, to)?;
+        let mut stands = |run: &mut Self, time: f64| {
+            let read = run.integrator.interpolate(time, &mut state);
+            read.map_err(|e| run.failed(e))?;
+            state.iter_mut().zip(&ahead).for_each(|(y, ahead)| *y += ahead);
+            Ok(run.integrator.system_mut().comes_to((time, &state), &branch))
+        };
+        if stands(self, to)? {
+            self.recorder.set_branch_ahead(self.integrator.system().algebraic().to_vec());
+            return Ok(to);
+        }
+        let (mut good, mut bad) = (from, to);
+        for _ in 0..BISECTIONS {
+            let middle = good + 0.5 * (bad - good);
+            match stands(self, middle)? {
+                true => good = middle,
+                false => bad = middle,
+            }
+        }
+        stands(self, good)?;
+        let heat = self.integrator.system_mut();
+        heat.failure = None;
+        heat.fold = Some(bad);
+        self.recorder.set_branch_ahead(heat.algebraic().to_vec());
+        Ok(good)
+    }
+
+    /// The same; where a node does not stay, for it is at a fold, it leaps.
+    pub(super) fn stand_or_leap(&mut self, segment: Segment) -> Result<(), Break> {
+        let reason = match self.stand() {
+            Ok(()) => return self.leap(segment).map(drop),
+            Err(Break::Failed(reason)) => reason,
+            Err(other) => return Err(other),
+        };
+        let at_fold =
+            matches!(&reason, StopReason::Unsolved(why) if matches!(*why.reason, UnsolvedReason::Fold));
+        if at_fold {
+            let time = self.integrator.time();
+            self.integrator.system_mut().fold = Some(time);
+            if self.leap(segment)? {
+                return Ok(());
+            }
+        }
+        Err(Break::Failed(reason))
+    }
+
+    /// A step that failed in front of a fold leaps, or is tried again nearer to it.
+    pub(super) fn leap_or_fail(&mut self, segment: Segment, error: IntegrateError) -> Result<(), Break> {
+        let at_fold = self.integrator.system().fold.is_some();
+        if !at_fold || self.stuck >= ATTEMPTS {
+            return Err(self.failed(error));
+        }
+        if self.leap(segment)? {
+            return Ok(());
+        }
+        self.stuck += 1;
+        let heat = self.integrator.system_mut();
+        heat.failure = None;
+        heat.seed(self.recorder.branch());
+        self.integrator.restart(None).map_err(|e| self.failed(e))
+    }
+
+    /// Where a massless node cannot go on a moment later, it leaps; whether it did.
+    pub(super) fn leap(&mut self, segment: Segment) -> Result<bool, Break> {
+        let (time, state) = (self.integrator.time(), self.integrator.state().to_vec());
+        let mass = self.integrator.system().capacities().to_vec();
+        let heat = self.integrator.system_mut();
+        let Some(fold) = heat.fold.take().filter(|fold| *fold >= time) else { return Ok(false) };
+        // no other look may decide where the search begins
+        heat.seed(self.recorder.branch());
+        let mut rates = vec![0.0; state.len()];
+        if heat.flow(time, &state, &mut rates).is_ok() {
+            rates.iter_mut().zip(&mass).for_each(|(rate, mass)| *rate /= mass);
+        } else if let Some((before, stood)) = self.stood.as_ref().filter(|(before, _)| *before < time) {
+            // by the last correction of the step it is beyond the fold already
+            let course = state.iter().zip(stood).map(|(now, was)| (now - was) / (time - before));
+            rates = course.collect();
+        }
+        let fastest = rates.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+        let late = LATE * self.tolerance / fastest;
+        if fold - time > late {
+            return Ok(false);
+        }
+        let mut ahead = (fold - time).max(LEAST * late).max(4.0 * f64::EPSILON * time.abs());
+        for _ in 0..DOUBLINGS {
+            ahead *= 2.0;
+            let beyond: Vec<f64> = state.iter().zip(&rates).map(|(y, rate)| y + ahead * rate).collect();
+            if heat.leap((time + ahead, &beyond), (time, &state)) {
+                heat.failure = None;
+                self.integrator.restart(None).map_err(|e| self.failed(e))?;
+                self.enter(Segment { from: time, to: segment.to })?;
+                return Ok(true);
+            }
+            heat.fold = None;
+        }
+        Ok(false)
+    }
+}

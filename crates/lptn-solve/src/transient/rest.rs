@@ -1,0 +1,119 @@
+//! Where a network comes to rest from its start while its inputs are held.
+//!
+//! Newton's method finds one of several steady states, not the one that the network comes to. The integrator follows the
+//! network with its capacities, folds and switches; its steps grow as it settles, so that this costs little more than the
+//! way itself.
+
+use lptn_assembly::ThermalSystem;
+use lptn_network::{OutputTimes, Positions};
+
+use crate::newton::{Newton, largest};
+use crate::readings::Readings;
+use crate::recorder::Recorder;
+use crate::settings::{Record, Transient};
+use crate::state::State;
+use crate::steady::just_after;
+use crate::times::Segment;
+use crate::transient::Run;
+
+/// Tolerance in K: what it decides is which way the network goes, not where it comes to rest.
+const TOLERANCE: f64 = 1e-4;
+
+/// Longer than any network takes, in s.
+const FOR_EVER: f64 = 1e12;
+
+/// The most steps.
+const STEPS: usize = 20_000;
+
+/// The most switches: what switches more often than this does not come to rest.
+const SWITCHES: usize = 100;
+
+/// A step that moves no node by more than this, in K, may be one of the last.
+const SLOW: f64 = 0.1;
+
+/// So near to where it rests, in K, a network goes there.
+const NEAR: f64 = 1e-3;
+
+/// Steps between two looks at whether it rests.
+const EVERY: usize = 4;
+
+/// Where a network comes to rest.
+pub(crate) struct Rest {
+    /// Temperatures of all unknowns in K.
+    pub(crate) temperatures: Vec<f64>,
+    /// Which controls are on and which comparisons hold.
+    pub(crate) positions: Positions,
+}
+
+/// Follows a network from its start with its inputs as they are at `time` in s; `None` where it does not come to rest,
+/// or cannot be followed.
+pub(crate) fn rest(system: &ThermalSystem, time: f64) -> Option<Rest> {
+    let mut newton = Newton::new(system, (0..system.unknowns().len()).collect()).ok()?;
+    let (segment, mut run) = Run::held(system, time)?;
+    run.begin(segment, true).ok()?;
+    let mut before = run.unknowns()?;
+    for step in 1..=STEPS {
+        run.step(segment).ok()?;
+        if run.switching.as_ref().is_some_and(|switching| switching.events.len() > SWITCHES) {
+            return None;
+        }
+        let now = run.unknowns()?;
+        let moved = now.iter().zip(&before).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        before = now;
+        let over = run.integrator.time() >= segment.to;
+        let rests = match over {
+            true => moved <= NEAR,
+            false => step % EVERY == 0 && moved <= SLOW && run.rests(&mut newton, &before)?,
+        };
+        if rests {
+            let positions = run.switching.map(|switching| switching.positions);
+            return Some(Rest { temperatures: before, positions: positions.unwrap_or_default() });
+        }
+        if over {
+            return None;
+        }
+    }
+    None
+}
+
+impl<'a> Run<'a> {
+    /// A run that writes nothing and has the inputs of one time for ever, with its one segment.
+    fn held(system: &'a ThermalSystem, time: f64) -> Option<(Segment, Self)> {
+        let segment = Segment { from: time, to: time + FOR_EVER };
+        let settings = Transient {
+            start: segment.from,
+            stop: segment.to,
+            output: OutputTimes::At(vec![segment.to]),
+            tolerance: TOLERANCE,
+            record: Record::Nodes(Vec::new()),
+            ..Transient::until(lptn_network::Time(segment.to))
+        };
+        let mut recorder =
+            Recorder::new(system, (settings.rows().ok()?, Readings::none(segment)), &settings).ok()?;
+        recorder.idle = true;
+        let mut run = Self::new(recorder, (segment, None), &settings, &State::initial(system)).ok()?;
+        run.integrator.system_mut().held = Some((time, just_after(time)));
+        Some((segment, run))
+    }
+
+    /// Temperatures of all unknowns in K.
+    fn unknowns(&mut self) -> Option<Vec<f64>> {
+        let (time, state) = (self.integrator.time(), self.integrator.state().to_vec());
+        self.integrator
+            .system_mut()
+            .temperatures(time, &state)
+            .ok()
+            .map(|(temperatures, _)| temperatures.to_vec())
+    }
+
+    /// Whether it is so near to a state that is stable that it goes there.
+    fn rests(&mut self, newton: &mut Newton<'_>, temperatures: &[f64]) -> Option<bool> {
+        let (time, state) = (self.integrator.time(), self.integrator.state().to_vec());
+        let (_, work) = self.integrator.system_mut().temperatures(time, &state).ok()?;
+        let near = newton
+            .factorize(work, temperatures, 0.0)
+            .and_then(|()| newton.correction(work, temperatures))
+            .is_ok_and(|correction| largest(&correction) <= NEAR);
+        Some(near && matches!(newton.unstable(work, temperatures), Ok(None)))
+    }
+}
