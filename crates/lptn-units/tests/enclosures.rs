@@ -1,5 +1,7 @@
 //! Bounds on expressions hold everywhere, and their Taylor coefficients are those of the published series.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
 use std::sync::Arc;
 
 use lptn_units::{
@@ -129,7 +131,7 @@ fn coefficients_are_those_of_the_series() {
     let odd = |k: usize| k % 2 == 1;
     let binomial = |k: usize| (0..k).map(|i| (0.5 - i as f64) / (i as f64 + 1.0)).product::<f64>().abs();
     let tanh = [0.0, 1.0, 0.0, 1.0 / 3.0, 0.0, 2.0 / 15.0, 0.0, 17.0 / 315.0, 0.0, 62.0 / 2835.0];
-    for k in 0..=Taylor::ORDER {
+    for (k, of_tanh) in tanh.into_iter().enumerate() {
         let cases = [
             ("exp(x)", 1.0 / factorial(k)),
             ("ln(1 + x)", if k == 0 { 0.0 } else { 1.0 / k as f64 }),
@@ -137,7 +139,7 @@ fn coefficients_are_those_of_the_series() {
             ("cos(x)", if odd(k) { 0.0 } else { 1.0 / factorial(k) }),
             ("1 / (1 + x)", 1.0),
             ("sqrt(1 + x)", binomial(k)),
-            ("tanh(x)", tanh[k]),
+            ("tanh(x)", of_tanh),
             ("(2 + x)^3", [8.0, 12.0, 6.0, 1.0].get(k).copied().unwrap_or(0.0)),
         ];
         for (text, right) in cases {
@@ -178,7 +180,7 @@ fn a_kink_bounds_no_slope() {
         "lines(x - 4)",
         "if(x < 0, x, 2 * x)",
     ] {
-        assert_eq!(over(text, -0.1, 0.1).largest(2), f64::INFINITY, "{text}");
+        assert!(over(text, -0.1, 0.1).largest(2).is_infinite(), "{text}");
         assert!(over(text, 0.0, 0.1).largest(2) < 1e3 || text.starts_with("if"), "{text}");
     }
 }
