@@ -110,7 +110,7 @@ impl Asked {
 
 type Check<'a> = &'a (dyn Fn(&Case) -> Option<Result<(), (String, Texts)>> + Sync);
 
-/// Asks one network in `every`; shows the smallest of at most three that differ.
+/// Asks one network in `every`, which is no multiple of 3, for every third is linear; shows the smallest of at most three that differ.
 fn hold(name: &str, every: u64, check: Check<'_>) -> Asked {
     let every = if std::env::var_os("LPTN_METAMORPHIC").is_some() { 1 } else { every };
     let first = name.len() as u64;
@@ -218,7 +218,7 @@ fn expansions_are_the_same() {
 #[test]
 fn relations_hold_one_after_the_other() {
     let first: [Relation; 3] = [templated, included, reordered];
-    hold("one after the other", 3, &|case| {
+    hold("one after the other", 4, &|case| {
         let mut random = dice(case.seed, "first");
         let net = random.pick(&first)(&case.net, &mut random)?.net;
         let case = match Case::new(case.seed, net.clone()) {
@@ -288,13 +288,13 @@ fn runs_repeat_to_the_last_digit() {
 /// CSV, JSON and the table of the program show the numbers of the library, all columns or some.
 #[test]
 fn all_formats_show_the_same_numbers() {
-    hold("in all formats", 12, &|case| Some(program::formats(case).map_err(|words| (words, Texts::new()))));
+    hold("in all formats", 11, &|case| Some(program::formats(case).map_err(|words| (words, Texts::new()))));
 }
 
 /// A run in two parts, the second from the `state.json` of the first, ends where the whole does.
 #[test]
 fn runs_in_two_parts_are_the_same() {
-    hold("in two parts", 6, &|case| Some(program::in_two_parts(case)));
+    hold("in two parts", 5, &|case| Some(program::in_two_parts(case)));
 }
 
 /// Few networks cannot be run or have no useful bound, and every kind of element is there.
