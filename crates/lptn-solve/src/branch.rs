@@ -48,11 +48,7 @@ impl Newton<'_> {
             for &i in &self.free {
                 between[i] = start[i] + share * (end[i] - start[i]);
             }
-            let unstable = match self.unstable(work, &between) {
-                Err(NewtonError::Singular { unknown }) => Some(unknown),
-                other => other?,
-            };
-            if let Some(unknown) = unstable {
+            if let Some(unknown) = self.unstable(work, &between)? {
                 return Err(NewtonError::Fold { unknown });
             }
         }

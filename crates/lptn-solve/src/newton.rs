@@ -121,9 +121,7 @@ impl<'a> Newton<'a> {
             solved = match solved {
                 Ok(()) => self.stays(work, &start, temperatures),
                 // at the end of a branch there is no solution nearby, and none may have been found elsewhere
-                Err(NewtonError::Stalled { unknown, .. } | NewtonError::Singular { unknown }) => {
-                    Err(NewtonError::Fold { unknown })
-                }
+                Err(NewtonError::Stalled { unknown, .. }) => Err(NewtonError::Fold { unknown }),
                 other => other,
             };
         }

@@ -85,6 +85,9 @@ const CRAWL: f64 = 1e-9;
 /// .. if there are so many of them. The first step of a segment may be one of them by chance.
 const PATIENCE: usize = 8;
 
+/// The same in front of the end of a branch.
+const FOLD_PATIENCE: usize = 400;
+
 /// What ends a run before its stop.
 enum Break {
     Interrupted,
@@ -288,14 +291,18 @@ impl<'a> Run<'a> {
     fn check_crawl(&mut self, step: f64) -> Result<(), Break> {
         let (start, stop) = self.recorder.span();
         let refused = self.integrator.system_mut().refused.take();
-        let refused = refused.filter(|failure| !matches!(failure, NewtonError::Fold { .. }));
+        // a fold is approached in short steps before it is leapt over
+        let patience = match refused {
+            Some(NewtonError::Fold { .. }) => FOLD_PATIENCE,
+            _ => PATIENCE,
+        };
         if step >= CRAWL * (stop - start) {
             self.crawled = 0;
             return Ok(());
         }
         self.crawled += usize::from(refused.is_some());
         match refused {
-            Some(failure) if self.crawled >= PATIENCE => Err(Break::Failed(self.reason(failure))),
+            Some(failure) if self.crawled >= patience => Err(Break::Failed(self.reason(failure))),
             _ => Ok(()),
         }
     }
