@@ -19,7 +19,7 @@ const PLACES: u32 = 16;
 const STRIDE: f64 = 0.25;
 
 /// Steps of a leap.
-const STRIDES: usize = 20_000;
+const STRIDES: usize = 5000;
 
 /// From one step of a leap to the next.
 const LONGER: f64 = 1.5;
@@ -62,9 +62,8 @@ impl Newton<'_> {
     /// [`NewtonError`] if that is nowhere.
     pub(crate) fn leap(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> Result<(), NewtonError> {
         match self.follow(work, temperatures) {
-            Ok(()) => Ok(()),
-            Err(NewtonError::Input(error)) => Err(NewtonError::Input(error)),
-            Err(_) => self.come_to_rest(work, temperatures),
+            Err(NewtonError::Fold { .. }) => self.come_to_rest(work, temperatures),
+            other => other,
         }
     }
 
@@ -78,6 +77,9 @@ impl Newton<'_> {
                 return self.factorize(work, temperatures, 0.0);
             }
             let Some(stride) = self.stride(work, temperatures, (&capacity, &mut step))? else { break };
+            if largest(&stride) <= 0.0 {
+                break; // nothing moves it
+            }
             self.apply(&stride, 1.0, temperatures);
             step *= LONGER;
         }

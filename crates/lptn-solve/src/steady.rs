@@ -63,7 +63,7 @@ const BALANCE: f64 = 1e-9;
 
 impl SteadyState {
     /// Solves `G T = q` with the inputs as they are at `time` in s. Where something switches, a state is sought in
-    /// which nothing has to, from the positions at the start on; dwell times do not matter.
+    /// which nothing has to, from the positions at the start on.
     ///
     /// Unless the form of the network tells that there is one steady state at most, the network is followed from its start,
     /// and the state is the one that it comes to: see [`SteadyState::others`].

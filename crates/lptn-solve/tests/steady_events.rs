@@ -42,9 +42,14 @@ fn solve(b: NetworkBuilder) -> Result<SteadyState, SteadyError> {
 
 /// 240 W on 3 W/K, or on 12 W/K with the fan: 80 K or 20 K above the ambient.
 fn with_fan(thresholds: (f64, f64), start: bool) -> Result<SteadyState, SteadyError> {
+    with_fan_from(0.0, thresholds, start)
+}
+
+/// The same from so many K above the ambient.
+fn with_fan_from(from: f64, thresholds: (f64, f64), start: bool) -> Result<SteadyState, SteadyError> {
     let mut b = NetworkBuilder::new();
     let fan = b.control("fan");
-    let body = node(&mut b, "body");
+    let body = b.node("body", HeatCapacity(600.0), Temperature(AMBIENT + from));
     let air = b.boundary("air", Temperature(AMBIENT));
     let g = b.expression_in(Context::Link, "3 [W/K] + 9 [W/K] * fan", None).unwrap();
     b.resistor("skin", body, air, Path::Conductance(g.into()));
@@ -65,8 +70,11 @@ fn steady_state_agrees_with_its_control() {
 
 #[test]
 fn where_both_positions_agree_the_start_decides() {
-    for (start, expected) in [(false, 80.0), (true, 20.0)] {
-        let steady = with_fan((90.0, 15.0), start).unwrap();
+    // below 15 K a fan that is on goes off at once, and 80 K never switches it on again
+    for (from, start, expected) in
+        [(50.0, false, 80.0), (50.0, true, 20.0), (0.0, true, 80.0), (100.0, false, 20.0)]
+    {
+        let steady = with_fan_from(from, (90.0, 15.0), start).unwrap();
         assert!((steady.temperatures[0] - AMBIENT - expected).abs() < 1e-9);
     }
 }
