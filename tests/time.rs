@@ -176,16 +176,16 @@ fn quiet(rest: &str) -> String {
 /// What a limit alone reads was read once, in the middle of the run.
 #[test]
 fn limits_follow_what_only_they_read() {
-    let text = quiet(&format!(
-        "[signal]\nallowed = {{ t = [\"0 s\", \"700 s\", \"800 s\"], v = [\"60 degC\", \"25 degC\", \"60 degC\"], interp = \
-         \"previous\", after_end = \"hold\" }}\nteeth = {{ t = [\"0 s\", \"10 s\"], v = [\"0 K\", \"10 K\"], after_end = \
-         \"repeat\" }}\n[limit]\nstep = {{ of = \"a.T - allowed\", below = \"0 K\" }}\n\
-         compared = {{ of = \"a.T - if(t < 600 [s], 60 [degC], 25 [degC])\", below = \"0 K\" }}\n\
-         kink = {{ of = \"a.T - abs(t - 612 [s]) * 1 [K/s]\", below = \"29 degC\" }}\n\
-         saw = {{ of = \"a.T + teeth\", below = \"38 degC\" }}\n\
-         pulse = {{ of = \"a.T + 9 [K] * exp(-0.5 * ((t - 333.3 [s]) / (1 [s]))^2)\", below = \"38 degC\" }}\n\
-         kept = {{ of = \"a.T + 9 [K] * exp(-0.5 * ((t - 333.3 [s]) / (1 [s]))^2)\", below = \"40 degC\" }}\n"
-    ));
+    let text = quiet(
+        "[signal]\nallowed = { t = [\"0 s\", \"700 s\", \"800 s\"], v = [\"60 degC\", \"25 degC\", \"60 degC\"], interp = \
+         \"previous\", after_end = \"hold\" }\nteeth = { t = [\"0 s\", \"10 s\"], v = [\"0 K\", \"10 K\"], after_end = \
+         \"repeat\" }\n[limit]\nstep = { of = \"a.T - allowed\", below = \"0 K\" }\n\
+         compared = { of = \"a.T - if(t < 600 [s], 60 [degC], 25 [degC])\", below = \"0 K\" }\n\
+         kink = { of = \"a.T - abs(t - 612 [s]) * 1 [K/s]\", below = \"29 degC\" }\n\
+         saw = { of = \"a.T + teeth\", below = \"38 degC\" }\n\
+         pulse = { of = \"a.T + 9 [K] * exp(-0.5 * ((t - 333.3 [s]) / (1 [s]))^2)\", below = \"38 degC\" }\n\
+         kept = { of = \"a.T + 9 [K] * exp(-0.5 * ((t - 333.3 [s]) / (1 [s]))^2)\", below = \"40 degC\" }\n",
+    );
     for run in [Transient::until(Time(1000.0)).at(&[]), Transient::until(Time(1000.0)).every(Time(1.0))] {
         let solution = solved(&text, &run);
         let [step, compared, kink, saw, pulse, kept] = solution.limits() else { panic!("six limits") };

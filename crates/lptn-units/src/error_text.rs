@@ -154,13 +154,7 @@ pub(crate) fn help(kind: &Kind) -> Option<String> {
         }
         Kind::Operands { left, right, fix, .. } if left.differs_by_radians(**right) => Some(turning(fix)),
         Kind::Operands { fix: Some(fix), .. } => Some(write(fix)),
-        Kind::Operands { left, right, .. } => {
-            let unit = |ty: &Type| match ty.is_scalar() {
-                true => "without a unit".to_owned(),
-                false => format!("in {}", ty.usual_unit()),
-            };
-            Some(format!("give all of them {} or all {}", unit(left), unit(right)))
-        }
+        Kind::Operands { left, right, .. } => Some(alike(left, right)),
         Kind::Argument { found, example, .. } => example
             .as_ref()
             .map(|example| format!("divide it by {}, for example \"{example}\"", found.with_article())),
@@ -193,6 +187,15 @@ pub(crate) fn help(kind: &Kind) -> Option<String> {
         }
         _ => fixed_help(kind).map(str::to_owned),
     }
+}
+
+/// That operands are to be of one of two types.
+fn alike(left: &Type, right: &Type) -> String {
+    let unit = |ty: &Type| match ty.is_scalar() {
+        true => "without a unit".to_owned(),
+        false => format!("in {}", ty.usual_unit()),
+    };
+    format!("give all of them {} or all {}", unit(left), unit(right))
 }
 
 /// Help that does not depend on what was written.

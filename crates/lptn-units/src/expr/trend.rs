@@ -135,7 +135,8 @@ impl Trend {
         let even = exponent % 2.0 == 0.0;
         let base = if even && self.signed { Self::VARIABLE } else { self };
         if base.low < 0.0 {
-            return match (exponent == 1.0, base.is_held()) {
+            let is_one = exponent.to_bits() == 1.0_f64.to_bits();
+            return match (is_one, base.is_held()) {
                 (true, _) => base,
                 (_, true) => Self::HELD,
                 _ => Self::UNKNOWN,
