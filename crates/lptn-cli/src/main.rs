@@ -48,6 +48,7 @@ mod size_text;
 mod size_write;
 mod state;
 mod steady;
+mod steady_doubts;
 mod summary;
 mod summary_text;
 mod uncertainty;

@@ -4,13 +4,13 @@ use std::collections::HashSet;
 
 use lptn_netlist::{Diagnostic, RunSettings};
 use lptn_network::{
-    BoundaryId, ConductorId, GridValue, HeatOf, Item, JointId, LimitId, Network, NodeId, list_of_names,
+    BoundaryId, ConductorId, GridValue, HeatOf, Item, JointId, LimitId, Network, NodeId,
 };
 use lptn_report::{
-    Align, Column, JsonWriter, TextTable, WIDTH, decimals, duration, fixed, labelled, plain, prefix,
+    Align, Column, JsonWriter, TextTable, WIDTH, decimals, fixed, labelled, plain, prefix,
     shortened, significant, write_csv,
 };
-use lptn_solve::{Balance, Others, Selection, SteadyError, SteadyState, Table};
+use lptn_solve::{Balance, Selection, SteadyError, SteadyState, Table};
 use lptn_study::Scalar;
 use lptn_units::Unit;
 use serde_json::{Map, Value, json};
@@ -21,6 +21,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::limits::{self, Judged, Judgement};
+use crate::steady_doubts::{adiabatic, inputs_vary, others};
 use crate::summary::{MOST_NODES, counts};
 use crate::{balance, diagnostics, periodic, select, sense};
 
@@ -114,76 +115,6 @@ fn failed(input: &Input, error: &SteadyError) -> Failure {
         problem = problem.at(place.clone(), "");
     }
     Failure::at(exit, input.netlist.files.clone(), problem)
-}
-
-/// That inputs change with time, what that means for the limits, and which verb looks at every time.
-fn inputs_vary(input: &Input, steady: &SteadyState, limits: &[Judged]) -> Option<Diagnostic> {
-    let network = &input.netlist.network;
-    let quantities = network.limits().iter().flat_map(|limit| [&limit.of, &limit.value]);
-    let quantities: Vec<_> = quantities.chain(network.reports().iter().map(|report| &report.value)).collect();
-    let mut changing = network.changing_inputs();
-    changing.extend(network.changing_inputs_of(&quantities));
-    if changing.is_empty() {
-        return None;
-    }
-    let mut names: Vec<String> =
-        changing.iter().filter_map(|c| Some(network.name_of(c.item()?).into_owned())).collect();
-    names.sort_unstable();
-    names.dedup();
-    let which = if names.is_empty() { String::new() } else { format!(", {}", list_of_names(&names)) };
-    let judged =
-        if limits.iter().any(Judged::is_open) { ", and no limit is judged that depends on them" } else { "" };
-    let at = duration(steady.time, 4);
-    let instead = instead(input).map_or(String::new(), |verb| format!("; {verb}"));
-    let message =
-        format!("inputs change with time{which}: they are taken as they are at {at}{judged}{instead}");
-    Some(Diagnostic::warning("steady::inputs_vary", message))
-}
-
-/// The verb that looks at every time.
-fn instead(input: &Input) -> Option<String> {
-    let file = input.typed().unwrap_or_else(|| "FILE".into());
-    if matches!(input.netlist.network.repeat_period(), Ok(Some(_))) {
-        return Some(format!("`lptn steady --periodic {file}` looks at the whole cycle"));
-    }
-    input.netlist.run.as_ref().map(|_| format!("`lptn run {file}` looks at every time"))
-}
-
-/// Nodes that keep their energy have a steady state that depends on their start.
-fn adiabatic(network: &lptn_network::Network, steady: &SteadyState) -> Option<Diagnostic> {
-    let name = |id: &lptn_network::NodeId| network.nodes()[id.index()].name.clone();
-    let names: Vec<String> = steady.adiabatic.iter().map(name).collect();
-    let message = format!(
-        "no path leads to a boundary from {}: the energy at the start decides where they come to rest",
-        list_of_names(&names)
-    );
-    (!names.is_empty()).then(|| Diagnostic::warning("steady::energy", message))
-}
-
-/// That the start decides where the network comes to rest, where that is known or cannot be excluded.
-pub(crate) fn others(network: &Network, steady: &SteadyState, unit: &Unit) -> Option<Diagnostic> {
-    let warn = |code, message: String| Some(Diagnostic::warning(code, message));
-    match &steady.others {
-        Others::None => None,
-        Others::NotKnown => warn(
-            "steady::not_followed",
-            "the network may have several steady states, and it could not be followed from its start to this one".into(),
-        ),
-        Others::At(temperatures) => {
-            let apart = |id: &NodeId| (temperatures[id.index()] - steady.temperatures[id.index()]).abs();
-            let most = network.node_ids().max_by(|a, b| apart(a).total_cmp(&apart(b)))?;
-            let at = |kelvin: f64| format!("{} {}", significant(unit.from_si(kelvin), 4), unit.text);
-            let (here, there) = (at(steady.temperatures[most.index()]), at(temperatures[most.index()]));
-            let name = network.name_of(Item::Node(most));
-            warn(
-                "steady::several",
-                format!(
-                    "several steady states: from its start the network comes to the one with `{name}` at {here}; in \
-                     another it is at {there}"
-                ),
-            )
-        }
-    }
 }
 
 /// Rises in K and heats in W below this are what rounding left over: no unit and no decimals are chosen to show them.

@@ -193,7 +193,7 @@ fn notes(view: &View<'_>, nodes: &[NodeSummary]) -> Vec<String> {
     match view.steady {
         Err(NoSteady::Inputs) => notes.push("steady is `-`: the inputs change with time".into()),
         Ok(steady) => {
-            notes.extend(crate::steady::others(network, steady, view.unit).map(|found| found.message))
+            notes.extend(crate::steady_doubts::others(network, steady, view.unit).map(|found| found.message))
         }
         Err(NoSteady::Network(SteadyError::NoBoundary { .. })) => {}
         Err(NoSteady::Network(error)) => notes.push(format!("steady is `-`: {error}")),

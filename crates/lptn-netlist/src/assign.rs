@@ -13,7 +13,7 @@ use crate::diagnostic::{Diagnostic, arrange};
 use crate::file::{FileId, Span, on_borders};
 use crate::netlist::{Netlist, Rejected};
 use crate::template::wrong_path;
-use crate::value::celsius_or_kelvin;
+use crate::value_help::celsius_or_kelvin;
 
 /// What the text of the assignments is called in diagnostics.
 const FILE: &str = "--set";

@@ -72,6 +72,7 @@ mod syntax_error;
 mod template;
 mod toml_1_1;
 mod value;
+mod value_help;
 mod vocabulary;
 mod write_back;
 

@@ -15,6 +15,7 @@ use crate::file::Span;
 use crate::names::Names;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
 use crate::result_names::base;
+use crate::value_help::{celsius_or_kelvin, parameter_help};
 
 /// A value whose units are right.
 #[derive(Clone, Debug)]
@@ -395,33 +396,4 @@ fn with_parameter(
         Some(help) => diagnostic.help(help),
         None => diagnostic,
     }
-}
-
-/// The line of a parameter that is a bare number, or kelvin where a point on the temperature scale is due.
-fn parameter_help(entry: &RawEntry, ty: Type) -> Option<String> {
-    let text = match &entry.value.kind {
-        RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => text.trim(),
-        _ => return None,
-    };
-    let found = parse_quantity(text, None).ok()?.ty;
-    let line = |value: &str| format!("`{} = \"{value}\"`", entry.key);
-    if found.is_scalar() && text.ends_with(|c: char| c.is_ascii_digit()) {
-        return Some(format!("write {} in [param]", line(&format!("{text} {}", ty.usual_unit()))));
-    }
-    if ty.absolute && found == Type::of(Dimension::ANGLE) {
-        let number = text.trim_end_matches(|c: char| !c.is_ascii_digit());
-        return Some(format!("write {} in [param]", line(&format!("{number} degC"))));
-    }
-    if ty.absolute && found == Type::of(Dimension::TEMPERATURE) {
-        return celsius_or_kelvin(text, line, " in [param]");
-    }
-    None
-}
-
-/// What to write for a number of kelvin that is meant as an absolute temperature, as `line` writes it `where_to`.
-pub(crate) fn celsius_or_kelvin(text: &str, line: impl Fn(&str) -> String, where_to: &str) -> Option<String> {
-    let number = text.trim().strip_suffix('K')?.trim_end().trim_end_matches('*').trim_end();
-    let ends_in_digit = number.ends_with(|c: char| c.is_ascii_digit() || c == '.');
-    let (celsius, kelvin) = (line(&format!("{number} degC")), line(&format!("absolute({number} [K])")));
-    ends_in_digit.then(|| format!("write {celsius}{where_to}, or {kelvin} if kelvin is meant"))
 }
