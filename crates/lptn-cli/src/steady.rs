@@ -3,12 +3,10 @@
 use std::collections::HashSet;
 
 use lptn_netlist::{Diagnostic, RunSettings};
-use lptn_network::{
-    BoundaryId, ConductorId, GridValue, HeatOf, Item, JointId, LimitId, Network, NodeId,
-};
+use lptn_network::{BoundaryId, ConductorId, GridValue, HeatOf, Item, JointId, LimitId, Network, NodeId};
 use lptn_report::{
-    Align, Column, JsonWriter, TextTable, WIDTH, decimals, fixed, labelled, plain, prefix,
-    shortened, significant, write_csv,
+    Align, Column, JsonWriter, TextTable, WIDTH, decimals, fixed, labelled, plain, prefix, shortened,
+    significant, write_csv,
 };
 use lptn_solve::{Balance, Selection, SteadyError, SteadyState, Table};
 use lptn_study::Scalar;

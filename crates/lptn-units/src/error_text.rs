@@ -216,6 +216,8 @@ fn fixed_help(kind: &Kind) -> Option<&'static str> {
 fn turning(fix: &Option<String>) -> String {
     let ask = "a power of rad is left over: is a frequency (Hz, 1/s) meant as a rotational speed?";
     match fix {
+        // radians that somebody wrote: nothing turns
+        Some(fix) if !["rev", "rpm"].iter().any(|unit| fix.contains(unit)) => write(fix),
         Some(fix) => {
             format!("{ask} {} for revolutions, or give the speed in rpm, rev/s or rad/s", write(fix))
         }

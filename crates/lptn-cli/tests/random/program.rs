@@ -6,6 +6,7 @@ use serde_json::value::RawValue;
 
 use super::compare::Case;
 use super::model::{Field, Net, constant};
+use super::results::in_si;
 use super::units::Kind;
 use super::write::{MAIN, Texts};
 use crate::common::{Folder, csv};
@@ -27,9 +28,11 @@ fn as_csv(folder: &Folder, file: &str, more: &[&str]) -> Result<Columns, String>
         return Err(format!("exit {:?}: {}", ran.code, ran.err));
     }
     let (headers, rows) = csv(&ran.out);
-    let name = |header: &String| header.split(" [").next().unwrap_or(header).to_owned();
-    let column = |i: usize| rows.iter().map(|row| row[i]).collect();
-    Ok(headers.iter().enumerate().map(|(i, header)| (name(header), column(i))).collect())
+    let column = |(i, header): (usize, &String)| {
+        let (name, unit) = header.split_once(" [").unwrap_or((header, "]"));
+        (name.to_owned(), in_si(unit.trim_end_matches(']'), rows.iter().map(|row| row[i]).collect()))
+    };
+    Ok(headers.iter().enumerate().map(column).collect())
 }
 
 /// The columns of a run as JSON. Numbers are read from their text: serde_json rounds the last digit of some.
@@ -42,9 +45,10 @@ fn as_json(folder: &Folder) -> Result<Columns, String> {
     };
     let columns: Vec<serde_json::Value> = serde_json::from_str(columns.get()).map_err(words)?;
     let rows: Vec<Vec<Box<RawValue>>> = serde_json::from_str(rows.get()).map_err(words)?;
-    let name = |column: &serde_json::Value| column["name"].as_str().unwrap_or("?").to_owned();
+    let text = |column: &serde_json::Value, key: &str| column[key].as_str().unwrap_or("?").to_owned();
     let values = |i: usize| rows.iter().map(|row| row[i].get().parse().unwrap_or(f64::NAN)).collect();
-    Ok(columns.iter().enumerate().map(|(i, column)| (name(column), values(i))).collect())
+    let column = |(i, column)| (text(column, "name"), in_si(&text(column, "unit"), values(i)));
+    Ok(columns.iter().enumerate().map(column).collect())
 }
 
 /// Every column of one stands in the other with the same bits.

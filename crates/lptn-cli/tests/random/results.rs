@@ -6,7 +6,7 @@ use std::path::Path;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Netlist, parse_with};
-use lptn_solve::{EventKind, Selection, Solution, SteadyState, Table, Transient, Window};
+use lptn_solve::{Column, EventKind, Selection, Solution, SteadyState, Table, Transient, Window};
 use lptn_units::Unit;
 
 use super::write::{MAIN, Texts};
@@ -64,12 +64,23 @@ pub fn results_of(netlist: &Netlist) -> Result<Results, String> {
     Ok(found)
 }
 
+/// Signals stand in the unit of their points; here they are compared in SI, temperatures in degC.
+pub fn in_si(unit: &str, mut values: Vec<f64>) -> Vec<f64> {
+    if let Ok(unit) = Unit::parse(unit)
+        && !unit.ty.absolute
+        && unit.scale != 1.0
+    {
+        values.iter_mut().for_each(|value| *value = unit.to_si(*value));
+    }
+    values
+}
+
 fn of_solution(solution: &Solution) -> Results {
     let network = solution.network();
     let degrees = Unit::parse("degC").expect("a unit");
     let table = Table::of_solution(solution, &Selection::all(network), &degrees);
-    let mut columns: BTreeMap<String, Vec<f64>> =
-        table.columns()[1..].iter().map(|column| (column.name.clone(), column.values.clone())).collect();
+    let in_si = |column: &Column| (column.name.clone(), in_si(&column.unit, column.values.clone()));
+    let mut columns: BTreeMap<String, Vec<f64>> = table.columns()[1..].iter().map(in_si).collect();
     for (node, id) in network.nodes().iter().zip(network.node_ids()) {
         // cells of grids and imported nodes have no column of their own accord
         let values = solution.temperature(id).expect("every node is recorded");

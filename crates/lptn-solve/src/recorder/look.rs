@@ -17,7 +17,11 @@ impl Recorder<'_> {
     }
 
     /// Looks at watched nodes and limits and into the windows between two times, anew where results may jump.
-    pub(super) fn look_between(&mut self, step: (f64, f64), state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
+    pub(super) fn look_between(
+        &mut self,
+        step: (f64, f64),
+        state_at: &mut StateAt<'_>,
+    ) -> Result<(), StopReason> {
         if self.looks() {
             for (piece, begins) in pieces(&self.readings.limits, step) {
                 self.inside = self.readings.inside(piece.0);

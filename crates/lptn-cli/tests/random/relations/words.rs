@@ -59,15 +59,8 @@ pub fn changed_units(net: &Net, random: &mut Random) -> Option<Variant> {
         if entry.kind() == "resistor" {
             inverse(entry);
         }
-        let one_point = entry.constant("solidus").is_some_and(|at| Some(at) == entry.constant("liquidus"));
         let kind = entry.kind().to_owned();
         for (key, field) in &mut entry.fields {
-            if one_point
-                && matches!(&**key, "solidus" | "liquidus")
-                && known("one melting point in two units")
-            {
-                continue;
-            }
             let kelvin = KELVIN.contains(&(&kind, key)) && matches!(field, Field::Value(v) if v.len() == 1);
             field.numbers(&mut |number| number.unit = other_unit(number, kelvin, random));
         }
@@ -80,10 +73,6 @@ pub fn changed_units(net: &Net, random: &mut Random) -> Option<Variant> {
         }
     }
     Some(variant)
-}
-
-fn known(what: &str) -> bool {
-    crate::KNOWN.iter().any(|(known, _)| *known == what)
 }
 
 fn other_unit(number: &Number, kelvin: bool, random: &mut Random) -> usize {
