@@ -111,7 +111,7 @@ fn switching(random: &mut Random) -> (usize, String) {
             writeln!(paths, "q{i} = {{ from = \"n{i}\", to = \"n{}\", R = \"{r} K/W\" }}", i - 1).unwrap();
         }
         let (power, at) = (between(random, 20.0, 200.0), between(random, 30.0, 120.0));
-        let width = between(random, 1.0, 10.0) * if random.next() % 3 == 0 { -1.0 } else { 1.0 };
+        let width = between(random, 1.0, 10.0) * if random.next().is_multiple_of(3) { -1.0 } else { 1.0 };
         let heat = format!("{power} [W] * 0.5 * (1 + tanh((n{i}.T - {at} [degC]) / {width} [K]))");
         writeln!(sources, "s{i} = {{ into = \"n{i}\", P = \"{heat}\" }}").unwrap();
     }
