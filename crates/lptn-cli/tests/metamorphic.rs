@@ -5,6 +5,8 @@
 //! metamorphic` takes so many networks, and all relations; `LPTN_METAMORPHIC_FROM=17` begins at that seed, so that one
 //! network alone can be looked at.
 
+#![allow(clippy::print_stdout, reason = "how many networks a relation changes")]
+
 mod common;
 mod random;
 
@@ -57,8 +59,13 @@ fn dice(seed: u64, name: &str) -> Random {
     Random::new(name.bytes().fold(seed, |sum, byte| sum.wrapping_mul(31).wrapping_add(byte.into())))
 }
 
+/// Nothing where there is nothing to change; else that it gives the same, or the difference and the texts that show it.
+type Verdict = Option<Result<(), (String, Texts)>>;
+
+type Check<'a> = &'a (dyn Fn(&Case) -> Verdict + Sync);
+
 /// What a relation makes of a network, and whether it gives the same.
-fn related(case: &Case, name: &str, relation: Relation) -> Option<Result<(), (String, Texts)>> {
+fn related(case: &Case, name: &str, relation: Relation) -> Verdict {
     let variant = relation(&case.net, &mut dice(case.seed, name))?;
     let texts = variant.net.texts();
     let outcome = results(&texts).and_then(|found| same(case, &variant, &found));
@@ -70,7 +77,7 @@ fn shown(texts: &Texts) -> String {
 }
 
 /// The smallest network for which `check` finds a difference, and that difference.
-fn report(case: &Case, name: &str, check: &dyn Fn(&Case) -> Option<Result<(), (String, Texts)>>) -> String {
+fn report(case: &Case, name: &str, check: Check<'_>) -> String {
     let failing = |net: &Net| {
         let case = Case::new(case.seed, net.clone()).ok()?;
         check(&case)?.err()
@@ -101,8 +108,6 @@ impl Asked {
         assert!(changed * 100 >= percent * tried, "only {changed} of {tried} have something to change");
     }
 }
-
-type Check<'a> = &'a (dyn Fn(&Case) -> Option<Result<(), (String, Texts)>> + Sync);
 
 /// Asks one network in `every`, which is no multiple of 3, for every third is linear; shows the smallest of at most three that differ.
 fn hold(name: &str, every: u64, check: Check<'_>) -> Asked {

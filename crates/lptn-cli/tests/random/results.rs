@@ -68,7 +68,7 @@ pub fn results_of(netlist: &Netlist) -> Result<Results, String> {
 pub fn in_si(unit: &str, mut values: Vec<f64>) -> Vec<f64> {
     if let Ok(unit) = Unit::parse(unit)
         && !unit.ty.absolute
-        && unit.scale != 1.0
+        && (unit.scale - 1.0).abs() > 0.0
     {
         values.iter_mut().for_each(|value| *value = unit.to_si(*value));
     }
@@ -107,6 +107,6 @@ fn of_solution(solution: &Solution) -> Results {
             .collect(),
         windows,
         steady: BTreeMap::new(),
-        steps: solution.statistics().steps as u64,
+        steps: solution.statistics().steps,
     }
 }

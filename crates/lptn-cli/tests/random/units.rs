@@ -83,7 +83,7 @@ impl Number {
     pub fn bare(&self) -> String {
         let (_, size, zero) = self.kind.units()[self.unit];
         let value = (self.value - zero) / size;
-        if value == value.trunc() && value.abs() < 1e15 {
+        if value.fract().abs() <= 0.0 && value.abs() < 1e15 {
             format!("{value:.1}")
         } else {
             format!("{value:?}")
