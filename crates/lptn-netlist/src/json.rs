@@ -34,7 +34,9 @@ impl<'a> Json<'a> {
         let problem = |error: serde_json::Error| {
             let line: usize =
                 self.text.split_inclusive('\n').take(error.line().max(1) - 1).map(str::len).sum();
-            let start = (line + error.column().saturating_sub(1)).min(self.text.len());
+            let byte = (line + error.column().saturating_sub(1)).min(self.text.len());
+            // a column counts bytes and may end inside a letter
+            let start = (0..=byte).rev().find(|&at| self.text.is_char_boundary(at)).unwrap_or(0);
             let whole = error.to_string();
             let words = whole.split(" at line ").next().unwrap_or_default().to_owned();
             (words, Span::new(self.file, start..start))
