@@ -34,7 +34,7 @@ impl<S: OdeSystem> Integrator<S> {
         self.shown.time = not_after.min(stop.next_down()).max(time);
     }
 
-    /// From now on no step is longer than this, positive, in units of t; in place of [`Options::max_step_size`](crate::Options::max_step_size)(crate::Options::max_step_size).
+    /// From now on no step is longer than this, positive, in units of t; in place of [`Options::max_step_size`](crate::Options::max_step_size).
     pub fn set_longest_step(&mut self, step: f64) {
         self.longest = step;
     }
