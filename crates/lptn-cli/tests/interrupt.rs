@@ -7,6 +7,7 @@ mod common;
 #[path = "common/interrupt.rs"]
 mod interrupt;
 
+use std::io::{Read as _, Write as _};
 use std::process::{Command, Stdio};
 
 use common::{Folder, GEARBOX, endless};
@@ -82,30 +83,68 @@ fn a_verification_says_that_there_is_none() {
     assert_eq!((ran.out.as_str(), ran.err.as_str()), ("", "interrupted: nothing is verified\n"));
 }
 
-/// What a terminal, played by `script` of util-linux, gets before Ctrl-C after three seconds.
-fn on_terminal(folder: &Folder, arguments: &str) -> Option<String> {
-    let line = format!("timeout --foreground -s INT 3 '{}' {arguments}", env!("CARGO_BIN_EXE_lptn"));
-    let mut command = Command::new("script");
-    command.args(["-qec", &line, "/dev/null"]).current_dir(folder.path()).stdin(Stdio::null());
-    let output = command.output().ok().filter(|output| output.status.code() == Some(124))?;
-    Some(String::from_utf8(output.stdout).unwrap())
-}
-
-#[test]
-fn a_terminal_sees_progress_unless_quiet() {
-    let folder = two();
-    let Some(compare) = on_terminal(&folder, "compare gearbox.toml slow.toml") else {
+/// Whether `script` of util-linux can play a terminal here.
+fn terminal() -> bool {
+    let probe = Command::new("script").args(["-qec", "true", "/dev/null"]).stdin(Stdio::null()).output();
+    let opens = probe.is_ok_and(|output| output.status.success());
+    if !opens {
         eprintln!(
             "SKIPPED: `script` is missing or opens no terminal; apt-get install bsdutils, mount /dev/pts"
         );
         assert!(std::env::var_os("LPTN_REQUIRE_ORACLES").is_none());
+    }
+    opens
+}
+
+/// What a terminal gets until `awaited` stands on it, Ctrl-C is pressed there and the program has ended.
+fn on_terminal(folder: &Folder, arguments: &str, awaited: &str) -> String {
+    let line = format!("'{}' {arguments}", env!("CARGO_BIN_EXE_lptn"));
+    let mut command = Command::new("script");
+    command.args(["-qec", &line, "/dev/null"]).current_dir(folder.path());
+    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let (mut keys, mut screen) = (child.stdin.take(), child.stdout.take().unwrap());
+    let (mut seen, mut bytes) = (String::new(), [0; 256]);
+    loop {
+        let count = screen.read(&mut bytes).unwrap_or(0);
+        seen += std::str::from_utf8(&bytes[..count]).unwrap();
+        if count == 0 {
+            child.wait().unwrap();
+            return seen;
+        }
+        if seen.contains(awaited)
+            && let Some(mut keys) = keys.take()
+        {
+            keys.write_all(b"\x03").unwrap();
+        }
+    }
+}
+
+#[test]
+fn a_terminal_sees_progress() {
+    if !terminal() {
         return;
-    };
+    }
+    let folder = two();
+    let compare = on_terminal(&folder, "compare gearbox.toml slow.toml", " of 2 candidates");
     assert!(compare.contains(" %  1 of 2 candidates"), "{compare}");
-    let verify = on_terminal(&folder, "verify slow.toml").unwrap();
+    let verify = on_terminal(&folder, "verify slow.toml", " of 2000 d");
     assert!(verify.contains("\rat 1e-5 K: ") && verify.contains(" of 2000 d"), "{verify}");
-    let fit = on_terminal(&long_fit(), "fit network gearbox.toml --starts 200").unwrap();
+    let fit = on_terminal(&long_fit(), "fit network gearbox.toml --starts 200", ", round ");
     assert!(fit.contains("\rsearch ") && fit.contains(" of 201, round "), "{fit}");
-    let quiet = on_terminal(&folder, "--quiet compare slow.toml").unwrap();
+}
+
+/// Three seconds are three times as long as the program waits before it shows how far it is.
+#[test]
+fn a_quiet_program_shows_no_progress() {
+    if !terminal() {
+        return;
+    }
+    let line = format!(
+        "timeout --foreground -s INT 3 '{}' --quiet compare slow.toml; true",
+        env!("CARGO_BIN_EXE_lptn")
+    );
+    let (folder, mut command) = (two(), Command::new("script"));
+    command.args(["-qec", &line, "/dev/null"]).current_dir(folder.path()).stdin(Stdio::null());
+    let quiet = String::from_utf8(command.output().unwrap().stdout).unwrap();
     assert!(!quiet.contains(" %  "), "{quiet}");
 }
