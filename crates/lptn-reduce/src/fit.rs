@@ -150,8 +150,9 @@ fn line(shape: &[f64], values: &[f64]) -> (f64, f64) {
     let mean_value = mean(values);
     let (mut square, mut product) = (0.0, 0.0);
     for (s, v) in shape.iter().zip(values) {
-        square += (s - mean_shape) * (s - mean_shape);
-        product += (s - mean_shape) * (v - mean_value);
+        let apart = s - mean_shape;
+        square += apart * apart;
+        product += apart * (v - mean_value);
     }
     let factor = if square > 0.0 { product / square } else { 0.0 };
     (mean_value - factor * mean_shape, factor)
@@ -168,4 +169,21 @@ const FEW: usize = 200;
 /// The means of [`FEW`] stretches or some more.
 fn means(values: &[f64]) -> Vec<f64> {
     values.chunks(values.len() / FEW).map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The means of equal stretches of an exponential are one with the same time constant, so that the search through
+    /// them ends there, and no point of a grid does.
+    #[test]
+    fn a_long_record_is_searched_through_its_means() {
+        for tau in [80.0_f64, 900.0, 31_000.0] {
+            let times: Vec<f64> = (0..2000).map(f64::from).collect();
+            let values: Vec<f64> = times.iter().map(|t| 350.0 - 50.0 * (-t / tau).exp()).collect();
+            let found = Record::new(&times, &values).unwrap().search().unwrap();
+            assert!((found.exp() / tau - 1.0).abs() < 1e-6, "{tau}: {}", found.exp());
+        }
+    }
 }
