@@ -43,7 +43,7 @@ fn no_other_exponential_misses_less() {
 /// shorter than the time at which the record begins.
 #[test]
 fn a_time_constant_may_be_as_short_as_the_distance_of_two_points() {
-    for (first, count, tau) in [(0.0, 4000, 3.0), (100.0, 4000, 20.0), (300.0, 200, 50.0), (12.0, 60, 1.2)] {
+    for (first, count, tau) in [(0.0, 4000, 3.0), (100.0, 4000, 20.0), (1000.0, 200, 50.0), (30.0, 60, 1.2)] {
         let times: Vec<f64> = (0..count).map(|k| first + f64::from(k)).collect();
         // as large at the first point as if time began there
         let record: Vec<f64> = times.iter().map(|t| 92.7 - 67.2 * (-(t - first) / tau).exp()).collect();
@@ -51,6 +51,20 @@ fn a_time_constant_may_be_as_short_as_the_distance_of_two_points() {
         near(fit.tau, tau, 1e-7);
         near(fit.settled, 92.7, 1e-9);
     }
+}
+
+/// Regression: of a record that begins 25 time constants after time 0 only rounding was looked at, and 0.33 s was found
+/// for 1.2 s. At time 0 the curve is `e^25` times as far from where it settles as at the first point.
+#[test]
+fn a_record_may_begin_long_after_time_0() {
+    let times: Vec<f64> = (0..60).map(|k| 30.0 + f64::from(k)).collect();
+    let record: Vec<f64> = times.iter().map(|t| 92.7 - 67.2 * (-(t - 30.0) / 1.2).exp()).collect();
+    let fit = fit_exponential(&times, &record).unwrap();
+    near(fit.tau, 1.2, 1e-9);
+    near(fit.initial, 92.7 - 67.2 * 25_f64.exp(), 1e-7);
+    // 1000 time constants: nothing is known of time 0
+    let late: Vec<f64> = times.iter().map(|t| t + 1170.0).collect();
+    assert_eq!(fit_exponential(&late, &record).unwrap_err().code(), "fit::no_curvature");
 }
 
 /// A straight line looks like the slowest exponential, a jump like the fastest: a thousand times the length of the

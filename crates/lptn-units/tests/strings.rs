@@ -322,7 +322,7 @@ fn deep_brackets_are_an_error() {
         assert!(parse_value(&text, None, &is_parameter).is_err());
     }
     let error = parse_quantity(&format!("5 {}", "(".repeat(100_000)), None).unwrap_err();
-    assert_eq!(error.code(), "units::too_deep");
+    assert_eq!((error.code(), error.span.len()), ("units::too_deep", 1));
 }
 
 #[test]
@@ -337,6 +337,22 @@ fn units_alone_convert_both_ways() {
     assert!(Unit::parse("1").unwrap().ty.is_scalar());
     assert_eq!(Unit::parse("W/m2K").unwrap_err().help().as_deref(), Some("did you mean \"W/(m^2 K)\"?"));
     assert_eq!(Unit::parse(" ").unwrap_err().code(), "units::empty");
+}
+
+#[test]
+fn raised_digits_are_exponents() {
+    for (raised, digit) in "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().zip('0'..) {
+        let of = |exponent: &str| Unit::parse(&format!("s{exponent}")).unwrap().ty;
+        assert_eq!(of(&raised.to_string()), of(&format!("^{digit}")), "{raised}");
+        assert_eq!(of(&format!("⁻{raised}")), of(&format!("^-{digit}")), "{raised}");
+    }
+}
+
+/// `min(` would be a call.
+#[test]
+fn a_bracket_multiplies_behind_a_space_only() {
+    assert_eq!(Unit::parse("W (s)").unwrap().ty, ENERGY);
+    assert!(Unit::parse("W(s)").is_err());
 }
 
 #[test]
