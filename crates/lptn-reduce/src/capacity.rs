@@ -89,6 +89,7 @@ mod tests {
             let expected = (2.0 * r.sqrt() - 1.0).max(0.0);
             let found = least_squares(&step, 1e4);
             assert!((found - expected).abs() < 1e-10, "{r}: {found} is not {expected}");
+            assert_eq!(found > 0.0, r > 0.25, "{r}: {found}");
         }
     }
 

@@ -59,6 +59,18 @@ fn what_is_not_linear_is_named_with_what_to_put_in_its_place() {
     assert!(error.help().unwrap().contains("in place of `film`"));
 }
 
+/// A capacity that no node can have: the error of the network that was to be built is told.
+#[test]
+fn an_equivalent_that_cannot_be_built_says_why() {
+    let (system, nodes) = chain(&[1.0, 2.0], &[1.0, 1.0]);
+    let reduction = Reduction::new(&system, nodes[1], &Options::default()).unwrap();
+    let mut pair = reduction.dynamics.as_ref().unwrap().pairs[0];
+    pair.capacity = f64::INFINITY;
+    let error = reduction.network(&system, 0.0, Some(&pair)).unwrap_err();
+    assert_eq!(error.code(), "reduce::equivalent");
+    assert!(error.to_string().contains("`n1`"), "{error}");
+}
+
 /// What a help tells to write can be written.
 #[test]
 fn helps_can_be_followed() {
