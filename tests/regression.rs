@@ -356,3 +356,16 @@ fn a_row_at_the_stop_in_another_unit_is_the_stop() {
         assert_eq!(support::transient(&netlist).rows().unwrap().len(), 3, "{text}");
     }
 }
+
+/// A product with a coefficient of 0 that stands before a temperature was taken without end, and the stack overflowed.
+/// 5 W over 2 W/K are 2.5 K.
+#[test]
+fn a_coefficient_of_zero_is_a_number_like_any_other() {
+    let (_, steady) = support::settled(
+        "format = 1\n[param]\nk = \"0 W/K\"\n[node]\na = { C = \"800 J/K\", T0 = \"100 degC\" }\n\
+         [boundary]\nroom = { T = \"20 degC\" }\n[resistor]\n\
+         wall = { from = \"a\", to = \"room\", G = \"2 [W/K] + k * (abs(dT) / 1 [K])^(1/4)\" }\n\
+         [source]\np = { into = \"a\", P = \"5 W\" }\n",
+    );
+    support::close(steady.temperatures[0], 295.65, 1e-9);
+}

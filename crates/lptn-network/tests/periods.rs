@@ -65,6 +65,25 @@ fn inputs_that_repeat_themselves_and_others() {
     near(found.values[1].unwrap(), 65.0 + found.time);
 }
 
+/// A difference that lasts a millisecond, in the first period or in the one after it, is looked at: each stretch
+/// between two breakpoints is.
+#[test]
+fn a_short_difference_is_seen() {
+    let checked = |text: &str| with(&[text], &[60.0]).check_period(3.0, 60.0).unwrap();
+    for from in [3.0, 50.0, 62.99, 63.0, 110.0, 122.99] {
+        let text = format!("if(t < {from} [s], 5 [W], if(t < {} [s], 6 [W], 5 [W]))", from + 1e-3);
+        assert!(checked(&text).is_err(), "{text}");
+    }
+    for from in [1.0, 123.0, 200.0] {
+        let text = format!("if(t < {from} [s], 5 [W], if(t < {} [s], 6 [W], 5 [W]))", from + 1e-3);
+        assert_eq!(checked(&text), Ok(()), "{text}");
+    }
+    // the same short pulse in both
+    let pulse = "if(t < 50 [s], 0 [W], if(t < 50.001 [s], 1 [W], 0 [W]))";
+    let later = "if(t < 110 [s], 0 [W], if(t < 110.001 [s], 1 [W], 0 [W]))";
+    assert_eq!(checked(&format!("{pulse} + {later}")), Ok(()));
+}
+
 #[test]
 fn a_value_that_ends_is_not_the_same_one_period_later() {
     let (mut b, a, _) = cooled();

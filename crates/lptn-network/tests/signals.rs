@@ -61,6 +61,23 @@ fn straight_lines() {
     assert_eq!(network.curves().len(), 0);
 }
 
+/// Rounding may carry a time past an end: by 1e-9 of the length of the signal, or by 1e-12 of its times where these are
+/// large, and no further.
+#[test]
+fn a_time_may_be_past_an_end_by_rounding_only() {
+    for (first, last, margin) in
+        [(0.0, 1000.0, 1e-6), (1e6, 1e6 + 1.0, 1e-6), (-1e6, -1e6 + 1.0, 1e-6), (-2e6, 8.0, 2e-3)]
+    {
+        let (network, _) =
+            network(curve(&[first, last], &[10.0, 20.0], Interpolation::Linear, AfterEnd::Error));
+        let at = |time: f64| value(&network, time, time);
+        near(at(first - 0.5 * margin).unwrap(), 10.0);
+        near(at(last + 0.5 * margin).unwrap(), 20.0);
+        assert!(matches!(at(first - 2.0 * margin), Err(InputProblem::BeforeSignal { .. })), "{first} {last}");
+        assert!(matches!(at(last + 2.0 * margin), Err(InputProblem::AfterSignal { .. })), "{first} {last}");
+    }
+}
+
 #[test]
 fn the_end_of_a_signal_that_says_no_more_is_an_error() {
     let (network, _) = network(curve(&[1.0, 3.0], &[10.0, 20.0], Interpolation::Linear, AfterEnd::Error));

@@ -7,48 +7,30 @@ use crate::step::StepResponse;
 ///
 /// With `a = 1/(R C)` and `z = R - sum r_i exp(-l_i t)` the derivative by a vanishes where
 /// `R K(2a) = sum r_i K(a + l_i)`, K(s) being the integral of `t exp(-s t)` over the window: closed forms, no
-/// sampling. All minima are found on a grid of a and the lowest is taken: 0 where none is lower than the limit
-/// for C to 0, which happens at massless ports only, where much of the rise comes at once.
+/// sampling. There is one such place at most: with M(s) the mean of t under the weight `t exp(-s t)`, the logarithm of
+/// `K(a + l) / K(2a)` rises by `2 M(2a) - M(a + l) > 0`, since M falls with s while `s M(s)` rises. From
+/// `sum r_i K(l_i) / K(0) < R` at a = 0 the sum rises to `4 sum r_i`: if that is not above R, no capacity at all is
+/// nearest, 0, which happens at massless ports only, where three quarters of the rise come at once.
 pub(crate) fn least_squares(step: &StepResponse, window: f64) -> f64 {
-    const PER_DECADE: f64 = 20.0;
-    let (least, most) = step.span();
-    let from = (1e-6 / most.max(window)).ln();
-    let to = (1e3 / least.min(window)).ln();
-    let count = ((to - from) / std::f64::consts::LN_10 * PER_DECADE).ceil();
-    let at = |k: f64| (from + (to - from) * k / count).exp();
-    let mut best: Option<(f64, f64)> = None;
-    let mut k = 0.0;
-    while k < count {
-        let (a, b) = (at(k), at(k + 1.0));
-        if slope(step, window, a) > 0.0 && slope(step, window, b) <= 0.0 {
-            let rate = root(step, window, (a, b));
-            let cost = cost(step, window, rate);
-            if best.is_none_or(|(least, _)| cost < least) {
-                best = Some((cost, rate));
-            }
-        }
-        k += 1.0;
+    let slow: f64 = step.terms.iter().map(|t| t.resistance).sum();
+    if 4.0 * slow <= step.resistance {
+        return 0.0;
     }
-    match best {
-        // a cost of 0 is that of no capacity
-        Some((cost, rate)) if cost < 0.0 => 1.0 / (step.resistance * rate),
-        _ if step.direct > 0.0 => 0.0,
-        // so short a window that all slopes are lost in rounding: the port warms alone
-        _ => step.terms.iter().map(|t| t.resistance / t.tau).sum::<f64>().recip(),
+    if step.direct <= 0.0 && window < 1e-8 * step.span().0 {
+        // the port warms alone, while the slopes would be lost in rounding
+        return step.terms.iter().map(|t| t.resistance / t.tau).sum::<f64>().recip();
     }
+    let mut fast = 1.0 / window;
+    while slope(step, window, fast) > 0.0 {
+        fast *= 2.0;
+    }
+    1.0 / (step.resistance * root(step, window, (0.0, fast)))
 }
 
 /// Positive where a larger rate is better.
 fn slope(step: &StepResponse, window: f64, rate: f64) -> f64 {
     let own = step.resistance * ramp(2.0 * rate, window);
     own - step.terms.iter().map(|t| t.resistance * ramp(rate + 1.0 / t.tau, window)).sum::<f64>()
-}
-
-/// The squared error less what does not depend on the rate.
-fn cost(step: &StepResponse, window: f64, rate: f64) -> f64 {
-    let area = |s: f64| -f64::exp_m1(-s * window) / s;
-    let cross: f64 = step.terms.iter().map(|t| t.resistance * area(rate + 1.0 / t.tau)).sum();
-    step.resistance * (step.resistance * area(2.0 * rate) - 2.0 * cross)
 }
 
 fn root(step: &StepResponse, window: f64, (mut a, mut b): (f64, f64)) -> f64 {
@@ -101,12 +83,13 @@ mod tests {
     /// cost there is `-(2 sqrt(r) - 1)^2 / 2`, lower than that of C = 0; for r <= 1/4 there is no such place.
     #[test]
     fn no_capacity_is_nearest_to_a_port_that_answers_at_once() {
-        for r in [0.02_f64, 0.249, 0.26, 0.5, 0.99] {
+        for r in [0.02_f64, 0.249, 0.25, 0.2501, 0.26, 0.5, 0.99] {
             let term = Term { tau: 1.0, resistance: r, error: 0.0 };
             let step = StepResponse { resistance: 1.0, direct: 1.0 - r, terms: vec![term], residual: 0.0 };
             let expected = (2.0 * r.sqrt() - 1.0).max(0.0);
             let found = least_squares(&step, 1e4);
             assert!((found - expected).abs() < 1e-10, "{r}: {found} is not {expected}");
+            assert_eq!(found > 0.0, r > 0.25, "{r}: {found}");
         }
     }
 
@@ -117,5 +100,37 @@ mod tests {
         for window in [1.0, 60.0, 1e5] {
             assert!((least_squares(&step, window) / 200.0 - 1.0).abs() < 1e-11, "{window}");
         }
+    }
+
+    /// Far below every time constant a port rises as t over its own capacity: rates `r/tau` add to `1/C`.
+    #[test]
+    fn in_a_short_window_the_port_warms_alone() {
+        let terms = vec![
+            Term { tau: 800.0, resistance: 0.3, error: 0.0 },
+            Term { tau: 40.0, resistance: 0.1, error: 0.0 },
+        ];
+        let step = StepResponse { resistance: 0.4, direct: 0.0, terms, residual: 0.0 };
+        let alone = 1.0 / (0.3 / 800.0 + 0.1 / 40.0);
+        for (window, within) in [(1e-200, 1e-15), (1e-12, 1e-15), (1e-6, 1e-6), (1e-4, 1e-5)] {
+            let found = least_squares(&step, window);
+            assert!((found / alone - 1.0).abs() < within, "{window}: {found} is not {alone}");
+        }
+    }
+
+    /// A massless port jumps to `z = d` at once, and `1 - exp(-a t)` comes nearest to it over a short window W where the
+    /// integral of `(d - 1 + exp(-a t)) t exp(-a t)` vanishes: for x = a W, `(1 - d) k(x) = k(2 x)` with
+    /// `k(x) = (1 - (1 + x) exp(-x)) / x^2`.
+    #[test]
+    fn in_a_short_window_a_massless_port_has_jumped() {
+        let step = StepResponse {
+            resistance: 1.0,
+            direct: 0.5,
+            terms: vec![Term { tau: 1.0, resistance: 0.5, error: 0.0 }],
+            residual: 0.0,
+        };
+        let window = 1e-9;
+        let x = window / least_squares(&step, window);
+        let k = |x: f64| (1.0 - (1.0 + x) * (-x).exp()) / (x * x);
+        assert!((0.5 * k(x) / k(2.0 * x) - 1.0).abs() < 1e-8 && x > 1.0, "{x}");
     }
 }

@@ -70,3 +70,53 @@ pub(crate) fn recommended(pairs: &[Pair; 4], (of_run, of_step): (f64, f64)) -> R
     }
     Recommended { definition: best.definition, by_run }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pairs with these errors in K of the step and of the run; no run where it is not finite.
+    fn pairs(of_step: [f64; 4], of_run: [f64; 4]) -> [Pair; 4] {
+        let deviation = |kelvin: f64| Deviation { kelvin, relative: Some(kelvin / 50.0), time: 1.0 };
+        [0, 1, 2, 3].map(|k| Pair {
+            definition: Definition::ALL[k],
+            capacity: 1.0,
+            step: deviation(of_step[k]),
+            run: Some(deviation(of_run[k])).filter(|run| run.kelvin.is_finite()),
+        })
+    }
+
+    const NO_RUN: [f64; 4] = [f64::NAN; 4];
+
+    #[test]
+    fn the_run_decides_where_there_is_one() {
+        let found = recommended(&pairs([1.0, 2.0, 3.0, 4.0], [4.0, 3.0, 1.0, 2.0]), (0.1, 0.1));
+        assert_eq!(found, Recommended { definition: Definition::DominantPole, by_run: true });
+        let found = recommended(&pairs([2.0, 1.0, 3.0, 4.0], NO_RUN), (0.1, 0.1));
+        assert_eq!(found, Recommended { definition: Definition::FirstMoment, by_run: false });
+    }
+
+    /// A run in which nothing rises has no share of the rise: it cannot decide.
+    #[test]
+    fn a_run_in_which_nothing_rises_decides_nothing() {
+        let mut still = pairs([2.0, 3.0, 4.0, 1.0], [0.0; 4]);
+        for pair in &mut still {
+            pair.run = Some(Deviation { kelvin: 0.0, relative: None, time: 0.0 });
+        }
+        let found = recommended(&still, (0.0, 0.0));
+        assert_eq!(found, Recommended { definition: Definition::LeastSquares, by_run: false });
+    }
+
+    #[test]
+    fn within_the_noise_the_simplest_is_taken() {
+        let definition =
+            |errors: [f64; 4], noise| recommended(&pairs(NO_RUN.map(|_| 9.0), errors), noise).definition;
+        assert_eq!(definition([1.0, 0.9, 0.9, 0.8], (0.3, 0.0)), Definition::Sum);
+        assert_eq!(definition([1.0, 0.9, 0.9, 0.8], (0.15, 0.0)), Definition::LeastSquares);
+        assert_eq!(definition([1.0, 0.5, 0.5, 0.5], (0.0, 9.0)), Definition::FirstMoment);
+        // better by exactly the noise is not better
+        assert_eq!(definition([1.0, 0.5, 0.5, 0.5], (0.5, 0.0)), Definition::Sum);
+        let by_step = recommended(&pairs([1.0, 0.9, 0.8, 0.7], NO_RUN), (0.0, 0.25));
+        assert_eq!(by_step.definition, Definition::LeastSquares);
+    }
+}

@@ -145,3 +145,73 @@ impl Dense {
         Ok(Self { transient: transient.tolerance(tolerance), breaks })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::step::Term;
+
+    /// `exp(-t) - exp(-q t)` is largest at `t = ln q / (q - 1)`, and is `q^(-1/(q-1)) - q^(-q/(q-1))` there.
+    #[test]
+    fn the_error_of_one_exponential_for_another() {
+        let term = Term { tau: 1.0, resistance: 2.0, error: 0.0 };
+        let step = StepResponse { resistance: 2.0, direct: 0.0, terms: vec![term], residual: 0.0 };
+        for q in [1e-6_f64, 0.3, 3.0, 500.0, 1e6] {
+            let found = of_step(&step, 1.0 / (2.0 * q));
+            let size = (q.powf(-1.0 / (q - 1.0)) - q.powf(-q / (q - 1.0))).abs();
+            assert!((found.relative.unwrap() / size - 1.0).abs() < 1e-9, "{q}: {found:?} {size}");
+            assert!((found.kelvin - 2.0 * found.relative.unwrap()).abs() < 1e-15);
+            let time = q.ln() / (q - 1.0);
+            assert!((found.time / time - 1.0).abs() < 1e-4, "{q}: {found:?} {time}");
+        }
+    }
+
+    #[test]
+    fn without_capacity_the_error_is_all_that_is_still_to_come() {
+        let term = Term { tau: 7.0, resistance: 0.5, error: 0.0 };
+        let step = StepResponse { resistance: 2.0, direct: 1.5, terms: vec![term], residual: 0.0 };
+        assert_eq!(of_step(&step, 0.0), Deviation { kelvin: 0.5, relative: Some(0.25), time: 0.0 });
+    }
+
+    #[test]
+    fn a_deviation_is_held_against_both_bounds() {
+        let found = Deviation { kelvin: 2.0, relative: Some(0.1), time: 0.0 };
+        assert!(found.within(None, None) && found.within(Some(2.0), Some(0.1)));
+        assert!(!found.within(Some(1.9), None) && !found.within(None, Some(0.09)));
+        assert!(!found.within(Some(1.9), Some(0.2)) && !found.within(Some(3.0), Some(0.09)));
+        // nothing rises: no share of it is too large
+        assert!(Deviation { relative: None, ..found }.within(Some(3.0), Some(0.0)));
+    }
+
+    /// Of a parabola with its top, 4, at 1.3.
+    fn parabola(times: &[f64], breaks: &[f64]) -> Deviation {
+        let of = |temperatures| Record { times: times.to_vec(), temperatures, breaks: breaks.to_vec() };
+        let other = of(vec![0.0; times.len()]);
+        of(times.iter().map(|t| 4.0 - (t - 1.3) * (t - 1.3)).collect()).deviation(&other)
+    }
+
+    #[test]
+    fn between_rows_the_error_is_that_of_a_parabola() {
+        let found = parabola(&[0.0, 1.0, 2.0], &[]);
+        assert!((found.kelvin - 4.0).abs() < 1e-14 && (found.time - 1.3).abs() < 1e-14, "{found:?}");
+        // from 2.31 to 3.91 at 1, 4 between: the rise is that of the top as well
+        assert!((found.relative.unwrap() - 4.0 / 1.69).abs() < 1e-14, "{found:?}");
+    }
+
+    #[test]
+    fn no_parabola_goes_over_a_break() {
+        let is_row = |breaks: &[f64]| (parabola(&[0.0, 1.0, 2.0], breaks).time - 1.0).abs() < 1e-15;
+        assert!(is_row(&[0.5]) && is_row(&[1.0]) && is_row(&[1.5]) && is_row(&[-3.0, 1.5, 9.0]));
+        // the row at a break shows what follows it
+        assert!(is_row(&[2.0]) && !is_row(&[0.0]) && !is_row(&[-3.0, 9.0]));
+    }
+
+    #[test]
+    fn no_parabola_goes_through_rows_of_very_different_distance() {
+        let is_row = |times: &[f64]| times.contains(&parabola(times, &[]).time);
+        assert!(is_row(&[0.0, 1.25, 1.35]) && is_row(&[1.25, 1.32, 2.5]));
+        assert!(!is_row(&[0.3, 1.3125, 1.4375]) && !is_row(&[1.1875, 1.3125, 2.5]));
+        // ten times as far still counts, in binary fractions
+        assert!(!is_row(&[0.0, 1.25, 1.375]) && !is_row(&[1.25, 1.375, 2.625]));
+    }
+}

@@ -26,20 +26,27 @@ pub struct ExponentialFit {
 pub fn fit_exponential(times: &[f64], temperatures: &[f64]) -> Result<ExponentialFit, FitError> {
     let record = Record::new(times, temperatures)?;
     let (log_tau, best) = record.refined(record.search()?);
-    let rms = (best.squares / record.count()).sqrt();
-    Ok(ExponentialFit { initial: best.initial, settled: best.initial + best.rise, tau: log_tau.exp(), rms })
+    let (tau, rms) = (log_tau.exp(), (best.squares / record.count()).sqrt());
+    let initial = best.initial - best.rise * (record.first / tau).exp_m1();
+    if !initial.is_finite() {
+        return Err(FitError::NoCurvature { tau });
+    }
+    Ok(ExponentialFit { initial, settled: best.initial + best.rise, tau, rms })
 }
 
 struct Record<'a> {
     times: &'a [f64],
+    /// The first time. Shapes begin there: far behind time 0 nothing but rounding would be left of them.
+    first: f64,
     temperatures: &'a [f64],
 }
 
 /// The best curve for one time constant.
 struct Projected {
+    /// At the first point.
     initial: f64,
     rise: f64,
-    /// `1 - exp(-t / tau)`.
+    /// `1 - exp(-t / tau)`, t from the first point on.
     shape: Vec<f64>,
     /// Sum of the squares of what it misses.
     squares: f64,
@@ -59,7 +66,7 @@ impl<'a> Record<'a> {
         if largest <= 1e-12 * first.abs() {
             return Err(FitError::Flat);
         }
-        Ok(Self { times, temperatures })
+        Ok(Self { times, first: times[0], temperatures })
     }
 
     #[expect(clippy::cast_precision_loss, reason = "records are shorter than 2^52")]
@@ -93,7 +100,7 @@ impl<'a> Record<'a> {
     fn search(&self) -> Result<f64, FitError> {
         if self.times.len() >= 2 * FEW {
             let (times, temperatures) = (means(self.times), means(self.temperatures));
-            let few = Record { times: &times, temperatures: &temperatures };
+            let few = Record { times: &times, first: times[0], temperatures: &temperatures };
             let stretch = (times[times.len() - 1] - times[0]) / few.count();
             match few.grid(100) {
                 Ok(log_tau) if log_tau.exp() > 5.0 * stretch => return Ok(few.refined(log_tau).0),
@@ -120,7 +127,7 @@ impl<'a> Record<'a> {
 
     fn project(&self, log_tau: f64) -> Projected {
         let tau = log_tau.exp();
-        let shape: Vec<f64> = self.times.iter().map(|t| -f64::exp_m1(-t / tau)).collect();
+        let shape: Vec<f64> = self.times.iter().map(|t| -f64::exp_m1((self.first - t) / tau)).collect();
         let (initial, rise) = line(&shape, self.temperatures);
         let misses = self.temperatures.iter().zip(&shape).map(|(t, s)| t - initial - rise * s);
         let squares = misses.map(|m| m * m).sum();
@@ -131,7 +138,7 @@ impl<'a> Record<'a> {
     /// factor cannot follow.
     fn step(&self, log_tau: f64, at: &Projected) -> f64 {
         let tau = log_tau.exp();
-        let slope = |(t, s): (&f64, &f64)| -at.rise * (t / tau) * (1.0 - s);
+        let slope = |(t, s): (&f64, &f64)| -at.rise * ((t - self.first) / tau) * (1.0 - s);
         let slopes: Vec<f64> = self.times.iter().zip(&at.shape).map(slope).collect();
         let (offset, factor) = line(&at.shape, &slopes);
         let (mut square, mut product) = (0.0, 0.0);
@@ -150,8 +157,9 @@ fn line(shape: &[f64], values: &[f64]) -> (f64, f64) {
     let mean_value = mean(values);
     let (mut square, mut product) = (0.0, 0.0);
     for (s, v) in shape.iter().zip(values) {
-        square += (s - mean_shape) * (s - mean_shape);
-        product += (s - mean_shape) * (v - mean_value);
+        let apart = s - mean_shape;
+        square += apart * apart;
+        product += apart * (v - mean_value);
     }
     let factor = if square > 0.0 { product / square } else { 0.0 };
     (mean_value - factor * mean_shape, factor)
@@ -168,4 +176,21 @@ const FEW: usize = 200;
 /// The means of [`FEW`] stretches or some more.
 fn means(values: &[f64]) -> Vec<f64> {
     values.chunks(values.len() / FEW).map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The means of equal stretches of an exponential are one with the same time constant, so that the search through
+    /// them ends there, and no point of a grid does.
+    #[test]
+    fn a_long_record_is_searched_through_its_means() {
+        for tau in [80.0_f64, 900.0, 31_000.0] {
+            let times: Vec<f64> = (0..2000).map(f64::from).collect();
+            let values: Vec<f64> = times.iter().map(|t| 350.0 - 50.0 * (-t / tau).exp()).collect();
+            let found = Record::new(&times, &values).unwrap().search().unwrap();
+            assert!((found.exp() / tau - 1.0).abs() < 1e-6, "{tau}: {}", found.exp());
+        }
+    }
 }

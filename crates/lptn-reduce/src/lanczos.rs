@@ -102,3 +102,39 @@ fn norm(a: &[f64]) -> f64 {
 fn scaled(a: &[f64], factor: f64) -> Vec<f64> {
     a.iter().map(|x| factor * x).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A unit vector hidden under parts 1e8 times as long: the first pass leaves rounding of these, the second does not.
+    #[test]
+    fn a_vector_deep_within_the_basis_becomes_orthogonal_to_it() {
+        let (c, s) = (0.6, 0.8);
+        let basis = [vec![c, s, 0.0, 0.0], vec![-s * c, c * c, s, 0.0]];
+        let hidden = [s * s, -c * s, c, 0.0];
+        let mut next: Vec<f64> =
+            (0..4).map(|i| 1e8 * (basis[0][i] / 3.0 + basis[1][i] / 7.0) + hidden[i]).collect();
+        let length = orthogonalise(&mut next, &basis);
+        assert!((length - 1.0).abs() < 1e-7, "{length}");
+        for vector in &basis {
+            assert!(dot(vector, &next).abs() < 1e-15, "{next:?}");
+        }
+    }
+
+    /// A diagonal operator has its entries for eigenvalues, and the squares of the start vector for weights.
+    #[test]
+    fn modes_of_a_diagonal_operator_are_its_entries() {
+        let entries = [3.0, 0.5, 7.0, 1.0, 0.01, 2.0];
+        let start = [1.0, 2.0, 0.5, 1.5, 3.0, 0.0];
+        let mut apply = |x: &[f64]| Ok(x.iter().zip(entries).map(|(x, e)| x * e).collect());
+        let found = modes(&start, &mut apply, &|_| false).unwrap();
+        let expected = [(7.0, 0.25), (3.0, 1.0), (1.0, 2.25), (0.5, 4.0), (0.01, 9.0)];
+        for (mode, (value, weight)) in found.iter().zip(expected) {
+            assert!((mode.value - value).abs() < 1e-13 && (mode.weight - weight).abs() < 1e-11, "{mode:?}");
+            assert!(mode.error < 1e-13, "{mode:?}");
+        }
+        // 2 is not excited
+        assert_eq!(found.len(), 5, "{found:?}");
+    }
+}

@@ -43,7 +43,6 @@ pub struct Inputs {
 /// [`ReduceError::UnknownPort`], with a suggestion, and [`ReduceError::BoundaryPort`].
 pub fn port(network: &Network, name: &str) -> Result<NodeId, ReduceError> {
     match network.item(name) {
-        Ok(Item::Node(id)) => Ok(id),
         Ok(Item::Boundary(_)) => Err(ReduceError::BoundaryPort { name: name.to_owned() }),
         _ => network.node(name).map_err(ReduceError::UnknownPort),
     }

@@ -148,7 +148,7 @@ impl Reduction {
             Definition::DominantPole => slowest / r,
             Definition::LeastSquares => least_squares(&step, window.length()),
         });
-        // in a window far below every time constant the change of the port is lost in rounding
+        // in a window far from every time constant the change of the port is lost in rounding
         if !capacities[3].is_finite() {
             return Err(ReduceError::Window(window.length()));
         }

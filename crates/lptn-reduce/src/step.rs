@@ -128,3 +128,36 @@ fn direct(system: &ThermalSystem, norton: &NortonEquivalent) -> f64 {
     system.recover(&mut work, &vec![0.0; system.states().len()]);
     system.node_temperatures(&work)[port.index()]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of_terms(terms: &[(f64, f64)]) -> StepResponse {
+        let terms = terms.iter().map(|&(tau, resistance)| Term { tau, resistance, error: 0.0 }).collect();
+        StepResponse { resistance: 0.5, direct: 0.0, terms, residual: 0.0 }
+    }
+
+    #[test]
+    fn the_slowest_time_constant_is_one_that_the_port_sees() {
+        assert!((of_terms(&[(100.0, 1e-12), (10.0, 0.3), (1.0, 0.2)]).slowest().tau - 10.0).abs() < 1e-15);
+        assert!((of_terms(&[(100.0, 0.5e-9), (10.0, 0.5)]).slowest().tau - 100.0).abs() < 1e-15);
+        // none that it sees: the slowest there is
+        assert!((of_terms(&[(100.0, 1e-12), (10.0, 1e-12)]).slowest().tau - 100.0).abs() < 1e-15);
+        assert!(of_terms(&[]).slowest().tau.is_nan());
+    }
+
+    #[test]
+    fn the_span_is_from_the_shortest_to_the_longest_time_constant() {
+        assert_eq!(of_terms(&[(100.0, 0.1), (0.02, 0.2), (3.0, 0.2)]).span(), (0.02, 100.0));
+    }
+
+    /// Eigenvalues are not negative and have a weight: what rounding leaves in place of that is no time constant.
+    #[test]
+    fn what_rounding_leaves_is_no_term() {
+        let mode = |value, weight| Mode { value, weight, error: 0.25 };
+        let modes = [mode(4.0, 2.0), mode(3.0, 0.0), mode(1.0, 0.5), mode(3e-15, 1.0), mode(-1e-16, 1.0)];
+        let found: Vec<(f64, f64)> = terms(&modes).iter().map(|term| (term.tau, term.resistance)).collect();
+        assert_eq!(found, [(4.0, 0.5), (1.0, 0.5)]);
+    }
+}

@@ -291,6 +291,21 @@ fn islands_without_ground_do_not_matter_to_a_port_that_has_one() {
     }
 }
 
+/// As asked for, else as long as the run, else five of the slowest time constants: 2659 J/K over 3.25 W/K.
+#[test]
+fn the_window_is_that_of_the_question() {
+    let (system, nodes) = common::chain(&[2659.0], &[3.25]);
+    let window = |run: Option<Transient>, window: Option<f64>| {
+        Reduction::new(&system, nodes[0], &Options { run, window }).unwrap().dynamics.unwrap().window
+    };
+    let mut late = Transient::until(Time(1500.0));
+    late.start = 400.0;
+    assert_eq!(window(Some(late.clone()), None), Window::Run(1100.0));
+    assert_eq!(window(Some(late), Some(30.0)), Window::Given(30.0));
+    let Window::TimeConstants(length) = window(None, None) else { panic!("no run, no window") };
+    near(length, 5.0 * 2659.0 / 3.25, 1e-12);
+}
+
 #[test]
 fn a_window_must_be_a_time() {
     let (system, nodes) = common::chain(&[1.0], &[1.0]);

@@ -94,3 +94,61 @@ fn the_error_of_a_run_is_that_of_its_own_sources() {
         near(pair.run.unwrap().kelvin, expected, 1e-5);
     }
 }
+
+/// A node that only a boundary joins to the port is not felt: neither its source nor the boundary behind it, nor the
+/// parameters and names that only these use, are in the one-node network.
+#[test]
+fn what_the_port_does_not_feel_is_left_out() {
+    let mut b = NetworkBuilder::new();
+    let zero = Temperature::celsius(0.0);
+    b.parameter("P_port", HeatFlow(40.0));
+    b.parameter("P_far", HeatFlow(70.0));
+    let pulse = b.expression("if(t < 300 [s], P_port, 5 [W])", None).unwrap();
+    let [port, far] = ["port", "far"].map(|name| b.node(name, HeatCapacity(500.0), zero));
+    let (bed, sky) = (b.boundary("bed", zero), b.boundary("sky", zero));
+    b.resistor("a", port, bed, Conductance(2.0));
+    b.resistor("b", far, bed, Conductance(4.0));
+    b.resistor("c", far, sky, Conductance(4.0));
+    b.source("pulse", port, pulse);
+    let constant = b.expression("P_far", None).unwrap();
+    b.source("elsewhere", far, constant);
+    let system = assembled(b);
+    let reduction = Reduction::new(&system, port, &Options::default()).unwrap();
+    let network = reduction.network(&system, 0.0, None).unwrap();
+    let names: Vec<&str> = network.boundaries().iter().map(|boundary| boundary.name.as_str()).collect();
+    assert_eq!(names, ["bed"]);
+    assert_eq!((network.sources().len(), network.parameters().len()), (1, 1));
+    assert_eq!(network.parameters()[0].name, "P_port");
+    assert!(network.nodes()[0].massless, "no pair, no capacity");
+}
+
+/// A massless port starts where the inputs put it that act just after the start: of 40 W until 100 s, 5 W until 150 s
+/// and 7 W from then on, the 5 W at 100 s.
+#[test]
+fn a_massless_port_starts_with_what_acts_after_the_start() {
+    let mut b = NetworkBuilder::new();
+    let heat = b.expression("if(t <= 100 [s], 40 [W], if(t < 150 [s], 5 [W], 7 [W]))", None).unwrap();
+    let (port, wall) = (b.massless("port"), b.node("wall", HeatCapacity(500.0), Temperature(300.0)));
+    let air = b.boundary("air", Temperature(290.0));
+    b.resistor("inner", port, wall, Conductance(2.0));
+    b.resistor("outer", wall, air, Conductance(1.0));
+    b.source("heat", port, heat);
+    let system = assembled(b);
+    for (start, heat) in [(0.0, 40.0), (100.0, 5.0), (200.0, 7.0)] {
+        let mut run = Transient::until(Time(1000.0));
+        run.start = start;
+        let reduction = Reduction::new(&system, port, &Options { run: Some(run), window: None }).unwrap();
+        near(reduction.initial, 300.0 + heat / 2.0, 1e-14);
+    }
+}
+
+/// The runs that are compared keep a hundredth of a tight tolerance, and never more than the one documented.
+#[test]
+fn the_tolerance_of_the_comparison_follows_that_of_the_run() {
+    let (system, [steel, _]) = common::two_nodes([1000.0, 1659.0], 0.1, 0.3, 220.6);
+    for (asked, kept) in [(1e-3, lptn_reduce::TOLERANCE), (1e-6, 1e-8)] {
+        let run = Transient::until(Time(100.0)).tolerance(asked);
+        let reduction = Reduction::new(&system, steel, &Options { run: Some(run), window: None }).unwrap();
+        near(reduction.dynamics.unwrap().tolerance.unwrap(), kept, 1e-12);
+    }
+}

@@ -5,7 +5,7 @@ mod common;
 
 use common::{assembled, chain, near, two_nodes};
 use lptn_network::{Conductance, HeatCapacity, HeatFlow, NetworkBuilder, Temperature, Time};
-use lptn_reduce::{Bias, Options, Reduction, fit_exponential};
+use lptn_reduce::{Bias, Options, Reduction, fit_exponential, transfer_resistance};
 use lptn_solve::{SteadyState, Transient};
 
 /// What the seed paper's method concludes from its fit, in the paper's own words: P = (T_f - T_i) C_eq / t_RC.
@@ -23,7 +23,45 @@ fn the_bias_follows_from_the_fit() {
         near(bias.heat, 220.6, 1e-12);
         near(bias.capacity, 2659.0, 1e-14);
         near(bias.inferred, (bias.fit.settled - bias.fit.initial) * 2659.0 / bias.fit.tau, 1e-12);
+        near(bias.relative().unwrap(), (bias.inferred - 220.6) / 220.6, 1e-10);
     }
+}
+
+/// One node is one exponential, so that what the method infers is what was put in: from 400 s to 1000 s, and of the
+/// heat that the port feels, not of that behind the boundary.
+#[test]
+fn the_bias_of_one_node_is_none() {
+    let mut b = NetworkBuilder::new();
+    let zero = Temperature::celsius(0.0);
+    let bed = b.boundary("bed", zero);
+    let [port, other] = ["port", "other"].map(|name| b.node(name, HeatCapacity(50.0), zero));
+    b.resistor("r", port, bed, Conductance(0.5));
+    b.resistor("s", other, bed, Conductance(0.5));
+    b.source("heat", port, HeatFlow(8.0));
+    b.source("elsewhere", other, HeatFlow(1000.0));
+    let mut run = Transient::until(Time(1000.0)).every(Time(2.0)).tolerance(1e-8);
+    run.start = 400.0;
+    let bias = Bias::new(&assembled(b), port, &run).unwrap().unwrap();
+    near(bias.length, 600.0, 1e-15);
+    assert_eq!(bias.points, 301);
+    near(bias.heat, 8.0, 1e-12);
+    near(bias.fit.tau, 100.0, 1e-6);
+    near(bias.resistance, 2.0, 1e-6);
+    assert!(bias.relative().unwrap().abs() < 1e-6, "{bias:?}");
+}
+
+/// A node that cools has an exponential and no heat to compare with.
+#[test]
+fn where_no_heat_is_put_in_there_is_no_bias() {
+    let mut b = NetworkBuilder::new();
+    let bed = b.boundary("bed", Temperature(300.0));
+    let port = b.node("port", HeatCapacity(50.0), Temperature(350.0));
+    b.resistor("r", port, bed, Conductance(0.5));
+    let run = Transient::until(Time(500.0)).every(Time(2.0)).tolerance(1e-8);
+    let bias = Bias::new(&assembled(b), port, &run).unwrap().unwrap();
+    near(bias.fit.settled, 300.0, 1e-8);
+    near(bias.inferred, -25.0, 1e-5);
+    assert_eq!(bias.relative(), None);
 }
 
 /// A network of junctions: the weights sum to 1, and there is no C_eq.
@@ -125,4 +163,51 @@ fn a_fit_finds_one_exponential_again_and_says_where_there_is_none() {
     assert_eq!(code(&times, &vec![20.0; 200]), "fit::flat");
     assert_eq!(code(&times, &times), "fit::no_curvature");
     assert_eq!(code(&[0.0, 1.0, 1.0, 2.0], &[0.0, 1.0, 2.0, 3.0]), "fit::not_a_record");
+}
+
+/// Rows of the table by their words, and the relations between its columns.
+#[test]
+fn the_table_has_a_row_a_pair() {
+    let (system, nodes) = two_nodes([1000.0, 1659.0], 0.1, 0.3, 220.6);
+    let options = Options { run: Some(Transient::until(Time(1500.0))), window: None };
+    let reduction = Reduction::new(&system, nodes[0], &options).unwrap();
+    let table = reduction.table();
+    let labels: Vec<&[String]> = table.labels().iter().map(|label| label.cells.as_slice()).collect();
+    assert_eq!(labels[0], ["sum", "first_moment", "dominant_pole", "least_squares"]);
+    assert_eq!(labels[1], ["no", "no", "no", "yes"]);
+    let column = |name: &str| {
+        let column = table.columns().iter().find(|column| column.name == name);
+        column.unwrap_or_else(|| panic!("no column {name}")).values.clone()
+    };
+    assert!(column("R_eq").iter().all(|r| (r - 0.4).abs() < 1e-14));
+    near(column("C_eq")[0], 2659.0, 1e-14);
+    near(column("tau")[0], 0.4 * 2659.0, 1e-14);
+    // heat of 220.6 W from rest: the error of the run is that of 1 W, as often
+    near(column("run.max")[0], 220.6 * column("step.max")[0], 1e-4);
+    near(column("step.relative")[0], column("step.max")[0] / 0.4, 1e-14);
+    let alone = Reduction::new(&system, nodes[0], &Options::default()).unwrap().table();
+    let runs = alone.columns().iter().filter(|column| column.name.starts_with("run."));
+    assert!(runs.flat_map(|column| &column.values).all(|value| value.is_nan()));
+}
+
+/// A port that sees no capacity has one row without a definition, and its resistance.
+#[test]
+fn the_table_of_a_junction_has_one_row() {
+    let mut b = NetworkBuilder::new();
+    let bed = b.boundary("bed", Temperature(300.0));
+    let port = b.massless("port");
+    b.resistor("r", port, bed, Conductance(0.5));
+    let table = Reduction::new(&assembled(b), port, &Options::default()).unwrap().table();
+    assert_eq!((table.rows(), table.labels()[0].cells.as_slice()), (1, [String::new()].as_slice()));
+    assert_eq!(table.labels()[1].cells, ["no"]);
+    let row: Vec<f64> = table.row(0).collect();
+    assert!((row[0] - 2.0).abs() < 1e-14 && row[1..].iter().all(|value| value.is_nan()), "{row:?}");
+}
+
+/// Reciprocity: the rise of one end for heat into the other is that of the resistance they share.
+#[test]
+fn the_transfer_resistance_is_that_of_the_common_path() {
+    let (system, nodes) = chain(&[1.0, 2.0, 3.0], &[0.5, 4.0, 0.1]);
+    near(transfer_resistance(&system, nodes[0], nodes[2]).unwrap(), 2.0, 1e-13);
+    near(transfer_resistance(&system, nodes[2], nodes[1]).unwrap(), 2.25, 1e-13);
 }

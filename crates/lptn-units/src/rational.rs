@@ -144,6 +144,9 @@ mod tests {
     fn decimals_are_exact() {
         assert_eq!(Rational::from_decimal("1.25"), Rational::new(5, 4));
         assert_eq!(Rational::from_decimal("-0.50"), Rational::new(-1, 2));
+        assert_eq!(Rational::from_decimal("0.123456789"), Rational::new(123_456_789, 1_000_000_000));
+        assert_eq!(Rational::from_decimal("0.1234567891"), None);
+        assert_eq!(Rational::from_decimal("0.12500000000000"), Rational::new(1, 8));
         assert_eq!(Rational::from_decimal("1e3"), None);
         assert_eq!(Rational::from_decimal("99999999999"), None);
     }

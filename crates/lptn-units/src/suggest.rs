@@ -67,7 +67,7 @@ fn distance(a: &[char], b: &[char]) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::suggest;
+    use super::{distance, suggest};
 
     #[test]
     fn swapped_and_missing_letters_are_near() {
@@ -83,5 +83,64 @@ mod tests {
     fn single_letters_are_near_only_in_case() {
         assert_eq!(suggest("w", ["K", "W"].into_iter()), Some("W"));
         assert_eq!(suggest("x", ["K", "W"].into_iter()), None);
+    }
+
+    /// Wagner and Fischer's kind of examples; with "no part is edited twice" `ca` to `abc` takes three edits, not two.
+    #[test]
+    fn distances_are_those_of_the_literature() {
+        let table = [
+            ("kitten", "sitting", 3),
+            ("saturday", "sunday", 3),
+            ("intention", "execution", 5),
+            ("ca", "abc", 3),
+            ("abcd", "acbd", 1),
+            ("abcdef", "bacdfe", 2),
+            ("", "abc", 3),
+            ("abc", "", 3),
+        ];
+        for (a, b, edits) in table {
+            let letters = |text: &str| text.chars().collect::<Vec<char>>();
+            assert_eq!(distance(&letters(a), &letters(b)), Some(edits), "{a} {b}");
+            assert_eq!(distance(&letters(b), &letters(a)), Some(edits), "{b} {a}");
+        }
+    }
+
+    fn near(name: &str, candidate: &str) -> bool {
+        suggest(name, [candidate].into_iter()).is_some()
+    }
+
+    #[test]
+    fn one_edit_is_near_for_every_three_characters() {
+        assert!(near("abc", "abx") && near("ab", "ax") && near("abcde", "abcdx") && !near("abcde", "abcxy"));
+        assert!(near("abcdef", "abcdxy") && !near("abcdef", "abcxyz"));
+        assert!(near("abcdefgh", "abcdefxy") && !near("abcdefgh", "abcdexyz"));
+        assert!(near("abcdefghi", "abcdefxyz"));
+        // the longer of the two counts
+        assert!(near("abcdefgh", "abcdefghxyz") && !near("abcdefg", "abcdefgxyz1"));
+        assert!(
+            !near("w", "wa") && !near("wa", "w") && !near("", "a") && near("ab", "abc") && !near("a", "abc")
+        );
+    }
+
+    #[test]
+    fn names_of_more_than_64_characters_are_near_only_in_case() {
+        let name = "x".repeat(63);
+        assert!(near(&format!("{name}a"), &format!("{name}b")));
+        assert!(
+            !near(&format!("{name}aa"), &format!("{name}a"))
+                && !near(&format!("{name}a"), &format!("{name}aa"))
+        );
+        assert!(
+            near(&format!("{name}a"), &format!("{name}A"))
+                && !near(&format!("{name}aa"), &format!("{name}AA"))
+        );
+    }
+
+    #[test]
+    fn of_equally_near_names_those_of_the_same_length_win_and_then_the_first() {
+        assert_eq!(suggest("abcde", ["abcdef", "abcdx", "abxde"].into_iter()), Some("abcdx"));
+        assert_eq!(suggest("abcdef", ["abcdexyz", "abcdefg", "abcxyf"].into_iter()), Some("abcdefg"));
+        assert_eq!(suggest("abcde", ["abcde", "abcdx"].into_iter()), Some("abcdx"));
+        assert_eq!(suggest("abcde", ["abcdx", "ABCDE"].into_iter()), Some("ABCDE"));
     }
 }

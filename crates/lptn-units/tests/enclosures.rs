@@ -149,6 +149,63 @@ fn coefficients_are_those_of_the_series() {
     }
 }
 
+/// The same with their signs: less the series itself nothing is left of any order.
+#[test]
+fn coefficients_have_the_signs_of_the_series() {
+    let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+    let factorial = |k: usize| (1..=k).map(|i| i as f64).product::<f64>();
+    let binomial =
+        |power: f64, k: usize| (0..k).map(|i| (power - i as f64) / (i as f64 + 1.0)).product::<f64>();
+    let tanh = [0.0, 1.0, 0.0, -1.0 / 3.0, 0.0, 2.0 / 15.0, 0.0, -17.0 / 315.0, 0.0, 62.0 / 2835.0];
+    let of = |coefficient: &dyn Fn(usize) -> f64| (0..=Taylor::ORDER).map(coefficient).collect::<Vec<f64>>();
+    let cases = [
+        ("exp(-x)", of(&|k| sign(k) / factorial(k))),
+        ("ln(1 + x)", of(&|k| if k == 0 { 0.0 } else { -sign(k) / k as f64 })),
+        ("1 / (1 + x)", of(&sign)),
+        ("(1 + x)^-2", of(&|k| sign(k) * (k as f64 + 1.0))),
+        ("sqrt(1 + x)", of(&|k| binomial(0.5, k))),
+        ("(1 + x)^-0.3", of(&|k| binomial(-0.3, k))),
+        ("(1 - x)^1.7", of(&|k| sign(k) * binomial(1.7, k))),
+        ("sin(x)", of(&|k| if k % 2 == 1 { sign(k / 2) / factorial(k) } else { 0.0 })),
+        ("cos(x)", of(&|k| if k % 2 == 0 { sign(k / 2) / factorial(k) } else { 0.0 })),
+        ("tanh(x)", of(&|k| tanh[k])),
+    ];
+    for (text, series) in &cases {
+        let terms: Vec<String> = series.iter().enumerate().map(|(k, c)| format!("({c:?}) * x^{k}")).collect();
+        let less = over(&format!("{text} - ({})", terms.join(" + ")), 0.0, 0.0);
+        for k in 0..=Taylor::ORDER {
+            assert!(less.largest(k) < 1e-14, "{text}, order {k}: {}", less.largest(k));
+        }
+    }
+}
+
+/// Of 64 forks each follows two branches: beyond them nothing is known.
+#[test]
+fn so_many_branches_are_followed_and_no_more() {
+    let sum = |count: usize| vec!["if(x < 0.9, x^2, 3 - x)"; count].join(" + ");
+    let [low, high] = over(&sum(5), 0.0, 2.0).range().unwrap();
+    assert!(low <= 5.0 && high >= 5.0 * 2.1, "{low} {high}");
+    assert_eq!(over(&sum(12), 0.0, 2.0).range(), None);
+    // where it is known which is taken none is followed twice
+    assert_eq!(over(&sum(12), 1.0, 2.0).range(), Some([12.0, 24.0]));
+}
+
+/// Beyond its ends a table that is held is a number, up to the knot itself.
+#[test]
+fn a_held_table_stands_still() {
+    for (from, to, value) in [(-6.0, -5.0, 3.0), (-6.0, -4.0, 3.0), (5.0, 6.0, 7.0), (5.5, 6.0, 7.0)] {
+        let found = over("lines(x)", from, to);
+        assert_eq!((found.range(), found.largest(1)), (Some([value, value]), 0.0), "{from} {to}");
+    }
+    assert!((over("lines(x)", 4.0, 5.0).largest(1) - 3.0).abs() < 1e-14);
+    assert!((over("lines(x)", -4.0, -1.0).largest(1) - 2.0 / 3.0).abs() < 1e-14);
+    assert!(over("lines(x)", -5.0, -3.0).largest(1).is_infinite());
+    // a power whose base comes down to 0 has bounds, and no slope
+    let [low, high] = over("x^1.5", 0.0, 4.0).range().unwrap();
+    assert!(low.abs() < 1e-15 && (high - 8.0).abs() < 1e-14);
+    assert!(over("x^1.5", 0.0, 4.0).largest(1).is_infinite() && over("x^-1.5", 0.0, 4.0).range().is_none());
+}
+
 #[test]
 fn what_may_have_no_value_has_no_bounds() {
     for text in ["1 / x", "ln(x)", "sqrt(x)", "x^0.5", "x^-1", "smooth(5 * x)", "0 * sqrt(x)"] {

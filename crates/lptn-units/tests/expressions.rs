@@ -316,6 +316,8 @@ fn errors_of_rotations_and_results() {
             Some("the value must come out in W"),
         ),
         ("2 * 3 / 4", resistance, "units::dimension", "2 * 3 / 4", Some("the value must come out in K/W")),
+        ("T", Some(POWER), "units::dimension", "T", Some("the value must come out in W")),
+        ("P * 1", Some(DIFFERENCE), "units::dimension", "P * 1", Some("the value must come out in K")),
         ("omega^x", None, "units::exponent", "x", Some("write \"(omega / 1 [rad/s])^x\"")),
         ("2^P", None, "units::exponent", "P", Some("divide the exponent by its unit: \"x^(n / 1 [K])\"")),
         (
@@ -374,6 +376,8 @@ fn habits_of_other_languages_are_answered() {
         ("if(x < 3 and n < 2, 1, 2)", None, "units::syntax", "and", nested),
         ("x ** 2", None, "units::syntax", "*", power),
         ("x²", None, "units::syntax", "²", power),
+        ("x * * 2", None, "units::syntax", "*", None),
+        ("x $ 2", None, "units::syntax", "$", None),
         ("[W]", None, "units::misplaced_bracket", "[W]", Some("write \"1 [W]\"")),
         ("x * [W]", None, "units::misplaced_bracket", "[W]", Some("write \"x * 1 [W]\"")),
     ]);

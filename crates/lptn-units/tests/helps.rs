@@ -82,6 +82,9 @@ fn fractions_of_a_unit_are_shown_as_decimals() {
     for right in ["5 1/min", "1 / 2", "3/8 * 1 [in]", "1/s", "2 1/K"] {
         assert!(parse_value(right, None, &|_| false).is_ok(), "{right}");
     }
+    for nothing in ["3/0 in", "3/0 [in]", "1 1/0 in"] {
+        assert!(offers(nothing, LENGTH).iter().all(|offer| !offer.contains("inf")), "{nothing}");
+    }
     // a difference of unlike kinds is no mixed number
     assert!(!offers("1 - 1/2 in", LENGTH).iter().any(|offer| read(offer, LENGTH).is_ok()));
 }

@@ -83,6 +83,54 @@ fn a_comparison_splits_into_its_sides() {
     let (_, _, wrong) = Expression::parse("steel.T < 80 [K] * foo").unwrap().split_comparison().unwrap();
     assert_eq!(wrong.compile(&Names, None).unwrap_err()[0].span, 19..22);
     assert!(Expression::parse("1 + 2").unwrap().split_comparison().is_none());
+    let text = "x + 2 * n - 1 >= max(n, fan, 3 * (x + 1)) + if(x < n, 2, 5)";
+    let (left, _, right) = Expression::parse(text).unwrap().split_comparison().unwrap();
+    let value =
+        |side: Expression| side.compile(&Names, None).unwrap().eval(&values(), &mut Vec::new()).unwrap();
+    assert_eq!((value(left), value(right)), (7.0, 11.0));
+}
+
+/// A constant part is computed before the run, whatever it is made of, so that a negative base takes the whole exponent
+/// that it comes to: (2 - 3)^2 = 1, (2 - 3)^1 = -1.
+#[test]
+fn constant_exponents_are_known_beforehand() {
+    let even = [
+        "sqrt(4)",
+        "abs(-2)",
+        "min(2, 3)",
+        "min(3, 2)",
+        "max(1, 2)",
+        "max(2, 1)",
+        "min(5, 2, 3)",
+        "max(0, 2, 1)",
+        "mean(1, 3)",
+        "mean(1, 2, 3)",
+        "ln(1)",
+        "sin(0)",
+        "tanh(0)",
+        "2 * cos(0)",
+        "2 * exp(0)",
+        "(1 + 1)",
+        "(5 - 3)",
+        "(1 / 0.5)",
+        "-(-2)",
+        "2^1",
+    ];
+    for exponent in even {
+        assert!((run(&format!("(x - 3)^({exponent})")).unwrap() - 1.0).abs() < 1e-15, "{exponent}");
+    }
+    for exponent in ["cos(0)", "exp(0)", "min(1, 2)", "max(1, 0)", "mean(1)", "sqrt(1)"] {
+        assert!((run(&format!("(x - 3)^({exponent})")).unwrap() + 1.0).abs() < 1e-15, "{exponent}");
+    }
+    // what is constant has no kink
+    for constant in
+        ["sqrt(4)", "ln(2)", "cos(1)", "sin(1)", "tanh(1)", "exp(1)", "abs(-2)", "2^0.5", "mean(1, 2)"]
+    {
+        assert!(program(&format!("x + max({constant}, 5)")).kinks().is_empty(), "{constant}");
+    }
+    let constant = program("2 * sqrt(9) + max(1, 4)");
+    assert!(constant.slots().is_empty() && constant.kinks().is_empty());
+    assert_eq!((constant.text(), run(constant.text()).unwrap()), ("2 * sqrt(9) + max(1, 4)", 10.0));
 }
 
 #[test]
@@ -115,6 +163,10 @@ fn degrees_are_upper_bounds() {
         ("if(x < 2, 1, 2)", Degree::Nonlinear),
         ("if(n < 2, x^2, 1)", Degree::Nonlinear),
         ("mean(x, n)", Degree::Affine),
+        ("(x + n) + n * (x - 1)", Degree::Affine),
+        ("(n + 1) * (x + n)", Degree::Affine),
+        ("(x + 1) * (x + n)", Degree::Nonlinear),
+        ("(x + 1) / (n + 1)", Degree::Affine),
         ("-x", Degree::Affine),
         ("x^1", Degree::Affine),
         ("n^x", Degree::Nonlinear),
@@ -185,6 +237,9 @@ fn parts_that_read_no_temperature_are_found_wherever_they_stand() {
     whole("if(x < 5, kelvin(T) / (1 [K]), sin(x - 2) + 7)", 7.0);
     whole("if(x < 5, x, n) * kelvin(T)", 2.0);
     whole("max(kelvin(T) / (1 [K]), x + n)", 5.0);
+    // a choice by a temperature and by something else is one by a temperature
+    assert_eq!(split("if(kelvin(T) / (1 [K]) > x, x^2, n)"), (vec![4.0, 3.0], false));
+    assert_eq!(split("if(x < kelvin(T) / (1 [K]), x^2, n)"), (vec![4.0, 3.0], false));
     assert_eq!(split("x * kelvin(T) * fan + n^2 * 1 [K]"), (vec![2.0, 0.25, 9.0], false));
     assert_eq!(split("sin(n * (kelvin(T) - (350 [K])) / (1 [K]) + x)"), (vec![3.0, 2.0], true));
     assert_eq!(split("1 / (1 + x * kelvin(T) / (1 [K]))"), (vec![2.0], true));

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-use lptn_units::{Dimension, Type, parse_quantity, parse_value};
+use lptn_units::{Dimension, Expression, Scope, Symbol, Type, parse_quantity, parse_value};
 use wrong::{check_wrong, is_parameter};
 
 #[path = "common/wrong.rs"]
@@ -160,5 +160,30 @@ fn proposals_read() {
         for proposal in proposals {
             assert!(parse_value(proposal, None, &is_parameter).is_ok(), "{text}: {proposal}");
         }
+    }
+}
+
+#[test]
+fn messages_name_what_was_found() {
+    let message = |text: &str| Expression::parse(text).unwrap_err().to_string();
+    assert!(message("x +").contains("the end") && message("x + )").contains("`)`"));
+    let call = Expression::parse("2 * sqrt(1, 2)").unwrap().compile(&NoNames, None).unwrap_err();
+    assert_eq!(call[0].code(), "units::arity");
+    assert!(call[0].to_string().contains("`sqrt`"), "{}", call[0]);
+    // a text too long to be a slip gets no proposal
+    let long = format!("1,5 {} W", " ".repeat(250));
+    let help = parse_quantity(&long, None).unwrap_err().help().unwrap();
+    assert_eq!(help, "write a decimal point, and no separators between the digits");
+}
+
+struct NoNames;
+
+impl Scope for NoNames {
+    fn symbol(&self, _: &str) -> Option<Symbol> {
+        None
+    }
+
+    fn names(&self) -> Vec<String> {
+        Vec::new()
     }
 }

@@ -302,6 +302,10 @@ fn expressions_taken_for_quantities_and_the_other_way_round() {
             Some("write \"20 [W/K] + 60 [W/K] * fan\""),
         ),
         ("60 W * fan", None, "units::unbracketed_unit", "W", Some("write \"60 [W] * fan\"")),
+        ("20 W/s^2 * fan", None, "units::unbracketed_unit", "W/s^2", Some("write \"20 [W/s^2] * fan\"")),
+        ("3 s^(1/2) * fan", None, "units::unbracketed_unit", "s^(1/2)", Some("write \"3 [s^(1/2)] * fan\"")),
+        ("3 s^-2 * fan", None, "units::unbracketed_unit", "s^-2", Some("write \"3 [s^-2] * fan\"")),
+        ("3 W/s² * fan", None, "units::unbracketed_unit", "W/s²", Some("write \"3 [W/s²] * fan\"")),
         ("20 W/m2K * m", None, "units::unbracketed_unit", "W/m2K", Some("write \"20 [W/(m^2 K)] * m\"")),
         ("T_amb + 5 K", None, "units::unbracketed_unit", "K", Some("write \"T_amb + 5 [K]\"")),
         ("max(3 K, T_amb)", None, "units::unbracketed_unit", "K", Some("write \"max(3 [K], T_amb)\"")),
@@ -322,7 +326,7 @@ fn deep_brackets_are_an_error() {
         assert!(parse_value(&text, None, &is_parameter).is_err());
     }
     let error = parse_quantity(&format!("5 {}", "(".repeat(100_000)), None).unwrap_err();
-    assert_eq!(error.code(), "units::too_deep");
+    assert_eq!((error.code(), error.span.len()), ("units::too_deep", 1));
 }
 
 #[test]
@@ -337,6 +341,28 @@ fn units_alone_convert_both_ways() {
     assert!(Unit::parse("1").unwrap().ty.is_scalar());
     assert_eq!(Unit::parse("W/m2K").unwrap_err().help().as_deref(), Some("did you mean \"W/(m^2 K)\"?"));
     assert_eq!(Unit::parse(" ").unwrap_err().code(), "units::empty");
+}
+
+#[test]
+fn raised_digits_are_exponents() {
+    for (raised, digit) in "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().zip('0'..) {
+        let of = |exponent: &str| Unit::parse(&format!("s{exponent}")).unwrap().ty;
+        assert_eq!(of(&raised.to_string()), of(&format!("^{digit}")), "{raised}");
+        assert_eq!(of(&format!("⁻{raised}")), of(&format!("^-{digit}")), "{raised}");
+    }
+}
+
+/// Nested too deep is another thing.
+#[test]
+fn many_brackets_side_by_side_are_read() {
+    assert_eq!(Unit::parse(&"(m) ".repeat(40)).unwrap().ty, Unit::parse("m^40").unwrap().ty);
+}
+
+/// `min(` would be a call.
+#[test]
+fn a_bracket_multiplies_behind_a_space_only() {
+    assert_eq!(Unit::parse("W (s)").unwrap().ty, ENERGY);
+    assert!(Unit::parse("W(s)").is_err());
 }
 
 #[test]

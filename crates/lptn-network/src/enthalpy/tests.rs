@@ -196,3 +196,19 @@ fn a_temperature_is_found_to_its_last_digits_in_few_steps() {
         assert!((found - t).abs() < 1e-12 * t, "{found} {t}");
     }
 }
+
+/// A run stops where a curve may bend: at what was named, where it melts, never at the ends that were asked for.
+#[test]
+fn stops_are_the_bends_strictly_between_two_temperatures() {
+    let latent = Latent::new((330.0, 330.0), 5000.0);
+    let mut capacity = written("100 + abs(x - 320)");
+    let curve = Enthalpy::new(&mut capacity, 300.0, &[320.0, 350.0], &[latent]).unwrap();
+    let stops = curve.stops(310.0, 360.0);
+    assert!(stops.windows(2).all(|pair| pair[0] < pair[1]), "{stops:?}");
+    assert!(stops.iter().all(|t| *t > 310.0 && *t < 360.0), "{stops:?}");
+    for bend in [320.0, 330.0, 350.0] {
+        assert!(stops.contains(&bend), "{bend}: {stops:?}");
+    }
+    let inner = curve.stops(320.0, 350.0);
+    assert!(inner.contains(&330.0) && !inner.contains(&320.0) && !inner.contains(&350.0), "{inner:?}");
+}

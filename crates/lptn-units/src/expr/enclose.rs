@@ -160,3 +160,29 @@ fn apply(arithmetic: Arithmetic, left: Taylor, right: Taylor) -> Taylor {
         Arithmetic::Max => left.larger(right),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A comparison holds for all numbers of two ranges, for none or for some: their halves tell which.
+    #[test]
+    fn a_comparison_of_ranges_is_that_of_all_their_numbers() {
+        use Comparison::{Equal, Greater, GreaterEqual, Less, LessEqual, NotEqual};
+        let ranges: Vec<Interval> = (0..4)
+            .flat_map(|low| (low..4).map(move |high| Interval::new(f64::from(low), f64::from(high))))
+            .collect();
+        let halves = (0..7).map(|k| 0.5 * f64::from(k));
+        let numbers = |range: Interval| halves.clone().filter(move |x| range.low <= *x && *x <= range.high);
+        for comparison in [Less, LessEqual, Greater, GreaterEqual, Equal, NotEqual] {
+            for (a, b) in ranges.iter().flat_map(|a| ranges.iter().map(move |b| (*a, *b))) {
+                let truths: Vec<bool> =
+                    numbers(a).flat_map(|x| numbers(b).map(move |y| comparison.holds(x, y))).collect();
+                let expected = truths.iter().all(|truth| *truth == truths[0]).then_some(truths[0]);
+                assert_eq!(holds(comparison, a, b), expected, "{a:?} {comparison} {b:?}");
+            }
+            assert_eq!(holds(comparison, Interval::ALL, ranges[0]), None);
+            assert_eq!(holds(comparison, ranges[0], Interval::ALL), None);
+        }
+    }
+}

@@ -47,10 +47,11 @@ impl Trend {
                 self.low.to_bits() == self.high.to_bits() && other.low.to_bits() == other.high.to_bits();
             return if both { Self::constant(self.low * other.low) } else { Self::HELD };
         }
-        if self.high <= 0.0 {
+        // of what is 0 and nothing else the negative is the same again
+        if self.high <= 0.0 && self.low < 0.0 {
             return self.negated().times(other).negated();
         }
-        if other.high <= 0.0 {
+        if other.high <= 0.0 && other.low < 0.0 {
             return self.times(other.negated()).negated();
         }
         if self.low >= 0.0 && other.low >= 0.0 {

@@ -140,3 +140,68 @@ impl Mul<f64> for Interval {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(low: f64, high: f64) -> Interval {
+        Interval::new(low, high)
+    }
+
+    /// Moore, Kearfott, Cloud, chapter 2.
+    #[test]
+    fn sums_and_products_are_those_of_the_ends() {
+        assert_eq!(of(-1.0, 2.0) + of(3.0, 5.0), of(2.0, 7.0));
+        assert_eq!(of(-1.0, 2.0) - of(3.0, 5.0), of(-6.0, -1.0));
+        assert_eq!(-of(-1.0, 2.0), of(-2.0, 1.0));
+        assert_eq!(of(-1.0, 2.0) * of(3.0, 5.0), of(-5.0, 10.0));
+        assert_eq!(of(-2.0, -1.0) * of(-5.0, 3.0), of(-6.0, 10.0));
+        assert_eq!((of(-1.0, 2.0) * 3.0, of(-1.0, 2.0) * -3.0), (of(-3.0, 6.0), of(-6.0, 3.0)));
+        assert_eq!((of(-1.0, 2.0) * 0.0, Interval::ALL * 0.0), (Interval::ZERO, Interval::ZERO));
+        assert_eq!(
+            (Interval::ZERO * Interval::ALL, Interval::ALL * Interval::ZERO),
+            (Interval::ZERO, Interval::ZERO)
+        );
+        // 0 times something without bound may be anything
+        assert_eq!(of(0.0, 1.0) * Interval::ALL, Interval::ALL);
+        assert_eq!(of(2.0, 4.0).reciprocal(), of(0.25, 0.5));
+        assert_eq!(of(-4.0, -2.0).reciprocal(), of(-0.5, -0.25));
+        for over_zero in [of(-1.0, 1.0), of(0.0, 1.0), of(-1.0, 0.0)] {
+            assert_eq!(over_zero.reciprocal(), Interval::ALL);
+        }
+    }
+
+    #[test]
+    fn magnitudes_and_whole_powers_know_where_zero_is() {
+        assert_eq!(of(-3.0, 2.0).abs(), of(0.0, 3.0));
+        assert_eq!((of(1.0, 2.0).abs(), of(-3.0, -1.0).abs()), (of(1.0, 2.0), of(1.0, 3.0)));
+        assert_eq!((of(-3.0, 2.0).power(2), of(-3.0, 2.0).power(3)), (of(0.0, 9.0), of(-27.0, 8.0)));
+        assert_eq!(of(-3.0, -2.0).power(2), of(4.0, 9.0));
+        assert_eq!(of(-3.0, 2.0).power(0), Interval::point(1.0));
+        assert_eq!((of(-3.0, 2.0).magnitude(), of(-3.0, 2.0).width()), (3.0, 5.0));
+        assert_eq!(of(-1.0, 0.0).hull(of(2.0, 3.0)), of(-1.0, 3.0));
+        assert!(
+            of(-3.0, 2.0).is_bounded() && !of(0.0, f64::INFINITY).is_bounded() && !Interval::ALL.is_bounded()
+        );
+        assert!(Interval::ZERO.is_zero() && !of(0.0, 1.0).is_zero() && !of(-1.0, 0.0).is_zero());
+        assert_eq!((of(1.0, 0.0), of(f64::NAN, 0.0)), (Interval::ALL, Interval::ALL));
+    }
+
+    /// Against the largest and smallest of many values, widened by what lies between two of them.
+    #[test]
+    fn sines_turn_at_crests_and_troughs() {
+        let steps = 2000;
+        for (from, width) in
+            (-40..40).flat_map(|k| [0.1, 1.0, 2.5, 4.0, 7.0].map(|width| (0.37 * f64::from(k), width)))
+        {
+            let found = of(from, from + width).sin();
+            let values = (0..=steps).map(|i| (from + width * f64::from(i) / f64::from(steps)).sin());
+            let (low, high) = values.fold((1.0_f64, -1.0_f64), |(low, high), v| (low.min(v), high.max(v)));
+            let between = (width / f64::from(steps)).powi(2);
+            assert!(found.low <= low && low - between <= found.low, "{from} {width}: {found:?} {low}");
+            assert!(found.high >= high && high + between >= found.high, "{from} {width}: {found:?} {high}");
+        }
+        assert_eq!(of(0.0, f64::INFINITY).sin(), of(-1.0, 1.0));
+    }
+}
