@@ -226,7 +226,7 @@ fn film_and_resistance_of_the_same_value_are_the_same_path() {
         b.source("heater", plate, HeatFlow(50.0));
         SteadyState::solve(&assembled(b), 0.0).unwrap().temperatures[0]
     };
-    close(celsius(steady(Path::Film(FilmCoefficient(25.0).into(), Area(0.2).into()))), 30.0, 1e-12);
+    close(celsius(steady(Path::film(FilmCoefficient(25.0), Area(0.2)))), 30.0, 1e-12);
     close(celsius(steady(Resistance(0.2).into())), 30.0, 1e-12);
 }
 

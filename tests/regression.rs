@@ -2,7 +2,7 @@
 
 mod support;
 
-use lptn::network::{Area, ConductorKind, Context, Exchange, Path};
+use lptn::network::{Area, ConductorKind, Context, Path};
 use lptn::prelude::*;
 use lptn::solve::{End, TransientError, Watch};
 use support::assembled;
@@ -253,10 +253,10 @@ fn networks_that_come_to_rest_have_a_steady_state() {
         let mut b = NetworkBuilder::new();
         let [bright, still] = ["bright", "still"].map(|n| b.node(n, HeatCapacity(1.0), Temperature(400.0)));
         let space = b.boundary("space", Temperature(ambient));
-        let area = Exchange::Area(Area(0.04).into());
-        b.conductor("glow", ConductorKind::Radiation, (bright.into(), space.into()), Path::Radiation(area));
+        let area = Path::radiation(Area(0.04));
+        b.conductor("glow", ConductorKind::Radiation, (bright.into(), space.into()), area);
         let film = b.expression_in(Context::Link, "0.35 [W/K] * abs(dT / 1 [K])^0.25", None).unwrap();
-        b.resistor("film", still, space, Path::Conductance(film.into()));
+        b.resistor("film", still, space, Path::conductance(film));
         let steady = SteadyState::solve(&assembled(b), 0.0).unwrap();
         // heat that grows with the fourth power is gone within Newton's last digit, 1e-9 K, times that power
         let off = steady.temperatures.iter().map(|t| (t - ambient).abs()).fold(0.0, f64::max);
@@ -313,8 +313,8 @@ fn time_constants_of_nodes_count_the_streams_into_them() {
     let sump = b.node("sump", HeatCapacity(3000.0), Temperature::celsius(40.0));
     let tank = b.node("tank", HeatCapacity(800.0), Temperature::celsius(40.0));
     let cooler = b.boundary("cooler", Temperature::celsius(40.0));
-    b.conductor("feed", ConductorKind::Advection, (cooler.into(), sump.into()), Path::Advection(rate(90.0)));
-    b.conductor("back", ConductorKind::Advection, (tank.into(), sump.into()), Path::Advection(rate(-90.0)));
+    b.conductor("feed", ConductorKind::Advection, (cooler.into(), sump.into()), rate(90.0));
+    b.conductor("back", ConductorKind::Advection, (tank.into(), sump.into()), rate(-90.0));
     b.resistor("skin", sump, cooler, Conductance(10.0));
     b.resistor("foot", tank, cooler, Conductance(10.0));
     let stiffness = lptn::solve::Stiffness::of(&b.build().unwrap()).unwrap();
@@ -322,8 +322,8 @@ fn time_constants_of_nodes_count_the_streams_into_them() {
     assert!((stiffness.slowest.1 - 30.0).abs() < 1e-12 && (stiffness.fastest.1 - 8.0).abs() < 1e-12);
 }
 
-fn rate(value: f64) -> lptn::network::Stream<lptn::network::Input> {
-    lptn::network::Stream::Capacity(Conductance(value).into())
+fn rate(value: f64) -> Path {
+    Path::stream(Conductance(value))
 }
 
 /// Two materials with tables of cp shared one curve, the first: the text that calls a table was the same for both. Each

@@ -109,8 +109,7 @@ impl Element {
         match self.kind {
             Kind::Stream(_) => false,
             Kind::Conductor(id) => {
-                let stream = matches!(network.conductors()[id.index()].law, lptn_network::Law::Advection(_));
-                !stream && self.variables.len() == 2
+                !network.conductors()[id.index()].law.is_stream() && self.variables.len() == 2
             }
             Kind::Source(_) => self.variables == self.receivers,
         }

@@ -1,6 +1,6 @@
 //! Whether balances have one solution at most, as far as the form of the network tells.
 
-use lptn_network::{ConductorKind, End, Flow, Network};
+use lptn_network::{End, Flow, Network};
 
 use crate::system::ThermalSystem;
 
@@ -41,7 +41,7 @@ fn elements_are_monotone(network: &Network) -> bool {
             }
             true
         }
-        Flow::Variable => conductor.kind != ConductorKind::Advection && network.heat_rises(id),
+        Flow::Variable => network.heat_rises(id),
     };
     sources
         && network.conductors().iter().zip(network.conductor_ids()).all(&mut conductor)

@@ -79,7 +79,7 @@ impl Radiation {
 
 #[cfg(test)]
 mod tests {
-    use lptn_network::{Area, ConductorKind, End, Exchange, HeatCapacity, NetworkBuilder, Path, Temperature};
+    use lptn_network::{Area, ConductorKind, End, HeatCapacity, NetworkBuilder, Path, Temperature};
 
     use crate::{Form, ThermalSystem};
 
@@ -92,7 +92,7 @@ mod tests {
         let [hot, warm] = ["hot", "warm"].map(|n| b.node(n, HeatCapacity(1.0), Temperature(900.0)));
         let sky = b.boundary("sky", Temperature(300.0));
         let mut radiation = |name: &str, from: End, to: End, area: f64| {
-            let path = Path::Radiation(Exchange::Area(Area(area).into()));
+            let path = Path::radiation(Area(area));
             b.conductor(name, ConductorKind::Radiation, (from, to), path);
         };
         radiation("between", hot.into(), warm.into(), 2.0);

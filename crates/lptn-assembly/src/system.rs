@@ -1,6 +1,6 @@
 //! The sparse system `C dT/dt = q(t, T)` of a network.
 
-use lptn_network::{ConductorId, ConductorKind, Flow, InputError, Network, NodeId, Received, Surface};
+use lptn_network::{ConductorId, Flow, InputError, Network, NodeId, Received, Surface};
 
 use crate::element::{Element, Form};
 use crate::eliminate::{Elimination, Link, TooMany};
@@ -68,7 +68,7 @@ impl ThermalSystem {
         let link_slots = links.iter().map(|l| [pattern.slot(l.a, l.b), pattern.slot(l.b, l.a)]).collect();
         let symmetric = elements.iter().all(|element| element.is_symmetric(network));
         let mass = unknowns.iter().map(|&id| network.capacity(id)).collect();
-        let stream = |id: &ConductorId| network.conductors()[id.index()].kind == ConductorKind::Advection;
+        let stream = |id: &ConductorId| network.conductors()[id.index()].law.is_stream();
         let streams = network.conductor_ids().filter(stream).collect();
         let network = network.clone();
         Ok(Self {

@@ -6,7 +6,7 @@ mod networks;
 
 use lptn_assembly::{Form, ThermalSystem};
 use lptn_network::{
-    Conductance, ConductorId, ConductorKind, End, Exchange, HeatCapacity, NetworkBuilder, ParameterId, Path,
+    Conductance, ConductorId, ConductorKind, End, HeatCapacity, NetworkBuilder, ParameterId, Path,
     Temperature,
 };
 use networks::{SIGMA, dense, flow, link, power, quantity, radiation, stream, system};
@@ -22,9 +22,9 @@ fn all_kinds() -> (ThermalSystem, Vec<ConductorId>) {
         radiation(&mut b, "glow", (x, y), "0.4 m^2"),
         b.resistor("r", x, y, Conductance(3.0)),
         stream(&mut b, "backward", (x, y), quantity("-6 W/K")),
-        b.resistor("g", x, y, Path::Conductance(g)),
+        b.resistor("g", x, y, Path::conductance(g)),
         radiation(&mut b, "out", (y, air), "0.1 m^2"),
-        b.convection("film", y, air, Path::Film(quantity("8 W/(m^2 K)"), quantity("0.5 m^2"))),
+        b.convection("film", y, air, Path::film(quantity("8 W/(m^2 K)"), quantity("0.5 m^2"))),
     ];
     let p = power(&b, "1 [W/K] * (x.T - y.T)");
     b.source("p", x, p);
@@ -129,7 +129,7 @@ fn close(found: f64, expected: f64) {
 fn the_symmetric_form_is_the_mean_of_both_slopes_or_the_exact_one() {
     let add: &Add = &|b, from, to| {
         let g = link(b, "2 [W/K] * (kelvin(T_mean) / 300 [K])^2");
-        b.resistor("g", from, to, Path::Conductance(g));
+        b.resistor("g", from, to, Path::conductance(g));
     };
     let slopes = |from: f64, to: f64| {
         let (mean, dt) = (0.5 * (from + to) / 300.0, (from - to) / 300.0);
@@ -161,7 +161,7 @@ fn a_conductance_that_falls_steeply_is_left_out_of_the_symmetric_form() {
     // q = 5 exp(-dT / 10 K) dT falls beyond 10 K
     let add: &Add = &|b, from, to| {
         let g = link(b, "5 [W/K] * exp(-abs(dT) / 10 [K])");
-        b.resistor("g", from, to, Path::Conductance(g));
+        b.resistor("g", from, to, Path::conductance(g));
     };
     let [exact, symmetric] = forms(add, ["x", "z"], &[340.0, 300.0]);
     let slope = 5.0 * (-4.0_f64).exp() * (1.0 - 4.0);
@@ -175,7 +175,7 @@ fn a_conductance_that_falls_steeply_is_left_out_of_the_symmetric_form() {
 fn radiation_of_a_boundary_is_exact_in_both_forms() {
     for ends in [["x", "air"], ["air", "x"]] {
         let add: &Add = &|b, from, to| {
-            let path = Path::Radiation(Exchange::Area(quantity("2 m^2")));
+            let path = Path::radiation(quantity("2 m^2"));
             b.conductor("glow", ConductorKind::Radiation, (from, to), path);
         };
         let slope = 4.0 * 2.0 * SIGMA * 420.0_f64.powi(3);
@@ -196,7 +196,7 @@ fn an_element_that_fails_is_named_by_every_question() {
     let x = b.node("x", HeatCapacity(1.0), Temperature(300.0));
     let air = b.boundary("air", Temperature(280.0));
     let g = link(&b, "1 [W/K^2] * (T_from - absolute(300 [K]))");
-    let id = b.resistor("wrong", x, air, Path::Conductance(g));
+    let id = b.resistor("wrong", x, air, Path::conductance(g));
     let system = system(b);
     let mut work = system.workspace();
     system.read_inputs(&mut work, 0.0, 0.0).unwrap();
@@ -234,15 +234,10 @@ fn with_parameters() -> (ThermalSystem, Vec<ParameterId>) {
     let t_air: lptn_network::Input = value(&b, "T_air");
     let air = b.boundary("air", t_air);
     let (g, r, p, area) = (value(&b, "G"), value(&b, "R"), value(&b, "P"), value(&b, "A"));
-    b.resistor("g", x, joint, Path::Conductance(g));
-    b.resistor("r", joint, y, Path::Resistance(r));
+    b.resistor("g", x, joint, Path::conductance(g));
+    b.resistor("r", joint, y, Path::resistance(r));
     b.resistor("tie", joint, air, Conductance(1.5));
-    b.conductor(
-        "glow",
-        ConductorKind::Radiation,
-        (y.into(), air.into()),
-        Path::Radiation(Exchange::Area(area)),
-    );
+    b.conductor("glow", ConductorKind::Radiation, (y.into(), air.into()), Path::radiation(area));
     let half: lptn_network::Input = value(&b, "P / 2");
     b.shared_source("p", &[(joint, 0.5), (y, 0.5)], p);
     b.source("half", x, half);

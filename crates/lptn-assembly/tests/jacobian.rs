@@ -6,8 +6,7 @@ mod networks;
 
 use lptn_assembly::{Form, ThermalSystem};
 use lptn_network::{
-    ConductorKind, Emissivity, End, Exchange, HeatCapacity, Network, NetworkBuilder, NodeId, Path, Shape,
-    Stream, Temperature,
+    ConductorKind, End, Formula, HeatCapacity, Network, NetworkBuilder, NodeId, Path, Temperature,
 };
 use lptn_units::{Dimension, Interpolation};
 use networks::{
@@ -60,7 +59,7 @@ fn oil(b: &mut NetworkBuilder) -> lptn_network::FluidId {
 const ELEMENTS: [(&str, Add); 24] = [
     ("resistance of T_mean", |b, ends| {
         let r = link(b, "0.2 [K/W] + 1e-3 [1/W] * (T_mean - 20 [degC])");
-        conductor(b, ConductorKind::Resistor, ends, Path::Resistance(r));
+        conductor(b, ConductorKind::Resistor, ends, Path::resistance(r));
     }),
     ("table over T_mean", |b, ends| {
         let x = [10.0, 250.0, 300.0, 420.0, 600.0, 3000.0];
@@ -72,7 +71,7 @@ const ELEMENTS: [(&str, Add); 24] = [
         );
         b.table("of_mean", symbol);
         let g = link(b, "of_mean(T_mean)");
-        conductor(b, ConductorKind::Resistor, ends, Path::Conductance(g));
+        conductor(b, ConductorKind::Resistor, ends, Path::conductance(g));
     }),
     ("pchip table over T_from", |b, ends| {
         let x = [10.0, 250.0, 300.0, 420.0, 600.0, 3000.0];
@@ -84,63 +83,60 @@ const ELEMENTS: [(&str, Add); 24] = [
         );
         b.table("of_from", symbol);
         let g = link(b, "of_from(T_from)");
-        conductor(b, ConductorKind::Resistor, ends, Path::Conductance(g));
+        conductor(b, ConductorKind::Resistor, ends, Path::conductance(g));
     }),
     ("table of two over T_to and dT", |b, ends| {
         let z = [1.0, 2.0, 4.0, 3.0, 6.0, 5.0];
         let types = (ABSOLUTE, of(Dimension::TEMPERATURE), of(Dimension::CONDUCTANCE));
         b.table("of_two", map(&[10.0, 3000.0], &[-3000.0, 1.5, 3000.0], &z, types));
         let g = link(b, "of_two(T_to, dT)");
-        conductor(b, ConductorKind::Resistor, ends, Path::Conductance(g));
+        conductor(b, ConductorKind::Resistor, ends, Path::conductance(g));
     }),
     ("natural convection", |b, ends| {
         let h = link(b, "1.3 [W/(m^2 K^1.25)] * abs(dT)^0.25");
-        conductor(b, ConductorKind::Convection, ends, Path::Film(h, quantity("2 m^2")));
+        conductor(b, ConductorKind::Convection, ends, Path::film(h, quantity("2 m^2")));
     }),
     ("natural convection of a root", |b, ends| {
         let h = link(b, "1.3 [W/(m^2 K^1.5)] * sqrt(abs(dT))");
-        conductor(b, ConductorKind::Convection, ends, Path::Film(h, quantity("2 m^2")));
+        conductor(b, ConductorKind::Convection, ends, Path::film(h, quantity("2 m^2")));
     }),
     ("forced convection at zero speed", |b, ends| {
         let h = link(b, "3 [W/(m^2 K)] * (speed / 1 [m/s])^0.8");
-        conductor(b, ConductorKind::Convection, ends, Path::Film(h, quantity("2 m^2")));
+        conductor(b, ConductorKind::Convection, ends, Path::film(h, quantity("2 m^2")));
     }),
     ("slab with k(T)", |b, ends| {
-        let shape = Shape::Slab { area: quantity("0.1 m^2"), thickness: quantity("20 mm") };
+        let shape = |k| Path::new(Formula::Slab, [k, quantity("0.1 m^2"), quantity("20 mm")]);
         let k = own(b, "15 [W/(m K)] + 0.02 [W/(m K^2)] * (T - 20 [degC])");
-        conductor(b, ConductorKind::Conduction, ends, Path::Conduction(k, shape));
+        conductor(b, ConductorKind::Conduction, ends, shape(k));
     }),
     ("cylinder with k(T)", |b, ends| {
         let (inner, outer) = (quantity("10 mm"), quantity("30 mm"));
         let k = own(b, "15 [W/(m K)] * exp((T - 20 [degC]) / 900 [K])");
-        let shape = Shape::Cylinder { inner, outer, length: quantity("0.4 m") };
-        conductor(b, ConductorKind::Conduction, ends, Path::Conduction(k, shape));
+        let shape = |k| Path::new(Formula::Cylinder, [k, inner, outer, quantity("0.4 m")]);
+        conductor(b, ConductorKind::Conduction, ends, shape(k));
     }),
     ("sphere with k(T)", |b, ends| {
         let k = own(b, "15 [W/(m K)] * kelvin(T) / 300 [K]");
-        let shape = Shape::Sphere { inner: quantity("10 mm"), outer: quantity("30 mm") };
-        conductor(b, ConductorKind::Conduction, ends, Path::Conduction(k, shape));
+        let shape = |k| Path::new(Formula::Sphere, [k, quantity("10 mm"), quantity("30 mm")]);
+        conductor(b, ConductorKind::Conduction, ends, shape(k));
     }),
     ("rod with k(T)", |b, ends| {
         let k = own(b, "15 [W/(m K)] * (kelvin(T) / 300 [K])^0.5");
-        let shape = Shape::Rod { diameter: quantity("10 mm"), length: quantity("0.1 m") };
-        conductor(b, ConductorKind::Conduction, ends, Path::Conduction(k, shape));
+        let shape = |k| Path::new(Formula::Rod, [k, quantity("10 mm"), quantity("0.1 m")]);
+        conductor(b, ConductorKind::Conduction, ends, shape(k));
     }),
     ("contact", |b, ends| {
         let h = link(b, "2000 [W/(m^2 K)] * (kelvin(T_mean) / 300 [K])^0.95");
-        conductor(b, ConductorKind::Contact, ends, Path::Film(h, quantity("4 cm^2")));
+        conductor(b, ConductorKind::Contact, ends, Path::film(h, quantity("4 cm^2")));
     }),
     ("radiation by area", |b, ends| {
         radiation(b, "element", (ends[0], ends[1]), "0.3 m^2");
     }),
     ("radiation of parallel plates with emissivity(T)", |b, ends| {
         let warm = link(b, "0.5 + 1e-4 [1/K] * (T_from - 20 [degC])");
-        let surfaces = Exchange::Surfaces {
-            emissivity: Emissivity::Plates(warm, quantity("0.6")),
-            area: quantity("0.4 m^2"),
-            view_factor: quantity("0.9"),
-        };
-        conductor(b, ConductorKind::Radiation, ends, Path::Radiation(surfaces));
+        let surfaces =
+            Path::new(Formula::ParallelPlates, [warm, quantity("0.6"), quantity("0.4 m^2"), quantity("0.9")]);
+        conductor(b, ConductorKind::Radiation, ends, surfaces);
     }),
     ("stream", |b, ends| {
         stream(b, "element", (ends[0], ends[1]), quantity("12 W/K"));
@@ -158,13 +154,13 @@ const ELEMENTS: [(&str, Add); 24] = [
     }),
     ("fluid with cp(T)", |b, ends| {
         let fluid = oil(b);
-        let path = Stream::Mass { fluid, flow: quantity("-0.02 kg/s") };
-        conductor(b, ConductorKind::Advection, ends, Path::Advection(path));
+        let path = Path::of_fluid(Formula::MassFlow, fluid, [quantity("-0.02 kg/s")]);
+        conductor(b, ConductorKind::Advection, ends, path);
     }),
     ("fluid by volume at a temperature of its own", |b, ends| {
         let fluid = oil(b);
-        let path = Stream::Volume { fluid, flow: quantity("1.5 l/min"), at: link(b, "T_from") };
-        conductor(b, ConductorKind::Advection, ends, Path::Advection(path));
+        let path = Path::of_fluid(Formula::VolumeFlow, fluid, [quantity("1.5 l/min"), link(b, "T_from")]);
+        conductor(b, ConductorKind::Advection, ends, path);
     }),
     ("source of its own T", |b, ends| {
         let End::Node(node) = ends[1] else { return };
@@ -191,11 +187,11 @@ const ELEMENTS: [(&str, Add); 24] = [
             "1 [W/K] + 1e-3 [W/K^2] * (abs(a.T - c.T) + abs(third.T - fourth.T) + abs(fifth.T - room.T)) \
              + 1e-4 [W/K^2] * kelvin(sixth.T)",
         );
-        conductor(b, ConductorKind::Resistor, ends, Path::Conductance(g));
+        conductor(b, ConductorKind::Resistor, ends, Path::conductance(g));
     }),
     ("power law of dT", |b, ends| {
         let g = link(b, "0.01 [W/K^3] * dT^2");
-        conductor(b, ConductorKind::Resistor, ends, Path::Conductance(g));
+        conductor(b, ConductorKind::Resistor, ends, Path::conductance(g));
     }),
 ];
 

@@ -72,7 +72,7 @@ fn kinds_of_systems_are_told_apart() {
     assert_eq!(flowing, (false, false, false));
     let varying = build(&|b, [a, air]| {
         let g = link(b, "1 [W/K] * kelvin(T_mean) / 300 [K]");
-        b.resistor("r", a, air, lptn_network::Path::Conductance(g));
+        b.resistor("r", a, air, lptn_network::Path::conductance(g));
     });
     assert_eq!(varying, (false, true, false));
     let junction = build(&|b, [a, air]| {

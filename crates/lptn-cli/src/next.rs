@@ -52,6 +52,6 @@ fn shapes(network: &Network, id: ParameterId) -> bool {
     let own = network.parameter_slot(id);
     let uses = |value: &Value| value.slots().contains(&own);
     let parameters = network.parameters().iter().map(|p| &p.value);
-    let conductors = network.conductors().iter().flat_map(|c| c.law.parts()).map(|(_, value)| value);
+    let conductors = network.conductors().iter().flat_map(|c| c.law.values());
     parameters.chain(conductors).any(uses)
 }

@@ -3,7 +3,116 @@
 //! At zero flow both ends take the side of a flow that begins `from` -> `to`, so that together they have one
 //! derivative, that of mcp (T_from - T_to).
 
-use lptn_units::Scalar;
+use lptn_units::{Dimension, Scalar, Type};
+
+use crate::Kind;
+use crate::declare::{Carries, Confidence, Extent, Field, Form, KindDeclaration, Law, LawDeclaration, Range};
+
+/// The kind.
+#[allow(non_upper_case_globals, reason = "named as in the list")]
+pub(crate) const Advection: KindDeclaration = KindDeclaration {
+    section: "advection",
+    sentence: "A stream that carries heat one way.",
+    selector: None,
+    example: "{ from = \"inlet\", to = \"a\", mcp = \"50 W/K\" }",
+    elsewhere: &[
+        ("G", "the capacity rate of a stream is `mcp`"),
+        ("m", "the mass flow is `flow`, with its `fluid`"),
+        ("cp", "the specific heat belongs to the [fluid]; or give `mcp`, mass flow times specific heat"),
+    ],
+    later: &[],
+    surface: None,
+};
+
+/// A flow of either sign, positive from `from` to `to`.
+const fn flow(
+    key: &'static str,
+    dimension: Dimension,
+    meaning: &'static str,
+    example: &'static str,
+) -> Field {
+    Field { range: Range::Finite, ..Field::new(key, Type::of(dimension), meaning, example) }
+}
+
+/// A stream of a known capacity rate.
+#[derive(Debug)]
+pub(crate) struct CapacityRate;
+
+impl Law for CapacityRate {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "capacity_rate",
+        sentence: "A stream of a known capacity rate, mass flow times specific heat.",
+        equation: "Q_to = mcp (T_from - T_to)",
+        kinds: &[Kind::Advection],
+        fields: &[flow("mcp", Dimension::CONDUCTANCE, "capacity rate of the stream", "\"50 W/K\"")],
+        carries: Carries::CapacityRate,
+        reads_ends: false,
+        form: Form::Other,
+        ordered: None,
+        area: &[],
+        extent: Extent::Whole,
+        validity: "The stream leaves each node at the temperature of that node.",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 1.11e",
+        idle: &[("flow_T", "belongs to a volume flow of a fluid")],
+        confidence: Confidence::High,
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        values[0]
+    }
+}
+
+/// A mass flow of a fluid.
+#[derive(Debug)]
+pub(crate) struct MassFlow;
+
+impl Law for MassFlow {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "mass_flow",
+        sentence: "A mass flow of a fluid.",
+        equation: "Q_to = flow (h(T_from) - h(T_to))",
+        fields: &[flow("flow", Dimension::MASS_FLOW, "mass flow of the fluid", "\"0.05 kg/s\"")],
+        carries: Carries::MassFlow,
+        idle: &[("flow_T", "has no effect: `flow` is a mass flow")],
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 1.11d",
+        ..CapacityRate::DECLARATION
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        values[0]
+    }
+}
+
+/// A volume flow of a fluid.
+#[derive(Debug)]
+pub(crate) struct VolumeFlow;
+
+impl Law for VolumeFlow {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "volume_flow",
+        sentence: "A volume flow of a fluid, with the temperature at which it is measured.",
+        equation: "Q_to = flow rho(flow_T) (h(T_from) - h(T_to))",
+        fields: &[
+            flow("flow", Dimension::VOLUME_FLOW, "volume flow of the fluid", "\"3 L/min\""),
+            Field {
+                range: Range::Temperature,
+                ..Field::new(
+                    "flow_T",
+                    Type::ABSOLUTE_TEMPERATURE,
+                    "temperature at which the volume is measured",
+                    "\"20 degC\"",
+                )
+            },
+        ],
+        carries: Carries::VolumeFlow("flow_T"),
+        idle: &[],
+        ..MassFlow::DECLARATION
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        values[0]
+    }
+}
 
 /// Heat that `to` receives from a stream: q = max(mcp, 0) (T_from - T_to), in W.
 ///

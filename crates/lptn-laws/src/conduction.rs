@@ -5,7 +5,62 @@
 
 use std::f64::consts::PI;
 
-use lptn_units::Scalar;
+use lptn_units::{Dimension, Scalar, Type};
+
+use crate::Kind;
+use crate::declare::{Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration};
+
+/// The kind.
+#[allow(non_upper_case_globals, reason = "named as in the list")]
+pub(crate) const Conduction: KindDeclaration = KindDeclaration {
+    section: "conduction",
+    sentence: "A body of simple shape that conducts between two of its faces.",
+    selector: Some("shape"),
+    example: "{ from = \"a\", to = \"b\", k = \"46.6 W/(m K)\", shape = \"slab\", area = \"0.2 m^2\", thickness = \"5 mm\" }",
+    elsewhere: &[
+        ("lambda", "the thermal conductivity is `k`"),
+        ("A", "the area is `area`"),
+        ("L", "the length is `length`, the thickness of a slab `thickness`"),
+        ("R", "a path given by `R` belongs in [resistor]"),
+    ],
+    later: &[],
+    surface: None,
+};
+
+const CONDUCTIVITY: Field = Field {
+    hints: Hints::PROPERTY,
+    property: true,
+    ..Field::new("k", Type::of(Dimension::CONDUCTIVITY), "thermal conductivity", "\"46.6 W/(m K)\"")
+};
+
+const AREA: Field = Field {
+    hints: Hints::CONDUCTS,
+    ..Field::new("area", Type::of(Dimension::AREA), "area of a face", "\"0.2 m^2\"")
+};
+
+const fn length(key: &'static str, meaning: &'static str, example: &'static str) -> Field {
+    Field::measure(key, Type::of(Dimension::LENGTH), meaning, example)
+}
+
+/// What the shapes have in common.
+const BODY: LawDeclaration = LawDeclaration {
+    name: "",
+    sentence: "",
+    equation: "",
+    kinds: &[Kind::Conduction],
+    fields: &[],
+    carries: Carries::Conductance,
+    reads_ends: false,
+    form: Form::Other,
+    ordered: None,
+    area: &[],
+    // no measure of a ball or of a bar is proportional to its conductance
+    extent: Extent::Divided("k"),
+    validity: "",
+    source: "",
+    idle: &[],
+    confidence: Confidence::High,
+};
 
 /// Conductance of a plane layer: G = k A / L, in W/K.
 ///
@@ -57,4 +112,102 @@ pub fn sphere<S: Scalar>(k: S, r_in: S, r_out: S) -> S {
 /// edition, equation 3.6.
 pub fn rod<S: Scalar>(k: S, diameter: S, length: S) -> S {
     slab(k, S::from_f64(PI / 4.0) * diameter * diameter, length)
+}
+
+/// A plane layer, across it.
+#[derive(Debug)]
+pub(crate) struct Slab;
+
+impl Law for Slab {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "slab",
+        sentence: "A plane layer, across it.",
+        equation: "Q = k A / L (T_from - T_to)",
+        fields: &[CONDUCTIVITY, AREA, length("thickness", "distance of the faces", "\"5 mm\"")],
+        area: &["area"],
+        extent: Extent::Divided("area"),
+        validity: "Heat in one direction: edges are insulated or far away.",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 3.6",
+        ..BODY
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        slab(values[0], values[1], values[2])
+    }
+}
+
+/// A hollow cylinder, from its inner to its outer surface.
+#[derive(Debug)]
+pub(crate) struct Cylinder;
+
+impl Law for Cylinder {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "cylinder",
+        sentence: "A hollow cylinder, from its inner to its outer surface.",
+        equation: "Q = 2 pi k L / ln(r_out / r_in) (T_from - T_to)",
+        fields: &[
+            CONDUCTIVITY,
+            length("r_in", "inner radius", "\"20 mm\""),
+            length("r_out", "outer radius", "\"25 mm\""),
+            length("length", "length", "\"0.3 m\""),
+        ],
+        ordered: Some(["r_in", "r_out"]),
+        extent: Extent::Divided("length"),
+        validity: "Heat that flows radially only: ends are insulated or the cylinder is long.",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 3.28",
+        ..BODY
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        cylinder(values[0], values[1], values[2], values[3])
+    }
+}
+
+/// A hollow sphere, from its inner to its outer surface.
+#[derive(Debug)]
+pub(crate) struct Sphere;
+
+impl Law for Sphere {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "sphere",
+        sentence: "A hollow sphere, from its inner to its outer surface.",
+        equation: "Q = 4 pi k / (1/r_in - 1/r_out) (T_from - T_to)",
+        fields: &[
+            CONDUCTIVITY,
+            length("r_in", "inner radius", "\"20 mm\""),
+            length("r_out", "outer radius", "\"25 mm\""),
+        ],
+        ordered: Some(["r_in", "r_out"]),
+        validity: "Heat that flows radially.",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 3.36",
+        ..BODY
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        sphere(values[0], values[1], values[2])
+    }
+}
+
+/// A round bar, along its axis.
+#[derive(Debug)]
+pub(crate) struct Rod;
+
+impl Law for Rod {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "rod",
+        sentence: "A round bar, along its axis.",
+        equation: "Q = k pi d^2 / (4 L) (T_from - T_to)",
+        fields: &[
+            CONDUCTIVITY,
+            length("diameter", "diameter", "\"20 mm\""),
+            length("length", "length", "\"0.3 m\""),
+        ],
+        validity: "The skin is insulated.",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 3.6",
+        ..BODY
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        rod(values[0], values[1], values[2])
+    }
 }

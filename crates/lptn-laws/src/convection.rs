@@ -1,6 +1,70 @@
-//! Films, contacts and natural convection.
+//! `[convection]`: films.
 
-use lptn_units::Scalar;
+use lptn_units::{Dimension, Scalar, Type};
+
+use crate::Kind;
+use crate::declare::{
+    Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration, Surface,
+};
+
+/// The kind.
+#[allow(non_upper_case_globals, reason = "named as in the list")]
+pub(crate) const Convection: KindDeclaration = KindDeclaration {
+    section: "convection",
+    sentence: "A wetted surface.",
+    selector: None,
+    example: "{ from = \"a\", to = \"air\", h = \"10 W/(m^2 K)\", area = \"0.2 m^2\" }",
+    elsewhere: &[
+        ("G", "a convection takes `R`, or `h` and `area`; a path given by `G` belongs in [resistor]"),
+        ("A", "the area is `area`"),
+        ("alpha", "the film coefficient is `h`"),
+        ("htc", "the film coefficient is `h`"),
+    ],
+    later: &["correlation"],
+    surface: Some(Surface::Wetted),
+};
+
+/// A film or a contact.
+#[derive(Debug)]
+pub(crate) struct Film;
+
+impl Law for Film {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "film",
+        sentence: "The heat is a film coefficient times an area times the difference of the temperatures.",
+        equation: "Q = h A (T_from - T_to)",
+        kinds: &[Kind::Convection, Kind::Contact],
+        fields: &[
+            Field {
+                hints: Hints::CONDUCTS,
+                ..Field::new(
+                    "h",
+                    Type::of(Dimension::FILM_COEFFICIENT),
+                    "film coefficient",
+                    "\"10 W/(m^2 K)\"",
+                )
+            },
+            Field {
+                hints: Hints::CONDUCTS,
+                ..Field::new("area", Type::of(Dimension::AREA), "area of the surface", "\"0.2 m^2\"")
+            },
+        ],
+        carries: Carries::Conductance,
+        reads_ends: false,
+        form: Form::Product,
+        ordered: None,
+        area: &["area"],
+        extent: Extent::Divided("area"),
+        validity: "By definition of h, which is that of the whole area.",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations 1.3a, 3.9 and 3.20",
+        idle: &[],
+        confidence: Confidence::High,
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        film(values[0], values[1])
+    }
+}
 
 /// Conductance of a film between a surface and a fluid: G = h A, in W/K (Newton's law of cooling).
 ///
@@ -10,38 +74,4 @@ use lptn_units::Scalar;
 /// Source: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations 1.3a and 3.9.
 pub fn film<S: Scalar>(h: S, area: S) -> S {
     h * area
-}
-
-/// Conductance of a joint between two solids: G = h A, in W/K.
-///
-/// * `h`: contact conductance in W/(m^2 K), above 0: the reciprocal of the tabulated contact resistance R''
-/// * `area`: A of the nominal, not the true, area of contact in m^2, above 0
-///
-/// Source: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 3.20, with values in
-/// tables 3.1 and 3.2.
-pub fn contact<S: Scalar>(h: S, area: S) -> S {
-    h * area
-}
-
-/// Conductance of natural convection as a power law: G = c abs(dT)^n, in W/K.
-///
-/// * `c`: in W/K^(1 + n), at least 0: its value at a difference of 1 K
-/// * `n`: at least 0; 1/4 for laminar and 1/3 for turbulent layers of air at usual temperatures
-/// * `dt`: difference between the surface and the fluid in K, of either sign
-///
-/// The heat is q = G dT. Its derivative, (1 + n) c abs(dT)^n, is 0 at dT = 0 for n > 0. The slope of G alone is
-/// infinite there for 0 < n < 1; it is given as 0, which leaves the product G dT with its true derivative.
-///
-/// Source of the form: A. Bejan and A. D. Kraus (editors), Heat Transfer Handbook (Wiley 2003), equation 3.286;
-/// of c and n: the simplified equations for air, J. P. Holman, Heat Transfer, table 7-2, for example h = 1.42
-/// (dT/L)^(1/4) on vertical walls of height L with 1e4 < Gr Pr < 1e9.
-///
-/// ```
-/// use lptn_laws::power_conductance;
-///
-/// assert!((power_conductance(0.35, 0.25, -16.0) - 0.7).abs() < 1e-15);
-/// assert_eq!(power_conductance(0.35, 0.25, 0.0), 0.0);
-/// ```
-pub fn power_conductance<S: Scalar>(c: S, n: S, dt: S) -> S {
-    c * dt.abs().pow(n)
 }

@@ -1,4 +1,6 @@
-//! Published formulas of heat transfer, one function each.
+//! Published formulas of heat transfer, one function each, and the declarations of the laws and kinds of paths that
+//! follow from them ([`Formula`], [`Kind`]): fields with quantity, range, default and example, forms, validity, source.
+//! Netlist keys, checks, help, documents, expansion and the tests of derivatives are read from there.
 //!
 //! Every law is generic over [`Scalar`](lptn_units::Scalar): on `f64` it gives the value, on
 //! [`Dual`](lptn_units::Dual) the derivatives with it, from the same lines. All quantities are in SI units,
@@ -25,19 +27,24 @@
 
 mod advection;
 mod conduction;
+mod contact;
 mod convection;
-mod electric;
+mod declare;
+mod list;
 mod lump;
 mod phase;
 mod radiation;
+mod resistor;
 
 pub use advection::{advection_from, advection_to, stream_from, stream_to};
 pub use conduction::{cylinder, rod, slab, sphere};
-pub use convection::{contact, film, power_conductance};
-pub use electric::{joule, linear_temperature_factor};
+pub use convection::film;
+pub use declare::{
+    Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration, Range, Surface,
+};
+pub use list::{Formula, Kind};
 pub use lump::{biot, diffusion_time};
-pub use phase::{Melting, melt_fraction};
+pub use phase::melting_capacity;
 pub use radiation::{
-    STEFAN_BOLTZMANN, effective_emissivity_concentric, effective_emissivity_parallel_plates,
-    radiation_conductance, radiation_exchange_area,
+    STEFAN_BOLTZMANN, effective_emissivity_parallel_plates, radiation_conductance, radiation_exchange_area,
 };

@@ -1,6 +1,120 @@
 //! Radiation between grey, diffuse surfaces.
 
-use lptn_units::Scalar;
+use lptn_units::{Dimension, Scalar, Type};
+
+use crate::Kind;
+use crate::declare::{
+    Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration, Range, Surface,
+};
+
+/// The kind.
+#[allow(non_upper_case_globals, reason = "named as in the list")]
+pub(crate) const Radiation: KindDeclaration = KindDeclaration {
+    section: "radiation",
+    sentence: "Two grey, diffuse surfaces that see each other.",
+    selector: None,
+    example: "{ from = \"a\", to = \"walls\", emissivity = 0.8, area = \"0.2 m^2\" }",
+    elsewhere: &[
+        ("epsilon", "the emissivity is `emissivity`"),
+        ("F", "the view factor is `view_factor`"),
+        ("A", "the area is `area`"),
+        ("h", "a film coefficient with an area belongs in [convection]"),
+    ],
+    later: &[],
+    surface: Some(Surface::Seen),
+};
+
+const AREA: Type = Type::of(Dimension::AREA);
+
+const EMISSIVITY: Field =
+    Field { range: Range::Fraction, ..Field::new("emissivity", Type::SCALAR, "emissivity", "0.8") };
+
+const SEEN: Field = Field {
+    hints: Hints::CONDUCTS,
+    ..Field::new("area", AREA, "area that emissivity and view factor refer to", "\"0.2 m^2\"")
+};
+
+const VIEW_FACTOR: Field = Field {
+    range: Range::Fraction,
+    default: Some(1.0),
+    ..Field::new("view_factor", Type::SCALAR, "view factor from the area to the other surface", "0.9")
+};
+
+/// An exchange area.
+#[derive(Debug)]
+pub(crate) struct ExchangeArea;
+
+impl Law for ExchangeArea {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "exchange_area",
+        sentence: "Two surfaces of which the exchange area is known: area, view factor and emissivities in one.",
+        equation: "Q = sigma Gr (T_from^4 - T_to^4)",
+        kinds: &[Kind::Radiation],
+        fields: &[Field {
+            hints: Hints::CONDUCTS,
+            ..Field::new("Gr", AREA, "exchange area", "\"0.16 m^2\"")
+        }],
+        carries: Carries::Radiation,
+        reads_ends: false,
+        form: Form::Product,
+        ordered: None,
+        area: &[],
+        extent: Extent::Divided("Gr"),
+        validity: "Nothing absorbs between the surfaces.",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations 1.8 and 1.9",
+        idle: &[("view_factor", "has no effect: `Gr` includes it")],
+        confidence: Confidence::High,
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        values[0]
+    }
+}
+
+/// Two surfaces with an effective emissivity.
+#[derive(Debug)]
+pub(crate) struct GreySurfaces;
+
+impl Law for GreySurfaces {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "grey_surfaces",
+        sentence: "Two surfaces with an effective emissivity of the pair, an area and a view factor.",
+        equation: "Q = sigma e A F (T_from^4 - T_to^4)",
+        fields: &[EMISSIVITY, SEEN, VIEW_FACTOR],
+        area: &["area", "view_factor"],
+        idle: &[],
+        extent: Extent::Divided("area"),
+        validity: "Exact for e = 1 (black surfaces) and for F = 1 (an enclosure of two); else what is reflected is taken to leave.",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations 13.17 and 13.18",
+        ..ExchangeArea::DECLARATION
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        radiation_exchange_area(values[0], values[1], values[2])
+    }
+}
+
+/// Two parallel plates.
+#[derive(Debug)]
+pub(crate) struct ParallelPlates;
+
+impl Law for ParallelPlates {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "parallel_plates",
+        sentence: "Two parallel plates that face each other, with the emissivity of each.",
+        equation: "Q = sigma A F (T_from^4 - T_to^4) / (1/e1 + 1/e2 - 1)",
+        fields: &[EMISSIVITY, EMISSIVITY, SEEN, VIEW_FACTOR],
+        form: Form::Other,
+        validity: "The gap is small against the plates.",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 13.19 (table 13.3)",
+        ..GreySurfaces::DECLARATION
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        let emissivity = effective_emissivity_parallel_plates(values[0], values[1]);
+        radiation_exchange_area(emissivity, values[2], values[3])
+    }
+}
 
 /// The Stefan-Boltzmann constant in W/(m^2 K^4).
 ///
@@ -23,8 +137,8 @@ pub fn radiation_conductance<S: Scalar>(gr: S, t_from: S, t_to: S) -> S {
 
 /// Exchange area of two surfaces: Gr = e A F, in m^2.
 ///
-/// * `emissivity`: effective emissivity of the pair, 0 to 1 ([`effective_emissivity_parallel_plates`],
-///   [`effective_emissivity_concentric`]; the emissivity of a small body in a large room)
+/// * `emissivity`: effective emissivity of the pair, 0 to 1 ([`effective_emissivity_parallel_plates`]; the emissivity
+///   of a small body in a large room)
 /// * `area`: A of the surface that `view_factor` and `emissivity` refer to, in m^2, above 0
 /// * `view_factor`: F from that area to the other surface, 0 to 1. It is 1 where the effective emissivity already
 ///   holds the geometry
@@ -40,7 +154,7 @@ pub fn radiation_exchange_area<S: Scalar>(emissivity: S, area: S, view_factor: S
 ///
 /// * `e1`, `e2`: emissivities, 0 to 1, one of them above 0
 ///
-/// Evaluated as e1 e2 / (e1 + e2 - e1 e2), which also takes a perfect mirror. The gap is small against the
+/// Evaluated as e1 e2 / (e2 + e1 (1 - e2)), which also takes a perfect mirror. The gap is small against the
 /// plates. Source: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 13.19 (table
 /// 13.3).
 ///
@@ -48,19 +162,5 @@ pub fn radiation_exchange_area<S: Scalar>(emissivity: S, area: S, view_factor: S
 /// assert!((lptn_laws::effective_emissivity_parallel_plates(0.5, 0.5) - 1.0 / 3.0).abs() < 1e-15);
 /// ```
 pub fn effective_emissivity_parallel_plates<S: Scalar>(e1: S, e2: S) -> S {
-    effective_emissivity_concentric(e1, e2, S::from_f64(1.0))
-}
-
-/// Effective emissivity of a body inside another: e = 1 / (1/e_in + a (1/e_out - 1)), referred to the inner area.
-///
-/// * `e_inner`, `e_outer`: emissivities, 0 to 1, one of them above 0
-/// * `area_ratio`: a = A_inner / A_outer, 0 to 1: r_in / r_out of long concentric cylinders, (r_in / r_out)^2 of
-///   concentric spheres, 0 for a small body in a large room, which gives e = e_inner
-///
-/// Evaluated as e_in e_out / (e_out + a e_in (1 - e_out)). The inner surface is convex and sees the outer one
-/// only. Source: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations 13.20 to 13.22
-/// (table 13.3).
-pub fn effective_emissivity_concentric<S: Scalar>(e_inner: S, e_outer: S, area_ratio: S) -> S {
-    let back = area_ratio * e_inner * (S::from_f64(1.0) - e_outer);
-    e_inner * e_outer / (e_outer + back)
+    e1 * e2 / (e2 + e1 * (S::from_f64(1.0) - e2))
 }

@@ -267,7 +267,7 @@ impl Netlist {
             }
             Item::Conductor(id) => {
                 // a conductance out of range may be the fault of any of them
-                network.conductors()[id.index()].law.parts().into_iter().map(|(_, value)| value).collect()
+                network.conductors()[id.index()].law.values().iter().collect()
             }
             Item::Signal(id) => match &network.signals()[id.index()].course {
                 Course::Expression(value) => vec![value],

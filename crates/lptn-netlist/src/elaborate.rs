@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use lptn_network::{BuildError, BuildErrorKind, Input, Item, Network, NetworkBuilder};
+use lptn_network::{BuildError, BuildErrorKind, Input, Item, Naming, Network, NetworkBuilder};
 use lptn_units::{Quantity, Type, Unit};
 
 use crate::adrift;

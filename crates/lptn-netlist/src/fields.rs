@@ -1,5 +1,6 @@
 //! Reads one table: which of its keys there are, which are missing, which nobody knows.
 
+use lptn_laws::Formula;
 use lptn_network::Input;
 
 use crate::diagnostic::Diagnostic;
@@ -170,16 +171,11 @@ pub(crate) fn sample_value(key: &str) -> &'static str {
         "volume" => "\"150 cm^3\"",
         "density" => "\"7850 kg/m^3\"",
         "cp" => "\"475 J/(kg K)\"",
-        "k" => "\"46.6 W/(m K)\"",
         "source" => "\"where the numbers come from\"",
         "size" => "[\"0.5 m\", \"0.5 m\", \"20 mm\"]",
         "cells" => "[20, 20, 4]",
         "T0" | "T" => "\"25 degC\"",
         "C" => "\"500 J/K\"",
-        "R" => "\"0.3 K/W\"",
-        "G" => "\"3 W/K\"",
-        "h" => "\"10 W/(m^2 K)\"",
-        "area" => "\"0.2 m^2\"",
         "P" => "\"100 W\"",
         "stop" => "\"25 min\"",
         "start" => "\"0 s\"",
@@ -209,23 +205,12 @@ fn sample_of_law(key: &str) -> Option<&'static str> {
         "off_below" => "\"55 degC\"",
         "on_below" => "\"18 degC\"",
         "off_above" => "\"20 degC\"",
-        "Gr" => "\"0.16 m^2\"",
-        "emissivity" => "0.8",
-        "view_factor" => "1",
         "shape" => "\"slab\"",
-        "thickness" => "\"5 mm\"",
-        "r_in" => "\"20 mm\"",
-        "r_out" => "\"25 mm\"",
-        "length" => "\"0.3 m\"",
-        "diameter" => "\"20 mm\"",
-        "mcp" => "\"50 W/K\"",
         "fluid" => "\"water\"",
-        "flow" => "\"0.05 kg/s\"",
-        "flow_T" => "\"20 degC\"",
         "solidus" => "\"55 degC\"",
         "liquidus" => "\"57 degC\"",
         "latent_heat" => "\"200 kJ/kg\"",
-        _ => return None,
+        _ => return Formula::ALL.iter().find_map(|law| law.field(key)).map(|field| field.example),
     })
 }
 

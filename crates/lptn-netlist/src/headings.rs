@@ -1,38 +1,22 @@
 //! The headings of a netlist, and a netlist that runs.
 
+use std::sync::LazyLock;
+
+use lptn_laws::Kind;
+
 pub(crate) const TOP_KEYS: [&str; 4] = ["format", "title", "description", "include"];
 
 /// `[param]` has no keys of its own.
 pub(crate) const PARAM: &str = "param";
 
 /// Every section there is.
-pub(crate) const SECTIONS: [&str; 25] = [
-    "param",
-    "table",
-    "signal",
-    "default",
-    "material",
-    "fluid",
-    "node",
-    "grid",
-    "capacitor",
-    "boundary",
-    "resistor",
-    "conduction",
-    "convection",
-    "contact",
-    "radiation",
-    "advection",
-    "source",
-    "control",
-    "import",
-    "limit",
-    "template",
-    "use",
-    "run",
-    "size",
-    "fit",
-];
+pub(crate) static SECTIONS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
+    let before =
+        ["param", "table", "signal", "default", "material", "fluid", "node", "grid", "capacitor", "boundary"];
+    let after = ["source", "control", "import", "limit", "template", "use", "run", "size", "fit"];
+    let paths = Kind::ALL.iter().map(|kind| kind.declaration().section);
+    before.into_iter().chain(paths).chain(after).collect()
+});
 
 /// What the format has for later.
 pub(crate) const SECTIONS_LATER: [&str; 1] = ["sweep"];

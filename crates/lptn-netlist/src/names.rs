@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
+use lptn_laws::Kind;
 use lptn_network::Context;
 use lptn_units::{Expression, is_function, suggest};
 
@@ -88,20 +89,10 @@ const MOST_SEARCHES: usize = 100;
 const MOST_LOOKS: usize = 4_000_000;
 
 /// The sections whose elements share one set of names.
-const ELEMENTS: [&str; 12] = [
-    "node",
-    "grid",
-    "boundary",
-    "source",
-    "capacitor",
-    "resistor",
-    "conduction",
-    "convection",
-    "contact",
-    "radiation",
-    "advection",
-    "limit",
-];
+static ELEMENTS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
+    let paths = Kind::ALL.iter().map(|kind| kind.declaration().section);
+    ["node", "grid", "boundary", "source", "capacitor"].into_iter().chain(paths).chain(["limit"]).collect()
+});
 
 impl Names {
     pub(crate) fn of(raw: &RawNetlist, structure: &Arc<Structure>) -> Self {
@@ -117,7 +108,7 @@ impl Names {
                 }
             }
         }
-        for kind in ELEMENTS {
+        for kind in ELEMENTS.iter() {
             let entries = section(raw, kind).into_iter().flat_map(|table| &table.entries);
             for entry in entries {
                 names.elements.entry(entry.key.clone()).or_insert(kind);

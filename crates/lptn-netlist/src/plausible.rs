@@ -2,7 +2,9 @@
 //! another scale. They are looked at as they come out, not as they are written, so that parameters, expressions and
 //! tables are seen too.
 
-use lptn_network::{ConductorId, End, Field, Flow, Item, Network, Substance, Value, ZERO_CELSIUS, slot};
+use lptn_network::{
+    ConductorId, End, Field, Flow, Item, Naming, Network, Substance, Value, ZERO_CELSIUS, slot,
+};
 
 use crate::diagnostic::Diagnostic;
 use crate::source_map::SourceMap;

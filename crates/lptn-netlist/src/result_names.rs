@@ -1,5 +1,6 @@
 //! The names of results in expressions: temperatures and heat flows.
 
+use lptn_laws::Kind;
 use lptn_units::suggest;
 
 use crate::diagnostic::Diagnostic;
@@ -66,9 +67,12 @@ impl Names {
 fn heats(kind: &str) -> &'static [&'static str] {
     match kind {
         "source" => &["P"],
-        "advection" => &["Q_from", "Q_to"],
-        "boundary" | "resistor" | "conduction" | "convection" | "contact" | "radiation" => &["Q"],
-        _ => &[],
+        "boundary" => &["Q"],
+        path => match Kind::ALL.iter().find(|kind| kind.declaration().section == path) {
+            Some(kind) if kind.is_stream() => &["Q_from", "Q_to"],
+            Some(_) => &["Q"],
+            None => &[],
+        },
     }
 }
 

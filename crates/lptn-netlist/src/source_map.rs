@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use lptn_network::{BuildErrorKind, Field, Item, NodeId, ParameterId, TableId};
+use lptn_network::{BuildErrorKind, Field, Item, Naming, NodeId, ParameterId, TableId};
 
 use crate::file::{Files, Span};
 use crate::import::Places;
@@ -128,31 +128,6 @@ impl SourceMap {
         self.spans.insert((item, field), span);
     }
 
-    /// What an item is called in a netlist, by its section.
-    pub(crate) fn kind(&self, item: Item) -> &'static str {
-        match item {
-            Item::Parameter(_) => "parameter",
-            Item::Node(_) if self.whole(item).is_some() => "grid",
-            Item::Node(_) => "node",
-            Item::Boundary(_) => "boundary",
-            Item::Capacitor(_) => "capacitor",
-            Item::Conductor(id) => {
-                let run = self.conductors.partition_point(|(first, _)| *first <= id.index());
-                run.checked_sub(1).map_or("path", |run| self.conductors[run].1)
-            }
-            Item::Source(_) => "source",
-            Item::Limit(_) => "limit",
-            Item::Material(_) => "material",
-            Item::Fluid(_) => "fluid",
-            Item::Signal(_) => "signal",
-            Item::Table(_) => "table",
-            Item::Report(_) => "report",
-            Item::Control(_) => "control",
-            Item::Grid(_) => "grid",
-            Item::Joint(id) => self.joints.get(id.index()).copied().unwrap_or("path"),
-        }
-    }
-
     /// The beginning of the file, for what has no place of its own.
     pub(crate) fn top(&self) -> Option<&Span> {
         self.top.as_ref()
@@ -235,5 +210,24 @@ impl SourceMap {
 
     pub(crate) fn set_select(&mut self, spans: Vec<Span>) {
         self.select = spans;
+    }
+}
+
+impl Naming for SourceMap {
+    /// By its section.
+    fn kind(&self, item: Item) -> &'static str {
+        match item {
+            Item::Node(_) if self.whole(item).is_some() => "grid",
+            Item::Conductor(id) => {
+                let run = self.conductors.partition_point(|(first, _)| *first <= id.index());
+                run.checked_sub(1).map_or("path", |run| self.conductors[run].1)
+            }
+            Item::Joint(id) => self.joints.get(id.index()).copied().unwrap_or("path"),
+            other => other.word(),
+        }
+    }
+
+    fn elsewhere(&self, item: Item, field: Field) -> Option<&'static str> {
+        (field == Field::Initial && self.is_default(item)).then_some("`T0` of [default]")
     }
 }

@@ -1,6 +1,6 @@
 //! Streams that do not balance: what flows into a node has to flow out of it.
 
-use lptn_network::{ConductorKind, End, Item, Network, Passing};
+use lptn_network::{End, Item, Network, Passing};
 
 use crate::diagnostic::Diagnostic;
 use crate::source_map::SourceMap;
@@ -16,9 +16,10 @@ pub(crate) fn unbalanced(network: &Network, map: &SourceMap, time: f64) -> Vec<D
 fn warning(network: &Network, map: &SourceMap, passing: Passing) -> Diagnostic {
     let Passing { node, inflow, outflow } = passing;
     let end = End::Node(node);
-    let first = network.conductors().iter().zip(network.conductor_ids()).find(|(conductor, _)| {
-        conductor.kind == ConductorKind::Advection && (conductor.from == end || conductor.to == end)
-    });
+    let first =
+        network.conductors().iter().zip(network.conductor_ids()).find(|(conductor, _)| {
+            conductor.law.is_stream() && (conductor.from == end || conductor.to == end)
+        });
     let name = network.name_of(Item::Node(node));
     let short = |rate: f64| lptn_units::format_number(format!("{rate:.5e}").parse().unwrap_or(rate));
     let message = format!(

@@ -113,7 +113,7 @@ fn places_are_those_of_the_text() {
     assert_eq!(at(steel, Field::Name), "steel");
     assert_eq!(at(steel, Field::Initial), "\"T_amb\"");
     let internal = netlist.network.item("internal").unwrap();
-    assert_eq!(at(internal, Field::Resistance), "\"1.7 [K] / P_7000\"");
+    assert_eq!(at(internal, Field::of_law("R").unwrap()), "\"1.7 [K] / P_7000\"");
     assert_eq!((at(internal, Field::From), at(internal, Field::To)), ("\"steel\"", "\"aluminium\""));
     let share = netlist.network.parameter("bed_share").unwrap();
     assert_eq!(netlist.files.at(&netlist.source_map.parameter(share).unwrap()), "0.7");

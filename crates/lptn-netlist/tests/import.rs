@@ -112,8 +112,8 @@ fn every_row_has_its_place() {
     for (i, id) in (1..).zip(network.conductor_ids()) {
         let at = |field| netlist.files.at(&map.get(Item::Conductor(id), field).unwrap()).to_owned();
         assert_eq!((at(Field::Name), at(Field::From)), (format!("n{i},air,{i}"), format!("n{i}")));
-        assert_eq!(at(Field::Conductance), format!("{i}"));
-        assert!(map.get(Item::Conductor(id), Field::Resistance).is_none());
+        assert_eq!(at(Field::of_law("G").unwrap()), format!("{i}"));
+        assert!(map.get(Item::Conductor(id), Field::of_law("R").unwrap()).is_none());
     }
 }
 

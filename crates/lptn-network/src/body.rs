@@ -3,12 +3,11 @@
 use lptn_units::{Dimension, Type};
 
 use crate::builder::NetworkBuilder;
-use crate::element::ConductorKind;
 use crate::evaluation::Evaluation;
 use crate::flow::place;
 use crate::id::{ConductorId, Field, Item, MaterialId, NodeId};
 use crate::input_error::{InputError, InputProblem};
-use crate::law::{At, Exchange, Law};
+use crate::law::{At, Law};
 use crate::layout::slot;
 use crate::network::Network;
 use crate::value::{Input, Value};
@@ -104,8 +103,7 @@ impl Network {
         temperatures: &[f64],
     ) -> Result<Option<Surface>, InputError> {
         let conductor = &self.conductors()[id.index()];
-        let kinds = [ConductorKind::Convection, ConductorKind::Contact, ConductorKind::Radiation];
-        if !kinds.contains(&conductor.kind) {
+        if conductor.kind.declaration().surface.is_none() {
             return Ok(None);
         }
         let dependence = self.parts.dependence(id);
@@ -125,19 +123,15 @@ impl Network {
 
 fn surface(law: &Law, mut at: At<'_, f64>) -> Result<Surface, (Field, InputProblem)> {
     let conductance = at.conductance(law)?;
-    let area = match law {
-        Law::Film { area, .. } => Some(at.get(Field::Area, area)?),
-        Law::Radiation(exchange) => match &**exchange {
-            Exchange::Surfaces { area, view_factor, .. } => {
-                Some(at.get(Field::Area, area)? * at.get(Field::ViewFactor, view_factor)?)
-            }
-            Exchange::Area(_) => None,
-        },
-        _ => None,
-    };
+    let declared = law.formula().declaration();
+    let mut area = (!declared.area.is_empty()).then_some(1.0);
+    for (i, field) in declared.fields.iter().enumerate() {
+        if let Some(product) = area.as_mut().filter(|_| declared.area.contains(&field.key)) {
+            *product *= at.get(law, i)?;
+        }
+    }
     if conductance.is_finite() && conductance >= 0.0 {
         return Ok(Surface { conductance, area });
     }
-    let field = law.parts().first().map_or(Field::Conductance, |(field, _)| *field);
-    Err((field, InputProblem::NegativeConductance(conductance)))
+    Err((Field::law(law.formula(), 0), InputProblem::NegativeConductance(conductance)))
 }

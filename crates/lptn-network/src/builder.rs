@@ -2,18 +2,19 @@
 
 use std::sync::Arc;
 
+use lptn_laws::{Formula, Kind};
 use lptn_units::{Dimension, Expression, Program, RESERVED, TableSymbol, Type, UnitError};
 
 use crate::check;
 use crate::clash;
-use crate::element::{Boundary, Capacitor, ConductorKind, Node, Parameter, Source};
+use crate::element::{Boundary, Capacitor, Node, Parameter, Source};
 use crate::error::{BuildError, BuildErrorKind, BuildErrors};
 use crate::grid;
 use crate::id::{
     BoundaryId, CapacitorId, ConductorId, End, Field, Item, LimitId, NodeId, ParameterId, SourceId, TableId,
 };
 use crate::label::is_numbered;
-use crate::law::{Exchange, Law, Shape, Stream};
+use crate::law::Law;
 use crate::limit::{Bound, Limit, Severity};
 use crate::names::is_path;
 use crate::network::Network;
@@ -27,32 +28,18 @@ const SHARES: f64 = 1e-9;
 
 const CAPACITY: Type = Type::of(Dimension::CAPACITY);
 
-/// A law as it is given to the builder: exactly one form, so that R and G together cannot be written.
-#[derive(Clone, Debug)]
-pub enum Path {
-    /// Thermal resistance.
-    Resistance(Input),
-    /// Thermal conductance.
-    Conductance(Input),
-    /// Film coefficient and area, of a wetted surface or a contact.
-    Film(Input, Input),
-    /// Thermal conductivity, and the shape of the body.
-    Conduction(Input, Shape<Input>),
-    /// Two surfaces that see each other.
-    Radiation(Exchange<Input>),
-    /// A stream.
-    Advection(Stream<Input>),
-}
+/// The law of a path with its values, as a builder takes it.
+pub type Path = Law<Input>;
 
 impl From<crate::typed::Resistance> for Path {
     fn from(value: crate::typed::Resistance) -> Self {
-        Self::Resistance(value.into())
+        Self::resistance(value)
     }
 }
 
 impl From<crate::typed::Conductance> for Path {
     fn from(value: crate::typed::Conductance) -> Self {
-        Self::Conductance(value.into())
+        Self::conductance(value)
     }
 }
 
@@ -159,7 +146,7 @@ impl NetworkBuilder {
         to: impl Into<End>,
         path: impl Into<Path>,
     ) -> ConductorId {
-        self.conductor(name, ConductorKind::Resistor, (from.into(), to.into()), path.into())
+        self.conductor(name, Kind::Resistor, (from.into(), to.into()), path.into())
     }
 
     /// Adds a convecting surface between two ends.
@@ -170,17 +157,11 @@ impl NetworkBuilder {
         to: impl Into<End>,
         path: impl Into<Path>,
     ) -> ConductorId {
-        self.conductor(name, ConductorKind::Convection, (from.into(), to.into()), path.into())
+        self.conductor(name, Kind::Convection, (from.into(), to.into()), path.into())
     }
 
     /// Adds a conductor of any kind.
-    pub fn conductor(
-        &mut self,
-        name: &str,
-        kind: ConductorKind,
-        (from, to): (End, End),
-        path: Path,
-    ) -> ConductorId {
+    pub fn conductor(&mut self, name: &str, kind: Kind, (from, to): (End, End), path: Path) -> ConductorId {
         let id = self.push_conductor(name.into(), kind, (from, to), path);
         self.register(name, Item::Conductor(id));
         id
@@ -292,35 +273,18 @@ impl NetworkBuilder {
     }
 
     pub(crate) fn law(&mut self, name: &str, item: Item, path: Path) -> Law {
-        let at = |field| (name, item, field);
-        let of = |d| Type::of(d);
-        match path {
-            Path::Resistance(r) => {
-                Law::Resistance(self.typed(at(Field::Resistance), r, of(Dimension::RESISTANCE)))
-            }
-            Path::Conductance(g) => {
-                Law::Conductance(self.typed(at(Field::Conductance), g, of(Dimension::CONDUCTANCE)))
-            }
-            Path::Film(h, area) => Law::Film {
-                coefficient: self.typed(at(Field::FilmCoefficient), h, of(Dimension::FILM_COEFFICIENT)),
-                area: self.typed(at(Field::Area), area, of(Dimension::AREA)),
-            },
-            Path::Conduction(k, shape) => Law::Conduction {
-                conductivity: self.typed(at(Field::Conductivity), k, of(Dimension::CONDUCTIVITY)),
-                shape: Box::new(shape.map(|field, value| self.typed(at(field), value, type_of(field)))),
-            },
-            Path::Radiation(exchange) => {
-                let exchange = exchange.map(|field, value| self.typed(at(field), value, type_of(field)));
-                Law::Radiation(Box::new(exchange))
-            }
-            Path::Advection(stream) => {
-                let volume = matches!(stream, Stream::Volume { .. });
-                Law::Advection(Box::new(stream.map(|field, value| {
-                    let ty = if volume && field == Field::Flow { VOLUME_FLOW } else { type_of(field) };
-                    self.typed(at(field), value, ty)
-                })))
-            }
+        let declared = path.formula().declaration();
+        if path.values().len() != declared.fields.len()
+            || path.fluid().is_some() != declared.carries.is_of_fluid()
+        {
+            self.error(name, BuildErrorKind::LawValues { item, formula: path.formula() });
+            return Law::new(Formula::Resistance, [Value::Constant(1.0)]);
         }
+        let mut types = declared.fields.iter().map(|field| field.ty);
+        path.map(|field, input| {
+            let wanted = types.next().unwrap_or(Type::SCALAR);
+            self.typed((name, item, field), input, wanted)
+        })
     }
 
     pub(crate) fn typed(
@@ -378,21 +342,5 @@ impl NetworkBuilder {
 
     pub(crate) fn error(&mut self, name: &str, kind: BuildErrorKind) {
         self.errors.push(BuildError { kind, name: name.to_owned() });
-    }
-}
-
-/// A mass flow in kg/s and a volume flow in m^3/s.
-const MASS_FLOW: Type = Type::of(Dimension::MASS_FLOW);
-const VOLUME_FLOW: Type = Type::of(Dimension::VOLUME_FLOW);
-
-/// The type of a field of a shape, an exchange or a stream; a flow is a mass flow.
-fn type_of(field: Field) -> Type {
-    match field {
-        Field::Area | Field::Exchange => Type::of(Dimension::AREA),
-        Field::Emissivity | Field::ViewFactor => Type::SCALAR,
-        Field::StreamCapacity => Type::of(Dimension::CONDUCTANCE),
-        Field::Flow => MASS_FLOW,
-        Field::FlowTemperature => Type::ABSOLUTE_TEMPERATURE,
-        _ => Type::of(Dimension::LENGTH),
     }
 }

@@ -1,12 +1,14 @@
 //! How each conductor carries heat, as far as the parameters determine it.
 
+use lptn_laws::Carries;
+
 use crate::element::Conductor;
 use crate::error::BuildErrorKind;
 use crate::flow::Flow;
 use crate::id::{ConductorId, Field, Item};
-use crate::law::{At, Law, Stream};
+use crate::law::{At, Law};
 use crate::layout::slot;
-use crate::numbers::{Range, Work, range_of_field};
+use crate::numbers::{Range, Work};
 use crate::value::Value;
 
 impl Work<'_> {
@@ -28,46 +30,39 @@ impl Work<'_> {
             return Flow::Conductance(conductance);
         }
         let errors_before = self.errors.len();
-        for (field, value) in law.parts() {
+        let declared = law.formula().declaration();
+        for ((field, value), declared) in law.parts().zip(declared.fields) {
             if self.parts.reads(value).is_constant() {
-                self.constant(item, field, value, range_of_field(field));
+                self.constant(item, field, value, declared.range);
             }
         }
-        self.check_shape(item, law);
+        self.check_order(item, law);
         if self.errors.len() > errors_before || self.parts.is_variable(conductor) {
             return Flow::Variable;
         }
         let (slots, stack) = self.scope.plain();
-        let mut at = At { slots, stack };
-        let (flow, number) = match law {
-            Law::Advection(stream) => {
-                let rate = self.capacity_rate(stream);
-                return Flow::Stream(self.in_range(item, stream.parts()[0].0, rate, Range::Finite));
-            }
-            Law::Radiation(exchange) => {
-                let gr = at.exchange_area(exchange).unwrap_or(f64::NAN);
-                (Flow::Radiation(gr), gr)
-            }
-            _ => {
-                let conductance = at.conductance(law).unwrap_or(f64::NAN);
-                (Flow::Conductance(conductance), conductance)
-            }
-        };
+        let number = At { slots, stack }.value(law).unwrap_or(f64::NAN);
+        if law.is_stream() {
+            let rate = self.capacity_rate(law, number);
+            return Flow::Stream(self.in_range(item, Field::law(law.formula(), 0), rate, Range::Finite));
+        }
         // 1/R and h A can still leave the range of numbers
-        let field = law.parts().last().map_or(Field::Conductance, |(field, _)| *field);
-        self.in_range(item, field, number, Range::Positive);
-        flow
+        let last = Field::law(law.formula(), declared.fields.len() - 1);
+        let number = self.in_range(item, last, number, Range::Positive);
+        match declared.carries {
+            Carries::Radiation => Flow::Radiation(number),
+            _ => Flow::Conductance(number),
+        }
     }
 
-    /// A constant capacity rate in W/K.
-    fn capacity_rate(&mut self, stream: &Stream) -> f64 {
+    /// A constant capacity rate in W/K, from the flow of a stream.
+    fn capacity_rate(&mut self, law: &Law, flow: f64) -> f64 {
         let parts = self.parts;
+        let Some(fluid) = law.fluid().map(|id| &parts.fluids[id.index()]) else { return flow };
         let mut at = |value: &Value| value.at(&mut self.scope).unwrap_or(f64::NAN);
-        let flow = at(stream.parts()[0].1);
-        let Some(fluid) = stream.fluid().map(|id| &parts.fluids[id.index()]) else { return flow };
-        let density = match stream {
-            Stream::Volume { at: measured, .. } => {
-                let temperature = at(measured);
+        let density = match law.carries() {
+            Carries::VolumeFlow(measured) => {
+                let temperature = law.value(measured).map_or(f64::NAN, &mut at);
                 self.scope.set(slot::OWN, temperature);
                 fluid.density.as_ref().map_or(f64::NAN, |d| d.at(&mut self.scope).unwrap_or(f64::NAN))
             }
@@ -76,19 +71,18 @@ impl Work<'_> {
         flow * density * fluid.cp.at(&mut self.scope).unwrap_or(f64::NAN)
     }
 
-    fn check_shape(&mut self, item: Item, law: &Law) {
-        let parts = law.parts();
-        let constant = |field: Field| {
-            let (_, value) = parts.iter().find(|(f, _)| *f == field)?;
-            self.parts.reads(value).is_constant().then_some(value)
-        };
-        let (Some(inner), Some(outer)) = (constant(Field::InnerRadius), constant(Field::OuterRadius)) else {
-            return;
-        };
-        if let (Ok(inner), Ok(outer)) = (inner.at(&mut self.scope), outer.at(&mut self.scope))
+    /// Two lengths of which one has to be shorter, where both are constant.
+    fn check_order(&mut self, item: Item, law: &Law) {
+        let Some(keys) = law.formula().declaration().ordered else { return };
+        let [inner, outer] = keys.map(|key| {
+            let value = law.value(key).filter(|value| self.parts.reads(value).is_constant())?;
+            value.at(&mut self.scope).ok()
+        });
+        let fields = keys.map(Field::of_law);
+        if let ([Some(inner), Some(outer)], [Some(a), Some(b)]) = ([inner, outer], fields)
             && inner >= outer
         {
-            self.error(item, BuildErrorKind::Radii { item, inner, outer });
+            self.error(item, BuildErrorKind::Radii { item, fields: [a, b], inner, outer });
         }
     }
 }

@@ -3,6 +3,7 @@
 use crate::control::Control;
 use crate::element::{Conductor, Source};
 use crate::id::{ConductorId, End, Item, SignalId};
+use lptn_laws::Carries;
 use lptn_units::Degree;
 
 use crate::layout::{Holds, slot};
@@ -126,12 +127,9 @@ impl Parts {
         if conductor.law.is_number() {
             return false;
         }
-        let values = conductor.law.parts();
-        let fluid = match &conductor.law {
-            crate::Law::Advection(stream) => stream.fluid().map(|id| &self.fluids[id.index()].cp),
-            _ => None,
-        };
-        values.into_iter().map(|(_, value)| value).chain(fluid).any(|v| !self.reads(v).is_constant())
+        let fluid = conductor.law.fluid().map(|id| &self.fluids[id.index()].cp);
+        conductor.law.formula().declaration().reads_ends
+            || conductor.law.values().iter().chain(fluid).any(|v| !self.reads(v).is_constant())
     }
 
     /// The temperatures that a conductor was found to depend on; none for a constant one.
@@ -145,7 +143,7 @@ impl Parts {
             vertices: vec![self.vertex(conductor.from), self.vertex(conductor.to)],
             named: Vec::new(),
         };
-        for (_, value) in conductor.law.parts() {
+        for value in conductor.law.values() {
             self.reads(value).temperatures.into_iter().for_each(|end| dependence.add(self, end));
         }
         dependence
@@ -182,8 +180,8 @@ impl Parts {
             }
         };
         for (conductor, dependence) in self.conductors.iter().zip(&self.conductor_dependence) {
-            let constant = !matches!(conductor.law, crate::Law::Radiation(_) | crate::Law::Advection(_));
-            if !constant || dependence.is_some() {
+            let proportional = conductor.law.carries() == Carries::Conductance;
+            if !proportional || dependence.is_some() {
                 touch(self.vertex(conductor.from));
                 touch(self.vertex(conductor.to));
                 dependence.iter().flat_map(|of| &of.vertices).for_each(|&v| touch(v));

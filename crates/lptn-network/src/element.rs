@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use lptn_laws::Kind;
 use lptn_units::Type;
 
 use crate::id::{End, NodeId};
@@ -77,29 +78,12 @@ pub struct Boundary {
     pub temperature: Value,
 }
 
-/// What kind of path a conductor is: the section of the netlist that it stands in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ConductorKind {
-    /// `[resistor]`: a path given by its resistance or conductance.
-    Resistor,
-    /// `[conduction]`: a body of simple shape.
-    Conduction,
-    /// `[convection]`: a wetted surface.
-    Convection,
-    /// `[contact]`: an interface between two bodies.
-    Contact,
-    /// `[radiation]`: two surfaces that see each other.
-    Radiation,
-    /// `[advection]`: a stream.
-    Advection,
-}
-
 /// A path that carries heat between two ends. Parallel conductors add.
 #[derive(Clone, Debug)]
 pub struct Conductor {
     pub(crate) label: Label,
     /// Its kind.
-    pub kind: ConductorKind,
+    pub kind: Kind,
     /// The end that positive heat leaves.
     pub from: End,
     /// The end that positive heat enters.

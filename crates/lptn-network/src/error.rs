@@ -1,11 +1,16 @@
-//! What can be wrong with a network.
+//! What can be wrong with a network, each told once.
 
 use std::fmt;
 
-use lptn_units::{EvalError, Type};
+use lptn_laws::Formula;
+use lptn_units::{EvalError, Type, format_short};
 
-use crate::grid::GridFace;
+use crate::error_words::{
+    Say, area, by, crossed, evaluation, in_unit, inside, keys, not_positive, unused_name, usable,
+};
+use crate::grid::{GridFace, MOST_CELLS};
 use crate::id::{ConductorId, ControlId, Field, FluidId, GridId, Item, NodeId, SignalId, SourceId};
+use crate::names::list_of_names;
 
 /// All problems found while a network was built; never empty.
 #[derive(Clone, Debug)]
@@ -13,13 +18,8 @@ pub struct BuildErrors(pub Vec<BuildError>);
 
 impl fmt::Display for BuildErrors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, error) in self.0.iter().enumerate() {
-            if i > 0 {
-                f.write_str("\n")?;
-            }
-            write!(f, "{error}")?;
-        }
-        Ok(())
+        let all: Vec<String> = self.0.iter().map(ToString::to_string).collect();
+        f.write_str(&all.join("\n"))
     }
 }
 
@@ -34,365 +34,259 @@ pub struct BuildError {
     pub name: String,
 }
 
-/// The kinds of problems of a network.
-#[derive(Clone, Debug)]
-pub enum BuildErrorKind {
-    /// Two items of one name space have the same name.
-    DuplicateName {
-        /// The item that had the name first.
-        first: Item,
-        /// The item that took it again.
-        second: Item,
-    },
-    /// A name that stands for something inside another item, or for one of its results.
-    NameInside {
-        /// The item with this name.
-        item: Item,
-        /// The grid or element whose part or result has it.
-        whole: Item,
-    },
-    /// A name that is not `[A-Za-z_][A-Za-z0-9_]*`.
-    BadName {
-        /// The item.
-        item: Item,
-    },
-    /// A name that expressions use for themselves.
-    ReservedName {
-        /// The item.
-        item: Item,
-    },
-    /// A value of the wrong type.
-    WrongType {
-        /// The item.
-        item: Item,
-        /// Its field.
-        field: Field,
-        /// The type that the field has.
-        wanted: Type,
-        /// The type that was given.
-        found: Type,
-    },
-    /// A value that has to be finite and more than zero, but is not.
-    NotPositive {
-        /// The item.
-        item: Item,
-        /// Its field.
-        field: Field,
-        /// The value in SI units.
-        value: f64,
-    },
-    /// A value that may be zero, but not less.
-    Negative {
-        /// The item.
-        item: Item,
-        /// Its field.
-        field: Field,
-        /// The value in SI units.
-        value: f64,
-    },
-    /// A value that has to be finite, but is not.
-    NotFinite {
-        /// The item.
-        item: Item,
-        /// Its field.
-        field: Field,
-        /// The value in SI units.
-        value: f64,
-    },
-    /// An absolute temperature below 0 K.
-    BelowAbsoluteZero {
-        /// The item.
-        item: Item,
-        /// Its field.
-        field: Field,
-        /// The value in K.
-        value: f64,
-    },
-    /// A field that has to be constant depends on `t`.
-    DependsOnTime {
-        /// The item.
-        item: Item,
-        /// Its field.
-        field: Field,
-    },
-    /// A field that has to be known before any result depends on the temperature of a node or boundary.
-    DependsOnResult {
-        /// The item.
-        item: Item,
-        /// Its field.
-        field: Field,
-    },
-    /// A comparison whose sides are not linear in `t`: the time at which it changes is not known beforehand.
-    ComparisonNotLinear {
-        /// The item.
-        item: Item,
-        /// Its field.
-        field: Field,
-    },
-    /// A comparison of a temperature where its change cannot be followed: in a property, or for equality.
-    ComparesTemperature {
-        /// The item.
-        item: Item,
-        /// Its field.
-        field: Field,
-    },
-    /// The threshold at which a control switches on lies beyond that at which it switches off, or both are one.
-    ThresholdsCrossed {
-        /// The control.
-        control: ControlId,
-        /// The fields of the thresholds for on and off.
-        fields: [Field; 2],
-        /// On, in K.
-        on: f64,
-        /// Off, in K.
-        off: f64,
-    },
-    /// A control of which nothing says when it switches.
-    NoThermostat {
-        /// The control.
-        control: ControlId,
-    },
-    /// An emissivity or view factor that is not above 0 and at most 1.
-    NotAFraction {
-        /// The item.
-        item: Item,
-        /// Its field.
-        field: Field,
-        /// The value.
-        value: f64,
-    },
-    /// An outer radius that is not larger than the inner one.
-    Radii {
-        /// The conductor.
-        item: Item,
-        /// Inner radius in m.
-        inner: f64,
-        /// Outer radius in m.
-        outer: f64,
-    },
-    /// A liquidus below the solidus.
-    Melting {
-        /// The material.
-        item: Item,
-        /// Solidus in K.
-        solidus: f64,
-        /// Liquidus in K.
-        liquidus: f64,
-    },
-    /// A node of which a part is said to be molten at its start, but that does not melt at just that temperature.
-    NotMelting {
-        /// The node.
-        node: NodeId,
-        /// Its start in K.
-        temperature: f64,
-    },
-    /// Shares of a source that are negative or do not sum to 1.
-    Shares {
-        /// The source.
-        source: SourceId,
-        /// Their sum.
-        sum: f64,
-    },
-    /// A source of several nodes whose heat depends on `T`, which could be any of theirs.
-    WhichTemperature {
-        /// The source.
-        source: SourceId,
-    },
-    /// A capacity that is not known and positive at the start of its node.
-    CapacityUnknown {
-        /// The node.
-        node: NodeId,
-        /// Its start in K.
-        temperature: f64,
-    },
-    /// A capacity that changes so quickly with temperature that its integral cannot be followed.
-    TooQuick {
-        /// The node or fluid.
-        item: Item,
-        /// The value.
-        field: Field,
-    },
-    /// A property of a fluid that is not known and positive where it is needed.
-    FluidUnknown {
-        /// The fluid.
-        fluid: FluidId,
-        /// The property.
-        field: Field,
-    },
-    /// A period that ends before the last point of its signal.
-    PeriodTooShort {
-        /// The signal.
-        signal: SignalId,
-        /// The period in s.
-        period: f64,
-        /// From the first to the last point in s.
-        span: f64,
-    },
-    /// Points of a signal that are not as many times as values, one at least, finite, the times rising.
-    SignalPoints {
-        /// The signal.
-        signal: SignalId,
-    },
-    /// An expression that could not be evaluated.
-    Evaluation {
-        /// The item.
-        item: Item,
-        /// Its field.
-        field: Field,
-        /// The reason.
-        error: EvalError,
-    },
-    /// A conductor whose two ends are the same node.
-    SelfLink {
-        /// The conductor.
-        conductor: ConductorId,
-    },
-    /// A source that heats a boundary, where it has no effect.
-    SourceIntoBoundary {
-        /// The source.
-        source: SourceId,
-    },
-    /// A node without capacity that is not declared massless.
-    NoCapacity {
-        /// The node.
-        node: NodeId,
-    },
-    /// A node declared massless that has a capacity.
-    MasslessWithCapacity {
-        /// The node.
-        node: NodeId,
-    },
-    /// A node with capacity but without a temperature at the start.
-    NoInitialTemperature {
-        /// The node.
-        node: NodeId,
-    },
-    /// Nodes that together reach neither a capacity nor a boundary: their temperatures are not determined.
-    FloatingIsland {
-        /// The nodes, in order.
-        nodes: Vec<NodeId>,
-        /// Their names.
-        names: Vec<String>,
-    },
-    /// An element names a node, boundary or end that is not of this builder.
-    ForeignId {
-        /// The element.
-        item: Item,
-    },
-    /// Parameters of another network.
-    ForeignParameters,
-    /// A network without any node, and without a path between boundaries.
-    Empty,
-    /// Counts of cells that are not one to three, each at least 1.
-    GridCells {
-        /// The grid.
-        grid: GridId,
-        /// The counts.
-        counts: Vec<usize>,
-    },
-    /// More than [`MOST_CELLS`](crate::MOST_CELLS) cells.
-    GridTooLarge {
-        /// The grid.
-        grid: GridId,
-        /// The counts.
-        counts: Vec<usize>,
-    },
-    /// A grid of a material that lacks a property.
-    NoProperty {
-        /// The grid.
-        item: Item,
-        /// The property.
-        field: Field,
-    },
-    /// A stream that ends at a face of a grid, which it cannot mix with.
-    StreamIntoFace {
-        /// The path.
-        item: Item,
-    },
-    /// Two faces that are joined but not divided in the same way.
-    FaceCells {
-        /// The path.
-        item: Item,
-        /// The faces.
-        faces: [GridFace; 2],
-        /// Their names.
-        names: [String; 2],
-        /// How many cells each has along its two axes.
-        cells: [[usize; 2]; 2],
-    },
-    /// Two faces that are joined but not of the same size.
-    FaceSides {
-        /// The path.
-        item: Item,
-        /// The faces.
-        faces: [GridFace; 2],
-        /// Their names.
-        names: [String; 2],
-        /// The lengths of each along its two axes in m.
-        sides: [[f64; 2]; 2],
-    },
-    /// A path whose area is not that of the face it ends at.
-    FaceArea {
-        /// The path.
-        item: Item,
-        /// Its area in m^2.
-        given: f64,
-        /// The face.
-        face: GridFace,
-        /// Its name.
-        name: String,
-        /// The area of the face in m^2.
-        area: f64,
-    },
-}
-
 impl BuildError {
     /// The stable code, as diagnostics print it.
     pub fn code(&self) -> &'static str {
-        use BuildErrorKind as K;
-        match &self.kind {
-            K::DuplicateName { .. } | K::NameInside { .. } => "network::duplicate_name",
-            K::BadName { .. } => "network::bad_name",
-            K::ReservedName { .. } => "network::reserved_name",
-            K::WrongType { .. } => "network::wrong_type",
-            K::NotPositive { .. } => "network::not_positive",
-            K::Negative { .. } => "network::negative",
-            K::NotFinite { .. } => "network::not_finite",
-            K::BelowAbsoluteZero { .. } => "network::below_absolute_zero",
-            K::DependsOnTime { .. } => "network::depends_on_time",
-            K::DependsOnResult { .. } => "network::depends_on_result",
-            K::ComparisonNotLinear { .. } => "network::comparison_not_linear",
-            K::ComparesTemperature { .. } => "network::compares_temperature",
-            K::ThresholdsCrossed { .. } => "network::thresholds_crossed",
-            K::NoThermostat { .. } => "network::no_thermostat",
-            K::NotAFraction { .. } => "network::not_a_fraction",
-            K::Radii { .. } => "network::radii",
-            K::Melting { .. } => "network::melting",
-            K::NotMelting { .. } => "network::not_melting",
-            K::Shares { .. } => "network::shares",
-            K::WhichTemperature { .. } => "network::which_temperature",
-            K::CapacityUnknown { .. } => "network::capacity_unknown",
-            K::TooQuick { .. } => "network::capacity_too_quick",
-            K::FluidUnknown { .. } => "network::fluid_unknown",
-            K::PeriodTooShort { .. } => "network::period_too_short",
-            K::SignalPoints { .. } => "network::signal_points",
-            K::Evaluation { error, .. } => error.code(),
-            K::SelfLink { .. } => "network::self_link",
-            K::SourceIntoBoundary { .. } => "network::source_into_boundary",
-            K::NoCapacity { .. } => "network::no_capacity",
-            K::MasslessWithCapacity { .. } => "network::massless_with_capacity",
-            K::NoInitialTemperature { .. } => "network::no_initial_temperature",
-            K::FloatingIsland { .. } => "network::floating_island",
-            K::ForeignId { .. } => "network::foreign_id",
-            K::ForeignParameters => "network::foreign_parameters",
-            K::Empty => "network::empty",
-            K::GridCells { .. } => "network::grid_cells",
-            K::GridTooLarge { .. } => "network::grid_too_large",
-            K::NoProperty { .. } => "network::no_property",
-            K::StreamIntoFace { .. } => "network::stream_into_face",
-            K::FaceCells { .. } => "network::face_cells",
-            K::FaceSides { .. } => "network::face_sides",
-            K::FaceArea { .. } => "network::face_area",
-        }
+        self.kind.code()
     }
+
+    /// Where the problem is, if it is at one item: the item and its field.
+    pub fn place(&self) -> Option<(Item, Field)> {
+        self.kind.place()
+    }
+
+    /// What to do about it, in words that can be pasted where possible.
+    pub fn help(&self) -> Option<String> {
+        self.kind.help(&Say::new(&self.name))
+    }
+}
+
+impl fmt::Display for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.kind.message(&Say::new(&self.name)))
+    }
+}
+
+impl std::error::Error for BuildError {}
+
+/// Help that needs no more than the words.
+#[allow(clippy::unnecessary_wraps, reason = "in the form of all helps")]
+fn text(help: &str) -> Option<String> {
+    Some(help.to_owned())
+}
+
+lptn_units::problems! {
+/// The kinds of problems of a network.
+#[derive(Clone, Debug)]
+pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
+    /// Two items of one name space have the same name: the first, and the one that took it again.
+    DuplicateName { first: Item, second: Item } = "network::duplicate_name", at Some((*second, Field::Name)),
+        says match (say.kind(*first), say.kind(*second)) {
+            (a, b) if a == b => format!("two {a}s are named `{}`", say.name),
+            (a, b) => format!("the name `{}` is taken twice: by a {a} and by a {b}", say.name),
+        }, help Some(unused_name(*first, say.name));
+    /// A name that stands for something inside another item, the whole, or for one of its results.
+    NameInside { item: Item, whole: Item } = "network::duplicate_name", at Some((*item, Field::Name)),
+        says inside(say, *item, *whole),
+        help Some(format!("rename one of them, for example `{}`", say.name.replace(['.', '[', ','], "_").replace(']', "")));
+    /// A name that is not `[A-Za-z_][A-Za-z0-9_]*`.
+    BadName { item: Item } = "network::bad_name", at Some((*item, Field::Name)),
+        says format!("{} has a name that cannot be used", say.item(*item)),
+        help Some(format!("use letters, digits and `_`: `{}`", usable(say.name)));
+    /// A name that expressions use for themselves.
+    ReservedName { item: Item } = "network::reserved_name", at Some((*item, Field::Name)),
+        says format!("{} has a name with a meaning of its own in expressions", say.item(*item)),
+        help Some(format!("choose another name, for example `{}_1`", say.name));
+    /// A value of the wrong type.
+    WrongType { item: Item, field: Field, wanted: Type, found: Type } = "network::wrong_type", at Some((*item, *field)),
+        says format!("{} must be {wanted}, got {found}", say.field(*item, *field)), help None;
+    /// A value that has to be finite and more than zero, but is not.
+    NotPositive { item: Item, field: Field, value: f64 } = "network::not_positive", at Some((*item, *field)),
+        says match value.is_finite() {
+            true => format!("{} must be more than zero, got {}", say.field(*item, *field), in_unit(*value, *field)),
+            false => format!("{} must be finite, got {value}", say.field(*item, *field)),
+        }, help text(not_positive(*field, *value));
+    /// A value that may be zero, but not less.
+    Negative { item: Item, field: Field, value: f64 } = "network::negative", at Some((*item, *field)),
+        says format!("{} must not be negative, got {}", say.field(*item, *field), in_unit(*value, *field)),
+        help (*field == Field::MinDwell).then(|| "leave it out where it may switch again at once".to_owned());
+    /// A value that has to be finite, but is not.
+    NotFinite { item: Item, field: Field, value: f64 } = "network::not_finite", at Some((*item, *field)),
+        says format!("{} must be finite, got {value}", say.field(*item, *field)),
+        help text("something is divided by zero, or a number is too large");
+    /// An absolute temperature below 0 K.
+    BelowAbsoluteZero { item: Item, field: Field, value: f64 } = "network::below_absolute_zero", at Some((*item, *field)),
+        says format!("{} is below absolute zero: {} K", say.field(*item, *field), format_short(*value)),
+        help text("0 K is -273.15 degC");
+    /// A field that has to be constant depends on `t`.
+    DependsOnTime { item: Item, field: Field } = "network::depends_on_time", at Some((*item, *field)),
+        says format!("{} has to be constant, but depends on the time `t`", say.field(*item, *field)),
+        help text("sources, boundaries and the values of conductors may depend on `t`; a parameter that should is a [signal]");
+    /// A field that has to be known before any result depends on the temperature of a node or boundary.
+    DependsOnResult { item: Item, field: Field } = "network::depends_on_result", at Some((*item, *field)),
+        says format!("{} cannot depend on the temperature of a node or boundary", say.field(*item, *field)),
+        help text("sources, conductors and limits may depend on temperatures; a capacity and a property of a material may \
+                   depend on their own `T`");
+    /// A comparison whose sides are not linear in `t`: the time at which it changes is not known beforehand.
+    ComparisonNotLinear { item: Item, field: Field } = "network::comparison_not_linear", at Some((*item, *field)),
+        says format!("{} compares something that is not linear in the time `t`", say.field(*item, *field)),
+        help text("compare `t` itself, for example `if(t < 300 [s], 0 [W], 100 [W])`");
+    /// A comparison of a temperature where its change cannot be followed: in a property, or for equality.
+    ComparesTemperature { item: Item, field: Field } = "network::compares_temperature", at Some((*item, *field)),
+        says format!("{} compares temperatures, or what switches, where the change cannot be followed", say.field(*item, *field)),
+        help text("sources and paths may compare temperatures, with `<` or `>`; elsewhere write a smooth change, for \
+                   example `0.5 * (1 + tanh((T - 80 [degC]) / 1 [K]))`, or a [table]");
+    /// The threshold at which a control switches on lies beyond that at which it switches off, or both are one.
+    ThresholdsCrossed { control: ControlId, fields: [Field; 2], on: f64, off: f64 } = "network::thresholds_crossed",
+        at Some((Item::Control(*control), fields[0])),
+        says crossed(&say.item(Item::Control(*control)), *fields, (*on, *off)),
+        help Some(match fields {
+            [a @ Field::OnAbove, b] => format!("make `{}` higher than `{}`", a.key(), b.key()),
+            [a, b] => format!("make `{}` lower than `{}`", a.key(), b.key()),
+        });
+    /// A control of which nothing says when it switches.
+    NoThermostat { control: ControlId } = "network::no_thermostat", at Some((Item::Control(*control), Field::Name)),
+        says format!("nothing says when control `{}` switches", say.name),
+        help text("write `sense`, `on_above` and `off_below`, or `on_below` and `off_above`");
+    /// A share, such as an emissivity, that is not above 0 and at most 1.
+    NotAFraction { item: Item, field: Field, value: f64 } = "network::not_a_fraction", at Some((*item, *field)),
+        says format!("{} must be above 0 and at most 1, got {}", say.field(*item, *field), format_short(*value)),
+        help text("it is a part of a whole: write `0.8` for 80 %");
+    /// An outer radius that is not larger than the inner one, in m.
+    Radii { item: Item, fields: [Field; 2], inner: f64, outer: f64 } = "network::radii", at Some((*item, fields[1])),
+        says format!(
+            "{}, {} m, must be larger than its `{}`, {} m",
+            say.field(*item, fields[1]), format_short(*outer), fields[0].key(), format_short(*inner)
+        ),
+        help Some(match inner <= outer {
+            true => format!("a wall has a thickness: make `{}` larger", fields[1].key()),
+            false => format!("exchange `{}` and `{}`", fields[0].key(), fields[1].key()),
+        });
+    /// A path without one value for each field of its law, or with a fluid where it has none.
+    LawValues { item: Item, formula: Formula } = "network::law_values", at Some((*item, Field::Name)),
+        says format!(
+            "{} needs one value for each field of the law `{}`, and a fluid only where it has one",
+            say.item(*item), formula.declaration().name
+        ),
+        help Some(format!("its fields are {}", keys(*formula)));
+    /// A liquidus below the solidus, in K.
+    Melting { item: Item, solidus: f64, liquidus: f64 } = "network::melting", at Some((*item, Field::Liquidus)),
+        says format!(
+            "`liquidus` of {}, {} K, is below its `solidus`, {} K",
+            say.item(*item), format_short(*liquidus), format_short(*solidus)
+        ),
+        help text("exchange `solidus` and `liquidus`");
+    /// A node of which a part is said to be molten at its start, but that does not melt at just that temperature.
+    NotMelting { node: NodeId, temperature: f64 } = "network::not_melting", at Some((Item::Node(*node), Field::Initial)),
+        says format!("`{}` is to start partly molten, but does not melt at just {temperature} K", say.name),
+        help text("give the material the solidus and liquidus of the run that wrote the state, or leave the share out");
+    /// Shares of a source that are negative or do not sum to 1.
+    Shares { source: SourceId, sum: f64 } = "network::shares", at Some((Item::Source(*source), Field::Into)),
+        says format!("the shares of {} must sum to 1, got {}", say.item(Item::Source(*source)), format_short(*sum)),
+        help text("make the shares sum to 1");
+    /// A source of several nodes whose heat depends on `T`, which could be any of theirs.
+    WhichTemperature { source: SourceId } = "network::which_temperature", at Some((Item::Source(*source), Field::Power)),
+        says format!("`P` of {} depends on `T`, but it heats several nodes", say.item(Item::Source(*source))),
+        help text("name the node, for example `steel.T`");
+    /// A capacity that is not known and positive at the start of its node.
+    CapacityUnknown { node: NodeId, temperature: f64 } = "network::capacity_unknown",
+        at Some((Item::Node(*node), Field::Capacity)),
+        says format!(
+            "the capacity of {} is not known and positive at its start, {} K",
+            say.item(Item::Node(*node)), format_short(*temperature)
+        ),
+        help text("let the table or expression reach `T0` and stay positive there");
+    /// A capacity that changes so quickly with temperature that its integral cannot be followed.
+    TooQuick { item: Item, field: Field } = "network::capacity_too_quick", at Some((*item, *field)),
+        says format!("{} changes too quickly with temperature to be integrated", say.field(*item, *field)),
+        help text("write its mean in place of what swings, or a [table] of its values");
+    /// A property of a fluid that is not known and positive where it is needed.
+    FluidUnknown { fluid: FluidId, field: Field } = "network::fluid_unknown", at Some((Item::Fluid(*fluid), *field)),
+        says format!("{} is not known and positive at any usual temperature", say.field(Item::Fluid(*fluid), *field)),
+        help None;
+    /// A period that ends before the last point of its signal, in s.
+    PeriodTooShort { signal: SignalId, period: f64, span: f64 } = "network::period_too_short",
+        at Some((Item::Signal(*signal), Field::Period)),
+        says format!(
+            "the period of {}, {} s, is shorter than its points reach, {} s",
+            say.item(Item::Signal(*signal)), format_short(*period), format_short(*span)
+        ),
+        help Some(format!("write `period = \"{span} s\"` or more"));
+    /// Points of a signal that are not as many times as values, one at least, finite, the times rising.
+    SignalPoints { signal: SignalId } = "network::signal_points", at Some((Item::Signal(*signal), Field::Value)),
+        says format!("the points of `{}` are not rising times with one finite value each", say.name), help None;
+    /// An expression that could not be evaluated.
+    Evaluation { item: Item, field: Field, error: EvalError } = error.code(), at Some((*item, *field)),
+        says match error {
+            EvalError::NotFinite { value, .. } => {
+                format!("{} comes out as {value}, which is not finite", say.field(*item, *field))
+            }
+            _ => format!("{}: {error}", say.field(*item, *field)),
+        }, help evaluation(error);
+    /// A conductor whose two ends are the same node.
+    SelfLink { conductor: ConductorId } = "network::self_link", at Some((Item::Conductor(*conductor), Field::To)),
+        says format!("{} leads from a place to itself", say.item(Item::Conductor(*conductor))),
+        help text("a path leads from one node to another: name two different ends");
+    /// A source that heats a boundary, where it has no effect.
+    SourceIntoBoundary { source: SourceId } = "network::source_into_boundary", at Some((Item::Source(*source), Field::Into)),
+        says format!("{} heats a boundary", say.item(Item::Source(*source))),
+        help text("a boundary keeps its temperature whatever flows in: name a node");
+    /// A node without capacity that is not declared massless.
+    NoCapacity { node: NodeId } = "network::no_capacity", at Some((Item::Node(*node), Field::Name)),
+        says format!("node `{}` has no capacity", say.name),
+        help Some(format!(
+            "give it a capacity, `{0} = {{ C = \"500 J/K\" }}`, or make it a junction, `{0} = {{ massless = true }}`", say.name
+        ));
+    /// A node declared massless that has a capacity.
+    MasslessWithCapacity { node: NodeId } = "network::massless_with_capacity", at Some((Item::Node(*node), Field::Name)),
+        says format!("node `{}` is massless but has a capacity", say.name),
+        help text("remove `massless = true`, or the capacity");
+    /// A node with capacity but without a temperature at the start.
+    NoInitialTemperature { node: NodeId } = "network::no_initial_temperature", at Some((Item::Node(*node), Field::Name)),
+        says format!("{} has no temperature at the start", say.item(Item::Node(*node))),
+        help text("add `T0 = \"25 degC\"` to the node, or to [default] for every node");
+    /// Nodes that together reach neither a capacity nor a boundary: their temperatures are not determined.
+    FloatingIsland { nodes: Vec<NodeId>, names: Vec<String> } = "network::floating_island",
+        at nodes.first().map(|node| (Item::Node(*node), Field::Name)),
+        says format!(
+            "the temperature of {} is not determined: no boundary and no capacity is connected", list_of_names(names)
+        ),
+        help text("connect one of them to a boundary, or give one of them a capacity");
+    /// An element names a node, boundary or end that is not of this builder.
+    ForeignId { item: Item } = "network::foreign_id", at Some((*item, Field::Name)),
+        says format!("`{}` is joined to something of another network", say.name), help None;
+    /// Parameters of another network.
+    ForeignParameters = "network::foreign_parameters", at None,
+        says "the parameters are those of another network".to_owned(), help None;
+    /// A network without any node, and without a path between boundaries.
+    Empty = "network::empty", at None, says "the network has no node".to_owned(), help None;
+    /// Counts of cells that are not one to three, each at least 1.
+    GridCells { grid: GridId, counts: Vec<usize> } = "network::grid_cells", at Some((Item::Grid(*grid), Field::Cells)),
+        says format!("`cells` of `{}` must be one to three counts of at least 1, got {counts:?}", say.name),
+        help text("give one to three whole numbers, along x, y and z: `cells = [20, 10, 1]`");
+    /// More than [`MOST_CELLS`](crate::MOST_CELLS) cells.
+    GridTooLarge { grid: GridId, counts: Vec<usize> } = "network::grid_too_large", at Some((Item::Grid(*grid), Field::Cells)),
+        says format!(
+            "`{}` has {} = {:.3e} cells, more than {MOST_CELLS}",
+            say.name, by(counts), counts.iter().map(|&count| count as f64).product::<f64>()
+        ),
+        help text("make the cells larger: half as many along each axis have four times the error");
+    /// A grid of a material that lacks a property.
+    NoProperty { item: Item, field: Field } = "network::no_property", at Some((*item, Field::Material)),
+        says format!("the material of `{}` has no `{}`", say.name, field.key()), help None;
+    /// A stream that ends at a face of a grid, which it cannot mix with.
+    StreamIntoFace { item: Item } = "network::stream_into_face", at Some((*item, Field::To)),
+        says format!("the stream `{}` ends at a face, which is solid", say.name),
+        help text("let the stream pass a node, and join that to the face by a [convection]");
+    /// Two faces that are joined but not divided in the same way: cells of each along its two axes.
+    FaceCells { item: Item, faces: [GridFace; 2], names: [String; 2], cells: [[usize; 2]; 2] } = "network::face_cells",
+        at Some((*item, Field::To)),
+        says format!(
+            "`{}` joins `{}` of {} cells to `{}` of {} cells", say.name, names[0], by(&cells[0]), names[1], by(&cells[1])
+        ),
+        help text("divide both in the same way along the face");
+    /// Two faces that are joined but not of the same size: lengths of each along its two axes in m.
+    FaceSides { item: Item, faces: [GridFace; 2], names: [String; 2], sides: [[f64; 2]; 2] } = "network::face_sides",
+        at Some((*item, Field::To)),
+        says format!("`{}` joins `{}`, {}, to `{}`, {}", say.name, names[0], area(sides[0]), names[1], area(sides[1])),
+        help text("two faces that touch have the same lengths: check `size` of both");
+    /// A path whose area is not that of the face it ends at, in m^2.
+    FaceArea { item: Item, given: f64, face: GridFace, name: String, area: f64 } = "network::face_area",
+        at Field::of_law("area").map(|field| (*item, field)),
+        says format!(
+            "the area of `{}`, {} m^2, is not that of the face `{name}`, {} m^2",
+            say.name, format_short(*given), format_short(*area)
+        ),
+        help text("leave `area` out: it is that of the face; a film on a part of it is given by `G` or `R`");
+}
 }

@@ -1,16 +1,19 @@
 //! Heat flows of elements with their derivatives: the one place where a law meets temperatures.
 
+use lptn_laws::Carries;
 use lptn_units::{EvalError, Scalar};
 
 use crate::dependence::Dependence;
 use crate::element::Conductor;
 use crate::enthalpy::Enthalpy;
 use crate::evaluation::{Evaluation, PASS, Slope};
+use crate::fluid::Fluid;
 use crate::id::{ConductorId, Field, Item, NodeId, SourceId};
 use crate::input_error::{InputError, InputProblem};
-use crate::law::{At, Law, Stream};
+use crate::law::{At, Law};
 use crate::layout::slot;
 use crate::network::Network;
+use crate::value::Value;
 
 /// How a conductor carries heat, as far as it is known before a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -208,11 +211,11 @@ impl Network {
         from: S,
         to: S,
     ) -> Result<Received<S>, Failed> {
-        if let Law::Advection(stream) = &conductor.law {
-            return self.carried(stream, &mut at, from, to);
+        if conductor.law.is_stream() {
+            return self.carried(&conductor.law, &mut at, from, to);
         }
         let conductance = at.conductance(&conductor.law)?;
-        let field = conductor.law.parts()[0].0;
+        let field = Field::law(conductor.law.formula(), 0);
         if conductance.value() < 0.0 {
             return Err((field, InputProblem::NegativeConductance(conductance.value())));
         }
@@ -225,29 +228,22 @@ impl Network {
 
     fn carried<S: Scalar>(
         &self,
-        stream: &Stream,
+        law: &Law,
         at: &mut At<'_, S>,
         from: S,
         to: S,
     ) -> Result<Received<S>, Failed> {
         let not_finite = |field, value: f64| (field, InputProblem::NotFinite(value));
-        let (field, value) = stream.parts()[0];
-        let flow = at.get(field, value)?;
+        let flow = at.value(law)?;
         if !flow.is_finite() {
-            return Err(not_finite(field, flow.value()));
+            return Err(not_finite(Field::law(law.formula(), 0), flow.value()));
         }
-        let Some(id) = stream.fluid() else {
+        let Some(id) = law.fluid() else {
             return Ok([lptn_laws::advection_from(flow, from, to), lptn_laws::advection_to(flow, from, to)]);
         };
         let fluid = &self.fluids()[id.index()];
-        let flow = match stream {
-            Stream::Volume { at: measured, .. } => {
-                let temperature = at.get(Field::FlowTemperature, measured)?;
-                at.slots[slot::OWN as usize] = temperature;
-                let missing = (Field::Fluid, InputProblem::NoDensity);
-                let density = fluid.density.as_ref().ok_or(missing)?;
-                flow * at.get(Field::Density, density)?
-            }
+        let flow = match law.carries() {
+            Carries::VolumeFlow(measured) => flow * density(law, measured, fluid, at)?,
             _ => flow,
         };
         let curve = self.numbers.fluids[id.index()].as_deref();
@@ -263,10 +259,28 @@ impl Network {
         };
         let (from, to) = (content(from)?, content(to)?);
         let flow = match curve {
-            None => flow * at.get(Field::SpecificHeat, &fluid.cp)?,
+            None => flow * property(Field::SpecificHeat, &fluid.cp, at)?,
             Some(_) => flow,
         };
-        Ok([lptn_laws::advection_from(flow, from, to), lptn_laws::advection_to(flow, from, to)])
+        Ok([lptn_laws::stream_from(flow, from, to), lptn_laws::stream_to(flow, from, to)])
+    }
+}
+
+/// The density of a fluid in kg/m^3 at the temperature that the field of this key gives.
+fn density<S: Scalar>(law: &Law, measured: &str, fluid: &Fluid, at: &mut At<'_, S>) -> Result<S, Failed> {
+    if let Some(position) = law.formula().position(measured) {
+        at.slots[slot::OWN as usize] = at.get(law, position)?;
+    }
+    let density = fluid.density.as_ref().ok_or((Field::Fluid, InputProblem::NoDensity))?;
+    property(Field::Density, density, at)
+}
+
+/// A property of a fluid, which is not negative.
+fn property<S: Scalar>(field: Field, value: &Value, at: &mut At<'_, S>) -> Result<S, Failed> {
+    let found = value.on(at.slots, at.stack).map_err(|error| (field, error.into()))?;
+    match found.value() < 0.0 {
+        true => Err((field, InputProblem::Negative(found.value()))),
+        false => Ok(found),
     }
 }
 

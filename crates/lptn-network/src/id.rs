@@ -1,5 +1,7 @@
 //! Typed ids: dense indices that belong to one network.
 
+use lptn_laws::Formula;
+
 macro_rules! ids {
     ($($(#[$doc:meta])* $name:ident;)*) => {$(
         $(#[$doc])*
@@ -119,9 +121,33 @@ impl From<End> for Item {
     }
 }
 
+impl Item {
+    /// What it is, in a word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Parameter(_) => "parameter",
+            Self::Node(_) => "node",
+            Self::Boundary(_) => "boundary",
+            Self::Capacitor(_) => "capacitor",
+            Self::Conductor(_) | Self::Joint(_) => "path",
+            Self::Source(_) => "source",
+            Self::Limit(_) => "limit",
+            Self::Material(_) => "material",
+            Self::Fluid(_) => "fluid",
+            Self::Signal(_) => "signal",
+            Self::Table(_) => "table",
+            Self::Report(_) => "report",
+            Self::Control(_) => "control",
+            Self::Grid(_) => "grid",
+        }
+    }
+}
+
 /// A field of an item, by the word that a netlist uses for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Field {
+    /// A field of the law of a conductor.
+    Law(LawField),
     /// The item's own name.
     Name,
     /// A parameter's value.
@@ -132,14 +158,6 @@ pub enum Field {
     Initial,
     /// Temperature of a boundary.
     Temperature,
-    /// Thermal resistance.
-    Resistance,
-    /// Thermal conductance.
-    Conductance,
-    /// Film coefficient.
-    FilmCoefficient,
-    /// Area.
-    Area,
     /// Heat of a source.
     Power,
     /// First end of a conductor.
@@ -166,28 +184,6 @@ pub enum Field {
     SpecificHeat,
     /// Thermal conductivity of a material.
     Conductivity,
-    /// Emissivity of a radiating exchange.
-    Emissivity,
-    /// View factor of a radiating exchange.
-    ViewFactor,
-    /// Exchange area of a radiating exchange.
-    Exchange,
-    /// Thickness of a slab.
-    Thickness,
-    /// Inner radius of a tube or hollow sphere.
-    InnerRadius,
-    /// Outer radius of a tube or hollow sphere.
-    OuterRadius,
-    /// Length of a tube or bar.
-    Length,
-    /// Diameter of a bar.
-    Diameter,
-    /// Capacity rate of a stream.
-    StreamCapacity,
-    /// Flow of a stream.
-    Flow,
-    /// Temperature at which a volume flow is measured.
-    FlowTemperature,
     /// Fluid of a stream.
     Fluid,
     /// Temperature at which a material begins to melt.
@@ -218,19 +214,67 @@ pub enum Field {
     CharacteristicLength,
 }
 
+/// A field of a law; those of one key are one field, whatever the law.
+#[derive(Clone, Copy, Debug)]
+pub struct LawField {
+    law: Formula,
+    position: u8,
+}
+
+impl std::ops::Deref for LawField {
+    type Target = lptn_laws::Field;
+
+    fn deref(&self) -> &Self::Target {
+        &self.law.declaration().fields[usize::from(self.position)]
+    }
+}
+
+impl PartialEq for LawField {
+    fn eq(&self, other: &Self) -> bool {
+        self.key == other.key
+    }
+}
+
+impl Eq for LawField {}
+
+impl PartialOrd for LawField {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for LawField {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.key.cmp(other.key)
+    }
+}
+
+impl std::hash::Hash for LawField {
+    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+        self.key.hash(state);
+    }
+}
+
 impl Field {
+    /// The field of a law at this position.
+    pub(crate) fn law(law: Formula, position: usize) -> Self {
+        Self::Law(LawField { law, position: position as u8 })
+    }
+
+    /// The field of this key of any law.
+    pub fn of_law(key: &str) -> Option<Self> {
+        Formula::ALL.iter().find_map(|law| Some(Self::law(*law, law.position(key)?)))
+    }
+
     /// The key of this field in a netlist.
     pub fn key(self) -> &'static str {
         match self {
+            Self::Law(field) => field.key,
             Self::Name => "name",
             Self::Value => "value",
             Self::Capacity => "C",
             Self::Initial => "T0",
             Self::Temperature => "T",
-            Self::Resistance => "R",
-            Self::Conductance => "G",
-            Self::FilmCoefficient => "h",
-            Self::Area => "area",
             Self::Power => "P",
             Self::From => "from",
             Self::To => "to",
@@ -244,17 +288,6 @@ impl Field {
             Self::Density => "density",
             Self::SpecificHeat => "cp",
             Self::Conductivity => "k",
-            Self::Emissivity => "emissivity",
-            Self::ViewFactor => "view_factor",
-            Self::Exchange => "Gr",
-            Self::Thickness => "thickness",
-            Self::InnerRadius => "r_in",
-            Self::OuterRadius => "r_out",
-            Self::Length => "length",
-            Self::Diameter => "diameter",
-            Self::StreamCapacity => "mcp",
-            Self::Flow => "flow",
-            Self::FlowTemperature => "flow_T",
             Self::Fluid => "fluid",
             Self::Solidus => "solidus",
             Self::Liquidus => "liquidus",

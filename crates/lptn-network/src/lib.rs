@@ -20,8 +20,7 @@ mod dependence;
 mod element;
 mod enthalpy;
 mod error;
-mod error_place;
-mod error_text;
+mod error_words;
 mod evaluation;
 mod flow;
 mod fluid;
@@ -61,21 +60,23 @@ pub use builder::{NetworkBuilder, Path};
 pub use changing::Changing;
 pub use control::{Acts, Control, Thermostat};
 pub use curves::Curve;
-pub use element::{Boundary, Capacitor, Conductor, ConductorKind, Node, Parameter, Source};
+pub use element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
 pub use enthalpy::{Content, Enthalpy};
 pub use error::{BuildError, BuildErrorKind, BuildErrors};
+pub use error_words::{Naming, Say};
 pub use evaluation::Evaluation;
 pub use flow::{Flow, Received};
 pub use fluid::Fluid;
 pub use grid::{Block, Face, Grid, GridFace, GridValue, Joint, MOST_CELLS, Substance, Terminal};
 pub use id::{
-    BoundaryId, CapacitorId, ConductorId, ControlId, End, Field, FluidId, GridId, Item, JointId, LimitId,
-    MaterialId, NodeId, ParameterId, ReportId, SignalId, SourceId, SwitchId, TableId,
+    BoundaryId, CapacitorId, ConductorId, ControlId, End, Field, FluidId, GridId, Item, JointId, LawField,
+    LimitId, MaterialId, NodeId, ParameterId, ReportId, SignalId, SourceId, SwitchId, TableId,
 };
 pub use input_error::{InputError, InputProblem};
-pub use law::{Emissivity, Exchange, Law, Shape, Stream};
+pub use law::Law;
 pub use layout::slot;
 pub use limit::{Bound, Limit, Severity};
+pub use lptn_laws::{Carries, Formula, Kind as ConductorKind};
 pub use material::{Lump, Material, Melting, Properties, Size};
 pub use names::{UnknownName, is_name, is_path, list_of, list_of_names};
 pub use network::Network;

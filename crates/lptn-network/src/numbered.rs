@@ -1,13 +1,16 @@
 //! Conductors and sources by the million, which have no names of their own.
 
+use lptn_laws::{Formula, Kind};
 use lptn_units::{Dimension, Type};
 
 use crate::builder::{NetworkBuilder, Path};
-use crate::element::{Conductor, ConductorKind, Source};
+use crate::element::{Conductor, Source};
 use crate::error::BuildErrorKind;
 use crate::id::{ConductorId, End, Field, Item, NodeId, SourceId};
 use crate::label::Label;
 use crate::value::Input;
+
+const CONDUCTANCE: Type = Type::of(Dimension::CONDUCTANCE);
 
 impl NetworkBuilder {
     /// Adds a conductor that is called by a number, `import.conductor[17]`. Numbers are at least 1 and rise with each
@@ -15,7 +18,7 @@ impl NetworkBuilder {
     pub fn numbered_conductor(
         &mut self,
         number: u32,
-        kind: ConductorKind,
+        kind: Kind,
         (from, to): (End, End),
         path: Path,
     ) -> ConductorId {
@@ -34,7 +37,7 @@ impl NetworkBuilder {
     pub(crate) fn push_conductor(
         &mut self,
         label: Label,
-        kind: ConductorKind,
+        kind: Kind,
         (from, to): (End, End),
         path: Path,
     ) -> ConductorId {
@@ -43,8 +46,8 @@ impl NetworkBuilder {
         let name = || label.of_conductor();
         let law = match path {
             // what nearly all of a large network are
-            Path::Conductance(Input { value, ty, .. }) if ty == Type::of(Dimension::CONDUCTANCE) => {
-                crate::Law::Conductance(value)
+            path if matches!((path.formula(), path.values()), (Formula::Conductance, [input]) if input.ty == CONDUCTANCE) => {
+                path.map(|_, input| input.value)
             }
             path => self.law(&name(), item, path),
         };

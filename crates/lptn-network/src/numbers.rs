@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+pub(crate) use lptn_laws::Range;
+
 use crate::element::Parameter;
 use crate::enthalpy::Enthalpy;
 use crate::error::{BuildError, BuildErrorKind};
@@ -68,16 +70,6 @@ impl Numbers {
             Err(work.errors)
         }
     }
-}
-
-/// What a number has to be.
-#[derive(Clone, Copy)]
-pub(crate) enum Range {
-    Finite,
-    Positive,
-    Temperature,
-    /// Above 0, at most 1.
-    Fraction,
 }
 
 pub(crate) struct Work<'a> {
@@ -199,7 +191,7 @@ impl Work<'_> {
         for (item, field, value) in self.parts.inputs() {
             let reads = self.parts.reads(value);
             let allowed = match item {
-                Item::Conductor(_) => field == Field::Conductivity || !reads.own,
+                Item::Conductor(_) => matches!(field, Field::Law(law) if law.property) || !reads.own,
                 Item::Control(_) => !reads.link && !reads.own,
                 Item::Source(id) => !reads.link && self.names_its_node(id, reads.own),
                 _ => !reads.reads_results(),
@@ -282,13 +274,4 @@ impl Work<'_> {
 
 fn range_of(parameter: &Parameter) -> Range {
     if parameter.ty.absolute { Range::Temperature } else { Range::Finite }
-}
-
-pub(crate) fn range_of_field(field: Field) -> Range {
-    match field {
-        Field::Emissivity | Field::ViewFactor => Range::Fraction,
-        Field::StreamCapacity | Field::Flow => Range::Finite,
-        Field::FlowTemperature => Range::Temperature,
-        _ => Range::Positive,
-    }
 }

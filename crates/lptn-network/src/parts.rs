@@ -119,7 +119,7 @@ impl Parts {
             .chain(sources.map(|(i, s)| (Item::Source(SourceId::from_len(i)), Field::Power, &s.power)))
             .chain(conductors.flat_map(|(i, c)| {
                 let item = Item::Conductor(ConductorId::from_len(i));
-                c.law.parts().into_iter().map(move |(field, value)| (item, field, value))
+                c.law.parts().map(move |(field, value)| (item, field, value))
             }))
             .chain(signals.filter_map(|(i, s)| match &s.course {
                 Course::Expression(value) => Some((Item::Signal(SignalId::from_len(i)), Field::Value, value)),

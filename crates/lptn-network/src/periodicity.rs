@@ -172,15 +172,12 @@ fn at_ends(value: &Value, scope: &mut Evaluation, (time, segment): (f64, f64)) -
 
 /// The unit of the fields whose numbers are worth showing.
 fn unit_of(field: Field) -> Option<String> {
-    let unit = match field {
-        Field::Power => "W",
-        Field::Temperature | Field::FlowTemperature => "K",
-        Field::Conductance | Field::StreamCapacity => "W/K",
-        Field::Resistance => "K/W",
-        Field::FilmCoefficient => "W/(m^2 K)",
+    Some(match field {
+        Field::Power => "W".to_owned(),
+        Field::Temperature => "K".to_owned(),
+        Field::Law(law) => law.ty.dimension.si_unit(),
         _ => return None,
-    };
-    Some(unit.to_owned())
+    })
 }
 
 fn common_multiple(a: f64, b: f64) -> Option<f64> {

@@ -3,7 +3,6 @@
 use lptn_units::{Expression, Program, Type, UnitError};
 
 use crate::builder::NetworkBuilder;
-use crate::element::ConductorKind;
 use crate::evaluation::Evaluation;
 use crate::id::{BoundaryId, ConductorId, Field, Item, JointId, ReportId, SourceId};
 use crate::input_error::InputError;
@@ -73,7 +72,7 @@ impl Parts {
     /// The heat flow of this name, if there is one.
     pub(crate) fn heat(&self, name: &str) -> Option<HeatOf> {
         let (base, ending) = name.rsplit_once('.')?;
-        let stream = |id: &ConductorId| self.conductors[id.index()].kind == ConductorKind::Advection;
+        let stream = |id: &ConductorId| self.conductors[id.index()].law.is_stream();
         match (self.item(base)?, ending) {
             (Item::Conductor(id), "Q") if !stream(&id) => Some(HeatOf::Conductor(id)),
             (Item::Conductor(id), "Q_from") if stream(&id) => Some(HeatOf::ReceivedFrom(id)),
@@ -86,9 +85,9 @@ impl Parts {
     }
 
     fn heats_of(&self, id: ConductorId) -> Vec<HeatOf> {
-        match self.conductors[id.index()].kind {
-            ConductorKind::Advection => vec![HeatOf::ReceivedFrom(id), HeatOf::ReceivedTo(id)],
-            _ => vec![HeatOf::Conductor(id)],
+        match self.conductors[id.index()].law.is_stream() {
+            true => vec![HeatOf::ReceivedFrom(id), HeatOf::ReceivedTo(id)],
+            false => vec![HeatOf::Conductor(id)],
         }
     }
 

@@ -1,10 +1,9 @@
 //! Which heat flows surely go one way with temperature, from the form of their laws.
 
+use lptn_laws::{Carries, Form};
 use lptn_units::Trend;
 
-use crate::element::Conductor;
 use crate::id::{ConductorId, End, SourceId};
-use crate::law::Law;
 use crate::layout::{Holds, slot};
 use crate::network::Network;
 use crate::value::Value;
@@ -20,26 +19,20 @@ impl Network {
             return false;
         }
         let trend = |value: &Value| self.trend(value, &|holds, at| link(holds, at));
-        let conductance = match &conductor.law {
-            Law::Conductance(g) => trend(g),
-            Law::Film { coefficient, area } => trend(coefficient).times(trend(area)),
-            Law::Resistance(r) => {
-                let r = trend(r);
-                return r.falls && r.low >= 0.0;
+        let declared = conductor.law.formula().declaration();
+        let mut values = conductor.law.values().iter().map(trend);
+        match (declared.carries, declared.form) {
+            // a conductance is refused where it is negative
+            (Carries::Conductance, Form::Product) => {
+                values.fold(Trend::constant(1.0), Trend::times).rises && !declared.reads_ends
             }
+            (Carries::Conductance, Form::Reciprocal) => values.all(|r| r.falls && r.low >= 0.0),
             // an exchange area that no temperature changes leaves a difference of fourth powers
-            Law::Radiation(exchange) => return exchange.parts().into_iter().all(|(_, v)| trend(v).is_held()),
-            Law::Conduction { .. } => return self.is_held(conductor),
-            Law::Advection(_) => return false,
-        };
-        // a conductance is refused where it is negative
-        conductance.rises
-    }
-
-    /// Whether no value of it depends on a temperature.
-    fn is_held(&self, conductor: &Conductor) -> bool {
-        let parts = conductor.law.parts();
-        parts.into_iter().all(|(_, value)| self.trend(value, &|holds, at| link(holds, at)).is_held())
+            (Carries::Conductance | Carries::Radiation, _) => {
+                values.all(Trend::is_held) && !declared.reads_ends
+            }
+            _ => false,
+        }
     }
 
     /// Whether a source heats one node, and is known not to heat it more where that is warmer.

@@ -3,7 +3,6 @@
 use crate::flow::{Flow, Received};
 use crate::id::{ConductorId, End, NodeId};
 use crate::input_error::InputError;
-use crate::law::Law;
 use crate::network::Network;
 
 /// Where capacity rates are compared, in K.
@@ -42,7 +41,7 @@ impl Network {
         let mut slopes = Vec::new();
         for id in self.conductor_ids() {
             let conductor = &self.conductors()[id.index()];
-            if !matches!(conductor.law, Law::Advection(_)) {
+            if !conductor.law.is_stream() {
                 continue;
             }
             let rate = self.rate(id, &mut scope, &temperatures, &mut slopes)?;

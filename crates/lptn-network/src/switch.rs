@@ -57,7 +57,7 @@ impl Parts {
         let mut conductors = std::mem::take(&mut self.conductors);
         for (i, conductor) in conductors.iter_mut().enumerate() {
             let item = Item::Conductor(ConductorId::from_len(i));
-            if conductor.law.parts().into_iter().any(|(_, value)| self.switches_in(value)) {
+            if conductor.law.values().iter().any(|value| self.switches_in(value)) {
                 let law = conductor.law.clone();
                 conductor.law = law.map(|field, mut value| {
                     self.hold((item, field), &mut value);

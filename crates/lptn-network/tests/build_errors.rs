@@ -5,9 +5,8 @@ mod common;
 
 use common::{Fault, codes, cooled, every, link, own, power, quantity, thermostat, time};
 use lptn_network::{
-    Acts, Area, BoundaryId, BuildErrorKind, Conductance, ConductorKind, Context, Emissivity, Exchange,
-    HeatCapacity, HeatFlow, Item, Melting, NetworkBuilder, NodeId, Path, Properties, Resistance, Shape,
-    Stream, Temperature,
+    Acts, Area, BoundaryId, BuildErrorKind, Conductance, ConductorKind, Context, Formula, HeatCapacity,
+    HeatFlow, Item, Melting, NetworkBuilder, NodeId, Path, Properties, Resistance, Temperature,
 };
 
 fn conduct(b: &mut NetworkBuilder, (a, air): (NodeId, BoundaryId), path: Path) {
@@ -15,16 +14,12 @@ fn conduct(b: &mut NetworkBuilder, (a, air): (NodeId, BoundaryId), path: Path) {
 }
 
 fn cylinder(inner: &str, outer: &str) -> Path {
-    let shape = Shape::Cylinder { inner: quantity(inner), outer: quantity(outer), length: quantity("1 m") };
-    Path::Conduction(quantity("1 W/(m K)"), shape)
+    let shape = |k| Path::new(Formula::Cylinder, [k, quantity(inner), quantity(outer), quantity("1 m")]);
+    shape(quantity("1 W/(m K)"))
 }
 
 fn surfaces(emissivity: &str, view_factor: &str) -> Path {
-    Path::Radiation(Exchange::Surfaces {
-        emissivity: Emissivity::Effective(quantity(emissivity)),
-        area: quantity("1 m^2"),
-        view_factor: quantity(view_factor),
-    })
+    Path::new(Formula::GreySurfaces, [quantity(emissivity), quantity("1 m^2"), quantity(view_factor)])
 }
 
 #[test]
@@ -61,7 +56,7 @@ fn numbers_out_of_range() {
         ("not_positive", |b, a, air| _ = b.resistor("x", a, air, Resistance(f64::NAN))),
         ("not_positive", |b, a, air| _ = b.resistor("x", a, air, Resistance(0.0))),
         ("not_positive", |b, a, air| {
-            let path = Path::Film(quantity("1e300 W/(m^2 K)"), quantity("1e300 m^2"));
+            let path = Path::film(quantity("1e300 W/(m^2 K)"), quantity("1e300 m^2"));
             b.convection("x", a, air, path);
         }),
         ("not_positive", |b, a, _| _ = b.capacitor("x", a, HeatCapacity(0.0))),
@@ -71,9 +66,7 @@ fn numbers_out_of_range() {
         ("not_finite", |b, a, _| _ = b.source("x", a, HeatFlow(f64::INFINITY))),
         ("not_finite", |b, _, _| _ = b.boundary("x", Temperature(f64::INFINITY))),
         ("not_finite", |b, _, _| _ = b.parameter("x", HeatFlow(f64::NEG_INFINITY))),
-        ("not_finite", |b, a, air| {
-            conduct(b, (a, air), Path::Advection(Stream::Capacity(Conductance(f64::NAN).into())))
-        }),
+        ("not_finite", |b, a, air| conduct(b, (a, air), Path::stream(Conductance(f64::NAN)))),
         ("below_absolute_zero", |b, _, _| _ = b.boundary("x", Temperature(-0.5))),
         ("below_absolute_zero", |b, _, _| _ = b.parameter("x", Temperature(-0.5))),
         ("below_absolute_zero", |b, _, _| _ = b.node("x", HeatCapacity(2.0), Temperature(-300.0))),
@@ -102,9 +95,9 @@ fn types_of_every_field() {
         let of_type = errors.iter().filter(|error| error.code() == "network::wrong_type").count();
         assert_eq!(of_type, count, "{errors:?}");
     };
-    wrong(|b, a, air| _ = b.resistor("x", a, air, Path::Resistance(quantity("1 W/K"))), 1);
-    wrong(|b, a, air| _ = b.resistor("x", a, air, Path::Conductance(quantity("1 K/W"))), 1);
-    wrong(|b, a, air| _ = b.convection("x", a, air, Path::Film(quantity("1 m"), quantity("1 m"))), 2);
+    wrong(|b, a, air| _ = b.resistor("x", a, air, Path::resistance(quantity("1 W/K"))), 1);
+    wrong(|b, a, air| _ = b.resistor("x", a, air, Path::conductance(quantity("1 K/W"))), 1);
+    wrong(|b, a, air| _ = b.convection("x", a, air, Path::film(quantity("1 m"), quantity("1 m"))), 2);
     wrong(|b, _, _| _ = b.node("x", quantity("1 W"), quantity("1 K")), 2);
     wrong(|b, a, _| _ = b.source("x", a, quantity("1 J")), 1);
     wrong(|b, a, _| _ = b.capacitor("x", a, quantity("1 W")), 1);
@@ -113,31 +106,30 @@ fn types_of_every_field() {
     wrong(
         |b, a, air| {
             let m = || quantity("1 s");
-            let shape = Shape::Cylinder { inner: m(), outer: m(), length: m() };
-            conduct(b, (a, air), Path::Conduction(m(), shape));
+            let shape = |k| Path::new(Formula::Cylinder, [k, m(), m(), m()]);
+            conduct(b, (a, air), shape(m()));
         },
         4,
     );
-    wrong(|b, a, air| conduct(b, (a, air), Path::Radiation(Exchange::Area(quantity("1 m")))), 1);
+    wrong(|b, a, air| conduct(b, (a, air), Path::radiation(quantity("1 m"))), 1);
     wrong(
         |b, a, air| {
-            let exchange = Exchange::Surfaces {
-                emissivity: Emissivity::Plates(quantity("1 m"), quantity("1 m")),
-                area: quantity("1 m"),
-                view_factor: quantity("1 m"),
-            };
-            conduct(b, (a, air), Path::Radiation(exchange));
+            let exchange = Path::new(
+                Formula::ParallelPlates,
+                [quantity("1 m"), quantity("1 m"), quantity("1 m"), quantity("1 m")],
+            );
+            conduct(b, (a, air), exchange);
         },
         4,
     );
-    wrong(|b, a, air| conduct(b, (a, air), Path::Advection(Stream::Capacity(quantity("1 kg/s")))), 1);
+    wrong(|b, a, air| conduct(b, (a, air), Path::stream(quantity("1 kg/s"))), 1);
     wrong(
         |b, a, air| {
             let fluid = b.fluid("water", Some(quantity("1 kg")), quantity("1 J/K"), None);
-            let mass = Stream::Mass { fluid, flow: quantity("1 m^3/s") };
-            conduct(b, (a, air), Path::Advection(mass));
-            let volume = Stream::Volume { fluid, flow: quantity("1 kg/s"), at: quantity("1 K") };
-            b.conductor("y", ConductorKind::Advection, (a.into(), air.into()), Path::Advection(volume));
+            let mass = Path::of_fluid(Formula::MassFlow, fluid, [quantity("1 m^3/s")]);
+            conduct(b, (a, air), mass);
+            let volume = Path::of_fluid(Formula::VolumeFlow, fluid, [quantity("1 kg/s"), quantity("1 K")]);
+            b.conductor("y", ConductorKind::Advection, (a.into(), air.into()), volume);
         },
         5,
     );
@@ -173,7 +165,7 @@ fn what_depends_on_time_or_on_results_where_it_cannot() {
         }),
         ("depends_on_result", |b, a, air| {
             let r = own(b, "1 [K/W] * kelvin(T) / 1 [K]");
-            b.resistor("x", a, air, Path::Resistance(r));
+            b.resistor("x", a, air, Path::resistance(r));
         }),
         ("which_temperature", |b, a, _| {
             let q = power(b, "1 [W/K] * kelvin(T)");
@@ -298,7 +290,7 @@ fn all_problems_are_reported_at_once_each_with_its_name() {
     b.parameter("t", HeatFlow(1.0));
     b.resistor("zero", a, air, Conductance(0.0));
     b.source("cold", a, HeatFlow(f64::NAN));
-    b.convection("flat", a, air, Path::Film(quantity("5 W/(m^2 K)"), Area(0.0).into()));
+    b.convection("flat", a, air, Path::film(quantity("5 W/(m^2 K)"), Area(0.0)));
     b.massless("lonely");
     let errors = b.build().unwrap_err();
     let mut found: Vec<(&str, &str)> = errors.0.iter().map(|e| (e.name.as_str(), e.code())).collect();

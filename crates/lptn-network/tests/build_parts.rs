@@ -5,8 +5,8 @@ mod common;
 
 use common::{celsius, codes, cooled, every, link, own, quantity, thermostat, time};
 use lptn_network::{
-    Acts, AfterEnd, Bound, ConductorKind, Course, Melting, NetworkBuilder, Path, Properties, Severity, Size,
-    Stream, Temperature, Thermostat, Time,
+    Acts, AfterEnd, Bound, ConductorKind, Course, Formula, Melting, NetworkBuilder, Path, Properties,
+    Severity, Size, Temperature, Thermostat, Time,
 };
 use lptn_units::{Dimension, Interpolation, Outside, Table1, Type};
 
@@ -77,13 +77,13 @@ fn substances() {
         }),
         ("not_finite", |b, a, air| {
             let fluid = b.fluid("water", None, quantity("4e3 J/(kg K)"), None);
-            let path = Stream::Volume { fluid, flow: quantity("1 m^3/s"), at: celsius("20 degC") };
-            conduct(b, (a, air), Path::Advection(path));
+            let path = Path::of_fluid(Formula::VolumeFlow, fluid, [quantity("1 m^3/s"), celsius("20 degC")]);
+            conduct(b, (a, air), path);
         }),
         ("fluid_unknown", |b, a, air| {
             let cp = own(b, "-1 [J/(kg K)] * kelvin(T) / 1 [K]");
             let fluid = b.fluid("water", None, cp, None);
-            conduct(b, (a, air), Path::Advection(Stream::Mass { fluid, flow: quantity("1 kg/s") }));
+            conduct(b, (a, air), Path::of_fluid(Formula::MassFlow, fluid, [quantity("1 kg/s")]));
         }),
         ("not_positive", |b, _, _| {
             let c = own(b, "1 [J/K] * (kelvin(T) / 300 [K] - 2)");

@@ -53,7 +53,7 @@ fn capacities_and_masses_are_sums_of_parts() {
     near(property(Field::SpecificHeat, 300.0).unwrap(), 500.0);
     near(property(Field::Conductivity, 400.0).unwrap(), 48.0);
     assert_eq!(property(Field::Conductivity, 3000.0), None, "below 0 it is not known");
-    assert_eq!(property(Field::Emissivity, 300.0), None);
+    assert_eq!(property(Field::of_law("emissivity").unwrap(), 300.0), None);
 }
 
 #[test]

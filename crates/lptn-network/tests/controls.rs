@@ -102,12 +102,12 @@ fn comparisons_of_temperatures_are_held() {
     let p = power(&b, "if(T > absolute(310 [K]), if(air.T < absolute(280 [K]), 3 [W], 5 [W]), 4 [W])");
     let source = b.source("p", a, p);
     let g = link(&b, "if(2 * dT >= 15 [K] - 1 [K/s] * t, 5 [W/K], 1 [W/K])");
-    let path = b.conductor("g", ConductorKind::Resistor, (a.into(), air.into()), Path::Conductance(g));
+    let path = b.conductor("g", ConductorKind::Resistor, (a.into(), air.into()), Path::conductance(g));
     let network = b.build().unwrap();
     assert_eq!((network.switches().len(), network.switch_ids().len()), (3, 3));
     let items: Vec<Item> = network.switches().iter().map(|switch| switch.item).collect();
     assert_eq!(items, [Item::Source(source), Item::Source(source), Item::Conductor(path)]);
-    assert_eq!(network.switches()[2].field, Field::Conductance);
+    assert_eq!(network.switches()[2].field.key(), "G");
     let mut scope = network.evaluation();
     scope.set_time(2.0, 2.0);
     let at = [304.0, 290.0];

@@ -54,7 +54,7 @@ fn values_of_grids_have_names_in_results() {
     };
     let (wall, other) = (b.grid("wall", block(&[2, 2])), b.grid("other", block(&[2])));
     let air = b.boundary("air", celsius("10 degC"));
-    let film = Path::Film(quantity("5 W/(m^2 K)"), quantity("0.08 m^2"));
+    let film = Path::film(quantity("5 W/(m^2 K)"), quantity("0.08 m^2"));
     b.connect("film", ConductorKind::Convection, (GridFace { grid: wall, face: Face::X1 }, air), film);
     let mut report = |name: &str, text: &str| {
         let value = b.post_expression(text, None).unwrap_or_else(|e| panic!("{text}: {e:?}"));

@@ -5,8 +5,8 @@ mod common;
 
 use common::{celsius, codes, near, quantity};
 use lptn_network::{
-    Block, Conductance, ConductorKind, Emissivity, End, Exchange, Face, Flow, GridFace, GridId, GridValue,
-    HeatFlow, Item, Network, NetworkBuilder, Path, Properties, Shape, Size, Stream, Substance, Temperature,
+    Block, Conductance, ConductorKind, End, Face, Flow, Formula, GridFace, GridId, GridValue, HeatFlow, Item,
+    Network, NetworkBuilder, Path, Properties, Size, Substance, Temperature,
 };
 
 /// 0.6 m x 0.4 m x 0.2 m, 8e6 J/(m^3 K) / 2, conductivity by axis.
@@ -105,7 +105,7 @@ fn a_film_on_a_face() {
     let at = GridFace { grid, face: Face::X1 };
     let area = b.face_area(at).unwrap();
     let item =
-        b.connect("film", ConductorKind::Convection, (at, air), Path::Film(quantity("5 W/(m^2 K)"), area));
+        b.connect("film", ConductorKind::Convection, (at, air), Path::film(quantity("5 W/(m^2 K)"), area));
     let Item::Joint(id) = item else { panic!("{item:?}") };
     let network = b.build().unwrap();
     assert_eq!(network.nodes().len(), 6 + 2);
@@ -160,26 +160,23 @@ fn a_film_on_a_face() {
 
 #[test]
 fn every_law_is_shared_between_the_cells_of_a_face() {
-    let shape = |area: bool| match area {
-        true => Shape::Slab { area: quantity("0.08 m^2"), thickness: quantity("0.1 m") },
-        false => {
-            let (inner, outer) = (quantity("1 m"), quantity("2 m"));
-            Shape::Cylinder { inner, outer, length: quantity("3 m") }
-        }
-    };
     let k = || quantity("7 W/(m K)");
     let paths = [
-        (ConductorKind::Resistor, Path::Resistance(quantity("0.25 K/W")), 4.0),
-        (ConductorKind::Resistor, Path::Conductance(quantity("6 W/K")), 6.0),
-        (ConductorKind::Conduction, Path::Conduction(k(), shape(true)), 7.0 * 0.08 / 0.1),
+        (ConductorKind::Resistor, Path::resistance(quantity("0.25 K/W")), 4.0),
+        (ConductorKind::Resistor, Path::conductance(quantity("6 W/K")), 6.0),
         (
             ConductorKind::Conduction,
-            Path::Conduction(k(), shape(false)),
+            Path::new(Formula::Slab, [k(), quantity("0.08 m^2"), quantity("0.1 m")]),
+            7.0 * 0.08 / 0.1,
+        ),
+        (
+            ConductorKind::Conduction,
+            Path::new(Formula::Cylinder, [k(), quantity("1 m"), quantity("2 m"), quantity("3 m")]),
             2.0 * std::f64::consts::PI * 21.0 / 2.0_f64.ln(),
         ),
         (
             ConductorKind::Conduction,
-            Path::Conduction(k(), Shape::Sphere { inner: quantity("1 m"), outer: quantity("2 m") }),
+            Path::new(Formula::Sphere, [k(), quantity("1 m"), quantity("2 m")]),
             4.0 * std::f64::consts::PI * 7.0 * 2.0,
         ),
     ];
@@ -195,21 +192,12 @@ fn every_law_is_shared_between_the_cells_of_a_face() {
         assert_eq!(ends(&network, "p[3]"), ["air", "wall.x0[3]"]);
     }
     for exchange in [
-        Exchange::Area(quantity("0.04 m^2")),
-        Exchange::Surfaces {
-            emissivity: Emissivity::Effective(quantity("0.5")),
-            area: quantity("0.08 m^2"),
-            view_factor: quantity("1"),
-        },
+        Path::radiation(quantity("0.04 m^2")),
+        Path::new(Formula::GreySurfaces, [quantity("0.5"), quantity("0.08 m^2"), quantity("1")]),
     ] {
         let (mut b, grid) = wall(&[3, 4]);
         let air = b.boundary("air", Temperature(290.0));
-        b.connect(
-            "p",
-            ConductorKind::Radiation,
-            (air, GridFace { grid, face: Face::X0 }),
-            Path::Radiation(exchange),
-        );
+        b.connect("p", ConductorKind::Radiation, (air, GridFace { grid, face: Face::X0 }), exchange);
         let network = b.build().unwrap();
         for id in network.joints()[0].conductors() {
             assert!(matches!(network.flow(id), Flow::Radiation(gr) if (gr - 0.01).abs() < 1e-15));
@@ -226,7 +214,7 @@ fn two_faces_are_joined_cell_by_cell() {
         "glue",
         ConductorKind::Contact,
         (from, to),
-        Path::Film(quantity("100 W/(m^2 K)"), quantity("0.08 m^2")),
+        Path::film(quantity("100 W/(m^2 K)"), quantity("0.08 m^2")),
     );
     let network = b.build().unwrap();
     assert_eq!(ends(&network, "glue[2]"), ["wall.x1[2]", "other.x0[2]"]);
@@ -311,7 +299,7 @@ fn wrong_grids_and_joints_are_refused_once_for_the_whole() {
         assert_eq!(codes(wall(counts).0), [code], "{counts:?}");
     }
     let side = |grid| GridFace { grid, face: Face::X0 };
-    let film = |area: &str| Path::Film(quantity("5 W/(m^2 K)"), quantity(area));
+    let film = |area: &str| Path::film(quantity("5 W/(m^2 K)"), quantity(area));
     assert_eq!(refused(&|_, _| {}), [""; 0]);
     let area = |text: &'static str| {
         refused(&move |b, grid| {
@@ -324,7 +312,7 @@ fn wrong_grids_and_joints_are_refused_once_for_the_whole() {
     assert_eq!(area("0.0797 m^2"), ["network::face_area"]);
     let stream = refused(&|b, grid| {
         let air = b.boundary("air", Temperature(290.0));
-        let path = Path::Advection(Stream::Capacity(Conductance(1.0).into()));
+        let path = Path::stream(Conductance(1.0));
         b.connect("s", ConductorKind::Advection, (side(grid), air), path);
     });
     assert_eq!(stream, ["network::stream_into_face"]);

@@ -7,8 +7,8 @@ use std::f64::consts::PI;
 
 use common::{all_near, celsius, cooled, link, near, own, power, quantity, time};
 use lptn_network::{
-    ConductorId, ConductorKind, Emissivity, Exchange, Field, Flow, HeatCapacity, InputProblem, Item, Network,
-    NetworkBuilder, Path, Shape, Stream, Surface, Temperature,
+    ConductorId, ConductorKind, Field, Flow, Formula, HeatCapacity, InputProblem, Item, Network,
+    NetworkBuilder, Path, Surface, Temperature,
 };
 
 const SIGMA: f64 = 5.670_374_419e-8;
@@ -33,62 +33,61 @@ fn conductance(flow: Flow) -> f64 {
     g
 }
 
-fn body(shape: Shape<lptn_network::Input>) -> f64 {
-    let k = || quantity("15 W/(m K)");
-    conductance(constant(ConductorKind::Conduction, |_| Path::Conduction(k(), shape.clone())))
+fn body(of: impl FnOnce(lptn_network::Input) -> Path) -> f64 {
+    let path = of(quantity("15 W/(m K)"));
+    conductance(constant(ConductorKind::Conduction, |_| path.clone()))
 }
 
 #[test]
 fn constant_conductances() {
-    near(conductance(constant(ConductorKind::Resistor, |_| Path::Resistance(quantity("0.25 K/W")))), 4.0);
-    near(conductance(constant(ConductorKind::Resistor, |_| Path::Conductance(quantity("3 W/K")))), 3.0);
-    let film = |_: &mut NetworkBuilder| Path::Film(quantity("8 W/(m^2 K)"), quantity("0.5 m^2"));
+    near(conductance(constant(ConductorKind::Resistor, |_| Path::resistance(quantity("0.25 K/W")))), 4.0);
+    near(conductance(constant(ConductorKind::Resistor, |_| Path::conductance(quantity("3 W/K")))), 3.0);
+    let film = |_: &mut NetworkBuilder| Path::film(quantity("8 W/(m^2 K)"), quantity("0.5 m^2"));
     near(conductance(constant(ConductorKind::Convection, film)), 4.0);
     let (area, thickness) = (quantity("0.2 m^2"), quantity("30 mm"));
-    near(body(Shape::Slab { area, thickness }), 15.0 * 0.2 / 0.03);
+    near(body(|k| Path::new(Formula::Slab, [k, area, thickness])), 15.0 * 0.2 / 0.03);
     let (inner, outer) = (quantity("10 mm"), quantity("30 mm"));
-    let cylinder = Shape::Cylinder { inner: inner.clone(), outer: outer.clone(), length: quantity("0.4 m") };
+    let cylinder = |k| Path::new(Formula::Cylinder, [k, inner.clone(), outer.clone(), quantity("0.4 m")]);
     near(body(cylinder), 2.0 * PI * 15.0 * 0.4 / 3.0_f64.ln());
-    near(body(Shape::Sphere { inner, outer }), 4.0 * PI * 15.0 / (1.0 / 0.01 - 1.0 / 0.03));
-    let rod = Shape::Rod { diameter: quantity("10 mm"), length: quantity("0.1 m") };
+    near(
+        body(|k| Path::new(Formula::Sphere, [k, inner, outer])),
+        4.0 * PI * 15.0 / (1.0 / 0.01 - 1.0 / 0.03),
+    );
+    let rod = |k| Path::new(Formula::Rod, [k, quantity("10 mm"), quantity("0.1 m")]);
     near(body(rod), 15.0 * PI * 1e-4 / 4.0 / 0.1);
 }
 
 #[test]
 fn exchange_areas() {
-    let area = |exchange: Exchange<lptn_network::Input>| {
-        let flow = constant(ConductorKind::Radiation, |_| Path::Radiation(exchange.clone()));
+    let area = |exchange: Path| {
+        let flow = constant(ConductorKind::Radiation, |_| exchange.clone());
         let Flow::Radiation(area) = flow else { panic!("{flow:?}") };
         area
     };
-    near(area(Exchange::Area(quantity("0.3 m^2"))), 0.3);
-    let surfaces = |emissivity| Exchange::Surfaces {
-        emissivity,
-        area: quantity("0.5 m^2"),
-        view_factor: quantity("0.8"),
-    };
-    near(area(surfaces(Emissivity::Effective(quantity("0.9")))), 0.9 * 0.5 * 0.8);
-    let plates = Emissivity::Plates(quantity("0.5"), quantity("0.25"));
-    near(area(surfaces(plates)), 0.4 / (1.0 / 0.5 + 1.0 / 0.25 - 1.0));
+    near(area(Path::radiation(quantity("0.3 m^2"))), 0.3);
+    let of = |law, values: &[&str]| Path::new(law, values.iter().copied().map(quantity).collect::<Vec<_>>());
+    near(area(of(Formula::GreySurfaces, &["0.9", "0.5 m^2", "0.8"])), 0.9 * 0.5 * 0.8);
+    let plates = of(Formula::ParallelPlates, &["0.5", "0.25", "0.5 m^2", "0.8"]);
+    near(area(plates), 0.4 / (1.0 / 0.5 + 1.0 / 0.25 - 1.0));
 }
 
 #[test]
 fn constant_streams() {
-    let rate = |of: &dyn Fn(&mut NetworkBuilder) -> Stream<lptn_network::Input>| {
-        let flow = constant(ConductorKind::Advection, |b| Path::Advection(of(b)));
+    let rate = |of: &dyn Fn(&mut NetworkBuilder) -> Path| {
+        let flow = constant(ConductorKind::Advection, |b| of(b));
         let Flow::Stream(rate) = flow else { panic!("{flow:?}") };
         rate
     };
-    near(rate(&|_| Stream::Capacity(quantity("-7 W/K"))), -7.0);
-    near(rate(&|_| Stream::Capacity(quantity("0 W/K"))), 0.0);
+    near(rate(&|_| Path::stream(quantity("-7 W/K"))), -7.0);
+    near(rate(&|_| Path::stream(quantity("0 W/K"))), 0.0);
     let water = |b: &mut NetworkBuilder| {
         let density = own(b, "1000 [kg/m^3] - 0.5 [kg/(m^3 K)] * (T - 20 [degC])");
         b.fluid("water", Some(density), quantity("4180 J/(kg K)"), None)
     };
-    near(rate(&|b| Stream::Mass { fluid: water(b), flow: quantity("0.02 kg/s") }), 83.6);
+    near(rate(&|b| Path::of_fluid(Formula::MassFlow, water(b), [quantity("0.02 kg/s")])), 83.6);
     let volume = |b: &mut NetworkBuilder| {
         let fluid = water(b);
-        Stream::Volume { fluid, flow: quantity("2e-5 m^3/s"), at: celsius("60 degC") }
+        Path::of_fluid(Formula::VolumeFlow, fluid, [quantity("2e-5 m^3/s"), celsius("60 degC")])
     };
     near(rate(&volume), 2e-5 * 980.0 * 4180.0);
 }
@@ -127,7 +126,7 @@ const T: [f64; 4] = [350.0, 310.0, 330.0, 290.0];
 
 #[test]
 fn conductances_of_temperatures() {
-    let of = |text: &'static str| path(ConductorKind::Resistor, move |b| Path::Conductance(link(b, text)));
+    let of = |text: &'static str| path(ConductorKind::Resistor, move |b| Path::conductance(link(b, text)));
     for (text, g, variables) in [
         ("1 [W/K] * kelvin(T_from) / 100 [K]", 3.5, vec![0, 1]),
         ("1 [W/K] * kelvin(T_to) / 100 [K]", 3.1, vec![0, 1]),
@@ -153,7 +152,7 @@ fn more_variables_than_one_pass_takes() {
     let terms: Vec<String> = (1..10).map(|i| format!("{i} * (n{i}.T - n{}.T)", i + 1)).collect();
     let all = terms.join(" + ");
     let g = link(&b, &format!("1e-3 [W/K^2] * ({all})"));
-    let id = b.resistor("path", nodes[0], nodes[1], Path::Conductance(g));
+    let id = b.resistor("path", nodes[0], nodes[1], Path::conductance(g));
     let p = power(&b, &format!("1 [W/K] * ({all})"));
     let source = b.source("source", nodes[0], p);
     let network = b.build().unwrap();
@@ -183,7 +182,7 @@ fn more_variables_than_one_pass_takes() {
 fn bodies_take_their_conductivity_at_the_mean() {
     let (network, id) = path(ConductorKind::Conduction, |b| {
         let k = own(b, "2 [W/(m K)] * kelvin(T) / 100 [K]");
-        Path::Conduction(k, Shape::Slab { area: quantity("1 m^2"), thickness: quantity("1 m") })
+        Path::new(Formula::Slab, [k, quantity("1 m^2"), quantity("1 m")])
     });
     all_near(&received(&network, id, T), &[-6.6 * 40.0, 6.6 * 40.0]);
     slopes_agree(&network, id, T);
@@ -192,12 +191,8 @@ fn bodies_take_their_conductivity_at_the_mean() {
 #[test]
 fn radiation_of_emissivities_that_change() {
     let (network, id) = path(ConductorKind::Radiation, |b| {
-        let emissivity = Emissivity::Effective(link(b, "0.5 + (T_from - absolute(300 [K])) / 1000 [K]"));
-        Path::Radiation(Exchange::Surfaces {
-            emissivity,
-            area: quantity("2 m^2"),
-            view_factor: quantity("0.5"),
-        })
+        let emissivity = link(b, "0.5 + (T_from - absolute(300 [K])) / 1000 [K]");
+        Path::new(Formula::GreySurfaces, [emissivity, quantity("2 m^2"), quantity("0.5")])
     });
     let q = 0.55 * SIGMA * (350.0_f64.powi(4) - 310.0_f64.powi(4));
     all_near(&received(&network, id, T), &[-q, q]);
@@ -214,7 +209,7 @@ fn fluids_carry_their_heat_content() {
         path(ConductorKind::Advection, move |b| {
             let cp = own(b, "4 [J/(kg K)] * kelvin(T) / 300 [K]");
             let fluid = b.fluid("gas", None, cp, None);
-            Path::Advection(Stream::Mass { fluid, flow: quantity(flow) })
+            Path::of_fluid(Formula::MassFlow, fluid, [quantity(flow)])
         })
     };
     let content = 2.0 / 300.0 * (350.0_f64.powi(2) - 310.0_f64.powi(2));
@@ -232,7 +227,7 @@ fn volumes_are_weighed_where_they_are_measured() {
     let (network, id) = path(ConductorKind::Advection, |b| {
         let density = own(b, "1000 [kg/m^3] - 1 [kg/(m^3 K)] * (T - absolute(300 [K]))");
         let fluid = b.fluid("oil", Some(density), quantity("2000 J/(kg K)"), None);
-        Path::Advection(Stream::Volume { fluid, flow: quantity("1e-5 m^3/s"), at: link(b, "T_from") })
+        Path::of_fluid(Formula::VolumeFlow, fluid, [quantity("1e-5 m^3/s"), link(b, "T_from")])
     });
     all_near(&received(&network, id, T), &[0.0, 1e-5 * 950.0 * 2000.0 * 40.0]);
     slopes_agree(&network, id, T);
@@ -244,19 +239,18 @@ fn surfaces_give_off_heat_and_other_paths_have_none() {
         let (network, id) = path(kind, path_of);
         network.surface(id, &mut network.evaluation(), &T).unwrap()
     };
-    let film = |_: &mut NetworkBuilder| Path::Film(quantity("8 W/(m^2 K)"), quantity("0.5 m^2"));
+    let film = |_: &mut NetworkBuilder| Path::film(quantity("8 W/(m^2 K)"), quantity("0.5 m^2"));
     for kind in [ConductorKind::Convection, ConductorKind::Contact] {
         assert_eq!(of(kind, &film), Some(Surface { conductance: 4.0, area: Some(0.5) }));
-        let plain = of(kind, &|_| Path::Conductance(quantity("3 W/K")));
+        let plain = of(kind, &|_| Path::conductance(quantity("3 W/K")));
         assert_eq!(plain, Some(Surface { conductance: 3.0, area: None }));
     }
-    let glow =
-        of(ConductorKind::Radiation, &|_| Path::Radiation(Exchange::Area(quantity("0.3 m^2")))).unwrap();
+    let glow = of(ConductorKind::Radiation, &|_| Path::radiation(quantity("0.3 m^2"))).unwrap();
     near(glow.conductance, 0.3 * SIGMA * (350.0_f64.powi(2) + 310.0_f64.powi(2)) * 660.0);
     assert_eq!(glow.area, None);
-    assert_eq!(of(ConductorKind::Resistor, &|_| Path::Conductance(quantity("3 W/K"))), None);
+    assert_eq!(of(ConductorKind::Resistor, &|_| Path::conductance(quantity("3 W/K"))), None);
     let (network, id) =
-        path(ConductorKind::Convection, |b| Path::Conductance(link(b, "1 [W/K^2] * (T_to - T_from)")));
+        path(ConductorKind::Convection, |b| Path::conductance(link(b, "1 [W/K^2] * (T_to - T_from)")));
     let error = network.surface(id, &mut network.evaluation(), &T).unwrap_err();
     assert!(
         matches!(error.problem, InputProblem::NegativeConductance(g) if (g + 40.0).abs() < 1e-12),
@@ -277,32 +271,28 @@ fn fails(kind: ConductorKind, of: impl Fn(&mut NetworkBuilder) -> Path) -> (Fiel
 #[test]
 fn values_that_their_field_cannot_have_are_named() {
     use ConductorKind::{Advection, Convection, Radiation, Resistor};
-    let (field, problem) = fails(Resistor, |b| Path::Conductance(link(b, "-1 [W/K^2] * dT")));
+    let (field, problem) = fails(Resistor, |b| Path::conductance(link(b, "-1 [W/K^2] * dT")));
     assert!(
-        field == Field::Conductance
+        field.key() == "G"
             && matches!(problem, InputProblem::NegativeConductance(g) if (g + 40.0).abs() < 1e-9)
     );
-    let (field, problem) = fails(Resistor, |b| Path::Resistance(link(b, "-1 [1/W] * dT")));
+    let (field, problem) = fails(Resistor, |b| Path::resistance(link(b, "-1 [1/W] * dT")));
     assert!(
-        field == Field::Resistance
+        field.key() == "R"
             && matches!(problem, InputProblem::NegativeConductance(g) if (g + 0.025).abs() < 1e-9)
     );
     let (field, problem) =
-        fails(Convection, |b| Path::Film(link(b, "-1 [W/(m^2 K^2)] * dT"), quantity("1 m^2")));
-    assert!(field == Field::FilmCoefficient && matches!(problem, InputProblem::Negative(_)));
+        fails(Convection, |b| Path::film(link(b, "-1 [W/(m^2 K^2)] * dT"), quantity("1 m^2")));
+    assert!(field.key() == "h" && matches!(problem, InputProblem::Negative(_)));
     let emissive = |text: &'static str| {
         move |b: &mut NetworkBuilder| {
-            Path::Radiation(Exchange::Surfaces {
-                emissivity: Emissivity::Effective(link(b, text)),
-                area: quantity("1 m^2"),
-                view_factor: quantity("1"),
-            })
+            Path::new(Formula::GreySurfaces, [link(b, text), quantity("1 m^2"), quantity("1")])
         }
     };
     for text in ["dT / 10 [K]", "-dT / 10 [K]"] {
         let (field, problem) = fails(Radiation, emissive(text));
         assert!(
-            field == Field::Emissivity
+            field.key() == "emissivity"
                 && matches!(problem, InputProblem::NotAFraction(e) if (e.abs() - 4.0).abs() < 1e-12)
         );
     }
@@ -310,26 +300,24 @@ fn values_that_their_field_cannot_have_are_named() {
     assert!(network.exchange(id, &mut network.evaluation(), &T).is_ok(), "1 is a fraction");
     let (network, id) = path(Radiation, emissive("(dT - 40 [K]) / 40 [K]"));
     all_near(&received(&network, id, T), &[0.0, 0.0]);
-    let (_, problem) = fails(Resistor, |b| Path::Conductance(link(b, "1 [W/K] / ((dT - 40 [K]) / 1 [K])")));
+    let (_, problem) = fails(Resistor, |b| Path::conductance(link(b, "1 [W/K] / ((dT - 40 [K]) / 1 [K])")));
     assert!(matches!(problem, InputProblem::NotFinite(_) | InputProblem::Evaluation(_)), "{problem:?}");
-    let (field, problem) =
-        fails(Advection, |b| Path::Advection(Stream::Capacity(link(b, "1 [W/K] * exp(dT * 1000 [1/K])"))));
+    let (field, problem) = fails(Advection, |b| Path::stream(link(b, "1 [W/K] * exp(dT * 1000 [1/K])")));
     assert!(
-        field == Field::StreamCapacity
-            && matches!(problem, InputProblem::NotFinite(_) | InputProblem::Evaluation(_))
+        field.key() == "mcp" && matches!(problem, InputProblem::NotFinite(_) | InputProblem::Evaluation(_))
     );
     let (field, problem) = fails(Advection, |b| {
         let fluid = b.fluid("oil", None, quantity("2000 J/(kg K)"), None);
-        Path::Advection(Stream::Volume { fluid, flow: quantity("1e-5 m^3/s"), at: link(b, "T_from") })
+        Path::of_fluid(Formula::VolumeFlow, fluid, [quantity("1e-5 m^3/s"), link(b, "T_from")])
     });
     assert!(field == Field::Fluid && matches!(problem, InputProblem::NoDensity));
     let (field, problem) = fails(Advection, |b| {
         let density = own(b, "1000 [kg/m^3] * kelvin(T) / 300 [K]");
         let fluid = b.fluid("oil", Some(density), quantity("2000 J/(kg K)"), None);
         let at = link(b, "T_from - 1000 [K]");
-        Path::Advection(Stream::Volume { fluid, flow: quantity("1e-5 m^3/s"), at })
+        Path::of_fluid(Formula::VolumeFlow, fluid, [quantity("1e-5 m^3/s"), at])
     });
-    assert!(field == Field::FlowTemperature && matches!(problem, InputProblem::BelowAbsoluteZero(_)));
+    assert!(field.key() == "flow_T" && matches!(problem, InputProblem::BelowAbsoluteZero(_)));
 }
 
 #[test]

@@ -6,7 +6,7 @@ mod common;
 use common::{cooled, near, quantity, time};
 use lptn_network::{
     Conductance, ConductorKind, End, HeatCapacity, HeatFlow, HeatOf, Item, NetworkBuilder, ParameterError,
-    Path, Stream, Temperature, Time, list_of, list_of_names,
+    Path, Temperature, Time, list_of, list_of_names,
 };
 use lptn_units::{Dimension, Expression, Type, parse_quantity};
 
@@ -85,7 +85,7 @@ fn lists_of_names() {
 fn conductors_and_sources_without_names_are_called_by_their_numbers() {
     let (mut b, a, air) = cooled();
     let ends: (End, End) = (a.into(), air.into());
-    let path = || Path::Conductance(Conductance(2.0).into());
+    let path = || Path::conductance(Conductance(2.0));
     let ids: Vec<_> =
         [4, 5, 9].map(|n| b.numbered_conductor(n, ConductorKind::Resistor, ends, path())).to_vec();
     let sources: Vec<_> = [2, 3].map(|n| b.numbered_source(n, a.into(), HeatFlow(1.0).into())).to_vec();
@@ -122,7 +122,7 @@ fn sets_of_nodes_that_reach_no_boundary() {
 #[test]
 fn heat_flows_of_results() {
     let (mut b, a, air) = cooled();
-    let rate = Path::Advection(Stream::Capacity(quantity("5 W/K")));
+    let rate = Path::stream(quantity("5 W/K"));
     let wind = b.conductor("wind", ConductorKind::Advection, (air.into(), a.into()), rate);
     let heat = b.source("heat", a, HeatFlow(4.0));
     let value = b.post_expression("heat.P - 2 * cool.Q + wind.Q_to + heat.P", None).unwrap();
@@ -180,7 +180,7 @@ fn parameters_are_set_by_name_id_and_text() {
     let a = b.node("a", HeatCapacity(10.0), Temperature(300.0));
     let air = b.boundary("air", Temperature(290.0));
     let value = time(&b, "G");
-    let cool = b.resistor("cool", a, air, Path::Conductance(value));
+    let cool = b.resistor("cool", a, air, Path::conductance(value));
     let network = b.build().unwrap();
     let numbers = |n: &lptn_network::Network| {
         (n.parameter_value(r), n.parameter_value(g), n.conductance(cool).unwrap())

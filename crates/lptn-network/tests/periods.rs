@@ -114,22 +114,22 @@ fn fields_have_their_units_and_values_of_temperatures_are_compared_too() {
     assert_eq!(sky, unit("sky", "K"));
     let g = of(&|b, a, air| {
         let g = link(b, "1 [W/K] + 1e-3 [W/(K^2 s)] * t * abs(dT)");
-        b.resistor("g", a, air, Path::Conductance(g));
+        b.resistor("g", a, air, Path::conductance(g));
     });
     assert_eq!(g, unit("g", "W/K"));
     let r = of(&|b, a, air| {
         let r = link(b, "1 [K/W] + 1e-3 [K/(W s)] * t");
-        b.resistor("x", a, air, Path::Resistance(r));
+        b.resistor("x", a, air, Path::resistance(r));
     });
     assert_eq!(r, unit("x", "K/W"));
     let h = of(&|b, a, air| {
         let h = link(b, "1 [W/(m^2 K)] * (1 + t / 1 [s])");
-        b.convection("h", a, air, Path::Film(h, common::quantity("1 m^2")));
+        b.convection("h", a, air, Path::film(h, common::quantity("1 m^2")));
     });
     assert_eq!(h, unit("h", "W/(m^2 K)"));
     let same = of(&|b, a, air| {
         let g = link(b, "1 [W/K] + 0.1 [W/K] * sin(2 * pi * t / 60 [s]) * abs(dT) / 1 [K]");
-        b.resistor("g", a, air, Path::Conductance(g));
+        b.resistor("g", a, air, Path::conductance(g));
     });
     assert_eq!(same, Ok(()));
 }

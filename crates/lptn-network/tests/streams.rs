@@ -4,14 +4,14 @@
 mod common;
 
 use common::{all_near, quantity, time};
-use lptn_network::{Conductance, ConductorKind, HeatCapacity, NetworkBuilder, Path, Stream, Temperature};
+use lptn_network::{Conductance, ConductorKind, HeatCapacity, NetworkBuilder, Path, Temperature};
 
 #[test]
 fn streams_that_pass_nodes() {
     let mut b = NetworkBuilder::new();
     let [x, y, z] = ["x", "y", "z"].map(|n| b.node(n, HeatCapacity(1.0), Temperature(300.0)));
     let air = b.boundary("air", Temperature(290.0));
-    let rate = |text: &str| Path::Advection(Stream::Capacity(quantity(text)));
+    let rate = |text: &str| Path::stream(quantity(text));
     let mut stream = |name: &str, from: lptn_network::End, to: lptn_network::End, path: Path| {
         b.conductor(name, ConductorKind::Advection, (from, to), path);
     };
@@ -19,12 +19,7 @@ fn streams_that_pass_nodes() {
     stream("on", x.into(), y.into(), rate("5 W/K"));
     stream("back", y.into(), x.into(), rate("-2 W/K"));
     let varying = time(&b, "3 [W/K/s] * t");
-    b.conductor(
-        "late",
-        ConductorKind::Advection,
-        (y.into(), air.into()),
-        Path::Advection(Stream::Capacity(varying)),
-    );
+    b.conductor("late", ConductorKind::Advection, (y.into(), air.into()), Path::stream(varying));
     b.resistor("r", y, z, Conductance(1.0));
     let network = b.build().unwrap();
     let passing = network.passing_streams(2.0).unwrap();

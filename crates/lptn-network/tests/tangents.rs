@@ -5,8 +5,8 @@ mod common;
 
 use common::{celsius, cooled, link, own, power, quantity, time};
 use lptn_network::{
-    Acts, Conductance, ConductorKind, Emissivity, Exchange, HeatCapacity, Item, Melting, Network,
-    NetworkBuilder, NoTangents, NodeId, ParameterId, Path, Properties, Size, Stream, Temperature,
+    Acts, Conductance, ConductorKind, Formula, HeatCapacity, Item, Melting, Network, NetworkBuilder,
+    NoTangents, NodeId, ParameterId, Path, Properties, Size, Temperature,
 };
 
 /// Heat into every vertex in W.
@@ -139,20 +139,17 @@ fn every_law_by_its_parameters() {
     let t = time(&b, "T_air + 1 [K/s] * t");
     let air = b.boundary("air", t);
     let (r, r2, h, area) = (time(&b, "R"), time(&b, "R2"), time(&b, "h"), time(&b, "area"));
-    b.resistor("r", x, y, Path::Resistance(r));
-    b.resistor("r2", y, z, Path::Resistance(r2));
+    b.resistor("r", x, y, Path::resistance(r));
+    b.resistor("r2", y, z, Path::resistance(r2));
     b.resistor("fixed", z, air, Conductance(0.7));
-    b.convection("film", x, air, Path::Film(h, area.clone()));
-    let exchange = Exchange::Surfaces {
-        emissivity: Emissivity::Plates(time(&b, "e"), quantity("0.9")),
-        area,
-        view_factor: quantity("0.8"),
-    };
-    b.conductor("glow", ConductorKind::Radiation, (y.into(), air.into()), Path::Radiation(exchange));
-    let rate = Path::Advection(Stream::Capacity(time(&b, "mcp * (1 + t / 10 [s])")));
+    b.convection("film", x, air, Path::film(h, area.clone()));
+    let exchange =
+        Path::new(Formula::ParallelPlates, [time(&b, "e"), quantity("0.9"), area, quantity("0.8")]);
+    b.conductor("glow", ConductorKind::Radiation, (y.into(), air.into()), exchange);
+    let rate = Path::stream(time(&b, "mcp * (1 + t / 10 [s])"));
     b.conductor("wind", ConductorKind::Advection, (air.into(), x.into()), rate);
     let g = link(&b, "slope * kelvin(T_mean) / 300 [K] + 0.001 [W/K^2] * (z.T - air.T)");
-    b.resistor("varying", x, z, Path::Conductance(g));
+    b.resistor("varying", x, z, Path::conductance(g));
     let p = time(&b, "P * (1 + t / 5 [s])");
     b.shared_source("p", &[(x, 0.25), (z, 0.75)], p);
     let p = power(&b, "slope * (T - air.T)");
@@ -190,16 +187,15 @@ fn streams_of_fluids() {
     let (cp, density) = (time(&b, "cp"), own(&b, "rho * (1 - 7e-4 [1/K] * (T - 20 [degC]))"));
     let oil = b.fluid("oil", Some(density), cp, None);
     let flow = time(&b, "flow");
-    let mut stream =
-        |name: &str, from: lptn_network::End, to: lptn_network::End, of: Stream<lptn_network::Input>| {
-            b.conductor(name, ConductorKind::Advection, (from, to), Path::Advection(of));
-        };
-    stream("mass", x.into(), y.into(), Stream::Mass { fluid: oil, flow });
+    let mut stream = |name: &str, from: lptn_network::End, to: lptn_network::End, of: Path| {
+        b.conductor(name, ConductorKind::Advection, (from, to), of);
+    };
+    stream("mass", x.into(), y.into(), Path::of_fluid(Formula::MassFlow, oil, [flow]));
     stream(
         "volume",
         air.into(),
         x.into(),
-        Stream::Volume { fluid: oil, flow: quantity("1e-5 m^3/s"), at: celsius("40 degC") },
+        Path::of_fluid(Formula::VolumeFlow, oil, [quantity("1e-5 m^3/s"), celsius("40 degC")]),
     );
     agrees(&b.build().unwrap(), &ids, 0.0, &AT);
 }
@@ -280,7 +276,7 @@ fn what_has_no_tangents() {
     let cp = own(&b, "scale * kelvin(T) / 1 [K]");
     let fluid = b.fluid("gas", None, cp, None);
     let [x, y, _] = three(&mut b);
-    let path = Path::Advection(Stream::Mass { fluid, flow: quantity("1 kg/s") });
+    let path = Path::of_fluid(Formula::MassFlow, fluid, [quantity("1 kg/s")]);
     b.conductor("s", ConductorKind::Advection, (x.into(), y.into()), path);
     let network = b.build().unwrap();
     assert_eq!(network.tangents(&ids).unwrap_err(), NoTangents::Fluid { fluid });

@@ -11,8 +11,8 @@ use std::time::Instant;
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    AfterEnd, Area, Conductance, ConductorKind, Course, End, Exchange, HeatCapacity, Network, NetworkBuilder,
-    NodeId, Path, Temperature, Time, ZERO_CELSIUS,
+    AfterEnd, Area, Conductance, ConductorKind, Course, End, HeatCapacity, Network, NetworkBuilder, NodeId,
+    Path, Temperature, Time, ZERO_CELSIUS,
 };
 use lptn_solve::{Solution, Transient};
 use lptn_units::{Dimension, Interpolation, Outside, Table1, Type};
@@ -77,7 +77,7 @@ fn network(plate: &Plate) -> Outcome<(Network, Vec<NodeId>)> {
         b.resistor(&format!("r{k}"), end(i), end(j), Conductance(g));
     }
     for (k, &(i, j, area)) in plate.radiation.iter().enumerate() {
-        let path = Path::Radiation(Exchange::Area(Area(area).into()));
+        let path = Path::radiation(Area(area));
         b.conductor(&format!("q{k}"), ConductorKind::Radiation, (end(i), end(j)), path);
     }
     for (k, (cell, points)) in plate.sources.iter().enumerate() {

@@ -10,8 +10,8 @@ use std::error::Error;
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    AfterEnd, Conductance, ConductorKind, Context, Course, Exchange, HeatCapacity, NetworkBuilder, Path,
-    Temperature, Time,
+    AfterEnd, Conductance, ConductorKind, Context, Course, HeatCapacity, NetworkBuilder, Path, Temperature,
+    Time,
 };
 use lptn_solve::{Periodic, Transient};
 use lptn_units::{Dimension, Type, parse_quantity};
@@ -59,8 +59,8 @@ fn motor() -> Outcome<ThermalSystem> {
     b.resistor("slot", winding, core, Conductance(3.0));
     b.resistor("fit", core, housing, Conductance(5.0));
     let film = in_context(&b, Context::Link, "2.2 [W/(m^2 K^1.25)] * abs(dT)^0.25")?;
-    b.convection("film", housing, air, Path::Film(film.into(), quantity("0.05 m^2")?.into()));
-    let glow = Path::Radiation(Exchange::Area(quantity("0.04 m^2")?.into()));
+    b.convection("film", housing, air, Path::film(film, quantity("0.05 m^2")?));
+    let glow = Path::radiation(quantity("0.04 m^2")?);
     b.conductor("glow", ConductorKind::Radiation, (housing.into(), air.into()), glow);
     let load = in_context(&b, Context::Source, "duty")?;
     b.source("load", winding, load);

@@ -1,7 +1,7 @@
 //! Nodes that no path leads from to a boundary: they keep their energy, which tells where they come to rest.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{ConductorKind, End, Flow, Network, NodeId};
+use lptn_network::{End, Flow, Network, NodeId};
 
 use crate::error::SteadyError;
 use crate::newton::{Newton, NewtonError};
@@ -134,7 +134,7 @@ fn exchanges(network: &Network) -> Vec<bool> {
     // what flows in and out of each node, in W/K
     let mut flows = vec![(0.0, 0.0); network.nodes().len()];
     for (conductor, id) in network.conductors().iter().zip(network.conductor_ids()) {
-        if conductor.kind != ConductorKind::Advection {
+        if !conductor.law.is_stream() {
             continue;
         }
         let (End::Node(from), End::Node(to)) = (conductor.from, conductor.to) else { continue };

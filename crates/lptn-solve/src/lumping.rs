@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_laws::{biot, diffusion_time};
+use lptn_laws::{Surface, biot, diffusion_time};
 use lptn_network::{
     ConductorId, ConductorKind, End, Evaluation, Field, InputError, MaterialId, Network, NoMaterial, NodeId,
 };
@@ -232,7 +232,7 @@ impl<'a> Checker<'a> {
 }
 
 fn is_surface(kind: ConductorKind) -> bool {
-    matches!(kind, ConductorKind::Convection | ConductorKind::Contact | ConductorKind::Radiation)
+    kind.declaration().surface.is_some()
 }
 
 impl Body {
@@ -255,9 +255,9 @@ impl Body {
             let Some(surface) = surface else { continue };
             let area = surface.area.ok_or(NotChecked::NoArea(id))?;
             conductance += surface.conductance;
-            match system.network().conductors()[id.index()].kind {
-                ConductorKind::Radiation => seen += area,
-                ConductorKind::Contact => touching += area,
+            match system.network().conductors()[id.index()].kind.declaration().surface {
+                Some(Surface::Seen) => seen += area,
+                Some(Surface::Touching) => touching += area,
                 _ => skin += area,
             }
         }

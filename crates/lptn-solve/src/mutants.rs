@@ -2,8 +2,8 @@
 
 use lptn_integrate::{Integrator, OdeSystem, Options, Pattern, Retry};
 use lptn_network::{
-    Conductance, ConductorKind, Context, Exchange, HeatCapacity, HeatFlow, Melting, NetworkBuilder, Path,
-    Properties, Size, Stream, Temperature,
+    Conductance, ConductorKind, Context, HeatCapacity, HeatFlow, Melting, NetworkBuilder, Path, Properties,
+    Size, Temperature,
 };
 
 use crate::heat::Heat;
@@ -148,9 +148,9 @@ fn bent_network() -> ThermalSystem {
     let capacity = b.expression_in(Context::Own, "200 [J/K] * kelvin(T) / 600 [K]", None).unwrap();
     let block = b.node("block", capacity, Temperature(600.0));
     let ends = (block.into(), wax.into());
-    let gr = Path::Radiation(Exchange::Area(quantity("0.05 m^2").into()));
+    let gr = Path::radiation(quantity("0.05 m^2"));
     b.conductor("glow", ConductorKind::Radiation, ends, gr);
-    let rate = Path::Advection(Stream::Capacity(quantity("3 W/K").into()));
+    let rate = Path::stream(quantity("3 W/K"));
     b.conductor("flow", ConductorKind::Advection, ends, rate);
     let power = b.expression_in(Context::Source, "0.5 [W/K] * (absolute(700 [K]) - T)", None).unwrap();
     b.source("heater", block, power);

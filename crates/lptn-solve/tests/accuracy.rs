@@ -32,7 +32,7 @@ fn natural_convection_cools_by_a_power() {
     let plate = b.node("plate", HeatCapacity(800.0), Temperature(380.0));
     let room = b.boundary("room", Temperature(300.0));
     let h = link(&b, "1.3 [W/(m^2 K^1.25)] * abs(dT)^0.25");
-    b.convection("film", plate, room, Path::Film(h, quantity("0.6 m^2")));
+    b.convection("film", plate, room, Path::film(h, quantity("0.6 m^2")));
     let exact = |t: f64| 300.0 + (80.0_f64.powf(-0.25) + 0.25 * 1.3 * 0.6 * t / 800.0).powi(-4);
     holds(&system(b), plate, 20_000.0, exact);
 }

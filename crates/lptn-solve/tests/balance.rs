@@ -7,8 +7,8 @@ mod elements;
 use elements::{Random, link, of, own, power, quantity, radiation, stream, system, table};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    AfterEnd, Conductance, ConductorKind, Course, End, HeatCapacity, Melting, NetworkBuilder, NodeId, Path,
-    Properties, Size, Stream, Temperature, Time,
+    AfterEnd, Conductance, ConductorKind, Course, End, Formula, HeatCapacity, Melting, NetworkBuilder,
+    NodeId, Path, Properties, Size, Temperature, Time,
 };
 use lptn_solve::{SteadyState, Transient};
 use lptn_units::{Dimension, Interpolation, Outside, Table1};
@@ -53,17 +53,17 @@ impl Build {
             }
             1 => {
                 let h = link(&self.b, &format!("{g} [W/(m^2 K^1.25)] * abs(dT)^0.25"));
-                self.b.convection(&name, a, c, Path::Film(h, quantity("0.5 m^2")));
+                self.b.convection(&name, a, c, Path::film(h, quantity("0.5 m^2")));
                 let name = self.name();
                 self.b.resistor(&name, a, c, Conductance(0.1));
             }
             2 => {
                 let r = link(&self.b, &format!("{g} [K/W] * kelvin(T_mean) / 300 [K]"));
-                self.b.resistor(&name, a, c, Path::Resistance(r));
+                self.b.resistor(&name, a, c, Path::resistance(r));
             }
             3 => {
                 let g = link(&self.b, &format!("{g} [W/K] * (1 + 0.5 * sin(t / 7 [s]))"));
-                self.b.resistor(&name, a, c, Path::Conductance(g));
+                self.b.resistor(&name, a, c, Path::conductance(g));
             }
             _ => {
                 self.b.resistor(&name, a, c, Conductance(g));
@@ -90,8 +90,9 @@ impl Build {
             let name = self.name();
             let flow = quantity(&format!("{rate} kg/s"));
             let rate = quantity(&format!("{} W/K", 2000.0 * rate));
-            let path = if constant { Stream::Capacity(rate) } else { Stream::Mass { fluid, flow } };
-            self.b.conductor(&name, ConductorKind::Advection, (pair[0], pair[1]), Path::Advection(path));
+            let path =
+                if constant { Path::stream(rate) } else { Path::of_fluid(Formula::MassFlow, fluid, [flow]) };
+            self.b.conductor(&name, ConductorKind::Advection, (pair[0], pair[1]), path);
         }
     }
 
@@ -271,7 +272,7 @@ fn tables_over_temperature_are_left_with_a_name() {
     let node = b.node("node", HeatCapacity(10.0), Temperature(300.0));
     let room = b.boundary("room", Temperature(300.0));
     let g = link(&b, "g(T_from)");
-    b.resistor("wall", node, room, Path::Conductance(g));
+    b.resistor("wall", node, room, Path::conductance(g));
     b.source("heater", node, quantity("100 W"));
     let error = SteadyState::solve(&system(b), 0.0).map(|s| s.temperatures).unwrap_err();
     assert_eq!(error.code(), "solve::input");
@@ -285,7 +286,7 @@ fn natural_convection_starts_from_ambient() {
     let plate = b.node("plate", HeatCapacity(500.0), Temperature(300.0));
     let room = b.boundary("room", Temperature(300.0));
     let h = link(&b, "1.3 [W/(m^2 K^1.25)] * abs(dT)^0.25");
-    b.convection("film", plate, room, Path::Film(h, quantity("1 m^2")));
+    b.convection("film", plate, room, Path::film(h, quantity("1 m^2")));
     b.source("heater", plate, quantity("100 W"));
     let found = elements::run(&system(b), 20_000.0, 1e-6);
     // 1.3 x^1.25 = 100

@@ -3,8 +3,8 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    Conductance, ConductorKind, Context, End, Exchange, HeatCapacity, HeatFlow, Input, Network,
-    NetworkBuilder, NodeId, Path, Stream, Temperature, Time,
+    Conductance, ConductorKind, Context, End, HeatCapacity, HeatFlow, Input, Network, NetworkBuilder, NodeId,
+    Path, Temperature, Time,
 };
 use lptn_solve::{Solution, SteadyState, Transient};
 use lptn_units::parse_quantity;
@@ -32,7 +32,7 @@ fn last(solution: &Solution, node: NodeId) -> f64 {
 }
 
 fn gr(area: &str) -> Path {
-    Path::Radiation(Exchange::Area(quantity(area)))
+    Path::radiation(quantity(area))
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn a_stream_warms_cell_by_cell() {
         } else {
             b.node(&format!("cell{i}"), HeatCapacity(10.0), Temperature(300.0))
         };
-        let rate = Path::Advection(Stream::Capacity(quantity("20 W/K")));
+        let rate = Path::stream(quantity("20 W/K"));
         b.conductor(&format!("flow{i}"), ConductorKind::Advection, (upstream, cell.into()), rate);
         b.convection(&format!("film{i}"), wall, cell, Conductance(5.0));
         upstream = cell.into();
@@ -165,7 +165,7 @@ fn a_conductance_that_depends_on_another_node_enters_the_jacobian() {
     b.resistor("wire", hot, sensor, Conductance(1.0));
     let text = "1 [W/K] + 0.1 [W/K^2] * (sensor.T - absolute(300 [K]))";
     let valve = b.expression_in(Context::Link, text, None).unwrap();
-    b.resistor("valve", hot, room, Path::Conductance(valve.into()));
+    b.resistor("valve", hot, room, Path::conductance(valve));
     let system = system(b);
     assert!(!system.is_symmetric());
     // sensor = hot in steady state: (1 + 0.1 x) x = 100

@@ -321,7 +321,7 @@ fn conductance_that_a_control_opens_is_followed() {
     let body = b.node("body", HeatCapacity(600.0), Temperature(AMBIENT));
     let air = b.boundary("air", Temperature(AMBIENT));
     let g = b.expression_in(Context::Link, "3 [W/K] + 9 [W/K] * fan", None).unwrap();
-    b.resistor("skin", body, air, Path::Conductance(g.into()));
+    b.resistor("skin", body, air, Path::conductance(g));
     b.source("loss", body, HeatFlow(240.0));
     let at = |k: f64| Temperature(AMBIENT + k).into();
     let (on, off, min_dwell) = (at(40.0), at(35.0), Time(0.0).into());

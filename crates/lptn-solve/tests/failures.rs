@@ -7,8 +7,8 @@ mod elements;
 use elements::{ABSOLUTE, link, of, own, power, quantity, radiation, stream, system, table};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    AfterEnd, BuildErrorKind, Conductance, ConductorKind, Course, Emissivity, Exchange, HeatCapacity,
-    NetworkBuilder, NodeId, Path, Temperature, Time,
+    AfterEnd, BuildErrorKind, Conductance, ConductorKind, Course, Formula, HeatCapacity, NetworkBuilder,
+    NodeId, Path, Temperature, Time,
 };
 use lptn_solve::{End, Solution, Transient, TransientError};
 use lptn_units::{Dimension, Interpolation, Outside, Table1};
@@ -45,7 +45,7 @@ fn the_end_of_a_table_over_temperature() {
     b.table("steps", table(&[290.0, 320.0], &[0.0, 1e-9], Interpolation::Linear, types));
     let room = b.boundary("room", Temperature(300.0));
     let g = link(&b, "steps(T_from)");
-    b.resistor("wall", node, room, Path::Conductance(g));
+    b.resistor("wall", node, room, Path::conductance(g));
     let (time, message, code, partial) = broken(&system(b), 60.0);
     assert!((time - 20.0).abs() < 1e-2, "{time}");
     assert!(
@@ -158,7 +158,7 @@ fn a_conductance_that_turns_negative() {
     let (mut b, node) = ramp();
     let room = b.boundary("room", Temperature(300.0));
     let g = link(&b, "1e-6 [W/K^2] * (absolute(315 [K]) - T_from)");
-    b.resistor("wall", node, room, Path::Conductance(g));
+    b.resistor("wall", node, room, Path::conductance(g));
     let (time, message, code, _) = broken(&system(b), 60.0);
     assert!((time - 15.0).abs() < 1e-2, "{time}");
     assert!(
@@ -172,10 +172,9 @@ fn an_emissivity_that_passes_1() {
     // regression: it was taken as it came
     let (mut b, node) = ramp();
     let room = b.boundary("room", Temperature(300.0));
-    let emissivity = Emissivity::Effective(link(&b, "0.99 + 1e-3 [1/K] * (T_from - absolute(300 [K]))"));
-    let (area, view_factor) = (quantity("1 mm^2"), quantity("1"));
-    let surfaces = Exchange::Surfaces { emissivity, area, view_factor };
-    b.conductor("glow", ConductorKind::Radiation, (node.into(), room.into()), Path::Radiation(surfaces));
+    let emissivity = link(&b, "0.99 + 1e-3 [1/K] * (T_from - absolute(300 [K]))");
+    let surfaces = Path::new(Formula::GreySurfaces, [emissivity, quantity("1 mm^2"), quantity("1")]);
+    b.conductor("glow", ConductorKind::Radiation, (node.into(), room.into()), surfaces);
     let (time, message, _, _) = broken(&system(b), 60.0);
     assert!((time - 10.0).abs() < 1e-2, "{time}");
     assert!(message.contains("`glow`") && message.contains("between 0 and 1"), "{message}");

@@ -3,8 +3,8 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    ConductorKind, Context, Emissivity, End, Exchange, HeatCapacity, HeatFlow, Input, NetworkBuilder, NodeId,
-    Path, Properties, Resistance, Size, Temperature, Time,
+    ConductorKind, Context, End, Formula, HeatCapacity, HeatFlow, Input, NetworkBuilder, NodeId, Path,
+    Properties, Resistance, Size, Temperature, Time,
 };
 use lptn_solve::{Lumping, NotChecked, Record, Solution, Transient};
 use lptn_units::parse_quantity;
@@ -40,7 +40,7 @@ fn body(b: &mut NetworkBuilder, volume: &str, length: &str) -> NodeId {
 }
 
 fn film(h: &str, area: &str) -> Path {
-    Path::Film(quantity(h), quantity(area))
+    Path::film(quantity(h), quantity(area))
 }
 
 fn at_start(b: NetworkBuilder) -> Lumping {
@@ -89,13 +89,10 @@ fn surfaces_share_a_skin_or_lie_side_by_side() {
     // two faces of air, which radiate; and a foot on the ground
     b.convection("front", node, air, film("10 W/(m^2 K)", "0.03 m^2"));
     b.convection("back", air, node, film("20 W/(m^2 K)", "0.02 m^2"));
-    let exchange = Exchange::Surfaces {
-        emissivity: Emissivity::Effective(Input::number(0.8)),
-        area: quantity("0.1 m^2"),
-        view_factor: Input::number(0.4),
-    };
+    let exchange =
+        Path::new(Formula::GreySurfaces, [Input::number(0.8), quantity("0.1 m^2"), Input::number(0.4)]);
     let ends = |to| (End::Node(node), End::Boundary(to));
-    b.conductor("glow", ConductorKind::Radiation, ends(wall), Path::Radiation(exchange));
+    b.conductor("glow", ConductorKind::Radiation, ends(wall), exchange);
     b.conductor("foot", ConductorKind::Contact, ends(wall), film("500 W/(m^2 K)", "0.01 m^2"));
     // no surface of the body
     b.resistor("bolt", node, wall, Resistance(2.0));
@@ -116,7 +113,7 @@ fn plume() -> NetworkBuilder {
     let air = b.boundary("air", kelvin(25.0));
     let text = "2 [W/(m^2 K)] * (abs(dT) / 1 [K])^0.5";
     let h = b.expression_in(Context::Link, text, None).unwrap();
-    b.convection("plume", node, air, Path::Film(h.into(), quantity("3 cm^2")));
+    b.convection("plume", node, air, Path::film(h, quantity("3 cm^2")));
     b.resistor("tie", idle, air, Resistance(1.0));
     b.source("heat", node, HeatFlow(0.5));
     b

@@ -3,7 +3,7 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    Conductance, ConductorKind, End, HeatCapacity, HeatFlow, Input, Network, NetworkBuilder, Path, Stream,
+    Conductance, ConductorKind, End, HeatCapacity, HeatFlow, Input, Network, NetworkBuilder, Path,
     Temperature, Time,
 };
 use lptn_solve::{Selection, Solution, SteadyState, Transient, Window, WindowSeen};
@@ -186,9 +186,9 @@ fn balances_of_all_nodes_and_boundaries_close_with_streams_shares_and_junctions(
         "glow",
         ConductorKind::Radiation,
         (body.into(), outlet.into()),
-        Path::Radiation(lptn_network::Exchange::Area(quantity("0.1 m^2"))),
+        Path::radiation(quantity("0.1 m^2")),
     );
-    let stream = || Path::Advection(Stream::Capacity(quantity("5 W/K")));
+    let stream = || Path::stream(quantity("5 W/K"));
     b.conductor("in", ConductorKind::Advection, (inlet.into(), oil.into()), stream());
     b.conductor("out", ConductorKind::Advection, (oil.into(), outlet.into()), stream());
     b.shared_source("loss", &[(body, 0.7), (oil, 0.3)], HeatFlow(200.0));

@@ -136,7 +136,7 @@ fn motor() -> (ThermalSystem, [NodeId; 3]) {
     b.resistor("slot", winding, core, Conductance(3.0));
     b.resistor("fit", core, housing, Conductance(5.0));
     let h = link(&b, "2.2 [W/(m^2 K^1.25)] * abs(dT)^0.25");
-    b.convection("film", housing, air, Path::Film(h, quantity("0.05 m^2")));
+    b.convection("film", housing, air, Path::film(h, quantity("0.05 m^2")));
     radiation(&mut b, "glow", (housing, air), "0.04 m^2");
     duty(&mut b, winding, 150.0, (190.0, PERIOD));
     (system(b), [winding, core, housing])
@@ -372,7 +372,7 @@ fn a_small_residual_of_a_slow_network_is_not_believed() {
     let node = b.node("node", HeatCapacity(1e6), Temperature(AMBIENT));
     let air = b.boundary("air", Temperature(AMBIENT));
     let h = link(&b, "1 [W/(m^2 K)] + 1e-3 [W/(m^2 K^2)] * abs(dT)");
-    b.convection("film", node, air, Path::Film(h, quantity("1 m^2")));
+    b.convection("film", node, air, Path::film(h, quantity("1 m^2")));
     duty(&mut b, node, 0.02, (5.0, 10.0));
     let system = system(b);
     let found = Periodic::find(&system, &cycle(10.0, 1e-5)).unwrap();

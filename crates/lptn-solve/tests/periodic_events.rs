@@ -21,9 +21,9 @@ fn network((on, off): (f64, f64), dwell: f64) -> Network {
     let housing = b.node("housing", HeatCapacity(2500.0), Temperature(AMBIENT));
     let air = b.boundary("air", Temperature(AMBIENT));
     let inner = b.expression_in(Context::Link, "8 [W/K]", None).unwrap();
-    b.resistor("inner", gears, housing, Path::Conductance(inner.into()));
+    b.resistor("inner", gears, housing, Path::conductance(inner));
     let g = b.expression_in(Context::Link, "2 [W/K] + 10 [W/K] * fan", None).unwrap();
-    b.resistor("skin", housing, air, Path::Conductance(g.into()));
+    b.resistor("skin", housing, air, Path::conductance(g));
     let (times, values) = (vec![0.0, 250.0], vec![600.0, 0.0]);
     let load = Course::Steps { times, values, after: AfterEnd::Repeat(PERIOD) };
     b.signal("load", Type::of(Dimension::POWER), load);

@@ -7,8 +7,8 @@ mod elements;
 use elements::{Random, SIGMA, link, own, power, quantity, radiation, stream, system};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    Conductance, End, HeatCapacity, HeatFlow, Melting, NetworkBuilder, NodeId, Path, Properties, Size,
-    Temperature,
+    Conductance, End, Formula, HeatCapacity, HeatFlow, Melting, NetworkBuilder, NodeId, Path, Properties,
+    Size, Temperature,
 };
 use lptn_solve::{SteadyError, SteadyState};
 
@@ -370,9 +370,9 @@ fn conductivity_of_temperature_in_a_wall_of_cells() {
     ends.push(cold.into());
     for (i, pair) in ends.windows(2).enumerate() {
         let k = own(&b, "10 [W/(m K)] * (1 + (T - absolute(300 [K])) / 200 [K])");
-        let shape = lptn_network::Shape::Slab { area: quantity("1 m^2"), thickness: quantity("1 cm") };
+        let shape = |k| Path::new(Formula::Slab, [k, quantity("1 m^2"), quantity("1 cm")]);
         let kind = lptn_network::ConductorKind::Conduction;
-        b.conductor(&format!("k{i}"), kind, (pair[0], pair[1]), Path::Conduction(k, shape));
+        b.conductor(&format!("k{i}"), kind, (pair[0], pair[1]), shape(k));
     }
     let integral = |t: f64| (t - 300.0) + (t - 300.0).powi(2) / 400.0;
     let found = steady(&system(b));

@@ -52,7 +52,7 @@ fn with_fan_from(from: f64, thresholds: (f64, f64), start: bool) -> Result<Stead
     let body = b.node("body", HeatCapacity(600.0), Temperature(AMBIENT + from));
     let air = b.boundary("air", Temperature(AMBIENT));
     let g = b.expression_in(Context::Link, "3 [W/K] + 9 [W/K] * fan", None).unwrap();
-    b.resistor("skin", body, air, Path::Conductance(g.into()));
+    b.resistor("skin", body, air, Path::conductance(g));
     source(&mut b, "loss", body, "240 [W]");
     thermostat(&mut b, fan, (body, Acts::Cooling), thresholds, start);
     solve(b)
@@ -135,7 +135,7 @@ fn of_many_controls_at_most_64_positions_are_tried() {
         let body = node(&mut b, &format!("body{i}"));
         let g = format!("3 [W/K] + 9 [W/K] * fan{i}");
         let g = b.expression_in(Context::Link, &g, None).unwrap();
-        b.resistor(&format!("skin{i}"), body, air, Path::Conductance(g.into()));
+        b.resistor(&format!("skin{i}"), body, air, Path::conductance(g));
         source(&mut b, &format!("loss{i}"), body, "240 [W]");
         thermostat(&mut b, fan, (body, Acts::Cooling), (40.0, 35.0), false);
     }

@@ -16,6 +16,11 @@ pub(crate) fn rounded(value: f64, digits: usize) -> String {
     text.parse().map_or(text, number)
 }
 
+/// A number with ten digits at most, without the noise of binary arithmetic, for a message.
+pub fn short(value: f64) -> String {
+    rounded(value, 10)
+}
+
 #[cfg(test)]
 mod tests {
     use super::{number, rounded};

@@ -27,6 +27,7 @@ mod expr;
 mod format;
 mod naming;
 mod number;
+mod problems;
 mod quantity;
 mod rational;
 mod repair;
@@ -48,7 +49,7 @@ pub use expr::{
     Comparison, Degree, EvalError, Expression, Program, RESERVED, Scope, SlotKind, Split, Symbol, TableCall,
     Trend, is_function,
 };
-pub use format::number as format_number;
+pub use format::{number as format_number, short as format_short};
 pub use quantity::{Quantity, WrittenQuantity, kelvin_alone, parse_quantity, written_quantity};
 pub use rational::Rational;
 pub use scalar::Scalar;

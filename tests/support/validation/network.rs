@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lptn::network::{
-    AfterEnd, Area, ConductorId, ConductorKind, Context, Course, End, Exchange, FilmCoefficient, Input, Item,
-    Path, Stream,
+    AfterEnd, Area, ConductorId, ConductorKind, Context, Course, End, FilmCoefficient, Input, Item, Path,
 };
 use lptn::prelude::*;
 use lptn::units::{Dimension, Interpolation as Join, Outside, Table as Curve, Table1, TableSymbol, Type};
@@ -221,19 +220,19 @@ impl Building {
         let ((id, a, b), kind, path) = match edge {
             Edge::Conductance { id, a, b, conductance } => {
                 let conductance = self.number(("edges", id, "G"), Conductance(*conductance))?;
-                ((id, a, b), ConductorKind::Resistor, Path::Conductance(conductance))
+                ((id, a, b), ConductorKind::Resistor, Path::conductance(conductance))
             }
             Edge::Convection { id, a, b, h, area } => {
                 let h = self.number(("edges", id, "h"), FilmCoefficient(*h))?;
                 let area = self.number(("edges", id, "A"), Area(*area))?;
-                ((id, a, b), ConductorKind::Convection, Path::Film(h, area))
+                ((id, a, b), ConductorKind::Convection, Path::film(h, area))
             }
             Edge::ConvectionPower { id, a, b, c, n } => {
                 let g = format!("{c} [W/K] * abs(dT / 1 [K])^({n})");
                 (
                     (id, a, b),
                     ConductorKind::Convection,
-                    Path::Conductance(self.expression(Context::Link, &g)?),
+                    Path::conductance(self.expression(Context::Link, &g)?),
                 )
             }
             Edge::ConductanceLinear { id, a, b, conductance, beta, reference, at } => {
@@ -244,7 +243,7 @@ impl Building {
                 };
                 let rise = format!("({at} - absolute({} [K]))", reference + self.zero);
                 let g = format!("{conductance} [W/K] * (1 + ({beta} [1/K]) * {rise})");
-                ((id, a, b), ConductorKind::Resistor, Path::Conductance(self.expression(Context::Link, &g)?))
+                ((id, a, b), ConductorKind::Resistor, Path::conductance(self.expression(Context::Link, &g)?))
             }
             Edge::Radiation { id, a, b, exchange, sigma } => {
                 // books print 5.67e-8: their constant goes into the area, for lptn has the exact one
@@ -255,11 +254,11 @@ impl Building {
                         self.expression(Context::Time, &format!("{factor} * {share} * 1 [m^2]"))?
                     }
                 };
-                ((id, a, b), ConductorKind::Radiation, Path::Radiation(Exchange::Area(area)))
+                ((id, a, b), ConductorKind::Radiation, Path::radiation(area))
             }
             Edge::Advection { id, a, b, mcp } => {
-                let stream = Stream::Capacity(self.of_time(mcp, Unit::WattPerKelvin)?);
-                ((id, a, b), ConductorKind::Advection, Path::Advection(stream))
+                let stream = Path::stream(self.of_time(mcp, Unit::WattPerKelvin)?);
+                ((id, a, b), ConductorKind::Advection, stream)
             }
         };
         let conductor = self.b.conductor(&name("edge", id), kind, (self.end(a)?, self.end(b)?), path);

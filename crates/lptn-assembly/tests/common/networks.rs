@@ -2,7 +2,7 @@
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used, reason = "each test file uses a part")]
 
 use lptn_assembly::{Form, ThermalSystem};
-use lptn_network::{ConductorId, ConductorKind, Context, End, Exchange, Input, NetworkBuilder, Path, Stream};
+use lptn_network::{ConductorId, ConductorKind, Context, End, Input, NetworkBuilder, Path};
 use lptn_units::{
     Dimension, Interpolation, Outside, Table, Table1, Table2, TableSymbol, Type, parse_quantity,
 };
@@ -80,7 +80,7 @@ pub fn radiation(
     ends: (impl Into<End>, impl Into<End>),
     gr: &str,
 ) -> ConductorId {
-    let path = Path::Radiation(Exchange::Area(quantity(gr)));
+    let path = Path::radiation(quantity(gr));
     b.conductor(name, ConductorKind::Radiation, (ends.0.into(), ends.1.into()), path)
 }
 
@@ -90,7 +90,7 @@ pub fn stream(
     ends: (impl Into<End>, impl Into<End>),
     mcp: Input,
 ) -> ConductorId {
-    let path = Path::Advection(Stream::Capacity(mcp));
+    let path = Path::stream(mcp);
     b.conductor(name, ConductorKind::Advection, (ends.0.into(), ends.1.into()), path)
 }
 

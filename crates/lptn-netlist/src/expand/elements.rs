@@ -1,22 +1,11 @@
 //! Nodes, and everything that stands between and on them.
 
-use lptn_network::{
-    Bound, Conductor, ConductorKind, Emissivity, Exchange, Field, Item, Law, Lump, Severity, Shape, Size,
-    Stream, Value,
-};
+use lptn_laws::Kind;
+use lptn_network::{Bound, Conductor, Item, Lump, Severity, Size, Value};
 use lptn_units::{Dimension, Type, format_number};
 
 use super::Writer;
 use super::text::{Fields, like, string, value};
-
-const KINDS: [(&str, ConductorKind); 6] = [
-    ("resistor", ConductorKind::Resistor),
-    ("conduction", ConductorKind::Conduction),
-    ("convection", ConductorKind::Convection),
-    ("contact", ConductorKind::Contact),
-    ("radiation", ConductorKind::Radiation),
-    ("advection", ConductorKind::Advection),
-];
 
 impl Writer<'_> {
     pub(super) fn nodes(&mut self) {
@@ -72,13 +61,13 @@ impl Writer<'_> {
     }
 
     pub(super) fn conductors(&mut self) {
-        for (heading, kind) in KINDS {
+        for kind in Kind::ALL {
             let mut section = Fields::default();
             let conductors = self.network.conductors().iter();
-            for conductor in conductors.filter(|conductor| conductor.kind == kind) {
+            for conductor in conductors.filter(|conductor| conductor.kind == *kind) {
                 section.put(&conductor.name(), self.conductor(conductor));
             }
-            self.section(heading, &section);
+            self.section(kind.declaration().section, &section);
         }
     }
 
@@ -86,39 +75,34 @@ impl Writer<'_> {
         let mut fields = Fields::default();
         fields.word("from", &self.name(conductor.from));
         fields.word("to", &self.name(conductor.to));
-        match &conductor.law {
-            Law::Conduction { conductivity, shape } => {
-                match self.material_of(conductivity) {
-                    Some(material) => fields.word("material", &self.name(Item::Material(material))),
-                    None => fields.put("k", value(conductivity, Type::of(Dimension::CONDUCTIVITY))),
-                }
-                fields.word("shape", name_of(shape));
-                put_all(&mut fields, shape.parts(), None);
+        let (law, kind) = (&conductor.law, conductor.kind.declaration());
+        if let Some(fluid) = law.fluid() {
+            fields.word("fluid", &self.name(Item::Fluid(fluid)));
+        }
+        let declared = law.formula().declaration();
+        let parts: Vec<(&lptn_laws::Field, &Value)> = declared.fields.iter().zip(law.values()).collect();
+        for same in parts.chunk_by(|(a, _), (b, _)| a.key == b.key) {
+            self.part(&mut fields, same);
+            // the word that chooses the law stands behind what all of them take
+            if let Some(selector) = kind.selector.filter(|_| same[0].0.property) {
+                fields.word(selector, declared.name);
             }
-            law @ Law::Radiation(exchange) => {
-                let Exchange::Surfaces { emissivity, area, view_factor } = &**exchange else {
-                    put_all(&mut fields, law.parts(), None);
-                    return fields.inline();
-                };
-                let emissivity = match emissivity {
-                    Emissivity::Effective(emissivity) => value(emissivity, Type::SCALAR),
-                    Emissivity::Plates(a, b) => {
-                        format!("[{}, {}]", value(a, Type::SCALAR), value(b, Type::SCALAR))
-                    }
-                };
-                fields.put("emissivity", emissivity);
-                fields.put("area", value(area, Type::of(Dimension::AREA)));
-                fields.put("view_factor", value(view_factor, Type::SCALAR));
-            }
-            law @ Law::Advection(stream) => {
-                if let Some(fluid) = stream.fluid() {
-                    fields.word("fluid", &self.name(Item::Fluid(fluid)));
-                }
-                put_all(&mut fields, law.parts(), Some(stream));
-            }
-            law => put_all(&mut fields, law.parts(), None),
         }
         fields.inline()
+    }
+
+    /// The values of one key.
+    fn part(&self, fields: &mut Fields, same: &[(&lptn_laws::Field, &Value)]) {
+        let (field, first) = same[0];
+        let material = self.material_of(first).filter(|_| field.property);
+        match (material, same) {
+            (Some(material), _) => fields.word("material", &self.name(Item::Material(material))),
+            (None, [_]) => fields.put(field.key, value(first, field.ty)),
+            _ => {
+                let values: Vec<String> = same.iter().map(|(field, part)| value(part, field.ty)).collect();
+                fields.put(field.key, format!("[{}]", values.join(", ")));
+            }
+        }
     }
 
     pub(super) fn sources(&mut self) {
@@ -157,34 +141,5 @@ impl Writer<'_> {
             section.put(&limit.name, fields.inline());
         }
         self.section("limit", &section);
-    }
-}
-
-fn put_all(fields: &mut Fields, parts: Vec<(Field, &Value)>, stream: Option<&Stream>) {
-    for (field, part) in parts {
-        fields.put(field.key(), value(part, type_of(field, stream)));
-    }
-}
-
-fn type_of(field: Field, stream: Option<&Stream>) -> Type {
-    Type::of(match field {
-        Field::Resistance => Dimension::RESISTANCE,
-        Field::Conductance | Field::StreamCapacity => Dimension::CONDUCTANCE,
-        Field::FilmCoefficient => Dimension::FILM_COEFFICIENT,
-        Field::Area | Field::Exchange => Dimension::AREA,
-        Field::Emissivity | Field::ViewFactor => Dimension::NONE,
-        Field::FlowTemperature => return Type::ABSOLUTE_TEMPERATURE,
-        Field::Flow if matches!(stream, Some(Stream::Volume { .. })) => Dimension::VOLUME_FLOW,
-        Field::Flow => Dimension::MASS_FLOW,
-        _ => Dimension::LENGTH,
-    })
-}
-
-fn name_of(shape: &Shape) -> &'static str {
-    match shape {
-        Shape::Slab { .. } => "slab",
-        Shape::Cylinder { .. } => "cylinder",
-        Shape::Sphere { .. } => "sphere",
-        Shape::Rod { .. } => "rod",
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use lptn_network::{Law, Lump, MaterialId, Value};
+use lptn_network::{Lump, MaterialId, Value};
 use lptn_units::{Dimension, Table, Type};
 
 use super::Writer;
@@ -48,10 +48,7 @@ impl Writer<'_> {
 
     pub(super) fn fluids(&mut self) {
         let (network, mut section) = (&self.network, Fields::default());
-        let streams = network.conductors().iter().filter_map(|conductor| match &conductor.law {
-            Law::Advection(stream) => stream.fluid(),
-            _ => None,
-        });
+        let streams = network.conductors().iter().filter_map(|conductor| conductor.law.fluid());
         let used: BTreeSet<_> = streams.collect();
         for (id, fluid) in network.fluid_ids().zip(network.fluids()) {
             let source = fluid.source.as_deref();
@@ -95,10 +92,11 @@ impl Writer<'_> {
         let nodes = network.nodes().iter().map(|node| &node.lump);
         let lumps = nodes.chain(network.capacitors().iter().map(|capacitor| &capacitor.lump));
         let lumps = lumps.flatten().map(|Lump { material, .. }| *material);
-        let bodies = network.conductors().iter().filter_map(|conductor| match &conductor.law {
-            Law::Conduction { conductivity, .. } => self.material_of(conductivity),
-            _ => None,
+        let properties = network.conductors().iter().flat_map(|conductor| {
+            let fields = conductor.law.formula().declaration().fields.iter();
+            fields.zip(conductor.law.values()).filter(|(field, _)| field.property)
         });
+        let bodies = properties.filter_map(|(_, value)| self.material_of(value));
         lumps.chain(bodies).collect()
     }
 

@@ -184,7 +184,7 @@ impl FitStudy {
             return None;
         }
         let unit = if varied.ty.absolute { "K".to_owned() } else { varied.ty.dimension.si_unit() };
-        let start = crate::describe::short(varied.start);
+        let start = lptn_units::format_short(varied.start);
         let message = format!(
             "`vary` of fit `{fit}`: the range of `{name}` does not hold its own value, {start} {unit}, from which the \
              search starts"

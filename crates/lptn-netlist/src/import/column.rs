@@ -1,6 +1,7 @@
 //! The columns of an imported file, and what is wrong with its cells.
 
-use lptn_network::{End, Field, Input};
+use lptn_laws::Formula;
+use lptn_network::{End, Input};
 use lptn_units::{Dimension, Quantity, Type, Unit, suggest};
 
 use crate::csv_form;
@@ -86,7 +87,7 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The conductances or the resistances: one of the two.
-    pub(crate) fn law_column(&mut self, sheet: &Sheet<'_>) -> Option<(Column, Field)> {
+    pub(crate) fn law_column(&mut self, sheet: &Sheet<'_>) -> Option<(Column, Formula)> {
         let (conductance, resistance) = (self.optional_column(sheet, "G"), self.optional_column(sheet, "R"));
         match (conductance, resistance) {
             (Some(g), Some(r)) => {
@@ -95,11 +96,11 @@ impl<'a> Elaboration<'a> {
             }
             (None, Some(_)) => {
                 let column = self.number_column(sheet, "R", Type::of(Dimension::RESISTANCE))?;
-                Some((column, Field::Resistance))
+                Some((column, Formula::Resistance))
             }
             (Some(_), None) => {
                 let column = self.number_column(sheet, "G", Type::of(Dimension::CONDUCTANCE))?;
-                Some((column, Field::Conductance))
+                Some((column, Formula::Conductance))
             }
             (None, None) => {
                 let problem = sheet.head.no_column("G", sheet.ask);

@@ -96,15 +96,14 @@ impl<'a> Elaboration<'a> {
         let Some(mut sheet) = self.sheet(import, &CONDUCTORS) else { return };
         let (from, to) = (self.required_column(&sheet, "from"), self.required_column(&sheet, "to"));
         let name = self.optional_column(&sheet, "name");
-        let (Some(from), Some(to), Some((law, field))) = (from, to, self.law_column(&sheet)) else {
+        let (Some(from), Some(to), Some((column, law))) = (from, to, self.law_column(&sheet)) else {
             self.doubts.paths = true;
             return;
         };
         sheet.first = self.builder.conductor_count();
         while self.next_row(&mut sheet) {
-            let value = self.number(&mut sheet, &law);
-            let path =
-                if field == Field::Resistance { Path::Resistance(value) } else { Path::Conductance(value) };
+            let value = self.number(&mut sheet, &column);
+            let path = Path::new(law, [value]);
             let ends = (self.end_of(&mut sheet, ("from", from)), self.end_of(&mut sheet, ("to", to)));
             let (Some(start), Some(end)) = ends else {
                 self.doubts.paths = true;
@@ -118,7 +117,12 @@ impl<'a> Elaboration<'a> {
             };
             self.map.conductor("resistor");
         }
-        let fields = [(Field::From, Some(from)), (Field::To, Some(to)), (field, Some(law.index))];
+        let key = law.declaration().fields[0].key;
+        let fields = [
+            (Field::From, Some(from)),
+            (Field::To, Some(to)),
+            (Field::of_law(key).unwrap_or(Field::Value), Some(column.index)),
+        ];
         self.map.add_import(sheet.places(Kind::Conductor, name, &fields));
     }
 

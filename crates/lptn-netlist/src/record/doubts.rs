@@ -1,9 +1,9 @@
 //! What is doubtful about the values of a column.
 
-use crate::describe::short;
 use crate::diagnostic::Diagnostic;
 use crate::file::Span;
 use crate::record::{Record, RecordColumn, Saturation};
+use lptn_units::format_short as short;
 
 const ZERO_CELSIUS: f64 = 273.15;
 

@@ -2,10 +2,10 @@
 
 use lptn_units::Unit;
 
-use crate::describe::short;
 use crate::diagnostic::Diagnostic;
 use crate::file::Span;
 use crate::record::{Counted, Record};
+use lptn_units::format_short as short;
 
 /// So many times the usual time between two rows is a hole.
 const HOLE: f64 = 5.0;

@@ -1,72 +1,36 @@
-//! The sections of paths between two ends: `[resistor]`, `[convection]`, `[contact]` here, the others in files of
-//! their own.
+//! Paths between two ends, of every kind that is declared.
 
-use lptn_network::{ConductorKind, Field, Input, Item, Path, Terminal};
+use lptn_laws::Kind;
+use lptn_network::{Field, Input, Item, Path, Terminal};
 use lptn_units::{Dimension, Type};
 
 use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample};
 use crate::raw::{RawEntry, RawValue};
+use crate::section::path::PATHS;
 use crate::value::{Place, Wanted};
-use crate::vocabulary::{ADVECTION, CONDUCTION, CONTACT, CONVECTION, RADIATION, RESISTOR, Section};
-
-/// The forms of a law, by their keys.
-const RESISTOR_FORMS: &[&[&str]] = &[&["R"], &["G"]];
-const CONVECTION_FORMS: &[&[&str]] = &[&["R"], &["h", "area"]];
-const CONTACT_FORMS: &[&[&str]] = &[&["h", "area"]];
-
-/// The sections of paths, in the order in which their columns stand.
-pub(crate) const PATHS: [(&Section, ConductorKind); 6] = [
-    (&RESISTOR, ConductorKind::Resistor),
-    (&CONDUCTION, ConductorKind::Conduction),
-    (&CONVECTION, ConductorKind::Convection),
-    (&CONTACT, ConductorKind::Contact),
-    (&RADIATION, ConductorKind::Radiation),
-    (&ADVECTION, ConductorKind::Advection),
-];
-
-/// Where the values of a path stand; `from` and `to` are noted by themselves.
-const FIELDS: [Field; 18] = [
-    Field::Resistance,
-    Field::Conductance,
-    Field::FilmCoefficient,
-    Field::Area,
-    Field::Material,
-    Field::Conductivity,
-    Field::Thickness,
-    Field::InnerRadius,
-    Field::OuterRadius,
-    Field::Length,
-    Field::Diameter,
-    Field::Exchange,
-    Field::Emissivity,
-    Field::ViewFactor,
-    Field::StreamCapacity,
-    Field::Fluid,
-    Field::Flow,
-    Field::FlowTemperature,
-];
+use crate::vocabulary::Section;
 
 impl<'a> Elaboration<'a> {
     /// Every path between two ends.
     pub(crate) fn conductors(&mut self) {
-        for (section, kind) in PATHS {
+        for (section, kind) in PATHS.iter() {
             for entry in self.elements(section.name) {
-                let read = self.conductor(entry, section, kind);
+                let read = self.conductor(entry, section, *kind);
                 self.doubts.paths |= read.is_none();
             }
         }
     }
 
-    fn conductor(&mut self, entry: &'a RawEntry, section: &Section, kind: ConductorKind) -> Option<()> {
+    fn conductor(&mut self, entry: &'a RawEntry, section: &'static Section, kind: Kind) -> Option<()> {
         let owner = Owner::element(section.name, &entry.key);
         let mut fields = Fields::of(section, owner, entry, &mut self.problems)?;
         let (from, to) = (self.terminal(&fields, "from"), self.terminal(&fields, "to"));
         fields.area = self.area_of(&fields, [&from, &to]);
         // a stand-in where the law is wrong, so that the ends still count
         let path = self.path(&fields, kind);
-        let path = path.unwrap_or_else(|| Path::Resistance(stand_in(Type::of(Dimension::RESISTANCE))));
+        let path = path.unwrap_or_else(|| Path::resistance(stand_in(Type::of(Dimension::RESISTANCE))));
         let (from, to) = (from?, to?);
         let before = self.builder.sizes();
         let item = self.builder.connect(&entry.key, kind, (from.0, to.0), path);
@@ -77,48 +41,24 @@ impl<'a> Elaboration<'a> {
             }
             _ => self.map.conductor(section.name),
         }
-        self.map_fields(item, &fields, (from, to));
+        self.map_fields((item, kind), &fields, (from, to));
         self.map.insert(item, Field::Name, entry.key_span.clone());
         Some(())
     }
 
     fn map_fields(
         &mut self,
-        item: Item,
+        (item, kind): (Item, Kind),
         fields: &Fields<'a>,
         (from, to): ((Terminal, &RawValue), (Terminal, &RawValue)),
     ) {
         self.map.value(item, Field::From, from.1);
         self.map.value(item, Field::To, to.1);
-        for field in FIELDS {
-            if let Some(raw) = fields.get(field.key()) {
+        let own = kind.fields().into_iter().filter_map(|field| Field::of_law(field.key));
+        for field in own.chain([Field::Material, Field::Fluid]) {
+            if let Some(raw) = fields.get(field.key()).filter(|_| fields.known(field.key())) {
                 self.map.value(item, field, raw);
             }
-        }
-    }
-
-    fn path(&mut self, fields: &Fields<'a>, kind: ConductorKind) -> Option<Path> {
-        match kind {
-            ConductorKind::Resistor => self.simple(fields, RESISTOR_FORMS),
-            ConductorKind::Convection => self.simple(fields, CONVECTION_FORMS),
-            ConductorKind::Contact => self.simple(fields, CONTACT_FORMS),
-            ConductorKind::Conduction => self.conduction(fields),
-            ConductorKind::Radiation => self.radiation(fields),
-            ConductorKind::Advection => self.advection(fields),
-        }
-    }
-
-    /// A resistance, a conductance, or a film coefficient with its area.
-    fn simple(&mut self, fields: &Fields<'a>, forms: &[&[&str]]) -> Option<Path> {
-        self.problems.extend(check_forms(fields, forms));
-        let resistance = self.law(fields, "R", Type::of(Dimension::RESISTANCE));
-        let conductance = self.law(fields, "G", Type::of(Dimension::CONDUCTANCE));
-        let film = self.law(fields, "h", Type::of(Dimension::FILM_COEFFICIENT));
-        let area = self.law(fields, "area", Type::of(Dimension::AREA));
-        match (resistance, conductance, film, area) {
-            (None, Some(conductance), ..) => Some(Path::Conductance(conductance)),
-            (None, None, Some(film), Some(area)) => Some(Path::Film(film, area)),
-            (resistance, ..) => resistance.map(Path::Resistance),
         }
     }
 

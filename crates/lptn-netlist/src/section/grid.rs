@@ -8,8 +8,8 @@ use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample, wrong_shape};
 use crate::grid_names::{GridPart, KnownGrid};
 use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::section::conductor::PATHS;
 use crate::section::default::Initial;
+use crate::section::path::PATHS;
 use crate::value::{Given, Place, Wanted};
 use crate::vocabulary::{GRID, SOURCE};
 

@@ -161,7 +161,7 @@ fn add_latent(panels: &mut Vec<Panel>, latent: Latent) {
     let Latent { solidus, liquidus, heat } = latent;
     if liquidus > solidus {
         let within = panels.iter_mut().filter(|p| p.from >= solidus && p.to <= liquidus && p.to > p.from);
-        within.for_each(|panel| panel.raise(heat / (liquidus - solidus)));
+        within.for_each(|panel| panel.raise(lptn_laws::melting_capacity(heat, solidus, liquidus)));
         return;
     }
     let place = panels.iter().position(|p| p.from >= solidus);

@@ -1,13 +1,12 @@
 //! Builds the cells, the paths between them and the surfaces of grids.
 
+use lptn_laws::{Formula, Kind};
 use lptn_units::{Dimension, Type};
 
 use crate::builder::{NetworkBuilder, Path};
-use crate::element::ConductorKind;
 use crate::error::BuildErrorKind;
 use crate::grid::{Face, Grid, Inner, MOST_CELLS};
 use crate::id::{End, Field, GridId, Item, MaterialId, NodeId};
-use crate::law::Shape;
 use crate::material::Size;
 use crate::value::{Input, Value};
 
@@ -161,7 +160,7 @@ impl NetworkBuilder {
                 let name = format!("{}.{}{}", grid.name, LETTERS[axis], grid.indices(at));
                 let next = [0, 1, 2].map(|other| at[other] + less[other]);
                 let ends = [at, next].map(|at| End::Node(NodeId(grid.first + grid.offset(at))));
-                self.conductor(&name, ConductorKind::Conduction, (ends[0], ends[1]), path.clone());
+                self.conductor(&name, Kind::Conduction, (ends[0], ends[1]), path.clone());
             }
         }
         self.inner_conductors(first, whole);
@@ -210,7 +209,7 @@ impl NetworkBuilder {
             let surface = self.massless(&format!("{}{indices}", known.face_name(face)));
             let cell = End::Node(NodeId(known.first + known.offset(at)));
             let name = format!("{}.cell{indices}", known.face_name(face));
-            self.conductor(&name, ConductorKind::Conduction, (cell, surface.into()), path.clone());
+            self.conductor(&name, Kind::Conduction, (cell, surface.into()), path.clone());
             nodes.push(surface);
         }
         let end = u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
@@ -233,10 +232,8 @@ impl Grid {
         let share = counts.iter().product::<f64>().recip();
         let area = product(sides.into_iter().chain([Value::Constant(share)]).collect());
         let thickness = scaled(&self.size[axis], part / self.cells[axis] as f64);
-        let shape = Shape::Slab {
-            area: typed(area, Dimension::AREA),
-            thickness: typed(thickness, Dimension::LENGTH),
-        };
-        Path::Conduction(typed(self.conductivity[axis].clone(), Dimension::CONDUCTIVITY), shape)
+        let k = typed(self.conductivity[axis].clone(), Dimension::CONDUCTIVITY);
+        let (area, thickness) = (typed(area, Dimension::AREA), typed(thickness, Dimension::LENGTH));
+        Path::new(Formula::Slab, [k, area, thickness])
     }
 }

@@ -1,14 +1,13 @@
 //! Paths that end at faces of grids: one for each cell of the face.
 
+use lptn_laws::{Extent, Kind};
 use lptn_units::Dimension;
 
 use crate::builder::{NetworkBuilder, Path};
-use crate::element::ConductorKind;
 use crate::error::BuildErrorKind;
 use crate::grid::Face;
 use crate::grid::build::{product, scaled, typed};
 use crate::id::{BoundaryId, ConductorId, End, GridId, Item, JointId, NodeId};
-use crate::law::{Exchange, Shape};
 use crate::network::Network;
 use crate::parts::Parts;
 use crate::value::{Input, Value};
@@ -61,7 +60,7 @@ pub struct Joint {
     /// Its name.
     pub name: String,
     /// Its kind.
-    pub kind: ConductorKind,
+    pub kind: Kind,
     /// The end that positive heat leaves.
     pub from: Terminal,
     /// The end that positive heat enters.
@@ -132,7 +131,7 @@ impl NetworkBuilder {
     pub fn connect(
         &mut self,
         name: &str,
-        kind: ConductorKind,
+        kind: Kind,
         (from, to): (impl Into<Terminal>, impl Into<Terminal>),
         path: Path,
     ) -> Item {
@@ -144,7 +143,7 @@ impl NetworkBuilder {
         let first = self.next_conductor();
         let (name, area) = (name.to_owned(), path.area());
         let joint = Joint { name, kind, from, to, area, first, end: first };
-        match self.joint_problem(&joint, item) {
+        match self.joint_problem(&joint, item, path.is_stream()) {
             Some(problem) => {
                 self.error(&joint.name, problem);
                 self.register(&joint.name, item);
@@ -190,12 +189,12 @@ impl NetworkBuilder {
     }
 
     /// Why a path cannot end where it should.
-    fn joint_problem(&self, joint: &Joint, item: Item) -> Option<BuildErrorKind> {
+    fn joint_problem(&self, joint: &Joint, item: Item, stream: bool) -> Option<BuildErrorKind> {
         let faces: Vec<GridFace> = joint.faces().collect();
         if faces.iter().any(|at| at.grid.index() >= self.parts.grids.len()) {
             return Some(BuildErrorKind::ForeignId { item });
         }
-        if joint.kind == ConductorKind::Advection {
+        if stream {
             return Some(BuildErrorKind::StreamIntoFace { item });
         }
         let [a, b] = faces[..] else { return None };
@@ -230,39 +229,17 @@ impl NetworkBuilder {
 impl Path {
     /// The area that it names.
     fn area(&self) -> Option<Value> {
-        let area = match self {
-            Self::Film(_, area)
-            | Self::Conduction(_, Shape::Slab { area, .. })
-            | Self::Radiation(Exchange::Surfaces { area, .. }) => area,
-            _ => return None,
-        };
-        Some(area.value.clone())
+        let key = self.formula().declaration().area.first()?;
+        Some(self.value(key)?.value.clone())
     }
 
     /// One of `count` equal parts of it, side by side.
     fn shared(self, count: f64) -> Self {
-        let part = |input: Input| Input { value: scaled(&input.value, 1.0 / count), ..input };
-        match self {
-            Self::Resistance(r) => {
-                let value = scaled(&r.value, count);
-                Self::Resistance(Input { value, ..r })
-            }
-            Self::Conductance(g) => Self::Conductance(part(g)),
-            Self::Film(h, area) => Self::Film(h, part(area)),
-            Self::Conduction(k, Shape::Slab { area, thickness }) => {
-                Self::Conduction(k, Shape::Slab { area: part(area), thickness })
-            }
-            Self::Conduction(k, Shape::Cylinder { inner, outer, length }) => {
-                Self::Conduction(k, Shape::Cylinder { inner, outer, length: part(length) })
-            }
-            // no measure of a ball or of a bar is proportional to its conductance
-            Self::Conduction(k, shape) => Self::Conduction(part(k), shape),
-            Self::Radiation(Exchange::Area(gr)) => Self::Radiation(Exchange::Area(part(gr))),
-            Self::Radiation(Exchange::Surfaces { emissivity, area, view_factor }) => {
-                let area = part(area);
-                Self::Radiation(Exchange::Surfaces { emissivity, area, view_factor })
-            }
-            Self::Advection(stream) => Self::Advection(stream),
+        let times = |factor: f64| move |input: Input| Input { value: scaled(&input.value, factor), ..input };
+        match self.formula().declaration().extent {
+            Extent::Divided(key) => self.with(key, times(1.0 / count)),
+            Extent::Multiplied(key) => self.with(key, times(count)),
+            Extent::Whole => self,
         }
     }
 }

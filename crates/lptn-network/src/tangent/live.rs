@@ -1,7 +1,6 @@
 //! What depends on the parameters that a network is differentiated by.
 
 use crate::id::{BoundaryId, ConductorId, ControlId, Item, NodeId, ParameterId, SignalId, SourceId};
-use crate::law::Law;
 use crate::layout::{Holds, slot};
 use crate::network::Network;
 use crate::signal::Course;
@@ -62,14 +61,9 @@ impl<'a> Live<'a> {
             crate::End::Boundary(id) => self.boundary(id),
             crate::End::Node(_) => false,
         });
-        let fluid = match &conductor.law {
-            Law::Advection(stream) => stream.fluid(),
-            _ => None,
-        };
-        let fluid = fluid.map(|id| &self.network.fluids()[id.index()]);
+        let fluid = conductor.law.fluid().map(|id| &self.network.fluids()[id.index()]);
         let properties = fluid.into_iter().flat_map(|fluid| fluid.density.iter().chain([&fluid.cp]));
-        let values = || conductor.law.parts().into_iter().map(|(_, value)| value);
-        ends || !conductor.law.is_number() && values().any(|v| self.value(v))
+        ends || !conductor.law.is_number() && conductor.law.values().iter().any(|v| self.value(v))
             || properties.into_iter().any(|v| self.value(v))
     }
 

@@ -87,7 +87,7 @@ impl Elements {
         let mut inputs = Mat::zeros(nodes, boundaries + network.sources().len());
         let mut scope = network.evaluation();
         for conductor in network.conductors() {
-            let g = conductor.law.conductance(&mut scope)?;
+            let g = conductor.law.conductance_at(&mut scope)?;
             match (conductor.from, conductor.to) {
                 (End::Node(a), End::Node(b)) => {
                     among[(a.index(), b.index())] += g;

@@ -1,6 +1,7 @@
-//! `[advection]` and `[fluid]`: streams and what they are made of.
+//! `[fluid]`: what streams are made of.
 
-use lptn_network::{Field, FluidId, Input, Item, Path, Stream};
+use lptn_laws::{Carries, Formula};
+use lptn_network::{Field, FluidId, Input, Item};
 use lptn_units::{Dimension, Quantity, Type, suggest};
 
 use crate::diagnostic::Diagnostic;
@@ -8,14 +9,8 @@ use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample};
 use crate::library::{self, Record};
 use crate::raw::{RawEntry, RawValue};
-use crate::section::conductor::check_forms;
-use crate::value::{Given, Place, Wanted};
+use crate::value::Wanted;
 use crate::vocabulary::FLUID;
-
-const FORMS: &[&[&str]] = &[&["mcp"], &["fluid", "flow"]];
-
-const MASS_FLOW: Type = Type::of(Dimension::MASS_FLOW);
-const VOLUME_FLOW: Type = Type::of(Dimension::VOLUME_FLOW);
 
 /// A fluid in use or ready to be.
 #[derive(Clone, Copy, Debug)]
@@ -57,61 +52,25 @@ impl<'a> Elaboration<'a> {
         Some(())
     }
 
-    /// The law of a stream.
-    pub(crate) fn advection(&mut self, fields: &Fields<'a>) -> Option<Path> {
-        self.problems.extend(check_forms(fields, FORMS));
-        let rate = self.law(fields, "mcp", Type::of(Dimension::CONDUCTANCE));
-        let fluid = fields.get("fluid").and_then(|raw| self.used_fluid(fields, raw));
-        let flow = fields.get("flow").and_then(|raw| self.flow(fields, raw));
-        let measured = self.law(fields, "flow_T", Type::ABSOLUTE_TEMPERATURE);
-        let begun = ["fluid", "flow"].into_iter().any(|key| fields.get(key).is_some());
-        if let Some(rate) = rate.filter(|_| !begun) {
-            self.refuse_keys(fields, &["flow_T"], "belongs to a volume flow of a fluid");
-            return Some(Path::Advection(Stream::Capacity(rate)));
+    /// The fluid of a stream; one whose volume is given needs a density.
+    pub(crate) fn fluid_for(
+        &mut self,
+        fields: &Fields<'a>,
+        law: Formula,
+        (fluid, name, raw): (KnownFluid, &'a str, &'a RawValue),
+    ) -> Option<FluidId> {
+        let Carries::VolumeFlow(measured) = law.declaration().carries else { return Some(fluid.id) };
+        if fluid.density || !fields.has(measured) {
+            return Some(fluid.id);
         }
-        let flow = flow?;
-        if flow.ty().conforms_to(MASS_FLOW) {
-            self.refuse_keys(fields, &["flow_T"], "has no effect: `flow` is a mass flow");
-            return Some(Path::Advection(Stream::Mass { fluid: fluid?.0.id, flow: flow.input() }));
-        }
-        let Some(at) = measured else {
-            if fields.complete {
-                self.report(no_flow_temperature(fields));
-            }
-            return None;
-        };
-        let (fluid, name, raw) = fluid?;
-        if !fluid.density {
-            let message =
-                format!("{} needs `density` of fluid `{name}`, which has none", fields.owner.words());
-            let problem = Diagnostic::error("netlist::no_property", message).at(raw.span.clone(), "");
-            self.report(
-                problem.help(format!("add `{}` to the fluid, or give a mass flow", sample("density"))),
-            );
-            return None;
-        }
-        Some(Path::Advection(Stream::Volume { fluid: fluid.id, flow: flow.input(), at }))
-    }
-
-    /// A mass flow or a volume flow.
-    fn flow(&mut self, fields: &Fields<'a>, raw: &'a RawValue) -> Option<Given> {
-        let place = Place { owner: &fields.owner, key: "flow", raw };
-        let given = self.given(place, Wanted::of_link(None))?;
-        let found = given.ty();
-        if found.conforms_to(MASS_FLOW) || found.conforms_to(VOLUME_FLOW) {
-            return Some(given);
-        }
-        let message =
-            format!("{} must be a mass flow or a volume flow, got {}", place.words(), found.with_article());
-        let problem = Diagnostic::error("netlist::flow_unit", message).at(raw.span.clone(), "");
-        self.report(problem.help(
-            "write it like this: `flow = \"0.05 kg/s\"`, or `flow = \"3 L/min\"` with `flow_T = \"20 degC\"`",
-        ));
+        let message = format!("{} needs `density` of fluid `{name}`, which has none", fields.owner.words());
+        let problem = Diagnostic::error("netlist::no_property", message).at(raw.span.clone(), "");
+        self.report(problem.help(format!("add `{}` to the fluid, or give a mass flow", sample("density"))));
         None
     }
 
     /// A fluid of the file, else of the library.
-    fn used_fluid(
+    pub(crate) fn used_fluid(
         &mut self,
         fields: &Fields<'a>,
         raw: &'a RawValue,
@@ -176,14 +135,4 @@ impl<'a> Elaboration<'a> {
         let main = self.raw.top.span.file;
         unused.filter(|entry| entry.key_span.file == main).map(warning).collect()
     }
-}
-
-fn no_flow_temperature(fields: &Fields<'_>) -> Diagnostic {
-    let message = format!("{} is a volume flow without `flow_T`", fields.owner.field("flow"));
-    let problem = Diagnostic::error("netlist::flow_temperature", message);
-    let span = fields.get("flow").map_or(fields.place, |raw| &raw.span);
-    problem.at(span.clone(), "").help(format!(
-        "say at which temperature the volume is measured, `{}`, or give a mass flow",
-        sample("flow_T")
-    ))
 }

@@ -1,0 +1,279 @@
+//! How a kind of path and a law are declared: everything that netlists, checks, documents and analyses know of them
+//! follows from here.
+
+use lptn_units::{Scalar, Type};
+
+use crate::{Formula, Kind};
+
+/// A law: what it declares, and its formula.
+pub trait Law {
+    /// What is known of it.
+    const DECLARATION: LawDeclaration;
+
+    /// Its value in SI units, of what [`LawDeclaration::carries`] says.
+    ///
+    /// * `values`: one for each of its [fields](LawDeclaration::fields), in their order, in SI units
+    /// * `ends`: temperatures of `from` and `to` in K, which only laws with [`LawDeclaration::reads_ends`] read
+    ///
+    /// A formula checks nothing: who calls it refuses what is outside the ranges of the fields. Inside them, value and
+    /// derivatives are finite.
+    fn value<S: Scalar>(values: &[S], ends: [S; 2]) -> S;
+}
+
+/// What is known of a law.
+#[derive(Debug)]
+pub struct LawDeclaration {
+    /// Its name in one word; where a key chooses among the laws of a kind, the word for that.
+    pub name: &'static str,
+    /// What it is, in one sentence.
+    pub sentence: &'static str,
+    /// The equation in text.
+    pub equation: &'static str,
+    /// The kinds of path that obey it.
+    pub kinds: &'static [Kind],
+    /// What it takes. Two in a row with one key are given as a list of two.
+    pub fields: &'static [Field],
+    /// What its value is.
+    pub carries: Carries,
+    /// Whether its value depends on the temperatures of the ends even where all fields are constant.
+    pub reads_ends: bool,
+    /// How its value follows from its fields, as far as it can be told whether heat rises with temperature.
+    pub form: Form,
+    /// Two keys of lengths of which the first has to be shorter.
+    pub ordered: Option<[&'static str; 2]>,
+    /// The keys whose product is the area of its surface; the first is the area itself.
+    pub area: &'static [&'static str],
+    /// What is divided where the path becomes equal ones side by side.
+    pub extent: Extent,
+    /// Keys of other laws of its kinds that mean nothing beside its own, with the reason.
+    pub idle: &'static [(&'static str, &'static str)],
+    /// Where it holds.
+    pub validity: &'static str,
+    /// Where it was published.
+    pub source: &'static str,
+    /// How sure its formula and constants are.
+    pub confidence: Confidence,
+}
+
+/// What the value of a law is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Carries {
+    /// A conductance G in W/K: q = G (T_from - T_to).
+    Conductance,
+    /// An exchange area Gr in m^2: q = sigma Gr (T_from^4 - T_to^4).
+    Radiation,
+    /// A capacity rate in W/K of a stream from `from` to `to`, one way.
+    CapacityRate,
+    /// A mass flow in kg/s of a fluid.
+    MassFlow,
+    /// A volume flow in m^3/s of a fluid, measured at the temperature that the field of this key gives.
+    VolumeFlow(&'static str),
+}
+
+impl Carries {
+    /// Whether it is a stream, whose heat goes one way.
+    pub fn is_stream(self) -> bool {
+        !matches!(self, Self::Conductance | Self::Radiation)
+    }
+
+    /// Whether it needs a fluid.
+    pub fn is_of_fluid(self) -> bool {
+        matches!(self, Self::MassFlow | Self::VolumeFlow(_))
+    }
+}
+
+/// How a value follows from fields.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// It is their product.
+    Product,
+    /// It is the reciprocal of the only one.
+    Reciprocal,
+    /// In another way.
+    Other,
+}
+
+/// What is divided where a path becomes equal ones side by side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// Each has a part of the field of this key.
+    Divided(&'static str),
+    /// Each has as many times the field of this key.
+    Multiplied(&'static str),
+    /// It cannot be divided.
+    Whole,
+}
+
+/// How sure a formula and its constants are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Confidence {
+    /// Read in the source and checked against its numbers.
+    High,
+    /// Constants that were not read in the primary source.
+    Medium,
+}
+
+/// A value that a law takes.
+#[derive(Clone, Copy, Debug)]
+pub struct Field {
+    /// Its key in a netlist.
+    pub key: &'static str,
+    /// What it has to be.
+    pub ty: Type,
+    /// Which numbers it may be.
+    pub range: Range,
+    /// Its value where it is left out; `None` where it must be given.
+    pub default: Option<f64>,
+    /// What it means, in a few words.
+    pub meaning: &'static str,
+    /// The right side of the key in a netlist, as an example.
+    pub example: &'static str,
+    /// What to do about a number outside its range.
+    pub hints: Hints,
+    /// Whether it is a property of a body: `material` may be named in its place, and its expression may read `T`, the mean
+    /// temperature of the ends.
+    pub property: bool,
+}
+
+impl Field {
+    /// A value above 0.
+    pub const fn new(key: &'static str, ty: Type, meaning: &'static str, example: &'static str) -> Self {
+        let (range, hints) = (Range::Positive, Hints::SIGN);
+        Self { key, ty, range, default: None, meaning, example, hints, property: false }
+    }
+
+    /// A length or an area of a body.
+    pub const fn measure(key: &'static str, ty: Type, meaning: &'static str, example: &'static str) -> Self {
+        Self { hints: Hints::MEASURE, ..Self::new(key, ty, meaning, example) }
+    }
+}
+
+/// Which numbers a field may be. During a run, where it may depend on time and temperatures, 0 is allowed as well.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Range {
+    /// Any.
+    Finite,
+    /// Above 0.
+    Positive,
+    /// Above 0, at most 1.
+    Fraction,
+    /// An absolute temperature, at least 0 K.
+    Temperature,
+}
+
+/// What to do about a number that is not above 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Hints {
+    /// It is 0.
+    pub zero: &'static str,
+    /// It is negative.
+    pub negative: &'static str,
+    /// It is not finite.
+    pub infinite: &'static str,
+}
+
+impl Hints {
+    /// Of what may be of either sign by mistake.
+    pub const SIGN: Self = Self {
+        zero: "check the sign: heat flows from the warm to the cold end, whichever is named first",
+        negative: "check the sign: heat flows from the warm to the cold end, whichever is named first",
+        infinite: "something is divided by zero, or a number is too large",
+    };
+    /// Of what carries the more heat the larger it is.
+    pub const CONDUCTS: Self = Self { zero: "leave the path out if no heat flows through it", ..Self::SIGN };
+    /// Of what carries the less heat the larger it is.
+    pub const RESISTS: Self = Self {
+        zero: "two places without resistance between them are one node: make them one",
+        infinite: "leave the path out if no heat flows through it",
+        ..Self::SIGN
+    };
+    /// Of a measure of a body.
+    pub const MEASURE: Self = Self {
+        zero: "a body has measures of more than zero",
+        negative: "a body has measures of more than zero",
+        ..Self::SIGN
+    };
+    /// Of a property of a body.
+    pub const PROPERTY: Self = Self {
+        zero: "a body has a mass, a volume and properties of more than zero",
+        negative: "a body has a mass, a volume and properties of more than zero",
+        ..Self::SIGN
+    };
+}
+
+/// What is known of a kind of path: a section of the netlist.
+#[derive(Debug)]
+pub struct KindDeclaration {
+    /// The section, which is also what a path of it is called.
+    pub section: &'static str,
+    /// What it is, in one sentence.
+    pub sentence: &'static str,
+    /// The key whose word chooses among its laws, where their fields do not.
+    pub selector: Option<&'static str>,
+    /// The right side of a path of it, for help.
+    pub example: &'static str,
+    /// Keys that belong elsewhere, with what to write instead.
+    pub elsewhere: &'static [(&'static str, &'static str)],
+    /// Keys that are decided but not supported yet.
+    pub later: &'static [&'static str],
+    /// Which surface of a body it is, if any.
+    pub surface: Option<Surface>,
+}
+
+/// A surface through which a body gives off heat. What convects also radiates: their areas are the same skin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Surface {
+    /// It convects.
+    Wetted,
+    /// It touches another body.
+    Touching,
+    /// It radiates.
+    Seen,
+}
+
+impl Kind {
+    /// The laws that its paths obey, in the order of the list.
+    pub fn laws(self) -> impl Iterator<Item = Formula> {
+        Formula::ALL.iter().copied().filter(move |law| law.declaration().kinds.contains(&self))
+    }
+
+    /// Whether its paths are streams, whose two ends receive different heats.
+    pub fn is_stream(self) -> bool {
+        self.laws().any(|law| law.declaration().carries.is_stream())
+    }
+
+    /// Its fields, each key once: those that all its laws take come first.
+    pub fn fields(self) -> Vec<&'static Field> {
+        let mut fields: Vec<&'static Field> = Vec::new();
+        for field in self.laws().flat_map(|law| law.declaration().fields) {
+            if fields.iter().all(|known| known.key != field.key) {
+                fields.push(field);
+            }
+        }
+        fields.sort_by_key(|field| !self.laws().all(|law| law.field(field.key).is_some()));
+        fields
+    }
+}
+
+impl Formula {
+    /// Its field of this key.
+    pub fn field(self, key: &str) -> Option<&'static Field> {
+        self.declaration().fields.iter().find(|field| field.key == key)
+    }
+
+    /// The position of a key among its fields.
+    pub fn position(self, key: &str) -> Option<usize> {
+        self.declaration().fields.iter().position(|field| field.key == key)
+    }
+
+    /// The largest number of fields that a law has.
+    pub const MOST_FIELDS: usize = {
+        let (mut most, mut i) = (0, 0);
+        while i < Self::ALL.len() {
+            let count = Self::ALL[i].declaration().fields.len();
+            most = if count > most { count } else { most };
+            i += 1;
+        }
+        most
+    };
+}

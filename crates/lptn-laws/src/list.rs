@@ -1,0 +1,55 @@
+//! The one list of kinds and laws. A new one is its file and its word here; everything else follows from what the file
+//! declares.
+
+use lptn_units::Scalar;
+
+use crate::declare::{KindDeclaration, Law, LawDeclaration};
+
+macro_rules! declare {
+    ($($module:ident: $($kind:ident)? { $($law:ident),* };)*) => {
+        /// A kind of path: the section of the netlist that it stands in, in the order in which their columns stand.
+        #[allow(missing_docs, reason = "its declaration says what it is")]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Kind { $($($kind,)?)* }
+
+        impl Kind {
+            /// All of them.
+            pub const ALL: &[Self] = &[$($(Self::$kind,)?)*];
+
+            /// What is known of it.
+            pub const fn declaration(self) -> &'static KindDeclaration {
+                match self { $($(Self::$kind => &crate::$module::$kind,)?)* }
+            }
+        }
+
+        /// A law by which a path carries heat.
+        #[allow(missing_docs, reason = "its declaration says what it is")]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Formula { $($($law,)*)* }
+
+        impl Formula {
+            /// All of them.
+            pub const ALL: &[Self] = &[$($(Self::$law,)*)*];
+
+            /// What is known of it.
+            pub const fn declaration(self) -> &'static LawDeclaration {
+                match self { $($(Self::$law => &<crate::$module::$law as Law>::DECLARATION,)*)* }
+            }
+
+            /// Its value, as [`Law::value`].
+            #[inline]
+            pub fn value<S: Scalar>(self, values: &[S], ends: [S; 2]) -> S {
+                match self { $($(Self::$law => <crate::$module::$law as Law>::value(values, ends),)*)* }
+            }
+        }
+    };
+}
+
+declare! {
+    resistor: Resistor { Resistance, Conductance };
+    conduction: Conduction { Slab, Cylinder, Sphere, Rod };
+    convection: Convection { Film };
+    contact: Contact {};
+    radiation: Radiation { ExchangeArea, GreySurfaces, ParallelPlates };
+    advection: Advection { CapacityRate, MassFlow, VolumeFlow };
+}

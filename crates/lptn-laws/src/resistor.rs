@@ -1,0 +1,77 @@
+//! `[resistor]`: paths given by their resistance or conductance.
+
+use lptn_units::{Dimension, Scalar, Type};
+
+use crate::Kind;
+use crate::declare::{Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration};
+
+/// The kind.
+#[allow(non_upper_case_globals, reason = "named as in the list")]
+pub(crate) const Resistor: KindDeclaration = KindDeclaration {
+    section: "resistor",
+    sentence: "A path that is given by its resistance or conductance.",
+    selector: None,
+    example: "{ from = \"a\", to = \"b\", R = \"0.3 K/W\" }",
+    elsewhere: &[
+        ("k", "a conductivity with a shape belongs in [conduction]"),
+        ("h", "a film coefficient with an area belongs in [convection]"),
+        ("area", "a film coefficient with an area belongs in [convection]"),
+    ],
+    later: &[],
+    surface: None,
+};
+
+/// A thermal resistance.
+#[derive(Debug)]
+pub(crate) struct Resistance;
+
+impl Law for Resistance {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "resistance",
+        sentence: "The heat is the difference of the temperatures over a resistance.",
+        equation: "Q = (T_from - T_to) / R",
+        kinds: &[Kind::Resistor, Kind::Convection],
+        fields: &[Field {
+            hints: Hints::RESISTS,
+            ..Field::new("R", Type::of(Dimension::RESISTANCE), "thermal resistance", "\"0.3 K/W\"")
+        }],
+        carries: Carries::Conductance,
+        reads_ends: false,
+        form: Form::Reciprocal,
+        ordered: None,
+        area: &[],
+        extent: Extent::Multiplied("R"),
+        validity: "By definition.",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 3.6",
+        idle: &[],
+        confidence: Confidence::High,
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        S::from_f64(1.0) / values[0]
+    }
+}
+
+/// A thermal conductance.
+#[derive(Debug)]
+pub(crate) struct Conductance;
+
+impl Law for Conductance {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "conductance",
+        sentence: "The heat is a conductance times the difference of the temperatures.",
+        equation: "Q = G (T_from - T_to)",
+        kinds: &[Kind::Resistor],
+        fields: &[Field {
+            hints: Hints::CONDUCTS,
+            ..Field::new("G", Type::of(Dimension::CONDUCTANCE), "thermal conductance", "\"3 W/K\"")
+        }],
+        form: Form::Product,
+        extent: Extent::Divided("G"),
+        ..Resistance::DECLARATION
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        values[0]
+    }
+}

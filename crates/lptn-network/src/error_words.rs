@@ -1,0 +1,170 @@
+//! What build errors call things, and the parts of their sentences.
+
+use std::fmt::Display;
+
+use lptn_laws::Formula;
+use lptn_units::{Dimension, EvalError, format_short};
+
+use crate::id::{Field, Item};
+use crate::typed::ZERO_CELSIUS;
+
+/// What items are called where an error is told: a netlist calls a conductor by its section.
+pub trait Naming {
+    /// The word for an item.
+    fn kind(&self, item: Item) -> &'static str {
+        item.word()
+    }
+
+    /// The words for a field that is not the item's own, such as a default.
+    fn elsewhere(&self, item: Item, field: Field) -> Option<&'static str> {
+        let _ = (item, field);
+        None
+    }
+}
+
+/// The words for items in general.
+struct Plain;
+
+impl Naming for Plain {}
+
+/// The words for one error.
+pub struct Say<'a> {
+    /// The name of what it is about.
+    pub name: &'a str,
+    naming: &'a dyn Naming,
+}
+
+impl<'a> Say<'a> {
+    /// The words for what has this name.
+    pub fn new(name: &'a str) -> Self {
+        Self { name, naming: &Plain }
+    }
+
+    /// The same, with what somebody else calls items.
+    pub fn with(name: &'a str, naming: &'a dyn Naming) -> Self {
+        Self { name, naming }
+    }
+
+    pub(crate) fn kind(&self, item: Item) -> &'static str {
+        self.naming.kind(item)
+    }
+
+    /// "resistor `wall`"
+    pub(crate) fn item(&self, item: Item) -> String {
+        format!("{} `{}`", self.kind(item), self.name)
+    }
+
+    /// "`R` of resistor `wall`"
+    pub(crate) fn field(&self, item: Item, field: Field) -> String {
+        match (self.naming.elsewhere(item, field), field) {
+            (Some(words), _) => words.to_owned(),
+            (None, Field::Value | Field::Name) => self.item(item),
+            (None, _) => format!("`{}` of {}", field.key(), self.item(item)),
+        }
+    }
+}
+
+/// What to do where a name is taken twice.
+pub(crate) fn unused_name(first: Item, name: &str) -> String {
+    let kinds = match first {
+        Item::Parameter(_) | Item::Signal(_) | Item::Control(_) | Item::Table(_) | Item::Report(_) => {
+            "parameters, signals, controls, tables and reports"
+        }
+        _ => "nodes and elements",
+    };
+    format!("rename one of them, for example `{name}_2`; {kinds} share one set of names")
+}
+
+/// Whose part or result has the name of something else.
+pub(crate) fn inside(say: &Say<'_>, item: Item, whole: Item) -> String {
+    let words = say.item(item);
+    match whole {
+        Item::Grid(_) => {
+            format!("{words} has a name that belongs to a grid, as those of its cells and faces do")
+        }
+        other => format!("{words} has the name of a result: that of a {}", say.kind(other)),
+    }
+}
+
+/// The thresholds of a control for on and off, in K, in the wrong order.
+pub(crate) fn crossed(words: &str, fields: [Field; 2], (on, off): (f64, f64)) -> String {
+    let [on_key, off_key] = fields.map(Field::key);
+    let celsius = |kelvin: f64| format_short(kelvin - ZERO_CELSIUS);
+    if off.total_cmp(&on).is_eq() {
+        return format!("`{on_key}` and `{off_key}` of {words} are one temperature, {} degC", celsius(on));
+    }
+    let (on, off) = (celsius(on), celsius(off));
+    format!("`{on_key}` and `{off_key}` of {words} are crossed over: on at {on} degC, off at {off} degC")
+}
+
+pub(crate) fn in_unit(value: f64, field: Field) -> String {
+    let dimension = match field {
+        Field::Capacity => Dimension::CAPACITY,
+        Field::Mass => Dimension::MASS,
+        Field::Volume => Dimension::VOLUME,
+        Field::Density => Dimension::DENSITY,
+        Field::SpecificHeat => Dimension::SPECIFIC_HEAT,
+        Field::Conductivity => Dimension::CONDUCTIVITY,
+        Field::Size | Field::CharacteristicLength => Dimension::LENGTH,
+        Field::Law(law) if !law.ty.absolute && !law.ty.is_scalar() => law.ty.dimension,
+        Field::LatentHeat => Dimension::SPECIFIC_ENERGY,
+        Field::MinDwell => Dimension::TIME,
+        _ => return format_short(value),
+    };
+    format!("{} {}", format_short(value), dimension.si_unit())
+}
+
+pub(crate) fn not_positive(field: Field, value: f64) -> &'static str {
+    let zero = value.abs() < f64::MIN_POSITIVE;
+    match field {
+        Field::Law(law) if !value.is_finite() => law.hints.infinite,
+        _ if !value.is_finite() => "something is divided by zero, or a number is too large",
+        Field::Law(law) if zero => law.hints.zero,
+        Field::Law(law) => law.hints.negative,
+        Field::Capacity if zero => "a node that stores nothing is `{ massless = true }`",
+        Field::Capacity => "check the sign: heat that is stored makes a body warmer",
+        Field::Mass | Field::Volume | Field::Density | Field::SpecificHeat | Field::Conductivity => {
+            "a body has a mass, a volume and properties of more than zero"
+        }
+        Field::Size | Field::CharacteristicLength => "a body has measures of more than zero",
+        Field::LatentHeat => "melting takes up heat: give it as a positive number",
+        _ => "check the sign: heat flows from the warm to the cold end, whichever is named first",
+    }
+}
+
+pub(crate) fn evaluation(error: &EvalError) -> Option<String> {
+    let help = match error {
+        EvalError::NotFinite { .. } => "something is divided by zero, or a number is too large",
+        EvalError::NegativeBase { .. } => {
+            "a negative number has no such power; use `abs(..)` if the sign does not count"
+        }
+        EvalError::Domain { .. } => "check the sign of its argument",
+        EvalError::OutsideTable { .. } => return error.help().map(str::to_owned),
+        _ => return None,
+    };
+    Some(help.to_owned())
+}
+
+/// A name that is like this one and can be used.
+pub(crate) fn usable(name: &str) -> String {
+    let letters = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
+    let name: String = letters.collect();
+    if name.starts_with(|c: char| c.is_ascii_digit()) || name.is_empty() { format!("_{name}") } else { name }
+}
+
+/// "1 x 2": counts or lengths along the axes.
+pub(crate) fn by(numbers: &[impl Display]) -> String {
+    numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(" x ")
+}
+
+/// "0.1 x 0.2 m = 0.02 m^2"
+pub(crate) fn area(sides: [f64; 2]) -> String {
+    let rounded = |value: f64| format!("{value:.9e}").parse().unwrap_or(value);
+    format!("{} m = {} m^2", by(&sides.map(rounded)), rounded(sides[0] * sides[1]))
+}
+
+/// The keys of a law's fields.
+pub(crate) fn keys(formula: Formula) -> String {
+    let keys = formula.declaration().fields.iter().map(|field| format!("`{}`", field.key));
+    keys.collect::<Vec<_>>().join(", ")
+}

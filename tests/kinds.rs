@@ -1,0 +1,326 @@
+//! Property: what follows from the declaration of a kind or a law, for each of them. Their numbers are tested against
+//! closed forms elsewhere (`elements.rs`, `crates/lptn-laws/tests`); here derivatives are compared with differences and
+//! what is written with what is read.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use std::path::{Path, PathBuf};
+
+use lptn::laws::{Field, Formula, Kind, Range};
+use lptn::netlist::Netlist;
+use lptn::network::{ConductorId, Flow, Network};
+use lptn::units::{parse_quantity, suggest};
+
+/// Every kind with each of its laws.
+fn all() -> Vec<(Kind, Formula)> {
+    Kind::ALL.iter().flat_map(|kind| kind.laws().map(|law| (*kind, law))).collect()
+}
+
+fn words((kind, law): (Kind, Formula)) -> String {
+    format!("[{}] {}", kind.declaration().section, law.declaration().name)
+}
+
+/// An example as it stands in a netlist, and as an expression with a factor.
+fn example(field: &Field) -> String {
+    field.example.to_owned()
+}
+
+fn times(field: &Field, factor: &str) -> String {
+    let number = si(field);
+    match field.ty {
+        ty if ty.absolute => format!("\"absolute({factor} * {number} [K])\""),
+        ty if ty.is_scalar() => format!("\"{factor} * {number}\""),
+        ty => format!("\"{factor} * {number} [{}]\"", ty.dimension.si_unit()),
+    }
+}
+
+/// The example in SI units.
+fn si(field: &Field) -> f64 {
+    parse_quantity(field.example.trim_matches('"'), Some(field.ty)).unwrap().value
+}
+
+/// Two nodes of different temperatures, joined by a path of this kind and law.
+fn netlist((kind, law): (Kind, Formula), value: impl Fn(&Field) -> String) -> String {
+    let (declared, section) = (law.declaration(), kind.declaration());
+    let mut fields = vec!["from = \"a\", to = \"b\"".to_owned()];
+    fields.extend(section.selector.map(|key| format!("{key} = \"{}\"", declared.name)));
+    fields.extend(declared.carries.is_of_fluid().then(|| "fluid = \"oil\"".to_owned()));
+    for same in declared.fields.chunk_by(|a, b| a.key == b.key) {
+        let values: Vec<String> = same.iter().map(&value).collect();
+        fields.push(match values.as_slice() {
+            [one] => format!("{} = {one}", same[0].key),
+            several => format!("{} = [{}]", same[0].key, several.join(", ")),
+        });
+    }
+    format!(
+        "format = 1\n[param]\np = 1\n[fluid]\noil = {{ density = \"870 kg/m^3\", cp = \"(1900 + 3 * kelvin(T) / 1 [K]) * 1 [J/(kg K)]\" }}\n\
+         [node]\na = {{ T0 = \"80 degC\", C = \"1 kJ/K\" }}\nb = {{ T0 = \"30 degC\", C = \"1 kJ/K\" }}\n\
+         [boundary]\nair = {{ T = \"20 degC\" }}\n[resistor]\ncooling = {{ from = \"b\", to = \"air\", R = \"1 K/W\" }}\n\
+         [{}]\npath = {{ {} }}\n[run]\nstop = \"1 min\"\n",
+        section.section,
+        fields.join(", ")
+    )
+    .replace("[resistor]\npath", "path")
+}
+
+fn read(text: &str) -> Netlist {
+    lptn::parse("kinds.toml", text).unwrap_or_else(|rejected| panic!("{rejected}\n{text}"))
+}
+
+fn path(network: &Network) -> ConductorId {
+    network.conductor_ids().find(|id| network.conductors()[id.index()].name() == "path").unwrap()
+}
+
+#[test]
+fn every_law_belongs_to_a_kind_and_is_told_apart() {
+    for law in Formula::ALL {
+        let declared = law.declaration();
+        assert!(!declared.kinds.is_empty(), "no kind obeys {}", declared.name);
+        for text in [declared.sentence, declared.equation, declared.validity, declared.source] {
+            assert!(text.len() > 10, "{}: \"{text}\" says nothing", declared.name);
+        }
+        for key in declared.area.iter().chain(declared.ordered.iter().flatten()) {
+            assert!(law.field(key).is_some(), "{} has no field {key}", declared.name);
+        }
+        for field in declared.fields {
+            assert!(si(field).is_finite() && field.meaning.len() > 4, "{}", field.key);
+        }
+    }
+    for kind in Kind::ALL {
+        let mut names: Vec<&str> = kind.laws().map(|law| law.declaration().name).collect();
+        names.sort_unstable();
+        assert!(!names.is_empty() && names.windows(2).all(|two| two[0] != two[1]), "{names:?}");
+    }
+}
+
+#[test]
+fn every_law_is_read_as_it_is_declared() {
+    for of in all() {
+        let netlist = read(&netlist(of, example));
+        let conductor = &netlist.network.conductors()[path(&netlist.network).index()];
+        assert_eq!((conductor.kind, conductor.law.formula()), of, "{}", words(of));
+        let heats: &[&str] = if of.0.is_stream() { &["Q_from", "Q_to"] } else { &["Q"] };
+        for heat in heats {
+            read(&format!(
+                "{}[limit]\nmuch = {{ of = \"path.{heat}\", below = \"1 GW\" }}\n",
+                self::netlist(of, example)
+            ));
+        }
+    }
+}
+
+#[test]
+fn every_law_is_the_same_when_it_is_written_and_read_again() {
+    for of in all() {
+        for value in [example as fn(&Field) -> String, |field| times(field, "p * (1 + dT / 1000 [K])")] {
+            let first = read(&netlist(of, value));
+            let again = read(&first.expanded());
+            let [a, b] = [&first, &again].map(|netlist| heat(&netlist.network, [350.0, 310.0, 293.15]));
+            assert!((a[0] - b[0]).abs() + (a[1] - b[1]).abs() <= 1e-12 * a[1].abs(), "{}", words(of));
+            assert_eq!(again.expanded(), first.expanded(), "{}", words(of));
+        }
+    }
+}
+
+/// Heat received by the ends of the path.
+fn heat(network: &Network, temperatures: [f64; 3]) -> [f64; 2] {
+    let difference = temperatures[0] - temperatures[1];
+    match network.flow(path(network)) {
+        Flow::Conductance(g) => [-g * difference, g * difference],
+        Flow::Radiation(gr) => {
+            let q = 5.670_374_419e-8 * gr * (temperatures[0].powi(4) - temperatures[1].powi(4));
+            [-q, q]
+        }
+        Flow::Stream(rate) => [0.0, rate * difference],
+        Flow::Variable => network.exchange(path(network), &mut network.evaluation(), &temperatures).unwrap(),
+    }
+}
+
+fn close(found: f64, slope: f64, what: &str) {
+    assert!((found - slope).abs() <= 1e-5 * slope.abs().max(1e-3), "{what}: {found} is not {slope}");
+}
+
+#[test]
+fn every_law_knows_its_slopes() {
+    let at = [350.0, 310.0, 293.15];
+    for of in all() {
+        let network = read(&netlist(of, |field| times(field, "(1 + dT / 1000 [K])"))).network;
+        let (mut scope, mut slopes) = (network.evaluation(), Vec::new());
+        network.exchange_slopes(path(&network), &mut scope, &at, &mut slopes).unwrap();
+        for (k, slope) in slopes.iter().enumerate() {
+            let moved = |by: f64| {
+                let mut moved = at;
+                moved[k] += by;
+                heat(&network, moved)
+            };
+            let (up, down) = (moved(1e-3), moved(-1e-3));
+            (0..2).for_each(|end| close(slope[end], (up[end] - down[end]) / 2e-3, &words(of)));
+        }
+    }
+}
+
+#[test]
+fn every_law_knows_its_sensitivities() {
+    let at = [350.0, 310.0, 293.15];
+    for of in all() {
+        for field in of.1.declaration().fields {
+            let one = |own: &Field| if own.key == field.key { times(own, "p") } else { example(own) };
+            let network = read(&netlist(of, one)).network;
+            let p = network.parameter_ids().next().unwrap();
+            let mut found = vec![f64::NAN; 3];
+            let mut tangents = network.tangents(&[p]).unwrap();
+            tangents.heat(&network, &network.evaluation(), &at, &mut found).unwrap();
+            let moved = |by: f64| {
+                let mut given = network.given();
+                given.set(p, 1.0 + by);
+                heat(&network.with(&given).unwrap(), at)
+            };
+            let (up, down) = (moved(1e-4), moved(-1e-4));
+            let what = format!("{} by {}", words(of), field.key);
+            (0..2).for_each(|end| close(found[end], (up[end] - down[end]) / 2e-4, &what));
+        }
+    }
+}
+
+#[test]
+fn every_field_refuses_what_is_out_of_its_range() {
+    for of in all() {
+        for field in of.1.declaration().fields {
+            let factor = match field.range {
+                Range::Finite => continue,
+                Range::Positive | Range::Temperature => "-1",
+                Range::Fraction => "2",
+            };
+            let one = |own: &Field| if own.key == field.key { times(own, factor) } else { example(own) };
+            let rejected = lptn::parse("kinds.toml", &netlist(of, one)).unwrap_err();
+            let codes: Vec<&str> = rejected.diagnostics.iter().map(|d| d.code).collect();
+            let wanted = match field.range {
+                Range::Fraction => "network::not_a_fraction",
+                Range::Temperature => "network::below_absolute_zero",
+                _ => "network::not_positive",
+            };
+            assert!(codes.contains(&wanted), "{} {}: {codes:?}", words(of), field.key);
+        }
+    }
+}
+
+#[test]
+fn every_key_is_suggested_and_has_an_example() {
+    for (kind, law) in all() {
+        for field in law.declaration().fields {
+            let wrong = format!("{}x", field.key);
+            let keys: Vec<&str> = kind.fields().iter().map(|field| field.key).collect();
+            let near = suggest(&wrong, keys.iter().copied());
+            let text = netlist((kind, law), example).replacen(
+                &format!(" {} =", field.key),
+                &format!(" {wrong} ="),
+                1,
+            );
+            let rejected = lptn::parse("kinds.toml", &text).unwrap_err().to_string();
+            assert!(near.is_none_or(|near| rejected.contains(near)), "{rejected}");
+        }
+    }
+}
+
+fn page(kind: Kind) -> PathBuf {
+    let name = format!("{}.md", kind.declaration().section);
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/elements").join(name)
+}
+
+fn unit(field: &Field) -> String {
+    match field.ty {
+        ty if ty.absolute => "degC, K".to_owned(),
+        ty if ty.is_scalar() => String::new(),
+        ty => ty.dimension.si_unit(),
+    }
+}
+
+fn range(range: Range) -> &'static str {
+    match range {
+        Range::Finite => "of either sign",
+        Range::Positive => "above 0",
+        Range::Fraction => "above 0, at most 1",
+        Range::Temperature => "absolute",
+    }
+}
+
+/// What a page says of keys and laws.
+fn tables(kind: Kind) -> String {
+    let mut lines =
+        vec!["| Key | Meaning | Unit | Range | Default |".to_owned(), "|---|---|---|---|---|".to_owned()];
+    let ends = if kind.is_stream() { "" } else { ", or faces of a grid" };
+    lines.push(format!("| `from`, `to` | two nodes or boundaries{ends} | | | |"));
+    if kind.laws().any(|law| law.declaration().carries.is_of_fluid()) {
+        let of = "a [fluid](material.md) of the file or of the library: `air`, `water`, `gear_oil_vg220`, ..";
+        lines.push(format!("| `fluid` | {of} | | | |"));
+    }
+    if let Some(selector) = kind.declaration().selector {
+        let words: Vec<String> = kind.laws().map(|law| format!("`{}`", law.declaration().name)).collect();
+        lines.push(format!("| `{selector}` | the law: {} | | | |", words.join(", ")));
+    }
+    let mut known: Vec<&str> = Vec::new();
+    for field in kind.laws().flat_map(|law| law.declaration().fields) {
+        if known.contains(&field.meaning) {
+            continue;
+        }
+        known.push(field.meaning);
+        let key = if field.property {
+            format!("`{}` or `material`", field.key)
+        } else {
+            format!("`{}`", field.key)
+        };
+        let default = field.default.map_or(String::new(), |value| format!(" {value}"));
+        lines.push(format!(
+            "| {key} | {} | {} | {} |{default} |",
+            field.meaning,
+            unit(field),
+            range(field.range)
+        ));
+    }
+    lines.push(String::new());
+    lines.push("| Given by | Law | Holds | Source |".to_owned());
+    lines.push("|---|---|---|---|".to_owned());
+    for law in kind.laws() {
+        let declared = law.declaration();
+        let mut keys: Vec<&str> = declared.fields.iter().map(|field| field.key).collect();
+        let pair = keys.windows(2).any(|two| two[0] == two[1]);
+        keys.dedup();
+        let keys: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
+        let of = if declared.carries.is_of_fluid() { "`fluid`, " } else { "" };
+        let pair = if pair { " (a list of two)" } else { "" };
+        lines.push(format!(
+            "| {of}{}{pair} | {} | {} | {} |",
+            keys.join(", "),
+            declared.equation,
+            declared.validity,
+            declared.source
+        ));
+    }
+    lines.join("\n") + "\n"
+}
+
+/// `LPTN_BLESS=1` writes the tables anew, and the page of a new kind.
+#[test]
+fn every_kind_has_its_page() {
+    for kind in Kind::ALL {
+        let declared = kind.declaration();
+        let new = || {
+            let first = netlist((*kind, kind.laws().next().unwrap()), example);
+            let (name, sentence) = (declared.section, declared.sentence);
+            format!("# {name}\n\n{sentence}\n\n## Keys\n\n## Example\n\n```toml\n{first}```\n")
+        };
+        let text = std::fs::read_to_string(page(*kind)).unwrap_or_else(|_| new());
+        let (before, rest) = text.split_once("## Keys\n\n").unwrap();
+        let prose = rest.lines().skip_while(|line| line.starts_with('|') || line.is_empty());
+        let after: String = prose.map(|line| format!("{line}\n")).collect();
+        let wanted = format!("{before}## Keys\n\n{}\n{after}", tables(*kind));
+        if std::env::var_os("LPTN_BLESS").is_some() {
+            std::fs::write(page(*kind), &wanted).unwrap();
+        } else {
+            assert_eq!(
+                std::fs::read_to_string(page(*kind)).unwrap_or_default(),
+                wanted,
+                "LPTN_BLESS=1 writes it"
+            );
+        }
+    }
+}
