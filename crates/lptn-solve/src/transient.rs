@@ -159,6 +159,9 @@ impl<'a> Run<'a> {
         let books = Books::new(system.network(), settings.balance);
         let unsolved = |e| TransientError::Start(Unsolved::new(system, e));
         let mut heat = Heat::new(system, first.inside(), books.clone()).map_err(unsolved)?;
+        if !from.stood().is_empty() {
+            heat.stand_at(from.stood());
+        }
         let mut carried = Vec::new();
         if !settings.sensitivities.is_empty() {
             let tangent = Tangent::new(system, &settings.sensitivities)?;
@@ -377,7 +380,8 @@ impl<'a> Run<'a> {
         let books = self.books.close(system, work, &integrals, (stored, self.tolerance));
         let controls = self.switching.as_ref().map_or_else(Vec::new, Switching::controls);
         let events = self.switching.map_or_else(Vec::new, |switching| switching.events);
-        let end_state = State::of_carried(self.integrator.state().to_vec());
+        let stood = self.recorder.branch().to_vec();
+        let end_state = State::of_carried(self.integrator.state().to_vec()).standing(stood);
         let solution = self.recorder.into_solution(books, (statistics, events), end);
         Ok(Solution { end_state, controls, ..solution })
     }
