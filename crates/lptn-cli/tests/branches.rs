@@ -179,6 +179,33 @@ fn of_several_steady_states_the_one_that_the_start_leads_to_is_given() {
     }
 }
 
+/// `compare` gave one of several steady states without a word.
+#[test]
+fn every_verb_tells_in_the_same_words_that_there_are_several_steady_states() {
+    let net = HYSTERESIS.replace("P = \"p\"", "P = \"9 W\"").replace(
+        "block = { C = \"20 J/K\", T0 = \"50 degC\" }",
+        "block = { C = \"20 J/K\", T0 = \"300 degC\" }",
+    );
+    let folder = Folder::with("net.toml", &net);
+    folder.write("still.toml", &net[..net.find("[run]").unwrap()]);
+    // 0.26 m^2 h(d) d = 9 W at d = 34.6154, 85.1209 (unstable) and 93.8597 K: SciPy 1.17, brentq
+    let words = "several steady states: from its start the network comes to the one with `j` at 143.9 degC; in another it is at \
+                 84.62 degC";
+    let warnings = |json: &serde_json::Value| -> Vec<String> {
+        let all = json["warnings"].as_array().unwrap().iter();
+        let several = all.filter(|warning| warning["code"] == "steady::several");
+        several.map(|warning| warning["message"].as_str().unwrap().to_owned()).collect()
+    };
+    let steady = folder.run(&["steady", "net.toml", "--format", "json"]).exits(0).json();
+    assert_eq!(warnings(&steady), [words]);
+    let run = folder.run(&["run", "net.toml", "--no-files"]).exits(0);
+    assert!(run.out.split_whitespace().collect::<Vec<_>>().join(" ").contains(words), "{}", run.out);
+    let both = ["compare", "net.toml", "still.toml", "--sort", "given"];
+    let compared = folder.run(&[&both[..], &["--format", "json"]].concat()).exits(0).json();
+    assert_eq!(warnings(&compared), ["net.toml", "still.toml"].map(|file| format!("{file}: {words}")));
+    folder.run(&both).exits(0).says(&format!("net.toml: {words}"));
+}
+
 /// SplitMix64 (S. Vigna, public domain): the same networks everywhere.
 struct Random(u64);
 
