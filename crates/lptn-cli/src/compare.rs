@@ -21,6 +21,7 @@ use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressOfAll;
 use crate::sense;
+use crate::steady_doubts::others;
 
 pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Failure> {
     let files = files(&args.files)?;
@@ -231,7 +232,11 @@ impl Comparison {
                 title = input.netlist.network.title().map_or(String::new(), plain);
                 let beyond = outcome.as_ref().ok().and_then(|found| found.beyond.as_ref());
                 let beyond = beyond.map(|beyond| sense::warning(&input.netlist, beyond));
-                let warnings = input.netlist.warnings.into_iter().chain(beyond).collect();
+                let several = outcome.as_ref().ok().and_then(|found| found.several.as_ref());
+                let several = several.and_then(|steady| others(&input.netlist.network, steady, &self.unit));
+                let several = several
+                    .map(|warning| Diagnostic { message: format!("{file}: {}", warning.message), ..warning });
+                let warnings = input.netlist.warnings.into_iter().chain(beyond).chain(several).collect();
                 self.warnings.push((input.netlist.files, warnings));
             }
             Err(not_read) => failure = Some(not_read),

@@ -70,7 +70,7 @@ pub(crate) struct Counts {
 #[derive(Clone, Debug)]
 pub(crate) struct Failure {
     callback: Callback,
-    time: f64,
+    pub(crate) time: f64,
     cause: Cause,
 }
 

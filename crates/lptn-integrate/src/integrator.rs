@@ -1,6 +1,7 @@
 //! Stepping a system from one discontinuity to the next.
 
 mod failure;
+mod first;
 mod roots;
 mod running;
 mod sensitivities;
@@ -66,6 +67,8 @@ pub struct Integrator<S: OdeSystem> {
     /// From now on no step is longer.
     longest: f64,
     max_steps: u64,
+    /// Length of the first step after a start; 0 if CVODES is to guess it.
+    first_step: f64,
     symmetry: Symmetry,
     roots: Roots,
     /// What CVODES had counted when it was last restarted.
@@ -114,6 +117,7 @@ impl<S: OdeSystem> Integrator<S> {
             shown: Shown { time: t0, from: t0, stop: f64::INFINITY },
             longest: options.max_step_size.unwrap_or(f64::INFINITY),
             max_steps: u64::try_from(options.max_steps).unwrap_or(u64::MAX),
+            first_step: options.initial_step.unwrap_or(0.0),
             symmetry,
             roots,
             before: Counters::default(),
@@ -243,7 +247,7 @@ impl<S: OdeSystem> Integrator<S> {
         let towards = if self.stop.is_finite() { self.stop } else { self.time + self.time.abs().max(1.0) };
         self.memory.set_stop(stop)?;
         self.memory.set_max_step(if self.longest.is_finite() { self.longest } else { 0.0 })?;
-        let reached = self.memory.step(towards, &mut self.state, &mut self.time);
+        let reached = self.take_step(towards);
         if self.roots.are_none() { reached } else { self.look_for_roots(towards, reached) }
     }
 

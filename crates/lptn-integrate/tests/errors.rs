@@ -183,6 +183,44 @@ fn a_passing_nan_costs_a_smaller_step_only() {
 }
 
 #[test]
+fn a_start_close_to_where_no_flow_can_be_had() {
+    // CVODES guesses its first step from the flow ahead, and left the state that it looked at last in the output.
+    struct Walled(Pattern, f64);
+    impl OdeSystem for Walled {
+        fn size(&self) -> usize {
+            1
+        }
+        fn mass(&self) -> &[f64] {
+            &[1.0]
+        }
+        fn flow(&mut self, t: f64, _y: &[f64], f: &mut [f64]) -> Result<(), Retry> {
+            f[0] = 1.0;
+            if t > self.1 { Err(Retry::SmallerStep) } else { Ok(()) }
+        }
+        fn pattern(&self) -> &Pattern {
+            &self.0
+        }
+        fn symmetric(&self) -> bool {
+            true
+        }
+        fn jacobian(&mut self, _t: f64, _y: &[f64], values: &mut [f64]) -> Result<(), Retry> {
+            values.fill(0.0);
+            Ok(())
+        }
+    }
+    for gap in [1e-3, 1e-6, 1e-9] {
+        let system = Walled(Pattern::new(1, std::iter::empty()), gap);
+        let mut integrator = Integrator::new(system, 0.0, &[0.0], &Options::default()).unwrap();
+        integrator.set_stop(1e6);
+        let error = (0..1000).find_map(|_| integrator.step().err()).unwrap();
+        assert!(matches!(error, IntegrateError::Refused { callback: Callback::Flow, .. }), "{error:?}");
+        let time = integrator.time();
+        assert!(time > 0.05 * gap, "no step at all from {gap} in front");
+        assert!((integrator.state()[0] - time).abs() <= 1e-12 * gap, "{:?}", integrator.state());
+    }
+}
+
+#[test]
 fn too_many_steps() {
     let options = Options { max_steps: 7, ..Options::default() };
     let mut integrator = Integrator::new(plate(3, 1.0), 0.0, &[20.0; 9], &options).unwrap();

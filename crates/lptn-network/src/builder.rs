@@ -108,6 +108,7 @@ impl NetworkBuilder {
             molten: 0.0,
             length: None,
             massless,
+            stood: None,
         });
         Arc::make_mut(&mut self.parts.layout).add_node(id);
         self.register(name, Item::Node(id));

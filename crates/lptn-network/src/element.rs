@@ -41,6 +41,9 @@ pub struct Node {
     pub length: Option<Value>,
     /// Whether it is a junction that stores nothing.
     pub massless: bool,
+    /// If it is, where it stood in the state that a run starts from, in K: of several solutions of its balance it keeps
+    /// the one that is there.
+    pub stood: Option<f64>,
 }
 
 impl Node {

@@ -41,11 +41,12 @@ impl NetworkBuilder {
         self.parts.nodes[node.index()].massless
     }
 
-    /// Sets another temperature at the start of a node with capacity, in K.
+    /// Sets another temperature at the start of a node with capacity, in K; says where a massless one stood.
     pub fn start_at(&mut self, node: NodeId, temperature: crate::Temperature) {
         let start = &mut self.parts.nodes[node.index()];
-        if !start.massless {
-            start.initial = Some(Value::Constant(temperature.0));
+        match start.massless {
+            true => start.stood = Some(temperature.0),
+            false => start.initial = Some(Value::Constant(temperature.0)),
         }
     }
 

@@ -35,6 +35,7 @@ fn items_nodes_and_parameters_by_name() {
     let network = b.build().unwrap();
     near(network.initial(a), 333.0);
     assert!(network.initial(junction).is_nan());
+    assert_eq!(network.nodes()[junction.index()].stood, Some(333.0));
     assert_eq!(network.title(), Some("a cooled body"));
     for (name, item) in [
         ("a", Item::Node(a)),

@@ -114,6 +114,11 @@ impl<'a> Heat<'a> {
         self.unfold.algebraic()
     }
 
+    /// Begins a run with massless nodes where they stood, in K.
+    pub(crate) fn stand_at(&mut self, stood: &[f64]) {
+        self.unfold.stand_at(stood);
+    }
+
     /// Begins the next look with massless nodes at these temperatures in K.
     pub(crate) fn seed(&mut self, branch: &[f64]) {
         self.unfold.seed(branch);

@@ -284,7 +284,11 @@ impl<'a> Newton<'a> {
                 }
                 continue;
             }
-            step *= if left.is_finite() { (left / after).clamp(0.5, 8.0) } else { 2.0 };
+            step *= match left {
+                _ if after <= 0.0 => 8.0, // nothing is left over, and 0/0 says nothing
+                left if left.is_finite() => (left / after).clamp(0.5, 8.0),
+                _ => 2.0,
+            };
             left = after;
             if step > 1e4 && self.damped(work, &mut temperatures.to_vec()).is_ok() {
                 return self.damped(work, temperatures);

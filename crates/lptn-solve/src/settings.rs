@@ -164,10 +164,9 @@ impl Transient {
         Ok(())
     }
 
-    /// The options of the integrator, with what curved inputs ask for.
-    pub(crate) fn options(&self, network: &Network, curved: Option<&Curved>) -> Options {
-        let switching =
-            if network.has_events() { SWITCHING.max(FINEST / self.tolerance).min(1.0) } else { 1.0 };
+    /// The options of the integrator, with what curved inputs ask for; `switches`: something does, or leaps.
+    pub(crate) fn options(&self, network: &Network, switches: bool, curved: Option<&Curved>) -> Options {
+        let switching = if switches { SWITCHING.max(FINEST / self.tolerance).min(1.0) } else { 1.0 };
         Options {
             sensitivity_scales: self.sensitivities.iter().map(|&id| scale(network, id)).collect(),
             tolerance: self.tolerance * curved.map_or(1.0, |c| c.share).min(switching),

@@ -10,16 +10,19 @@ use crate::unfold::carried;
 /// For every node with capacity it holds what an integrator carries, in K, in the order of
 /// [`ThermalSystem::states`]: the temperature of a node with a constant capacity; for one whose capacity depends on its
 /// temperature `T0 + H / C0` with H the heat content over that at the start of the network in J, T0 the temperature and
-/// C0 the capacity there, since a node that melts at one temperature is not told by that temperature.
+/// C0 the capacity there, since a node that melts at one temperature is not told by that temperature. The state at the end
+/// of a run also knows which of several solutions each massless node has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
     carried: Vec<f64>,
+    /// Temperatures in K of the massless nodes that may have several solutions; empty where they are not known, or do not.
+    stood: Vec<f64>,
 }
 
 impl State {
     /// The start that the network itself says.
     pub fn initial(system: &ThermalSystem) -> Self {
-        Self { carried: system.initial() }
+        Self::of_carried(system.initial())
     }
 
     /// The state in which every node has the temperature given for it in K, in the order of the network's nodes; those
@@ -33,7 +36,7 @@ impl State {
             carried(system, i, temperature)
         };
         let carried: Result<Vec<f64>, InputError> = system.states().iter().enumerate().map(one).collect();
-        Ok(Self { carried: carried? })
+        Ok(Self::of_carried(carried?))
     }
 
     /// What is carried for every state in K, see [`State`].
@@ -42,7 +45,17 @@ impl State {
     }
 
     pub(crate) fn of_carried(carried: Vec<f64>) -> Self {
-        Self { carried }
+        Self { carried, stood: Vec::new() }
+    }
+
+    /// The same with massless nodes of several solutions at these temperatures in K.
+    pub(crate) fn standing(self, stood: Vec<f64>) -> Self {
+        Self { stood, ..self }
+    }
+
+    /// Temperatures in K of massless nodes of several solutions; may be empty.
+    pub(crate) fn stood(&self) -> &[f64] {
+        &self.stood
     }
 
     /// Temperature in K of one of the states; `None` where its heat content is one that it cannot have.
@@ -63,5 +76,9 @@ impl State {
 
 /// Refuses a state of another network.
 pub(crate) fn fits(system: &ThermalSystem, state: &State) -> bool {
-    state.carried.len() == system.states().len() && state.carried.iter().all(|y| y.is_finite())
+    let states = system.states().len();
+    let massless = system.unknowns().len() - states;
+    state.carried.len() == states
+        && (state.stood.is_empty() || state.stood.len() == massless)
+        && state.carried.iter().chain(&state.stood).all(|y| y.is_finite())
 }

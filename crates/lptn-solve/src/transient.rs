@@ -59,6 +59,22 @@ impl Transient {
         if !state::fits(system, from) {
             return Err(TransientError::Settings(SettingsError::State));
         }
+        let mut care = Care::Untried;
+        loop {
+            if let Some(solution) = self.attempt(system, from, (care, &mut *observer))? {
+                return Ok(solution);
+            }
+            care = Care::Leaps;
+        }
+    }
+
+    /// A run, or `None` if it shows that more care is needed.
+    fn attempt(
+        &self,
+        system: &ThermalSystem,
+        from: &State,
+        (care, observer): (Care, &mut dyn FnMut(Progress) -> Control),
+    ) -> Result<Option<Solution>, TransientError> {
         let rows = self.rows().map_err(TransientError::Settings)?;
         let network = system.network();
         if network.reads_time() || !self.windows.is_empty() {
@@ -73,9 +89,9 @@ impl Transient {
             Readings::new(network, &segments, &rows, &self.windows).map_err(TransientError::Input)?;
         let recorder = Recorder::new(system, (rows, readings), self)?;
         if system.states().is_empty() {
-            return stateless::solve(recorder, &segments, &Books::new(network, self.balance));
+            return stateless::solve(recorder, &segments, &Books::new(network, self.balance)).map(Some);
         }
-        Run::new(recorder, (segments[0], curved), self, from)?.through(&segments, observer)
+        Run::new(recorder, (segments[0], curved), (self, care), from)?.through(&segments, observer)
     }
 }
 
@@ -88,9 +104,24 @@ const PATIENCE: usize = 8;
 /// The same in front of the end of a branch.
 const FOLD_PATIENCE: usize = 400;
 
+/// How well the times have to be known at which massless nodes leap.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Care {
+    /// Nothing is known to leap: at the sight of a fold the run ends, to be done again with care. Errors in front of it
+    /// are made already: as with a switch, they move the leap and all that follows, and where heat changes as the root of
+    /// the time that is left all steps err to one side.
+    Untried,
+    /// As well as those of switches.
+    Leaps,
+    /// Not at all: only where they lead to is asked.
+    Way,
+}
+
 /// What ends a run before its stop.
 enum Break {
     Interrupted,
+    /// A fold is in sight of a run that nobody knew to have one.
+    Fold,
     Failed(StopReason),
 }
 
@@ -111,6 +142,7 @@ pub(crate) struct Run<'a> {
     crawled: usize,
     /// Failed steps in a row in front of a fold.
     stuck: usize,
+    care: Care,
     /// The last time in s and state at which massless nodes of several solutions were seen to stay.
     stood: Option<(f64, Vec<f64>)>,
 }
@@ -119,7 +151,7 @@ impl<'a> Run<'a> {
     fn new(
         mut recorder: Recorder<'a>,
         (first, curved): (Segment, Option<Curved>),
-        settings: &Transient,
+        (settings, care): (&Transient, Care),
         from: &State,
     ) -> Result<Self, TransientError> {
         let system = recorder.system();
@@ -127,6 +159,9 @@ impl<'a> Run<'a> {
         let books = Books::new(system.network(), settings.balance);
         let unsolved = |e| TransientError::Start(Unsolved::new(system, e));
         let mut heat = Heat::new(system, first.inside(), books.clone()).map_err(unsolved)?;
+        if !from.stood().is_empty() {
+            heat.stand_at(from.stood());
+        }
         let mut carried = Vec::new();
         if !settings.sensitivities.is_empty() {
             let tangent = Tangent::new(system, &settings.sensitivities)?;
@@ -138,7 +173,9 @@ impl<'a> Run<'a> {
             .network()
             .has_events()
             .then(|| Switching::new(system, &settings.controls, settings.tolerance));
-        let options = settings.options(system.network(), curved.as_ref());
+        let finer = system.network().has_events() || care == Care::Leaps;
+        let care = if finer { Care::Leaps } else { care };
+        let options = settings.options(system.network(), finer, curved.as_ref());
         let mut integrator =
             Integrator::new(heat, settings.start, &initial, &options).map_err(TransientError::Integrator)?;
         if !carried.is_empty() {
@@ -156,6 +193,7 @@ impl<'a> Run<'a> {
             curved,
             crawled: 0,
             stuck: 0,
+            care,
             stood: None,
         })
     }
@@ -164,15 +202,16 @@ impl<'a> Run<'a> {
         mut self,
         segments: &[Segment],
         observer: &mut dyn FnMut(Progress) -> Control,
-    ) -> Result<Solution, TransientError> {
+    ) -> Result<Option<Solution>, TransientError> {
         for (i, &segment) in segments.iter().enumerate() {
             let outcome = self.segment(segment, i == 0, observer);
             match outcome {
                 Ok(()) => {}
                 Err(Break::Interrupted) => {
                     let end = End::Interrupted(self.integrator.time());
-                    return self.finish(end);
+                    return self.finish(end).map(Some);
                 }
+                Err(Break::Fold) => return Ok(None),
                 Err(Break::Failed(reason)) => {
                     let time = self.integrator.time();
                     let partial = Box::new(self.finish(End::Failed(time))?);
@@ -180,7 +219,7 @@ impl<'a> Run<'a> {
                 }
             }
         }
-        self.finish(End::Reached)
+        self.finish(End::Reached).map(Some)
     }
 
     /// Integrates one segment; a row at its start is written with the inputs after the jump.
@@ -341,7 +380,8 @@ impl<'a> Run<'a> {
         let books = self.books.close(system, work, &integrals, (stored, self.tolerance));
         let controls = self.switching.as_ref().map_or_else(Vec::new, Switching::controls);
         let events = self.switching.map_or_else(Vec::new, |switching| switching.events);
-        let end_state = State::of_carried(self.integrator.state().to_vec());
+        let stood = self.recorder.branch().to_vec();
+        let end_state = State::of_carried(self.integrator.state().to_vec()).standing(stood);
         let solution = self.recorder.into_solution(books, (statistics, events), end);
         Ok(Solution { end_state, controls, ..solution })
     }

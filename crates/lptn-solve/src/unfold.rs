@@ -42,7 +42,10 @@ impl<'a> Unfold<'a> {
         algebraic.iter_mut().for_each(|newton| newton.guarded = !system.is_monotone());
         let mut temperatures = system.initial();
         let mean = guess(system);
-        temperatures.resize(count, mean);
+        // where a solution is the only one, it is found as well from anywhere
+        let guarded = algebraic.as_ref().is_some_and(|newton| newton.guarded);
+        let stood = |id: &lptn_network::NodeId| network.nodes()[id.index()].stood.filter(|_| guarded);
+        temperatures.extend(system.unknowns()[states.len()..].iter().map(|id| stood(id).unwrap_or(mean)));
         let contents = contents.collect();
         Ok(Self { system, contents, algebraic, temperatures, slopes: vec![1.0; count], leaps: true })
     }
@@ -100,6 +103,12 @@ impl<'a> Unfold<'a> {
     /// Temperatures of the algebraic unknowns in K, as last unfolded.
     pub(crate) fn algebraic(&self) -> &[f64] {
         &self.temperatures[self.system.states().len()..]
+    }
+
+    /// Begins a run at these temperatures of the algebraic unknowns; they may have ended meanwhile.
+    pub(crate) fn stand_at(&mut self, algebraic: &[f64]) {
+        self.seed(algebraic);
+        self.may_leap();
     }
 
     /// Begins the next look at these temperatures of the algebraic unknowns.

@@ -160,7 +160,7 @@ impl<S: OdeSystem> Integrator<S> {
             self.put_state_back()?;
             self.read_running()?;
             self.begin_anew()?;
-            reached = self.memory.step(towards, &mut self.state, &mut self.time);
+            reached = self.take_step(towards);
         }
         let reached = reached?;
         self.roots.met = match reached {

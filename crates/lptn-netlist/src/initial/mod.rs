@@ -319,6 +319,14 @@ impl<'a> Elaboration<'a> {
         }
     }
 
+    /// Where a massless node stood in the state.
+    pub(crate) fn stood(&mut self, name: &str, id: NodeId) {
+        let stood = self.state.and_then(|file| file.temperatures.get(name));
+        if let Some((value, _)) = stood.filter(|_| self.builder.is_massless(id)) {
+            self.builder.start_at(id, Temperature(value));
+        }
+    }
+
     /// The nodes of grids and imports, which stand in no `[node]`: their temperatures in the state take the place of
     /// those that the file gives them.
     pub(crate) fn start_the_others(&mut self) {
@@ -327,7 +335,7 @@ impl<'a> Elaboration<'a> {
         let names: Vec<String> = self.builder.end_names(true).map(str::to_owned).collect();
         let mut missing = Vec::new();
         for (id, name) in self.builder.node_ids().zip(names) {
-            if written.contains(name.as_str()) || self.builder.is_massless(id) {
+            if written.contains(name.as_str()) {
                 continue;
             }
             match file.temperatures.get(&name) {
@@ -335,6 +343,7 @@ impl<'a> Elaboration<'a> {
                     self.builder.start_at(id, Temperature(value));
                     self.molten(&name, id);
                 }
+                None if self.builder.is_massless(id) => {}
                 None => missing.push(name),
             }
         }

@@ -28,6 +28,8 @@ pub(super) struct Cycles<'a> {
     last: Option<f64>,
     /// Where the controls stand when the next cycle begins.
     controls: Vec<ControlState>,
+    /// And the massless nodes of several solutions, in K.
+    stood: Vec<f64>,
     /// Whether they stood there too at the start of the last one, and everything switched as in the cycle before it.
     pub(super) repeats: bool,
     /// Whether they then had as long to stay as they are.
@@ -53,6 +55,7 @@ impl<'a> Cycles<'a> {
             flow_evaluations: 0,
             last: None,
             controls,
+            stood: Vec::new(),
             repeats,
             same_times: repeats,
             switched,
@@ -97,7 +100,7 @@ impl<'a> Cycles<'a> {
     }
 
     fn run(&mut self, settings: &Transient, start: Vec<f64>) -> Result<(Shot, Solution), PeriodicError> {
-        let from = State::of_carried(start);
+        let from = State::of_carried(start).standing(self.stood.clone());
         let settings = &Transient { controls: self.controls.clone(), ..settings.clone() };
         let solution =
             settings.solve_from(self.system, &from, self.observer).map_err(PeriodicError::Cycle)?;
@@ -107,6 +110,7 @@ impl<'a> Cycles<'a> {
             return Err(PeriodicError::Interrupted { cycles: self.count, residual: self.last });
         }
         self.count += 1;
+        self.stood = solution.last_state().stood().to_vec();
         if self.system.network().has_events() {
             self.compare(settings, &solution);
         }

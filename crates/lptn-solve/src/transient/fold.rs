@@ -8,7 +8,7 @@ use lptn_integrate::{IntegrateError, OdeSystem};
 
 use crate::error::StopReason;
 use crate::times::Segment;
-use crate::transient::{Break, Run};
+use crate::transient::{Break, Care, Run};
 use crate::unsolved::UnsolvedReason;
 
 /// How late a massless node may be at a fold: the share of the tolerance by which another node moves meanwhile.
@@ -130,7 +130,13 @@ impl Run<'_> {
         let (time, state) = (self.integrator.time(), self.integrator.state().to_vec());
         let mass = self.integrator.system().capacities().to_vec();
         let heat = self.integrator.system_mut();
-        let Some(fold) = heat.fold.take().filter(|fold| *fold >= time) else { return Ok(false) };
+        let Some(fold) = heat.fold.take() else { return Ok(false) };
+        if self.care == Care::Untried {
+            return Err(Break::Fold);
+        }
+        if fold < time {
+            return Ok(false);
+        }
         // no other look may decide where the search begins
         heat.seed(self.recorder.branch());
         let mut rates = vec![0.0; state.len()];
@@ -143,7 +149,8 @@ impl Run<'_> {
         }
         let fastest = rates.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
         let late = LATE * self.tolerance / fastest;
-        if fold - time > late {
+        // where nothing moves, nothing gets to a fold
+        if !late.is_finite() || fold - time > late {
             return Ok(false);
         }
         let mut ahead = (fold - time).max(LEAST * late).max(4.0 * f64::EPSILON * time.abs());

@@ -14,7 +14,7 @@ use crate::settings::{Record, Transient};
 use crate::state::State;
 use crate::steady::just_after;
 use crate::times::Segment;
-use crate::transient::Run;
+use crate::transient::{Care, Run};
 
 /// Tolerance in K: what it decides is which way the network goes, not where it comes to rest.
 const TOLERANCE: f64 = 1e-4;
@@ -91,7 +91,8 @@ impl<'a> Run<'a> {
         let mut recorder =
             Recorder::new(system, (settings.rows().ok()?, Readings::none(segment)), &settings).ok()?;
         recorder.idle = true;
-        let mut run = Self::new(recorder, (segment, None), &settings, &State::initial(system)).ok()?;
+        let mut run =
+            Self::new(recorder, (segment, None), (&settings, Care::Way), &State::initial(system)).ok()?;
         run.integrator.system_mut().held = Some((time, just_after(time)));
         Some((segment, run))
     }

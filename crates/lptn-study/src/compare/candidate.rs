@@ -6,8 +6,8 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
 use lptn_network::{InputError, Network, Severity};
 use lptn_solve::{
-    Beyond, Control, End, NodeSummary, OutputTimes, Progress, Record, Solution, SteadyError, SteadyState,
-    Summary, Transient, TransientError, Unsolved, first_there,
+    Beyond, Control, End, NodeSummary, Others, OutputTimes, Progress, Record, Solution, SteadyError,
+    SteadyState, Summary, Transient, TransientError, Unsolved, first_there,
 };
 
 use crate::compare::limits::{self, LimitResult};
@@ -43,6 +43,8 @@ pub struct Candidate {
     pub mass: Option<f64>,
     /// A temperature that nothing real has.
     pub beyond: Option<Beyond>,
+    /// Its steady state, where there are others or they cannot be excluded.
+    pub several: Option<SteadyState>,
 }
 
 /// Why a candidate has no results.
@@ -162,6 +164,7 @@ impl Candidate {
             capacity: capacity(network),
             mass: mass(network),
             beyond: Beyond::of_steady(network, &steady),
+            several: Some(steady).filter(is_doubtful),
         })
     }
 
@@ -196,8 +199,13 @@ impl Candidate {
             capacity: capacity(network),
             mass: mass(network),
             beyond: Beyond::of_run(&solution),
+            several: steady.filter(is_doubtful),
         })
     }
+}
+
+fn is_doubtful(steady: &SteadyState) -> bool {
+    steady.others != Others::None
 }
 
 /// The peak of a node; one that the tolerance cannot tell from the start or from the end is there.
