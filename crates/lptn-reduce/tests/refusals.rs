@@ -53,7 +53,7 @@ fn what_is_not_linear_is_named_with_what_to_put_in_its_place() {
     let node = b.node("a", HeatCapacity(1.0), Temperature(300.0));
     let air = b.boundary("air", Temperature(290.0));
     let law = b.expression_in(Context::Link, "2 [W/K] * (1 + abs(dT) / 1 [K])", None).unwrap();
-    b.resistor("film", node, air, lptn_network::Path::Conductance(law.into()));
+    b.resistor("film", node, air, lptn_network::Path::conductance(law));
     let error = NortonEquivalent::new(&assembled(b), node).unwrap_err();
     assert!(matches!(&error, ReduceError::NotLinear { name } if name == "film"), "{error:?}");
     assert!(error.help().unwrap().contains("in place of `film`"));
