@@ -16,7 +16,7 @@ use crate::compare_text;
 use crate::console::Console;
 use crate::diagnostics;
 use crate::exit::Exit;
-use crate::failure::{Failure, reason};
+use crate::failure::{Failure, reason, told};
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressOfAll;
@@ -182,7 +182,7 @@ fn explained(input: &Input, error: &CompareError) -> Failure {
         CompareError::Interrupted(_) => Exit::Interrupted,
         _ => Exit::Failed,
     };
-    let problem = Diagnostic::error(error.code(), error.to_string());
+    let problem = told(error);
     let map = &input.netlist.source_map;
     let place = error.input().and_then(|e| map.get(e.item, e.field).or_else(|| map.get(e.item, Field::Name)));
     let problem = match place {

@@ -1,6 +1,7 @@
 //! Why a command ended early.
 
 use lptn_netlist::{Diagnostic, Files, ReadError, Rejected};
+use lptn_units::Problem;
 
 use crate::exit::Exit;
 
@@ -16,6 +17,11 @@ impl Failure {
     /// One diagnostic about no file.
     pub(crate) fn new(exit: Exit, diagnostic: Diagnostic) -> Self {
         Self::at(exit, Files::new(), diagnostic)
+    }
+
+    /// What is wrong, in its own words, about no file.
+    pub(crate) fn of(exit: Exit, problem: &dyn Problem) -> Self {
+        Self::new(exit, told(problem))
     }
 
     /// One diagnostic about a place in `files`.
@@ -39,6 +45,15 @@ impl From<ReadError> for Failure {
                 Self::new(Exit::Input, Diagnostic::error("input::cannot_read", message))
             }
         }
+    }
+}
+
+/// A problem with its code and help.
+pub(crate) fn told(problem: &dyn Problem) -> Diagnostic {
+    let diagnostic = Diagnostic::error(problem.code(), problem.to_string());
+    match problem.help() {
+        Some(help) => diagnostic.help(help),
+        None => diagnostic,
     }
 }
 

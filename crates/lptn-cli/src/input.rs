@@ -12,7 +12,7 @@ use lptn_units::{Dimension, Type, Unit, UnitError, parse_quantity};
 
 use crate::args::Source;
 use crate::exit::Exit;
-use crate::failure::{Failure, reason};
+use crate::failure::{Failure, reason, told};
 
 /// What a netlist from stdin is called.
 const STDIN: &str = "<stdin>";
@@ -106,7 +106,7 @@ impl Input {
     pub(crate) fn assemble(&self) -> Result<ThermalSystem, Failure> {
         ThermalSystem::assemble(&self.netlist.network).map_err(|error| {
             let AssemblyError::TooManyNeighbours { node, .. } = &error;
-            let problem = Diagnostic::error(error.code(), error.to_string()).help(error.help());
+            let problem = told(&error);
             let problem = match self.netlist.source_map.name(Item::Node(*node)) {
                 Some(span) => problem.at(span.clone(), ""),
                 None => problem,

@@ -14,7 +14,7 @@ use serde_json::{Map, Value, json};
 use crate::args::{Format, SteadyArgs};
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, told};
 use crate::files::Folder;
 use crate::files::names::{MANIFEST, RESULT, WINDOWS};
 use crate::input::{self, Input};
@@ -173,11 +173,8 @@ fn failed(input: &Input, error: &PeriodicError) -> Failure {
     };
     let mut problem = match error {
         PeriodicError::Cycle(error) => explain(input, error),
-        error => Diagnostic::error(error.code(), error.to_string()),
+        error => told(error),
     };
-    if let (Some(help), false) = (error.help(), matches!(error, PeriodicError::Cycle(_))) {
-        problem = problem.help(help);
-    }
     if let Some(place) = place {
         problem = problem.at(place.clone(), "");
     }

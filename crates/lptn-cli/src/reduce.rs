@@ -14,7 +14,7 @@ use lptn_units::{Dimension, Type, Unit, parse_quantity};
 use crate::args::{ReduceArgs, ReduceFormat};
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::failure::{Failure, reason};
+use crate::failure::{Failure, reason, told};
 use crate::input::{self, Input, quoted};
 use crate::{files, reduce_json, reduce_text, written};
 
@@ -192,14 +192,11 @@ fn failed(input: &Input, args: &ReduceArgs, error: &ReduceError) -> Failure {
         ReduceError::Run(error) if error.code() == "run::integrator" => Exit::Failed,
         _ => Exit::Input,
     };
-    let problem = Diagnostic::error(error.code(), error.to_string());
-    let first_node = input.netlist.network.nodes().first();
-    let problem = match (error.help(), error, first_node) {
-        (Some(help), ..) => problem.help(help),
+    let problem = match (error.help(), error, input.netlist.network.nodes().first()) {
         (None, ReduceError::UnknownPort(_), Some(node)) => {
-            problem.help(format!("name a node, for example `{}`", node.name))
+            told(error).help(format!("name a node, for example `{}`", node.name))
         }
-        _ => problem,
+        _ => told(error),
     };
     let netlist = &input.netlist;
     let map = &netlist.source_map;

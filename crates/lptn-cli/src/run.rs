@@ -15,7 +15,7 @@ use lptn_units::Unit;
 use crate::args::{Format, RunArgs};
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, told};
 use crate::files::Folder;
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
@@ -170,10 +170,7 @@ impl<'a> Job<'a> {
 
 /// What broke a run off, with the place of the input that did.
 pub(crate) fn explain(input: &Input, error: &TransientError) -> Diagnostic {
-    let mut problem = Diagnostic::error(error.code(), error.to_string());
-    if let Some(help) = error.help() {
-        problem = problem.help(help);
-    }
+    let problem = told(error);
     let map = &input.netlist.source_map;
     let place = error.place();
     let place = place.and_then(|(item, field)| map.get(item, field).or_else(|| map.get(item, Field::Name)));

@@ -1,6 +1,5 @@
 //! `lptn size` without a netlist: what a cooling has to do.
 
-use lptn_netlist::Diagnostic;
 use lptn_report::{Align, Column, JsonWriter, TextTable, WIDTH, plain, significant, write_csv};
 use lptn_solve::Table;
 use lptn_study::{Coolant, Cooling, CoolingError, CoolingTask, Flow, Scalar};
@@ -52,11 +51,7 @@ fn task(args: &CoolingArgs) -> Result<CoolingTask, Failure> {
 }
 
 fn wrong(error: &CoolingError) -> Failure {
-    let help = match error {
-        CoolingError::Power(_) => "write for example --power \"223 W\"",
-        CoolingError::Rise(_) => "write for example --rise \"10 K\"",
-    };
-    Failure::new(Exit::Input, Diagnostic::error(error.code(), error.to_string()).help(help))
+    Failure::of(Exit::Input, error)
 }
 
 struct Answer {

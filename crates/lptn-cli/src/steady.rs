@@ -16,7 +16,7 @@ use serde_json::{Map, Value, json};
 use crate::args::{Format, SteadyArgs};
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, told};
 use crate::input::{self, Input};
 use crate::limits::{self, Judged, Judgement};
 use crate::steady_doubts::{adiabatic, inputs_vary, others};
@@ -96,10 +96,7 @@ fn failed(input: &Input, error: &SteadyError) -> Failure {
         | SteadyError::Unbalanced { .. }
         | SteadyError::BelowAbsoluteZero { .. } => Exit::Failed,
     };
-    let mut problem = Diagnostic::error(error.code(), error.to_string());
-    if let Some(help) = error.help() {
-        problem = problem.help(help);
-    }
+    let mut problem = told(error);
     let map = &input.netlist.source_map;
     let place = match error {
         SteadyError::NoBoundary { nodes, .. } => {

@@ -8,7 +8,7 @@ use lptn_study::uncertainty::{
 
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, told};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressOfAll;
 use crate::run::Job;
@@ -109,10 +109,5 @@ fn failure(error: &UncertaintyError, netlist: &Netlist) -> Failure {
         E::Interrupted => Exit::Interrupted,
         _ => Exit::Failed,
     };
-    let problem = Diagnostic::error(error.code(), error.to_string());
-    let problem = match error.help() {
-        Some(help) => problem.help(help),
-        None => problem,
-    };
-    Failure::at(exit, netlist.files.clone(), problem)
+    Failure::at(exit, netlist.files.clone(), told(error))
 }

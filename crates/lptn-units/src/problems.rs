@@ -1,5 +1,126 @@
 //! One declarative form for the problems of every crate.
 
+/// What can be wrong, for who tells it: every error of this workspace that people may meet.
+pub trait Problem: std::error::Error {
+    /// The stable code, as diagnostics print it.
+    fn code(&self) -> &'static str;
+
+    /// What to do about it, in words that can be pasted where possible.
+    fn help(&self) -> Option<String>;
+}
+
+/// Help as a declaration gives it: words, or none.
+pub trait Help {
+    /// The words.
+    fn words(self) -> Option<String>;
+}
+
+impl Help for &str {
+    fn words(self) -> Option<String> {
+        Some(self.to_owned())
+    }
+}
+
+impl Help for String {
+    fn words(self) -> Option<String> {
+        Some(self)
+    }
+}
+
+impl Help for Option<String> {
+    fn words(self) -> Option<String> {
+        self
+    }
+}
+
+/// Declares an enum of errors, each told once: its fields, its stable code, its sentence and, where there is one, the help.
+/// The expressions see the fields by reference; a sentence is anything that can be displayed, such as the error it is about.
+///
+/// ```
+/// lptn_units::errors! {
+///     /// What can be wrong with a door.
+///     #[derive(Debug)]
+///     pub enum DoorError {
+///         /// It does not open.
+///         Stuck { after: u32 } = "door::stuck", format!("stuck since day {after}"), help "oil its hinges";
+///         /// Its house is gone.
+///         House(error: std::fmt::Error) = "door::house", error;
+///     }
+/// }
+///
+/// use lptn_units::Problem;
+/// let stuck = DoorError::Stuck { after: 3 };
+/// assert_eq!((stuck.code(), stuck.to_string().as_str()), ("door::stuck", "stuck since day 3"));
+/// assert_eq!(stuck.help().as_deref(), Some("oil its hinges"));
+/// assert_eq!(DoorError::House(std::fmt::Error).help(), None);
+/// ```
+#[macro_export]
+macro_rules! errors {
+    (
+        $(#[$meta:meta])*
+        pub enum $name:ident {
+            $(
+                $(#[$doc:meta])*
+                $variant:ident $(($($arg:ident: $arg_ty:ty),*))? $({ $($field:ident: $ty:ty),* })? =
+                    $code:expr, $says:expr $(, help $help:expr)?;
+            )*
+        }
+    ) => {
+        $(#[$meta])*
+        #[allow(missing_docs, reason = "what each says tells what its fields are; all in SI units")]
+        pub enum $name { $($(#[$doc])* $variant $(($($arg_ty),*))? $({ $($field: $ty),* })?,)* }
+
+        #[allow(unused_variables, reason = "each takes the fields that it needs")]
+        impl $name {
+            /// The stable code, as diagnostics print it.
+            pub fn code(&self) -> &'static str {
+                match self { $(Self::$variant $(($($arg),*))? $({ $($field),* })? => $code,)* }
+            }
+
+            /// What to do about it, in words that can be pasted where possible.
+            pub fn help(&self) -> Option<String> {
+                match self {
+                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? =>
+                        $crate::help_of!($($help)?),)*
+                }
+            }
+        }
+
+        impl ::std::fmt::Display for $name {
+            #[allow(unused_variables, reason = "each takes the fields that it needs")]
+            fn fmt(&self, f: &mut ::std::fmt::Formatter<'_>) -> ::std::fmt::Result {
+                match self {
+                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? => ::std::write!(f, "{}", $says),)*
+                }
+            }
+        }
+
+        impl ::std::error::Error for $name {}
+
+        impl $crate::Problem for $name {
+            fn code(&self) -> &'static str {
+                self.code()
+            }
+
+            fn help(&self) -> Option<String> {
+                self.help()
+            }
+        }
+    };
+}
+
+/// The help of a declaration, if it has one.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! help_of {
+    () => {
+        None
+    };
+    ($help:expr) => {
+        $crate::Help::words($help)
+    };
+}
+
 /// Declares an enum of problems, each told once: its fields, its stable code, where it is, what it says and what to do
 /// about it. The expressions see the fields by reference, and `$say`, which knows what things are called.
 ///

@@ -1,7 +1,5 @@
 //! One candidate.
 
-use std::fmt;
-
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
 use lptn_network::{InputError, Network, Severity};
@@ -47,36 +45,29 @@ pub struct Candidate {
     pub several: Option<SteadyState>,
 }
 
+lptn_units::errors! {
 /// Why a candidate has no results.
 #[derive(Debug)]
 pub enum CompareError {
     /// It is not run and has no steady state.
-    Steady(SteadyError),
+    Steady(error: SteadyError) = error.code(), error, help error.help();
     /// Its run failed.
-    Run(Box<TransientError>),
+    Run(error: Box<TransientError>) = error.code(), error, help error.help();
     /// A limit, source or boundary has no value.
-    Input(InputError),
+    Input(error: InputError) = "solve::input", error, help error.problem.help();
     /// The balances of its massless nodes have no solution at the start.
-    Start(Unsolved),
+    Start(unsolved: Unsolved) = unsolved.code(), unsolved, help unsolved.help();
     /// Its books do not close: relative residual, and what is allowed.
-    Ledger(f64, f64),
+    Ledger(residual: f64, bound: f64) = "run::ledger",
+        format!(
+            "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than the {bound:.1e} allowed"
+        );
     /// Its run was interrupted at this time in s: peaks and limits of a part would read like those of the whole.
-    Interrupted(f64),
+    Interrupted(time: f64) = "run::interrupted", format!("the run was interrupted at {time} s");
+}
 }
 
 impl CompareError {
-    /// The stable code, as diagnostics print it.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Steady(error) => error.code(),
-            Self::Run(error) => error.code(),
-            Self::Input(_) => "solve::input",
-            Self::Start(unsolved) => unsolved.code(),
-            Self::Ledger(..) => "run::ledger",
-            Self::Interrupted(_) => "run::interrupted",
-        }
-    }
-
     /// The input that has no value, if that is the reason.
     pub fn input(&self) -> Option<&InputError> {
         match self {
@@ -88,24 +79,6 @@ impl CompareError {
         }
     }
 }
-
-impl fmt::Display for CompareError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Steady(error) => error.fmt(f),
-            Self::Run(error) => error.fmt(f),
-            Self::Input(error) => error.fmt(f),
-            Self::Start(unsolved) => unsolved.fmt(f),
-            Self::Ledger(residual, bound) => write!(
-                f,
-                "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than the {bound:.1e} allowed"
-            ),
-            Self::Interrupted(time) => write!(f, "the run was interrupted at {time} s"),
-        }
-    }
-}
-
-impl std::error::Error for CompareError {}
 
 impl Candidate {
     /// Runs a candidate; without settings of a run it is compared in steady state.

@@ -1,7 +1,5 @@
 //! What a cooling has to do, from a power and two temperatures alone.
 
-use std::fmt;
-
 /// Heat, the temperature that must not be exceeded, and what takes the heat away. Temperatures in K.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoolingTask {
@@ -43,35 +41,18 @@ pub struct Cooling {
     pub resistance: f64,
 }
 
+lptn_units::errors! {
 /// Why the question has no answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CoolingError {
-    /// The power is not positive and finite.
-    Power(f64),
-    /// The rise is not positive and finite.
-    Rise(f64),
+    /// The power in W is not positive and finite.
+    Power(power: f64) = "size::power", format!("the power has to be more than 0 W, got {power} W"),
+        help "write for example --power \"223 W\"";
+    /// The rise in K is not positive and finite.
+    Rise(rise: f64) = "size::rise", format!("the rise of the coolant has to be more than 0 K, got {rise} K"),
+        help "write for example --rise \"10 K\"";
 }
-
-impl CoolingError {
-    /// The stable code, as diagnostics print it.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Power(_) => "size::power",
-            Self::Rise(_) => "size::rise",
-        }
-    }
 }
-
-impl fmt::Display for CoolingError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Power(power) => write!(f, "the power has to be more than 0 W, got {power} W"),
-            Self::Rise(rise) => write!(f, "the rise of the coolant has to be more than 0 K, got {rise} K"),
-        }
-    }
-}
-
-impl std::error::Error for CoolingError {}
 
 impl CoolingTask {
     /// The resistance that carries `power` with `limit - ambient` across it: `R_max = (limit - ambient) / P`, the

@@ -1,102 +1,45 @@
 //! Why the uncertainty of a run cannot be had.
 
-use std::fmt;
-
 use lptn_assembly::AssemblyError;
 use lptn_network::{BuildErrors, InputError};
 use lptn_solve::TransientError;
 
 use crate::uncertainty::points::{MOST_DIMENSIONS, MOST_POINTS};
 use crate::uncertainty::result::Lost;
+use crate::uncertainty::sobol::LEAST;
 
+lptn_units::errors! {
 /// Why the uncertainty of a run cannot be had.
 #[derive(Debug)]
 pub enum UncertaintyError {
     /// No parameter carries `±`.
-    NoDeviation,
+    NoDeviation = "uncertainty::no_deviation", "no parameter has a `±`, so nothing is uncertain",
+        help "give a parameter its standard deviation: `R_skin = \"0.365 K/W ± 20 %\"` in [param]";
     /// More parameters carry `±` than sampling has directions for.
-    TooManyParameters(usize),
+    TooManyParameters(count: usize) = "uncertainty::too_many_parameters",
+        format!("{count} parameters have a `±`, sampling goes up to {}", MOST_DIMENSIONS / 2),
+        help "use `--uncertainty linear`";
     /// More samples, or fewer, than can be taken.
-    Samples(usize),
+    Samples(samples: usize) = "uncertainty::samples",
+        format!("the number of samples must be {LEAST} to {MOST_POINTS}, got {samples}"),
+        help "write for example `--samples 512`";
     /// The temperatures of all samples at all rows do not fit into the memory that is allowed, in bytes.
-    TooLarge(usize),
+    TooLarge(bytes: usize) = "uncertainty::too_large",
+        format!("the temperatures of all samples at all rows need {} MB", bytes / 1_000_000),
+        help "write fewer rows or samples, or fewer columns with `--select 'steel.T'`";
     /// So few samples have a result that nothing can be said; why the others have none.
-    TooFew(Vec<Lost>),
+    TooFew(lost: Vec<Lost>) = "uncertainty::too_few",
+        lost.iter().fold("too few samples have a result".to_owned(), |text, lost| format!("{text}; {lost}")),
+        help "make the `±` smaller: most of what it allows is no network that runs";
     /// There is no network a little beside the parameters' values.
-    Network(BuildErrors),
+    Network(errors: BuildErrors) = "uncertainty::network", format!("there is no network beside the values: {errors}");
     /// The network itself cannot be assembled.
-    Assembly(AssemblyError),
+    Assembly(error: AssemblyError) = error.code(), error, help error.help();
     /// The run itself, with every parameter at its value, fails.
-    Run(Box<TransientError>),
+    Run(error: Box<TransientError>) = error.code(), error, help error.help();
     /// A limit has no value beside the run.
-    Limit(InputError),
+    Limit(error: InputError) = "solve::input", error;
     /// It was interrupted.
-    Interrupted,
+    Interrupted = "uncertainty::interrupted", "the sampling was interrupted";
 }
-
-impl UncertaintyError {
-    /// The stable code, as diagnostics print it.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::NoDeviation => "uncertainty::no_deviation",
-            Self::TooManyParameters(_) => "uncertainty::too_many_parameters",
-            Self::Samples(_) => "uncertainty::samples",
-            Self::TooLarge(_) => "uncertainty::too_large",
-            Self::TooFew(_) => "uncertainty::too_few",
-            Self::Network(_) => "uncertainty::network",
-            Self::Assembly(error) => error.code(),
-            Self::Run(error) => error.code(),
-            Self::Limit(_) => "solve::input",
-            Self::Interrupted => "uncertainty::interrupted",
-        }
-    }
-
-    /// What to do about it.
-    pub fn help(&self) -> Option<String> {
-        match self {
-            Self::NoDeviation => Some(
-                "give a parameter its standard deviation: `R_skin = \"0.365 K/W ± 20 %\"` in [param]".into(),
-            ),
-            Self::TooManyParameters(_) => Some("use `--uncertainty linear`".into()),
-            Self::Samples(_) => Some("write for example `--samples 512`".into()),
-            Self::TooLarge(_) => {
-                Some("write fewer rows or samples, or fewer columns with `--select 'steel.T'`".into())
-            }
-            Self::TooFew(_) => {
-                Some("make the `±` smaller: most of what it allows is no network that runs".into())
-            }
-            Self::Network(_) | Self::Assembly(_) | Self::Limit(_) | Self::Interrupted => None,
-            Self::Run(error) => error.help(),
-        }
-    }
 }
-
-impl fmt::Display for UncertaintyError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoDeviation => f.write_str("no parameter has a `±`, so nothing is uncertain"),
-            Self::TooManyParameters(count) => {
-                let most = MOST_DIMENSIONS / 2;
-                write!(f, "{count} parameters have a `±`, sampling goes up to {most}")
-            }
-            Self::Samples(samples) => {
-                let least = super::sobol::LEAST;
-                write!(f, "the number of samples must be {least} to {MOST_POINTS}, got {samples}")
-            }
-            Self::TooLarge(bytes) => {
-                write!(f, "the temperatures of all samples at all rows need {} MB", bytes / 1_000_000)
-            }
-            Self::TooFew(lost) => {
-                f.write_str("too few samples have a result")?;
-                lost.iter().try_for_each(|lost| write!(f, "; {lost}"))
-            }
-            Self::Network(errors) => write!(f, "there is no network beside the values: {errors}"),
-            Self::Assembly(error) => error.fmt(f),
-            Self::Run(error) => error.fmt(f),
-            Self::Limit(error) => error.fmt(f),
-            Self::Interrupted => f.write_str("the sampling was interrupted"),
-        }
-    }
-}
-
-impl std::error::Error for UncertaintyError {}

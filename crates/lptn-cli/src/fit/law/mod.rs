@@ -166,12 +166,5 @@ fn wrong_law(option: &str, text: &str, error: &LawError) -> Failure {
 }
 
 fn wrong(error: &LawError) -> Failure {
-    let problem = Diagnostic::error(error.code(), error.to_string());
-    Failure::new(
-        Exit::Input,
-        match error.help() {
-            Some(help) => problem.help(help),
-            None => problem,
-        },
-    )
+    Failure::of(Exit::Input, error)
 }

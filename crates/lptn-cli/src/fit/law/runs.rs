@@ -102,14 +102,7 @@ fn no_capacity() -> Failure {
 
 fn failed(error: &RunsError) -> Failure {
     // a record that has no exponential is no failure of the numbers
-    let problem = Diagnostic::error(error.code(), error.to_string());
-    Failure::new(
-        Exit::Input,
-        match error.help() {
-            Some(help) => problem.help(help),
-            None => problem,
-        },
-    )
+    Failure::of(Exit::Input, error)
 }
 
 fn settings(args: &LawArgs, runs: &[Run], capacity: Capacity) -> Result<RunSettings, Failure> {

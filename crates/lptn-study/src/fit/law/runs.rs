@@ -1,7 +1,5 @@
 //! From records at several speeds to a law: the seed paper from Figure 6 to Figure 9.
 
-use std::fmt;
-
 use super::candidate::{Candidate, Outcome};
 use super::consistency::{Consistency, Measured};
 use super::error::LawError;
@@ -55,60 +53,19 @@ pub struct RunSettings {
     pub threads: usize,
 }
 
+lptn_units::errors! {
 /// Why a study is not possible.
 #[derive(Debug)]
 pub enum RunsError {
     /// A run has no such column.
-    Column {
-        /// The run.
-        run: String,
-        /// The column.
-        column: String,
-    },
+    Column { run: String, column: String } = "record::no_column", format!("{run} has no column `{column}`");
     /// A column of a run could not be fitted.
-    Step {
-        /// The run.
-        run: String,
-        /// The column.
-        column: String,
-        /// Why.
-        error: Box<StepError>,
-    },
+    Step { run: String, column: String, error: Box<StepError> } = error.code(),
+        format!("{run}, column `{column}`: {error}"), help error.help();
     /// The powers could not become points of a law.
-    Law(LawError),
+    Law(error: LawError) = error.code(), error, help error.help();
 }
-
-impl RunsError {
-    /// The stable code.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Column { .. } => "record::no_column",
-            Self::Step { error, .. } => error.code(),
-            Self::Law(error) => error.code(),
-        }
-    }
-
-    /// What to do about it.
-    pub fn help(&self) -> Option<String> {
-        match self {
-            Self::Column { .. } => None,
-            Self::Step { error, .. } => error.help(),
-            Self::Law(error) => error.help(),
-        }
-    }
 }
-
-impl fmt::Display for RunsError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Column { run, column } => write!(f, "{run} has no column `{column}`"),
-            Self::Step { run, column, error } => write!(f, "{run}, column `{column}`: {error}"),
-            Self::Law(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for RunsError {}
 
 impl From<LawError> for RunsError {
     fn from(error: LawError) -> Self {

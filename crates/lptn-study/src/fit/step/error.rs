@@ -1,7 +1,5 @@
 //! Why a record has no exponential.
 
-use std::fmt;
-
 use lptn_reduce::{FitError, ReduceError};
 
 /// Why a record does not tell its time constant.
@@ -28,121 +26,63 @@ pub enum Lack {
     },
 }
 
+lptn_units::errors! {
 /// Why a column could not be fitted, or a fit not compared with a model.
 #[derive(Debug)]
 pub enum StepError {
     /// Times and values are not as many.
-    Length {
-        /// Number of times.
-        times: usize,
-        /// Number of values.
-        values: usize,
-    },
-    /// Too few samples, no record, a constant column, or one without curvature.
-    Fit(FitError),
-    /// The record stands still at its least or greatest value while it changes beside.
-    Saturated {
-        /// That value, in K.
-        value: f64,
-        /// From this time of the record in s ..
-        from: f64,
-        /// .. to this one.
-        to: f64,
-        /// Number of samples.
-        samples: usize,
-    },
-    /// The record does not tell `T_i`, `T_f` and `t_RC`.
-    Undetermined {
-        /// The time constant in s at which it does not.
-        tau: f64,
-        /// What is missing.
-        lack: Lack,
-    },
+    Length { times: usize, values: usize } = "fit::not_a_record", format!("there are {times} times and {values} values");
+    /// Too few samples, not a record, a constant column, or one without curvature.
+    Fit(error: FitError) = error.code(), error,
+        help matches!(error, FitError::NoCurvature { .. }).then(|| LONGER.to_owned());
+    /// The record stands still at its least or greatest value in K, between these times in s, while it changes beside.
+    Saturated { value: f64, from: f64, to: f64, samples: usize } = "fit::saturated",
+        format!(
+            "the record stands still at its extreme value from {from} s to {to} s ({samples} samples) while it changes beside: \
+             the instrument was at the end of its range, or the step began later"
+        ),
+        help format!("leave {from} s to {to} s out of the record");
+    /// The record does not tell `T_i`, `T_f` and `t_RC`: the time constant in s at which it does not, and what is missing.
+    Undetermined { tau: f64, lack: Lack } = "fit::undetermined", lack.explain(*tau), help lack.help();
     /// The reference column has no samples.
-    Reference,
-    /// The capacity or its deviation is no positive number.
-    Capacity(f64),
+    Reference = "fit::no_reference", "the reference column has no samples";
+    /// The capacity in J/K or its deviation is not a positive number.
+    Capacity(value: f64) = "fit::capacity", format!("the capacity has to be positive, got {value} J/K"),
+        help "write for example --capacity \"2659 J/K ± 5 %\"";
     /// The model has no equivalent at the port, or its run failed.
-    Model(ReduceError),
+    Model(error: ReduceError) = error.code(), error, help error.help();
 }
-
-impl StepError {
-    /// The stable code, as diagnostics print it.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Length { .. } => "fit::not_a_record",
-            Self::Fit(error) => error.code(),
-            Self::Saturated { .. } => "fit::saturated",
-            Self::Undetermined { .. } => "fit::undetermined",
-            Self::Reference => "fit::no_reference",
-            Self::Capacity(_) => "fit::capacity",
-            Self::Model(error) => error.code(),
-        }
-    }
-
-    /// What to do about it.
-    pub fn help(&self) -> Option<String> {
-        match self {
-            Self::Undetermined { lack: Lack::Spacing { .. }, .. } => {
-                Some("take samples more often, several in each time constant".into())
-            }
-            Self::Undetermined { lack: Lack::Interval { .. } | Lack::Shape { .. }, .. } => Some(
-                "is there a step in it? one that begins at the first row and lasts, with less noise or for longer, \
-                 tells t_RC"
-                    .into(),
-            ),
-            Self::Fit(FitError::NoCurvature { .. }) | Self::Undetermined { .. } => Some(
-                "a longer record, until the temperature bends towards its end, tells T_f and t_RC apart"
-                    .into(),
-            ),
-            Self::Saturated { from, to, .. } => Some(format!("leave {from} s to {to} s out of the record")),
-            Self::Capacity(_) => Some("write for example --capacity \"2659 J/K ± 5 %\"".into()),
-            Self::Model(error) => error.help(),
-            _ => None,
-        }
-    }
 }
 
 impl Lack {
-    fn explain(self, tau: f64, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn explain(self, tau: f64) -> String {
         match self {
             Self::Alike => {
-                write!(f, "T_i, T_f and t_RC cannot be told apart at a time constant of {tau:.3e} s")
+                format!("T_i, T_f and t_RC cannot be told apart at a time constant of {tau:.3e} s")
             }
-            Self::Interval { half_width } => write!(
-                f,
+            Self::Interval { half_width } => format!(
                 "the record does not tell t_RC: its 95 % interval is {tau:.3e} s ± {half_width:.3e} s, which holds 0"
             ),
-            Self::Shape { missed, changed } => write!(
-                f,
+            Self::Shape { missed, changed } => format!(
                 "the record does not tell t_RC: one exponential misses {missed:.3e} K of it slowly and changes by \
                  {changed:.3e} K itself"
             ),
-            Self::Spacing { spacing } => write!(
-                f,
+            Self::Spacing { spacing } => format!(
                 "the record does not tell t_RC: at {tau:.3e} s it is shorter than the distance of the samples, \
                  {spacing:.3e} s"
             ),
         }
     }
-}
 
-impl fmt::Display for StepError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn help(self) -> &'static str {
         match self {
-            Self::Length { times, values } => write!(f, "there are {times} times and {values} values"),
-            Self::Fit(error) => error.fmt(f),
-            Self::Saturated { from, to, samples, .. } => write!(
-                f,
-                "the record stands still at its extreme value from {from} s to {to} s ({samples} samples) while it \
-                 changes beside: the instrument was at the end of its range, or the step began later"
-            ),
-            Self::Undetermined { tau, lack } => lack.explain(*tau, f),
-            Self::Reference => f.write_str("the reference column has no samples"),
-            Self::Capacity(value) => write!(f, "the capacity has to be positive, got {value} J/K"),
-            Self::Model(error) => error.fmt(f),
+            Self::Spacing { .. } => "take samples more often, several in each time constant",
+            Self::Interval { .. } | Self::Shape { .. } => {
+                "is there a step in it? one that begins at the first row and lasts, with less noise or for longer, tells t_RC"
+            }
+            Self::Alike => LONGER,
         }
     }
 }
 
-impl std::error::Error for StepError {}
+const LONGER: &str = "a longer record, until the temperature bends towards its end, tells T_f and t_RC apart";
