@@ -106,6 +106,25 @@ fn a_massless_node_leaps_at_a_smooth_fold() {
     keeps_to(&folder, &exact, &FINE);
 }
 
+/// The time of a leap moves with the parameters: exact sensitivities went on over it as if nothing had happened, and gave
+/// 6.661 K/W.
+#[test]
+fn sensitivities_over_a_leap_are_differences() {
+    let net = BOILING
+        .replace("5.0 K/W", "20.0 K/W")
+        .replace("P = \"60 W\"", "P = \"Pw\"")
+        .replace("3000 s", "900 s");
+    let folder = Folder::with("net.toml", &net.replace("[table]", "[param]\nPw = \"60 W ± 1 W\"\n[table]"));
+    let arguments = ["run", "net.toml", "--no-files", "--uncertainty", "linear", "--format", "json"];
+    let json = folder.run(&arguments).exits(0).json();
+    assert_eq!(json["uncertainty"]["exact"], false, "{json}");
+    // as for the fold above, the integrals for 59.99 and 60.01 W
+    for (result, slope) in [("block.T", 6.778_976), ("j.T", 0.458_885)] {
+        let sd = json["uncertainty"]["results"][result]["end"]["sd"]["value"].as_f64().unwrap();
+        assert!((sd - slope).abs() < 1e-3 * slope, "{result}: {sd}, not {slope}");
+    }
+}
+
 /// Up at 123.160 degC and down at 138.738 degC, twice: smooth folds of a surface whose film has a gap, under heat that rises and
 /// falls in a triangle.
 #[test]

@@ -5,6 +5,7 @@ mod rest;
 
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::{FactorError, IntegrateError, Integrator, Statistics, Step};
+use lptn_network::NoTangents;
 
 use crate::balance::Books;
 use crate::curved::Curved;
@@ -63,6 +64,9 @@ impl Transient {
         loop {
             if let Some(solution) = self.attempt(system, from, (care, &mut *observer))? {
                 return Ok(solution);
+            }
+            if !self.sensitivities.is_empty() {
+                return Err(TransientError::Settings(SettingsError::Sensitivity(NoTangents::Leaps)));
             }
             care = Care::Leaps;
         }

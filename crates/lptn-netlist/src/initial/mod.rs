@@ -319,23 +319,16 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// Where a massless node stood in the state.
-    pub(crate) fn stood(&mut self, name: &str, id: NodeId) {
-        let stood = self.state.and_then(|file| file.temperatures.get(name));
-        if let Some((value, _)) = stood.filter(|_| self.builder.is_massless(id)) {
-            self.builder.start_at(id, Temperature(value));
-        }
-    }
-
     /// The nodes of grids and imports, which stand in no `[node]`: their temperatures in the state take the place of
-    /// those that the file gives them.
+    /// those that the file gives them. And all massless nodes: where they stood.
     pub(crate) fn start_the_others(&mut self) {
         let Some(file) = self.state.filter(|file| file.usable && file.problems.is_empty()) else { return };
         let written: HashSet<&str> = self.elements("node").iter().map(|entry| entry.key.as_str()).collect();
         let names: Vec<String> = self.builder.end_names(true).map(str::to_owned).collect();
         let mut missing = Vec::new();
         for (id, name) in self.builder.node_ids().zip(names) {
-            if written.contains(name.as_str()) {
+            let massless = self.builder.is_massless(id);
+            if written.contains(name.as_str()) && !massless {
                 continue;
             }
             match file.temperatures.get(&name) {
@@ -343,7 +336,7 @@ impl<'a> Elaboration<'a> {
                     self.builder.start_at(id, Temperature(value));
                     self.molten(&name, id);
                 }
-                None if self.builder.is_massless(id) => {}
+                None if massless => {}
                 None => missing.push(name),
             }
         }

@@ -37,7 +37,6 @@ impl<'a> Elaboration<'a> {
         };
         let id = self.builder.add_node(&entry.key, capacity, initial, massless);
         self.molten(&entry.key, id);
-        self.stood(&entry.key, id);
         let item = Item::Node(id);
         self.map.insert(item, Field::Name, entry.key_span.clone());
         if let Some(fields) = &fields {

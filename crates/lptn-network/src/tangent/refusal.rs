@@ -19,6 +19,9 @@ pub enum NoTangents {
         /// The input.
         item: Item,
     },
+    /// A massless node leaps from one solution of its balance to another, at a time that moves with the parameters. A run
+    /// finds that, not the form of the network.
+    Leaps,
     /// How a node melts changes by more than its size.
     Melting {
         /// The node.
@@ -57,6 +60,7 @@ impl NoTangents {
             Self::MovingJump { item } => {
                 format!("{} jumps at a time that moves with a parameter", name(item))
             }
+            Self::Leaps => self.to_string(),
             Self::Melting { node } => {
                 format!("how {} melts depends on a parameter", name(Item::Node(node)))
             }
@@ -72,6 +76,7 @@ impl fmt::Display for NoTangents {
         f.write_str(match self {
             Self::Events { .. } => "the network switches, at times that move with the parameters",
             Self::MovingJump { .. } => "an input jumps at a time that moves with a parameter",
+            Self::Leaps => "a massless node leaps, at a time that moves with the parameters",
             Self::Melting { .. } => "how a node melts depends on a parameter",
             Self::Fluid { .. } => {
                 "the specific heat of a fluid depends on a parameter and on its temperature"
