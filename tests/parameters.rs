@@ -40,7 +40,7 @@ fn a_value_that_breaks_an_element_is_refused_by_name() {
     let errors = netlist.network.with(&parameters).unwrap_err();
     let codes: Vec<&str> = errors.0.iter().map(|e| e.code()).collect();
     assert_eq!(codes, ["network::not_positive"; 3]);
-    assert!(errors.to_string().contains("`R` of `internal`"), "{errors}");
+    assert!(errors.to_string().contains("`R` of path `internal`"), "{errors}");
 }
 
 #[test]
