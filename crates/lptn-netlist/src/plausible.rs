@@ -5,6 +5,7 @@
 use lptn_network::{
     ConductorId, End, Field, Flow, Item, Naming, Network, Substance, Value, ZERO_CELSIUS, slot,
 };
+use lptn_units::format_six as short;
 
 use crate::diagnostic::Diagnostic;
 use crate::source_map::SourceMap;
@@ -185,10 +186,4 @@ fn apart(
     };
     warning
         .help("check the prefix of the unit: m is a thousandth, M a million; leave out what carries no heat")
-}
-
-/// Without the noise of a change of units.
-fn short(value: f64) -> String {
-    let rounded = format!("{value:.5e}").parse().unwrap_or(value);
-    lptn_units::format_number(rounded)
 }

@@ -116,7 +116,7 @@ impl NetworkBuilder {
         self.parts.nodes[node.index()].molten = share;
     }
 
-    /// The conductivity of a material, for [`Path::Conduction`](crate::Path::Conduction); it may depend on the
+    /// The conductivity of a material, for a [`Path`](crate::Path) of conduction; it may depend on the
     /// temperature, which is then the mean of the ends.
     pub fn conductivity(&self, material: MaterialId) -> Option<Input> {
         let value = self.parts.materials[material.index()].k.clone()?;

@@ -1,10 +1,9 @@
 //! Heat into and out of one node or boundary: every path and source that reaches it.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{ConductorId, End, InputError, Item, JointId, Network, SourceId};
+use lptn_network::{ConductorId, End, InputError, Item, JointId, Network, Received, SourceId};
 
 use crate::ledger::{self, Ledger};
-use crate::steady::SteadyState;
 
 /// What one path or source brings.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +31,22 @@ pub struct Balance {
 }
 
 impl Balance {
+    /// The balance of a node or boundary where its paths receive this and sources give this, in W.
+    pub(crate) fn of_flows(network: &Network, of: End, received: &[Received], source_heat: &[f64]) -> Self {
+        let terms = Books::new(network, Some(of)).kinds.into_iter().map(|kind| {
+            let power = match kind {
+                Kind::Conductor(id, side) => received[id.index()][side],
+                Kind::Joint(id, side) => {
+                    let parts = network.joints()[id.index()].conductors();
+                    parts.map(|part| received[part.index()][side]).sum()
+                }
+                Kind::Source(id, share) => share * source_heat[id.index()],
+            };
+            kind.term(network, power, None)
+        });
+        Self { of, terms: terms.collect(), stored: None }
+    }
+
     /// The sum of all heat flows in W: what the node stores, or the boundary takes.
     pub fn power(&self) -> f64 {
         self.terms.iter().map(|term| term.power).sum()
@@ -192,23 +207,5 @@ impl Kind {
             }
             Self::Source(id, _) => Term { item: Item::Source(id), other: None, power, heat },
         }
-    }
-}
-
-impl SteadyState {
-    /// The heat balance of a node or boundary.
-    pub fn balance(&self, network: &Network, of: End) -> Balance {
-        let terms = Books::new(network, Some(of)).kinds.into_iter().map(|kind| {
-            let power = match kind {
-                Kind::Conductor(id, side) => self.received[id.index()][side],
-                Kind::Joint(id, side) => {
-                    let parts = network.joints()[id.index()].conductors();
-                    parts.map(|part| self.received[part.index()][side]).sum()
-                }
-                Kind::Source(id, share) => share * self.source_heat[id.index()],
-            };
-            kind.term(network, power, None)
-        });
-        Balance { of, terms: terms.collect(), stored: None }
     }
 }

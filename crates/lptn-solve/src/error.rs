@@ -2,7 +2,7 @@
 
 use lptn_integrate::{FactorError, IntegrateError};
 use lptn_network::{Field, InputError, Item, NodeId, list_of, list_of_names};
-use lptn_units::format_number;
+use lptn_units::format_six as six_digits;
 
 use crate::settings_error::SettingsError;
 use crate::solution::Solution;
@@ -158,9 +158,4 @@ const MERGE: &str = "replace the largest conductances by merging the nodes they 
 
 fn cold(name: &str, temperature: f64) -> String {
     format!("node `{name}` is below absolute zero: {} K", six_digits(temperature))
-}
-
-/// A number as a message shows it: six digits are enough to find the place.
-pub(crate) fn six_digits(x: f64) -> String {
-    format!("{x:.5e}").parse().map_or_else(|_| x.to_string(), format_number)
 }

@@ -1,12 +1,11 @@
 //! Limits in results: how near each came to being broken, and when it first was.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{InputError, LimitId, Network};
+use lptn_network::{Evaluation, InputError, LimitId, Network};
 use lptn_units::Dimension;
 
 use crate::events::{Event, EventKind};
 use crate::reading::Reading;
-use crate::steady::SteadyState;
 use crate::watch::top;
 
 /// How a limit fared in a run, between the rows too.
@@ -185,21 +184,12 @@ fn is_temperature(network: &Network, id: LimitId) -> bool {
     network.limits()[id.index()].ty.dimension == Dimension::TEMPERATURE
 }
 
-impl SteadyState {
-    /// The margin of each limit in SI units, positive while it is kept, zero where a temperature passes it by rounding
-    /// only; `t` in the limits is `time` in s, that of the
-    /// steady state's inputs.
-    ///
-    /// # Errors
-    /// [`InputError`] if a limit cannot be evaluated.
-    pub fn limit_margins(&self, network: &Network, time: f64) -> Result<Vec<f64>, InputError> {
-        let mut scope = self.evaluation(network);
-        scope.set_time(time, time);
-        let margin = |id: LimitId| {
-            let margin = network.limit_margin(id, &mut scope)?;
-            let rounding = is_temperature(network, id) && (-ROUNDING..0.0).contains(&margin);
-            Ok(if rounding { 0.0 } else { margin })
-        };
-        network.limit_ids().map(margin).collect()
-    }
+/// The margin of each limit in SI units where `scope` stands, zero where a temperature passes it by rounding only.
+pub(crate) fn margins(network: &Network, scope: &mut Evaluation) -> Result<Vec<f64>, InputError> {
+    let margin = |id: LimitId| {
+        let margin = network.limit_margin(id, scope)?;
+        let rounding = is_temperature(network, id) && (-ROUNDING..0.0).contains(&margin);
+        Ok(if rounding { 0.0 } else { margin })
+    };
+    network.limit_ids().map(margin).collect()
 }

@@ -13,7 +13,7 @@ use lptn_network::{
 
 use crate::newton::NewtonError;
 use crate::solution::Solution;
-use crate::steady::just_after;
+use crate::times::just_after;
 use crate::unfold::Unfold;
 use crate::unsolved::Unsolved;
 

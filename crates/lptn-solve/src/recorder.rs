@@ -15,16 +15,18 @@ use crate::ledger::Ledger;
 use crate::limit::{LimitWatch, with_limits};
 use crate::reading::Reading;
 use crate::readings::Readings;
-use crate::sensed::{Sensed, SensitivityRows};
-use crate::settings::{Record, Transient};
+use crate::selection::Record;
+use crate::sensed::Sensed;
+use crate::sensitivity_rows::SensitivityRows;
+use crate::settings::Transient;
 use crate::settings_error::SettingsError;
 use crate::solution::{End, Solution};
 use crate::state::State;
 use crate::times::Segment;
+use crate::tracked::Tracked;
 use crate::unfold::Unfold;
 use crate::unsolved::Unsolved;
 use crate::watch::{Seen, Watch};
-use crate::window::Tracked;
 
 /// Writes the state at a time inside the present step.
 type StateAt<'a> = dyn FnMut(f64, &mut [f64]) -> Result<(), IntegrateError> + 'a;

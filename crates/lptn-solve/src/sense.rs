@@ -3,7 +3,8 @@
 use lptn_network::{ConductorId, End, Network, NodeId, SourceId};
 
 use crate::solution::Solution;
-use crate::steady::{SteadyState, just_after};
+use crate::steady::SteadyState;
+use crate::times::just_after;
 
 /// Nothing is solid above this temperature in K, 4000 degC: tungsten melts at 3422 degC, tantalum hafnium carbide at about
 /// 3900 degC.

@@ -5,6 +5,7 @@ use lptn_network::{NodeId, ParameterId};
 
 use crate::error::TransientError;
 use crate::newton::NewtonError;
+use crate::sensitivity_rows::SensitivityRows;
 use crate::tangent::Tangent;
 use crate::unfold::Unfold;
 
@@ -16,13 +17,6 @@ pub(crate) struct Sensed<'a> {
     /// Those of all vertices by one parameter.
     vertices: Vec<f64>,
     rows: SensitivityRows,
-}
-
-/// Sensitivities of the recorded nodes in K per SI unit: row by row, in it parameter by parameter.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct SensitivityRows {
-    parameters: Vec<ParameterId>,
-    values: Vec<f64>,
 }
 
 impl<'a> Sensed<'a> {
@@ -67,14 +61,5 @@ impl<'a> Sensed<'a> {
 
     pub(crate) fn into_rows(self) -> SensitivityRows {
         self.rows
-    }
-}
-
-impl SensitivityRows {
-    /// Those of one of `width` recorded nodes over the rows.
-    pub(crate) fn of(&self, parameter: ParameterId, (column, width): (usize, usize)) -> Option<Vec<f64>> {
-        let place = self.parameters.iter().position(|own| *own == parameter)?;
-        let rows = self.values.chunks_exact(width * self.parameters.len());
-        Some(rows.map(|row| row[place * width + column]).collect())
     }
 }

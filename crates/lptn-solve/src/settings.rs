@@ -5,19 +5,11 @@ use lptn_network::{End, Network, NodeId, OutputTimes, ParameterId, Time};
 
 use crate::curved::Curved;
 use crate::events::ControlState;
+use crate::selection::Record;
 use crate::settings_error::SettingsError;
 use crate::times;
 use crate::watch::Watch;
 use crate::window::Window;
-
-/// Which nodes a solution keeps.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Record {
-    /// Every node: heat flows can be had from the solution.
-    All,
-    /// These nodes only, to save memory.
-    Nodes(Vec<NodeId>),
-}
 
 /// The settings of a run.
 #[derive(Clone, Debug)]

@@ -1,8 +1,7 @@
 //! Settings of a run that cannot be.
 
 use lptn_network::NoTangents;
-
-use crate::error::six_digits;
+use lptn_units::format_six as six_digits;
 
 lptn_units::errors! {
 /// Settings that contradict themselves.

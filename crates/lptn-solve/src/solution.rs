@@ -15,7 +15,7 @@ use crate::ledger::Ledger;
 use crate::limit::LimitSeen;
 use crate::quantity::Quantity;
 use crate::reading::Reading;
-use crate::sensed::SensitivityRows;
+use crate::sensitivity_rows::SensitivityRows;
 use crate::state::State;
 use crate::watch::Seen;
 use crate::window::WindowSeen;

@@ -2,14 +2,17 @@
 
 use lptn_assembly::{Form, ThermalSystem, Workspace};
 use lptn_integrate::{FactorError, Pattern};
-use lptn_network::{Evaluation, HeatOf, InputError, Network, NodeId, Positions, Received};
+use lptn_network::{End, Evaluation, HeatOf, InputError, Network, NodeId, Positions, Received};
 
 use crate::adiabatic::{self, Island};
+use crate::balance::Balance;
 use crate::conductances::Conductances;
 use crate::error::SteadyError;
 use crate::events::find_consistent;
+use crate::limit;
 use crate::newton::{Newton, NewtonError, SMALL};
 use crate::quantity::Quantity;
+use crate::times::just_after;
 use crate::transient::rest;
 use crate::unsolved::Unsolved;
 
@@ -62,6 +65,22 @@ const SAME: f64 = 1e-5;
 const BALANCE: f64 = 1e-9;
 
 impl SteadyState {
+    /// The heat balance of a node or boundary.
+    pub fn balance(&self, network: &Network, of: End) -> Balance {
+        Balance::of_flows(network, of, &self.received, &self.source_heat)
+    }
+
+    /// The margin of each limit in SI units, positive while it is kept, zero where a temperature passes it by rounding
+    /// only; `t` in the limits is `time` in s, that of the steady state's inputs.
+    ///
+    /// # Errors
+    /// [`InputError`] if a limit cannot be evaluated.
+    pub fn limit_margins(&self, network: &Network, time: f64) -> Result<Vec<f64>, InputError> {
+        let mut scope = self.evaluation(network);
+        scope.set_time(time, time);
+        limit::margins(network, &mut scope)
+    }
+
     /// Solves `G T = q` with the inputs as they are at `time` in s. Where something switches, a state is sought in
     /// which nothing has to, from the positions at the start on.
     ///
@@ -234,12 +253,6 @@ impl SteadyState {
         let all = self.source_heat.iter().chain(&self.boundary_heat).chain(&self.conductor_heat);
         all.map(|q| q.abs()).sum()
     }
-}
-
-/// A time at which comparisons of `t` have the truth that holds from `time` on: a jump at the start is over, as
-/// it is in the first row of a run. The distance is far below any thermal time.
-pub(crate) fn just_after(time: f64) -> f64 {
-    time + 1e-12 * time.abs().max(1.0)
 }
 
 /// What the last digit of the temperatures does to the balance in W: a network at one temperature carries heat of

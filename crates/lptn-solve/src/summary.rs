@@ -5,7 +5,8 @@ use lptn_network::NodeId;
 
 use crate::newton::NewtonError;
 use crate::solution::Solution;
-use crate::steady::{SteadyState, just_after};
+use crate::steady::SteadyState;
+use crate::times::just_after;
 use crate::unfold::Unfold;
 use crate::unsolved::Unsolved;
 use crate::watch::Watch;

@@ -4,6 +4,12 @@ use lptn_network::OutputTimes;
 
 use crate::settings_error::SettingsError;
 
+/// A time at which comparisons of `t` have the truth that holds from `time` on: a jump at the start is over, as
+/// it is in the first row of a run. The distance is far below any thermal time.
+pub(crate) fn just_after(time: f64) -> f64 {
+    time + 1e-12 * time.abs().max(1.0)
+}
+
 /// The times of all rows, strictly increasing, from `start` to `stop`.
 pub(crate) fn rows(output: &OutputTimes, start: f64, stop: f64) -> Result<Vec<f64>, SettingsError> {
     let mut rows = match output {

@@ -5,8 +5,8 @@ use std::fmt;
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::FactorError;
 use lptn_network::InputError;
+use lptn_units::format_six as six_digits;
 
-use crate::error::six_digits;
 use crate::newton::NewtonError;
 
 /// Balances that could not be solved.

@@ -5,7 +5,8 @@ use lptn_network::Network;
 
 use crate::error::TransientError;
 use crate::exact::{Difference, ExactError, ExactSolution};
-use crate::settings::{Control, Progress, Record, Transient};
+use crate::selection::Record;
+use crate::settings::{Control, Progress, Transient};
 use crate::solution::{End, Solution};
 use crate::table::Table;
 

@@ -21,6 +21,11 @@ pub fn short(value: f64) -> String {
     rounded(value, 10)
 }
 
+/// A number as a message shows it: six digits are enough to find the place.
+pub fn six(value: f64) -> String {
+    rounded(value, 6)
+}
+
 #[cfg(test)]
 mod tests {
     use super::{number, rounded};

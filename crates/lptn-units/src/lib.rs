@@ -49,7 +49,7 @@ pub use expr::{
     Comparison, Degree, EvalError, Expression, Program, RESERVED, Scope, SlotKind, Split, Symbol, TableCall,
     Trend, is_function,
 };
-pub use format::{number as format_number, short as format_short};
+pub use format::{number as format_number, short as format_short, six as format_six};
 pub use problems::{Help, Problem};
 pub use quantity::{Quantity, WrittenQuantity, kelvin_alone, parse_quantity, written_quantity};
 pub use rational::Rational;

@@ -7,7 +7,8 @@ use lptn_network::{InputError, Positions};
 
 use crate::error::SteadyError;
 use crate::events::{EventKind, Gates};
-use crate::steady::{SteadyState, just_after};
+use crate::steady::SteadyState;
+use crate::times::just_after;
 
 /// The most positions that are tried.
 const MOST: usize = 64;

@@ -6,7 +6,8 @@ use lptn_network::{ControlId, OutputTimes};
 use super::error::PeriodicError;
 use super::secants::Shot;
 use crate::events::{ControlState, Event, EventKind};
-use crate::settings::{Control, Progress, Record, Transient};
+use crate::selection::Record;
+use crate::settings::{Control, Progress, Transient};
 use crate::solution::{End, Solution};
 use crate::state::State;
 

@@ -1,8 +1,9 @@
 //! Why there is no periodic state.
 
 use lptn_network::{InputError, NodeId, NotPeriodic, list_of_names};
+use lptn_units::format_six as six_digits;
 
-use crate::error::{TransientError, six_digits};
+use crate::error::TransientError;
 
 lptn_units::errors! {
 /// Why no periodic state was found.

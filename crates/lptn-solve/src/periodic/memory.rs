@@ -3,7 +3,7 @@
 use lptn_assembly::ThermalSystem;
 
 use crate::newton::Newton;
-use crate::steady::just_after;
+use crate::times::just_after;
 use crate::unfold::Unfold;
 
 /// Iterations towards the slowest part.

@@ -10,10 +10,10 @@ use lptn_network::{OutputTimes, Positions};
 use crate::newton::{Newton, largest};
 use crate::readings::Readings;
 use crate::recorder::Recorder;
-use crate::settings::{Record, Transient};
+use crate::selection::Record;
+use crate::settings::Transient;
 use crate::state::State;
-use crate::steady::just_after;
-use crate::times::Segment;
+use crate::times::{Segment, just_after};
 use crate::transient::{Care, Run};
 
 /// Tolerance in K: what it decides is which way the network goes, not where it comes to rest.

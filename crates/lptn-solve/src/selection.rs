@@ -1,0 +1,141 @@
+//! Which columns a table has, and what a run keeps for them.
+
+use lptn_network::{Item, Network, NodeId};
+
+use crate::quantity::Quantity;
+
+/// Which nodes a solution keeps.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Record {
+    /// Every node: heat flows can be had from the solution.
+    All,
+    /// These nodes only, to save memory.
+    Nodes(Vec<NodeId>),
+}
+
+/// The columns of a table, chosen by patterns over their names: `*` stands for any characters, `?` for one.
+#[derive(Clone, Debug)]
+pub struct Selection {
+    quantities: Vec<Quantity>,
+}
+
+impl Selection {
+    /// Every column.
+    pub fn all(network: &Network) -> Self {
+        Self { quantities: Quantity::all(network).collect() }
+    }
+
+    /// The columns of some items; `of` tells which.
+    pub fn of(network: &Network, of: impl Fn(Item) -> bool) -> Self {
+        Self { quantities: Quantity::all(network).filter(|quantity| of(quantity.item())).collect() }
+    }
+
+    /// The columns that match any of `patterns`, in the order of the network.
+    ///
+    /// # Errors
+    /// The patterns that match no column.
+    pub fn matching(network: &Network, patterns: &[String]) -> Result<Self, Vec<String>> {
+        if let Some(mut quantities) = named(network, patterns) {
+            quantities.sort_unstable_by_key(|quantity| quantity.order(network));
+            quantities.dedup();
+            return Ok(Self { quantities });
+        }
+        // of a large network not all names are held at once
+        let mut found = vec![false; patterns.len()];
+        let mut chosen = |quantity: &Quantity, asked: &dyn Fn(&str) -> bool| {
+            let name = quantity.name(network);
+            let mut any = false;
+            for (pattern, found) in patterns.iter().zip(&mut found).filter(|(pattern, _)| asked(pattern)) {
+                let fits = matches(pattern, &name);
+                (*found, any) = (*found || fits, any || fits);
+            }
+            any
+        };
+        let mut quantities: Vec<Quantity> =
+            Quantity::all(network).filter(|quantity| chosen(quantity, &|_| true)).collect();
+        let reaching = |p: &str| p.contains('[') || !p.contains(['*', '?']);
+        if patterns.iter().any(|pattern| reaching(pattern)) {
+            quantities.extend(Quantity::inner(network).filter(|quantity| chosen(quantity, &reaching)));
+        }
+        let unmatched = patterns.iter().zip(found).filter(|(_, found)| !found);
+        let unmatched: Vec<String> = unmatched.map(|(pattern, _)| pattern.clone()).collect();
+        if unmatched.is_empty() { Ok(Self { quantities }) } else { Err(unmatched) }
+    }
+
+    /// The names of all columns that a network has.
+    pub fn names(network: &Network) -> Vec<String> {
+        Quantity::all(network).map(|q| q.name(network)).collect()
+    }
+
+    /// What a run has to keep so that these columns can be had.
+    pub fn record(&self) -> Record {
+        if self.quantities.iter().any(|q| q.needs_all()) {
+            return Record::All;
+        }
+        Record::Nodes(self.nodes().collect())
+    }
+
+    /// The nodes whose temperature is selected, in the order of the network.
+    pub fn nodes(&self) -> impl Iterator<Item = NodeId> + '_ {
+        self.quantities.iter().filter_map(|q| if let Quantity::Node(id) = q { Some(*id) } else { None })
+    }
+
+    pub(crate) fn quantities(&self) -> &[Quantity] {
+        &self.quantities
+    }
+
+    /// Whether no column is selected.
+    pub fn is_empty(&self) -> bool {
+        self.quantities.is_empty()
+    }
+}
+
+/// The quantities of patterns that are plain names; `None` if one of them is not.
+fn named(network: &Network, patterns: &[String]) -> Option<Vec<Quantity>> {
+    if patterns.iter().any(|pattern| pattern.contains(['*', '?'])) {
+        return None;
+    }
+    patterns.iter().map(|pattern| Quantity::named(network, pattern)).collect()
+}
+
+/// Whether `name` has the form of `pattern`. Greedy with one place to go back to, so linear but for the
+/// product of the two lengths.
+fn matches(pattern: &str, name: &str) -> bool {
+    let (pattern, name) = (pattern.as_bytes(), name.as_bytes());
+    let (mut p, mut n, mut star) = (0, 0, None);
+    while n < name.len() {
+        match pattern.get(p) {
+            Some(b'*') => {
+                star = Some((p, n));
+                p += 1;
+            }
+            Some(&c) if c == b'?' || c == name[n] => {
+                p += 1;
+                n += 1;
+            }
+            _ => {
+                let Some((at, taken)) = star else { return false };
+                star = Some((at, taken + 1));
+                (p, n) = (at + 1, taken + 1);
+            }
+        }
+    }
+    pattern[p..].iter().all(|&c| c == b'*')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::matches;
+
+    #[test]
+    fn patterns_match_whole_names() {
+        assert!(matches("*.T", "steel.T"));
+        assert!(matches("s*l.?", "steel.T"));
+        assert!(matches("*", ""));
+        assert!(matches("*a*b*", "xxaxxbxx"));
+        assert!(matches("planet[1].*", "planet[1].gear.T"));
+        assert!(!matches("*.T", "internal.Q"));
+        assert!(!matches("steel", "steel.T"));
+        assert!(!matches("?", ""));
+    }
+}

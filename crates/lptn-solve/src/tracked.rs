@@ -1,0 +1,186 @@
+//! Means and extremes over windows of time, from the integrator's own curve and not from rows.
+
+use lptn_network::Network;
+use lptn_units::Type;
+
+use crate::error::StopReason;
+use crate::quadrature::{Interval, POINTS, Quadrature};
+use crate::quantity::{Quantity, Shown};
+use crate::selection::Selection;
+use crate::watch::{LASTS, REFINEMENTS, first_there, is_same, top};
+use crate::window::{ColumnSeen, Window, WindowSeen};
+
+/// An extreme that differs from the value at an end of the window by less than this share of it is there.
+const SAME: f64 = 1e-9;
+
+/// A window with what was seen so far.
+#[derive(Clone, Debug)]
+pub(crate) struct Tracked {
+    pub(crate) window: Window,
+    reached: f64,
+    sums: Quadrature,
+    min: Vec<(f64, f64)>,
+    max: Vec<(f64, f64)>,
+    first: Vec<f64>,
+    last: Vec<f64>,
+}
+
+/// Writes the value of every column of a window at a time inside the present step.
+pub(crate) type Columns<'a> = dyn FnMut(f64, &Selection, &mut Vec<f64>) -> Result<(), StopReason> + 'a;
+
+impl Tracked {
+    pub(crate) fn new(window: Window, network: &Network) -> Self {
+        let count = window.of.quantities().len();
+        Self {
+            reached: window.from,
+            sums: Quadrature::new(kinds(&window.of, network)),
+            window,
+            min: vec![(f64::INFINITY, f64::NAN); count],
+            max: vec![(f64::NEG_INFINITY, f64::NAN); count],
+            first: Vec::new(),
+            last: Vec::new(),
+        }
+    }
+
+    /// The columns may jump here.
+    pub(crate) fn jump(&mut self) {
+        self.sums.jump();
+    }
+
+    /// Takes in the part of a step that lies inside.
+    pub(crate) fn step(
+        &mut self,
+        (from, to): (f64, f64),
+        columns: &mut Columns<'_>,
+    ) -> Result<(), StopReason> {
+        let (from, to) = (from.max(self.window.from), to.min(self.window.to));
+        if from >= to {
+            return Ok(());
+        }
+        let Self { window, sums, min, max, first, last, .. } = self;
+        let mut at = |time: f64| {
+            let mut values = Vec::with_capacity(window.of.quantities().len());
+            columns(time, &window.of, &mut values).map(|()| values)
+        };
+        sums.step((from, to), &mut at, &mut |interval, smooth| {
+            if first.is_empty() {
+                first.clone_from(&interval.values[0]);
+            }
+            last.clone_from(&interval.values[POINTS - 1]);
+            look(interval, smooth, min, max);
+        })?;
+        self.reached = to;
+        Ok(())
+    }
+
+    /// What was seen; `None` where the run did not come so far.
+    pub(crate) fn into_seen(self, network: &Network, tolerance: f64) -> Option<WindowSeen> {
+        let length = self.reached - self.window.from;
+        let (from, to) = (self.window.from, self.reached);
+        let column = |(i, quantity): (usize, &Quantity)| {
+            let ty = quantity.ty(network);
+            let margin = if ty.absolute { 10.0 * tolerance } else { 0.0 };
+            let settle = |(value, time): (f64, f64)| {
+                let ends = [(self.first[i], from), (self.last[i], to)];
+                (value, first_there((value, time), ends, margin.max(SAME * value.abs())))
+            };
+            let mean = self.sums.integral[i] / length;
+            let name = quantity.name(network);
+            let shown = Shown::of(*quantity, network);
+            ColumnSeen { name, ty, mean, min: settle(self.min[i]), max: settle(self.max[i]), shown }
+        };
+        (length > 0.0).then(|| WindowSeen {
+            name: self.window.name.clone(),
+            from,
+            to,
+            columns: self.window.of.quantities().iter().enumerate().map(column).collect(),
+        })
+    }
+}
+
+/// For each column a number that those of the same dimension share.
+fn kinds(of: &Selection, network: &Network) -> Vec<usize> {
+    let mut known: Vec<Type> = Vec::new();
+    let kind = |quantity: &Quantity| {
+        let ty = quantity.ty(network);
+        known.iter().position(|other| *other == ty).unwrap_or_else(|| {
+            known.push(ty);
+            known.len() - 1
+        })
+    };
+    of.quantities().iter().map(kind).collect()
+}
+
+/// Takes the extremes of all columns over an interval into those found so far.
+fn look(interval: &Interval, smooth: bool, min: &mut [(f64, f64)], max: &mut [(f64, f64)]) {
+    let times: [f64; POINTS] = std::array::from_fn(|point| interval.time(point));
+    for (column, (min, max)) in min.iter_mut().zip(max).enumerate() {
+        let values: [f64; POINTS] = std::array::from_fn(|point| interval.values[point][column]);
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in values {
+            (low, high) = (low.min(value), high.max(value));
+        }
+        let of = Curve { interval, column, times: &times, values: &values, smooth };
+        // no curve that its points tell leaves their range by as much again
+        if high + (high - low) > max.0 {
+            of.extreme(1.0, high, max);
+        }
+        if low - (high - low) < min.0 {
+            of.extreme(-1.0, low, min);
+        }
+    }
+}
+
+/// A column over an interval.
+struct Curve<'a> {
+    interval: &'a Interval,
+    column: usize,
+    times: &'a [f64; POINTS],
+    values: &'a [f64; POINTS],
+    /// Whether the points tell the curve.
+    smooth: bool,
+}
+
+impl Curve<'_> {
+    /// Takes in the largest value (`sign` 1) or the least (-1) of the points; where they tell the curve also the top of
+    /// parabolas through it and its neighbours.
+    fn extreme(&self, sign: f64, value: f64, best: &mut (f64, f64)) {
+        let same = |other: &f64| (other - value).abs() <= LASTS * value.abs();
+        let Some(at) = self.values.iter().position(same) else { return };
+        better(sign, best, (self.values[at], self.times[at]));
+        let promises = |centre: usize| {
+            let point = |p: usize| (self.times[p], sign * self.values[p]);
+            let top = top([point(centre - 1), point(centre), point(centre + 1)]);
+            top.is_some_and(|(height, _)| height > sign * best.0)
+        };
+        // a kink has no parabola
+        if self.smooth && (at.saturating_sub(1).max(1)..=(at + 1).min(POINTS - 2)).any(promises) {
+            self.refine(sign, best);
+        }
+    }
+
+    fn refine(&self, sign: f64, best: &mut (f64, f64)) {
+        let ends = (self.times[0], self.times[POINTS - 1]);
+        let mut points: Vec<(f64, f64)> =
+            self.times.iter().zip(self.values).map(|(time, value)| (*time, sign * value)).collect();
+        for _ in 0..REFINEMENTS {
+            let tops = points.windows(3).filter_map(|w| top([w[0], w[1], w[2]]));
+            let Some((height, time)) = tops.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
+            let known = points.iter().any(|p| is_same(p.0, time, ends));
+            if known || height <= sign * best.0 + 1e-14 * best.0.abs() {
+                break;
+            }
+            let value = self.interval.interpolated(self.column, time);
+            better(sign, best, (value, time));
+            let place = points.partition_point(|p| p.0 < time);
+            points.insert(place, (time, sign * value));
+        }
+    }
+}
+
+/// Takes a value that is larger (`sign` 1) or less (-1) by more than rounding: an extreme that lasts is where it begins.
+fn better(sign: f64, best: &mut (f64, f64), (value, time): (f64, f64)) {
+    if sign * value > sign * best.0 + LASTS * value.abs() {
+        *best = (value, time);
+    }
+}
