@@ -44,15 +44,6 @@ pub enum Form {
     Symmetric,
 }
 
-/// The heat of an element with its derivatives, evaluated.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Slopes {
-    /// By variable: derivatives of the heat of both ends.
-    ends: Vec<Received>,
-    /// By variable: derivative of the heat of a source.
-    source: Vec<f64>,
-}
-
 impl Element {
     /// The elements of a network that are neither constant conductances nor radiation of a constant area, in the order
     /// of conductors, then sources.

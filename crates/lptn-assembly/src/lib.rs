@@ -12,6 +12,7 @@ mod error;
 mod monotone;
 mod pattern;
 mod radiation;
+mod slopes;
 mod switching;
 mod system;
 mod tangent;

@@ -2,7 +2,7 @@
 
 use lptn_network::{Evaluation, InputError, Network, Positions};
 
-use crate::element::Slopes;
+use crate::slopes::Slopes;
 
 /// Inputs at one time, and the temperatures of all vertices.
 #[derive(Clone, Debug)]

@@ -1,6 +1,5 @@
 //! The words of the format: which sections and keys there are, and which are decided but not built yet.
 
-pub(crate) use crate::fit::words::{FIT, FIT_COLUMN};
 pub(crate) use crate::headings::{MINIMAL, PARAM, SECTIONS, SECTIONS_LATER, TOP_KEYS};
 
 use lptn_units::suggest;

@@ -108,6 +108,9 @@ impl<V> Law<V> {
     /// The same law with another value for the field of this key.
     #[must_use]
     pub(crate) fn with(self, key: &str, change: impl Fn(V) -> V) -> Self {
+        if self.values().len() != self.formula.declaration().fields.len() {
+            return self; // which is told when the path is added
+        }
         self.map(|field, value| if field.key() == key { change(value) } else { value })
     }
 }

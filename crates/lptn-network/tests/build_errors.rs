@@ -86,6 +86,28 @@ fn numbers_out_of_range() {
     ]);
 }
 
+/// A law takes one value for each of its fields, and a fluid only where it carries one: more or less is told, not read.
+#[test]
+fn values_that_are_not_those_of_the_law() {
+    let told = |path: Path| {
+        let (mut b, a, air) = cooled();
+        conduct(&mut b, (a, air), path);
+        codes(b)
+    };
+    let h = || quantity("5 W/(m^2 K)");
+    let fluid = cooled().0.fluid("oil", None, quantity("2000 J/(kg K)"), None);
+    for path in [
+        Path::new(Formula::Film, [h()]),
+        Path::new(Formula::Film, vec![h(); 9]),
+        Path::new(Formula::Conductance, Vec::new()),
+        Path::new(Formula::MassFlow, [quantity("1 kg/s")]),
+        Path::of_fluid(Formula::Conductance, fluid, [quantity("1 W/K")]),
+    ] {
+        assert_eq!(told(path.clone()), ["network::law_values"], "{path:?}");
+    }
+    assert_eq!(told(Path::film(h(), quantity("1 m^2"))), [""; 0]);
+}
+
 #[test]
 fn types_of_every_field() {
     let wrong = |fault: Fault, count: usize| {

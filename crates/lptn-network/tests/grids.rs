@@ -316,6 +316,12 @@ fn wrong_grids_and_joints_are_refused_once_for_the_whole() {
         b.connect("s", ConductorKind::Advection, (side(grid), air), path);
     });
     assert_eq!(stream, ["network::stream_into_face"]);
+    let many = refused(&|b, grid| {
+        let air = b.boundary("air", Temperature(290.0));
+        let path = Path::new(Formula::Film, vec![quantity("5 W/(m^2 K)"); 3]);
+        b.connect("film", ConductorKind::Convection, (side(grid), air), path);
+    });
+    assert_eq!(many, ["network::law_values"]);
     let joined = |other: Block| {
         refused(&move |b, grid| {
             let other = b.grid("other", other.clone());

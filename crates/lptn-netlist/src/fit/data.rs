@@ -9,11 +9,12 @@ use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::{Fields, sample, wrong_shape};
 use crate::fit::read::Column;
+use crate::fit::words::FIT;
 use crate::fit::{FitRecord, VariedName};
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::record::{self, Record, RecordName, RecordQuery};
 use crate::value::{Place, Wanted};
-use crate::vocabulary::{FIT, list};
+use crate::vocabulary::list;
 
 /// The keys of one of several records.
 const KEYS: [&str; 2] = ["csv", "set"];

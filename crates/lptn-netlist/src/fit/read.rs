@@ -7,10 +7,11 @@ use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
 use crate::file::Span;
+use crate::fit::words::{FIT, FIT_COLUMN};
 use crate::fit::{FitStudy, Observed, VariedName};
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::value::{Place, Wanted};
-use crate::vocabulary::{FIT, FIT_COLUMN, PARAM, VARY, list};
+use crate::vocabulary::{PARAM, VARY, list};
 
 /// A column whose result could not be read is still looked for in the records.
 pub(crate) struct Column<'a> {

@@ -4,9 +4,8 @@ use lptn_laws::Kind;
 use lptn_network::{Field, Input, Item, Path, Terminal};
 use lptn_units::{Dimension, Type};
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
-use crate::fields::{Fields, Owner, sample};
+use crate::fields::{Fields, Owner};
 use crate::raw::{RawEntry, RawValue};
 use crate::section::path::PATHS;
 use crate::value::{Place, Wanted};
@@ -71,62 +70,4 @@ impl<'a> Elaboration<'a> {
         let given = self.given(Place { owner: &fields.owner, key, raw }, Wanted::of_link(ty));
         Some(given.map_or_else(|| stand_in(ty), |given| given.input()))
     }
-}
-
-/// Exactly one form, and all of it.
-pub(crate) fn check_forms(fields: &Fields<'_>, forms: &[&[&str]]) -> Option<Diagnostic> {
-    let begun: Vec<&&[&str]> =
-        forms.iter().filter(|form| form.iter().any(|key| fields.get(key).is_some())).collect();
-    match begun.as_slice() {
-        [] if fields.complete => Some(no_form(fields, forms)),
-        [] => None,
-        [form] => form.iter().find(|key| !fields.has(key)).and_then(|key| half(fields, form, key)),
-        _ => Some(two_forms(fields, &begun)),
-    }
-}
-
-fn words(form: &[&str]) -> String {
-    form.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(" and ")
-}
-
-fn written(form: &[&str]) -> String {
-    form.iter().map(|key| sample(key)).collect::<Vec<_>>().join(", ")
-}
-
-fn no_form(fields: &Fields<'_>, forms: &[&[&str]]) -> Diagnostic {
-    let either: Vec<String> = forms.iter().map(|form| words(form)).collect();
-    let message = format!("{} has neither {}", fields.owner.words(), either.join(" nor "));
-    let samples: Vec<String> = forms.iter().map(|form| format!("`{}`", written(form))).collect();
-    Diagnostic::error("netlist::no_law", message)
-        .at(fields.place.clone(), "does not say how much heat it carries")
-        .help(format!("add {}", samples.join(" or ")))
-}
-
-fn half(fields: &Fields<'_>, form: &[&str], missing: &str) -> Option<Diagnostic> {
-    if !fields.complete {
-        return None;
-    }
-    let given = form.iter().find(|key| **key != missing)?;
-    let message = format!("{} has `{given}` but no `{missing}`", fields.owner.words());
-    Some(
-        Diagnostic::error("netlist::missing_field", message)
-            .at(fields.place.clone(), format!("`{missing}` is missing"))
-            .help(format!("add `{}`", sample(missing))),
-    )
-}
-
-fn two_forms(fields: &Fields<'_>, begun: &[&&[&str]]) -> Diagnostic {
-    let both: Vec<String> = begun.iter().map(|form| words(form)).collect();
-    let message = format!("{} has {} as well as {}", fields.owner.words(), both[0], both[1..].join(" and "));
-    let mut error = Diagnostic::error("netlist::two_laws", message);
-    let keys = begun.iter().flat_map(|form| form.iter()).filter_map(|key| Some((*key, fields.key(key)?)));
-    for (n, (key, span)) in keys.enumerate() {
-        let span = span.clone();
-        error = if n == 0 {
-            error.at(span, format!("`{key}` here"))
-        } else {
-            error.also(span, format!("`{key}` here"))
-        };
-    }
-    error.help("keep one of them; two paths side by side are two elements")
 }

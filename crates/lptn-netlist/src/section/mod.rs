@@ -7,6 +7,7 @@ mod control;
 mod default;
 mod end;
 mod fluid;
+mod forms;
 mod grid;
 mod limit;
 mod material;

@@ -10,7 +10,7 @@ use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, sample};
 use crate::raw::{RawKind, RawValue};
-use crate::section::conductor::check_forms;
+use crate::section::forms::check_forms;
 use crate::value::{Place, Wanted};
 use crate::vocabulary::{Section, list};
 

@@ -4,9 +4,8 @@ use lptn_assembly::AssemblyError;
 use lptn_network::{BuildErrors, InputError};
 use lptn_solve::TransientError;
 
-use crate::uncertainty::points::{MOST_DIMENSIONS, MOST_POINTS};
+use crate::uncertainty::points::{LEAST, MOST_DIMENSIONS, MOST_POINTS};
 use crate::uncertainty::result::Lost;
-use crate::uncertainty::sobol::LEAST;
 
 lptn_units::errors! {
 /// Why the uncertainty of a run cannot be had.

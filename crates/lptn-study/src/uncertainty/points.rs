@@ -5,6 +5,9 @@ use crate::uncertainty::normal::quantile;
 /// Dimensions that the directions of the sequence are known for.
 pub(crate) const MOST_DIMENSIONS: usize = sobol_burley::NUM_DIMENSIONS as usize;
 
+/// The least number of samples.
+pub(crate) const LEAST: usize = 64;
+
 /// The longest sequence.
 pub(crate) const MOST_POINTS: usize = 1 << 16;
 

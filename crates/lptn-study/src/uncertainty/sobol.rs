@@ -8,16 +8,13 @@ use lptn_solve::Control;
 use crate::parallel::in_parallel;
 use crate::uncertainty::error::UncertaintyError;
 use crate::uncertainty::input::{Uncertain, uncertain};
-use crate::uncertainty::points::{self, MOST_DIMENSIONS, MOST_POINTS};
+use crate::uncertainty::points::{self, LEAST, MOST_DIMENSIONS, MOST_POINTS};
 use crate::uncertainty::result::{Method, Uncertainty};
 use crate::uncertainty::sample::{NoSample, Sample, count};
 use crate::uncertainty::task::UncertaintyTask;
 
 /// Independent scramblings that the samples are made of: their spread is the error of sampling.
 pub const GROUPS: usize = 8;
-
-/// The least number of samples.
-pub(crate) const LEAST: usize = 64;
 
 /// Bytes that the temperatures of all samples at all rows may take.
 const MOST_BYTES: usize = 1 << 31;

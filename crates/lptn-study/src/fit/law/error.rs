@@ -2,7 +2,8 @@
 
 use lptn_units::{Type, UnitError};
 
-use super::written::MOST;
+/// The most coefficients of one law.
+pub(crate) const MOST: usize = 8;
 
 lptn_units::errors! {
 /// Points or a law that cannot be used. Rows are counted from 0 here and from 1 in messages; laws stand as they were written.

@@ -2,11 +2,8 @@
 
 use lptn_units::{Dimension, Dual, EvalError, Expression, Program, Quantity, Scope, Symbol, Type};
 
-use super::error::LawError;
+use super::error::{LawError, MOST};
 use super::points::{Points, Variable};
-
-/// The most coefficients of one law.
-pub(crate) const MOST: usize = 8;
 
 /// A name with the value at which a search begins.
 pub type Start = (String, Quantity);
