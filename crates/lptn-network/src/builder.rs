@@ -281,6 +281,10 @@ impl NetworkBuilder {
             self.error(name, BuildErrorKind::LawValues { item, formula: path.formula() });
             return Law::new(Formula::Resistance, [Value::Constant(1.0)]);
         }
+        if path.fluid().is_some_and(|fluid| fluid.index() >= self.parts.fluids.len()) {
+            self.error(name, BuildErrorKind::ForeignId { item });
+            return Law::new(Formula::Resistance, [Value::Constant(1.0)]);
+        }
         let mut types = declared.fields.iter().map(|field| field.ty);
         path.map(|field, input| {
             let wanted = types.next().unwrap_or(Type::SCALAR);

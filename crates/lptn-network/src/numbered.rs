@@ -46,9 +46,7 @@ impl NetworkBuilder {
         let name = || label.of_conductor();
         let law = match path {
             // what nearly all of a large network are
-            path if matches!((path.formula(), path.values()), (Formula::Conductance, [input]) if input.ty == CONDUCTANCE) => {
-                path.map(|_, input| input.value)
-            }
+            path if is_conductance(&path) => path.map(|_, input| input.value),
             path => self.law(&name(), item, path),
         };
         if !(self.knows(from) && self.knows(to)) {
@@ -77,4 +75,9 @@ impl NetworkBuilder {
         self.parts.sources.push(Source { label, into: vec![(node, 1.0)], power });
         id
     }
+}
+
+fn is_conductance(path: &Path) -> bool {
+    let simple = path.formula() == Formula::Conductance && path.fluid().is_none();
+    simple && matches!(path.values(), [input] if input.ty == CONDUCTANCE)
 }

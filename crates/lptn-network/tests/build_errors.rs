@@ -106,6 +106,8 @@ fn values_that_are_not_those_of_the_law() {
         assert_eq!(told(path.clone()), ["network::law_values"], "{path:?}");
     }
     assert_eq!(told(Path::film(h(), quantity("1 m^2"))), [""; 0]);
+    let of_another = Path::of_fluid(Formula::MassFlow, fluid, [quantity("1 kg/s")]);
+    assert_eq!(told(of_another), ["network::foreign_id"]);
 }
 
 #[test]

@@ -318,7 +318,8 @@ fn wrong_grids_and_joints_are_refused_once_for_the_whole() {
     assert_eq!(stream, ["network::stream_into_face"]);
     let many = refused(&|b, grid| {
         let air = b.boundary("air", Temperature(290.0));
-        let path = Path::new(Formula::Film, vec![quantity("5 W/(m^2 K)"); 3]);
+        let [h, area] = [quantity("5 W/(m^2 K)"), quantity("0.08 m^2")];
+        let path = Path::new(Formula::Film, [h.clone(), area, h]);
         b.connect("film", ConductorKind::Convection, (side(grid), air), path);
     });
     assert_eq!(many, ["network::law_values"]);
