@@ -8,9 +8,10 @@ use lptn_units::{Degree, Program, SlotKind};
 use crate::breakpoints::Watched;
 use crate::evaluation::Evaluation;
 use crate::id::{End, Item};
-use crate::layout::{Holds, slot};
 use crate::network::Network;
 use crate::parts::Parts;
+use crate::parts::layout::Holds;
+use crate::slot;
 use crate::value::Value;
 
 /// Temperatures over those of the start, in K, at which a value is looked at whose course over time the temperatures

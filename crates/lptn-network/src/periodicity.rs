@@ -5,9 +5,9 @@ use lptn_units::EvalError;
 use crate::evaluation::Evaluation;
 use crate::id::{Field, Item, SignalId};
 use crate::input_error::InputError;
-use crate::layout::slot;
 use crate::network::Network;
-use crate::signal::AfterEnd;
+use crate::parts::signal::AfterEnd;
+use crate::slot;
 use crate::value::Value;
 
 /// Two signals whose periods have no multiple in common that anyone would wait for.
