@@ -181,7 +181,7 @@ impl Expression {
     /// that contain an error raise no further ones.
     pub fn compile(&self, scope: &dyn Scope, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
         let checked = check::check(&self.text, &self.tree, scope, expected)?;
-        Ok(codegen::generate(&self.meant(), &self.tree, checked))
+        Ok(parts::generate(&self.meant(), &self.tree, checked))
     }
 
     /// For `a <= b`: the two sides as expressions, and the comparison between them. `None` if the
