@@ -21,7 +21,7 @@ const RISES: [f64; 4] = [0.0, 10.0, 100.0, -30.0];
 /// The start in K of a node that has none.
 const USUAL: f64 = 300.0;
 
-/// A value that is no straight line in time between [`Network::breakpoints`], or a part of one that reads no
+/// A value that is not a straight line in time between [`Network::breakpoints`], or a part of one that reads no
 /// temperature.
 #[derive(Clone, Debug)]
 pub struct Curve {

@@ -227,7 +227,7 @@ impl<S: Scalar> At<'_, S> {
         [self.slots[slot::FROM as usize], self.slots[slot::TO as usize]]
     }
 
-    /// The conductance of a law that is no stream, in W/K, where the slots stand.
+    /// The conductance of a law that is not a stream, in W/K, where the slots stand.
     pub(crate) fn conductance(&mut self, law: &Law) -> Result<S, (Field, InputProblem)> {
         match law.carries() {
             Carries::Conductance => self.value(law),

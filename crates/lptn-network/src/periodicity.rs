@@ -63,7 +63,7 @@ impl Network {
     /// expression in `t` may repeat itself too, which this does not know.
     ///
     /// # Errors
-    /// [`NoCommonPeriod`] for periods that are no small multiples of a common one.
+    /// [`NoCommonPeriod`] for periods that are not small multiples of a common one.
     pub fn repeat_period(&self) -> Result<Option<f64>, NoCommonPeriod> {
         let mut common: Option<(SignalId, f64)> = None;
         for (id, period) in self.repeated_signals() {

@@ -5,7 +5,7 @@ use crate::id::{BoundaryId, ConductorId, Item, JointId, SourceId};
 /// A heat flow of the results, in W.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum HeatOf {
-    /// `NAME.Q` of a path that is no stream: positive from `from` to `to`.
+    /// `NAME.Q` of a path that is not a stream: positive from `from` to `to`.
     Conductor(ConductorId),
     /// `NAME.Q_from` of a stream: what its first end receives.
     ReceivedFrom(ConductorId),

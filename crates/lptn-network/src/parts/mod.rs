@@ -62,7 +62,7 @@ pub(crate) struct Parts {
     pub(crate) tables: Vec<(String, TableSymbol)>,
     /// The signals are here, with the slots of everything that expressions may name.
     pub(crate) layout: Arc<Layout>,
-    /// For each conductor that is no constant the temperatures it depends on.
+    /// The temperatures that each conductor depends on; `None` for a constant one.
     pub(crate) conductor_dependence: Vec<Option<Box<Dependence>>>,
     /// For each source the temperatures it depends on.
     pub(crate) source_dependence: Vec<Dependence>,

@@ -144,7 +144,7 @@ impl Source<'_> {
         self.replace(id, &format!("{part} / {scale} [{}]", ty.dimension.si_unit()))
     }
 
-    /// A condition that is no comparison.
+    /// A condition that is not a comparison.
     pub(crate) fn truth_wanted(&self, id: Id, ty: Type) -> UnitError {
         let limit = match (ty.absolute, ty.is_scalar()) {
             (true, _) => "0 [degC]".to_owned(),

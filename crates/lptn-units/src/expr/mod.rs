@@ -146,7 +146,7 @@ impl Expression {
         infer::unknown_names(&self.tree, scope, expected)
     }
 
-    /// The names that are called and are no functions, in order of appearance: tables, such as `loss` in
+    /// The names that are called and are not functions, in order of appearance: tables, such as `loss` in
     /// `2 * loss(speed)`.
     pub fn calls(&self) -> Vec<(String, Range<usize>)> {
         let called = self.tree.nodes().filter_map(|(node, _)| match node {
