@@ -20,6 +20,7 @@
 mod cells;
 mod columns;
 mod doubts;
+mod rows;
 mod sheet;
 mod times;
 
@@ -29,11 +30,10 @@ use std::path::Path;
 
 use lptn_units::{Type, Unit};
 
-use crate::csv_form;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::file::{FileId, Files, Span};
-use crate::limits::shorten;
-use crate::netlist::Rejected;
+use crate::limits::Rejected;
+use crate::text::CsvText;
 
 /// Something that is looked for in a record.
 #[derive(Clone, Debug)]
@@ -132,7 +132,7 @@ impl Record {
     /// The same, with the text it was read from.
     pub(crate) fn line_in(&self, text: &str, row: usize) -> Span {
         let from = self.bytes.get(row).copied().unwrap_or(text.len());
-        Span::new(self.file, crate::csv_head::line(text, from))
+        Span::new(self.file, crate::head::line(text, from))
     }
 }
 
@@ -142,35 +142,20 @@ impl Record {
 /// [`Rejected`] with every problem, each with a code `record::problem` and its line.
 pub fn read_record(path: &Path, bytes: &[u8], query: &RecordQuery) -> Result<(Record, Files), Rejected> {
     let mut files = Files::new();
-    match parse(&mut files, path, bytes, query) {
+    let text = CsvText::of(&mut files, path.display().to_string(), bytes).map_err(|problem| vec![problem]);
+    match text.and_then(|text| read_text(&text, query)) {
         Ok(record) => Ok((record, files)),
-        Err(mut diagnostics) => {
-            diagnostics.sort_by_key(|diagnostic| diagnostic.place().map(Span::order));
-            shorten(&mut diagnostics, 0);
-            Err(Rejected { files, diagnostics, syntax: false })
-        }
+        Err(diagnostics) => Err(Rejected::new(files, diagnostics)),
     }
 }
 
-/// The same, with the text kept among others.
-fn parse(
-    files: &mut Files,
-    path: &Path,
-    bytes: &[u8],
-    query: &RecordQuery,
-) -> Result<Record, Vec<Diagnostic>> {
-    let name = path.display().to_string();
-    let (file, text) = csv_form::text_of(files, &name, bytes).map_err(|problem| vec![problem])?;
-    read_text(file, (&name, &text), query)
-}
-
-/// Reads a record from a text of this name, with what is doubtful about it.
-pub(crate) fn read_text(
-    file: FileId,
-    (name, text): (&str, &str),
-    query: &RecordQuery,
-) -> Result<Record, Vec<Diagnostic>> {
-    let mut record = cells::read(file, (name, text), query)?;
+/// Reads a record from a text, with what is doubtful about it.
+///
+/// # Errors
+/// Every problem, each with a code `record::problem` and its line.
+pub fn read_text(text: &CsvText, query: &RecordQuery) -> Result<Record, Vec<Diagnostic>> {
+    let mut record = rows::read(text, query)?;
+    let text = &text.text;
     let holes = times::holes(&record, text);
     record.warnings.extend(holes);
     for i in 0..record.columns.len() {
@@ -181,29 +166,4 @@ pub(crate) fn read_text(
     debug_assert!(record.warnings.iter().all(|warning| warning.severity == Severity::Warning));
     record.warnings.sort_by_key(|warning| warning.place().map(Span::order));
     Ok(record)
-}
-
-/// The first problem of a kind, and how many like it there are.
-#[derive(Default)]
-pub(crate) struct Counted {
-    first: Option<Diagnostic>,
-    count: usize,
-}
-
-impl Counted {
-    pub(crate) fn add(&mut self, problem: impl FnOnce() -> Diagnostic) {
-        self.first.get_or_insert_with(problem);
-        self.count += 1;
-    }
-
-    pub(crate) fn told(self, what: &str) -> Option<Diagnostic> {
-        let more = self.count.saturating_sub(1);
-        self.first.map(|first| match more {
-            0 => first,
-            1 => first.note(format!("and one more {what}")),
-            _ => first.note(
-                format!("and {more} more {what}").replacen("cell", "cells", 1).replacen("row", "rows", 1),
-            ),
-        })
-    }
 }

@@ -15,19 +15,19 @@ pub struct Span {
     /// The bytes.
     pub range: Range<usize>,
     /// For which instance of a template the text is read here.
-    pub(crate) copy: CopyId,
+    pub copy: CopyId,
 }
 
 /// An instance of a template, for which the template's text is read once more; or the text itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub(crate) struct CopyId(u32);
+pub struct CopyId(u32);
 
 impl CopyId {
     /// The text itself.
-    pub(crate) const WRITTEN: Self = Self(0);
+    pub const WRITTEN: Self = Self(0);
 
     /// The position among the instances; `None` for the text itself.
-    pub(crate) fn index(self) -> Option<usize> {
+    pub fn index(self) -> Option<usize> {
         (self.0 as usize).checked_sub(1)
     }
 }
@@ -39,32 +39,33 @@ impl Span {
     }
 
     /// Other bytes of the same text, read for the same instance.
-    pub(crate) fn with(&self, range: Range<usize>) -> Self {
+    pub fn with(&self, range: Range<usize>) -> Self {
         Self { range, ..self.clone() }
     }
 
     /// The same place, read for an instance.
-    pub(crate) fn for_copy(&self, copy: CopyId) -> Self {
+    pub fn for_copy(&self, copy: CopyId) -> Self {
         Self { copy, ..self.clone() }
     }
 
     /// Whether it is the same place, for whichever instance.
-    pub(crate) fn is_same_text(&self, other: &Self) -> bool {
+    pub fn is_same_text(&self, other: &Self) -> bool {
         self.file == other.file && self.range == other.range
     }
 
-    pub(crate) fn is_inside(&self, other: &Self) -> bool {
+    /// Whether it lies inside another place.
+    pub fn is_inside(&self, other: &Self) -> bool {
         self.file == other.file && other.range.start <= self.range.start && self.range.end <= other.range.end
     }
 
     /// What sorts places in the order a reader meets them.
-    pub(crate) fn order(&self) -> (FileId, usize, usize) {
+    pub fn order(&self) -> (FileId, usize, usize) {
         (self.file, self.range.start, self.range.end)
     }
 }
 
 /// The range, inside the text and on borders of characters.
-pub(crate) fn on_borders(text: &str, range: Range<usize>) -> Range<usize> {
+pub fn on_borders(text: &str, range: Range<usize>) -> Range<usize> {
     let mut start = range.start.min(text.len());
     while !text.is_char_boundary(start) {
         start -= 1;
@@ -95,18 +96,18 @@ impl File {
 
 /// An instance of a template.
 #[derive(Clone, Debug)]
-pub(crate) struct Copy {
+pub struct Instance {
     /// Its name, `planet[2]`.
-    pub(crate) name: String,
+    pub name: String,
     /// Where it is made: the name below `[use]`.
-    pub(crate) made: Span,
+    pub made: Span,
 }
 
 /// All texts that a netlist was read from. The text of `--set` is one of them.
 #[derive(Clone, Debug, Default)]
 pub struct Files {
     files: Vec<File>,
-    copies: Vec<Copy>,
+    copies: Vec<Instance>,
 }
 
 impl Files {
@@ -124,14 +125,14 @@ impl Files {
     }
 
     /// Notes an instance of a template.
-    pub(crate) fn add_copy(&mut self, name: String, made: Span) -> CopyId {
-        self.copies.push(Copy { name, made });
+    pub fn add_copy(&mut self, name: String, made: Span) -> CopyId {
+        self.copies.push(Instance { name, made });
         // more instances than this are refused before
         CopyId(u32::try_from(self.copies.len()).unwrap_or(u32::MAX))
     }
 
     /// The instance for which a place is read; `None` where the text itself is meant.
-    pub(crate) fn copy(&self, id: CopyId) -> Option<&Copy> {
+    pub fn copy(&self, id: CopyId) -> Option<&Instance> {
         self.copies.get(id.index()?)
     }
 

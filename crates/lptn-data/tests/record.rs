@@ -6,7 +6,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lptn_netlist::{Diagnostic, Files, Record, RecordName, RecordQuery, Rejected, Severity, read_record};
+use lptn_data::{Diagnostic, Files, Record, RecordName, RecordQuery, Rejected, Severity, read_record};
 use lptn_units::Type;
 
 fn folder() -> PathBuf {

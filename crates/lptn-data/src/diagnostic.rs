@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use lptn_units::suggest;
+
 use crate::file::{Files, Span};
 
 /// How bad it is.
@@ -79,6 +81,20 @@ impl Diagnostic {
         self
     }
 
+    /// Says what was probably meant by `wrong`: the nearest of the names, else `otherwise`.
+    #[must_use]
+    pub fn did_you_mean<'n>(
+        self,
+        wrong: &str,
+        names: impl IntoIterator<Item = &'n str>,
+        otherwise: impl FnOnce() -> String,
+    ) -> Self {
+        match suggest(wrong, names.into_iter()) {
+            Some(near) => self.help(format!("did you mean `{near}`?")),
+            None => self.help(otherwise()),
+        }
+    }
+
     /// The place of the problem, if it has one.
     pub fn place(&self) -> Option<&Span> {
         self.labels.iter().find(|label| label.primary).map(|label| &label.span)
@@ -151,7 +167,7 @@ const USED: &str = ", used here";
 
 /// Sorts by place, and drops what says the same of the same place; what is wrong in a template is said once, and
 /// of which instance.
-pub(crate) fn arrange(files: &Files, diagnostics: &mut Vec<Diagnostic>) {
+pub fn arrange(files: &Files, diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.sort_by_key(|d| d.place().map(Span::order));
     diagnostics.dedup_by(|b, a| a.code == b.code && a.place().is_some() && a.place() == b.place());
     once_for_all_copies(files, diagnostics);

@@ -1,11 +1,11 @@
-//! How much is read and how much is said.
+//! How much is read and how much is said, and why a file was refused.
 
+use std::fmt;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::file::{FileId, Files, Span};
-use crate::netlist::{ReadError, Rejected};
 
 /// The longest netlist in bytes; anything longer is a device or no netlist.
 pub const MOST_BYTES: u64 = 100_000_000;
@@ -15,6 +15,70 @@ pub const MOST_CSV_BYTES: u64 = 2_000_000_000;
 
 /// So many problems of one file are shown; the rest are counted.
 pub const MOST_PROBLEMS: usize = 50;
+
+/// A netlist, a record or a sheet that cannot be used, with every reason.
+#[derive(Clone, Debug)]
+pub struct Rejected {
+    /// The texts that places refer to.
+    pub files: Files,
+    /// What is wrong, in file order; holds at least one error.
+    pub diagnostics: Vec<Diagnostic>,
+    /// Whether the text could not even be read as TOML.
+    pub syntax: bool,
+}
+
+impl Rejected {
+    /// With the problems in the order of their places, as many as are shown.
+    pub(crate) fn new(files: Files, mut diagnostics: Vec<Diagnostic>) -> Self {
+        diagnostics.sort_by_key(|diagnostic| diagnostic.place().map(Span::order));
+        shorten(&mut diagnostics, 0);
+        Self { files, diagnostics, syntax: false }
+    }
+}
+
+impl fmt::Display for Rejected {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, diagnostic) in self.diagnostics.iter().enumerate() {
+            let separator = if i > 0 { "\n" } else { "" };
+            write!(f, "{separator}{}", self.files.plain(diagnostic))?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Rejected {}
+
+/// Why a file cannot be used.
+#[derive(Debug)]
+pub enum ReadError {
+    /// The file could not be read.
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        error: std::io::Error,
+    },
+    /// Its content cannot be used.
+    Rejected(Rejected),
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Io { path, error } => write!(f, "cannot read {}: {error}", path.display()),
+            Self::Rejected(rejected) => rejected.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for ReadError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Io { error, .. } => Some(error),
+            Self::Rejected(rejected) => Some(rejected),
+        }
+    }
+}
 
 /// The bytes of a file, which need not be text, up to [`MOST_BYTES`]; an input without an end is not read on.
 ///
@@ -41,7 +105,10 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
 }
 
 /// The bytes of a file that a netlist names: up to [`MOST_CSV_BYTES`], for it may be a CSV file of a network.
-pub(crate) fn read_named(path: &Path) -> io::Result<Vec<u8>> {
+///
+/// # Errors
+/// That of the system; [`io::ErrorKind::FileTooLarge`] if the file is longer.
+pub fn read_named(path: &Path) -> io::Result<Vec<u8>> {
     let metadata = std::fs::metadata(path)?;
     if is_device(metadata.file_type()) {
         return Err(io::Error::other("it is a device"));
@@ -81,7 +148,7 @@ fn refused(name: &str, error: Diagnostic) -> ReadError {
 
 /// Keeps the first problems of each file, errors before warnings, and counts the others, with those errors that were
 /// dropped before.
-pub(crate) fn shorten(diagnostics: &mut Vec<Diagnostic>, dropped: usize) {
+pub fn shorten(diagnostics: &mut Vec<Diagnostic>, dropped: usize) {
     if diagnostics.len() <= MOST_PROBLEMS && dropped == 0 {
         return;
     }

@@ -4,7 +4,8 @@ use lptn_units::Unit;
 
 use crate::diagnostic::Diagnostic;
 use crate::file::Span;
-use crate::record::{Counted, Record};
+use crate::record::Record;
+use crate::record::cells::Counted;
 use lptn_units::format_short as short;
 
 /// So many times the usual time between two rows is a hole.
