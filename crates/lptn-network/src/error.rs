@@ -28,7 +28,7 @@ impl std::error::Error for BuildErrors {}
 /// One problem: its kind, and the names that a message needs.
 #[derive(Clone, Debug)]
 pub struct BuildError {
-    /// What is wrong.
+    /// Which of the problems it is, with its values in SI units.
     pub kind: BuildErrorKind,
     /// The name of the item it is about.
     pub name: String,

@@ -19,7 +19,7 @@ pub struct Quantity {
     pub value: f64,
     /// One standard deviation in SI units, if the text gives one; zero or positive.
     pub deviation: Option<f64>,
-    /// What it is.
+    /// Its dimension, and whether it is an absolute temperature.
     pub ty: Type,
 }
 

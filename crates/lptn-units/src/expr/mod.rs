@@ -49,7 +49,7 @@ pub const RESERVED: &[&str] = &[
 pub struct Symbol {
     /// Index of the value among the slots given to [`Program::eval`].
     pub slot: u32,
-    /// What the value is.
+    /// The type of the value that the name stands for.
     pub ty: Type,
     /// Index to load instead inside the two operands of a comparison. An integrator keeps the truth of
     /// comparisons fixed between events by freezing the values in these slots.

@@ -31,7 +31,7 @@ pub enum TableError {
 }
 
 impl TableError {
-    /// The stable code.
+    /// The stable code, as diagnostics print it.
     pub fn code(&self) -> &'static str {
         match self {
             Self::TooShort => "units::table_too_short",
