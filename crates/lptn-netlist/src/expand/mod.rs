@@ -14,9 +14,9 @@ mod values;
 
 use std::path::{Component, Path, PathBuf};
 
+use lptn_data::FileId;
 use lptn_network::Network;
 
-use crate::file::FileId;
 use crate::netlist::Netlist;
 use crate::run::RunSettings;
 pub use proof::{WrittenError, prove};
