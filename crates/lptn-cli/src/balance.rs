@@ -2,7 +2,7 @@
 
 use lptn_netlist::{Diagnostic, Files, Netlist, Span};
 use lptn_network::{End, Item, Network};
-use lptn_report::{Align, Column, Format, Text, TextTable, decimals, duration, fixed, prefix, significant};
+use lptn_report::{Format, Text, TextTable, TextTableOf, decimals, duration, fixed, prefix, significant};
 use lptn_solve::{Balance, Term};
 use lptn_study::Scalar;
 use lptn_units::suggest;
@@ -61,57 +61,56 @@ fn unknown(network: &Network, name: &str, found: Option<Item>) -> Failure {
     Failure::at(Exit::Input, files, problem.help(help))
 }
 
-/// Numbers of one quantity in one unit, with their shares.
-struct Amounts {
-    heading: String,
-    cells: Vec<String>,
-    shares: Vec<String>,
+/// A line of the table: a term by its name and what it joins, or the sum of all; power in W, heat in J.
+struct Line {
+    name: String,
+    other: String,
+    power: f64,
+    heat: f64,
 }
 
-impl Amounts {
-    fn new(when: &str, unit: &str, values: &[f64], turned_over: f64) -> Self {
-        let (scale, letter) = prefix(turned_over);
-        let digits = decimals(turned_over / scale, 4, 0);
-        let share = |value: &f64| match turned_over > 0.0 {
-            true => fixed(100.0 * value / turned_over, 1),
-            false => "-".into(),
-        };
-        Self {
-            heading: format!("{when} [{letter}{unit}]"),
-            cells: values.iter().map(|value| fixed(value / scale, digits)).collect(),
-            shares: values.iter().map(share).collect(),
-        }
-    }
-
-    fn columns(self) -> [Column; 2] {
-        [Column::new(self.heading, Align::Right, self.cells), Column::new("%", Align::Right, self.shares)]
-    }
+/// A column of amounts in one unit, and one of their shares of what is turned over.
+fn amounts<'a>(
+    table: TextTableOf<'a, Line>,
+    (when, unit, turned_over): (String, &str, f64),
+    value: fn(&Line) -> f64,
+) -> TextTableOf<'a, Line> {
+    let (scale, letter) = prefix(turned_over);
+    let digits = decimals(turned_over / scale, 4, 0);
+    let share = |line: &Line| match turned_over > 0.0 {
+        true => fixed(100.0 * value(line) / turned_over, 1),
+        false => "-".into(),
+    };
+    let table = table.right(format!("{when} [{letter}{unit}]"), |line| fixed(value(line) / scale, digits));
+    table.right("%", share)
 }
 
 /// The balance as a section; `times` are start and end of the run in s, none for a steady state.
 pub(crate) fn section(text: &mut Text, network: &Network, (balance, times): (&Balance, Option<(f64, f64)>)) {
-    let terms = balance.largest_first();
-    let name = network.name_of(balance.of.into());
-    let with =
-        |value: &dyn Fn(&Term) -> f64, last: f64| terms.iter().map(value).chain([last]).collect::<Vec<f64>>();
-    let mut names: Vec<String> = terms.iter().map(|term| network.name_of(term.item).into_owned()).collect();
-    names.push(rest(balance, times.is_none()).to_owned());
-    let mut others: Vec<String> = terms.iter().map(|term| other(network, term)).collect();
-    others.push(String::new());
-    let mut columns = vec![
-        Column::new(format!("heat into {name}"), Align::Left, names),
-        Column::new("", Align::Left, others).names(),
-    ];
+    let line = |term: &Term| Line {
+        name: network.name_of(term.item).into_owned(),
+        other: other(network, term),
+        power: term.power,
+        heat: term.heat.unwrap_or(f64::NAN),
+    };
+    let sum = Line {
+        name: rest(balance, times.is_none()).to_owned(),
+        other: String::new(),
+        power: balance.power(),
+        heat: balance.stored.unwrap_or(f64::NAN),
+    };
+    let lines: Vec<Line> = balance.largest_first().iter().map(line).chain([sum]).collect();
     let when = times.map_or("steady".to_owned(), |(_, end)| format!("at {}", duration(end, 4)));
-    let powers = with(&|term| term.power, balance.power());
-    columns.extend(Amounts::new(&when, "W", &powers, balance.power_turned_over()).columns());
-    if let (Some((start, end)), Some(stored), Some(all)) = (times, balance.stored, balance.heat_turned_over())
-    {
-        let heats = with(&|term| term.heat.unwrap_or(f64::NAN), stored);
+    let table = TextTable::of(&lines)
+        .left(format!("heat into {}", network.name_of(balance.of.into())), |line| line.name.as_str())
+        .left("", |line| line.other.as_str())
+        .names();
+    let mut table = amounts(table, (when, "W", balance.power_turned_over()), |line| line.power);
+    if let (Some((start, end)), Some(_), Some(all)) = (times, balance.stored, balance.heat_turned_over()) {
         let over = format!("over {}", duration(end - start, 4));
-        columns.extend(Amounts::new(&over, "J", &heats, all).columns());
+        table = amounts(table, (over, "J", all), |line| line.heat);
     }
-    text.section().table(TextTable::new(columns));
+    text.section().table(table);
     text.line("positive: into it; 100 % is all that comes in or all that goes out, the larger");
     text.lines(
         open(balance)

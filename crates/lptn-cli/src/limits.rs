@@ -1,7 +1,7 @@
 //! Limits as a result: a line each, JSON, and what a broken one does to the exit code.
 
 use lptn_netlist::{Diagnostic, Netlist};
-use lptn_network::{Bound, Field, Item, Limit, LimitId, Network, Severity};
+use lptn_network::{Bound, Item, Limit, LimitId, Network, Severity};
 use lptn_report::{Text, TextTable, duration, significant};
 use lptn_solve::LimitSeen;
 use lptn_study::Scalar;
@@ -10,6 +10,7 @@ use serde_json::{Map, Value, json};
 
 use crate::console::Console;
 use crate::exit::Exit;
+use crate::words::spaced;
 
 /// Digits of a margin.
 const DIGITS: usize = 4;
@@ -116,15 +117,13 @@ fn number(value: f64, ty: Type, unit: &Unit) -> String {
         let kelvin = (unit.scale - 1.0).abs() < 1e-12;
         return format!("{} {}", significant(value / unit.scale, DIGITS), if kelvin { "K" } else { "degR" });
     }
-    let si = ty.dimension.si_unit();
-    let value = significant(value, DIGITS);
-    if si == "1" { value } else { format!("{value} {si}") }
+    format!("{}{}", significant(value, DIGITS), spaced(&ty.dimension.si_unit()))
 }
 
 /// Members by the limit's name: `{ of, below or above, worst, margin, worst_at, broken_at, severity, kept }`, in the
 /// results and in the manifest. `worst` is the value of `of` where the margin is least; where a limit is not judged `worst`,
-/// `margin` and `kept` are null.
-pub(crate) fn members(network: &Network, limits: &[Judged]) -> Map<String, Value> {
+/// `margin` and `kept` are null. Nothing without limits.
+pub(crate) fn members(network: &Network, limits: &[Judged]) -> Option<Map<String, Value>> {
     let one = |judged: &Judged| {
         let limit = &network.limits()[judged.limit.index()];
         let time = |time: Option<f64>| time.map(|time| Scalar::new(time, "s"));
@@ -147,7 +146,7 @@ pub(crate) fn members(network: &Network, limits: &[Judged]) -> Map<String, Value
         });
         (limit.name.clone(), member)
     };
-    limits.iter().map(one).collect()
+    (!limits.is_empty()).then(|| limits.iter().map(one).collect())
 }
 
 /// Says which limits are broken and gives the exit code. Those that make it 1 are said last, and with `--quiet` too;
@@ -167,11 +166,8 @@ pub(crate) fn conclude(judgement: &Judgement<'_>, console: &Console) -> Exit {
 
 fn warning(judgement: &Judgement<'_>, judged: &Judged) -> Diagnostic {
     let item = Item::Limit(judged.limit);
-    let problem = Diagnostic::warning("limit::exceeded", words(judgement, judged));
-    match judgement.netlist.source_map.get(item, Field::Name) {
-        Some(span) => problem.at(span.clone(), ""),
-        None => problem,
-    }
+    let place = judgement.netlist.source_map.name(item);
+    Diagnostic::warning("limit::exceeded", words(judgement, judged)).at(place, "")
 }
 
 /// "`hot` (steel.T below 110 degC) by 3.2 K at 25 min, first after 12.05 min".

@@ -65,11 +65,10 @@ fn too_slow(netlist: &Netlist, check: &LumpCheck, (time, stretch): (f64, Stretch
 fn at(netlist: &Netlist, check: &LumpCheck, warning: Diagnostic) -> Diagnostic {
     let map = &netlist.source_map;
     let item = Item::Node(check.node);
-    let warning = match map.get(item, Field::CharacteristicLength).or_else(|| map.name(item)) {
-        Some(place) => warning.at(place.clone(), ""),
-        None => warning,
-    };
-    warning.help("make it several nodes with [conduction] between them; L_char is volume over surface")
+    let place = map.get(item, Field::CharacteristicLength).or_else(|| map.name(item));
+    warning
+        .at(place, "")
+        .help("make it several nodes with [conduction] between them; L_char is volume over surface")
 }
 
 /// A few lines below a result: the largest numbers, and what was not checked.
@@ -103,7 +102,7 @@ fn not_checked(lumping: &Lumping) -> Vec<String> {
     let mut found: Vec<NotChecked> = lumping.checks.iter().filter_map(|check| check.biot.err()).collect();
     found.sort_unstable();
     for reason in found {
-        let words = words(reason).to_owned();
+        let words = told(reason).0.to_owned();
         match reasons.iter_mut().find(|(known, _)| *known == words) {
             Some((_, count)) => *count += 1,
             None => reasons.push((words, 1)),
@@ -117,27 +116,16 @@ fn not_checked(lumping: &Lumping) -> Vec<String> {
     pieces.collect()
 }
 
-fn words(reason: NotChecked) -> &'static str {
+/// Why a node was not checked: for reading, and for programs.
+fn told(reason: NotChecked) -> (&'static str, &'static str) {
     match reason {
-        NotChecked::NoMaterial => "no material",
-        NotChecked::SeveralMaterials => "several materials",
-        NotChecked::NoConductivity => "material without k",
-        NotChecked::NoHeatCapacity => "material without density or cp",
-        NotChecked::NoSurface => "no surface with h",
-        NotChecked::NoArea(_) => "surface without area",
-        NotChecked::NoValue => "h has no value",
-    }
-}
-
-fn code(reason: NotChecked) -> &'static str {
-    match reason {
-        NotChecked::NoMaterial => "no_material",
-        NotChecked::SeveralMaterials => "several_materials",
-        NotChecked::NoConductivity => "no_conductivity",
-        NotChecked::NoHeatCapacity => "no_heat_capacity",
-        NotChecked::NoSurface => "no_surface",
-        NotChecked::NoArea(_) => "no_area",
-        NotChecked::NoValue => "no_value",
+        NotChecked::NoMaterial => ("no material", "no_material"),
+        NotChecked::SeveralMaterials => ("several materials", "several_materials"),
+        NotChecked::NoConductivity => ("material without k", "no_conductivity"),
+        NotChecked::NoHeatCapacity => ("material without density or cp", "no_heat_capacity"),
+        NotChecked::NoSurface => ("no surface with h", "no_surface"),
+        NotChecked::NoArea(_) => ("surface without area", "no_area"),
+        NotChecked::NoValue => ("h has no value", "no_value"),
     }
 }
 
@@ -158,7 +146,7 @@ fn details(text: &mut Text, network: &Network, lumping: &Lumping) {
     }
     let unknown = |id: &NodeId| ("no L_char", *id);
     let mut reasons: Vec<(&str, NodeId)> = lumping.without_length.iter().map(unknown).collect();
-    reasons.extend(lumping.checks.iter().filter_map(|check| Some((words(check.biot.err()?), check.node))));
+    reasons.extend(lumping.checks.iter().filter_map(|check| Some((told(check.biot.err()?).0, check.node))));
     // by reason; within one in the order of the file
     reasons.sort_by_key(|(words, _)| *words);
     for group in reasons.chunk_by(|a, b| a.0 == b.0) {
@@ -187,7 +175,7 @@ pub(crate) fn json(network: &Network, lumping: &Lumping) -> Value {
         }
         let reasons = [("biot", check.biot.err()), ("diffusion_time", check.diffusion.err())];
         let missing =
-            reasons.iter().filter_map(|(key, reason)| Some(((*key).to_owned(), json!(code((*reason)?)))));
+            reasons.iter().filter_map(|(key, reason)| Some(((*key).to_owned(), json!(told((*reason)?).1))));
         let missing: Map<String, Value> = missing.collect();
         if !missing.is_empty() {
             node.insert("not_checked".to_owned(), Value::Object(missing));

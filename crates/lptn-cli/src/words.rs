@@ -52,6 +52,11 @@ pub(crate) fn symbol(unit: &str) -> &str {
     if unit == "1" { "-" } else { unit }
 }
 
+/// A unit behind its number, with the blank before it; nothing for a plain number.
+pub(crate) fn spaced(unit: &str) -> String {
+    if unit == "1" { String::new() } else { format!(" {unit}") }
+}
+
 /// The unit of a difference between two temperatures in `unit`.
 pub(crate) fn difference(unit: &Unit) -> &'static str {
     if (unit.scale - 1.0).abs() < 1e-12 { "K" } else { "degR" }

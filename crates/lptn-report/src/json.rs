@@ -43,6 +43,14 @@ impl<W: Write> JsonWriter<W> {
         self.out.write_all(serde_json::to_string_pretty(value)?.replace('\n', "\n  ").as_bytes())
     }
 
+    /// Writes a member if there is one.
+    ///
+    /// # Errors
+    /// What the stream reports.
+    pub fn optional(&mut self, name: &str, value: Option<impl Serialize>) -> io::Result<()> {
+        value.map_or(Ok(()), |value| self.member(name, &value))
+    }
+
     /// Writes a table as `columns`, each with name and unit, and `rows` of plain numbers; columns of words come first and
     /// have `null` for a unit.
     ///

@@ -7,6 +7,24 @@ pub trait Problem: std::error::Error {
 
     /// What to do about it, in words that can be pasted where possible.
     fn help(&self) -> Option<String>;
+
+    /// Whose fault it is.
+    fn class(&self) -> Class {
+        Class::Input
+    }
+}
+
+/// Whose fault a problem is, or what it says of the question; programs end with a code for each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// The input is wrong, or the question does not fit it.
+    Input,
+    /// The numbers cannot be computed with.
+    Numbers,
+    /// The question has an answer, and that is no.
+    No,
+    /// It was interrupted.
+    Interrupted,
 }
 
 /// Help as a declaration gives it: words, or none.
@@ -27,13 +45,20 @@ impl Help for String {
     }
 }
 
+impl Help for &String {
+    fn words(self) -> Option<String> {
+        Some(self.clone())
+    }
+}
+
 impl Help for Option<String> {
     fn words(self) -> Option<String> {
         self
     }
 }
 
-/// Declares an enum of errors, each told once: its fields, its stable code, its sentence and, where there is one, the help.
+/// Declares an enum of errors, each told once: its fields, its stable code, its sentence and, where there is one, the help;
+/// its class where it is not that of a wrong input.
 /// The expressions see the fields by reference; a sentence is anything that can be displayed, such as the error it is about.
 ///
 /// ```
@@ -62,7 +87,7 @@ macro_rules! errors {
             $(
                 $(#[$doc:meta])*
                 $variant:ident $(($($arg:ident: $arg_ty:ty),*))? $({ $($field:ident: $ty:ty),* })? =
-                    $code:expr, $says:expr $(, help $help:expr)?;
+                    $code:expr, $says:expr $(, help $help:expr)? $(, class $class:expr)?;
             )*
         }
     ) => {
@@ -105,7 +130,27 @@ macro_rules! errors {
             fn help(&self) -> Option<String> {
                 self.help()
             }
+
+            #[allow(unused_variables, reason = "each takes the fields that it needs")]
+            fn class(&self) -> $crate::Class {
+                match self {
+                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? =>
+                        $crate::class_of!($($class)?),)*
+                }
+            }
         }
+    };
+}
+
+/// The class of a declaration; where it has none the input is wrong.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! class_of {
+    () => {
+        $crate::Class::Input
+    };
+    ($class:expr) => {
+        $class
     };
 }
 

@@ -10,7 +10,6 @@ use lptn_netlist::Diagnostic;
 use lptn_netlist::library::{self, Record};
 use lptn_report::{Json, Page, Rows, Text, TextTable, significant};
 use lptn_study::Scalar;
-use lptn_units::suggest;
 use serde_json::{Value, json};
 
 use crate::console::Console;
@@ -47,11 +46,8 @@ fn one(name: &str) -> Result<(Records, Records), Failure> {
 fn unknown(name: &str) -> Failure {
     let problem = Diagnostic::error("materials::unknown", format!("the library has no material `{name}`"));
     let names = library::materials().iter().chain(library::fluids()).map(|record| record.name.as_str());
-    let help = match suggest(name, names) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => "`lptn materials` lists them all".into(),
-    };
-    Failure::new(Exit::Input, problem.help(help))
+    let all = || "`lptn materials` lists them all".into();
+    Failure::new(Exit::Input, problem.did_you_mean(name, names, all))
 }
 
 fn number(value: Option<f64>) -> String {

@@ -6,10 +6,9 @@ pub(crate) use args::ModesArgs;
 
 use std::io;
 
-use lptn_netlist::Diagnostic;
 use lptn_network::{Network, Node};
 use lptn_report::{Json, Page, Rows, Text, TextTable, duration, fixed, shortened};
-use lptn_solve::{EventKind, ExactError, Mode, Modes};
+use lptn_solve::{EventKind, Mode, Modes};
 use lptn_study::Scalar;
 use serde_json::{Map, Value, json};
 
@@ -36,38 +35,13 @@ const PARTNER_WIDTH: usize = 44;
 pub(crate) fn modes(args: &ModesArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
     let netlist = &input.netlist;
-    let mut modes = Modes::solve(&netlist.network).map_err(|error| failed(&input, &error))?;
+    let mut modes = Modes::solve(&netlist.network).map_err(|error| input.failure(&error, None))?;
     let all = modes.modes().len();
     let usual = if all <= ALL_UP_TO { all } else { OF_MORE };
     modes.truncate(args.count.map_or(usual, |count| usize::try_from(count).unwrap_or(usize::MAX)));
     console.warn(&netlist.files, &netlist.warnings);
     let view = View { input: &input, modes: &modes, all };
     console.show(&view, args.printed.format)
-}
-
-fn failed(input: &Input, error: &ExactError) -> Failure {
-    let (exit, code, help) = match error {
-        ExactError::TooLarge { .. } => (
-            Exit::Input,
-            "modes::too_large",
-            Some("lump nodes until there are at most 2000, or let `lptn run` show how long each node takes"),
-        ),
-        ExactError::NotLinear { .. } | ExactError::Switches { .. } => (
-            Exit::Input,
-            error.code(),
-            Some("only a network of constants has modes; `lptn run` follows it over time"),
-        ),
-        ExactError::Input(_) | ExactError::Value(_) | ExactError::Times => (Exit::Input, error.code(), None),
-        ExactError::Singular | ExactError::Modes | ExactError::Quadrature { .. } => {
-            (Exit::Failed, error.code(), Some("merge the nodes that the largest conductances join"))
-        }
-    };
-    let problem = Diagnostic::error(code, error.to_string());
-    let problem = match help {
-        Some(help) => problem.help(help),
-        None => problem,
-    };
-    Failure::at(exit, input.netlist.files.clone(), problem)
 }
 
 struct View<'a> {

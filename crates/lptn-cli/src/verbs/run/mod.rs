@@ -29,7 +29,7 @@ use crate::input::Input;
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
     let job = Job::new(args, &input)?;
-    uncertainty::check(&args.uncertainty, &input.netlist)?;
+    uncertainty::check(&args.uncertainty, &input)?;
     let system = input.assemble()?;
     let folder = (!args.no_files).then(|| Folder::prepare(job.folder(args))).transpose()?;
     console.warn(&input.netlist.files, &input.netlist.warnings);

@@ -86,7 +86,7 @@ impl Outcome<'_> {
             end: RunEnd::of(&self.solution, settings.stop, self.ended_early()),
             statistics: StatisticsRecord::new(&self.solution),
             ledger: self.ledger(),
-            limits: limits::members(self.solution.network(), &self.limits()),
+            limits: limits::members(self.solution.network(), &self.limits()).unwrap_or_default(),
             uncertainty: self.uncertainty().map(|study| {
                 let mut members = uncertain::method(&study.found);
                 let parameters = uncertain::parameters(self.solution.network(), &study.found);

@@ -73,24 +73,16 @@ impl Page for Outcome<'_> {
         json.table(&self.table)?;
         json.member("events", &events::json(&self.solution))?;
         json.member("ledger", &self.ledger())?;
-        if !self.solution.limits().is_empty() {
-            json.member("limits", &limits::members(network, &self.limits()))?;
-        }
-        if let Some(study) = self.uncertainty() {
-            json.member("uncertainty", &uncertainty::files::json(network, study))?;
-        }
-        if !self.job.settings.windows.is_empty() {
-            json.member("windows", &windows::members(self.solution.windows()))?;
-        }
-        if let Some(of) = self.solution.balance() {
-            json.member("balance", &balance::json(network, of))?;
-        }
+        let uncertain = |study| uncertainty::files::json(network, study);
+        let windowed = !self.job.settings.windows.is_empty();
+        json.optional("limits", limits::members(network, &self.limits()))?;
+        json.optional("uncertainty", self.uncertainty().map(uncertain))?;
+        json.optional("windows", windowed.then(|| windows::members(self.solution.windows())))?;
+        json.optional("balance", self.solution.balance().map(|of| balance::json(network, of)))?;
         json.member("lumping", &lumping::json(network, &self.lumping))?;
         json.member("statistics", &StatisticsRecord::new(&self.solution))?;
-        self.ended_early().map_or(Ok(()), |message| {
-            let end = RunEnd::of(&self.solution, self.job.settings.stop, Some(message));
-            json.member("end", &end)
-        })
+        let end = |message| RunEnd::of(&self.solution, self.job.settings.stop, Some(message));
+        json.optional("end", self.ended_early().map(end))
     }
 }
 

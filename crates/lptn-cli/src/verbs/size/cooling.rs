@@ -6,7 +6,7 @@ use lptn_netlist::Files;
 use lptn_report::{Json, Page, Rows, Text, TextTable, plain, significant};
 use lptn_solve::Table;
 use lptn_study::{Coolant, Cooling, CoolingTask, Flow, Scalar};
-use lptn_units::{Dimension, Type, parse_quantity};
+use lptn_units::{Dimension, Type};
 use serde_json::{Map, json};
 
 use super::args::{CoolingArgs, SizeArgs};
@@ -14,14 +14,14 @@ use crate::console::Console;
 use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::input::wrong_unit;
+use crate::input::quantity;
 
 /// How much a coolant warms unless said otherwise.
 const USUAL_RISE: &str = "10 K";
 
 pub(crate) fn cooling(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
     let task = task(&args.cooling)?;
-    let cooling = task.cooling().map_err(|error| Failure::of(Exit::Input, &error))?;
+    let cooling = task.cooling().map_err(|error| Failure::of(&error))?;
     let answer = Answer {
         asked: &args.cooling,
         task,
@@ -35,8 +35,7 @@ pub(crate) fn cooling(args: &SizeArgs, console: &Console) -> Result<Exit, Failur
 fn task(args: &CoolingArgs) -> Result<CoolingTask, Failure> {
     let value = |name: &str, text: Option<&String>, usual: &str, ty: Type| {
         let text = text.map_or(usual, String::as_str);
-        let quantity = parse_quantity(text, Some(ty)).map_err(|error| wrong_unit(name, text, &error))?;
-        Ok::<f64, Failure>(quantity.value)
+        quantity(name, text, ty).map(|quantity| quantity.value)
     };
     let absolute = Type::ABSOLUTE_TEMPERATURE;
     Ok(CoolingTask {

@@ -3,31 +3,26 @@
 mod args;
 mod changing;
 mod cooling;
-mod text;
+mod page;
 mod write;
 
 pub(crate) use args::SizeArgs;
 
-use std::io;
-
 use lptn_netlist::{Diagnostic, Requirement, SizeStudy};
 use lptn_network::ParameterId;
-use lptn_report::{Json, Page, Rows, Text};
-use lptn_solve::{SteadyError, Table};
-use lptn_study::{Scalar, SizeError, SizeTask, Sizing, Verdict};
-use lptn_units::Unit;
-use serde_json::json;
+use lptn_study::{SizeError, SizeTask, Sizing, Verdict};
+use lptn_units::{Problem as _, Unit};
 
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::Input;
+use crate::failure::{Failure, told};
+use crate::input::{Input, Studies};
 use crate::options::Source;
 
 pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
     let Some(file) = &args.file else { return cooling::cooling(args, console) };
     let input = Input::load(&Source { file: file.clone(), set: args.set.clone() })?;
-    let study = study(&input, args.name.as_deref())?;
+    let study = STUDIES.find(&input, (&input.netlist.sizes, |study| &study.name), args.name.as_deref())?;
     let parameter = parameter(&input, study)?;
     let unit = input.unit_of(parameter);
     if args.write {
@@ -43,42 +38,19 @@ pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> 
     Ok(exit)
 }
 
-/// The study of this name, or the only one.
-fn study<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a SizeStudy, Failure> {
-    let sizes = &input.netlist.sizes;
-    let known = || sizes.iter().map(|study| study.name.as_str());
-    let list = || known().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-    let file = &input.text.name;
-    let problem = match (name, sizes.as_slice()) {
-        (None, [only]) => return Ok(only),
-        (None, []) => Diagnostic::error("size::no_study", format!("{file} has no [size.NAME]: what is to be sized?"))
-            .help(
-                "add for example:\n\n[size.fan]\nminimise = \"p\"\nvary = { p = { from = \"1 W/K\", to = \"10 W/K\" } }\n\
-                 require = [\"steel.T <= 80 [degC]\"]",
-            ),
-        (None, _) => Diagnostic::error("size::which_study", format!("{file} has several [size.NAME]"))
-            .help(format!("name one of {}", list())),
-        (Some(name), _) => match sizes.iter().find(|study| study.name == name) {
-            Some(study) => return Ok(study),
-            None => {
-                let problem =
-                    Diagnostic::error("size::no_study", format!("{file} has no [size.{name}]"));
-                match lptn_units::suggest(name, known()) {
-                    Some(near) => problem.help(format!("did you mean `{near}`?")),
-                    None if sizes.is_empty() => problem,
-                    None => problem.help(format!("name one of {}", list())),
-                }
-            }
-        },
-    };
-    Err(Failure::new(Exit::Input, problem))
-}
+const STUDIES: Studies = Studies {
+    section: "size",
+    codes: ["size::no_study", "size::which_study"],
+    question: "what is to be sized?",
+    example: "[size.fan]\nminimise = \"p\"\nvary = { p = { from = \"1 W/K\", to = \"10 W/K\" } }\n\
+              require = [\"steel.T <= 80 [degC]\"]",
+};
 
 fn parameter(input: &Input, study: &SizeStudy) -> Result<ParameterId, Failure> {
     input.netlist.network.parameter(&study.parameter).map_err(|_| {
         let message = format!("there is no parameter `{}`", study.parameter);
         let problem = Diagnostic::error("netlist::unknown_parameter", message);
-        Failure::at(Exit::Input, input.netlist.files.clone(), problem.at(study.span.clone(), ""))
+        input.refused(Exit::Input, problem.at(study.span.clone(), ""))
     })
 }
 
@@ -98,35 +70,20 @@ fn solve(input: &Input, study: &SizeStudy, parameter: ParameterId) -> Result<Siz
 }
 
 fn failed(input: &Input, study: &SizeStudy, unit: &Unit, error: &SizeError) -> Failure {
-    if let SizeError::Changing(changing) = error {
-        let problem = changing::explained(input, study, (error, changing));
-        return Failure::at(Exit::Input, input.netlist.files.clone(), problem);
-    }
-    let at = |value: f64| text::quantity(&study.parameter, value, unit);
-    let (exit, message) = match error {
-        SizeError::Network { value, errors } => {
-            (Exit::Input, format!("there is no network with {}: {errors}", at(*value)))
-        }
-        SizeError::Steady { value, error } => {
-            let input = matches!(
-                error,
-                SteadyError::NoBoundary { .. } | SteadyError::Input(_) | SteadyError::Cycles { .. }
-            );
-            let exit = if input { Exit::Input } else { Exit::Failed };
-            (exit, format!("there is no steady state with {}: {error}", at(*value)))
-        }
-        error => (Exit::Input, error.to_string()),
-    };
-    let problem = Diagnostic::error(error.code(), message).at(study.span.clone(), "");
+    let at = |value: f64| page::quantity(&study.parameter, value, unit);
     let problem = match error {
-        SizeError::Network { .. }
-        | SizeError::Steady {
-            error: SteadyError::BelowAbsoluteZero { .. } | SteadyError::Cycles { .. },
-            ..
-        } => problem.help("`vary` has to leave this value out: let its range begin or end elsewhere"),
-        _ => problem,
+        SizeError::Changing(changing) => changing::explained(input, study, (error, changing)),
+        _ => told(error).at(study.span.clone(), ""),
     };
-    Failure::at(exit, input.netlist.files.clone(), problem)
+    // the library does not know the unit
+    let message = match error {
+        SizeError::Network { value, errors } => format!("there is no network with {}: {errors}", at(*value)),
+        SizeError::Steady { value, error } => {
+            format!("there is no steady state with {}: {error}", at(*value))
+        }
+        _ => problem.message,
+    };
+    input.refused(error.class().into(), Diagnostic { message, ..problem })
 }
 
 /// What came of sizing a parameter.
@@ -148,48 +105,5 @@ impl Answer<'_> {
 
     fn closest_unit(&self) -> String {
         self.study.requirements[self.sizing.closest].ty.dimension.si_unit()
-    }
-}
-
-impl Page for Answer<'_> {
-    fn text(&self) -> Text {
-        text::text(self)
-    }
-
-    /// One row: the value in its unit, the margin of every requirement in SI units.
-    fn rows(&self) -> Rows<'_> {
-        let mut table = Table::of(&[()]);
-        let value = self.unit.from_si(self.sizing.trial.value);
-        table.column(&self.study.parameter, &self.unit.text, |()| value);
-        table.column("feasible", "-", |()| if self.sizing.feasible() { 1.0 } else { 0.0 });
-        for (r, &margin) in self.study.requirements.iter().zip(&self.sizing.trial.margins) {
-            table.column(&r.text, r.ty.dimension.si_unit(), |()| margin);
-        }
-        table.done().into()
-    }
-
-    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        let (network, sizing) = (&self.input.netlist.network, &self.sizing);
-        let si = network.parameters()[self.parameter.index()].ty.dimension.si_unit();
-        let requirement = |(r, &margin): (&Requirement, &f64)| {
-            let margin = Scalar::new(margin, &r.ty.dimension.si_unit());
-            json!({ "requirement": r.text, "margin": margin })
-        };
-        let margins = self.study.requirements.iter().zip(&sizing.trial.margins);
-        let scalar = |value: f64| Scalar::new(value, &si);
-        let of_margin = |value: f64| Scalar::new(value, &self.closest_unit());
-        self.input.head(json, &[])?;
-        json.member("values", &json!({ (self.study.parameter.as_str()): scalar(sizing.trial.value) }))?;
-        json.member("margin", &of_margin(sizing.margin()))?;
-        json.member("binding", &self.binding().map(|requirement| &requirement.text))?;
-        json.member("feasible", &sizing.feasible())?;
-        json.member("requirements", &margins.map(requirement).collect::<Vec<_>>())?;
-        json.member("sensitivity", &sizing.sensitivity.map(of_margin))?;
-        json.member("breaks_again", &sizing.breaks_again.map(scalar))?;
-        json.member("first_guess", &sizing.first_guess.map(scalar))
-    }
-
-    fn no(&self) -> Option<String> {
-        (!self.sizing.feasible()).then(|| text::verdict(self))
     }
 }

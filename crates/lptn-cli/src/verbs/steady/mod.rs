@@ -7,7 +7,7 @@ mod view;
 pub(crate) use args::SteadyArgs;
 
 use lptn_netlist::RunSettings;
-use lptn_network::LimitId;
+use lptn_network::{Item, LimitId};
 use lptn_report::Format;
 use lptn_solve::{Selection, SteadyError, SteadyState, Table};
 use lptn_units::Unit;
@@ -15,7 +15,7 @@ use view::View;
 
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::failure::{Failure, told};
+use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::limits::{self, Judged, Judgement};
 use crate::{balance, select, sense};
@@ -77,29 +77,14 @@ fn limits(input: &Input, steady: &SteadyState, time: f64) -> Result<Vec<Judged>,
     Ok(network.limit_ids().zip(margins).map(one).collect())
 }
 
-/// That a network cycles is an answer. One without a path to a boundary has no steady state whatever its numbers: the question does not fit the
-/// input, so the exit code is that of a wrong input. Numbers that cannot be solved with are a failure of numbers.
 fn failed(input: &Input, error: &SteadyError) -> Failure {
-    let exit = match error {
-        SteadyError::Cycles { .. } => Exit::No,
-        SteadyError::NoBoundary { .. } | SteadyError::Input(_) => Exit::Input,
-        SteadyError::Unsolved(_)
-        | SteadyError::Factorization(_)
-        | SteadyError::Unbalanced { .. }
-        | SteadyError::BelowAbsoluteZero { .. } => Exit::Failed,
-    };
-    let mut problem = told(error);
-    let map = &input.netlist.source_map;
     let place = match error {
         SteadyError::NoBoundary { nodes, .. } => {
-            nodes.first().and_then(|&node| map.name(lptn_network::Item::Node(node)))
+            nodes.first().and_then(|&node| input.netlist.source_map.name(Item::Node(node)))
         }
         SteadyError::Unsolved(unsolved) if unsolved.input().is_none() => input.node_place(&unsolved.node),
         SteadyError::BelowAbsoluteZero { name, .. } => input.node_place(name),
-        error => error.input().and_then(|input| map.get(input.item, input.field)),
+        error => error.input().and_then(|error| input.place_of(error)),
     };
-    if let Some(place) = place {
-        problem = problem.at(place.clone(), "");
-    }
-    Failure::at(exit, input.netlist.files.clone(), problem)
+    input.failure(error, place)
 }

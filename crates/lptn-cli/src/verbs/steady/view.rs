@@ -250,10 +250,8 @@ impl Page for View<'_> {
         let found = self.doubts().into_iter().chain(sense::of_steady(netlist, self.steady));
         self.input.head(json, &found.collect::<Vec<_>>())?;
         json.member("values", &table.columns().iter().map(value).collect::<Map<_, _>>())?;
-        if !self.limits.is_empty() {
-            json.member("limits", &limits::members(&netlist.network, self.limits))?;
-        }
-        self.balance.map_or(Ok(()), |of| json.member("balance", &balance::json(&netlist.network, of)))
+        json.optional("limits", limits::members(&netlist.network, self.limits))?;
+        json.optional("balance", self.balance.map(|of| balance::json(&netlist.network, of)))
     }
 }
 

@@ -13,6 +13,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::wrong_unit;
+use crate::words::spaced;
 
 pub(crate) fn units(args: &UnitsArgs, console: &Console) -> Result<Exit, Failure> {
     let text = match &args.quantity {
@@ -30,7 +31,7 @@ pub(crate) fn units(args: &UnitsArgs, console: &Console) -> Result<Exit, Failure
 fn describe(given: &str, quantity: &Quantity) -> Text {
     let ty = quantity.ty;
     let si_unit = ty.dimension.si_unit();
-    let unit = if si_unit == "1" { String::new() } else { format!(" {si_unit}") };
+    let unit = spaced(&si_unit);
     let deviation = quantity.deviation.map_or(String::new(), |d| format!(" ± {}", format_number(d)));
     let name = ty.dimension.quantity_name().filter(|_| !ty.absolute).unwrap_or(unnamed(ty));
     let others = if ty.absolute { ABSOLUTE } else { conversions::of(ty.dimension) };

@@ -19,7 +19,7 @@ use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
-use crate::verbs::run::job::{explain, no_run};
+use crate::verbs::run::job::{failed, no_run};
 use crate::words::count;
 
 /// Letters of a node's name beside the other columns.
@@ -57,16 +57,6 @@ fn observed(
     });
     line.clear();
     found
-}
-
-fn failed(input: &Input, error: &TransientError) -> Failure {
-    let exit = match error {
-        TransientError::Integrator(_) | TransientError::Start(_) | TransientError::Stopped { .. } => {
-            Exit::Failed
-        }
-        TransientError::Settings(_) | TransientError::Input(_) => Exit::Input,
-    };
-    Failure::at(exit, input.netlist.files.clone(), explain(input, error))
 }
 
 struct View<'a> {

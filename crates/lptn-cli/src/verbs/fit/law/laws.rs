@@ -7,16 +7,16 @@ use lptn_solve::Table;
 use lptn_study::Scalar;
 use lptn_study::fit::law::{AtSpeed, Consistency, Exponent, LawError, LawOf, Significance, StatedLaw};
 use lptn_study::fit::step::Capacity;
-use lptn_units::{Dimension, Type, parse_quantity};
+use lptn_units::{Dimension, Type};
 use serde_json::{Value, json};
 
 use super::args::LawArgs;
 use super::shown::{SpeedUnit, with_error};
-use super::{wrong, wrong_law};
+use super::wrong_law;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::input::wrong_unit;
+use crate::input::quantity;
 
 /// Compares three laws of the command line.
 pub(crate) fn laws(args: &LawArgs, capacity: Option<Capacity>, console: &Console) -> Result<Exit, Failure> {
@@ -31,7 +31,7 @@ pub(crate) fn laws(args: &LawArgs, capacity: Option<Capacity>, console: &Console
     ];
     let range = range(args.laws.over.as_deref().unwrap_or_default())?;
     let found = Consistency::of_laws(&stated[0], &stated[1], &stated[2], capacity, range);
-    let found = found.map_err(|error| wrong(&error))?;
+    let found = found.map_err(|error| Failure::of(&error))?;
     console.show(&Stated { laws: stated, found, unit: SpeedUnit::rpm() }, args.format)
 }
 
@@ -85,11 +85,10 @@ impl Page for Stated {
 /// `1000 rpm to 7000 rpm`.
 fn range(text: &str) -> Result<(f64, f64), Failure> {
     let Some((low, high)) = text.split_once(" to ").or_else(|| text.split_once("..")) else {
-        return Err(wrong(&LawError::Range));
+        return Err(Failure::of(&LawError::Range));
     };
     let speed = |text: &str| {
-        let found = parse_quantity(text.trim(), Some(Type::of(Dimension::ANGULAR_VELOCITY)));
-        found.map(|speed| speed.value).map_err(|error| wrong_unit("--over", text.trim(), &error))
+        quantity("--over", text.trim(), Type::of(Dimension::ANGULAR_VELOCITY)).map(|speed| speed.value)
     };
     Ok((speed(low)?, speed(high)?))
 }

@@ -8,6 +8,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{Input, quoted};
+use crate::words::spaced;
 
 /// Digits with which a search goes on from where it was.
 const DIGITS: usize = 8;
@@ -36,7 +37,7 @@ pub(crate) fn tell(
         let study = args.name.as_ref().map_or(String::new(), |name| format!(" {}", quoted(name)));
         message += &format!("\ngo on from them: lptn fit network {file}{study}");
         for [name, value, unit] in &values {
-            let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+            let unit = spaced(unit);
             message += &format!(" --set {}", quoted(&format!("{name}={value}{unit}")));
         }
     }

@@ -1,19 +1,15 @@
 //! `lptn fit step`
 
 mod args;
-mod data;
 mod doubts;
 mod estimate;
 mod model;
+mod page;
 mod request;
-mod text;
 
 pub(crate) use args::StepArgs;
 
-use std::io;
-
 use lptn_netlist::{Diagnostic, RecordColumn};
-use lptn_report::{Json, Page, Rows, Text};
 use lptn_study::fit::step::{Capacity, Power, Reference as Zero, Sensor, StepError, StepFit};
 
 use crate::console::Console;
@@ -96,18 +92,4 @@ fn fitted<'a>(request: &'a Request, column: &'a RecordColumn) -> Result<Column<'
 /// A number with its error in brackets, as part of a formula.
 pub(crate) fn shown(value: f64, error: f64) -> String {
     format!("({})", estimate::with_error(value, error))
-}
-
-impl Page for Answer<'_> {
-    fn text(&self) -> Text {
-        text::text(self)
-    }
-
-    fn rows(&self) -> Rows<'_> {
-        data::table(self).into()
-    }
-
-    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        data::json(self, json)
-    }
 }

@@ -1,23 +1,22 @@
 //! `lptn steady --periodic`
 
-mod text;
+mod page;
 
-use std::io;
 use std::time::Instant;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings};
-use lptn_network::OutputTimes;
-use lptn_report::{Json, Page, Rows, Text, duration};
+use lptn_network::{Item, OutputTimes};
+use lptn_report::duration;
 use lptn_solve::{Beyond, Lumping, Method, Periodic, PeriodicError, Table, Transient, Window, WindowSeen};
-use lptn_study::{Scalar, StatisticsRecord};
-use lptn_units::{Dimension, Type, parse_quantity};
+use lptn_study::Scalar;
+use lptn_units::{Dimension, Problem as _};
 use serde_json::{Map, Value, json};
 
 use super::SteadyArgs;
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::failure::{Failure, told};
+use crate::failure::Failure;
 use crate::files::Folder;
 use crate::files::names::{MANIFEST, RESULT, WINDOWS};
 use crate::input::{self, Input};
@@ -26,7 +25,6 @@ use crate::limits::{self, Judgement};
 use crate::progress::ProgressLine;
 use crate::verbs::run::job::{Job, NoSteady, explain};
 use crate::verbs::run::outcome::Outcome;
-use crate::words::symbol;
 use crate::{balance, select, sense};
 
 /// The name of the window over the cycle.
@@ -98,13 +96,8 @@ fn settings(args: &SteadyArgs, input: &Input) -> Result<RunSettings, Failure> {
 /// The period that was given, or that of the repeated signals, in s.
 fn period(args: &SteadyArgs, input: &Input) -> Result<f64, Failure> {
     let Some(text) = &args.cycle.period else { return period_of_signals(input) };
-    let quantity = parse_quantity(text, Some(Type::of(Dimension::TIME)));
-    let quantity = quantity.map_err(|error| input::wrong_unit("--period", text, &error))?;
-    if quantity.value > 0.0 && quantity.value.is_finite() {
-        return Ok(quantity.value);
-    }
-    let problem = Diagnostic::error("periodic::period", "the period must be more than 0 s");
-    Err(Failure::new(Exit::Input, problem.help("write for example --period \"10 min\"")))
+    let what = (Dimension::TIME, "periodic::period", "\"10 min\"");
+    Ok(input::positive("--period", text, what)?.value)
 }
 
 fn period_of_signals(input: &Input) -> Result<f64, Failure> {
@@ -125,12 +118,11 @@ fn period_of_signals(input: &Input) -> Result<f64, Failure> {
                 "`{second}` repeats itself every {b} and `{first}` every {a}: they have no period in common"
             );
             let problem = Diagnostic::error("periodic::no_common_period", message);
-            let place = input.netlist.source_map.name(lptn_network::Item::Signal(none.signals[1]));
-            let problem = problem.help("change one of the periods, or look at `lptn run`");
-            place.map_or(problem.clone(), |place| problem.at(place.clone(), ""))
+            let place = input.netlist.source_map.name(Item::Signal(none.signals[1]));
+            problem.help("change one of the periods, or look at `lptn run`").at(place, "")
         }
     };
-    Err(Failure::at(Exit::Input, input.netlist.files.clone(), problem))
+    Err(input.refused(Exit::Input, problem))
 }
 
 fn find(job: &Job<'_>, system: &ThermalSystem, console: &Console) -> Result<Periodic, Failure> {
@@ -153,32 +145,18 @@ fn find(job: &Job<'_>, system: &ThermalSystem, console: &Console) -> Result<Peri
 }
 
 fn failed(input: &Input, error: &PeriodicError) -> Failure {
-    let exit = match error {
-        PeriodicError::NotPeriodic(_) | PeriodicError::NoBalance { .. } | PeriodicError::Input(_) => {
-            Exit::Input
-        }
-        PeriodicError::Switches { .. } => Exit::No,
-        PeriodicError::NotFound { .. } | PeriodicError::Cycle(_) => Exit::Failed,
-        PeriodicError::Interrupted { .. } => Exit::Interrupted,
-    };
     let map = &input.netlist.source_map;
     let place = match error {
         PeriodicError::NotPeriodic(found) => {
             map.get(found.item, found.field).or_else(|| map.name(found.item))
         }
-        PeriodicError::NoBalance { nodes, .. } => {
-            nodes.first().and_then(|&node| map.name(lptn_network::Item::Node(node)))
+        PeriodicError::NoBalance { nodes, .. } => nodes.first().and_then(|&node| map.name(Item::Node(node))),
+        PeriodicError::Cycle(cause) => {
+            return input.refused(error.class().into(), explain(input, cause));
         }
-        error => error.input().and_then(|input| map.get(input.item, input.field)),
+        error => error.input().and_then(|error| input.place_of(error)),
     };
-    let mut problem = match error {
-        PeriodicError::Cycle(error) => explain(input, error),
-        error => told(error),
-    };
-    if let Some(place) = place {
-        problem = problem.at(place.clone(), "");
-    }
-    Failure::at(exit, input.netlist.files.clone(), problem)
+    input.failure(error, place)
 }
 
 /// A periodic state and how it is shown.
@@ -253,44 +231,5 @@ impl View<'_> {
         let job = &self.outcome.job;
         let (netlist, unit) = (&job.input.netlist, &job.unit);
         limits::conclude(&Judgement { netlist, unit, limits: &self.outcome.limits() }, console)
-    }
-}
-
-impl Page for View<'_> {
-    fn text(&self) -> Text {
-        text::text(self)
-    }
-
-    /// Name, unit, value at the start, mean, extremes with their times, and swing of each column.
-    fn rows(&self) -> Rows<'_> {
-        let heading = ["name", "unit", "start", "mean", "min", "min_at [s]", "max", "max_at [s]", "swing"];
-        let mut rows = vec![heading.map(str::to_owned).to_vec()];
-        let mut text = lptn_report::Shortest::new();
-        let unit = &self.outcome.job.unit;
-        for (seen, start) in self.cycle().into_iter().flat_map(|cycle| &cycle.columns).zip(self.starts()) {
-            let [mean, min, max] = [seen.mean, seen.min.0, seen.max.0].map(|x| seen.shown(x, unit));
-            let numbers = [start, mean, min, seen.min.1, max, seen.max.1, max - min];
-            let mut row = vec![seen.name.clone(), symbol(&seen.unit(unit)).to_owned()];
-            row.extend(numbers.map(|number| text.text(number).to_owned()));
-            rows.push(row);
-        }
-        Rows::Words(rows)
-    }
-
-    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        let (solution, settings) = (&self.found.solution, &self.outcome.job.settings);
-        self.outcome.job.input.head(json, &[])?;
-        json.member("start", &Scalar::new(settings.start, "s"))?;
-        json.member("period", &Scalar::new(self.period(), "s"))?;
-        json.member("columns", &self.members())?;
-        json.member("search", &self.search())?;
-        json.member("ledger", &self.outcome.ledger())?;
-        if !solution.limits().is_empty() {
-            json.member("limits", &limits::members(solution.network(), &self.outcome.limits()))?;
-        }
-        if let Some(of) = solution.balance() {
-            json.member("balance", &balance::json(solution.network(), of))?;
-        }
-        json.member("statistics", &StatisticsRecord::new(solution))
     }
 }

@@ -14,7 +14,7 @@ use lptn_study::fit::law::{
 };
 use lptn_study::fit::step::{Capacity, LONG_ENOUGH, Sensor};
 use lptn_study::{FileHash, available_threads};
-use lptn_units::{Dimension, Type, parse_quantity, suggest};
+use lptn_units::{Dimension, Type, parse_quantity};
 
 use folder::Folder;
 
@@ -26,7 +26,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files;
-use crate::input::wrong_unit;
+use crate::input::{quantity, wrong_unit};
 
 /// What is shown of a folder.
 pub(crate) struct Runs {
@@ -83,7 +83,7 @@ fn study(
                 settings.columns.retain(|other| *other != column);
             }
             // a record that has no exponential is no failure of the numbers
-            Err(error) => return Err(Failure::of(Exit::Input, &error)),
+            Err(error) => return Err(Failure::of(&error)),
         }
     }
 }
@@ -119,10 +119,7 @@ fn settings(args: &LawArgs, runs: &[Run], capacity: Capacity) -> Result<RunSetti
     }
     let class = match &args.records.sensor {
         None => 0.0,
-        Some(text) => {
-            let found = parse_quantity(text, Some(Type::of(Dimension::TEMPERATURE)));
-            found.map_err(|error| wrong_unit("--sensor", text, &error))?.value.abs()
-        }
+        Some(text) => quantity("--sensor", text, Type::of(Dimension::TEMPERATURE))?.value.abs(),
     };
     Ok(RunSettings {
         columns,
@@ -153,11 +150,8 @@ fn reference(text: &str, known: &[&str]) -> Result<RunReference, Failure> {
 
 fn no_column(name: &str, known: &[&str]) -> Failure {
     let problem = Diagnostic::error("record::no_column", format!("the records have no column `{name}`"));
-    let help = match suggest(name, known.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("their temperatures are {}", known.join(", ")),
-    };
-    Failure::new(Exit::Input, problem.help(help))
+    let all = || format!("their temperatures are {}", known.join(", "));
+    Failure::new(Exit::Input, problem.did_you_mean(name, known.iter().copied(), all))
 }
 
 impl Runs {

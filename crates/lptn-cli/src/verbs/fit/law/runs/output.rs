@@ -2,13 +2,12 @@
 
 use std::io;
 
-use lptn_report::{Json, write_csv};
+use lptn_report::{Format, Json, Page as _, write_csv};
 use lptn_solve::{Table, TableOf};
 use lptn_study::fit::law::{RunFit, Systematic};
 use lptn_study::{Environment, Scalar, utc};
 use serde_json::{Map, Value, json};
 
-use super::super::output;
 use super::Runs;
 use crate::failure::Failure;
 use crate::files::Folder;
@@ -19,14 +18,10 @@ pub(crate) const NAMES: [&str; 5] = [RISE, TIME_CONSTANT, POWER, LAWS, MANIFEST]
 
 pub(crate) fn write(found: &Runs, folder: &Folder) -> Result<(), Failure> {
     let mut files = folder.batch();
-    for (name, table) in [
-        (RISE, rise(found)),
-        (TIME_CONSTANT, time_constant(found)),
-        (POWER, power(found)),
-        (LAWS, output::table(&found.answer)),
-    ] {
+    for (name, table) in [(RISE, rise(found)), (TIME_CONSTANT, time_constant(found)), (POWER, power(found))] {
         files.write(name, |out| write_csv(&table, out))?;
     }
+    files.write(LAWS, |mut out| lptn_report::write(&found.answer, Format::Csv, false, &mut out))?;
     let environment = Environment {
         written: utc(std::time::SystemTime::now()),
         host: std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default().trim().to_owned(),
@@ -120,7 +115,7 @@ pub(crate) fn power(found: &Runs) -> Table {
 }
 
 pub(crate) fn json(found: &Runs, json: &mut Json<'_>) -> io::Result<()> {
-    output::members(&found.answer, json)?;
+    found.answer.json(json)?;
     json.member("runs", &runs(found))?;
     let part = |e: &Systematic| json!({ "capacity": e.capacity, "offset": e.offset, "gain": e.gain, "total": e.total() });
     let systematic = found.best().and_then(|(best, fit)| {

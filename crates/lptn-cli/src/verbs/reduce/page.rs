@@ -1,27 +1,53 @@
-//! A reduction as text for a terminal.
+//! What `lptn reduce` shows.
 
 use std::borrow::Cow;
+use std::io;
 
-use lptn_reduce::{Bias, Definition, Deviation, Dynamics, Pair, Window};
-use lptn_report::{Text, TextTable, decimals, duration, fixed, significant};
+use lptn_reduce::{Bias, Definition, Deviation, Dynamics, FitError, Pair, Window};
+use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, duration, fixed, significant};
+use lptn_study::Scalar;
+use serde_json::{Value, json};
 
 use super::View;
 use crate::words::count;
 
-pub(crate) fn text(view: &View<'_>) -> Text {
-    let mut text = view.input.begun();
-    text.section().table(view.equivalent());
-    if let Some(dynamics) = &view.reduction.dynamics {
-        text.section().table(pairs(dynamics));
-        text.section().sentence("use ", &view.advice(dynamics));
+impl Page for View<'_> {
+    fn text(&self) -> Text {
+        let mut text = self.input.begun();
+        text.section().table(self.equivalent());
+        if let Some(dynamics) = &self.reduction.dynamics {
+            text.section().table(pairs(dynamics));
+            text.section().sentence("use ", &self.advice(dynamics));
+        }
+        match &self.bias {
+            Some(Ok(bias)) => text.section().table(self.bias(bias)),
+            Some(Err(error)) => text.section().sentence("one exponential: ", &error.to_string()),
+            None => &mut text,
+        };
+        text.section().notes(self.notes());
+        text
     }
-    match &view.bias {
-        Some(Ok(bias)) => text.section().table(view.bias(bias)),
-        Some(Err(error)) => text.section().sentence("one exponential: ", &error.to_string()),
-        None => &mut text,
-    };
-    text.section().notes(view.notes());
-    text
+
+    fn rows(&self) -> Rows<'_> {
+        self.reduction.table().into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let netlist = &self.input.netlist;
+        let (norton, inputs) = (&self.reduction.norton, &self.reduction.inputs);
+        let boundaries = netlist.network.boundaries().iter().map(|b| Cow::from(&b.name));
+        let sources = netlist.network.sources().iter().map(|s| s.name());
+        self.input.head(json, &[])?;
+        json.member("port", &self.args.port)?;
+        json.member("R_eq", &scalar(norton.resistance, "K/W"))?;
+        json.member("T_ref", &scalar(inputs.reference, "K"))?;
+        json.member("Q_N", &scalar(inputs.heat, "W"))?;
+        json.member("boundary_weights", &named(boundaries, &norton.boundary_weights))?;
+        json.member("source_weights", &named(sources, &norton.source_weights))?;
+        dynamics(self.reduction.dynamics.as_ref(), json)?;
+        json.optional("bias", self.bias.as_ref().map(of_bias))?;
+        json.member("notes", &self.notes())
+    }
 }
 
 impl View<'_> {
@@ -236,4 +262,65 @@ fn pairs(dynamics: &Dynamics) -> TextTable {
         .right("[%]", |p| percent(p.run))
         .left("at", |p| p.run.map_or(String::new(), |r| duration(r.time, 3)))
         .into()
+}
+
+fn dynamics(dynamics: Option<&Dynamics>, json: &mut Json<'_>) -> io::Result<()> {
+    let Some(dynamics) = dynamics else {
+        return ["C_eq", "errors", "recommended"]
+            .into_iter()
+            .try_for_each(|name| json.member(name, &Value::Null));
+    };
+    let by_name = |value: &dyn Fn(&lptn_reduce::Pair) -> Value| -> Value {
+        dynamics.pairs.iter().map(|pair| (pair.definition.key().to_owned(), value(pair))).collect()
+    };
+    json.member("C_eq", &by_name(&|pair| json!(scalar(pair.capacity, "J/K"))))?;
+    let errors =
+        |pair: &lptn_reduce::Pair| json!({ "step": error(&pair.step), "run": pair.run.as_ref().map(error) });
+    json.member("errors", &by_name(&errors))?;
+    json.member("recommended", dynamics.recommended.definition.key())?;
+    json.member("recommended_by", if dynamics.recommended.by_run { "run" } else { "step" })?;
+    json.member("tau_1", &scalar(dynamics.step.slowest().tau, "s"))?;
+    let of = match dynamics.window {
+        Window::Given(_) => "given",
+        Window::Run(_) => "run",
+        Window::TimeConstants(_) => "five time constants",
+    };
+    json.member("window", &json!({ "value": dynamics.window.length(), "unit": "s", "from": of }))?;
+    let kelvin = |value: f64| scalar(value, "K");
+    json.member("rise", &dynamics.rise.map(kelvin))?;
+    json.member("tolerance", &dynamics.tolerance.map(kelvin))
+}
+
+fn error(deviation: &Deviation) -> Value {
+    json!({
+        "max": scalar(deviation.kelvin, "K"),
+        "relative": deviation.relative.map(|relative| scalar(relative, "1")),
+        "time": scalar(deviation.time, "s"),
+    })
+}
+
+fn of_bias(bias: &Result<Bias, FitError>) -> Value {
+    match bias {
+        Err(error) => json!({ "code": error.code(), "message": error.to_string() }),
+        Ok(bias) => json!({
+            "T_i": scalar(bias.fit.initial, "K"),
+            "T_f": scalar(bias.fit.settled, "K"),
+            "t_RC": scalar(bias.fit.tau, "s"),
+            "rms": scalar(bias.fit.rms, "K"),
+            "points": json!({ "value": bias.points, "unit": "1" }),
+            "C_eq": scalar(bias.capacity, "J/K"),
+            "R_eq": scalar(bias.resistance, "K/W"),
+            "P_inferred": scalar(bias.inferred, "W"),
+            "P_true": scalar(bias.heat, "W"),
+            "relative": bias.relative().map(|relative| scalar(relative, "1")),
+        }),
+    }
+}
+
+fn scalar(value: f64, unit: &str) -> Scalar {
+    Scalar::new(value, unit)
+}
+
+fn named<'a>(names: impl Iterator<Item = Cow<'a, str>>, values: &[f64]) -> Value {
+    names.zip(values).map(|(name, &value)| (name.into_owned(), json!(scalar(value, "1")))).collect()
 }

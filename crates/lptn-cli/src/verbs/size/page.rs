@@ -1,11 +1,16 @@
-//! What came of sizing, for reading.
+//! What `lptn size` shows.
 
-use lptn_netlist::Goal;
-use lptn_report::{Text, TextTable, plain, significant};
-use lptn_study::Verdict;
+use std::io;
+
+use lptn_netlist::{Goal, Requirement};
+use lptn_report::{Json, Page, Rows, Text, TextTable, plain, significant};
+use lptn_solve::Table;
+use lptn_study::{Scalar, Verdict};
 use lptn_units::Unit;
+use serde_json::json;
 
 use super::Answer;
+use crate::words::spaced;
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 6;
@@ -13,28 +18,67 @@ const DIGITS: usize = 6;
 /// Margins below this share of a unit are rounding.
 const ZERO: f64 = 1e-9;
 
-pub(crate) fn text(answer: &Answer<'_>) -> Text {
-    let (study, network) = (answer.study, &answer.input.netlist.network);
-    let (goal, range) = (goal(study.goal), study.range(network).unwrap_or((f64::NAN, f64::NAN)));
-    let unit = &answer.unit;
-    let number = |si: f64| significant(unit.from_si(si), DIGITS);
-    let sought = format!(
-        "size {}: the {goal} {} from {} to {}{}",
-        study.name,
-        study.parameter,
-        number(range.0),
-        number(range.1),
-        spaced(unit)
-    );
-    let mut text = Text::titled(answer.input.title());
-    text.sentence("", &sought);
-    text.section().table(requirements(answer));
-    text.section();
-    for (label, note) in notes(answer) {
-        text.sentence(&format!("{label:13}"), &note);
+impl Page for Answer<'_> {
+    fn text(&self) -> Text {
+        let (study, network) = (self.study, &self.input.netlist.network);
+        let (goal, range) = (goal(study.goal), study.range(network).unwrap_or((f64::NAN, f64::NAN)));
+        let unit = &self.unit;
+        let number = |si: f64| significant(unit.from_si(si), DIGITS);
+        let sought = format!(
+            "size {}: the {goal} {} from {} to {}{}",
+            study.name,
+            study.parameter,
+            number(range.0),
+            number(range.1),
+            spaced(&unit.text)
+        );
+        let mut text = Text::titled(self.input.title());
+        text.sentence("", &sought);
+        text.section().table(requirements(self));
+        text.section();
+        for (label, note) in notes(self) {
+            text.sentence(&format!("{label:13}"), &note);
+        }
+        text.section().sentence("", &verdict(self));
+        text
     }
-    text.section().sentence("", &verdict(answer));
-    text
+
+    /// One row: the value in its unit, the margin of every requirement in SI units.
+    fn rows(&self) -> Rows<'_> {
+        let mut table = Table::of(&[()]);
+        let value = self.unit.from_si(self.sizing.trial.value);
+        table.column(&self.study.parameter, &self.unit.text, |()| value);
+        table.column("feasible", "-", |()| if self.sizing.feasible() { 1.0 } else { 0.0 });
+        for (r, &margin) in self.study.requirements.iter().zip(&self.sizing.trial.margins) {
+            table.column(&r.text, r.ty.dimension.si_unit(), |()| margin);
+        }
+        table.done().into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let (network, sizing) = (&self.input.netlist.network, &self.sizing);
+        let si = network.parameters()[self.parameter.index()].ty.dimension.si_unit();
+        let requirement = |(r, &margin): (&Requirement, &f64)| {
+            let margin = Scalar::new(margin, &r.ty.dimension.si_unit());
+            json!({ "requirement": r.text, "margin": margin })
+        };
+        let margins = self.study.requirements.iter().zip(&sizing.trial.margins);
+        let scalar = |value: f64| Scalar::new(value, &si);
+        let of_margin = |value: f64| Scalar::new(value, &self.closest_unit());
+        self.input.head(json, &[])?;
+        json.member("values", &json!({ (self.study.parameter.as_str()): scalar(sizing.trial.value) }))?;
+        json.member("margin", &of_margin(sizing.margin()))?;
+        json.member("binding", &self.binding().map(|requirement| &requirement.text))?;
+        json.member("feasible", &sizing.feasible())?;
+        json.member("requirements", &margins.map(requirement).collect::<Vec<_>>())?;
+        json.member("sensitivity", &sizing.sensitivity.map(of_margin))?;
+        json.member("breaks_again", &sizing.breaks_again.map(scalar))?;
+        json.member("first_guess", &sizing.first_guess.map(scalar))
+    }
+
+    fn no(&self) -> Option<String> {
+        (!self.sizing.feasible()).then(|| verdict(self))
+    }
 }
 
 fn goal(goal: Goal) -> &'static str {
@@ -44,13 +88,9 @@ fn goal(goal: Goal) -> &'static str {
     }
 }
 
-fn spaced(unit: &Unit) -> String {
-    if unit.text == "1" { String::new() } else { format!(" {}", unit.text) }
-}
-
 /// "G_fan = 3.41 W/K".
 pub(crate) fn quantity(name: &str, si: f64, unit: &Unit) -> String {
-    format!("{name} = {}{}", significant(unit.from_si(si), DIGITS), spaced(unit))
+    format!("{name} = {}{}", significant(unit.from_si(si), DIGITS), spaced(&unit.text))
 }
 
 /// The value, rounded so that what is shown keeps the requirements.
@@ -61,7 +101,7 @@ fn value(answer: &Answer<'_>) -> String {
     } else {
         significant(value, DIGITS)
     };
-    format!("{} = {shown}{}", answer.study.parameter, spaced(&answer.unit))
+    format!("{} = {shown}{}", answer.study.parameter, spaced(&answer.unit.text))
 }
 
 /// `value` with so many digits, rounded up or down.
@@ -83,9 +123,8 @@ fn requirements(answer: &Answer<'_>) -> TextTable {
     let (study, sizing) = (answer.study, &answer.sizing);
     let margin = |i: usize| {
         let (margin, unit) = (sizing.trial.margins[i], study.requirements[i].ty.dimension.si_unit());
-        let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
         let margin = if margin.abs() < ZERO { 0.0 } else { margin };
-        format!("{}{unit}", significant(margin, 4))
+        format!("{}{}", significant(margin, 4), spaced(&unit))
     };
     let word = |i: usize| match sizing.verdict {
         _ if sizing.trial.margins[i] < 0.0 => "broken",

@@ -1,30 +1,54 @@
-//! A comparison for reading.
+//! What `lptn compare` shows.
 
+use std::io;
 use std::path::Path;
 
 use lptn_network::Severity;
 use lptn_report::{
-    Align, Column, Text, TextTable, WIDTH, decimals, duration, fixed, plain, significant, stacked,
+    Align, Column, Json, Page, Rows, Text, TextTable, WIDTH, decimals, duration, fixed, plain, significant,
+    stacked,
 };
-use lptn_study::{Candidate, CompareRow, LimitResult};
+use lptn_study::{Candidate, CompareRow, LimitResult, compare_table};
 
 use super::Comparison;
+use crate::diagnostics;
 use crate::exit::Exit;
-use crate::words::count;
+use crate::words::{count, spaced};
 
 /// What is not known or does not exist.
 const NOTHING: &str = "-";
 
-pub(crate) fn text(comparison: &Comparison) -> Text {
-    let rows = &comparison.rows;
-    let mut text = Text::titled(count(rows.len(), "candidate"));
-    text.section().table(overview(comparison));
-    for (title, columns) in [("margin to", margins(rows)), ("heat out", heat(rows))] {
-        for table in tables(title, rows, columns) {
-            text.section().table(table);
+impl Page for Comparison {
+    fn text(&self) -> Text {
+        let rows = &self.rows;
+        let mut text = Text::titled(count(rows.len(), "candidate"));
+        text.section().table(overview(self));
+        for (title, columns) in [("margin to", margins(rows)), ("heat out", heat(rows))] {
+            for table in tables(title, rows, columns) {
+                text.section().table(table);
+            }
         }
+        text
     }
-    text
+
+    fn rows(&self) -> Rows<'_> {
+        compare_table(&self.rows, &self.unit).into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let warnings = self.warnings.iter().flat_map(|(files, list)| {
+            list.iter().map(|diagnostic| diagnostics::json(files, diagnostic)).collect::<Vec<_>>()
+        });
+        let errors = self.failures.iter().flat_map(|failure| {
+            let list = failure.diagnostics.iter();
+            list.map(|diagnostic| diagnostics::json(&failure.files, diagnostic)).collect::<Vec<_>>()
+        });
+        json.member("format", &1)?;
+        json.member("network", &())?;
+        json.member("warnings", &warnings.collect::<Vec<_>>())?;
+        json.member("errors", &errors.collect::<Vec<_>>())?;
+        json.table(&compare_table(&self.rows, &self.unit))
+    }
 }
 
 /// The names of the candidates: their files without folder and ending, unless two would be the same.
@@ -93,8 +117,7 @@ fn margin(limit: &LimitResult) -> String {
     if limit.is_open() {
         return NOTHING.into();
     }
-    let unit = limit.ty.dimension.si_unit();
-    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+    let unit = spaced(&limit.ty.dimension.si_unit());
     let number = if limit.is_temperature() {
         fixed(limit.margin, decimals(limit.margin, 3, 1).min(4))
     } else {

@@ -1,7 +1,10 @@
-//! The table of a periodic state.
+//! What `lptn steady --periodic` shows.
 
-use lptn_report::{Text, TextTable, decimals, duration, fixed, prefix, significant};
+use std::io;
+
+use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, duration, fixed, prefix, significant};
 use lptn_solve::{ColumnSeen, Method};
+use lptn_study::{Scalar, StatisticsRecord};
 use lptn_units::Dimension;
 
 use super::View;
@@ -12,27 +15,59 @@ use crate::{balance, limits};
 /// A column with its first value, in SI.
 type Row<'a> = (&'a ColumnSeen, f64);
 
-pub(crate) fn text(view: &View<'_>) -> Text {
-    let (job, solution) = (&view.outcome.job, &view.found.solution);
-    let network = solution.network();
-    let mut text = job.input.begun();
-    let seen = view.cycle().map_or(&[][..], |cycle| &cycle.columns);
-    let rows: Vec<Row<'_>> = seen.iter().zip(view.starts()).collect();
-    let (temperatures, rest): (Vec<Row<'_>>, Vec<Row<'_>>) =
-        rows.into_iter().partition(|(c, _)| c.ty.absolute);
-    let (flows, others): (Vec<Row<'_>>, Vec<Row<'_>>) =
-        rest.into_iter().partition(|(c, _)| c.ty.dimension == Dimension::POWER && c.name.contains('.'));
-    temperature_section(&mut text, view, temperatures);
-    flow_section(&mut text, flows);
-    other_section(&mut text, view, &others);
-    limits::section(&mut text, network, &view.outcome.limits(), &job.unit);
-    if let Some(of) = solution.balance() {
-        let times = Some((job.settings.start, job.settings.stop));
-        balance::section(&mut text, network, (of, times));
+impl Page for View<'_> {
+    fn text(&self) -> Text {
+        let (job, solution) = (&self.outcome.job, &self.found.solution);
+        let network = solution.network();
+        let mut text = job.input.begun();
+        let seen = self.cycle().map_or(&[][..], |cycle| &cycle.columns);
+        let rows: Vec<Row<'_>> = seen.iter().zip(self.starts()).collect();
+        let (temperatures, rest): (Vec<Row<'_>>, Vec<Row<'_>>) =
+            rows.into_iter().partition(|(c, _)| c.ty.absolute);
+        let (flows, others): (Vec<Row<'_>>, Vec<Row<'_>>) =
+            rest.into_iter().partition(|(c, _)| c.ty.dimension == Dimension::POWER && c.name.contains('.'));
+        temperature_section(&mut text, self, temperatures);
+        flow_section(&mut text, flows);
+        other_section(&mut text, self, &others);
+        limits::section(&mut text, network, &self.outcome.limits(), &job.unit);
+        if let Some(of) = solution.balance() {
+            let times = Some((job.settings.start, job.settings.stop));
+            balance::section(&mut text, network, (of, times));
+        }
+        found_section(&mut text, self);
+        heat_over(text.section(), solution, self.period());
+        text
     }
-    found_section(&mut text, view);
-    heat_over(text.section(), solution, view.period());
-    text
+
+    /// Name, unit, value at the start, mean, extremes with their times, and swing of each column.
+    fn rows(&self) -> Rows<'_> {
+        let heading = ["name", "unit", "start", "mean", "min", "min_at [s]", "max", "max_at [s]", "swing"];
+        let mut rows = vec![heading.map(str::to_owned).to_vec()];
+        let mut text = lptn_report::Shortest::new();
+        let unit = &self.outcome.job.unit;
+        for (seen, start) in self.cycle().into_iter().flat_map(|cycle| &cycle.columns).zip(self.starts()) {
+            let [mean, min, max] = [seen.mean, seen.min.0, seen.max.0].map(|x| seen.shown(x, unit));
+            let numbers = [start, mean, min, seen.min.1, max, seen.max.1, max - min];
+            let mut row = vec![seen.name.clone(), symbol(&seen.unit(unit)).to_owned()];
+            row.extend(numbers.map(|number| text.text(number).to_owned()));
+            rows.push(row);
+        }
+        Rows::Words(rows)
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let (solution, settings) = (&self.found.solution, &self.outcome.job.settings);
+        self.outcome.job.input.head(json, &[])?;
+        json.member("start", &Scalar::new(settings.start, "s"))?;
+        json.member("period", &Scalar::new(self.period(), "s"))?;
+        json.member("columns", &self.members())?;
+        json.member("search", &self.search())?;
+        json.member("ledger", &self.outcome.ledger())?;
+        let network = solution.network();
+        json.optional("limits", limits::members(network, &self.outcome.limits()))?;
+        json.optional("balance", solution.balance().map(|of| balance::json(network, of)))?;
+        json.member("statistics", &StatisticsRecord::new(solution))
+    }
 }
 
 fn temperature_section(text: &mut Text, view: &View<'_>, mut rows: Vec<Row<'_>>) {

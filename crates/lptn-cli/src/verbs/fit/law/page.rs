@@ -1,34 +1,92 @@
-//! The table of laws, for reading.
+//! What `lptn fit law` shows of points.
 
-use lptn_report::{Text, TextTable, decimals, fixed, plain, significant};
-use lptn_study::fit::law::{Candidate, Consistency, Exponent, Fitted, Law, LawStudy, SIGNIFICANT};
+use std::io;
 
-use super::Answer;
+use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, fixed, plain, significant};
+use lptn_solve::Table;
+use lptn_study::fit::law::{
+    Candidate, Coefficient, Consistency, Exponent, Fitted, Law, LawStudy, SIGNIFICANT,
+};
+use serde_json::{Value, json};
+
 use super::laws::{sections, verdict};
 use super::shown::with_error;
+use super::{Answer, laws};
+use crate::diagnostics;
 
-pub(crate) fn text(answer: &Answer) -> Text {
-    let (data, study) = (&answer.data, &answer.study);
-    let weights =
-        if data.points.deviation().is_some() { "weighted by their standard errors" } else { "unweighted" };
-    let range = data.unit.range(ends(data.points.speed()));
-    let title = format!("{} over {}", plain(&data.power_name), plain(&data.points.variables()[0].name));
-    let mut text = Text::titled(title);
-    text.line(format!("{} points at {range}, {weights}", data.points.len()));
-    text.section().table(laws(answer));
-    notes(study, text.section());
-    correlation(study, &mut text);
-    text.section().sentence("", &study.verdict());
-    if let Some(found) = &answer.consistency {
-        text.section().title("Do dT, t_RC and P agree?");
-        text.section().table(claims(found));
-        if found.derived {
-            text.section().sentence("", &verdict(found, &data.unit));
+impl Page for Answer {
+    fn text(&self) -> Text {
+        let (data, study) = (&self.data, &self.study);
+        let weights = if data.points.deviation().is_some() {
+            "weighted by their standard errors"
         } else {
-            sections(&mut text, found, &data.unit);
+            "unweighted"
+        };
+        let range = data.unit.range(ends(data.points.speed()));
+        let title = format!("{} over {}", plain(&data.power_name), plain(&data.points.variables()[0].name));
+        let mut text = Text::titled(title);
+        text.line(format!("{} points at {range}, {weights}", data.points.len()));
+        text.section().table(laws(self));
+        notes(study, text.section());
+        correlation(study, &mut text);
+        text.section().sentence("", &study.verdict());
+        if let Some(found) = &self.consistency {
+            text.section().title("Do dT, t_RC and P agree?");
+            text.section().table(claims(found));
+            if found.derived {
+                text.section().sentence("", &verdict(found, &data.unit));
+            } else {
+                sections(&mut text, found, &data.unit);
+            }
         }
+        text
     }
-    text
+
+    /// One row a coefficient, best law first; what there is not is NaN.
+    fn rows(&self) -> Rows<'_> {
+        let mut rows: Vec<Row<'_>> = Vec::new();
+        for candidate in &self.study.candidates {
+            match candidate.fitted() {
+                Some(fit) => rows.extend(fit.coefficients.iter().map(|c| (candidate, Some((fit, c))))),
+                None => rows.push((candidate, None)),
+            }
+        }
+        let mut table = Table::of(&rows);
+        table.label("law", |(candidate, _)| candidate.law.to_string());
+        table.label("coefficient", |(_, row)| row.map_or(String::new(), |(_, c)| c.name.clone()));
+        table.label("unit", |(_, row)| row.map_or(String::new(), |(_, c)| c.dimension.si_unit()));
+        table.label("remark", |(candidate, _)| candidate.remark().unwrap_or_default());
+        let mut column = |name: &str, unit: &str, value: &dyn Fn(&Fitted, &Coefficient) -> Option<f64>| {
+            table.column(name, unit, |(_, row)| row.and_then(|(f, c)| value(f, c)).unwrap_or(f64::NAN));
+        };
+        column("value", "SI", &|_, c| Some(c.value));
+        column("standard_error", "SI", &|_, c| c.standard_error);
+        column("rmse", "W", &|f, _| Some(f.rmse));
+        column("leave_one_out", "W", &|f, _| f.leave_one_out);
+        let squares = if self.data.points.deviation().is_some() { "1" } else { "W^2" };
+        column("squares", squares, &|f, _| Some(f.squares));
+        column("aicc", "1", &|f, _| f.aicc);
+        table.done().into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let (data, study) = (&self.data, &self.study);
+        let rivals: Value = study.rivals().iter().map(|c| c.law.to_string()).collect();
+        json.member("format", &1)?;
+        json.member("points", &json!({ "file": data.name, "count": data.points.len() }))?;
+        json.member("warnings", &diagnostics::list(&data.files, &data.warnings))?;
+        json.member("weighted", &data.points.deviation().is_some())?;
+        json.member("laws", &study.candidates.iter().map(|c| law(self, c)).collect::<Value>())?;
+        json.member("best", &study.best().map(|c| c.law.to_string()))?;
+        json.member("not_told_apart", &rivals)?;
+        json.member("verdict", &study.verdict())?;
+        json.optional("consistency", self.consistency.as_ref().map(laws::members))
+    }
+
+    fn no(&self) -> Option<String> {
+        let found = self.consistency.as_ref().filter(|found| !found.agrees())?;
+        Some(laws::verdict(found, &self.data.unit))
+    }
 }
 
 pub(crate) fn ends(speeds: &[f64]) -> (f64, f64) {
@@ -187,4 +245,32 @@ fn claims(found: &Consistency) -> TextTable {
         .left("by chance", |claim| shown(chance(claim)))
         .left("", |claim| if refuted(claim) { "refuted" } else { "possible" })
         .into()
+}
+
+/// A law and one of its coefficients.
+type Row<'a> = (&'a Candidate, Option<(&'a Fitted, &'a Coefficient)>);
+
+fn law(answer: &Answer, candidate: &Candidate) -> Value {
+    let watts = |value: Option<f64>| value.map(|value| json!({ "value": value, "unit": "W" }));
+    let Some(fit) = candidate.fitted() else {
+        return json!({ "law": candidate.law.to_string(), "remark": candidate.remark() });
+    };
+    let coefficient = |c: &Coefficient| {
+        let shown = answer.data.unit.quantity(c.value, c.standard_error, c.dimension);
+        let unit = c.dimension.si_unit();
+        json!({ "name": c.name, "value": c.value, "unit": unit, "standard_error": c.standard_error, "shown": shown })
+    };
+    let weighted = answer.data.points.deviation().is_some();
+    json!({
+        "law": candidate.law.to_string(),
+        "coefficients": fit.coefficients.iter().map(coefficient).collect::<Vec<_>>(),
+        "correlation": fit.correlation,
+        "rmse": watts(Some(fit.rmse)),
+        "leave_one_out": watts(fit.leave_one_out),
+        "chi_squared": weighted.then_some(fit.squares),
+        "degrees_of_freedom": fit.degrees_of_freedom,
+        "aicc": fit.aicc,
+        "behind": answer.study.behind(candidate),
+        "remark": candidate.remark(),
+    })
 }
