@@ -5,16 +5,16 @@ mod text;
 
 pub(crate) use args::CompareArgs;
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files, Netlist};
 use lptn_network::Field;
-use lptn_report::{JsonWriter, plain, write_csv};
-use lptn_solve::{Progress, SteadyError, Table, TransientError};
+use lptn_report::{Json, Page, Rows, Text, plain};
+use lptn_solve::{Progress, SteadyError, TransientError};
 use lptn_study::{Candidate, CompareError, CompareRow, available_threads, compare_table, in_parallel, order};
 use lptn_units::Unit;
-use serde_json::json;
 
 use crate::console::Console;
 use crate::diagnostics;
@@ -23,7 +23,7 @@ use crate::exit::Exit;
 use crate::failure::{Failure, reason, told};
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
-use crate::options::{Format, Source};
+use crate::options::Source;
 use crate::progress::ProgressOfAll;
 use crate::sense;
 
@@ -40,7 +40,12 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
     let sorted = places.into_iter().filter_map(|place| outcomes[place].take());
     let comparison = Comparison::of(sorted, unit);
     comparison.report(console);
-    comparison.print(args, console)?;
+    console.show(&comparison, args.printed.format)?;
+    let answer = text::answer(&comparison);
+    match comparison.exit() {
+        Exit::Done => console.note(&answer),
+        _ => console.message(&answer),
+    }
     Ok(comparison.exit())
 }
 
@@ -264,39 +269,6 @@ impl Comparison {
         problems.for_each(|failure| console.report(&failure.files, &failure.diagnostics));
     }
 
-    fn print(&self, args: &CompareArgs, console: &Console) -> Result<(), Failure> {
-        let table: Table = compare_table(&self.rows, &self.unit);
-        match args.printed.format {
-            Format::Table => console.print(&text::text(self, console)).map(drop)?,
-            Format::Csv => console.write(|out| write_csv(&table, out))?,
-            Format::Json => console.write(|out| self.json(&table, out))?,
-        }
-        let answer = text::answer(self);
-        if self.exit() == Exit::Done {
-            console.note(&answer)
-        } else {
-            console.message(&answer)
-        }
-        Ok(())
-    }
-
-    fn json(&self, table: &Table, out: impl std::io::Write) -> std::io::Result<()> {
-        let warnings = self.warnings.iter().flat_map(|(files, list)| {
-            list.iter().map(|diagnostic| diagnostics::json(files, diagnostic)).collect::<Vec<_>>()
-        });
-        let errors = self.failures.iter().flat_map(|failure| {
-            let list = failure.diagnostics.iter();
-            list.map(|diagnostic| diagnostics::json(&failure.files, diagnostic)).collect::<Vec<_>>()
-        });
-        let mut json = JsonWriter::new(out);
-        json.member("format", &json!(1))?;
-        json.member("network", &json!(null))?;
-        json.member("warnings", &warnings.collect())?;
-        json.member("errors", &errors.collect())?;
-        json.table(table)?;
-        json.finish().map(drop)
-    }
-
     /// Ctrl-C goes before what could not be read, that before what failed, and that before a broken limit.
     pub(crate) fn exit(&self) -> Exit {
         if self.ends.contains(&Exit::Interrupted) {
@@ -310,5 +282,30 @@ impl Comparison {
         } else {
             Exit::Done
         }
+    }
+}
+
+impl Page for Comparison {
+    fn text(&self) -> Text {
+        text::text(self)
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        compare_table(&self.rows, &self.unit).into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let warnings = self.warnings.iter().flat_map(|(files, list)| {
+            list.iter().map(|diagnostic| diagnostics::json(files, diagnostic)).collect::<Vec<_>>()
+        });
+        let errors = self.failures.iter().flat_map(|failure| {
+            let list = failure.diagnostics.iter();
+            list.map(|diagnostic| diagnostics::json(&failure.files, diagnostic)).collect::<Vec<_>>()
+        });
+        json.member("format", &1)?;
+        json.member("network", &())?;
+        json.member("warnings", &warnings.collect::<Vec<_>>())?;
+        json.member("errors", &errors.collect::<Vec<_>>())?;
+        json.table(&compare_table(&self.rows, &self.unit))
     }
 }

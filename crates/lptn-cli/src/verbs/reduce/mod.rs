@@ -6,14 +6,14 @@ mod text;
 
 pub(crate) use args::ReduceArgs;
 
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind};
 use std::path::Path;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Derived, Diagnostic};
 use lptn_network::{Field, Item};
 use lptn_reduce::{Bias, Definition, FitError, Options, Pair, ReduceError, Reduction, port};
-use lptn_report::{plain, significant, write_csv};
+use lptn_report::{Format, Json, Page, Rows, Text, plain, significant};
 use lptn_solve::Transient;
 use lptn_units::{Dimension, Type, Unit, parse_quantity};
 
@@ -76,19 +76,16 @@ impl View<'_> {
             write_new(path, &self.netlist(Some(path))?)?;
         }
         match self.args.format {
-            ReduceFormat::Table => console.print(&text::text(self, console)).map(drop)?,
-            ReduceFormat::Csv => {
-                let table = self.reduction.table();
-                console.write(|out| write_csv(&table, out))?;
-                self.notes().iter().for_each(|note| console.note(&format!("note: {note}")));
-            }
-            ReduceFormat::Json => console.write(|out| json::write(self, out))?,
+            ReduceFormat::Of(format) => console.show(self, format).map(drop)?,
             ReduceFormat::Toml => console.print(&self.netlist(None)?).map(drop)?,
+        }
+        if self.args.format == ReduceFormat::Of(Format::Csv) {
+            self.notes().iter().for_each(|note| console.note(&format!("note: {note}")));
         }
         if let Some(path) = &self.args.write {
             let path = path.display();
             console.note(&format!("wrote  {path}: one node that stands for {}", self.input.text.name));
-        } else if let (ReduceFormat::Table, Some(file), false) =
+        } else if let (ReduceFormat::Of(Format::Table), Some(file), false) =
             (self.args.format, self.input.typed(), self.system.network().has_events())
         {
             let port = quoted(&self.args.port);
@@ -104,8 +101,7 @@ impl View<'_> {
         let pair = self.pair();
         let network = self.reduction.network(self.system, start, pair);
         let network = network.map_err(|error| failed(self.input, self.args, &error))?;
-        let title = self.input.netlist.network.title().map_or(self.input.text.stem.clone(), plain);
-        let title = format!("{title}, seen from {}", self.args.port);
+        let title = format!("{}, seen from {}", self.input.title(), self.args.port);
         let folder = place.map(|place| place.parent().unwrap_or(Path::new("")));
         let made = Derived { network: &network, title: &title, run, folder };
         let text = self.comment() + &self.input.netlist.derived(&made);
@@ -139,6 +135,20 @@ impl View<'_> {
             limit.text
         ));
         Exit::No
+    }
+}
+
+impl Page for View<'_> {
+    fn text(&self) -> Text {
+        text::text(self)
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        self.reduction.table().into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        json::json(self, json)
     }
 }
 

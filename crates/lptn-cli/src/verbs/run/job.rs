@@ -17,10 +17,10 @@ use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
-use crate::options::Format;
 use crate::progress::ProgressLine;
 use crate::words::MOST_NODES;
 use crate::{balance, select};
+use lptn_report::Format;
 
 /// Why there is no steady state to show.
 #[derive(Debug)]

@@ -8,20 +8,21 @@ mod write;
 
 pub(crate) use args::SizeArgs;
 
+use std::io;
+
 use lptn_netlist::{Diagnostic, Requirement, SizeStudy};
 use lptn_network::ParameterId;
-use lptn_report::{JsonWriter, write_csv};
+use lptn_report::{Json, Page, Rows, Text};
 use lptn_solve::{SteadyError, Table};
 use lptn_study::{Scalar, SizeError, SizeTask, Sizing, Verdict};
 use lptn_units::Unit;
-use serde_json::{Map, Value, json};
+use serde_json::json;
 
 use crate::console::Console;
-use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::options::{Format, Source};
+use crate::options::Source;
 
 pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
     let Some(file) = &args.file else { return cooling::cooling(args, console) };
@@ -35,21 +36,11 @@ pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> 
     console.warn(&input.netlist.files, &input.netlist.warnings);
     let sizing = solve(&input, study, parameter).map_err(|error| failed(&input, study, &unit, &error))?;
     let answer = Answer { input: &input, study, parameter, unit, sizing };
-    match args.printed.format {
-        Format::Table => console.print(&text::text(&answer, console)).map(drop)?,
-        Format::Csv => console.write(|out| write_csv(&answer.table(), out))?,
-        Format::Json => console.write(|out| answer.json(out))?,
-    }
-    if !answer.sizing.feasible() {
-        if args.printed.format != Format::Table {
-            console.message(&text::verdict(&answer));
-        }
-        return Ok(Exit::No);
-    }
-    if args.write {
+    let exit = console.show(&answer, args.printed.format)?;
+    if args.write && exit == Exit::Done {
         write::write(&answer, file, console)?;
     }
-    Ok(Exit::Done)
+    Ok(exit)
 }
 
 /// The study of this name, or the only one.
@@ -158,9 +149,15 @@ impl Answer<'_> {
     fn closest_unit(&self) -> String {
         self.study.requirements[self.sizing.closest].ty.dimension.si_unit()
     }
+}
+
+impl Page for Answer<'_> {
+    fn text(&self) -> Text {
+        text::text(self)
+    }
 
     /// One row: the value in its unit, the margin of every requirement in SI units.
-    fn table(&self) -> Table {
+    fn rows(&self) -> Rows<'_> {
         let mut table = Table::of(&[()]);
         let value = self.unit.from_si(self.sizing.trial.value);
         table.column(&self.study.parameter, &self.unit.text, |()| value);
@@ -168,31 +165,31 @@ impl Answer<'_> {
         for (r, &margin) in self.study.requirements.iter().zip(&self.sizing.trial.margins) {
             table.column(&r.text, r.ty.dimension.si_unit(), |()| margin);
         }
-        table.done()
+        table.done().into()
     }
 
-    fn json(&self, out: impl std::io::Write) -> std::io::Result<()> {
-        let (netlist, sizing) = (&self.input.netlist, &self.sizing);
-        let ty = netlist.network.parameters()[self.parameter.index()].ty;
-        let si = if ty.absolute { "K".to_owned() } else { ty.dimension.si_unit() };
-        let mut values = Map::new();
-        values.insert(self.study.parameter.clone(), Scalar::new(sizing.trial.value, &si).json());
-        let requirement = |(r, &margin): (&Requirement, &f64)| json!({ "requirement": r.text, "margin": Scalar::new(margin, &r.ty.dimension.si_unit()).json() });
-        let requirements: Value =
-            self.study.requirements.iter().zip(&sizing.trial.margins).map(requirement).collect();
-        let scalar = |value: Option<f64>, unit: &str| value.map(|value| Scalar::new(value, unit).json());
-        let mut json = JsonWriter::new(out);
-        json.member("format", &json!(1))?;
-        json.member("network", &json!(self.input.text.stem))?;
-        json.member("warnings", &diagnostics::list(&netlist.files, &netlist.warnings))?;
-        json.member("values", &Value::Object(values))?;
-        json.member("margin", &Scalar::new(sizing.margin(), &self.closest_unit()).json())?;
-        json.member("binding", &json!(self.binding().map(|requirement| &requirement.text)))?;
-        json.member("feasible", &json!(sizing.feasible()))?;
-        json.member("requirements", &requirements)?;
-        json.member("sensitivity", &json!(scalar(sizing.sensitivity, &self.closest_unit())))?;
-        json.member("breaks_again", &json!(scalar(sizing.breaks_again, &si)))?;
-        json.member("first_guess", &json!(scalar(sizing.first_guess, &si)))?;
-        json.finish().map(drop)
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let (network, sizing) = (&self.input.netlist.network, &self.sizing);
+        let si = network.parameters()[self.parameter.index()].ty.dimension.si_unit();
+        let requirement = |(r, &margin): (&Requirement, &f64)| {
+            let margin = Scalar::new(margin, &r.ty.dimension.si_unit());
+            json!({ "requirement": r.text, "margin": margin })
+        };
+        let margins = self.study.requirements.iter().zip(&sizing.trial.margins);
+        let scalar = |value: f64| Scalar::new(value, &si);
+        let of_margin = |value: f64| Scalar::new(value, &self.closest_unit());
+        self.input.head(json, &[])?;
+        json.member("values", &json!({ (self.study.parameter.as_str()): scalar(sizing.trial.value) }))?;
+        json.member("margin", &of_margin(sizing.margin()))?;
+        json.member("binding", &self.binding().map(|requirement| &requirement.text))?;
+        json.member("feasible", &sizing.feasible())?;
+        json.member("requirements", &margins.map(requirement).collect::<Vec<_>>())?;
+        json.member("sensitivity", &sizing.sensitivity.map(of_margin))?;
+        json.member("breaks_again", &sizing.breaks_again.map(scalar))?;
+        json.member("first_guess", &sizing.first_guess.map(scalar))
+    }
+
+    fn no(&self) -> Option<String> {
+        (!self.sizing.feasible()).then(|| text::verdict(self))
     }
 }

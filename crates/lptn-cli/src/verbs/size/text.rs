@@ -1,12 +1,11 @@
 //! What came of sizing, for reading.
 
 use lptn_netlist::Goal;
-use lptn_report::{Align, Column, TextTable, WIDTH, labelled, plain, significant};
+use lptn_report::{Text, TextTable, plain, significant};
 use lptn_study::Verdict;
 use lptn_units::Unit;
 
 use super::Answer;
-use crate::console::Console;
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 6;
@@ -14,9 +13,8 @@ const DIGITS: usize = 6;
 /// Margins below this share of a unit are rounding.
 const ZERO: f64 = 1e-9;
 
-pub(crate) fn text(answer: &Answer<'_>, console: &Console) -> String {
+pub(crate) fn text(answer: &Answer<'_>) -> Text {
     let (study, network) = (answer.study, &answer.input.netlist.network);
-    let title = network.title().map_or(answer.input.text.stem.clone(), plain);
     let (goal, range) = (goal(study.goal), study.range(network).unwrap_or((f64::NAN, f64::NAN)));
     let unit = &answer.unit;
     let number = |si: f64| significant(unit.from_si(si), DIGITS);
@@ -28,20 +26,15 @@ pub(crate) fn text(answer: &Answer<'_>, console: &Console) -> String {
         number(range.1),
         spaced(unit)
     );
-    let words: Vec<String> = sought.split(' ').map(str::to_owned).collect();
-    let mut lines = vec![console.title(&title)];
-    lines.extend(labelled("", &words, WIDTH));
-    lines.push(String::new());
-    lines.extend(requirements(answer));
-    lines.push(String::new());
+    let mut text = Text::titled(answer.input.title());
+    text.sentence("", &sought);
+    text.section().table(requirements(answer));
+    text.section();
     for (label, note) in notes(answer) {
-        let words: Vec<String> = note.split(' ').map(str::to_owned).collect();
-        lines.extend(labelled(&format!("{label:13}"), &words, WIDTH));
+        text.sentence(&format!("{label:13}"), &note);
     }
-    lines.push(String::new());
-    let words: Vec<String> = verdict(answer).split(' ').map(str::to_owned).collect();
-    lines.extend(labelled("", &words, WIDTH));
-    lines.join("\n") + "\n"
+    text.section().sentence("", &verdict(answer));
+    text
 }
 
 fn goal(goal: Goal) -> &'static str {
@@ -86,7 +79,7 @@ pub(crate) fn rounded(value: f64, digits: usize, up: bool) -> f64 {
     read(&text(if up { nearest + step } else { nearest - step }))
 }
 
-fn requirements(answer: &Answer<'_>) -> Vec<String> {
+fn requirements(answer: &Answer<'_>) -> TextTable {
     let (study, sizing) = (answer.study, &answer.sizing);
     let margin = |i: usize| {
         let (margin, unit) = (sizing.trial.margins[i], study.requirements[i].ty.dimension.si_unit());
@@ -99,14 +92,12 @@ fn requirements(answer: &Answer<'_>) -> Vec<String> {
         Verdict::Bound if i == sizing.closest => "binds",
         _ => "kept",
     };
-    let all = 0..study.requirements.len();
-    let texts = study.requirements.iter().map(|r| plain(&r.text)).collect();
-    let table = TextTable::new(vec![
-        Column::new("requirement", Align::Left, texts),
-        Column::new("margin", Align::Right, all.clone().map(margin).collect()),
-        Column::new("", Align::Left, all.map(|i| word(i).to_owned()).collect()),
-    ]);
-    table.lines(WIDTH)
+    let rows: Vec<usize> = (0..study.requirements.len()).collect();
+    TextTable::of(&rows)
+        .left("requirement", |&i| plain(&study.requirements[i].text))
+        .right("margin", |&i| margin(i))
+        .left("", |&i| word(i))
+        .into()
 }
 
 /// What the table cannot say, each with its label.

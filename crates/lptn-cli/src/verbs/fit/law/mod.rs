@@ -10,7 +10,10 @@ mod text;
 
 pub(crate) use args::LawArgs;
 
+use std::io;
+
 use lptn_netlist::{Diagnostic, Files, Span};
+use lptn_report::{Format, Json, Page, Rows, Text};
 use lptn_study::fit::law::{
     Candidate, Consistency, Law, LawError, LawStudy, Measured, Outcome, Start, WrittenLaw,
 };
@@ -21,7 +24,6 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::wrong_unit;
-use crate::options::Format;
 use points::Data;
 
 pub(crate) fn law(args: &LawArgs, console: &Console) -> Result<Exit, Failure> {
@@ -35,11 +37,7 @@ pub(crate) fn law(args: &LawArgs, console: &Console) -> Result<Exit, Failure> {
     let study = LawStudy::new(data.points.clone(), laws_to_fit(args, &data)?);
     let consistency = consistency(&data, capacity)?;
     let answer = Answer { data, study, consistency };
-    match args.format {
-        Format::Table => console.print(&text::text(&answer, console)).map(drop)?,
-        Format::Csv => console.write(|out| lptn_report::write_csv(&output::table(&answer), out))?,
-        Format::Json => console.write(|out| output::json(&answer, out))?,
-    }
+    console.page(&answer, args.format)?;
     Ok(answer.conclude(args.format, console))
 }
 
@@ -56,25 +54,34 @@ impl Answer {
             console.message(&format!("failed: `{law}`: {remark}"));
             return Exit::Failed;
         }
-        match &self.consistency {
-            Some(found) if !found.agrees() => {
-                if format != Format::Table {
-                    console.message(&laws::verdict(found, &self.data.unit));
-                }
-                Exit::No
-            }
-            _ => Exit::Done,
-        }
+        console.conclude(self, format)
     }
-}
 
-impl Answer {
     /// A law of the user that has no coefficients although there are points enough, and why.
     fn not_fitted(&self) -> Option<(String, String)> {
         let written = |c: &&Candidate| matches!(c.law, Law::Written(_)) && c.fitted().is_none();
         let failed = |c: &&Candidate| !matches!(c.outcome, Outcome::TooFew { .. });
         let found = self.study.candidates.iter().find(|c| written(c) && failed(c))?;
         Some((found.law.to_string(), found.remark().unwrap_or_default()))
+    }
+}
+
+impl Page for Answer {
+    fn text(&self) -> Text {
+        text::text(self)
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        output::table(self).into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        output::members(self, json)
+    }
+
+    fn no(&self) -> Option<String> {
+        let found = self.consistency.as_ref().filter(|found| !found.agrees())?;
+        Some(laws::verdict(found, &self.data.unit))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use lptn_report::JsonWriter;
+use lptn_report::Json;
 use lptn_solve::Table;
 use lptn_study::fit::law::{Candidate, Coefficient, Fitted};
 use serde_json::{Value, json};
@@ -40,28 +40,20 @@ pub(crate) fn table(answer: &Answer) -> Table {
     table.done()
 }
 
-pub(crate) fn json(answer: &Answer, out: impl io::Write) -> io::Result<()> {
-    let mut json = JsonWriter::new(out);
-    members(answer, &mut json)?;
-    json.finish().map(drop)
-}
-
 /// What is common to points and folders.
-pub(crate) fn members<W: io::Write>(answer: &Answer, json: &mut JsonWriter<W>) -> io::Result<()> {
+pub(crate) fn members(answer: &Answer, json: &mut Json<'_>) -> io::Result<()> {
     let (data, study) = (&answer.data, &answer.study);
-    json.member("format", &json!(1))?;
+    let rivals: Value = study.rivals().iter().map(|c| c.law.to_string()).collect();
+    json.member("format", &1)?;
     json.member("points", &json!({ "file": data.name, "count": data.points.len() }))?;
     json.member("warnings", &diagnostics::list(&data.files, &data.warnings))?;
-    json.member("weighted", &json!(data.points.deviation().is_some()))?;
+    json.member("weighted", &data.points.deviation().is_some())?;
     json.member("laws", &study.candidates.iter().map(|c| law(answer, c)).collect::<Value>())?;
-    json.member("best", &json!(study.best().map(|c| c.law.to_string())))?;
-    let rivals: Value = study.rivals().iter().map(|c| json!(c.law.to_string())).collect();
+    json.member("best", &study.best().map(|c| c.law.to_string()))?;
     json.member("not_told_apart", &rivals)?;
-    json.member("verdict", &json!(study.verdict()))?;
-    if let Some(found) = &answer.consistency {
-        json.member("consistency", &laws::members(found))?;
-    }
-    Ok(())
+    json.member("verdict", &study.verdict())?;
+    let consistency = answer.consistency.as_ref();
+    consistency.map_or(Ok(()), |found| json.member("consistency", &laws::members(found)))
 }
 
 fn law(answer: &Answer, candidate: &Candidate) -> Value {

@@ -1,41 +1,34 @@
 //! The table of laws, for reading.
 
-use lptn_report::{Align, Column, TextTable, WIDTH, decimals, fixed, plain, significant};
-use lptn_study::fit::law::{Candidate, Consistency, Exponent, Fitted, Law, LawStudy};
+use lptn_report::{Text, TextTable, decimals, fixed, plain, significant};
+use lptn_study::fit::law::{Candidate, Consistency, Exponent, Fitted, Law, LawStudy, SIGNIFICANT};
 
 use super::Answer;
-use super::laws::{block, sentence, verdict};
+use super::laws::{sections, verdict};
 use super::shown::with_error;
-use crate::console::Console;
 
-pub(crate) fn text(answer: &Answer, console: &Console) -> String {
+pub(crate) fn text(answer: &Answer) -> Text {
     let (data, study) = (&answer.data, &answer.study);
     let weights =
         if data.points.deviation().is_some() { "weighted by their standard errors" } else { "unweighted" };
     let range = data.unit.range(ends(data.points.speed()));
     let title = format!("{} over {}", plain(&data.power_name), plain(&data.points.variables()[0].name));
-    let count = data.points.len();
-    let mut lines =
-        vec![console.title(&title), format!("{count} points at {range}, {weights}"), String::new()];
-    lines.extend(laws(answer));
-    lines.push(String::new());
-    lines.extend(notes(study));
-    lines.extend(correlation(study));
-    lines.push(String::new());
-    lines.extend(sentence("", &[study.verdict()]));
+    let mut text = Text::titled(title);
+    text.line(format!("{} points at {range}, {weights}", data.points.len()));
+    text.section().table(laws(answer));
+    notes(study, text.section());
+    correlation(study, &mut text);
+    text.section().sentence("", &study.verdict());
     if let Some(found) = &answer.consistency {
-        lines.push(String::new());
-        lines.push(console.title("Do dT, t_RC and P agree?"));
-        lines.push(String::new());
-        lines.extend(claims(found));
-        lines.push(String::new());
+        text.section().title("Do dT, t_RC and P agree?");
+        text.section().table(claims(found));
         if found.derived {
-            lines.extend(sentence("", &[verdict(found, &data.unit)]));
+            text.section().sentence("", &verdict(found, &data.unit));
         } else {
-            lines.extend(block(found, &data.unit));
+            sections(&mut text, found, &data.unit);
         }
     }
-    lines.join("\n") + "\n"
+    text
 }
 
 pub(crate) fn ends(speeds: &[f64]) -> (f64, f64) {
@@ -50,22 +43,17 @@ struct Line {
     numbers: [String; 4],
 }
 
-fn laws(answer: &Answer) -> Vec<String> {
+fn laws(answer: &Answer) -> TextTable {
     let lines: Vec<Line> = answer.study.candidates.iter().flat_map(|c| lines(answer, c)).collect();
-    let number = |title: &str, i: usize| {
-        Column::new(title, Align::Right, lines.iter().map(|line| line.numbers[i].clone()).collect())
-    };
-    let mut columns = vec![
-        Column::new("law", Align::Left, lines.iter().map(|line| line.law.clone()).collect()),
-        Column::new("coefficients", Align::Left, lines.iter().map(|line| line.coefficient.clone()).collect()),
-        number("rmse [W]", 0),
-        number("left out", 1),
-    ];
+    let mut table = TextTable::of(&lines)
+        .left("law", |line| line.law.as_str())
+        .left("coefficients", |line| line.coefficient.as_str())
+        .right("rmse [W]", |line| line.numbers[0].as_str())
+        .right("left out", |line| line.numbers[1].as_str());
     if answer.data.points.deviation().is_some() {
-        columns.push(number("chi^2", 2).optional());
+        table = table.right("chi^2", |line| line.numbers[2].as_str()).optional();
     }
-    columns.push(number("AICc", 3));
-    TextTable::new(columns).lines(WIDTH)
+    table.right("AICc", |line| line.numbers[3].as_str()).into()
 }
 
 /// The lines of a law: one for each coefficient.
@@ -122,29 +110,29 @@ fn numbers(study: &LawStudy, candidate: &Candidate, fit: &Fitted) -> [String; 4]
 }
 
 /// What the columns mean, as far as these points make it worth saying.
-fn notes(study: &LawStudy) -> Vec<String> {
-    let mut lines = sentence(
+fn notes(study: &LawStudy, text: &mut Text) {
+    text.sentence(
         "rmse      ",
-        &["root of the mean square over all points; left out: each point foretold by the others".to_owned()],
+        "root of the mean square over all points; left out: each point foretold by the others",
     );
     let negative =
         study.candidates.iter().any(|c| c.fitted().is_some_and(|f| f.aicc.is_some()) && !c.eligible());
     if negative {
-        let text = "a coefficient is below 0: no sum of losses; the best without is one of the others";
-        lines.extend(sentence("negative  ", &[text.to_owned()]));
+        let why = "a coefficient is below 0: no sum of losses; the best without is one of the others";
+        text.sentence("negative  ", why);
     }
     if study.dispersion > 1.0 {
-        let text = format!(
+        let scatter = format!(
             "the points scatter {} times as far as their standard errors say: AICc and errors count it",
             significant(study.dispersion.sqrt(), 2)
         );
-        lines.extend(sentence("scatter   ", &[text]));
+        text.sentence("scatter   ", &scatter);
     }
     if let (Some(least), Some(best)) = (study.least_rmse(), study.best())
         && least.law.to_string() != best.law.to_string()
     {
-        let text = format!("is least for {}, which has more coefficients to reach it with", least.law);
-        lines.extend(sentence("rmse      ", &[text]));
+        let least = format!("is least for {}, which has more coefficients to reach it with", least.law);
+        text.sentence("rmse      ", &least);
     }
     let singles = study.single_powers();
     if let [first, others @ ..] = &singles[..]
@@ -153,18 +141,16 @@ fn notes(study: &LawStudy) -> Vec<String> {
         let behind =
             |c: &&Candidate| Some(format!("{} +{}", c.law, significant(c.fitted()?.aicc? - start, 3)));
         let others: Vec<String> = others.iter().filter_map(behind).collect();
-        lines.extend(sentence(
-            "alone     ",
-            &[format!("{} is best of the single powers: AICc {}", first.law, others.join(", "))],
-        ));
+        let all = others.join(", ");
+        let alone = format!("{} is best of the single powers: AICc {all}", first.law);
+        text.sentence("alone     ", &alone);
     }
-    lines
 }
 
 /// How the coefficients of the best law depend on each other.
-fn correlation(study: &LawStudy) -> Vec<String> {
+fn correlation(study: &LawStudy, text: &mut Text) {
     let Some((best, fit)) = study.best().and_then(|best| Some((best, best.fitted()?))) else {
-        return Vec::new();
+        return;
     };
     let count = fit.coefficients.len();
     let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| (i, j)));
@@ -172,41 +158,33 @@ fn correlation(study: &LawStudy) -> Vec<String> {
     let pair = |(i, j)| format!("{} and {}: {};", name(i), name(j), fixed(fit.correlation[i][j], 3));
     let mut pieces: Vec<String> = pairs.map(pair).collect();
     if pieces.is_empty() {
-        return Vec::new();
+        return;
     }
     pieces.push(format!("coefficients of {} in their order", best.law));
-    sentence("correlated", &[format!(" {}", pieces.join(" "))])
+    text.sentence("correlated", &format!(" {}", pieces.join(" ")));
 }
 
 /// What is usually claimed of the three, against what was fitted.
-fn claims(found: &Consistency) -> Vec<String> {
-    let claims: [(&str, Exponent, f64, &str); 4] = [
+fn claims(found: &Consistency) -> TextTable {
+    type Claim = (&'static str, Exponent, f64, &'static str);
+    let claims: [Claim; 4] = [
         ("dT", found.rise, 1.0, "proportional to the speed"),
         ("t_RC", found.time_constant, 0.0, "constant"),
         ("P", found.power, 1.0, "proportional to the speed"),
         ("P", found.power, 5.0 / 3.0, "with omega^(5/3)"),
     ];
-    let cell =
-        |(_, exponent, claimed, _): &(&str, Exponent, f64, &str)| match found.claim(*exponent, *claimed) {
-            Some(s) if s.probability < 1e-4 => "p < 0.0001".to_owned(),
-            Some(s) => format!("p = {}", significant(s.probability, 2)),
-            None => "-".to_owned(),
-        };
-    let word = |(_, exponent, claimed, _): &(&str, Exponent, f64, &str)| {
-        let p = found.claim(*exponent, *claimed).map(|s| s.probability);
-        if p.is_some_and(|p| p < lptn_study::fit::law::SIGNIFICANT) { "refuted" } else { "possible" }
-            .to_owned()
+    let chance = |claim: &Claim| found.claim(claim.1, claim.2).map(|s| s.probability);
+    let shown = |p: Option<f64>| match p {
+        Some(p) if p < 1e-4 => "p < 0.0001".to_owned(),
+        Some(p) => format!("p = {}", significant(p, 2)),
+        None => "-".to_owned(),
     };
-    let table = TextTable::new(vec![
-        Column::new("of", Align::Left, claims.iter().map(|c| c.0.to_owned()).collect()),
-        Column::new(
-            "exponent",
-            Align::Left,
-            claims.iter().map(|c| with_error(c.1.value, c.1.standard_error)).collect(),
-        ),
-        Column::new("claim", Align::Left, claims.iter().map(|c| c.3.to_owned()).collect()),
-        Column::new("by chance", Align::Left, claims.iter().map(cell).collect()),
-        Column::new("", Align::Left, claims.iter().map(word).collect()),
-    ]);
-    table.lines(WIDTH)
+    let refuted = |claim: &Claim| chance(claim).is_some_and(|p| p < SIGNIFICANT);
+    TextTable::of(&claims)
+        .left("of", |claim| claim.0)
+        .left("exponent", |claim| with_error(claim.1.value, claim.1.standard_error))
+        .left("claim", |claim| claim.3)
+        .left("by chance", |claim| shown(chance(claim)))
+        .left("", |claim| if refuted(claim) { "refuted" } else { "possible" })
+        .into()
 }

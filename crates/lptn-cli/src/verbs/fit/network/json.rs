@@ -1,6 +1,6 @@
 //! What came of a fit of a network, as JSON.
 
-use lptn_report::JsonWriter;
+use lptn_report::Json;
 use lptn_study::fit::least_squares::Side;
 use lptn_study::fit::network::{Combination, Unseparated};
 use lptn_study::{Gradient, Scalar};
@@ -10,50 +10,44 @@ use super::Answer;
 use super::words::{combination, type_of, verdict};
 use crate::diagnostics;
 
-pub(crate) fn json(answer: &Answer<'_>, out: impl std::io::Write) -> std::io::Result<()> {
+pub(crate) fn json(answer: &Answer<'_>, json: &mut Json<'_>) -> std::io::Result<()> {
     let (netlist, fit) = (&answer.input.netlist, &answer.fit);
-    let warnings: Vec<_> = netlist.warnings.iter().chain(&answer.doubts).cloned().collect();
+    let warnings = [netlist.warnings.as_slice(), &answer.doubts].concat();
     let all = 0..fit.parameters.len();
     let parameters: Map<String, Value> =
         all.clone().map(|i| (answer.name(i).to_owned(), parameter(answer, i))).collect();
-    let correlation: Map<String, Value> = all
-        .clone()
-        .map(|i| {
-            let row: Map<String, Value> =
-                all.clone().map(|j| (answer.name(j).to_owned(), json!(fit.correlation(i, j)))).collect();
-            (answer.name(i).to_owned(), Value::Object(row))
-        })
-        .collect();
+    let row = |i: usize| -> Map<String, Value> {
+        all.clone().map(|j| (answer.name(j).to_owned(), json!(fit.correlation(i, j)))).collect()
+    };
+    let correlation: Map<String, Value> =
+        all.clone().map(|i| (answer.name(i).to_owned(), Value::Object(row(i)))).collect();
     let known = fit.identifiability.as_ref();
-    let mut json = JsonWriter::new(out);
-    json.member("format", &json!(1))?;
-    json.member("network", &json!(answer.input.text.stem))?;
-    json.member("study", &json!(answer.study.name))?;
-    json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
-    json.member("parameters", &Value::Object(parameters))?;
-    json.member("rms", &Scalar::new(fit.rms, "K").json())?;
-    json.member("samples", &json!(fit.samples()))?;
-    json.member("columns", &columns(answer))?;
-    json.member("correlation", &Value::Object(correlation))?;
-    json.member("identifiable", &json!(answer.is_whole()))?;
-    json.member("rank", &json!(known.map(|known| known.rank)))?;
-    json.member("singular_values", &json!(known.map(|known| &known.singular_values)))?;
-    json.member("unidentified", &unidentified(answer))?;
-    json.member("verdict", &json!(verdict(answer)))?;
     let starts = fit.starts;
+    json.member("format", &1)?;
+    json.member("network", &answer.input.text.stem)?;
+    json.member("study", &answer.study.name)?;
+    json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
+    json.member("parameters", &parameters)?;
+    json.member("rms", &Scalar::new(fit.rms, "K"))?;
+    json.member("samples", &fit.samples())?;
+    json.member("columns", &columns(answer))?;
+    json.member("correlation", &correlation)?;
+    json.member("identifiable", &answer.is_whole())?;
+    json.member("rank", &known.map(|known| known.rank))?;
+    json.member("singular_values", &known.map(|known| &known.singular_values))?;
+    json.member("unidentified", &unidentified(answer))?;
+    json.member("verdict", &verdict(answer))?;
     json.member(
         "starts",
         &json!({ "tried": starts.tried, "same": starts.same, "other": starts.other, "failed": starts.failed }),
     )?;
-    let gradient = if fit.gradient == Gradient::Exact { "exact" } else { "differences" };
-    json.member("gradient", &json!(gradient))?;
-    json.finish().map(drop)
+    json.member("gradient", if fit.gradient == Gradient::Exact { "exact" } else { "differences" })
 }
 
 fn parameter(answer: &Answer<'_>, i: usize) -> Value {
     let (fitted, varied) = (&answer.fit.parameters[i], &answer.task.parameters[i]);
     let ty = answer.task.network.parameters()[varied.parameter.index()].ty;
-    let unit = if ty.absolute { "K".to_owned() } else { ty.dimension.si_unit() };
+    let unit = ty.dimension.si_unit();
     let finite = |value: f64| value.is_finite().then_some(value);
     let side = fitted.on_bound.map(|side| if side == Side::Lower { "from" } else { "to" });
     json!({
@@ -74,9 +68,9 @@ fn columns(answer: &Answer<'_>) -> Value {
         json!({
             "record": run.name,
             "column": run.columns[misfit.column].name,
-            "rms": Scalar::new(misfit.rms, "K").json(),
-            "mean": Scalar::new(misfit.mean, "K").json(),
-            "sigma": misfit.sigma.map(|sigma| Scalar::new(sigma, "K").json()),
+            "rms": Scalar::new(misfit.rms, "K"),
+            "mean": Scalar::new(misfit.mean, "K"),
+            "sigma": misfit.sigma.map(|sigma| Scalar::new(sigma, "K")),
             "samples": misfit.samples,
             "effective_samples": misfit.effective,
         })
@@ -98,7 +92,7 @@ fn unseparated(answer: &Answer<'_>, group: &Unseparated) -> Value {
     let names: Vec<&str> = group.parameters.iter().map(|&i| answer.name(i)).collect();
     let one = |c: &Combination| {
         let unit = type_of(answer, c).map_or_else(String::new, |ty| ty.dimension.si_unit());
-        json!({ "combination": combination(answer, c), "value": Scalar::new(c.value, &unit).json() })
+        json!({ "combination": combination(answer, c), "value": Scalar::new(c.value, &unit) })
     };
     let determined: Option<Value> = group.determined.as_ref().map(|all| all.iter().map(one).collect());
     json!({ "parameters": names, "missing": group.missing, "determined": determined })

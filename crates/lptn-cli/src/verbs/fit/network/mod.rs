@@ -9,10 +9,11 @@ mod write;
 
 pub(crate) use args::NetworkArgs;
 
+use std::io;
 use std::sync::{Mutex, PoisonError};
 
 use lptn_netlist::{Diagnostic, FitStudy};
-use lptn_report::write_csv;
+use lptn_report::{Json, Page, Rows, Text};
 use lptn_solve::Table;
 use lptn_study::fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network_observed};
 use lptn_study::{SensitiveError, available_threads};
@@ -23,7 +24,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::interrupt::Interrupt;
-use crate::options::{Format, Source};
+use crate::options::Source;
 use crate::progress::ProgressLine;
 
 /// What came of a fit, and of what.
@@ -65,21 +66,11 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
     let mut answer = Answer { input: &input, study, task, units, fit, doubts: Vec::new() };
     answer.doubts = words::doubts(&answer);
     console.warn(&input.netlist.files, &answer.doubts);
-    match args.printed.format {
-        Format::Table => console.print(&text::text(&answer, console)).map(drop)?,
-        Format::Csv => console.write(|out| write_csv(&answer.table(), out))?,
-        Format::Json => console.write(|out| json::json(&answer, out))?,
-    }
-    if !answer.is_whole() {
-        if args.printed.format != Format::Table {
-            console.message(&words::verdict(&answer));
-        }
-        return Ok(Exit::No);
-    }
-    if args.write {
+    let exit = console.show(&answer, args.printed.format)?;
+    if args.write && exit == Exit::Done {
         write::write(&answer, &args.file, console)?;
     }
-    Ok(Exit::Done)
+    Ok(exit)
 }
 
 /// The fit, with its progress, until Ctrl-C.
@@ -183,9 +174,15 @@ impl Answer<'_> {
     pub(crate) fn shown_difference(&self, i: usize, si: f64) -> f64 {
         si / self.units[i].scale
     }
+}
+
+impl Page for Answer<'_> {
+    fn text(&self) -> Text {
+        text::text(self)
+    }
 
     /// One row for each parameter, in its unit.
-    fn table(&self) -> Table {
+    fn rows(&self) -> Rows<'_> {
         let all: Vec<usize> = (0..self.fit.parameters.len()).collect();
         let parameter = |i: usize| &self.fit.parameters[i];
         let error =
@@ -197,6 +194,14 @@ impl Answer<'_> {
         table.column("value", "unit", |&i| self.shown(i, parameter(i).value));
         table.column("standard_error", "unit", |&i| error(i));
         table.column("start", "unit", |&i| self.shown(i, parameter(i).start));
-        table.done()
+        table.done().into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        json::json(self, json)
+    }
+
+    fn no(&self) -> Option<String> {
+        (!self.is_whole()).then(|| words::verdict(self))
     }
 }

@@ -1,6 +1,6 @@
 //! What came of `lptn fit step`, for programs.
 
-use lptn_report::JsonWriter;
+use lptn_report::Json;
 use lptn_solve::Table;
 use lptn_study::Scalar;
 use lptn_study::fit::step::{Estimated, Off, Parted, Power, TwoExponentials};
@@ -39,7 +39,7 @@ pub(crate) fn table(answer: &Answer<'_>) -> Table {
     table.done()
 }
 
-pub(crate) fn json(answer: &Answer<'_>, out: impl std::io::Write) -> std::io::Result<()> {
+pub(crate) fn json(answer: &Answer<'_>, json: &mut Json<'_>) -> std::io::Result<()> {
     let request = answer.request;
     let mut columns: Map<String, Value> = answer
         .columns
@@ -59,23 +59,22 @@ pub(crate) fn json(answer: &Answer<'_>, out: impl std::io::Write) -> std::io::Re
         .capacity
         .as_ref()
         .map(|c| json!({ "value": c.value, "unit": "J/K", "standard_error": c.deviation }));
-    let mut json = JsonWriter::new(out);
-    json.member("format", &json!(1))?;
-    json.member("network", &json!(answer.model.as_ref().map(|model| &model.stem)))?;
-    json.member("record", &json!(request.name))?;
+    let network = answer.model.as_ref().map(|model| &model.stem);
+    json.member("format", &1)?;
+    json.member("network", &network)?;
+    json.member("record", &request.name)?;
     json.member("warnings", &diagnostics::list(&request.files, &answer.warnings))?;
     json.member("from", &time(request.record.time.first()))?;
     json.member("to", &time(request.record.time.last()))?;
-    json.member("reference", &json!(reference))?;
-    json.member("capacity", &json!(capacity))?;
-    json.member("sensor", &json!(request.sensor.map(|class| scalar(class, "K"))))?;
-    json.member("columns", &Value::Object(columns))?;
-    json.member("model", &json!(answer.model.as_ref().map(model)))?;
-    json.finish().map(drop)
+    json.member("reference", reference)?;
+    json.member("capacity", &capacity)?;
+    json.member("sensor", &request.sensor.map(|class| scalar(class, "K")))?;
+    json.member("columns", &columns)?;
+    json.member("model", &answer.model.as_ref().map(model))
 }
 
-fn scalar(value: f64, unit: &str) -> Value {
-    Scalar::new(value, unit).json()
+fn scalar(value: f64, unit: &str) -> Scalar {
+    Scalar::new(value, unit)
 }
 
 fn estimated(number: &Estimated, unit: &str) -> Value {
@@ -111,7 +110,7 @@ fn column(column: &Column<'_>, with_capacity: bool) -> Value {
         "effective_samples": fit.noise.effective,
         "resolution": fit.resolution.map(|step| scalar(step, "K")),
         "time_constants": fit.time_constants(),
-        "extrapolated": if fit.extrapolates() { scalar(fit.beyond, "K") } else { Value::Null },
+        "extrapolated": fit.extrapolates().then(|| scalar(fit.beyond, "K")),
         "second_exponential": fit.second.offer.as_ref().map(two),
         "reference": {
             "value": power.reference_temperature,

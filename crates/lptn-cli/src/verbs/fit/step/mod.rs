@@ -10,14 +10,15 @@ mod text;
 
 pub(crate) use args::StepArgs;
 
+use std::io;
+
 use lptn_netlist::{Diagnostic, RecordColumn};
-use lptn_report::write_csv;
+use lptn_report::{Json, Page, Rows, Text};
 use lptn_study::fit::step::{Capacity, Power, Reference as Zero, Sensor, StepError, StepFit};
 
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::options::Format;
 use model::Model;
 use request::{Reference, Request};
 
@@ -66,11 +67,7 @@ pub(crate) fn step(args: &StepArgs, console: &Console) -> Result<Exit, Failure> 
     let model = Model::read(args, &request)?;
     warnings.extend(problems.iter().cloned());
     let answer = Answer { request: &request, columns, without, model, warnings };
-    match args.printed.format {
-        Format::Table => console.print(&text::text(&answer, console)).map(drop)?,
-        Format::Csv => console.write(|out| write_csv(&data::table(&answer), out))?,
-        Format::Json => console.write(|out| data::json(&answer, out))?,
-    }
+    console.page(&answer, args.printed.format)?;
     console.report(files, &problems);
     Ok(exit)
 }
@@ -99,4 +96,18 @@ fn fitted<'a>(request: &'a Request, column: &'a RecordColumn) -> Result<Column<'
 /// A number with its error in brackets, as part of a formula.
 pub(crate) fn shown(value: f64, error: f64) -> String {
     format!("({})", estimate::with_error(value, error))
+}
+
+impl Page for Answer<'_> {
+    fn text(&self) -> Text {
+        text::text(self)
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        data::table(self).into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        data::json(self, json)
+    }
 }
