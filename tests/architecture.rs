@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// From the ground up: a crate may use only those before it.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 13] = [
     "lptn-units",
     "lptn-laws",
     "lptn-network",
@@ -14,6 +14,7 @@ const ORDER: [&str; 12] = [
     "lptn-integrate",
     "lptn-solve",
     "lptn-reduce",
+    "lptn-fit",
     "lptn-study",
     "lptn-report",
     "lptn",
@@ -21,12 +22,13 @@ const ORDER: [&str; 12] = [
 ];
 
 /// What a crate may not use although it stands before it.
-const FORBIDDEN: [(&str, &[&str]); 5] = [
+const FORBIDDEN: [(&str, &[&str]); 6] = [
     ("lptn-integrate", &["lptn-units", "lptn-laws", "lptn-network", "lptn-netlist", "lptn-assembly"]),
     ("lptn-assembly", &["lptn-netlist"]),
     ("lptn-solve", &["lptn-netlist"]),
     ("lptn-reduce", &["lptn-netlist"]),
     ("lptn-laws", &["lptn-network"]),
+    ("lptn-study", &["lptn-fit"]),
 ];
 
 fn root() -> &'static Path {

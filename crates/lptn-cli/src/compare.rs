@@ -6,8 +6,8 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files, Netlist};
 use lptn_network::Field;
 use lptn_report::{JsonWriter, plain, write_csv};
-use lptn_solve::{Progress, SteadyError, Table, TransientError};
-use lptn_study::{Candidate, CompareError, CompareRow, available_threads, compare_table, in_parallel, order};
+use lptn_solve::{Progress, SteadyError, Table, TransientError, available_threads, in_parallel};
+use lptn_study::{Candidate, CompareError, CompareRow, compare_table, order};
 use lptn_units::Unit;
 use serde_json::json;
 

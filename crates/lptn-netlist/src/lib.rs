@@ -83,14 +83,13 @@ pub use fit::{FitPlan, FitRecord, FitStudy, Observed, Varied, VariedName};
 pub use include::Loader;
 pub use initial::InitialState;
 pub use limits::{MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS, read_bytes};
+pub use lptn_network::{RunSettings, WindowSettings};
 pub use near_file::similar_file;
 pub use netlist::{Netlist, ReadError, Rejected, parse, parse_bytes, parse_file, parse_with, read};
-pub use outputs::WindowSettings;
 pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 pub use record::{
     DataSheet, Record, RecordColumn, RecordName, RecordQuery, Saturation, read_record, read_sheet,
 };
-pub use run::RunSettings;
 pub use size::{Goal, Requirement, SizeStudy};
 pub use source_map::SourceMap;
 pub use state::{State, StateControl, StateEnd};

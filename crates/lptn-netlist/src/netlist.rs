@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use lptn_network::{Network, Parameters};
+use lptn_network::{Network, Parameters, RunSettings};
 use lptn_units::Unit;
 
 use crate::csv_file::CsvFiles;
@@ -20,7 +20,7 @@ use crate::initial::{self, InitialState, StateFile};
 use crate::limits::{read_bytes, read_named, shorten};
 use crate::plausible;
 use crate::raw::RawNetlist;
-use crate::run::{RunPlan, RunSettings};
+use crate::run::RunPlan;
 use crate::section;
 use crate::size::SizeStudy;
 use crate::source_map::SourceMap;

@@ -2,11 +2,10 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use lptn_fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network_observed};
 use lptn_netlist::{Diagnostic, FitStudy};
 use lptn_report::write_csv;
-use lptn_solve::Table;
-use lptn_study::fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network_observed};
-use lptn_study::{SensitiveError, available_threads};
+use lptn_solve::{SensitiveError, Table, available_threads};
 use lptn_units::Unit;
 
 use crate::args::{Format, Source};

@@ -1,7 +1,7 @@
 //! What came of a fit of a network, for reading.
 
 use lptn_report::{Align, Column, TextTable, WIDTH, differing, labelled, plain, significant};
-use lptn_study::Gradient;
+use lptn_solve::Gradient;
 
 use crate::console::Console;
 use crate::fit::network::Answer;

@@ -1,8 +1,8 @@
 //! `lptn fit step`
 
+use lptn_fit::step::{Capacity, Power, Reference as Zero, Sensor, StepError, StepFit};
 use lptn_netlist::{Diagnostic, RecordColumn};
 use lptn_report::write_csv;
-use lptn_study::fit::step::{Capacity, Power, Reference as Zero, Sensor, StepError, StepFit};
 
 use crate::args::Format;
 use crate::console::Console;

@@ -1,7 +1,7 @@
 //! What came of `lptn fit step`, for reading.
 
+use lptn_fit::step::{Estimated, Off, Parted};
 use lptn_report::{Align, Column as TextColumn, TextTable, WIDTH, labelled, plain, shortened, significant};
-use lptn_study::fit::step::{Estimated, Off, Parted};
 
 use crate::console::Console;
 use crate::fit::estimate::{to_error, with_error};

@@ -1,10 +1,10 @@
 //! Whether laws of rise, time constant and power can be true together: as text, as JSON, and the form without points.
 
+use lptn_fit::law::{AtSpeed, Consistency, Exponent, LawError, LawOf, Significance, StatedLaw};
+use lptn_fit::step::Capacity;
 use lptn_report::{Align, Column, JsonWriter, TextTable, WIDTH, fixed, labelled, significant, write_csv};
 use lptn_solve::Table;
 use lptn_study::Scalar;
-use lptn_study::fit::law::{AtSpeed, Consistency, Exponent, LawError, LawOf, Significance, StatedLaw};
-use lptn_study::fit::step::Capacity;
 use lptn_units::{Dimension, Type, parse_quantity};
 use serde_json::{Value, json};
 

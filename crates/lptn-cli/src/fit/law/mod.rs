@@ -12,11 +12,9 @@ mod text;
 
 pub(crate) use args::{LAW_EXAMPLES, LawArgs};
 
+use lptn_fit::law::{Candidate, Consistency, Law, LawError, LawStudy, Measured, Outcome, Start, WrittenLaw};
+use lptn_fit::step::Capacity;
 use lptn_netlist::{Diagnostic, Files, Span};
-use lptn_study::fit::law::{
-    Candidate, Consistency, Law, LawError, LawStudy, Measured, Outcome, Start, WrittenLaw,
-};
-use lptn_study::fit::step::Capacity;
 use lptn_units::{Dimension, Type, parse_quantity};
 
 use crate::args::Format;

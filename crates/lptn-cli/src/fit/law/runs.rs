@@ -3,13 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use lptn_fit::law::{Candidate, ColumnFits, Run, RunFit, RunReference, RunSettings, RunsError, RunsStudy};
+use lptn_fit::step::{Capacity, LONG_ENOUGH, Sensor};
 use lptn_netlist::{Diagnostic, Files};
 use lptn_report::{Align, Column, TextTable, WIDTH, duration, fixed, significant, write_csv};
-use lptn_study::fit::law::{
-    Candidate, ColumnFits, Run, RunFit, RunReference, RunSettings, RunsError, RunsStudy,
-};
-use lptn_study::fit::step::{Capacity, LONG_ENOUGH, Sensor};
-use lptn_study::{FileHash, available_threads};
+use lptn_solve::available_threads;
+use lptn_study::FileHash;
 use lptn_units::{Dimension, Type, parse_quantity, suggest};
 
 use super::args::LawArgs;
@@ -188,7 +187,7 @@ impl Runs {
             study.laws.clone()
         } else {
             let laws = laws_to_fit(args, &data)?;
-            lptn_study::fit::law::LawStudy::new(data.points.clone(), laws)
+            lptn_fit::law::LawStudy::new(data.points.clone(), laws)
         };
         let consistency = study.consistency.clone();
         let answer = Answer { data, study: laws, consistency };
@@ -310,7 +309,7 @@ impl Runs {
         lines
     }
 
-    pub(crate) fn best(&self) -> Option<(&Candidate, &lptn_study::fit::law::Fitted)> {
+    pub(crate) fn best(&self) -> Option<(&Candidate, &lptn_fit::law::Fitted)> {
         let best = self.answer.study.best()?;
         Some((best, best.fitted()?))
     }

@@ -1,7 +1,7 @@
 //! The table of laws, for reading.
 
+use lptn_fit::law::{Candidate, Consistency, Exponent, Fitted, Law, LawStudy};
 use lptn_report::{Align, Column, TextTable, WIDTH, decimals, fixed, plain, significant};
-use lptn_study::fit::law::{Candidate, Consistency, Exponent, Fitted, Law, LawStudy};
 
 use super::Answer;
 use super::laws::{block, sentence, verdict};
@@ -194,8 +194,7 @@ fn claims(found: &Consistency) -> Vec<String> {
         };
     let word = |(_, exponent, claimed, _): &(&str, Exponent, f64, &str)| {
         let p = found.claim(*exponent, *claimed).map(|s| s.probability);
-        if p.is_some_and(|p| p < lptn_study::fit::law::SIGNIFICANT) { "refuted" } else { "possible" }
-            .to_owned()
+        if p.is_some_and(|p| p < lptn_fit::law::SIGNIFICANT) { "refuted" } else { "possible" }.to_owned()
     };
     let table = TextTable::new(vec![
         Column::new("of", Align::Left, claims.iter().map(|c| c.0.to_owned()).collect()),
