@@ -3,14 +3,13 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
+use lptn_data::{Diagnostic, Severity, Span};
 use lptn_network::{BuildError, BuildErrorKind, Input, Item, Naming, Network, NetworkBuilder};
 use lptn_units::{Quantity, Type, Unit};
 
 use crate::adrift;
-use crate::csv_file::CsvFiles;
+use crate::csv_files::CsvFiles;
 use crate::describe::describe;
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::file::Span;
 use crate::fit::FitStudy;
 use crate::initial::StateFile;
 use crate::names::{Names, ValueKind};

@@ -1,9 +1,8 @@
 //! Names inside grids: `wall[1,2,3]`, `wall.x1`, `wall.x1[2,3]`, `wall.mean`.
 
+use lptn_data::{Diagnostic, Span};
 use lptn_network::{Context, Face, GridFace, GridId};
 
-use crate::diagnostic::Diagnostic;
-use crate::file::Span;
 use crate::names::Names;
 use crate::value::{Place, Wanted};
 

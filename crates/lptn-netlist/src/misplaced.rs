@@ -1,9 +1,8 @@
 //! What is said about names that expressions use where they may not.
 
+use lptn_data::{Diagnostic, Span};
 use lptn_network::Context;
 
-use crate::diagnostic::Diagnostic;
-use crate::file::Span;
 use crate::raw::RawKind;
 use crate::value::{Place, Wanted};
 

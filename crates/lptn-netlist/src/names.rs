@@ -4,13 +4,12 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
 use std::sync::{Arc, LazyLock};
 
+use lptn_data::{Diagnostic, Span};
 use lptn_laws::Kind;
 use lptn_network::Context;
 use lptn_units::{Expression, is_function, suggest};
 
-use crate::diagnostic::Diagnostic;
 use crate::fields::sample_value;
-use crate::file::Span;
 use crate::grid_names::KnownGrid;
 use crate::misplaced::{LOCAL, depends_on_time, not_here};
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable};

@@ -1,11 +1,10 @@
 //! What a run reports beside its own columns: expressions of results, and windows of time.
 
+use lptn_data::{Diagnostic, Span};
 use lptn_network::{Field, Item, WindowSettings};
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
-use crate::file::Span;
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::run::{Setting, TIME};
 use crate::value::{Place, Wanted};

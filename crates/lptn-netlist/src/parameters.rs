@@ -2,13 +2,12 @@
 
 use std::collections::HashMap;
 
+use lptn_data::{Diagnostic, Span};
 use lptn_network::{Field, Item};
 use lptn_units::{Quantity, Type};
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::Owner;
-use crate::file::Span;
 use crate::raw::{RawEntry, RawKind};
 use crate::value::{Place, Text, Wanted};
 use crate::vocabulary::{PARAM, SIGNAL};

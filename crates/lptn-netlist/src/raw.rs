@@ -1,6 +1,6 @@
 //! A netlist as it is written: every key and value with its place, nothing resolved.
 
-use crate::file::{Span, on_borders};
+use lptn_data::{Span, on_borders};
 
 /// The sections and keys of one file, in file order. Strings are untouched, numbers are the text that stands
 /// in the file.

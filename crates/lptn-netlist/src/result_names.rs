@@ -1,10 +1,9 @@
 //! The names of results in expressions: temperatures and heat flows.
 
+use lptn_data::{Diagnostic, Span};
 use lptn_laws::Kind;
 use lptn_units::suggest;
 
-use crate::diagnostic::Diagnostic;
-use crate::file::Span;
 use crate::grid_names::VALUES;
 use crate::names::Names;
 use crate::value::Place;

@@ -1,13 +1,12 @@
 //! `[run]`: what to simulate.
 
+use lptn_data::{Diagnostic, Span};
 use lptn_network::{AfterEnd, Evaluation, Network, OutputTimes, RunSettings, Value, WindowSettings};
 use lptn_units::{Dimension, Type, format_number};
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::expand::string;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
-use crate::file::Span;
 use crate::outputs::WindowPlan;
 use crate::raw::{RawKind, RawValue};
 use crate::value::{Place, Wanted};

@@ -1,9 +1,9 @@
 //! Degrees Celsius that were written as kelvin.
 
+use lptn_data::Diagnostic;
 use lptn_network::ZERO_CELSIUS;
 use lptn_units::{Quantity, format_number};
 
-use crate::diagnostic::Diagnostic;
 use crate::raw::RawKind;
 use crate::value::Place;
 

@@ -1,12 +1,11 @@
 //! `[size.NAME]`: a parameter to size, and what has to be kept.
 
+use lptn_data::{Diagnostic, Span};
 use lptn_network::{Context, Evaluation, Network, Value};
 use lptn_units::{Comparison, EvalError, Expression, Scope as _, Type, suggest};
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
-use crate::file::Span;
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::value::{Given, Place, Text, Wanted};
 use crate::vocabulary::{SIZE, VARY};

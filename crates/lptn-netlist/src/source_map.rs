@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
+use lptn_data::{Files, Span};
 use lptn_network::{BuildErrorKind, Field, Item, Naming, NodeId, ParameterId, TableId};
 
-use crate::file::{Files, Span};
 use crate::import::Places;
 use crate::raw::{RawKind, RawTable, RawValue};
 

@@ -2,16 +2,15 @@
 
 use std::sync::Arc;
 
+use lptn_data::{Asked, Diagnostic, Span};
 use lptn_network::{Context, Input, Value};
 use lptn_units::{
     Dimension, Expression, Program, Quantity, Scope as _, Type, UnitError, UnitErrorKind, Written,
     kelvin_alone, parse_quantity, parse_value,
 };
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::{Owner, sample, wrong_shape};
-use crate::file::Span;
 use crate::names::Names;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
 use crate::result_names::base;
@@ -156,6 +155,11 @@ impl Place<'_> {
     /// "`R` of resistor `internal`"; a parameter has no fields.
     pub(crate) fn words(&self) -> String {
         if self.key.is_empty() { self.owner.words().to_owned() } else { self.owner.field(self.key) }
+    }
+
+    /// For the reader of a CSV file that the field names.
+    pub(crate) fn asked(&self) -> Asked {
+        Asked { words: self.words(), span: Some(self.raw.span.clone()) }
     }
 
     /// Reads the text without resolving names.

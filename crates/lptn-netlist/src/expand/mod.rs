@@ -14,9 +14,9 @@ mod values;
 
 use std::path::{Component, Path, PathBuf};
 
+use lptn_data::FileId;
 use lptn_network::{Network, RunSettings};
 
-use crate::file::FileId;
 use crate::netlist::Netlist;
 pub use proof::{WrittenError, prove};
 pub(crate) use text::string;

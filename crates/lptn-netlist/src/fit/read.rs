@@ -1,17 +1,16 @@
 //! Reads `[fit.NAME]`: what is varied and what is observed.
 
+use lptn_data::{Diagnostic, Span, list};
 use lptn_network::{Context, Value};
 use lptn_units::{Scope as _, Type, suggest};
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
-use crate::file::Span;
 use crate::fit::words::{FIT, FIT_COLUMN};
 use crate::fit::{FitStudy, Observed, VariedName};
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::value::{Place, Wanted};
-use crate::vocabulary::{PARAM, VARY, list};
+use crate::vocabulary::{PARAM, VARY};
 
 /// A column whose result could not be read is still looked for in the records.
 pub(crate) struct Column<'a> {

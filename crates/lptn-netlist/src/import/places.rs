@@ -1,13 +1,7 @@
 //! The way back from imported elements to their rows, without a place for each of them.
 
+use lptn_data::{Marks, Span};
 use lptn_network::{Field, Item};
-
-use crate::csv_file::CsvText;
-use crate::csv_head::{Row, reader, row};
-use crate::file::Span;
-
-/// The place of every so manyeth row is kept; the others are counted from there.
-pub(crate) const STRIDE: usize = 256;
 
 /// What the rows of a file are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,33 +31,19 @@ pub(crate) struct Places {
     pub(crate) kind: Kind,
     /// The position of the first of them in the network.
     pub(crate) first: usize,
-    pub(crate) count: usize,
     /// The columns in which fields stand.
     pub(crate) columns: Vec<(Field, usize)>,
-    pub(crate) text: CsvText,
-    /// The bytes of the rows 0, [`STRIDE`], 2 [`STRIDE`] and so on.
-    pub(crate) marks: Vec<usize>,
-    /// How many elements came before each row that is none.
-    pub(crate) skipped: Vec<usize>,
+    pub(crate) marks: Marks,
 }
 
 impl Places {
     /// The place of a field; that of an automatic name is the row. `None` if the item is not one of these or has no
     /// such cell.
     pub(crate) fn get(&self, item: Item, field: Field) -> Option<Span> {
-        let element =
-            self.kind.index(item)?.checked_sub(self.first).filter(|element| *element < self.count)?;
+        let element = self.element(item)?;
         let column = self.columns.iter().find(|(of, _)| *of == field).map(|(_, column)| *column);
-        if column.is_none() && field != Field::Name {
-            return None;
-        }
-        let row = self.row(element + self.skipped.partition_point(|before| *before <= element))?;
-        let cell = column.filter(|&column| !row.cell(column).is_empty());
-        match (cell, field) {
-            (None, Field::Name) => Some(row.whole(self.text.file)),
-            (None, _) => None,
-            (Some(column), _) => Some(row.place(self.text.file, column)),
-        }
+        let cell = column.and_then(|column| self.marks.cell(element, column));
+        cell.or_else(|| if field == Field::Name { self.marks.line(element) } else { None })
     }
 
     /// Whether the item is one of these.
@@ -72,22 +52,11 @@ impl Places {
     }
 
     fn element(&self, item: Item) -> Option<usize> {
-        self.kind.index(item)?.checked_sub(self.first).filter(|element| *element < self.count)
+        self.kind.index(item)?.checked_sub(self.first).filter(|element| *element < self.marks.count)
     }
 
     /// How many places there are.
     pub(crate) fn len(&self) -> usize {
-        self.count * self.columns.len()
-    }
-
-    /// The row of this number below the header.
-    fn row(&self, number: usize) -> Option<Row> {
-        let mark = *self.marks.get(number / STRIDE)?;
-        let mut records = reader(self.text.text.get(mark..)?).into_records();
-        let mut cells = records.nth(number % STRIDE)?.ok()?;
-        let mut position = cells.position()?.clone();
-        position.set_byte(position.byte() + u64::try_from(mark).ok()?);
-        cells.set_position(Some(position));
-        Some(row(cells, &self.text.text))
+        self.marks.count * self.columns.len()
     }
 }

@@ -1,11 +1,10 @@
 //! The controls of the state that a run starts from.
 
+use lptn_data::{Diagnostic, Span};
 use lptn_units::suggest;
 
 use super::{Members, StateFile, member};
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
-use crate::file::Span;
 use crate::json::JsonValue;
 use crate::vocabulary::CONTROL;
 

@@ -6,12 +6,11 @@ use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
+use lptn_data::{Diagnostic, Files, Span};
 use lptn_network::{End, Field, Input, Item, Network, NodeId, Temperature};
 use lptn_units::{Quantity, Type, suggest};
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
-use crate::file::{Files, Span};
 use crate::include::{Loader, reason};
 use crate::json::{Json, JsonValue};
 use crate::near_file;

@@ -1,12 +1,11 @@
 //! `[control]`: thermostats.
 
+use lptn_data::{Diagnostic, Span};
 use lptn_network::{Acts, ControlId, Field, Input, Item, Network, Thermostat};
 use lptn_units::{Dimension, Quantity, Type, format_number};
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
-use crate::file::Span;
 use crate::misplaced::BOUND_HELP;
 use crate::raw::{RawEntry, RawKind};
 use crate::source_map::SourceMap;

@@ -1,9 +1,9 @@
 //! `[default]`: what holds unless said otherwise.
 
+use lptn_data::Diagnostic;
 use lptn_network::Input;
 use lptn_units::{Dimension, Type, Unit, UnitError};
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner};
 use crate::raw::RawValue;

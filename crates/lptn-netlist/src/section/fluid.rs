@@ -1,10 +1,10 @@
 //! `[fluid]`: what streams are made of.
 
+use lptn_data::Diagnostic;
 use lptn_laws::{Carries, Formula};
 use lptn_network::{Field, FluidId, Input, Item};
 use lptn_units::{Dimension, Quantity, Type, suggest};
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample};
 use crate::library::{self, Record};

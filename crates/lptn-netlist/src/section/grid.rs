@@ -1,9 +1,9 @@
 //! `[grid]`: blocks that are cut into cells, and what ends at their faces.
 
+use lptn_data::Diagnostic;
 use lptn_network::{Block, Field, GridId, Input, Item, Substance};
 use lptn_units::{Dimension, Type};
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample, wrong_shape};
 use crate::grid_names::{GridPart, KnownGrid};

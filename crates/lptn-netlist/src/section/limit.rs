@@ -1,9 +1,9 @@
 //! `[limit]`: what the results have to keep.
 
+use lptn_data::Diagnostic;
 use lptn_network::{Bound, Field, Input, Item, Severity};
 use lptn_units::Type;
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample, wrong_shape};
 use crate::raw::{RawEntry, RawKind, RawValue};

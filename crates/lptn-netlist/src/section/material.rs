@@ -1,9 +1,9 @@
 //! `[material]`, and the lumps that are made of materials.
 
+use lptn_data::Diagnostic;
 use lptn_network::{Field, Input, Item, MaterialId, Properties, Size};
 use lptn_units::{Dimension, Quantity, Type, suggest};
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample};
 use crate::library::{self, Record};

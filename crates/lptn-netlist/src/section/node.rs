@@ -1,9 +1,9 @@
 //! `[node]`.
 
+use lptn_data::Diagnostic;
 use lptn_network::{Field, Input, Item, NodeId};
 use lptn_units::{Dimension, Type};
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample, wrong_shape};
 use crate::raw::{RawEntry, RawKind, RawValue};

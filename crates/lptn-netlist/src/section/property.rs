@@ -1,9 +1,9 @@
 //! Properties of materials and fluids: constant, an expression in `T`, or a table over it.
 
+use lptn_data::Diagnostic;
 use lptn_network::{Input, Melting};
 use lptn_units::{Dimension, Type};
 
-use crate::diagnostic::Diagnostic;
 use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, sample, wrong_shape};
 use crate::raw::RawKind;

@@ -1,9 +1,9 @@
 //! What is said about names inside a template.
 
+use lptn_data::Diagnostic;
 use lptn_network::is_name;
 
 use super::structure::Structure;
-use crate::diagnostic::Diagnostic;
 use crate::result_names::base;
 use crate::value::Place;
 

@@ -1,8 +1,8 @@
 //! Paths that lead to no instance: an index too many, too few or too large.
 
 use super::structure::Structure;
-use crate::diagnostic::Diagnostic;
-use crate::file::Span;
+use lptn_data::{Diagnostic, Span};
+
 use crate::netlist::Netlist;
 
 /// What is wrong with the indices of a path.
