@@ -15,10 +15,9 @@ mod values;
 use std::path::{Component, Path, PathBuf};
 
 use lptn_data::FileId;
-use lptn_network::Network;
+use lptn_network::{Network, RunSettings};
 
 use crate::netlist::Netlist;
-use crate::run::RunSettings;
 pub use proof::{WrittenError, prove};
 pub(crate) use text::string;
 

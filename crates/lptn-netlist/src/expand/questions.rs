@@ -3,9 +3,9 @@
 use super::Writer;
 use super::text::{Fields, key, like, quantity, string, value};
 use crate::fit::{FitRecord, FitStudy, Observed, VariedName};
-use crate::run::{OutputPlan, RunSettings};
+use crate::run::OutputPlan;
 use crate::size::{Goal, SizeStudy};
-use lptn_network::OutputTimes;
+use lptn_network::{OutputTimes, RunSettings};
 use lptn_units::{Dimension, Type};
 
 impl Writer<'_> {

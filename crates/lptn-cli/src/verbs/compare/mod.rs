@@ -13,7 +13,8 @@ use lptn_netlist::{Diagnostic, Files, Netlist};
 use lptn_network::Field;
 use lptn_report::{Json, Page, Rows, Text, plain};
 use lptn_solve::{Progress, SteadyError, TransientError};
-use lptn_study::{Candidate, CompareError, CompareRow, available_threads, compare_table, in_parallel, order};
+use lptn_solve::{available_threads, in_parallel};
+use lptn_study::{Candidate, CompareError, CompareRow, compare_table, order};
 use lptn_units::Unit;
 
 use crate::console::Console;

@@ -12,12 +12,10 @@ pub(crate) use args::LawArgs;
 
 use std::io;
 
+use lptn_fit::law::{Candidate, Consistency, Law, LawError, LawStudy, Measured, Outcome, Start, WrittenLaw};
+use lptn_fit::step::Capacity;
 use lptn_netlist::{Diagnostic, Files, Span};
 use lptn_report::{Format, Json, Page, Rows, Text};
-use lptn_study::fit::law::{
-    Candidate, Consistency, Law, LawError, LawStudy, Measured, Outcome, Start, WrittenLaw,
-};
-use lptn_study::fit::step::Capacity;
 use lptn_units::{Dimension, Type, parse_quantity};
 
 use crate::console::Console;

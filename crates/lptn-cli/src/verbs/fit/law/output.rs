@@ -2,9 +2,9 @@
 
 use std::io;
 
+use lptn_fit::law::{Candidate, Coefficient, Fitted};
 use lptn_report::Json;
 use lptn_solve::Table;
-use lptn_study::fit::law::{Candidate, Coefficient, Fitted};
 use serde_json::{Value, json};
 
 use super::{Answer, laws};

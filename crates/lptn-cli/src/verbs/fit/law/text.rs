@@ -1,7 +1,7 @@
 //! The table of laws, for reading.
 
+use lptn_fit::law::{Candidate, Consistency, Exponent, Fitted, Law, LawStudy, SIGNIFICANT};
 use lptn_report::{Text, TextTable, decimals, fixed, plain, significant};
-use lptn_study::fit::law::{Candidate, Consistency, Exponent, Fitted, Law, LawStudy, SIGNIFICANT};
 
 use super::Answer;
 use super::laws::{sections, verdict};

@@ -1,9 +1,10 @@
 //! What came of a fit of a network, as JSON.
 
+use lptn_fit::least_squares::Side;
+use lptn_fit::network::{Combination, Unseparated};
 use lptn_report::Json;
-use lptn_study::fit::least_squares::Side;
-use lptn_study::fit::network::{Combination, Unseparated};
-use lptn_study::{Gradient, Scalar};
+use lptn_solve::Gradient;
+use lptn_study::Scalar;
 use serde_json::{Map, Value, json};
 
 use super::Answer;
@@ -63,7 +64,7 @@ fn parameter(answer: &Answer<'_>, i: usize) -> Value {
 }
 
 fn columns(answer: &Answer<'_>) -> Value {
-    let column = |misfit: &lptn_study::fit::network::ColumnMisfit| {
+    let column = |misfit: &lptn_fit::network::ColumnMisfit| {
         let run = &answer.task.runs[misfit.run];
         json!({
             "record": run.name,

@@ -1,8 +1,8 @@
 //! What came of a fit of a network, for reading.
 
+use lptn_fit::network::ColumnMisfit;
 use lptn_report::{Text, TextTable, decimals, differing, fixed, significant};
-use lptn_study::Gradient;
-use lptn_study::fit::network::ColumnMisfit;
+use lptn_solve::Gradient;
 
 use super::Answer;
 use super::words::{state, verdict};

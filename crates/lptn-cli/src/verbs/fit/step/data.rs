@@ -1,9 +1,9 @@
 //! What came of `lptn fit step`, for programs.
 
+use lptn_fit::step::{Estimated, Off, Parted, Power, TwoExponentials};
 use lptn_report::Json;
 use lptn_solve::Table;
 use lptn_study::Scalar;
-use lptn_study::fit::step::{Estimated, Off, Parted, Power, TwoExponentials};
 use serde_json::{Map, Value, json};
 
 use super::model::Model;

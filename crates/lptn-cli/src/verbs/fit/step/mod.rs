@@ -12,9 +12,9 @@ pub(crate) use args::StepArgs;
 
 use std::io;
 
+use lptn_fit::step::{Capacity, Power, Reference as Zero, Sensor, StepError, StepFit};
 use lptn_netlist::{Diagnostic, RecordColumn};
 use lptn_report::{Json, Page, Rows, Text};
-use lptn_study::fit::step::{Capacity, Power, Reference as Zero, Sensor, StepError, StepFit};
 
 use crate::console::Console;
 use crate::exit::Exit;

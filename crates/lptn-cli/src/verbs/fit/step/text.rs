@@ -1,9 +1,9 @@
 //! What came of `lptn fit step`, for reading.
 
+use lptn_fit::step::{Estimated, Off, Parted};
 use lptn_report::{
     Align, Column as TextColumn, Text, TextTable, WIDTH, plain, shortened, significant, stacked,
 };
-use lptn_study::fit::step::{Estimated, Off, Parted};
 
 use super::estimate::{to_error, with_error};
 use super::request::Reference;
