@@ -3,12 +3,12 @@
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Field, Item};
 
-use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::run::{Setting, TIME};
-use crate::value::{Place, Wanted};
+use crate::setting::{Setting, TIME};
 use crate::vocabulary::WINDOW;
+use crate::work::Elaboration;
 
 /// A part of the run over which means and extremes are taken.
 #[derive(Clone, Debug, PartialEq)]

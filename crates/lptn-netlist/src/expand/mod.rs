@@ -19,8 +19,8 @@ use lptn_network::Network;
 
 use crate::netlist::Netlist;
 use crate::run::RunSettings;
+use crate::toml_text::string;
 pub use proof::{WrittenError, prove};
-pub(crate) use text::string;
 
 use text::Fields;
 
