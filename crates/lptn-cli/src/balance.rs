@@ -8,9 +8,9 @@ use lptn_study::Scalar;
 use lptn_units::suggest;
 use serde_json::{Value, json};
 
-use crate::args::Format;
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::options::Format;
 
 /// The node or boundary that the option names.
 pub(crate) fn end(netlist: &Netlist, name: Option<&str>, format: Format) -> Result<Option<End>, Failure> {

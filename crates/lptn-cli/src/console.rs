@@ -4,10 +4,10 @@ use std::io::{self, BufWriter, ErrorKind, IsTerminal as _, Write};
 
 use lptn_netlist::{Diagnostic, Files};
 
-use crate::args::{Color, Global};
 use crate::diagnostics::render;
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
+use crate::options::{Color, Global};
 
 /// The two streams of a command.
 #[derive(Debug)]

@@ -7,12 +7,12 @@ use lptn_assembly::{AssemblyError, ThermalSystem};
 use lptn_netlist::{
     Diagnostic, Files, MOST_BYTES, Netlist, ReadError, Rejected, Span, parse_bytes, parse_file, similar_file,
 };
-use lptn_network::Item;
+use lptn_network::{Item, ParameterId};
 use lptn_units::{Dimension, Type, Unit, UnitError, parse_quantity};
 
-use crate::args::Source;
 use crate::exit::Exit;
 use crate::failure::{Failure, reason, told};
+use crate::options::Source;
 
 /// What a netlist from stdin is called.
 const STDIN: &str = "<stdin>";
@@ -101,6 +101,14 @@ impl Input {
     /// The name for a command that can be typed; `None` for stdin.
     pub(crate) fn typed(&self) -> Option<String> {
         (self.text.name != STDIN).then(|| quoted(&self.text.name))
+    }
+
+    /// The unit in which the file writes a parameter, else the usual one of its type.
+    pub(crate) fn unit_of(&self, parameter: ParameterId) -> Unit {
+        let ty = self.netlist.network.parameters()[parameter.index()].ty;
+        let written = self.netlist.written_number(parameter).map(|written| written.unit);
+        let si = |ty: Type| Unit { text: ty.dimension.si_unit(), scale: 1.0, offset: 0.0, ty };
+        written.or_else(|| Unit::parse(&ty.usual_unit()).ok()).unwrap_or_else(|| si(ty))
     }
 
     pub(crate) fn assemble(&self) -> Result<ThermalSystem, Failure> {

@@ -7,7 +7,7 @@ use lptn_solve::{Biot, LumpCheck, Lumping, NotChecked, Stretch};
 use lptn_study::Scalar;
 use serde_json::{Map, Value, json};
 
-use crate::summary::count;
+use crate::words::count;
 
 /// So many nodes are warned of one by one, the worst of them.
 const MOST_WARNINGS: usize = 5;

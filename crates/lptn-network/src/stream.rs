@@ -1,8 +1,8 @@
 //! Streams and the nodes they pass.
 
-use crate::flow::{Flow, Received};
 use crate::id::{ConductorId, End, NodeId};
 use crate::input_error::InputError;
+use crate::law::{Flow, Received};
 use crate::network::Network;
 
 /// Where capacity rates are compared, in K.

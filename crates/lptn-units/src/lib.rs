@@ -22,7 +22,7 @@ mod deviation;
 mod dimension;
 mod dual;
 mod error;
-mod error_text;
+mod error_words;
 mod expr;
 mod format;
 mod naming;

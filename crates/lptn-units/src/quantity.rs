@@ -33,7 +33,7 @@ pub struct Quantity {
 ///
 /// # Errors
 ///
-/// Text that is no quantity, an unknown or ambiguous unit, a value out of range, a negative deviation, a
+/// Text that is not a quantity, an unknown or ambiguous unit, a value out of range, a negative deviation, a
 /// temperature below absolute zero, and, with `expected`, a wrong type. Every error names its place
 /// and, where possible, the string to write.
 pub fn parse_quantity(text: &str, expected: Option<Type>) -> Result<Quantity, UnitError> {
@@ -59,7 +59,7 @@ pub struct WrittenQuantity {
     pub unit: Unit,
 }
 
-/// Where the number of a quantity stands and in which unit it is; `None` if the text is no quantity.
+/// Where the number of a quantity stands and in which unit it is; `None` if the text is not a quantity.
 pub fn written_quantity(text: &str) -> Option<WrittenQuantity> {
     let reading = read(text).ok()?;
     let written = reading.unit_text();

@@ -10,8 +10,8 @@ mod refusal;
 
 use crate::evaluation::{PASS, Slope};
 use crate::id::{BoundaryId, ConductorId, ParameterId, SignalId, SourceId};
-use crate::layout::slot;
 use crate::network::Network;
+use crate::slot;
 use content::Content;
 use live::Live;
 

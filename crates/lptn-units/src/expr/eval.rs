@@ -241,7 +241,7 @@ impl Program {
         Ok(accumulator)
     }
 
-    /// What is no number is neither larger nor smaller: nothing follows from it.
+    /// NaN is neither larger nor smaller: nothing follows from it.
     #[inline]
     fn holds(
         &self,

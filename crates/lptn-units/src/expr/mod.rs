@@ -146,7 +146,7 @@ impl Expression {
         infer::unknown_names(&self.tree, scope, expected)
     }
 
-    /// The names that are called and are no functions, in order of appearance: tables, such as `loss` in
+    /// The names that are called and are not functions, in order of appearance: tables, such as `loss` in
     /// `2 * loss(speed)`.
     pub fn calls(&self) -> Vec<(String, Range<usize>)> {
         let called = self.tree.nodes().filter_map(|(node, _)| match node {
@@ -181,7 +181,7 @@ impl Expression {
     /// that contain an error raise no further ones.
     pub fn compile(&self, scope: &dyn Scope, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
         let checked = check::check(&self.text, &self.tree, scope, expected)?;
-        Ok(codegen::generate(&self.meant(), &self.tree, checked))
+        Ok(parts::generate(&self.meant(), &self.tree, checked))
     }
 
     /// For `a <= b`: the two sides as expressions, and the comparison between them. `None` if the

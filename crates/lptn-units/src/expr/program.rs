@@ -3,7 +3,6 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::degree::{self, Degree};
 use super::function::Function;
 use super::tree::Comparison;
 use crate::table::Table;
@@ -171,10 +170,5 @@ impl Program {
     /// branch that is not taken the programs of the arguments may fail to evaluate.
     pub fn table_calls(&self) -> &[TableCall] {
         &self.table_calls
-    }
-
-    /// How the result depends on one slot, the others held: an upper bound from the form of the code.
-    pub fn degree_in(&self, slot: u32) -> Degree {
-        degree::degree(&self.code, slot)
     }
 }

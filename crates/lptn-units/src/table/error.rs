@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Numbers that are no table.
+/// Why numbers do not make a table.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum TableError {
