@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// From the ground up: a crate may use only those before it.
-const ORDER: [&str; 13] = [
+const ORDER: [&str; 14] = [
     "lptn-units",
     "lptn-laws",
     "lptn-network",
@@ -15,6 +15,7 @@ const ORDER: [&str; 13] = [
     "lptn-integrate",
     "lptn-solve",
     "lptn-reduce",
+    "lptn-fit",
     "lptn-study",
     "lptn-report",
     "lptn",
@@ -22,13 +23,14 @@ const ORDER: [&str; 13] = [
 ];
 
 /// What a crate may not use although it stands before it.
-const FORBIDDEN: [(&str, &[&str]); 6] = [
+const FORBIDDEN: [(&str, &[&str]); 7] = [
     ("lptn-integrate", &["lptn-units", "lptn-laws", "lptn-network", "lptn-netlist", "lptn-assembly"]),
     ("lptn-data", &["lptn-laws", "lptn-network"]),
     ("lptn-assembly", &["lptn-data", "lptn-netlist"]),
     ("lptn-solve", &["lptn-data", "lptn-netlist"]),
     ("lptn-reduce", &["lptn-data", "lptn-netlist"]),
     ("lptn-laws", &["lptn-network"]),
+    ("lptn-study", &["lptn-fit"]),
 ];
 
 fn root() -> &'static Path {

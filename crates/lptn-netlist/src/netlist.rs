@@ -8,7 +8,7 @@ use std::sync::Arc;
 use lptn_data::{
     Diagnostic, FileId, Files, ReadError, Rejected, Severity, Span, arrange, read_bytes, read_named, shorten,
 };
-use lptn_network::{Network, Parameters};
+use lptn_network::{Network, Parameters, RunSettings};
 use lptn_units::Unit;
 
 use crate::csv_files::CsvFiles;
@@ -19,7 +19,7 @@ use crate::include::{self, Loader, Merged};
 use crate::initial::{self, InitialState, StateFile};
 use crate::plausible;
 use crate::raw::RawNetlist;
-use crate::run::{RunPlan, RunSettings};
+use crate::run::RunPlan;
 use crate::section;
 use crate::size::SizeStudy;
 use crate::source_map::SourceMap;
@@ -81,6 +81,16 @@ impl Netlist {
         arrange(&self.files, &mut all);
         shorten(&mut all, 0);
         self.warnings = all;
+    }
+
+    /// Why a path such as `planet[9].gear` leads nowhere, and what to write, if its index is to blame.
+    pub fn no_instance(&self, path: &str) -> Option<(String, String)> {
+        self.structure.wrong_path(path).map(|wrong| (wrong.why, wrong.help))
+    }
+
+    /// The state that runs start from, where `initial` of `[run]` names one.
+    pub fn initial(&self) -> Option<&InitialState> {
+        self.initial.as_ref()
     }
 
     /// The parameters as they were set, for [`Network::with`] with further ones.

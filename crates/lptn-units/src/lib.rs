@@ -18,6 +18,7 @@
 //! # Ok::<(), lptn_units::UnitError>(())
 //! ```
 
+mod bracket;
 mod deviation;
 mod dimension;
 mod dual;
@@ -25,6 +26,7 @@ mod error;
 mod error_words;
 mod expr;
 mod format;
+mod kinship;
 mod naming;
 mod number;
 mod problems;

@@ -11,7 +11,8 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files, Netlist};
 use lptn_report::plain;
 use lptn_solve::Progress;
-use lptn_study::{Candidate, CompareError, CompareRow, available_threads, in_parallel, order};
+use lptn_solve::{available_threads, in_parallel};
+use lptn_study::{Candidate, CompareError, CompareRow, order};
 use lptn_units::Unit;
 
 use crate::console::Console;

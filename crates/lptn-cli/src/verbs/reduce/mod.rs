@@ -34,7 +34,7 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
     let system = input.assemble()?;
     let explain = |error: ReduceError| failed(&input, args, &error);
     let port = port(&input.netlist.network, &args.port).map_err(explain)?;
-    let run = run.as_ref().map(|run| lptn_study::transient(&input.netlist.network, run));
+    let run = run.as_ref().map(|run| lptn_solve::Transient::of(&input.netlist.network, run));
     let reduction = Reduction::new(&system, port, &options(&system, run.as_ref(), (window, limit.is_some())));
     let reduction = reduction.map_err(explain)?;
     let bias = match &run {

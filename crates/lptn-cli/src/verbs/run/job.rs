@@ -117,7 +117,7 @@ impl<'a> Job<'a> {
             watch,
             windows: self.settings.windows.iter().map(window).collect(),
             balance: self.balance,
-            ..lptn_study::transient(system.network(), &self.settings)
+            ..lptn_solve::Transient::of(system.network(), &self.settings)
         })
     }
 }

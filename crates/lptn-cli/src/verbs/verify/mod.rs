@@ -30,7 +30,7 @@ pub(crate) fn verify(args: &VerifyArgs, console: &Console) -> Result<Exit, Failu
     let netlist = &input.netlist;
     let settings = netlist.run.as_ref().ok_or_else(|| no_run(&input))?;
     let given = args.tolerance.as_deref().map(input::tolerance).transpose()?;
-    let transient = lptn_study::transient(&netlist.network, settings);
+    let transient = lptn_solve::Transient::of(&netlist.network, settings);
     let transient = Transient { tolerance: given.unwrap_or(settings.tolerance), ..transient };
     let system = input.assemble()?;
     console.warn(&netlist.files, &netlist.warnings);

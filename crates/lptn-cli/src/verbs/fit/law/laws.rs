@@ -2,11 +2,11 @@
 
 use std::io;
 
+use lptn_fit::law::{AtSpeed, Consistency, Exponent, LawError, LawOf, Significance, StatedLaw};
+use lptn_fit::step::Capacity;
 use lptn_report::{Json, Page, Rows, Text, TextTable, fixed, significant};
 use lptn_solve::Table;
 use lptn_study::Scalar;
-use lptn_study::fit::law::{AtSpeed, Consistency, Exponent, LawError, LawOf, Significance, StatedLaw};
-use lptn_study::fit::step::Capacity;
 use lptn_units::{Dimension, Type};
 use serde_json::{Value, json};
 

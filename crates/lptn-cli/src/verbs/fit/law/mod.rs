@@ -9,12 +9,10 @@ mod shown;
 
 pub(crate) use args::LawArgs;
 
+use lptn_fit::law::{Candidate, Consistency, Law, LawError, LawStudy, Measured, Outcome, Start, WrittenLaw};
+use lptn_fit::step::Capacity;
 use lptn_netlist::{Diagnostic, Files, Span};
 use lptn_report::Format;
-use lptn_study::fit::law::{
-    Candidate, Consistency, Law, LawError, LawStudy, Measured, Outcome, Start, WrittenLaw,
-};
-use lptn_study::fit::step::Capacity;
 use lptn_units::{Dimension, parse_quantity};
 
 use crate::console::Console;

@@ -2,11 +2,9 @@
 
 use std::io;
 
+use lptn_fit::law::{Candidate, Coefficient, Consistency, Exponent, Fitted, Law, LawStudy, SIGNIFICANT};
 use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, fixed, plain, significant};
 use lptn_solve::Table;
-use lptn_study::fit::law::{
-    Candidate, Coefficient, Consistency, Exponent, Fitted, Law, LawStudy, SIGNIFICANT,
-};
 use serde_json::{Value, json};
 
 use super::laws::{sections, verdict};

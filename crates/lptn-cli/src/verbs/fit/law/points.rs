@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use lptn_fit::law::{LawError, Points, Variable};
 use lptn_netlist::{DataSheet, Diagnostic, Files, RecordColumn, read_sheet};
-use lptn_study::fit::law::{LawError, Points, Variable};
 use lptn_units::{Dimension, Type, suggest};
 
 use super::args::LawArgs;

@@ -1,7 +1,7 @@
 //! What is kept of a fit of a network that was interrupted.
 
+use lptn_fit::network::{FitStage, NetworkFitTask};
 use lptn_report::{Format, Text, TextTable, significant};
-use lptn_study::fit::network::{FitStage, NetworkFitTask};
 
 use super::NetworkArgs;
 use crate::console::Console;

@@ -10,9 +10,9 @@ pub(crate) use args::NetworkArgs;
 
 use std::sync::{Mutex, PoisonError};
 
+use lptn_fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network_observed};
 use lptn_netlist::{Diagnostic, FitStudy};
-use lptn_study::fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network_observed};
-use lptn_study::{SensitiveError, available_threads};
+use lptn_solve::{SensitiveError, available_threads};
 use lptn_units::Unit;
 
 use crate::console::Console;

@@ -2,11 +2,12 @@
 
 use std::io;
 
+use lptn_fit::least_squares::Side;
+use lptn_fit::network::{ColumnMisfit, Combination, Unseparated};
 use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, differing, fixed, significant};
+use lptn_solve::Gradient;
 use lptn_solve::Table;
-use lptn_study::fit::least_squares::Side;
-use lptn_study::fit::network::{ColumnMisfit, Combination, Unseparated};
-use lptn_study::{Gradient, Scalar};
+use lptn_study::Scalar;
 use serde_json::{Map, Value, json};
 
 use super::Answer;
@@ -230,7 +231,7 @@ fn parameter(answer: &Answer<'_>, i: usize) -> Value {
 }
 
 fn columns(answer: &Answer<'_>) -> Value {
-    let column = |misfit: &lptn_study::fit::network::ColumnMisfit| {
+    let column = |misfit: &lptn_fit::network::ColumnMisfit| {
         let run = &answer.task.runs[misfit.run];
         json!({
             "record": run.name,

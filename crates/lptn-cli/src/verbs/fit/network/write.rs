@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use lptn_fit::network::NetworkFitTask;
 use lptn_network::ParameterId;
 use lptn_report::Shortest;
-use lptn_study::fit::network::NetworkFitTask;
 
 use super::Answer;
 use crate::console::Console;

@@ -1,8 +1,8 @@
 //! What is to be said about a fit beside its numbers.
 
+use lptn_fit::step::{LONG_ENOUGH, StepError, StepFit, TwoExponentials};
 use lptn_netlist::{Diagnostic, RecordColumn};
 use lptn_report::{duration, significant};
-use lptn_study::fit::step::{LONG_ENOUGH, StepError, StepFit, TwoExponentials};
 
 use super::estimate::with_error;
 use super::request::{Reference, Request};

@@ -9,8 +9,8 @@ mod request;
 
 pub(crate) use args::StepArgs;
 
+use lptn_fit::step::{Capacity, Power, Reference as Zero, Sensor, StepError, StepFit};
 use lptn_netlist::{Diagnostic, RecordColumn};
-use lptn_study::fit::step::{Capacity, Power, Reference as Zero, Sensor, StepError, StepFit};
 
 use crate::console::Console;
 use crate::exit::Exit;

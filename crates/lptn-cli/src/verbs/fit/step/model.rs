@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use lptn_fit::step::{ModelBias, StepError};
 use lptn_netlist::Diagnostic;
 use lptn_network::Time;
 use lptn_solve::Transient;
-use lptn_study::fit::step::{ModelBias, StepError};
 
 use super::StepArgs;
 use super::request::Request;
@@ -39,7 +39,7 @@ impl Model {
         let system = input.assemble()?;
         let length = times.last().map_or(0.0, |last| last - begin);
         let run = match &input.netlist.run {
-            Some(run) => lptn_study::transient(network, run),
+            Some(run) => lptn_solve::Transient::of(network, run),
             None => Transient::until(Time(length)),
         };
         let bias = ModelBias::new(&system, node, &run, (begin, times)).map_err(explain)?;

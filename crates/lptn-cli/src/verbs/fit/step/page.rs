@@ -2,13 +2,13 @@
 
 use std::io;
 
+use lptn_fit::step::{Estimated, Off, Parted, Power, TwoExponentials};
 use lptn_report::{
     Align, Column as TextColumn, Json, Page, Rows, Text, TextTable, WIDTH, plain, shortened, significant,
     stacked,
 };
 use lptn_solve::Table;
 use lptn_study::Scalar;
-use lptn_study::fit::step::{Estimated, Off, Parted, Power, TwoExponentials};
 use serde_json::{Map, Value, json};
 
 use super::estimate::{to_error, with_error};

@@ -6,7 +6,7 @@ pub(crate) mod text;
 
 use args::{Method, UncertaintyArgs};
 use lptn_netlist::{Diagnostic, Netlist};
-use lptn_study::available_threads;
+use lptn_solve::available_threads;
 use lptn_study::uncertainty::{
     Discrepancy, Sobol, Uncertainty, UncertaintyError, UncertaintyTask, discrepancies, uncertain,
 };
@@ -71,7 +71,7 @@ pub(crate) fn study(
         nodes = shown(network, None, None);
         nodes.sort_unstable();
     }
-    let (parameters, run) = (netlist.overrides(), lptn_study::transient(network, &job.settings));
+    let (parameters, run) = (netlist.overrides(), lptn_solve::Transient::of(network, &job.settings));
     let task = UncertaintyTask { network, parameters, run, nodes };
     let outcome = match method {
         Method::Linear => task.linear().map(|found| Study { found, linear: None }),

@@ -132,7 +132,7 @@ fn find(job: &Job<'_>, system: &ThermalSystem, console: &Console) -> Result<Peri
         record: job.selection.record(),
         windows: vec![window],
         balance: job.balance,
-        ..lptn_study::transient(system.network(), &job.settings)
+        ..lptn_solve::Transient::of(system.network(), &job.settings)
     };
     let interrupt = Interrupt::listen();
     let mut line = ProgressLine::new(console.quiet);

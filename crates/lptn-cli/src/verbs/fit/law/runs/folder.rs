@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use lptn_fit::law::Run;
 use lptn_netlist::{Diagnostic, Files, Record, RecordQuery, read_record, read_sheet};
 use lptn_study::FileHash;
-use lptn_study::fit::law::Run;
 use lptn_units::{Dimension, Type, parse_quantity};
 
 use super::super::shown::SpeedUnit;

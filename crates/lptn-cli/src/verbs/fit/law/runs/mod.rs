@@ -7,13 +7,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use lptn_fit::law::{Candidate, ColumnFits, Run, RunFit, RunReference, RunSettings, RunsError, RunsStudy};
+use lptn_fit::step::{Capacity, LONG_ENOUGH, Sensor};
 use lptn_netlist::{Diagnostic, Files};
 use lptn_report::{Json, Page, Rows, Text, TextTable, WIDTH, duration, fixed, labelled, significant, words};
-use lptn_study::fit::law::{
-    Candidate, ColumnFits, Run, RunFit, RunReference, RunSettings, RunsError, RunsStudy,
-};
-use lptn_study::fit::step::{Capacity, LONG_ENOUGH, Sensor};
-use lptn_study::{FileHash, available_threads};
+use lptn_solve::available_threads;
+use lptn_study::FileHash;
 use lptn_units::{Dimension, Type, parse_quantity};
 
 use folder::Folder;
@@ -177,7 +176,7 @@ impl Runs {
             study.laws.clone()
         } else {
             let laws = laws_to_fit(args, &data)?;
-            lptn_study::fit::law::LawStudy::new(data.points.clone(), laws)
+            lptn_fit::law::LawStudy::new(data.points.clone(), laws)
         };
         let consistency = study.consistency.clone();
         let answer = Answer { data, study: laws, consistency };
@@ -275,7 +274,7 @@ impl Runs {
         }
     }
 
-    pub(crate) fn best(&self) -> Option<(&Candidate, &lptn_study::fit::law::Fitted)> {
+    pub(crate) fn best(&self) -> Option<(&Candidate, &lptn_fit::law::Fitted)> {
         let best = self.answer.study.best()?;
         Some((best, best.fitted()?))
     }

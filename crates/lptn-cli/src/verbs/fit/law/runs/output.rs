@@ -2,9 +2,9 @@
 
 use std::io;
 
+use lptn_fit::law::{RunFit, Systematic};
 use lptn_report::{Format, Json, Page as _, write_csv};
 use lptn_solve::{Table, TableOf};
-use lptn_study::fit::law::{RunFit, Systematic};
 use lptn_study::{Environment, Scalar, utc};
 use serde_json::{Map, Value, json};
 
@@ -129,7 +129,7 @@ fn runs(found: &Runs) -> Value {
     let number =
         |value: f64, unit: &str, error: f64| json!({ "value": value, "unit": unit, "standard_error": error });
     let column = |f: &RunFit| {
-        let parted = |p: lptn_study::fit::step::Parted, unit: &str| json!({ "value": p.value, "unit": unit, "standard_error": p.random, "systematic": p.systematic });
+        let parted = |p: lptn_fit::step::Parted, unit: &str| json!({ "value": p.value, "unit": unit, "standard_error": p.random, "systematic": p.systematic });
         json!({
             "T_i": number(f.fit.initial.value, "K", f.fit.initial.standard_error),
             "T_f": number(f.fit.settled.value, "K", f.fit.settled.standard_error),
