@@ -50,13 +50,13 @@ lptn_units::errors! {
 #[derive(Debug)]
 pub enum CompareError {
     /// It is not run and has no steady state.
-    Steady(error: SteadyError) = error.code(), error, help error.help();
+    Steady => SteadyError;
     /// Its run failed.
-    Run(error: Box<TransientError>) = error.code(), error, help error.help();
+    Run => Box<TransientError>;
     /// A limit, source or boundary has no value.
-    Input(error: InputError) = "solve::input", error, help error.problem.help();
+    Input => InputError;
     /// The balances of its massless nodes have no solution at the start.
-    Start(unsolved: Unsolved) = unsolved.code(), unsolved, help unsolved.help();
+    Start => Unsolved;
     /// Its books do not close: relative residual, and what is allowed.
     Ledger(residual: f64, bound: f64) = "run::ledger",
         format!(

@@ -17,12 +17,13 @@ pub enum SizeError {
     Changing(inputs: Vec<Changing>) = "size::inputs_change",
         "what is required depends on inputs that change with time, and a steady state knows only one moment of them";
     /// The network does not exist for a value inside the range.
-    Network { value: f64, errors: BuildErrors } = "size::network", format!("there is no network at {value}: {errors}");
+    Network { value: f64, errors: BuildErrors } = "size::network", format!("there is no network at {value}: {errors}"),
+        source errors;
     /// The network cannot be assembled.
-    Assembly(error: AssemblyError) = error.code(), error, help error.help();
+    Assembly => AssemblyError;
     /// The network has no steady state for a value inside the range.
     Steady { value: f64, error: SteadyError } = error.code(), format!("there is no steady state at {value}: {error}"),
-        help error.help();
+        source error, help error.help();
     /// A requirement, as it was written, has no value; why not, or `None` if it gave no finite number.
     Requirement { text: String, error: Option<EvalError> } = "size::requirement",
         match error {

@@ -1,8 +1,8 @@
 //! Why the uncertainty of a run cannot be had.
 
-use lptn_assembly::AssemblyError;
+use lptn_assembly::{AssemblyError, ChangeError};
 use lptn_network::{BuildErrors, InputError};
-use lptn_solve::TransientError;
+use lptn_solve::{SensitiveError, TransientError};
 
 use crate::uncertainty::points::{LEAST, MOST_DIMENSIONS, MOST_POINTS};
 use crate::uncertainty::result::Lost;
@@ -31,14 +31,34 @@ pub enum UncertaintyError {
         lost.iter().fold("too few samples have a result".to_owned(), |text, lost| format!("{text}; {lost}")),
         help "make the `±` smaller: most of what it allows is no network that runs";
     /// There is no network a little beside the parameters' values.
-    Network(errors: BuildErrors) = "uncertainty::network", format!("there is no network beside the values: {errors}");
+    Network(errors: BuildErrors) = "uncertainty::network", format!("there is no network beside the values: {errors}"),
+        source errors;
     /// The network itself cannot be assembled.
-    Assembly(error: AssemblyError) = error.code(), error, help error.help();
+    Assembly => AssemblyError;
     /// The run itself, with every parameter at its value, fails.
-    Run(error: Box<TransientError>) = error.code(), error, help error.help();
+    Run => Box<TransientError>;
     /// A limit has no value beside the run.
-    Limit(error: InputError) = "solve::input", error;
+    Limit => InputError;
     /// It was interrupted.
     Interrupted = "uncertainty::interrupted", "the sampling was interrupted";
 }
+}
+
+impl From<ChangeError> for UncertaintyError {
+    fn from(error: ChangeError) -> Self {
+        match error {
+            ChangeError::Network(errors) => Self::Network(errors),
+            ChangeError::Assembly(error) => Self::Assembly(error),
+        }
+    }
+}
+
+impl From<SensitiveError> for UncertaintyError {
+    fn from(error: SensitiveError) -> Self {
+        match error {
+            SensitiveError::Run(error) => Self::Run(Box::new(error)),
+            SensitiveError::Change(error) => error.into(),
+            SensitiveError::Interrupted => Self::Interrupted,
+        }
+    }
 }
