@@ -138,3 +138,23 @@ fn the_prelude_is_small() {
     let names: Vec<&str> = words.filter(|word| word.starts_with(char::is_uppercase)).collect();
     assert!((10..=20).contains(&names.len()), "{names:?}");
 }
+
+/// `?` makes an `lptn::Error` of whatever a call returns. Those of the integrator stand inside of others.
+#[test]
+fn every_error_becomes_that_of_the_library() {
+    let one = std::fs::read_to_string(root().join("crates/lptn/src/error.rs")).expect("the error");
+    let others = ["crates/lptn/", "crates/lptn-cli/", "crates/lptn-integrate/", "examples/", "tests/"];
+    for (name, text) in
+        all_sources().into_iter().filter(|(name, _)| !others.iter().any(|o| name.starts_with(o)))
+    {
+        let kinds =
+            text.lines().filter_map(|l| l.strip_prefix("pub enum ").or(l.strip_prefix("pub struct ")));
+        let words = kinds.filter_map(|line| line.split(|c: char| !c.is_alphanumeric()).next());
+        for error in words.filter(|word| word.ends_with("Error")) {
+            assert!(
+                one.contains(&format!("::{error}")),
+                "{name}: {error} is not in crates/lptn/src/error.rs"
+            );
+        }
+    }
+}

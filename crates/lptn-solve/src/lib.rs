@@ -75,13 +75,13 @@ pub use sense::Beyond;
 pub use sensitive_run::{Gradient, SensitiveError, SensitiveRun, sensitive_run, sensitive_run_observed};
 pub use settings::{Control, Progress, Transient};
 pub use settings_error::SettingsError;
-pub use solution::{End, Solution, Unbounded};
+pub use solution::{End, Solution, SolutionError, Unbounded};
 pub use state::State;
 pub use steady::{Others, SteadyState};
 pub use stiffness::Stiffness;
 pub use summary::{NodeSummary, Summary};
 pub use table::{Column, Label, Table, TableOf};
-pub use unsolved::{Unsolved, UnsolvedReason};
+pub use unsolved::Unsolved;
 pub use verification::{Comparison, LEAST_TOLERANCE, NoReference, Reference, Verification, allowed_error};
 
 pub use watch::{Seen, Watch, first_there, top};

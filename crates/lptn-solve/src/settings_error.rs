@@ -44,7 +44,8 @@ pub enum SettingsError {
     /// The state to begin with is one of another network, or not finite.
     State = "run::settings", "the state to begin with is not one of this network";
     /// Sensitivities are asked for that do not exist or are not to be had.
-    Sensitivity(refusal: NoTangents) = "run::settings", format!("no exact sensitivities: {refusal}");
+    Sensitivity(refusal: NoTangents) = "run::settings", format!("no exact sensitivities: {refusal}"),
+        source refusal;
 }
 }
 

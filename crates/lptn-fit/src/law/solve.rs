@@ -8,7 +8,7 @@ use super::criteria::{number, rms};
 use super::model::Law;
 use super::points::Points;
 use crate::Covariance;
-use crate::least_squares::{self, LeastSquaresError, Problem, Settings};
+use crate::least_squares::{self, LeastSquaresError, Residuals, Settings};
 
 /// Up to here each point is left out in turn and the law fitted anew; beyond, and for laws that are linear in their
 /// coefficients, what is missed then follows from the leverage of the point.
@@ -141,9 +141,7 @@ struct Search<'a> {
     points: &'a Points,
 }
 
-impl Problem for Search<'_> {
-    type Error = std::convert::Infallible;
-
+impl Residuals for Search<'_> {
     fn parameters(&self) -> usize {
         self.law.count()
     }
@@ -153,7 +151,7 @@ impl Problem for Search<'_> {
         p: &[f64],
         residuals: &mut Vec<f64>,
         jacobian: Option<&mut Vec<f64>>,
-    ) -> Result<(), Self::Error> {
+    ) -> Result<(), LeastSquaresError> {
         // where the law has no value a shorter step is asked for
         let local = Local::new(self.law, self.points, p).unwrap_or_else(|_| Local {
             misses: vec![f64::NAN; self.points.len()],
@@ -175,7 +173,6 @@ fn descend(law: &Law, points: &Points, start: &[f64]) -> Result<(f64, Vec<f64>),
             least_squares::Outcome::Converged(_) => Ok((found.squares, found.parameters)),
             least_squares::Outcome::NotConverged(stop) => Err(Outcome::NotConverged(stop)),
         },
-        Err(LeastSquaresError::Problem(never)) => match never {},
         Err(_) => Err(Outcome::NotDetermined),
     }
 }

@@ -1,7 +1,6 @@
 //! Why a network cannot be fitted.
 
-use std::fmt;
-
+use lptn_assembly::ChangeError;
 use lptn_solve::SensitiveError;
 use lptn_units::EvalError;
 
@@ -28,31 +27,20 @@ pub enum NetworkFitError {
     /// The run of a record fails with the own values of the parameters.
     Start { record: String, error: Box<SensitiveError> } =
         match &**error {
-            SensitiveError::Run(error) => error.code(),
-            SensitiveError::Build(_) => "fit::network",
-            SensitiveError::Assembly(error) => error.code(),
+            SensitiveError::Change(ChangeError::Network(_)) => "fit::network",
             SensitiveError::Interrupted => "fit::interrupted",
+            SensitiveError::Run(_) | SensitiveError::Change(ChangeError::Assembly(_)) => error.code(),
         },
-        format!("{record}: there is no run with the parameters' own values: {error}");
+        format!("{record}: there is no run with the parameters' own values: {error}"), source error.as_ref();
     /// A column measures something, as it is written, that is neither the temperature of a node nor a mean of some.
     Observed { column: String, result: String } = "fit::observed",
         format!("column `{column}` measures `{result}`, which is not a temperature of a node or a mean of some");
     /// A number of the study has no value.
-    Plan(error: EvalError) = error.code(), error;
+    Plan => EvalError;
     /// The sum of squares cannot be minimised.
-    Search(error: LeastSquaresError<Interrupted>) = error.code().unwrap_or("fit::search"), error;
+    Search => LeastSquaresError;
     /// It was interrupted at this stage; the values in SI units that describe the records best among those that were tried.
     Interrupted { stage: FitStage, best: Option<Vec<f64>> } = "fit::interrupted",
         format!("the fit was interrupted in {stage}");
 }
-}
-
-/// That a search was interrupted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Interrupted;
-
-impl fmt::Display for Interrupted {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the search was interrupted")
-    }
 }

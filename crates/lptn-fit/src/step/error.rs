@@ -33,7 +33,7 @@ pub enum StepError {
     /// Times and values are not as many.
     Length { times: usize, values: usize } = "fit::not_a_record", format!("there are {times} times and {values} values");
     /// Too few samples, not a record, a constant column, or one without curvature.
-    Fit(error: FitError) = error.code(), error,
+    Fit(error: FitError) = error.code(), error, source error,
         help matches!(error, FitError::NoCurvature { .. }).then(|| LONGER.to_owned());
     /// The record stands still at its least or greatest value in K, between these times in s, while it changes beside.
     Saturated { value: f64, from: f64, to: f64, samples: usize } = "fit::saturated",
@@ -50,7 +50,7 @@ pub enum StepError {
     Capacity(value: f64) = "fit::capacity", format!("the capacity has to be positive, got {value} J/K"),
         help "write for example --capacity \"2659 J/K ± 5 %\"";
     /// The model has no equivalent at the port, or its run failed.
-    Model(error: ReduceError) = error.code(), error, help error.help();
+    Model => ReduceError;
 }
 }
 
