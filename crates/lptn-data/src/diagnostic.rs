@@ -55,6 +55,16 @@ impl Diagnostic {
         Self { severity: Severity::Warning, ..Self::error(code, message) }
     }
 
+    /// An error at its place, with what to do about it.
+    pub fn wrong(code: &'static str, message: impl Into<String>, at: &Span, help: impl Into<String>) -> Self {
+        Self::error(code, message).at(at.clone(), "").help(help)
+    }
+
+    /// A warning at its place, with what to do about it.
+    pub fn doubt(code: &'static str, message: impl Into<String>, at: &Span, help: impl Into<String>) -> Self {
+        Self { severity: Severity::Warning, ..Self::wrong(code, message, at, help) }
+    }
+
     /// Adds the place of the problem.
     #[must_use]
     pub fn at(self, span: Span, text: impl Into<String>) -> Self {

@@ -3,8 +3,8 @@
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{BuildError, BuildErrorKind as Kind, Field, Item, NodeId, Say};
 
+use crate::format::MINIMAL;
 use crate::source_map::SourceMap;
-use crate::vocabulary::MINIMAL;
 
 /// The error with its places in the file.
 pub(crate) fn describe(error: &BuildError, map: &SourceMap) -> Diagnostic {

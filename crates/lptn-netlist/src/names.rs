@@ -1,16 +1,15 @@
 //! The names of a netlist: what each stands for.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use lptn_data::Span;
-use lptn_laws::Kind;
 use lptn_units::Expression;
 
+use crate::format::Format;
 use crate::grid_part::KnownGrid;
 use crate::raw::{RawEntry, RawKind, RawNetlist};
 use crate::template::Structure;
-use crate::vocabulary::{CONTROL, PARAM, SIGNAL, TABLE};
 
 /// What a name in an expression can stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,13 +21,18 @@ pub(crate) enum ValueKind {
 }
 
 impl ValueKind {
-    /// Each with its section.
-    const ALL: [(Self, &'static str); 4] = [
-        (Self::Parameter, PARAM),
-        (Self::Signal, SIGNAL.name),
-        (Self::Control, CONTROL.name),
-        (Self::Table, TABLE.name),
-    ];
+    /// All of them.
+    const ALL: [Self; 4] = [Self::Parameter, Self::Signal, Self::Control, Self::Table];
+
+    /// The section of such values.
+    pub(crate) const fn section(self) -> &'static str {
+        match self {
+            Self::Parameter => "param",
+            Self::Signal => "signal",
+            Self::Control => "control",
+            Self::Table => "table",
+        }
+    }
 
     /// What it is called in messages.
     pub(crate) fn word(self) -> &'static str {
@@ -80,17 +84,11 @@ const MOST_SEARCHES: usize = 100;
 /// After so many looks at names neither.
 const MOST_LOOKS: usize = 4_000_000;
 
-/// The sections whose elements share one set of names.
-static ELEMENTS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
-    let paths = Kind::ALL.iter().map(|kind| kind.declaration().section);
-    ["node", "grid", "boundary", "source", "capacitor"].into_iter().chain(paths).chain(["limit"]).collect()
-});
-
 impl Names {
-    pub(crate) fn of(raw: &RawNetlist, structure: &Arc<Structure>) -> Self {
+    pub(crate) fn of(raw: &RawNetlist, structure: &Arc<Structure>, format: &Format) -> Self {
         let mut names = Self { structure: Arc::clone(structure), ..Self::default() };
-        for (kind, heading) in ValueKind::ALL {
-            let entries = raw.elements(heading).iter();
+        for kind in ValueKind::ALL {
+            let entries = raw.elements(kind.section()).iter();
             for (position, entry) in entries.enumerate() {
                 names.order.push(entry.key.clone());
                 if names.values.contains_key(&entry.key) {
@@ -100,7 +98,7 @@ impl Names {
                 }
             }
         }
-        for kind in ELEMENTS.iter() {
+        for kind in format.elements() {
             let entries = raw.elements(kind).iter();
             for entry in entries {
                 names.elements.entry(entry.key.clone()).or_insert(kind);
@@ -114,8 +112,7 @@ impl Names {
     pub(crate) fn line<'a>(&self, raw: &'a RawNetlist, name: &str) -> Option<&'a RawEntry> {
         let (kind, _, position) = self.values.get(name)?;
         let entries = match kind {
-            ValueKind::Parameter => raw.elements(PARAM),
-            ValueKind::Signal => raw.elements(SIGNAL.name),
+            ValueKind::Parameter | ValueKind::Signal => raw.elements(kind.section()),
             ValueKind::Control | ValueKind::Table => return None,
         };
         entries.get(*position)

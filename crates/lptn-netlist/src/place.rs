@@ -6,7 +6,7 @@ use lptn_data::{Asked, Diagnostic};
 use lptn_network::{Context, Input, Value};
 use lptn_units::{Expression, Program, Quantity, Type, UnitError, UnitErrorKind, kelvin_alone};
 
-use crate::fields::{Owner, sample};
+use crate::fields::Owner;
 use crate::raw::{RawKind, RawValue};
 use crate::value_help::celsius_or_kelvin;
 
@@ -207,7 +207,7 @@ impl Place<'_> {
                 if matches!(self.key, "x" | "y" | "t" | "v") {
                     return Some(format!("give it in {unit}, for example `\"1 {unit}\"`"));
                 }
-                Some(format!("give it in {unit}, for example `{}`", sample(self.key)))
+                Some(format!("give it in {unit}, for example `{}`", self.owner.sample(self.key)))
             }
             UnitErrorKind::NotFinite { text } if text.starts_with("inf") && self.key == "R" => {
                 Some("leave the path out if no heat flows through it".into())

@@ -15,12 +15,9 @@ use lptn_data::{Diagnostic, Files, Span};
 use crate::include::{Loader, reason};
 use crate::json::{Json, JsonValue};
 use crate::near_file;
-use crate::raw::{RawKind, RawNetlist, RawValue};
+use crate::raw::{RawKind, RawValue};
 use crate::state::{FORMAT, StateEnd};
-use crate::vocabulary::RUN;
 use stand::Stand;
-
-const KEY: &str = "initial";
 
 /// Where a node whose state is not known is looked at for other mistakes, in K.
 const ANYWHERE: f64 = 298.15;
@@ -81,13 +78,11 @@ pub(crate) struct StateFile {
 }
 
 impl StateFile {
-    /// Reads the file that `initial` of `[run]` names; `None` if nothing does.
-    pub(crate) fn read(files: &mut Files, raw: &RawNetlist, loader: Option<&mut Loader<'_>>) -> Option<Self> {
-        let RawKind::Table(run) = &raw.top.get(RUN.name)?.value.kind else { return None };
-        let value = &run.get(KEY)?.value;
+    /// Reads the file that a value names, `initial` of `[run]`.
+    pub(crate) fn read(files: &mut Files, value: &RawValue, loader: Option<&mut Loader<'_>>) -> Self {
         let RawKind::String { text, .. } = &value.kind else {
             // said where `[run]` is read; nodes are not missing a start for it
-            return Some(Self { usable: false, ..Self::empty(String::new(), value) });
+            return Self { usable: false, ..Self::empty(String::new(), value) };
         };
         let from = Path::new(files.name(value.span.file)).parent().unwrap_or(Path::new("")).to_owned();
         let path = from.join(text);
@@ -96,7 +91,7 @@ impl StateFile {
             Ok(json) => state.take(files, json),
             Err(problem) => state.problems.push(problem),
         }
-        Some(state)
+        state
     }
 
     fn empty(file: String, value: &RawValue) -> Self {
@@ -266,9 +261,8 @@ fn load(
     value: &RawValue,
     loader: Option<&mut Loader<'_>>,
 ) -> Result<crate::FileId, Diagnostic> {
-    let refused = |code, message: String, help: &str| {
-        Err(Diagnostic::error(code, message).at(value.span.clone(), "").help(help))
-    };
+    let refused =
+        |code, message: String, help: &str| Err(Diagnostic::wrong(code, message, &value.span, help));
     let Some(loader) = loader else {
         let message = "this netlist is not read from a file, so it cannot read a state".to_owned();
         return refused("netlist::state_without_folder", message, "save it, and give the name of the file");

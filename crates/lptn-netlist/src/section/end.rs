@@ -9,15 +9,14 @@ use lptn_units::{Dimension, Type, suggest};
 use crate::fields::{Fields, Owner};
 use crate::grid_part::GridPart;
 use crate::raw::{RawKind, RawValue};
+use crate::template::USE;
 use crate::template::{by_port, wrong_path};
-use crate::vocabulary::USE;
 use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
     /// The node, boundary or face of a grid that a field names.
     pub(crate) fn terminal(&mut self, fields: &Fields<'a>, key: &str) -> Option<(Terminal, &'a RawValue)> {
-        let raw = fields.require(key, &mut self.problems)?;
-        let name = fields.text(key, raw, &mut self.problems)?;
+        let (name, raw) = self.required_word(fields, key)?;
         match self.face_at(&raw.span, name) {
             Some(at) => Some((at.into(), raw)),
             _ => self.named_end(fields, key, (name, raw)).map(|(end, raw)| (end.into(), raw)),
@@ -113,8 +112,7 @@ impl<'a> Elaboration<'a> {
 
     /// The node or boundary that a field names.
     pub(crate) fn end(&mut self, fields: &Fields<'a>, key: &str) -> Option<(End, &'a RawValue)> {
-        let raw = fields.require(key, &mut self.problems)?;
-        let name = fields.text(key, raw, &mut self.problems)?;
+        let (name, raw) = self.required_word(fields, key)?;
         self.named_end(fields, key, (name, raw))
     }
 

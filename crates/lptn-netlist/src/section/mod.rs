@@ -10,6 +10,7 @@ mod fluid;
 mod forms;
 mod grid;
 mod limit;
+mod list;
 mod material;
 mod node;
 mod path;
@@ -19,6 +20,8 @@ mod source;
 mod table;
 mod top;
 
-pub(crate) use control::narrow;
+pub(crate) use control::{CONTROL, narrow};
 pub(crate) use default::{Default, Initial};
-pub(crate) use top::{check_head, empty};
+pub use list::format;
+pub(crate) use node::NODE;
+pub(crate) use signal::SIGNAL;

@@ -3,10 +3,10 @@
 use lptn_data::{Diagnostic, list};
 use lptn_units::suggest;
 
+use super::USE;
 use super::definition::{Parameter, Template};
-use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::fields::{Fields, Owner, wrong_shape};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
-use crate::vocabulary::USE;
 
 /// So many instances a netlist may have, nested ones included; more are a mistake.
 pub(super) const MOST_INSTANCES: usize = 1_000_000;
@@ -69,7 +69,7 @@ fn set_is_wrong(fields: &Fields<'_>) -> bool {
 fn members<'a>(fields: &Fields<'a>, key: &str, problems: &mut Vec<Diagnostic>) -> Option<&'a RawTable> {
     let raw = fields.get(key)?;
     let RawKind::Table(table) = &raw.kind else {
-        problems.push(wrong_shape(&fields.owner.field(key), raw, "a table", &sample(key)));
+        problems.push(fields.wrong_shape(key, raw, "a table"));
         return None;
     };
     Some(table)
@@ -77,9 +77,7 @@ fn members<'a>(fields: &Fields<'a>, key: &str, problems: &mut Vec<Diagnostic>) -
 
 fn count(fields: &Fields<'_>, raw: &RawValue, problems: &mut Vec<Diagnostic>) -> Option<usize> {
     let words = fields.owner.field("count");
-    let wrong = |message: String, help: &str| {
-        Diagnostic::error("netlist::count", message).at(raw.span.clone(), "").help(help)
-    };
+    let wrong = |message: String, help: &str| Diagnostic::wrong("netlist::count", message, &raw.span, help);
     let number = match &raw.kind {
         RawKind::Integer(number) => number.replace('_', ""),
         RawKind::Float(number) => number.clone(),
