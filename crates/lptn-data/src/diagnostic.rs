@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use lptn_units::suggest;
-
 use crate::file::{Files, Span};
 
 /// How bad it is.
@@ -65,16 +63,23 @@ impl Diagnostic {
         Self { severity: Severity::Warning, ..Self::wrong(code, message, at, help) }
     }
 
-    /// Adds the place of the problem.
+    /// Adds the place of the problem, where there is one.
     #[must_use]
-    pub fn at(self, span: Span, text: impl Into<String>) -> Self {
-        self.label(span, text.into(), true)
+    pub fn at(self, span: impl Into<Option<Span>>, text: impl Into<String>) -> Self {
+        self.label(span.into(), text.into(), true)
     }
 
-    /// Adds a place that explains the problem.
+    /// Adds a place that explains the problem, where there is one.
     #[must_use]
-    pub fn also(self, span: Span, text: impl Into<String>) -> Self {
-        self.label(span, text.into(), false)
+    pub fn also(self, span: impl Into<Option<Span>>, text: impl Into<String>) -> Self {
+        self.label(span.into(), text.into(), false)
+    }
+
+    /// Adds several places, of which the first is that of the problem.
+    #[must_use]
+    pub fn places(self, places: impl IntoIterator<Item = (Span, String)>) -> Self {
+        let places = places.into_iter().enumerate();
+        places.fold(self, |problem, (n, (span, text))| problem.label(Some(span), text, n == 0))
     }
 
     /// Sets what to do about it.
@@ -84,6 +89,12 @@ impl Diagnostic {
         self
     }
 
+    /// Sets what to do about it, where that is known.
+    #[must_use]
+    pub fn help_if(self, help: Option<String>) -> Self {
+        Self { help: help.or(self.help), ..self }
+    }
+
     /// Adds what else is worth knowing.
     #[must_use]
     pub fn note(mut self, note: impl Into<String>) -> Self {
@@ -91,27 +102,13 @@ impl Diagnostic {
         self
     }
 
-    /// Says what was probably meant by `wrong`: the nearest of the names, else `otherwise`.
-    #[must_use]
-    pub fn did_you_mean<'n>(
-        self,
-        wrong: &str,
-        names: impl IntoIterator<Item = &'n str>,
-        otherwise: impl FnOnce() -> String,
-    ) -> Self {
-        match suggest(wrong, names.into_iter()) {
-            Some(near) => self.help(format!("did you mean `{near}`?")),
-            None => self.help(otherwise()),
-        }
-    }
-
     /// The place of the problem, if it has one.
     pub fn place(&self) -> Option<&Span> {
         self.labels.iter().find(|label| label.primary).map(|label| &label.span)
     }
 
-    fn label(mut self, span: Span, text: String, primary: bool) -> Self {
-        self.labels.push(Label { span, text, primary });
+    fn label(mut self, span: Option<Span>, text: String, primary: bool) -> Self {
+        self.labels.extend(span.map(|span| Label { span, text, primary }));
         self
     }
 }

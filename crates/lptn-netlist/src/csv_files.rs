@@ -7,9 +7,17 @@ use std::sync::Arc;
 use lptn_data::{CsvFile, CsvText, Diagnostic, Files, Span};
 
 use crate::format::{Format, Role};
-use crate::include::{Loader, reason};
-use crate::near_file;
+use crate::include::Loader;
+use crate::near_file::NamedFile;
 use crate::raw::{RawKind, RawNetlist, RawTable, RawValue};
+
+const NAMED: NamedFile = NamedFile {
+    does: "read a CSV file",
+    verb: "read",
+    without_folder: "netlist::csv_without_folder",
+    not_found: "netlist::csv_not_found",
+    else_help: "",
+};
 
 /// The key that names the file.
 const CSV: &str = "csv";
@@ -100,28 +108,8 @@ fn load_text(
     value: &RawValue,
     loader: Option<&mut Loader<'_>>,
 ) -> Result<CsvText, Diagnostic> {
-    let refused =
-        |code, message: String, help: &str| Err(Diagnostic::wrong(code, message, &value.span, help));
+    let bytes = NAMED.load(path, value, loader)?;
     let name = path.display();
-    let Some(loader) = loader else {
-        let message = "this netlist is not read from a file, so it cannot read a CSV file";
-        return refused(
-            "netlist::csv_without_folder",
-            message.into(),
-            "save it, and give the name of the file",
-        );
-    };
-    let bytes = match loader(path) {
-        Ok(bytes) => bytes,
-        Err(error) if error.kind() == std::io::ErrorKind::FileTooLarge => {
-            let help = "leave out rows between which nothing changes, or split the file by its columns";
-            return refused("netlist::csv_too_long", format!("cannot read {name}: {error}"), help);
-        }
-        Err(error) => {
-            let message = format!("cannot read {name}: {}", reason(&error));
-            return refused("netlist::csv_not_found", message, &near_file::help(value, path, &error));
-        }
-    };
     let text = CsvText::of(files, name.to_string(), &bytes);
     text.map_err(|problem| problem.also(value.span.clone(), "read here"))
 }

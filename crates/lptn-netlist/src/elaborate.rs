@@ -65,9 +65,8 @@ pub(crate) fn elaborate(
         doubts: Doubts::of(structure),
         scales: Scales::default(),
         known: HashMap::new(),
-        used_materials: HashSet::new(),
         known_fluids: HashMap::new(),
-        used_fluids: HashSet::new(),
+        used: HashSet::new(),
     };
     work.map.set_top(raw.top.span.clone());
     work.top_level();
@@ -106,8 +105,7 @@ impl<'a> Elaboration<'a> {
         (run, sizes, fits): (Option<RunPlan>, Vec<SizeStudy>, Vec<FitStudy>),
         default: section::Default<'_>,
     ) -> (Option<Elaborated>, Found) {
-        let mut substances = self.unused_materials();
-        substances.extend(self.unused_fluids());
+        let substances = self.unused_substances();
         let (map, doubts) = (&self.map, &self.doubts);
         let network = match self.builder.build() {
             Ok(network) => Some(network),

@@ -167,12 +167,9 @@ impl<'a> Fields<'a> {
         message: String,
         keys: impl IntoIterator<Item = &'k str>,
     ) -> Diagnostic {
-        let places = keys.into_iter().filter_map(|key| Some((key, self.key(key)?)));
-        let error = Diagnostic::error(code, format!("{} {message}", self.owner.words()));
-        places.enumerate().fold(error, |error, (n, (key, span))| match n {
-            0 => error.at(span.clone(), format!("`{key}` here")),
-            _ => error.also(span.clone(), format!("`{key}` here")),
-        })
+        let places = keys.into_iter();
+        let places = places.filter_map(|key| Some((self.key(key)?.clone(), format!("`{key}` here"))));
+        Diagnostic::error(code, format!("{} {message}", self.owner.words())).places(places)
     }
 
     /// One of its keys as it could be written.

@@ -1,8 +1,7 @@
 //! How a section is declared: its keys with what each takes and means, its examples, and what belongs elsewhere. Help,
 //! suggestions, what a template or an included file may hold, and the page of all keys follow from it.
 
-use lptn_data::list;
-use lptn_units::suggest;
+use lptn_data::nearest;
 
 /// What a section holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,10 +77,7 @@ impl SectionDeclaration {
         if let Some((_, help)) = self.elsewhere.iter().find(|(name, _)| *name == key) {
             return (*help).to_owned();
         }
-        match suggest(key, self.keys.iter().map(|key| key.name)) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("the keys here are {}", list(&self.names())),
-        }
+        nearest(key, self.keys.iter().map(|key| key.name), "the keys here are")
     }
 }
 

@@ -10,7 +10,7 @@ use crate::duplicate;
 use crate::fields::wrong_shape;
 use crate::format::{Format, Role};
 use crate::head::check_head;
-use crate::near_file;
+use crate::near_file::NamedFile;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::syntax;
 
@@ -21,6 +21,14 @@ pub type Loader<'a> = dyn FnMut(&Path) -> io::Result<Vec<u8>> + 'a;
 const DEEPEST: usize = 8;
 
 const INCLUDE: &str = "include";
+
+const INCLUDED: NamedFile = NamedFile {
+    does: "include one",
+    verb: "include",
+    without_folder: "netlist::include_without_folder",
+    not_found: "netlist::include_not_found",
+    else_help: "",
+};
 
 /// A netlist with everything it includes.
 #[derive(Debug)]
@@ -96,14 +104,14 @@ impl Work<'_, '_> {
         if self.stack.len() > DEEPEST {
             return self.lost(too_deep(value));
         }
-        let Some(loader) = self.loader.as_mut() else { return self.lost(no_folder(value)) };
-        let bytes = match loader(&path) {
+        let bytes = match INCLUDED.load(&path, value, self.loader.as_deref_mut()) {
             Ok(bytes) => bytes,
-            Err(error) => return self.unread(cannot_read(&path, &error, value)),
+            Err(problem) if problem.code == INCLUDED.without_folder => return self.lost(problem),
+            Err(problem) => return self.unread(problem),
         };
         if bytes.len() as u64 > MOST_BYTES {
             let error = io::Error::other(format!("it is longer than {} MB", MOST_BYTES / 1_000_000));
-            return self.unread(cannot_read(&path, &error, value));
+            return self.unread(INCLUDED.unreadable(&path, value, &error));
         }
         let Some(text) = std::str::from_utf8(&bytes).ok().filter(|text| !text.contains('\0')) else {
             return self.unread(not_text(&path, value));
@@ -247,30 +255,6 @@ fn study(entry: &RawEntry) -> Diagnostic {
 fn too_deep(value: &RawValue) -> Diagnostic {
     let message = format!("files are included more than {DEEPEST} deep");
     Diagnostic::wrong("netlist::include_depth", message, &value.span, "include the innermost file directly")
-}
-
-fn no_folder(value: &RawValue) -> Diagnostic {
-    let message = "this netlist is not read from a file, so it cannot include one";
-    Diagnostic::wrong(
-        "netlist::include_without_folder",
-        message,
-        &value.span,
-        "save it, and give the name of the file",
-    )
-}
-
-fn cannot_read(path: &Path, error: &io::Error, value: &RawValue) -> Diagnostic {
-    let message = format!("cannot include {}: {}", path.display(), reason(error));
-    Diagnostic::wrong("netlist::include_not_found", message, &value.span, near_file::help(value, path, error))
-}
-
-/// Why a file could not be read, in words.
-pub(crate) fn reason(error: &io::Error) -> String {
-    match error.kind() {
-        io::ErrorKind::NotFound => "there is no such file".to_owned(),
-        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
-        _ => error.to_string(),
-    }
 }
 
 fn not_text(path: &Path, value: &RawValue) -> Diagnostic {

@@ -62,10 +62,8 @@ pub(crate) struct Names {
     pub(crate) read: HashSet<String>,
     /// Names in sections that are not known: they may be what is looked for.
     hidden: HashSet<String>,
-    /// Materials that cannot be read.
-    hidden_materials: HashSet<String>,
-    /// Fluids that cannot be read.
-    hidden_fluids: HashSet<String>,
+    /// Materials and fluids that cannot be read, by section.
+    hidden_substances: HashSet<(&'static str, String)>,
     /// A file of names is missing: any name may be what is looked for.
     all_hidden: bool,
     /// How many similar names were looked for.
@@ -192,22 +190,13 @@ impl Names {
         expression.renamed(&|name| self.structure.meaning(place, name))
     }
 
-    /// Notes a material that cannot be read.
-    pub(crate) fn hide_material(&mut self, name: &str) {
-        self.hidden_materials.insert(name.to_owned());
+    /// Notes a material or fluid that cannot be read, with its section.
+    pub(crate) fn hide_substance(&mut self, section: &'static str, name: &str) {
+        self.hidden_substances.insert((section, name.to_owned()));
     }
 
-    pub(crate) fn is_hidden_material(&self, name: &str) -> bool {
-        self.hidden_materials.contains(name)
-    }
-
-    /// Notes a fluid that cannot be read.
-    pub(crate) fn hide_fluid(&mut self, name: &str) {
-        self.hidden_fluids.insert(name.to_owned());
-    }
-
-    pub(crate) fn is_hidden_fluid(&self, name: &str) -> bool {
-        self.hidden_fluids.contains(name)
+    pub(crate) fn is_hidden_substance(&self, section: &'static str, name: &str) -> bool {
+        self.hidden_substances.contains(&(section, name.to_owned()))
     }
 
     pub(crate) fn fail(&mut self, name: &str) {

@@ -173,11 +173,7 @@ fn describe_cycle(kind: &str, code: &'static str, cycle: &[&Pending<'_>]) -> Dia
         [one] => format!("{kind} {} is defined by itself", name(one)),
         _ => format!("{kind}s are defined by each other: {}", chain.join(" -> ")),
     };
-    let mut error = Diagnostic::error(code, message);
-    for (n, (member, next)) in cycle.iter().zip(chain.iter().skip(1)).enumerate() {
-        let span = member.entry.value.span.clone();
-        let text = format!("uses {next}");
-        error = if n == 0 { error.at(span, text) } else { error.also(span, text) };
-    }
-    error.help("give one of them a value of its own")
+    let members = cycle.iter().zip(chain.iter().skip(1));
+    let uses = members.map(|(member, next)| (member.entry.value.span.clone(), format!("uses {next}")));
+    Diagnostic::error(code, message).places(uses).help("give one of them a value of its own")
 }

@@ -163,10 +163,7 @@ impl Place<'_> {
         let problem = self.unit_error(&error);
         let key = if self.key.is_empty() { String::new() } else { format!("{} = ", self.key) };
         let line = |value: &str| format!("`{key}\"{value}\"`");
-        Some(match celsius_or_kelvin(text, line, "") {
-            Some(help) => problem.help(help),
-            None => problem,
-        })
+        Some(problem.help_if(celsius_or_kelvin(text, line, "")))
     }
 
     /// Puts a mistake in the string at its place in the file.
@@ -184,10 +181,7 @@ impl Place<'_> {
             _ => self.raw.part(&error.span),
         };
         let diagnostic = diagnostic.at(place, "");
-        match self.unit_help(error) {
-            Some(help) => diagnostic.help(help),
-            None => diagnostic,
-        }
+        diagnostic.help_if(self.unit_help(error))
     }
 
     /// The part of the string that is wrong, if it is not the whole string.

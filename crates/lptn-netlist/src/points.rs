@@ -224,13 +224,7 @@ impl<'a> Elaboration<'a> {
                 let (n, m) = (x.numbers.len(), y.numbers.len());
                 at_list(format!("{words} has {n} arguments but {m} values")).help("give one value for each")
             }
-            other => {
-                let problem = at_list(format!("{words}: {other}"));
-                match other.help() {
-                    Some(help) => problem.help(help),
-                    None => problem,
-                }
-            }
+            other => at_list(format!("{words}: {other}")).help_if(other.help().map(str::to_owned)),
         };
         self.report(problem);
     }

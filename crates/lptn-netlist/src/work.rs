@@ -35,10 +35,10 @@ pub(crate) struct Elaboration<'a> {
     pub(crate) scales: Scales,
     /// Materials by name: those of the file, and those of the library that are used.
     pub(crate) known: HashMap<String, Known>,
-    pub(crate) used_materials: HashSet<String>,
     /// Fluids by name, in the same way.
     pub(crate) known_fluids: HashMap<String, KnownFluid>,
-    pub(crate) used_fluids: HashSet<String>,
+    /// Materials and fluids that something names, by section.
+    pub(crate) used: HashSet<(&'static str, String)>,
 }
 
 /// What was left out because of an error, so that its absence is not reported as another one.

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, list, read_text};
+use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, nearest, read_text};
 use lptn_network::{Context, Value};
-use lptn_units::{Scope as _, suggest};
+use lptn_units::Scope as _;
 
 use crate::fields::{Fields, wrong_shape};
 use crate::fit::read::Column;
@@ -201,10 +201,7 @@ fn unknown_key(fields: &Fields<'_>, entry: &RawEntry, key: &str) -> Diagnostic {
     let message = format!("a record of {} has no field `{key}`", fields.owner.words());
     let problem =
         Diagnostic::error("netlist::unknown_key", message).at(entry.key_span.clone(), "unknown key");
-    match suggest(key, KEYS.into_iter()) {
-        Some(near) => problem.help(format!("did you mean `{near}`?")),
-        None => problem.help(format!("the keys here are {}", list(&KEYS))),
-    }
+    problem.help(nearest(key, KEYS.into_iter(), "the keys here are"))
 }
 
 fn twice(record: &FitRecord, first: &FitRecord) -> Diagnostic {

@@ -5,7 +5,7 @@ use lptn_units::{Dimension, Type};
 
 use crate::format::{Role, SectionDeclaration, key};
 use crate::raw::RawEntry;
-use crate::section::material::{CAPACITY, MASS, MATERIAL_OF, VOLUME};
+use crate::section::keys::{CAPACITY, MASS, MATERIAL_OF, VOLUME};
 use crate::work::{Elaboration, stand_in};
 
 pub(crate) const CAPACITOR: SectionDeclaration = SectionDeclaration {

@@ -169,13 +169,10 @@ fn half_a_pair(fields: &Fields<'_>, there: &str, missing: &str) -> Diagnostic {
 /// Thresholds of both pairs.
 fn mixed(fields: &Fields<'_>) -> Diagnostic {
     let message = format!("{} has thresholds for cooling as well as for heating", fields.owner.words());
-    let mut error = Diagnostic::error("netlist::two_thermostats", message);
-    let labels = [("cooling", Acts::Cooling), ("heating", Acts::Heating)];
-    let keys = labels.into_iter().flat_map(|(word, acts)| acts.fields().map(|field| (word, field.key())));
-    for (n, (word, span)) in keys.filter_map(|(word, key)| Some((word, fields.key(key)?))).enumerate() {
-        let label = format!("for {word}");
-        error = if n == 0 { error.at(span.clone(), label) } else { error.also(span.clone(), label) };
-    }
+    let pairs = [("cooling", Acts::Cooling), ("heating", Acts::Heating)];
+    let keys = pairs.into_iter().flat_map(|(word, acts)| acts.fields().map(|field| (word, field.key())));
+    let given = keys.filter_map(|(word, key)| Some((fields.key(key)?.clone(), format!("for {word}"))));
+    let error = Diagnostic::error("netlist::two_thermostats", message).places(given);
     error.help(format!("keep one pair, {}", both_pairs()))
 }
 
@@ -202,10 +199,7 @@ fn narrow_band(
     let problem = Diagnostic::warning("netlist::narrow_dead_band", message);
     let fields = network.thermostat(id).map(|thermostat| thermostat.acts.fields());
     let places = fields.into_iter().flatten().filter_map(|field| map.get(Item::Control(id), field));
-    let problem = places.enumerate().fold(problem, |problem, (n, span)| match n {
-        0 => problem.at(span.clone(), ""),
-        _ => problem.also(span.clone(), ""),
-    });
+    let problem = problem.places(places.map(|span| (span, String::new())));
     problem.help(format!(
         "widen it, or write `tolerance = \"{} K\"` in [run]: when it switches is not resolved",
         short(band / NARROW)

@@ -10,7 +10,7 @@ use crate::format::{Role, SectionDeclaration, key};
 use crate::library::{self, Record};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawValue};
-use crate::section::material::{CP, MATERIAL, SOURCE_OF};
+use crate::section::keys::{CP, SOURCE_OF};
 use crate::work::{Elaboration, KnownFluid, stand_in};
 
 pub(crate) const FLUID: SectionDeclaration = SectionDeclaration {
@@ -35,7 +35,7 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn fluids(&mut self) {
         for entry in self.elements(FLUID.name) {
             if self.fluid(entry).is_none() {
-                self.names.hide_fluid(&entry.key);
+                self.names.hide_substance(FLUID.name, &entry.key);
             }
         }
     }
@@ -83,11 +83,11 @@ impl<'a> Elaboration<'a> {
         raw: &'a RawValue,
     ) -> Option<(KnownFluid, &'a str, &'a RawValue)> {
         let name = fields.text("fluid", raw, &mut self.problems)?;
-        self.used_fluids.insert(name.to_owned());
+        self.used.insert((FLUID.name, name.to_owned()));
         if let Some(known) = self.known_fluids.get(name) {
             return Some((*known, name, raw));
         }
-        if self.names.is_hidden_fluid(name) {
+        if self.names.is_hidden_substance(FLUID.name, name) {
             return None;
         }
         let record = library::fluids().iter().find(|record| record.name == name);
@@ -121,28 +121,12 @@ impl<'a> Elaboration<'a> {
         if let Some(near) = suggest(name, own.chain(shipped)) {
             return problem.help(format!("did you mean `{near}`?"));
         }
-        if self.elements(MATERIAL.name).iter().any(|entry| entry.key == name) {
+        if self.elements("material").iter().any(|entry| entry.key == name) {
             return problem.help(format!("`{name}` is a material: what flows is a [fluid]"));
         }
         problem.help(format!(
             "`lptn materials` lists the library; your own belong below [fluid], for example `{name} = {}`",
             FLUID.example
         ))
-    }
-
-    /// The fluids of the file that nothing uses.
-    pub(crate) fn unused_fluids(&self) -> Vec<Diagnostic> {
-        let unused = self.elements(FLUID.name).iter().filter(|e| !self.used_fluids.contains(&e.key));
-        let warning = |entry: &RawEntry| {
-            Diagnostic::doubt(
-                "netlist::unused_fluid",
-                format!("nothing uses fluid `{}`", entry.key),
-                &entry.key_span,
-                "use it or remove it; a misspelt name elsewhere may be the cause",
-            )
-        };
-        // a file of fluids is there to be chosen from
-        let main = self.raw.top.span.file;
-        unused.filter(|entry| entry.key_span.file == main).map(warning).collect()
     }
 }

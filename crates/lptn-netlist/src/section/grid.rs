@@ -10,7 +10,7 @@ use crate::grid_part::{GridPart, KnownGrid};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::section::default::Initial;
-use crate::section::material::{CP, DENSITY, MATERIAL_OF};
+use crate::section::keys::{CP, DENSITY, MATERIAL_OF};
 use crate::section::node::START;
 use crate::section::path::PATHS;
 use crate::section::source::SOURCE;

@@ -5,37 +5,13 @@ use lptn_network::{Field, Input, Item, MaterialId, Properties, Size};
 use lptn_units::{Dimension, Quantity, Type, suggest};
 
 use crate::fields::Fields;
-use crate::format::{ABSOLUTE, KeyDeclaration, Role, SectionDeclaration, key};
+use crate::format::{ABSOLUTE, Role, SectionDeclaration, key};
 use crate::library::{self, Record};
 use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawValue};
 use crate::section::fluid::FLUID;
+use crate::section::keys::{CP, DENSITY, SOURCE_OF};
 use crate::work::{Elaboration, Known, stand_in};
-
-pub(super) const DENSITY: KeyDeclaration =
-    key("density", "kg/m^3", "density; constant: the mass of a volume does not change", "\"7850 kg/m^3\"");
-pub(super) const CP: KeyDeclaration = key(
-    "cp",
-    "J/(kg K)",
-    "specific heat capacity; constant, an expression in `T`, or a table over it",
-    "\"475 J/(kg K)\"",
-);
-pub(super) const SOURCE_OF: KeyDeclaration =
-    key("source", "text", "where the numbers come from", "\"where the numbers come from\"");
-
-/// What a lump is made of.
-pub(super) const CAPACITY: KeyDeclaration =
-    key("C", "J/K", "heat capacity; may depend on the node's own temperature `T`", "\"500 J/K\"");
-pub(super) const MATERIAL_OF: KeyDeclaration = key(
-    "material",
-    "name of a material",
-    "one of the file or of the library (`lptn materials`), in place of the values that it gives",
-    "\"steel_8620\"",
-);
-pub(super) const MASS: KeyDeclaration =
-    key("mass", "kg", "with `material`, or `volume`: the capacity is `mass cp`", "\"1.2 kg\"");
-pub(super) const VOLUME: KeyDeclaration =
-    key("volume", "m^3", "with `material`, or `mass`: the capacity is `volume density cp`", "\"150 cm^3\"");
 
 pub(crate) const MATERIAL: SectionDeclaration = SectionDeclaration {
     name: "material",
@@ -80,7 +56,7 @@ impl<'a> Elaboration<'a> {
 
     fn own_material(&mut self, entry: &'a RawEntry) {
         let Some(fields) = self.fields(&MATERIAL, entry) else {
-            self.names.hide_material(&entry.key);
+            self.names.hide_substance(MATERIAL.name, &entry.key);
             return;
         };
         // an unknown key may be the property that is missing
@@ -175,11 +151,11 @@ impl<'a> Elaboration<'a> {
         name: &'a str,
         raw: &RawValue,
     ) -> Option<Known> {
-        self.used_materials.insert(name.to_owned());
+        self.used.insert((MATERIAL.name, name.to_owned()));
         if let Some(known) = self.known.get(name) {
             return Some(*known);
         }
-        if self.names.is_hidden_material(name) {
+        if self.names.is_hidden_substance(MATERIAL.name, name) {
             return None;
         }
         let Some(record) = library::find(name) else {
@@ -208,10 +184,7 @@ impl<'a> Elaboration<'a> {
             format!("{} needs `{property}` of material `{name}`, which has none", fields.owner.words());
         let problem = Diagnostic::error("netlist::no_property", message).at(raw.span.clone(), "");
         let own = self.map.name(Item::Material(id)).filter(|span| *span != raw.span);
-        let problem = match &own {
-            Some(span) => problem.also(span.clone(), format!("`{property}` is missing")),
-            None => problem,
-        };
+        let problem = problem.also(own.clone(), format!("`{property}` is missing"));
         match own {
             Some(_) => problem.help(format!("add `{}` to the material", MATERIAL.sample(property))),
             None if property == "k" => {
@@ -221,21 +194,22 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// The materials of the file that nothing uses.
-    pub(crate) fn unused_materials(&self) -> Vec<Diagnostic> {
-        let unused = self.elements(MATERIAL.name).iter().filter(|e| !self.used_materials.contains(&e.key));
-        let warning = |entry: &RawEntry| {
-            let message = format!("nothing uses material `{}`", entry.key);
-            Diagnostic::doubt(
-                "netlist::unused_material",
-                message,
-                &entry.key_span,
-                "use it or remove it; a misspelt name elsewhere may be the cause",
-            )
-        };
+    /// The materials and fluids of the file that nothing uses.
+    pub(crate) fn unused_substances(&self) -> Vec<Diagnostic> {
         // a file of materials is there to be chosen from
         let main = self.raw.top.span.file;
-        unused.filter(|entry| entry.key_span.file == main).map(warning).collect()
+        let named = [(&MATERIAL, "netlist::unused_material"), (&FLUID, "netlist::unused_fluid")];
+        let entries = named.into_iter().flat_map(|(section, code)| {
+            self.elements(section.name).iter().map(move |entry| (section.name, code, entry))
+        });
+        let unused = entries.filter(|(section, _, entry)| {
+            entry.key_span.file == main && !self.used.contains(&(*section, entry.key.clone()))
+        });
+        let help = "use it or remove it; a misspelt name elsewhere may be the cause";
+        let warning = |(section, code, entry): (&str, &'static str, &RawEntry)| {
+            Diagnostic::doubt(code, format!("nothing uses {section} `{}`", entry.key), &entry.key_span, help)
+        };
+        unused.map(warning).collect()
     }
 }
 

@@ -9,6 +9,7 @@ mod end;
 mod fluid;
 mod forms;
 mod grid;
+mod keys;
 mod limit;
 mod list;
 mod material;

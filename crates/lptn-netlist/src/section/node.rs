@@ -9,7 +9,7 @@ use crate::format::{ABSOLUTE, KeyDeclaration, Role, SectionDeclaration, key};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind};
 use crate::section::default::Initial;
-use crate::section::material::{CAPACITY, MASS, MATERIAL_OF, VOLUME};
+use crate::section::keys::{CAPACITY, MASS, MATERIAL_OF, VOLUME};
 use crate::work::{Elaboration, stand_in};
 
 /// Where a body starts.

@@ -12,7 +12,7 @@ use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
 use crate::place::{Place, Wanted};
 use crate::raw::{RawKind, RawValue};
 use crate::section::forms::check_forms;
-use crate::section::material::MATERIAL_OF;
+use crate::section::keys::MATERIAL_OF;
 use crate::work::{Elaboration, stand_in};
 
 /// A kind of path with what follows from its declaration, found once and not for every path.

@@ -1,8 +1,8 @@
 //! `[template.NAME]`: what a part consists of, before it is used.
 
-use lptn_data::Diagnostic;
+use lptn_data::{Diagnostic, nearest};
 use lptn_network::is_name;
-use lptn_units::{RESERVED, Type, Unit, parse_quantity, suggest};
+use lptn_units::{RESERVED, Type, Unit, parse_quantity};
 
 use super::{TEMPLATE, USE};
 use crate::fields::{Fields, Owner, wrong_shape};
@@ -236,8 +236,5 @@ fn unknown_part(template: &str, part: &RawEntry, format: &Format) -> Diagnostic 
     let problem =
         Diagnostic::error("netlist::unknown_section", format!("template `{template}` cannot hold `{key}`"))
             .at(part.key_span.clone(), "");
-    problem.help(match suggest(key, inside.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("a template holds {}", lptn_data::list(&inside)),
-    })
+    problem.help(nearest(key, inside.iter().copied(), "a template holds"))
 }
