@@ -2,13 +2,12 @@
 
 use lptn_netlist::{Diagnostic, Files, Netlist, Span};
 use lptn_network::{End, Item, Network};
-use lptn_report::{Align, Column, TextTable, WIDTH, decimals, duration, fixed, prefix, significant};
+use lptn_report::{Align, Column, Format, Text, TextTable, decimals, duration, fixed, prefix, significant};
 use lptn_solve::{Balance, Term};
 use lptn_study::Scalar;
 use lptn_units::suggest;
 use serde_json::{Value, json};
 
-use crate::args::Format;
 use crate::exit::Exit;
 use crate::failure::Failure;
 
@@ -89,8 +88,8 @@ impl Amounts {
     }
 }
 
-/// The balance as a block; `times` are start and end of the run in s, none for a steady state.
-pub(crate) fn lines(network: &Network, balance: &Balance, times: Option<(f64, f64)>) -> Vec<String> {
+/// The balance as a section; `times` are start and end of the run in s, none for a steady state.
+pub(crate) fn section(text: &mut Text, network: &Network, (balance, times): (&Balance, Option<(f64, f64)>)) {
     let terms = balance.largest_first();
     let name = network.name_of(balance.of.into());
     let with =
@@ -112,12 +111,12 @@ pub(crate) fn lines(network: &Network, balance: &Balance, times: Option<(f64, f6
         let over = format!("over {}", duration(end - start, 4));
         columns.extend(Amounts::new(&over, "J", &heats, all).columns());
     }
-    let mut lines = TextTable::new(columns).lines(WIDTH);
-    lines.push("positive: into it; 100 % is all that comes in or all that goes out, the larger".to_owned());
-    if let Some(open) = open(balance) {
-        lines.push(format!("the paths and what is stored differ by {} J", significant(open, 2)));
-    }
-    lines
+    text.section().table(TextTable::new(columns));
+    text.line("positive: into it; 100 % is all that comes in or all that goes out, the larger");
+    text.lines(
+        open(balance)
+            .map(|open| format!("the paths and what is stored differ by {} J", significant(open, 2))),
+    );
 }
 
 /// What the sum of all paths and sources is.
@@ -156,12 +155,12 @@ fn place(network: &Network, term: &Term, end: End) -> String {
 /// `{ of, terms: [{ name, other, power, power_share, heat, heat_share }], power, heat, stored, .. }`, in SI, largest
 /// first.
 pub(crate) fn json(network: &Network, balance: &Balance) -> Value {
-    let scalar = |value: f64, unit: &str| Scalar::new(value, unit).json();
-    let heat = |value: Option<f64>| value.map_or(Value::Null, |value| scalar(value, "J"));
-    let share = |value: f64, all: f64| if all > 0.0 { scalar(value / all, "1") } else { Value::Null };
+    let scalar = Scalar::new;
+    let heat = |value: Option<f64>| value.map(|value| scalar(value, "J"));
+    let share = |value: f64, all: f64| (all > 0.0).then(|| scalar(value / all, "1"));
     let (power, all) = (balance.power_turned_over(), balance.heat_turned_over());
     let term = |term: &Term| {
-        let shares = term.heat.zip(all).map_or(Value::Null, |(heat, all)| share(heat, all));
+        let shares = term.heat.zip(all).and_then(|(heat, all)| share(heat, all));
         json!({
             "name": network.name_of(term.item),
             "other": term.other.map(|end| place(network, term, end)),

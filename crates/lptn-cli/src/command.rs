@@ -7,10 +7,11 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use lptn_netlist::{Diagnostic, Files};
 use lptn_units::suggest;
 
-use crate::args::{Args, Color, Global};
+use crate::args::Args;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::input::quoted;
+use crate::options::{Color, Global};
 
 /// Prints why a command line cannot be understood, or the help that it asks for.
 pub(crate) fn refuse(error: &clap::Error) -> Exit {

@@ -7,19 +7,22 @@ use lptn_assembly::{AssemblyError, ThermalSystem};
 use lptn_netlist::{
     Diagnostic, Files, MOST_BYTES, Netlist, ReadError, Rejected, Span, parse_bytes, parse_file, similar_file,
 };
-use lptn_network::Item;
+use lptn_network::{Item, ParameterId};
+use lptn_report::{Json, Text, plain};
 use lptn_units::{Dimension, Type, Unit, UnitError, parse_quantity};
 
-use crate::args::Source;
+use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::{Failure, reason, told};
+use crate::options::Source;
+use crate::words::counts;
 
 /// What a netlist from stdin is called.
 const STDIN: &str = "<stdin>";
 
 /// The bytes of a netlist and what they are called.
 #[derive(Debug)]
-pub(crate) struct Text {
+pub(crate) struct Given {
     pub(crate) bytes: Vec<u8>,
     /// What diagnostics and the manifest call it.
     pub(crate) name: String,
@@ -28,7 +31,7 @@ pub(crate) struct Text {
 }
 
 /// Reads the file, or stdin for `-`.
-pub(crate) fn read(file: &Path) -> Result<Text, Failure> {
+pub(crate) fn read(file: &Path) -> Result<Given, Failure> {
     if file.as_os_str() == "-" {
         let mut bytes = Vec::new();
         let outcome = std::io::stdin().lock().take(MOST_BYTES + 1).read_to_end(&mut bytes);
@@ -37,7 +40,7 @@ pub(crate) fn read(file: &Path) -> Result<Text, Failure> {
             let message = format!("stdin is longer than {} MB", MOST_BYTES / 1_000_000);
             return Err(Failure::new(Exit::Input, Diagnostic::error("netlist::too_long", message)));
         }
-        return Ok(Text { bytes, name: STDIN.into(), stem: "stdin".into() });
+        return Ok(Given { bytes, name: STDIN.into(), stem: "stdin".into() });
     }
     let name = file.display().to_string();
     let bytes = match lptn_netlist::read_bytes(file) {
@@ -50,7 +53,7 @@ pub(crate) fn read(file: &Path) -> Result<Text, Failure> {
         Err(ReadError::Rejected(rejected)) => return Err(rejected.into()),
     };
     let stem = file.file_stem().map_or("netlist".into(), |stem| stem.to_string_lossy().into_owned());
-    Ok(Text { bytes, name, stem: folder_name(stem) })
+    Ok(Given { bytes, name, stem: folder_name(stem) })
 }
 
 fn cannot_read(name: &str, error: &std::io::Error, help: Option<String>) -> Failure {
@@ -79,7 +82,7 @@ fn example(folder: &Path) -> Option<String> {
 /// A network with everything the command line changes in it.
 #[derive(Debug)]
 pub(crate) struct Input {
-    pub(crate) text: Text,
+    pub(crate) text: Given,
     pub(crate) netlist: Netlist,
 }
 
@@ -92,6 +95,24 @@ impl Input {
         Ok(Self { text, netlist })
     }
 
+    /// What the network is called: its title, else the name of its file.
+    pub(crate) fn title(&self) -> String {
+        self.netlist.network.title().map_or_else(|| self.text.stem.clone(), plain)
+    }
+
+    /// How a text about the network begins: its title, and what it consists of.
+    pub(crate) fn begun(&self) -> Text {
+        let mut text = Text::titled(self.title());
+        text.line(counts(&self.netlist.network));
+        text
+    }
+
+    /// How the object of a result begins.
+    pub(crate) fn head(&self, json: &mut Json<'_>, more: &[Diagnostic]) -> std::io::Result<()> {
+        let warnings = [self.netlist.warnings.as_slice(), more].concat();
+        diagnostics::head(json, Some(&self.text.stem), (&self.netlist.files, &warnings))
+    }
+
     /// Where the node of this name stands.
     pub(crate) fn node_place(&self, name: &str) -> Option<Span> {
         let node = self.netlist.network.node(name).ok()?;
@@ -101,6 +122,14 @@ impl Input {
     /// The name for a command that can be typed; `None` for stdin.
     pub(crate) fn typed(&self) -> Option<String> {
         (self.text.name != STDIN).then(|| quoted(&self.text.name))
+    }
+
+    /// The unit in which the file writes a parameter, else the usual one of its type.
+    pub(crate) fn unit_of(&self, parameter: ParameterId) -> Unit {
+        let ty = self.netlist.network.parameters()[parameter.index()].ty;
+        let written = self.netlist.written_number(parameter).map(|written| written.unit);
+        let si = |ty: Type| Unit { text: ty.dimension.si_unit(), scale: 1.0, offset: 0.0, ty };
+        written.or_else(|| Unit::parse(&ty.usual_unit()).ok()).unwrap_or_else(|| si(ty))
     }
 
     pub(crate) fn assemble(&self) -> Result<ThermalSystem, Failure> {
@@ -116,7 +145,7 @@ impl Input {
     }
 }
 
-pub(crate) fn parse(text: &Text) -> Result<Netlist, Rejected> {
+pub(crate) fn parse(text: &Given) -> Result<Netlist, Rejected> {
     match text.name.as_str() {
         STDIN => parse_bytes(STDIN, &text.bytes),
         name => parse_file(Path::new(name), &text.bytes),

@@ -2,7 +2,7 @@
 
 use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Bound, Field, Item, Limit, LimitId, Network, Severity};
-use lptn_report::{Align, Column, TextTable, WIDTH, duration, significant};
+use lptn_report::{Text, TextTable, duration, significant};
 use lptn_solve::LimitSeen;
 use lptn_study::Scalar;
 use lptn_units::{Dimension, Type, Unit};
@@ -60,24 +60,21 @@ pub(crate) struct Judgement<'a> {
     pub(crate) limits: &'a [Judged],
 }
 
-/// A table with a line for each limit; nothing without limits.
-pub(crate) fn lines(network: &Network, limits: &[Judged], unit: &Unit) -> Vec<String> {
+/// A section with a line for each limit; nothing without limits.
+pub(crate) fn section(text: &mut Text, network: &Network, limits: &[Judged], unit: &Unit) {
     if limits.is_empty() {
-        return Vec::new();
+        return;
     }
     let of = |judged: &Judged| &network.limits()[judged.limit.index()];
-    let cells = |text: &dyn Fn(&Judged) -> String| limits.iter().map(text).collect::<Vec<_>>();
-    let mut columns = vec![
-        Column::new("limit", Align::Left, cells(&|j| of(j).name.clone())),
-        Column::new("wanted", Align::Left, cells(&|j| wanted(network, j.limit, unit))).names(),
-        Column::new("margin", Align::Right, cells(&|j| margin(j, of(j), unit))),
-    ];
+    let mut table = TextTable::of(limits)
+        .left("limit", |j| of(j).name.as_str())
+        .left("wanted", |j| wanted(network, j.limit, unit))
+        .names()
+        .right("margin", |j| margin(j, of(j), unit));
     if limits.iter().any(|judged| judged.worst_at.is_some()) {
-        let least = |j: &Judged| j.worst_at.map_or("-".into(), |time| duration(time, 3));
-        columns.push(Column::new("least at", Align::Right, cells(&least)));
+        table = table.right("least at", |j| j.worst_at.map_or("-".into(), |time| duration(time, 3)));
     }
-    columns.push(Column::new("", Align::Left, cells(&|j| verdict(j, of(j)))));
-    TextTable::new(columns).lines(WIDTH)
+    text.section().table(table.left("", |j| verdict(j, of(j))));
 }
 
 /// "steel.T below 110 degC".
@@ -130,11 +127,9 @@ fn number(value: f64, ty: Type, unit: &Unit) -> String {
 pub(crate) fn members(network: &Network, limits: &[Judged]) -> Map<String, Value> {
     let one = |judged: &Judged| {
         let limit = &network.limits()[judged.limit.index()];
-        let time = |time: Option<f64>| time.map_or(Value::Null, |time| Scalar::new(time, "s").json());
-        let scalar = |value: f64| match value.is_nan() {
-            true => Value::Null,
-            false => Scalar::new(value, &limit.ty.dimension.si_unit()).json(),
-        };
+        let time = |time: Option<f64>| time.map(|time| Scalar::new(time, "s"));
+        let scalar =
+            |value: f64| (!value.is_nan()).then(|| Scalar::new(value, &limit.ty.dimension.si_unit()));
         let bound = bound(network, limit);
         let worst = match limit.bound {
             Bound::Below => bound - judged.margin,

@@ -6,7 +6,8 @@ use lptn_netlist::{Diagnostic, RunSettings, WrittenError, parse_file, prove};
 use lptn_network::{BuildErrors, Network, ParameterId};
 
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, reason};
+use crate::files::Folder;
 use crate::input::Input;
 
 /// Without a run, the values are compared over this time in s.
@@ -51,4 +52,74 @@ fn mistake(error: &WrittenError) -> Failure {
     let problem = Diagnostic::error("output::written_netlist", error.to_string());
     let help = "nothing was written; this is a mistake of lptn: please report it with the netlist";
     Failure::new(Exit::Failed, problem.help(help))
+}
+
+/// Refuses before anything is computed what could not be written afterwards; with the codes of a verb.
+pub(crate) fn can_be_written(
+    input: &Input,
+    parameter: ParameterId,
+    [code, shared]: [&'static str; 2],
+) -> Result<(), Failure> {
+    let netlist = &input.netlist;
+    let name = &netlist.network.parameters()[parameter.index()].name;
+    let problem = if input.typed().is_none() {
+        Diagnostic::error(code, "there is no file to write into: the netlist came from stdin")
+    } else if is_protected(&input.text.name) {
+        let message = format!("{} is protected against writing", input.text.name);
+        Diagnostic::error(code, message).help("allow it with `chmod u+w`, or leave `--write` out")
+    } else if netlist.written_number(parameter).is_some_and(|written| !netlist.is_own(&written)) {
+        let problem = Diagnostic::error(code, format!("`{name}` stands in a file that is included"));
+        problem.help("other netlists may include it too: change it there, or move the parameter here")
+    } else if let Some(other) = netlist.written_together(parameter) {
+        let message = format!("`{name}` is written once for several instances, `{other}` among them");
+        let problem = Diagnostic::error(shared, message)
+            .help("give each its own value, `set = { .. = [.., ..] }`, or make it a parameter of the file");
+        match netlist.source_map.parameter(parameter) {
+            Some(span) => problem.at(span.clone(), ""),
+            None => problem,
+        }
+    } else if netlist.written_number(parameter).is_none() {
+        let message = format!("`{name}` is not written as a number, so no other can be written in its place");
+        let problem = Diagnostic::error(code, message)
+            .help("give it a value of its own, for example `\"5 W/K\"`, or leave `--write` out");
+        match netlist.source_map.parameter(parameter) {
+            Some(span) => problem.at(span.clone(), ""),
+            None => problem,
+        }
+    } else {
+        return Ok(());
+    };
+    Err(Failure::at(Exit::Input, netlist.files.clone(), problem))
+}
+
+/// A file that is replaced would not be protected by its permissions.
+fn is_protected(file: &str) -> bool {
+    std::fs::metadata(file).is_ok_and(|metadata| metadata.permissions().readonly())
+}
+
+/// Replaces a netlist by another text.
+pub(crate) fn put(file: &Path, text: &str) -> Result<(), Failure> {
+    // a link stays a link: what it leads to is written
+    let place = std::fs::canonicalize(file).map_err(|error| cannot_write(file, &reason(&error)))?;
+    let name = place.file_name().map(|name| name.to_string_lossy().into_owned());
+    let (Some(folder), Some(name)) = (place.parent(), name) else {
+        return Err(cannot_write(file, "it has no name"));
+    };
+    let folder = Folder::prepare_for_a_moment(folder.to_owned()).map_err(as_it_was)?;
+    let mut files = folder.batch();
+    let written = files.write(&name, |out| out.write_all(text.as_bytes()));
+    written.and_then(|()| files.commit(&[])).map_err(as_it_was)
+}
+
+/// The help of a folder is about results.
+fn as_it_was(mut failure: Failure) -> Failure {
+    for problem in &mut failure.diagnostics {
+        problem.help = Some("the netlist is as it was: write the value into it by hand".into());
+    }
+    failure
+}
+
+fn cannot_write(file: &Path, why: &str) -> Failure {
+    let message = format!("cannot write {}: {why}", file.display());
+    Failure::new(Exit::Failed, Diagnostic::error("output::cannot_write", message))
 }

@@ -1,9 +1,8 @@
 //! What hangs together with nothing: nodes that no path leads from to a boundary, boundaries that nothing touches.
 
+use lptn_data::{Diagnostic, Span};
 use lptn_network::{End, Item, Network, list_of, list_of_names};
 
-use crate::diagnostic::Diagnostic;
-use crate::file::Span;
 use crate::source_map::SourceMap;
 
 /// The warnings. A boundary that an expression or a control reads is not idle; `is_read` knows those of expressions.

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use lptn_data::{Diagnostic, FileId, Rejected, Span, arrange, on_borders};
 use lptn_network::{
     BuildError, Course, Field, Item, Material, Network, ParameterError, ParameterId, Parameters, SignalId,
     Value,
@@ -9,9 +10,7 @@ use lptn_network::{
 use lptn_units::{Expression, UnitErrorKind};
 
 use crate::describe::describe;
-use crate::diagnostic::{Diagnostic, arrange};
-use crate::file::{FileId, Span, on_borders};
-use crate::netlist::{Netlist, Rejected};
+use crate::netlist::Netlist;
 use crate::template::wrong_path;
 use crate::value_help::celsius_or_kelvin;
 
@@ -47,7 +46,7 @@ impl Netlist {
             }
             Err(mut diagnostics) => {
                 arrange(&files, &mut diagnostics);
-                crate::limits::shorten(&mut diagnostics, 0);
+                lptn_data::shorten(&mut diagnostics, 0);
                 Err(Rejected { files, diagnostics, syntax: false })
             }
         }
@@ -165,7 +164,7 @@ impl Netlist {
         let names: Vec<&str> = self.network.parameters().iter().map(|p| p.name.as_str()).take(12).collect();
         match names.as_slice() {
             [] => problem.help("this netlist has no parameters: give it a section [param]"),
-            names => problem.help(format!("its parameters are {}", crate::vocabulary::list(names))),
+            names => problem.help(format!("its parameters are {}", lptn_data::list(names))),
         }
     }
 

@@ -1,9 +1,8 @@
 //! What the network's builder found, said about the file.
 
+use lptn_data::{Diagnostic, Span};
 use lptn_network::{BuildError, BuildErrorKind as Kind, Field, Item, NodeId, Say};
 
-use crate::diagnostic::Diagnostic;
-use crate::file::Span;
 use crate::source_map::SourceMap;
 use crate::vocabulary::MINIMAL;
 

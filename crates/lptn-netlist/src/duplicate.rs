@@ -1,7 +1,7 @@
 //! The same key or heading twice: TOML forbids it, and the parser does not say where the first one stands.
 
-use crate::diagnostic::Diagnostic;
-use crate::file::Span;
+use lptn_data::{Diagnostic, Span};
+
 use crate::raw::{RawKind, RawTable};
 
 pub(crate) const CODE: &str = "netlist::duplicate_key";

@@ -1,10 +1,9 @@
 //! Reads one table: which of its keys there are, which are missing, which nobody knows.
 
+use lptn_data::{Diagnostic, Span};
 use lptn_laws::Formula;
 use lptn_network::Input;
 
-use crate::diagnostic::Diagnostic;
-use crate::file::Span;
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 use crate::vocabulary::Section;
 
@@ -272,7 +271,7 @@ fn unknown(section: &Section, owner: &Owner, field: &RawEntry) -> Diagnostic {
         let message = format!("{} is not supported yet", owner.field(key));
         return Diagnostic::error("netlist::not_supported_yet", message)
             .at(field.key_span.clone(), "")
-            .help(format!("the keys here are {} so far", crate::vocabulary::list(section.keys)));
+            .help(format!("the keys here are {} so far", lptn_data::list(section.keys)));
     }
     Diagnostic::error("netlist::unknown_key", format!("{} has no field `{key}`", owner.words()))
         .at(field.key_span.clone(), "unknown key")

@@ -1,8 +1,8 @@
 //! Files of other kinds that are given in the place of a netlist. They are named once: what is wrong with each of their
 //! lines as TOML helps nobody.
 
-use crate::diagnostic::Diagnostic;
-use crate::file::{FileId, Span};
+use lptn_data::{Diagnostic, FileId, Span};
+
 use crate::headings::SECTIONS;
 
 /// The file is not a netlist at all.

@@ -1,11 +1,10 @@
 //! What a line that is no TOML was probably meant to be: habits of other notations, which the parser reports
 //! somewhere behind their cause.
 
+use lptn_data::{Diagnostic, FileId, Span};
 use lptn_units::parse_quantity;
 
-use crate::diagnostic::Diagnostic;
 use crate::fields::sample_value;
-use crate::file::{FileId, Span};
 use crate::toml_1_1::string_length;
 
 /// Longer lines were not written by hand.

@@ -4,11 +4,10 @@ use std::collections::{HashMap, HashSet};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use crate::diagnostic::{Diagnostic, Severity};
+use lptn_data::{Diagnostic, FileId, Files, MOST_BYTES, Severity, Span};
+
 use crate::duplicate;
 use crate::fields::wrong_shape;
-use crate::file::{FileId, Files, Span};
-use crate::limits::MOST_BYTES;
 use crate::near_file;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::section::check_head;

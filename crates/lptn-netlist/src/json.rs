@@ -6,7 +6,7 @@ use std::fmt;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 
-use crate::file::{FileId, Span};
+use lptn_data::{FileId, Span};
 
 /// A JSON text that was read.
 #[derive(Clone, Copy, Debug)]

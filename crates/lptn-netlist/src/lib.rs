@@ -28,41 +28,40 @@
 
 mod adrift;
 mod assign;
-mod csv_file;
-mod csv_form;
-mod csv_head;
+mod csv_files;
 mod describe;
-mod diagnostic;
 mod duplicate;
 mod elaborate;
 mod expand;
 mod fields;
-mod file;
 mod fit;
 mod foreign;
 mod grid_names;
+mod grid_part;
 mod habit;
 mod headings;
 mod import;
+mod imported;
 mod include;
 mod initial;
 mod json;
 pub mod library;
-mod limits;
 mod misplaced;
 mod names;
 mod near_file;
 mod netlist;
 mod outputs;
 mod parameters;
+mod place;
 mod plausible;
 mod points;
 mod raw;
-mod record;
 mod result_names;
 mod run;
 mod scales;
+mod scope;
 mod section;
+mod setting;
 mod size;
 mod source_map;
 mod state;
@@ -71,26 +70,26 @@ mod syntax;
 mod syntax_error;
 mod template;
 mod toml_1_1;
+mod toml_text;
 mod value;
 mod value_help;
 mod vocabulary;
+mod work;
 mod write_back;
 
-pub use diagnostic::{Diagnostic, Label, Severity};
 pub use expand::{Derived, WrittenError, prove};
-pub use file::{FileId, Files, Span};
 pub use fit::{FitPlan, FitRecord, FitStudy, Observed, Varied, VariedName};
 pub use include::Loader;
 pub use initial::InitialState;
-pub use limits::{MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS, read_bytes};
-pub use near_file::similar_file;
-pub use netlist::{Netlist, ReadError, Rejected, parse, parse_bytes, parse_file, parse_with, read};
-pub use outputs::WindowSettings;
-pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
-pub use record::{
-    DataSheet, Record, RecordColumn, RecordName, RecordQuery, Saturation, read_record, read_sheet,
+pub use lptn_data::{
+    DataSheet, Diagnostic, FileId, Files, Label, MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS, ReadError,
+    Record, RecordColumn, RecordName, RecordQuery, Rejected, Saturation, Severity, Span, read_bytes,
+    read_record, read_sheet,
 };
-pub use run::RunSettings;
+pub use lptn_network::{RunSettings, WindowSettings};
+pub use near_file::similar_file;
+pub use netlist::{Netlist, parse, parse_bytes, parse_file, parse_with, read};
+pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 pub use size::{Goal, Requirement, SizeStudy};
 pub use source_map::SourceMap;
 pub use state::{State, StateControl, StateEnd};

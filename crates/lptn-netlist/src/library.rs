@@ -5,9 +5,9 @@
 
 use std::sync::LazyLock;
 
+use lptn_data::Files;
 use lptn_units::{Dimension, Type, parse_quantity};
 
-use crate::file::Files;
 use crate::raw::{RawEntry, RawKind, RawTable};
 use crate::syntax::parse_raw;
 

@@ -1,26 +1,25 @@
 //! The whole way: text to [`Netlist`], or every reason why not.
 
 use std::collections::HashSet;
-use std::fmt;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
-use lptn_network::{Network, Parameters};
+use lptn_data::{
+    Diagnostic, FileId, Files, ReadError, Rejected, Severity, Span, arrange, read_bytes, read_named, shorten,
+};
+use lptn_network::{Network, Parameters, RunSettings};
 use lptn_units::Unit;
 
-use crate::csv_file::CsvFiles;
-use crate::diagnostic::{Diagnostic, Severity, arrange};
+use crate::csv_files::CsvFiles;
 use crate::elaborate::{Elaborated, elaborate};
-use crate::file::{FileId, Files, Span};
 use crate::fit::FitStudy;
 use crate::foreign;
 use crate::include::{self, Loader, Merged};
 use crate::initial::{self, InitialState, StateFile};
-use crate::limits::{read_bytes, read_named, shorten};
 use crate::plausible;
 use crate::raw::RawNetlist;
-use crate::run::{RunPlan, RunSettings};
+use crate::run::RunPlan;
 use crate::section;
 use crate::size::SizeStudy;
 use crate::source_map::SourceMap;
@@ -84,64 +83,19 @@ impl Netlist {
         self.warnings = all;
     }
 
+    /// Why a path such as `planet[9].gear` leads nowhere, and what to write, if its index is to blame.
+    pub fn no_instance(&self, path: &str) -> Option<(String, String)> {
+        self.structure.wrong_path(path).map(|wrong| (wrong.why, wrong.help))
+    }
+
+    /// The state that runs start from, where `initial` of `[run]` names one.
+    pub fn initial(&self) -> Option<&InitialState> {
+        self.initial.as_ref()
+    }
+
     /// The parameters as they were set, for [`Network::with`] with further ones.
     pub fn overrides(&self) -> Parameters {
         self.assigned.clone()
-    }
-}
-
-/// A netlist that cannot be used, with every reason.
-#[derive(Clone, Debug)]
-pub struct Rejected {
-    /// The texts that places refer to.
-    pub files: Files,
-    /// What is wrong, in file order; holds at least one error.
-    pub diagnostics: Vec<Diagnostic>,
-    /// Whether the text could not even be read as TOML.
-    pub syntax: bool,
-}
-
-impl fmt::Display for Rejected {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, diagnostic) in self.diagnostics.iter().enumerate() {
-            let separator = if i > 0 { "\n" } else { "" };
-            write!(f, "{separator}{}", self.files.plain(diagnostic))?;
-        }
-        Ok(())
-    }
-}
-
-impl std::error::Error for Rejected {}
-
-/// Why a file gave no netlist.
-#[derive(Debug)]
-pub enum ReadError {
-    /// The file could not be read.
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// The reason.
-        error: std::io::Error,
-    },
-    /// Its content cannot be used.
-    Rejected(Rejected),
-}
-
-impl fmt::Display for ReadError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Io { path, error } => write!(f, "cannot read {}: {error}", path.display()),
-            Self::Rejected(rejected) => rejected.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for ReadError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Self::Io { error, .. } => Some(error),
-            Self::Rejected(rejected) => Some(rejected),
-        }
     }
 }
 

@@ -1,26 +1,14 @@
 //! What a run reports beside its own columns: expressions of results, and windows of time.
 
-use lptn_network::{Field, Item};
+use lptn_data::{Diagnostic, Span};
+use lptn_network::{Field, Item, WindowSettings};
 
-use crate::diagnostic::Diagnostic;
-use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
-use crate::file::Span;
+use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::run::{Setting, TIME};
-use crate::value::{Place, Wanted};
+use crate::setting::{Setting, TIME};
 use crate::vocabulary::WINDOW;
-
-/// A part of the run over which means and extremes are taken.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WindowSettings {
-    /// Its name.
-    pub name: String,
-    /// When it begins, in s; not before the run.
-    pub from: f64,
-    /// When it ends, in s; after `from` and not after the run.
-    pub to: f64,
-}
+use crate::work::Elaboration;
 
 /// A window before its expressions are evaluated.
 #[derive(Clone, Debug)]

@@ -2,12 +2,12 @@
 //! another scale. They are looked at as they come out, not as they are written, so that parameters, expressions and
 //! tables are seen too.
 
+use lptn_data::Diagnostic;
 use lptn_network::{
     ConductorId, End, Field, Flow, Item, Naming, Network, Substance, Value, ZERO_CELSIUS, slot,
 };
 use lptn_units::format_six as short;
 
-use crate::diagnostic::Diagnostic;
 use crate::source_map::SourceMap;
 
 /// So many pairs of conductors are named.

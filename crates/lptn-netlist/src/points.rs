@@ -2,60 +2,13 @@
 
 use std::sync::Arc;
 
-use lptn_units::{Dimension, Expression, TableError, Type, Unit, parse_quantity, suggest, written_quantity};
+use lptn_data::{CsvFile, Diagnostic, Places, Points, fit};
+use lptn_units::{Expression, TableError, Type, Unit, parse_quantity, suggest, written_quantity};
 
-use crate::csv_file::CsvFile;
-use crate::diagnostic::Diagnostic;
-use crate::elaborate::Elaboration;
 use crate::fields::{Fields, sample, wrong_shape};
-use crate::file::Span;
+use crate::place::Place;
 use crate::raw::{RawKind, RawValue};
-use crate::value::Place;
-
-/// Numbers in SI units, with the place of each.
-#[derive(Clone, Debug)]
-pub(crate) struct Points {
-    pub(crate) numbers: Vec<f64>,
-    pub(crate) ty: Type,
-    pub(crate) places: Places,
-    /// The list, or the header of the column.
-    pub(crate) whole: Span,
-    /// The unit that they are given in, of several that of the first.
-    pub(crate) unit: Option<Unit>,
-}
-
-/// Where the numbers of a curve stand.
-#[derive(Clone, Debug)]
-pub(crate) enum Places {
-    /// Each item of a list.
-    Items(Vec<Span>),
-    /// The rows of a file, one for each number, and the position of the column: a file may have millions, and the places
-    /// of two of them are asked for, where something is wrong.
-    Column(Arc<CsvFile>, usize),
-}
-
-impl Points {
-    /// Where a number stands.
-    pub(crate) fn place(&self, index: usize) -> Span {
-        let place = match &self.places {
-            Places::Items(places) => places.get(index).cloned(),
-            Places::Column(file, column) => file.place(index, *column),
-        };
-        place.unwrap_or_else(|| self.whole.clone())
-    }
-}
-
-/// A unit where a type is due: `K` alone is absolute where an absolute temperature is. What is due and what was
-/// found, where they differ.
-pub(crate) fn fit(unit: Unit, wanted: Option<Type>) -> Result<Unit, (Type, Type)> {
-    let Some(wanted) = wanted else { return Ok(unit) };
-    let kelvin = wanted.absolute && unit.ty == Type::of(Dimension::TEMPERATURE);
-    if kelvin || unit.ty.conforms_to(wanted) {
-        Ok(Unit { ty: wanted, ..unit })
-    } else {
-        Err((wanted, unit.ty))
-    }
-}
+use crate::work::Elaboration;
 
 /// The keys of one axis: the list or column, and the unit of plain numbers.
 #[derive(Clone, Copy)]
@@ -132,7 +85,7 @@ impl<'a> Elaboration<'a> {
     ) -> Option<Points> {
         let (name, raw) = name?;
         let place = Place { owner: &fields.owner, key: axis.column, raw };
-        match file.column(name, axis.ty, place) {
+        match file.column(name, axis.ty, &place.asked()) {
             Ok(points) => Some(points),
             Err(problems) => {
                 self.problems.extend(problems);
@@ -274,7 +227,7 @@ impl<'a> Elaboration<'a> {
         let all: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
         self.report(match suggest(text, all.iter().copied()) {
             Some(near) => problem.help(format!("did you mean `{key} = \"{near}\"`?")),
-            None => problem.help(format!("it is one of {}", crate::vocabulary::list(&all))),
+            None => problem.help(format!("it is one of {}", lptn_data::list(&all))),
         });
         None
     }

@@ -1,6 +1,6 @@
 //! A netlist as it is written: every key and value with its place, nothing resolved.
 
-use crate::file::{Span, on_borders};
+use lptn_data::{Span, on_borders};
 
 /// The sections and keys of one file, in file order. Strings are untouched, numbers are the text that stands
 /// in the file.
@@ -8,6 +8,21 @@ use crate::file::{Span, on_borders};
 pub struct RawNetlist {
     /// The top level; sections are entries whose value is a table.
     pub top: RawTable,
+}
+
+impl RawNetlist {
+    /// A section of this name, if it is there and is a table.
+    pub(crate) fn section(&self, name: &str) -> Option<&RawTable> {
+        match &self.top.get(name)?.value.kind {
+            RawKind::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
+    /// The elements of a section, in file order.
+    pub(crate) fn elements(&self, name: &str) -> &[RawEntry] {
+        self.section(name).map_or(&[], |table| &table.entries)
+    }
 }
 
 /// The entries of a table in file order.

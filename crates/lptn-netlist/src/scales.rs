@@ -1,11 +1,11 @@
 //! Degrees Celsius that were written as kelvin.
 
+use lptn_data::Diagnostic;
 use lptn_network::ZERO_CELSIUS;
 use lptn_units::{Quantity, format_number};
 
-use crate::diagnostic::Diagnostic;
+use crate::place::Place;
 use crate::raw::RawKind;
-use crate::value::Place;
 
 /// Nobody who also writes degC writes a temperature below this many K, -100 degC, without a reason.
 const COLD: f64 = ZERO_CELSIUS - 100.0;

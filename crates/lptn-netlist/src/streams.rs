@@ -1,8 +1,8 @@
 //! Streams that do not balance: what flows into a node has to flow out of it.
 
+use lptn_data::Diagnostic;
 use lptn_network::{End, Item, Network, Passing};
 
-use crate::diagnostic::Diagnostic;
 use crate::source_map::SourceMap;
 
 /// A warning for each node into which streams bring another capacity rate than they take away, as they stand at

@@ -3,8 +3,8 @@
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use crate::diagnostic::{Diagnostic, arrange};
-use crate::file::{FileId, Files, Span};
+use lptn_data::{Diagnostic, FileId, Files, Span, arrange};
+
 use crate::foreign;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::syntax_error;
@@ -98,8 +98,8 @@ fn decimal(digits: &str, radix: u32) -> String {
 #[cfg(test)]
 mod tests {
     use super::{content_start, parse_raw};
-    use crate::file::Files;
     use crate::raw::RawKind;
+    use lptn_data::Files;
 
     #[test]
     fn content_is_found_where_no_escape_changes_it() {

@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use toml::de::Error;
 
-use crate::diagnostic::Diagnostic;
+use lptn_data::{Diagnostic, FileId, Span, on_borders};
+
 use crate::duplicate;
-use crate::file::{FileId, Span, on_borders};
 use crate::habit;
 use crate::raw::RawTable;
 

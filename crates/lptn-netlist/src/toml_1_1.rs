@@ -1,8 +1,7 @@
 //! The format is TOML 1.0, the parser reads 1.1: what only 1.1 allows is found here, so that every netlist can be
 //! read by every TOML tool.
 
-use crate::diagnostic::Diagnostic;
-use crate::file::Span;
+use lptn_data::{Diagnostic, Span};
 
 const CODE: &str = "netlist::toml_1_1";
 
@@ -117,7 +116,7 @@ pub(crate) fn string_length(text: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::{inline_table, string};
-    use crate::file::{Files, Span};
+    use lptn_data::{Files, Span};
 
     fn newer(written: &str) -> bool {
         let span = Span::new(Files::new().add("a", ""), 0..written.len());

@@ -2,6 +2,7 @@
 
 pub(crate) use crate::headings::{MINIMAL, PARAM, SECTIONS, SECTIONS_LATER, TOP_KEYS};
 
+use lptn_data::list;
 use lptn_units::suggest;
 
 /// A section of elements, or a section that is a table of its own.
@@ -299,18 +300,6 @@ impl Section {
         match suggest(key, self.keys.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("the keys here are {}", list(self.keys)),
-        }
-    }
-}
-
-/// "`a`, `b` and `c`".
-pub(crate) fn list(names: &[&str]) -> String {
-    match names {
-        [] => String::new(),
-        [one] => format!("`{one}`"),
-        [most @ .., last] => {
-            let most: Vec<String> = most.iter().map(|name| format!("`{name}`")).collect();
-            format!("{} and `{last}`", most.join(", "))
         }
     }
 }

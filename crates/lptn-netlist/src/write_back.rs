@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
+use lptn_data::FileId;
 use lptn_network::{Field, Item, ParameterId};
 use lptn_units::{Unit, written_quantity};
 
-use crate::file::FileId;
 use crate::netlist::Netlist;
 
 /// The number that a file gives to a parameter.

@@ -6,10 +6,10 @@ use crate::error::BuildErrorKind;
 use crate::evaluation::Evaluation;
 use crate::id::{Field, Item, SignalId};
 use crate::input_error::{InputError, InputProblem};
-use crate::layout::Holds;
 use crate::network::Network;
 use crate::parts::Parts;
-use crate::signal::Course;
+use crate::parts::layout::Holds;
+use crate::parts::signal::Course;
 use crate::value::Value;
 
 /// Parts of a stretch in which a curve is looked at for a place where it bends.

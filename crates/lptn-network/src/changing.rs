@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::id::{BoundaryId, ConductorId, ControlId, End, Field, Item, NodeId, SignalId, SourceId};
-use crate::layout::Holds;
 use crate::network::Network;
 use crate::parts::Parts;
-use crate::result::HeatOf;
-use crate::signal::Course;
+use crate::parts::heat::HeatOf;
+use crate::parts::layout::Holds;
+use crate::parts::signal::Course;
 use crate::value::Value;
 
 /// Something that changes with time by itself.

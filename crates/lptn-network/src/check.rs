@@ -78,7 +78,7 @@ impl Islands {
     }
 
     /// The members of each component, in order; no component is empty.
-    fn groups(&self) -> Vec<Vec<usize>> {
+    pub(crate) fn groups(&self) -> Vec<Vec<usize>> {
         let mut groups: Vec<Vec<usize>> = vec![Vec::new(); self.root.len()];
         for (node, &root) in self.root.iter().enumerate() {
             groups[root].push(node);
@@ -102,19 +102,4 @@ fn find(parent: &mut [usize], mut i: usize) -> usize {
         i = parent[i];
     }
     i
-}
-
-impl crate::Network {
-    /// Sets of connected nodes that no path leads from to a boundary, in order; empty if the network forgets
-    /// its start. Such a set has no steady state of its own.
-    pub fn ungrounded(&self) -> Vec<Vec<NodeId>> {
-        let parts = &*self.parts;
-        let islands = Islands::of(parts);
-        let mut grounded = vec![false; parts.nodes.len()];
-        for node in islands.grounded(parts) {
-            grounded[islands.root(node)] = true;
-        }
-        let groups = islands.groups().into_iter().filter(|m| !grounded[islands.root(m[0])]);
-        groups.map(|members| members.into_iter().map(NodeId::from_len).collect()).collect()
-    }
 }

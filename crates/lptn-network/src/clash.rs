@@ -2,9 +2,10 @@
 //! temperature of a node.
 
 use crate::error::{BuildError, BuildErrorKind};
-use crate::grid::{Face, GridFace, GridValue};
 use crate::id::{BoundaryId, CapacitorId, ConductorId, GridId, Item, JointId, LimitId, NodeId, SourceId};
 use crate::parts::Parts;
+use crate::parts::grid::{Face, GridFace};
+use crate::parts::grid_value::GridValue;
 
 /// Reports the names that two things answer to.
 pub(crate) fn names(parts: &Parts, errors: &mut Vec<BuildError>) {

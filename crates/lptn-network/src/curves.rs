@@ -8,9 +8,10 @@ use lptn_units::{Degree, Program, SlotKind};
 use crate::breakpoints::Watched;
 use crate::evaluation::Evaluation;
 use crate::id::{End, Item};
-use crate::layout::{Holds, slot};
 use crate::network::Network;
 use crate::parts::Parts;
+use crate::parts::layout::Holds;
+use crate::slot;
 use crate::value::Value;
 
 /// Temperatures over those of the start, in K, at which a value is looked at whose course over time the temperatures
@@ -20,7 +21,7 @@ const RISES: [f64; 4] = [0.0, 10.0, 100.0, -30.0];
 /// The start in K of a node that has none.
 const USUAL: f64 = 300.0;
 
-/// A value that is no straight line in time between [`Network::breakpoints`], or a part of one that reads no
+/// A value that is not a straight line in time between [`Network::breakpoints`], or a part of one that reads no
 /// temperature.
 #[derive(Clone, Debug)]
 pub struct Curve {

@@ -8,9 +8,9 @@ use lptn_units::{EvalError, Type, format_short};
 use crate::error_words::{
     Say, area, by, crossed, evaluation, in_unit, inside, keys, not_positive, unused_name, usable,
 };
-use crate::grid::{GridFace, MOST_CELLS};
 use crate::id::{ConductorId, ControlId, Field, FluidId, GridId, Item, NodeId, SignalId, SourceId};
 use crate::names::list_of_names;
+use crate::parts::grid::{GridFace, MOST_CELLS};
 
 /// All problems found while a network was built; never empty.
 #[derive(Clone, Debug)]
@@ -28,7 +28,7 @@ impl std::error::Error for BuildErrors {}
 /// One problem: its kind, and the names that a message needs.
 #[derive(Clone, Debug)]
 pub struct BuildError {
-    /// What is wrong.
+    /// Which of the problems it is, with its values in SI units.
     pub kind: BuildErrorKind,
     /// The name of the item it is about.
     pub name: String,

@@ -6,7 +6,9 @@ use lptn_units::{Dual, EvalError, Program};
 
 use crate::id::SignalId;
 use crate::input_error::InputProblem;
-use crate::layout::{Layout, slot};
+use crate::parts::layout::Layout;
+use crate::slot;
+use crate::value::Value;
 
 /// Derivatives taken in one pass. Two ends of a conductor and two further temperatures fit in.
 pub(crate) const PASS: usize = 4;
@@ -129,5 +131,16 @@ impl Evaluation {
     pub(crate) fn evaluate(&mut self, program: &Program, time: f64, segment: f64) -> Result<f64, EvalError> {
         self.set_time(time, segment);
         program.eval(&self.slots, &mut self.stack)
+    }
+}
+
+impl Value {
+    /// The value where `scope` stands, in SI units.
+    ///
+    /// # Errors
+    /// What the expression's evaluation reports, such as a negative base under a non-integer exponent.
+    pub fn at(&self, scope: &mut Evaluation) -> Result<f64, EvalError> {
+        let (slots, stack) = scope.plain();
+        self.on(slots, stack)
     }
 }

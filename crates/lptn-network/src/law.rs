@@ -6,7 +6,7 @@ use lptn_units::{Dimension, EvalError, Scalar, Type};
 use crate::evaluation::Evaluation;
 use crate::id::{Field, FluidId};
 use crate::input_error::InputProblem;
-use crate::layout::slot;
+use crate::slot;
 use crate::value::{Input, Value};
 
 /// How a conductor carries heat: a law with one value for each of its fields. Heat flow is positive from `from` to `to`;
@@ -62,7 +62,7 @@ impl<V> Law<V> {
         self.formula
     }
 
-    /// What its value is.
+    /// What the value of its formula means: a conductance, an exchange area, a flow.
     pub fn carries(&self) -> Carries {
         self.formula.declaration().carries
     }
@@ -72,7 +72,7 @@ impl<V> Law<V> {
         self.fluid
     }
 
-    /// Whether it is a stream.
+    /// Whether heat goes with a fluid that flows from one end to the other.
     pub fn is_stream(&self) -> bool {
         self.carries().is_stream()
     }
@@ -227,7 +227,7 @@ impl<S: Scalar> At<'_, S> {
         [self.slots[slot::FROM as usize], self.slots[slot::TO as usize]]
     }
 
-    /// The conductance of a law that is no stream, in W/K, where the slots stand.
+    /// The conductance of a law that is not a stream, in W/K, where the slots stand.
     pub(crate) fn conductance(&mut self, law: &Law) -> Result<S, (Field, InputProblem)> {
         match law.carries() {
             Carries::Conductance => self.value(law),
@@ -239,3 +239,20 @@ impl<S: Scalar> At<'_, S> {
         }
     }
 }
+
+/// How a conductor carries heat, as far as it is known before a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Flow {
+    /// `q = G (T_from - T_to)` with this constant conductance in W/K.
+    Conductance(f64),
+    /// `q = sigma Gr (T_from^4 - T_to^4)` with this constant exchange area in m^2.
+    Radiation(f64),
+    /// A stream of this constant capacity rate in W/K: `to` receives `mcp (T_from - T_to)`; for a negative one `from`
+    /// receives `-mcp (T_to - T_from)`.
+    Stream(f64),
+    /// Anything else: [`Network::exchange`](crate::Network::exchange).
+    Variable,
+}
+
+/// Heat received by the two ends of a conductor in W.
+pub type Received<S = f64> = [S; 2];

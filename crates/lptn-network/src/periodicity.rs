@@ -5,15 +5,15 @@ use lptn_units::EvalError;
 use crate::evaluation::Evaluation;
 use crate::id::{Field, Item, SignalId};
 use crate::input_error::InputError;
-use crate::layout::slot;
 use crate::network::Network;
-use crate::signal::AfterEnd;
+use crate::parts::signal::AfterEnd;
+use crate::slot;
 use crate::value::Value;
 
 /// Two signals whose periods have no multiple in common that anyone would wait for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoCommonPeriod {
-    /// The signals.
+    /// The two signals whose periods do not fit.
     pub signals: [SignalId; 2],
     /// Their names.
     pub names: [String; 2],
@@ -63,7 +63,7 @@ impl Network {
     /// expression in `t` may repeat itself too, which this does not know.
     ///
     /// # Errors
-    /// [`NoCommonPeriod`] for periods that are no small multiples of a common one.
+    /// [`NoCommonPeriod`] for periods that are not small multiples of a common one.
     pub fn repeat_period(&self) -> Result<Option<f64>, NoCommonPeriod> {
         let mut common: Option<(SignalId, f64)> = None;
         for (id, period) in self.repeated_signals() {

@@ -4,8 +4,9 @@ use lptn_laws::{Carries, Form};
 use lptn_units::Trend;
 
 use crate::id::{ConductorId, End, SourceId};
-use crate::layout::{Holds, slot};
 use crate::network::Network;
+use crate::parts::layout::Holds;
+use crate::slot;
 use crate::value::Value;
 
 impl Network {

@@ -3,8 +3,8 @@
 use lptn_units::{Dimension, Scope, Symbol, TableSymbol, Type};
 
 use crate::id::{End, Item};
-use crate::layout::slot;
 use crate::parts::Parts;
+use crate::slot;
 
 /// Where an expression stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

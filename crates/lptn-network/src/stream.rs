@@ -1,8 +1,8 @@
 //! Streams and the nodes they pass.
 
-use crate::flow::{Flow, Received};
 use crate::id::{ConductorId, End, NodeId};
 use crate::input_error::InputError;
+use crate::law::{Flow, Received};
 use crate::network::Network;
 
 /// Where capacity rates are compared, in K.
@@ -11,7 +11,7 @@ const REFERENCE: f64 = 298.15;
 /// What streams bring to a node and take from it, as capacity rates in W/K.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passing {
-    /// The node.
+    /// The node that the streams pass.
     pub node: NodeId,
     /// The rate that flows in.
     pub inflow: f64,

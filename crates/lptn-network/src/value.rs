@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use lptn_units::{EvalError, Program, Quantity, Scalar, Taylor, Type};
 
-use crate::layout::slot;
-use crate::material::Lump;
+use crate::id::{Field, MaterialId};
+use crate::slot;
 
 /// The value of one field in SI units.
 #[derive(Clone, Debug)]
@@ -19,15 +19,6 @@ pub enum Value {
 }
 
 impl Value {
-    /// The value where `scope` stands, in SI units.
-    ///
-    /// # Errors
-    /// What the expression's evaluation reports, such as a negative base under a non-integer exponent.
-    pub fn at(&self, scope: &mut crate::Evaluation) -> Result<f64, EvalError> {
-        let (slots, stack) = scope.plain();
-        self.on(slots, stack)
-    }
-
     /// The value for these slots, on numbers or on dual numbers.
     pub(crate) fn on<S: Scalar>(&self, slots: &[S], stack: &mut Vec<S>) -> Result<S, EvalError> {
         match self {
@@ -60,7 +51,7 @@ impl Value {
         }
     }
 
-    /// The programs in it.
+    /// The compiled expressions in it; none for a constant.
     pub fn programs(&self) -> Vec<&Arc<Program>> {
         match self {
             Self::Constant(_) => Vec::new(),
@@ -88,7 +79,7 @@ pub struct Input {
 }
 
 impl Input {
-    /// Its type.
+    /// The type that the builder checks against that of the field.
     pub fn ty(&self) -> Type {
         self.ty
     }
@@ -114,5 +105,32 @@ impl From<Program> for Input {
     fn from(program: Program) -> Self {
         let ty = program.ty();
         Self { value: Value::Expression(Arc::new(program)), ty, deviation: None, lump: None }
+    }
+}
+
+/// How much of a material there is.
+#[derive(Clone, Debug)]
+pub enum Size<T = Value> {
+    /// By mass; in kg.
+    Mass(T),
+    /// By volume; in m^3.
+    Volume(T),
+}
+
+/// A lump of a material, from which a capacity was computed.
+#[derive(Clone, Debug)]
+pub struct Lump {
+    /// What the lump consists of.
+    pub material: MaterialId,
+    /// How much of it.
+    pub size: Size,
+}
+
+impl Size {
+    pub(crate) fn field(&self) -> (Field, &Value) {
+        match self {
+            Self::Mass(mass) => (Field::Mass, mass),
+            Self::Volume(volume) => (Field::Volume, volume),
+        }
     }
 }

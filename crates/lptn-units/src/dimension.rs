@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use crate::naming;
 use crate::rational::Rational;
 
 /// A physical dimension: exponents of length, mass, time, temperature, current and angle.
@@ -156,27 +155,6 @@ impl Dimension {
     /// Is it [`Dimension::NONE`]?
     pub fn is_none(&self) -> bool {
         *self == Self::NONE
-    }
-
-    /// The unit a reader expects: `W`, `K/W`, `J/K`, `W/(m^2 K)`; where the dimension has no usual unit, the
-    /// shortest product of base units and one derived unit. `1` for a plain number. [`Unit::parse`]
-    /// reads it back with scale 1.
-    ///
-    /// [`Unit::parse`]: crate::Unit::parse
-    pub fn si_unit(&self) -> String {
-        naming::si_unit(*self)
-    }
-
-    /// The usual name of the quantity, `thermal resistance` for K/W, if it has one.
-    pub fn quantity_name(&self) -> Option<&'static str> {
-        naming::quantity_name(*self)
-    }
-}
-
-impl fmt::Display for Dimension {
-    /// In SI base units, `kg m^2/s^3`; `1` for a plain number.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&naming::base_units(*self))
     }
 }
 

@@ -1,285 +1,186 @@
-//! What can be wrong with a quantity or an expression.
+//! What can be wrong with a quantity or an expression, each told once.
 
 use std::fmt;
 use std::ops::Range;
 
-use crate::error_text;
+use crate::error_words::{
+    alike, bare_number, comma, got, kinds, meant, noun, syntax_help, turning, unit_wanted, write,
+};
+use crate::errors;
+use crate::format::rounded;
 use crate::types::Type;
 
 /// A mistake in a quantity, a unit or an expression, with its place in the text.
 #[derive(Clone, PartialEq, Debug)]
 pub struct UnitError {
-    /// What is wrong.
+    /// Which mistake it is, with what to write instead.
     pub kind: UnitErrorKind,
     /// Where: bytes of the string that was parsed.
     pub span: Range<usize>,
 }
 
+errors! {
 /// What is wrong. A `fix` is a text that can be pasted over the whole string, unless said otherwise.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum UnitErrorKind {
     /// The string holds nothing.
-    Empty,
-    /// Something else was due here.
-    Syntax {
-        /// What was due, in words.
-        wanted: &'static str,
-        /// What stands there.
-        found: String,
-    },
+    Empty = "units::empty", "empty string, expected a quantity or an expression",
+        help "write a quantity such as \"0.3 K/W\" or an expression such as \"2 * G\"";
+    /// Something else was due here; both in words.
+    Syntax { wanted: &'static str, found: String } = "units::syntax",
+        format!("expected {wanted}, found {found}"), help syntax_help(wanted, found).map(str::to_owned);
     /// The number, or the number in SI units, does not fit into an `f64`.
-    OutOfRange {
-        /// The number as written.
-        number: String,
-    },
+    OutOfRange { number: String } = "units::out_of_range", format!("number `{number}` is out of range");
     /// `nan` or `inf`.
-    NotFinite {
-        /// The word as written.
-        text: String,
-    },
-    /// `0,5` for `0.5`, or `1,000` for `1000`.
-    DecimalComma {
-        /// The string with a decimal point, where the comma can be one.
-        decimal: Option<String>,
-        /// The string without the commas, where they can separate thousands.
-        thousands: Option<String>,
-    },
+    NotFinite { text: String } = "units::not_finite", format!("`{text}` is not a finite number"),
+        help "leave the field out if there is no such value";
+    /// `0,5` for `0.5`, or `1,000` for `1000`: the string with a decimal point, where the comma can be one, and
+    /// without the commas, where they can separate thousands.
+    DecimalComma { decimal: Option<String>, thousands: Option<String> } = "units::decimal_comma",
+        if thousands.is_none() { "decimal comma" } else { "comma in a number" },
+        help comma(decimal.as_deref(), thousands.as_deref());
     /// `1 000` or `1'000` for `1000`.
-    DigitGroups {
-        /// The string without the separators.
-        fix: Option<String>,
-    },
+    DigitGroups { fix: Option<String> } = "units::digit_groups", "number with its digits in groups",
+        help fix.as_deref().map_or_else(|| "write the digits without separators".to_owned(), write);
     /// `7.7*10^-3 K/W` for `7.7e-3 K/W`.
-    PowerOfTen {
-        /// The string with an exponent.
-        fix: String,
-    },
-    /// `2 P` for `2 * P`.
-    MissingOperator {
-        /// The parameter that stands in the place of a unit.
-        name: String,
-        /// The string with the operator.
-        fix: String,
-    },
-    /// Brackets, signs or powers nested too deeply.
-    TooDeep {
-        /// The deepest nesting allowed.
-        limit: usize,
-    },
-    /// No unit has this name.
-    UnknownUnit {
-        /// The name as written.
-        name: String,
-        /// The string with the unit that was probably meant.
-        fix: Option<String>,
-    },
+    PowerOfTen { fix: String } = "units::power_of_ten", "a power of ten is part of a number", help write(fix);
+    /// `2 P` for `2 * P`: the parameter that stands in the place of a unit.
+    MissingOperator { name: String, fix: String } = "units::missing_operator",
+        format!("`{name}` is a parameter, not a unit"), help write(fix);
+    /// Brackets, signs or powers nested more deeply than this.
+    TooDeep { limit: usize } = "units::too_deep", format!("nested more than {limit} deep");
+    /// No unit has this name; the string with the unit that was probably meant.
+    UnknownUnit { name: String, fix: Option<String> } = "units::unknown_unit",
+        format!("unknown unit `{name}`"), help fix.as_deref().map(|fix| format!("did you mean \"{fix}\"?"));
     /// A product after a division bar without brackets: `J/kg K`.
-    AmbiguousProduct {
-        /// The string with brackets.
-        fix: Option<String>,
-    },
-    /// An exponent that cannot be read or does not fit.
-    Exponent {
-        /// The exponent as written, or the power it belongs to.
-        text: String,
-    },
+    AmbiguousProduct { fix: Option<String> } = "units::ambiguous_product", "product after `/` needs brackets",
+        help fix.as_deref().map(write);
+    /// An exponent that cannot be read or does not fit, as written, or the power it belongs to.
+    Exponent { text: String } = "units::exponent", format!("exponent `{text}` cannot be used"),
+        help "write a whole number, a decimal or a fraction: m^2, s^0.5, rpm^(5/3)";
     /// The value has the wrong dimension.
-    Dimension {
-        /// The type that is due.
-        wanted: Box<Type>,
-        /// The type of the value.
-        found: Box<Type>,
-        /// What was possibly meant.
-        fix: Option<String>,
-    },
-    /// A number without a unit where a unit is due.
-    BareNumber {
-        /// The type that is due.
-        wanted: Type,
-        /// The string with the usual unit.
-        fix: String,
-    },
-    /// `Hz` or `1/s` where a rotation is due.
-    Rotation {
-        /// The string, or the part of an expression, in revolutions.
-        fix: Option<String>,
-    },
+    Dimension { wanted: Box<Type>, found: Box<Type>, fix: Option<String> } = "units::dimension",
+        format!("must be {}, got {}", wanted.with_article(), got(found)),
+        help match found.differs_by_radians(**wanted) {
+            true => turning(fix),
+            false => fix.as_deref().map_or_else(|| unit_wanted("value", wanted), write),
+        };
+    /// A number without a unit where a unit is due; the string with the usual one.
+    BareNumber { wanted: Type, fix: String } = "units::bare_number",
+        format!("must be {}, got a number without a unit", wanted.with_article()),
+        help bare_number(wanted, fix);
+    /// `Hz` or `1/s` where a rotation is due; the string, or the part of an expression, in revolutions.
+    Rotation { fix: Option<String> } = "units::rotation",
+        "must be a rotational speed (rad/s), got a frequency: 1/s and Hz do not say what turns",
+        help match fix {
+            Some(fix) => format!("{} for revolutions, or use rad/s, deg/s or rpm", write(fix)),
+            None => "multiply the frequency by `1 [rev]`".to_owned(),
+        };
     /// A temperature difference where an absolute temperature is due.
-    AbsoluteWanted {
-        /// The value made absolute.
-        fix: String,
-    },
+    AbsoluteWanted { fix: String } = "units::absolute_wanted",
+        "must be an absolute temperature, got a temperature difference", help write(fix);
     /// An absolute temperature where a difference is due.
-    DifferenceWanted {
-        /// The value made a difference.
-        fix: String,
-    },
+    DifferenceWanted { fix: String } = "units::difference_wanted",
+        "must be a temperature difference, got an absolute temperature", help write(fix);
     /// An absolute temperature below 0 K.
-    BelowAbsoluteZero {
-        /// The temperature in K.
-        kelvin: f64,
-    },
-    /// A standard deviation below zero.
-    NegativeDeviation {
-        /// The deviation as written.
-        text: String,
-    },
+    BelowAbsoluteZero { kelvin: f64 } = "units::below_absolute_zero",
+        format!("temperature below absolute zero: {} K", rounded(*kelvin, 8)),
+        help "0 K is -273.15 degC or -459.67 degF";
+    /// A standard deviation below zero, as written.
+    NegativeDeviation { text: String } = "units::negative_deviation",
+        format!("negative standard deviation `{text}`"),
+        help "the standard deviation after ± is zero or positive";
     /// `25 ± 5 % degC`: a percentage of an absolute temperature.
-    RelativeDeviation {
-        /// The string with a deviation in degrees.
-        fix: Option<String>,
-    },
-    /// A deviation in percent that reads in two ways: `0.8 ± 5 %`, `80 % ± 5 %`, `220 ± 5 % W`.
-    PercentDeviation {
-        /// The string if the percentage is one of the same kind as the value, with numbers that say so.
-        points: String,
-        /// The string if it is a part of the value.
-        part: String,
-    },
+    RelativeDeviation { fix: Option<String> } = "units::relative_deviation",
+        "percentage of an absolute temperature", help fix.as_deref().map(write);
+    /// A deviation in percent that reads in two ways: `0.8 ± 5 %`, `80 % ± 5 %`, `220 ± 5 % W`. The string if the
+    /// percentage is one of the same kind as the value, and if it is a part of the value.
+    PercentDeviation { points: String, part: String } = "units::percent_deviation",
+        "a deviation in percent that reads in two ways",
+        help format!("write \"{part}\" for a part of the value, or \"{points}\" for percentage points");
     /// A deviation without a unit behind a value that has one: `5 kW ± 1`.
-    BareDeviation {
-        /// The string with one unit for both.
-        fix: String,
-    },
+    BareDeviation { fix: String } = "units::bare_number",
+        "the deviation has no unit, but the value has one", help write(fix);
     /// A fraction in the place of a number: `3/8 in`, `1 1/2 in`.
-    Fraction {
-        /// The string with the number that the fraction is.
-        fix: String,
-    },
+    Fraction { fix: String } = "units::fraction", "fraction in the place of a number", help write(fix);
     /// `2 * m` while `m` is both a unit and a parameter.
-    TwoReadings {
-        /// The name that is both.
-        name: String,
-        /// The string to write for the quantity.
-        quantity: String,
-        /// The string to write for the expression.
-        expression: String,
-    },
+    TwoReadings { name: String, quantity: String, expression: String } = "units::two_readings",
+        format!("`{name}` is a unit and also a parameter, so that this reads in two ways"),
+        help format!("write \"{quantity}\" for the quantity or \"{expression}\" for the expression");
     /// A unit without brackets in an expression.
-    UnbracketedUnit {
-        /// The expression with brackets.
-        fix: String,
-    },
+    UnbracketedUnit { fix: String } = "units::unbracketed_unit", "unit without brackets in an expression",
+        help write(fix);
     /// A bracket that follows neither a number nor, without space, a name.
-    MisplacedBracket {
-        /// The expression without this bracket.
-        fix: String,
-    },
-    /// No parameter, signal, node ... has this name.
-    UnknownName {
-        /// The name as written.
-        name: String,
-        /// The nearest name in scope.
-        suggestion: Option<String>,
-    },
-    /// No function has this name.
-    UnknownFunction {
-        /// The name as written.
-        name: String,
-        /// The nearest function.
-        suggestion: Option<String>,
-    },
-    /// A wrong number of arguments.
-    Arity {
-        /// The function.
-        function: &'static str,
-        /// How many arguments it takes, in words.
-        wanted: &'static str,
-        /// How many were given.
-        found: usize,
-    },
-    /// `-2^2`, which some read as 4 and some as -4.
-    AmbiguousSign {
-        /// The power negated.
-        negated: String,
-        /// The negative number raised.
-        raised: String,
-    },
+    MisplacedBracket { fix: String } = "units::misplaced_bracket", "unit in brackets may only follow a number",
+        help write(fix);
+    /// No parameter, signal, node ... has this name; the nearest in scope.
+    UnknownName { name: String, suggestion: Option<String> } = "units::unknown_name",
+        format!("unknown name `{name}`"), help meant(suggestion);
+    /// No function has this name; the nearest one.
+    UnknownFunction { name: String, suggestion: Option<String> } = "units::unknown_function",
+        format!("unknown function `{name}`"), help meant(suggestion);
+    /// A wrong number of arguments; what the function takes, in words.
+    Arity { function: &'static str, wanted: &'static str, found: usize } = "units::arity",
+        format!("`{function}` takes {wanted}, got {found}");
+    /// `-2^2`, which some read as 4 and some as -4: the power negated, and the negative number raised.
+    AmbiguousSign { negated: String, raised: String } = "units::ambiguous_sign",
+        "signed number with a power reads in two ways", help format!("write \"{negated}\" or \"{raised}\"");
     /// `a < b < c`.
-    ChainedComparison,
-    /// The two sides of `+`, `-`, a comparison, or two arguments, are of different types.
-    Operands {
-        /// The operator or function.
-        operation: &'static str,
-        /// Type of the left or first one.
-        left: Box<Type>,
-        /// Type of the right or later one.
-        right: Box<Type>,
-        /// What was possibly meant for the part in question.
-        fix: Option<String>,
-    },
-    /// An absolute temperature where only plain quantities can be used.
-    AbsoluteOperand {
-        /// What it cannot be, in words: "multiplied".
-        operation: &'static str,
-        /// What to write in its place.
-        fix: String,
-    },
-    /// A function argument of the wrong type.
-    Argument {
-        /// The function.
-        function: &'static str,
-        /// What it takes, in words.
-        wanted: &'static str,
-        /// What it was given.
-        found: Box<Type>,
-        /// The string with the argument made a plain number by a scale of its own kind.
-        example: Option<String>,
-    },
-    /// A table called with a wrong number of arguments, or used without any.
-    TableArity {
-        /// The table.
-        table: String,
-        /// The type of each argument it takes.
-        wanted: Vec<Type>,
-        /// How many were given.
-        found: usize,
-        /// The string with names in scope that are of the right kind.
-        fix: Option<String>,
-    },
-    /// An argument of a table of the wrong type.
-    TableArgument {
-        /// The table.
-        table: String,
-        /// Which argument, counted from 0.
-        argument: usize,
-        /// The type it takes.
-        wanted: Box<Type>,
-        /// The type it was given.
-        found: Box<Type>,
-        /// What was possibly meant.
-        fix: Option<String>,
-    },
-    /// A parameter or another name without arguments, called as if it were a table.
-    NotATable {
-        /// The name.
-        name: String,
-        /// The string without the call; a product if there is one argument.
-        fix: String,
-    },
-    /// A variable exponent on a base that has a dimension.
-    VariableExponent {
-        /// Type of the base.
-        base: Type,
-        /// The power with a plain base.
-        fix: String,
-    },
+    ChainedComparison = "units::chained_comparison", "comparison of a comparison",
+        help "write \"if(a < b, if(b < c, x, y), y)\"";
+    /// The two sides of `+`, `-`, a comparison, or two arguments, are of different types. The fix is for the part in
+    /// question.
+    Operands { operation: &'static str, left: Box<Type>, right: Box<Type>, fix: Option<String> } = "units::operands",
+        format!("{operation} needs values of one kind, got {} and {}", got(left), got(right)),
+        help match fix {
+            _ if left.differs_by_radians(**right) => turning(fix),
+            Some(fix) => write(fix),
+            None => alike(left, right),
+        };
+    /// An absolute temperature where only plain quantities can be used; what it cannot be, in words: "multiplied".
+    AbsoluteOperand { operation: &'static str, fix: String } = "units::absolute_temperature",
+        format!("an absolute temperature cannot be {operation}"), help write(fix);
+    /// A function argument of the wrong type; what it takes, in words, and the string with the argument made a plain
+    /// number by a scale of its own kind.
+    Argument { function: &'static str, wanted: &'static str, found: Box<Type>, example: Option<String> } =
+        "units::argument", format!("`{function}` takes {wanted}, got {}", got(found)),
+        help example.as_ref().map(|example| {
+            format!("divide it by {}, for example \"{example}\"", found.with_article())
+        });
+    /// A table called with a wrong number of arguments, or used without any; the fix has names in scope that are of the
+    /// right kind.
+    TableArity { table: String, wanted: Vec<Type>, found: usize, fix: Option<String> } = "units::arity", {
+            let count = if wanted.len() == 1 { "one argument" } else { "two arguments" };
+            format!("table `{table}` takes {count}, {}, got {found}", kinds(wanted))
+        },
+        help match fix {
+            Some(fix) => write(fix),
+            None => format!("write `{table}(..)` with {} between the brackets", kinds(wanted)),
+        };
+    /// An argument of a table, counted from 0, of the wrong type.
+    TableArgument { table: String, argument: usize, wanted: Box<Type>, found: Box<Type>, fix: Option<String> } =
+        "units::argument", format!("table `{table}` takes {}, got {}", wanted.with_article(), got(found)),
+        help match fix {
+            Some(fix) => write(fix),
+            None => unit_wanted("argument", wanted),
+        };
+    /// A parameter or another name without arguments, called as if it were a table; the string without the call, a
+    /// product if there is one argument.
+    NotATable { name: String, fix: String } = "units::not_a_table",
+        format!("`{name}` is not a table and takes no arguments"), help write(fix);
+    /// A variable exponent on a base that has a dimension; the power with a plain base.
+    VariableExponent { base: Type, fix: String } = "units::exponent",
+        format!("power of a {} needs a constant exponent such as 2 or (5/3)", noun(base)), help write(fix);
     /// An exponent that has a dimension.
-    ExponentDimension {
-        /// Type of the exponent.
-        found: Type,
-    },
-    /// A comparison where a value is due.
-    TruthValue {
-        /// The comparison inside an `if`.
-        fix: String,
-    },
-    /// A value where a comparison is due.
-    TruthWanted {
-        /// The value compared with something.
-        fix: String,
-    },
+    ExponentDimension { found: Type } = "units::exponent",
+        format!("exponent must be a plain number, got {}", got(found)),
+        help "divide the exponent by its unit: \"x^(n / 1 [K])\"";
+    /// A comparison where a value is due; the comparison inside an `if`.
+    TruthValue { fix: String } = "units::truth", "comparison used as a value", help write(fix);
+    /// A value where a comparison is due; the value compared with something.
+    TruthWanted { fix: String } = "units::truth", "first argument of `if` must be a comparison", help write(fix);
+}
 }
 
 impl UnitError {
@@ -289,12 +190,12 @@ impl UnitError {
 
     /// The stable code, `units::dimension` and so on; it never changes once released.
     pub fn code(&self) -> &'static str {
-        error_text::code(&self.kind)
+        self.kind.code()
     }
 
     /// What to write instead.
     pub fn help(&self) -> Option<String> {
-        error_text::help(&self.kind)
+        self.kind.help()
     }
 
     /// The same error in a larger text: `at` bytes further on.
@@ -316,8 +217,18 @@ impl UnitError {
 
 impl fmt::Display for UnitError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&error_text::message(&self.kind))
+        self.kind.fmt(f)
     }
 }
 
 impl std::error::Error for UnitError {}
+
+impl crate::Problem for UnitError {
+    fn code(&self) -> &'static str {
+        self.code()
+    }
+
+    fn help(&self) -> Option<String> {
+        self.help()
+    }
+}

@@ -18,13 +18,15 @@
 //! # Ok::<(), lptn_units::UnitError>(())
 //! ```
 
+mod bracket;
 mod deviation;
 mod dimension;
 mod dual;
 mod error;
-mod error_text;
+mod error_words;
 mod expr;
 mod format;
+mod kinship;
 mod naming;
 mod number;
 mod problems;

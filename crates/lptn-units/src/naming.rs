@@ -1,5 +1,7 @@
 //! What dimensions are called: usual units and usual words.
 
+use std::fmt;
+
 use crate::dimension::{BASE_UNITS, Dimension};
 use crate::rational::Rational;
 
@@ -49,19 +51,30 @@ const KNOWN: &[(Dimension, &str, &str)] = &[
 /// Derived units worth pulling out of a product of base units. J is left out: who writes K/W/s thinks in W.
 const FACTORS: [(Dimension, &str); 2] = [(Dimension::POWER, "W"), (Dimension::FORCE, "N")];
 
-pub(crate) fn si_unit(dimension: Dimension) -> String {
-    match KNOWN.iter().find(|(known, _, _)| *known == dimension) {
-        Some((_, unit, _)) => (*unit).to_owned(),
-        None => shortest(dimension),
+impl Dimension {
+    /// The unit a reader expects: `W`, `K/W`, `J/K`, `W/(m^2 K)`; where the dimension has no usual unit, the
+    /// shortest product of base units and one derived unit. `1` for a plain number. [`Unit::parse`]
+    /// reads it back with scale 1.
+    ///
+    /// [`Unit::parse`]: crate::Unit::parse
+    pub fn si_unit(&self) -> String {
+        match KNOWN.iter().find(|(known, _, _)| known == self) {
+            Some((_, unit, _)) => (*unit).to_owned(),
+            None => shortest(*self),
+        }
+    }
+
+    /// The usual name of the quantity, `thermal resistance` for K/W, if it has one.
+    pub fn quantity_name(&self) -> Option<&'static str> {
+        KNOWN.iter().find(|(known, _, _)| known == self).map(|(_, _, words)| *words)
     }
 }
 
-pub(crate) fn quantity_name(dimension: Dimension) -> Option<&'static str> {
-    KNOWN.iter().find(|(known, _, _)| *known == dimension).map(|(_, _, words)| *words)
-}
-
-pub(crate) fn base_units(dimension: Dimension) -> String {
-    compose(&base_factors(dimension))
+impl fmt::Display for Dimension {
+    /// In SI base units, `kg m^2/s^3`; `1` for a plain number.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&compose(&base_factors(*self)))
+    }
 }
 
 type Factor = (&'static str, Rational);

@@ -54,7 +54,7 @@ fn words(part: &str) -> Option<Vec<String>> {
     Some(corrected)
 }
 
-/// `deg C` and `degrees Celsius`, which are no degrees of angle.
+/// `deg C` and `degrees Celsius`, which are not degrees of angle.
 fn degrees(word: &str, scale: &str) -> Option<&'static str> {
     let degree = ["deg", "deg.", "degree", "degrees", "°", "º", "˚"];
     if !degree.contains(&word.to_lowercase().as_str()) {

@@ -74,7 +74,7 @@ struct Run<'a> {
     groups: Vec<&'a str>,
     /// The separators between the groups.
     marks: Vec<char>,
-    /// The first separator that is no decimal point.
+    /// The first separator that is not a decimal point.
     first: Range<usize>,
 }
 

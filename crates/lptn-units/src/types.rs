@@ -32,6 +32,11 @@ impl Type {
         !self.absolute && self.dimension.is_none()
     }
 
+    /// Is it a temperature, absolute or a difference?
+    pub fn is_temperature(&self) -> bool {
+        self.dimension == Dimension::TEMPERATURE
+    }
+
     /// The unit to write a value of this type in: `degC` for an absolute temperature, otherwise
     /// [`Dimension::si_unit`].
     pub fn usual_unit(&self) -> String {

@@ -230,7 +230,7 @@ fn run_together(name: &str) -> Option<String> {
     joined("K", &|_| true).or_else(|| joined("s", &by_time))
 }
 
-/// Names of units that there are not, each too near to another one: the metric horsepower is no pascal.
+/// Names that are refused because each is too near to a unit of another kind: the metric horsepower `PS` is not a pascal.
 const NO_SLIPS: [&str; 2] = ["PS", "ps"];
 
 /// The unit that was probably meant by an unknown name.

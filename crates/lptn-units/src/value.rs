@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
+use crate::bracket::bracketed;
 use crate::error::{UnitError, UnitErrorKind};
-use crate::expr::{Expression, bracketed};
+use crate::expr::Expression;
 use crate::quantity::{self, Quantity, Reading};
 use crate::separators;
 use crate::types::Type;
@@ -46,7 +47,7 @@ pub fn parse_value(
     Err(more_helpful(text, as_quantity, as_expression, is_parameter))
 }
 
-/// `nan` and `inf` are no names.
+/// `nan` and `inf` are not names.
 fn is_word(text: &str, error: &UnitError) -> bool {
     let word = text.trim();
     matches!(&error.kind, UnitErrorKind::NotFinite { text } if word.trim_start_matches(['+', '-']).eq_ignore_ascii_case(text))

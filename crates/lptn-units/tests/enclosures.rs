@@ -222,7 +222,7 @@ fn the_degree_is_that_of_the_polynomial() {
     }
 }
 
-/// A kink inside the interval is no part of a polynomial, at the end of a table that is held neither.
+/// A kink inside the interval is not part of a polynomial; neither is the end of a table whose last value is held.
 #[test]
 fn a_kink_bounds_no_slope() {
     for text in [

@@ -85,7 +85,7 @@ fn fractions_of_a_unit_are_shown_as_decimals() {
     for nothing in ["3/0 in", "3/0 [in]", "1 1/0 in"] {
         assert!(offers(nothing, LENGTH).iter().all(|offer| !offer.contains("inf")), "{nothing}");
     }
-    // a difference of unlike kinds is no mixed number
+    // a difference of unlike kinds is not a mixed number
     assert!(!offers("1 - 1/2 in", LENGTH).iter().any(|offer| read(offer, LENGTH).is_ok()));
 }
 

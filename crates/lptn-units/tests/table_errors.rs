@@ -95,17 +95,23 @@ const WRONG: [Wrong; 17] = [
         "P(x + 1)",
         "units::not_a_table",
         "P",
-        "`P` is no table and takes no arguments",
+        "`P` is not a table and takes no arguments",
         "write \"P * (x + 1)\"",
     ),
     (
         "P / x(y)",
         "units::not_a_table",
         "x",
-        "`x` is no table and takes no arguments",
+        "`x` is not a table and takes no arguments",
         "write \"P / (x * y)\"",
     ),
-    ("P(x, y) + P", "units::not_a_table", "P", "`P` is no table and takes no arguments", "write \"P + P\""),
+    (
+        "P(x, y) + P",
+        "units::not_a_table",
+        "P",
+        "`P` is not a table and takes no arguments",
+        "write \"P + P\"",
+    ),
     ("los", "units::unknown_name", "los", "unknown name `los`", "did you mean `loss(..)`?"),
 ];
 

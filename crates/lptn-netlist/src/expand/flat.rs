@@ -1,8 +1,8 @@
 //! What has no flat form: text that would be another network, or none, is not written.
 
+use lptn_data::Diagnostic;
 use lptn_network::{Item, Network};
 
-use crate::diagnostic::Diagnostic;
 use crate::netlist::Netlist;
 
 impl Netlist {

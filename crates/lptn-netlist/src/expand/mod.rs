@@ -14,13 +14,12 @@ mod values;
 
 use std::path::{Component, Path, PathBuf};
 
-use lptn_network::Network;
+use lptn_data::FileId;
+use lptn_network::{Network, RunSettings};
 
-use crate::file::FileId;
 use crate::netlist::Netlist;
-use crate::run::RunSettings;
+use crate::toml_text::string;
 pub use proof::{WrittenError, prove};
-pub(crate) use text::string;
 
 use text::Fields;
 

@@ -2,26 +2,24 @@
 
 use std::sync::Arc;
 
+use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, list, read_text};
 use lptn_network::{Context, Value};
 use lptn_units::{Scope as _, suggest};
 
-use crate::diagnostic::Diagnostic;
-use crate::elaborate::Elaboration;
 use crate::fields::{Fields, sample, wrong_shape};
 use crate::fit::read::Column;
 use crate::fit::words::FIT;
 use crate::fit::{FitRecord, VariedName};
+use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::record::{self, Record, RecordName, RecordQuery};
-use crate::value::{Place, Wanted};
-use crate::vocabulary::list;
+use crate::work::Elaboration;
 
 /// The keys of one of several records.
 const KEYS: [&str; 2] = ["csv", "set"];
 
 /// The values of `[fit]` that name files.
 pub(crate) fn files(raw: &crate::raw::RawNetlist) -> Vec<(&str, &RawValue)> {
-    let fits = crate::names::section(raw, FIT.name).into_iter().flat_map(|table| &table.entries);
+    let fits = raw.elements(FIT.name).iter();
     let data = fits.filter_map(|fit| match &fit.value.kind {
         RawKind::Table(table) => table.get("data"),
         _ => None,
@@ -126,7 +124,7 @@ impl<'a> Elaboration<'a> {
 
     /// The record that a value names. Without columns to read there is nothing to be said of its inside.
     fn fit_file(&mut self, raw: &RawValue, query: &RecordQuery) -> Option<Arc<Record>> {
-        let csv: &'a crate::csv_file::CsvFiles = self.csv;
+        let csv: &'a crate::csv_files::CsvFiles = self.csv;
         let text = match csv.text(raw)? {
             Ok(text) => text,
             Err(problem) => {
@@ -137,7 +135,7 @@ impl<'a> Elaboration<'a> {
         if query.columns.is_empty() {
             return None;
         }
-        match record::read_text(text.file, (&text.name, &text.text), query) {
+        match read_text(text, query) {
             Ok(mut record) => {
                 self.problems.append(&mut record.warnings);
                 Some(Arc::new(record))

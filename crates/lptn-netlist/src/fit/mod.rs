@@ -8,12 +8,9 @@ pub(crate) use data::files;
 
 use std::sync::Arc;
 
+use lptn_data::{Diagnostic, Record, Span};
 use lptn_network::{End, Network, ParameterId, Parameters, Value};
 use lptn_units::{EvalError, Type};
-
-use crate::diagnostic::Diagnostic;
-use crate::file::Span;
-use crate::record::Record;
 
 /// One `[fit.NAME]`, as it is written; [`FitStudy::plan`] has its numbers.
 #[derive(Clone, Debug)]

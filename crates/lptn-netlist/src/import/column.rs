@@ -1,110 +1,74 @@
 //! The columns of an imported file, and what is wrong with its cells.
 
+use lptn_data::{Column, Diagnostic, MOST_PROBLEMS, Rows};
 use lptn_laws::Formula;
 use lptn_network::{End, Input};
-use lptn_units::{Dimension, Quantity, Type, Unit, suggest};
+use lptn_units::{Dimension, Quantity, Type};
 
-use crate::csv_form;
-use crate::csv_head::{Wrong, number};
-use crate::diagnostic::Diagnostic;
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::Fields;
 use crate::import::Contents;
-use crate::import::sheet::Sheet;
-use crate::limits::MOST_PROBLEMS;
-use crate::value::Place;
-
-/// A column of numbers.
-pub(crate) struct Column {
-    pub(crate) index: usize,
-    unit: Unit,
-}
+use crate::place::Place;
+use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
     /// The file of this kind, if one is named; its header has no unknown columns.
-    pub(crate) fn sheet<'s>(
-        &mut self,
-        import: Option<&'s Fields<'a>>,
-        contents: &Contents,
-    ) -> Option<Sheet<'s>>
-    where
-        'a: 's,
-    {
+    pub(crate) fn rows(&mut self, import: Option<&Fields<'a>>, contents: &Contents) -> Option<Rows<'a>> {
         let fields = import?;
-        let raw = fields.get(contents.key)?;
-        let place = Place { owner: &fields.owner, key: contents.key, raw };
-        let sheet = self.opened(fields, place, contents);
-        if sheet.is_none() {
+        fields.get(contents.key)?;
+        let rows = self.opened(fields, contents);
+        if rows.is_none() {
             self.lost();
         }
-        sheet
+        rows
     }
 
-    fn opened<'s>(&mut self, fields: &Fields<'a>, place: Place<'s>, contents: &Contents) -> Option<Sheet<'s>>
-    where
-        'a: 's,
-    {
-        fields.text(contents.key, fields.get(contents.key)?, &mut self.problems)?;
-        let csv: &'a crate::csv_file::CsvFiles = self.csv;
-        let text = match csv.text(place.raw)? {
-            Ok(text) => text,
-            Err(problem) => {
-                self.report(problem.clone());
-                return None;
-            }
-        };
-        let Some(sheet) = Sheet::open(text, place) else {
-            self.report(text.empty(place.raw, contents.example));
-            return None;
-        };
-        if let Some(problem) =
-            csv_form::check(&sheet.head, (&text.name, &text.text), (csv_form::NETLIST, contents.example))
-        {
-            self.report(problem.also(place.raw.span.clone(), "read here"));
-            return None;
-        }
-        let unknown: Vec<Diagnostic> = sheet.unknown_columns(contents.columns).collect();
+    fn opened(&mut self, fields: &Fields<'a>, contents: &Contents) -> Option<Rows<'a>> {
+        let raw = fields.get(contents.key)?;
+        fields.text(contents.key, raw, &mut self.problems)?;
+        let asked = Place { owner: &fields.owner, key: contents.key, raw }.asked();
+        let csv: &'a crate::csv_files::CsvFiles = self.csv;
+        let text = csv.text(raw)?.map_err(Diagnostic::clone);
+        let rows = self.kept(text.and_then(|text| Rows::open(text, asked, contents.example)))?;
+        let unknown = rows.unknown_columns(contents.columns);
         let known = unknown.is_empty();
         self.problems.extend(unknown);
-        known.then_some(sheet)
+        known.then_some(rows)
     }
 
     /// A column that has to be there.
-    pub(crate) fn required_column(&mut self, sheet: &Sheet<'_>, name: &str) -> Option<usize> {
-        self.kept(sheet.head.find(name, sheet.ask))
+    pub(crate) fn required_column(&mut self, rows: &Rows<'_>, name: &str) -> Option<usize> {
+        self.kept(rows.required(name))
     }
 
     /// A column that may be there.
-    pub(crate) fn optional_column(&mut self, sheet: &Sheet<'_>, name: &str) -> Option<usize> {
-        self.kept(sheet.head.optional(name, sheet.ask)).flatten()
+    pub(crate) fn optional_column(&mut self, rows: &Rows<'_>, name: &str) -> Option<usize> {
+        self.kept(rows.optional(name)).flatten()
     }
 
     /// A column of numbers that has to be there.
-    pub(crate) fn number_column(&mut self, sheet: &Sheet<'_>, name: &str, ty: Type) -> Option<Column> {
-        let index = self.required_column(sheet, name)?;
-        let unit = self.kept(sheet.head.unit(index, Some(ty), sheet.ask))?;
-        Some(Column { index, unit })
+    pub(crate) fn number_column(&mut self, rows: &Rows<'_>, name: &str, ty: Type) -> Option<Column> {
+        self.kept(rows.numbers(name, ty))
     }
 
     /// The conductances or the resistances: one of the two.
-    pub(crate) fn law_column(&mut self, sheet: &Sheet<'_>) -> Option<(Column, Formula)> {
-        let (conductance, resistance) = (self.optional_column(sheet, "G"), self.optional_column(sheet, "R"));
+    pub(crate) fn law_column(&mut self, rows: &Rows<'_>) -> Option<(Column, Formula)> {
+        let (conductance, resistance) = (self.optional_column(rows, "G"), self.optional_column(rows, "R"));
         match (conductance, resistance) {
             (Some(g), Some(r)) => {
-                self.report(sheet.two_laws(g, r));
+                self.report(two_laws(rows, g, r));
                 None
             }
             (None, Some(_)) => {
-                let column = self.number_column(sheet, "R", Type::of(Dimension::RESISTANCE))?;
+                let column = self.number_column(rows, "R", Type::of(Dimension::RESISTANCE))?;
                 Some((column, Formula::Resistance))
             }
             (Some(_), None) => {
-                let column = self.number_column(sheet, "G", Type::of(Dimension::CONDUCTANCE))?;
+                let column = self.number_column(rows, "G", Type::of(Dimension::CONDUCTANCE))?;
                 Some((column, Formula::Conductance))
             }
             (None, None) => {
-                let problem = sheet.head.no_column("G", sheet.ask);
-                self.report(problem.help("add a column `G [W/K]` or a column `R [K/W]`"));
+                let help = "add a column `G [W/K]` or a column `R [K/W]`";
+                self.kept(rows.required("G").map_err(|problem| problem.help(help)));
                 None
             }
         }
@@ -115,142 +79,80 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The number in a cell; a stand-in if it is wrong.
-    pub(crate) fn number(&mut self, sheet: &mut Sheet<'_>, column: &Column) -> Input {
-        let Column { index, ref unit } = *column;
-        if !sheet.sound {
-            return stand_in(unit.ty); // what stands in which column cannot be told
+    pub(crate) fn number(&mut self, rows: &mut Rows<'_>, column: &Column) -> Input {
+        let ty = column.unit.ty;
+        if !rows.sound {
+            return stand_in(ty); // what stands in which column cannot be told
         }
-        let wrong = match number(sheet.cell(index)) {
-            Ok(number) => {
-                let value = unit.to_si(number);
-                if !unit.ty.absolute || value >= 0.0 {
-                    return Quantity { value, deviation: None, ty: unit.ty }.into();
-                }
-                None
+        match rows.number(column) {
+            Ok(value) => Quantity { value, deviation: None, ty }.into(),
+            Err(wrong) => {
+                self.refuse(rows, |rows| rows.no_number(column.index, wrong));
+                stand_in(ty)
             }
-            Err(wrong) => Some(wrong),
-        };
-        self.refuse(sheet, |sheet| sheet.no_number(index, wrong));
-        stand_in(unit.ty)
+        }
     }
 
     /// The node or boundary that a cell names.
-    pub(crate) fn end_of(&mut self, sheet: &mut Sheet<'_>, (key, index): (&str, usize)) -> Option<End> {
-        let name = sheet.cell(index);
+    pub(crate) fn end_of(&mut self, rows: &mut Rows<'_>, (key, index): (&str, usize)) -> Option<End> {
+        let name = rows.cell(index);
         if let Some(end) = self.builder.end(name) {
             return Some(end);
         }
-        if !sheet.sound {
+        if !rows.sound {
             return None;
         }
         if !name.is_empty() && self.names.is_hidden(name) {
             return None; // what hides it has been reported
         }
-        if sheet.problems >= MOST_PROBLEMS || name.is_empty() {
-            self.refuse(sheet, |sheet| sheet.no_name(index));
+        if rows.problems >= MOST_PROBLEMS || name.is_empty() {
+            self.refuse(rows, |rows| rows.no_name(index));
             return None;
         }
         let name = name.to_owned();
-        let problem = self.unknown_end((&format!("column `{key}`"), key), (&name, &sheet.place(index)));
-        let asked = sheet.ask.raw.span.clone();
-        self.refuse(sheet, |_| problem.also(asked, "read here"));
+        let problem = self.unknown_end((&format!("column `{key}`"), key), (&name, &rows.place(index)));
+        self.refuse(rows, |rows| rows.asked.also(problem));
         None
     }
 
     /// Whether a row has a name; one without is left out.
-    pub(crate) fn is_named(&mut self, sheet: &mut Sheet<'_>, index: usize) -> bool {
-        let named = !sheet.cell(index).is_empty();
-        if !named && sheet.sound {
-            self.refuse(sheet, |sheet| sheet.no_name(index));
+    pub(crate) fn is_named(&mut self, rows: &mut Rows<'_>, index: usize) -> bool {
+        let named = !rows.cell(index).is_empty();
+        if !named && rows.sound {
+            self.refuse(rows, |rows| rows.no_name(index));
         }
         if !named {
-            sheet.skip();
+            rows.skip();
         }
         named
     }
 
     /// Goes to the next row, if there is one. A row that has more or fewer cells than the header is reported: something
     /// in it is not where it seems to be.
-    pub(crate) fn next_row(&mut self, sheet: &mut Sheet<'_>) -> bool {
-        if !sheet.next() {
-            return false;
+    pub(crate) fn next_row(&mut self, rows: &mut Rows<'_>) -> bool {
+        let there = rows.step();
+        if there && !rows.sound {
+            self.refuse(rows, Rows::wrong_length);
         }
-        let (cells, columns) = (sheet.cells(), sheet.head.columns.len());
-        let extra = (columns..cells).any(|index| !sheet.cell(index).is_empty());
-        sheet.sound = cells >= columns && !extra;
-        if !sheet.sound {
-            self.refuse(sheet, |sheet| {
-                let extra = sheet.head.extra(&sheet.row(), &sheet.ask.raw.span);
-                extra.unwrap_or_else(|| sheet.short())
-            });
-        }
-        true
+        there
     }
 
     /// Reports a problem of a row, up to so many of a file.
-    fn refuse(&mut self, sheet: &mut Sheet<'_>, problem: impl FnOnce(&Sheet<'_>) -> Diagnostic) {
-        sheet.problems += 1;
-        if sheet.problems > MOST_PROBLEMS {
+    fn refuse<'s>(&mut self, rows: &mut Rows<'s>, problem: impl FnOnce(&Rows<'s>) -> Diagnostic) {
+        rows.problems += 1;
+        if rows.problems > MOST_PROBLEMS {
             self.dropped += 1;
         } else {
-            let problem = problem(sheet);
+            let problem = problem(rows);
             self.report(problem);
         }
     }
 }
 
-impl Sheet<'_> {
-    fn unknown_columns(&self, known: &'static [&'static str]) -> impl Iterator<Item = Diagnostic> {
-        let unknown = self.head.columns.iter().filter(|column| !known.contains(&column.name.as_str()));
-        unknown.map(|column| {
-            let message = format!("{} have no column `{}`", self.ask.words(), column.name);
-            let problem = Diagnostic::error("netlist::csv_unknown_column", message)
-                .at(column.place.clone(), "unknown column")
-                .also(self.ask.raw.span.clone(), "read here");
-            match suggest(&column.name, known.iter().copied()) {
-                Some(near) => problem.help(format!("did you mean `{near}`?")),
-                None => problem.help(format!("the columns are {}", crate::vocabulary::list(known))),
-            }
-        })
-    }
-
-    fn two_laws(&self, conductance: usize, resistance: usize) -> Diagnostic {
-        let message = format!("{} have a column `G` and a column `R`", self.ask.words());
-        let place = |index: usize| self.head.columns[index].place.clone();
-        Diagnostic::error("netlist::two_laws", message)
-            .at(place(resistance), "`R` here")
-            .also(place(conductance), "`G` here")
-            .also(self.ask.raw.span.clone(), "read here")
-            .help("keep one of them")
-    }
-
-    /// A cell without a usable number; without a reason it is a temperature below absolute zero.
-    fn no_number(&self, index: usize, wrong: Option<Wrong>) -> Diagnostic {
-        let row = self.row();
-        let Some(wrong) = wrong else { return self.head.cold(&row, index, self.ask) };
-        let problem = self.head.no_number(&row, index, (wrong, self.ask));
-        match wrong {
-            Wrong::Missing => problem.help("fill it in, or remove the row"),
-            Wrong::NotFinite => problem.help("write a number, or remove the row"),
-            Wrong::Text => problem,
-        }
-    }
-
-    fn no_name(&self, index: usize) -> Diagnostic {
-        let message = format!("column `{}` has no name in this row", self.head.columns[index].name);
-        self.in_row(Diagnostic::error("netlist::csv_missing_value", message), index)
-            .help("fill it in, or remove the row")
-    }
-
-    fn short(&self) -> Diagnostic {
-        let (cells, columns) = (self.cells(), self.head.columns.len());
-        let message = format!("this row has {cells} values, the header names {columns} columns");
-        self.in_row(Diagnostic::error("netlist::csv_short_row", message), columns)
-            .also(self.head.place.clone(), "the header")
-            .help("what is left out is an empty cell between commas: `n1,,20`")
-    }
-
-    fn in_row(&self, problem: Diagnostic, index: usize) -> Diagnostic {
-        problem.at(self.place(index), "").also(self.ask.raw.span.clone(), "read here")
-    }
+fn two_laws(rows: &Rows<'_>, conductance: usize, resistance: usize) -> Diagnostic {
+    let message = format!("{} have a column `G` and a column `R`", rows.asked.words);
+    let problem = Diagnostic::error("netlist::two_laws", message)
+        .at(rows.header(resistance), "`R` here")
+        .also(rows.header(conductance), "`G` here");
+    rows.asked.also(problem).help("keep one of them")
 }

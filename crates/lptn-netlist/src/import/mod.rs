@@ -2,21 +2,17 @@
 //! but what the network needs.
 
 mod column;
-mod places;
-mod sheet;
 
+use lptn_data::{Column, Rows};
 use lptn_network::{ConductorKind, Field, Path};
 use lptn_units::{Dimension, Type};
 
-pub(crate) use places::Places;
-
-use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner};
-use crate::import::column::Column;
-use crate::import::places::Kind;
+use crate::imported::{Kind, Places};
 use crate::raw::RawKind;
 use crate::section::Initial;
 use crate::vocabulary::IMPORT;
+use crate::work::Elaboration;
 
 const ABSOLUTE: Type = Type::ABSOLUTE_TEMPERATURE;
 
@@ -36,6 +32,12 @@ const CONDUCTORS: Contents =
     Contents { key: "conductors", columns: &["from", "to", "G", "R", "name"], example: "from,to,G [W/K]" };
 const SOURCES: Contents = Contents { key: "sources", columns: &["into", "P", "name"], example: "into,P [W]" };
 
+/// The way back from the elements, the first of them given, to their rows.
+fn places(rows: Rows<'_>, (kind, first): (Kind, usize), fields: &[(Field, Option<usize>)]) -> Places {
+    let columns = fields.iter().filter_map(|(field, column)| Some((*field, (*column)?))).collect();
+    Places { kind, first, columns, marks: rows.marks() }
+}
+
 impl<'a> Elaboration<'a> {
     /// The fields of `[import]`.
     pub(crate) fn import(&mut self) -> Option<Fields<'a>> {
@@ -52,100 +54,103 @@ impl<'a> Elaboration<'a> {
     }
 
     pub(crate) fn import_nodes(&mut self, import: Option<&Fields<'a>>, default: Option<&Initial<'a>>) {
-        let Some(mut sheet) = self.sheet(import, &NODES) else { return };
-        let name = self.required_column(&sheet, "name");
-        let capacity = self.number_column(&sheet, "C", Type::of(Dimension::CAPACITY));
-        let initial = sheet.has("T0").then(|| self.number_column(&sheet, "T0", ABSOLUTE));
+        let Some(mut rows) = self.rows(import, &NODES) else { return };
+        let name = self.required_column(&rows, "name");
+        let capacity = self.number_column(&rows, "C", Type::of(Dimension::CAPACITY));
+        let initial = rows.has("T0").then(|| self.number_column(&rows, "T0", ABSOLUTE));
         let (Some(name), Some(capacity), Some(initial)) =
             (name, capacity, initial.map_or(Some(None), |column| column.map(Some)))
         else {
             return self.lost();
         };
-        sheet.first = self.builder.node_count();
-        while self.next_row(&mut sheet) {
-            let given = |column: &Column| !(sheet.sound && sheet.cell(column.index).is_empty());
+        let first = self.builder.node_count();
+        while self.next_row(&mut rows) {
+            let given = |column: &Column| !(rows.sound && rows.cell(column.index).is_empty());
             let (stores, starts) = (given(&capacity), initial.as_ref().is_some_and(given));
-            let own = initial.as_ref().filter(|_| starts).map(|column| self.number(&mut sheet, column));
-            let capacity = stores.then(|| self.number(&mut sheet, &capacity));
+            let own = initial.as_ref().filter(|_| starts).map(|column| self.number(&mut rows, column));
+            let capacity = stores.then(|| self.number(&mut rows, &capacity));
             let initial = own.or_else(|| default.map(|(input, _)| input.clone()));
-            if self.is_named(&mut sheet, name) {
-                self.builder.add_node(sheet.cell(name), capacity, initial, !stores);
+            if self.is_named(&mut rows, name) {
+                self.builder.add_node(rows.cell(name), capacity, initial, !stores);
             }
         }
-        let fields = [(Field::Capacity, Some(capacity.index)), (Field::Initial, initial.map(|c| c.index))];
-        self.map.add_import(sheet.places(Kind::Node, Some(name), &fields));
+        let initial = initial.map(|column| column.index);
+        let fields =
+            [(Field::Name, Some(name)), (Field::Capacity, Some(capacity.index)), (Field::Initial, initial)];
+        self.map.add_import(places(rows, (Kind::Node, first), &fields));
     }
 
     pub(crate) fn import_boundaries(&mut self, import: Option<&Fields<'a>>) {
-        let Some(mut sheet) = self.sheet(import, &BOUNDARIES) else { return };
+        let Some(mut rows) = self.rows(import, &BOUNDARIES) else { return };
         let (name, temperature) =
-            (self.required_column(&sheet, "name"), self.number_column(&sheet, "T", ABSOLUTE));
+            (self.required_column(&rows, "name"), self.number_column(&rows, "T", ABSOLUTE));
         let (Some(name), Some(temperature)) = (name, temperature) else { return self.lost() };
-        sheet.first = self.builder.boundary_count();
-        while self.next_row(&mut sheet) {
-            let value = self.number(&mut sheet, &temperature);
-            if self.is_named(&mut sheet, name) {
-                self.builder.boundary(sheet.cell(name), value);
+        let first = self.builder.boundary_count();
+        while self.next_row(&mut rows) {
+            let value = self.number(&mut rows, &temperature);
+            if self.is_named(&mut rows, name) {
+                self.builder.boundary(rows.cell(name), value);
             }
         }
-        let fields = [(Field::Temperature, Some(temperature.index))];
-        self.map.add_import(sheet.places(Kind::Boundary, Some(name), &fields));
+        let fields = [(Field::Name, Some(name)), (Field::Temperature, Some(temperature.index))];
+        self.map.add_import(places(rows, (Kind::Boundary, first), &fields));
     }
 
     pub(crate) fn import_conductors(&mut self, import: Option<&Fields<'a>>) {
-        let Some(mut sheet) = self.sheet(import, &CONDUCTORS) else { return };
-        let (from, to) = (self.required_column(&sheet, "from"), self.required_column(&sheet, "to"));
-        let name = self.optional_column(&sheet, "name");
-        let (Some(from), Some(to), Some((column, law))) = (from, to, self.law_column(&sheet)) else {
+        let Some(mut rows) = self.rows(import, &CONDUCTORS) else { return };
+        let (from, to) = (self.required_column(&rows, "from"), self.required_column(&rows, "to"));
+        let name = self.optional_column(&rows, "name");
+        let (Some(from), Some(to), Some((column, law))) = (from, to, self.law_column(&rows)) else {
             self.doubts.paths = true;
             return;
         };
-        sheet.first = self.builder.conductor_count();
-        while self.next_row(&mut sheet) {
-            let value = self.number(&mut sheet, &column);
+        let first = self.builder.conductor_count();
+        while self.next_row(&mut rows) {
+            let value = self.number(&mut rows, &column);
             let path = Path::new(law, [value]);
-            let ends = (self.end_of(&mut sheet, ("from", from)), self.end_of(&mut sheet, ("to", to)));
+            let ends = (self.end_of(&mut rows, ("from", from)), self.end_of(&mut rows, ("to", to)));
             let (Some(start), Some(end)) = ends else {
                 self.doubts.paths = true;
-                sheet.skip();
+                rows.skip();
                 continue;
             };
             let kind = ConductorKind::Resistor;
-            match sheet.name(name) {
+            match rows.name(name) {
                 Some(name) => self.builder.conductor(name, kind, (start, end), path),
-                None => self.builder.numbered_conductor(sheet.number(), kind, (start, end), path),
+                None => self.builder.numbered_conductor(rows.count(), kind, (start, end), path),
             };
             self.map.conductor("resistor");
         }
         let key = law.declaration().fields[0].key;
         let fields = [
+            (Field::Name, name),
             (Field::From, Some(from)),
             (Field::To, Some(to)),
             (Field::of_law(key).unwrap_or(Field::Value), Some(column.index)),
         ];
-        self.map.add_import(sheet.places(Kind::Conductor, name, &fields));
+        self.map.add_import(places(rows, (Kind::Conductor, first), &fields));
     }
 
     pub(crate) fn import_sources(&mut self, import: Option<&Fields<'a>>) {
-        let Some(mut sheet) = self.sheet(import, &SOURCES) else { return };
-        let into = self.required_column(&sheet, "into");
-        let power = self.number_column(&sheet, "P", Type::of(Dimension::POWER));
-        let name = self.optional_column(&sheet, "name");
+        let Some(mut rows) = self.rows(import, &SOURCES) else { return };
+        let into = self.required_column(&rows, "into");
+        let power = self.number_column(&rows, "P", Type::of(Dimension::POWER));
+        let name = self.optional_column(&rows, "name");
         let (Some(into), Some(power)) = (into, power) else { return };
-        sheet.first = self.builder.source_count();
-        while self.next_row(&mut sheet) {
-            let value = self.number(&mut sheet, &power);
-            let Some(end) = self.end_of(&mut sheet, ("into", into)) else {
-                sheet.skip();
+        let first = self.builder.source_count();
+        while self.next_row(&mut rows) {
+            let value = self.number(&mut rows, &power);
+            let Some(end) = self.end_of(&mut rows, ("into", into)) else {
+                rows.skip();
                 continue;
             };
-            match sheet.name(name) {
+            match rows.name(name) {
                 Some(name) => self.builder.source(name, end, value),
-                None => self.builder.numbered_source(sheet.number(), end, value),
+                None => self.builder.numbered_source(rows.count(), end, value),
             };
         }
-        let fields = [(Field::Into, Some(into)), (Field::Power, Some(power.index))];
-        self.map.add_import(sheet.places(Kind::Source, name, &fields));
+        let fields = [(Field::Name, name), (Field::Into, Some(into)), (Field::Power, Some(power.index))];
+        self.map.add_import(places(rows, (Kind::Source, first), &fields));
     }
 
     /// What the absence of a file makes uncertain.

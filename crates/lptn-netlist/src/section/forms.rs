@@ -1,6 +1,7 @@
 //! The forms in which a path may be given, by their keys.
 
-use crate::diagnostic::Diagnostic;
+use lptn_data::Diagnostic;
+
 use crate::fields::{Fields, sample};
 
 /// Exactly one form, and all of it.

@@ -2,18 +2,18 @@
 
 use std::sync::Arc;
 
+use lptn_data::{Diagnostic, Points};
 use lptn_network::{Field, Input, Item, slot};
 use lptn_units::{
     Expression, Interpolation, Outside, Scope, Symbol, Table, Table1, Table2, TableError, TableSymbol, Type,
     Unit,
 };
 
-use crate::diagnostic::Diagnostic;
-use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner};
-use crate::points::{Axis, Points};
+use crate::points::Axis;
 use crate::raw::{RawEntry, RawKind};
 use crate::vocabulary::TABLE;
+use crate::work::Elaboration;
 
 const INTERPOLATIONS: [(&str, Interpolation); 2] =
     [("linear", Interpolation::Linear), ("pchip", Interpolation::Pchip)];
@@ -177,7 +177,7 @@ fn knots(numbers: &[f64]) -> Vec<f64> {
 /// A grid that the rows of a file have to fill.
 struct Grid<'g> {
     fields: &'g Fields<'g>,
-    file_header: &'g crate::file::Span,
+    file_header: &'g lptn_data::Span,
     axes: [&'g Points; 2],
     knots: [&'g [f64]; 2],
 }

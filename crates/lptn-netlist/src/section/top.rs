@@ -1,13 +1,12 @@
 //! The top level: `format`, the title, and which sections there are.
 
+use lptn_data::{Diagnostic, Span, list};
 use lptn_units::suggest;
 
-use crate::diagnostic::Diagnostic;
-use crate::elaborate::{Elaboration, MISSING_FORMAT};
 use crate::fields::wrong_shape;
-use crate::file::Span;
 use crate::raw::{RawEntry, RawKind};
-use crate::vocabulary::{MINIMAL, SECTIONS, SECTIONS_LATER, TOP_KEYS, list};
+use crate::vocabulary::{MINIMAL, SECTIONS, SECTIONS_LATER, TOP_KEYS};
+use crate::work::{Elaboration, MISSING_FORMAT};
 
 impl Elaboration<'_> {
     pub(crate) fn top_level(&mut self) {

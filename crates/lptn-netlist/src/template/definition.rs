@@ -1,12 +1,12 @@
 //! `[template.NAME]`: what a part consists of, before it is used.
 
+use lptn_data::Diagnostic;
 use lptn_network::is_name;
 use lptn_units::{RESERVED, Type, Unit, parse_quantity, suggest};
 
-use crate::diagnostic::Diagnostic;
 use crate::fields::{Fields, Owner, wrong_shape};
+use crate::place::Place;
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
-use crate::value::Place;
 use crate::vocabulary::{NOT_IN_TEMPLATE, OPEN_PARAMETER, PARAM, SECTIONS, TEMPLATE, USE};
 
 const PORT: &str = "port";
@@ -162,7 +162,7 @@ impl<'r> Template<'r> {
         sections.flat_map(|(section, table)| table.entries.iter().map(|entry| (section.key.as_str(), entry)))
     }
 
-    fn unusable(&self, (kind, name): (&str, &str), span: &crate::file::Span) -> Option<Diagnostic> {
+    fn unusable(&self, (kind, name): (&str, &str), span: &lptn_data::Span) -> Option<Diagnostic> {
         let words = format!("{kind} `{name}` of template `{}`", self.name());
         if !is_name(name) {
             let message = format!("{words} has a name that cannot be used");
@@ -180,9 +180,9 @@ impl<'r> Template<'r> {
 
 /// One name for two things.
 pub(super) fn taken_twice(
-    (name, span): (&str, &crate::file::Span),
+    (name, span): (&str, &lptn_data::Span),
     kind: &str,
-    (other, first): (&str, &crate::file::Span),
+    (other, first): (&str, &lptn_data::Span),
 ) -> Diagnostic {
     let message = match kind == other {
         true => format!("two {kind}s are named `{name}`"),
@@ -216,6 +216,6 @@ fn unknown_part(template: &str, part: &RawEntry) -> Diagnostic {
             .at(part.key_span.clone(), "");
     problem.help(match suggest(key, inside.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!("a template holds {}", crate::vocabulary::list(&inside)),
+        None => format!("a template holds {}", lptn_data::list(&inside)),
     })
 }

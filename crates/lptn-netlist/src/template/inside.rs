@@ -1,11 +1,11 @@
 //! What is said about names inside a template.
 
+use lptn_data::Diagnostic;
 use lptn_network::is_name;
 
 use super::structure::Structure;
-use crate::diagnostic::Diagnostic;
-use crate::result_names::base;
-use crate::value::Place;
+use crate::names::base;
+use crate::place::Place;
 
 /// How a template comes to know something around it.
 pub(crate) fn by_port(name: &str) -> String {

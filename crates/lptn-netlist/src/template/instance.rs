@@ -5,8 +5,8 @@ use std::collections::{HashMap, HashSet};
 use super::definition::{Template, taken_twice};
 use super::plan::{MOST_INSTANCES, Plan, of_instance, plan};
 use super::structure::{Connection, Inside, Instance, Structure, Used};
-use crate::diagnostic::Diagnostic;
-use crate::file::{CopyId, Files, Span};
+use lptn_data::{CopyId, Diagnostic, Files, Span};
+
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::vocabulary::{ELSEWHERE, PARAM, USE};
 

@@ -16,8 +16,8 @@ mod wrong_path;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::file::Files;
+use lptn_data::{Diagnostic, Files, Severity};
+
 use crate::include::any_error;
 use crate::raw::{RawEntry, RawKind, RawNetlist};
 use crate::vocabulary::{TEMPLATE, USE};

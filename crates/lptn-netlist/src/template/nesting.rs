@@ -1,7 +1,8 @@
 //! Templates that hold each other.
 
 use super::definition::Template;
-use crate::diagnostic::Diagnostic;
+use lptn_data::Diagnostic;
+
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 
 /// A part inside a part inside a part: more are a mistake.

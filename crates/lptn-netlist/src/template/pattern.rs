@@ -2,11 +2,10 @@
 
 use std::ops::Range;
 
+use lptn_data::{Diagnostic, Span};
 use lptn_units::Expression;
 
 use super::structure::Structure;
-use crate::diagnostic::Diagnostic;
-use crate::file::Span;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::vocabulary::{LIMIT, SOURCE};
 
@@ -198,7 +197,7 @@ fn no_instances(used: &str, at: &Span) -> Diagnostic {
 /// Patterns of one expression that do not go through the same instances.
 fn uneven(names: &[(String, Range<usize>)], value: &RawValue) -> Diagnostic {
     let list: Vec<&str> = names.iter().map(|(name, _)| name.as_str()).collect();
-    let message = format!("{} do not stand for the same instances", crate::vocabulary::list(&list));
+    let message = format!("{} do not stand for the same instances", lptn_data::list(&list));
     Diagnostic::error("netlist::pattern", message)
         .at(value.span.clone(), "")
         .help("every `[*]` takes the same index: use patterns of one count, or write a limit for each")

@@ -1,12 +1,12 @@
 //! `[use.NAME]`: which template, how often, connected to what and with which parameters.
 
+use lptn_data::{Diagnostic, list};
 use lptn_units::suggest;
 
 use super::definition::{Parameter, Template};
-use crate::diagnostic::Diagnostic;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
-use crate::vocabulary::{USE, list};
+use crate::vocabulary::USE;
 
 /// So many instances a netlist may have, nested ones included; more are a mistake.
 pub(super) const MOST_INSTANCES: usize = 1_000_000;

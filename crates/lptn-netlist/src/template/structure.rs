@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use lptn_data::{CopyId, Span};
 use lptn_units::Type;
 
-use crate::file::{CopyId, Span};
 use crate::raw::{RawEntry, RawValue};
 
 /// The instances of a netlist.

@@ -1,9 +1,7 @@
 //! Paths that lead to no instance: an index too many, too few or too large.
 
 use super::structure::Structure;
-use crate::diagnostic::Diagnostic;
-use crate::file::Span;
-use crate::netlist::Netlist;
+use lptn_data::{Diagnostic, Span};
 
 /// What is wrong with the indices of a path.
 #[derive(Debug)]
@@ -59,13 +57,6 @@ impl Structure {
             before = format!("{before}{part}.");
         }
         None
-    }
-}
-
-impl Netlist {
-    /// Why a path such as `planet[9].gear` leads nowhere, and what to write, if its index is to blame.
-    pub fn no_instance(&self, path: &str) -> Option<(String, String)> {
-        self.structure.wrong_path(path).map(|wrong| (wrong.why, wrong.help))
     }
 }
 

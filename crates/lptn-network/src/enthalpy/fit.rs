@@ -54,7 +54,7 @@ pub(crate) trait Capacity {
     fn over(&mut self, from: f64, to: f64) -> Taylor;
 }
 
-/// Why there is no curve.
+/// Why a curve cannot be had.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum NoCurve {
     /// The capacity is not known and positive at the start.

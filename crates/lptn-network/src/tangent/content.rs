@@ -5,15 +5,14 @@
 
 use lptn_units::Scalar;
 
-use super::live::Live;
+use super::live::{Live, melting};
 use super::refusal::NoTangents;
 use super::{Pass, Tangents};
 use crate::enthalpy::Enthalpy;
 use crate::evaluation::{PASS, Slope};
 use crate::id::NodeId;
-use crate::layout::slot;
-use crate::material::{Lump, Melting};
 use crate::network::Network;
+use crate::slot;
 use crate::value::Value;
 
 /// The derivatives of one node, for every pass.
@@ -128,16 +127,6 @@ fn size_of(values: &[&Value], live: &Live<'_>) -> Option<Vec<Value>> {
     let reads_own = |factor: &Value| factor.slots().contains(&slot::OWN);
     let changing: Vec<Value> = factors.into_iter().filter(|factor| live.value(factor)).collect();
     changing.iter().all(|factor| !reads_own(factor)).then_some(changing)
-}
-
-/// The lumps of a node that melt.
-pub(super) fn melting(network: &Network, node: NodeId) -> impl Iterator<Item = (&Lump, &Melting)> {
-    let own = network.nodes()[node.index()].lump.iter();
-    let parts = network.capacitors().iter().filter(move |part| part.node == node);
-    own.chain(parts.filter_map(|part| part.lump.as_ref())).filter_map(|lump| {
-        let material = &network.materials()[lump.material.index()];
-        Some((lump, material.melting.as_ref()?))
-    })
 }
 
 fn melts(network: &Network, node: NodeId) -> bool {

@@ -3,15 +3,15 @@
 use lptn_units::Scalar;
 
 use super::{Pass, Tangents};
-use crate::dependence::Dependence;
 use crate::evaluation::{Evaluation, PASS, Slope};
-use crate::flow::{name, place};
 use crate::id::{Field, Item};
 use crate::input_error::InputError;
 use crate::law::At;
-use crate::layout::slot;
 use crate::network::Network;
-use crate::signal::Course;
+use crate::network::flow::{name, place};
+use crate::parts::dependence::Dependence;
+use crate::parts::signal::Course;
+use crate::slot;
 
 impl Tangents {
     /// Writes by how much the heat that every vertex (nodes, then boundaries) receives changes in W per SI unit of each

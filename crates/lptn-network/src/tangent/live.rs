@@ -1,10 +1,12 @@
 //! What depends on the parameters that a network is differentiated by.
 
 use crate::id::{BoundaryId, ConductorId, ControlId, Item, NodeId, ParameterId, SignalId, SourceId};
-use crate::layout::{Holds, slot};
 use crate::network::Network;
-use crate::signal::Course;
-use crate::value::Value;
+use crate::parts::layout::Holds;
+use crate::parts::signal::Course;
+use crate::parts::substance::Melting;
+use crate::slot;
+use crate::value::{Lump, Value};
 
 /// For each slot whether its number changes with one of the parameters.
 pub(super) struct Live<'a> {
@@ -69,7 +71,7 @@ impl<'a> Live<'a> {
 
     /// Whether how or when a node melts changes.
     pub(super) fn melting(&self, id: NodeId) -> bool {
-        super::content::melting(self.network, id).any(|(lump, melting)| {
+        melting(self.network, id).any(|(lump, melting)| {
             let density = self.network.materials()[lump.material.index()].density.as_ref();
             let values = [&melting.solidus, &melting.liquidus, &melting.heat, lump.size.field().1];
             values.into_iter().chain(density).any(|value| self.value(value))
@@ -99,4 +101,14 @@ impl<'a> Live<'a> {
         let control = (!self.network.controls().is_empty()).then(|| Item::Control(ControlId::from_len(0)));
         control.or_else(|| self.network.switches().first().map(|switch| switch.item))
     }
+}
+
+/// The lumps of a node that melt.
+pub(super) fn melting(network: &Network, node: NodeId) -> impl Iterator<Item = (&Lump, &Melting)> {
+    let own = network.nodes()[node.index()].lump.iter();
+    let parts = network.capacitors().iter().filter(move |part| part.node == node);
+    own.chain(parts.filter_map(|part| part.lump.as_ref())).filter_map(|lump| {
+        let material = &network.materials()[lump.material.index()];
+        Some((lump, material.melting.as_ref()?))
+    })
 }

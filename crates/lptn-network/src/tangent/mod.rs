@@ -10,8 +10,8 @@ mod refusal;
 
 use crate::evaluation::{PASS, Slope};
 use crate::id::{BoundaryId, ConductorId, ParameterId, SignalId, SourceId};
-use crate::layout::slot;
 use crate::network::Network;
+use crate::slot;
 use content::Content;
 use live::Live;
 
@@ -67,7 +67,7 @@ impl Network {
 }
 
 impl Tangents {
-    /// The parameters.
+    /// The parameters that derivatives are taken by, in this order.
     pub fn parameters(&self) -> &[ParameterId] {
         &self.parameters
     }

@@ -200,7 +200,7 @@ fn transient(
         output: OutputTimes::At(vec![run.stop]),
         record: Record::Nodes(Vec::new()),
         watch,
-        ..crate::run::transient(network, run)
+        ..Transient::of(network, run)
     })
 }
 

@@ -3,8 +3,9 @@
 use std::ops::Range;
 
 use super::fix::Source;
+use super::function;
+use super::scope::Scope;
 use super::tree::{Id, Node};
-use super::{Scope, function};
 use crate::error::{UnitError, UnitErrorKind as Kind};
 use crate::suggest::suggest;
 use crate::table::TableSymbol;
@@ -13,7 +14,7 @@ use crate::types::Type;
 /// A table and its name.
 type Named<'a> = (&'a str, &'a TableSymbol);
 
-/// A name that is called, but is no table: a parameter, or nothing at all.
+/// A name that is called but is not a table: a parameter, or nothing at all.
 pub(super) fn no_table(source: &Source<'_>, scope: &dyn Scope, id: Id) -> UnitError {
     let Node::Call { function: name, name_span, arguments } = source.tree.node(id) else {
         return UnitError::new(Kind::Empty, source.tree.span(id));

@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use super::call;
 use super::fix::{Judge, Source};
+use super::fold;
 use super::function::{self, Function};
 use super::operands;
 use super::program::NamedTable;
+use super::scope::{Scope, Symbol};
 use super::tree::{Id, Node, Operator, Tree};
-use super::{Scope, Symbol, fold};
-use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind as Kind};
 use crate::rational::Rational;
 use crate::suggest::suggest;
@@ -51,15 +51,15 @@ pub(crate) fn check(
     scope: &dyn Scope,
     expected: Option<Type>,
 ) -> Result<Resolved, Vec<UnitError>> {
-    types(Source { text, tree, judge: Some(Judge { scope, expected }) }, scope, expected)
+    types(Source { text, tree, judge: Some(Judge { scope, expected, check: mistakes }) }, scope, expected)
+}
+
+fn mistakes(source: Source<'_>, scope: &dyn Scope, expected: Option<Type>) -> Vec<UnitError> {
+    types(source, scope, expected).err().unwrap_or_default()
 }
 
 /// The types of all nodes, or every mistake.
-pub(crate) fn types(
-    source: Source<'_>,
-    scope: &dyn Scope,
-    expected: Option<Type>,
-) -> Result<Resolved, Vec<UnitError>> {
+fn types(source: Source<'_>, scope: &dyn Scope, expected: Option<Type>) -> Result<Resolved, Vec<UnitError>> {
     let mut checker = Checker { source, scope, found: Vec::new(), tables: Vec::new(), errors: Vec::new() };
     for (id, (node, _)) in source.tree.nodes().enumerate() {
         let found = checker.node(id, node);
@@ -285,8 +285,4 @@ impl Checker<'_> {
             root.ty = Some(wanted);
         }
     }
-}
-
-pub(crate) fn is_temperature(ty: Type) -> bool {
-    ty.dimension == Dimension::TEMPERATURE
 }

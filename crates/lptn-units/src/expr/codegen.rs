@@ -3,24 +3,11 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::check::{Checked, Resolved};
+use super::check::Checked;
 use super::function::{self, Function};
-use super::parts;
 use super::program::{Arithmetic, NamedTable, Op, Operand, Program};
 use super::tree::{Comparison, Id, Node, Operator, Tree};
 use crate::types::Type;
-
-pub(crate) fn generate(text: &str, tree: &Tree, resolved: Resolved) -> Program {
-    let text: Arc<str> = Arc::from(text);
-    let (checked, tables) = (resolved.nodes, Arc::from(resolved.tables));
-    let common = Common { tree, checked: &checked, tables: &tables };
-    let mut main = Generator::new(common, true);
-    main.node(tree.root());
-    let ty = checked[tree.root()].ty.unwrap_or(Type::SCALAR);
-    let mut program = main.finish(&text, ty);
-    parts::Parts { common, text: &text }.add_to(&mut program);
-    program
-}
 
 /// What the programs of one expression share.
 #[derive(Clone, Copy)]

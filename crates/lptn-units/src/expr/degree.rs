@@ -1,6 +1,6 @@
 //! How a program depends on a slot, from the form of its code.
 
-use super::program::{Arithmetic, Op, Operand};
+use super::program::{Arithmetic, Op, Operand, Program};
 
 /// How a result depends on one variable.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -13,6 +13,13 @@ pub enum Degree {
     Nonlinear,
 }
 
+impl Program {
+    /// How the result depends on one slot, the others held: an upper bound from the form of the code.
+    pub fn degree_in(&self, slot: u32) -> Degree {
+        degree(&self.code, slot)
+    }
+}
+
 /// A conditional part whose end has not been reached.
 struct Branch {
     condition: Degree,
@@ -21,7 +28,7 @@ struct Branch {
 }
 
 /// Follows the code once, with degrees in place of values.
-pub(crate) fn degree(code: &[Op], slot: u32) -> Degree {
+fn degree(code: &[Op], slot: u32) -> Degree {
     let mut stack: Vec<Degree> = Vec::new();
     let mut branches: Vec<Branch> = Vec::new();
     let mut current = Degree::Constant;

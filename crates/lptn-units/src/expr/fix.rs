@@ -1,13 +1,12 @@
 //! Errors of expressions that show the corrected text.
 
-use super::Scope;
-use super::check::{self, is_temperature};
 use super::lexer::splice;
+use super::scope::Scope;
 use super::tree::{Id, Node, Operator, Tree};
 use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind as Kind};
 use crate::format::{number, rounded};
-use crate::quantity::{has_inverse, is_frequency_for_rotation, revolutions};
+use crate::kinship::{has_inverse, is_frequency_for_rotation, revolutions};
 use crate::types::Type;
 use crate::unit::Unit;
 
@@ -31,6 +30,8 @@ pub(crate) struct Source<'a> {
 pub(crate) struct Judge<'a> {
     pub(crate) scope: &'a dyn Scope,
     pub(crate) expected: Option<Type>,
+    /// What finds the mistakes of a tree.
+    pub(crate) check: fn(Source<'_>, &dyn Scope, Option<Type>) -> Vec<UnitError>,
 }
 
 impl Source<'_> {
@@ -58,13 +59,12 @@ impl Source<'_> {
 
     /// How many mistakes are left when these names and numbers are of another type; `None` while that is tried.
     fn mistakes_with(&self, ids: &[Id], ty: Type) -> Option<usize> {
-        let Judge { scope, expected } = self.judge?;
+        let Judge { scope, expected, check } = self.judge?;
         let tree = self.tree.with_literals(ids, ty);
         let source = Source { tree: &tree, judge: None, ..*self };
         // a temperature that something is done to shows that it should have been a difference
         let weight = |error: &UnitError| if let Kind::AbsoluteOperand { .. } = error.kind { 2 } else { 1 };
-        let errors = check::types(source, scope, expected).err().unwrap_or_default();
-        Some(errors.iter().map(weight).sum())
+        Some(check(source, scope, expected).iter().map(weight).sum())
     }
 
     /// The text with the one frequency in it made a speed, where that makes it right.
@@ -124,11 +124,11 @@ impl Source<'_> {
         }
         match self.tree.node(id) {
             Node::Number { .. } => Some(self.replace(id, &format!("{part} [{}]", wanted.usual_unit()))),
-            _ if wanted.absolute && is_temperature(found) => {
+            _ if wanted.absolute && found.is_temperature() => {
                 let made = || self.replace(id, &format!("absolute({})", self.text_of(id)));
                 Some(self.relabel(id, "degC").unwrap_or_else(made))
             }
-            _ if found.absolute && is_temperature(wanted) => {
+            _ if found.absolute && wanted.is_temperature() => {
                 let made = || self.replace(id, &format!("{part} - 0 [degC]"));
                 Some(self.as_difference(id).unwrap_or_else(made))
             }
@@ -144,7 +144,7 @@ impl Source<'_> {
         self.replace(id, &format!("{part} / {scale} [{}]", ty.dimension.si_unit()))
     }
 
-    /// A condition that is no comparison.
+    /// A condition that is not a comparison.
     pub(crate) fn truth_wanted(&self, id: Id, ty: Type) -> UnitError {
         let limit = match (ty.absolute, ty.is_scalar()) {
             (true, _) => "0 [degC]".to_owned(),
@@ -161,10 +161,10 @@ impl Source<'_> {
         let whole = self.text.get(span.clone()).unwrap_or_default();
         let kind = if is_frequency_for_rotation(found, wanted) {
             Kind::Rotation { fix: Some(self.in_revolutions(root).unwrap_or(format!("({whole}) * 1 [rev]"))) }
-        } else if wanted.absolute && is_temperature(found) {
+        } else if wanted.absolute && found.is_temperature() {
             let made = || format!("absolute({whole})");
             Kind::AbsoluteWanted { fix: self.less_a_difference(root).unwrap_or_else(made) }
-        } else if found.absolute && is_temperature(wanted) {
+        } else if found.absolute && wanted.is_temperature() {
             let fix = self.as_difference(root).unwrap_or_else(|| format!("{whole} - 0 [degC]"));
             Kind::DifferenceWanted { fix }
         } else if let Node::Number { .. } = self.tree.node(root) {
@@ -225,9 +225,9 @@ impl Source<'_> {
                 };
                 Some(self.replace(id, &format!("{} [{unit}]", self.text_of(id))))
             }
-            Node::Literal { .. } if is_temperature(ty) && other.absolute => self.relabel(id, "degC"),
-            Node::Literal { .. } if ty.absolute && is_temperature(other) => self.as_difference(id),
-            _ if ty.absolute && is_temperature(other) => {
+            Node::Literal { .. } if ty.is_temperature() && other.absolute => self.relabel(id, "degC"),
+            Node::Literal { .. } if ty.absolute && other.is_temperature() => self.as_difference(id),
+            _ if ty.absolute && other.is_temperature() => {
                 Some(self.replace(id, &format!("({} - 0 [degC])", self.text_of(id))))
             }
             _ => None,

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use super::tree::{Comparison, Operator};
 use crate::error::{UnitError, UnitErrorKind};
-use crate::error_text::{WANTED_CHOICE, WANTED_POWER};
+use crate::error_words::{WANTED_CHOICE, WANTED_POWER};
+use crate::kinship::above_absolute_zero;
 use crate::number::{self, Number};
-use crate::quantity::above_absolute_zero;
 use crate::types::Type;
 use crate::unit::Unit;
 use crate::unit_parser::superscript;

@@ -1,6 +1,5 @@
 //! The rules of types for operators and functions.
 
-use super::check::is_temperature;
 use super::fix::Source;
 use super::function::Function;
 use super::tree::{Id, Operator};
@@ -31,9 +30,9 @@ pub(crate) fn sum(source: &Source<'_>, operator: Operator, a: Operand, b: Operan
         (false, false) => common(source, symbol, a, b),
         (true, true) if subtract => Ok(Type::of(Dimension::TEMPERATURE)),
         (true, true) => Err(sum_of_absolutes(source, a.0, b.0)),
-        (true, false) if is_temperature(b.1) => Ok(a.1),
-        (false, true) if is_temperature(a.1) && !subtract => Ok(b.1),
-        (false, true) if is_temperature(a.1) => {
+        (true, false) if b.1.is_temperature() => Ok(a.1),
+        (false, true) if a.1.is_temperature() && !subtract => Ok(b.1),
+        (false, true) if a.1.is_temperature() => {
             Err(source.absolute(b.0, "subtracted from a temperature difference", false))
         }
         _ => Err(source.unlike(symbol, a, b)),
@@ -104,7 +103,7 @@ pub(crate) fn argument(source: &Source<'_>, function: Function, given: Operand) 
     match function {
         Function::Kelvin if ty.absolute => Ok(Type::of(Dimension::TEMPERATURE)),
         Function::Kelvin => wrong("an absolute temperature"),
-        Function::Absolute if !ty.absolute && is_temperature(ty) => Ok(Type::ABSOLUTE_TEMPERATURE),
+        Function::Absolute if !ty.absolute && ty.is_temperature() => Ok(Type::ABSOLUTE_TEMPERATURE),
         Function::Absolute => wrong("a temperature above 0 K as a plain quantity, `absolute(300 [K])`"),
         _ if ty.absolute => Err(source.absolute(id, "the argument of this function", false)),
         Function::Abs => Ok(ty),

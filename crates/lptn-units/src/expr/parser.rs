@@ -7,7 +7,7 @@ use std::ops::Range;
 use super::lexer::{self, Spanned, Token, splice};
 use super::tree::{Comparison, Id, Node, Operator, Tree};
 use crate::error::{UnitError, UnitErrorKind};
-use crate::error_text::{WANTED_CALL, WANTED_POWER};
+use crate::error_words::{WANTED_CALL, WANTED_POWER};
 use crate::number::Number;
 use crate::types::Type;
 use crate::unit::Unit;

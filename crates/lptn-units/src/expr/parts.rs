@@ -2,15 +2,29 @@
 
 use std::sync::Arc;
 
+use super::check::Resolved;
 use super::codegen::{Common, Generator};
 use super::function::{self, Function};
 use super::program::{Arithmetic, Op, Program, TableCall};
-use super::tree::{Id, Node, Operator};
+use super::tree::{Id, Node, Operator, Tree};
 use crate::dimension::Dimension;
 use crate::types::Type;
 
 /// Most arguments of a `min` or `max` of which every pair has a program: pairs grow with the square.
 const MOST_IN_PAIRS: usize = 16;
+
+/// The program of a checked tree, with those of its parts.
+pub(crate) fn generate(text: &str, tree: &Tree, resolved: Resolved) -> Program {
+    let text: Arc<str> = Arc::from(text);
+    let (checked, tables) = (resolved.nodes, Arc::from(resolved.tables));
+    let common = Common { tree, checked: &checked, tables: &tables };
+    let mut main = Generator::new(common, true);
+    main.node(tree.root());
+    let ty = checked[tree.root()].ty.unwrap_or(Type::SCALAR);
+    let mut program = main.finish(&text, ty);
+    Parts { common, text: &text }.add_to(&mut program);
+    program
+}
 
 pub(super) struct Parts<'a> {
     pub(super) common: Common<'a>,

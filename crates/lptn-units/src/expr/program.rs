@@ -3,7 +3,6 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::degree::{self, Degree};
 use super::function::Function;
 use super::tree::Comparison;
 use crate::table::Table;
@@ -70,7 +69,7 @@ pub(crate) struct NamedTable {
 /// One call of a table, and where its arguments are.
 #[derive(Clone, Debug)]
 pub struct TableCall {
-    /// The table.
+    /// The table that is called.
     pub table: Arc<Table>,
     /// One program per argument. It loads the ordinary slots of its symbols, inside comparisons too, so that
     /// the roots of its value minus a knot are where the call crosses the knot.
@@ -171,10 +170,5 @@ impl Program {
     /// branch that is not taken the programs of the arguments may fail to evaluate.
     pub fn table_calls(&self) -> &[TableCall] {
         &self.table_calls
-    }
-
-    /// How the result depends on one slot, the others held: an upper bound from the form of the code.
-    pub fn degree_in(&self, slot: u32) -> Degree {
-        degree::degree(&self.code, slot)
     }
 }

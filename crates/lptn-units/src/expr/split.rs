@@ -225,7 +225,7 @@ impl Walk<'_> {
         if value.foreign || !value.varies {
             return;
         }
-        // an operand that is no more than a name has no code of its own
+        // an operand that is only a name has no code of its own
         let part = if value.from < value.to {
             self.program.part(value.from, value.to)
         } else {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Numbers that are no table.
+/// Why numbers do not make a table.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum TableError {
@@ -31,7 +31,7 @@ pub enum TableError {
 }
 
 impl TableError {
-    /// The stable code.
+    /// The stable code, as diagnostics print it.
     pub fn code(&self) -> &'static str {
         match self {
             Self::TooShort => "units::table_too_short",

@@ -1,9 +1,8 @@
 //! A run with its sensitivities at the rows and where temperatures are highest.
 
 use lptn_network::{NodeId, OutputTimes, ParameterId};
-use lptn_solve::{Solution, Transient};
+use lptn_solve::{Gradient, SensitiveError, SensitiveRun, Solution, Transient, sensitive_run};
 
-use crate::sensitivity::{Gradient, SensitiveError, SensitiveRun, sensitive_run};
 use crate::uncertainty::error::UncertaintyError;
 use crate::uncertainty::input::Uncertain;
 use crate::uncertainty::normal::BAND;

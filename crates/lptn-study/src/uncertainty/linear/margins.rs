@@ -2,9 +2,10 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{LimitId, OutputTimes};
-use lptn_solve::{LimitSeen, Record, Solution, Transient, limit_margins_at};
+use lptn_solve::{
+    Gradient, LimitSeen, Record, SensitiveRun, Solution, Transient, limit_margins_at, sensitive_run,
+};
 
-use crate::sensitivity::{Gradient, SensitiveRun, sensitive_run};
 use crate::uncertainty::error::UncertaintyError;
 use crate::uncertainty::input::Uncertain;
 use crate::uncertainty::linear::line::{Line, ids, joined, refused};

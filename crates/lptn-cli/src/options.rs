@@ -1,0 +1,98 @@
+//! Options that several verbs share.
+
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args as Arguments, ValueEnum};
+use lptn_report::Format;
+
+/// The help of every command: examples, then what it does, then its options.
+pub(crate) const TEMPLATE: &str = "\
+{before-help}{about-with-newline}
+{usage-heading} {usage}
+
+{all-args}";
+
+/// Options of every verb.
+#[derive(Debug, Arguments)]
+#[command(next_help_heading = "Everywhere")]
+pub(crate) struct Global {
+    /// Print results and errors only
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub(crate) quiet: bool,
+    /// Print more about the solver, and list what was not checked
+    #[arg(short, long, global = true)]
+    pub(crate) verbose: bool,
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    #[arg(help = "Use colours: auto, always or never; auto respects NO_COLOR")]
+    #[arg(hide_default_value = true, hide_possible_values = true)]
+    pub(crate) color: Color,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Color {
+    Auto,
+    Always,
+    Never,
+}
+
+/// The netlist and what is changed in it.
+#[derive(Debug, Arguments)]
+pub(crate) struct Source {
+    /// The netlist; - reads it from stdin
+    #[arg(value_name = "FILE")]
+    pub(crate) file: PathBuf,
+    /// Give a parameter a value; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub(crate) set: Vec<String>,
+}
+
+/// How a result is printed, of a verb that writes no files unless it is asked to.
+#[derive(Debug, Arguments)]
+pub(crate) struct Printed {
+    /// Print a table, csv or json
+    #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    #[arg(value_parser = one_of(&Format::ALL, Format::key))]
+    pub(crate) format: Format,
+    #[command(flatten)]
+    _no_files: NoFiles,
+}
+
+/// Accepted for scripts that pass it to every verb.
+#[derive(Debug, Arguments)]
+pub(crate) struct NoFiles {
+    #[arg(long = "no-files", id = "no_files", hide = true)]
+    _no_files: bool,
+}
+
+/// The scale in which temperatures are shown.
+#[derive(Debug, Arguments)]
+pub(crate) struct Scale {
+    /// Show temperatures in degC, K, degF or degR
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) temperature_unit: Option<String>,
+}
+
+/// What is shown of columns, and how.
+#[derive(Debug, Arguments)]
+pub(crate) struct Shown {
+    /// Print a table, csv or json
+    #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    #[arg(value_parser = one_of(&Format::ALL, Format::key))]
+    pub(crate) format: Format,
+    /// Keep columns like '*.T'; may be repeated
+    #[arg(long, value_name = "PATTERN")]
+    pub(crate) select: Vec<String>,
+    #[command(flatten)]
+    pub(crate) scale: Scale,
+}
+
+/// A choice of a library by its name there, so that the names stand in one place.
+pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(
+    all: &'static [T],
+    key: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    let found = move |text: String| all.iter().copied().find(|choice| key(*choice) == text);
+    PossibleValuesParser::new(all.iter().map(|choice| key(*choice)))
+        .try_map(move |text| found(text).ok_or("this is no choice"))
+}

@@ -1,0 +1,195 @@
+//! `lptn check`
+
+mod args;
+
+pub(crate) use args::CheckArgs;
+
+use std::io;
+use std::path::Path;
+
+use lptn_assembly::ThermalSystem;
+use lptn_netlist::{Diagnostic, Files, Netlist, Severity};
+use lptn_network::{Network, NodeId};
+use lptn_report::{Json, Page, Text, duration, significant};
+use lptn_solve::{Lumping, Stiffness};
+use lptn_study::Scalar;
+use serde_json::{Value, json};
+
+use crate::console::Console;
+use crate::diagnostics;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::{self, Given, Input};
+use crate::lumping;
+use crate::select;
+use crate::words::{count, counts};
+use crate::written::proven;
+
+pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure> {
+    let text = input::read(&args.source.file)?;
+    if args.expand {
+        return expand(&text, &args.source.set, console);
+    }
+    let finding = Finding::of(&text, &args.source.set)?;
+    console.show(&View { finding: &finding, text: &text, console }, args.format)?;
+    Ok(finding.exit())
+}
+
+/// Writes the network as a flat netlist; what is wrong with it goes to stderr.
+fn expand(text: &Given, set: &[String], console: &Console) -> Result<Exit, Failure> {
+    let mut netlist = input::parse(text).map_err(|rejected| Failure {
+        exit: if rejected.syntax { Exit::Input } else { Exit::No },
+        ..rejected.into()
+    })?;
+    netlist.set(set)?;
+    console.warn(&netlist.files, &netlist.warnings);
+    if let Some(problem) = netlist.not_flat() {
+        return Err(Failure::at(Exit::No, netlist.files, problem));
+    }
+    let flat = netlist.expanded();
+    console.print(&proven(flat, Path::new(&text.name), &netlist.network, netlist.run.as_ref())?)
+}
+
+/// How far the nodes are lumps at the start; `None` where the start cannot be had, which a run says.
+fn lumped(netlist: &Netlist, system: &ThermalSystem) -> Option<(Network, Lumping)> {
+    let run = netlist.run.as_ref();
+    let start = run.map_or(0.0, |run| run.start);
+    let lumping = Lumping::at_start(system, start, run.map(|run| run.stop)).ok()?;
+    Some((netlist.network.clone(), lumping))
+}
+
+/// What was found in a netlist.
+struct Finding {
+    files: Files,
+    diagnostics: Vec<Diagnostic>,
+    /// What the network consists of, if it is one.
+    counts: Option<String>,
+    /// How far its time constants are apart.
+    stiffness: Option<Stiff>,
+    /// The network with how far its nodes are lumps.
+    lumping: Option<(Network, Lumping)>,
+    syntax: bool,
+}
+
+impl Finding {
+    /// # Errors
+    /// What is wrong with `--set`: that is no property of the netlist.
+    fn of(text: &Given, set: &[String]) -> Result<Self, Failure> {
+        let mut netlist = match input::parse(text) {
+            Ok(netlist) => netlist,
+            Err(rejected) => {
+                let (files, diagnostics, syntax) = (rejected.files, rejected.diagnostics, rejected.syntax);
+                return Ok(Self { files, diagnostics, counts: None, stiffness: None, lumping: None, syntax });
+            }
+        };
+        netlist.set(set)?;
+        let counts = Some(counts(&netlist.network));
+        let stiffness = Stiff::of(&netlist.network);
+        let (files, mut diagnostics) = (netlist.files.clone(), netlist.warnings.clone());
+        let text = Given { bytes: Vec::new(), name: text.name.clone(), stem: text.stem.clone() };
+        let input = Input { text, netlist };
+        let mut lumping = None;
+        match input.assemble() {
+            Ok(system) => lumping = lumped(&input.netlist, &system),
+            Err(failure) => diagnostics.extend(failure.diagnostics),
+        }
+        let found = lumping.iter().flat_map(|(_, lumping)| lumping::warnings(&input.netlist, lumping));
+        diagnostics.extend(found);
+        let selection = select::of_run(&input.netlist, &[]);
+        diagnostics.extend(selection.err().into_iter().flat_map(|failure| failure.diagnostics));
+        Ok(Self { files, diagnostics, counts, stiffness, lumping, syntax: false })
+    }
+
+    fn number(&self, severity: Severity) -> usize {
+        self.diagnostics.iter().filter(|d| d.severity == severity).count()
+    }
+
+    fn exit(&self) -> Exit {
+        match self.number(Severity::Error) {
+            0 => Exit::Done,
+            _ if self.syntax => Exit::Input,
+            _ => Exit::No,
+        }
+    }
+
+    fn list(&self, severity: Severity) -> Value {
+        let found = self.diagnostics.iter().filter(|d| d.severity == severity);
+        found.map(|diagnostic| diagnostics::json(&self.files, diagnostic)).collect()
+    }
+}
+
+/// What was found, and how it is shown.
+struct View<'a> {
+    finding: &'a Finding,
+    text: &'a Given,
+    console: &'a Console,
+}
+
+impl Page for View<'_> {
+    /// The diagnostics, and one line with the answer at the end.
+    fn text(&self) -> Text {
+        let (finding, name) = (self.finding, &self.text.name);
+        let mut text = Text::new();
+        for diagnostic in &finding.diagnostics {
+            text.section().line(self.console.rendered(&finding.files, diagnostic));
+        }
+        text.section();
+        if finding.exit() == Exit::Done {
+            if let Some(stiff) = &finding.stiffness {
+                text.sentence("stiffness: ", &stiff.words());
+            }
+            if let Some((network, lumping)) = &finding.lumping {
+                lumping::lines(&mut text, network, (lumping, "lumping:   ", self.console.verbose));
+            }
+        }
+        let warnings = count(finding.number(Severity::Warning), "warning");
+        text.line(match (finding.number(Severity::Error), &finding.counts) {
+            (0, Some(counts)) => format!("ok: {name} has {counts}; {warnings}"),
+            (errors, _) => format!("not ok: {name} has {}, {warnings}", count(errors, "error")),
+        });
+        text
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let finding = self.finding;
+        let lumping = finding.lumping.as_ref();
+        json.member("format", &1)?;
+        json.member("network", &self.text.stem)?;
+        json.member("ok", &(finding.exit() == Exit::Done))?;
+        json.member("errors", &finding.list(Severity::Error))?;
+        json.member("warnings", &finding.list(Severity::Warning))?;
+        json.member("stiffness", &finding.stiffness.as_ref().map(Stiff::json))?;
+        json.member("lumping", &lumping.map(|(network, lumping)| lumping::json(network, lumping)))
+    }
+}
+
+/// The time constants of the nodes that follow their surroundings fastest and slowest.
+struct Stiff {
+    fastest: (String, f64),
+    slowest: (String, f64),
+    ratio: f64,
+}
+
+impl Stiff {
+    fn of(network: &Network) -> Option<Self> {
+        let stiffness = Stiffness::of(network)?;
+        let named = |(node, tau): (NodeId, f64)| (network.nodes()[node.index()].name.clone(), tau);
+        let ratio = stiffness.ratio();
+        Some(Self { fastest: named(stiffness.fastest), slowest: named(stiffness.slowest), ratio })
+    }
+
+    fn words(&self) -> String {
+        let one = |(name, tau): &(String, f64)| format!("{} ({name})", duration(*tau, 3));
+        let (fast, slow) = (one(&self.fastest), one(&self.slowest));
+        match self.fastest.0 == self.slowest.0 {
+            true => format!("C / sum of G is {fast}"),
+            false => format!("{}, C / sum of G is {fast} to {slow}", significant(self.ratio, 3)),
+        }
+    }
+
+    fn json(&self) -> Value {
+        let one = |(name, tau): &(String, f64)| json!({ "node": name, "tau": Scalar::new(*tau, "s") });
+        let ratio = Scalar::new(self.ratio, "1");
+        json!({ "fastest": one(&self.fastest), "slowest": one(&self.slowest), "ratio": ratio })
+    }
+}

@@ -1,0 +1,37 @@
+//! The options of `lptn compare`.
+
+use std::path::PathBuf;
+
+use clap::Args as Arguments;
+use lptn_study::SortKey;
+
+use crate::options::{Printed, Scale, TEMPLATE, one_of};
+
+const EXAMPLES: &str = "\
+Examples:
+  lptn compare bare.toml finned.toml fan.toml
+  lptn compare candidates/ --sort peak
+  lptn compare candidates/ --set P_loss=80W --format csv > candidates.csv";
+
+/// Put candidate designs side by side: peaks, limits, margins, heat
+#[derive(Debug, Arguments)]
+#[command(before_help = EXAMPLES, help_template = TEMPLATE)]
+pub(crate) struct CompareArgs {
+    /// Netlists, or folders of netlists
+    #[arg(value_name = "FILE", required = true)]
+    pub(crate) files: Vec<PathBuf>,
+    /// Give a parameter a value in every candidate that has it; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub(crate) set: Vec<String>,
+    #[command(flatten)]
+    pub(crate) printed: Printed,
+    /// Sort by margin, peak, steady, time, capacity, or keep the order as given
+    #[arg(long, value_name = "KEY", default_value = "margin", hide_possible_values = true)]
+    #[arg(value_parser = one_of(&SortKey::ALL, SortKey::key))]
+    pub(crate) sort: SortKey,
+    #[command(flatten)]
+    pub(crate) scale: Scale,
+    /// Use so many threads, not all of the machine; the result is the same
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+}

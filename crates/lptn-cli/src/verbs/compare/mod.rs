@@ -1,0 +1,312 @@
+//! `lptn compare`
+
+mod args;
+mod text;
+
+pub(crate) use args::CompareArgs;
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use lptn_assembly::ThermalSystem;
+use lptn_netlist::{Diagnostic, Files, Netlist};
+use lptn_network::Field;
+use lptn_report::{Json, Page, Rows, Text, plain};
+use lptn_solve::{Progress, SteadyError, TransientError};
+use lptn_solve::{available_threads, in_parallel};
+use lptn_study::{Candidate, CompareError, CompareRow, compare_table, order};
+use lptn_units::Unit;
+
+use crate::console::Console;
+use crate::diagnostics;
+use crate::doubts::others;
+use crate::exit::Exit;
+use crate::failure::{Failure, reason, told};
+use crate::input::{self, Input};
+use crate::interrupt::Interrupt;
+use crate::options::Source;
+use crate::progress::ProgressOfAll;
+use crate::sense;
+
+pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Failure> {
+    let files = files(&args.files)?;
+    let threads = args.threads.unwrap_or_else(available_threads);
+    let loaded = in_parallel(&files, threads, |file| load(file, &args.set));
+    used(args, &loaded)?;
+    let done = evaluate_all(&loaded, threads, console);
+    let unit = unit(args, &loaded)?;
+    let candidates: Vec<_> = done.iter().map(|outcome| outcome.as_ref().ok()).collect();
+    let places = order(&candidates, args.sort);
+    let mut outcomes: Vec<_> = loaded.into_iter().zip(done).map(Some).collect();
+    let sorted = places.into_iter().filter_map(|place| outcomes[place].take());
+    let comparison = Comparison::of(sorted, unit);
+    comparison.report(console);
+    console.show(&comparison, args.printed.format)?;
+    let answer = text::answer(&comparison);
+    match comparison.exit() {
+        Exit::Done => console.note(&answer),
+        _ => console.message(&answer),
+    }
+    Ok(comparison.exit())
+}
+
+/// Every file once, folders as their netlists in alphabetical order.
+fn files(given: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut files: Vec<PathBuf> = Vec::new();
+    for path in given {
+        let found = if path.is_dir() { folder(path)? } else { vec![path.clone()] };
+        let new: Vec<PathBuf> = found.into_iter().filter(|file| !files.contains(file)).collect();
+        files.extend(new);
+    }
+    Ok(files)
+}
+
+fn folder(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let failed = |message: String, help: &str| {
+        Failure::new(Exit::Input, Diagnostic::error("input::cannot_read", message).help(help))
+    };
+    let entries = std::fs::read_dir(path).map_err(|error| {
+        failed(format!("cannot read {}: {}", path.display(), reason(&error)), "name the netlists one by one")
+    })?;
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let is_netlist = |path: &PathBuf| path.is_file() && path.extension().is_some_and(|e| e == "toml");
+    let mut found: Vec<PathBuf> = paths.filter(is_netlist).collect();
+    found.sort_unstable();
+    if found.is_empty() {
+        let message = format!("there is no netlist in the folder {}", path.display());
+        return Err(failed(message, "netlists end with .toml"));
+    }
+    Ok(found)
+}
+
+/// A candidate's file, and its netlist or what is wrong with it.
+struct Loaded {
+    file: String,
+    input: Result<Input, Failure>,
+    /// For each `--set` whether this candidate has the parameter.
+    has: Vec<bool>,
+}
+
+fn load(file: &Path, set: &[String]) -> Loaded {
+    let source = Source { file: file.to_owned(), set: Vec::new() };
+    let name = file.display().to_string();
+    let mut input = match Input::load(&source) {
+        Ok(input) => input,
+        Err(failure) => return Loaded { file: name, input: Err(failure), has: vec![false; set.len()] },
+    };
+    let network = &input.netlist.network;
+    // a text without `=` is for `set` to refuse
+    let has_it =
+        |text: &String| text.split_once('=').is_none_or(|(left, _)| network.parameter(left.trim()).is_ok());
+    let has: Vec<bool> = set.iter().map(has_it).collect();
+    let own: Vec<String> =
+        set.iter().zip(&has).filter(|(_, has)| **has).map(|(text, _)| text.clone()).collect();
+    let outcome = input.netlist.set(&own);
+    input.netlist.warnings.extend(inputs_vary(&input.netlist, &name));
+    Loaded { file: name, input: outcome.map(|()| input).map_err(Failure::from), has }
+}
+
+/// Without a run a candidate is looked at once: what comes later is not seen.
+fn inputs_vary(netlist: &Netlist, name: &str) -> Option<Diagnostic> {
+    let network = &netlist.network;
+    let judged: Vec<_> = network.limits().iter().flat_map(|limit| [&limit.of, &limit.value]).collect();
+    let changes = || !network.changing_inputs().is_empty() || !network.changing_inputs_of(&judged).is_empty();
+    let vary = netlist.run.is_none() && changes();
+    let message = format!(
+        "{name}: the inputs change with time; without a [run] they are taken at 0 s, and no limit is judged that \
+         depends on them"
+    );
+    vary.then(|| Diagnostic::warning("steady::inputs_vary", message).help("add a [run] to compare over time"))
+}
+
+/// A `--set` that no candidate can use is a mistake, unless a candidate that could not be read may be meant.
+fn used(args: &CompareArgs, loaded: &[Loaded]) -> Result<(), Failure> {
+    let all_read = loaded.iter().all(|one| one.input.is_ok());
+    let idle = (0..args.set.len()).find(|&i| loaded.iter().all(|one| !one.has[i]));
+    let (Some(i), true) = (idle, all_read) else { return Ok(()) };
+    let name = args.set[i].split('=').next().unwrap_or_default().trim();
+    let message = format!("no candidate has a parameter `{name}`");
+    let mut names: Vec<&str> = loaded
+        .iter()
+        .filter_map(|one| one.input.as_ref().ok())
+        .flat_map(|input| input.netlist.network.parameters())
+        .map(|parameter| parameter.name.as_str())
+        .collect();
+    names.sort_unstable();
+    let problem = Diagnostic::error("netlist::unknown_parameter", message);
+    let problem = match lptn_units::suggest(name, names.into_iter()) {
+        Some(near) => problem.help(format!("did you mean `{near}`?")),
+        None => problem,
+    };
+    Err(Failure::new(Exit::Input, problem))
+}
+
+/// Why a candidate has no results, as far as it was not already known when it was read.
+enum NoResult {
+    NotRead,
+    Failure(Failure),
+}
+
+/// Every candidate, with progress on a terminal; after Ctrl-C those that were finished by then.
+fn evaluate_all(loaded: &[Loaded], threads: usize, console: &Console) -> Vec<Result<Candidate, NoResult>> {
+    let interrupt = Interrupt::listen();
+    let progress = ProgressOfAll::new(console.quiet, loaded.len(), "candidates");
+    let numbered: Vec<(usize, &Loaded)> = loaded.iter().enumerate().collect();
+    let done = in_parallel(&numbered, threads, |&(number, loaded)| {
+        let outcome = evaluate(loaded, &interrupt, &mut |step| progress.update(number, step));
+        progress.finished(number);
+        outcome
+    });
+    progress.clear();
+    done
+}
+
+fn evaluate(
+    loaded: &Loaded,
+    interrupt: &Interrupt,
+    show: &mut dyn FnMut(Progress),
+) -> Result<Candidate, NoResult> {
+    let input = loaded.input.as_ref().map_err(|_| NoResult::NotRead)?;
+    let system: ThermalSystem = input.assemble().map_err(NoResult::Failure)?;
+    let run = input.netlist.run.as_ref();
+    let found = if interrupt.pressed() {
+        Err(CompareError::Interrupted(run.map_or(0.0, |run| run.start)))
+    } else {
+        Candidate::evaluate_observed(&system, run, &mut |step| {
+            show(step);
+            interrupt.control()
+        })
+    };
+    found.map_err(|error| NoResult::Failure(explained(input, &error)))
+}
+
+/// A question that does not fit the input is a wrong input, as for the verbs `run` and `steady`.
+fn explained(input: &Input, error: &CompareError) -> Failure {
+    let exit = match error {
+        CompareError::Steady(SteadyError::NoBoundary { .. } | SteadyError::Input(_))
+        | CompareError::Input(_) => Exit::Input,
+        CompareError::Run(error) => match **error {
+            TransientError::Settings(_) | TransientError::Input(_) => Exit::Input,
+            _ => Exit::Failed,
+        },
+        CompareError::Interrupted(_) => Exit::Interrupted,
+        _ => Exit::Failed,
+    };
+    let problem = told(error);
+    let map = &input.netlist.source_map;
+    let place = error.input().and_then(|e| map.get(e.item, e.field).or_else(|| map.get(e.item, Field::Name)));
+    let problem = match place {
+        Some(place) => problem.at(place.clone(), ""),
+        None => problem,
+    };
+    Failure::at(exit, input.netlist.files.clone(), problem)
+}
+
+/// The unit for temperatures: that of the command line, or of the first candidate that was read.
+fn unit(args: &CompareArgs, loaded: &[Loaded]) -> Result<Unit, Failure> {
+    let first = loaded.iter().find_map(|one| one.input.as_ref().ok());
+    match (first, args.scale.temperature_unit.as_deref()) {
+        (Some(input), text) => input::temperature_unit(text, &input.netlist),
+        (None, text) => {
+            let text = text.unwrap_or("degC");
+            Unit::parse(text).map_err(|error| input::wrong_unit("--temperature-unit", text, &error))
+        }
+    }
+}
+
+/// The candidates in their order.
+pub(crate) struct Comparison {
+    pub(crate) rows: Vec<CompareRow>,
+    pub(crate) unit: Unit,
+    /// How each row ended; limits are not looked at.
+    pub(crate) ends: Vec<Exit>,
+    failures: Vec<Failure>,
+    /// Of those that were read: what is probably not meant as it is written.
+    warnings: Vec<(Files, Vec<Diagnostic>)>,
+}
+
+impl Comparison {
+    fn of(outcomes: impl Iterator<Item = (Loaded, Result<Candidate, NoResult>)>, unit: Unit) -> Self {
+        let (rows, ends, failures, warnings) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut comparison = Self { rows, unit, ends, failures, warnings };
+        outcomes.for_each(|(loaded, outcome)| comparison.add(loaded, outcome));
+        comparison
+    }
+
+    fn add(&mut self, loaded: Loaded, outcome: Result<Candidate, NoResult>) {
+        let Loaded { file, input, .. } = loaded;
+        let mut title = String::new();
+        let mut failure = None;
+        match input {
+            Ok(input) => {
+                title = input.netlist.network.title().map_or(String::new(), plain);
+                let beyond = outcome.as_ref().ok().and_then(|found| found.beyond.as_ref());
+                let beyond = beyond.map(|beyond| sense::warning(&input.netlist, beyond));
+                let several = outcome.as_ref().ok().and_then(|found| found.several.as_ref());
+                let several = several.and_then(|steady| others(&input.netlist.network, steady, &self.unit));
+                let several = several
+                    .map(|warning| Diagnostic { message: format!("{file}: {}", warning.message), ..warning });
+                let warnings = input.netlist.warnings.into_iter().chain(beyond).chain(several).collect();
+                self.warnings.push((input.netlist.files, warnings));
+            }
+            Err(not_read) => failure = Some(not_read),
+        }
+        let outcome = outcome.map_err(|no_result| match no_result {
+            NoResult::NotRead => {}
+            NoResult::Failure(reason) => failure = Some(reason),
+        });
+        self.ends.push(failure.as_ref().map_or(Exit::Done, |failure| failure.exit));
+        let code = failure.as_ref().and_then(|failure| failure.diagnostics.first()).map(|d| d.code);
+        self.failures.extend(failure);
+        let outcome = outcome.map_err(|()| code.unwrap_or_default().to_owned());
+        self.rows.push(CompareRow { file, title, outcome });
+    }
+
+    /// Warnings and what is wrong with the candidates that have no results.
+    fn report(&self, console: &Console) {
+        self.warnings.iter().for_each(|(files, warnings)| console.warn(files, warnings));
+        // the last line names those that were interrupted
+        let problems = self.failures.iter().filter(|failure| failure.exit != Exit::Interrupted);
+        problems.for_each(|failure| console.report(&failure.files, &failure.diagnostics));
+    }
+
+    /// Ctrl-C goes before what could not be read, that before what failed, and that before a broken limit.
+    pub(crate) fn exit(&self) -> Exit {
+        if self.ends.contains(&Exit::Interrupted) {
+            Exit::Interrupted
+        } else if self.ends.contains(&Exit::Input) {
+            Exit::Input
+        } else if self.ends.contains(&Exit::Failed) {
+            Exit::Failed
+        } else if self.rows.iter().any(|row| row.status() == "broken") {
+            Exit::No
+        } else {
+            Exit::Done
+        }
+    }
+}
+
+impl Page for Comparison {
+    fn text(&self) -> Text {
+        text::text(self)
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        compare_table(&self.rows, &self.unit).into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let warnings = self.warnings.iter().flat_map(|(files, list)| {
+            list.iter().map(|diagnostic| diagnostics::json(files, diagnostic)).collect::<Vec<_>>()
+        });
+        let errors = self.failures.iter().flat_map(|failure| {
+            let list = failure.diagnostics.iter();
+            list.map(|diagnostic| diagnostics::json(&failure.files, diagnostic)).collect::<Vec<_>>()
+        });
+        json.member("format", &1)?;
+        json.member("network", &())?;
+        json.member("warnings", &warnings.collect::<Vec<_>>())?;
+        json.member("errors", &errors.collect::<Vec<_>>())?;
+        json.table(&compare_table(&self.rows, &self.unit))
+    }
+}

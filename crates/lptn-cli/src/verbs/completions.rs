@@ -1,0 +1,25 @@
+//! `lptn completions`
+
+use clap_complete::Shell;
+
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+
+/// Print a completion script for a shell
+#[derive(Debug, clap::Args)]
+pub(crate) struct CompletionsArgs {
+    /// bash, zsh, fish, elvish or powershell
+    #[arg(value_name = "SHELL", hide_possible_values = true)]
+    pub(crate) shell: Shell,
+}
+
+pub(crate) fn completions(
+    args: &CompletionsArgs,
+    mut command: clap::Command,
+    console: &Console,
+) -> Result<Exit, Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut command, "lptn", &mut script);
+    console.print(&String::from_utf8_lossy(&script))
+}

@@ -1,0 +1,173 @@
+//! `lptn fit law`
+
+mod args;
+mod laws;
+mod output;
+mod points;
+mod runs;
+mod shown;
+mod text;
+
+pub(crate) use args::LawArgs;
+
+use std::io;
+
+use lptn_fit::law::{Candidate, Consistency, Law, LawError, LawStudy, Measured, Outcome, Start, WrittenLaw};
+use lptn_fit::step::Capacity;
+use lptn_netlist::{Diagnostic, Files, Span};
+use lptn_report::{Format, Json, Page, Rows, Text};
+use lptn_units::{Dimension, Type, parse_quantity};
+
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::wrong_unit;
+use points::Data;
+
+pub(crate) fn law(args: &LawArgs, console: &Console) -> Result<Exit, Failure> {
+    let capacity = capacity(args.capacity.as_deref())?;
+    let Some(path) = &args.points else { return laws::laws(args, capacity, console) };
+    if path.is_dir() {
+        return runs::runs(path, args, capacity, console);
+    }
+    let data = points::read(path, args)?;
+    console.warn(&data.files, &data.warnings);
+    let study = LawStudy::new(data.points.clone(), laws_to_fit(args, &data)?);
+    let consistency = consistency(&data, capacity)?;
+    let answer = Answer { data, study, consistency };
+    console.page(&answer, args.format)?;
+    Ok(answer.conclude(args.format, console))
+}
+
+/// Everything that is shown.
+pub(crate) struct Answer {
+    pub(crate) data: Data,
+    pub(crate) study: LawStudy,
+    pub(crate) consistency: Option<Consistency>,
+}
+
+impl Answer {
+    pub(crate) fn conclude(&self, format: Format, console: &Console) -> Exit {
+        if let Some((law, remark)) = self.not_fitted() {
+            console.message(&format!("failed: `{law}`: {remark}"));
+            return Exit::Failed;
+        }
+        console.conclude(self, format)
+    }
+
+    /// A law of the user that has no coefficients although there are points enough, and why.
+    fn not_fitted(&self) -> Option<(String, String)> {
+        let written = |c: &&Candidate| matches!(c.law, Law::Written(_)) && c.fitted().is_none();
+        let failed = |c: &&Candidate| !matches!(c.outcome, Outcome::TooFew { .. });
+        let found = self.study.candidates.iter().find(|c| written(c) && failed(c))?;
+        Some((found.law.to_string(), found.remark().unwrap_or_default()))
+    }
+}
+
+impl Page for Answer {
+    fn text(&self) -> Text {
+        text::text(self)
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        output::table(self).into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        output::members(self, json)
+    }
+
+    fn no(&self) -> Option<String> {
+        let found = self.consistency.as_ref().filter(|found| !found.agrees())?;
+        Some(laws::verdict(found, &self.data.unit))
+    }
+}
+
+/// The standard laws, and those of the command line.
+fn laws_to_fit(args: &LawArgs, data: &Data) -> Result<Vec<Law>, Failure> {
+    let starts: Result<Vec<Start>, Failure> = args.start.iter().map(|text| start(text)).collect();
+    let starts = starts?;
+    let mut laws = Law::standard();
+    let mut known: Vec<String> = Vec::new();
+    for text in &args.law {
+        let law =
+            WrittenLaw::new(text, &data.points, &starts).map_err(|error| wrong_law("--law", text, &error))?;
+        known.extend(law.coefficients().iter().map(|(name, _)| name.clone()));
+        laws.push(Law::Written(Box::new(law)));
+    }
+    match starts.iter().find(|(name, _)| !known.contains(name)) {
+        Some((name, _)) => {
+            let error = LawError::Start { name: name.clone() };
+            let problem = Diagnostic::error(error.code(), error.to_string());
+            let near = lptn_units::suggest(name, known.iter().map(String::as_str));
+            Err(Failure::new(
+                Exit::Input,
+                match near {
+                    Some(near) => problem.help(format!("did you mean `{near}`?")),
+                    None => problem,
+                },
+            ))
+        }
+        None => Ok(laws),
+    }
+}
+
+/// `a = 20 mW/rpm`.
+fn start(text: &str) -> Result<Start, Failure> {
+    let Some((name, value)) = text.split_once('=') else {
+        let problem = Diagnostic::error("fit::law_start", format!("`{text}` gives no name a value"));
+        return Err(Failure::new(Exit::Input, problem.help("write for example --start \"a = 20 mW/rpm\"")));
+    };
+    let quantity = parse_quantity(value.trim(), None);
+    let quantity = quantity.map_err(|error| wrong_unit("--start", value.trim(), &error))?;
+    Ok((name.trim().to_owned(), quantity))
+}
+
+fn capacity(text: Option<&str>) -> Result<Option<Capacity>, Failure> {
+    let Some(text) = text else { return Ok(None) };
+    let found = parse_quantity(text, Some(Type::of(Dimension::CAPACITY)));
+    let found = found.map_err(|error| wrong_unit("--capacity", text, &error))?;
+    if found.value > 0.0 {
+        return Ok(Some(Capacity { value: found.value, deviation: found.deviation.unwrap_or(0.0) }));
+    }
+    let problem = Diagnostic::error("fit::law_capacity", "the capacity must be more than 0 J/K");
+    Err(Failure::new(Exit::Input, problem.help("write for example --capacity \"2659 J/K ± 5 %\"")))
+}
+
+fn consistency(data: &Data, capacity: Option<Capacity>) -> Result<Option<Consistency>, Failure> {
+    let (Some(rise), Some(time_constant)) = (&data.rise, &data.time_constant) else { return Ok(None) };
+    let (speed, power) = (data.points.speed(), data.points.power());
+    let errors = data.errors.as_ref().map(|errors| errors.each_ref().map(Vec::as_slice));
+    let measured = Measured { speed, rise, time_constant, power, errors };
+    let found = Consistency::of_points(&measured, capacity);
+    match found {
+        Ok(found) => Ok(Some(found)),
+        // five points and two speeds are needed for this question only
+        Err(LawError::TooFew { .. } | LawError::Range) => Ok(None),
+        Err(error) => Err(wrong(&error)),
+    }
+}
+
+/// A mistake in a law of the command line, shown in its text.
+fn wrong_law(option: &str, text: &str, error: &LawError) -> Failure {
+    let mut files = Files::new();
+    let file = files.add(option, text);
+    let problem = |found: &lptn_units::UnitError| {
+        let problem = Diagnostic::error(found.code(), found.to_string());
+        let problem = problem.at(Span::new(file, found.span.clone()), "");
+        match found.help() {
+            Some(help) => problem.help(help),
+            None => problem,
+        }
+    };
+    match error {
+        LawError::Units { errors, .. } => {
+            Failure { exit: Exit::Input, diagnostics: errors.iter().map(problem).collect(), files }
+        }
+        error => wrong(error),
+    }
+}
+
+fn wrong(error: &LawError) -> Failure {
+    Failure::of(Exit::Input, error)
+}

@@ -1,0 +1,154 @@
+//! The files of `lptn fit law FOLDER`: the tables of the paper's Figures 7, 8 and 9, and their manifest.
+
+use std::io;
+
+use lptn_fit::law::{RunFit, Systematic};
+use lptn_report::{Json, write_csv};
+use lptn_solve::{Table, TableOf};
+use lptn_study::{Environment, Scalar, utc};
+use serde_json::{Map, Value, json};
+
+use super::super::output;
+use super::Runs;
+use crate::failure::Failure;
+use crate::files::Folder;
+use crate::files::names::{LAWS, MANIFEST, POWER, RISE, TIME_CONSTANT};
+
+/// What is written.
+pub(crate) const NAMES: [&str; 5] = [RISE, TIME_CONSTANT, POWER, LAWS, MANIFEST];
+
+pub(crate) fn write(found: &Runs, folder: &Folder) -> Result<(), Failure> {
+    let mut files = folder.batch();
+    for (name, table) in [
+        (RISE, rise(found)),
+        (TIME_CONSTANT, time_constant(found)),
+        (POWER, power(found)),
+        (LAWS, output::table(&found.answer)),
+    ] {
+        files.write(name, |out| write_csv(&table, out))?;
+    }
+    let environment = Environment {
+        written: utc(std::time::SystemTime::now()),
+        host: std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default().trim().to_owned(),
+        wall_time: Scalar::new(found.wall_time, "s"),
+    };
+    let arguments: Vec<String> =
+        std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned()).collect();
+    let text = json!({
+        "format": 1,
+        "lptn": env!("CARGO_PKG_VERSION"),
+        "arguments": arguments,
+        "inputs": found.inputs,
+        "results": files.written(),
+        "environment": environment,
+    });
+    files.write(MANIFEST, |out| out.write_all(format!("{text:#}\n").as_bytes()))?;
+    files.commit(&[])
+}
+
+/// A table of runs and their speeds, for other columns: one value a run.
+fn table<'a>(found: &Runs, rows: &'a [usize]) -> TableOf<'a, usize> {
+    let (unit, runs) = (&found.answer.data.unit, &found.study.runs);
+    let mut table = Table::of(rows);
+    table.label("run", |&row| runs[row].0.clone());
+    table.column("omega", &unit.0.text, |&row| unit.0.from_si(runs[row].1));
+    table
+}
+
+fn rows(found: &Runs) -> Vec<usize> {
+    (0..found.study.runs.len()).collect()
+}
+
+/// Name, unit and values of a column.
+type Part<'a> = (&'a str, &'a str, &'a dyn Fn(&RunFit) -> f64);
+
+/// Columns of every thermocouple.
+fn each(found: &Runs, parts: &[Part<'_>]) -> Table {
+    let rows = rows(found);
+    let mut table = table(found, &rows);
+    for (of, part) in found.columns().iter().flat_map(|of| parts.iter().map(move |part| (of, part))) {
+        let value = |&row: &usize| of.fits.get(row).map_or(f64::NAN, part.2);
+        table.column(format!("{}.{}", of.column, part.0), part.1, value);
+    }
+    table.done()
+}
+
+/// Figure 7: rise over speed.
+fn rise(found: &Runs) -> Table {
+    each(
+        found,
+        &[
+            ("dT", "K", &|f| f.power.rise.value),
+            ("dT_sd", "K", &|f| f.power.rise.random),
+            ("dT_systematic", "K", &|f| f.power.rise.systematic),
+        ],
+    )
+}
+
+/// Figure 8: time constant over speed.
+fn time_constant(found: &Runs) -> Table {
+    each(
+        found,
+        &[
+            ("t_RC", "min", &|f| f.fit.tau.value / 60.0),
+            ("t_RC_sd", "min", &|f| f.fit.tau.standard_error / 60.0),
+            ("t_RC_95", "min", &|f| f.fit.tau.half_width / 60.0),
+        ],
+    )
+}
+
+/// Figure 9: power over speed, with what each law says.
+pub(crate) fn power(found: &Runs) -> Table {
+    let first = found.columns().first().map_or(&[][..], |column| &column.fits);
+    let rows = rows(found);
+    let mut table = table(found, &rows);
+    let mut column = |name: &str, unit: &str, value: &dyn Fn(&RunFit) -> f64| {
+        table.column(name, unit, |&row| first.get(row).map_or(f64::NAN, value));
+    };
+    column("dT", "K", &|f| f.power.rise.value);
+    column("t_RC", "min", &|f| f.fit.tau.value / 60.0);
+    column("P", "W", &|f| f.power.power.value);
+    column("P_sd", "W", &|f| f.power.power.random);
+    column("P_systematic", "W", &|f| f.power.power.systematic);
+    for candidate in &found.answer.study.candidates {
+        if let Some(fit) = candidate.fitted() {
+            let value = |&row: &usize| fit.values.get(row).copied().unwrap_or(f64::NAN);
+            table.column(candidate.law.to_string(), "W", value);
+        }
+    }
+    table.done()
+}
+
+pub(crate) fn json(found: &Runs, json: &mut Json<'_>) -> io::Result<()> {
+    output::members(&found.answer, json)?;
+    json.member("runs", &runs(found))?;
+    let part = |e: &Systematic| json!({ "capacity": e.capacity, "offset": e.offset, "gain": e.gain, "total": e.total() });
+    let systematic = found.best().and_then(|(best, fit)| {
+        let named = fit.coefficients.iter().zip(found.study.systematic(best)?);
+        Some(named.map(|(c, e)| (c.name.clone(), part(&e))).collect::<Map<String, Value>>())
+    });
+    json.member("systematic", &systematic)
+}
+
+fn runs(found: &Runs) -> Value {
+    let number =
+        |value: f64, unit: &str, error: f64| json!({ "value": value, "unit": unit, "standard_error": error });
+    let column = |f: &RunFit| {
+        let parted = |p: lptn_fit::step::Parted, unit: &str| json!({ "value": p.value, "unit": unit, "standard_error": p.random, "systematic": p.systematic });
+        json!({
+            "T_i": number(f.fit.initial.value, "K", f.fit.initial.standard_error),
+            "T_f": number(f.fit.settled.value, "K", f.fit.settled.standard_error),
+            "t_RC": number(f.fit.tau.value, "s", f.fit.tau.standard_error),
+            "rms": Scalar::new(f.fit.rms, "K"),
+            "dT": parted(f.power.rise, "K"),
+            "R_eq": parted(f.power.resistance, "K/W"),
+            "P_disp": parted(f.power.power, "W"),
+            "reference": f.power.reference,
+        })
+    };
+    let run = |(i, (name, speed)): (usize, &(String, f64))| {
+        let columns = found.columns().iter().map(|of| (of.column.clone(), column(&of.fits[i])));
+        json!({ "run": name, "speed": Scalar::new(*speed, "rad/s"), "columns": columns.collect::<Map<_, _>>() })
+    };
+    found.study.runs.iter().enumerate().map(run).collect()
+}

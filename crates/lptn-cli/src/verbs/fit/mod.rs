@@ -1,0 +1,22 @@
+//! `lptn fit`: what records of measured temperatures tell. Each of its verbs is a module.
+
+mod args;
+mod law;
+mod network;
+mod step;
+
+pub(crate) use args::FitArgs;
+
+use args::FitVerb;
+
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+
+pub(crate) fn fit(args: &FitArgs, console: &Console) -> Result<Exit, Failure> {
+    match &args.verb {
+        FitVerb::Step(args) => step::step(args, console),
+        FitVerb::Network(args) => network::network(args, console),
+        FitVerb::Law(args) => law::law(args, console),
+    }
+}

@@ -1,0 +1,207 @@
+//! `lptn fit network`
+
+mod args;
+mod interrupted;
+mod json;
+mod text;
+mod words;
+mod write;
+
+pub(crate) use args::NetworkArgs;
+
+use std::io;
+use std::sync::{Mutex, PoisonError};
+
+use lptn_fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network_observed};
+use lptn_netlist::{Diagnostic, FitStudy};
+use lptn_report::{Json, Page, Rows, Text};
+use lptn_solve::Table;
+use lptn_solve::{SensitiveError, available_threads};
+use lptn_units::Unit;
+
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::interrupt::Interrupt;
+use crate::options::Source;
+use crate::progress::ProgressLine;
+
+/// What came of a fit, and of what.
+pub(crate) struct Answer<'a> {
+    pub(crate) input: &'a Input,
+    pub(crate) study: &'a FitStudy,
+    pub(crate) task: NetworkFitTask<'a>,
+    /// In which each parameter is shown.
+    pub(crate) units: Vec<Unit>,
+    pub(crate) fit: NetworkFit,
+    /// Where a parameter sits on a bound, and what else is doubtful.
+    pub(crate) doubts: Vec<Diagnostic>,
+}
+
+pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Failure> {
+    let input = Input::load(&Source { file: args.file.clone(), set: args.set.clone() })?;
+    let study = study(&input, args.name.as_deref())?;
+    console.warn(&input.netlist.files, &input.netlist.warnings);
+    let mut task = NetworkFitTask::of(&input.netlist, study, available_threads())
+        .map_err(|error| failed(&input, study, &error))?;
+    task.more_starts = args.starts.map_or(task.more_starts, usize::from);
+    if args.write {
+        write::possible(&input, &task)?;
+    }
+    let fit = match observed(&task, console) {
+        Err(NetworkFitError::Interrupted { stage, best }) => {
+            return interrupted::tell((&input, &task), (stage, best), (args, console));
+        }
+        outcome => outcome.map_err(|error| failed(&input, study, &error))?,
+    };
+    if let Some(stop) = fit.not_converged {
+        let message = format!("fit `{}` did not converge: {}", study.name, stop.text());
+        let problem = Diagnostic::error("fit::not_converged", message).at(study.span.clone(), "").help(
+            "give the parameters start values nearer to what is expected, and bounds with `from` and `to`",
+        );
+        return Err(Failure::at(Exit::Failed, input.netlist.files.clone(), problem));
+    }
+    let units = task.parameters.iter().map(|varied| input.unit_of(varied.parameter)).collect();
+    let mut answer = Answer { input: &input, study, task, units, fit, doubts: Vec::new() };
+    answer.doubts = words::doubts(&answer);
+    console.warn(&input.netlist.files, &answer.doubts);
+    let exit = console.show(&answer, args.printed.format)?;
+    if args.write && exit == Exit::Done {
+        write::write(&answer, &args.file, console)?;
+    }
+    Ok(exit)
+}
+
+/// The fit, with its progress, until Ctrl-C.
+fn observed(task: &NetworkFitTask<'_>, console: &Console) -> Result<NetworkFit, NetworkFitError> {
+    let interrupt = Interrupt::listen();
+    let line = Mutex::new(ProgressLine::new(console.quiet));
+    let outcome = fit_network_observed(task, &|stage, step| {
+        // no run waits for the line: the next step says more
+        if let Ok(mut line) = line.try_lock() {
+            line.update_of(&stage.to_string(), step);
+        }
+        interrupt.control()
+    });
+    line.into_inner().unwrap_or_else(PoisonError::into_inner).clear();
+    outcome
+}
+
+/// The study of this name, or the only one.
+fn study<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a FitStudy, Failure> {
+    let fits = &input.netlist.fits;
+    let known = || fits.iter().map(|study| study.name.as_str());
+    let list = || known().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    let file = &input.text.name;
+    let problem = match (name, fits.as_slice()) {
+        (None, [only]) => return Ok(only),
+        (None, []) => Diagnostic::error(
+            "fit::no_study",
+            format!("{file} has no [fit.NAME]: what is to be fitted to what?"),
+        )
+        .help(
+            "add for example:\n\n[fit.heating]\ndata = \"record.csv\"\ncolumn = { ring_gear = \"steel.T\" }\n\
+                     sigma = \"0.2 K\"\nvary = { R_int = { from = \"1 mK/W\", to = \"1 K/W\" } }",
+        ),
+        (None, _) => Diagnostic::error("fit::which_study", format!("{file} has several [fit.NAME]"))
+            .help(format!("name one of {}", list())),
+        (Some(name), _) => match fits.iter().find(|study| study.name == name) {
+            Some(study) => return Ok(study),
+            None => {
+                let problem = Diagnostic::error("fit::no_study", format!("{file} has no [fit.{name}]"));
+                match lptn_units::suggest(name, known()) {
+                    Some(near) => problem.help(format!("did you mean `{near}`?")),
+                    None if fits.is_empty() => problem,
+                    None => problem.help(format!("name one of {}", list())),
+                }
+            }
+        },
+    };
+    Err(Failure::new(Exit::Input, problem))
+}
+
+fn failed(input: &Input, study: &FitStudy, error: &NetworkFitError) -> Failure {
+    let span = match error {
+        NetworkFitError::StartOutside { parameter } => {
+            study.varied.get(*parameter).map(|varied| &varied.span)
+        }
+        NetworkFitError::Observed { column, .. } => {
+            study.observed.iter().find(|observed| observed.column == *column).map(|observed| &observed.span)
+        }
+        NetworkFitError::Times { record, .. } | NetworkFitError::Start { record, .. } => {
+            study.records.iter().find(|own| own.csv == *record).map(|own| &own.span)
+        }
+        _ => None,
+    };
+    let problem =
+        Diagnostic::error(error.code(), error.to_string()).at(span.unwrap_or(&study.span).clone(), "");
+    let numbers =
+        matches!(error, NetworkFitError::Start { error, .. } if matches!(**error, SensitiveError::Run(_)));
+    let exit =
+        if numbers || matches!(error, NetworkFitError::Search(_)) { Exit::Failed } else { Exit::Input };
+    let problem = match error {
+        NetworkFitError::Times { start, .. } => problem.help(format!(
+            "the times of a record are times of the run, which begins at {start} s: set `start` in [run] to the time at \
+             which the network stood as `T0` says, or take the rows before it out of the record"
+        )),
+        NetworkFitError::Observed { .. } => problem.help(
+            "write the temperature of a node, `\"steel.T\"`, or a mean, `\"mean(steel.T, bed.T)\"`; parameters, signals, \
+             boundaries, heat flows and `t` cannot stand there, and an offset of a sensor is not fitted",
+        ),
+        NetworkFitError::TooFew { .. } => problem.help("vary fewer parameters, or give some a prior with `±`"),
+        _ => problem,
+    };
+    Failure::at(exit, input.netlist.files.clone(), problem)
+}
+
+impl Answer<'_> {
+    /// Whether every parameter is determined.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.fit.identifiability.as_ref().is_some_and(|known| known.is_whole())
+    }
+
+    pub(crate) fn name(&self, i: usize) -> &str {
+        &self.task.network.parameters()[self.task.parameters[i].parameter.index()].name
+    }
+
+    /// A parameter's value in its unit.
+    pub(crate) fn shown(&self, i: usize, si: f64) -> f64 {
+        self.units[i].from_si(si)
+    }
+
+    /// A difference of two values of a parameter in its unit.
+    pub(crate) fn shown_difference(&self, i: usize, si: f64) -> f64 {
+        si / self.units[i].scale
+    }
+}
+
+impl Page for Answer<'_> {
+    fn text(&self) -> Text {
+        text::text(self)
+    }
+
+    /// One row for each parameter, in its unit.
+    fn rows(&self) -> Rows<'_> {
+        let all: Vec<usize> = (0..self.fit.parameters.len()).collect();
+        let parameter = |i: usize| &self.fit.parameters[i];
+        let error =
+            |i: usize| parameter(i).standard_error.map_or(f64::NAN, |se| self.shown_difference(i, se));
+        let mut table = Table::of(&all);
+        table.label("parameter", |&i| self.name(i).to_owned());
+        table.label("unit", |&i| self.units[i].text.clone());
+        table.label("state", |&i| words::state(self, i).to_owned());
+        table.column("value", "unit", |&i| self.shown(i, parameter(i).value));
+        table.column("standard_error", "unit", |&i| error(i));
+        table.column("start", "unit", |&i| self.shown(i, parameter(i).start));
+        table.done().into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        json::json(self, json)
+    }
+
+    fn no(&self) -> Option<String> {
+        (!self.is_whole()).then(|| words::verdict(self))
+    }
+}

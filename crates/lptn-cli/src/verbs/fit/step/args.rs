@@ -1,0 +1,54 @@
+//! The options of `lptn fit step`.
+
+use std::path::PathBuf;
+
+use clap::Args as Arguments;
+
+use crate::options::{Printed, Scale, TEMPLATE};
+
+const EXAMPLES: &str = "\
+Examples:
+  lptn fit step record.csv
+  lptn fit step record.csv --capacity \"2659 J/K ± 5 %\" --sensor \"3 K\"
+  lptn fit step record.csv --capacity \"2659 J/K\" --reference mill_bed
+  lptn fit step record.csv --model gearbox.toml --port steel --format json";
+
+/// Fit one exponential to each thermocouple of a record
+#[derive(Debug, Arguments)]
+#[command(before_help = EXAMPLES, help_template = TEMPLATE)]
+pub(crate) struct StepArgs {
+    /// A CSV file with headers like `t [s],ring [degC]`; - reads stdin
+    #[arg(value_name = "RECORD")]
+    pub(crate) record: PathBuf,
+    /// Fit this column; may be repeated; all temperatures otherwise
+    #[arg(long, value_name = "NAME")]
+    pub(crate) column: Vec<String>,
+    /// The column of the times, where it is not the first in a unit of time
+    #[arg(long, value_name = "NAME")]
+    pub(crate) time: Option<String>,
+    /// Leave out what is before, such as "30 s" of the record's time
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub(crate) from: Option<String>,
+    /// Leave out what is after
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub(crate) to: Option<String>,
+    /// Go on to R_eq and P_disp with C_eq, such as "2659 J/K ± 5 %"
+    #[arg(long, value_name = "J/K", allow_hyphen_values = true)]
+    pub(crate) capacity: Option<String>,
+    /// Count dT from T_i (initial), from a column, or from "25.5 degC"
+    #[arg(long, value_name = "WHAT", default_value = "initial", allow_hyphen_values = true)]
+    pub(crate) reference: String,
+    /// Class error of the thermocouples, such as "3 K"
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    pub(crate) sensor: Option<String>,
+    /// State the bias of the method on this network
+    #[arg(long, value_name = "FILE", requires = "port")]
+    pub(crate) model: Option<PathBuf>,
+    /// The node of the model that the thermocouple is on
+    #[arg(long, value_name = "NODE", requires = "model")]
+    pub(crate) port: Option<String>,
+    #[command(flatten)]
+    pub(crate) printed: Printed,
+    #[command(flatten)]
+    pub(crate) scale: Scale,
+}

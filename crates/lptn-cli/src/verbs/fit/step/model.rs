@@ -1,0 +1,82 @@
+//! What the method gets wrong of a network that is known.
+
+use std::path::Path;
+
+use lptn_fit::step::{ModelBias, StepError};
+use lptn_netlist::Diagnostic;
+use lptn_network::Item;
+use lptn_network::Time;
+use lptn_solve::Transient;
+
+use super::StepArgs;
+use super::request::Request;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::options::Source;
+
+/// The bias of the method, and of which network.
+#[derive(Debug)]
+pub(crate) struct Model {
+    pub(crate) file: String,
+    pub(crate) stem: String,
+    pub(crate) port: String,
+    pub(crate) bias: ModelBias,
+}
+
+impl Model {
+    /// The same fit on the network's own answer at the times of the record; `None` where no network is named.
+    pub(crate) fn read(args: &StepArgs, request: &Request) -> Result<Option<Self>, Failure> {
+        let (Some(file), Some(port)) = (&args.model, &args.port) else { return Ok(None) };
+        let begin = request.begin.ok_or_else(unknown_begin)?;
+        Self::of(file, port, (begin, &request.record.time)).map(Some)
+    }
+
+    fn of(file: &Path, port: &str, (begin, times): (f64, &[f64])) -> Result<Self, Failure> {
+        let input = Input::load(&Source { file: file.to_owned(), set: Vec::new() })?;
+        let network = &input.netlist.network;
+        let explain = |error: StepError| failed(&input, port, &error);
+        let node = lptn_reduce::port(network, port).map_err(|error| explain(StepError::Model(error)))?;
+        let system = input.assemble()?;
+        let length = times.last().map_or(0.0, |last| last - begin);
+        let run = match &input.netlist.run {
+            Some(run) => lptn_solve::Transient::of(network, run),
+            None => Transient::until(Time(length)),
+        };
+        let bias = ModelBias::new(&system, node, &run, (begin, times)).map_err(explain)?;
+        let (file, stem) = (input.text.name.clone(), input.text.stem.clone());
+        Ok(Self { file, stem, port: port.to_owned(), bias })
+    }
+}
+
+fn unknown_begin() -> Failure {
+    let message = "the run of the model begins with the record, but what is before --from cannot be read";
+    let help = "without --from the first row that cannot be read is named";
+    Failure::new(Exit::Input, Diagnostic::error("fit::no_begin", message).help(help))
+}
+
+fn failed(input: &Input, port: &str, error: &StepError) -> Failure {
+    use lptn_reduce::ReduceError;
+    let exit = match error {
+        StepError::Model(ReduceError::Run(_) | ReduceError::Factorization(_) | ReduceError::Modes) => {
+            Exit::Failed
+        }
+        _ => Exit::Input,
+    };
+    let problem = Diagnostic::error(error.code(), format!("the model {}: {error}", input.text.name));
+    let problem = match error.help() {
+        Some(help) => problem.help(help),
+        None => problem,
+    };
+    let place = input
+        .netlist
+        .network
+        .node(port)
+        .ok()
+        .and_then(|node| input.netlist.source_map.name(Item::Node(node)));
+    let problem = match place {
+        Some(span) => problem.at(span.clone(), "the port"),
+        None => problem,
+    };
+    Failure::at(exit, input.netlist.files.clone(), problem)
+}

@@ -1,0 +1,182 @@
+//! What the options of `lptn fit step` ask for.
+
+use std::path::Path;
+
+use lptn_netlist::{Diagnostic, Files, Record, RecordName, RecordQuery, read_record};
+use lptn_units::{Dimension, Quantity, Type, Unit, parse_quantity, suggest};
+
+use super::StepArgs;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::{self, wrong_unit};
+
+/// A record with what is to be made of it.
+#[derive(Debug)]
+pub(crate) struct Request {
+    /// What diagnostics and results call the record.
+    pub(crate) name: String,
+    pub(crate) record: Record,
+    /// The first time of the record in s before `--from` cut it; `None` where that part cannot be read.
+    pub(crate) begin: Option<f64>,
+    pub(crate) files: Files,
+    /// The columns to fit, by position.
+    pub(crate) columns: Vec<usize>,
+    pub(crate) reference: Reference,
+    /// The capacity in J/K.
+    pub(crate) capacity: Option<Quantity>,
+    /// The class error of the thermocouples in K.
+    pub(crate) sensor: Option<f64>,
+    pub(crate) unit: Unit,
+}
+
+/// From where dT is counted.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Reference {
+    /// The temperature at the start of each column.
+    Initial,
+    /// A column of the record, by position.
+    Column(usize),
+    /// A temperature in K.
+    Value(f64),
+}
+
+impl Request {
+    /// Whether rows before the first that is fitted were left out.
+    pub(crate) fn is_cut(&self) -> bool {
+        self.begin.is_none_or(|begin| self.record.time.first().is_some_and(|&first| begin < first))
+    }
+
+    pub(crate) fn read(args: &StepArgs) -> Result<Self, Failure> {
+        let capacity = args.capacity.as_deref().map(|text| positive("--capacity", text, Dimension::CAPACITY));
+        let sensor = args.sensor.as_deref().map(|text| positive("--sensor", text, Dimension::TEMPERATURE));
+        let unit = temperature_unit(args.scale.temperature_unit.as_deref())?;
+        let (capacity, sensor) = (capacity.transpose()?, sensor.transpose()?);
+        let text = input::read(&args.record)?;
+        let (record, files) = read_record(Path::new(&text.name), &text.bytes, &query(args)?)?;
+        let begin = match args.from {
+            Some(_) => begin(args, Path::new(&text.name), &text.bytes)?,
+            None => record.time.first().copied(),
+        };
+        let reference = reference(&args.reference, (&record, &files))?;
+        let columns = columns(args, &record, &reference);
+        if columns.is_empty() {
+            return Err(nothing(&record, files));
+        }
+        let sensor = sensor.map(|quantity| quantity.value);
+        Ok(Self { name: text.name, record, begin, files, columns, reference, capacity, sensor, unit })
+    }
+}
+
+/// The first time of the whole record.
+fn begin(args: &StepArgs, path: &Path, bytes: &[u8]) -> Result<Option<f64>, Failure> {
+    let whole = RecordQuery { from: None, ..query(args)? };
+    Ok(read_record(path, bytes, &whole).ok().and_then(|(record, _)| record.time.first().copied()))
+}
+
+/// A quantity of the command line that is more than zero.
+fn positive(option: &str, text: &str, dimension: Dimension) -> Result<Quantity, Failure> {
+    let quantity =
+        parse_quantity(text, Some(Type::of(dimension))).map_err(|e| wrong_unit(option, text, &e))?;
+    if quantity.value > 0.0 {
+        return Ok(quantity);
+    }
+    let message = format!("{option} must be more than zero, got `{text}`");
+    Err(Failure::new(Exit::Input, Diagnostic::error("fit::not_positive", message).help("check the sign")))
+}
+
+fn time(option: &str, text: Option<&str>) -> Result<Option<f64>, Failure> {
+    let read = |text| {
+        parse_quantity(text, Some(Type::of(Dimension::TIME)))
+            .map_err(|error| wrong_unit(option, text, &error))
+    };
+    Ok(text.map(read).transpose()?.map(|quantity| quantity.value))
+}
+
+fn temperature_unit(text: Option<&str>) -> Result<Unit, Failure> {
+    input::scale_of("--temperature-unit", text.unwrap_or("degC"))
+}
+
+/// What to read: everything, or the columns that are named and the one that dT is counted from.
+fn query(args: &StepArgs) -> Result<RecordQuery, Failure> {
+    let temperature =
+        |name: &str| RecordName { ty: Some(Type::ABSOLUTE_TEMPERATURE), ..RecordName::new(name) };
+    let mut names: Vec<&str> = Vec::new();
+    for name in &args.column {
+        if !names.contains(&name.as_str()) {
+            names.push(name);
+        }
+    }
+    let reference = args.reference.as_str();
+    if !names.is_empty() && names_a_column(reference) && !names.contains(&reference) {
+        names.push(reference);
+    }
+    let (from, to) = (time("--from", args.from.as_deref())?, time("--to", args.to.as_deref())?);
+    Ok(RecordQuery {
+        time: args.time.as_ref().map(RecordName::new),
+        columns: names.into_iter().map(temperature).collect(),
+        from,
+        to,
+    })
+}
+
+/// Whether the text of `--reference` is neither the word nor a temperature.
+fn names_a_column(text: &str) -> bool {
+    text != "initial" && parse_quantity(text, Some(Type::ABSOLUTE_TEMPERATURE)).is_err()
+}
+
+fn reference(text: &str, (record, files): (&Record, &Files)) -> Result<Reference, Failure> {
+    if text == "initial" {
+        return Ok(Reference::Initial);
+    }
+    let temperatures = || record.columns.iter().enumerate().filter(|(_, column)| column.unit.ty.absolute);
+    if let Some((index, _)) = temperatures().find(|(_, column)| column.name == text) {
+        return Ok(Reference::Column(index));
+    }
+    match parse_quantity(text, Some(Type::ABSOLUTE_TEMPERATURE)) {
+        Ok(quantity) => Ok(Reference::Value(quantity.value)),
+        // what begins with a digit was meant as a temperature
+        Err(error) if text.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit()) => {
+            Err(wrong_unit("--reference", text, &error))
+        }
+        Err(_) => {
+            let message = format!("--reference: there is no column `{text}` of temperatures");
+            let problem = Diagnostic::error("fit::reference", message);
+            let names = temperatures().map(|(_, column)| column.name.as_str()).chain(["initial"]);
+            let problem = match suggest(text, names) {
+                Some(near) => problem.help(format!("did you mean `{near}`?")),
+                None => problem
+                    .help("name a column of the record, a temperature such as \"25.5 degC\", or initial"),
+            };
+            Err(Failure::at(Exit::Input, files.clone(), problem))
+        }
+    }
+}
+
+/// The columns to fit: those that are named, or all temperatures that change, without the one that dT is counted from.
+fn columns(args: &StepArgs, record: &Record, reference: &Reference) -> Vec<usize> {
+    let is_asked = |i: usize| args.column.contains(&record.columns[i].name);
+    let changes = |i: usize| {
+        let mut values = record.columns[i].values.iter().filter(|value| !value.is_nan());
+        let first = values.next();
+        values.any(|value| Some(value) != first)
+    };
+    let all = 0..record.columns.len();
+    let chosen = all.filter(|&i| match args.column.is_empty() {
+        true => record.columns[i].unit.ty.absolute && *reference != Reference::Column(i) && changes(i),
+        false => is_asked(i),
+    });
+    chosen.collect()
+}
+
+fn nothing(record: &Record, files: Files) -> Failure {
+    let message = "no column of the record is a temperature that changes";
+    let problem = Diagnostic::error("fit::no_column", message);
+    let problem = match record.columns.first() {
+        Some(column) => problem.at(column.span.clone(), ""),
+        None => problem,
+    };
+    let problem = problem.help("the unit of a temperature is `[degC]`, `[K]` or `[degF]`");
+    // that a column does not change is what was found out about it
+    let diagnostics = record.warnings.iter().cloned().chain([problem]).collect();
+    Failure { exit: Exit::Input, files, diagnostics }
+}

@@ -1,0 +1,205 @@
+//! `lptn modes`
+
+mod args;
+
+pub(crate) use args::ModesArgs;
+
+use std::io;
+
+use lptn_netlist::Diagnostic;
+use lptn_network::{Network, Node};
+use lptn_report::{Json, Page, Rows, Text, TextTable, duration, fixed, shortened};
+use lptn_solve::{EventKind, ExactError, Mode, Modes};
+use lptn_study::Scalar;
+use serde_json::{Map, Value, json};
+
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::words::{MOST_NODES, count};
+
+/// Modes that are shown without `--count`: all of up to so many, else the slowest so many.
+const ALL_UP_TO: usize = 20;
+const OF_MORE: usize = 10;
+
+/// Modes whose shapes stand side by side.
+const MOST_SHAPES: usize = 6;
+
+/// Nodes named for each mode.
+const PARTNERS: usize = 3;
+
+/// Letters for them together and for a name, beside the other columns.
+const PARTNERS_WIDTH: usize = 58;
+const PARTNER_WIDTH: usize = 44;
+
+pub(crate) fn modes(args: &ModesArgs, console: &Console) -> Result<Exit, Failure> {
+    let input = Input::load(&args.source)?;
+    let netlist = &input.netlist;
+    let mut modes = Modes::solve(&netlist.network).map_err(|error| failed(&input, &error))?;
+    let all = modes.modes().len();
+    let usual = if all <= ALL_UP_TO { all } else { OF_MORE };
+    modes.truncate(args.count.map_or(usual, |count| usize::try_from(count).unwrap_or(usize::MAX)));
+    console.warn(&netlist.files, &netlist.warnings);
+    let view = View { input: &input, modes: &modes, all };
+    console.show(&view, args.printed.format)
+}
+
+fn failed(input: &Input, error: &ExactError) -> Failure {
+    let (exit, code, help) = match error {
+        ExactError::TooLarge { .. } => (
+            Exit::Input,
+            "modes::too_large",
+            Some("lump nodes until there are at most 2000, or let `lptn run` show how long each node takes"),
+        ),
+        ExactError::NotLinear { .. } | ExactError::Switches { .. } => (
+            Exit::Input,
+            error.code(),
+            Some("only a network of constants has modes; `lptn run` follows it over time"),
+        ),
+        ExactError::Input(_) | ExactError::Value(_) | ExactError::Times => (Exit::Input, error.code(), None),
+        ExactError::Singular | ExactError::Modes | ExactError::Quadrature { .. } => {
+            (Exit::Failed, error.code(), Some("merge the nodes that the largest conductances join"))
+        }
+    };
+    let problem = Diagnostic::error(code, error.to_string());
+    let problem = match help {
+        Some(help) => problem.help(help),
+        None => problem,
+    };
+    Failure::at(exit, input.netlist.files.clone(), problem)
+}
+
+struct View<'a> {
+    input: &'a Input,
+    modes: &'a Modes,
+    /// How many modes there are in all.
+    all: usize,
+}
+
+impl View<'_> {
+    fn network(&self) -> &Network {
+        &self.input.netlist.network
+    }
+
+    /// A line a mode: its time constant, and the nodes that take most part in it.
+    fn overview(&self) -> TextTable {
+        let modes: Vec<(usize, &Mode)> = (1..).zip(self.modes.modes()).collect();
+        TextTable::of(&modes)
+            .right("mode", |(number, _)| number.to_string())
+            .right("tau", |(_, mode)| tau(mode))
+            .left("participation", |(_, mode)| self.partners(mode))
+            .into()
+    }
+
+    /// The nodes that take most part, most first, those of equal part in the order of the file.
+    fn partners(&self, mode: &Mode) -> String {
+        let nodes = self.network().nodes();
+        let mut parts: Vec<(f64, &str)> =
+            mode.participation.iter().zip(nodes).map(|(&part, node)| (part, node.name.as_str())).collect();
+        // rounded, so that equal parts keep their order
+        parts.sort_by_key(|part| std::cmp::Reverse(fixed(part.0, 6)));
+        let shown = parts.iter().take(PARTNERS).filter(|(part, _)| *part >= 5e-4);
+        let words = shown
+            .map(|(part, name)| format!("{} {} %", shortened(name, PARTNER_WIDTH), fixed(100.0 * part, 1)));
+        let mut text = String::new();
+        for word in words {
+            let separator = if text.is_empty() { "" } else { ", " };
+            if text.len() + separator.len() + word.len() <= PARTNERS_WIDTH {
+                text += separator;
+                text += &word;
+            }
+        }
+        text
+    }
+
+    /// A line a node: its temperature in each of the slowest modes.
+    fn shapes(&self) -> TextTable {
+        let nodes: Vec<(usize, &Node)> = self.network().nodes().iter().take(MOST_NODES).enumerate().collect();
+        let mut table = TextTable::of(&nodes).left("shape", |(_, node)| node.name.as_str());
+        for (k, mode) in self.modes.modes().iter().take(MOST_SHAPES).enumerate() {
+            table = table.right(format!("mode {}", k + 1), |(i, _)| fixed(mode.shape[*i], 3));
+        }
+        table.into()
+    }
+
+    /// What the tables cannot say.
+    fn notes(&self) -> Vec<String> {
+        let mut notes = self.findings();
+        let (modes, nodes) = (self.modes.modes().len(), self.network().nodes().len());
+        if modes < self.all {
+            notes.push(format!("the {modes} slowest of {} modes; --count N shows others", self.all));
+        }
+        if modes > MOST_SHAPES || nodes > MOST_NODES {
+            notes.push("every shape and every node is in --format csv and json".to_owned());
+        }
+        notes
+    }
+
+    /// What is worth knowing about the modes themselves.
+    fn findings(&self) -> Vec<String> {
+        let lasting = self.modes.modes().iter().filter(|mode| mode.rate == 0.0).count();
+        let mut notes = Vec::new();
+        if self.all == 0 {
+            notes.push("no node stores heat: temperatures follow the inputs at once".to_owned());
+        }
+        // conductances that switch are refused: what is left are sources and boundaries
+        if let Some(kind) = EventKind::switching(self.network()).next() {
+            let name = kind.name(self.network());
+            notes.push(format!(
+                "`{name}` switches heat, which plays no part in these modes: the network has them between two switches"
+            ));
+        }
+        if lasting > 0 {
+            let verb = if lasting == 1 { "lasts" } else { "last" };
+            let which = count(lasting, "mode");
+            notes.push(format!("{which} {verb} for ever: no path leads from its nodes to a boundary"));
+        }
+        notes
+    }
+
+    fn mode(&self, mode: &Mode) -> Value {
+        let by_node = |values: &[f64]| -> Map<String, Value> {
+            let named = self.network().nodes().iter().zip(values);
+            named.map(|(node, &x)| (node.name.clone(), json!(Scalar::new(x, "1")))).collect()
+        };
+        json!({
+            "tau": Scalar::new(mode.tau(), "s"),
+            "shape": by_node(&mode.shape),
+            "participation": by_node(&mode.participation),
+        })
+    }
+}
+
+impl Page for View<'_> {
+    fn text(&self) -> Text {
+        let mut text = self.input.begun();
+        if !self.modes.modes().is_empty() {
+            text.section().table(self.overview());
+            text.section().table(self.shapes());
+        }
+        text.section().notes(self.notes());
+        text
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        self.modes.table(self.network()).into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let modes: Vec<Value> = self.modes.modes().iter().map(|mode| self.mode(mode)).collect();
+        self.input.head(json, &[])?;
+        json.member("notes", &self.findings())?;
+        json.member("count", &Scalar::new(count_as_number(self.all), "1"))?;
+        json.member("modes", &modes)
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "at most 2000")]
+fn count_as_number(n: usize) -> f64 {
+    n as f64
+}
+
+fn tau(mode: &Mode) -> String {
+    if mode.rate == 0.0 { "for ever".to_owned() } else { duration(mode.tau(), 5) }
+}

@@ -1,0 +1,70 @@
+//! The options of `lptn reduce`.
+
+use std::path::PathBuf;
+
+use clap::Args as Arguments;
+use lptn_reduce::Definition;
+use lptn_report::Format;
+
+use crate::options::{NoFiles, Scale, Source, TEMPLATE, one_of};
+
+const EXAMPLES: &str = "\
+Examples:
+  lptn reduce motor.toml --port winding
+  lptn reduce motor.toml --port winding --max-error 30% --definition sum
+  lptn reduce motor.toml --port winding --format toml > one_node.toml";
+
+/// Replace a network by one node, and say how wrong that is
+#[derive(Debug, Arguments)]
+#[command(before_help = EXAMPLES, help_template = TEMPLATE)]
+pub(crate) struct ReduceArgs {
+    #[command(flatten)]
+    pub(crate) source: Source,
+    /// The node that the network is seen from
+    #[arg(long, value_name = "NODE")]
+    pub(crate) port: String,
+    /// Exit with 1 if the error over the run is larger than 0.5K, or 2%
+    #[arg(long, value_name = "ERROR")]
+    pub(crate) max_error: Option<String>,
+    /// Use sum, first_moment, dominant_pole or least_squares for C_eq
+    #[arg(long, value_name = "NAME", hide_possible_values = true)]
+    #[arg(value_parser = one_of(&Definition::ALL, Definition::key))]
+    pub(crate) definition: Option<Definition>,
+    /// Fit one exponential to the run and say what heat it implies
+    #[arg(long)]
+    pub(crate) bias: bool,
+    /// Fit least_squares over this time after the step, not over the run
+    #[arg(long, value_name = "TIME")]
+    pub(crate) window: Option<String>,
+    /// Print a table, csv, json, or the one node as toml
+    #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    #[arg(value_parser = one_of(&ReduceFormat::ALL, ReduceFormat::key))]
+    pub(crate) format: ReduceFormat,
+    /// Write the one-node network as a netlist too
+    #[arg(long, value_name = "FILE")]
+    pub(crate) write: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) scale: Scale,
+    #[command(flatten)]
+    _no_files: NoFiles,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ReduceFormat {
+    /// One of every result.
+    Of(Format),
+    /// The netlist of the one node.
+    Toml,
+}
+
+impl ReduceFormat {
+    const ALL: [Self; 4] =
+        [Self::Of(Format::Table), Self::Of(Format::Csv), Self::Of(Format::Json), Self::Toml];
+
+    fn key(self) -> &'static str {
+        match self {
+            Self::Of(format) => format.key(),
+            Self::Toml => "toml",
+        }
+    }
+}

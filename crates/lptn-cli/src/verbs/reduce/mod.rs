@@ -1,0 +1,255 @@
+//! `lptn reduce`
+
+mod args;
+mod json;
+mod text;
+
+pub(crate) use args::ReduceArgs;
+
+use std::io::{self, ErrorKind};
+use std::path::Path;
+
+use lptn_assembly::ThermalSystem;
+use lptn_netlist::{Derived, Diagnostic};
+use lptn_network::{Field, Item};
+use lptn_reduce::{Bias, Definition, FitError, Options, Pair, ReduceError, Reduction, port};
+use lptn_report::{Format, Json, Page, Rows, Text, plain, significant};
+use lptn_solve::Transient;
+use lptn_units::{Dimension, Type, Unit, parse_quantity};
+
+use args::ReduceFormat;
+
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::{Failure, reason, told};
+use crate::input::{self, Input, quoted};
+use crate::{files, written};
+
+pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failure> {
+    let input = Input::load(&args.source)?;
+    let unit = input::temperature_unit(args.scale.temperature_unit.as_deref(), &input.netlist)?;
+    let limit = args.max_error.as_deref().map(Limit::parse).transpose()?;
+    let window = args.window.as_deref().map(window).transpose()?;
+    let run = input.netlist.run.clone();
+    if run.is_none() && (limit.is_some() || args.bias) {
+        return Err(no_run(&input, if limit.is_some() { "--max-error" } else { "--bias" }));
+    }
+    let system = input.assemble()?;
+    let explain = |error: ReduceError| failed(&input, args, &error);
+    let port = port(&input.netlist.network, &args.port).map_err(explain)?;
+    let run = run.as_ref().map(|run| lptn_solve::Transient::of(&input.netlist.network, run));
+    let reduction = Reduction::new(&system, port, &options(&system, run.as_ref(), (window, limit.is_some())));
+    let reduction = reduction.map_err(explain)?;
+    let bias = match &run {
+        Some(run) if args.bias => Some(Bias::new(&system, port, run).map_err(explain)?),
+        _ => None,
+    };
+    let definition = args.definition;
+    console.warn(&input.netlist.files, &input.netlist.warnings);
+    let view = View { input: &input, args, system: &system, reduction, bias, unit, limit, definition };
+    view.show(console)?;
+    Ok(view.conclude(console))
+}
+
+/// A reduction and how it is shown.
+pub(crate) struct View<'a> {
+    pub(crate) input: &'a Input,
+    pub(crate) args: &'a ReduceArgs,
+    pub(crate) system: &'a ThermalSystem,
+    pub(crate) reduction: Reduction,
+    pub(crate) bias: Option<Result<Bias, FitError>>,
+    pub(crate) unit: Unit,
+    pub(crate) limit: Option<Limit>,
+    /// The definition that was asked for.
+    pub(crate) definition: Option<Definition>,
+}
+
+impl View<'_> {
+    /// The pair that is judged and written: the one asked for, else the recommended one.
+    pub(crate) fn pair(&self) -> Option<&Pair> {
+        let dynamics = self.reduction.dynamics.as_ref()?;
+        Some(dynamics.pair(self.definition.unwrap_or(dynamics.recommended.definition)))
+    }
+
+    fn show(&self, console: &Console) -> Result<(), Failure> {
+        if let Some(path) = &self.args.write {
+            write_new(path, &self.netlist(Some(path))?)?;
+        }
+        match self.args.format {
+            ReduceFormat::Of(format) => console.show(self, format).map(drop)?,
+            ReduceFormat::Toml => console.print(&self.netlist(None)?).map(drop)?,
+        }
+        if self.args.format == ReduceFormat::Of(Format::Csv) {
+            self.notes().iter().for_each(|note| console.note(&format!("note: {note}")));
+        }
+        if let Some(path) = &self.args.write {
+            let path = path.display();
+            console.note(&format!("wrote  {path}: one node that stands for {}", self.input.text.name));
+        } else if let (ReduceFormat::Of(Format::Table), Some(file), false) =
+            (self.args.format, self.input.typed(), self.system.network().has_events())
+        {
+            let port = quoted(&self.args.port);
+            console.note(&format!("next   lptn reduce {file} --port {port} --write {port}.toml"));
+        }
+        Ok(())
+    }
+
+    /// The one-node network as a netlist that runs where it is going to stand, or beside the whole one.
+    fn netlist(&self, place: Option<&Path>) -> Result<String, Failure> {
+        let run = self.input.netlist.run.as_ref();
+        let start = run.map_or(0.0, |run| run.start);
+        let pair = self.pair();
+        let network = self.reduction.network(self.system, start, pair);
+        let network = network.map_err(|error| failed(self.input, self.args, &error))?;
+        let title = format!("{}, seen from {}", self.input.title(), self.args.port);
+        let folder = place.map(|place| place.parent().unwrap_or(Path::new("")));
+        let made = Derived { network: &network, title: &title, run, folder };
+        let text = self.comment() + &self.input.netlist.derived(&made);
+        written::proven(text, place.unwrap_or(Path::new(&self.input.text.name)), &network, run)
+    }
+
+    fn comment(&self) -> String {
+        let from = plain(&self.input.text.name);
+        let mut text = format!("# What `{}` of {from} sees, by `lptn reduce`.\n", self.args.port);
+        if let Some(pair) = self.pair() {
+            let error = match pair.run {
+                Some(run) => format!("; over the run it errs by {} K at most", significant(run.kelvin, 2)),
+                None => String::new(),
+            };
+            text += &format!("# C_eq by {}{error}.\n", pair.definition.key());
+        }
+        text
+    }
+
+    fn conclude(&self, console: &Console) -> Exit {
+        let (Some(limit), Some(pair)) = (&self.limit, self.pair()) else { return Exit::Done };
+        let Some(run) = pair.run else { return Exit::Done };
+        if run.within(limit.kelvin, limit.relative) {
+            return Exit::Done;
+        }
+        let share = run.relative.map(|r| format!(" ({} %)", significant(100.0 * r, 3))).unwrap_or_default();
+        console.message(&format!(
+            "too large: with C_eq by {} the error reaches {} K{share}, and {} is allowed",
+            pair.definition.key(),
+            significant(run.kelvin, 3),
+            limit.text
+        ));
+        Exit::No
+    }
+}
+
+impl Page for View<'_> {
+    fn text(&self) -> Text {
+        text::text(self)
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        self.reduction.table().into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        json::json(self, json)
+    }
+}
+
+/// The largest error allowed.
+pub(crate) struct Limit {
+    pub(crate) kelvin: Option<f64>,
+    pub(crate) relative: Option<f64>,
+    text: String,
+}
+
+impl Limit {
+    /// `0.5K` or `2%`.
+    fn parse(text: &str) -> Result<Self, Failure> {
+        const OPTION: &str = "--max-error";
+        let share = text.trim().ends_with('%');
+        let wanted = if share { Type::of(Dimension::NONE) } else { Type::of(Dimension::TEMPERATURE) };
+        let quantity =
+            parse_quantity(text, Some(wanted)).map_err(|error| input::wrong_unit(OPTION, text, &error))?;
+        if quantity.value.is_nan() || quantity.value <= 0.0 {
+            let problem = Diagnostic::error("reduce::max_error", "the error allowed must be more than zero");
+            return Err(Failure::new(Exit::Input, problem.help("write for example --max-error 0.5K or 2%")));
+        }
+        let [kelvin, relative] =
+            if share { [None, Some(quantity.value)] } else { [Some(quantity.value), None] };
+        Ok(Self { kelvin, relative, text: text.trim().to_owned() })
+    }
+}
+
+fn window(text: &str) -> Result<f64, Failure> {
+    let quantity = parse_quantity(text, Some(Type::of(Dimension::TIME)));
+    quantity.map(|quantity| quantity.value).map_err(|error| input::wrong_unit("--window", text, &error))
+}
+
+/// One node cannot follow a network that switches over its run: the run is left out, but where it is asked for.
+fn options(
+    system: &ThermalSystem,
+    run: Option<&Transient>,
+    (window, wanted): (Option<f64>, bool),
+) -> Options {
+    if wanted || !system.network().has_events() {
+        return Options { run: run.cloned(), window };
+    }
+    Options { run: None, window: window.or(run.map(|run| run.stop - run.start)) }
+}
+
+/// The run of the file.
+fn no_run(input: &Input, option: &str) -> Failure {
+    let message = format!("{} has no [run], which {option} is about", input.text.name);
+    let problem = Diagnostic::error("run::no_run", message)
+        .help("add these lines, or leave the option out:\n\n[run]\nstop = \"25 min\"");
+    Failure::new(Exit::Input, problem)
+}
+
+/// What is wrong, with its place in the file or on the command line.
+fn failed(input: &Input, args: &ReduceArgs, error: &ReduceError) -> Failure {
+    let exit = match error {
+        ReduceError::Factorization(_) | ReduceError::Modes | ReduceError::Equivalent(_) => Exit::Failed,
+        ReduceError::Run(error) if error.code() == "run::integrator" => Exit::Failed,
+        _ => Exit::Input,
+    };
+    let problem = match (error.help(), error, input.netlist.network.nodes().first()) {
+        (None, ReduceError::UnknownPort(_), Some(node)) => {
+            told(error).help(format!("name a node, for example `{}`", node.name))
+        }
+        _ => told(error),
+    };
+    let netlist = &input.netlist;
+    let map = &netlist.source_map;
+    let place = match error {
+        ReduceError::BoundaryPort { .. } => {
+            netlist.network.item(&args.port).ok().and_then(|item| map.name(item))
+        }
+        ReduceError::NoGround { names } => {
+            let first = names.first().and_then(|name| netlist.network.node(name).ok());
+            first.and_then(|node| map.name(Item::Node(node)))
+        }
+        ReduceError::Input(input) => {
+            map.get(input.item, input.field).or_else(|| map.get(input.item, Field::Name))
+        }
+        _ => None,
+    };
+    match place {
+        Some(place) => Failure::at(exit, netlist.files.clone(), problem.at(place.clone(), "")),
+        None => Failure::new(exit, problem),
+    }
+}
+
+/// Writes a file that is not there yet.
+fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
+    files::write_new(path, text).map_err(|error| {
+        let path = path.display();
+        let problem = match error.kind() {
+            ErrorKind::AlreadyExists => Diagnostic::error(
+                "reduce::exists",
+                format!("{path} exists already, and is never written over"),
+            )
+            .help("choose another name, or remove the file first"),
+            _ => {
+                Diagnostic::error("output::cannot_create", format!("cannot write {path}: {}", reason(&error)))
+            }
+        };
+        Failure::new(Exit::Input, problem)
+    })
+}

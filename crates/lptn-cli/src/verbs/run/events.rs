@@ -1,0 +1,135 @@
+//! Events of a run: `events.csv`, JSON, and what a reader wants to know of controls.
+
+use lptn_network::{ControlId, Network};
+use lptn_report::{Shortest, Text, TextTable, duration, fixed};
+use lptn_solve::{Event, EventKind, Solution};
+use lptn_study::Scalar;
+use serde_json::{Value, json};
+
+use crate::words::MOST_NODES;
+
+/// As many events are shown.
+const SHOWN: usize = 6;
+
+/// The rows of `events.csv`.
+pub(crate) fn rows(solution: &Solution) -> Vec<Vec<String>> {
+    let mut rows = vec![["time [s]", "kind", "name", "before", "after"].map(str::to_owned).to_vec()];
+    let mut number = Shortest::new();
+    rows.extend(solution.events().iter().map(|event| {
+        let Event { time, kind, before, after } = *event;
+        let (time, name) = (number.text(time).to_owned(), kind.name(solution.network()));
+        vec![time, kind.word().to_owned(), name, before.to_string(), after.to_string()]
+    }));
+    rows
+}
+
+/// A list of `{ time, kind, name, before, after }`.
+pub(crate) fn json(solution: &Solution) -> Value {
+    let state = |state: u8| json!({ "value": state, "unit": "1" });
+    let one = |event: &Event| {
+        json!({
+            "time": Scalar::new(event.time, "s"),
+            "kind": event.kind.word(),
+            "name": event.kind.name(solution.network()),
+            "before": state(event.before),
+            "after": state(event.after),
+        })
+    };
+    solution.events().iter().map(one).collect()
+}
+
+/// How a control fared between the start and the end that was reached.
+struct Use {
+    name: String,
+    starts: usize,
+    stops: usize,
+    /// Mean time in s from one start to the next; `None` unless there are two.
+    period: Option<f64>,
+    /// Part of the time that it was on; `None` where no time passed.
+    duty: Option<f64>,
+    /// Whether it is on at the end.
+    on: bool,
+}
+
+impl Use {
+    fn of(solution: &Solution, id: ControlId, (start, end): (f64, f64)) -> Self {
+        let own = || solution.events().iter().filter(|event| event.kind == EventKind::Control(id));
+        let on = solution.controls().get(id.index()).is_some_and(|state| state.on);
+        // it began the other way round than it first switched
+        let mut now = own().next().map_or(on, |event| event.before == 1);
+        let (mut since, mut time_on) = (start, 0.0);
+        for event in own() {
+            time_on += if now { event.time - since } else { 0.0 };
+            (now, since) = (event.after == 1, event.time);
+        }
+        time_on += if now { end - since } else { 0.0 };
+        let starts: Vec<f64> = own().filter(|event| event.after == 1).map(|event| event.time).collect();
+        #[expect(clippy::cast_precision_loss, reason = "a run has at most 10^6 events")]
+        let period = match starts.as_slice() {
+            [first, .., last] => Some((last - first) / (starts.len() - 1) as f64),
+            _ => None,
+        };
+        let duty = (end > start).then(|| time_on / (end - start));
+        let stops = own().count() - starts.len();
+        let name = solution.network().controls()[id.index()].name.clone();
+        Self { name, starts: starts.len(), stops, period, duty, on }
+    }
+}
+
+/// A section with a line for each control and the first events, from `start` on; nothing where nothing can switch.
+pub(crate) fn section(text: &mut Text, solution: &Solution, (start, end): (f64, f64)) {
+    let network = solution.network();
+    if !network.has_events() {
+        return;
+    }
+    text.section();
+    let ids = network.control_ids().take(MOST_NODES);
+    let uses: Vec<Use> = ids.map(|id| Use::of(solution, id, (start, end))).collect();
+    if !uses.is_empty() {
+        text.table(controls(&uses));
+    }
+    if uses.len() < network.controls().len() {
+        text.line(format!("{} of {} are shown", uses.len(), network.controls().len()));
+    }
+    text.labelled("events: ", first(solution));
+}
+
+fn controls(uses: &[Use]) -> TextTable {
+    let percent = |share: Option<f64>| share.map_or("-".into(), |s| format!("{} %", fixed(100.0 * s, 1)));
+    TextTable::of(uses)
+        .left("control", |u| u.name.as_str())
+        .right("starts", |u| u.starts.to_string())
+        .right("stops", |u| u.stops.to_string())
+        .right("mean period", |u| u.period.map_or("-".into(), |period| duration(period, 4)))
+        .right("on for", |u| percent(u.duty))
+        .right("at the end", |u| if u.on { "on" } else { "off" })
+        .into()
+}
+
+/// The first events in words.
+fn first(solution: &Solution) -> Vec<String> {
+    let events = solution.events();
+    if events.is_empty() {
+        return vec!["none".to_owned()];
+    }
+    let mut pieces: Vec<String> =
+        events.iter().take(SHOWN).map(|event| words(solution.network(), event)).collect();
+    if events.len() > SHOWN {
+        pieces.push(format!("and {} more", events.len() - SHOWN));
+    }
+    let last = pieces.len() - 1;
+    pieces[..last].iter_mut().for_each(|piece| piece.push(','));
+    pieces
+}
+
+/// "fan on at 12.05 min".
+fn words(network: &Network, event: &Event) -> String {
+    let state = match (event.kind, event.after) {
+        (EventKind::Control(_), 1) => "on",
+        (EventKind::Control(_), _) => "off",
+        (EventKind::Comparison(_), 1) => "true",
+        (EventKind::Comparison(_), _) => "false",
+        (EventKind::Limit(_), _) => "broken",
+    };
+    format!("{} {state} at {}", event.kind.name(network), duration(event.time, 4))
+}

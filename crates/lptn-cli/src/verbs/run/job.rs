@@ -1,0 +1,191 @@
+//! What a run is to do, and why it cannot.
+
+use std::path::PathBuf;
+
+use lptn_assembly::ThermalSystem;
+use lptn_netlist::{Diagnostic, RunSettings, Span};
+use lptn_network::{End, Field, InputError, InputProblem, Item, Network, NodeId};
+use lptn_solve::{
+    Record, Selection, Solution, SteadyError, SteadyState, StopReason, Summary, Transient, TransientError,
+    Window,
+};
+use lptn_units::Unit;
+
+use super::args::RunArgs;
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::{Failure, told};
+use crate::input::{self, Input};
+use crate::interrupt::Interrupt;
+use crate::progress::ProgressLine;
+use crate::words::MOST_NODES;
+use crate::{balance, select};
+use lptn_report::Format;
+
+/// Why there is no steady state to show.
+#[derive(Debug)]
+pub(crate) enum NoSteady {
+    /// The inputs change with time.
+    Inputs,
+    /// The network has none.
+    Network(SteadyError),
+}
+
+/// What is to be done.
+pub(crate) struct Job<'a> {
+    pub(crate) input: &'a Input,
+    pub(crate) settings: RunSettings,
+    pub(crate) selection: Selection,
+    /// Whether columns were asked for by name.
+    pub(crate) chosen: bool,
+    pub(crate) unit: Unit,
+    pub(crate) format: Format,
+    pub(crate) balance: Option<End>,
+}
+
+impl<'a> Job<'a> {
+    pub(crate) fn new(args: &RunArgs, input: &'a Input) -> Result<Self, Failure> {
+        let netlist = &input.netlist;
+        let mut settings = netlist.run.clone().ok_or_else(|| no_run(input))?;
+        if let Some(text) = &args.tolerance {
+            settings.tolerance = input::tolerance(text)?;
+        }
+        let selection = select::of_run(netlist, &args.shown.select)?;
+        let unit = input::temperature_unit(args.shown.scale.temperature_unit.as_deref(), netlist)?;
+        let chosen = !(args.shown.select.is_empty() && settings.select.is_empty());
+        let format = args.shown.format;
+        let balance = balance::end(netlist, args.balance.as_deref(), format)?;
+        Ok(Self { input, settings, selection, chosen, unit, format, balance })
+    }
+
+    pub(crate) fn folder(&self, args: &RunArgs) -> PathBuf {
+        args.output.clone().unwrap_or_else(|| PathBuf::from("out").join(&self.input.text.stem))
+    }
+
+    /// Runs to the stop, to the first failure or to Ctrl-C.
+    pub(crate) fn solve(
+        &self,
+        system: &ThermalSystem,
+        steady: Option<&SteadyState>,
+        console: &Console,
+    ) -> Result<(Solution, Option<Diagnostic>), Failure> {
+        let transient = self.transient(system, steady).map_err(|error| self.failed(&error))?;
+        let interrupt = Interrupt::listen();
+        let mut line = ProgressLine::new(console.quiet);
+        let outcome = transient.solve_observed(system, &mut |progress| {
+            line.update(progress);
+            interrupt.control()
+        });
+        line.clear();
+        match outcome {
+            Ok(solution) => Ok((solution, None)),
+            Err(error) => {
+                let problem = self.explain(&error);
+                match error {
+                    // nothing was computed, and nothing could be: the question does not fit the network
+                    TransientError::Stopped { reason: StopReason::NothingSwitches, .. } => {
+                        Err(self.failed(&error))
+                    }
+                    TransientError::Stopped { partial, .. } => Ok((*partial, Some(problem))),
+                    error => Err(self.failed(&error)),
+                }
+            }
+        }
+    }
+
+    fn transient(
+        &self,
+        system: &ThermalSystem,
+        steady: Option<&SteadyState>,
+    ) -> Result<Transient, TransientError> {
+        let (mut record, mut watch) = (self.selection.record(), Vec::new());
+        if self.format == Format::Table {
+            let selection = Some(&self.selection).filter(|_| self.chosen);
+            let shown = shown(system.network(), selection, steady);
+            watch = Summary::watches(system, self.settings.start, &shown, steady)
+                .map_err(TransientError::Start)?;
+            if let Record::Nodes(nodes) = &mut record {
+                nodes.extend(shown);
+            }
+        }
+        let window = |window: &lptn_netlist::WindowSettings| {
+            let (name, of) = (window.name.clone(), self.selection.clone());
+            Window { name, from: window.from, to: window.to, of }
+        };
+        Ok(Transient {
+            record,
+            watch,
+            windows: self.settings.windows.iter().map(window).collect(),
+            balance: self.balance,
+            ..lptn_solve::Transient::of(system.network(), &self.settings)
+        })
+    }
+
+    /// What is wrong at the start is wrong with the input.
+    fn failed(&self, error: &TransientError) -> Failure {
+        let exit = match error {
+            TransientError::Integrator(_) | TransientError::Start(_) => Exit::Failed,
+            _ => Exit::Input,
+        };
+        Failure::at(exit, self.input.netlist.files.clone(), self.explain(error))
+    }
+
+    fn explain(&self, error: &TransientError) -> Diagnostic {
+        explain(self.input, error)
+    }
+}
+
+/// What broke a run off, with the place of the input that did.
+pub(crate) fn explain(input: &Input, error: &TransientError) -> Diagnostic {
+    let problem = told(error);
+    let map = &input.netlist.source_map;
+    let place = error.place();
+    let place = place.and_then(|(item, field)| map.get(item, field).or_else(|| map.get(item, Field::Name)));
+    let node = || error.node().and_then(|name| input.node_place(name));
+    let problem = match place.or_else(node) {
+        Some(span) => problem.at(span, ""),
+        None => problem,
+    };
+    match other_threshold(input, error) {
+        Some(span) => problem.also(span, "off"),
+        None => problem,
+    }
+}
+
+/// Of thresholds that crossed over: the one that is not said to be at fault.
+fn other_threshold(input: &Input, error: &TransientError) -> Option<Span> {
+    let InputError { item, problem: InputProblem::ThresholdsCrossed { .. }, .. } = error.input()? else {
+        return None;
+    };
+    let Item::Control(id) = *item else { return None };
+    let thermostat = input.netlist.network.thermostat(id)?;
+    input.netlist.source_map.get(*item, thermostat.acts.fields()[1])
+}
+
+pub(crate) fn no_run(input: &Input) -> Failure {
+    let problem =
+        Diagnostic::error("run::no_run", format!("{} has no [run]: how long is it to run?", input.text.name))
+            .help("add these lines, or look at `lptn steady`:\n\n[run]\nstop = \"25 min\"");
+    Failure::new(Exit::Input, problem)
+}
+
+/// The nodes that a table shows: those selected, in the order of the file; unless any is, all but the cells of grids.
+/// Of too many the hottest in steady state, hottest first; where there is none, the first ones.
+pub(crate) fn shown(
+    network: &Network,
+    selection: Option<&Selection>,
+    steady: Option<&SteadyState>,
+) -> Vec<NodeId> {
+    let mut nodes: Vec<NodeId> = selection.into_iter().flat_map(Selection::nodes).collect();
+    if nodes.is_empty() {
+        nodes = network.outer_nodes().collect();
+    }
+    if nodes.len() > MOST_NODES {
+        if let Some(steady) = steady {
+            let at = |id: &NodeId| steady.temperatures[id.index()];
+            nodes.sort_by(|a, b| at(b).total_cmp(&at(a)));
+        }
+        nodes.truncate(MOST_NODES);
+    }
+    nodes
+}

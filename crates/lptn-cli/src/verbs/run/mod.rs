@@ -1,0 +1,60 @@
+//! `lptn run`
+
+mod args;
+mod events;
+mod gaps;
+pub(crate) mod job;
+mod next;
+pub(crate) mod outcome;
+pub(crate) mod page;
+mod state;
+pub(crate) mod uncertainty;
+mod windows;
+
+pub(crate) use args::RunArgs;
+
+use std::time::Instant;
+
+use job::{Job, NoSteady};
+use lptn_assembly::ThermalSystem;
+use lptn_solve::{Lumping, SteadyState, Table};
+use outcome::Outcome;
+
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::Folder;
+use crate::input::Input;
+
+pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
+    let input = Input::load(&args.source)?;
+    let job = Job::new(args, &input)?;
+    uncertainty::check(&args.uncertainty, &input.netlist)?;
+    let system = input.assemble()?;
+    let folder = (!args.no_files).then(|| Folder::prepare(job.folder(args))).transpose()?;
+    console.warn(&input.netlist.files, &input.netlist.warnings);
+    let steady = steady(&system, job.settings.start);
+    let begun = Instant::now();
+    let (solution, failure) = job.solve(&system, steady.as_ref().ok(), console)?;
+    // what broke off or was interrupted is not asked how sure it is
+    let whole = matches!(solution.end(), lptn_solve::End::Reached);
+    let uncertainty = if whole { uncertainty::study(&args.uncertainty, &job, console) } else { None };
+    let wall_time = begun.elapsed().as_secs_f64();
+    let lumping = Lumping::of_run(&solution);
+    let table = Table::of_solution(&solution, &job.selection, &job.unit);
+    let (verbose, format) = (console.verbose, job.format);
+    let result = Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, verbose };
+    if let Some(folder) = &folder {
+        result.write(&args.source.set, folder)?;
+    }
+    console.show(&result, format)?;
+    result.messages(folder.as_ref(), console);
+    Ok(result.conclude(console, folder.is_some()))
+}
+
+fn steady(system: &ThermalSystem, start: f64) -> Result<SteadyState, NoSteady> {
+    if !system.network().changing_inputs().is_empty() {
+        return Err(NoSteady::Inputs);
+    }
+    SteadyState::solve(system, start).map_err(NoSteady::Network)
+}

@@ -1,0 +1,263 @@
+//! What came of a run: files, the result on stdout, messages on stderr, the exit code.
+
+use lptn_netlist::Diagnostic;
+use lptn_network::{Parameter, list_of_names};
+use lptn_report::{Format, WIDTH, duration, labelled, significant, words, write_csv, write_rows};
+use lptn_solve::{Beyond, End, Lumping, Solution, SteadyState, Table, Unbounded};
+use lptn_study::{
+    Environment, FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, Scalar, StatisticsRecord,
+    Sundials,
+};
+use serde_json::{Map, Value};
+
+use super::gaps::gaps;
+use super::job::{Job, NoSteady};
+use super::uncertainty::{Study, elsewhere, files as uncertain};
+use super::{events, next, state, windows};
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::Folder;
+use crate::files::names::{EVENTS, MANIFEST, RANKING, RESULT, STATE, UNCERTAINTY, WINDOWS};
+use crate::limits::{self, Judged};
+use crate::{lumping, select, sense};
+
+/// What came of it.
+pub(crate) struct Outcome<'a> {
+    pub(crate) job: Job<'a>,
+    pub(crate) steady: Result<SteadyState, NoSteady>,
+    pub(crate) solution: Solution,
+    /// How far its nodes are lumps.
+    pub(crate) lumping: Lumping,
+    /// Why the run broke off.
+    pub(crate) failure: Option<Diagnostic>,
+    pub(crate) wall_time: f64,
+    /// How sure it is, where that was asked.
+    pub(crate) uncertainty: Option<Result<Study, Failure>>,
+    /// The selected columns, in the unit that is shown.
+    pub(crate) table: Table,
+    /// Whether more is told of the solver.
+    pub(crate) verbose: bool,
+}
+
+impl Outcome<'_> {
+    /// Writes the files: all of them take their places together, the manifest last.
+    pub(crate) fn write(&self, set: &[String], folder: &Folder) -> Result<(), Failure> {
+        let mut files = folder.batch();
+        files.write(RESULT, |out| write_csv(&self.table, out))?;
+        let state = state::of(self.job.input, &self.solution);
+        files.write(STATE, |out| state.write(out))?;
+        let events = events::rows(&self.solution);
+        files.write(EVENTS, |out| write_rows(&events, out))?;
+        let seen = self.solution.windows();
+        if !seen.is_empty() {
+            let rows = windows::rows(seen, &self.job.unit);
+            files.write(WINDOWS, |out| write_rows(&rows, out))?;
+        }
+        if let Some(study) = self.uncertainty() {
+            let network = self.solution.network();
+            let bands = uncertain::bands(network, &study.found, &self.job.unit);
+            files.write(UNCERTAINTY, |out| write_csv(&bands, out))?;
+            let ranking = uncertain::ranking(network, &study.found);
+            files.write(RANKING, |out| write_csv(&ranking, out))?;
+        }
+        let manifest = self.manifest(set, files.written().to_vec());
+        files.write(MANIFEST, |out| out.write_all(manifest.text()?.as_bytes()))?;
+        files.commit(&[EVENTS, WINDOWS, UNCERTAINTY, RANKING])
+    }
+
+    fn manifest(&self, set: &[String], results: Vec<FileHash>) -> Manifest {
+        let settings = &self.job.settings;
+        let hash = |(name, text): (&str, &str)| FileHash {
+            name: name.to_owned(),
+            sha256: lptn_study::sha256(text.as_bytes()),
+        };
+        let host = std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
+        Manifest {
+            format: 1,
+            lptn: env!("CARGO_PKG_VERSION").to_owned(),
+            sundials: Sundials::linked(),
+            arguments: std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned()).collect(),
+            inputs: self.job.input.netlist.inputs().map(hash).collect(),
+            parameters: self.parameters(set),
+            start: Scalar::new(settings.start, "s"),
+            stop: Scalar::new(settings.stop, "s"),
+            tolerance: Scalar::new(settings.tolerance, "K"),
+            end: RunEnd::of(&self.solution, settings.stop, self.ended_early()),
+            statistics: StatisticsRecord::new(&self.solution),
+            ledger: self.ledger(),
+            limits: limits::members(self.solution.network(), &self.limits()),
+            uncertainty: self.uncertainty().map(|study| {
+                let mut members = uncertain::method(&study.found);
+                let parameters = uncertain::parameters(self.solution.network(), &study.found);
+                members.insert("parameters".into(), parameters);
+                Value::Object(members)
+            }),
+            results,
+            environment: Environment {
+                written: lptn_study::utc(std::time::SystemTime::now()),
+                host: host.trim().to_owned(),
+                wall_time: Scalar::new(self.wall_time, "s"),
+            },
+        }
+    }
+
+    fn parameters(&self, set: &[String]) -> Map<String, Value> {
+        let network = self.solution.network();
+        let set = |name: &str| {
+            let mut assigned = set.iter().filter_map(|text| text.split_once('='));
+            assigned.find(|(left, _)| left.trim() == name).map(|(_, right)| right.trim().to_owned())
+        };
+        let record = |(parameter, id): (&Parameter, _)| {
+            let unit = parameter.ty.dimension.si_unit();
+            let value = network.parameter_value(id);
+            ParameterRecord { name: parameter.name.clone(), value, unit, set: set(&parameter.name) }.member()
+        };
+        network.parameters().iter().zip(network.parameter_ids()).map(record).collect()
+    }
+
+    /// How sure the result is, where that was asked and is known.
+    pub(super) fn uncertainty(&self) -> Option<&Study> {
+        self.uncertainty.as_ref()?.as_ref().ok()
+    }
+
+    /// How the limits fared.
+    pub(crate) fn limits(&self) -> Vec<Judged> {
+        self.solution.limits().iter().map(Judged::of_run).collect()
+    }
+
+    /// The ledger up to the time that was reached.
+    pub(crate) fn ledger(&self) -> LedgerRecord {
+        LedgerRecord::new(self.solution.network(), self.solution.ledger())
+    }
+
+    /// Why the run did not reach its stop.
+    pub(super) fn ended_early(&self) -> Option<String> {
+        match (self.solution.end(), &self.failure) {
+            (_, Some(problem)) => Some(problem.message.clone()),
+            (End::Interrupted(time), None) => Some(format!("interrupted at {}", duration(time, 4))),
+            _ => None,
+        }
+    }
+
+    /// What the rows show to be wrong with reports, and with nodes that are no lumps.
+    pub(super) fn found(&self) -> Vec<Diagnostic> {
+        let netlist = &self.job.input.netlist;
+        let certain = self.uncertainty().map_or_else(Vec::new, |_| elsewhere(netlist));
+        let lumps = lumping::warnings(netlist, &self.lumping);
+        let beyond = Beyond::of_run(&self.solution).map(|beyond| sense::warning(netlist, &beyond));
+        gaps(netlist, &self.table).into_iter().chain(beyond).chain(lumps).chain(certain).collect()
+    }
+
+    /// What a reader should know of the numbers; the table says it in its notes.
+    pub(super) fn doubts(&self) -> Vec<Diagnostic> {
+        let bound = not_bounded(&self.solution);
+        let ledger = weak_ledger(&self.solution);
+        let warning = |code, text: Option<String>| text.map(|text| Diagnostic::warning(code, text));
+        [warning("run::error_not_bounded", bound), warning("run::weak_ledger", ledger)]
+            .into_iter()
+            .flatten()
+            .collect()
+    }
+
+    /// What is worth knowing beside the result, on stderr.
+    pub(crate) fn messages(&self, folder: Option<&Folder>, console: &Console) {
+        if let Some(folder) = folder {
+            let path = folder.path().join(RESULT);
+            let took = duration(self.wall_time, 2);
+            let rows = self.table.rows();
+            let windows = if self.solution.windows().is_empty() { "" } else { ", windows.csv" };
+            let bands = if self.uncertainty().is_some() { ", uncertainty.csv, ranking.csv" } else { "" };
+            let files = format!("{}{bands}, {EVENTS}{windows}, {STATE}, {MANIFEST}", path.display());
+            let mut pieces = words(&files);
+            pieces.push(format!("({rows} rows, solved in {took})"));
+            console.note(&labelled("wrote  ", &pieces, WIDTH).join("\n"));
+        }
+        if let Some(hidden) = select::hidden(&self.job.input.netlist).filter(|_| !self.job.chosen) {
+            console.note(&hidden);
+        }
+        if self.job.format != Format::Table {
+            console.warn(&self.job.input.netlist.files, &self.doubts());
+        }
+        console.warn(&self.job.input.netlist.files, &self.found());
+        if self.job.format == Format::Table && self.solution.end() == End::Reached {
+            let command = next::after_run(self.job.input, self.steady.is_ok());
+            command.iter().for_each(|command| console.note(&format!("next   {command}")));
+        }
+    }
+
+    /// The exit code, after saying why it is not 0.
+    pub(crate) fn conclude(&self, console: &Console, files: bool) -> Exit {
+        let kept = if files {
+            "the rows up to then are whole, and marked in the manifest"
+        } else {
+            "the rows up to then are whole"
+        };
+        if let Some(problem) = &self.failure {
+            console.report(&self.job.input.netlist.files, std::slice::from_ref(problem));
+            console.message(&format!("failed: {kept}"));
+            return Exit::Failed;
+        }
+        if let Some(message) = self.ended_early() {
+            console.message(&format!("{message}: {kept}"));
+            return Exit::Interrupted;
+        }
+        if !self.solution.ledger().closes() {
+            let problem = does_not_close(&self.solution);
+            console.report(&self.job.input.netlist.files, &[problem]);
+            return Exit::Failed;
+        }
+        if let Some(Err(failure)) = &self.uncertainty {
+            console.report(&failure.files, &failure.diagnostics);
+            return failure.exit;
+        }
+        let (netlist, unit) = (&self.job.input.netlist, &self.job.unit);
+        limits::conclude(&limits::Judgement { netlist, unit, limits: &self.limits() }, console)
+    }
+}
+
+fn does_not_close(solution: &Solution) -> Diagnostic {
+    let ledger = solution.ledger();
+    let residual = ledger.relative_residual().unwrap_or(f64::NAN);
+    let message = format!(
+        "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than the {:.1e} allowed",
+        ledger.bound
+    );
+    Diagnostic::error("run::ledger", message)
+        .help("this is a bug in lptn or a network of extreme numbers: do not use the result")
+}
+
+/// Errors that add up.
+pub(super) fn not_bounded(solution: &Solution) -> Option<String> {
+    let network = solution.network();
+    let why = match solution.why_unbounded()? {
+        Unbounded::NoBoundary(nodes) => {
+            let names: Vec<String> =
+                nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
+            format!("no path leads to a boundary from {}", list_of_names(&names))
+        }
+        Unbounded::LongMemory { steps } => format!(
+            "the network remembers about {} steps of inputs that keep changing; compare with a smaller --tolerance",
+            significant(steps, 1)
+        ),
+        Unbounded::Switches { count } => {
+            format!(
+                "each of {count} switches shifts the times of the next ones; compare with a smaller --tolerance"
+            )
+        }
+    };
+    Some(format!("error not bounded by the tolerance: it adds up, because {why}"))
+}
+
+/// A bound so wide that the books would close on nonsense too.
+pub(super) fn weak_ledger(solution: &Solution) -> Option<String> {
+    const PROOF: f64 = 1e-2;
+    let ledger = solution.ledger();
+    let weak = ledger.turned_over > 0.0 && ledger.bound > PROOF;
+    weak.then(|| {
+        let tolerance = significant(solution.tolerance(), 2);
+        format!(
+            "so little heat is turned over that at a tolerance of {tolerance} K the balance proves nothing"
+        )
+    })
+}

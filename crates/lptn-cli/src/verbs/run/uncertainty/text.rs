@@ -1,0 +1,305 @@
+//! Uncertain results for reading.
+
+use lptn_network::{Item, Network};
+use lptn_report::{Align, Column, Text, TextTable, WIDTH, decimals, duration, fixed, significant};
+use lptn_study::uncertainty::{Answer, AnswerOf, Contribution, Discrepancy, Estimate, Method, Uncertainty};
+use lptn_units::Unit;
+
+use super::Study;
+use super::files::{parameter, unit_of};
+use crate::words::{MOST_NODES, count, difference};
+
+/// Parameters that a ranking names.
+const MOST_RANKED: usize = 12;
+
+/// A parameter with less of the variance is not named.
+const LEAST_SHARE: f64 = 0.0005;
+
+/// Results whose rankings stand side by side.
+const MOST_RANKINGS: usize = 3;
+
+/// A section with the bands, one with the limits and one with what matters.
+pub(crate) fn sections(text: &mut Text, network: &Network, (study, unit): (&Study, &Unit)) {
+    let found = &study.found;
+    text.section().sentence("uncertainty: ", &heading(found));
+    temperatures(text.section(), network, (found, unit));
+    margins(text.section(), network, found);
+    ranking(text.section(), network, found);
+}
+
+fn heading(found: &Uncertainty) -> String {
+    let parameters = count(found.inputs.len(), "parameter");
+    match &found.method {
+        Method::Linear { differences } => {
+            let exact = if differences.is_none() { "exact sensitivities" } else { "differences of runs" };
+            format!("{parameters} with ±, straight lines from {exact}")
+        }
+        Method::Sobol { samples, seed, runs, .. } => {
+            format!("{parameters} with ±, {samples} Sobol points, seed {seed}, {runs} runs")
+        }
+    }
+}
+
+fn temperatures(text: &mut Text, network: &Network, (found, unit): (&Uncertainty, &Unit)) {
+    let is = |of: fn(&AnswerOf) -> bool| found.answers.iter().filter(move |answer| of(&answer.of));
+    let ends: Vec<&Answer> = is(|of| matches!(of, AnswerOf::End(_))).take(MOST_NODES).collect();
+    let peaks: Vec<&Answer> = is(|of| matches!(of, AnswerOf::Max(_))).take(MOST_NODES).collect();
+    if ends.is_empty() {
+        return;
+    }
+    let widest = ends.iter().chain(&peaks).map(|answer| answer.deviation.value).fold(0.0, f64::max);
+    let digits = decimals(widest / unit.scale, 3, 1);
+    let names = ends.iter().map(|answer| name(network, answer.of)).collect();
+    let mut columns = vec![Column::new(format!("T [{}]", unit.text), Align::Left, names)];
+    let end = duration(found.times.last().copied().unwrap_or(0.0), 4);
+    columns.extend(band(&ends, &end, (unit, digits)));
+    let peak = band(&peaks, "peak", (unit, digits));
+    // of a network that only warms the peak is the end
+    let same = peak.iter().zip(&columns[1..]).all(|(peak, end)| peak.cells == end.cells);
+    if !same {
+        columns.extend(peak);
+    }
+    text.table(TextTable::new(columns));
+    let more = is(|of| matches!(of, AnswerOf::End(_))).count() - ends.len();
+    if more > 0 {
+        text.line(format!("not shown: {}, which uncertainty.csv has", count(more, "more node")));
+    }
+}
+
+fn name(network: &Network, of: AnswerOf) -> String {
+    match of {
+        AnswerOf::End(id) | AnswerOf::Max(id) => network.name_of(Item::Node(id)).into_owned(),
+        AnswerOf::Margin(id) => network.name_of(Item::Limit(id)).into_owned(),
+    }
+}
+
+fn band(answers: &[&Answer], title: &str, (unit, digits): (&Unit, usize)) -> Vec<Column> {
+    let column = |title: &str, text: &dyn Fn(&Answer) -> String| {
+        Column::new(title, Align::Right, answers.iter().map(|answer| text(answer)).collect())
+    };
+    let shown = |kelvin: f64| fixed(unit.from_si(kelvin), digits);
+    vec![
+        column(title, &|a| shown(a.value)),
+        column(&format!("sd [{}]", difference(unit)), &|a| fixed(a.deviation.value / unit.scale, digits)),
+        column("2.5 %", &|a| shown(a.low.value)),
+        column("97.5 %", &|a| shown(a.high.value)),
+    ]
+}
+
+fn margins(text: &mut Text, network: &Network, found: &Uncertainty) {
+    let margins: Vec<&Answer> =
+        found.answers.iter().filter(|answer| matches!(answer.of, AnswerOf::Margin(_))).collect();
+    if margins.is_empty() {
+        return;
+    }
+    let number = |answer: &Answer, value: f64| {
+        let digits = decimals(answer.deviation.value, 3, 1);
+        format!("{} {}", fixed(value, digits), unit_of(network, answer.of))
+    };
+    let table = TextTable::of(&margins)
+        .left("limit", |a| name(network, a.of))
+        .right("margin", |a| number(a, a.value))
+        .right("sd", |a| number(a, a.deviation.value))
+        .right("2.5 %", |a| number(a, a.low.value))
+        .right("97.5 %", |a| number(a, a.high.value))
+        .right("P(broken)", |a| probability(a.below_zero, sampled(found)));
+    text.table(table);
+}
+
+/// How many samples there are; 0 where nothing is sampled.
+fn sampled(found: &Uncertainty) -> usize {
+    match &found.method {
+        Method::Linear { .. } => 0,
+        Method::Sobol { samples, lost, .. } => {
+            samples.saturating_sub(lost.iter().map(|lost| lost.count).sum::<usize>())
+        }
+    }
+}
+
+/// A probability in percent, with its standard error where it was sampled; of none or all of the samples the bound that
+/// holds at 95 % (1 - 0.05^(1/n), the rule of three: J. A. Hanley, A. Lippman-Hand, JAMA 249 (1983) 1743).
+fn probability(of: Estimate, samples: usize) -> String {
+    let percent = |share: f64| fixed(100.0 * share, if share >= 0.1 { 0 } else { 1 });
+    if of.error.is_some() && samples > 0 && (of.value <= 0.0 || of.value >= 1.0) {
+        let bound = 100.0 * (1.0 - 0.05_f64.powf(1.0 / samples as f64));
+        // a bound is rounded up
+        let digits = decimals(bound, 1, 1);
+        let step = 0.1_f64.powi(i32::try_from(digits).unwrap_or(1));
+        let bound = (bound / step).ceil() * step;
+        return match of.value <= 0.0 {
+            true => format!("< {} %", fixed(bound, digits)),
+            false => format!("> {} %", fixed(100.0 - bound, digits)),
+        };
+    }
+    match of.error {
+        Some(error) => format!("{} ± {} %", percent(of.value), significant(100.0 * error, 2)),
+        None if of.value > 0.0 && of.value < 5e-4 => format!("{} %", significant(100.0 * of.value, 2)),
+        None => format!("{} %", percent(of.value)),
+    }
+}
+
+/// What matters for the ends of as many nodes as fit, for the margins where no temperature is asked for.
+fn ranking(text: &mut Text, network: &Network, found: &Uncertainty) {
+    let ends: Vec<&Answer> =
+        found.answers.iter().filter(|answer| matches!(answer.of, AnswerOf::End(_))).collect();
+    let all = if ends.is_empty() { found.answers.iter().collect() } else { ends };
+    let varied: Vec<&Answer> = all.into_iter().filter(|answer| answer.deviation.value > 0.0).collect();
+    let most = varied.len().min(MOST_RANKINGS);
+    let tables = (1..=most).rev().map(|count| (count, side_by_side(network, found, &varied[..count])));
+    let fits = |(count, (table, _)): &(usize, (TextTable, _))| *count == 1 || table.width() <= WIDTH;
+    let Some((shown, (table, others))) = tables.into_iter().find(fits) else { return };
+    text.table(table).lines(others);
+    let more = varied.len() - shown;
+    if more > 0 {
+        let results = if more == 1 { "result" } else { "results" };
+        text.line(format!("not shown: the rankings of {more} more {results}, which ranking.csv has"));
+    }
+}
+
+fn side_by_side(network: &Network, found: &Uncertainty, answers: &[&Answer]) -> (TextTable, Option<String>) {
+    let part = |answer: &Answer, input: usize| -> Option<Contribution> {
+        answer.ranking.iter().copied().find(|part| part.input == input)
+    };
+    let weight = |input: &usize| {
+        let weights = answers.iter().filter_map(|answer| part(answer, *input)).map(|part| part.weight());
+        weights.fold(0.0, f64::max)
+    };
+    let mut inputs: Vec<usize> = (0..found.inputs.len()).collect();
+    inputs.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
+    let named = inputs.iter().take_while(|input| weight(input) >= LEAST_SHARE).take(MOST_RANKED).count();
+    let (shown, others) = inputs.split_at(named);
+    let mut table = TextTable::of(shown)
+        .left("what matters", |input| parameter(network, found, *input))
+        .right("±", |input| deviation(network, found, *input));
+    for answer in answers {
+        let digits = decimals(answer.deviation.value, 3, 1);
+        let of = |input: usize, text: &dyn Fn(Contribution) -> String| {
+            part(answer, input).map_or("-".into(), text)
+        };
+        let title = format!("{} [{}]", name(network, answer.of), unit_of(network, answer.of));
+        let linear = matches!(found.method, Method::Linear { .. });
+        table = table
+            .right(title, |i| of(*i, &|part| signed(part.effect, digits)))
+            .right(if linear { "share" } else { "alone" }, |i| of(*i, &|part| percent(part.share.value)));
+        if !linear {
+            let total = |part: Contribution| part.total.map_or("-".into(), |total| percent(total.value));
+            table = table.right("in all", |i| of(*i, &total));
+        }
+    }
+    (table.into(), left_out(found, answers, others))
+}
+
+/// What the parameters that are not named have of the variance.
+fn left_out(found: &Uncertainty, answers: &[&Answer], others: &[usize]) -> Option<String> {
+    if others.is_empty() {
+        return None;
+    }
+    let sum = |answer: &&Answer| -> f64 {
+        let parts = answer.ranking.iter().filter(|part| others.contains(&part.input));
+        parts.map(|part| part.weight().max(0.0)).sum()
+    };
+    let most = answers.iter().map(sum).fold(0.0, f64::max);
+    let which = if others.len() == found.inputs.len() { "all" } else { "the other" };
+    Some(format!("{which} {}: {} together", others.len(), percent(most)))
+}
+
+/// The standard deviation of a parameter: in percent, in K for a temperature.
+fn deviation(network: &Network, found: &Uncertainty, input: usize) -> String {
+    let input = &found.inputs[input];
+    let ty = network.parameters()[input.parameter.index()].ty;
+    if ty.absolute {
+        return format!("{} K", significant(input.deviation, 3));
+    }
+    if input.value == 0.0 {
+        return format!("{} {}", significant(input.deviation, 3), ty.dimension.si_unit());
+    }
+    format!("{} %", significant(100.0 * (input.deviation / input.value).abs(), 2))
+}
+
+fn signed(value: f64, digits: usize) -> String {
+    let text = fixed(value, digits);
+    if value > 0.0 && text.chars().any(|c| c.is_ascii_digit() && c != '0') {
+        format!("+{text}")
+    } else {
+        text
+    }
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", fixed(100.0 * share, 1))
+}
+
+/// Relative standard deviations from which on a straight line is doubted.
+const WIDE: f64 = 0.35;
+
+/// Parameters that may be far from their value, or of the other sign.
+fn wide<'a>(network: &'a Network, found: &'a Uncertainty) -> impl Iterator<Item = String> + 'a {
+    let inputs = found.inputs.iter().filter(|input| {
+        let parameter = &network.parameters()[input.parameter.index()];
+        !parameter.ty.absolute && input.deviation >= WIDE * input.value.abs() && input.value.abs() > 0.0
+    });
+    inputs.map(|input| {
+        let name = &network.parameters()[input.parameter.index()].name;
+        let part = fixed(100.0 * input.deviation / input.value.abs(), 0);
+        format!(
+            "`{name}` is known to {part} % only: bands of straight lines are rough, see --uncertainty sobol"
+        )
+    })
+}
+
+/// What the tables cannot say.
+pub(crate) fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String> {
+    let found = &study.found;
+    let lost = match &found.method {
+        Method::Linear { differences } => {
+            let note = |why: &String| {
+                format!(
+                    "no exact sensitivities, they are differences of runs: {why}; the further a parameter moves, the \
+                     less a straight line says: --uncertainty sobol follows it"
+                )
+            };
+            return differences.iter().map(note).chain(wide(network, found)).collect();
+        }
+        Method::Sobol { lost, .. } => lost,
+    };
+    let parts = found.answers.iter().flat_map(|answer| &answer.ranking);
+    let errors = parts.flat_map(|part| [part.share.error, part.total.and_then(|total| total.error)]);
+    let worst = percent(errors.flatten().fold(0.0, f64::max));
+    let mut notes =
+        vec![format!("shares have standard errors of up to {worst}; more --samples, smaller ones")];
+    notes.extend(lost.iter().map(|lost| {
+        let cut =
+            if lost.refused { "the distribution ends there" } else { "the bands are those of the others" };
+        format!("{lost}: {cut}")
+    }));
+    match &study.linear {
+        Some(Ok(differ)) if differ.is_empty() => {
+            notes.push("the linear bands are the same within a tenth".into());
+        }
+        Some(Ok(differ)) => notes.extend(differ.iter().map(|one| differs(network, one, unit))),
+        Some(Err(why)) => notes.push(format!("there are no linear bands to compare with: {why}")),
+        None => {}
+    }
+    notes
+}
+
+/// "steel.T at 25 min is not linear: 59.4 to 105.6 degC by straight lines, 60 to 104.9 degC sampled".
+fn differs(network: &Network, one: &Discrepancy, unit: &Unit) -> String {
+    let what = match (one.of, one.time) {
+        (AnswerOf::End(_), Some(time)) => {
+            format!("{}.T at {}", name(network, one.of), duration(time, 4))
+        }
+        (of, _) => of.name(network),
+    };
+    let digits = decimals(0.5 * (one.sampled.1 - one.sampled.0), 3, 1);
+    let band = |(low, high): (f64, f64)| match one.of {
+        AnswerOf::Margin(_) => {
+            format!("{} to {} {}", fixed(low, digits), fixed(high, digits), unit_of(network, one.of))
+        }
+        _ => {
+            let shown = |kelvin: f64| fixed(unit.from_si(kelvin), digits);
+            format!("{} to {} {}", shown(low), shown(high), unit.text)
+        }
+    };
+    format!("{what} is not linear: {} by straight lines, {} sampled", band(one.linear), band(one.sampled))
+}

@@ -1,0 +1,78 @@
+//! Means and extremes over windows of a run: table, CSV and JSON.
+
+use lptn_report::{Shortest, Text, TextTable, decimals, duration, fixed};
+use lptn_solve::{ColumnSeen, WindowSeen};
+use lptn_study::Scalar;
+use lptn_units::Unit;
+use serde_json::{Map, Value, json};
+
+use crate::words::{MOST_NODES, symbol};
+
+/// A section for each window.
+pub(crate) fn sections(text: &mut Text, windows: &[WindowSeen], unit: &Unit) {
+    windows.iter().for_each(|window| section(text, window, unit));
+}
+
+fn section(text: &mut Text, window: &WindowSeen, unit: &Unit) {
+    let shown = &window.columns[..window.columns.len().min(MOST_NODES)];
+    let number = |column: &ColumnSeen, value: f64| {
+        let [low, high] = [column.min.0, column.max.0].map(|value| column.shown(value, unit));
+        fixed(column.shown(value, unit), decimals(low.abs().max(high.abs()), 4, 1))
+    };
+    let title = format!("{}: {} to {}", window.name, duration(window.from, 4), duration(window.to, 4));
+    let table = TextTable::of(shown)
+        .left(title, |c| format!("{} [{}]", c.name, symbol(&c.unit(unit))))
+        .right("mean", |c| number(c, c.mean))
+        .right("min", |c| number(c, c.min.0))
+        .right("at", |c| duration(c.min.1, 4))
+        .optional()
+        .right("max", |c| number(c, c.max.0))
+        .right("at", |c| duration(c.max.1, 4))
+        .optional();
+    text.section().table(table);
+    if shown.len() < window.columns.len() {
+        let all = window.columns.len();
+        text.line(format!("{} of {all} are shown, --select shows others", shown.len()));
+    }
+}
+
+/// The rows of `windows.csv`, temperatures in `unit`.
+pub(crate) fn rows(windows: &[WindowSeen], unit: &Unit) -> Vec<Vec<String>> {
+    let heading =
+        ["window", "column", "unit", "from [s]", "to [s]", "mean", "min", "min_at [s]", "max", "max_at [s]"];
+    let mut rows = vec![heading.map(str::to_owned).to_vec()];
+    let mut text = Shortest::new();
+    for window in windows {
+        for c in &window.columns {
+            let in_unit = symbol(&c.unit(unit)).to_owned();
+            let values = [c.mean, c.min.0, c.max.0].map(|value| c.shown(value, unit));
+            let numbers = [window.from, window.to, values[0], values[1], c.min.1, values[2], c.max.1];
+            let mut row = vec![window.name.clone(), c.name.clone(), in_unit];
+            row.extend(numbers.map(|number| text.text(number).to_owned()));
+            rows.push(row);
+        }
+    }
+    rows
+}
+
+/// Members by the window's name: `{ from, to, columns: { NAME: { mean, min, min_at, max, max_at } } }`, in SI.
+pub(crate) fn members(windows: &[WindowSeen]) -> Map<String, Value> {
+    let time = |time: f64| Scalar::new(time, "s");
+    let column = |c: &ColumnSeen| {
+        let scalar = |value: f64| Scalar::new(value, &c.ty.dimension.si_unit());
+        let member = json!({
+            "mean": scalar(c.mean),
+            "min": scalar(c.min.0),
+            "min_at": time(c.min.1),
+            "max": scalar(c.max.0),
+            "max_at": time(c.max.1),
+        });
+        (c.name.clone(), member)
+    };
+    let one = |window: &WindowSeen| {
+        let columns: Map<String, Value> = window.columns.iter().map(column).collect();
+        let member = json!({ "from": time(window.from), "to": time(window.to), "columns": columns });
+        (window.name.clone(), member)
+    };
+    windows.iter().map(one).collect()
+}

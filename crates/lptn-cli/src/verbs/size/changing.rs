@@ -1,0 +1,89 @@
+//! Why `lptn size` does not size a network whose inputs change with time, and what to write instead.
+
+use lptn_netlist::{Diagnostic, SizeStudy};
+use lptn_network::{Changing, Course, Item, Network, SignalId, list_of};
+use lptn_report::significant;
+use lptn_study::SizeError;
+
+use super::text::quantity;
+use crate::input::Input;
+
+/// The error with the place of everything that changes.
+pub(crate) fn explained(
+    input: &Input,
+    study: &SizeStudy,
+    (error, changing): (&SizeError, &[Changing]),
+) -> Diagnostic {
+    let network = &input.netlist.network;
+    let mut items: Vec<Item> = changing.iter().filter_map(Changing::item).collect();
+    items.sort_unstable();
+    items.dedup();
+    let names: Vec<String> = items.iter().map(|item| network.name_of(*item).into_owned()).collect();
+    let message = format!("size `{}`: {error}: {}", study.name, list_of(&names, "inputs"));
+    let mut problem = Diagnostic::error(error.code(), message);
+    let places = changing.iter().filter_map(|change| place(input, change));
+    let mut known = Vec::new();
+    for place in places {
+        if known.contains(&place) {
+            continue;
+        }
+        problem = match known.is_empty() {
+            true => problem.at(place.clone(), "changes with time"),
+            false => problem.also(place.clone(), "changes with time"),
+        };
+        known.push(place);
+    }
+    if known.is_empty() {
+        problem = problem.at(study.span.clone(), "");
+    }
+    problem.help(format!("{}; or {}", constant(network, changing), candidates(input, study)))
+}
+
+fn place(input: &Input, change: &Changing) -> Option<lptn_netlist::Span> {
+    let map = &input.netlist.source_map;
+    match (change.signal, change.input) {
+        (Some(signal), _) => map.name(Item::Signal(signal)),
+        (None, Some((item, field))) => map.get(item, field).or_else(|| map.name(item)),
+        (None, None) => None,
+    }
+}
+
+/// How the inputs become constant.
+fn constant(network: &Network, changing: &[Changing]) -> String {
+    let signal = changing.iter().find_map(|change| change.signal);
+    match signal.and_then(|id| largest(network, id)) {
+        Some(line) => {
+            format!("size for one load with a constant in its place, as below [signal] its largest value: {line}")
+        }
+        None => "size for one load with a constant in its place, its mean or its worst value, best as a parameter that \
+                 `--set` can change"
+            .into(),
+    }
+}
+
+/// The line that gives a signal of points its largest value for ever.
+fn largest(network: &Network, id: SignalId) -> Option<String> {
+    let signal = &network.signals()[id.index()];
+    let values = match &signal.course {
+        Course::Curve { points, .. } => points.values(),
+        Course::Steps { values, .. } => values,
+        Course::Expression(_) => return None,
+    };
+    let most = values.iter().copied().reduce(f64::max)?;
+    let unit = if signal.ty.absolute { "K".into() } else { signal.ty.dimension.si_unit() };
+    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+    Some(format!("`{} = \"{}{unit}\"`", signal.name, significant(most, 6)))
+}
+
+/// The run that looks at one value of the parameter over time.
+fn candidates(input: &Input, study: &SizeStudy) -> String {
+    let network = &input.netlist.network;
+    let file = input.typed().unwrap_or_else(|| "FILE".into());
+    let value = study.range(network).ok().zip(network.parameter(&study.parameter).ok());
+    let set = value.map(|((from, _), parameter)| {
+        let set = quantity(&study.parameter, from, &input.unit_of(parameter)).replacen(" = ", "=", 1);
+        format!(" --set \"{set}\"")
+    });
+    let set = set.unwrap_or_default();
+    format!("look at each value of `{}` over time: lptn run {file}{set}", study.parameter)
+}

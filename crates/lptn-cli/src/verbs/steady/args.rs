@@ -1,0 +1,48 @@
+//! The options of `lptn steady`.
+
+use std::path::PathBuf;
+
+use clap::Args as Arguments;
+
+use crate::options::{NoFiles, Shown, Source, TEMPLATE};
+
+const EXAMPLES: &str = "\
+Examples:
+  lptn steady motor.toml
+  lptn steady motor.toml --set P_loss=80W --format json
+  lptn steady duty_cycle.toml --periodic";
+
+/// Find the temperatures at which a network settles
+#[derive(Debug, Arguments)]
+#[command(before_help = EXAMPLES, help_template = TEMPLATE)]
+pub(crate) struct SteadyArgs {
+    #[command(flatten)]
+    pub(crate) source: Source,
+    #[command(flatten)]
+    pub(crate) shown: Shown,
+    /// Show the heat into and out of a node or boundary, largest path first
+    #[arg(long, value_name = "NODE")]
+    pub(crate) balance: Option<String>,
+    #[command(flatten)]
+    pub(crate) cycle: CycleArgs,
+    #[command(flatten)]
+    _no_files: NoFiles,
+}
+
+/// A cycle that repeats itself.
+#[derive(Debug, Arguments)]
+#[command(next_help_heading = "Cycles")]
+pub(crate) struct CycleArgs {
+    /// Find the cycle that repeating inputs settle at
+    #[arg(long)]
+    pub(crate) periodic: bool,
+    /// The period, such as "10 min"; else that of the signals
+    #[arg(long, value_name = "TIME", requires = "periodic", allow_hyphen_values = true)]
+    pub(crate) period: Option<String>,
+    /// Integrate to a tolerance such as 1e-7K
+    #[arg(long, value_name = "K", requires = "periodic")]
+    pub(crate) tolerance: Option<String>,
+    /// Write the settled cycle into files here
+    #[arg(short, long, value_name = "DIR", requires = "periodic", conflicts_with = "no_files")]
+    pub(crate) output: Option<PathBuf>,
+}

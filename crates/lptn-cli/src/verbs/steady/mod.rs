@@ -1,0 +1,105 @@
+//! `lptn steady`
+
+mod args;
+mod periodic;
+mod view;
+
+pub(crate) use args::SteadyArgs;
+
+use lptn_netlist::RunSettings;
+use lptn_network::LimitId;
+use lptn_report::Format;
+use lptn_solve::{Selection, SteadyError, SteadyState, Table};
+use lptn_units::Unit;
+use view::View;
+
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::{Failure, told};
+use crate::input::{self, Input};
+use crate::limits::{self, Judged, Judgement};
+use crate::{balance, select, sense};
+
+pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failure> {
+    if args.cycle.periodic {
+        return periodic::periodic(args, console);
+    }
+    let input = Input::load(&args.source)?;
+    let netlist = &input.netlist;
+    let selection = select::of_option(netlist, &args.shown.select)?;
+    let unit = input::temperature_unit(args.shown.scale.temperature_unit.as_deref(), netlist)?;
+    let balance = balance::end(netlist, args.balance.as_deref(), args.shown.format)?;
+    let system = input.assemble()?;
+    let start = netlist.run.as_ref().map_or(0.0, |run: &RunSettings| run.start);
+    let steady = SteadyState::solve(&system, start).map_err(|error| failed(&input, &error))?;
+    console.warn(&netlist.files, &netlist.warnings);
+    let limits = limits(&input, &steady, start)?;
+    let table = table(&input, &steady, &selection, &unit)?;
+    let balance = balance.map(|of| steady.balance(&netlist.network, of));
+    let view = View {
+        input: &input,
+        steady: &steady,
+        selection: &selection,
+        table: &table,
+        unit: &unit,
+        limits: &limits,
+        balance: balance.as_ref(),
+        all: args.shown.select.is_empty(),
+    };
+    console.show(&view, args.shown.format)?;
+    if args.shown.format == Format::Table {
+        view.messages(console);
+    } else {
+        let hidden = select::hidden(netlist).filter(|_| args.shown.select.is_empty());
+        hidden.iter().for_each(|hidden| console.note(hidden));
+        console.warn(&netlist.files, &view.doubts());
+    }
+    console.warn(&netlist.files, &sense::of_steady(netlist, &steady));
+    Ok(limits::conclude(&Judgement { netlist, unit: &unit, limits: &limits }, console))
+}
+
+fn table(input: &Input, steady: &SteadyState, selection: &Selection, unit: &Unit) -> Result<Table, Failure> {
+    let table = Table::of_steady(&input.netlist.network, steady, selection, unit);
+    table.map_err(|error| failed(input, &SteadyError::Input(error)))
+}
+
+fn limits(input: &Input, steady: &SteadyState, time: f64) -> Result<Vec<Judged>, Failure> {
+    let network = &input.netlist.network;
+    let margins = steady.limit_margins(network, time);
+    let margins = margins.map_err(|error| failed(input, &SteadyError::Input(error)))?;
+    let one = |(id, margin): (LimitId, f64)| {
+        let limit = &network.limits()[id.index()];
+        match network.changing_inputs_of(&[&limit.of, &limit.value]).is_empty() {
+            true => Judged::of_steady(id, margin),
+            false => Judged::open(id),
+        }
+    };
+    Ok(network.limit_ids().zip(margins).map(one).collect())
+}
+
+/// That a network cycles is an answer. One without a path to a boundary has no steady state whatever its numbers: the question does not fit the
+/// input, so the exit code is that of a wrong input. Numbers that cannot be solved with are a failure of numbers.
+fn failed(input: &Input, error: &SteadyError) -> Failure {
+    let exit = match error {
+        SteadyError::Cycles { .. } => Exit::No,
+        SteadyError::NoBoundary { .. } | SteadyError::Input(_) => Exit::Input,
+        SteadyError::Unsolved(_)
+        | SteadyError::Factorization(_)
+        | SteadyError::Unbalanced { .. }
+        | SteadyError::BelowAbsoluteZero { .. } => Exit::Failed,
+    };
+    let mut problem = told(error);
+    let map = &input.netlist.source_map;
+    let place = match error {
+        SteadyError::NoBoundary { nodes, .. } => {
+            nodes.first().and_then(|&node| map.name(lptn_network::Item::Node(node)))
+        }
+        SteadyError::Unsolved(unsolved) if unsolved.input().is_none() => input.node_place(&unsolved.node),
+        SteadyError::BelowAbsoluteZero { name, .. } => input.node_place(name),
+        error => error.input().and_then(|input| map.get(input.item, input.field)),
+    };
+    if let Some(place) = place {
+        problem = problem.at(place.clone(), "");
+    }
+    Failure::at(exit, input.netlist.files.clone(), problem)
+}

@@ -1,0 +1,296 @@
+//! `lptn steady --periodic`
+
+mod text;
+
+use std::io;
+use std::time::Instant;
+
+use lptn_assembly::ThermalSystem;
+use lptn_netlist::{Diagnostic, RunSettings};
+use lptn_network::OutputTimes;
+use lptn_report::{Json, Page, Rows, Text, duration};
+use lptn_solve::{Beyond, Lumping, Method, Periodic, PeriodicError, Table, Transient, Window, WindowSeen};
+use lptn_study::{Scalar, StatisticsRecord};
+use lptn_units::{Dimension, Type, parse_quantity};
+use serde_json::{Map, Value, json};
+
+use super::SteadyArgs;
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::{Failure, told};
+use crate::files::Folder;
+use crate::files::names::{MANIFEST, RESULT, WINDOWS};
+use crate::input::{self, Input};
+use crate::interrupt::Interrupt;
+use crate::limits::{self, Judgement};
+use crate::progress::ProgressLine;
+use crate::verbs::run::job::{Job, NoSteady, explain};
+use crate::verbs::run::outcome::Outcome;
+use crate::words::symbol;
+use crate::{balance, select, sense};
+
+/// The name of the window over the cycle.
+const CYCLE: &str = "cycle";
+
+/// The tolerance in K where there is no `[run]`.
+const TOLERANCE: f64 = 1e-5;
+
+/// A row is written at least so often in a cycle.
+const LEAST_ROWS: f64 = 20.0;
+
+pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Failure> {
+    let input = Input::load(&args.source)?;
+    let netlist = &input.netlist;
+    let job = Job {
+        settings: settings(args, &input)?,
+        selection: select::of_option(netlist, &args.shown.select)?,
+        chosen: !args.shown.select.is_empty(),
+        unit: input::temperature_unit(args.shown.scale.temperature_unit.as_deref(), netlist)?,
+        format: args.shown.format,
+        balance: balance::end(netlist, args.balance.as_deref(), args.shown.format)?,
+        input: &input,
+    };
+    let system = input.assemble()?;
+    let folder = args.cycle.output.clone().map(Folder::prepare).transpose()?;
+    console.warn(&netlist.files, &netlist.warnings);
+    let begun = Instant::now();
+    let found = find(&job, &system, console)?;
+    let wall_time = begun.elapsed().as_secs_f64();
+    let solution = found.solution.clone();
+    let lumping = Lumping::of_run(&solution);
+    let (failure, uncertainty) = (None, None);
+    let steady = Err(NoSteady::Inputs);
+    let table = Table::of_solution(&solution, &job.selection, &job.unit);
+    let verbose = console.verbose;
+    let outcome = Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, verbose };
+    let view = View { outcome: &outcome, found: &found };
+    if let Some(folder) = &folder {
+        outcome.write(&args.source.set, folder)?;
+    }
+    console.show(&view, args.shown.format)?;
+    let beyond = Beyond::of_run(&outcome.solution).map(|beyond| sense::warning(netlist, &beyond));
+    console.warn(&netlist.files, &Vec::from_iter(beyond));
+    if let Some(folder) = &folder {
+        let path = folder.path().join(RESULT);
+        console.note(&format!("wrote  {}, {WINDOWS}, {MANIFEST}", path.display()));
+    }
+    Ok(view.conclude(console))
+}
+
+/// Those of the cycle.
+fn settings(args: &SteadyArgs, input: &Input) -> Result<RunSettings, Failure> {
+    let run = input.netlist.run.as_ref();
+    let start = run.map_or(0.0, |run| run.start);
+    let period = period(args, input)?;
+    let output = match run.map(|run| &run.output) {
+        Some(OutputTimes::Every(every)) if *every <= period / LEAST_ROWS => OutputTimes::Every(*every),
+        _ => OutputTimes::Every(period / OutputTimes::USUAL_INTERVALS),
+    };
+    let tolerance = match &args.cycle.tolerance {
+        Some(text) => input::tolerance(text)?,
+        None => run.map_or(TOLERANCE, |run| run.tolerance),
+    };
+    let (select, windows) = (Vec::new(), Vec::new());
+    let held = run.map_or_else(Vec::new, |run| run.held.clone());
+    Ok(RunSettings { start, stop: start + period, output, select, windows, tolerance, held })
+}
+
+/// The period that was given, or that of the repeated signals, in s.
+fn period(args: &SteadyArgs, input: &Input) -> Result<f64, Failure> {
+    let Some(text) = &args.cycle.period else { return period_of_signals(input) };
+    let quantity = parse_quantity(text, Some(Type::of(Dimension::TIME)));
+    let quantity = quantity.map_err(|error| input::wrong_unit("--period", text, &error))?;
+    if quantity.value > 0.0 && quantity.value.is_finite() {
+        return Ok(quantity.value);
+    }
+    let problem = Diagnostic::error("periodic::period", "the period must be more than 0 s");
+    Err(Failure::new(Exit::Input, problem.help("write for example --period \"10 min\"")))
+}
+
+fn period_of_signals(input: &Input) -> Result<f64, Failure> {
+    const HELP: &str = "say after which time all inputs repeat themselves: --period \"10 min\"";
+    let network = &input.netlist.network;
+    let problem = match network.repeat_period() {
+        Ok(Some(period)) => return Ok(period),
+        Ok(None) if network.has_time_dependent_inputs() => {
+            Diagnostic::error("periodic::no_period", "no signal is repeated, so the period is not known")
+                .help(HELP)
+        }
+        Ok(None) => Diagnostic::error("periodic::no_period", "nothing changes with time: there is no cycle")
+            .help("leave --periodic out"),
+        Err(none) => {
+            let [first, second] = &none.names;
+            let [a, b] = none.periods.map(|period| duration(period, 6));
+            let message = format!(
+                "`{second}` repeats itself every {b} and `{first}` every {a}: they have no period in common"
+            );
+            let problem = Diagnostic::error("periodic::no_common_period", message);
+            let place = input.netlist.source_map.name(lptn_network::Item::Signal(none.signals[1]));
+            let problem = problem.help("change one of the periods, or look at `lptn run`");
+            place.map_or(problem.clone(), |place| problem.at(place.clone(), ""))
+        }
+    };
+    Err(Failure::at(Exit::Input, input.netlist.files.clone(), problem))
+}
+
+fn find(job: &Job<'_>, system: &ThermalSystem, console: &Console) -> Result<Periodic, Failure> {
+    let RunSettings { start, stop, .. } = job.settings;
+    let window = Window { name: CYCLE.into(), from: start, to: stop, of: job.selection.clone() };
+    let transient = Transient {
+        record: job.selection.record(),
+        windows: vec![window],
+        balance: job.balance,
+        ..lptn_solve::Transient::of(system.network(), &job.settings)
+    };
+    let interrupt = Interrupt::listen();
+    let mut line = ProgressLine::new(console.quiet);
+    let found = Periodic::find_observed(system, &transient, &mut |progress| {
+        line.update(progress);
+        interrupt.control()
+    });
+    line.clear();
+    found.map_err(|error| failed(job.input, &error))
+}
+
+fn failed(input: &Input, error: &PeriodicError) -> Failure {
+    let exit = match error {
+        PeriodicError::NotPeriodic(_) | PeriodicError::NoBalance { .. } | PeriodicError::Input(_) => {
+            Exit::Input
+        }
+        PeriodicError::Switches { .. } => Exit::No,
+        PeriodicError::NotFound { .. } | PeriodicError::Cycle(_) => Exit::Failed,
+        PeriodicError::Interrupted { .. } => Exit::Interrupted,
+    };
+    let map = &input.netlist.source_map;
+    let place = match error {
+        PeriodicError::NotPeriodic(found) => {
+            map.get(found.item, found.field).or_else(|| map.name(found.item))
+        }
+        PeriodicError::NoBalance { nodes, .. } => {
+            nodes.first().and_then(|&node| map.name(lptn_network::Item::Node(node)))
+        }
+        error => error.input().and_then(|input| map.get(input.item, input.field)),
+    };
+    let mut problem = match error {
+        PeriodicError::Cycle(error) => explain(input, error),
+        error => told(error),
+    };
+    if let Some(place) = place {
+        problem = problem.at(place.clone(), "");
+    }
+    Failure::at(exit, input.netlist.files.clone(), problem)
+}
+
+/// A periodic state and how it is shown.
+pub(crate) struct View<'a> {
+    pub(crate) outcome: &'a Outcome<'a>,
+    pub(crate) found: &'a Periodic,
+}
+
+impl View<'_> {
+    /// What was seen of the columns over the cycle.
+    pub(crate) fn cycle(&self) -> Option<&WindowSeen> {
+        self.found.solution.windows().first()
+    }
+
+    pub(crate) fn period(&self) -> f64 {
+        self.outcome.job.settings.stop - self.outcome.job.settings.start
+    }
+
+    /// Time constant of the slowest part in s.
+    pub(crate) fn slowest(&self) -> Option<f64> {
+        let rho = self.found.multiplier.filter(|rho| *rho > 0.0 && *rho < 1.0)?;
+        Some(-self.period() / rho.ln())
+    }
+
+    /// The first row of every column, in the unit that is shown.
+    fn starts(&self) -> impl Iterator<Item = f64> + '_ {
+        self.outcome.table.columns().iter().skip(1).map(|c| c.values.first().copied().unwrap_or(f64::NAN))
+    }
+
+    /// By column: start, mean, extremes and swing in SI.
+    fn members(&self) -> Map<String, Value> {
+        let unit = &self.outcome.job.unit;
+        let seconds = |time: f64| Scalar::new(time, "s");
+        let columns = self.cycle().into_iter().flat_map(|cycle| &cycle.columns).zip(self.starts());
+        let member = |(seen, start): (&lptn_solve::ColumnSeen, f64)| {
+            let scalar = |value: f64| Scalar::new(value, &seen.ty.dimension.si_unit());
+            let start = if seen.ty.absolute { unit.to_si(start) } else { start };
+            let member = json!({
+                "start": scalar(start),
+                "mean": scalar(seen.mean),
+                "min": scalar(seen.min.0),
+                "min_at": seconds(seen.min.1),
+                "max": scalar(seen.max.0),
+                "max_at": seconds(seen.max.1),
+                "swing": scalar(seen.max.0 - seen.min.0),
+            });
+            (seen.name.clone(), member)
+        };
+        columns.map(member).collect()
+    }
+
+    fn search(&self) -> Value {
+        let found = self.found;
+        let kelvin = |value: f64| Scalar::new(value, "K");
+        json!({
+            "method": match found.method {
+                Method::Modes => "modes",
+                Method::Shooting => "shooting",
+                Method::Stateless => "stateless",
+            },
+            "cycles": found.cycles,
+            "steps": found.steps,
+            "flow_evaluations": found.flow_evaluations,
+            "residual": kelvin(found.residual),
+            "error": kelvin(found.error),
+            "multiplier": found.multiplier,
+            "time_constant": self.slowest().map(|tau| Scalar::new(tau, "s")),
+        })
+    }
+
+    fn conclude(&self, console: &Console) -> Exit {
+        let job = &self.outcome.job;
+        let (netlist, unit) = (&job.input.netlist, &job.unit);
+        limits::conclude(&Judgement { netlist, unit, limits: &self.outcome.limits() }, console)
+    }
+}
+
+impl Page for View<'_> {
+    fn text(&self) -> Text {
+        text::text(self)
+    }
+
+    /// Name, unit, value at the start, mean, extremes with their times, and swing of each column.
+    fn rows(&self) -> Rows<'_> {
+        let heading = ["name", "unit", "start", "mean", "min", "min_at [s]", "max", "max_at [s]", "swing"];
+        let mut rows = vec![heading.map(str::to_owned).to_vec()];
+        let mut text = lptn_report::Shortest::new();
+        let unit = &self.outcome.job.unit;
+        for (seen, start) in self.cycle().into_iter().flat_map(|cycle| &cycle.columns).zip(self.starts()) {
+            let [mean, min, max] = [seen.mean, seen.min.0, seen.max.0].map(|x| seen.shown(x, unit));
+            let numbers = [start, mean, min, seen.min.1, max, seen.max.1, max - min];
+            let mut row = vec![seen.name.clone(), symbol(&seen.unit(unit)).to_owned()];
+            row.extend(numbers.map(|number| text.text(number).to_owned()));
+            rows.push(row);
+        }
+        Rows::Words(rows)
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let (solution, settings) = (&self.found.solution, &self.outcome.job.settings);
+        self.outcome.job.input.head(json, &[])?;
+        json.member("start", &Scalar::new(settings.start, "s"))?;
+        json.member("period", &Scalar::new(self.period(), "s"))?;
+        json.member("columns", &self.members())?;
+        json.member("search", &self.search())?;
+        json.member("ledger", &self.outcome.ledger())?;
+        if !solution.limits().is_empty() {
+            json.member("limits", &limits::members(solution.network(), &self.outcome.limits()))?;
+        }
+        if let Some(of) = solution.balance() {
+            json.member("balance", &balance::json(solution.network(), of))?;
+        }
+        json.member("statistics", &StatisticsRecord::new(solution))
+    }
+}

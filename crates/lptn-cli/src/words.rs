@@ -1,0 +1,70 @@
+//! Words that results of several verbs share.
+
+use lptn_network::Network;
+use lptn_report::{Text, TextTable};
+use lptn_units::Unit;
+
+/// More nodes than this do not fit on a screen.
+pub(crate) const MOST_NODES: usize = 30;
+
+/// "1 node", "2 nodes".
+pub(crate) fn count(n: usize, noun: &str) -> String {
+    let ending = if n == 1 {
+        ""
+    } else if noun.ends_with('y') {
+        "ies"
+    } else {
+        "s"
+    };
+    let noun = if n == 1 { noun } else { noun.strip_suffix('y').unwrap_or(noun) };
+    format!("{n} {noun}{ending}")
+}
+
+/// "2 nodes, 2 boundaries, 3 paths, 1 source", and controls if there are any.
+pub(crate) fn counts(network: &Network) -> String {
+    let mut parts = vec![
+        count(network.nodes().len(), "node"),
+        count(network.boundaries().len(), "boundary"),
+        count(network.conductors().len(), "path"),
+        count(network.sources().len(), "source"),
+    ];
+    if !network.controls().is_empty() {
+        parts.push(count(network.controls().len(), "control"));
+    }
+    parts.join(", ")
+}
+
+/// A section with a table of some of `all` rows, and how to see the others; nothing where there are none.
+pub(crate) fn some_of(text: &mut Text, table: impl Into<TextTable>, (all, how): (usize, &str)) {
+    let table = table.into();
+    let shown = table.rows();
+    if all == 0 {
+        return;
+    }
+    text.section().table(table);
+    if shown < all {
+        text.line(format!("{shown} of {all} are shown, {how}"));
+    }
+}
+
+/// A unit for reading: `-` for a plain number.
+pub(crate) fn symbol(unit: &str) -> &str {
+    if unit == "1" { "-" } else { unit }
+}
+
+/// The unit of a difference between two temperatures in `unit`.
+pub(crate) fn difference(unit: &Unit) -> &'static str {
+    if (unit.scale - 1.0).abs() < 1e-12 { "K" } else { "degR" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::count;
+
+    #[test]
+    fn nouns_agree_with_their_number() {
+        assert_eq!(count(1, "boundary"), "1 boundary");
+        assert_eq!(count(2, "boundary"), "2 boundaries");
+        assert_eq!(count(0, "node"), "0 nodes");
+    }
+}

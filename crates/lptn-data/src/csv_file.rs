@@ -1,0 +1,176 @@
+//! Points of curves: numbers with their places, from a list or from a column of a CSV file.
+
+use std::sync::Arc;
+
+use lptn_units::{Type, Unit};
+
+use crate::diagnostic::Diagnostic;
+use crate::file::Span;
+use crate::form::header;
+use crate::head::{Asked, Column, Head, Row, reader, row, value};
+use crate::hints;
+use crate::limits::MOST_PROBLEMS;
+use crate::text::CsvText;
+
+/// A header as it could be.
+const EXAMPLE: &str = "t [s],speed [rpm]";
+
+/// Numbers in SI units, with the place of each.
+#[derive(Clone, Debug)]
+pub struct Points {
+    /// The numbers.
+    pub numbers: Vec<f64>,
+    /// Their type.
+    pub ty: Type,
+    /// Where each of them stands.
+    pub places: Places,
+    /// The list, or the header of the column.
+    pub whole: Span,
+    /// The unit that they are given in, of several that of the first.
+    pub unit: Option<Unit>,
+}
+
+/// Where the numbers of a curve stand.
+#[derive(Clone, Debug)]
+pub enum Places {
+    /// Each item of a list.
+    Items(Vec<Span>),
+    /// The rows of a file, one for each number, and the position of the column: a file may have millions, and the places
+    /// of two of them are asked for, where something is wrong.
+    Column(Arc<CsvFile>, usize),
+}
+
+impl Points {
+    /// Where a number stands.
+    pub fn place(&self, index: usize) -> Span {
+        let place = match &self.places {
+            Places::Items(places) => places.get(index).cloned(),
+            Places::Column(file, column) => file.place(index, *column),
+        };
+        place.unwrap_or_else(|| self.whole.clone())
+    }
+}
+
+/// One CSV file: a header, and rows of cells. The rows stand in the text alone and are read again for every column: held as
+/// cells they would take twenty times the memory of the file.
+#[derive(Debug)]
+pub struct CsvFile {
+    head: Head,
+    text: Arc<str>,
+}
+
+/// So many rows of a column are looked at for what is wrong with them; of millions the rest are like those.
+const MOST_WRONG: usize = 20 * MOST_PROBLEMS;
+
+impl CsvFile {
+    /// The file, if its header is one and no row is longer.
+    ///
+    /// # Errors
+    /// What is wrong with its form; `asked` is the place that names the file.
+    pub fn open(text: &CsvText, asked: &Span) -> Result<Self, Diagnostic> {
+        let first = reader(&text.text).records().find_map(Result::ok);
+        let head = header(text, first, (hints::NETLIST, EXAMPLE));
+        let head = head.map_err(|problem| problem.also(asked.clone(), "read here"))?;
+        let file = Self { head, text: Arc::clone(&text.text) };
+        match file.too_long(&Asked { words: String::new(), span: Some(asked.clone()) }) {
+            Some(problem) => Err(problem),
+            None => Ok(file),
+        }
+    }
+
+    /// Visits the cells of the rows in their order, until the visitor has found what it looked for.
+    fn visit<T>(&self, mut visit: impl FnMut(&csv::StringRecord) -> Option<T>) -> Option<T> {
+        let (mut reader, mut cells) = (reader(&self.text), csv::StringRecord::new());
+        let mut is_head = true;
+        loop {
+            match reader.read_record(&mut cells) {
+                Ok(false) => return None,
+                Ok(true) if !std::mem::take(&mut is_head) => {
+                    if let Some(found) = visit(&cells) {
+                        return Some(found);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// The record as a row with its place.
+    fn row(&self, cells: &csv::StringRecord) -> Row {
+        row(cells.clone(), &self.text)
+    }
+
+    /// The place of a cell, or of its line; rows are counted from 0.
+    pub fn place(&self, index: usize, column: usize) -> Option<Span> {
+        let mut left = index;
+        self.visit(|cells| match left.checked_sub(1) {
+            None => Some(self.row(cells).place(self.head.file(), column)),
+            Some(fewer) => {
+                left = fewer;
+                None
+            }
+        })
+    }
+
+    /// The first row with a value behind the last column.
+    fn too_long(&self, asked: &Asked) -> Option<Diagnostic> {
+        let columns = self.head.columns.len();
+        self.visit(|cells| {
+            let longer = cells.len() > columns;
+            longer.then(|| self.head.extra(&self.row(cells), asked)).flatten()
+        })
+    }
+
+    /// The numbers of the column that `ask` names, in SI units; of type `wanted` where that is known.
+    ///
+    /// # Errors
+    /// That there is no such column, that its unit is another, or every cell without a number.
+    pub fn column(
+        self: &Arc<Self>,
+        name: &str,
+        wanted: Option<Type>,
+        ask: &Asked,
+    ) -> Result<Points, Vec<Diagnostic>> {
+        let head = &self.head;
+        let Column { index, unit } = head.numbers(name, wanted, ask).map_err(|problem| vec![problem])?;
+        let mut numbers = Vec::with_capacity(self.text.bytes().filter(|&byte| byte == b'\n').count());
+        let mut problems = Vec::new();
+        self.visit(|cells| {
+            match value(cells.get(index).unwrap_or_default().trim(), &unit) {
+                Ok(number) => numbers.push(number),
+                Err(wrong) => problems.push(head.no_number(&self.row(cells), (index, wrong), ask)),
+            }
+            (problems.len() >= MOST_WRONG).then_some(())
+        });
+        let (whole, places) = (head.columns[index].place.clone(), Places::Column(Arc::clone(self), index));
+        let points = Points { numbers, ty: unit.ty, places, whole, unit: Some(unit) };
+        if problems.is_empty() { Ok(points) } else { Err(problems) }
+    }
+
+    /// The place of the header.
+    pub fn header(&self) -> &Span {
+        &self.head.place
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CsvFile, CsvText, Span};
+    use crate::file::Files;
+
+    #[test]
+    fn cells_are_found_where_they_stand() {
+        let text =
+            "\u{feff}# cycle\r\n\r\nt [s], speed [rpm]\r\n\r\n0, 10\r\n# more\r\n 1 ,20\r\n\"2\",30\n3,40";
+        let mut files = Files::new();
+        let text = CsvText::of(&mut files, "a.csv".to_owned(), text.as_bytes()).unwrap();
+        let file = CsvFile::open(&text, &Span::new(text.file, 0..0)).unwrap();
+        assert_eq!(files.line_column(&file.head.place), (3, 1));
+        assert_eq!(files.at(&file.head.columns[1].place), "speed [rpm]");
+        let places: Vec<_> = (0..).map_while(|row| file.place(row, 1)).collect();
+        let rows: Vec<(usize, &str)> =
+            places.iter().map(|place| (files.line_column(place).0, files.at(place))).collect();
+        let expected = [(5, "10"), (7, "20"), (8, "\"2\",30"), (9, "40")];
+        assert_eq!(rows, expected);
+    }
+}

@@ -1,0 +1,196 @@
+//! What is said about a netlist: one type for errors and warnings, of every stage.
+
+use std::fmt;
+
+use lptn_units::suggest;
+
+use crate::file::{Files, Span};
+
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// The netlist cannot be used.
+    Error,
+    /// The netlist can be used, but is probably not what was meant.
+    Warning,
+}
+
+/// A place with a few words about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label {
+    /// The place.
+    pub span: Span,
+    /// The words; may be empty.
+    pub text: String,
+    /// Whether the problem is here; other places only explain it.
+    pub primary: bool,
+}
+
+/// One problem: what, where, and what to do about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// A stable `area::problem`.
+    pub code: &'static str,
+    /// How bad it is.
+    pub severity: Severity,
+    /// What is wrong, as a sentence without capital and full stop.
+    pub message: String,
+    /// Where; the primary place first. Empty if there is no place.
+    pub labels: Vec<Label>,
+    /// What to do, with a text that can be pasted where possible.
+    pub help: Option<String>,
+    /// What else is worth knowing.
+    pub notes: Vec<String>,
+}
+
+impl Diagnostic {
+    /// An error without a place.
+    pub fn error(code: &'static str, message: impl Into<String>) -> Self {
+        let message = message.into();
+        Self { code, severity: Severity::Error, message, labels: Vec::new(), help: None, notes: Vec::new() }
+    }
+
+    /// A warning without a place.
+    pub fn warning(code: &'static str, message: impl Into<String>) -> Self {
+        Self { severity: Severity::Warning, ..Self::error(code, message) }
+    }
+
+    /// Adds the place of the problem.
+    #[must_use]
+    pub fn at(self, span: Span, text: impl Into<String>) -> Self {
+        self.label(span, text.into(), true)
+    }
+
+    /// Adds a place that explains the problem.
+    #[must_use]
+    pub fn also(self, span: Span, text: impl Into<String>) -> Self {
+        self.label(span, text.into(), false)
+    }
+
+    /// Sets what to do about it.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Adds what else is worth knowing.
+    #[must_use]
+    pub fn note(mut self, note: impl Into<String>) -> Self {
+        self.notes.push(note.into());
+        self
+    }
+
+    /// Says what was probably meant by `wrong`: the nearest of the names, else `otherwise`.
+    #[must_use]
+    pub fn did_you_mean<'n>(
+        self,
+        wrong: &str,
+        names: impl IntoIterator<Item = &'n str>,
+        otherwise: impl FnOnce() -> String,
+    ) -> Self {
+        match suggest(wrong, names.into_iter()) {
+            Some(near) => self.help(format!("did you mean `{near}`?")),
+            None => self.help(otherwise()),
+        }
+    }
+
+    /// The place of the problem, if it has one.
+    pub fn place(&self) -> Option<&Span> {
+        self.labels.iter().find(|label| label.primary).map(|label| &label.span)
+    }
+
+    fn label(mut self, span: Span, text: String, primary: bool) -> Self {
+        self.labels.push(Label { span, text, primary });
+        self
+    }
+}
+
+impl fmt::Display for Diagnostic {
+    /// `error[code]: message`; [`Files::plain`] adds the places.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let severity = match self.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        };
+        write!(f, "{severity}[{}]: {}", self.code, self.message)
+    }
+}
+
+impl Files {
+    /// Adds for which instance of a template, and of so many others, the place is read, and where that is made.
+    fn with_copies(&self, mut diagnostic: Diagnostic, others: usize) -> Diagnostic {
+        let mut copy = diagnostic.place().and_then(|place| self.copy(place.copy));
+        if copy.is_none() || diagnostic.labels.iter().any(|label| label.text.ends_with(USED)) {
+            return diagnostic;
+        }
+        // what belongs together in several instances stands in one place of the template
+        let mut seen: Vec<Label> = Vec::new();
+        diagnostic.labels.retain(|label| {
+            let new = !seen.iter().any(|other| other.span.is_same_text(&label.span));
+            seen.push(label.clone());
+            new
+        });
+        let mut more = if others > 0 { format!(" and {others} more") } else { String::new() };
+        while let Some(instance) = copy {
+            let text = format!("in `{}`{}{USED}", instance.name, std::mem::take(&mut more));
+            diagnostic = diagnostic.also(instance.made.clone(), text);
+            copy = self.copy(instance.made.copy);
+        }
+        diagnostic
+    }
+
+    /// A diagnostic with its places, help and notes as plain text, without a newline at the end.
+    pub fn plain(&self, diagnostic: &Diagnostic) -> String {
+        let mut text = diagnostic.to_string();
+        for label in &diagnostic.labels {
+            let (line, column) = self.line_column(&label.span);
+            let arrow = if label.primary { "-->" } else { ":::" };
+            text += &format!("\n {arrow} {}:{line}:{column}", self.name(label.span.file));
+            if !label.text.is_empty() {
+                text += &format!(": {}", label.text);
+            }
+        }
+        let indented = |words: &str| words.replace('\n', "\n      ").replace("      \n", "\n");
+        if let Some(help) = &diagnostic.help {
+            text += &format!("\n  = help: {}", indented(help));
+        }
+        for note in &diagnostic.notes {
+            text += &format!("\n  = note: {}", indented(note));
+        }
+        text
+    }
+}
+
+/// How the place is called where an instance is made.
+const USED: &str = ", used here";
+
+/// Sorts by place, and drops what says the same of the same place; what is wrong in a template is said once, and
+/// of which instance.
+pub fn arrange(files: &Files, diagnostics: &mut Vec<Diagnostic>) {
+    diagnostics.sort_by_key(|d| d.place().map(Span::order));
+    diagnostics.dedup_by(|b, a| a.code == b.code && a.place().is_some() && a.place() == b.place());
+    once_for_all_copies(files, diagnostics);
+}
+
+fn once_for_all_copies(files: &Files, diagnostics: &mut Vec<Diagnostic>) {
+    let mut kept: Vec<(Diagnostic, usize)> = Vec::with_capacity(diagnostics.len());
+    // the kept ones of the last place
+    let mut here = 0;
+    for diagnostic in diagnostics.drain(..) {
+        let same = |other: &Diagnostic| match (diagnostic.place(), other.place()) {
+            (Some(a), Some(b)) => a.is_same_text(b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        if kept.last().is_some_and(|(last, _)| !same(last)) {
+            here = kept.len();
+        }
+        let in_copy = diagnostic.place().is_some_and(|place| files.copy(place.copy).is_some());
+        let first = kept.get_mut(here..).unwrap_or_default().iter_mut();
+        match first.filter(|_| in_copy).find(|(other, _)| other.code == diagnostic.code) {
+            Some((_, others)) => *others += 1,
+            None => kept.push((diagnostic, 0)),
+        }
+    }
+    diagnostics.extend(kept.into_iter().map(|(diagnostic, others)| files.with_copies(diagnostic, others)));
+}

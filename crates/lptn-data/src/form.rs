@@ -1,0 +1,118 @@
+//! How a CSV file was saved: what its first lines say when that was done otherwise than with one header, commas and
+//! decimal points. Records, sheets of points, signals, tables and imports are told the same.
+
+use lptn_units::Unit;
+
+use crate::diagnostic::Diagnostic;
+use crate::file::{FileId, Span};
+use crate::head::{Head, Row, reader, row};
+use crate::hints::{Codes, RECORD};
+use crate::text::CsvText;
+
+/// Titles of loggers are not longer than this, in lines.
+const LONGEST_TITLE: usize = 30;
+
+/// What the header says of how the file was saved: with another separator, without names, below a title. `example` is
+/// a header as it could be.
+fn check(head: &Head, text: &CsvText, (codes, example): (&Codes, &str)) -> Option<Diagnostic> {
+    if head.columns.iter().all(|header| header.written.replace(',', ".").parse::<f64>().is_ok()) {
+        let problem = Diagnostic::error(codes.no_header, "the first line holds numbers, not names")
+            .at(head.place.clone(), "the header belongs above this line");
+        return Some(
+            problem.help(format!("begin with the names of the columns and their units: `{example}`")),
+        );
+    }
+    if let Some(problem) = foreign(head, &text.name, codes) {
+        return Some(problem);
+    }
+    let mut reader = reader(&text.text);
+    let records = reader.records().filter_map(Result::ok).skip(1).take(LONGEST_TITLE);
+    let rows: Vec<Row> = records.map(|cells| row(cells, &text.text)).collect();
+    separator(head, &text.name, (&rows, codes)).or_else(|| title(head, &rows, codes))
+}
+
+/// A netlist, or a file of another kind.
+fn foreign(head: &Head, name: &str, codes: &Codes) -> Option<Diagnostic> {
+    let first = head.columns.first()?.written.as_str();
+    let heading = first.starts_with('[') && first.ends_with(']');
+    let (is, help) = if heading || first.starts_with("format = ") || first.starts_with("format=") {
+        let help = match codes.of_record {
+            true => format!(
+                "`lptn fit network {name}` fits a netlist to the records that it names below [fit.NAME]"
+            ),
+            false => "name a CSV file here; other netlists stand in `include`".to_owned(),
+        };
+        ("a netlist", help)
+    } else if first.starts_with('{') || first == "[" {
+        ("JSON", "name a CSV file, such as the `result.csv` that `lptn run` writes".to_owned())
+    } else {
+        return None;
+    };
+    let problem = Diagnostic::error(codes.no_header, format!("{name} is not a CSV file: it looks like {is}"));
+    Some(problem.at(head.place.clone(), "taken for the header").help(help))
+}
+
+/// The columns are separated by something else.
+fn separator(head: &Head, name: &str, (rows, codes): (&[Row], &Codes)) -> Option<Diagnostic> {
+    let [one] = head.columns.as_slice() else { return None };
+    let other = [';', '\t', '|'].into_iter().find(|c| one.written.contains(*c))?;
+    let words = if other == '\t' { "tabs".to_owned() } else { format!("`{other}`") };
+    let pattern = if other == '\t' { "\\t".to_owned() } else { other.to_string() };
+    let decimal = rows.first().is_some_and(|row| row.cells.len() > 1);
+    let typed = name.chars().all(|c| c.is_alphanumeric() || "/._-".contains(c));
+    let name = if typed { name } else { "record.csv" };
+    let message = format!("the columns are separated by {words}, not by commas");
+    let problem =
+        Diagnostic::error(codes.separator, message).at(one.place.clone(), "one column, as it stands");
+    Some(match decimal {
+        true => problem.help(format!(
+            "save it with commas between the columns and decimal points, or change both:\n\
+             sed 's/,/./g; s/{pattern}/,/g' {name} > with_commas.csv"
+        )),
+        false => problem.help(format!(
+            "save it with commas between the columns, or change them:\n\
+             sed 's/{pattern}/,/g' {name} > with_commas.csv"
+        )),
+    })
+}
+
+/// A line above the one that names the columns.
+fn title(head: &Head, rows: &[Row], codes: &Codes) -> Option<Diagnostic> {
+    if head.columns.iter().any(|header| header.unit.is_some()) {
+        return None;
+    }
+    let below = rows.iter().find(|row| names_columns(row, head.file()))?;
+    let problem =
+        Diagnostic::error(codes.no_header, "the first line is not the header: another one names the columns")
+            .at(head.place.clone(), "taken for the header")
+            .also(below.whole(head.file()), "the header");
+    Some(problem.help("put `#` before the lines above the header, or remove them"))
+}
+
+/// A line of names with units.
+fn names_columns(row: &Row, file: FileId) -> bool {
+    let columns = Head::new(file, row, RECORD).columns;
+    let named = columns.iter().all(|header| header.written.parse::<f64>().is_err());
+    let unit = |unit: &str| unit == "-" || Unit::parse(unit).is_ok();
+    named && columns.iter().any(|header| header.unit.as_deref().is_some_and(unit))
+}
+
+/// The header of a text, whose first record is given; `example` is a header as it could be.
+pub(crate) fn header(
+    text: &CsvText,
+    first: Option<csv::StringRecord>,
+    (codes, example): (&'static Codes, &str),
+) -> Result<Head, Diagnostic> {
+    let Some(first) = first else {
+        let problem = Diagnostic::error(codes.empty, format!("{} has no header", text.name))
+            .at(Span::new(text.file, 0..0), "the header belongs here");
+        return Err(
+            problem.help(format!("begin it with the names of the columns and their units: `{example}`"))
+        );
+    };
+    let head = Head::new(text.file, &row(first, &text.text), codes);
+    match check(&head, text, (codes, example)) {
+        Some(problem) => Err(problem),
+        None => Ok(head),
+    }
+}

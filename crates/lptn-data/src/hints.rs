@@ -1,0 +1,91 @@
+//! What the problems of a CSV file are called, and what to write in place of what it holds.
+
+use lptn_units::Unit;
+
+/// What the problems of a file are called.
+#[derive(Debug)]
+pub(crate) struct Codes {
+    /// Whether it holds what was measured: gaps are meant, units have to be given; a command line names it.
+    pub(crate) of_record: bool,
+    pub(crate) empty: &'static str,
+    pub(crate) separator: &'static str,
+    pub(crate) no_header: &'static str,
+    pub(crate) no_column: &'static str,
+    pub(crate) two_columns: &'static str,
+    pub(crate) unit: &'static str,
+    pub(crate) extra_value: &'static str,
+    pub(crate) short_row: &'static str,
+    pub(crate) missing_value: &'static str,
+    pub(crate) not_a_number: &'static str,
+    pub(crate) not_finite: &'static str,
+}
+
+/// Of records and sheets of points.
+pub(crate) const RECORD: &Codes = &Codes {
+    of_record: true,
+    empty: "record::empty",
+    separator: "record::separator",
+    no_header: "record::no_header",
+    no_column: "record::no_column",
+    two_columns: "record::two_columns",
+    unit: "record::unit",
+    extra_value: "record::extra_value",
+    short_row: "record::short_row",
+    missing_value: "record::missing_value",
+    not_a_number: "record::not_a_number",
+    not_finite: "record::not_finite",
+};
+
+/// Of the files that a netlist names.
+pub(crate) const NETLIST: &Codes = &Codes {
+    of_record: false,
+    empty: "netlist::csv_empty",
+    separator: "netlist::csv_separator",
+    no_header: "netlist::csv_no_header",
+    no_column: "netlist::csv_column",
+    two_columns: "netlist::csv_two_columns",
+    unit: "netlist::csv_unit",
+    extra_value: "netlist::csv_extra_value",
+    short_row: "netlist::csv_short_row",
+    missing_value: "netlist::csv_missing_value",
+    not_a_number: "netlist::csv_not_a_number",
+    not_finite: "netlist::csv_not_finite",
+};
+
+/// The name and the unit of `ring (degC)`, `ring/degC`, `ring_degC`.
+pub(crate) fn other_brackets(name: &str) -> Option<(&str, &str)> {
+    let at = name.find(['(', '/', ',', '{']).or_else(|| name.rfind(['_', ' ']))?;
+    let (bare, unit) = name.split_at(at);
+    let unit = unit.trim_matches(['(', ')', '/', ',', '{', '}', '_', ' ']);
+    let unit = if matches!(unit, "C" | "°C") { "degC" } else { unit };
+    (!bare.trim().is_empty() && Unit::parse(unit).is_ok()).then_some((bare.trim(), unit))
+}
+
+/// What to write in place of a text where a number is due.
+pub(crate) fn text_help(name: &str, cell: &str) -> String {
+    let point = cell.replacen(',', ".", 1);
+    if cell.contains(',') && point.parse::<f64>().is_ok() {
+        return format!("write numbers with a point: `{point}`");
+    }
+    if is_moment(cell) {
+        return format!(
+            "times are numbers counted from any moment, in one unit: `{name} [s]`, not clock times or dates"
+        );
+    }
+    if cell.contains(';') {
+        return "the columns are separated by `;` in this row: write commas".to_owned();
+    }
+    let number: String = cell.chars().take_while(|c| c.is_ascii_digit() || "+-.".contains(*c)).collect();
+    let unit = cell.get(number.len()..).unwrap_or_default().trim();
+    if !number.is_empty() && number.parse::<f64>().is_ok() && Unit::parse(unit).is_ok() {
+        return format!("write the unit once, in the header: `{name} [{unit}]`");
+    }
+    "a cell holds one number; its unit stands in the header".to_owned()
+}
+
+/// A clock time or a date: `12:00:05`, `2024-05-03`, `03.05.2024`, `3/5/2024`.
+fn is_moment(cell: &str) -> bool {
+    let digits = cell.starts_with(|c: char| c.is_ascii_digit());
+    let twice = |c: char| cell.matches(c).count() == 2;
+    digits && (cell.contains(':') || twice('-') || twice('/') || twice('.')) && cell.parse::<f64>().is_err()
+}

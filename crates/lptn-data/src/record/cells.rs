@@ -1,0 +1,104 @@
+//! Columns of numbers that are read row by row.
+
+use crate::diagnostic::Diagnostic;
+use crate::head::{Asked, Column, Head, Row, Wrong, value};
+use crate::record::RecordColumn;
+
+/// Words for a value that was not measured.
+const GAPS: [&str; 5] = ["nan", "na", "n/a", "null", "none"];
+
+/// The first problem of a kind, and how many like it there are.
+#[derive(Default)]
+pub(crate) struct Counted {
+    first: Option<Diagnostic>,
+    count: usize,
+}
+
+impl Counted {
+    pub(crate) fn add(&mut self, problem: impl FnOnce() -> Diagnostic) {
+        self.first.get_or_insert_with(problem);
+        self.count += 1;
+    }
+
+    pub(crate) fn told(self, what: &str) -> Option<Diagnostic> {
+        let more = self.count.saturating_sub(1);
+        self.first.map(|first| match more {
+            0 => first,
+            1 => first.note(format!("and one more {what}")),
+            _ => first.note(
+                format!("and {more} more {what}").replacen("cell", "cells", 1).replacen("row", "rows", 1),
+            ),
+        })
+    }
+}
+
+/// The columns so far, with what is wrong with their cells.
+pub(crate) struct Cells {
+    pub(crate) head: Head,
+    pub(crate) columns: Vec<RecordColumn>,
+    chosen: Vec<Column>,
+    /// By column.
+    wrong: Vec<Counted>,
+    lengths: Counted,
+}
+
+impl Cells {
+    pub(crate) fn new(head: Head, chosen: Vec<Column>) -> Self {
+        let column = |chosen: &Column| RecordColumn {
+            name: head.columns[chosen.index].name.clone(),
+            unit: chosen.unit.clone(),
+            values: Vec::new(),
+            gaps: 0,
+            saturation: None,
+            span: head.columns[chosen.index].place.clone(),
+        };
+        let columns = chosen.iter().map(column).collect();
+        let wrong = chosen.iter().map(|_| Counted::default()).collect();
+        Self { head, columns, chosen, wrong, lengths: Counted::default() }
+    }
+
+    /// Whether a row has as many cells as the header; `example` is a row with an empty cell.
+    pub(crate) fn is_whole(&mut self, row: &Row, example: &str) -> bool {
+        let (head, nobody) = (&self.head, Asked::default());
+        if let Some(extra) = head.extra(row, &nobody) {
+            self.lengths.add(|| extra);
+        } else if row.cells.len() < head.columns.len() {
+            self.lengths.add(|| head.short(row, (&nobody, example)));
+        } else {
+            return true;
+        }
+        false
+    }
+
+    /// Adds the values of a row in SI units: NaN for a gap, and in place of what is wrong.
+    pub(crate) fn push(&mut self, row: &Row) {
+        for (i, Column { index, unit }) in self.chosen.iter().enumerate() {
+            let value = value(row.cell(*index), unit).unwrap_or_else(|wrong| {
+                if !is_gap(row.cell(*index), wrong) {
+                    self.wrong[i].add(|| self.head.no_number(row, (*index, wrong), &Asked::default()));
+                }
+                f64::NAN
+            });
+            self.columns[i].gaps += usize::from(value.is_nan());
+            self.columns[i].values.push(value);
+        }
+    }
+
+    /// What is wrong with the rows, and the columns.
+    pub(crate) fn finish(self) -> (Vec<Diagnostic>, Vec<RecordColumn>, Head) {
+        let wrong = self.wrong.into_iter().filter_map(|wrong| wrong.told("cell of this column"));
+        (self.lengths.told("row").into_iter().chain(wrong).collect(), self.columns, self.head)
+    }
+}
+
+/// Whether nothing was measured.
+pub(crate) fn is_gap(cell: &str, wrong: Wrong) -> bool {
+    let word = cell.trim_start_matches(['+', '-']).trim_start_matches('#');
+    match wrong {
+        Wrong::Missing => true,
+        Wrong::Cold => false,
+        Wrong::Text | Wrong::NotFinite => {
+            cell.chars().all(|c| "-–—.".contains(c)) || GAPS.iter().any(|gap| gap.eq_ignore_ascii_case(word))
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! Measured records: columns of numbers over time, from a CSV file with headers `name [unit]`.
+//!
+//! What is wrong with a record is an error with its line; what can be gone on with is treated in a stated way and
+//! said in a warning:
+//!
+//! | In the file | What becomes of it |
+//! |---|---|
+//! | lines that begin with `#`, empty lines, Windows line ends, a byte order mark | left out |
+//! | an empty cell, `NaN`, `NA`, `N/A`, `null`, dashes | a gap: NaN, counted in a warning |
+//! | a last line that breaks off | left out, with a warning |
+//! | the same line twice in a row | dropped, with a warning |
+//! | the same time with other values, a time below the one before it, a row without a time | an error with both lines |
+//! | more than 5 times the usual time between two rows | a warning |
+//! | a header without unit, a unit in a cell, text among numbers, another separator, a decimal comma | an error |
+//! | a value below absolute zero | an error |
+//! | a jump by 273.15 K, or to 1.8 times the value + 32 | a warning: the unit seems to change |
+//! | an extreme value held after a steep rise or fall | a warning: the sensor seems to be at its end |
+//! | a column that does not change | a warning |
+
+mod cells;
+mod columns;
+mod doubts;
+mod rows;
+mod sheet;
+mod times;
+
+pub use sheet::{DataSheet, read_sheet};
+
+use std::path::Path;
+
+use lptn_units::{Type, Unit};
+
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::file::{FileId, Files, Span};
+use crate::limits::Rejected;
+use crate::text::CsvText;
+
+/// Something that is looked for in a record.
+#[derive(Clone, Debug)]
+pub struct RecordName {
+    /// The name of a column, as its header gives it without the unit.
+    pub name: String,
+    /// What it has to measure, where that is known.
+    pub ty: Option<Type>,
+    /// Where it is asked for; diagnostics show the place.
+    pub span: Option<Span>,
+}
+
+impl RecordName {
+    /// A column of any type, asked for at no place.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self { name: name.into(), ty: None, span: None }
+    }
+}
+
+/// What is to be read of a record.
+#[derive(Clone, Debug, Default)]
+pub struct RecordQuery {
+    /// The column of the times; where none is named, the first in a unit of time, else the one named `t` or `time`.
+    pub time: Option<RecordName>,
+    /// The columns to read, in this order; where none is named, all columns of numbers in the order of the file.
+    pub columns: Vec<RecordName>,
+    /// Rows before this time, in s, are left out, whatever they hold.
+    pub from: Option<f64>,
+    /// Rows after this time, in s, are left out.
+    pub to: Option<f64>,
+}
+
+/// Columns of numbers over time.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// The text it was read from.
+    pub file: FileId,
+    /// The times in s, each above the one before it; at least one.
+    pub time: Vec<f64>,
+    /// The name of the column of times.
+    pub time_name: String,
+    /// The other columns.
+    pub columns: Vec<RecordColumn>,
+    /// The lines that begin with `#`, without it and without blanks around.
+    pub comments: Vec<String>,
+    /// What was left out or is doubtful.
+    pub warnings: Vec<Diagnostic>,
+    /// The byte at which the reader looked for each row.
+    pub(crate) bytes: Vec<usize>,
+}
+
+/// One column of a [`Record`].
+#[derive(Clone, Debug)]
+pub struct RecordColumn {
+    /// Its name, without the unit.
+    pub name: String,
+    /// Its unit; alone, `K` is a point on the scale of temperature, as degC is.
+    pub unit: Unit,
+    /// One value for each time, in SI units, absolute temperatures in K; NaN for a gap.
+    pub values: Vec<f64>,
+    /// How many of them are gaps.
+    pub gaps: usize,
+    /// An extreme value at which the sensor seems to be at its end.
+    pub saturation: Option<Saturation>,
+    /// The place of the header.
+    pub span: Span,
+}
+
+/// A value that a column comes to steeply and then holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Saturation {
+    /// The value, in SI units.
+    pub value: f64,
+    /// The first row that holds it.
+    pub first: usize,
+    /// The last row of the same run.
+    pub last: usize,
+}
+
+impl Record {
+    /// The column of this name.
+    pub fn column(&self, name: &str) -> Option<&RecordColumn> {
+        self.columns.iter().find(|column| column.name == name)
+    }
+
+    /// The columns of absolute temperatures, in order.
+    pub fn temperatures(&self) -> impl Iterator<Item = &RecordColumn> {
+        self.columns.iter().filter(|column| column.unit.ty.absolute)
+    }
+
+    /// The place of a row, counted from 0; `files` are those it was read with.
+    pub fn line(&self, files: &Files, row: usize) -> Span {
+        self.line_in(files.text(self.file), row)
+    }
+
+    /// The same, with the text it was read from.
+    pub(crate) fn line_in(&self, text: &str, row: usize) -> Span {
+        let from = self.bytes.get(row).copied().unwrap_or(text.len());
+        Span::new(self.file, crate::head::line(text, from))
+    }
+}
+
+/// Reads a record from the bytes of a file that was read; `path` is what diagnostics call it.
+///
+/// # Errors
+/// [`Rejected`] with every problem, each with a code `record::problem` and its line.
+pub fn read_record(path: &Path, bytes: &[u8], query: &RecordQuery) -> Result<(Record, Files), Rejected> {
+    let mut files = Files::new();
+    let text = CsvText::of(&mut files, path.display().to_string(), bytes).map_err(|problem| vec![problem]);
+    match text.and_then(|text| read_text(&text, query)) {
+        Ok(record) => Ok((record, files)),
+        Err(diagnostics) => Err(Rejected::new(files, diagnostics)),
+    }
+}
+
+/// Reads a record from a text, with what is doubtful about it.
+///
+/// # Errors
+/// Every problem, each with a code `record::problem` and its line.
+pub fn read_text(text: &CsvText, query: &RecordQuery) -> Result<Record, Vec<Diagnostic>> {
+    let mut record = rows::read(text, query)?;
+    let text = &text.text;
+    let holes = times::holes(&record, text);
+    record.warnings.extend(holes);
+    for i in 0..record.columns.len() {
+        let (saturation, warnings) = doubts::of(&record, &record.columns[i], text);
+        record.columns[i].saturation = saturation;
+        record.warnings.extend(warnings);
+    }
+    debug_assert!(record.warnings.iter().all(|warning| warning.severity == Severity::Warning));
+    record.warnings.sort_by_key(|warning| warning.place().map(Span::order));
+    Ok(record)
+}

@@ -1,0 +1,143 @@
+//! The rows of a record, one after the other.
+
+use crate::diagnostic::Diagnostic;
+use crate::form::header;
+use crate::head::{Asked, Column, Head, Row, Wrong, number, position, reader, row};
+use crate::hints;
+use crate::record::cells::{Cells, Counted, is_gap};
+use crate::record::columns::choose;
+use crate::record::times::Order;
+use crate::record::{Record, RecordColumn, RecordQuery};
+use crate::text::CsvText;
+
+/// A header as it could be.
+const EXAMPLE: &str = "t [s],ring [degC]";
+
+/// A record that is being read.
+struct Work<'t> {
+    text: &'t CsvText,
+    time: Column,
+    cells: Cells,
+    record: Record,
+    order: Order<'t>,
+    /// The first and the last time that are read.
+    window: (f64, f64),
+    /// Rows without a time.
+    timeless: Counted,
+}
+
+/// The numbers of a record, in SI units.
+pub(crate) fn read(text: &CsvText, query: &RecordQuery) -> Result<Record, Vec<Diagnostic>> {
+    let mut reader = reader(&text.text);
+    let mut rows = reader.records().filter_map(Result::ok).peekable();
+    let head = header(text, rows.next(), (hints::RECORD, EXAMPLE)).map_err(|problem| vec![problem])?;
+    let (time, chosen) = choose(&head, rows.peek(), query)?;
+    let mut work = Work::new(text, Cells::new(head, chosen), time);
+    work.window = (query.from.unwrap_or(f64::NEG_INFINITY), query.to.unwrap_or(f64::INFINITY));
+    while let Some(cells) = rows.next() {
+        work.row(cells, rows.peek().is_none());
+    }
+    work.finish()
+}
+
+impl<'t> Work<'t> {
+    fn new(text: &'t CsvText, cells: Cells, time: Column) -> Self {
+        let comments = text.text.lines().filter_map(|line| line.strip_prefix('#'));
+        let record = Record {
+            file: text.file,
+            time: Vec::new(),
+            time_name: cells.head.columns[time.index].name.clone(),
+            columns: Vec::new(),
+            comments: comments.map(|comment| comment.trim().to_owned()).collect(),
+            warnings: Vec::new(),
+            bytes: Vec::new(),
+        };
+        let order = Order::new(&text.text, &time.unit);
+        let window = (f64::NEG_INFINITY, f64::INFINITY);
+        Self { text, time, cells, record, order, window, timeless: Counted::default() }
+    }
+
+    fn row(&mut self, cells: csv::StringRecord, last: bool) {
+        let at = position(&cells);
+        let row = row(cells, &self.text.text);
+        if !self.has_its_cells(&row, last) {
+            return;
+        }
+        let time = match number(row.cell(self.time.index)) {
+            Ok(time) => self.time.unit.to_si(time),
+            Err(wrong) => {
+                let problem = self.no_time(&row, wrong);
+                self.timeless.add(|| problem);
+                return;
+            }
+        };
+        let accepted = self.order.accepts(time, row.whole(self.record.file));
+        if accepted && (self.window.0..=self.window.1).contains(&time) {
+            self.record.time.push(time);
+            self.record.bytes.push(at);
+            self.cells.push(&row);
+        }
+    }
+
+    /// Whether a row has as many cells as the header. The last one may break off: the logger was switched off.
+    fn has_its_cells(&mut self, row: &Row, last: bool) -> bool {
+        let (cells, columns) = (row.cells.len(), self.cells.head.columns.len());
+        if last && cells < columns {
+            let message = format!("this row has {cells} of {columns} values: it is left out");
+            let warning = Diagnostic::warning("record::broken_off", message)
+                .at(row.whole(self.record.file), "the file breaks off here");
+            self.record.warnings.push(warning);
+            return false;
+        }
+        self.cells.is_whole(row, "10.2,,45.1")
+    }
+
+    /// A row whose time is no number.
+    fn no_time(&self, row: &Row, wrong: Wrong) -> Diagnostic {
+        let index = self.time.index;
+        if is_gap(row.cell(index), wrong) {
+            return Diagnostic::error("record::row_without_time", "this row has no time")
+                .at(row.place(self.record.file, index), "")
+                .help("remove the row: when it was measured cannot be told");
+        }
+        self.cells.head.no_number(row, (index, wrong), &Asked::default())
+    }
+
+    fn finish(self) -> Result<Record, Vec<Diagnostic>> {
+        let (mut problems, columns, head) = self.cells.finish();
+        let mut record = Record { columns, ..self.record };
+        problems.extend(self.timeless.told("cell of this column"));
+        let range = self.order.range();
+        let (reversed, warning) = self.order.told();
+        problems.extend(reversed);
+        record.warnings.extend(warning);
+        if problems.is_empty() && record.time.is_empty() {
+            problems.push(match range {
+                Some((from, to)) => outside(&head, (&from, &to)),
+                None => Diagnostic::error("record::no_rows", "the record has a header and no rows")
+                    .at(head.place.clone(), "nothing stands below")
+                    .help("below the header belong rows of numbers: `0,25.5`"),
+            });
+        }
+        if problems.is_empty() {
+            let all_gaps = |column: &&RecordColumn| column.gaps == column.values.len();
+            problems.extend(record.columns.iter().filter(all_gaps).map(no_values));
+        }
+        if problems.is_empty() { Ok(record) } else { Err(problems) }
+    }
+}
+
+/// That the window holds no row.
+fn outside(head: &Head, (from, to): (&str, &str)) -> Diagnostic {
+    let message = format!("no row lies in the window of time: the record goes from {from} to {to}");
+    Diagnostic::error("record::window", message)
+        .at(head.place.clone(), "")
+        .help(format!("times are those of the record: from {from} to {to}"))
+}
+
+fn no_values(column: &RecordColumn) -> Diagnostic {
+    let message = format!("column `{}` holds no value at all", column.name);
+    Diagnostic::error("record::no_values", message)
+        .at(column.span.clone(), "only gaps below")
+        .help("remove the column, or name those that are to be read")
+}

@@ -1,0 +1,216 @@
+//! A CSV file that is read row by row and of which nothing is held: files with millions of rows.
+
+use lptn_units::Type;
+
+use crate::diagnostic::Diagnostic;
+use crate::file::Span;
+use crate::form::header;
+use crate::head::{Asked, Column, Head, Row, Wrong, position, reader, row, value};
+use crate::hints;
+use crate::text::CsvText;
+use crate::words::list;
+
+/// The place of every so manyeth row is kept; the others are counted from there.
+const STRIDE: usize = 256;
+
+/// A file, standing at a row.
+pub struct Rows<'s> {
+    /// The columns.
+    head: Head,
+    /// What names the file.
+    pub asked: Asked,
+    /// Whether the row has as many cells as the header, so that each stands where it seems to.
+    pub sound: bool,
+    /// How many problems of its cells were found.
+    pub problems: usize,
+    text: &'s CsvText,
+    reader: csv::Reader<&'s [u8]>,
+    record: csv::StringRecord,
+    rows: usize,
+    marks: Vec<usize>,
+    skipped: Vec<usize>,
+}
+
+impl<'s> Rows<'s> {
+    /// A file, standing before its first row; `example` is a header as it could be.
+    ///
+    /// # Errors
+    /// What is wrong with its form.
+    pub fn open(text: &'s CsvText, asked: Asked, example: &str) -> Result<Self, Diagnostic> {
+        let mut reader = reader(&text.text);
+        let mut record = csv::StringRecord::new();
+        let found = reader.read_record(&mut record).unwrap_or(false);
+        let head = header(text, found.then(|| record.clone()), (hints::NETLIST, example));
+        let head = head.map_err(|problem| asked.also(problem))?;
+        let (marks, skipped) = (Vec::new(), Vec::new());
+        Ok(Self { head, asked, sound: true, problems: 0, text, reader, record, rows: 0, marks, skipped })
+    }
+
+    /// Goes to the next row; false at the end.
+    pub fn step(&mut self) -> bool {
+        // the text is UTF-8 and rows may be of any length: nothing else can fail
+        if !self.reader.read_record(&mut self.record).unwrap_or(false) {
+            return false;
+        }
+        if self.rows.is_multiple_of(STRIDE) {
+            self.marks.push(position(&self.record));
+        }
+        self.rows += 1;
+        let (cells, columns) = (self.record.len(), self.head.columns.len());
+        self.sound = cells >= columns && (columns..cells).all(|index| self.cell(index).is_empty());
+        true
+    }
+
+    /// Leaves out the row: it becomes no element.
+    pub fn skip(&mut self) {
+        self.skipped.push(self.rows - 1 - self.skipped.len());
+    }
+
+    /// The text of a cell without blanks around it.
+    pub fn cell(&self, index: usize) -> &str {
+        self.record.get(index).unwrap_or_default().trim()
+    }
+
+    /// The row, for what is said about it.
+    fn row(&self) -> Row {
+        row(self.record.clone(), &self.text.text)
+    }
+
+    /// The place of a cell of the row.
+    pub fn place(&self, index: usize) -> Span {
+        self.row().place(self.head.file(), index)
+    }
+
+    /// Whether there is a column of this name.
+    pub fn has(&self, name: &str) -> bool {
+        self.head.columns.iter().any(|column| column.name == name)
+    }
+
+    /// The name of the row's element, if it has one.
+    pub fn name(&self, column: Option<usize>) -> Option<&str> {
+        column.map(|index| self.cell(index)).filter(|name| !name.is_empty())
+    }
+
+    /// The number of the row below the header, from 1.
+    pub fn count(&self) -> u32 {
+        u32::try_from(self.rows).unwrap_or(u32::MAX)
+    }
+
+    /// The way back from the elements to their rows.
+    pub fn marks(self) -> Marks {
+        let count = self.rows - self.skipped.len();
+        Marks { text: self.text.clone(), count, marks: self.marks, skipped: self.skipped }
+    }
+
+    /// The position of a column that has to be there.
+    ///
+    /// # Errors
+    /// That it is not there, or twice.
+    pub fn required(&self, name: &str) -> Result<usize, Diagnostic> {
+        self.head.find(name, &self.asked)
+    }
+
+    /// The position of a column that may be there.
+    ///
+    /// # Errors
+    /// That it is there twice.
+    pub fn optional(&self, name: &str) -> Result<Option<usize>, Diagnostic> {
+        self.head.optional(name, &self.asked)
+    }
+
+    /// A column of numbers of this type, which has to be there.
+    ///
+    /// # Errors
+    /// That it is not there, is there twice, or has another unit.
+    pub fn numbers(&self, name: &str, ty: Type) -> Result<Column, Diagnostic> {
+        self.head.numbers(name, Some(ty), &self.asked)
+    }
+
+    /// The place of a column's header.
+    pub fn header(&self, index: usize) -> Span {
+        self.head.columns[index].place.clone()
+    }
+
+    /// The number in a cell, in SI units.
+    ///
+    /// # Errors
+    /// Why it holds none.
+    pub fn number(&self, column: &Column) -> Result<f64, Wrong> {
+        value(self.cell(column.index), &column.unit)
+    }
+
+    /// A problem for every column that is not one of these.
+    pub fn unknown_columns(&self, known: &[&str]) -> Vec<Diagnostic> {
+        let unknown = self.head.columns.iter().filter(|column| !known.contains(&column.name.as_str()));
+        let told = unknown.map(|column| {
+            let message = format!("{} have no column `{}`", self.asked.words, column.name);
+            let problem = Diagnostic::error("netlist::csv_unknown_column", message);
+            self.asked.also(problem.at(column.place.clone(), "unknown column")).did_you_mean(
+                &column.name,
+                known.iter().copied(),
+                || format!("the columns are {}", list(known)),
+            )
+        });
+        told.collect()
+    }
+
+    /// A cell without a usable number.
+    pub fn no_number(&self, index: usize, wrong: Wrong) -> Diagnostic {
+        let problem = self.head.no_number(&self.row(), (index, wrong), &self.asked);
+        match wrong {
+            Wrong::Missing => problem.help("fill it in, or remove the row"),
+            Wrong::NotFinite => problem.help("write a number, or remove the row"),
+            Wrong::Text | Wrong::Cold => problem,
+        }
+    }
+
+    /// A cell that has to hold a name and is empty.
+    pub fn no_name(&self, index: usize) -> Diagnostic {
+        let message = format!("column `{}` has no name in this row", self.head.columns[index].name);
+        let problem = Diagnostic::error(hints::NETLIST.missing_value, message).at(self.place(index), "");
+        self.asked.also(problem).help("fill it in, or remove the row")
+    }
+
+    /// A row that has more or fewer cells than the header.
+    pub fn wrong_length(&self) -> Diagnostic {
+        let row = self.row();
+        let extra = self.head.extra(&row, &self.asked);
+        extra.unwrap_or_else(|| self.head.short(&row, (&self.asked, "n1,,20")))
+    }
+}
+
+/// The way back to the rows of a file of which nothing is held.
+#[derive(Clone, Debug)]
+pub struct Marks {
+    /// How many elements the rows became.
+    pub count: usize,
+    text: CsvText,
+    /// The bytes of the rows 0, [`STRIDE`], 2 [`STRIDE`] and so on.
+    marks: Vec<usize>,
+    /// How many elements came before each row that is none.
+    skipped: Vec<usize>,
+}
+
+impl Marks {
+    /// The place of an element's cell; `None` if the cell is empty.
+    pub fn cell(&self, element: usize, column: usize) -> Option<Span> {
+        let row = self.row(element)?;
+        (!row.cell(column).is_empty()).then(|| row.place(self.text.file, column))
+    }
+
+    /// The place of an element's row.
+    pub fn line(&self, element: usize) -> Option<Span> {
+        Some(self.row(element)?.whole(self.text.file))
+    }
+
+    fn row(&self, element: usize) -> Option<Row> {
+        let number = element + self.skipped.partition_point(|before| *before <= element);
+        let mark = *self.marks.get(number / STRIDE)?;
+        let mut records = reader(self.text.text.get(mark..)?).into_records();
+        let mut cells = records.nth(number % STRIDE)?.ok()?;
+        let mut position = cells.position()?.clone();
+        position.set_byte(position.byte() + u64::try_from(mark).ok()?);
+        cells.set_position(Some(position));
+        Some(row(cells, &self.text.text))
+    }
+}

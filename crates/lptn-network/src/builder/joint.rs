@@ -1,0 +1,133 @@
+//! Paths that end at faces of grids: one for each cell of the face.
+
+use lptn_laws::{Extent, Kind};
+use lptn_units::Dimension;
+
+use crate::builder::grid::{product, scaled, typed};
+use crate::builder::{NetworkBuilder, Path};
+use crate::error::BuildErrorKind;
+use crate::id::{End, GridId, Item, JointId, NodeId};
+use crate::parts::grid::{GridFace, Joint, Terminal};
+use crate::value::{Input, Value};
+
+impl NetworkBuilder {
+    /// Adds a path between nodes, boundaries and faces of grids. One that ends at a face becomes a conductor for each of
+    /// its cells; they share the conductance or the area of the whole. Two faces are joined cell by cell, in the order
+    /// of the axes along each.
+    ///
+    /// Expressions in its values see the temperatures of each conductor by itself, and are those of the whole path.
+    pub fn connect(
+        &mut self,
+        name: &str,
+        kind: Kind,
+        (from, to): (impl Into<Terminal>, impl Into<Terminal>),
+        path: Path,
+    ) -> Item {
+        let (from, to) = (from.into(), to.into());
+        if let (Terminal::End(from), Terminal::End(to)) = (from, to) {
+            return Item::Conductor(self.conductor(name, kind, (from, to), path));
+        }
+        let item = Item::Joint(JointId::from_len(self.parts.joints.len()));
+        let first = self.next_conductor();
+        let (name, area) = (name.to_owned(), path.area());
+        let joint = Joint { name, kind, from, to, area, first, end: first };
+        match self.joint_problem(&joint, item, path.is_stream()) {
+            Some(problem) => {
+                self.error(&joint.name, problem);
+                self.register(&joint.name, item);
+                self.parts.joints.push(joint);
+                item
+            }
+            None => self.join(joint, (item, path)),
+        }
+    }
+
+    fn join(&mut self, mut joint: Joint, (item, path): (Item, Path)) -> Item {
+        let named = joint.faces().next();
+        let indices = named.map_or_else(Vec::new, |at| self.face_indices(at));
+        let path = path.shared(indices.len() as f64);
+        let (from, to) = (self.ends(joint.from, indices.len()), self.ends(joint.to, indices.len()));
+        joint.first = self.next_conductor();
+        let whole = indices.iter().any(|index| !index.is_empty());
+        if whole {
+            self.register(&joint.name, item);
+        }
+        for ((from, to), index) in from.into_iter().zip(to).zip(&indices) {
+            self.conductor(&format!("{}{index}", joint.name), joint.kind, (from, to), path.clone());
+        }
+        joint.end = self.next_conductor();
+        if whole {
+            self.inner_conductors(joint.first, item);
+        }
+        self.parts.joints.push(joint);
+        item
+    }
+
+    /// The indices of the cells of a face, as they end names.
+    fn face_indices(&self, at: GridFace) -> Vec<String> {
+        let Some(grid) = self.parts.grids.get(at.grid.index()) else { return Vec::new() };
+        grid.face_places(at.face).map(|place| grid.face_indices(at.face, place)).collect()
+    }
+
+    fn ends(&mut self, terminal: Terminal, count: usize) -> Vec<End> {
+        match terminal {
+            Terminal::End(end) => vec![end; count],
+            Terminal::Face(at) => self.surfaces(at.grid, at.face).into_iter().map(End::Node).collect(),
+        }
+    }
+
+    /// Why a path cannot end where it should.
+    fn joint_problem(&self, joint: &Joint, item: Item, stream: bool) -> Option<BuildErrorKind> {
+        let faces: Vec<GridFace> = joint.faces().collect();
+        if faces.iter().any(|at| at.grid.index() >= self.parts.grids.len()) {
+            return Some(BuildErrorKind::ForeignId { item });
+        }
+        if stream {
+            return Some(BuildErrorKind::StreamIntoFace { item });
+        }
+        let [a, b] = faces[..] else { return None };
+        let cells = |at: GridFace| at.face.along().map(|axis| self.parts.grids[at.grid.index()].cells[axis]);
+        let name = |at: GridFace| self.parts.grids[at.grid.index()].face_name(at.face);
+        let (cells, names) = ([cells(a), cells(b)], [name(a), name(b)]);
+        (cells[0] != cells[1]).then_some(BuildErrorKind::FaceCells { item, faces: [a, b], names, cells })
+    }
+
+    /// The area of a face, for a path whose area is that of the face; `None` if the grid is not of this builder.
+    pub fn face_area(&self, at: GridFace) -> Option<Input> {
+        let grid = self.parts.grids.get(at.grid.index())?;
+        let sides = at.face.along().map(|axis| grid.size[axis].clone());
+        Some(typed(product(sides.to_vec()), Dimension::AREA))
+    }
+
+    /// The nodes of a grid with the share of each in its volume, for a source into the whole.
+    pub fn shares_of_volume(&self, grid: GridId) -> Vec<(NodeId, f64)> {
+        let Some(grid) = self.parts.grids.get(grid.index()) else { return Vec::new() };
+        let share = 1.0 / grid.count() as f64;
+        grid.nodes().map(|node| (node, share)).collect()
+    }
+
+    /// The surfaces of a face with the share of each in its area, for a source into the face.
+    pub fn shares_of_face(&mut self, at: GridFace) -> Vec<(NodeId, f64)> {
+        let nodes = self.surfaces(at.grid, at.face);
+        let share = 1.0 / nodes.len() as f64;
+        nodes.into_iter().map(|node| (node, share)).collect()
+    }
+}
+
+impl Path {
+    /// The area that it names.
+    fn area(&self) -> Option<Value> {
+        let key = self.formula().declaration().area.first()?;
+        Some(self.value(key)?.value.clone())
+    }
+
+    /// One of `count` equal parts of it, side by side.
+    fn shared(self, count: f64) -> Self {
+        let times = |factor: f64| move |input: Input| Input { value: scaled(&input.value, factor), ..input };
+        match self.formula().declaration().extent {
+            Extent::Divided(key) => self.with(key, times(1.0 / count)),
+            Extent::Multiplied(key) => self.with(key, times(count)),
+            Extent::Whole => self,
+        }
+    }
+}

@@ -1,0 +1,359 @@
+//! Builds a network and checks that it is one.
+
+pub(crate) mod control;
+pub(crate) mod grid;
+pub(crate) mod joint;
+pub(crate) mod lookup;
+pub(crate) mod numbered;
+pub(crate) mod result;
+pub(crate) mod signal;
+pub(crate) mod substance;
+
+use std::sync::Arc;
+
+use lptn_laws::{Formula, Kind};
+use lptn_units::{Dimension, Expression, Program, RESERVED, TableSymbol, Type, UnitError};
+
+use crate::error::{BuildError, BuildErrorKind, BuildErrors};
+use crate::id::{
+    BoundaryId, CapacitorId, ConductorId, End, Field, Item, LimitId, NodeId, ParameterId, SourceId, TableId,
+};
+use crate::law::Law;
+use crate::names::is_path;
+use crate::network::Network;
+use crate::numbers::Numbers;
+use crate::parts::Parts;
+use crate::parts::element::{Boundary, Capacitor, Node, Parameter, Source};
+use crate::parts::label::is_numbered;
+use crate::parts::result::{Bound, Limit, Severity};
+use crate::parts::whole;
+use crate::scope::{Context, NetworkScope};
+use crate::value::{Input, Value};
+use crate::{check, clash};
+
+/// How far the shares of a source may be from a sum of 1.
+const SHARES: f64 = 1e-9;
+
+const CAPACITY: Type = Type::of(Dimension::CAPACITY);
+
+/// The law of a path with its values, as a builder takes it.
+pub type Path = Law<Input>;
+
+impl From<crate::typed::Resistance> for Path {
+    fn from(value: crate::typed::Resistance) -> Self {
+        Self::resistance(value)
+    }
+}
+
+impl From<crate::typed::Conductance> for Path {
+    fn from(value: crate::typed::Conductance) -> Self {
+        Self::conductance(value)
+    }
+}
+
+/// Collects the parts of a network; [`NetworkBuilder::build`] checks them all at once.
+#[derive(Clone, Debug, Default)]
+pub struct NetworkBuilder {
+    pub(crate) parts: Parts,
+    errors: Vec<BuildError>,
+}
+
+impl NetworkBuilder {
+    /// A builder without any part.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Sets the title.
+    pub fn title(&mut self, title: &str) {
+        self.parts.title = Some(title.to_owned());
+    }
+
+    /// Adds a parameter. Its expression may use parameters that were added before it.
+    pub fn parameter(&mut self, name: &str, value: impl Into<Input>) -> ParameterId {
+        let Input { value, ty, deviation, .. } = value.into();
+        let id = ParameterId::from_len(self.parts.parameters.len());
+        self.parts.parameters.push(Parameter { name: name.to_owned(), ty, value, deviation });
+        Arc::make_mut(&mut self.parts.layout).add_parameter(id);
+        self.parts.parameter_names.entry(name.to_owned()).or_insert(id);
+        self.register_value(name, Item::Parameter(id));
+        id
+    }
+
+    /// Adds a node with a heat capacity and a temperature at the start.
+    pub fn node(&mut self, name: &str, capacity: impl Into<Input>, initial: impl Into<Input>) -> NodeId {
+        self.add_node(name, Some(capacity.into()), Some(initial.into()), false)
+    }
+
+    /// Adds a node whose capacity is the sum of its capacitors.
+    pub fn node_of_parts(&mut self, name: &str, initial: impl Into<Input>) -> NodeId {
+        self.add_node(name, None, Some(initial.into()), false)
+    }
+
+    /// Adds a junction without capacity.
+    pub fn massless(&mut self, name: &str) -> NodeId {
+        self.add_node(name, None, None, true)
+    }
+
+    /// Adds a node as a netlist may write it; [`NetworkBuilder::build`] says what is missing.
+    pub fn add_node(
+        &mut self,
+        name: &str,
+        capacity: Option<Input>,
+        initial: Option<Input>,
+        massless: bool,
+    ) -> NodeId {
+        let id = NodeId::from_len(self.parts.nodes.len());
+        let at = |field| (name, Item::Node(id), field);
+        let lump = capacity.as_ref().and_then(|c| c.lump.clone());
+        let capacity = capacity.map(|c| self.typed(at(Field::Capacity), c, CAPACITY));
+        let initial = initial.map(|t| self.typed(at(Field::Initial), t, Type::ABSOLUTE_TEMPERATURE));
+        self.parts.nodes.push(Node {
+            name: name.to_owned(),
+            capacity,
+            lump,
+            initial,
+            molten: 0.0,
+            length: None,
+            massless,
+            stood: None,
+        });
+        Arc::make_mut(&mut self.parts.layout).add_node(id);
+        self.register(name, Item::Node(id));
+        id
+    }
+
+    /// Adds a part to the capacity of `node`.
+    pub fn capacitor(&mut self, name: &str, node: NodeId, capacity: impl Into<Input>) -> CapacitorId {
+        let id = CapacitorId::from_len(self.parts.capacitors.len());
+        let at = (name, Item::Capacitor(id), Field::Capacity);
+        self.check_end(name, Item::Capacitor(id), node.into());
+        let input = capacity.into();
+        let lump = input.lump.clone();
+        let capacity = self.typed(at, input, CAPACITY);
+        self.parts.capacitors.push(Capacitor { name: name.to_owned(), node, capacity, lump });
+        self.register(name, Item::Capacitor(id));
+        id
+    }
+
+    /// Adds a boundary with a given temperature, which may depend on `t`.
+    pub fn boundary(&mut self, name: &str, temperature: impl Into<Input>) -> BoundaryId {
+        let id = BoundaryId::from_len(self.parts.boundaries.len());
+        let at = (name, Item::Boundary(id), Field::Temperature);
+        let temperature = self.typed(at, temperature.into(), Type::ABSOLUTE_TEMPERATURE);
+        self.parts.boundaries.push(Boundary { name: name.to_owned(), temperature });
+        Arc::make_mut(&mut self.parts.layout).add_boundary(id);
+        self.register(name, Item::Boundary(id));
+        id
+    }
+
+    /// Adds a resistor between two ends.
+    pub fn resistor(
+        &mut self,
+        name: &str,
+        from: impl Into<End>,
+        to: impl Into<End>,
+        path: impl Into<Path>,
+    ) -> ConductorId {
+        self.conductor(name, Kind::Resistor, (from.into(), to.into()), path.into())
+    }
+
+    /// Adds a convecting surface between two ends.
+    pub fn convection(
+        &mut self,
+        name: &str,
+        from: impl Into<End>,
+        to: impl Into<End>,
+        path: impl Into<Path>,
+    ) -> ConductorId {
+        self.conductor(name, Kind::Convection, (from.into(), to.into()), path.into())
+    }
+
+    /// Adds a conductor of any kind.
+    pub fn conductor(&mut self, name: &str, kind: Kind, (from, to): (End, End), path: Path) -> ConductorId {
+        let id = self.push_conductor(name.into(), kind, (from, to), path);
+        self.register(name, Item::Conductor(id));
+        id
+    }
+
+    /// Adds a source that heats a node with `power`, which may depend on `t`.
+    pub fn source(&mut self, name: &str, into: impl Into<End>, power: impl Into<Input>) -> SourceId {
+        let id = self.push_source(name.into(), into.into(), power.into());
+        self.register(name, Item::Source(id));
+        id
+    }
+
+    /// Adds a source whose heat is shared between nodes; the shares have to sum to 1.
+    pub fn shared_source(&mut self, name: &str, into: &[(NodeId, f64)], power: impl Into<Input>) -> SourceId {
+        let id = SourceId::from_len(self.parts.sources.len());
+        let at = (name, Item::Source(id), Field::Power);
+        let power = self.typed(at, power.into(), Type::of(Dimension::POWER));
+        into.iter().for_each(|&(node, _)| self.check_end(name, Item::Source(id), node.into()));
+        let sum: f64 = into.iter().map(|(_, share)| share).sum();
+        let usable = into.iter().all(|(_, share)| share.is_finite() && *share >= 0.0);
+        if !(usable && (sum - 1.0).abs() <= SHARES) {
+            self.error(name, BuildErrorKind::Shares { source: id, sum });
+        }
+        self.parts.sources.push(Source { label: name.into(), into: into.to_vec(), power });
+        self.register(name, Item::Source(id));
+        id
+    }
+
+    /// Adds a table that expressions added afterwards may call by its name.
+    pub fn table(&mut self, name: &str, table: TableSymbol) -> TableId {
+        let id = TableId::from_len(self.parts.tables.len());
+        self.parts.tables.push((name.to_owned(), table));
+        self.register_value(name, Item::Table(id));
+        id
+    }
+
+    /// The names that an expression may use in this place.
+    pub fn scope(&self, context: Context) -> NetworkScope<'_> {
+        NetworkScope::new(&self.parts, context)
+    }
+
+    /// Compiles an expression for this place over what was added so far.
+    ///
+    /// # Errors
+    /// Every problem of the text: syntax, unknown names, dimensions.
+    pub fn expression_in(
+        &self,
+        context: Context,
+        text: &str,
+        expected: Option<Type>,
+    ) -> Result<Program, Vec<UnitError>> {
+        Expression::parse(text).map_err(|e| vec![e])?.compile(&self.scope(context), expected)
+    }
+
+    /// Compiles an expression over the parameters, signals and tables added so far and `t`.
+    ///
+    /// # Errors
+    /// Every problem of the text: syntax, unknown names, dimensions.
+    pub fn expression(&self, text: &str, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
+        self.expression_in(Context::Time, text, expected)
+    }
+
+    /// The names that expressions of results may use.
+    pub fn post_scope(&self) -> NetworkScope<'_> {
+        self.scope(Context::Result)
+    }
+
+    /// Adds a limit: `of`, written as `text`, has to stay below or above a value of the same type, which is
+    /// constant.
+    pub fn limit(
+        &mut self,
+        name: &str,
+        (of, text): (Input, &str),
+        (bound, value): (Bound, Input),
+        severity: Severity,
+    ) -> LimitId {
+        let id = LimitId::from_len(self.parts.limits.len());
+        let ty = of.ty;
+        let value = self.typed((name, Item::Limit(id), bound.field()), value, ty);
+        let (name, text) = (name.to_owned(), text.to_owned());
+        self.parts.limits.push(Limit { name: name.clone(), of: of.value, ty, bound, value, severity, text });
+        self.register(&name, Item::Limit(id));
+        id
+    }
+
+    /// Checks everything and gives the network.
+    ///
+    /// # Errors
+    /// All problems at once.
+    pub fn build(mut self) -> Result<Network, BuildErrors> {
+        if self.errors.iter().any(|e| matches!(e.kind, BuildErrorKind::ForeignId { .. })) {
+            return Err(BuildErrors(self.errors)); // nothing else can be looked up
+        }
+        check::structure(&self.parts, &mut self.errors);
+        clash::names(&self.parts, &mut self.errors);
+        whole::collapse(&self.parts, &mut self.errors);
+        self.parts.settle();
+        self.parts.settle_grid_values();
+        match Numbers::evaluate(&self.parts, &[]) {
+            Ok(numbers) if self.errors.is_empty() => {
+                Ok(Network { parts: Arc::new(self.parts), numbers: Arc::new(numbers) })
+            }
+            Ok(_) => Err(BuildErrors(self.errors)),
+            Err(more) => {
+                self.errors.extend(more);
+                Err(BuildErrors(self.errors))
+            }
+        }
+    }
+
+    pub(crate) fn law(&mut self, name: &str, item: Item, path: Path) -> Law {
+        let declared = path.formula().declaration();
+        if path.values().len() != declared.fields.len()
+            || path.fluid().is_some() != declared.carries.is_of_fluid()
+        {
+            self.error(name, BuildErrorKind::LawValues { item, formula: path.formula() });
+            return Law::new(Formula::Resistance, [Value::Constant(1.0)]);
+        }
+        if path.fluid().is_some_and(|fluid| fluid.index() >= self.parts.fluids.len()) {
+            self.error(name, BuildErrorKind::ForeignId { item });
+            return Law::new(Formula::Resistance, [Value::Constant(1.0)]);
+        }
+        let mut types = declared.fields.iter().map(|field| field.ty);
+        path.map(|field, input| {
+            let wanted = types.next().unwrap_or(Type::SCALAR);
+            self.typed((name, item, field), input, wanted)
+        })
+    }
+
+    pub(crate) fn typed(
+        &mut self,
+        (name, item, field): (&str, Item, Field),
+        input: Input,
+        wanted: Type,
+    ) -> Value {
+        if input.ty != wanted {
+            self.error(name, BuildErrorKind::WrongType { item, field, wanted, found: input.ty });
+        }
+        input.value
+    }
+
+    pub(crate) fn register(&mut self, name: &str, item: Item) {
+        self.check_name(name, item);
+        match self.parts.item(name) {
+            Some(first) => self.duplicate(name, first, item),
+            None => self.parts.names.insert(name, item),
+        }
+    }
+
+    pub(crate) fn register_value(&mut self, name: &str, item: Item) {
+        self.check_name(name, item);
+        match self.parts.value_names.get(name) {
+            Some(&first) => self.duplicate(name, first, item),
+            None => drop(self.parts.value_names.insert(name.to_owned(), item)),
+        }
+    }
+
+    pub(crate) fn check_end(&mut self, name: &str, item: Item, end: End) {
+        if !self.knows(end) {
+            self.error(name, BuildErrorKind::ForeignId { item });
+        }
+    }
+
+    pub(crate) fn knows(&self, end: End) -> bool {
+        match end {
+            End::Node(id) => id.index() < self.parts.nodes.len(),
+            End::Boundary(id) => id.index() < self.parts.boundaries.len(),
+        }
+    }
+
+    pub(crate) fn check_name(&mut self, name: &str, item: Item) {
+        if !is_path(name) {
+            self.error(name, BuildErrorKind::BadName { item });
+        } else if is_numbered(name) || RESERVED.contains(&name) {
+            self.error(name, BuildErrorKind::ReservedName { item });
+        }
+    }
+
+    fn duplicate(&mut self, name: &str, first: Item, second: Item) {
+        self.error(name, BuildErrorKind::DuplicateName { first, second });
+    }
+
+    pub(crate) fn error(&mut self, name: &str, kind: BuildErrorKind) {
+        self.errors.push(BuildError { kind, name: name.to_owned() });
+    }
+}

@@ -1,0 +1,83 @@
+//! Conductors and sources by the million, which have no names of their own.
+
+use lptn_laws::{Formula, Kind};
+use lptn_units::{Dimension, Type};
+
+use crate::builder::{NetworkBuilder, Path};
+use crate::error::BuildErrorKind;
+use crate::id::{ConductorId, End, Field, Item, NodeId, SourceId};
+use crate::parts::element::{Conductor, Source};
+use crate::parts::label::Label;
+use crate::value::Input;
+
+const CONDUCTANCE: Type = Type::of(Dimension::CONDUCTANCE);
+
+impl NetworkBuilder {
+    /// Adds a conductor that is called by a number, `import.conductor[17]`. Numbers are at least 1 and rise with each
+    /// conductor that is added.
+    pub fn numbered_conductor(
+        &mut self,
+        number: u32,
+        kind: Kind,
+        (from, to): (End, End),
+        path: Path,
+    ) -> ConductorId {
+        let position = self.parts.conductors.len();
+        self.parts.numbered_conductors.get_or_insert((position, number));
+        self.push_conductor(Label::Number(number), kind, (from, to), path)
+    }
+
+    /// Adds a source that is called by a number, `import.source[17]`, as [`NetworkBuilder::numbered_conductor`].
+    pub fn numbered_source(&mut self, number: u32, into: End, power: Input) -> SourceId {
+        let position = self.parts.sources.len();
+        self.parts.numbered_sources.get_or_insert((position, number));
+        self.push_source(Label::Number(number), into, power)
+    }
+
+    pub(crate) fn push_conductor(
+        &mut self,
+        label: Label,
+        kind: Kind,
+        (from, to): (End, End),
+        path: Path,
+    ) -> ConductorId {
+        let id = ConductorId::from_len(self.parts.conductors.len());
+        let item = Item::Conductor(id);
+        let name = || label.of_conductor();
+        let law = match path {
+            // what nearly all of a large network are
+            path if is_conductance(&path) => path.map(|_, input| input.value),
+            path => self.law(&name(), item, path),
+        };
+        if !(self.knows(from) && self.knows(to)) {
+            self.error(&name(), BuildErrorKind::ForeignId { item });
+        }
+        if from == to {
+            self.error(&name(), BuildErrorKind::SelfLink { conductor: id });
+        }
+        self.parts.conductors.push(Conductor { label, kind, from, to, law });
+        id
+    }
+
+    pub(crate) fn push_source(&mut self, label: Label, into: End, power: Input) -> SourceId {
+        let id = SourceId::from_len(self.parts.sources.len());
+        let item = Item::Source(id);
+        let name = label.of_source().into_owned();
+        let power = self.typed((&name, item, Field::Power), power, Type::of(Dimension::POWER));
+        self.check_end(&name, item, into);
+        let node = match into {
+            End::Node(node) => node,
+            End::Boundary(_) => {
+                self.error(&name, BuildErrorKind::SourceIntoBoundary { source: id });
+                NodeId(0)
+            }
+        };
+        self.parts.sources.push(Source { label, into: vec![(node, 1.0)], power });
+        id
+    }
+}
+
+fn is_conductance(path: &Path) -> bool {
+    let simple = path.formula() == Formula::Conductance && path.fluid().is_none();
+    simple && matches!(path.values(), [input] if input.ty == CONDUCTANCE)
+}

@@ -1,0 +1,45 @@
+//! Adds signals.
+
+use std::sync::Arc;
+
+use lptn_units::{Type, Unit};
+
+use crate::builder::NetworkBuilder;
+use crate::error::BuildErrorKind;
+use crate::id::{Item, SignalId};
+use crate::parts::signal::{AfterEnd, Course, Signal};
+use crate::value::{Input, Value};
+
+impl NetworkBuilder {
+    /// Adds a signal. Expressions that are compiled afterwards may use its name.
+    pub fn signal(&mut self, name: &str, ty: Type, course: Course) -> SignalId {
+        let sound = course.is_sound();
+        let constant = Course::Expression(Value::Constant(f64::NAN));
+        let course = if sound { course } else { constant }; // nothing reads it: the network is refused
+        let layout = Arc::make_mut(&mut self.parts.layout);
+        let id = layout.add_signal(Signal { name: name.to_owned(), ty, course: course.clone(), unit: None });
+        if let AfterEnd::Repeat(period) = course.after() {
+            let (first, last) = course.span();
+            let covers = period > 0.0 && period.is_finite() && period >= (last - first) * (1.0 - 1e-12);
+            if !covers {
+                self.error(name, BuildErrorKind::PeriodTooShort { signal: id, period, span: last - first });
+            }
+        }
+        if !sound {
+            self.error(name, BuildErrorKind::SignalPoints { signal: id });
+        }
+        self.register_value(name, Item::Signal(id));
+        id
+    }
+
+    /// Has a signal shown in a unit of its own; one of another dimension is left alone.
+    pub fn show_signal_in(&mut self, id: SignalId, unit: Unit) {
+        Arc::make_mut(&mut self.parts.layout).show_signal_in(id, unit);
+    }
+
+    /// Adds a signal that an expression of `t`, parameters and earlier signals describes.
+    pub fn signal_expression(&mut self, name: &str, input: impl Into<Input>) -> SignalId {
+        let Input { value, ty, .. } = input.into();
+        self.signal(name, ty, Course::Expression(value))
+    }
+}

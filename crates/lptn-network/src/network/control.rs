@@ -1,0 +1,61 @@
+//! How far a control is from switching.
+
+use crate::evaluation::Evaluation;
+use crate::id::{ControlId, Item};
+use crate::input_error::{InputError, InputProblem};
+use crate::network::Network;
+use crate::parts::control::{Acts, Thermostat};
+use crate::value::Value;
+
+impl Network {
+    /// The thermostat of a control.
+    pub fn thermostat(&self, id: ControlId) -> Option<&Thermostat> {
+        self.controls()[id.index()].thermostat.as_ref()
+    }
+
+    /// How long a control stays as it is after a switch, in s.
+    pub fn min_dwell(&self, id: ControlId) -> f64 {
+        self.numbers.min_dwell[id.index()]
+    }
+
+    /// The distance in K between the thresholds of a control; `None` unless both are constant.
+    pub fn dead_band(&self, id: ControlId) -> Option<f64> {
+        let Thermostat { on, off, .. } = self.thermostat(id)?;
+        let mut scope = self.evaluation();
+        let mut constant = |value: &Value| {
+            let is = self.parts.reads(value).is_constant();
+            is.then(|| value.at(&mut scope).ok()).flatten()
+        };
+        Some((constant(on)? - constant(off)?).abs())
+    }
+
+    /// How far, in K, the temperature that a control feels is beyond the threshold at which it leaves the state that
+    /// it has in the mode of `scope`: a positive number means that it has to switch. `scope` stands at a time;
+    /// `temperatures` are those of all vertices in K.
+    ///
+    /// # Errors
+    /// [`InputError`] if a threshold cannot be had, or the two are crossed over.
+    pub fn control_excess(
+        &self,
+        id: ControlId,
+        scope: &mut Evaluation,
+        temperatures: &[f64],
+    ) -> Result<f64, InputError> {
+        let Some(thermostat) = self.thermostat(id) else { return Ok(-1.0) };
+        let item = Item::Control(id);
+        let [on_field, off_field] = thermostat.acts.fields();
+        self.place_named(&self.parts.control_dependence[id.index()], scope, temperatures);
+        let on = self.number(item, on_field, &thermostat.on, scope)?;
+        let off = self.number(item, off_field, &thermostat.off, scope)?;
+        if !thermostat.acts.in_order(on, off) {
+            return Err(self.failed(item, (on_field, InputProblem::ThresholdsCrossed { on, off }), scope));
+        }
+        let felt = temperatures[self.vertex(thermostat.sense)];
+        Ok(match (thermostat.acts, scope.is_on(id)) {
+            (Acts::Cooling, false) => felt - on,
+            (Acts::Cooling, true) => off - felt,
+            (Acts::Heating, false) => on - felt,
+            (Acts::Heating, true) => felt - off,
+        })
+    }
+}

@@ -1,0 +1,88 @@
+//! Grids as a whole.
+
+use crate::id::{ConductorId, Item, JointId, NodeId};
+use crate::network::Network;
+use crate::parts::grid::{Face, Terminal};
+use crate::parts::grid_value::GridValue;
+
+impl Network {
+    /// What a node or conductor is a part of: the grid of a cell, a surface node or an inner path, the joint of a path
+    /// from one cell of a face; `None` for what stands for itself.
+    pub fn whole(&self, item: Item) -> Option<Item> {
+        self.parts.whole(item)
+    }
+
+    /// The nodes that stand for themselves: all but cells and surfaces of grids.
+    pub fn outer_nodes(&self) -> impl Iterator<Item = NodeId> + '_ {
+        self.node_ids().filter(|id| self.whole(Item::Node(*id)).is_none())
+    }
+
+    /// The conductors that stand for themselves: all but those inside grids and joints.
+    pub fn outer_conductors(&self) -> impl Iterator<Item = ConductorId> + '_ {
+        self.conductor_ids().filter(|id| self.whole(Item::Conductor(*id)).is_none())
+    }
+}
+
+impl Network {
+    /// The values of grids that are worth a column: mean, minimum, maximum, and the faces that something is attached to,
+    /// but for those of a single node, which is named as the face is.
+    pub fn grid_values(&self) -> impl Iterator<Item = GridValue> + '_ {
+        self.parts.grid_values().filter(|value| match value {
+            GridValue::Face(at) => {
+                let grid = &self.grids()[at.grid.index()];
+                grid.surfaces[at.face as usize].is_some() && grid.face_axes(at.face).next().is_some()
+            }
+            _ => true,
+        })
+    }
+
+    /// The values of grids that are not in [`Network::grid_values`]: faces that nothing is attached to.
+    pub fn idle_grid_values(&self) -> impl Iterator<Item = GridValue> + '_ {
+        self.parts.grid_values().filter(|value| match value {
+            GridValue::Face(at) => self.grids()[at.grid.index()].surfaces[at.face as usize].is_none(),
+            _ => false,
+        })
+    }
+
+    /// The nodes that a value of a grid is made of, by their indices.
+    pub fn grid_value_members(&self, value: GridValue) -> Vec<u32> {
+        self.parts.grid_value_members(value)
+    }
+
+    /// A value of a grid in K, from the temperatures of all nodes in K.
+    pub fn grid_value(&self, value: GridValue, nodes: &[f64]) -> f64 {
+        value.of(&self.grid_value_members(value), nodes)
+    }
+}
+
+impl Network {
+    /// What a path ends at, by its name.
+    pub fn terminal_name(&self, terminal: Terminal) -> String {
+        match terminal {
+            Terminal::End(end) => self.name_of(end.into()).into_owned(),
+            Terminal::Face(at) => self.grids()[at.grid.index()].face_name(at.face),
+        }
+    }
+
+    /// The name of a node, for a cell that of its grid and for a surface that of its face.
+    pub fn place_name(&self, id: NodeId) -> String {
+        let Some(Item::Grid(grid)) = self.whole(Item::Node(id)) else {
+            return self.nodes()[id.index()].name.clone();
+        };
+        let grid = &self.grids()[grid.index()];
+        let face = Face::ALL.into_iter().find(|face| grid.surfaces(*face).any(|node| node == id));
+        face.map_or_else(|| grid.name.clone(), |face| grid.face_name(face))
+    }
+
+    /// The paths to faces that are more than one conductor, whose heat is a sum; the others are ordinary conductors.
+    pub fn shared_joints(&self) -> impl Iterator<Item = JointId> + '_ {
+        self.parts.shared_joints()
+    }
+}
+
+impl GridValue {
+    /// The name of its column.
+    pub fn name(self, network: &Network) -> String {
+        network.parts.grid_value_name(self)
+    }
+}

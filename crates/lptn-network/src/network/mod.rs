@@ -1,0 +1,240 @@
+//! A thermal network whose invariants hold.
+
+pub(crate) mod body;
+pub(crate) mod control;
+pub(crate) mod flow;
+pub(crate) mod grid;
+pub(crate) mod lists;
+pub(crate) mod mass;
+pub(crate) mod result;
+pub(crate) mod switch;
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use crate::check::Islands;
+use crate::error::{BuildError, BuildErrorKind, BuildErrors};
+use crate::evaluation::Evaluation;
+use crate::id::{ConductorId, Field, Item, NodeId, ParameterId};
+use crate::input_error::{InputError, InputProblem};
+use crate::law::Flow;
+use crate::names::UnknownName;
+use crate::numbers::Numbers;
+use crate::parameters::Parameters;
+use crate::parts::Parts;
+use crate::value::Value;
+
+/// A thermal network: nodes, boundaries, the paths between them and the heat put in.
+///
+/// Holds by construction: ids are dense and of this network; names are unique; the two ends of a path
+/// differ; capacities, resistances and conductances are finite and positive; each node either has a capacity
+/// and a start temperature, or is massless; each set of connected nodes reaches a capacity or a boundary.
+/// Order is the order of addition. All numbers are in SI units, temperatures in K.
+#[derive(Clone, Debug)]
+pub struct Network {
+    pub(crate) parts: Arc<Parts>,
+    pub(crate) numbers: Arc<Numbers>,
+}
+
+impl Network {
+    /// The title, if there is one.
+    pub fn title(&self) -> Option<&str> {
+        self.parts.title.as_deref()
+    }
+
+    /// What has this name among nodes, boundaries and elements.
+    ///
+    /// # Errors
+    /// [`UnknownName`] with the most similar name.
+    pub fn item(&self, name: &str) -> Result<Item, UnknownName> {
+        self.parts.item(name).ok_or_else(|| {
+            let names = self.parts.element_names();
+            let mut names: Vec<&str> = names.iter().map(|name| &**name).collect();
+            names.sort_unstable();
+            UnknownName::new(name, &names)
+        })
+    }
+
+    /// The node of this name.
+    ///
+    /// # Errors
+    /// [`UnknownName`] if no node has it.
+    pub fn node(&self, name: &str) -> Result<NodeId, UnknownName> {
+        match self.parts.item(name) {
+            Some(Item::Node(id)) => Ok(id),
+            _ => {
+                let names: Vec<&str> = self.nodes().iter().map(|n| n.name.as_str()).collect();
+                Err(UnknownName::new(name, &names))
+            }
+        }
+    }
+
+    /// The parameter of this name.
+    ///
+    /// # Errors
+    /// [`UnknownName`] if there is none.
+    pub fn parameter(&self, name: &str) -> Result<ParameterId, UnknownName> {
+        self.parts.parameter_names.get(name).copied().ok_or_else(|| {
+            let names: Vec<&str> = self.parameters().iter().map(|p| p.name.as_str()).collect();
+            UnknownName::new(name, &names)
+        })
+    }
+
+    /// The value of a parameter in SI units.
+    pub fn parameter_value(&self, id: ParameterId) -> f64 {
+        self.numbers.parameters[id.index()]
+    }
+
+    /// Heat capacity of a node with all its parts at its start, in J/K; 0 for a massless node. See
+    /// [`Network::enthalpy`] for one that depends on temperature.
+    pub fn capacity(&self, id: NodeId) -> f64 {
+        self.numbers.capacity[id.index()]
+    }
+
+    /// Temperature of a node at the start in K; NaN for a massless node, which has none.
+    pub fn initial(&self, id: NodeId) -> f64 {
+        self.numbers.initial[id.index()]
+    }
+
+    /// Conductance of a conductor in W/K; `None` if it is not constant.
+    pub fn conductance(&self, id: ConductorId) -> Option<f64> {
+        match self.flow(id) {
+            Flow::Conductance(conductance) => Some(conductance),
+            Flow::Radiation(_) | Flow::Stream(_) | Flow::Variable => None,
+        }
+    }
+
+    /// The slot that expressions read a parameter from.
+    pub fn parameter_slot(&self, id: ParameterId) -> u32 {
+        self.parts.layout.parameter(id)
+    }
+
+    /// The slot that expressions read a signal from; comparisons read the next one.
+    pub fn signal_slot(&self, id: crate::SignalId) -> u32 {
+        self.parts.layout.signal(id)
+    }
+
+    /// The parameters to change for [`Network::with`]; nothing is changed yet.
+    pub fn overrides(&self) -> Parameters {
+        Parameters::new(Arc::clone(&self.parts))
+    }
+
+    /// The parameters that this network was given in place of its own values, to change others beside them.
+    pub fn given(&self) -> Parameters {
+        let mut parameters = self.overrides();
+        for id in self.parameter_ids().filter(|id| self.numbers.given[id.index()]) {
+            parameters.set(id, self.parameter_value(id));
+        }
+        parameters
+    }
+
+    /// The same network with other parameters: nothing is parsed, and the structure is shared.
+    ///
+    /// # Errors
+    /// What the new numbers break, such as a resistance that is no longer positive.
+    pub fn with(&self, parameters: &Parameters) -> Result<Self, BuildErrors> {
+        if !parameters.belong_to(&self.parts) {
+            let name = self.title().unwrap_or_default().to_owned();
+            return Err(BuildErrors(vec![BuildError { kind: BuildErrorKind::ForeignParameters, name }]));
+        }
+        let numbers = Numbers::evaluate(&self.parts, parameters.values()).map_err(BuildErrors)?;
+        Ok(Self { parts: Arc::clone(&self.parts), numbers: Arc::new(numbers) })
+    }
+
+    /// A place to evaluate this network's inputs; it stands at time 0.
+    pub fn evaluation(&self) -> Evaluation {
+        let mut scope = Evaluation::new(&self.parts.layout, &self.numbers.parameters);
+        if self.has_events() {
+            scope.set_positions(&self.initial_positions());
+        }
+        scope
+    }
+
+    /// Writes the temperature of every boundary in K.
+    ///
+    /// # Errors
+    /// [`InputError`] if an expression fails or gives no number.
+    pub fn boundary_temperatures(&self, scope: &mut Evaluation, out: &mut [f64]) -> Result<(), InputError> {
+        for (id, value) in self.boundary_ids().zip(out) {
+            let temperature = &self.boundaries()[id.index()].temperature;
+            *value = self.input(Item::Boundary(id), Field::Temperature, temperature, scope)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the heat of every source in W that does not depend on a temperature; the others are left alone.
+    ///
+    /// # Errors
+    /// [`InputError`] if an expression fails or gives no number.
+    pub fn source_powers(&self, scope: &mut Evaluation, out: &mut [f64]) -> Result<(), InputError> {
+        for (id, value) in self.source_ids().zip(out) {
+            if !self.source_variables(id).is_empty() {
+                continue;
+            }
+            let power = &self.sources()[id.index()].power;
+            *value = self.input(Item::Source(id), Field::Power, power, scope)?;
+        }
+        Ok(())
+    }
+
+    fn input(&self, item: Item, field: Field, value: &Value, at: &mut Evaluation) -> Result<f64, InputError> {
+        let problem = match value.at(at) {
+            Ok(x) if !x.is_finite() => InputProblem::NotFinite(x),
+            Ok(x) if field == Field::Temperature && x < 0.0 => InputProblem::BelowAbsoluteZero(x),
+            Ok(x) => return Ok(x),
+            Err(error) => error.into(),
+        };
+        Err(self.failed(item, (field, problem), at))
+    }
+
+    /// The name of an item.
+    pub fn name_of(&self, item: Item) -> Cow<'_, str> {
+        self.parts.name_of(item)
+    }
+
+    /// Whether any source, boundary or conductor changes with time by itself.
+    pub fn has_time_dependent_inputs(&self) -> bool {
+        self.inputs().any(|(_, _, value)| self.depends_on_time(value))
+    }
+
+    /// Whether anything that is evaluated over a run depends on the time by itself: inputs, what switches, limits, reports.
+    pub fn reads_time(&self) -> bool {
+        let limits = self.limits().iter().map(|limit| &limit.of);
+        let mut results = limits.chain(self.reports().iter().map(|report| &report.value));
+        let timed = !self.signals().is_empty() || results.any(|value| self.depends_on_time(value));
+        timed || self.has_events() || self.has_time_dependent_inputs()
+    }
+
+    /// Whether a value changes with time by itself.
+    pub fn depends_on_time(&self, value: &Value) -> bool {
+        self.parts.reads(value).time
+    }
+
+    /// The first item that makes the network more than constant capacities, constant conductances and heat that
+    /// depends on time only.
+    pub fn first_nonlinear(&self) -> Option<Item> {
+        let conductor = self.conductor_ids().find(|id| self.conductance(*id).is_none());
+        let source = self.source_ids().find(|id| !self.source_variables(*id).is_empty());
+        let node = self.node_ids().find(|id| self.enthalpy(*id).is_some());
+        let items = [conductor.map(Item::Conductor), source.map(Item::Source), node.map(Item::Node)];
+        items.into_iter().flatten().next()
+    }
+
+    /// Every value that may depend on time.
+    pub(crate) fn inputs(&self) -> impl Iterator<Item = (Item, Field, &Value)> {
+        self.parts.inputs()
+    }
+
+    /// Sets of connected nodes that no path leads from to a boundary, in order; empty if the network forgets
+    /// its start. Such a set has no steady state of its own.
+    pub fn ungrounded(&self) -> Vec<Vec<NodeId>> {
+        let parts = &*self.parts;
+        let islands = Islands::of(parts);
+        let mut grounded = vec![false; parts.nodes.len()];
+        for node in islands.grounded(parts) {
+            grounded[islands.root(node)] = true;
+        }
+        let groups = islands.groups().into_iter().filter(|m| !grounded[islands.root(m[0])]);
+        groups.map(|members| members.into_iter().map(NodeId::from_len).collect()).collect()
+    }
+}

@@ -1,0 +1,95 @@
+//! Limits and reports, where temperatures and heat flows are known.
+
+use lptn_units::Degree;
+
+use crate::evaluation::Evaluation;
+use crate::id::{ConductorId, End, Field, Item, LimitId, ReportId};
+use crate::input_error::{InputError, InputProblem};
+use crate::network::Network;
+use crate::parts::heat::HeatOf;
+use crate::parts::layout::Holds;
+use crate::parts::result::Bound;
+use crate::scope::{Context, NetworkScope};
+use crate::value::Value;
+
+impl Network {
+    /// How far a limit is from being broken where `scope` stands: positive while it is kept, in SI units of
+    /// `of`, a difference in K for temperatures. `scope` needs the temperatures of the time that is asked for,
+    /// see [`Evaluation::set_temperatures`].
+    ///
+    /// # Errors
+    /// [`InputError`] if an expression fails or gives no number.
+    pub fn limit_margin(&self, id: LimitId, scope: &mut Evaluation) -> Result<f64, InputError> {
+        let limit = &self.limits()[id.index()];
+        let item = Item::Limit(id);
+        let of = self.number(item, Field::Of, &limit.of, scope)?;
+        let value = self.number(item, limit.bound.field(), &limit.value, scope)?;
+        Ok(match limit.bound {
+            Bound::Below => value - of,
+            Bound::Above => of - value,
+        })
+    }
+
+    pub(crate) fn number(
+        &self,
+        item: Item,
+        field: Field,
+        value: &Value,
+        at: &mut Evaluation,
+    ) -> Result<f64, InputError> {
+        match value.at(at) {
+            Ok(x) if x.is_finite() => Ok(x),
+            Ok(x) => Err(self.failed(item, (field, InputProblem::NotFinite(x)), at)),
+            Err(error) => Err(self.failed(item, (field, error.into()), at)),
+        }
+    }
+
+    /// The names that expressions of results may use: parameters, `t`, and `NAME.T` of every node and boundary.
+    /// What is compiled against it is evaluated in [`Network::evaluation`] after
+    /// [`Evaluation::set_temperatures`].
+    pub fn post_scope(&self) -> NetworkScope<'_> {
+        NetworkScope::new(&self.parts, Context::Result)
+    }
+}
+
+impl Network {
+    /// The value of a report in SI units where `scope` stands, which needs temperatures and heat flows: see
+    /// [`Evaluation::set_temperatures`] and [`Evaluation::set_heats`].
+    ///
+    /// # Errors
+    /// [`InputError`] if the expression fails or gives no number.
+    pub fn report_value(&self, id: ReportId, scope: &mut Evaluation) -> Result<f64, InputError> {
+        let value = self.number(Item::Report(id), Field::Value, &self.reports()[id.index()].value, scope)?;
+        Ok(value + 0.0) // no `-0` in columns
+    }
+
+    /// The heat flows that expressions of results name, in the order in which [`Evaluation::set_heats`] takes them.
+    pub fn named_heats(&self) -> impl ExactSizeIterator<Item = HeatOf> + '_ {
+        self.parts.layout.heats().iter().map(|(heat, _)| *heat)
+    }
+
+    /// The heat flows of a path: two for a stream.
+    pub fn heats_of(&self, id: ConductorId) -> Vec<HeatOf> {
+        self.parts.heats_of(id)
+    }
+}
+
+impl Network {
+    /// Whether a result reads temperatures of nodes, and means of grids, and nothing else, each in the first degree at
+    /// most. That is told from its code and not from its numbers: a parameter that happens to be 0 is read all the same.
+    pub fn reads_node_temperatures_only(&self, result: &Value) -> bool {
+        let is_node = |slot: &u32| {
+            matches!(self.parts.layout.holds(*slot), Holds::Temperature(End::Node(_)) | Holds::Grid(_))
+        };
+        let affine =
+            |slot: &u32| result.programs().iter().all(|program| program.degree_in(*slot) <= Degree::Affine);
+        result.slots().iter().all(|slot| is_node(slot) && affine(slot))
+    }
+}
+
+impl HeatOf {
+    /// The name of its column, `internal.Q`.
+    pub fn name(self, network: &Network) -> String {
+        network.parts.heat_name(self)
+    }
+}

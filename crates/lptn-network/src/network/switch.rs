@@ -1,0 +1,49 @@
+//! How far a comparison of temperatures is from changing.
+
+use crate::evaluation::{Evaluation, PASS};
+use crate::id::{Item, SwitchId};
+use crate::input_error::InputError;
+use crate::network::Network;
+use crate::network::flow::{name, place, seeded};
+use crate::parts::dependence::{Dependence, NONE};
+use crate::parts::switch::Switch;
+
+impl Network {
+    /// Left side minus right side of a switch, at the time of `scope` and these temperatures of all vertices in K, and
+    /// how much it changes, at most and in linear terms, when each temperature changes by 1 K.
+    ///
+    /// # Errors
+    /// [`InputError`] if a side fails or gives no number.
+    pub fn switch_difference(
+        &self,
+        id: SwitchId,
+        scope: &mut Evaluation,
+        temperatures: &[f64],
+    ) -> Result<(f64, f64), InputError> {
+        let switch = &self.switches()[id.index()];
+        let (dependence, link) = self.switch_dependence(switch);
+        let (mut value, mut slope) = (0.0, 0.0);
+        for first in (0..dependence.vertices.len().max(1)).step_by(PASS) {
+            let at = |k: usize| seeded(temperatures[dependence.vertices[k] as usize], k, first);
+            let (slots, stack) = scope.dual();
+            if link {
+                place(slots, dependence, &at)
+            } else {
+                name(slots, dependence, &at)
+            }
+            let result = switch.difference.eval(slots, stack);
+            let found = self.finite(result, (switch.item, switch.field), scope)?;
+            value = found.value;
+            slope += found.derivatives.iter().map(|d| d.abs()).sum::<f64>();
+        }
+        Ok((value, slope))
+    }
+
+    fn switch_dependence(&self, switch: &Switch) -> (&Dependence, bool) {
+        match switch.item {
+            Item::Conductor(id) => (self.parts.dependence(id), true),
+            Item::Source(id) => (&self.parts.source_dependence[id.index()], false),
+            _ => (&NONE, false),
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! How each conductor carries heat, as far as the parameters determine it.
+
+use lptn_laws::Carries;
+
+use crate::error::BuildErrorKind;
+use crate::id::{ConductorId, Field, Item};
+use crate::law::{At, Flow, Law};
+use crate::numbers::Work;
+use crate::parts::element::Conductor;
+use crate::slot;
+use crate::value::Value;
+use lptn_laws::Range;
+
+impl Work<'_> {
+    pub(crate) fn flows(&mut self) -> Vec<Flow> {
+        let conductors = &self.parts.conductors;
+        let mut flows: Vec<Flow> = Vec::with_capacity(conductors.len());
+        for (i, conductor) in conductors.iter().enumerate() {
+            let item = Item::Conductor(ConductorId::from_len(i));
+            // in a grid thousands are alike
+            let same = self.parts.is_like_the_last_conductor(i);
+            flows.push(if same { flows[i - 1] } else { self.flow(item, conductor) });
+        }
+        flows
+    }
+
+    fn flow(&mut self, item: Item, conductor: &Conductor) -> Flow {
+        let law = &conductor.law;
+        if let Some(conductance) = law.number() {
+            return Flow::Conductance(conductance);
+        }
+        let errors_before = self.errors.len();
+        let declared = law.formula().declaration();
+        for ((field, value), declared) in law.parts().zip(declared.fields) {
+            if self.parts.reads(value).is_constant() {
+                self.constant(item, field, value, declared.range);
+            }
+        }
+        self.check_order(item, law);
+        if self.errors.len() > errors_before || self.parts.is_variable(conductor) {
+            return Flow::Variable;
+        }
+        let (slots, stack) = self.scope.plain();
+        let number = At { slots, stack }.value(law).unwrap_or(f64::NAN);
+        if law.is_stream() {
+            let rate = self.capacity_rate(law, number);
+            return Flow::Stream(self.in_range(item, Field::law(law.formula(), 0), rate, Range::Finite));
+        }
+        // 1/R and h A can still leave the range of numbers
+        let last = Field::law(law.formula(), declared.fields.len() - 1);
+        let number = self.in_range(item, last, number, Range::Positive);
+        match declared.carries {
+            Carries::Radiation => Flow::Radiation(number),
+            _ => Flow::Conductance(number),
+        }
+    }
+
+    /// A constant capacity rate in W/K, from the flow of a stream.
+    fn capacity_rate(&mut self, law: &Law, flow: f64) -> f64 {
+        let parts = self.parts;
+        let Some(fluid) = law.fluid().map(|id| &parts.fluids[id.index()]) else { return flow };
+        let mut at = |value: &Value| value.at(&mut self.scope).unwrap_or(f64::NAN);
+        let density = match law.carries() {
+            Carries::VolumeFlow(measured) => {
+                let temperature = law.value(measured).map_or(f64::NAN, &mut at);
+                self.scope.set(slot::OWN, temperature);
+                fluid.density.as_ref().map_or(f64::NAN, |d| d.at(&mut self.scope).unwrap_or(f64::NAN))
+            }
+            _ => 1.0,
+        };
+        flow * density * fluid.cp.at(&mut self.scope).unwrap_or(f64::NAN)
+    }
+
+    /// Two lengths of which one has to be shorter, where both are constant.
+    fn check_order(&mut self, item: Item, law: &Law) {
+        let Some(keys) = law.formula().declaration().ordered else { return };
+        let [inner, outer] = keys.map(|key| {
+            let value = law.value(key).filter(|value| self.parts.reads(value).is_constant())?;
+            value.at(&mut self.scope).ok()
+        });
+        let fields = keys.map(Field::of_law);
+        if let ([Some(inner), Some(outer)], [Some(a), Some(b)]) = ([inner, outer], fields)
+            && inner >= outer
+        {
+            self.error(item, BuildErrorKind::Radii { item, fields: [a, b], inner, outer });
+        }
+    }
+}

@@ -1,0 +1,282 @@
+//! The constants of a network, evaluated for one set of parameters.
+
+pub(crate) mod conductance;
+pub(crate) mod content;
+pub(crate) mod control;
+pub(crate) mod grid;
+pub(crate) mod substance;
+
+use std::sync::Arc;
+
+use crate::enthalpy::Enthalpy;
+use crate::error::{BuildError, BuildErrorKind};
+use crate::evaluation::Evaluation;
+use crate::id::{CapacitorId, Field, FluidId, Item, NodeId, ParameterId, SourceId};
+use crate::law::Flow;
+use crate::numbers::content::Curves;
+use crate::parts::Parts;
+use crate::parts::element::Parameter;
+use crate::parts::whole;
+use crate::slot;
+use crate::value::Value;
+use lptn_laws::Range;
+
+/// What the parameters determine; checked to be physical.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Numbers {
+    pub(crate) parameters: Vec<f64>,
+    /// For each parameter whether its value was given in place of its own.
+    pub(crate) given: Vec<bool>,
+    pub(crate) capacity: Vec<f64>,
+    pub(crate) initial: Vec<f64>,
+    pub(crate) flows: Vec<Flow>,
+    /// Heat content of each node whose capacity is not constant.
+    pub(crate) enthalpy: Vec<Option<Arc<Enthalpy>>>,
+    /// Heat content of a kg of each fluid whose specific heat is not constant.
+    pub(crate) fluids: Vec<Option<Arc<Enthalpy>>>,
+    /// How long each control stays as it is after a switch, in s.
+    pub(crate) min_dwell: Vec<f64>,
+}
+
+impl Numbers {
+    /// Evaluates `parts`, with the parameters of `overrides` in place of their own values.
+    pub(crate) fn evaluate(parts: &Parts, overrides: &[Option<f64>]) -> Result<Self, Vec<BuildError>> {
+        let mut work = Work { parts, scope: Evaluation::new(&parts.layout, &[]), errors: Vec::new() };
+        let parameters = work.parameters(overrides);
+        if !work.errors.is_empty() {
+            return Err(work.errors); // every value below would fail for the same reason
+        }
+        work.check_materials();
+        work.check_fluids();
+        work.check_grids();
+        work.check_lumps();
+        if !work.errors.is_empty() {
+            whole::collapse(parts, &mut work.errors);
+            return Err(work.errors); // and so would the capacities
+        }
+        let initial = work.initials();
+        let capacity = work.capacities(&initial);
+        let flows = work.flows();
+        work.check_joints();
+        work.check_inputs();
+        work.check_limits();
+        let min_dwell = work.controls();
+        whole::collapse(parts, &mut work.errors);
+        if !work.errors.is_empty() {
+            return Err(work.errors);
+        }
+        let (enthalpy, fluids) = (work.enthalpies(&initial), work.fluid_enthalpies());
+        whole::collapse(parts, &mut work.errors);
+        if work.errors.is_empty() {
+            let is_given = |i: usize| overrides.get(i).is_some_and(Option::is_some);
+            let given = (0..parameters.len()).map(is_given).collect();
+            Ok(Self { parameters, given, capacity, initial, flows, enthalpy, fluids, min_dwell })
+        } else {
+            Err(work.errors)
+        }
+    }
+}
+
+pub(crate) struct Work<'a> {
+    pub(crate) parts: &'a Parts,
+    pub(crate) scope: Evaluation,
+    pub(crate) errors: Vec<BuildError>,
+}
+
+impl Work<'_> {
+    fn parameters(&mut self, overrides: &[Option<f64>]) -> Vec<f64> {
+        let parts = self.parts;
+        let mut values = Vec::with_capacity(parts.parameters.len());
+        for (i, parameter) in parts.parameters.iter().enumerate() {
+            let item = Item::Parameter(ParameterId::from_len(i));
+            let value = match overrides.get(i).copied().flatten() {
+                Some(value) => self.in_range(item, Field::Value, value, range_of(parameter)),
+                None => self.constant(item, Field::Value, &parameter.value, range_of(parameter)),
+            };
+            self.scope.set_parameter(i, value);
+            values.push(value);
+        }
+        values
+    }
+
+    /// Capacities at the start.
+    fn capacities(&mut self, initial: &[f64]) -> Vec<f64> {
+        let parts = self.parts;
+        let mut capacity: Vec<f64> = Vec::with_capacity(parts.nodes.len());
+        for (i, node) in parts.nodes.iter().enumerate() {
+            let item = Item::Node(NodeId::from_len(i));
+            let own = node.capacity.as_ref();
+            if parts.is_like_the_last_node(i) {
+                capacity.push(capacity[i - 1]);
+                continue;
+            }
+            capacity.push(own.map_or(0.0, |c| self.capacity(item, c, initial[i])));
+        }
+        for (i, part) in parts.capacitors.iter().enumerate() {
+            let item = Item::Capacitor(CapacitorId::from_len(i));
+            let node = part.node.index();
+            capacity[node] += self.capacity(item, &part.capacity, initial[node]);
+        }
+        capacity
+    }
+
+    /// A capacity may depend on the temperature of its own node.
+    fn capacity(&mut self, item: Item, value: &Value, temperature: f64) -> f64 {
+        if self.parts.reads(value).own && temperature.is_finite() {
+            self.scope.set(slot::OWN, temperature);
+            self.check_comparisons(item, Field::Capacity, value);
+            return self.own(item, Field::Capacity, value);
+        }
+        self.constant(item, Field::Capacity, value, Range::Positive)
+    }
+
+    /// A positive value that may depend on the `T` that was set.
+    fn own(&mut self, item: Item, field: Field, value: &Value) -> f64 {
+        let reads = self.parts.reads(value);
+        if reads.time || reads.positions {
+            self.error(item, BuildErrorKind::DependsOnTime { item, field });
+            return f64::NAN;
+        }
+        if reads.link || !reads.temperatures.is_empty() {
+            self.error(item, BuildErrorKind::DependsOnResult { item, field });
+            return f64::NAN;
+        }
+        self.evaluate(item, field, value, Range::Positive)
+    }
+
+    fn enthalpies(&mut self, initial: &[f64]) -> Vec<Option<Arc<Enthalpy>>> {
+        let varying = self.parts.varying_capacities();
+        let mut curves: Vec<Option<Arc<Enthalpy>>> = Vec::with_capacity(varying.len());
+        let mut known = Curves::new(self.parts);
+        for (i, varies) in varying.into_iter().enumerate() {
+            let id = NodeId::from_len(i);
+            if varies && self.parts.is_like_the_last_node(i) && self.parts.has_no_capacitors(i) {
+                curves.push(curves[i - 1].clone());
+                continue;
+            }
+            let curve = varies.then(|| self.parts.content_of(id, initial[i], &mut self.scope, &mut known));
+            curves.push(curve.and_then(|curve| match curve {
+                Ok(curve) => Some(curve),
+                Err(kind) => {
+                    self.error(Item::Node(id), kind);
+                    None
+                }
+            }));
+        }
+        curves
+    }
+
+    fn fluid_enthalpies(&mut self) -> Vec<Option<Arc<Enthalpy>>> {
+        let mut curves = Vec::with_capacity(self.parts.fluids.len());
+        for i in 0..self.parts.fluids.len() {
+            let fluid = FluidId::from_len(i);
+            let curve = self.parts.fluid_enthalpy(fluid, &mut self.scope).unwrap_or_else(|kind| {
+                self.error(Item::Fluid(fluid), kind);
+                None
+            });
+            curves.push(curve);
+        }
+        curves
+    }
+
+    fn initials(&mut self) -> Vec<f64> {
+        let nodes = self.parts.nodes.iter().enumerate();
+        nodes
+            .map(|(i, node)| {
+                let item = Item::Node(NodeId::from_len(i));
+                let initial = node.initial.as_ref().filter(|_| !node.massless);
+                initial.map_or(f64::NAN, |t| self.constant(item, Field::Initial, t, Range::Temperature))
+            })
+            .collect()
+    }
+
+    /// Inputs may depend on time, sources and conductors on temperatures too: a constant one is checked now, the
+    /// others when they are read.
+    fn check_inputs(&mut self) {
+        for (item, field, value) in self.parts.inputs() {
+            let reads = self.parts.reads(value);
+            let allowed = match item {
+                Item::Conductor(_) => matches!(field, Field::Law(law) if law.property) || !reads.own,
+                Item::Control(_) => !reads.link && !reads.own,
+                Item::Source(id) => !reads.link && self.names_its_node(id, reads.own),
+                _ => !reads.reads_results(),
+            };
+            if !allowed {
+                self.error(item, BuildErrorKind::DependsOnResult { item, field });
+            }
+            self.check_comparisons(item, field, value);
+            if matches!(item, Item::Boundary(_) | Item::Source(_)) && reads.is_constant() {
+                let range = if field == Field::Temperature { Range::Temperature } else { Range::Finite };
+                self.constant(item, field, value, range);
+            }
+        }
+    }
+
+    /// `T` of a source means one node.
+    fn names_its_node(&mut self, id: SourceId, own: bool) -> bool {
+        let source = &self.parts.sources[id.index()];
+        if own && source.into.len() != 1 {
+            self.error(Item::Source(id), BuildErrorKind::WhichTemperature { source: id });
+        }
+        true
+    }
+
+    /// Comparisons have to change at times that are known beforehand.
+    pub(crate) fn check_comparisons(&mut self, item: Item, field: Field, value: &Value) {
+        for program in value.programs() {
+            for (comparison, &relation) in program.comparisons().iter().zip(program.relations()) {
+                if let Some(kind) = self.parts.comparison_problem((comparison, relation), item, field) {
+                    self.error(item, kind);
+                    return;
+                }
+            }
+        }
+    }
+
+    pub(crate) fn constant(&mut self, item: Item, field: Field, value: &Value, range: Range) -> f64 {
+        let reads = self.parts.reads(value);
+        if reads.reads_results() {
+            self.error(item, BuildErrorKind::DependsOnResult { item, field });
+            return f64::NAN;
+        }
+        if reads.time || reads.positions {
+            self.error(item, BuildErrorKind::DependsOnTime { item, field });
+            return f64::NAN;
+        }
+        self.evaluate(item, field, value, range)
+    }
+
+    fn evaluate(&mut self, item: Item, field: Field, value: &Value, range: Range) -> f64 {
+        match value.at(&mut self.scope) {
+            Ok(number) => self.in_range(item, field, number, range),
+            Err(error) => {
+                self.error(item, BuildErrorKind::Evaluation { item, field, error });
+                f64::NAN
+            }
+        }
+    }
+
+    pub(crate) fn in_range(&mut self, item: Item, field: Field, value: f64, range: Range) -> f64 {
+        let kind = match range {
+            Range::Positive if !(value.is_finite() && value > 0.0) => {
+                BuildErrorKind::NotPositive { item, field, value }
+            }
+            _ if !value.is_finite() => BuildErrorKind::NotFinite { item, field, value },
+            Range::Fraction if !(value > 0.0 && value <= 1.0) => {
+                BuildErrorKind::NotAFraction { item, field, value }
+            }
+            Range::Temperature if value < 0.0 => BuildErrorKind::BelowAbsoluteZero { item, field, value },
+            _ => return value,
+        };
+        self.error(item, kind);
+        value
+    }
+
+    pub(crate) fn error(&mut self, item: Item, kind: BuildErrorKind) {
+        self.errors.push(BuildError { kind, name: self.parts.name_of(item).into_owned() });
+    }
+}
+
+fn range_of(parameter: &Parameter) -> Range {
+    if parameter.ty.absolute { Range::Temperature } else { Range::Finite }
+}

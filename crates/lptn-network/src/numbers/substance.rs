@@ -1,0 +1,80 @@
+//! Properties of substances, lumps and limits, which have to be physical before anything is computed from them.
+
+use crate::enthalpy::is_one_temperature;
+use crate::error::BuildErrorKind;
+use crate::id::{CapacitorId, Field, FluidId, Item, LimitId, MaterialId, NodeId};
+use crate::numbers::Work;
+use crate::parts::element::Node;
+use crate::value::Value;
+use lptn_laws::Range;
+
+impl<'a> Work<'a> {
+    pub(crate) fn check_materials(&mut self) {
+        for (i, material) in self.parts.materials.iter().enumerate() {
+            let item = Item::Material(MaterialId::from_len(i));
+            let properties = [(Field::SpecificHeat, &material.cp), (Field::Conductivity, &material.k)];
+            if let Some(value) = &material.density {
+                self.constant(item, Field::Density, value, Range::Positive);
+            }
+            for (field, value) in properties {
+                if let Some(value) = value {
+                    self.property(item, field, value);
+                }
+            }
+            if let Some(melting) = &material.melting {
+                let solidus = self.constant(item, Field::Solidus, &melting.solidus, Range::Temperature);
+                let liquidus = self.constant(item, Field::Liquidus, &melting.liquidus, Range::Temperature);
+                self.constant(item, Field::LatentHeat, &melting.heat, Range::Positive);
+                if liquidus < solidus && !is_one_temperature(solidus, liquidus) {
+                    self.error(item, BuildErrorKind::Melting { item, solidus, liquidus });
+                }
+            }
+        }
+    }
+
+    pub(crate) fn check_fluids(&mut self) {
+        for (i, fluid) in self.parts.fluids.iter().enumerate() {
+            let item = Item::Fluid(FluidId::from_len(i));
+            let density = fluid.density.as_ref().map(|value| (Field::Density, value));
+            for (field, value) in density.into_iter().chain([(Field::SpecificHeat, &fluid.cp)]) {
+                self.property(item, field, value);
+            }
+        }
+    }
+
+    /// A property may depend on `T`; it is then checked where it is used.
+    pub(crate) fn property(&mut self, item: Item, field: Field, value: &Value) {
+        if self.parts.reads(value).own {
+            self.check_comparisons(item, field, value);
+        } else {
+            self.constant(item, field, value, Range::Positive);
+        }
+    }
+
+    /// A product of two negative numbers would pass for a capacity.
+    pub(crate) fn check_lumps(&mut self) {
+        let parts = self.parts;
+        let nodes = parts.nodes.iter().enumerate();
+        let nodes = nodes.map(|(i, node)| (Item::Node(NodeId::from_len(i)), &node.lump));
+        let capacitors = parts.capacitors.iter().enumerate();
+        let capacitors = capacitors.map(|(i, part)| (Item::Capacitor(CapacitorId::from_len(i)), &part.lump));
+        // the volume of a cell follows from the size of its grid, which is checked by itself
+        let lumps = nodes.chain(capacitors).filter(|(item, _)| parts.whole(*item).is_none());
+        let sizes = lumps.filter_map(|(item, lump)| Some((item, lump.as_ref()?.size.field())));
+        let length = |(i, node): (usize, &'a Node)| {
+            Some((Item::Node(NodeId::from_len(i)), (Field::CharacteristicLength, node.length.as_ref()?)))
+        };
+        for (item, (field, value)) in sizes.chain(parts.nodes.iter().enumerate().filter_map(length)) {
+            self.constant(item, field, value, Range::Positive);
+        }
+    }
+
+    /// The values of limits are constant; what they limit is evaluated with results.
+    pub(crate) fn check_limits(&mut self) {
+        for (i, limit) in self.parts.limits.iter().enumerate() {
+            let item = Item::Limit(LimitId::from_len(i));
+            let range = if limit.ty.absolute { Range::Temperature } else { Range::Finite };
+            self.constant(item, limit.bound.field(), &limit.value, range);
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Nodes, boundaries and what lies between them.
+
+use std::borrow::Cow;
+
+use lptn_laws::Kind;
+use lptn_units::Type;
+
+use crate::id::{End, NodeId};
+use crate::law::Law;
+use crate::parts::label::Label;
+use crate::value::{Lump, Value};
+
+/// A named value that expressions may use.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its name, unique among parameters, signals, tables, controls and reports.
+    pub name: String,
+    /// Its type; [`Network::with`](crate::Network::with) keeps it.
+    pub ty: Type,
+    /// A constant, or an expression over parameters that were added before it.
+    pub value: Value,
+    /// One standard deviation in SI units, where `±` gave one.
+    pub deviation: Option<f64>,
+}
+
+/// A lump with one temperature that is solved for.
+#[derive(Clone, Debug)]
+pub struct Node {
+    /// Its name, unique among nodes, boundaries and elements.
+    pub name: String,
+    /// Its own heat capacity in J/K, which may depend on its temperature; capacitors add to it.
+    pub capacity: Option<Value>,
+    /// The lump that its own capacity was computed from.
+    pub lump: Option<Lump>,
+    /// Its temperature at the start in K.
+    pub initial: Option<Value>,
+    /// If it melts at just that temperature: how much is molten then, from 0 to 1.
+    pub molten: f64,
+    /// Its characteristic length in m, volume over surface, if it is to be checked for being a lump.
+    pub length: Option<Value>,
+    /// Whether it is a junction that stores nothing.
+    pub massless: bool,
+    /// If it is, where it stood in the state that a run starts from, in K: of several solutions of its balance it keeps
+    /// the one that is there.
+    pub stood: Option<f64>,
+}
+
+impl Node {
+    /// Whether its own capacity and its start are the same values as those of another node.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        let same = |a: &Option<Value>, b: &Option<Value>| match (a, b) {
+            (Some(a), Some(b)) => a.is_same(b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        same(&self.capacity, &other.capacity)
+            && same(&self.initial, &other.initial)
+            && self.molten.to_bits() == other.molten.to_bits()
+    }
+}
+
+/// A part of a node's capacity: the paper's equation (9), a sum over the parts of one lump.
+#[derive(Clone, Debug)]
+pub struct Capacitor {
+    /// Its name, unique among nodes, boundaries and elements.
+    pub name: String,
+    /// The node it belongs to.
+    pub node: NodeId,
+    /// Its heat capacity in J/K; may depend on the node's temperature.
+    pub capacity: Value,
+    /// The lump that its capacity was computed from.
+    pub lump: Option<Lump>,
+}
+
+/// A place with a given temperature.
+#[derive(Clone, Debug)]
+pub struct Boundary {
+    /// Its name, unique among nodes, boundaries and elements.
+    pub name: String,
+    /// Its temperature in K; may depend on time.
+    pub temperature: Value,
+}
+
+/// A path that carries heat between two ends. Parallel conductors add.
+#[derive(Clone, Debug)]
+pub struct Conductor {
+    pub(crate) label: Label,
+    /// The section it stands in.
+    pub kind: Kind,
+    /// The end that positive heat leaves.
+    pub from: End,
+    /// The end that positive heat enters.
+    pub to: End,
+    /// The formula by which it carries heat, with one value for each field.
+    pub law: Law,
+}
+
+/// A source of heat.
+#[derive(Clone, Debug)]
+pub struct Source {
+    pub(crate) label: Label,
+    /// The nodes it heats, with the share of each; the shares sum to 1.
+    pub into: Vec<(NodeId, f64)>,
+    /// Its heat in W, positive into the nodes; may depend on time and on temperatures.
+    pub power: Value,
+}
+
+impl Conductor {
+    /// Its name; one without a name of its own is called by its number, `import.conductor[17]`.
+    pub fn name(&self) -> Cow<'_, str> {
+        self.label.of_conductor()
+    }
+}
+
+impl Source {
+    /// Its name; one without a name of its own is called by its number, `import.source[17]`.
+    pub fn name(&self) -> Cow<'_, str> {
+        self.label.of_source()
+    }
+}

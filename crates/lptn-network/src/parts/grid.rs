@@ -1,0 +1,260 @@
+//! Grids: a block of one material, cut into equal cells.
+//!
+//! Each cell is a node in its middle. Two neighbours are joined by the conduction between their middles, `k A / d`, with
+//! the conductivity at the mean of their temperatures; a face that something is attached to has a massless node on
+//! each of its cells, joined to it by the conduction through half a cell, `2 k A / d`. This is the finite-volume scheme
+//! with nodes in the middle of cells (S. V. Patankar, Numerical Heat Transfer and Fluid Flow, Hemisphere 1980, section
+//! 4.2); its error shrinks with the square of the cell.
+
+use lptn_laws::Kind;
+
+use crate::id::{BoundaryId, ConductorId, End, GridId, Item, MaterialId, NodeId};
+use crate::value::Value;
+
+/// The most cells of a grid.
+pub const MOST_CELLS: usize = 2_000_000;
+
+/// A face of a block: the axis it is perpendicular to, and whether it is the near or the far one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Face {
+    /// At the start of x.
+    X0,
+    /// At the end of x.
+    X1,
+    /// At the start of y.
+    Y0,
+    /// At the end of y.
+    Y1,
+    /// At the start of z.
+    Z0,
+    /// At the end of z.
+    Z1,
+}
+
+impl Face {
+    /// All six.
+    pub const ALL: [Self; 6] = [Self::X0, Self::X1, Self::Y0, Self::Y1, Self::Z0, Self::Z1];
+
+    /// Its name: `x0`, `x1`, ..
+    pub fn name(self) -> &'static str {
+        ["x0", "x1", "y0", "y1", "z0", "z1"][self as usize]
+    }
+
+    /// The face of this name.
+    pub fn of_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|face| face.name() == name)
+    }
+
+    /// The axis it is perpendicular to: 0 for x, 1 for y, 2 for z.
+    pub fn axis(self) -> usize {
+        self as usize / 2
+    }
+
+    /// The two axes along it.
+    pub fn along(self) -> [usize; 2] {
+        [[1, 2], [0, 2], [0, 1]][self.axis()]
+    }
+
+    pub(crate) fn is_far(self) -> bool {
+        self as usize % 2 == 1
+    }
+}
+
+/// A block of one material, cut into equal cells: see [`NetworkBuilder::grid`](crate::NetworkBuilder::grid).
+#[derive(Clone, Debug)]
+pub struct Grid {
+    /// Its name, which begins those of its cells, faces and inner paths.
+    pub name: String,
+    /// How many cells there are along x, y and z.
+    pub cells: [usize; 3],
+    /// How many indices its cells have: the counts that were given.
+    pub axes: usize,
+    /// Its lengths along x, y and z in m.
+    pub size: [Value; 3],
+    /// Its thermal conductivity along x, y and z in W/(m K).
+    pub conductivity: [Value; 3],
+    /// Its material, or density and specific heat capacity.
+    pub substance: Substance,
+    /// Its temperature at the start in K.
+    pub initial: Option<Value>,
+    /// The first of its cells, which follow one another, the last index running fastest.
+    pub(crate) first: u32,
+    /// The first surface node of each face that something is attached to.
+    pub(crate) surfaces: [Option<u32>; 6],
+}
+
+/// Indices as names end with them: `[1,2]`, nothing without any.
+fn bracketed(indices: impl Iterator<Item = usize>) -> String {
+    let list: Vec<String> = indices.map(|index| (index + 1).to_string()).collect();
+    if list.is_empty() { String::new() } else { format!("[{}]", list.join(",")) }
+}
+
+impl Grid {
+    /// The number of its cells.
+    pub fn count(&self) -> usize {
+        self.cells.iter().product()
+    }
+
+    /// The number of cells at a face.
+    pub fn face_count(&self, face: Face) -> usize {
+        face.along().into_iter().map(|axis| self.cells[axis]).product()
+    }
+
+    /// The nodes of its cells, the last index running fastest.
+    pub fn nodes(&self) -> impl ExactSizeIterator<Item = NodeId> + use<> {
+        let first = self.first as usize;
+        (first..first + self.count()).map(NodeId::from_len)
+    }
+
+    /// The massless nodes on a face, the last index running fastest; none of a face that nothing is attached to.
+    pub fn surfaces(&self, face: Face) -> impl ExactSizeIterator<Item = NodeId> + use<> {
+        let first = self.surfaces[face as usize];
+        let count = first.map_or(0, |_| self.face_count(face));
+        let first = first.unwrap_or(0) as usize;
+        (first..first + count).map(NodeId::from_len)
+    }
+
+    /// The node of a cell, by its indices from 1; `None` if there is no such cell.
+    pub fn cell(&self, indices: &[usize]) -> Option<NodeId> {
+        let mut at = [0; 3];
+        for (axis, index) in indices.iter().enumerate() {
+            at[axis] = index.checked_sub(1).filter(|i| *i < self.cells[axis])?;
+        }
+        (indices.len() == self.axes).then(|| NodeId(self.first + self.offset(at)))
+    }
+
+    /// The axes that the cells of a face have indices of.
+    pub fn face_axes(&self, face: Face) -> impl Iterator<Item = usize> + use<> {
+        let axes = self.axes;
+        face.along().into_iter().filter(move |axis| *axis < axes)
+    }
+
+    /// The name of a face: `wall.x1`.
+    pub fn face_name(&self, face: Face) -> String {
+        format!("{}.{}", self.name, face.name())
+    }
+
+    pub(crate) fn offset(&self, at: [usize; 3]) -> u32 {
+        let offset = (at[0] * self.cells[1] + at[1]) * self.cells[2] + at[2];
+        u32::try_from(offset).expect("a grid has fewer than 2^32 cells")
+    }
+
+    /// The places of all cells but the last `less` ones along each axis.
+    pub(crate) fn places(&self, less: [usize; 3]) -> impl Iterator<Item = [usize; 3]> + use<> {
+        let [x, y, z] = [0, 1, 2].map(|axis| self.cells[axis] - less[axis]);
+        (0..x).flat_map(move |i| (0..y).flat_map(move |j| (0..z).map(move |k| [i, j, k])))
+    }
+
+    /// The places of the cells at a face.
+    pub(crate) fn face_places(&self, face: Face) -> impl Iterator<Item = [usize; 3]> + use<> {
+        let mut less = [0; 3];
+        less[face.axis()] = self.cells[face.axis()] - 1;
+        let shift = if face.is_far() { less } else { [0; 3] };
+        self.places(less).map(move |at| [0, 1, 2].map(|axis| at[axis] + shift[axis]))
+    }
+
+    pub(crate) fn indices(&self, at: [usize; 3]) -> String {
+        bracketed(at.into_iter().take(self.axes))
+    }
+
+    pub(crate) fn face_indices(&self, face: Face, at: [usize; 3]) -> String {
+        bracketed(self.face_axes(face).map(|axis| at[axis]))
+    }
+}
+
+/// What the cells of a grid store heat with.
+#[derive(Clone, Debug)]
+pub enum Substance<T = Value> {
+    /// A material with density and specific heat; it may melt.
+    Material(MaterialId),
+    /// The properties themselves.
+    Properties {
+        /// Density in kg/m^3.
+        density: T,
+        /// Specific heat capacity in J/(kg K); may depend on `T`.
+        cp: T,
+    },
+}
+
+/// A face of a grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct GridFace {
+    /// The grid whose face it is.
+    pub grid: GridId,
+    /// Which of its faces.
+    pub face: Face,
+}
+
+/// What a path may end at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Terminal {
+    /// A node or boundary.
+    End(End),
+    /// A face of a grid.
+    Face(GridFace),
+}
+
+impl From<End> for Terminal {
+    fn from(end: End) -> Self {
+        Self::End(end)
+    }
+}
+
+impl From<NodeId> for Terminal {
+    fn from(id: NodeId) -> Self {
+        Self::End(id.into())
+    }
+}
+
+impl From<BoundaryId> for Terminal {
+    fn from(id: BoundaryId) -> Self {
+        Self::End(id.into())
+    }
+}
+
+impl From<GridFace> for Terminal {
+    fn from(face: GridFace) -> Self {
+        Self::Face(face)
+    }
+}
+
+/// A path that ends at a face: one conductor for each cell, which share its conductance or area.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// Its name, unique among nodes, boundaries and elements.
+    pub name: String,
+    /// The section it stands in.
+    pub kind: Kind,
+    /// The end that positive heat leaves.
+    pub from: Terminal,
+    /// The end that positive heat enters.
+    pub to: Terminal,
+    /// Its whole area in m^2, where it is given; it has to be that of the face.
+    pub area: Option<Value>,
+    pub(crate) first: u32,
+    pub(crate) end: u32,
+}
+
+impl Joint {
+    /// Its conductors, `NAME[j,k]` by the cells of the face it starts at, else of that it ends at. At the end of a rod,
+    /// whose cell has no index there, it is one, named as the path itself.
+    pub fn conductors(&self) -> impl ExactSizeIterator<Item = ConductorId> + use<> {
+        (self.first as usize..self.end as usize).map(ConductorId::from_len)
+    }
+
+    /// The faces it ends at: one or two.
+    pub fn faces(&self) -> impl Iterator<Item = GridFace> + use<> {
+        [self.from, self.to].into_iter().filter_map(|terminal| match terminal {
+            Terminal::Face(face) => Some(face),
+            Terminal::End(_) => None,
+        })
+    }
+}
+
+/// Nodes or conductors that are parts of a grid or of a joint: from the first to before the last.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Inner {
+    pub(crate) first: u32,
+    pub(crate) end: u32,
+    pub(crate) whole: Item,
+}

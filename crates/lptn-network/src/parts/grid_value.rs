@@ -1,0 +1,62 @@
+//! What is shown of a grid: means and extremes of its cells, means of its faces.
+
+use crate::id::GridId;
+use crate::parts::grid::{Grid, GridFace};
+
+/// A temperature of a grid as a whole, in K.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum GridValue {
+    /// `NAME.mean`: the mean over its volume.
+    Mean(GridId),
+    /// `NAME.min`: that of the coldest cell.
+    Min(GridId),
+    /// `NAME.max`: that of the hottest cell.
+    Max(GridId),
+    /// `NAME.x1.T`: the mean over a face, of its surface where something is attached to it, else of the cells behind it.
+    Face(GridFace),
+}
+
+impl GridValue {
+    /// The name of its column; `grid` is its grid.
+    pub(crate) fn named(self, grid: &Grid) -> String {
+        match self {
+            Self::Mean(_) => format!("{}.mean", grid.name),
+            Self::Min(_) => format!("{}.min", grid.name),
+            Self::Max(_) => format!("{}.max", grid.name),
+            Self::Face(at) => format!("{}.T", grid.face_name(at.face)),
+        }
+    }
+
+    /// The grid whose value it is.
+    pub fn grid(self) -> GridId {
+        match self {
+            Self::Mean(id) | Self::Min(id) | Self::Max(id) => id,
+            Self::Face(at) => at.grid,
+        }
+    }
+
+    /// Its value from these temperatures of nodes in K.
+    pub(crate) fn of(self, members: &[u32], nodes: &[f64]) -> f64 {
+        let all = members.iter().map(|&node| nodes[node as usize]);
+        match self {
+            Self::Mean(_) | Self::Face(_) => all.sum::<f64>() / members.len() as f64,
+            Self::Min(_) => all.reduce(f64::min).unwrap_or(f64::NAN),
+            Self::Max(_) => all.reduce(f64::max).unwrap_or(f64::NAN),
+        }
+    }
+}
+
+impl Grid {
+    /// The nodes that a value is made of.
+    pub(crate) fn members(&self, value: GridValue) -> Vec<u32> {
+        match value {
+            GridValue::Face(at) if self.surfaces[at.face as usize].is_some() => {
+                self.surfaces(at.face).map(|id| id.0).collect()
+            }
+            GridValue::Face(at) => {
+                self.face_places(at.face).map(|place| self.first + self.offset(place)).collect()
+            }
+            _ => self.nodes().map(|id| id.0).collect(),
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! Heat flows of the results, by name.
+
+use crate::id::{BoundaryId, ConductorId, Item, JointId, SourceId};
+
+/// A heat flow of the results, in W.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum HeatOf {
+    /// `NAME.Q` of a path that is not a stream: positive from `from` to `to`.
+    Conductor(ConductorId),
+    /// `NAME.Q_from` of a stream: what its first end receives.
+    ReceivedFrom(ConductorId),
+    /// `NAME.Q_to` of a stream: what its second end receives.
+    ReceivedTo(ConductorId),
+    /// `NAME.P` of a source: positive into its nodes.
+    Source(SourceId),
+    /// `NAME.Q` of a boundary: what it gives to the network.
+    Boundary(BoundaryId),
+    /// `NAME.Q` of a path that ends at a face of a grid: the sum over its conductors.
+    Joint(JointId),
+}
+
+impl HeatOf {
+    /// What it is the heat of.
+    pub fn item(self) -> Item {
+        match self {
+            Self::Conductor(id) | Self::ReceivedFrom(id) | Self::ReceivedTo(id) => Item::Conductor(id),
+            Self::Source(id) => Item::Source(id),
+            Self::Boundary(id) => Item::Boundary(id),
+            Self::Joint(id) => Item::Joint(id),
+        }
+    }
+
+    /// The name of its column; `name` is that of its item.
+    pub(crate) fn named(self, name: &str) -> String {
+        let ending = match self {
+            Self::Conductor(_) | Self::Boundary(_) | Self::Joint(_) => "Q",
+            Self::ReceivedFrom(_) => "Q_from",
+            Self::ReceivedTo(_) => "Q_to",
+            Self::Source(_) => "P",
+        };
+        format!("{name}.{ending}")
+    }
+}

@@ -1,0 +1,94 @@
+//! Heat flows and values of grids by their names.
+
+use std::sync::Arc;
+
+use crate::id::{BoundaryId, ConductorId, GridId, Item, SourceId};
+use crate::parts::Parts;
+use crate::parts::grid::{Face, GridFace};
+use crate::parts::grid_value::GridValue;
+use crate::parts::heat::HeatOf;
+
+impl Parts {
+    /// The name of the column of a heat flow: `internal.Q`.
+    pub(crate) fn heat_name(&self, heat: HeatOf) -> String {
+        heat.named(&self.name_of(heat.item()))
+    }
+
+    /// The name of the column of a value of a grid: `wall.mean`.
+    pub(crate) fn grid_value_name(&self, value: GridValue) -> String {
+        value.named(&self.grids[value.grid().index()])
+    }
+
+    /// The heat flow of this name, if there is one.
+    pub(crate) fn heat(&self, name: &str) -> Option<HeatOf> {
+        let (base, ending) = name.rsplit_once('.')?;
+        let stream = |id: &ConductorId| self.conductors[id.index()].law.is_stream();
+        match (self.item(base)?, ending) {
+            (Item::Conductor(id), "Q") if !stream(&id) => Some(HeatOf::Conductor(id)),
+            (Item::Conductor(id), "Q_from") if stream(&id) => Some(HeatOf::ReceivedFrom(id)),
+            (Item::Conductor(id), "Q_to") if stream(&id) => Some(HeatOf::ReceivedTo(id)),
+            (Item::Source(id), "P") => Some(HeatOf::Source(id)),
+            (Item::Boundary(id), "Q") => Some(HeatOf::Boundary(id)),
+            (Item::Joint(id), "Q") => Some(HeatOf::Joint(id)),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn heats_of(&self, id: ConductorId) -> Vec<HeatOf> {
+        match self.conductors[id.index()].law.is_stream() {
+            true => vec![HeatOf::ReceivedFrom(id), HeatOf::ReceivedTo(id)],
+            false => vec![HeatOf::Conductor(id)],
+        }
+    }
+
+    /// The names of all heat flows: paths, sources, boundaries.
+    pub(crate) fn heat_names(&self) -> impl Iterator<Item = String> + '_ {
+        let conductors = (0..self.conductors.len()).flat_map(|i| self.heats_of(ConductorId::from_len(i)));
+        let sources = (0..self.sources.len()).map(|i| HeatOf::Source(SourceId::from_len(i)));
+        let boundaries = (0..self.boundaries.len()).map(|i| HeatOf::Boundary(BoundaryId::from_len(i)));
+        let joints = self.shared_joints().map(HeatOf::Joint);
+        conductors.chain(sources).chain(boundaries).chain(joints).map(|heat| self.heat_name(heat))
+    }
+
+    /// The value of this name, if there is one.
+    pub(crate) fn grid_value(&self, name: &str) -> Option<GridValue> {
+        let (base, ending) = name.rsplit_once('.')?;
+        let grid = |name: &str| match self.item(name) {
+            Some(Item::Grid(id)) => Some(id),
+            _ => None,
+        };
+        Some(match ending {
+            "mean" => GridValue::Mean(grid(base)?),
+            "min" => GridValue::Min(grid(base)?),
+            "max" => GridValue::Max(grid(base)?),
+            "T" => {
+                let (base, face) = base.rsplit_once('.')?;
+                GridValue::Face(GridFace { grid: grid(base)?, face: Face::of_name(face)? })
+            }
+            _ => return None,
+        })
+    }
+
+    pub(crate) fn grid_value_members(&self, value: GridValue) -> Vec<u32> {
+        self.grids[value.grid().index()].members(value)
+    }
+
+    /// The values of all grids: mean, minimum, maximum and faces.
+    pub(crate) fn grid_values(&self) -> impl Iterator<Item = GridValue> + '_ {
+        (0..self.grids.len()).map(GridId::from_len).flat_map(|id| {
+            let faces = Face::ALL.map(|face| GridValue::Face(GridFace { grid: id, face }));
+            [GridValue::Mean(id), GridValue::Min(id), GridValue::Max(id)].into_iter().chain(faces)
+        })
+    }
+
+    pub(crate) fn grid_value_names(&self) -> impl Iterator<Item = String> + '_ {
+        self.grid_values().map(|value| self.grid_value_name(value))
+    }
+
+    /// Lays down which nodes the values are made of that expressions of results name.
+    pub(crate) fn settle_grid_values(&mut self) {
+        let values: Vec<GridValue> = self.layout.grid_values().iter().map(|(value, _)| *value).collect();
+        let members = values.into_iter().map(|value| self.grid_value_members(value)).collect();
+        Arc::make_mut(&mut self.layout).set_members(members);
+    }
+}

@@ -1,0 +1,163 @@
+//! Finds what depends on what.
+
+use lptn_laws::Carries;
+
+use crate::id::{ConductorId, End, Item, SignalId};
+use crate::parts::Parts;
+use crate::parts::control::Control;
+use crate::parts::dependence::{Dependence, NONE, Reads};
+use crate::parts::element::{Conductor, Source};
+use crate::parts::layout::Holds;
+use crate::slot;
+use crate::value::Value;
+
+impl Dependence {
+    fn add(&mut self, parts: &Parts, end: End) {
+        let vertex = parts.vertex(end);
+        let position = self.vertices.iter().position(|&v| v == vertex).unwrap_or_else(|| {
+            self.vertices.push(vertex);
+            self.vertices.len() - 1
+        });
+        self.named.push((parts.layout.temperature(end), position));
+    }
+}
+
+impl Parts {
+    /// Position of an end among all vertices: nodes, then boundaries.
+    pub(crate) fn vertex(&self, end: End) -> u32 {
+        let index = match end {
+            End::Node(id) => id.index(),
+            End::Boundary(id) => self.nodes.len() + id.index(),
+        };
+        u32::try_from(index).expect("ids are 32 bits wide")
+    }
+
+    /// What a value reads, signals that are expressions included.
+    pub(crate) fn reads(&self, value: &Value) -> Reads {
+        let mut reads = Reads::default();
+        if let Value::Constant(_) = value {
+            return reads; // nearly all values of a large network
+        }
+        for slot in value.slots() {
+            match self.layout.holds(slot) {
+                Holds::Time | Holds::FrozenTime | Holds::Signal(_) | Holds::FrozenSignal(_) => {
+                    reads.time = true;
+                }
+                Holds::Link => reads.link = true,
+                Holds::Own => reads.own = true,
+                Holds::Temperature(end) => reads.temperatures.push(end),
+                Holds::Control(_) | Holds::Switch(_) => reads.positions = true,
+                Holds::Parameter(_) | Holds::Heat(_) | Holds::Grid(_) => {}
+            }
+        }
+        reads.temperatures.sort_unstable();
+        reads
+    }
+
+    /// Whether a value of an item reads a signal, through other signals too.
+    pub(crate) fn uses_signal(&self, item: Item, signal: SignalId) -> bool {
+        let own = self.inputs().filter(|(of, _, _)| *of == item).map(|(_, _, value)| value);
+        let limit = match item {
+            Item::Limit(id) => Some(&self.limits[id.index()].of),
+            _ => None,
+        };
+        self.watched(own.chain(limit).collect(), &[]).signals[signal.index()]
+    }
+
+    /// Marks the signals that a value reads itself.
+    pub(crate) fn mark_signals(&self, value: &Value, used: &mut [bool]) {
+        for slot in value.slots() {
+            if let Holds::Signal(id) | Holds::FrozenSignal(id) = self.layout.holds(slot) {
+                used[id.index()] = true;
+            }
+        }
+    }
+
+    /// Whether the heat of a conductor is more than a constant times a difference or a stream.
+    pub(crate) fn is_variable(&self, conductor: &Conductor) -> bool {
+        if conductor.law.is_number() {
+            return false;
+        }
+        let fluid = conductor.law.fluid().map(|id| &self.fluids[id.index()].cp);
+        conductor.law.formula().declaration().reads_ends
+            || conductor.law.values().iter().chain(fluid).any(|v| !self.reads(v).is_constant())
+    }
+
+    /// The temperatures that a conductor was found to depend on; none for a constant one.
+    pub(crate) fn dependence(&self, id: ConductorId) -> &Dependence {
+        self.conductor_dependence[id.index()].as_deref().unwrap_or(&NONE)
+    }
+
+    /// The temperatures a conductor depends on.
+    pub(crate) fn conductor_dependence(&self, conductor: &Conductor) -> Dependence {
+        let mut dependence = Dependence {
+            vertices: vec![self.vertex(conductor.from), self.vertex(conductor.to)],
+            named: Vec::new(),
+        };
+        for value in conductor.law.values() {
+            self.reads(value).temperatures.into_iter().for_each(|end| dependence.add(self, end));
+        }
+        dependence
+    }
+
+    /// The temperatures a source depends on: its own node first, if it reads that; none if it depends on time only.
+    pub(crate) fn source_dependence(&self, source: &Source) -> Dependence {
+        let reads = self.reads(&source.power);
+        let mut dependence = Dependence::default();
+        if let (true, Some(&(node, _))) = (reads.own, source.into.first()) {
+            dependence.vertices.push(self.vertex(End::Node(node)));
+            dependence.named.push((slot::OWN, 0));
+        }
+        reads.temperatures.into_iter().for_each(|end| dependence.add(self, end));
+        dependence
+    }
+
+    /// The temperatures that the thresholds of a control depend on.
+    fn control_dependence(&self, control: &Control) -> Dependence {
+        let mut dependence = Dependence::default();
+        let thresholds = control.thermostat.iter().flat_map(|thermostat| [&thermostat.on, &thermostat.off]);
+        for value in thresholds {
+            self.reads(value).temperatures.into_iter().for_each(|end| dependence.add(self, end));
+        }
+        dependence
+    }
+
+    /// Which massless nodes have only constant conductances around them, so that they can be eliminated.
+    pub(crate) fn linear_massless(&self) -> Vec<bool> {
+        let mut linear: Vec<bool> = self.nodes.iter().map(|node| node.massless).collect();
+        let mut touch = |vertex: u32| {
+            if let Some(flag) = linear.get_mut(vertex as usize) {
+                *flag = false;
+            }
+        };
+        for (conductor, dependence) in self.conductors.iter().zip(&self.conductor_dependence) {
+            let proportional = conductor.law.carries() == Carries::Conductance;
+            if !proportional || dependence.is_some() {
+                touch(self.vertex(conductor.from));
+                touch(self.vertex(conductor.to));
+                dependence.iter().flat_map(|of| &of.vertices).for_each(|&v| touch(v));
+            }
+        }
+        for (source, dependence) in self.sources.iter().zip(&self.source_dependence) {
+            dependence.vertices.iter().for_each(|&v| touch(v));
+            if !dependence.vertices.is_empty() {
+                source.into.iter().for_each(|&(node, _)| touch(self.vertex(End::Node(node))));
+            }
+        }
+        linear
+    }
+
+    /// Works out once what depends on what.
+    pub(crate) fn settle(&mut self) {
+        self.hold_comparisons();
+        let conductors = self
+            .conductors
+            .iter()
+            .map(|c| self.is_variable(c).then(|| Box::new(self.conductor_dependence(c))));
+        let conductors = conductors.collect();
+        let sources = self.sources.iter().map(|s| self.source_dependence(s)).collect();
+        self.conductor_dependence = conductors;
+        self.source_dependence = sources;
+        self.control_dependence = self.controls.iter().map(|c| self.control_dependence(c)).collect();
+    }
+}
