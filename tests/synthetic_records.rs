@@ -7,9 +7,9 @@ mod synthetic_records;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
+use lptn::fit::law::{Law, Run, RunReference, RunSettings, RunsStudy};
+use lptn::fit::step::{Capacity, Sensor};
 use lptn::netlist::{RecordQuery, read_record};
-use lptn::study::fit::law::{Law, Run, RunReference, RunSettings, RunsStudy};
-use lptn::study::fit::step::{Capacity, Sensor};
 
 /// The truth, as the README states it.
 const ALPHA: f64 = 87e-6;

@@ -9,7 +9,7 @@ mod validation;
 
 use std::path::{Path, PathBuf};
 
-use lptn::study::{available_threads, in_parallel};
+use lptn::solve::{available_threads, in_parallel};
 use serde_json::{Value, json};
 use validation::{Report, Waiting, cases, own_folder};
 

@@ -192,7 +192,7 @@ fn solved(netlist: &Netlist) {
         Err(error) => assert!(!error.to_string().is_empty()),
     }
     let Some(run) = &netlist.run else { return };
-    let mut transient = lptn::study::transient(&netlist.network, run);
+    let mut transient = lptn::solve::Transient::of(&netlist.network, run);
     if transient.rows().is_ok_and(|rows| rows.len() as f64 > ROWS) {
         transient.output = OutputTimes::Every((run.stop - run.start) / ROWS);
     }

@@ -82,7 +82,7 @@ mod tests {
 
         let work = |&i: &usize| if i == 3 { panic!("worker {i}") } else { i };
         let failure = caught(|| {
-            lptn_study::in_parallel(&[0, 1, 2, 3, 4, 5], 3, work);
+            lptn_solve::in_parallel(&[0, 1, 2, 3, 4, 5], 3, work);
             Ok(Exit::Done)
         });
         let message = failure.unwrap_err().diagnostics[0].message.clone();

@@ -12,7 +12,7 @@ mod random;
 
 use std::sync::OnceLock;
 
-use lptn_study::{available_threads, in_parallel};
+use lptn_solve::{available_threads, in_parallel};
 use random::compare::{Case, LeftOut, coverage, same};
 use random::generate::network;
 use random::model::Net;

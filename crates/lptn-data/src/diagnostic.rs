@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use lptn_units::{Help, suggest};
+
 use crate::file::{Files, Span};
 
 /// How bad it is.
@@ -54,12 +56,12 @@ impl Diagnostic {
     }
 
     /// An error at its place, with what to do about it.
-    pub fn wrong(code: &'static str, message: impl Into<String>, at: &Span, help: impl Into<String>) -> Self {
+    pub fn wrong(code: &'static str, message: impl Into<String>, at: &Span, help: impl Help) -> Self {
         Self::error(code, message).at(at.clone(), "").help(help)
     }
 
     /// A warning at its place, with what to do about it.
-    pub fn doubt(code: &'static str, message: impl Into<String>, at: &Span, help: impl Into<String>) -> Self {
+    pub fn doubt(code: &'static str, message: impl Into<String>, at: &Span, help: impl Help) -> Self {
         Self { severity: Severity::Warning, ..Self::wrong(code, message, at, help) }
     }
 
@@ -82,17 +84,11 @@ impl Diagnostic {
         places.fold(self, |problem, (n, (span, text))| problem.label(Some(span), text, n == 0))
     }
 
-    /// Sets what to do about it.
+    /// Sets what to do about it, where something is known.
     #[must_use]
-    pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+    pub fn help(mut self, help: impl Help) -> Self {
+        self.help = help.words().or(self.help);
         self
-    }
-
-    /// Sets what to do about it, where that is known.
-    #[must_use]
-    pub fn help_if(self, help: Option<String>) -> Self {
-        Self { help: help.or(self.help), ..self }
     }
 
     /// Adds what else is worth knowing.
@@ -100,6 +96,20 @@ impl Diagnostic {
     pub fn note(mut self, note: impl Into<String>) -> Self {
         self.notes.push(note.into());
         self
+    }
+
+    /// Says what was probably meant by `wrong`: the nearest of the names, else `otherwise`.
+    #[must_use]
+    pub fn did_you_mean<'n>(
+        self,
+        wrong: &str,
+        names: impl IntoIterator<Item = &'n str>,
+        otherwise: impl FnOnce() -> String,
+    ) -> Self {
+        match suggest(wrong, names.into_iter()) {
+            Some(near) => self.help(format!("did you mean `{near}`?")),
+            None => self.help(otherwise()),
+        }
     }
 
     /// The place of the problem, if it has one.

@@ -180,7 +180,7 @@ impl Head {
         let text = header.unit.as_deref().filter(|unit| *unit != "-").unwrap_or("1");
         let unit = Unit::parse(text).map_err(|error| {
             let message = format!("the unit of column `{}`: {error}", header.name);
-            at(Diagnostic::error(error.code(), message)).help_if(error.help())
+            at(Diagnostic::error(error.code(), message)).help(error.help())
         })?;
         let kelvin = self.codes.of_record && unit.ty == Type::of(Dimension::TEMPERATURE);
         let ty = if kelvin && wanted.is_none() { Type::ABSOLUTE_TEMPERATURE } else { unit.ty };

@@ -8,7 +8,7 @@ use lptn_units::{Dimension, Scalar, Type};
 use crate::Kind;
 use crate::declare::{Carries, Confidence, Extent, Field, Form, KindDeclaration, Law, LawDeclaration, Range};
 
-/// The kind.
+/// `[advection]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
 pub(crate) const Advection: KindDeclaration = KindDeclaration {
     section: "advection",

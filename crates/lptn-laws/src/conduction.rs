@@ -10,7 +10,7 @@ use lptn_units::{Dimension, Scalar, Type};
 use crate::Kind;
 use crate::declare::{Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration};
 
-/// The kind.
+/// `[conduction]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
 pub(crate) const Conduction: KindDeclaration = KindDeclaration {
     section: "conduction",

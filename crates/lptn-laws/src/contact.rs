@@ -2,7 +2,7 @@
 
 use crate::declare::{KindDeclaration, Surface};
 
-/// The kind.
+/// `[contact]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
 pub(crate) const Contact: KindDeclaration = KindDeclaration {
     section: "contact",

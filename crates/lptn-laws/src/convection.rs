@@ -7,7 +7,7 @@ use crate::declare::{
     Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration, Surface,
 };
 
-/// The kind.
+/// `[convection]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
 pub(crate) const Convection: KindDeclaration = KindDeclaration {
     section: "convection",

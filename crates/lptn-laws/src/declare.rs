@@ -7,7 +7,7 @@ use crate::{Formula, Kind};
 
 /// A law: what it declares, and its formula.
 pub trait Law {
-    /// What is known of it.
+    /// Its name, equation, fields, range of validity and source.
     const DECLARATION: LawDeclaration;
 
     /// Its value in SI units, of what [`LawDeclaration::carries`] says.
@@ -33,7 +33,7 @@ pub struct LawDeclaration {
     pub kinds: &'static [Kind],
     /// What it takes. Two in a row with one key are given as a list of two.
     pub fields: &'static [Field],
-    /// What its value is.
+    /// What the value of its formula means.
     pub carries: Carries,
     /// Whether its value depends on the temperatures of the ends even where all fields are constant.
     pub reads_ends: bool,
@@ -118,7 +118,7 @@ pub enum Confidence {
 pub struct Field {
     /// Its key in a netlist.
     pub key: &'static str,
-    /// What it has to be.
+    /// The range that its value has to lie in.
     pub ty: Type,
     /// Which numbers it may be.
     pub range: Range,

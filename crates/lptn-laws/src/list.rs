@@ -16,7 +16,7 @@ macro_rules! declare {
             /// All of them.
             pub const ALL: &[Self] = &[$($(Self::$kind,)?)*];
 
-            /// What is known of it.
+            /// Its declaration.
             pub const fn declaration(self) -> &'static KindDeclaration {
                 match self { $($(Self::$kind => &crate::$module::$kind,)?)* }
             }
@@ -31,7 +31,7 @@ macro_rules! declare {
             /// All of them.
             pub const ALL: &[Self] = &[$($(Self::$law,)*)*];
 
-            /// What is known of it.
+            /// Its declaration.
             pub const fn declaration(self) -> &'static LawDeclaration {
                 match self { $($(Self::$law => &<crate::$module::$law as Law>::DECLARATION,)*)* }
             }

@@ -7,7 +7,7 @@ use crate::declare::{
     Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration, Range, Surface,
 };
 
-/// The kind.
+/// `[radiation]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
 pub(crate) const Radiation: KindDeclaration = KindDeclaration {
     section: "radiation",

@@ -5,7 +5,7 @@ use lptn_units::{Dimension, Scalar, Type};
 use crate::Kind;
 use crate::declare::{Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration};
 
-/// The kind.
+/// `[resistor]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
 pub(crate) const Resistor: KindDeclaration = KindDeclaration {
     section: "resistor",

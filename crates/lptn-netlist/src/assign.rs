@@ -131,7 +131,7 @@ impl Netlist {
                     return problem
                         .help("`--set` takes a number or a quantity, not an expression: `omega=5000rpm`");
                 }
-                problem.help_if(error.help())
+                problem.help(error.help())
             }
         }
     }

@@ -13,7 +13,7 @@ pub(crate) fn describe(error: &BuildError, map: &SourceMap) -> Diagnostic {
     let diagnostic = places(diagnostic, error, map);
     let whole = matches!(error.kind, Kind::Empty)
         .then(|| format!("add a section [node]; {MINIMAL}").trim_end().to_owned());
-    diagnostic.help_if(imported(error, map).or(whole).or_else(|| error.kind.help(&say)))
+    diagnostic.help(imported(error, map).or(whole).or_else(|| error.kind.help(&say)))
 }
 
 fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagnostic {

@@ -88,11 +88,10 @@ pub use lptn_data::{
     Record, RecordColumn, RecordName, RecordQuery, Rejected, Saturation, Severity, Span, read_bytes,
     read_record, read_sheet,
 };
+pub use lptn_network::{RunSettings, WindowSettings};
 pub use near_file::similar_file;
 pub use netlist::{Netlist, parse, parse_bytes, parse_file, parse_raw, parse_with, read};
-pub use outputs::WindowSettings;
 pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
-pub use run::RunSettings;
 pub use section::format;
 pub use size::{Goal, Requirement, SizeStudy};
 pub use source_map::SourceMap;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use lptn_data::{
     Diagnostic, FileId, Files, ReadError, Rejected, Severity, Span, arrange, read_bytes, read_named, shorten,
 };
-use lptn_network::{Network, Parameters};
+use lptn_network::{Network, Parameters, RunSettings};
 use lptn_units::Unit;
 
 use crate::csv_files::CsvFiles;
@@ -21,7 +21,7 @@ use crate::include::{self, Loader, Merged};
 use crate::initial::{self, InitialState, StateFile};
 use crate::plausible;
 use crate::raw::RawNetlist;
-use crate::run::{RUN, RunPlan, RunSettings};
+use crate::run::{RUN, RunPlan};
 use crate::section;
 use crate::size::SizeStudy;
 use crate::source_map::SourceMap;

@@ -1,7 +1,7 @@
 //! What a run reports beside its own columns: expressions of results, and windows of time.
 
 use lptn_data::{Diagnostic, Span};
-use lptn_network::{Field, Item};
+use lptn_network::{Field, Item, WindowSettings};
 
 use crate::fields::{Fields, Owner};
 use crate::format::{SectionDeclaration, key};
@@ -17,17 +17,6 @@ const WINDOW: SectionDeclaration = SectionDeclaration {
     example: "{ from = \"10 min\", to = \"20 min\" }",
     ..SectionDeclaration::NEW
 };
-
-/// A part of the run over which means and extremes are taken.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WindowSettings {
-    /// Its name.
-    pub name: String,
-    /// When it begins, in s; not before the run.
-    pub from: f64,
-    /// When it ends, in s; after `from` and not after the run.
-    pub to: f64,
-}
 
 /// A window before its expressions are evaluated.
 #[derive(Clone, Debug)]

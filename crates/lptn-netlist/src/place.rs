@@ -163,7 +163,7 @@ impl Place<'_> {
         let problem = self.unit_error(&error);
         let key = if self.key.is_empty() { String::new() } else { format!("{} = ", self.key) };
         let line = |value: &str| format!("`{key}\"{value}\"`");
-        Some(problem.help_if(celsius_or_kelvin(text, line, "")))
+        Some(problem.help(celsius_or_kelvin(text, line, "")))
     }
 
     /// Puts a mistake in the string at its place in the file.
@@ -181,7 +181,7 @@ impl Place<'_> {
             _ => self.raw.part(&error.span),
         };
         let diagnostic = diagnostic.at(place, "");
-        diagnostic.help_if(self.unit_help(error))
+        diagnostic.help(self.unit_help(error))
     }
 
     /// The part of the string that is wrong, if it is not the whole string.

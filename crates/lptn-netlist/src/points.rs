@@ -224,7 +224,7 @@ impl<'a> Elaboration<'a> {
                 let (n, m) = (x.numbers.len(), y.numbers.len());
                 at_list(format!("{words} has {n} arguments but {m} values")).help("give one value for each")
             }
-            other => at_list(format!("{words}: {other}")).help_if(other.help().map(str::to_owned)),
+            other => at_list(format!("{words}: {other}")).help(other.help()),
         };
         self.report(problem);
     }

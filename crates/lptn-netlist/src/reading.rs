@@ -3,7 +3,7 @@
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Field, Input, Item};
-use lptn_units::{Type, suggest};
+use lptn_units::{Help, Type, suggest};
 
 use crate::fields::{Fields, Owner};
 use crate::format::SectionDeclaration;
@@ -157,7 +157,7 @@ impl<'a> Elaboration<'a> {
         code: &'static str,
         message: impl Into<String>,
         at: &Span,
-        help: impl Into<String>,
+        help: impl Help,
     ) {
         let problem = Diagnostic::wrong(code, message, at, help);
         self.report(problem);

@@ -1,12 +1,12 @@
 //! `[run]`: what to simulate.
 
 use lptn_data::{Diagnostic, Span};
-use lptn_network::{AfterEnd, Evaluation, Network, OutputTimes};
+use lptn_network::{AfterEnd, Evaluation, Network, OutputTimes, RunSettings, WindowSettings};
 use lptn_units::{Dimension, Type};
 
 use crate::fields::{Fields, Owner};
 use crate::format::{Role, SectionDeclaration, key};
-use crate::outputs::{WindowPlan, WindowSettings};
+use crate::outputs::WindowPlan;
 use crate::raw::{RawKind, RawValue};
 use crate::section::SIGNAL;
 use crate::setting::{Setting, TIME};
@@ -66,26 +66,6 @@ const OUTPUT: SectionDeclaration = SectionDeclaration {
 const USUAL_TOLERANCE: f64 = 1e-5;
 
 const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
-
-/// What to simulate, in SI units.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RunSettings {
-    /// Time at which the run begins, in s.
-    pub start: f64,
-    /// Time at which it ends, in s; after `start`.
-    pub stop: f64,
-    /// When to write a row.
-    pub output: OutputTimes,
-    /// Which columns to write, as patterns such as `*.T`; empty for all.
-    pub select: Vec<String>,
-    /// Over which parts of it to take means and extremes, in file order.
-    pub windows: Vec<WindowSettings>,
-    /// Tolerance in K.
-    pub tolerance: f64,
-    /// For each control by id how long it has been as it stands at the start, in s, from 0: `None` if it never
-    /// switched. Empty for a run that starts from no state.
-    pub held: Vec<Option<f64>>,
-}
 
 /// `[run]` before its expressions are evaluated: `--set` may change what they use.
 #[derive(Clone, Debug)]

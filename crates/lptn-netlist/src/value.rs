@@ -157,5 +157,5 @@ fn with_parameter(
     let diagnostic = diagnostic.also(entry.value.span.clone(), "its value");
     let alone = expression.text().trim() == name && all.is_parameter(name);
     let help = wanted.ty.filter(|_| alone).and_then(|ty| parameter_help(entry, ty));
-    diagnostic.help_if(help)
+    diagnostic.help(help)
 }

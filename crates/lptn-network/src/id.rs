@@ -166,7 +166,7 @@ pub enum Field {
     To,
     /// Node that a source heats.
     Into,
-    /// What a limit limits.
+    /// `of`: the quantity that a limit bounds.
     Of,
     /// What a limited quantity has to stay below.
     Below,

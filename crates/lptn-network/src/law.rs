@@ -62,7 +62,7 @@ impl<V> Law<V> {
         self.formula
     }
 
-    /// What its value is.
+    /// What the value of its formula means: a conductance, an exchange area, a flow.
     pub fn carries(&self) -> Carries {
         self.formula.declaration().carries
     }
@@ -72,7 +72,7 @@ impl<V> Law<V> {
         self.fluid
     }
 
-    /// Whether it is a stream.
+    /// Whether heat goes with a fluid that flows from one end to the other.
     pub fn is_stream(&self) -> bool {
         self.carries().is_stream()
     }

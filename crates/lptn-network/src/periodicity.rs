@@ -13,7 +13,7 @@ use crate::value::Value;
 /// Two signals whose periods have no multiple in common that anyone would wait for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoCommonPeriod {
-    /// The signals.
+    /// The two signals whose periods do not fit.
     pub signals: [SignalId; 2],
     /// Their names.
     pub names: [String; 2],

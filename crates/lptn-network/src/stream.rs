@@ -11,7 +11,7 @@ const REFERENCE: f64 = 298.15;
 /// What streams bring to a node and take from it, as capacity rates in W/K.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passing {
-    /// The node.
+    /// The node that the streams pass.
     pub node: NodeId,
     /// The rate that flows in.
     pub inflow: f64,

@@ -51,7 +51,7 @@ impl Value {
         }
     }
 
-    /// The programs in it.
+    /// The compiled expressions in it; none for a constant.
     pub fn programs(&self) -> Vec<&Arc<Program>> {
         match self {
             Self::Constant(_) => Vec::new(),
@@ -79,7 +79,7 @@ pub struct Input {
 }
 
 impl Input {
-    /// Its type.
+    /// The type that the builder checks against that of the field.
     pub fn ty(&self) -> Type {
         self.ty
     }
@@ -120,7 +120,7 @@ pub enum Size<T = Value> {
 /// A lump of a material, from which a capacity was computed.
 #[derive(Clone, Debug)]
 pub struct Lump {
-    /// The material.
+    /// What the lump consists of.
     pub material: MaterialId,
     /// How much of it.
     pub size: Size,

@@ -1,7 +1,7 @@
 //! The settings of a run, and how it reports on itself.
 
 use lptn_integrate::{LinearSolver, Options};
-use lptn_network::{End, Network, NodeId, OutputTimes, ParameterId, Time};
+use lptn_network::{End, Network, NodeId, OutputTimes, ParameterId, RunSettings, Time};
 
 use crate::curved::Curved;
 use crate::events::ControlState;
@@ -75,6 +75,21 @@ impl Transient {
             controls: Vec::new(),
             sensitivities: Vec::new(),
             linear_solver: LinearSolver::Auto,
+        }
+    }
+
+    /// The run that `settings` describe: its times, rows and tolerance, and where the controls stand at its start. What
+    /// is recorded, watched and averaged is left to the caller.
+    pub fn of(network: &Network, settings: &RunSettings) -> Self {
+        let since = |held: &Option<f64>| held.map_or(f64::NEG_INFINITY, |held| settings.start - held);
+        // none for a run that starts from no state: it begins as the network says
+        let stands = network.initial_positions().controls.into_iter().zip(&settings.held);
+        Self {
+            start: settings.start,
+            output: settings.output.clone(),
+            tolerance: settings.tolerance,
+            controls: stands.map(|(on, held)| ControlState { on, since: since(held) }).collect(),
+            ..Self::until(Time(settings.stop))
         }
     }
 

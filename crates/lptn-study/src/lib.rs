@@ -11,13 +11,9 @@
 
 mod compare;
 mod digest;
-pub mod fit;
 mod manifest;
 mod moment;
-mod parallel;
 mod record;
-mod run;
-mod sensitivity;
 mod size;
 pub mod uncertainty;
 
@@ -25,10 +21,7 @@ pub use compare::{Candidate, CompareError, CompareRow, LimitResult, Peak, SortKe
 pub use digest::{Hashing, sha256};
 pub use manifest::{Environment, FileHash, Manifest, ParameterRecord, RunEnd, Sundials};
 pub use moment::utc;
-pub use parallel::{available_threads, in_parallel};
 pub use record::{LedgerRecord, Scalar, StatisticsRecord};
-pub use run::transient;
-pub use sensitivity::{Gradient, SensitiveError, SensitiveRun, sensitive_run, sensitive_run_observed};
 pub use size::{
     Coolant, Cooling, CoolingError, CoolingTask, Flow, SizeError, SizeTask, Sizing, Trial, Verdict,
     requirement_margins, size,

@@ -9,7 +9,7 @@ use crate::scalar::Scalar;
 /// Source: A. Griewank and A. Walther, Evaluating Derivatives, 2nd edition (SIAM 2008), chapter 3 (forward mode).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Dual<const N: usize> {
-    /// The value.
+    /// The value of the function itself.
     pub value: f64,
     /// One derivative per variable.
     pub derivatives: [f64; N],

@@ -13,7 +13,7 @@ use crate::types::Type;
 /// A mistake in a quantity, a unit or an expression, with its place in the text.
 #[derive(Clone, PartialEq, Debug)]
 pub struct UnitError {
-    /// What is wrong.
+    /// Which mistake it is, with what to write instead.
     pub kind: UnitErrorKind,
     /// Where: bytes of the string that was parsed.
     pub span: Range<usize>,

@@ -14,7 +14,7 @@ pub struct Unit {
     pub scale: f64,
     /// Added to a value before scaling: 273.15 for `degC` alone, 459.67 for `degF` alone, else 0.
     pub offset: f64,
-    /// What it measures.
+    /// The type of what it measures.
     pub ty: Type,
 }
 

@@ -2,11 +2,11 @@
 
 use std::cell::OnceCell;
 
+use lptn::fit::network::NetworkFit;
 use lptn::network::{BoundaryId, ConductorId, End, NodeId};
 use lptn::prelude::*;
 use lptn::reduce::{Bias, ExponentialFit, NortonEquivalent, fit_exponential, transfer_resistance};
 use lptn::solve::{Mode, Modes};
-use lptn::study::fit::network::NetworkFit;
 
 use super::calibration;
 use super::case::Case;

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use lptn::fit::network::{Measured, MeasuredRun, NetworkFit, NetworkFitTask, Varied, fit_network};
 use lptn::network::End;
 use lptn::prelude::*;
-use lptn::study::available_threads;
-use lptn::study::fit::network::{Measured, MeasuredRun, NetworkFit, NetworkFitTask, Varied, fit_network};
+use lptn::solve::available_threads;
 
 use super::answer::Trouble;
 use super::case::{Calibration, Case};

@@ -51,7 +51,7 @@ pub fn results_of(netlist: &Netlist) -> Result<Results, String> {
         of: Selection::of(network, |item| matches!(item, lptn_network::Item::Node(_))),
     };
     let windows = run.windows.iter().map(window).collect();
-    let transient = Transient { windows, ..lptn_study::transient(network, run) };
+    let transient = Transient { windows, ..lptn_solve::Transient::of(network, run) };
     let solution = transient.solve(&system).map_err(|error| format!("{}: {error}", error.code()))?;
     if !solution.ledger().closes() {
         return Err("the books do not close".into());

@@ -14,10 +14,9 @@ mod values;
 use std::path::{Component, Path, PathBuf};
 
 use lptn_data::FileId;
-use lptn_network::Network;
+use lptn_network::{Network, RunSettings};
 
 use crate::netlist::Netlist;
-use crate::run::RunSettings;
 use crate::toml_text::{TomlFields, string};
 pub use proof::{WrittenError, prove};
 

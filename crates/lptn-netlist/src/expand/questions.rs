@@ -2,11 +2,11 @@
 
 use super::Writer;
 use crate::fit::FIT;
-use crate::run::{OutputPlan, RUN, RunSettings};
+use crate::run::{OutputPlan, RUN};
 use crate::setting::Setting;
 use crate::size::SIZE;
 use crate::toml_text::{TomlFields, key, quantity, strings};
-use lptn_network::OutputTimes;
+use lptn_network::{OutputTimes, RunSettings};
 use lptn_units::{Dimension, Type};
 
 impl Writer<'_> {

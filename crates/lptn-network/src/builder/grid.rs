@@ -19,7 +19,7 @@ pub struct Block {
     pub cells: Vec<usize>,
     /// Its thermal conductivity along x, y and z; it may depend on `T`, which is then the mean of two neighbours.
     pub conductivity: [Input; 3],
-    /// What it is made of.
+    /// Its material, or density and specific heat capacity.
     pub substance: Substance<Input>,
     /// Its temperature at the start.
     pub initial: Option<Input>,

@@ -6,7 +6,7 @@ use crate::value::Value;
 /// A thermostat. Its name is 0 (off) or 1 (on) in expressions.
 #[derive(Clone, Debug)]
 pub struct Control {
-    /// Its name.
+    /// Its name, unique among parameters, signals, tables, controls and reports.
     pub name: String,
     /// What it does; `None` until [`NetworkBuilder::thermostat`](crate::NetworkBuilder::thermostat) says so.
     pub thermostat: Option<Thermostat>,

@@ -13,7 +13,7 @@ use crate::value::{Lump, Value};
 /// A named value that expressions may use.
 #[derive(Clone, Debug)]
 pub struct Parameter {
-    /// Its name.
+    /// Its name, unique among parameters, signals, tables, controls and reports.
     pub name: String,
     /// Its type; [`Network::with`](crate::Network::with) keeps it.
     pub ty: Type,
@@ -26,7 +26,7 @@ pub struct Parameter {
 /// A lump with one temperature that is solved for.
 #[derive(Clone, Debug)]
 pub struct Node {
-    /// Its name.
+    /// Its name, unique among nodes, boundaries and elements.
     pub name: String,
     /// Its own heat capacity in J/K, which may depend on its temperature; capacitors add to it.
     pub capacity: Option<Value>,
@@ -61,7 +61,7 @@ impl Node {
 /// A part of a node's capacity: the paper's equation (9), a sum over the parts of one lump.
 #[derive(Clone, Debug)]
 pub struct Capacitor {
-    /// Its name.
+    /// Its name, unique among nodes, boundaries and elements.
     pub name: String,
     /// The node it belongs to.
     pub node: NodeId,
@@ -74,7 +74,7 @@ pub struct Capacitor {
 /// A place with a given temperature.
 #[derive(Clone, Debug)]
 pub struct Boundary {
-    /// Its name.
+    /// Its name, unique among nodes, boundaries and elements.
     pub name: String,
     /// Its temperature in K; may depend on time.
     pub temperature: Value,
@@ -84,13 +84,13 @@ pub struct Boundary {
 #[derive(Clone, Debug)]
 pub struct Conductor {
     pub(crate) label: Label,
-    /// Its kind.
+    /// The section it stands in.
     pub kind: Kind,
     /// The end that positive heat leaves.
     pub from: End,
     /// The end that positive heat enters.
     pub to: End,
-    /// Its law.
+    /// The formula by which it carries heat, with one value for each field.
     pub law: Law,
 }
 

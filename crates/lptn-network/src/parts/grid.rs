@@ -73,7 +73,7 @@ pub struct Grid {
     pub size: [Value; 3],
     /// Its thermal conductivity along x, y and z in W/(m K).
     pub conductivity: [Value; 3],
-    /// What it is made of.
+    /// Its material, or density and specific heat capacity.
     pub substance: Substance,
     /// Its temperature at the start in K.
     pub initial: Option<Value>,
@@ -179,7 +179,7 @@ pub enum Substance<T = Value> {
 /// A face of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct GridFace {
-    /// The grid.
+    /// The grid whose face it is.
     pub grid: GridId,
     /// Which of its faces.
     pub face: Face,
@@ -221,9 +221,9 @@ impl From<GridFace> for Terminal {
 /// A path that ends at a face: one conductor for each cell, which share its conductance or area.
 #[derive(Clone, Debug)]
 pub struct Joint {
-    /// Its name.
+    /// Its name, unique among nodes, boundaries and elements.
     pub name: String,
-    /// Its kind.
+    /// The section it stands in.
     pub kind: Kind,
     /// The end that positive heat leaves.
     pub from: Terminal,

@@ -27,7 +27,7 @@ impl GridValue {
         }
     }
 
-    /// The grid.
+    /// The grid whose value it is.
     pub fn grid(self) -> GridId {
         match self {
             Self::Mean(id) | Self::Min(id) | Self::Max(id) => id,

@@ -27,16 +27,16 @@ impl Bound {
 /// What a broken limit means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
-    /// The answer is no.
+    /// A broken limit ends with exit code 1.
     Error,
-    /// It is worth a look.
+    /// A broken limit is printed, and the exit code stays 0.
     Warning,
 }
 
 /// A quantity of the results that has to stay below or above a value.
 #[derive(Clone, Debug)]
 pub struct Limit {
-    /// Its name.
+    /// Its name, unique among nodes, boundaries and elements.
     pub name: String,
     /// The quantity: an expression over parameters, `t`, signals, tables, temperatures and heat flows of the results.
     pub of: Value,
@@ -62,11 +62,11 @@ impl Limit {
 /// A named quantity that follows from the results: a column of its own.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// Its name.
+    /// Its name, unique among parameters, signals, tables, controls and reports.
     pub name: String,
     /// An expression over parameters, `t`, signals, tables, temperatures and heat flows of the results.
     pub value: Value,
-    /// Its type.
+    /// The type of its value.
     pub ty: Type,
     /// The expression as it was written.
     pub text: String,

@@ -8,9 +8,9 @@ use crate::value::Value;
 /// A named value that changes with time.
 #[derive(Clone, Debug)]
 pub struct Signal {
-    /// Its name.
+    /// Its name, unique among parameters, signals, tables, controls and reports.
     pub name: String,
-    /// Its type.
+    /// The type of its values.
     pub ty: Type,
     /// How it goes over time.
     pub course: Course,

@@ -67,7 +67,7 @@ impl Network {
 }
 
 impl Tangents {
-    /// The parameters.
+    /// The parameters that derivatives are taken by, in this order.
     pub fn parameters(&self) -> &[ParameterId] {
         &self.parameters
     }

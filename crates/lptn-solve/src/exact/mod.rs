@@ -14,10 +14,8 @@ mod periodic;
 mod reduced;
 mod spectrum;
 
-use std::fmt;
-
 use lptn_network::{InputError, Network, NodeId};
-use lptn_units::EvalError;
+use lptn_units::{Class, EvalError, Problem};
 
 use crate::events::EventKind;
 use crate::solution::Solution;
@@ -53,82 +51,40 @@ pub struct Difference {
     pub by_node: Vec<f64>,
 }
 
-/// Why a network has no exact solution here.
+const MERGE: &str = "merge the nodes that the largest conductances join";
+
+const CONSTANTS: &str = "only a network of constants has modes; `lptn run` follows it over time";
+
+lptn_units::errors! {
+/// Why a network has no exact solution, or no modes.
 #[derive(Clone, Debug)]
 pub enum ExactError {
     /// More nodes than the dense eigenproblem is for.
-    TooLarge {
-        /// How many it has.
-        nodes: usize,
-    },
+    TooLarge { nodes: usize } = "modes::too_large",
+        format!("{nodes} nodes are more than the {} that are solved by modes", Reduced::MOST_NODES),
+        help "lump nodes until there are at most 2000, or let `lptn run` show how long each node takes";
     /// The times are none, do not increase, or begin before the start.
-    Times,
+    Times = "exact::times", "the times must increase and begin at the start or after it";
     /// A source or boundary has no value.
-    Input(InputError),
+    Input => InputError;
     /// A constant has no value.
-    Value(EvalError),
-    /// It is not linear with constant coefficients.
-    NotLinear {
-        /// The name of the first item that makes it so.
-        name: String,
-    },
-    /// It switches at times that are not known beforehand.
-    Switches {
-        /// The name of the first control or comparison.
-        name: String,
-    },
+    Value(error: EvalError) = "solve::input", error, source error, help Problem::help(error);
+    /// It is not linear with constant coefficients; the name of the first item that makes it so.
+    NotLinear { name: String } = "exact::not_linear",
+        format!("`{name}` makes the network more than constant capacities and conductances"), help CONSTANTS;
+    /// It switches at times that are not known beforehand; the name of the first control or comparison.
+    Switches { name: String } = "exact::switches",
+        format!("`{name}` switches at times that depend on the temperatures"), help CONSTANTS;
     /// The conductances of the massless nodes span more than the numbers can hold.
-    Singular,
+    Singular = "exact::singular", "the conductances of the massless nodes span more than the numbers can hold",
+        help MERGE, class Class::Numbers;
     /// The eigenvalues were not found.
-    Modes,
-    /// An input changes too fast for any series.
-    Quadrature {
-        /// Where the attempt was given up, in s.
-        time: f64,
-    },
+    Modes = "exact::modes", "the eigenvalues of the network were not found", help MERGE, class Class::Numbers;
+    /// An input changes too fast for any series; where the attempt was given up, in s.
+    Quadrature { time: f64 } = "exact::quadrature",
+        format!("an input changes too fast at {time} s to be integrated"), help MERGE, class Class::Numbers;
 }
-
-impl ExactError {
-    /// The stable code, as diagnostics print it.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::TooLarge { .. } => "exact::too_large",
-            Self::Times => "exact::times",
-            Self::Input(_) | Self::Value(_) => "solve::input",
-            Self::NotLinear { .. } => "exact::not_linear",
-            Self::Switches { .. } => "exact::switches",
-            Self::Singular => "exact::singular",
-            Self::Modes => "exact::modes",
-            Self::Quadrature { .. } => "exact::quadrature",
-        }
-    }
 }
-
-impl fmt::Display for ExactError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TooLarge { nodes } => {
-                write!(f, "{nodes} nodes are more than the {} that are solved by modes", Reduced::MOST_NODES)
-            }
-            Self::Times => f.write_str("the times must increase and begin at the start or after it"),
-            Self::Input(error) => error.fmt(f),
-            Self::Value(error) => error.fmt(f),
-            Self::NotLinear { name } => {
-                write!(f, "`{name}` makes the network more than constant capacities and conductances")
-            }
-            Self::Switches { name } => {
-                write!(f, "`{name}` switches at times that depend on the temperatures")
-            }
-            Self::Singular => {
-                f.write_str("the conductances of the massless nodes span more than the numbers can hold")
-            }
-            Self::Modes => f.write_str("the eigenvalues of the network were not found"),
-            Self::Quadrature { time } => write!(f, "an input changes too fast at {time} s to be integrated"),
-        }
-    }
-}
-
-impl std::error::Error for ExactError {}
 
 impl ExactSolution {
     /// Temperatures of `network` at `times` in s, which increase strictly, from a start at `start` in s. At a jump
@@ -147,7 +103,7 @@ impl ExactSolution {
         if let Some(kind) = EventKind::switching(network).next() {
             return Err(ExactError::Switches { name: kind.name(network) });
         }
-        let breakpoints = network.breakpoints(start, stop).map_err(ExactError::Input)?;
+        let breakpoints = network.breakpoints(start, stop)?;
         let reduced = Reduced::new(network)?;
         let islands = islands(&reduced, network.boundaries().len())?;
         let mut rows = Rows::new(network, &reduced, (start, times))?;
@@ -300,11 +256,11 @@ impl<'a> Rows<'a> {
 
     fn push(&mut self, march: &mut March<'_>, time: f64) -> Result<(), ExactError> {
         if self.is_tested(time) {
-            self.defect = self.defect.max(march.defect(time).map_err(ExactError::Input)?);
+            self.defect = self.defect.max(march.defect(time)?);
         }
         let mut known = march.rises();
         let states = known.len();
-        known.extend(march.inputs(time).map_err(ExactError::Input)?);
+        known.extend(march.inputs(time)?);
         let mut row = vec![f64::NAN; self.nodes];
         for (id, rise) in self.reduced.states.iter().zip(&known[..states]) {
             row[id.index()] = *rise;

@@ -3,9 +3,8 @@
 mod indices;
 mod rows;
 
-use lptn_solve::Control;
+use lptn_solve::{Control, in_parallel};
 
-use crate::parallel::in_parallel;
 use crate::uncertainty::error::UncertaintyError;
 use crate::uncertainty::input::{Uncertain, uncertain};
 use crate::uncertainty::points::{self, LEAST, MOST_DIMENSIONS, MOST_POINTS};

@@ -2,8 +2,7 @@
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used, reason = "each test file uses a part of it")]
 
 use lptn_netlist::{Netlist, parse};
-use lptn_solve::Control;
-use lptn_study::transient;
+use lptn_solve::{Control, Transient, available_threads};
 use lptn_study::uncertainty::{Estimate, Sobol, Uncertainty, UncertaintyError, UncertaintyTask};
 
 /// 1000 J/K over `R` (0.5 K/W) towards `T_amb`, heated by `P`, for 1000 s: two time constants.
@@ -31,13 +30,13 @@ pub fn parsed(network: &str, param: &str) -> Netlist {
 /// The run of the netlist, every node asked for.
 pub fn task(netlist: &Netlist) -> UncertaintyTask<'_> {
     let network = &netlist.network;
-    let run = transient(network, netlist.run.as_ref().unwrap());
+    let run = Transient::of(network, netlist.run.as_ref().unwrap());
     UncertaintyTask { network, parameters: netlist.overrides(), run, nodes: network.node_ids().collect() }
 }
 
 /// Samples on all threads with seed 1.
 pub fn sobol(netlist: &Netlist, samples: usize) -> Uncertainty {
-    sobol_with(netlist, (samples, 1, lptn_study::available_threads())).unwrap_or_else(|e| panic!("{e}"))
+    sobol_with(netlist, (samples, 1, available_threads())).unwrap_or_else(|e| panic!("{e}"))
 }
 
 pub fn sobol_with(netlist: &Netlist, how: (usize, u32, usize)) -> Result<Uncertainty, UncertaintyError> {

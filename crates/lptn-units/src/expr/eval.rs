@@ -19,14 +19,14 @@ pub enum EvalError {
     NegativeBase {
         /// The base, in SI units.
         base: f64,
-        /// The exponent.
+        /// The exponent of the power.
         exponent: f64,
         /// The power in the text.
         span: Range<usize>,
     },
     /// The square root of a negative number, the logarithm of a number that is not positive.
     Domain {
-        /// The function.
+        /// The name of the function.
         function: &'static str,
         /// Its argument, in SI units.
         argument: f64,
@@ -35,7 +35,7 @@ pub enum EvalError {
     },
     /// An argument outside the knots of a table that has no value there.
     OutsideTable {
-        /// The table.
+        /// The name of the table.
         table: String,
         /// Which argument, counted from 0.
         argument: usize,
@@ -67,7 +67,7 @@ pub enum EvalError {
 }
 
 impl EvalError {
-    /// The stable code.
+    /// The stable code, as diagnostics print it.
     pub fn code(&self) -> &'static str {
         match self {
             Self::NegativeBase { .. } => "units::negative_base",
@@ -131,6 +131,16 @@ impl fmt::Display for EvalError {
 }
 
 impl std::error::Error for EvalError {}
+
+impl crate::Problem for EvalError {
+    fn code(&self) -> &'static str {
+        self.code()
+    }
+
+    fn help(&self) -> Option<String> {
+        self.help().map(str::to_owned)
+    }
+}
 
 /// A number with the unit in which people give it.
 fn in_unit(si: f64, unit: Option<&Unit>, digits: usize) -> String {

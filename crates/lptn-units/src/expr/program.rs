@@ -69,7 +69,7 @@ pub(crate) struct NamedTable {
 /// One call of a table, and where its arguments are.
 #[derive(Clone, Debug)]
 pub struct TableCall {
-    /// The table.
+    /// The table that is called.
     pub table: Arc<Table>,
     /// One program per argument. It loads the ordinary slots of its symbols, inside comparisons too, so that
     /// the roots of its value minus a knot are where the call crosses the knot.

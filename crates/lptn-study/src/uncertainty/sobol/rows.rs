@@ -1,6 +1,7 @@
 //! Bands at every row.
 
-use crate::parallel::in_parallel;
+use lptn_solve::in_parallel;
+
 use crate::uncertainty::estimate::{moments, quantile};
 use crate::uncertainty::result::Bands;
 use crate::uncertainty::sample::Sample;

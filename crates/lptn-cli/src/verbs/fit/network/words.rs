@@ -1,9 +1,9 @@
 //! What a fit of a network says in words.
 
+use lptn_fit::least_squares::Side;
+use lptn_fit::network::{ColumnMisfit, Combination, Kind, Unseparated};
 use lptn_netlist::Diagnostic;
 use lptn_report::significant;
-use lptn_study::fit::least_squares::Side;
-use lptn_study::fit::network::{ColumnMisfit, Combination, Kind, Unseparated};
 use lptn_units::{Rational, Type, Unit};
 
 use super::Answer;

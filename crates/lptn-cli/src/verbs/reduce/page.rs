@@ -1,0 +1,326 @@
+//! What `lptn reduce` shows.
+
+use std::borrow::Cow;
+use std::io;
+
+use lptn_reduce::{Bias, Definition, Deviation, Dynamics, FitError, Pair, Window};
+use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, duration, fixed, significant};
+use lptn_study::Scalar;
+use serde_json::{Value, json};
+
+use super::View;
+use crate::words::count;
+
+impl Page for View<'_> {
+    fn text(&self) -> Text {
+        let mut text = self.input.begun();
+        text.section().table(self.equivalent());
+        if let Some(dynamics) = &self.reduction.dynamics {
+            text.section().table(pairs(dynamics));
+            text.section().sentence("use ", &self.advice(dynamics));
+        }
+        match &self.bias {
+            Some(Ok(bias)) => text.section().table(self.bias(bias)),
+            Some(Err(error)) => text.section().sentence("one exponential: ", &error.to_string()),
+            None => &mut text,
+        };
+        text.section().notes(self.notes());
+        text
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        self.reduction.table().into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let netlist = &self.input.netlist;
+        let (norton, inputs) = (&self.reduction.norton, &self.reduction.inputs);
+        let boundaries = netlist.network.boundaries().iter().map(|b| Cow::from(&b.name));
+        let sources = netlist.network.sources().iter().map(|s| s.name());
+        self.input.head(json, &[])?;
+        json.member("port", &self.args.port)?;
+        json.member("R_eq", &scalar(norton.resistance, "K/W"))?;
+        json.member("T_ref", &scalar(inputs.reference, "K"))?;
+        json.member("Q_N", &scalar(inputs.heat, "W"))?;
+        json.member("boundary_weights", &named(boundaries, &norton.boundary_weights))?;
+        json.member("source_weights", &named(sources, &norton.source_weights))?;
+        dynamics(self.reduction.dynamics.as_ref(), json)?;
+        json.optional("bias", self.bias.as_ref().map(of_bias))?;
+        json.member("notes", &self.notes())
+    }
+}
+
+impl View<'_> {
+    /// What the port sees in steady state.
+    fn equivalent(&self) -> TextTable {
+        let network = &self.input.netlist.network;
+        let (norton, inputs) = (&self.reduction.norton, &self.reduction.inputs);
+        let boundaries = network.boundaries().iter().map(|b| Cow::from(&b.name));
+        let sources = network.sources().iter().map(|s| s.name());
+        let unit = &self.unit;
+        let mut rows = vec![
+            ["R_eq".to_owned(), format!("{} K/W", significant(norton.resistance, 5)), String::new()],
+            [
+                "T_ref".to_owned(),
+                format!("{} {}", fixed(unit.from_si(inputs.reference), 2), unit.text),
+                weights(boundaries, &norton.boundary_weights),
+            ],
+            [
+                "Q_N".to_owned(),
+                format!("{} W", significant(inputs.heat, 5)),
+                weights(sources, &norton.source_weights),
+            ],
+        ];
+        if let Some(dynamics) = &self.reduction.dynamics {
+            let slowest = dynamics.step.slowest();
+            let share = significant(100.0 * slowest.resistance / norton.resistance, 4);
+            let what = format!("slowest time constant, {share} % of R_eq");
+            rows.push(["tau_1".to_owned(), duration(slowest.tau, 5), what]);
+        }
+        TextTable::of(&rows)
+            .left(format!("seen from {}", self.args.port), |row| &row[0])
+            .left("", |row| &row[1])
+            .left("q = Q_N - (T - T_ref) / R_eq", |row| &row[2])
+            .optional()
+            .into()
+    }
+
+    /// Which pair to use, and why.
+    fn advice(&self, dynamics: &Dynamics) -> String {
+        let recommended = dynamics.recommended;
+        let pair = dynamics.pair(recommended.definition);
+        let why = match (pair.run, dynamics.rise) {
+            (Some(run), Some(rise)) if recommended.by_run => format!(
+                "the smallest error over this run, {} K of a rise of {} K",
+                significant(run.kelvin, 3),
+                significant(rise, 3)
+            ),
+            _ => format!(
+                "the smallest error for a step, {} % of the rise",
+                significant(100.0 * pair.step.relative.unwrap_or(f64::NAN), 3)
+            ),
+        };
+        format!(
+            "R_eq {} K/W with C_eq {} J/K ({}): {why}",
+            significant(self.reduction.norton.resistance, 5),
+            significant(pair.capacity, 5),
+            recommended.definition.key()
+        )
+    }
+
+    fn bias(&self, bias: &Bias) -> TextTable {
+        let unit = &self.unit;
+        let temperature = |kelvin: f64| format!("{} {}", fixed(unit.from_si(kelvin), 2), unit.text);
+        let heat = match bias.relative() {
+            Some(relative) => format!("{} %", signed(100.0 * relative)),
+            None => "no heat was put in".to_owned(),
+        };
+        let varies = self.input.netlist.network.has_time_dependent_inputs();
+        let mean = if varies { "as a mean; " } else { "" };
+        let resistance = format!("R_eq = t_RC / C_eq = {} K/W", significant(bias.resistance, 4));
+        let rows = [
+            ("T_i", temperature(bias.fit.initial), "at the start".to_owned()),
+            ("T_f", temperature(bias.fit.settled), "in the end".to_owned()),
+            ("t_RC", duration(bias.fit.tau, 5), resistance),
+            (
+                "P",
+                format!("{} W", significant(bias.inferred, 5)),
+                "(T_f - T_i) C_eq / t_RC, with C_eq by sum".to_owned(),
+            ),
+            (
+                "put in",
+                format!("{} W", significant(bias.heat, 5)),
+                format!("{mean}bias of the method: {heat}"),
+            ),
+        ];
+        let heading = format!(
+            "{} points over {}, missed by {} K rms",
+            bias.points,
+            duration(bias.length, 4),
+            significant(bias.fit.rms, 3)
+        );
+        TextTable::of(&rows)
+            .left("one exponential", |row| row.0)
+            .left("", |row| &row.1)
+            .left(heading, |row| &row.2)
+            .into()
+    }
+
+    /// What has to be known beside the numbers.
+    pub(crate) fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.input.netlist.network.has_time_dependent_inputs() {
+            notes.push(
+                "the inputs change with time; T_ref and Q_N are those at the start of the run".to_owned(),
+            );
+        }
+        notes.extend(self.switched());
+        notes.extend(self.apart());
+        let Some(dynamics) = &self.reduction.dynamics else {
+            notes.push("the port sees no capacity: T = T_ref + R_eq Q_N holds at every moment".to_owned());
+            return notes;
+        };
+        let window = duration(dynamics.window.length(), 4);
+        notes.push(match dynamics.window {
+            Window::Given(_) => format!("least_squares fits the response to a step over {window}"),
+            Window::Run(_) => {
+                format!("least_squares fits the response to a step over {window}, as long as the run")
+            }
+            Window::TimeConstants(_) => {
+                format!("without [run] no run is compared, and least_squares fits {window}, five times tau_1")
+            }
+        });
+        if let Some(tolerance) = dynamics.tolerance {
+            notes.push(format!("runs are compared at a tolerance of {} K", significant(tolerance, 2)));
+        }
+        let (residual, resistance) = (dynamics.step.residual, dynamics.step.resistance);
+        if dynamics.pair(Definition::LeastSquares).capacity <= 0.0 {
+            let share = significant(100.0 * dynamics.step.direct / resistance, 3);
+            notes.push(format!(
+                "the port answers at once with {share} % of the rise: no capacity at all is nearest to that"
+            ));
+        }
+        if residual > 1e-6 * resistance {
+            let share = significant(100.0 * residual / resistance, 2);
+            notes.push(format!("the fastest modes, {share} % of R_eq, are not resolved: the errors for a step hold but for its very beginning"));
+        }
+        notes
+    }
+}
+
+impl View<'_> {
+    /// What is said of controls.
+    fn switched(&self) -> Option<String> {
+        let network = &self.input.netlist.network;
+        let stands = |id: lptn_network::ControlId| {
+            let on = network.thermostat(id).is_some_and(|thermostat| thermostat.start);
+            format!("`{}` {}", network.controls()[id.index()].name, if on { "on" } else { "off" })
+        };
+        let stand: Vec<String> = network.control_ids().map(stands).collect();
+        let says = if self.input.netlist.initial().is_some() { "the state" } else { "their `start`" };
+        (!stand.is_empty()).then(|| {
+            format!(
+                "T_ref and Q_N are those with {}, as {says} says; what switches over the run is not compared",
+                stand.join(", ")
+            )
+        })
+    }
+
+    /// What is said of nodes that the port does not feel.
+    fn apart(&self) -> Option<String> {
+        let response = &self.reduction.norton.response;
+        let reached = response.iter().filter(|rise| **rise > 0.0).count();
+        let apart = response.len() - reached;
+        (apart > 0).then(|| {
+            let reached = count(reached, "node");
+            format!("C_eq is that of the {reached} that heat from the port reaches; {apart} apart from it do not matter")
+        })
+    }
+}
+
+/// `0.7 bed + 0.3 air`, the largest first.
+fn weights<'a>(names: impl Iterator<Item = Cow<'a, str>>, weights: &[f64]) -> String {
+    const SHOWN: usize = 3;
+    let mut all: Vec<(Cow<'_, str>, f64)> =
+        names.zip(weights.iter().copied()).filter(|(_, w)| *w > 0.0).collect();
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut terms: Vec<String> =
+        all.iter().take(SHOWN).map(|(name, w)| format!("{} {name}", significant(*w, 4))).collect();
+    if all.len() > SHOWN {
+        terms.push(format!("{} more", all.len() - SHOWN));
+    }
+    terms.join(" + ")
+}
+
+fn signed(value: f64) -> String {
+    let text = significant(value, 3);
+    if value > 0.0 { format!("+{text}") } else { text }
+}
+
+/// The four capacities with their errors.
+fn pairs(dynamics: &Dynamics) -> TextTable {
+    let list = &dynamics.pairs;
+    let largest = |values: &dyn Fn(&Pair) -> f64| list.iter().map(values).fold(0.0, f64::max);
+    let digits = decimals(largest(&|p| p.capacity), 5, 0);
+    let percent = |deviation: Option<Deviation>| {
+        let relative = deviation.and_then(|d| d.relative);
+        relative.map_or_else(|| "-".to_owned(), |r| fixed(100.0 * r, 3))
+    };
+    let table = TextTable::of(list)
+        .left("error with C_eq by", |p| p.definition.key())
+        .right("[J/K]", |p| fixed(p.capacity, digits))
+        .right("step [%]", |p| percent(Some(p.step)))
+        .left("at", |p| duration(p.step.time, 3));
+    if dynamics.rise.is_none() {
+        return table.into();
+    }
+    let kelvin = |p: &Pair| p.run.map_or(0.0, |run| run.kelvin);
+    // below a mK it is the runs' own tolerance that shows
+    let digits = decimals(largest(&kelvin).max(1e-3), 3, 2);
+    table
+        .right("run [K]", |p| fixed(kelvin(p), digits))
+        .right("[%]", |p| percent(p.run))
+        .left("at", |p| p.run.map_or(String::new(), |r| duration(r.time, 3)))
+        .into()
+}
+
+fn dynamics(dynamics: Option<&Dynamics>, json: &mut Json<'_>) -> io::Result<()> {
+    let Some(dynamics) = dynamics else {
+        return ["C_eq", "errors", "recommended"]
+            .into_iter()
+            .try_for_each(|name| json.member(name, &Value::Null));
+    };
+    let by_name = |value: &dyn Fn(&lptn_reduce::Pair) -> Value| -> Value {
+        dynamics.pairs.iter().map(|pair| (pair.definition.key().to_owned(), value(pair))).collect()
+    };
+    json.member("C_eq", &by_name(&|pair| json!(scalar(pair.capacity, "J/K"))))?;
+    let errors =
+        |pair: &lptn_reduce::Pair| json!({ "step": error(&pair.step), "run": pair.run.as_ref().map(error) });
+    json.member("errors", &by_name(&errors))?;
+    json.member("recommended", dynamics.recommended.definition.key())?;
+    json.member("recommended_by", if dynamics.recommended.by_run { "run" } else { "step" })?;
+    json.member("tau_1", &scalar(dynamics.step.slowest().tau, "s"))?;
+    let of = match dynamics.window {
+        Window::Given(_) => "given",
+        Window::Run(_) => "run",
+        Window::TimeConstants(_) => "five time constants",
+    };
+    json.member("window", &json!({ "value": dynamics.window.length(), "unit": "s", "from": of }))?;
+    let kelvin = |value: f64| scalar(value, "K");
+    json.member("rise", &dynamics.rise.map(kelvin))?;
+    json.member("tolerance", &dynamics.tolerance.map(kelvin))
+}
+
+fn error(deviation: &Deviation) -> Value {
+    json!({
+        "max": scalar(deviation.kelvin, "K"),
+        "relative": deviation.relative.map(|relative| scalar(relative, "1")),
+        "time": scalar(deviation.time, "s"),
+    })
+}
+
+fn of_bias(bias: &Result<Bias, FitError>) -> Value {
+    match bias {
+        Err(error) => json!({ "code": error.code(), "message": error.to_string() }),
+        Ok(bias) => json!({
+            "T_i": scalar(bias.fit.initial, "K"),
+            "T_f": scalar(bias.fit.settled, "K"),
+            "t_RC": scalar(bias.fit.tau, "s"),
+            "rms": scalar(bias.fit.rms, "K"),
+            "points": json!({ "value": bias.points, "unit": "1" }),
+            "C_eq": scalar(bias.capacity, "J/K"),
+            "R_eq": scalar(bias.resistance, "K/W"),
+            "P_inferred": scalar(bias.inferred, "W"),
+            "P_true": scalar(bias.heat, "W"),
+            "relative": bias.relative().map(|relative| scalar(relative, "1")),
+        }),
+    }
+}
+
+fn scalar(value: f64, unit: &str) -> Scalar {
+    Scalar::new(value, unit)
+}
+
+fn named<'a>(names: impl Iterator<Item = Cow<'a, str>>, values: &[f64]) -> Value {
+    names.zip(values).map(|(name, &value)| (name.into_owned(), json!(scalar(value, "1")))).collect()
+}

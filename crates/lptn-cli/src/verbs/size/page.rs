@@ -1,0 +1,214 @@
+//! What `lptn size` shows.
+
+use std::io;
+
+use lptn_netlist::{Goal, Requirement};
+use lptn_report::{Json, Page, Rows, Text, TextTable, plain, significant};
+use lptn_solve::Table;
+use lptn_study::{Scalar, Verdict};
+use lptn_units::Unit;
+use serde_json::json;
+
+use super::Answer;
+use crate::words::spaced;
+
+/// Digits of a value that is shown.
+const DIGITS: usize = 6;
+
+/// Margins below this share of a unit are rounding.
+const ZERO: f64 = 1e-9;
+
+impl Page for Answer<'_> {
+    fn text(&self) -> Text {
+        let (study, network) = (self.study, &self.input.netlist.network);
+        let (goal, range) = (goal(study.goal), study.range(network).unwrap_or((f64::NAN, f64::NAN)));
+        let unit = &self.unit;
+        let number = |si: f64| significant(unit.from_si(si), DIGITS);
+        let sought = format!(
+            "size {}: the {goal} {} from {} to {}{}",
+            study.name,
+            study.parameter,
+            number(range.0),
+            number(range.1),
+            spaced(&unit.text)
+        );
+        let mut text = Text::titled(self.input.title());
+        text.sentence("", &sought);
+        text.section().table(requirements(self));
+        text.section();
+        for (label, note) in notes(self) {
+            text.sentence(&format!("{label:13}"), &note);
+        }
+        text.section().sentence("", &verdict(self));
+        text
+    }
+
+    /// One row: the value in its unit, the margin of every requirement in SI units.
+    fn rows(&self) -> Rows<'_> {
+        let mut table = Table::of(&[()]);
+        let value = self.unit.from_si(self.sizing.trial.value);
+        table.column(&self.study.parameter, &self.unit.text, |()| value);
+        table.column("feasible", "-", |()| if self.sizing.feasible() { 1.0 } else { 0.0 });
+        for (r, &margin) in self.study.requirements.iter().zip(&self.sizing.trial.margins) {
+            table.column(&r.text, r.ty.dimension.si_unit(), |()| margin);
+        }
+        table.done().into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let (network, sizing) = (&self.input.netlist.network, &self.sizing);
+        let si = network.parameters()[self.parameter.index()].ty.dimension.si_unit();
+        let requirement = |(r, &margin): (&Requirement, &f64)| {
+            let margin = Scalar::new(margin, &r.ty.dimension.si_unit());
+            json!({ "requirement": r.text, "margin": margin })
+        };
+        let margins = self.study.requirements.iter().zip(&sizing.trial.margins);
+        let scalar = |value: f64| Scalar::new(value, &si);
+        let of_margin = |value: f64| Scalar::new(value, &self.closest_unit());
+        self.input.head(json, &[])?;
+        json.member("values", &json!({ (self.study.parameter.as_str()): scalar(sizing.trial.value) }))?;
+        json.member("margin", &of_margin(sizing.margin()))?;
+        json.member("binding", &self.binding().map(|requirement| &requirement.text))?;
+        json.member("feasible", &sizing.feasible())?;
+        json.member("requirements", &margins.map(requirement).collect::<Vec<_>>())?;
+        json.member("sensitivity", &sizing.sensitivity.map(of_margin))?;
+        json.member("breaks_again", &sizing.breaks_again.map(scalar))?;
+        json.member("first_guess", &sizing.first_guess.map(scalar))
+    }
+
+    fn no(&self) -> Option<String> {
+        (!self.sizing.feasible()).then(|| verdict(self))
+    }
+}
+
+fn goal(goal: Goal) -> &'static str {
+    match goal {
+        Goal::Minimise => "least",
+        Goal::Maximise => "largest",
+    }
+}
+
+/// "G_fan = 3.41 W/K".
+pub(crate) fn quantity(name: &str, si: f64, unit: &Unit) -> String {
+    format!("{name} = {}{}", significant(unit.from_si(si), DIGITS), spaced(&unit.text))
+}
+
+/// The value, rounded so that what is shown keeps the requirements.
+fn value(answer: &Answer<'_>) -> String {
+    let value = answer.unit.from_si(answer.sizing.trial.value);
+    let shown = if answer.sizing.verdict == Verdict::Bound {
+        significant(rounded(value, DIGITS, answer.study.goal == Goal::Minimise), DIGITS)
+    } else {
+        significant(value, DIGITS)
+    };
+    format!("{} = {shown}{}", answer.study.parameter, spaced(&answer.unit.text))
+}
+
+/// `value` with so many digits, rounded up or down.
+pub(crate) fn rounded(value: f64, digits: usize, up: bool) -> f64 {
+    let text = |x: f64| format!("{x:.*e}", digits.saturating_sub(1));
+    let read = |text: &str| text.parse::<f64>().unwrap_or(value);
+    let near = text(value);
+    let nearest = read(&near);
+    if (up && nearest >= value) || (!up && nearest <= value) {
+        return nearest;
+    }
+    let exponent: i32 = near.split('e').nth(1).and_then(|e| e.parse().ok()).unwrap_or(0);
+    let places = i32::try_from(digits).unwrap_or(1) - 1;
+    let step = read(&format!("1e{}", exponent - places));
+    read(&text(if up { nearest + step } else { nearest - step }))
+}
+
+fn requirements(answer: &Answer<'_>) -> TextTable {
+    let (study, sizing) = (answer.study, &answer.sizing);
+    let margin = |i: usize| {
+        let (margin, unit) = (sizing.trial.margins[i], study.requirements[i].ty.dimension.si_unit());
+        let margin = if margin.abs() < ZERO { 0.0 } else { margin };
+        format!("{}{}", significant(margin, 4), spaced(&unit))
+    };
+    let word = |i: usize| match sizing.verdict {
+        _ if sizing.trial.margins[i] < 0.0 => "broken",
+        Verdict::Bound if i == sizing.closest => "binds",
+        _ => "kept",
+    };
+    let rows: Vec<usize> = (0..study.requirements.len()).collect();
+    TextTable::of(&rows)
+        .left("requirement", |&i| plain(&study.requirements[i].text))
+        .right("margin", |&i| margin(i))
+        .left("", |&i| word(i))
+        .into()
+}
+
+/// What the table cannot say, each with its label.
+fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
+    let (study, sizing) = (answer.study, &answer.sizing);
+    let name = &study.parameter;
+    let closest = &study.requirements[sizing.closest];
+    let unit = closest.ty.dimension.si_unit();
+    let mut notes = Vec::new();
+    if let Some(sensitivity) = sizing.sensitivity {
+        let change = significant(sensitivity, 3);
+        notes.push(("sensitivity", format!("{change} {unit} of margin for 1 % more {name}")));
+    }
+    if let Some(guess) = sizing.first_guess {
+        notes.push(("first guess", format!("{} (Norton equivalent)", quantity(name, guess, &answer.unit))));
+    }
+    notes.push(("proof", format!("{} steady states of the full network", sizing.solved)));
+    if let Some(value) = sizing.breaks_again {
+        let side = if study.goal == Goal::Minimise { "above" } else { "below" };
+        let value = quantity(name, value, &answer.unit);
+        notes.push(("note", format!("more is not always better: {side} {value} a requirement breaks again")));
+    }
+    notes
+}
+
+/// One sentence with the answer.
+pub(crate) fn verdict(answer: &Answer<'_>) -> String {
+    let (study, sizing) = (answer.study, &answer.sizing);
+    let closest = &study.requirements[sizing.closest];
+    match sizing.verdict {
+        Verdict::Bound => format!("{} keeps every requirement", value(answer)),
+        Verdict::BestEnd => {
+            let all = if sizing.breaks_again.is_none() { " and so does the whole range" } else { "" };
+            format!("{}, the {} of the range, keeps every requirement{all}", value(answer), goal(study.goal))
+        }
+        Verdict::Infeasible => {
+            let off = significant(-sizing.margin(), 4);
+            let at = quantity(&study.parameter, sizing.trial.value, &answer.unit);
+            let unit = closest.ty.dimension.si_unit();
+            let end = end(answer).map_or(String::new(), |end| format!(", the {end} of the range"));
+            let text = plain(&closest.text);
+            format!("infeasible: at best, with {at}{end}, `{text}` is broken by {off} {unit}")
+        }
+    }
+}
+
+/// Whether the value stands at an end of the range.
+fn end(answer: &Answer<'_>) -> Option<&'static str> {
+    let (from, to) = answer.study.range(&answer.input.netlist.network).ok()?;
+    let value = answer.sizing.trial.value;
+    // in a range over decades the least end is near only for values of its own size
+    let size = |end: f64| if end == 0.0 { to - from } else { end.abs().min(to - from) };
+    let near = |end: f64| (value - end).abs() <= 1e-6 * size(end);
+    match (near(from), near(to)) {
+        (true, _) => Some("least"),
+        (_, true) => Some("largest"),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded;
+
+    #[test]
+    fn rounding_goes_the_asked_way() {
+        let same = |a: f64, b: f64| assert_eq!(a.to_bits(), b.to_bits(), "{a} {b}");
+        same(rounded(3.412_341, 4, true), 3.413);
+        same(rounded(3.412_341, 4, false), 3.412);
+        same(rounded(9.999_91, 4, true), 10.0);
+        same(rounded(-3.412_341, 4, true), -3.412);
+        same(rounded(0.000_341_29, 3, false), 0.000_341);
+        same(rounded(0.5, 6, true), 0.5);
+    }
+}

@@ -1,0 +1,132 @@
+//! One law, and what came of fitting it.
+
+use lptn_units::Dimension;
+
+use super::model::Law;
+use crate::least_squares::Stop;
+
+/// A law and what came of fitting it.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// The law.
+    pub law: Law,
+    /// What came of it.
+    pub outcome: Outcome,
+}
+
+/// What came of a fit.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// The coefficients with the least sum of squares.
+    Fitted(Box<Fitted>),
+    /// There are fewer points, or fewer different speeds, than coefficients.
+    TooFew {
+        /// How many of each are needed.
+        needed: usize,
+        /// Points.
+        points: usize,
+        /// Different speeds.
+        speeds: usize,
+    },
+    /// The points do not determine all coefficients.
+    NotDetermined,
+    /// The search found no minimum.
+    NotConverged(Stop),
+    /// The law has no value, or none that is finite.
+    NoValue {
+        /// Which point, counted from 0.
+        point: usize,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// A coefficient of a law.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coefficient {
+    /// Its name: `a`, `b`, `c` in the order of the law's powers, `P_top` (power at the highest speed) and `n` of the
+    /// free exponent, or as the user wrote it.
+    pub name: String,
+    /// Its value in SI units.
+    pub value: f64,
+    /// Its standard error in SI units; `None` where no point is left over to tell.
+    pub standard_error: Option<f64>,
+    /// What it is.
+    pub dimension: Dimension,
+}
+
+/// A fitted law.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fitted {
+    /// Its coefficients.
+    pub coefficients: Vec<Coefficient>,
+    /// Their correlations, row by row, in -1..1.
+    pub correlation: Vec<Vec<f64>>,
+    /// What the law says at every point, in W.
+    pub values: Vec<f64>,
+    /// Root of the mean square of what it misses, in W: the divisor is the number of points, and weights do not count.
+    pub rmse: f64,
+    /// The same of what each point is missed by when the law is fitted to the others, in W; `None` where the others do
+    /// not determine the law.
+    pub leave_one_out: Option<f64>,
+    /// Sum of the squares of what it misses, each over its standard error; without standard errors in W^2.
+    pub squares: f64,
+    /// Points less coefficients.
+    pub degrees_of_freedom: usize,
+    /// Akaike's criterion with the correction for few points; smaller is better, only differences count. `None` where
+    /// there are too few points for it.
+    pub aicc: Option<f64>,
+}
+
+impl Fitted {
+    /// Whether a coefficient is below 0: then a part of the loss would feed heat back, and another sum fits as well as
+    /// this one can without it. The exponent of [`Law::FreeExponent`] does not count.
+    pub fn negative(&self) -> bool {
+        self.coefficients.iter().any(|c| c.value < 0.0 && !c.dimension.is_none())
+    }
+
+    /// The coefficient of this name.
+    pub fn coefficient(&self, name: &str) -> Option<&Coefficient> {
+        self.coefficients.iter().find(|coefficient| coefficient.name == name)
+    }
+}
+
+impl Candidate {
+    /// The fit, if there is one.
+    pub fn fitted(&self) -> Option<&Fitted> {
+        match &self.outcome {
+            Outcome::Fitted(fitted) => Some(fitted.as_ref()),
+            _ => None,
+        }
+    }
+
+    /// Whether it may be the answer: fitted, with its criterion, and, where it is a sum of powers, without a negative
+    /// coefficient. What a user writes may have coefficients of any sign.
+    pub fn eligible(&self) -> bool {
+        let fitted = self.fitted().filter(|fitted| fitted.aicc.is_some());
+        fitted.is_some_and(|fitted| matches!(self.law, Law::Written(_)) || !fitted.negative())
+    }
+
+    /// Why there is nothing to show, or why it is no answer; `None` where there is nothing to say.
+    pub fn remark(&self) -> Option<String> {
+        match &self.outcome {
+            Outcome::Fitted(fitted) if !matches!(self.law, Law::Written(_)) && fitted.negative() => {
+                Some("a coefficient is negative".to_owned())
+            }
+            Outcome::Fitted(fitted) if fitted.aicc.is_none() => Some(format!(
+                "too few points for AICc and a choice: {} coefficients",
+                fitted.coefficients.len()
+            )),
+            Outcome::Fitted(_) => None,
+            Outcome::TooFew { needed, points, .. } if points < needed => {
+                Some(format!("too few points: {points} for {needed} coefficients"))
+            }
+            Outcome::TooFew { needed, speeds, .. } => {
+                Some(format!("too few different speeds: {speeds} for {needed} coefficients"))
+            }
+            Outcome::NotDetermined => Some("the points do not determine its coefficients".to_owned()),
+            Outcome::NotConverged(stop) => Some(format!("the fit did not converge: {}", stop.text())),
+            Outcome::NoValue { point, reason } => Some(format!("no value at point {}: {reason}", point + 1)),
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Which law of the speed a measured power follows, and whether laws of power, temperature rise and time constant can be
+//! true together.
+//!
+//! Losses of gearboxes at no load are sums of parts that go with the speed (seals), with its power 5/3 (bearings in oil or
+//! grease: A. Palmgren) and with its third power (gears in oil); AGMA 6123 and ISO/TR 14179 add them up. [`LawStudy`]
+//! fits each, every sum of them, a free exponent and what the user writes, and ranks them. [`Consistency`] asks whether
+//! `P = C dT / t_RC` holds between the laws that were fitted to each. [`RunsStudy`] begins with the records themselves.
+//!
+//! ```
+//! use lptn_fit::law::{Law, LawStudy, Points};
+//!
+//! // 87 uW/rpm^(5/3) and a disturbance of 1 W
+//! let rpm = std::f64::consts::TAU / 60.0;
+//! let speeds = [1000.0, 2000.0, 3000.0, 4000.0, 5000.0, 6000.0, 7000.0];
+//! let noise = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0];
+//! let power = speeds.iter().zip(noise).map(|(n, w)| 87e-6 * f64::powf(*n, 5.0 / 3.0) + w).collect();
+//! let points = Points::new(speeds.map(|n| n * rpm).to_vec(), power, None)?;
+//! let study = LawStudy::new(points, Law::standard());
+//! assert_eq!(study.best().unwrap().law.to_string(), "omega^(5/3)");
+//! # Ok::<(), lptn_fit::law::LawError>(())
+//! ```
+
+mod candidate;
+mod consistency;
+mod criteria;
+mod error;
+mod model;
+mod points;
+mod powers;
+mod runs;
+mod significance;
+mod solve;
+mod stated;
+mod study;
+mod written;
+
+pub use candidate::{Candidate, Coefficient, Fitted, Outcome};
+pub use consistency::{AtSpeed, CLOSE, Consistency, Level, Measured, SIGNIFICANT, Significance};
+pub use error::LawError;
+pub use model::Law;
+pub use points::{Points, Variable};
+pub use runs::{ColumnFits, Run, RunFit, RunReference, RunSettings, RunsError, RunsStudy, Systematic};
+pub use stated::{Exponent, LawOf, StatedLaw};
+pub use study::{ALIKE, LawStudy};
+pub use written::{Start, WrittenLaw};

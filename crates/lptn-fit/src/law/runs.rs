@@ -1,0 +1,235 @@
+//! From records at several speeds to a law: the seed paper from Figure 6 to Figure 9.
+
+use lptn_solve::in_parallel;
+
+use super::candidate::{Candidate, Outcome};
+use super::consistency::{Consistency, Measured};
+use super::error::LawError;
+use super::model::Law;
+use super::points::Points;
+use super::solve;
+use super::study::LawStudy;
+use crate::step::{Capacity, Power, Reference, Sensor, StepError, StepFit};
+
+/// A record at one speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// What it is called.
+    pub name: String,
+    /// Its speed in rad/s, above 0.
+    pub speed: f64,
+    /// Times in s, ascending.
+    pub times: Vec<f64>,
+    /// Temperatures by column: name, and K at every time, NaN for gaps. All runs have the same columns.
+    pub columns: Vec<(String, Vec<f64>)>,
+}
+
+/// The zero of dT of all runs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RunReference {
+    /// `T_i` of each fit.
+    Initial,
+    /// The mean of a column of the same record.
+    Column(String),
+    /// A temperature in K.
+    Value(f64),
+}
+
+/// How records become powers.
+#[derive(Clone, Debug)]
+pub struct RunSettings {
+    /// The columns to fit; the first is the one whose power gets a law.
+    pub columns: Vec<String>,
+    /// The heat capacity.
+    pub capacity: Capacity,
+    /// The zero of dT.
+    pub reference: RunReference,
+    /// The class of the thermocouples.
+    pub sensor: Sensor,
+    /// Whether every run counts the same, whatever the random error of its power.
+    pub unweighted: bool,
+    /// The laws to fit; where it is empty, [`Law::standard`].
+    pub laws: Vec<Law>,
+    /// How many threads may work.
+    pub threads: usize,
+}
+
+lptn_units::errors! {
+/// Why a study is not possible.
+#[derive(Debug)]
+pub enum RunsError {
+    /// A run has no such column.
+    Column { run: String, column: String } = "record::no_column", format!("{run} has no column `{column}`");
+    /// A column of a run could not be fitted.
+    Step { run: String, column: String, error: Box<StepError> } = error.code(),
+        format!("{run}, column `{column}`: {error}"), source error.as_ref(), help error.help();
+    /// The powers could not become points of a law.
+    Law => LawError;
+}
+}
+
+/// One column of one run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunFit {
+    /// Its exponential.
+    pub fit: StepFit,
+    /// Rise, resistance and power.
+    pub power: Power,
+}
+
+/// A column of every run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ColumnFits {
+    /// Its name.
+    pub column: String,
+    /// In the order of the runs.
+    pub fits: Vec<RunFit>,
+}
+
+/// How far a coefficient moves when what is the same in all runs is off by one standard deviation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Systematic {
+    /// By the capacity.
+    pub capacity: f64,
+    /// By the offset of the sensors; 0 where the reference is `T_i` of the same one.
+    pub offset: f64,
+    /// By the gain of the sensors.
+    pub gain: f64,
+}
+
+impl Systematic {
+    /// All three together, in quadrature.
+    pub fn total(&self) -> f64 {
+        self.capacity.hypot(self.offset).hypot(self.gain)
+    }
+}
+
+/// What came of a study.
+#[derive(Clone, Debug)]
+pub struct RunsStudy {
+    /// Name and speed in rad/s of every run.
+    pub runs: Vec<(String, f64)>,
+    /// The columns that were fitted.
+    pub columns: Vec<ColumnFits>,
+    /// The laws of the first column's power.
+    pub laws: LawStudy,
+    /// The exponents of the first column's rise, time constant and power; `None` where there are too few runs, or a rise
+    /// that is not above 0. The power was computed from the other two: this shows which laws of them are possible.
+    pub consistency: Option<Consistency>,
+    settings: RunSettings,
+}
+
+impl RunsStudy {
+    /// Fits every column of every run, and laws to the powers of the first column.
+    ///
+    /// # Errors
+    /// [`RunsError`] for the first run that cannot be fitted.
+    pub fn new(runs: &[Run], settings: RunSettings) -> Result<Self, RunsError> {
+        let fitted = in_parallel(runs, settings.threads, |run| fits(run, &settings));
+        let fitted: Result<Vec<Vec<RunFit>>, RunsError> = fitted.into_iter().collect();
+        let mut columns: Vec<ColumnFits> =
+            settings.columns.iter().map(|column| ColumnFits::named(column)).collect();
+        for fits in fitted? {
+            columns.iter_mut().zip(fits).for_each(|(column, fit)| column.fits.push(fit));
+        }
+        let speeds: Vec<f64> = runs.iter().map(|run| run.speed).collect();
+        let first = columns.first().map_or(&[][..], |column| &column.fits);
+        let power: Vec<f64> = first.iter().map(|f| f.power.power.value).collect();
+        let random: Vec<f64> = first.iter().map(|f| f.power.power.random).collect();
+        let weights = (!settings.unweighted).then(|| random.clone());
+        let points = Points::new(speeds.clone(), power.clone(), weights)?;
+        let laws = if settings.laws.is_empty() { Law::standard() } else { settings.laws.clone() };
+        let rise: Vec<f64> = first.iter().map(|f| f.power.rise.value).collect();
+        let time_constant: Vec<f64> = first.iter().map(|f| f.fit.tau.value).collect();
+        let of_rise: Vec<f64> = first.iter().map(|f| f.power.rise.random).collect();
+        let of_time: Vec<f64> = first.iter().map(|f| f.fit.tau.standard_error).collect();
+        let measured = Measured {
+            speed: &speeds,
+            rise: &rise,
+            time_constant: &time_constant,
+            power: &power,
+            errors: (!settings.unweighted).then_some([&of_rise[..], &of_time[..], &random[..]]),
+        };
+        Ok(Self {
+            runs: runs.iter().map(|run| (run.name.clone(), run.speed)).collect(),
+            consistency: Consistency::of_points(&measured, Some(settings.capacity)).ok(),
+            laws: LawStudy::new(points, laws),
+            columns,
+            settings,
+        })
+    }
+
+    /// The systematic errors of the coefficients of a law, in its order and in SI units: by fitting powers that are off
+    /// by one standard deviation. `None` where the law was not fitted.
+    pub fn systematic(&self, candidate: &Candidate) -> Option<Vec<Systematic>> {
+        let before = candidate.fitted()?;
+        let first = &self.columns.first()?.fits;
+        let capacity = self.settings.capacity;
+        let sensors = match self.settings.reference {
+            RunReference::Initial => 0.0,
+            RunReference::Value(_) => 1.0,
+            RunReference::Column(_) => 2.0,
+        };
+        let offset = f64::sqrt(sensors) * self.settings.sensor.class / 3_f64.sqrt();
+        let moved = |by: &dyn Fn(&RunFit) -> f64| {
+            let power = first.iter().map(|f| f.power.power.value + by(f)).collect();
+            match solve::fit(&candidate.law, &self.laws.points.with_power(power)) {
+                Outcome::Fitted(fit) => {
+                    let change = fit.coefficients.iter().zip(&before.coefficients);
+                    Some(change.map(|(a, b)| (a.value - b.value).abs()).collect::<Vec<f64>>())
+                }
+                _ => None,
+            }
+        };
+        let by_capacity = moved(&|f| f.power.power.value * capacity.deviation / capacity.value)?;
+        let by_offset = moved(&|f| offset * capacity.value / f.fit.tau.value)?;
+        let by_gain = moved(&|f| f.power.power.value * self.settings.sensor.gain)?;
+        let all = by_capacity.into_iter().zip(by_offset).zip(by_gain);
+        Some(all.map(|((capacity, offset), gain)| Systematic { capacity, offset, gain }).collect())
+    }
+
+    /// Mean of a column's time constants in s and their standard deviation (divisor: number less one), as the paper's
+    /// Figure 8 gives them; the deviation of a single run is NaN.
+    pub fn time_constant(&self, column: &ColumnFits) -> (f64, f64) {
+        let n = super::criteria::number(column.fits.len());
+        let mean = column.fits.iter().map(|f| f.fit.tau.value).sum::<f64>() / n;
+        let squares: f64 = column.fits.iter().map(|f| (f.fit.tau.value - mean).powi(2)).sum();
+        (mean, (squares / (n - 1.0)).sqrt())
+    }
+
+    /// How the study was made.
+    pub fn settings(&self) -> &RunSettings {
+        &self.settings
+    }
+}
+
+impl ColumnFits {
+    fn named(column: &str) -> Self {
+        Self { column: column.to_owned(), fits: Vec::new() }
+    }
+}
+
+/// The fits of one run, in the order of the columns.
+fn fits(run: &Run, settings: &RunSettings) -> Result<Vec<RunFit>, RunsError> {
+    let find = |column: &String| {
+        let found = run.columns.iter().find(|(name, _)| name == column).map(|(_, values)| values);
+        found.ok_or_else(|| RunsError::Column { run: run.name.clone(), column: column.clone() })
+    };
+    let reference = match &settings.reference {
+        RunReference::Initial => Reference::Initial,
+        RunReference::Value(kelvin) => Reference::Value(*kelvin),
+        RunReference::Column(name) => {
+            Reference::Column { name: name.clone(), times: &run.times, temperatures: find(name)? }
+        }
+    };
+    let fitted = |column: &String| {
+        let failed = |error| {
+            let (run, column) = (run.name.clone(), column.clone());
+            RunsError::Step { run, column, error: Box::new(error) }
+        };
+        let fit = StepFit::new(&run.times, find(column)?).map_err(failed)?;
+        let power = Power::new(&fit, settings.capacity, &reference, settings.sensor).map_err(failed)?;
+        Ok(RunFit { fit, power })
+    };
+    settings.columns.iter().map(fitted).collect()
+}

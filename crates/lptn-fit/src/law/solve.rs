@@ -1,0 +1,243 @@
+//! The coefficients of one law.
+
+use faer::Mat;
+use lptn_integrate::dense;
+
+use super::candidate::{Coefficient, Fitted, Outcome};
+use super::criteria::{number, rms};
+use super::model::Law;
+use super::points::Points;
+use crate::Covariance;
+use crate::least_squares::{self, LeastSquaresError, Residuals, Settings};
+
+/// Up to here each point is left out in turn and the law fitted anew; beyond, and for laws that are linear in their
+/// coefficients, what is missed then follows from the leverage of the point.
+const REFITS: usize = 500;
+
+/// Fits a law; without its criterion.
+pub(crate) fn fit(law: &Law, points: &Points) -> Outcome {
+    let (needed, speeds) = (law.count(), points.distinct_speeds());
+    // what a user writes may use more than the speed
+    let speed_alone = points.variables().len() == 1 || !matches!(law, Law::Written(_));
+    if points.len() < needed || (speed_alone && speeds < needed) {
+        return Outcome::TooFew { needed, points: points.len(), speeds };
+    }
+    match search(law, points, None) {
+        Ok(p) => conclude(law, points, &p),
+        Err(outcome) => outcome,
+    }
+}
+
+/// The law about one set of coefficients: misses and derivatives, both over the standard errors.
+struct Local {
+    /// Law less data.
+    misses: Vec<f64>,
+    values: Vec<f64>,
+    /// One coefficient after the other.
+    jacobian: Vec<f64>,
+}
+
+impl Local {
+    fn new(law: &Law, points: &Points, p: &[f64]) -> Result<Self, Outcome> {
+        let (mut values, mut rows) = (Vec::new(), Vec::new());
+        for point in 0..points.len() {
+            let found = law.evaluate(p, points, point);
+            let (value, slopes) =
+                found.map_err(|error| Outcome::NoValue { point, reason: error.to_string() })?;
+            values.push(value);
+            rows.push(slopes);
+        }
+        let scale = |point: usize| points.scale(point);
+        let misses = values.iter().enumerate().map(|(i, v)| (v - points.power()[i]) / scale(i)).collect();
+        let column = |j: usize| rows.iter().enumerate().map(move |(i, row)| row[j] / scale(i));
+        Ok(Self { misses, values, jacobian: (0..p.len()).flat_map(column).collect() })
+    }
+
+    fn column(&self, j: usize) -> &[f64] {
+        let rows = self.misses.len();
+        &self.jacobian[j * rows..][..rows]
+    }
+
+    /// By QR: the coefficients where the linear model of the law is nearest to the data.
+    fn solved(&self, p: &[f64]) -> Option<Vec<f64>> {
+        let (rows, count) = (self.misses.len(), p.len());
+        let norm = |j: usize| self.column(j).iter().map(|x| x * x).sum::<f64>().sqrt();
+        let norms: Vec<f64> = (0..count).map(norm).collect();
+        let scaled = Mat::from_fn(rows, count, |i, j| self.column(j)[i] / norms[j]);
+        let target = Mat::from_fn(rows, 1, |i, _| -self.misses[i]);
+        let step = dense::least_squares(scaled.as_ref(), target.as_ref());
+        let found: Vec<f64> = (0..count).map(|j| p[j] + step[(j, 0)] / norms[j]).collect();
+        found.iter().all(|x| x.is_finite()).then_some(found)
+    }
+
+    /// `(J^T J)^-1`.
+    fn inverse(&self, count: usize) -> Option<Covariance> {
+        Covariance::inverse(&self.jacobian, self.misses.len(), &(0..count).collect::<Vec<_>>())
+    }
+
+    /// The share of each point in its own value: the diagonal of the hat matrix, in 0..1.
+    fn leverages(&self, inverse: &Covariance, count: usize) -> Vec<f64> {
+        let of = |i: usize| {
+            let slopes: Vec<f64> = (0..count).map(|j| self.column(j)[i]).collect();
+            inverse.propagated(&slopes).powi(2)
+        };
+        (0..self.misses.len()).map(of).collect()
+    }
+}
+
+/// Whether the derivatives by the coefficients are the same wherever these are.
+fn linear(law: &Law, points: &Points) -> bool {
+    let Law::Written(written) = law else { return matches!(law, Law::Powers(_)) };
+    let [first, .., last] = &written.starts()[..] else {
+        return written.starts().first().is_some_and(|start| {
+            same_slopes(law, points, start, &start.iter().map(|x| 3.0 * x + 1.0).collect::<Vec<_>>())
+        });
+    };
+    same_slopes(law, points, first, last)
+}
+
+fn same_slopes(law: &Law, points: &Points, one: &[f64], other: &[f64]) -> bool {
+    let (Ok(one), Ok(other)) = (Local::new(law, points, one), Local::new(law, points, other)) else {
+        return false;
+    };
+    one.jacobian.iter().zip(&other.jacobian).all(|(a, b)| (a - b).abs() <= 1e-12 * a.abs().max(b.abs()))
+}
+
+/// Where searches begin.
+fn starts(law: &Law, points: &Points) -> Vec<Vec<f64>> {
+    match law {
+        Law::Powers(exponents) => vec![vec![0.0; exponents.len()]],
+        Law::Written(written) => written.starts(),
+        Law::FreeExponent => {
+            let top = points.largest_power().max(f64::MIN_POSITIVE);
+            [1.0, 2.0, 0.0].iter().map(|n| vec![top, *n]).collect()
+        }
+    }
+}
+
+/// The best coefficients, or why there are none; `near` is where they are expected.
+fn search(law: &Law, points: &Points, near: Option<&[f64]>) -> Result<Vec<f64>, Outcome> {
+    let starts = near.map_or_else(|| starts(law, points), |near| vec![near.to_vec()]);
+    if linear(law, points) {
+        let start = &starts[0];
+        return Local::new(law, points, start)?.solved(start).ok_or(Outcome::NotDetermined);
+    }
+    let mut best: Option<(f64, Vec<f64>)> = None;
+    let mut why = None;
+    for start in &starts {
+        match descend(law, points, start) {
+            Ok((squares, p)) if best.as_ref().is_none_or(|(least, _)| squares < *least) => {
+                best = Some((squares, p));
+            }
+            Ok(_) => {}
+            Err(outcome) => why = why.or(Some(outcome)),
+        }
+    }
+    best.map(|(_, p)| p).ok_or_else(|| why.unwrap_or(Outcome::NotDetermined))
+}
+
+struct Search<'a> {
+    law: &'a Law,
+    points: &'a Points,
+}
+
+impl Residuals for Search<'_> {
+    fn parameters(&self) -> usize {
+        self.law.count()
+    }
+
+    fn evaluate(
+        &mut self,
+        p: &[f64],
+        residuals: &mut Vec<f64>,
+        jacobian: Option<&mut Vec<f64>>,
+    ) -> Result<(), LeastSquaresError> {
+        // where the law has no value a shorter step is asked for
+        let local = Local::new(self.law, self.points, p).unwrap_or_else(|_| Local {
+            misses: vec![f64::NAN; self.points.len()],
+            values: Vec::new(),
+            jacobian: vec![f64::NAN; self.points.len() * p.len()],
+        });
+        residuals.extend(local.misses);
+        if let Some(jacobian) = jacobian {
+            jacobian.extend(local.jacobian);
+        }
+        Ok(())
+    }
+}
+
+fn descend(law: &Law, points: &Points, start: &[f64]) -> Result<(f64, Vec<f64>), Outcome> {
+    Local::new(law, points, start)?;
+    match least_squares::minimise(&mut Search { law, points }, start, &Settings::default()) {
+        Ok(found) => match found.outcome {
+            least_squares::Outcome::Converged(_) => Ok((found.squares, found.parameters)),
+            least_squares::Outcome::NotConverged(stop) => Err(Outcome::NotConverged(stop)),
+        },
+        Err(_) => Err(Outcome::NotDetermined),
+    }
+}
+
+/// A coefficient whose standard error is so many times its value is none that was found.
+const DRIFT: f64 = 1e3;
+
+/// Everything about a law with these coefficients but its criterion.
+fn conclude(law: &Law, points: &Points, p: &[f64]) -> Outcome {
+    let local = match Local::new(law, points, p) {
+        Ok(local) => local,
+        Err(outcome) => return outcome,
+    };
+    let Some(inverse) = local.inverse(p.len()) else { return Outcome::NotDetermined };
+    let squares: f64 = local.misses.iter().map(|miss| miss * miss).sum();
+    let degrees_of_freedom = points.len() - p.len();
+    let variance = variance(squares, degrees_of_freedom, points);
+    let error = |j: usize| Some(inverse.standard_error(j)? * variance?.sqrt());
+    let named = law.coefficients().into_iter().enumerate();
+    let coefficient =
+        |(j, (name, dimension))| Coefficient { name, value: p[j], standard_error: error(j), dimension };
+    let drifts = |j: usize| error(j).is_some_and(|error| error > DRIFT * p[j].abs());
+    if !linear(law, points) && (0..p.len()).any(drifts) {
+        return Outcome::NotDetermined; // the search ran off to where a coefficient has no effect
+    }
+    let all = 0..p.len();
+    let row = |i: usize| all.clone().map(|j| inverse.correlation(i, j).unwrap_or(f64::NAN)).collect();
+    Outcome::Fitted(Box::new(Fitted {
+        coefficients: named.map(coefficient).collect(),
+        correlation: all.clone().map(row).collect(),
+        rmse: rms(local.values.iter().zip(points.power()).map(|(value, power)| value - power)),
+        leave_one_out: leave_one_out(law, points, (p, &local), &inverse),
+        values: local.values,
+        squares,
+        degrees_of_freedom,
+        aicc: None,
+    }))
+}
+
+/// The variance of one residual: what the residuals show, and where standard errors are given no less than these say.
+fn variance(squares: f64, degrees_of_freedom: usize, points: &Points) -> Option<f64> {
+    let shown = (degrees_of_freedom > 0).then(|| squares / number(degrees_of_freedom));
+    if points.deviation().is_some() { Some(shown.unwrap_or(1.0).max(1.0)) } else { shown }
+}
+
+fn leave_one_out(
+    law: &Law,
+    points: &Points,
+    (p, local): (&[f64], &Local),
+    inverse: &Covariance,
+) -> Option<f64> {
+    if points.len() <= p.len() {
+        return None;
+    }
+    let missed: Option<Vec<f64>> = if linear(law, points) || points.len() > REFITS {
+        let leverages = local.leverages(inverse, p.len());
+        let miss =
+            |(i, h): (usize, &f64)| (*h < 1.0 - 1e-9).then(|| local.misses[i] * points.scale(i) / (1.0 - h));
+        leverages.iter().enumerate().map(miss).collect()
+    } else {
+        let miss = |i: usize| {
+            let p = search(law, &points.without(i), Some(p)).ok()?;
+            Some(law.evaluate(&p, points, i).ok()?.0 - points.power()[i])
+        };
+        (0..points.len()).map(miss).collect()
+    };
+    missed.map(|misses| rms(misses.into_iter()))
+}

@@ -1,0 +1,115 @@
+//! What a search found.
+
+use crate::{Covariance, Spectrum};
+
+/// A bound that a parameter sits on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Its least value.
+    Lower,
+    /// Its greatest value.
+    Upper,
+}
+
+/// Which test ended a search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Test {
+    /// What the free parameters could still remove is a negligible part of the residuals.
+    Gradient,
+    /// A full step would change no parameter.
+    Step,
+    /// Steps change the sum of squares by no more than rounding, as was foretold.
+    Cost,
+}
+
+/// Why a search ended without a minimum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The largest number of steps was made.
+    Iterations,
+    /// However short the step, the sum of squares does not fall although its derivative says so: the derivatives are
+    /// wrong, or the model is noisier than the tests ask for.
+    Stalled,
+    /// The residuals or derivatives at the start are not finite.
+    StartNotFinite,
+    /// The derivatives at the last point are not finite.
+    DerivativeNotFinite,
+}
+
+impl Stop {
+    /// In words, for a sentence that begins with "the fit did not converge:".
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::Iterations => "the largest number of steps was made",
+            Self::Stalled => "no shorter step lowers the misfit, although its derivatives say so",
+            Self::StartNotFinite => "the model has no finite value at the start",
+            Self::DerivativeNotFinite => "the model has no finite derivative where the search came to",
+        }
+    }
+}
+
+/// How a search ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome {
+    /// At a minimum.
+    Converged(Test),
+    /// Elsewhere: the parameters are those of the lowest sum of squares that was seen, and no result.
+    NotConverged(Stop),
+}
+
+impl Outcome {
+    /// Whether it ended at a minimum.
+    pub fn converged(self) -> bool {
+        matches!(self, Self::Converged(_))
+    }
+}
+
+/// Where a search ended. Residuals of priors stand behind those of the data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// The parameters, in their order.
+    pub parameters: Vec<f64>,
+    /// How the search ended.
+    pub outcome: Outcome,
+    /// The bound that each parameter sits on. There the data ask for a value beyond the bound, or for none at all.
+    pub on_bound: Vec<Option<Side>>,
+    /// Sum of the squares of the residuals, priors included.
+    pub squares: f64,
+    /// The residuals.
+    pub residuals: Vec<f64>,
+    /// Their derivatives by the parameters, one parameter after the other.
+    pub jacobian: Vec<f64>,
+    /// Number of residuals that are data.
+    pub data: usize,
+    /// The part of the residuals that the free parameters could still remove, to first order; 0 at a minimum.
+    pub offset: f64,
+    /// Steps that lowered the sum of squares.
+    pub iterations: usize,
+    /// Evaluations of the residuals.
+    pub evaluations: usize,
+}
+
+impl Estimate {
+    /// The parameters that sit on no bound.
+    pub fn free(&self) -> Vec<usize> {
+        (0..self.parameters.len()).filter(|&j| self.on_bound[j].is_none()).collect()
+    }
+
+    /// Residuals less free parameters, at least 0.
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.residuals.len().saturating_sub(self.free().len())
+    }
+
+    /// `(J^T J)^-1` of the free parameters: their covariance if every residual is in units of its own standard
+    /// deviation and independent of the others. Times `squares / degrees_of_freedom` where only the ratios of the
+    /// deviations are known. `None` where the rank of J is less than the number of free parameters.
+    pub fn covariance(&self) -> Option<Covariance> {
+        Covariance::inverse(&self.jacobian, self.residuals.len(), &self.free())
+    }
+
+    /// What the residuals determine: [`Spectrum::new`] of the Jacobian with parameter j in units of `scales[j]`, all
+    /// parameters included. With `scales` their values it is about their logarithms.
+    pub fn spectrum(&self, scales: &[f64], threshold: f64) -> Option<Spectrum> {
+        Spectrum::new(&self.jacobian, scales, threshold)
+    }
+}

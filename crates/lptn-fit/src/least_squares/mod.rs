@@ -1,0 +1,125 @@
+//! Nonlinear least squares with bounds and priors.
+//!
+//! [`minimise`] finds the parameters `p` for which the sum of the squares of the residuals `r(p)` is least, by the method
+//! of Levenberg and Marquardt in the form of J. J. Moré (The Levenberg-Marquardt algorithm: implementation and theory,
+//! Lecture Notes in Mathematics 630 (1978) 105): a trust region in parameters scaled by the norms of the Jacobian's
+//! columns, so that the units of the parameters do not matter. Bounds are part of each step: it minimises the linear
+//! model inside the box and the region by an active set (P. B. Stark and R. L. Parker, Computational Statistics 10
+//! (1995) 129), so a minimum on a bound is reached and [`Estimate::on_bound`] says which.
+//!
+//! Only the triangular factor of `[J r]` is used; `J^T J` is never formed.
+//!
+//! ```
+//! use lptn_fit::least_squares::{LeastSquaresError, Residuals, Settings, minimise};
+//!
+//! /// y = a exp(b x) through three points.
+//! struct Growth;
+//!
+//! impl Residuals for Growth {
+//!     fn parameters(&self) -> usize {
+//!         2
+//!     }
+//!
+//!     fn evaluate(
+//!         &mut self,
+//!         p: &[f64],
+//!         residuals: &mut Vec<f64>,
+//!         jacobian: Option<&mut Vec<f64>>,
+//!     ) -> Result<(), LeastSquaresError> {
+//!         let data = [(0.0, 2.0), (1.0, 4.0), (2.0, 8.0)];
+//!         residuals.extend(data.iter().map(|(x, y)| p[0] * f64::exp(p[1] * x) - y));
+//!         if let Some(jacobian) = jacobian {
+//!             jacobian.extend(data.iter().map(|(x, _)| f64::exp(p[1] * x)));
+//!             jacobian.extend(data.iter().map(|(x, _)| p[0] * x * f64::exp(p[1] * x)));
+//!         }
+//!         Ok(())
+//!     }
+//! }
+//!
+//! let found = minimise(&mut Growth, &[1.0, 1.0], &Settings::default())?;
+//! assert!(found.outcome.converged());
+//! assert!((found.parameters[1] - 2_f64.ln()).abs() < 1e-9);
+//! # Ok::<(), LeastSquaresError>(())
+//! ```
+
+mod error;
+mod estimate;
+mod linear;
+mod region;
+mod search;
+
+pub use error::LeastSquaresError;
+pub use estimate::{Estimate, Outcome, Side, Stop, Test};
+pub use search::minimise;
+
+/// A model with data: residuals as functions of parameters.
+pub trait Residuals {
+    /// The number of parameters, which does not change.
+    fn parameters(&self) -> usize;
+
+    /// Writes the residuals (model less data, each over its standard deviation if they differ) at `p`, and where asked
+    /// for their derivatives, one parameter after the other: `d r_i / d p_j` at `j * residuals.len() + i`.
+    ///
+    /// Both lists come empty; the number of residuals does not change. `p` keeps the bounds. Where the model has no value
+    /// at `p`, a residual that is NaN or infinite asks for a shorter step.
+    ///
+    /// # Errors
+    /// [`LeastSquaresError::Interrupted`] ends the search.
+    fn evaluate(
+        &mut self,
+        p: &[f64],
+        residuals: &mut Vec<f64>,
+        jacobian: Option<&mut Vec<f64>>,
+    ) -> Result<(), LeastSquaresError>;
+}
+
+/// What is known of a parameter without the data: `value ± sigma`. It counts as one more residual,
+/// `(p - value) / sigma`, so the others should be in units of their standard deviation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prior {
+    /// Which parameter.
+    pub parameter: usize,
+    /// What it is thought to be.
+    pub value: f64,
+    /// One standard deviation, positive.
+    pub sigma: f64,
+}
+
+/// How to search.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Least and greatest value of every parameter, infinite where there is none; empty if no parameter has bounds.
+    pub bounds: Vec<(f64, f64)>,
+    /// What is known beforehand.
+    pub priors: Vec<Prior>,
+    /// The search ends where the part of the residuals that the free parameters could still remove, to first order, is
+    /// this part of all residuals (relative offset: D. M. Bates, D. G. Watts, Technometrics 23 (1981) 179). With n
+    /// residuals and k parameters the parameters are then within `gradient * sqrt(n)` of their standard errors.
+    pub gradient: f64,
+    /// The search ends where a full step changes no parameter by more than this part of it.
+    pub step: f64,
+    /// Differences of the sum of squares by less than this part of it count as rounding. A step that was to lower it by
+    /// no more, and changes it by no more, is judged by `gradient`'s measure instead: while that falls by a tenth or
+    /// more the search goes on, and then it ends, with the parameters within `sqrt(cost n)` of their standard errors.
+    /// To be raised where the model is computed less precisely than to double precision.
+    pub cost: f64,
+    /// The largest number of steps that lower the sum of squares.
+    pub iterations: usize,
+    /// The first step moves the scaled parameters by no more than this times their length.
+    pub reach: f64,
+}
+
+impl Default for Settings {
+    /// As far as double precision leads: 1e-9, 1e-11 and 1e-12, in 1000 steps of reach 3.
+    fn default() -> Self {
+        Self {
+            bounds: Vec::new(),
+            priors: Vec::new(),
+            gradient: 1e-9,
+            step: 1e-11,
+            cost: 1e-12,
+            iterations: 1000,
+            reach: 3.0,
+        }
+    }
+}

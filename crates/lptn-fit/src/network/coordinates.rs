@@ -1,0 +1,69 @@
+//! The coordinates in which a search moves.
+
+use crate::network::task::Varied;
+
+/// For each varied parameter whether the search moves in its logarithm.
+pub(crate) struct Coordinates {
+    logarithmic: Vec<bool>,
+    bounds: Vec<(f64, f64)>,
+}
+
+impl Coordinates {
+    /// Logarithms where the bounds are positive: what is constant for products of powers then is a straight line. Without
+    /// a least value the sign of a parameter is open.
+    pub(crate) fn new(varied: &[Varied], absolute: &[bool]) -> Self {
+        let logarithm = |(v, &absolute): (&Varied, &bool)| !absolute && v.bounds.0 > 0.0;
+        let logarithmic = varied.iter().zip(absolute).map(logarithm).collect();
+        let bounds = varied.iter().map(|v| v.bounds).collect();
+        Self { logarithmic, bounds }
+    }
+
+    /// Values in SI units, and their derivatives by the coordinates.
+    pub(crate) fn values(&self, p: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let value = |(j, &p): (usize, &f64)| {
+            if self.logarithmic[j] { (self.inside(j, p.exp()), p.exp()) } else { (p, 1.0) }
+        };
+        p.iter().enumerate().map(value).unzip()
+    }
+
+    /// Rounding must not lead out of the bounds.
+    fn inside(&self, j: usize, value: f64) -> f64 {
+        value.max(self.bounds[j].0).min(self.bounds[j].1)
+    }
+
+    /// Coordinates of values in SI units.
+    pub(crate) fn of(&self, values: &[f64]) -> Vec<f64> {
+        values.iter().enumerate().map(|(j, &v)| self.one(j, v)).collect()
+    }
+
+    fn one(&self, j: usize, value: f64) -> f64 {
+        if self.logarithmic[j] { value.ln() } else { value }
+    }
+
+    /// The bounds of the coordinates.
+    pub(crate) fn bounds(&self) -> Vec<(f64, f64)> {
+        self.bounds
+            .iter()
+            .enumerate()
+            .map(|(j, &(low, high))| (self.one(j, low), self.one(j, high)))
+            .collect()
+    }
+
+    /// Values at shares (0 to 1) of the way between the bounds; parameters without both keep `own`.
+    pub(crate) fn between(&self, shares: &[f64], own: &[f64]) -> Vec<f64> {
+        let place = |(j, (low, high)): (usize, (f64, f64))| {
+            if !(low.is_finite() && high.is_finite()) {
+                return self.one(j, own[j]);
+            }
+            low + shares[j] * (high - low)
+        };
+        let p: Vec<f64> = self.bounds().into_iter().enumerate().map(place).collect();
+        self.values(&p).0
+    }
+
+    /// Whether a parameter has both bounds.
+    pub(crate) fn is_bounded(&self, j: usize) -> bool {
+        let (low, high) = self.bounds()[j];
+        low.is_finite() && high.is_finite()
+    }
+}

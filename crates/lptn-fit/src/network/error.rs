@@ -1,0 +1,46 @@
+//! Why a network cannot be fitted.
+
+use lptn_assembly::ChangeError;
+use lptn_solve::SensitiveError;
+use lptn_units::EvalError;
+
+use crate::least_squares::LeastSquaresError;
+use crate::network::task::FitStage;
+
+lptn_units::errors! {
+/// Why a network cannot be fitted. That the search does not converge is an answer and not an error.
+#[derive(Debug)]
+pub enum NetworkFitError {
+    /// Nothing is varied.
+    NoParameter = "fit::no_parameter", "nothing is varied, so nothing can be fitted";
+    /// The records hold no value.
+    NoData = "fit::no_data", "the records hold no value of a column that is fitted";
+    /// A record, its first and last time in s, begins before its run, whose start is in s, or has no row behind the start.
+    Times { record: String, span: (f64, f64), start: f64 } = "fit::record_times",
+        format!("{record}: rows from {} s to {} s do not fit a run that starts at {start} s", span.0, span.1);
+    /// There are fewer values and priors than parameters.
+    TooFew { values: usize, parameters: usize } = "fit::too_few_values",
+        format!("{values} values cannot determine {parameters} parameters");
+    /// The own value of a parameter, by its place among the varied ones, is outside its bounds.
+    StartOutside { parameter: usize } = "fit::start_outside",
+        format!("the own value of varied parameter {parameter} is outside its bounds");
+    /// The run of a record fails with the own values of the parameters.
+    Start { record: String, error: Box<SensitiveError> } =
+        match &**error {
+            SensitiveError::Change(ChangeError::Network(_)) => "fit::network",
+            SensitiveError::Interrupted => "fit::interrupted",
+            SensitiveError::Run(_) | SensitiveError::Change(ChangeError::Assembly(_)) => error.code(),
+        },
+        format!("{record}: there is no run with the parameters' own values: {error}"), source error.as_ref();
+    /// A column measures something, as it is written, that is neither the temperature of a node nor a mean of some.
+    Observed { column: String, result: String } = "fit::observed",
+        format!("column `{column}` measures `{result}`, which is not a temperature of a node or a mean of some");
+    /// A number of the study has no value.
+    Plan => EvalError;
+    /// The sum of squares cannot be minimised.
+    Search => LeastSquaresError;
+    /// It was interrupted at this stage; the values in SI units that describe the records best among those that were tried.
+    Interrupted { stage: FitStage, best: Option<Vec<f64>> } = "fit::interrupted",
+        format!("the fit was interrupted in {stage}");
+}
+}

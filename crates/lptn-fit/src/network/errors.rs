@@ -1,0 +1,131 @@
+//! How well the parameters are determined, from what is left over.
+
+use crate::Covariance;
+use crate::network::fitted::ColumnMisfit;
+use crate::network::identify::Identifiability;
+use crate::network::model::{Block, Evaluated, Model};
+use crate::network::task::NetworkFitTask;
+use crate::noise::Noise;
+
+/// With fewer values than this left over, residuals alone do not tell the noise.
+const FEW: usize = 10;
+
+/// Residuals and derivatives at the end of a fit, and the noise of every column.
+pub(crate) struct Errors<'a> {
+    task: &'a NetworkFitTask<'a>,
+    at_end: &'a Evaluated,
+    /// Number of residuals that are data.
+    data: usize,
+    /// The parameters that have a standard error, and those that are held for it.
+    free: Vec<usize>,
+    columns: Vec<ColumnNoise<'a>>,
+}
+
+/// One column with values.
+struct ColumnNoise<'a> {
+    block: &'a Block,
+    noise: Noise,
+    /// `J^T Omega J` of the free parameters.
+    middle: Vec<f64>,
+}
+
+impl<'a> Errors<'a> {
+    /// With the parameters that sit on no bound. Where some cannot be told apart, so many of them are held that the
+    /// others can; the errors of the determined ones do not depend on which.
+    pub(crate) fn new(
+        task: &'a NetworkFitTask<'a>,
+        model: &'a Model<'_>,
+        (at_end, inside, known): (&'a Evaluated, &[usize], Option<&Identifiability>),
+    ) -> Self {
+        let held: Vec<usize> =
+            known.iter().flat_map(|known| &known.unseparated).flat_map(|group| group.held()).collect();
+        let unfelt = |i: &usize| known.is_none_or(|known| known.unfelt.contains(i));
+        let free: Vec<usize> = inside.iter().copied().filter(|i| !unfelt(i) && !held.contains(i)).collect();
+        let mut errors = Self { task, at_end, data: model.data(), free, columns: Vec::new() };
+        let blocks = model.blocks.iter().filter(|block| !block.range.is_empty());
+        errors.columns = blocks.map(|block| errors.noise_of(block)).collect();
+        errors
+    }
+
+    fn noise_of(&self, block: &'a Block) -> ColumnNoise<'a> {
+        let run = &self.task.runs[block.run];
+        let values = &run.columns[block.column].values;
+        let rows = run.times.iter().zip(values).filter(|(_, value)| !value.is_nan());
+        let times: Vec<f64> = rows.map(|(time, _)| *time).collect();
+        let slopes: Vec<f64> = self
+            .free
+            .iter()
+            .flat_map(|&i| self.derivatives(i)[block.range.clone()].iter().copied())
+            .collect();
+        let noise = Noise::estimate(&times, &self.at_end.residuals[block.range.clone()], &slopes);
+        let middle = noise.middle(&times, &slopes).values;
+        ColumnNoise { block, noise, middle }
+    }
+
+    /// Of all residuals by one parameter.
+    fn derivatives(&self, parameter: usize) -> &[f64] {
+        let rows = self.at_end.residuals.len();
+        &self.at_end.jacobian[parameter * rows..(parameter + 1) * rows]
+    }
+
+    pub(crate) fn columns(&self) -> Vec<ColumnMisfit> {
+        self.columns.iter().map(|column| self.misfit(column)).collect()
+    }
+
+    fn misfit(&self, column: &ColumnNoise<'_>) -> ColumnMisfit {
+        let block = column.block;
+        let measured = &self.task.runs[block.run].columns[block.column];
+        let residuals = &self.at_end.residuals[block.range.clone()];
+        let samples = residuals.len();
+        let mean = |of: &dyn Fn(f64) -> f64| {
+            residuals.iter().map(|&r| of(r * measured.weight())).sum::<f64>() / samples as f64
+        };
+        ColumnMisfit {
+            run: block.run,
+            column: block.column,
+            samples,
+            effective: column.noise.effective,
+            rms: mean(&|miss| miss * miss).sqrt(),
+            mean: mean(&|miss| miss),
+            sigma: measured.sigma,
+        }
+    }
+
+    /// Values and priors beyond those that the free parameters take up.
+    pub(crate) fn left_over(&self) -> usize {
+        self.at_end.residuals.len().saturating_sub(self.free.len())
+    }
+
+    /// The covariance of the free parameters: `(J^T J)^-1 J^T Omega J (J^T J)^-1` with the covariance Omega of the
+    /// residuals. Few residuals may be small by chance, and as many as parameters vanish: then errors are at least those
+    /// that the standard deviations given say, and where none are given and nothing is left over there are none.
+    pub(crate) fn covariance(&self) -> Option<Covariance> {
+        if self.free.is_empty() || self.data == 0 {
+            return None;
+        }
+        let bread = Covariance::inverse(&self.at_end.jacobian, self.at_end.residuals.len(), &self.free)?;
+        let found = bread.sandwich(&self.middle());
+        let given = self.columns.iter().all(|column| self.sigma(column).is_some());
+        match self.left_over() {
+            0 => given.then_some(bread),
+            left if left < FEW && given => Some(bread.at_least(&found)),
+            _ => Some(found),
+        }
+    }
+
+    fn sigma(&self, column: &ColumnNoise<'_>) -> Option<f64> {
+        self.task.runs[column.block.run].columns[column.block.column].sigma
+    }
+
+    fn middle(&self) -> Vec<f64> {
+        let n = self.free.len();
+        // priors are what they are said to be
+        let prior = |i: usize| &self.derivatives(self.free[i])[self.data..];
+        let dot = |at: usize| prior(at / n).iter().zip(prior(at % n)).map(|(a, b)| a * b).sum::<f64>();
+        let mut middle: Vec<f64> = (0..n * n).map(dot).collect();
+        for column in &self.columns {
+            middle.iter_mut().zip(&column.middle).for_each(|(sum, part)| *sum += part);
+        }
+        middle
+    }
+}

@@ -1,0 +1,307 @@
+//! The runs of all records for one set of parameters, with their derivatives.
+
+use std::ops::Range;
+
+use lptn_assembly::ChangeError;
+use lptn_network::{Network, OutputTimes, ParameterId};
+use lptn_solve::{
+    Gradient, Record, SensitiveError, SensitiveRun, Transient, in_parallel, sensitive_run_observed,
+};
+
+use crate::least_squares::{LeastSquaresError, Residuals};
+use crate::network::coordinates::Coordinates;
+use crate::network::error::NetworkFitError;
+use crate::network::task::{FitObserver, FitStage, Measured, MeasuredRun, NetworkFitTask, Varied};
+
+/// The residuals of one column of one record.
+#[derive(Clone, Debug)]
+pub(crate) struct Block {
+    pub(crate) run: usize,
+    pub(crate) column: usize,
+    /// Where its residuals stand.
+    pub(crate) range: Range<usize>,
+}
+
+/// Residuals over their standard deviations, and their derivatives one parameter after the other, in SI units.
+#[derive(Clone, Debug)]
+pub(crate) struct Evaluated {
+    pub(crate) values: Vec<f64>,
+    pub(crate) residuals: Vec<f64>,
+    pub(crate) jacobian: Vec<f64>,
+}
+
+/// Computes the task's runs at some of the records' rows.
+pub(crate) struct Model<'a> {
+    task: &'a NetworkFitTask<'a>,
+    coordinates: &'a Coordinates,
+    /// The rows of each record that count.
+    rows: Vec<Vec<usize>>,
+    pub(crate) blocks: Vec<Block>,
+    tolerance: f64,
+    /// How derivatives are had; known after the first runs.
+    pub(crate) gradient: Option<Gradient>,
+    /// What was computed last.
+    last: Option<Evaluated>,
+    /// How often the runs of all records were computed.
+    pub(crate) evaluations: usize,
+    /// How far the fit is, but for the evaluations of this model.
+    pub(crate) stage: FitStage,
+    /// The least sum of squares so far, and its values.
+    pub(crate) best: Option<(f64, Vec<f64>)>,
+    /// Whether the observer has interrupted the fit.
+    pub(crate) interrupted: bool,
+    observer: &'a FitObserver<'a>,
+}
+
+impl<'a> Model<'a> {
+    /// With at most `most` rows of each record, taken at equal intervals.
+    pub(crate) fn new(
+        (task, observer): (&'a NetworkFitTask<'a>, &'a FitObserver<'a>),
+        coordinates: &'a Coordinates,
+        (most, tolerance): (usize, f64),
+    ) -> Self {
+        let rows: Vec<Vec<usize>> = task.runs.iter().map(|run| chosen(run.times.len(), most)).collect();
+        let blocks = blocks(task, &rows);
+        let stage = FitStage { search: 0, of: 1, evaluations: 0 };
+        Self {
+            task,
+            coordinates,
+            rows,
+            blocks,
+            tolerance,
+            gradient: None,
+            last: None,
+            evaluations: 0,
+            stage,
+            best: None,
+            interrupted: false,
+            observer,
+        }
+    }
+
+    /// Why a search ended without an answer.
+    pub(crate) fn ended(&self, error: LeastSquaresError) -> NetworkFitError {
+        match error {
+            LeastSquaresError::Interrupted => self.broken_off(),
+            error => NetworkFitError::Search(error),
+        }
+    }
+
+    /// That the fit was interrupted, with the best values.
+    pub(crate) fn broken_off(&self) -> NetworkFitError {
+        let best = self.best.as_ref().map(|(_, values)| values.clone());
+        NetworkFitError::Interrupted { stage: self.stage_now(), best }
+    }
+
+    pub(crate) fn stage_now(&self) -> FitStage {
+        FitStage { evaluations: self.stage.evaluations + self.evaluations, ..self.stage }
+    }
+
+    /// Number of residuals of the records; those of the priors follow.
+    pub(crate) fn data(&self) -> usize {
+        self.blocks.last().map_or(0, |block| block.range.end)
+    }
+
+    /// The root of the sum over all residuals of what they are per K, squared.
+    pub(crate) fn weights(&self) -> f64 {
+        let of = |block: &Block| {
+            let weight = self.task.runs[block.run].columns[block.column].weight();
+            block.range.len() as f64 / (weight * weight)
+        };
+        self.blocks.iter().map(of).sum::<f64>().sqrt()
+    }
+
+    /// Residuals and derivatives for values in SI units; the record whose run failed, and why.
+    pub(crate) fn at(&mut self, values: &[f64]) -> Result<&Evaluated, (usize, SensitiveError)> {
+        if self.last.as_ref().is_none_or(|last| last.values != values) {
+            self.last = None;
+            let found = self.evaluate(values).inspect_err(|(_, error)| {
+                self.interrupted |= matches!(error, SensitiveError::Interrupted);
+            })?;
+            let squares: f64 = found.residuals.iter().map(|residual| residual * residual).sum();
+            if squares.is_finite() && self.best.as_ref().is_none_or(|(least, _)| squares < *least) {
+                self.best = Some((squares, values.to_vec()));
+            }
+            self.last = Some(found);
+        }
+        self.last.as_ref().ok_or_else(|| unreachable!("it was just set"))
+    }
+
+    fn evaluate(&mut self, values: &[f64]) -> Result<Evaluated, (usize, SensitiveError)> {
+        self.evaluations += 1;
+        let all: Vec<usize> = (0..self.task.runs.len()).collect();
+        let run = |&i: &usize| self.run(i, values).map_err(|error| (i, error));
+        let runs: Vec<Measure> =
+            in_parallel(&all, self.task.threads, run).into_iter().collect::<Result<_, _>>()?;
+        // one record's refusal makes differences of its own runs only: say so of all
+        let differences = |measure: &&Measure| measure.gradient != Gradient::Exact;
+        let gradient = runs.iter().find(differences).or(runs.first());
+        self.gradient = gradient.map(|measure| measure.gradient);
+        Ok(self.with_priors(values, &runs))
+    }
+
+    fn with_priors(&self, values: &[f64], runs: &[Measure]) -> Evaluated {
+        let (data, count) = (self.data(), values.len());
+        let priors = self.priors();
+        let mut residuals: Vec<f64> = Vec::with_capacity(data + priors.len());
+        runs.iter().for_each(|run| residuals.extend_from_slice(&run.residuals));
+        residuals.extend(priors.iter().map(|&(i, known, sigma)| (values[i] - known) / sigma));
+        let mut jacobian = Vec::with_capacity(residuals.len() * count);
+        for j in 0..count {
+            for run in runs {
+                let rows = run.residuals.len();
+                jacobian.extend_from_slice(&run.jacobian[j * rows..(j + 1) * rows]);
+            }
+            jacobian.extend(priors.iter().map(|&(i, _, sigma)| if i == j { 1.0 / sigma } else { 0.0 }));
+        }
+        Evaluated { values: values.to_vec(), residuals, jacobian }
+    }
+
+    /// Place, value and standard deviation of what is known beforehand.
+    fn priors(&self) -> Vec<(usize, f64, f64)> {
+        let known = |(i, varied): (usize, &Varied)| {
+            Some((i, self.task.network.parameter_value(varied.parameter), varied.prior?))
+        };
+        self.task.parameters.iter().enumerate().filter_map(known).collect()
+    }
+
+    /// One record's run.
+    fn run(&self, i: usize, values: &[f64]) -> Result<Measure, SensitiveError> {
+        let (run, rows) = (&self.task.runs[i], &self.rows[i]);
+        let network = self.task.network_of(run, values)?;
+        let ids: Vec<ParameterId> = self.task.parameters.iter().map(|varied| varied.parameter).collect();
+        let (settings, stage) = (settings(run, rows, self.tolerance), self.stage_now());
+        let found =
+            sensitive_run_observed(&network, (&settings, &ids), &|step| (self.observer)(stage, step))?;
+        Ok(measure(run, rows, (&found, &ids)))
+    }
+}
+
+impl NetworkFitTask<'_> {
+    /// The network of one record with values of the varied parameters in SI units.
+    pub(crate) fn network_of(&self, run: &MeasuredRun, values: &[f64]) -> Result<Network, SensitiveError> {
+        let mut parameters = run.parameters.clone();
+        self.parameters
+            .iter()
+            .zip(values)
+            .for_each(|(varied, &value)| parameters.set(varied.parameter, value));
+        Ok(self.network.with(&parameters).map_err(ChangeError::from)?)
+    }
+}
+
+/// The residuals of one record, and their derivatives one parameter after the other.
+struct Measure {
+    residuals: Vec<f64>,
+    jacobian: Vec<f64>,
+    gradient: Gradient,
+}
+
+/// At most `most` of `count` rows, at equal intervals, both ends included.
+fn chosen(count: usize, most: usize) -> Vec<usize> {
+    if count <= most {
+        return (0..count).collect();
+    }
+    (0..most).map(|k| k * (count - 1) / (most - 1)).collect()
+}
+
+fn blocks(task: &NetworkFitTask<'_>, rows: &[Vec<usize>]) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    let mut from = 0;
+    for (run, measured) in task.runs.iter().enumerate() {
+        for (column, values) in measured.columns.iter().enumerate() {
+            let count = rows[run].iter().filter(|&&row| !values.values[row].is_nan()).count();
+            blocks.push(Block { run, column, range: from..from + count });
+            from += count;
+        }
+    }
+    blocks
+}
+
+/// The run that has a row wherever the record has one.
+fn settings(run: &MeasuredRun, rows: &[usize], tolerance: f64) -> Transient {
+    let start = run.settings.start;
+    let stop = rows.last().map_or(start, |&row| run.times[row]);
+    let between = rows.iter().map(|&row| run.times[row]).filter(|&time| time > start && time < stop);
+    Transient {
+        stop,
+        output: OutputTimes::At(between.collect()),
+        tolerance,
+        record: Record::Nodes(run.nodes()),
+        watch: Vec::new(),
+        windows: Vec::new(),
+        balance: None,
+        ..run.settings.clone()
+    }
+}
+
+fn measure(run: &MeasuredRun, rows: &[usize], (found, ids): (&SensitiveRun, &[ParameterId])) -> Measure {
+    let solution = &found.solution;
+    // the run has one more row where the record does not begin at its start
+    let skipped = solution.times().len() - rows.len();
+    let (residuals, jacobian) = (Vec::new(), Vec::new());
+    let mut measure = Measure { residuals, jacobian, gradient: found.gradient };
+    for column in &run.columns {
+        let model = combined(column, |node| solution.temperature(node), skipped);
+        let misses =
+            rows.iter().zip(model).map(|(&row, model)| (model - column.values[row]) / column.weight());
+        measure.residuals.extend(misses.filter(|miss| !miss.is_nan()));
+    }
+    for &id in ids {
+        for column in &run.columns {
+            let slopes = combined(column, |node| found.sensitivity(id, node), skipped);
+            let kept = rows.iter().zip(slopes).filter(|(row, _)| !column.values[**row].is_nan());
+            measure.jacobian.extend(kept.map(|(_, slope)| slope / column.weight()));
+        }
+    }
+    measure
+}
+
+/// The rows of the measured temperature, or of its derivative.
+fn combined(
+    column: &Measured,
+    of_node: impl Fn(lptn_network::NodeId) -> Option<Vec<f64>>,
+    skipped: usize,
+) -> Vec<f64> {
+    let mut sum: Vec<f64> = Vec::new();
+    for &(node, factor) in &column.of {
+        let values = of_node(node).unwrap_or_default();
+        sum.resize(values.len(), 0.0);
+        sum.iter_mut().zip(&values).for_each(|(sum, value)| *sum += factor * value);
+    }
+    sum.split_off(skipped.min(sum.len()))
+}
+
+impl Residuals for Model<'_> {
+    fn parameters(&self) -> usize {
+        self.task.parameters.len()
+    }
+
+    /// Derivatives come with the runs at little cost, so they are always computed: the next call may ask for them.
+    fn evaluate(
+        &mut self,
+        p: &[f64],
+        residuals: &mut Vec<f64>,
+        jacobian: Option<&mut Vec<f64>>,
+    ) -> Result<(), LeastSquaresError> {
+        let (values, slopes) = self.coordinates.values(p);
+        let count = self.data() + self.priors().len();
+        match self.at(&values) {
+            Ok(found) => {
+                residuals.extend_from_slice(&found.residuals);
+                if let Some(jacobian) = jacobian {
+                    let rows = found.residuals.len().max(1);
+                    let scaled = found.jacobian.chunks(rows).zip(slopes);
+                    scaled.for_each(|(column, slope)| jacobian.extend(column.iter().map(|x| x * slope)));
+                }
+            }
+            Err((_, SensitiveError::Interrupted)) => return Err(LeastSquaresError::Interrupted),
+            Err(_) => {
+                residuals.resize(count, f64::NAN);
+                if let Some(jacobian) = jacobian {
+                    jacobian.resize(count * p.len(), f64::NAN);
+                }
+            }
+        }
+        Ok(())
+    }
+}

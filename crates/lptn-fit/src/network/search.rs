@@ -1,0 +1,152 @@
+//! Searches from several starts.
+
+use lptn_solve::{Gradient, SensitiveError};
+
+use crate::least_squares::{Estimate, Outcome, Settings, Stop, minimise};
+use crate::network::coordinates::Coordinates;
+use crate::network::error::NetworkFitError;
+use crate::network::model::Model;
+use crate::network::task::{FitObserver, FitStage, NetworkFitTask};
+
+/// Rows of a record that the searches look at before the best of them goes on with all.
+const COARSE_ROWS: usize = 150;
+
+/// Tolerance in K of the runs of the searches, and of what goes on from the best.
+const TOLERANCES: [f64; 2] = [1e-6, 1e-7];
+
+/// Sums of squares that differ by less than this part are those of one minimum.
+const SAME: f64 = 1e-3;
+
+/// So many tolerances a temperature may be off.
+const ERROR: f64 = 10.0;
+
+/// Seed of the starts between the bounds.
+const SEED: u32 = 6;
+
+/// How the searches from several starts came out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Starts {
+    /// How many there were, the own values first.
+    pub tried: usize,
+    /// How many of them led to the minimum that was taken.
+    pub same: usize,
+    /// How many led to another one.
+    pub other: usize,
+    /// How many led nowhere.
+    pub failed: usize,
+}
+
+/// Where the searches ended.
+pub(crate) struct Found<'a> {
+    pub(crate) estimate: Estimate,
+    /// Whether that is a minimum; why not.
+    pub(crate) outcome: Result<(), Stop>,
+    pub(crate) starts: Starts,
+    pub(crate) gradient: Gradient,
+    /// With all rows.
+    pub(crate) model: Model<'a>,
+    /// How often the runs of all records were computed before.
+    pub(crate) searches: usize,
+}
+
+/// Finds the best minimum.
+pub(crate) fn search<'a>(
+    (task, observer): (&'a NetworkFitTask<'a>, &'a FitObserver<'a>),
+    coordinates: &'a Coordinates,
+    own: &[f64],
+) -> Result<Found<'a>, NetworkFitError> {
+    let tolerance = |least: f64| task.runs.iter().fold(least, |t, run| t.min(run.settings.tolerance));
+    let starts = starts(task, coordinates, own);
+    let mut coarse = Model::new((task, observer), coordinates, (COARSE_ROWS, tolerance(TOLERANCES[0])));
+    coarse.stage = FitStage { search: 1, of: starts.len(), evaluations: 0 };
+    if let Err((run, error)) = coarse.at(own) {
+        if let SensitiveError::Interrupted = error {
+            return Err(coarse.broken_off());
+        }
+        return Err(NetworkFitError::Start { record: task.runs[run].name.clone(), error: Box::new(error) });
+    }
+    let gradient = coarse.gradient.unwrap_or(Gradient::Exact);
+    let settings = |gradient: f64, step: f64| Settings {
+        bounds: coordinates.bounds(),
+        gradient,
+        step,
+        iterations: 200,
+        ..Settings::default()
+    };
+    let mut ends = Vec::new();
+    for (i, start) in starts.iter().enumerate() {
+        coarse.stage.search = i + 1;
+        let search = minimise(&mut coarse, &coordinates.of(start), &settings(1e-4, 1e-6));
+        ends.push(search.map_err(|error| coarse.ended(error))?);
+    }
+    let (best, starts) = best(&ends, &coarse, tolerance(TOLERANCES[0]));
+    let mut model = Model::new((task, observer), coordinates, (usize::MAX, tolerance(TOLERANCES[1])));
+    model.best = Some((f64::INFINITY, coordinates.values(&ends[best].parameters).0));
+    model.stage = FitStage { search: 0, ..coarse.stage_now() };
+    let exact = match gradient {
+        Gradient::Exact => settings(1e-7, 1e-10),
+        Gradient::Differences(_) => settings(1e-5, 1e-8),
+    };
+    let estimate = minimise(&mut model, &ends[best].parameters, &exact);
+    let estimate = estimate.map_err(|error| model.ended(error))?;
+    let outcome = outcome(&estimate, floor(&model, tolerance(TOLERANCES[1])), &gradient);
+    Ok(Found { estimate, outcome, starts, gradient, searches: coarse.evaluations, model })
+}
+
+/// The own values, then points of a scrambled Sobol sequence between the bounds (A. B. Owen, in Monte Carlo and
+/// Quasi-Monte Carlo Methods in Scientific Computing, 1995, 299).
+fn starts(task: &NetworkFitTask<'_>, coordinates: &Coordinates, own: &[f64]) -> Vec<Vec<f64>> {
+    let mut starts = vec![own.to_vec()];
+    if (0..own.len()).any(|j| coordinates.is_bounded(j)) {
+        let more = u32::try_from(task.more_starts).unwrap_or(u32::MAX);
+        starts.extend((0..more).map(|k| {
+            let share =
+                |j: usize| f64::from(sobol_burley::sample(k, u32::try_from(j % 256).unwrap_or(0), SEED));
+            let shares: Vec<f64> = (0..own.len()).map(share).collect();
+            coordinates.between(&shares, own)
+        }));
+    }
+    starts
+}
+
+/// The lowest minimum, or the lowest point where no search found one; how the others compare.
+fn best(ends: &[Estimate], model: &Model<'_>, tolerance: f64) -> (usize, Starts) {
+    let floor = floor(model, tolerance);
+    let converged = |end: &Estimate| end.outcome.converged() || removable(end) <= floor;
+    let rank = |i: &usize| (!converged(&ends[*i]), ends[*i].squares);
+    let order = |a: &usize, b: &usize| {
+        let (a, b) = (rank(a), rank(b));
+        let nan_last = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
+        a.0.cmp(&b.0).then(nan_last(a.1).total_cmp(&nan_last(b.1)))
+    };
+    let best = (0..ends.len()).min_by(order).unwrap_or(0);
+    let least = ends[best].squares;
+    let is_same = |end: &&Estimate| end.squares <= least * (1.0 + SAME) + floor * floor;
+    let minima = || ends.iter().filter(|end| converged(end));
+    let (same, found) = (minima().filter(is_same).count(), minima().count());
+    (best, Starts { tried: ends.len(), same, other: found - same, failed: ends.len() - found })
+}
+
+/// The root of the sum of squares that the errors of the runs leave.
+fn floor(model: &Model<'_>, tolerance: f64) -> f64 {
+    ERROR * tolerance * model.weights()
+}
+
+/// The root of the sum of squares that could still be removed.
+fn removable(end: &Estimate) -> f64 {
+    end.offset * end.squares.sqrt()
+}
+
+/// A search that gets no further because what is left to remove is less than the errors of the runs is at its minimum.
+fn outcome(end: &Estimate, floor: f64, gradient: &Gradient) -> Result<(), Stop> {
+    /// Differences of runs are no more accurate than this.
+    const DIFFERENCES: f64 = 1e-3;
+    match end.outcome {
+        Outcome::Converged(_) => Ok(()),
+        Outcome::NotConverged(_) if removable(end) <= floor => Ok(()),
+        Outcome::NotConverged(Stop::Stalled) if *gradient != Gradient::Exact && end.offset <= DIFFERENCES => {
+            Ok(())
+        }
+        Outcome::NotConverged(stop) => Err(stop),
+    }
+}

@@ -1,0 +1,240 @@
+//! The restricted likelihood of correlated and white noise.
+
+use faer::Mat;
+use lptn_integrate::dense;
+
+use super::simplex;
+
+/// Samples are filtered four series at once.
+const LANES: usize = 4;
+
+/// What noise is like, its deviation apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Shape {
+    /// Correlated part of the variance.
+    pub(crate) correlated: f64,
+    /// Correlation time in s.
+    pub(crate) time: f64,
+}
+
+impl Shape {
+    pub(crate) const WHITE: Self = Self { correlated: 0.0, time: 0.0 };
+
+    /// From `ln theta` and the logit of c over its greatest value: at that the spectrum of samples `spacing` apart is 0
+    /// at its upper end.
+    pub(crate) fn at([time, logit]: [f64; 2], spacing: f64) -> Self {
+        let decay = (-spacing / time.exp()).exp();
+        let most = (1.0 + decay) / (2.0 * decay).max(1e-12);
+        Self { correlated: most / (1.0 + (-logit).exp()), time: time.exp() }
+    }
+}
+
+/// A likelihood, times -2 and less constants.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Value {
+    /// Of what the fitted parameters could not remove.
+    pub(crate) restricted: f64,
+    /// Of all samples, with the parameters at their most likely values.
+    pub(crate) whole: f64,
+    /// Standard deviation of the noise, where the restricted one is greatest.
+    pub(crate) deviation: f64,
+}
+
+/// Residuals and the span of their derivatives, ready to be filtered.
+pub(crate) struct Likelihood {
+    times: Vec<f64>,
+    /// An orthonormal basis of the derivatives, then the residuals, four at a time.
+    series: Vec<Vec<[f64; LANES]>>,
+    rank: usize,
+    scale: f64,
+    spacing: f64,
+}
+
+impl Likelihood {
+    pub(crate) fn new(times: &[f64], residuals: &[f64], jacobian: &[f64]) -> Self {
+        let n = times.len();
+        let mut columns = orthonormal(jacobian, n);
+        let rank = columns.len();
+        let scale = (residuals.iter().map(|r| r * r).sum::<f64>() / n as f64).sqrt();
+        let unit = if scale > 0.0 { scale } else { 1.0 };
+        columns.push(residuals.iter().map(|r| r / unit).collect());
+        let pack = |group: &[Vec<f64>]| {
+            let lane = |i: usize, l: usize| group.get(l).map_or(0.0, |column| column[i]);
+            (0..n).map(|i| std::array::from_fn(|l| lane(i, l))).collect()
+        };
+        let series = columns.chunks(LANES).map(pack).collect();
+        let mut spaces: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        spaces.sort_by(f64::total_cmp);
+        let spacing = spaces.get(spaces.len() / 2).copied().unwrap_or(1.0);
+        Self { times: times.to_vec(), series, rank, scale, spacing }
+    }
+
+    pub(crate) fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
+    pub(crate) fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    pub(crate) fn count(&self) -> f64 {
+        self.times.len() as f64
+    }
+
+    pub(crate) fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// Whether three more numbers can be estimated.
+    pub(crate) fn has_freedom(&self) -> bool {
+        self.times.len() > self.rank + 4
+    }
+
+    /// The likelihood of a shape; infinite where it cannot be.
+    pub(crate) fn at(&self, shape: Shape) -> Value {
+        let (whitened, determinant) = self.filtered(shape);
+        let width = self.rank + 1;
+        let column = |j: usize| &whitened[j * self.times.len()..][..self.times.len()];
+        let product =
+            |i: usize, j: usize| -> f64 { column(i).iter().zip(column(j)).map(|(a, b)| a * b).sum() };
+        let mut gram = Mat::zeros(width, width);
+        for i in 0..width {
+            for j in 0..=i {
+                gram[(i, j)] = product(i, j);
+            }
+        }
+        let nowhere = Value { restricted: f64::INFINITY, whole: f64::INFINITY, deviation: f64::NAN };
+        let Some(diagonal) = dense::cholesky_diagonal(gram.as_ref()) else { return nowhere };
+        let squares = diagonal[self.rank] * diagonal[self.rank];
+        let free = self.count() - self.rank as f64;
+        let basis: f64 = diagonal[..self.rank].iter().map(|d| 2.0 * d.ln()).sum();
+        Value {
+            restricted: free * squares.ln() + determinant + basis,
+            whole: self.count() * (squares * self.scale * self.scale).ln() + determinant,
+            deviation: self.scale * (squares / free).sqrt(),
+        }
+    }
+
+    /// The series less what the filter foretells, over the deviation of that; and the logarithm of the determinant.
+    fn filtered(&self, shape: Shape) -> (Vec<f64>, f64) {
+        let gains = Gains::new(&self.times, shape);
+        let n = self.times.len();
+        let mut whitened = vec![0.0; self.series.len() * LANES * n];
+        for (group, out) in self.series.iter().zip(whitened.chunks_mut(LANES * n)) {
+            let mut state = [0.0; LANES];
+            for (i, (values, &[decay, gain, weight])) in group.iter().zip(&gains.steps).enumerate() {
+                for l in 0..LANES {
+                    let foretold = decay * state[l];
+                    let miss = values[l] - foretold;
+                    state[l] = foretold + gain * miss;
+                    out[l * n + i] = miss * weight;
+                }
+            }
+        }
+        (whitened, gains.determinant)
+    }
+
+    /// Where the restricted likelihood is greatest, as `ln theta` and the logit.
+    pub(crate) fn maximise(&self) -> ([f64; 2], Value) {
+        let length = self.times[self.times.len() - 1] - self.times[0];
+        let (least, most) = ((0.3 * self.spacing).ln(), length.max(self.spacing).ln());
+        let at = |p: [f64; 2]| {
+            self.at(Shape::at([p[0].clamp(least, most), p[1].clamp(-7.0, 7.0)], self.spacing)).restricted
+        };
+        let mut start = ([0.0, 0.0], f64::INFINITY);
+        for multiple in [1.0_f64, 4.0, 16.0, 64.0, 256.0] {
+            for logit in [-1.0, 0.5] {
+                let place = [(multiple * self.spacing).ln(), logit];
+                let value = at(place);
+                start = if value < start.1 { (place, value) } else { start };
+            }
+        }
+        let [time, logit] = simplex::minimum(at, start.0);
+        let place = [time.clamp(least, most), logit.clamp(-7.0, 7.0)];
+        (place, self.at(Shape::at(place, self.spacing)))
+    }
+
+    /// The covariance of `ln theta` and the logit at the greatest likelihood: twice the inverse of the second derivatives
+    /// of what [`Likelihood::at`] gives. A direction in which it does not bend is taken as known: there the noise does
+    /// not depend on it.
+    pub(crate) fn spread(&self, [time, logit]: [f64; 2]) -> [[f64; 2]; 2] {
+        const STEP: f64 = 0.1;
+        let at =
+            |a: f64, b: f64| self.at(Shape::at([time + a * STEP, logit + b * STEP], self.spacing)).restricted;
+        let middle = at(0.0, 0.0);
+        let bend = |plus: f64, minus: f64| (plus - 2.0 * middle + minus) / (STEP * STEP);
+        let (a, d) = (bend(at(1.0, 0.0), at(-1.0, 0.0)), bend(at(0.0, 1.0), at(0.0, -1.0)));
+        let b = (at(1.0, 1.0) - at(1.0, -1.0) - at(-1.0, 1.0) + at(-1.0, -1.0)) / (4.0 * STEP * STEP);
+        let determinant = a * d - b * b;
+        if a > 1e-3 && d > 1e-3 && determinant > 1e-3 * a * d {
+            return [
+                [2.0 * d / determinant, -2.0 * b / determinant],
+                [-2.0 * b / determinant, 2.0 * a / determinant],
+            ];
+        }
+        let alone = |bend: f64| if bend > 1e-3 { 2.0 / bend } else { 0.0 };
+        [[alone(a), 0.0], [0.0, alone(d)]]
+    }
+}
+
+/// The filter's numbers for every sample: how much of the state is left, gain, and weight of what was not foretold.
+struct Gains {
+    steps: Vec<[f64; 3]>,
+    determinant: f64,
+}
+
+impl Gains {
+    fn new(times: &[f64], shape: Shape) -> Self {
+        let (c, white) = (shape.correlated, 1.0 - shape.correlated);
+        let mut steps = Vec::with_capacity(times.len());
+        let (mut determinant, mut logarithm) = (0.0, 0.0);
+        let (mut variance, mut before, mut decay) = (c, f64::NAN, 0.0);
+        let mut settled = false;
+        for (i, &time) in times.iter().enumerate() {
+            let apart = if i == 0 { f64::INFINITY } else { time - times[i - 1] };
+            let same = (apart - before).abs() <= 1e-6 * apart;
+            if !(same && settled) {
+                if !same {
+                    decay = if shape.time > 0.0 { (-apart / shape.time).exp() } else { 0.0 };
+                }
+                let foretold = decay * decay * variance + c * (1.0 - decay * decay);
+                let total = foretold + white;
+                let gain = foretold / total;
+                let next = foretold * (1.0 - gain);
+                settled = same && (next - variance).abs() <= 1e-13 * next;
+                variance = next;
+                logarithm = total.ln();
+                steps.push([decay, gain, total.sqrt().recip()]);
+            } else {
+                steps.push(steps[i - 1]);
+            }
+            before = apart;
+            determinant += logarithm;
+        }
+        Self { steps, determinant }
+    }
+}
+
+/// An orthonormal basis of the columns (Gram and Schmidt, each twice); columns that others make up are left out.
+pub(crate) fn orthonormal(columns: &[f64], rows: usize) -> Vec<Vec<f64>> {
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    for column in columns.chunks(rows.max(1)) {
+        let length = norm(column);
+        let mut left = column.to_vec();
+        for _ in 0..2 {
+            for q in &basis {
+                let along: f64 = q.iter().zip(&left).map(|(a, b)| a * b).sum();
+                left.iter_mut().zip(q).for_each(|(a, b)| *a -= along * b);
+            }
+        }
+        let rest = norm(&left);
+        if rest > 1e-9 * length && rest.is_normal() {
+            basis.push(left.into_iter().map(|x| x / rest).collect());
+        }
+    }
+    basis
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum::<f64>().sqrt()
+}

@@ -1,0 +1,85 @@
+//! What the sandwich holds.
+
+use super::likelihood::Shape;
+use super::{Noise, stretches};
+use crate::Covariance;
+
+/// `J^T Omega J` of the samples of one record, and what is known of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Middle {
+    /// Row by row; the number of parameters squared.
+    pub values: Vec<f64>,
+    /// Derivatives by the two numbers that the likelihood is greatest for.
+    slopes: [Vec<f64>; 2],
+    spread: [[f64; 2]; 2],
+    /// Means less fitted parameters.
+    free: f64,
+}
+
+impl Middle {
+    pub(super) fn new(noise: &Noise, times: &[f64], jacobian: &[f64]) -> Self {
+        let means = noise.means;
+        let columns = stretches::means_of_columns(jacobian, times.len(), noise.stretch);
+        let times = stretches::means(times, noise.stretch);
+        let scale = means.deviation * noise.stretch as f64;
+        let scaled = |shape: Shape| -> Vec<f64> {
+            product(&times, &columns, shape).into_iter().map(|x| x * scale * scale).collect()
+        };
+        let values = scaled(Shape { correlated: means.correlated, time: means.time });
+        let free = times.len().saturating_sub(noise.rank).max(1) as f64;
+        if means.time <= 0.0 {
+            let none = vec![0.0; values.len()];
+            return Self { values, slopes: [none.clone(), none], spread: noise.spread, free };
+        }
+        let slope = |by: [f64; 2]| {
+            const STEP: f64 = 0.05;
+            let place = |sign: f64| std::array::from_fn(|k| noise.place[k] + sign * STEP * by[k]);
+            let to = |sign: f64| scaled(Shape::at(place(sign), noise.spacing));
+            to(1.0).iter().zip(to(-1.0)).map(|(a, b)| (a - b) / (2.0 * STEP)).collect()
+        };
+        let slopes = [slope([1.0, 0.0]), slope([0.0, 1.0])];
+        Self { values, slopes, spread: noise.spread, free }
+    }
+
+    /// The degrees of freedom with which the variance of a quantity is known that has these derivatives by all
+    /// parameters of the fit, `bread` being `(J^T J)^-1`.
+    pub fn degrees_of_freedom(&self, bread: &Covariance, gradient: &[f64]) -> f64 {
+        let n = bread.parameters.len();
+        let weight = |i: usize| (0..n).map(|j| bread.values[i * n + j] * gradient[bread.parameters[j]]).sum();
+        let weights: Vec<f64> = (0..n).map(weight).collect();
+        let form = |m: &[f64]| (0..n * n).map(|at| weights[at / n] * m[at] * weights[at % n]).sum::<f64>();
+        let variance = form(&self.values);
+        if variance <= 0.0 {
+            return self.free;
+        }
+        let relative = [form(&self.slopes[0]) / variance, form(&self.slopes[1]) / variance];
+        let term = |i: usize, j: usize| relative[i] * self.spread[i][j] * relative[j];
+        let uncertain = 2.0 / self.free + term(0, 0) + term(0, 1) + term(1, 0) + term(1, 1);
+        (2.0 / uncertain).clamp(1.0, self.free)
+    }
+}
+
+/// `J^T V J` with V of unit variance, row by row: exponential correlations add up from sample to sample.
+pub(super) fn product(times: &[f64], jacobian: &[f64], shape: Shape) -> Vec<f64> {
+    let rows = times.len();
+    let n = jacobian.len() / rows.max(1);
+    let row = |i: usize| (0..n).map(move |j| jacobian[j * rows + i]);
+    let mut values = vec![0.0; n * n];
+    let mut before = vec![0.0; n];
+    let (mut apart, mut decay) = (f64::NAN, 0.0);
+    for i in 0..rows {
+        if i > 0 && shape.time > 0.0 {
+            let next = times[i] - times[i - 1];
+            if (next - apart).abs() > 1e-9 * next || apart.is_nan() {
+                (apart, decay) = (next, (-next / shape.time).exp());
+            }
+            row(i - 1).zip(&mut before).for_each(|(x, b)| *b = decay * (*b + x));
+        }
+        for (a, x) in row(i).enumerate() {
+            for (b, y) in row(i).enumerate() {
+                values[a * n + b] += x * y + shape.correlated * (x * before[b] + before[a] * y);
+            }
+        }
+    }
+    values
+}

@@ -1,0 +1,36 @@
+//! Means of stretches of a record.
+
+use crate::noise::likelihood::orthonormal;
+
+/// A longer record is cut into at least so many stretches.
+const STRETCHES: usize = 400;
+
+/// The part of the derivatives' squares that the means have to keep.
+const KEPT: f64 = 0.9995;
+
+/// The number of samples of one stretch: as many as leave [`STRETCHES`] of them, but so few that the derivatives hardly
+/// change inside one.
+pub(super) fn size(rows: usize, jacobian: &[f64]) -> usize {
+    let basis = orthonormal(jacobian, rows);
+    let mut size = (rows / STRETCHES).max(1);
+    while size > 1 && !basis.iter().all(|column| keeps(column, size)) {
+        size /= 2;
+    }
+    size
+}
+
+fn keeps(column: &[f64], size: usize) -> bool {
+    let whole: f64 = column[..column.len() / size * size].iter().map(|x| x * x).sum();
+    let kept: f64 = means(column, size).iter().map(|x| x * x).sum::<f64>() * size as f64;
+    kept >= KEPT * whole
+}
+
+/// The mean of every whole stretch.
+pub(crate) fn means(values: &[f64], size: usize) -> Vec<f64> {
+    values.chunks_exact(size).map(|stretch| stretch.iter().sum::<f64>() / size as f64).collect()
+}
+
+/// The same for every column of so many rows.
+pub(super) fn means_of_columns(columns: &[f64], rows: usize, size: usize) -> Vec<f64> {
+    columns.chunks(rows.max(1)).flat_map(|column| means(column, size)).collect()
+}

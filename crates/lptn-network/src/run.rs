@@ -1,0 +1,48 @@
+//! What a run is asked for: said in a netlist, kept by the analyses.
+
+/// What to simulate, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunSettings {
+    /// Time at which the run begins, in s.
+    pub start: f64,
+    /// Time at which it ends, in s; after `start`.
+    pub stop: f64,
+    /// When to write a row.
+    pub output: OutputTimes,
+    /// Which columns to write, as patterns such as `*.T`; empty for all.
+    pub select: Vec<String>,
+    /// Over which parts of it to take means and extremes, in file order.
+    pub windows: Vec<WindowSettings>,
+    /// Tolerance in K.
+    pub tolerance: f64,
+    /// For each control by id how long it has been as it stands at the start, in s, from 0: `None` if it never
+    /// switched. Empty for a run that starts from no state.
+    pub held: Vec<Option<f64>>,
+}
+
+/// A part of the run over which means and extremes are taken.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WindowSettings {
+    /// Its name.
+    pub name: String,
+    /// When it begins, in s; not before the run.
+    pub from: f64,
+    /// When it ends, in s; after `from` and not after the run.
+    pub to: f64,
+}
+
+/// When a run writes a row. Start and stop of the run always have one.
+#[derive(Clone, Debug, PartialEq)]
+pub enum OutputTimes {
+    /// Every so many seconds from the start.
+    Every(f64),
+    /// At these times in s, strictly increasing and inside the run.
+    At(Vec<f64>),
+}
+
+impl OutputTimes {
+    /// More rows than this are refused: a mistyped unit, not a wish.
+    pub const MOST_ROWS: f64 = 1e7;
+    /// Number of intervals of a run that does not say.
+    pub const USUAL_INTERVALS: f64 = 300.0;
+}

@@ -1,0 +1,142 @@
+//! A run together with how its temperatures change with parameters.
+
+use lptn_assembly::{ChangeError, ThermalSystem};
+use lptn_network::{LimitId, Network, NoTangents, NodeId, ParameterId};
+
+use crate::error::TransientError;
+use crate::settings::{Control, Progress, Transient};
+use crate::settings_error::SettingsError;
+use crate::solution::{End, Solution};
+
+/// By which part of itself a parameter is changed for a difference of runs. With the tolerances of fits (1e-7 K) the
+/// difference of two runs and the curvature between them leave about four digits.
+const CHANGE: f64 = 1e-3;
+
+/// The change in K of a parameter that is an absolute temperature.
+const CHANGE_IN_KELVIN: f64 = 0.1;
+
+/// How sensitivities were had.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gradient {
+    /// With the run, from the derivatives of every law: exact to its tolerance.
+    Exact,
+    /// As central differences of whole runs, because there is no exact one.
+    Differences(NoTangents),
+}
+
+/// A run and its sensitivities.
+#[derive(Clone, Debug)]
+pub struct SensitiveRun {
+    /// The run.
+    pub solution: Solution,
+    /// How the sensitivities were had.
+    pub gradient: Gradient,
+    /// For each parameter the solutions below and above with the distance of the two, where they are differences.
+    differences: Vec<(ParameterId, [Solution; 2], f64)>,
+}
+
+lptn_units::errors! {
+/// Why a run or one beside it failed.
+#[derive(Debug)]
+pub enum SensitiveError {
+    /// The run.
+    Run => TransientError;
+    /// The network, or what it is with a parameter changed.
+    Change => ChangeError;
+    /// It was interrupted.
+    Interrupted = "run::interrupted", "the run was interrupted";
+}
+}
+
+/// Runs a network and follows its sensitivities by `parameters`: exactly, or by differences where a network has no exact
+/// ones.
+///
+/// # Errors
+/// [`SensitiveError`] if one of the runs fails.
+pub fn sensitive_run(
+    network: &Network,
+    settings: &Transient,
+    parameters: &[ParameterId],
+) -> Result<SensitiveRun, SensitiveError> {
+    sensitive_run_observed(network, (settings, parameters), &|_| Control::Continue)
+}
+
+/// The same; `observer` is called after every step of every run and may interrupt them.
+///
+/// # Errors
+/// [`SensitiveError`] if one of the runs fails or is interrupted.
+pub fn sensitive_run_observed(
+    network: &Network,
+    (settings, parameters): (&Transient, &[ParameterId]),
+    observer: &dyn Fn(Progress) -> Control,
+) -> Result<SensitiveRun, SensitiveError> {
+    let run = |system: &ThermalSystem, settings: &Transient| {
+        let solution = settings.solve_observed(system, &mut |step| observer(step))?;
+        match solution.end() {
+            End::Interrupted(_) => Err(SensitiveError::Interrupted),
+            _ => Ok(solution),
+        }
+    };
+    let system = ThermalSystem::assemble(network).map_err(ChangeError::from)?;
+    match run(&system, &settings.clone().sensitivities(parameters)) {
+        Err(SensitiveError::Run(TransientError::Settings(SettingsError::Sensitivity(why)))) => {
+            let solution = run(&system, &settings.clone().sensitivities(&[]))?;
+            let one = |&id: &ParameterId| {
+                let (value, step) = (network.parameter_value(id), step(network, id));
+                let at = |value: f64| {
+                    let mut changed = network.given();
+                    changed.set(id, value);
+                    run(&system.with(&changed)?, settings)
+                };
+                Ok((id, [at(value - step)?, at(value + step)?], 2.0 * step))
+            };
+            let differences = parameters.iter().map(one).collect::<Result<_, SensitiveError>>()?;
+            Ok(SensitiveRun { solution, gradient: Gradient::Differences(why), differences })
+        }
+        outcome => {
+            Ok(SensitiveRun { solution: outcome?, gradient: Gradient::Exact, differences: Vec::new() })
+        }
+    }
+}
+
+fn step(network: &Network, id: ParameterId) -> f64 {
+    let parameter = &network.parameters()[id.index()];
+    if parameter.ty.absolute {
+        return CHANGE_IN_KELVIN;
+    }
+    let size = network.parameter_value(id).abs();
+    let size = if size > 0.0 { size } else { parameter.deviation.unwrap_or(1.0) };
+    CHANGE * size
+}
+
+impl SensitiveRun {
+    /// How the temperature of a node changes with a parameter over the rows, in K per SI unit of the parameter; `None`
+    /// for a node that was not recorded or another parameter.
+    pub fn sensitivity(&self, parameter: ParameterId, node: NodeId) -> Option<Vec<f64>> {
+        if self.gradient == Gradient::Exact {
+            return self.solution.sensitivity(parameter, node);
+        }
+        let (_, solutions, distance) = self.differences.iter().find(|(id, _, _)| *id == parameter)?;
+        let [below, above] = solutions.each_ref().map(|solution| solution.temperature(node));
+        Some(below?.iter().zip(above?).map(|(below, above)| (above - below) / distance).collect())
+    }
+
+    /// How the highest temperature of a watched node changes with a parameter, in K per SI unit of the parameter, as a
+    /// difference of runs; `None` where the gradient is exact, or the node was not watched.
+    pub fn peak(&self, parameter: ParameterId, node: NodeId) -> Option<f64> {
+        let (_, solutions, distance) = self.differences.iter().find(|(id, _, _)| *id == parameter)?;
+        let peak = |solution: &Solution| {
+            solution.seen().iter().find(|seen| seen.watch.node == node).map(|seen| seen.peak.0)
+        };
+        let [below, above] = solutions.each_ref().map(peak);
+        Some((above? - below?) / distance)
+    }
+
+    /// How the least margin of a limit changes with a parameter, in SI units of its quantity per SI unit of the parameter,
+    /// as a difference of runs; `None` where the gradient is exact: it is one of temperatures.
+    pub fn margin(&self, parameter: ParameterId, limit: LimitId) -> Option<f64> {
+        let (_, solutions, distance) = self.differences.iter().find(|(id, _, _)| *id == parameter)?;
+        let [below, above] = solutions.each_ref().map(|solution| solution.limits()[limit.index()].margin);
+        Some((above - below) / distance)
+    }
+}
