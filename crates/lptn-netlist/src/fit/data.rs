@@ -201,7 +201,7 @@ fn unknown_key(fields: &Fields<'_>, entry: &RawEntry, key: &str) -> Diagnostic {
     let message = format!("a record of {} has no field `{key}`", fields.owner.words());
     let problem =
         Diagnostic::error("netlist::unknown_key", message).at(entry.key_span.clone(), "unknown key");
-    problem.help(nearest(key, KEYS.into_iter(), "the keys here are"))
+    problem.help(nearest(key, KEYS, "the keys here are"))
 }
 
 fn twice(record: &FitRecord, first: &FitRecord) -> Diagnostic {

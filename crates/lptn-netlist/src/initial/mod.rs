@@ -54,8 +54,6 @@ struct Named<T> {
     index: HashMap<String, usize>,
 }
 
-type Numbers = Named<f64>;
-
 impl<T: Copy> Named<T> {
     fn new() -> Self {
         Self { all: Vec::new(), index: HashMap::new() }
@@ -77,8 +75,8 @@ impl<T: Copy> Named<T> {
 #[derive(Clone, Debug)]
 pub(crate) struct StateFile {
     pub(crate) state: InitialState,
-    temperatures: Numbers,
-    melted: Numbers,
+    temperatures: Named<f64>,
+    melted: Named<f64>,
     controls: Named<Stand>,
     problems: Vec<Diagnostic>,
     /// Whether a file was named.
@@ -134,18 +132,20 @@ impl StateFile {
             self.refuse("netlist::state_member", words, value.span());
         }
         let top = Span::new(file, 0..0);
-        self.time(&members, &top);
-        self.end(&members);
-        if let Some(values) = self.in_unit(&members, ("temperatures", "values", "K"), &top) {
-            self.temperatures = self.numbers(values, "temperatures");
+        if let Some(time) = self.in_unit(&members, ("time", "value", "s"), &top) {
+            self.state.time = self.number(time, "`time` of the state").unwrap_or(f64::NAN);
         }
-        self.check_range();
+        if let Some(end) = member(&members, "end") {
+            self.end(end);
+        }
+        if let Some(values) = self.in_unit(&members, ("temperatures", "values", "K"), &top) {
+            self.temperatures = self.named(values, "temperatures", Self::temperature);
+        }
         if let Some(melted) = member(&members, "melted") {
-            self.melted = self.numbers(melted, "melted");
-            self.check_shares();
+            self.melted = self.named(melted, "melted", Self::share);
         }
         if let Some(controls) = member(&members, "controls") {
-            self.take_controls(controls);
+            self.controls = self.named(controls, "controls", Self::stand);
         }
     }
 
@@ -182,19 +182,7 @@ impl StateFile {
         held
     }
 
-    fn time(&mut self, members: &Members<'_>, top: &Span) {
-        let Some(time) = self.in_unit(members, ("time", "value", "s"), top) else { return };
-        match time.number() {
-            Some(number) => self.state.time = number,
-            None => {
-                let words = "`time` of the state is no number".to_owned();
-                self.refuse("netlist::state_not_a_number", words, time.span());
-            }
-        }
-    }
-
-    fn end(&mut self, members: &Members<'_>) {
-        let Some(value) = member(members, "end") else { return };
+    fn end(&mut self, value: JsonValue<'_>) {
         match value.string().and_then(|word| StateEnd::of(&word)) {
             Some(end) => self.state.end = end,
             None => {
@@ -204,43 +192,55 @@ impl StateFile {
         }
     }
 
-    /// The numbers of an object by name.
-    fn numbers(&mut self, value: JsonValue<'_>, what: &str) -> Numbers {
-        let mut numbers = Numbers::new();
+    fn number(&mut self, value: JsonValue<'_>, what: &str) -> Option<f64> {
+        let number = value.number();
+        if number.is_none() {
+            let words = format!("{what} is not a number: {}", value.written());
+            self.refuse("netlist::state_not_a_number", words, value.span());
+        }
+        number
+    }
+
+    /// The members of an object by name, each read in this way.
+    fn named<T: Copy>(
+        &mut self,
+        value: JsonValue<'_>,
+        what: &str,
+        read: impl Fn(&mut Self, &str, JsonValue<'_>) -> Option<T>,
+    ) -> Named<T> {
+        let mut named = Named::new();
         let Some(members) = value.members() else {
-            let words = format!("`{what}` of a state is an object of numbers");
+            let words = format!("`{what}` of a state is an object with a member for each name");
             self.refuse("netlist::state_member", words, value.span());
-            return numbers;
+            return named;
         };
         for (name, value) in members {
-            let Some(number) = value.number() else {
-                let words = format!("`{name}` in `{what}` of the state is no number: {}", value.written());
-                self.refuse("netlist::state_not_a_number", words, value.span());
-                continue;
-            };
-            if !numbers.insert(&name, number, value.span()) {
+            let Some(found) = read(self, &name, value) else { continue };
+            if !named.insert(&name, found, value.span()) {
                 let words = format!("`{name}` stands twice in `{what}` of the state");
                 self.refuse("netlist::state_twice", words, value.span());
             }
         }
-        numbers
+        named
     }
 
-    fn check_range(&mut self) {
-        let cold = self.temperatures.all.iter().filter(|(_, number, _)| *number < 0.0).cloned();
-        for (name, number, place) in cold.collect::<Vec<_>>() {
+    fn temperature(&mut self, name: &str, value: JsonValue<'_>) -> Option<f64> {
+        let number = self.number(value, &format!("`{name}` in `temperatures` of the state"))?;
+        if number < 0.0 {
             let words =
                 format!("the temperature of `{name}` in the state is below absolute zero: {number} K");
-            self.refuse("netlist::state_below_absolute_zero", words, place);
+            self.refuse("netlist::state_below_absolute_zero", words, value.span());
         }
+        Some(number)
     }
 
-    fn check_shares(&mut self) {
-        let wrong = self.melted.all.iter().filter(|(_, share, _)| !(0.0..=1.0).contains(share)).cloned();
-        for (name, share, place) in wrong.collect::<Vec<_>>() {
+    fn share(&mut self, name: &str, value: JsonValue<'_>) -> Option<f64> {
+        let share = self.number(value, &format!("`{name}` in `melted` of the state"))?;
+        if !(0.0..=1.0).contains(&share) {
             let words = format!("how much of `{name}` is molten must be from 0 to 1, got {share}");
-            self.refuse("netlist::state_share", words, place);
+            self.refuse("netlist::state_share", words, value.span());
         }
+        Some(share)
     }
 
     fn unknown(&self, (what, name, place): (&str, &str, &Span), near: Option<&str>) -> Diagnostic {
@@ -248,12 +248,8 @@ impl StateFile {
         let problem = Diagnostic::error("netlist::state_unknown_name", message)
             .at(place.clone(), "")
             .also(self.state.place.clone(), "read here");
-        problem.help(match near {
-            Some(near) => {
-                format!("was `{near}` renamed? a state belongs to the network that it was computed with")
-            }
-            None => "a state belongs to the network that it was computed with".to_owned(),
-        })
+        let renamed = near.map(|near| format!("was `{near}` renamed? ")).unwrap_or_default();
+        problem.help(renamed + "a state belongs to the network that it was computed with")
     }
 }
 
