@@ -71,7 +71,7 @@ mod vocabulary;
 mod write_back;
 
 pub use expand::{Derived, WrittenError, prove};
-pub use fit::{FitPlan, FitRecord, FitStudy, Observed, Varied, VariedName};
+pub use fit::{FitPlan, FitRecord, FitStudy, Observed, VariedName};
 pub use include::Loader;
 pub use initial::InitialState;
 pub use lptn_data::{

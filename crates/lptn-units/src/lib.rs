@@ -33,6 +33,7 @@ mod rational;
 mod repair;
 mod scalar;
 mod separators;
+pub mod statistics;
 mod suggest;
 pub mod table;
 mod taylor;

@@ -25,8 +25,9 @@ pub use combination::Kind;
 pub use error::NetworkFitError;
 pub use fitted::{ColumnMisfit, FittedParameter, NetworkFit};
 pub use identify::{Combination, Identifiability, Unseparated};
+pub use lptn_network::Varied;
 pub use search::Starts;
-pub use task::{FitObserver, FitStage, Measured, MeasuredRun, NetworkFitTask, Varied};
+pub use task::{FitObserver, FitStage, Measured, MeasuredRun, NetworkFitTask};
 
 use lptn_solve::{Control, Gradient};
 

@@ -5,7 +5,7 @@ use lptn_network::{End, Network, NodeId, Time};
 use lptn_solve::Transient;
 
 use crate::network::error::NetworkFitError;
-use crate::network::task::{Measured, MeasuredRun, NetworkFitTask, Varied};
+use crate::network::task::{Measured, MeasuredRun, NetworkFitTask};
 
 /// Searches that begin between the bounds, where the netlist does not say.
 const MORE_STARTS: usize = 4;
@@ -46,10 +46,7 @@ impl<'a> NetworkFitTask<'a> {
                 columns: study.observed.iter().enumerate().map(column).collect(),
             });
         }
-        let varied =
-            |v: &lptn_netlist::Varied| Varied { parameter: v.id, bounds: (v.from, v.to), prior: v.prior };
-        let parameters = plan.varied.iter().map(varied).collect();
-        Ok(Self { network, parameters, runs, more_starts: MORE_STARTS, threads })
+        Ok(Self { network, parameters: plan.varied, runs, more_starts: MORE_STARTS, threads })
     }
 }
 

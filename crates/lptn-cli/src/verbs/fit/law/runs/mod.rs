@@ -6,7 +6,7 @@ mod output;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use lptn_fit::law::{Candidate, ColumnFits, Run, RunFit, RunReference, RunSettings, RunsError, RunsStudy};
+use lptn_fit::law::{Candidate, ColumnFits, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy};
 use lptn_fit::step::{Capacity, LONG_ENOUGH, Sensor};
 use lptn_netlist::{Diagnostic, Files};
 use lptn_report::{Align, Column, TextTable, WIDTH, duration, fixed, significant, write_csv};
@@ -71,7 +71,7 @@ pub(crate) fn runs(
 /// left out with a warning.
 fn study(
     folder: &Folder,
-    mut settings: RunSettings,
+    mut settings: RunsSettings,
     (args, console): (&LawArgs, &Console),
 ) -> Result<RunsStudy, Failure> {
     loop {
@@ -108,7 +108,7 @@ fn failed(error: &RunsError) -> Failure {
     Failure::of(Exit::Input, error)
 }
 
-fn settings(args: &LawArgs, runs: &[Run], capacity: Capacity) -> Result<RunSettings, Failure> {
+fn settings(args: &LawArgs, runs: &[Run], capacity: Capacity) -> Result<RunsSettings, Failure> {
     let known: Vec<&str> =
         runs.first().map_or(Vec::new(), |run| run.columns.iter().map(|(name, _)| name.as_str()).collect());
     let reference = reference(&args.records.reference, &known)?;
@@ -132,7 +132,7 @@ fn settings(args: &LawArgs, runs: &[Run], capacity: Capacity) -> Result<RunSetti
             found.map_err(|error| wrong_unit("--sensor", text, &error))?.value.abs()
         }
     };
-    Ok(RunSettings {
+    Ok(RunsSettings {
         columns,
         capacity,
         reference,
