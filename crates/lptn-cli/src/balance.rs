@@ -2,7 +2,7 @@
 
 use lptn_netlist::{Diagnostic, Files, Netlist, Span};
 use lptn_network::{End, Item, Network};
-use lptn_report::{Align, Column, TextTable, WIDTH, decimals, duration, fixed, prefix, significant};
+use lptn_report::{Format, Text, TextTable, TextTableOf, decimals, duration, fixed, prefix, significant};
 use lptn_solve::{Balance, Term};
 use lptn_study::Scalar;
 use lptn_units::suggest;
@@ -10,7 +10,6 @@ use serde_json::{Value, json};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::options::Format;
 
 /// The node or boundary that the option names.
 pub(crate) fn end(netlist: &Netlist, name: Option<&str>, format: Format) -> Result<Option<End>, Failure> {
@@ -62,62 +61,61 @@ fn unknown(network: &Network, name: &str, found: Option<Item>) -> Failure {
     Failure::at(Exit::Input, files, problem.help(help))
 }
 
-/// Numbers of one quantity in one unit, with their shares.
-struct Amounts {
-    heading: String,
-    cells: Vec<String>,
-    shares: Vec<String>,
+/// A line of the table: a term by its name and what it joins, or the sum of all; power in W, heat in J.
+struct Line {
+    name: String,
+    other: String,
+    power: f64,
+    heat: f64,
 }
 
-impl Amounts {
-    fn new(when: &str, unit: &str, values: &[f64], turned_over: f64) -> Self {
-        let (scale, letter) = prefix(turned_over);
-        let digits = decimals(turned_over / scale, 4, 0);
-        let share = |value: &f64| match turned_over > 0.0 {
-            true => fixed(100.0 * value / turned_over, 1),
-            false => "-".into(),
-        };
-        Self {
-            heading: format!("{when} [{letter}{unit}]"),
-            cells: values.iter().map(|value| fixed(value / scale, digits)).collect(),
-            shares: values.iter().map(share).collect(),
-        }
-    }
-
-    fn columns(self) -> [Column; 2] {
-        [Column::new(self.heading, Align::Right, self.cells), Column::new("%", Align::Right, self.shares)]
-    }
+/// A column of amounts in one unit, and one of their shares of what is turned over.
+fn amounts<'a>(
+    table: TextTableOf<'a, Line>,
+    (when, unit, turned_over): (String, &str, f64),
+    value: fn(&Line) -> f64,
+) -> TextTableOf<'a, Line> {
+    let (scale, letter) = prefix(turned_over);
+    let digits = decimals(turned_over / scale, 4, 0);
+    let share = |line: &Line| match turned_over > 0.0 {
+        true => fixed(100.0 * value(line) / turned_over, 1),
+        false => "-".into(),
+    };
+    let table = table.right(format!("{when} [{letter}{unit}]"), |line| fixed(value(line) / scale, digits));
+    table.right("%", share)
 }
 
-/// The balance as a block; `times` are start and end of the run in s, none for a steady state.
-pub(crate) fn lines(network: &Network, balance: &Balance, times: Option<(f64, f64)>) -> Vec<String> {
-    let terms = balance.largest_first();
-    let name = network.name_of(balance.of.into());
-    let with =
-        |value: &dyn Fn(&Term) -> f64, last: f64| terms.iter().map(value).chain([last]).collect::<Vec<f64>>();
-    let mut names: Vec<String> = terms.iter().map(|term| network.name_of(term.item).into_owned()).collect();
-    names.push(rest(balance, times.is_none()).to_owned());
-    let mut others: Vec<String> = terms.iter().map(|term| other(network, term)).collect();
-    others.push(String::new());
-    let mut columns = vec![
-        Column::new(format!("heat into {name}"), Align::Left, names),
-        Column::new("", Align::Left, others).names(),
-    ];
+/// The balance as a section; `times` are start and end of the run in s, none for a steady state.
+pub(crate) fn section(text: &mut Text, network: &Network, (balance, times): (&Balance, Option<(f64, f64)>)) {
+    let line = |term: &Term| Line {
+        name: network.name_of(term.item).into_owned(),
+        other: other(network, term),
+        power: term.power,
+        heat: term.heat.unwrap_or(f64::NAN),
+    };
+    let sum = Line {
+        name: rest(balance, times.is_none()).to_owned(),
+        other: String::new(),
+        power: balance.power(),
+        heat: balance.stored.unwrap_or(f64::NAN),
+    };
+    let lines: Vec<Line> = balance.largest_first().iter().map(line).chain([sum]).collect();
     let when = times.map_or("steady".to_owned(), |(_, end)| format!("at {}", duration(end, 4)));
-    let powers = with(&|term| term.power, balance.power());
-    columns.extend(Amounts::new(&when, "W", &powers, balance.power_turned_over()).columns());
-    if let (Some((start, end)), Some(stored), Some(all)) = (times, balance.stored, balance.heat_turned_over())
-    {
-        let heats = with(&|term| term.heat.unwrap_or(f64::NAN), stored);
+    let table = TextTable::of(&lines)
+        .left(format!("heat into {}", network.name_of(balance.of.into())), |line| line.name.as_str())
+        .left("", |line| line.other.as_str())
+        .names();
+    let mut table = amounts(table, (when, "W", balance.power_turned_over()), |line| line.power);
+    if let (Some((start, end)), Some(_), Some(all)) = (times, balance.stored, balance.heat_turned_over()) {
         let over = format!("over {}", duration(end - start, 4));
-        columns.extend(Amounts::new(&over, "J", &heats, all).columns());
+        table = amounts(table, (over, "J", all), |line| line.heat);
     }
-    let mut lines = TextTable::new(columns).lines(WIDTH);
-    lines.push("positive: into it; 100 % is all that comes in or all that goes out, the larger".to_owned());
-    if let Some(open) = open(balance) {
-        lines.push(format!("the paths and what is stored differ by {} J", significant(open, 2)));
-    }
-    lines
+    text.section().table(table);
+    text.line("positive: into it; 100 % is all that comes in or all that goes out, the larger");
+    text.lines(
+        open(balance)
+            .map(|open| format!("the paths and what is stored differ by {} J", significant(open, 2))),
+    );
 }
 
 /// What the sum of all paths and sources is.
@@ -156,12 +154,12 @@ fn place(network: &Network, term: &Term, end: End) -> String {
 /// `{ of, terms: [{ name, other, power, power_share, heat, heat_share }], power, heat, stored, .. }`, in SI, largest
 /// first.
 pub(crate) fn json(network: &Network, balance: &Balance) -> Value {
-    let scalar = |value: f64, unit: &str| Scalar::new(value, unit).json();
-    let heat = |value: Option<f64>| value.map_or(Value::Null, |value| scalar(value, "J"));
-    let share = |value: f64, all: f64| if all > 0.0 { scalar(value / all, "1") } else { Value::Null };
+    let scalar = Scalar::new;
+    let heat = |value: Option<f64>| value.map(|value| scalar(value, "J"));
+    let share = |value: f64, all: f64| (all > 0.0).then(|| scalar(value / all, "1"));
     let (power, all) = (balance.power_turned_over(), balance.heat_turned_over());
     let term = |term: &Term| {
-        let shares = term.heat.zip(all).map_or(Value::Null, |(heat, all)| share(heat, all));
+        let shares = term.heat.zip(all).and_then(|(heat, all)| share(heat, all));
         json!({
             "name": network.name_of(term.item),
             "other": term.other.map(|end| place(network, term, end)),

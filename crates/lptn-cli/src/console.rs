@@ -3,6 +3,7 @@
 use std::io::{self, BufWriter, ErrorKind, IsTerminal as _, Write};
 
 use lptn_netlist::{Diagnostic, Files};
+use lptn_report::{Format, Page};
 
 use crate::diagnostics::render;
 use crate::exit::Exit;
@@ -31,6 +32,26 @@ impl Console {
             styled_results: styled(io::stdout().is_terminal()),
             styled_messages: styled(io::stderr().is_terminal()),
         }
+    }
+
+    /// Writes a result in a format, and says its answer beside it.
+    pub(crate) fn show(&self, page: &dyn Page, format: Format) -> Result<Exit, Failure> {
+        self.page(page, format)?;
+        Ok(self.conclude(page, format))
+    }
+
+    /// Writes a result in a format.
+    pub(crate) fn page(&self, page: &dyn Page, format: Format) -> Result<(), Failure> {
+        self.write(|out| lptn_report::write(page, format, self.styled_results, out))
+    }
+
+    /// The exit code that belongs to an answer. Where that is no, the text says so; beside other formats it is said here.
+    pub(crate) fn conclude(&self, page: &dyn Page, format: Format) -> Exit {
+        let Some(no) = page.no() else { return Exit::Done };
+        if format != Format::Table {
+            self.message(&no);
+        }
+        Exit::No
     }
 
     /// Writes a result that is text.
@@ -85,11 +106,6 @@ impl Console {
     /// A diagnostic as a result.
     pub(crate) fn rendered(&self, files: &Files, diagnostic: &Diagnostic) -> String {
         render(files, diagnostic, self.styled_results)
-    }
-
-    /// The title of a result.
-    pub(crate) fn title(&self, text: &str) -> String {
-        if self.styled_results { format!("\u{1b}[1m{text}\u{1b}[0m") } else { text.to_owned() }
     }
 }
 

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use lptn_netlist::{Diagnostic, FileId, Files, Label, Severity};
+use lptn_report::Json;
 use serde_json::{Value, json};
 
 /// A diagnostic with its lines, help and notes; without a line break at the end.
@@ -109,6 +110,17 @@ fn place(files: &Files, label: &Label) -> Value {
         "label": label.text,
         "primary": label.primary,
     })
+}
+
+/// How the object of a result begins: the version of its format, the network that it is about, and its warnings.
+pub(crate) fn head(
+    json: &mut Json<'_>,
+    network: Option<&str>,
+    (files, warnings): (&Files, &[Diagnostic]),
+) -> std::io::Result<()> {
+    json.member("format", &1)?;
+    json.member("network", &network)?;
+    json.member("warnings", &list(files, warnings))
 }
 
 /// A list of diagnostics as JSON.

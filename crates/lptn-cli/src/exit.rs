@@ -1,5 +1,7 @@
 //! The exit codes, which scripts rely on.
 
+use lptn_units::Class;
+
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
@@ -15,4 +17,15 @@ pub(crate) enum Exit {
     Failed = 3,
     /// Ctrl-C: 128 plus the number of the signal, as shells count. What was computed is kept and marked.
     Interrupted = 130,
+}
+
+impl From<Class> for Exit {
+    fn from(class: Class) -> Self {
+        match class {
+            Class::Input => Self::Input,
+            Class::Numbers => Self::Failed,
+            Class::No => Self::No,
+            Class::Interrupted => Self::Interrupted,
+        }
+    }
 }

@@ -1,7 +1,9 @@
 //! Why a command ended early.
 
+use std::{fmt, io};
+
 use lptn_netlist::{Diagnostic, Files, ReadError, Rejected};
-use lptn_units::Problem;
+use lptn_units::{Help, Problem};
 
 use crate::exit::Exit;
 
@@ -20,8 +22,14 @@ impl Failure {
     }
 
     /// What is wrong, in its own words, about no file.
-    pub(crate) fn of(exit: Exit, problem: &dyn Problem) -> Self {
-        Self::new(exit, told(problem))
+    pub(crate) fn of(problem: &dyn Problem) -> Self {
+        Self::new(problem.class().into(), told(problem))
+    }
+
+    /// A file or folder that cannot be read.
+    pub(crate) fn cannot_read(name: impl fmt::Display, error: &io::Error, help: impl Help) -> Self {
+        let message = format!("cannot read {name}: {}", reason(error));
+        Self::new(Exit::Input, Diagnostic::error("input::cannot_read", message).help(help))
     }
 
     /// One diagnostic about a place in `files`.
@@ -40,25 +48,18 @@ impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Self {
         match error {
             ReadError::Rejected(rejected) => rejected.into(),
-            ReadError::Io { path, error } => {
-                let message = format!("cannot read {}: {}", path.display(), reason(&error));
-                Self::new(Exit::Input, Diagnostic::error("input::cannot_read", message))
-            }
+            ReadError::Io { path, error } => Self::cannot_read(path.display(), &error, None),
         }
     }
 }
 
 /// A problem with its code and help.
 pub(crate) fn told(problem: &dyn Problem) -> Diagnostic {
-    let diagnostic = Diagnostic::error(problem.code(), problem.to_string());
-    match problem.help() {
-        Some(help) => diagnostic.help(help),
-        None => diagnostic,
-    }
+    Diagnostic::error(problem.code(), problem.to_string()).help(problem.help())
 }
 
 /// The reason of an i/o error in words that fit into a sentence.
-pub(crate) fn reason(error: &std::io::Error) -> String {
+pub(crate) fn reason(error: &io::Error) -> String {
     let text = error.to_string();
     let text = text.split(" (os error").next().unwrap_or_default();
     let mut letters = text.chars();

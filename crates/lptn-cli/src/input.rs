@@ -7,19 +7,22 @@ use lptn_assembly::{AssemblyError, ThermalSystem};
 use lptn_netlist::{
     Diagnostic, Files, MOST_BYTES, Netlist, ReadError, Rejected, Span, parse_bytes, parse_file, similar_file,
 };
-use lptn_network::{Item, ParameterId};
-use lptn_units::{Dimension, Type, Unit, UnitError, parse_quantity};
+use lptn_network::{InputError, Item, ParameterId};
+use lptn_report::{Json, Text, plain};
+use lptn_units::{Dimension, Problem, Quantity, Type, Unit, UnitError, parse_quantity};
 
+use crate::diagnostics;
 use crate::exit::Exit;
-use crate::failure::{Failure, reason, told};
+use crate::failure::{Failure, told};
 use crate::options::Source;
+use crate::words::counts;
 
 /// What a netlist from stdin is called.
 const STDIN: &str = "<stdin>";
 
 /// The bytes of a netlist and what they are called.
 #[derive(Debug)]
-pub(crate) struct Text {
+pub(crate) struct Given {
     pub(crate) bytes: Vec<u8>,
     /// What diagnostics and the manifest call it.
     pub(crate) name: String,
@@ -28,16 +31,16 @@ pub(crate) struct Text {
 }
 
 /// Reads the file, or stdin for `-`.
-pub(crate) fn read(file: &Path) -> Result<Text, Failure> {
+pub(crate) fn read(file: &Path) -> Result<Given, Failure> {
     if file.as_os_str() == "-" {
         let mut bytes = Vec::new();
         let outcome = std::io::stdin().lock().take(MOST_BYTES + 1).read_to_end(&mut bytes);
-        outcome.map_err(|error| cannot_read("stdin", &error, None))?;
+        outcome.map_err(|error| Failure::cannot_read("stdin", &error, None))?;
         if bytes.len() as u64 > MOST_BYTES {
             let message = format!("stdin is longer than {} MB", MOST_BYTES / 1_000_000);
             return Err(Failure::new(Exit::Input, Diagnostic::error("netlist::too_long", message)));
         }
-        return Ok(Text { bytes, name: STDIN.into(), stem: "stdin".into() });
+        return Ok(Given { bytes, name: STDIN.into(), stem: "stdin".into() });
     }
     let name = file.display().to_string();
     let bytes = match lptn_netlist::read_bytes(file) {
@@ -45,23 +48,16 @@ pub(crate) fn read(file: &Path) -> Result<Text, Failure> {
         Err(ReadError::Io { error, .. }) => {
             // what is there but cannot be read is not misspelt
             let missing = error.kind() == ErrorKind::NotFound;
-            return Err(cannot_read(&name, &error, if missing { similar(file) } else { example(file) }));
+            return Err(Failure::cannot_read(
+                &name,
+                &error,
+                if missing { similar(file) } else { example(file) },
+            ));
         }
         Err(ReadError::Rejected(rejected)) => return Err(rejected.into()),
     };
     let stem = file.file_stem().map_or("netlist".into(), |stem| stem.to_string_lossy().into_owned());
-    Ok(Text { bytes, name, stem: folder_name(stem) })
-}
-
-fn cannot_read(name: &str, error: &std::io::Error, help: Option<String>) -> Failure {
-    let problem = Diagnostic::error("input::cannot_read", format!("cannot read {name}: {}", reason(error)));
-    Failure::new(
-        Exit::Input,
-        match help {
-            Some(help) => problem.help(help),
-            None => problem,
-        },
-    )
+    Ok(Given { bytes, name, stem: folder_name(stem) })
 }
 
 fn similar(file: &Path) -> Option<String> {
@@ -79,7 +75,7 @@ fn example(folder: &Path) -> Option<String> {
 /// A network with everything the command line changes in it.
 #[derive(Debug)]
 pub(crate) struct Input {
-    pub(crate) text: Text,
+    pub(crate) text: Given,
     pub(crate) netlist: Netlist,
 }
 
@@ -90,6 +86,24 @@ impl Input {
         let mut netlist = parse(&text)?;
         netlist.set(&source.set)?;
         Ok(Self { text, netlist })
+    }
+
+    /// What the network is called: its title, else the name of its file.
+    pub(crate) fn title(&self) -> String {
+        self.netlist.network.title().map_or_else(|| self.text.stem.clone(), plain)
+    }
+
+    /// How a text about the network begins: its title, and what it consists of.
+    pub(crate) fn begun(&self) -> Text {
+        let mut text = Text::titled(self.title());
+        text.line(counts(&self.netlist.network));
+        text
+    }
+
+    /// How the object of a result begins.
+    pub(crate) fn head(&self, json: &mut Json<'_>, more: &[Diagnostic]) -> std::io::Result<()> {
+        let warnings = [self.netlist.warnings.as_slice(), more].concat();
+        diagnostics::head(json, Some(&self.text.stem), (&self.netlist.files, &warnings))
     }
 
     /// Where the node of this name stands.
@@ -111,20 +125,80 @@ impl Input {
         written.or_else(|| Unit::parse(&ty.usual_unit()).ok()).unwrap_or_else(|| si(ty))
     }
 
+    /// Where an input stands that has no value.
+    pub(crate) fn place_of(&self, error: &InputError) -> Option<Span> {
+        let map = &self.netlist.source_map;
+        map.get(error.item, error.field).or_else(|| map.name(error.item))
+    }
+
+    /// What is wrong with the netlist, at its place.
+    pub(crate) fn failure(&self, problem: &dyn Problem, place: Option<Span>) -> Failure {
+        self.refused(problem.class().into(), told(problem).at(place, ""))
+    }
+
+    /// The same in words of the command line.
+    pub(crate) fn refused(&self, exit: Exit, problem: Diagnostic) -> Failure {
+        Failure::at(exit, self.netlist.files.clone(), problem)
+    }
+
     pub(crate) fn assemble(&self) -> Result<ThermalSystem, Failure> {
         ThermalSystem::assemble(&self.netlist.network).map_err(|error| {
             let AssemblyError::TooManyNeighbours { node, .. } = &error;
-            let problem = told(&error);
-            let problem = match self.netlist.source_map.name(Item::Node(*node)) {
-                Some(span) => problem.at(span.clone(), ""),
-                None => problem,
-            };
-            Failure::at(Exit::Input, self.netlist.files.clone(), problem)
+            self.failure(&error, self.netlist.source_map.name(Item::Node(*node)))
         })
     }
 }
 
-pub(crate) fn parse(text: &Text) -> Result<Netlist, Rejected> {
+/// The studies of one kind, and how it is told that the one that is wanted cannot be found.
+pub(crate) struct Studies {
+    /// The word of their sections, `size` of `[size.fan]`.
+    pub(crate) section: &'static str,
+    /// The codes where there is none, and where several can be meant.
+    pub(crate) codes: [&'static str; 2],
+    pub(crate) question: &'static str,
+    pub(crate) example: &'static str,
+}
+
+impl Studies {
+    /// The study of this name, or the only one.
+    pub(crate) fn find<'a, S>(
+        &self,
+        input: &Input,
+        (all, name_of): (&'a [S], fn(&S) -> &str),
+        name: Option<&str>,
+    ) -> Result<&'a S, Failure> {
+        let (file, section) = (&input.text.name, self.section);
+        let known = || all.iter().map(name_of);
+        let list = || known().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let [none, several] = self.codes;
+        let found = match name {
+            Some(name) => all.iter().find(|study| name_of(study) == name),
+            None => all.first().filter(|_| all.len() == 1),
+        };
+        if let Some(found) = found {
+            return Ok(found);
+        }
+        let problem = match (name, all.is_empty()) {
+            (None, true) => {
+                Diagnostic::error(none, format!("{file} has no [{section}.NAME]: {}", self.question))
+                    .help(format!("add for example:\n\n{}", self.example))
+            }
+            (None, false) => Diagnostic::error(several, format!("{file} has several [{section}.NAME]"))
+                .help(format!("name one of {}", list())),
+            (Some(name), empty) => {
+                let problem = Diagnostic::error(none, format!("{file} has no [{section}.{name}]"));
+                if empty {
+                    problem
+                } else {
+                    problem.did_you_mean(name, known(), || format!("name one of {}", list()))
+                }
+            }
+        };
+        Err(Failure::new(Exit::Input, problem))
+    }
+}
+
+pub(crate) fn parse(text: &Given) -> Result<Netlist, Rejected> {
     match text.name.as_str() {
         STDIN => parse_bytes(STDIN, &text.bytes),
         name => parse_file(Path::new(name), &text.bytes),
@@ -147,13 +221,8 @@ fn folder_name(stem: String) -> String {
 
 /// The tolerance of the command line in K.
 pub(crate) fn tolerance(text: &str) -> Result<f64, Failure> {
-    let quantity = parse_quantity(text, Some(Type::of(Dimension::TEMPERATURE)))
-        .map_err(|error| wrong_unit("--tolerance", text, &error))?;
-    if quantity.value > 0.0 {
-        return Ok(quantity.value);
-    }
-    let problem = Diagnostic::error("run::settings", "the tolerance must be more than 0 K");
-    Err(Failure::new(Exit::Input, problem.help("write for example --tolerance 1e-5K")))
+    let what = (Dimension::TEMPERATURE, "run::settings", "1e-5K");
+    Ok(positive("--tolerance", text, what)?.value)
 }
 
 /// The unit for temperatures: that of the command line, or that of the netlist.
@@ -187,16 +256,31 @@ fn scale(unit: &Unit) -> Option<Unit> {
     ["degC", "K", "degF", "degR"].iter().filter_map(|name| Unit::parse(name).ok()).find(same)
 }
 
+/// The quantity that an option gives.
+pub(crate) fn quantity(option: &str, text: &str, ty: Type) -> Result<Quantity, Failure> {
+    parse_quantity(text, Some(ty)).map_err(|error| wrong_unit(option, text, &error))
+}
+
+/// The value in SI units of a quantity that an option gives, which has to be more than zero.
+pub(crate) fn positive(
+    option: &str,
+    text: &str,
+    (dimension, code, example): (Dimension, &'static str, &str),
+) -> Result<Quantity, Failure> {
+    let quantity = quantity(option, text, Type::of(dimension))?;
+    if quantity.value > 0.0 && quantity.value.is_finite() {
+        return Ok(quantity);
+    }
+    let message = format!("{option} must be more than zero, got `{text}`");
+    let help = format!("write for example {option} {example}");
+    Err(Failure::new(Exit::Input, Diagnostic::error(code, message).help(help)))
+}
+
 /// A mistake in a quantity of the command line, shown in its text.
 pub(crate) fn wrong_unit(name: &str, text: &str, error: &UnitError) -> Failure {
     let mut files = Files::new();
     let file = files.add(name, text);
-    let problem =
-        Diagnostic::error(error.code(), error.to_string()).at(Span::new(file, error.span.clone()), "");
-    let problem = match error.help() {
-        Some(help) => problem.help(help),
-        None => problem,
-    };
+    let problem = told(error).at(Span::new(file, error.span.clone()), "");
     Failure::at(Exit::Input, files, problem)
 }
 

@@ -1,8 +1,8 @@
 //! Limits as a result: a line each, JSON, and what a broken one does to the exit code.
 
 use lptn_netlist::{Diagnostic, Netlist};
-use lptn_network::{Bound, Field, Item, Limit, LimitId, Network, Severity};
-use lptn_report::{Align, Column, TextTable, WIDTH, duration, significant};
+use lptn_network::{Bound, Item, Limit, LimitId, Network, Severity};
+use lptn_report::{Text, TextTable, duration, significant};
 use lptn_solve::LimitSeen;
 use lptn_study::Scalar;
 use lptn_units::{Dimension, Type, Unit};
@@ -10,6 +10,7 @@ use serde_json::{Map, Value, json};
 
 use crate::console::Console;
 use crate::exit::Exit;
+use crate::words::spaced;
 
 /// Digits of a margin.
 const DIGITS: usize = 4;
@@ -60,24 +61,21 @@ pub(crate) struct Judgement<'a> {
     pub(crate) limits: &'a [Judged],
 }
 
-/// A table with a line for each limit; nothing without limits.
-pub(crate) fn lines(network: &Network, limits: &[Judged], unit: &Unit) -> Vec<String> {
+/// A section with a line for each limit; nothing without limits.
+pub(crate) fn section(text: &mut Text, network: &Network, limits: &[Judged], unit: &Unit) {
     if limits.is_empty() {
-        return Vec::new();
+        return;
     }
     let of = |judged: &Judged| &network.limits()[judged.limit.index()];
-    let cells = |text: &dyn Fn(&Judged) -> String| limits.iter().map(text).collect::<Vec<_>>();
-    let mut columns = vec![
-        Column::new("limit", Align::Left, cells(&|j| of(j).name.clone())),
-        Column::new("wanted", Align::Left, cells(&|j| wanted(network, j.limit, unit))).names(),
-        Column::new("margin", Align::Right, cells(&|j| margin(j, of(j), unit))),
-    ];
+    let mut table = TextTable::of(limits)
+        .left("limit", |j| of(j).name.as_str())
+        .left("wanted", |j| wanted(network, j.limit, unit))
+        .names()
+        .right("margin", |j| margin(j, of(j), unit));
     if limits.iter().any(|judged| judged.worst_at.is_some()) {
-        let least = |j: &Judged| j.worst_at.map_or("-".into(), |time| duration(time, 3));
-        columns.push(Column::new("least at", Align::Right, cells(&least)));
+        table = table.right("least at", |j| j.worst_at.map_or("-".into(), |time| duration(time, 3)));
     }
-    columns.push(Column::new("", Align::Left, cells(&|j| verdict(j, of(j)))));
-    TextTable::new(columns).lines(WIDTH)
+    text.section().table(table.left("", |j| verdict(j, of(j))));
 }
 
 /// "steel.T below 110 degC".
@@ -119,22 +117,18 @@ fn number(value: f64, ty: Type, unit: &Unit) -> String {
         let kelvin = (unit.scale - 1.0).abs() < 1e-12;
         return format!("{} {}", significant(value / unit.scale, DIGITS), if kelvin { "K" } else { "degR" });
     }
-    let si = ty.dimension.si_unit();
-    let value = significant(value, DIGITS);
-    if si == "1" { value } else { format!("{value} {si}") }
+    format!("{}{}", significant(value, DIGITS), spaced(&ty.dimension.si_unit()))
 }
 
 /// Members by the limit's name: `{ of, below or above, worst, margin, worst_at, broken_at, severity, kept }`, in the
 /// results and in the manifest. `worst` is the value of `of` where the margin is least; where a limit is not judged `worst`,
-/// `margin` and `kept` are null.
-pub(crate) fn members(network: &Network, limits: &[Judged]) -> Map<String, Value> {
+/// `margin` and `kept` are null. Nothing without limits.
+pub(crate) fn members(network: &Network, limits: &[Judged]) -> Option<Map<String, Value>> {
     let one = |judged: &Judged| {
         let limit = &network.limits()[judged.limit.index()];
-        let time = |time: Option<f64>| time.map_or(Value::Null, |time| Scalar::new(time, "s").json());
-        let scalar = |value: f64| match value.is_nan() {
-            true => Value::Null,
-            false => Scalar::new(value, &limit.ty.dimension.si_unit()).json(),
-        };
+        let time = |time: Option<f64>| time.map(|time| Scalar::new(time, "s"));
+        let scalar =
+            |value: f64| (!value.is_nan()).then(|| Scalar::new(value, &limit.ty.dimension.si_unit()));
         let bound = bound(network, limit);
         let worst = match limit.bound {
             Bound::Below => bound - judged.margin,
@@ -152,7 +146,7 @@ pub(crate) fn members(network: &Network, limits: &[Judged]) -> Map<String, Value
         });
         (limit.name.clone(), member)
     };
-    limits.iter().map(one).collect()
+    (!limits.is_empty()).then(|| limits.iter().map(one).collect())
 }
 
 /// Says which limits are broken and gives the exit code. Those that make it 1 are said last, and with `--quiet` too;
@@ -172,11 +166,8 @@ pub(crate) fn conclude(judgement: &Judgement<'_>, console: &Console) -> Exit {
 
 fn warning(judgement: &Judgement<'_>, judged: &Judged) -> Diagnostic {
     let item = Item::Limit(judged.limit);
-    let problem = Diagnostic::warning("limit::exceeded", words(judgement, judged));
-    match judgement.netlist.source_map.get(item, Field::Name) {
-        Some(span) => problem.at(span.clone(), ""),
-        None => problem,
-    }
+    let place = judgement.netlist.source_map.name(item);
+    Diagnostic::warning("limit::exceeded", words(judgement, judged)).at(place, "")
 }
 
 /// "`hot` (steel.T below 110 degC) by 3.2 K at 25 min, first after 12.05 min".

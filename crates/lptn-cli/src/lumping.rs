@@ -2,7 +2,7 @@
 
 use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Field, Item, Network, NodeId};
-use lptn_report::{Align, Column, TextTable, WIDTH, duration, labelled, significant};
+use lptn_report::{Text, TextTable, duration, significant};
 use lptn_solve::{Biot, LumpCheck, Lumping, NotChecked, Stretch};
 use lptn_study::Scalar;
 use serde_json::{Map, Value, json};
@@ -65,15 +65,14 @@ fn too_slow(netlist: &Netlist, check: &LumpCheck, (time, stretch): (f64, Stretch
 fn at(netlist: &Netlist, check: &LumpCheck, warning: Diagnostic) -> Diagnostic {
     let map = &netlist.source_map;
     let item = Item::Node(check.node);
-    let warning = match map.get(item, Field::CharacteristicLength).or_else(|| map.name(item)) {
-        Some(place) => warning.at(place.clone(), ""),
-        None => warning,
-    };
-    warning.help("make it several nodes with [conduction] between them; L_char is volume over surface")
+    let place = map.get(item, Field::CharacteristicLength).or_else(|| map.name(item));
+    warning
+        .at(place, "")
+        .help("make it several nodes with [conduction] between them; L_char is volume over surface")
 }
 
 /// A few lines below a result: the largest numbers, and what was not checked.
-pub(crate) fn lines(network: &Network, lumping: &Lumping, (label, verbose): (&str, bool)) -> Vec<String> {
+pub(crate) fn lines(text: &mut Text, network: &Network, (lumping, label, verbose): (&Lumping, &str, bool)) {
     let name = |id: NodeId| &network.nodes()[id.index()].name;
     let mut pieces = Vec::new();
     let biots = lumping.checks.iter().filter_map(|check| Some((check.node, check.biot.ok()?.number)));
@@ -89,13 +88,12 @@ pub(crate) fn lines(network: &Network, lumping: &Lumping, (label, verbose): (&st
         last.pop();
     }
     if pieces.is_empty() {
-        return Vec::new();
+        return;
     }
-    let mut lines = labelled(label, &pieces, WIDTH);
+    text.labelled(label, pieces);
     if verbose {
-        lines.extend(details(network, lumping));
+        details(text, network, lumping);
     }
-    lines
 }
 
 /// How many nodes were not checked, by reason.
@@ -104,7 +102,7 @@ fn not_checked(lumping: &Lumping) -> Vec<String> {
     let mut found: Vec<NotChecked> = lumping.checks.iter().filter_map(|check| check.biot.err()).collect();
     found.sort_unstable();
     for reason in found {
-        let words = words(reason).to_owned();
+        let words = told(reason).0.to_owned();
         match reasons.iter_mut().find(|(known, _)| *known == words) {
             Some((_, count)) => *count += 1,
             None => reasons.push((words, 1)),
@@ -118,60 +116,43 @@ fn not_checked(lumping: &Lumping) -> Vec<String> {
     pieces.collect()
 }
 
-fn words(reason: NotChecked) -> &'static str {
+/// Why a node was not checked: for reading, and for programs.
+fn told(reason: NotChecked) -> (&'static str, &'static str) {
     match reason {
-        NotChecked::NoMaterial => "no material",
-        NotChecked::SeveralMaterials => "several materials",
-        NotChecked::NoConductivity => "material without k",
-        NotChecked::NoHeatCapacity => "material without density or cp",
-        NotChecked::NoSurface => "no surface with h",
-        NotChecked::NoArea(_) => "surface without area",
-        NotChecked::NoValue => "h has no value",
-    }
-}
-
-fn code(reason: NotChecked) -> &'static str {
-    match reason {
-        NotChecked::NoMaterial => "no_material",
-        NotChecked::SeveralMaterials => "several_materials",
-        NotChecked::NoConductivity => "no_conductivity",
-        NotChecked::NoHeatCapacity => "no_heat_capacity",
-        NotChecked::NoSurface => "no_surface",
-        NotChecked::NoArea(_) => "no_area",
-        NotChecked::NoValue => "no_value",
+        NotChecked::NoMaterial => ("no material", "no_material"),
+        NotChecked::SeveralMaterials => ("several materials", "several_materials"),
+        NotChecked::NoConductivity => ("material without k", "no_conductivity"),
+        NotChecked::NoHeatCapacity => ("material without density or cp", "no_heat_capacity"),
+        NotChecked::NoSurface => ("no surface with h", "no_surface"),
+        NotChecked::NoArea(_) => ("surface without area", "no_area"),
+        NotChecked::NoValue => ("h has no value", "no_value"),
     }
 }
 
 /// Every node.
-fn details(network: &Network, lumping: &Lumping) -> Vec<String> {
+fn details(text: &mut Text, network: &Network, lumping: &Lumping) {
     let name = |id: NodeId| network.nodes()[id.index()].name.clone();
-    let cells = |text: &dyn Fn(&LumpCheck) -> String| lumping.checks.iter().map(text).collect::<Vec<_>>();
     let of_biot =
         |part: fn(&Biot) -> f64| move |c: &LumpCheck| c.biot.map_or("-".into(), |b| significant(part(&b), 3));
-    let right = |title: &str, cells| Column::new(title, Align::Right, cells);
-    let mut lines = Vec::new();
     if !lumping.checks.is_empty() {
-        lines.push(String::new());
-        let table = TextTable::new(vec![
-            Column::new("lump", Align::Left, cells(&|c| name(c.node))),
-            right("L_char [mm]", cells(&|c| significant(1e3 * c.length, 3))),
-            right("h [W/(m^2 K)]", cells(&of_biot(|b| b.coefficient))),
-            right("k [W/(m K)]", cells(&of_biot(|b| b.conductivity))),
-            right("Bi", cells(&of_biot(|b| b.number))),
-            right("L^2/alpha", cells(&|c| c.diffusion.map_or("-".into(), |t| duration(t, 3)))),
-        ]);
-        lines.extend(table.lines(WIDTH));
+        let table = TextTable::of(&lumping.checks)
+            .left("lump", |c| name(c.node))
+            .right("L_char [mm]", |c| significant(1e3 * c.length, 3))
+            .right("h [W/(m^2 K)]", of_biot(|b| b.coefficient))
+            .right("k [W/(m K)]", of_biot(|b| b.conductivity))
+            .right("Bi", of_biot(|b| b.number))
+            .right("L^2/alpha", |c| c.diffusion.map_or("-".into(), |t| duration(t, 3)));
+        text.section().table(table);
     }
     let unknown = |id: &NodeId| ("no L_char", *id);
     let mut reasons: Vec<(&str, NodeId)> = lumping.without_length.iter().map(unknown).collect();
-    reasons.extend(lumping.checks.iter().filter_map(|check| Some((words(check.biot.err()?), check.node))));
+    reasons.extend(lumping.checks.iter().filter_map(|check| Some((told(check.biot.err()?).0, check.node))));
     // by reason; within one in the order of the file
     reasons.sort_by_key(|(words, _)| *words);
     for group in reasons.chunk_by(|a, b| a.0 == b.0) {
         let names: Vec<String> = group.iter().map(|(_, id)| name(*id)).collect();
-        lines.extend(labelled(&format!("{}: ", group[0].0), &names, WIDTH));
+        text.labelled(&format!("{}: ", group[0].0), names);
     }
-    lines
 }
 
 /// The member `lumping` of JSON.
@@ -180,7 +161,7 @@ pub(crate) fn json(network: &Network, lumping: &Lumping) -> Value {
     for check in &lumping.checks {
         let mut node = Map::new();
         let mut scalar = |key: &str, value: f64, unit: &str| {
-            drop(node.insert(key.to_owned(), Scalar::new(value, unit).json()))
+            drop(node.insert(key.to_owned(), json!(Scalar::new(value, unit))))
         };
         scalar("L_char", check.length, "m");
         if let Ok(biot) = check.biot {
@@ -194,15 +175,14 @@ pub(crate) fn json(network: &Network, lumping: &Lumping) -> Value {
         }
         let reasons = [("biot", check.biot.err()), ("diffusion_time", check.diffusion.err())];
         let missing =
-            reasons.iter().filter_map(|(key, reason)| Some(((*key).to_owned(), json!(code((*reason)?)))));
+            reasons.iter().filter_map(|(key, reason)| Some(((*key).to_owned(), json!(told((*reason)?).1))));
         let missing: Map<String, Value> = missing.collect();
         if !missing.is_empty() {
             node.insert("not_checked".to_owned(), Value::Object(missing));
         }
         nodes.insert(network.nodes()[check.node.index()].name.clone(), Value::Object(node));
     }
-    let stretch = lumping.shortest.map(|stretch| {
-        json!({ "from": Scalar::new(stretch.from, "s").json(), "to": Scalar::new(stretch.to, "s").json() })
-    });
+    let time = |time: f64| Scalar::new(time, "s");
+    let stretch = lumping.shortest.map(|s| json!({ "from": time(s.from), "to": time(s.to) }));
     json!({ "nodes": nodes, "without_length": lumping.without_length.len(), "shortest_stretch": stretch })
 }

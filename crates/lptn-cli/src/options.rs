@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args as Arguments, ValueEnum};
+use lptn_report::Format;
 
 /// The help of every command: examples, then what it does, then its options.
 pub(crate) const TEMPLATE: &str = "\
@@ -51,6 +52,7 @@ pub(crate) struct Source {
 pub(crate) struct Printed {
     /// Print a table, csv or json
     #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    #[arg(value_parser = one_of(&Format::ALL, Format::key))]
     pub(crate) format: Format,
     #[command(flatten)]
     _no_files: NoFiles,
@@ -76,19 +78,13 @@ pub(crate) struct Scale {
 pub(crate) struct Shown {
     /// Print a table, csv or json
     #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    #[arg(value_parser = one_of(&Format::ALL, Format::key))]
     pub(crate) format: Format,
     /// Keep columns like '*.T'; may be repeated
     #[arg(long, value_name = "PATTERN")]
     pub(crate) select: Vec<String>,
     #[command(flatten)]
     pub(crate) scale: Scale,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Format {
-    Table,
-    Csv,
-    Json,
 }
 
 /// A choice of a library by its name there, so that the names stand in one place.

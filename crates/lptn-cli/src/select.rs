@@ -60,10 +60,7 @@ fn no_match(netlist: &Netlist, unmatched: &[String], in_file: bool) -> Failure {
             Some((why, advice)) => problem(format!("{message}: {why}")).help(advice),
             None => problem(message).help(help(pattern, &names)),
         };
-        match place {
-            Some(place) => problem.at(place, ""),
-            None => problem,
-        }
+        problem.at(place, "")
     });
     let diagnostics = diagnostics.collect();
     Failure { exit: Exit::Input, files, diagnostics }

@@ -1,6 +1,7 @@
 //! Words that results of several verbs share.
 
 use lptn_network::Network;
+use lptn_report::{Text, TextTable};
 use lptn_units::Unit;
 
 /// More nodes than this do not fit on a screen.
@@ -33,20 +34,27 @@ pub(crate) fn counts(network: &Network) -> String {
     parts.join(", ")
 }
 
-/// The lines of a table that may not show every row, with what is said of the others.
-pub(crate) fn with_hidden(mut lines: Vec<String>, (all, shown): (usize, usize), how: &str) -> Vec<String> {
+/// A section with a table of some of `all` rows, and how to see the others; nothing where there are none.
+pub(crate) fn some_of(text: &mut Text, table: impl Into<TextTable>, (all, how): (usize, &str)) {
+    let table = table.into();
+    let shown = table.rows();
     if all == 0 {
-        return Vec::new();
+        return;
     }
+    text.section().table(table);
     if shown < all {
-        lines.push(format!("{shown} of {all} are shown, {how}"));
+        text.line(format!("{shown} of {all} are shown, {how}"));
     }
-    lines
 }
 
 /// A unit for reading: `-` for a plain number.
 pub(crate) fn symbol(unit: &str) -> &str {
     if unit == "1" { "-" } else { unit }
+}
+
+/// A unit behind its number, with the blank before it; nothing for a plain number.
+pub(crate) fn spaced(unit: &str) -> String {
+    if unit == "1" { String::new() } else { format!(" {unit}") }
 }
 
 /// The unit of a difference between two temperatures in `unit`.

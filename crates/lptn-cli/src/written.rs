@@ -74,18 +74,12 @@ pub(crate) fn can_be_written(
         let message = format!("`{name}` is written once for several instances, `{other}` among them");
         let problem = Diagnostic::error(shared, message)
             .help("give each its own value, `set = { .. = [.., ..] }`, or make it a parameter of the file");
-        match netlist.source_map.parameter(parameter) {
-            Some(span) => problem.at(span.clone(), ""),
-            None => problem,
-        }
+        problem.at(netlist.source_map.parameter(parameter), "")
     } else if netlist.written_number(parameter).is_none() {
         let message = format!("`{name}` is not written as a number, so no other can be written in its place");
         let problem = Diagnostic::error(code, message)
             .help("give it a value of its own, for example `\"5 W/K\"`, or leave `--write` out");
-        match netlist.source_map.parameter(parameter) {
-            Some(span) => problem.at(span.clone(), ""),
-            None => problem,
-        }
+        problem.at(netlist.source_map.parameter(parameter), "")
     } else {
         return Ok(());
     };

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use lptn_units::suggest;
+use lptn_units::{Help, suggest};
 
 use crate::file::{Files, Span};
 
@@ -55,22 +55,22 @@ impl Diagnostic {
         Self { severity: Severity::Warning, ..Self::error(code, message) }
     }
 
-    /// Adds the place of the problem.
+    /// Adds the place of the problem, where it is known.
     #[must_use]
-    pub fn at(self, span: Span, text: impl Into<String>) -> Self {
-        self.label(span, text.into(), true)
+    pub fn at(self, span: impl Into<Option<Span>>, text: impl Into<String>) -> Self {
+        self.label(span.into(), text.into(), true)
     }
 
-    /// Adds a place that explains the problem.
+    /// Adds a place that explains the problem, where it is known.
     #[must_use]
-    pub fn also(self, span: Span, text: impl Into<String>) -> Self {
-        self.label(span, text.into(), false)
+    pub fn also(self, span: impl Into<Option<Span>>, text: impl Into<String>) -> Self {
+        self.label(span.into(), text.into(), false)
     }
 
-    /// Sets what to do about it.
+    /// Sets what to do about it, where something is known.
     #[must_use]
-    pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+    pub fn help(mut self, help: impl Help) -> Self {
+        self.help = help.words().or(self.help);
         self
     }
 
@@ -100,8 +100,8 @@ impl Diagnostic {
         self.labels.iter().find(|label| label.primary).map(|label| &label.span)
     }
 
-    fn label(mut self, span: Span, text: String, primary: bool) -> Self {
-        self.labels.push(Label { span, text, primary });
+    fn label(mut self, span: Option<Span>, text: String, primary: bool) -> Self {
+        self.labels.extend(span.map(|span| Label { span, text, primary }));
         self
     }
 }

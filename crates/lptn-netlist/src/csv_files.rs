@@ -77,7 +77,7 @@ fn find<'a>(value: &'a RawValue, named: &mut Vec<(&'a str, &'a RawValue)>) {
 
 /// The files that `[import]` names.
 fn imported(raw: &RawNetlist) -> impl Iterator<Item = (&str, &RawValue)> {
-    let entries = crate::names::section(raw, IMPORT.name).into_iter().flat_map(|table| &table.entries);
+    let entries = raw.elements(IMPORT.name).iter();
     entries.filter_map(|entry| match &entry.value.kind {
         RawKind::String { text, .. } => Some((text.as_str(), &entry.value)),
         _ => None,

@@ -4,8 +4,8 @@ use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use lptn_data::{Diagnostic, Severity, Span};
-use lptn_network::{BuildError, BuildErrorKind, Input, Item, Naming, Network, NetworkBuilder};
-use lptn_units::{Quantity, Type, Unit};
+use lptn_network::{Network, NetworkBuilder};
+use lptn_units::Unit;
 
 use crate::adrift;
 use crate::csv_files::CsvFiles;
@@ -13,15 +13,14 @@ use crate::describe::describe;
 use crate::fit::FitStudy;
 use crate::initial::StateFile;
 use crate::names::{Names, ValueKind};
-use crate::raw::{RawEntry, RawNetlist};
+use crate::raw::RawNetlist;
 use crate::run::RunPlan;
 use crate::scales::Scales;
 use crate::section;
 use crate::size::SizeStudy;
 use crate::source_map::SourceMap;
 use crate::template::Structure;
-
-pub(crate) const MISSING_FORMAT: &str = "netlist::missing_format";
+use crate::work::{Doubts, Elaboration, MISSING_FORMAT};
 
 /// What a netlist means.
 pub(crate) struct Elaborated {
@@ -32,67 +31,6 @@ pub(crate) struct Elaborated {
     pub(crate) map: SourceMap,
     pub(crate) temperature_unit: Unit,
     pub(crate) structure: Arc<Structure>,
-}
-
-/// Work in progress: the network as far as it is built, and everything found on the way.
-pub(crate) struct Elaboration<'a> {
-    pub(crate) raw: &'a RawNetlist,
-    /// What templates made of it.
-    pub(crate) structure: &'a Structure,
-    pub(crate) csv: &'a CsvFiles,
-    /// The state that the run starts from.
-    pub(crate) state: Option<&'a StateFile>,
-    pub(crate) builder: NetworkBuilder,
-    pub(crate) map: SourceMap,
-    pub(crate) names: Names,
-    pub(crate) problems: Vec<Diagnostic>,
-    /// How many problems of imported rows were not even written down.
-    pub(crate) dropped: usize,
-    pub(crate) doubts: Doubts,
-    pub(crate) scales: Scales,
-    /// Materials by name: those of the file, and those of the library that are used.
-    pub(crate) known: HashMap<String, section::Known>,
-    pub(crate) used_materials: HashSet<String>,
-    /// Fluids by name, in the same way.
-    pub(crate) known_fluids: HashMap<String, section::KnownFluid>,
-    pub(crate) used_fluids: HashSet<String>,
-}
-
-/// What was left out because of an error, so that its absence is not reported as another one.
-#[derive(Debug, Default)]
-pub(crate) struct Doubts {
-    /// A section is not known or not a table: what it holds may be what is missing.
-    pub(crate) sections: bool,
-    /// `format = 1` below a heading: it is no element of that section.
-    pub(crate) format: Option<Span>,
-    /// A path is missing: islands cannot be told.
-    pub(crate) paths: bool,
-    /// A part of a capacity is missing: nodes may only seem to have none.
-    pub(crate) parts: bool,
-    /// Items with unknown keys or missing values.
-    pub(crate) items: HashSet<Item>,
-}
-
-impl Doubts {
-    /// What an instance would have held may be what is missing.
-    fn of(structure: &Structure) -> Self {
-        let lost = structure.has_lost();
-        Self { sections: lost, paths: lost, parts: lost, ..Self::default() }
-    }
-
-    fn cover(&self, error: &BuildError) -> bool {
-        use BuildErrorKind as K;
-        let item = error.place().is_some_and(|(item, _)| self.items.contains(&item));
-        match error.kind {
-            K::NoCapacity { .. } => item || self.parts,
-            K::NoInitialTemperature { .. } | K::MasslessWithCapacity { .. } | K::NoThermostat { .. } => item,
-            K::FloatingIsland { ref nodes, .. } => {
-                self.paths || self.parts || nodes.iter().any(|&n| self.items.contains(&Item::Node(n)))
-            }
-            K::Empty => self.sections,
-            _ => false,
-        }
-    }
 }
 
 /// What was found on the way.
@@ -161,21 +99,6 @@ pub(crate) fn elaborate(
 }
 
 impl<'a> Elaboration<'a> {
-    /// The elements of a section, in file order.
-    pub(crate) fn elements(&self, kind: &str) -> &'a [RawEntry] {
-        crate::names::section(self.raw, kind).map_or(&[], |table| &table.entries)
-    }
-
-    /// The section of the element of this name, imported ones included.
-    pub(crate) fn kind_of(&self, name: &str) -> Option<&'static str> {
-        let imported = || self.builder.item(name).map(|item| self.map.kind(item));
-        self.names.kind_of(name).or_else(imported)
-    }
-
-    pub(crate) fn report(&mut self, problem: Diagnostic) {
-        self.problems.push(problem);
-    }
-
     fn finish(
         mut self,
         (run, sizes, fits): (Option<RunPlan>, Vec<SizeStudy>, Vec<FitStudy>),
@@ -216,11 +139,6 @@ impl<'a> Elaboration<'a> {
             network.map(|network| Elaborated { network, run, sizes, fits, map, temperature_unit, structure });
         (done, Found { problems: self.problems, dropped: self.dropped })
     }
-}
-
-/// A value in place of one that has been reported.
-pub(crate) fn stand_in(ty: Type) -> Input {
-    Quantity { value: 1.0, deviation: None, ty }.into()
 }
 
 fn unused(kind: ValueKind, name: &str, span: &Span) -> Diagnostic {

@@ -3,10 +3,10 @@
 use lptn_data::{Diagnostic, Span};
 use lptn_network::Context;
 
+use crate::place::{Place, Wanted};
 use crate::raw::RawKind;
-use crate::value::{Place, Wanted};
 
-pub(crate) const BOUND_HELP: &str =
+const BOUND_HELP: &str =
     "what changes belongs in `of`: a difference such as `of = \"steel.T - air.T\"` has a constant bound";
 
 /// Temperatures of what is at hand.
@@ -60,4 +60,22 @@ pub(crate) fn depends_on_time(place: Place<'_>, name: &str, at: Span) -> Diagnos
     };
     let message = format!("{} has to be constant, but depends on {what}", place.words());
     Diagnostic::error("network::depends_on_time", message).at(at, label).help(help)
+}
+
+/// A control where something has to be known before the run.
+pub(crate) fn control_not_here(place: Place<'_>, name: &str, at: Span) -> Diagnostic {
+    let words = place.words();
+    let message = format!("{words} cannot use control `{name}`, which switches during the run");
+    let help = match place.key {
+        "below" | "above" => BOUND_HELP,
+        "" if words.starts_with("signal") => {
+            "a signal is a function of time; use the control where the signal is used, for example in a source"
+        }
+        "" => "a parameter is constant; use the control where the parameter is used, for example in a source",
+        _ => {
+            "sources, boundaries, the values of paths, thresholds of other controls and limits may use controls; this is \
+             constant"
+        }
+    };
+    Diagnostic::error("netlist::control_not_here", message).at(at, "0 or 1, as it switches").help(help)
 }

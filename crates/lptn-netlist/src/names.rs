@@ -1,22 +1,15 @@
-//! The names that expressions may use, and what is said about those they may not.
+//! The names of a netlist: what each stands for.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
-use std::ops::Range;
 use std::sync::{Arc, LazyLock};
 
-use lptn_data::{Diagnostic, Span};
+use lptn_data::Span;
 use lptn_laws::Kind;
-use lptn_network::Context;
-use lptn_units::{Expression, is_function, suggest};
+use lptn_units::Expression;
 
-use crate::fields::sample_value;
-use crate::grid_names::KnownGrid;
-use crate::misplaced::{LOCAL, depends_on_time, not_here};
-use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable};
-use crate::result_names::base;
-use crate::section::control_not_here;
-use crate::template::{Structure, in_own_words, outside, wrong_path};
-use crate::value::{Place, Wanted};
+use crate::grid_part::KnownGrid;
+use crate::raw::{RawEntry, RawKind, RawNetlist};
+use crate::template::Structure;
 use crate::vocabulary::{CONTROL, PARAM, SIGNAL, TABLE};
 
 /// What a name in an expression can stand for.
@@ -54,15 +47,15 @@ pub(crate) struct Names {
     /// What names mean inside templates.
     pub(crate) structure: Arc<Structure>,
     /// With the place of the key, and the position in the section.
-    values: HashMap<String, (ValueKind, Span, usize)>,
+    pub(crate) values: HashMap<String, (ValueKind, Span, usize)>,
     /// In file order, for suggestions.
     pub(crate) order: Vec<String>,
     pub(crate) elements: HashMap<String, &'static str>,
     /// Values that are wrong: what uses them is not reported again.
     failed: HashSet<String>,
-    used: HashSet<String>,
+    pub(crate) used: HashSet<String>,
     /// Nodes and boundaries whose results expressions read.
-    read: HashSet<String>,
+    pub(crate) read: HashSet<String>,
     /// Names in sections that are not known: they may be what is looked for.
     hidden: HashSet<String>,
     /// Materials that cannot be read.
@@ -97,7 +90,7 @@ impl Names {
     pub(crate) fn of(raw: &RawNetlist, structure: &Arc<Structure>) -> Self {
         let mut names = Self { structure: Arc::clone(structure), ..Self::default() };
         for (kind, heading) in ValueKind::ALL {
-            let entries = section(raw, heading).into_iter().flat_map(|table| &table.entries);
+            let entries = raw.elements(heading).iter();
             for (position, entry) in entries.enumerate() {
                 names.order.push(entry.key.clone());
                 if names.values.contains_key(&entry.key) {
@@ -108,7 +101,7 @@ impl Names {
             }
         }
         for kind in ELEMENTS.iter() {
-            let entries = section(raw, kind).into_iter().flat_map(|table| &table.entries);
+            let entries = raw.elements(kind).iter();
             for entry in entries {
                 names.elements.entry(entry.key.clone()).or_insert(kind);
                 names.hide_inner(entry);
@@ -121,8 +114,8 @@ impl Names {
     pub(crate) fn line<'a>(&self, raw: &'a RawNetlist, name: &str) -> Option<&'a RawEntry> {
         let (kind, _, position) = self.values.get(name)?;
         let entries = match kind {
-            ValueKind::Parameter => &section(raw, PARAM)?.entries,
-            ValueKind::Signal => &section(raw, SIGNAL.name)?.entries,
+            ValueKind::Parameter => raw.elements(PARAM),
+            ValueKind::Signal => raw.elements(SIGNAL.name),
             ValueKind::Control | ValueKind::Table => return None,
         };
         entries.get(*position)
@@ -259,124 +252,12 @@ impl Names {
             Some((*kind, name.as_str(), span))
         })
     }
-
-    /// Everything wrong with the names of an expression.
-    pub(crate) fn check(
-        &mut self,
-        place: Place<'_>,
-        expression: &Expression,
-        wanted: Wanted,
-    ) -> Vec<Diagnostic> {
-        let names = expression.names().into_iter();
-        let problems = names.filter_map(|(name, range)| self.check_name(place, (name, range), wanted));
-        let problems: Vec<Diagnostic> = problems.collect();
-        let problems =
-            problems.into_iter().map(|problem| in_own_words(&self.structure, place, problem)).collect();
-        let calls = expression.calls().into_iter().map(|(name, _)| name);
-        self.used.extend(calls.filter(|name| self.values.contains_key(name)));
-        problems
-    }
-
-    fn check_name(
-        &mut self,
-        place: Place<'_>,
-        (name, range): (String, Range<usize>),
-        wanted: Wanted,
-    ) -> Option<Diagnostic> {
-        let at = || place.raw.part(&range);
-        if let Some(kind) = self.value_kind(&name) {
-            self.used.insert(name.clone());
-            return match kind {
-                ValueKind::Signal if !wanted.time => Some(depends_on_time(place, &name, at())),
-                ValueKind::Control if !wanted.controls => Some(control_not_here(place, &name, at())),
-                _ => None,
-            };
-        }
-        let result = wanted.context == Context::Result;
-        let known = (wanted.names_nodes() && self.is_temperature(&name)) || (result && self.is_heat(&name));
-        if known {
-            self.read.insert(base(&name).to_owned());
-        }
-        let template = self.structure.template_at(&place.raw.span);
-        if let (true, Some(template)) = (known && !self.structure.belongs(&place.raw.span, &name), template) {
-            return Some(outside(place, &name, template).at(at(), "not in the template"));
-        }
-        if known || self.is_of_grid(&name, wanted) || wanted.is_local(&name) || self.is_hidden(base(&name)) {
-            return None; // what hides it has been reported
-        }
-        if name == "t" {
-            return (!wanted.time).then(|| depends_on_time(place, &name, at()));
-        }
-        let at = at();
-        if let Some(problem) = self.unknown_of_grid(place, (&name, &at), wanted) {
-            return Some(problem);
-        }
-        if let Some(wrong) = self.structure.wrong_path(&name) {
-            return Some(wrong_path((&place.words(), &name), at, wrong));
-        }
-        Some(match LOCAL.contains(&name.as_str()) || (name.ends_with(".T") && !wanted.names_nodes()) {
-            true => not_here(place, &name, wanted, at),
-            false if wanted.context == Context::Result || (wanted.names_nodes() && name.ends_with(".T")) => {
-                self.unknown_result(place, &name, at)
-            }
-            false => self.unknown((place, wanted), &name, at),
-        })
-    }
-
-    /// `NAME.T` of a node or boundary.
-    fn is_temperature(&self, name: &str) -> bool {
-        let kind = name.strip_suffix(".T").and_then(|name| self.kind_of(name));
-        matches!(kind, Some("node" | "boundary"))
-    }
-
-    fn unknown(&mut self, (place, wanted): (Place<'_>, Wanted), name: &str, at: Span) -> Diagnostic {
-        let words = place.words();
-        if name.contains(['.', '[']) {
-            let message = format!("{words} uses `{name}`, which is no parameter");
-            return Diagnostic::error("netlist::unknown_name", message).at(at, "unknown name").help(
-                "expressions may use parameters, tables and, where time is allowed, signals, controls and `t`: write the value itself",
-            );
-        }
-        let error = Diagnostic::error(
-            "netlist::unknown_name",
-            format!("{words} uses `{name}`, which is no parameter"),
-        )
-        .at(at, "unknown name");
-        if is_function(name) {
-            return error.help(format!("`{name}` is a function: write `{name}(..)`"));
-        }
-        if wanted.time && ["time", "Time", "zeit", "Zeit"].contains(&name) {
-            return error.help("the time of the run is `t`, as in `sin(2 * pi * t / 1 [h])`");
-        }
-        let search = self.may_search(self.order.len());
-        let local = LOCAL.into_iter().filter(|name| wanted.is_local(name));
-        let inside = self.structure.names_at(&place.raw.span);
-        let known = self.order.iter().map(String::as_str).chain(["pi"]).chain(local).chain(inside);
-        let known = known.filter(|_| search);
-        let near = suggest(name, known);
-        if let Some(near) = near {
-            let error = error.help(format!("did you mean `{near}`?"));
-            return match self.values.get(&self.structure.resolve(&place.raw.span, near)) {
-                Some((_, span, _)) => error.also(span.clone(), "similar name"),
-                None => error,
-            };
-        }
-        match self.elements.get(name) {
-            Some(&("node" | "boundary")) if wanted.names_nodes() => {
-                error.help(format!("its temperature is `{name}.T`"))
-            }
-            Some(kind) => error.help(format!("`{name}` is a {kind}; expressions use parameters")),
-            None => {
-                error.help(format!("add it to [param], for example `{name} = {}`", sample_value(place.key)))
-            }
-        }
-    }
 }
 
-/// The entries of a section.
-pub(crate) fn section<'a>(raw: &'a RawNetlist, name: &str) -> Option<&'a RawTable> {
-    match &raw.top.get(name)?.value.kind {
-        RawKind::Table(table) => Some(table),
-        _ => None,
+/// The element of a result: `steel` of `steel.T`.
+pub(crate) fn base(name: &str) -> &str {
+    match name.rsplit_once('.') {
+        Some((base, "T" | "Q" | "Q_from" | "Q_to" | "P")) => base,
+        _ => name,
     }
 }

@@ -83,6 +83,16 @@ impl Netlist {
         self.warnings = all;
     }
 
+    /// Why a path such as `planet[9].gear` leads nowhere, and what to write, if its index is to blame.
+    pub fn no_instance(&self, path: &str) -> Option<(String, String)> {
+        self.structure.wrong_path(path).map(|wrong| (wrong.why, wrong.help))
+    }
+
+    /// The state that runs start from, where `initial` of `[run]` names one.
+    pub fn initial(&self) -> Option<&InitialState> {
+        self.initial.as_ref()
+    }
+
     /// The parameters as they were set, for [`Network::with`] with further ones.
     pub fn overrides(&self) -> Parameters {
         self.assigned.clone()

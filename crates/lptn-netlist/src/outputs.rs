@@ -3,12 +3,12 @@
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Field, Item, WindowSettings};
 
-use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::run::{Setting, TIME};
-use crate::value::{Place, Wanted};
+use crate::setting::{Setting, TIME};
 use crate::vocabulary::WINDOW;
+use crate::work::Elaboration;
 
 /// A window before its expressions are evaluated.
 #[derive(Clone, Debug)]

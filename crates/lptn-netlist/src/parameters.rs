@@ -6,11 +6,11 @@ use lptn_data::{Diagnostic, Span};
 use lptn_network::{Field, Item};
 use lptn_units::{Quantity, Type};
 
-use crate::elaborate::Elaboration;
 use crate::fields::Owner;
+use crate::place::{Place, Text, Wanted};
 use crate::raw::{RawEntry, RawKind};
-use crate::value::{Place, Text, Wanted};
 use crate::vocabulary::{PARAM, SIGNAL};
+use crate::work::Elaboration;
 
 /// A parameter or signal before its names are resolved.
 pub(crate) struct Pending<'a> {
@@ -69,7 +69,7 @@ impl<'a> Elaboration<'a> {
         let place = Place { owner: &owner, key: "", raw: &entry.value };
         let wanted = self.names.structure.type_of(&entry.key).cloned();
         let ty = wanted.as_ref().map(|(ty, _)| *ty);
-        let text = match place.kelvin_for(ty).map_or_else(|| place.text(ty, &self.names), Err) {
+        let text = match place.kelvin_for(ty).map_or_else(|| self.names.text(place, ty), Err) {
             Ok(text) => Some(text),
             Err(problem) => {
                 self.problems.push(of_type(problem, wanted.as_ref()));

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use lptn_data::{CsvFile, Diagnostic, Places, Points, fit};
 use lptn_units::{Expression, TableError, Type, Unit, parse_quantity, suggest, written_quantity};
 
-use crate::elaborate::Elaboration;
 use crate::fields::{Fields, sample, wrong_shape};
+use crate::place::Place;
 use crate::raw::{RawKind, RawValue};
-use crate::value::Place;
+use crate::work::Elaboration;
 
 /// The keys of one axis: the list or column, and the unit of plain numbers.
 #[derive(Clone, Copy)]

@@ -10,6 +10,21 @@ pub struct RawNetlist {
     pub top: RawTable,
 }
 
+impl RawNetlist {
+    /// A section of this name, if it is there and is a table.
+    pub(crate) fn section(&self, name: &str) -> Option<&RawTable> {
+        match &self.top.get(name)?.value.kind {
+            RawKind::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
+    /// The elements of a section, in file order.
+    pub(crate) fn elements(&self, name: &str) -> &[RawEntry] {
+        self.section(name).map_or(&[], |table| &table.entries)
+    }
+}
+
 /// The entries of a table in file order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawTable {

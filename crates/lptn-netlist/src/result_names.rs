@@ -5,8 +5,8 @@ use lptn_laws::Kind;
 use lptn_units::suggest;
 
 use crate::grid_names::VALUES;
-use crate::names::Names;
-use crate::value::Place;
+use crate::names::{Names, base};
+use crate::place::Place;
 
 impl Names {
     /// A heat flow: `NAME.Q` of a path or boundary, `NAME.Q_from` or `NAME.Q_to` of a stream, `NAME.P` of a source.
@@ -83,12 +83,4 @@ fn results_of(kind: &str, name: &str) -> Vec<String> {
         _ => &[],
     };
     temperature.iter().chain(heats(kind)).map(|ending| format!("{name}.{ending}")).collect()
-}
-
-/// The element of a result: `steel` of `steel.T`.
-pub(crate) fn base(name: &str) -> &str {
-    match name.rsplit_once('.') {
-        Some((base, "T" | "Q" | "Q_from" | "Q_to" | "P")) => base,
-        _ => name,
-    }
 }

@@ -1,22 +1,20 @@
 //! `[run]`: what to simulate.
 
 use lptn_data::{Diagnostic, Span};
-use lptn_network::{AfterEnd, Evaluation, Network, OutputTimes, RunSettings, Value, WindowSettings};
-use lptn_units::{Dimension, Type, format_number};
+use lptn_network::{AfterEnd, Evaluation, Network, OutputTimes, RunSettings, WindowSettings};
+use lptn_units::{Dimension, Type};
 
-use crate::elaborate::Elaboration;
-use crate::expand::string;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
 use crate::outputs::WindowPlan;
 use crate::raw::{RawKind, RawValue};
-use crate::value::{Place, Wanted};
+use crate::setting::{Setting, TIME};
 use crate::vocabulary::{OUTPUT, RUN, SIGNAL};
+use crate::work::Elaboration;
 
 /// The tolerance in K of a run that does not say.
 const USUAL_TOLERANCE: f64 = 1e-5;
 
 const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
-pub(crate) const TIME: Type = Type::of(Dimension::TIME);
 
 /// `[run]` before its expressions are evaluated: `--set` may change what they use.
 #[derive(Clone, Debug)]
@@ -32,33 +30,11 @@ pub(crate) struct RunPlan {
     held: Vec<Option<f64>>,
 }
 
-/// A value with its place.
-#[derive(Clone, Debug)]
-pub(crate) struct Setting {
-    value: Value,
-    pub(crate) span: Span,
-    words: String,
-    unit: String,
-    pub(crate) help: String,
-}
-
 /// When rows are written.
 #[derive(Clone, Debug)]
 pub(crate) enum OutputPlan {
     Every(Setting),
     At(Vec<Setting>),
-}
-
-impl Setting {
-    /// As a field of a netlist, in SI units.
-    pub(crate) fn written(&self) -> String {
-        match &self.value {
-            Value::Constant(number) => format!("\"{} {}\"", format_number(*number), self.unit),
-            other => {
-                other.programs().first().map_or_else(String::new, |program| string(program.text().trim()))
-            }
-        }
-    }
 }
 
 impl<'a> Elaboration<'a> {
@@ -91,19 +67,6 @@ impl<'a> Elaboration<'a> {
 
     fn optional(&mut self, fields: &Fields<'a>, key: &str, ty: Type) -> Option<Setting> {
         self.setting(&fields.owner, (key, fields.get(key)?), ty)
-    }
-
-    pub(crate) fn setting(
-        &mut self,
-        owner: &Owner,
-        (key, raw): (&str, &RawValue),
-        ty: Type,
-    ) -> Option<Setting> {
-        let place = Place { owner, key, raw };
-        let words = place.words();
-        let value = self.given(place, Wanted::constant(ty))?.value();
-        let help = format!("write it like this: `{}`", sample(key));
-        Some(Setting { value, span: raw.span.clone(), words, unit: ty.usual_unit(), help })
     }
 
     fn integrator(&mut self, fields: &Fields<'a>) {

@@ -4,8 +4,8 @@ use lptn_data::Diagnostic;
 use lptn_network::ZERO_CELSIUS;
 use lptn_units::{Quantity, format_number};
 
+use crate::place::Place;
 use crate::raw::RawKind;
-use crate::value::Place;
 
 /// Nobody who also writes degC writes a temperature below this many K, -100 degC, without a reason.
 const COLD: f64 = ZERO_CELSIUS - 100.0;

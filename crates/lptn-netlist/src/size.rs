@@ -4,11 +4,11 @@ use lptn_data::{Diagnostic, Span};
 use lptn_network::{Context, Evaluation, Network, Value};
 use lptn_units::{Comparison, EvalError, Expression, Scope as _, Type, suggest};
 
-use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::place::{Given, Place, Text, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::value::{Given, Place, Text, Wanted};
 use crate::vocabulary::{SIZE, VARY};
+use crate::work::Elaboration;
 
 /// Which of several values that keep every requirement is the best.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -158,7 +158,7 @@ impl<'a> Elaboration<'a> {
         let words = fields.owner.field(key);
         let message = format!("{words} has to name a parameter, got `{name}`");
         let problem = Diagnostic::error("netlist::unknown_parameter", message).at(raw.span.clone(), "");
-        let parameters = crate::names::section(self.raw, crate::vocabulary::PARAM);
+        let parameters = self.raw.section(crate::vocabulary::PARAM);
         let names = parameters.into_iter().flat_map(|table| &table.entries).map(|entry| entry.key.as_str());
         let help = match suggest(name, names) {
             Some(near) => format!("did you mean `{near}`?"),
@@ -221,7 +221,7 @@ impl<'a> Elaboration<'a> {
 
     fn requirement(&mut self, owner: &Owner, raw: &'a RawValue) -> Option<Requirement> {
         let place = Place { owner, key: "require", raw };
-        let expression = match place.text(None, &self.names) {
+        let expression = match self.names.text(place, None) {
             Ok(Text::Expression(expression)) => expression,
             Ok(Text::Quantity(_)) => return self.no_comparison(place),
             Err(problem) => {

@@ -6,7 +6,7 @@ use std::ops::Range;
 use lptn_data::{Files, Span};
 use lptn_network::{BuildErrorKind, Field, Item, Naming, NodeId, ParameterId, TableId};
 
-use crate::import::Places;
+use crate::imported::Places;
 use crate::raw::{RawKind, RawTable, RawValue};
 
 /// Leads from the parts of a network to the places they were read from.

@@ -3,6 +3,7 @@
 use lptn_integrate::FactorError;
 use lptn_network::{InputError, UnknownName, list_of_names};
 use lptn_solve::TransientError;
+use lptn_units::Class;
 
 lptn_units::errors! {
 /// Why a network has no equivalent at a port.
@@ -33,13 +34,16 @@ pub enum ReduceError {
     /// The conductances span more than the numbers can hold.
     Factorization(error: FactorError) = "reduce::singular",
         format!("the conductances cannot be factorised: {error}"), source error,
-        help "replace the largest conductances by merging the nodes they join";
+        help "replace the largest conductances by merging the nodes they join", class Class::Numbers;
     /// The modes at the port could not be computed.
-    Modes = "reduce::modes", "the time constants at the port cannot be computed";
+    Modes = "reduce::modes", "the time constants at the port cannot be computed", class Class::Numbers;
     /// A run of the network or of its equivalent failed.
-    Run => TransientError;
+    Run(error: TransientError) = error.code(), error, source error, help error.help(), class match error.code() {
+        "run::integrator" => Class::Numbers,
+        _ => Class::Input,
+    };
     /// The equivalent network could not be built; the text says why.
-    Equivalent(why: String) = "reduce::equivalent", format!("the equivalent network cannot be built: {why}");
+    Equivalent(why: String) = "reduce::equivalent", format!("the equivalent network cannot be built: {why}"), class Class::Numbers;
     /// The window in s of the least-squares definition is not a positive time, or too short to see the port warm.
     Window(window: f64) = "reduce::window",
         format!("the window must be a time in which the port warms, got {window} s"),
@@ -50,6 +54,12 @@ pub enum ReduceError {
 impl From<FactorError> for ReduceError {
     fn from(error: FactorError) -> Self {
         Self::Factorization(error)
+    }
+}
+
+impl From<TransientError> for ReduceError {
+    fn from(error: TransientError) -> Self {
+        Self::Run(error)
     }
 }
 

@@ -5,6 +5,15 @@ use std::io;
 use lptn_solve::Table;
 
 use crate::number::Shortest;
+use crate::page::Rows;
+
+/// Writes the rows of a page.
+pub(crate) fn write(rows: &Rows<'_>, out: &mut dyn io::Write) -> io::Result<()> {
+    match rows {
+        Rows::Table(table) => write_csv(table, out),
+        Rows::Words(rows) => write_rows(rows, out),
+    }
+}
 
 /// Writes a table as CSV: one header, `time [s]`, `steel.T [degC]` and so on, columns of words without a unit first, then
 /// one line a row. Every number reads back as the same `f64`.
@@ -12,7 +21,7 @@ use crate::number::Shortest;
 /// # Errors
 /// What `out` reports.
 pub fn write_csv(table: &Table, out: impl io::Write) -> io::Result<()> {
-    write(table, &mut csv::Writer::from_writer(out)).map_err(io_error)
+    numbers(table, &mut csv::Writer::from_writer(out)).map_err(io_error)
 }
 
 /// Writes rows of texts, the heading first; all of one length.
@@ -25,7 +34,7 @@ pub fn write_rows(rows: &[Vec<String>], out: impl io::Write) -> io::Result<()> {
     writer.flush()
 }
 
-fn write(table: &Table, writer: &mut csv::Writer<impl io::Write>) -> csv::Result<()> {
+fn numbers(table: &Table, writer: &mut csv::Writer<impl io::Write>) -> csv::Result<()> {
     let labels = table.labels().iter().map(|label| label.name.clone());
     writer.write_record(labels.chain(table.columns().iter().map(lptn_solve::Column::header)))?;
     let mut number = Shortest::new();

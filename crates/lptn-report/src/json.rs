@@ -3,9 +3,21 @@
 use std::io::{self, Write};
 
 use lptn_solve::Table;
+use serde::Serialize;
 use serde_json::Value;
 
 use crate::number::Shortest;
+use crate::page::Page;
+
+/// The object of a page that is being written.
+pub type Json<'a> = JsonWriter<&'a mut dyn Write>;
+
+/// Writes the object of a page.
+pub(crate) fn write(page: &dyn Page, out: &mut dyn Write) -> io::Result<()> {
+    let mut json = JsonWriter::new(out);
+    page.json(&mut json)?;
+    json.finish().map(drop)
+}
 
 /// Writes one JSON object, a member at a time; rows of a table never stand in memory as text.
 ///
@@ -25,10 +37,18 @@ impl<W: Write> JsonWriter<W> {
     ///
     /// # Errors
     /// What the stream reports.
-    pub fn member(&mut self, name: &str, value: &Value) -> io::Result<()> {
+    pub fn member(&mut self, name: &str, value: &(impl Serialize + ?Sized)) -> io::Result<()> {
         self.key(name)?;
         // a line break inside a string is escaped, so every one here is layout
-        self.out.write_all(format!("{value:#}").replace('\n', "\n  ").as_bytes())
+        self.out.write_all(serde_json::to_string_pretty(value)?.replace('\n', "\n  ").as_bytes())
+    }
+
+    /// Writes a member if there is one.
+    ///
+    /// # Errors
+    /// What the stream reports.
+    pub fn optional(&mut self, name: &str, value: Option<impl Serialize>) -> io::Result<()> {
+        value.map_or(Ok(()), |value| self.member(name, &value))
     }
 
     /// Writes a table as `columns`, each with name and unit, and `rows` of plain numbers; columns of words come first and
@@ -45,21 +65,18 @@ impl<W: Write> JsonWriter<W> {
             write!(out, "{{ \"name\": {name}, \"unit\": {unit} }}")
         })?;
         self.key("rows")?;
-        let mut number = Shortest::new();
+        let (mut number, mut line) = (Shortest::new(), String::new());
         self.lines(0..table.rows(), |out, row| {
-            out.write_all(b"[")?;
-            let labels = table.labels().iter().map(|label| Value::from(label.cells[row].as_str()));
-            let mut separator = "";
-            for label in labels {
-                write!(out, "{separator}{label}")?;
-                separator = ", ";
+            line.clear();
+            for label in table.labels() {
+                line += &Value::from(label.cells[row].as_str()).to_string();
+                line += ", ";
             }
             for value in table.row(row) {
-                out.write_all(separator.as_bytes())?;
-                separator = ", ";
-                out.write_all(if value.is_finite() { number.text(value) } else { "null" }.as_bytes())?;
+                line += if value.is_finite() { number.text(value) } else { "null" };
+                line += ", ";
             }
-            out.write_all(b"]")
+            write!(out, "[{}]", line.trim_end_matches(", "))
         })
     }
 

@@ -77,13 +77,74 @@ pub struct TextTable {
     columns: Vec<Column>,
 }
 
+/// A table under way, with one row for each item of a list.
+#[derive(Clone, Debug)]
+pub struct TextTableOf<'a, T> {
+    items: &'a [T],
+    columns: Vec<Column>,
+}
+
+impl<'a, T> TextTableOf<'a, T> {
+    /// Adds a column of words.
+    #[must_use]
+    pub fn left<S: Into<String>>(self, title: impl Into<String>, cell: impl FnMut(&'a T) -> S) -> Self {
+        self.with(title, Align::Left, cell)
+    }
+
+    /// Adds a column of numbers.
+    #[must_use]
+    pub fn right<S: Into<String>>(self, title: impl Into<String>, cell: impl FnMut(&'a T) -> S) -> Self {
+        self.with(title, Align::Right, cell)
+    }
+
+    fn with<S: Into<String>>(
+        mut self,
+        title: impl Into<String>,
+        align: Align,
+        mut cell: impl FnMut(&'a T) -> S,
+    ) -> Self {
+        let cells = self.items.iter().map(|item| cell(item).into()).collect();
+        self.columns.push(Column::new(title, align, cells));
+        self
+    }
+
+    /// Lets the last column be left out where the table is too wide.
+    #[must_use]
+    pub fn optional(mut self) -> Self {
+        if let Some(last) = self.columns.last_mut() {
+            last.optional = true;
+        }
+        self
+    }
+
+    /// Lets the texts of the last column be shortened in the middle.
+    #[must_use]
+    pub fn names(mut self) -> Self {
+        if let Some(last) = self.columns.last_mut() {
+            last.names = true;
+        }
+        self
+    }
+}
+
+impl<T> From<TextTableOf<'_, T>> for TextTable {
+    fn from(table: TextTableOf<'_, T>) -> Self {
+        Self::new(table.columns)
+    }
+}
+
 impl TextTable {
+    /// Begins a table with one row for each of `items`.
+    pub fn of<T>(items: &[T]) -> TextTableOf<'_, T> {
+        TextTableOf { items, columns: Vec::new() }
+    }
+
     /// A table of columns with equally many cells.
     pub fn new(columns: Vec<Column>) -> Self {
         Self { columns }
     }
 
-    /// The lines of the table, the heading first. Where they would be longer than `width`, optional columns are
+    /// The lines of the table, the heading first, unless no column has one. Where they would be longer than `width`, optional columns are
     /// left out from the right, and then long names shortened in the middle, the longest first.
     pub fn lines(mut self, width: usize) -> Vec<String> {
         while self.width() > width {
@@ -91,9 +152,12 @@ impl TextTable {
             self.columns.remove(last);
         }
         self.shorten_names(width);
-        let rows = self.columns.first().map_or(0, |column| column.cells.len());
-        let heading = self.line(|column| &column.title);
-        std::iter::once(heading).chain((0..rows).map(|row| self.line(|column| &column.cells[row]))).collect()
+        let headed = self.columns.iter().any(|column| !column.title.is_empty());
+        let heading = headed.then(|| self.line(|column| &column.title));
+        heading
+            .into_iter()
+            .chain((0..self.rows()).map(|row| self.line(|column| &column.cells[row])))
+            .collect()
     }
 
     fn shorten_names(&mut self, width: usize) {
@@ -113,7 +177,13 @@ impl TextTable {
         rooms.into_iter().for_each(|(i, room)| self.columns[i].shorten(room));
     }
 
-    fn width(&self) -> usize {
+    /// The number of rows.
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |column| column.cells.len())
+    }
+
+    /// Letters that a line of the table takes where nothing is left out or shortened.
+    pub fn width(&self) -> usize {
         let gaps = GAP.len() * self.columns.len().saturating_sub(1);
         self.columns.iter().map(Column::width).sum::<usize>() + gaps
     }
@@ -122,6 +192,22 @@ impl TextTable {
         let cells: Vec<String> = self.columns.iter().map(|c| padded(text(c), c.width(), c.align)).collect();
         cells.join(GAP).trim_end().to_owned()
     }
+}
+
+/// As many tables as it takes to show every column, each behind the first one and with as many as still fit.
+pub fn stacked(first: &Column, columns: Vec<Column>, fits: impl Fn(&TextTable) -> bool) -> Vec<TextTable> {
+    let mut tables: Vec<TextTable> = Vec::new();
+    for column in columns {
+        let wider = tables.last().cloned().map(|mut table| {
+            table.columns.push(column.clone());
+            table
+        });
+        match (tables.last_mut(), wider.filter(&fits)) {
+            (Some(last), Some(wider)) => *last = wider,
+            _ => tables.push(TextTable::new(vec![first.clone(), column])),
+        }
+    }
+    tables
 }
 
 fn padded(text: &str, width: usize, align: Align) -> String {

@@ -1,7 +1,7 @@
 //! What a result looks like: terminal tables with sparklines, CSV, JSON.
 //!
-//! The writers take [`lptn_solve::Table`] and give text; nothing here solves anything, prints anything or knows
-//! where the text goes. In files every number is the shortest text that reads back as the same `f64`; in tables
+//! A command's answer is a [`Page`]: it gives a [`Text`] for reading, rows and an object for programs, and a format is one
+//! file that writes what it asks a page for. Nothing here solves anything, prints anything or knows where the text goes. In files every number is the shortest text that reads back as the same `f64`; in tables
 //! for reading, numbers are rounded and say their unit.
 
 mod csv;
@@ -9,11 +9,17 @@ mod heat;
 mod json;
 mod layout;
 mod number;
+mod page;
 mod sparkline;
+mod text;
 
 pub use csv::{write_csv, write_rows};
 pub use heat::{Flow, balance};
-pub use json::JsonWriter;
-pub use layout::{Align, Column, TextTable, WIDTH, differing, labelled, plain, shortened};
+pub use json::{Json, JsonWriter};
+pub use layout::{
+    Align, Column, TextTable, TextTableOf, WIDTH, differing, labelled, plain, shortened, stacked,
+};
 pub use number::{Shortest, decimals, duration, fixed, prefix, significant};
+pub use page::{Format, Page, Rows, write};
 pub use sparkline::sparkline;
+pub use text::{Block, Text, words};

@@ -2,7 +2,7 @@
 
 use lptn_integrate::{FactorError, IntegrateError};
 use lptn_network::{Field, InputError, Item, NodeId, list_of, list_of_names};
-use lptn_units::format_six as six_digits;
+use lptn_units::{Class, format_six as six_digits};
 
 use crate::settings_error::SettingsError;
 use crate::solution::Solution;
@@ -24,14 +24,14 @@ pub enum SteadyError {
     /// A source or boundary has no value.
     Input => InputError;
     /// The balances of a nonlinear network were not solved.
-    Unsolved => Unsolved;
+    Unsolved => Unsolved, class Class::Numbers;
     /// The conductances span more than the numbers can hold.
     Factorization(error: FactorError) = "steady::singular",
-        format!("the conductances cannot be factorised: {error}"), source error, help MERGE;
+        format!("the conductances cannot be factorised: {error}"), source error, help MERGE, class Class::Numbers;
     /// More heat is taken out than there is: a linear network goes below 0 K, a real one does not. The first such node and its
     /// temperature in K.
     BelowAbsoluteZero { name: String, temperature: f64 } = "solve::below_absolute_zero", cold(name, *temperature),
-        help COLD;
+        help COLD, class Class::Numbers;
     /// Whatever the positions of controls and comparisons, in their steady state something has to switch: its names, and how
     /// many positions were tried.
     Cycles { names: Vec<String>, tried: usize } = "steady::cycles",
@@ -39,10 +39,10 @@ pub enum SteadyError {
             "no steady state, it cycles: in each of the {tried} positions that were tried something has to switch, among it {}",
             list_of(names, "things")
         ),
-        help "run the network over time, `lptn run`: it shows how often it switches, and the means";
+        help "run the network over time, `lptn run`: it shows how often it switches, and the means", class Class::No;
     /// The solution does not balance: heat in and heat out differ by `residual` of the heat turned over.
     Unbalanced { residual: f64 } = "steady::unbalanced",
-        format!("heat in and heat out differ by {residual:.1e} of the heat turned over"), help MERGE;
+        format!("heat in and heat out differ by {residual:.1e} of the heat turned over"), help MERGE, class Class::Numbers;
 }
 }
 
@@ -66,12 +66,16 @@ pub enum TransientError {
     /// A source or boundary has no value at the start.
     Input => InputError;
     /// The balances of massless nodes could not be set up.
-    Start => Unsolved;
+    Start => Unsolved, class Class::Numbers;
     /// The integrator could not be set up or read.
-    Integrator(error: IntegrateError) = "run::integrator", format!("the integrator failed: {error}"), source error;
+    Integrator(error: IntegrateError) = "run::integrator", format!("the integrator failed: {error}"), source error,
+        class Class::Numbers;
     /// The run broke off at this time in s; what was computed before is whole.
     Stopped { time: f64, reason: StopReason, partial: Box<Solution> } = reason.code(),
-        format!("stopped at {} s: {reason}", six_digits(*time)), source reason, help reason.help();
+        format!("stopped at {} s: {reason}", six_digits(*time)), source reason, help reason.help(), class match reason {
+            StopReason::NothingSwitches => Class::Input,
+            _ => Class::Numbers,
+        };
 }
 }
 

@@ -18,6 +18,7 @@
 //! # Ok::<(), lptn_units::UnitError>(())
 //! ```
 
+mod bracket;
 mod deviation;
 mod dimension;
 mod dual;
@@ -25,6 +26,7 @@ mod error;
 mod error_words;
 mod expr;
 mod format;
+mod kinship;
 mod naming;
 mod number;
 mod problems;
@@ -51,7 +53,7 @@ pub use expr::{
     Trend, is_function,
 };
 pub use format::{number as format_number, short as format_short, six as format_six};
-pub use problems::{Help, Problem, Problems};
+pub use problems::{Class, Help, Problem, Problems};
 pub use quantity::{Quantity, WrittenQuantity, kelvin_alone, parse_quantity, written_quantity};
 pub use rational::Rational;
 pub use scalar::Scalar;

@@ -10,6 +10,24 @@ pub trait Problem: Error {
 
     /// What to do about it, in words that can be pasted where possible.
     fn help(&self) -> Option<String>;
+
+    /// Whose fault it is.
+    fn class(&self) -> Class {
+        Class::Input
+    }
+}
+
+/// Whose fault a problem is, or what it says of the question; programs end with a code for each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// The input is wrong, or the question does not fit it.
+    Input,
+    /// The numbers cannot be computed with.
+    Numbers,
+    /// The question has an answer, and that is no.
+    No,
+    /// It was interrupted.
+    Interrupted,
 }
 
 impl Problem for std::io::Error {
@@ -30,9 +48,13 @@ impl<P: Problem> Problem for Box<P> {
     fn help(&self) -> Option<String> {
         self.as_ref().help()
     }
+
+    fn class(&self) -> Class {
+        self.as_ref().class()
+    }
 }
 
-/// Several problems of one kind, all that were found; never empty. Code and help are those of the first.
+/// Several problems of one kind, all that were found; never empty. Code, help and class are those of the first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problems<P>(pub Vec<P>);
 
@@ -53,6 +75,10 @@ impl<P: Problem> Problem for Problems<P> {
 
     fn help(&self) -> Option<String> {
         self.0.first()?.help()
+    }
+
+    fn class(&self) -> Class {
+        self.0.first().map_or(Class::Input, Problem::class)
     }
 }
 
@@ -97,16 +123,23 @@ impl Help for String {
     }
 }
 
+impl Help for &String {
+    fn words(self) -> Option<String> {
+        Some(self.clone())
+    }
+}
+
 impl Help for Option<String> {
     fn words(self) -> Option<String> {
         self
     }
 }
 
-/// Declares an enum of errors, each told once: its fields, its stable code, its sentence and, where there is one, the help.
+/// Declares an enum of errors, each told once: its fields, its stable code, its sentence and, where there is one, the help;
+/// its class where it is not that of a wrong input.
 /// The expressions see the fields by reference; a sentence is anything that can be displayed. Where another error is a part
-/// of it, `source` names that. A variant that only passes an error on says which, `Name => ItsError;`: code, sentence, help
-/// and source are that error's, and `?` makes one of the other.
+/// of it, `source` names that. A variant that only passes an error on says which, `Name => ItsError;`: code, sentence, help,
+/// source and class (unless it gives its own) are that error's, and `?` makes one of the other.
 ///
 /// ```
 /// lptn_units::errors! {
@@ -145,7 +178,8 @@ macro_rules! errors {
             $(
                 $(#[$doc:meta])*
                 $variant:ident $(($($arg:ident: $arg_ty:ty),*))? $({ $($field:ident: $ty:ty),* })?
-                    $(=> $inner:ty)? $(= $code:expr, $says:expr $(, source $source:expr)? $(, help $help:expr)?)?;
+                    $(= $code:expr, $says:expr $(, source $source:expr)? $(, help $help:expr)? $(, class $class:expr)?)?
+                    $(=> $inner:ty $(, class $own:expr)?)?;
             )*
         }
     ) => {
@@ -206,6 +240,14 @@ macro_rules! errors {
             fn help(&self) -> Option<String> {
                 self.help()
             }
+
+            #[allow(unused_variables, reason = "each takes the fields that it needs")]
+            fn class(&self) -> $crate::Class {
+                match self {
+                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? $(($crate::bound!(inner $inner)))? =>
+                        { $($crate::class_of!($($class)?))? $($crate::class_or!(inner $inner $(, $own)?))? })*
+                }
+            }
         }
     };
 }
@@ -228,6 +270,30 @@ macro_rules! source_of {
     };
     ($source:expr) => {
         Some($source)
+    };
+}
+
+/// The class of a variant that passes an error on.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! class_or {
+    ($inner:ident $ty:ty) => {
+        <$ty as $crate::Problem>::class($inner)
+    };
+    ($inner:ident $ty:ty, $class:expr) => {
+        $class
+    };
+}
+
+/// The class of a declaration; where it has none the input is wrong.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! class_of {
+    () => {
+        $crate::Class::Input
+    };
+    ($class:expr) => {
+        $class
     };
 }
 

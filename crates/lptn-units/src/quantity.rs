@@ -6,6 +6,7 @@ use crate::deviation::{self, Deviation};
 use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind};
 use crate::format::{number, rounded};
+use crate::kinship::{above_absolute_zero, has_inverse, is_frequency_for_rotation, is_inverse, revolutions};
 use crate::number::{self, Number};
 use crate::separators;
 use crate::types::Type;
@@ -299,42 +300,4 @@ impl Reading<'_> {
             || format!("{} {}", self.amount_text(), wanted.usual_unit()).trim_end_matches(" 1").to_owned();
         slip.then(|| fix() + self.tail())
     }
-}
-
-/// Whether the inverse of what was found is what is due, and both are quantities that people write: a conductance and
-/// a resistance, a time and a frequency. The inverse of a length is a slip.
-pub(crate) fn has_inverse(found: Type, wanted: Type) -> bool {
-    const WRITTEN: [Dimension; 5] = [
-        Dimension::RESISTANCE,
-        Dimension::CONDUCTANCE,
-        Dimension::FILM_COEFFICIENT,
-        Dimension::CONDUCTIVITY,
-        Dimension::TIME,
-    ];
-    let written = WRITTEN.contains(&wanted.dimension) || WRITTEN.contains(&found.dimension);
-    written && is_inverse(found, wanted)
-}
-
-fn is_inverse(found: Type, wanted: Type) -> bool {
-    let inverse = Dimension::NONE.checked_div(found.dimension) == Some(wanted.dimension);
-    inverse && !found.absolute && !wanted.is_scalar()
-}
-
-/// The unit in which the number of a frequency is that of revolutions: `1/min` means rpm.
-pub(crate) fn revolutions(scale: f64) -> Option<&'static str> {
-    let is = |other: f64| (scale / other - 1.0).abs() < 1e-12;
-    if is(1.0) { Some("rev/s") } else { is(1.0 / 60.0).then_some("rpm") }
-}
-
-/// Is a frequency given where a rotation is due?
-pub(crate) fn is_frequency_for_rotation(found: Type, wanted: Type) -> bool {
-    wanted == Type::of(Dimension::ANGULAR_VELOCITY) && found == Type::of(Dimension::FREQUENCY)
-}
-
-/// An absolute temperature in K; what rounding puts below 0 K is 0 K.
-pub(crate) fn above_absolute_zero(kelvin: f64, span: Range<usize>) -> Result<f64, UnitError> {
-    if kelvin < -1e-9 {
-        return Err(UnitError::new(UnitErrorKind::BelowAbsoluteZero { kelvin }, span));
-    }
-    Ok(kelvin.max(0.0))
 }

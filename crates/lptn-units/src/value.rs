@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
+use crate::bracket::bracketed;
 use crate::error::{UnitError, UnitErrorKind};
-use crate::expr::{Expression, bracketed};
+use crate::expr::Expression;
 use crate::quantity::{self, Quantity, Reading};
 use crate::separators;
 use crate::types::Type;

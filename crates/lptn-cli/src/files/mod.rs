@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use lptn_netlist::Diagnostic;
+use lptn_units::Help;
 
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
@@ -86,8 +87,35 @@ fn refused(code: &'static str, message: String) -> Failure {
     Failure::new(Exit::Input, Diagnostic::error(code, message).help(help))
 }
 
-/// Writes a file that is not there yet, whole or not at all.
-pub(crate) fn write_new(path: &Path, text: &str) -> io::Result<()> {
+/// The files of a folder with this ending, by name.
+pub(crate) fn of_folder(folder: &Path, ending: &str, help: impl Help) -> Result<Vec<PathBuf>, Failure> {
+    let entries = fs::read_dir(folder);
+    let entries = entries.map_err(|error| Failure::cannot_read(folder.display(), &error, help))?;
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let is_one = |path: &PathBuf| path.is_file() && path.extension().is_some_and(|e| e == ending);
+    let mut paths: Vec<PathBuf> = paths.filter(is_one).collect();
+    paths.sort_unstable();
+    Ok(paths)
+}
+
+/// Writes a file that is not there yet, whole or not at all; `exists` is the code where it is there.
+pub(crate) fn write_new(path: &Path, text: &str, exists: &'static str) -> Result<(), Failure> {
+    link_new(path, text).map_err(|error| {
+        let path = path.display();
+        let problem = match error.kind() {
+            io::ErrorKind::AlreadyExists => {
+                Diagnostic::error(exists, format!("{path} exists already, and is never written over"))
+                    .help("choose another name, or remove the file first")
+            }
+            _ => {
+                Diagnostic::error("output::cannot_create", format!("cannot write {path}: {}", reason(&error)))
+            }
+        };
+        Failure::new(Exit::Input, problem)
+    })
+}
+
+fn link_new(path: &Path, text: &str) -> io::Result<()> {
     let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let temporary = path.with_file_name(names::temporary(&name, std::process::id()));
     let linked = fs::write(&temporary, text).and_then(|()| fs::hard_link(&temporary, path));
@@ -107,7 +135,7 @@ pub(crate) mod tests {
     use std::sync::atomic::{AtomicU32, Ordering};
 
     use super::names::{MANIFEST, RESULT, STATE, WINDOWS, temporary};
-    use super::{Folder, write_new};
+    use super::{Folder, link_new};
 
     /// A temporary folder.
     pub(crate) struct Place(pub(crate) PathBuf);
@@ -205,8 +233,8 @@ pub(crate) mod tests {
     fn new_files_are_never_written_over() {
         let place = Place::new();
         let path = place.0.join("motor.toml");
-        write_new(&path, "first").unwrap();
-        let again = write_new(&path, "second").unwrap_err();
+        link_new(&path, "first").unwrap();
+        let again = link_new(&path, "second").unwrap_err();
         assert_eq!(again.kind(), std::io::ErrorKind::AlreadyExists);
         assert_eq!(
             (place.files(), place.read("motor.toml")),

@@ -5,7 +5,8 @@ use lptn_network::{Bound, Conductor, Item, Lump, Severity, Size, Value};
 use lptn_units::{Dimension, Type, format_number};
 
 use super::Writer;
-use super::text::{Fields, like, string, value};
+use super::text::{Fields, like, value};
+use crate::toml_text::string;
 
 impl Writer<'_> {
     pub(super) fn nodes(&mut self) {

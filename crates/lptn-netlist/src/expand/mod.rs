@@ -18,8 +18,8 @@ use lptn_data::FileId;
 use lptn_network::{Network, RunSettings};
 
 use crate::netlist::Netlist;
+use crate::toml_text::string;
 pub use proof::{WrittenError, prove};
-pub(crate) use text::string;
 
 use text::Fields;
 

@@ -1,10 +1,12 @@
 //! `[run]`, `[size]` and `[fit]`: what is asked of the network.
 
 use super::Writer;
-use super::text::{Fields, key, like, quantity, string, value};
+use super::text::{Fields, like, quantity, value};
 use crate::fit::{FitRecord, FitStudy, Observed, VariedName};
 use crate::run::OutputPlan;
+use crate::setting::Setting;
 use crate::size::{Goal, SizeStudy};
+use crate::toml_text::{key, string};
 use lptn_network::{OutputTimes, RunSettings};
 use lptn_units::{Dimension, Type};
 
@@ -39,7 +41,7 @@ impl Writer<'_> {
         }
         let mut windows = Fields::default();
         for window in &plan.windows {
-            let [from, to] = window.ends().map(crate::run::Setting::written);
+            let [from, to] = window.ends().map(Setting::written);
             windows.put(window.name(), format!("{{ from = {from}, to = {to} }}"));
         }
         if !windows.is_empty() {

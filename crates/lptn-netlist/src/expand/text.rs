@@ -1,29 +1,9 @@
 //! What is written: keys, strings, numbers in SI units.
 
-use lptn_network::{Value, ZERO_CELSIUS, is_name};
+use lptn_network::{Value, ZERO_CELSIUS};
 use lptn_units::{Type, Unit, format_number};
 
-/// A key; a path stands in quotes.
-pub(super) fn key(name: &str) -> String {
-    if is_name(name) { name.to_owned() } else { string(name) }
-}
-
-/// A basic string of TOML.
-pub(crate) fn string(text: &str) -> String {
-    let mut written = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' => written += "\\\"",
-            '\\' => written += "\\\\",
-            '\n' => written += "\\n",
-            '\t' => written += "\\t",
-            '\r' => written += "\\r",
-            c if c.is_control() => written += &format!("\\u{:04X}", u32::from(c)),
-            c => written.push(c),
-        }
-    }
-    written + "\""
-}
+use crate::toml_text::{key, string};
 
 /// A number in SI units with its unit; an absolute temperature in K, for a field that wants one.
 pub(super) fn quantity(value: f64, ty: Type) -> String {
@@ -141,7 +121,7 @@ impl Fields {
 
 #[cfg(test)]
 mod tests {
-    use super::{celsius, key, string};
+    use super::celsius;
 
     #[test]
     fn temperatures_come_back_to_the_last_bit() {
@@ -151,12 +131,5 @@ mod tests {
         }
         assert_eq!(celsius(25.5 + 273.15), "25.5");
         assert_eq!(celsius(273.15), "0");
-    }
-
-    #[test]
-    fn strings_are_toml() {
-        assert_eq!(key("steel"), "steel");
-        assert_eq!(key("planet[1].gear"), "\"planet[1].gear\"");
-        assert_eq!(string("a \"b\" \\ \n\u{1}"), "\"a \\\"b\\\" \\\\ \\n\\u0001\"");
     }
 }

@@ -7,8 +7,9 @@ use lptn_network::{AfterEnd, Course, Evaluation, Item, Parameter, ParameterId, S
 use lptn_units::{Dimension, Interpolation, Outside, Table, Table1, TableSymbol, Type, format_number};
 
 use super::Writer;
-use super::text::{Fields, celsius, list, list_in, point, quantity, string, value};
+use super::text::{Fields, celsius, list, list_in, point, quantity, value};
 use crate::raw::{RawKind, RawTable};
+use crate::toml_text::string;
 
 const TIME: Type = Type::of(Dimension::TIME);
 

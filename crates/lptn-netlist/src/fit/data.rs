@@ -6,20 +6,20 @@ use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, list, read_text};
 use lptn_network::{Context, Value};
 use lptn_units::{Scope as _, suggest};
 
-use crate::elaborate::Elaboration;
 use crate::fields::{Fields, sample, wrong_shape};
 use crate::fit::read::Column;
 use crate::fit::words::FIT;
 use crate::fit::{FitRecord, VariedName};
+use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::value::{Place, Wanted};
+use crate::work::Elaboration;
 
 /// The keys of one of several records.
 const KEYS: [&str; 2] = ["csv", "set"];
 
 /// The values of `[fit]` that name files.
 pub(crate) fn files(raw: &crate::raw::RawNetlist) -> Vec<(&str, &RawValue)> {
-    let fits = crate::names::section(raw, FIT.name).into_iter().flat_map(|table| &table.entries);
+    let fits = raw.elements(FIT.name).iter();
     let data = fits.filter_map(|fit| match &fit.value.kind {
         RawKind::Table(table) => table.get("data"),
         _ => None,

@@ -4,13 +4,13 @@ use lptn_data::{Diagnostic, Span, list};
 use lptn_network::{Context, Value};
 use lptn_units::{Scope as _, Type, suggest};
 
-use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
 use crate::fit::words::{FIT, FIT_COLUMN};
 use crate::fit::{FitStudy, Observed, VariedName};
+use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::value::{Place, Wanted};
 use crate::vocabulary::{PARAM, VARY};
+use crate::work::Elaboration;
 
 /// A column whose result could not be read is still looked for in the records.
 pub(crate) struct Column<'a> {
@@ -149,7 +149,7 @@ impl<'a> Elaboration<'a> {
         }
         let message = format!("{words} has to name parameters, got `{name}`");
         let problem = Diagnostic::error("netlist::unknown_parameter", message).at(place.clone(), "");
-        let parameters = crate::names::section(self.raw, PARAM);
+        let parameters = self.raw.section(PARAM);
         let names = parameters.into_iter().flat_map(|table| &table.entries).map(|entry| entry.key.as_str());
         let help = match suggest(name, names) {
             Some(near) => format!("did you mean `{near}`?"),

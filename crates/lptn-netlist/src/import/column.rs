@@ -5,10 +5,10 @@ use lptn_laws::Formula;
 use lptn_network::{End, Input};
 use lptn_units::{Dimension, Quantity, Type};
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::Fields;
 use crate::import::Contents;
-use crate::value::Place;
+use crate::place::Place;
+use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
     /// The file of this kind, if one is named; its header has no unknown columns.

@@ -2,20 +2,17 @@
 //! but what the network needs.
 
 mod column;
-mod places;
 
 use lptn_data::{Column, Rows};
 use lptn_network::{ConductorKind, Field, Path};
 use lptn_units::{Dimension, Type};
 
-pub(crate) use places::Places;
-
-use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner};
-use crate::import::places::Kind;
+use crate::imported::{Kind, Places};
 use crate::raw::RawKind;
 use crate::section::Initial;
 use crate::vocabulary::IMPORT;
+use crate::work::Elaboration;
 
 const ABSOLUTE: Type = Type::ABSOLUTE_TEMPERATURE;
 

@@ -3,11 +3,11 @@
 use lptn_network::{Field, Item};
 use lptn_units::Type;
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner};
+use crate::place::{Place, Wanted};
 use crate::raw::RawEntry;
-use crate::value::{Place, Wanted};
 use crate::vocabulary::BOUNDARY;
+use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn boundaries(&mut self) {

@@ -3,10 +3,10 @@
 use lptn_network::{Field, Item};
 use lptn_units::{Dimension, Type};
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner};
 use crate::raw::RawEntry;
 use crate::vocabulary::CAPACITOR;
+use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn capacitors(&mut self) {

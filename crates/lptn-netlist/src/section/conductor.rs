@@ -4,12 +4,12 @@ use lptn_laws::Kind;
 use lptn_network::{Field, Input, Item, Path, Terminal};
 use lptn_units::{Dimension, Type};
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner};
+use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawValue};
 use crate::section::path::PATHS;
-use crate::value::{Place, Wanted};
 use crate::vocabulary::Section;
+use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
     /// Every path between two ends.

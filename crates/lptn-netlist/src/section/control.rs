@@ -1,16 +1,15 @@
 //! `[control]`: thermostats.
 
-use lptn_data::{Diagnostic, Span};
+use lptn_data::Diagnostic;
 use lptn_network::{Acts, ControlId, Field, Input, Item, Network, Thermostat};
 use lptn_units::{Dimension, Quantity, Type, format_number};
 
-use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner, sample, wrong_shape};
-use crate::misplaced::BOUND_HELP;
+use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind};
 use crate::source_map::SourceMap;
-use crate::value::{Place, Wanted};
 use crate::vocabulary::CONTROL;
+use crate::work::Elaboration;
 
 const TIME: Type = Type::of(Dimension::TIME);
 
@@ -110,24 +109,6 @@ impl<'a> Elaboration<'a> {
         let place = Place { owner: &fields.owner, key: "min_dwell", raw };
         self.given(place, Wanted::constant(TIME)).map(|given| given.input())
     }
-}
-
-/// A control where something has to be known before the run.
-pub(crate) fn control_not_here(place: Place<'_>, name: &str, at: Span) -> Diagnostic {
-    let words = place.words();
-    let message = format!("{words} cannot use control `{name}`, which switches during the run");
-    let help = match place.key {
-        "below" | "above" => BOUND_HELP,
-        "" if words.starts_with("signal") => {
-            "a signal is a function of time; use the control where the signal is used, for example in a source"
-        }
-        "" => "a parameter is constant; use the control where the parameter is used, for example in a source",
-        _ => {
-            "sources, boundaries, the values of paths, thresholds of other controls and limits may use controls; this is \
-             constant"
-        }
-    };
-    Diagnostic::error("netlist::control_not_here", message).at(at, "0 or 1, as it switches").help(help)
 }
 
 /// Both pairs, as they could be written.

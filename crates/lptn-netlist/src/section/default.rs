@@ -4,11 +4,11 @@ use lptn_data::Diagnostic;
 use lptn_network::Input;
 use lptn_units::{Dimension, Type, Unit, UnitError};
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner};
+use crate::place::{Place, Wanted};
 use crate::raw::RawValue;
-use crate::value::{Place, Wanted};
 use crate::vocabulary::DEFAULT;
+use crate::work::{Elaboration, stand_in};
 
 /// A temperature at the start, and where it stands.
 pub(crate) type Initial<'a> = (Input, &'a RawValue);

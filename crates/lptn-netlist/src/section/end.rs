@@ -6,12 +6,12 @@ use lptn_data::{Diagnostic, Span, list};
 use lptn_network::{End, GridFace, Input, NodeId, Terminal, is_name};
 use lptn_units::{Dimension, Type, suggest};
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner};
-use crate::grid_names::GridPart;
+use crate::grid_part::GridPart;
 use crate::raw::{RawKind, RawValue};
 use crate::template::{by_port, wrong_path};
 use crate::vocabulary::USE;
+use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
     /// The node, boundary or face of a grid that a field names.

@@ -5,19 +5,12 @@ use lptn_laws::{Carries, Formula};
 use lptn_network::{Field, FluidId, Input, Item};
 use lptn_units::{Dimension, Quantity, Type, suggest};
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample};
 use crate::library::{self, Record};
+use crate::place::Wanted;
 use crate::raw::{RawEntry, RawValue};
-use crate::value::Wanted;
 use crate::vocabulary::FLUID;
-
-/// A fluid in use or ready to be.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct KnownFluid {
-    id: FluidId,
-    density: bool,
-}
+use crate::work::{Elaboration, KnownFluid, stand_in};
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn fluids(&mut self) {

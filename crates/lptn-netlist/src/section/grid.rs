@@ -4,14 +4,14 @@ use lptn_data::Diagnostic;
 use lptn_network::{Block, Field, GridId, Input, Item, Substance};
 use lptn_units::{Dimension, Type};
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample, wrong_shape};
-use crate::grid_names::{GridPart, KnownGrid};
+use crate::grid_part::{GridPart, KnownGrid};
+use crate::place::{Given, Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::section::default::Initial;
 use crate::section::path::PATHS;
-use crate::value::{Given, Place, Wanted};
 use crate::vocabulary::{GRID, SOURCE};
+use crate::work::{Elaboration, stand_in};
 
 const LENGTH: Type = Type::of(Dimension::LENGTH);
 const CONDUCTIVITY: Type = Type::of(Dimension::CONDUCTIVITY);

@@ -4,11 +4,11 @@ use lptn_data::Diagnostic;
 use lptn_network::{Bound, Field, Input, Item, Severity};
 use lptn_units::Type;
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::place::{Given, Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::value::{Given, Place, Wanted};
 use crate::vocabulary::LIMIT;
+use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn limits(&mut self) {

@@ -4,21 +4,12 @@ use lptn_data::Diagnostic;
 use lptn_network::{Field, Input, Item, MaterialId, Properties, Size};
 use lptn_units::{Dimension, Quantity, Type, suggest};
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample};
 use crate::library::{self, Record};
+use crate::place::{Given, Place, Wanted};
 use crate::raw::{RawEntry, RawValue};
-use crate::value::{Given, Place, Wanted};
 use crate::vocabulary::{FLUID, MATERIAL};
-
-/// A material in use or ready to be.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Known {
-    pub(crate) id: MaterialId,
-    pub(crate) density: bool,
-    pub(crate) cp: bool,
-    pub(crate) k: bool,
-}
+use crate::work::{Elaboration, Known, stand_in};
 
 /// The properties, by key.
 const PROPERTIES: [(&str, Field); 6] = [

@@ -19,8 +19,6 @@ mod source;
 mod table;
 mod top;
 
-pub(crate) use control::{control_not_here, narrow};
+pub(crate) use control::narrow;
 pub(crate) use default::{Default, Initial};
-pub(crate) use fluid::KnownFluid;
-pub(crate) use material::Known;
 pub(crate) use top::{check_head, empty};

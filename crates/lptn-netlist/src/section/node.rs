@@ -4,12 +4,12 @@ use lptn_data::Diagnostic;
 use lptn_network::{Field, Input, Item, NodeId};
 use lptn_units::{Dimension, Type};
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::place::{Given, Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::section::default::Initial;
-use crate::value::{Given, Place, Wanted};
 use crate::vocabulary::NODE;
+use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn nodes(&mut self, default: Option<&Initial<'a>>) {

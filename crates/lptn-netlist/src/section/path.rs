@@ -7,12 +7,12 @@ use lptn_laws::{Field, Formula, Kind};
 use lptn_network::{FluidId, Input, Path};
 use lptn_units::{Quantity, Type};
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, sample};
+use crate::place::{Place, Wanted};
 use crate::raw::{RawKind, RawValue};
 use crate::section::forms::check_forms;
-use crate::value::{Place, Wanted};
 use crate::vocabulary::Section;
+use crate::work::{Elaboration, stand_in};
 
 /// The sections of paths, in the order in which their columns stand.
 pub(crate) static PATHS: LazyLock<Vec<(Section, Kind)>> =

@@ -4,10 +4,10 @@ use lptn_data::Diagnostic;
 use lptn_network::{Input, Melting};
 use lptn_units::{Dimension, Type};
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, sample, wrong_shape};
+use crate::place::{Given, Place, Wanted};
 use crate::raw::RawKind;
-use crate::value::{Given, Place, Wanted};
+use crate::work::{Elaboration, stand_in};
 
 /// What a change of phase takes: all of them or none.
 const MELTING: [&str; 3] = ["solidus", "liquidus", "latent_heat"];

@@ -3,13 +3,13 @@
 use lptn_network::{AfterEnd, Course, Field, Item, Join};
 use lptn_units::{Dimension, Interpolation, Outside, Table1, Type, Unit, parse_quantity};
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::Fields;
 use crate::parameters::Pending;
+use crate::place::{Place, Wanted};
 use crate::points::Axis;
 use crate::raw::RawKind;
-use crate::value::{Place, Wanted};
 use crate::vocabulary::SIGNAL;
+use crate::work::{Elaboration, stand_in};
 
 const TIME: Type = Type::of(Dimension::TIME);
 

@@ -4,12 +4,12 @@ use lptn_data::{Diagnostic, Span};
 use lptn_network::{End, Field, Input, Item, NodeId};
 use lptn_units::{Dimension, Type, parse_quantity};
 
-use crate::elaborate::{Elaboration, stand_in};
 use crate::fields::{Fields, Owner};
-use crate::grid_names::GridPart;
+use crate::grid_part::GridPart;
+use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
-use crate::value::{Place, Wanted};
 use crate::vocabulary::SOURCE;
+use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn sources(&mut self) {

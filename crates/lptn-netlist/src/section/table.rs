@@ -9,11 +9,11 @@ use lptn_units::{
     Unit,
 };
 
-use crate::elaborate::Elaboration;
 use crate::fields::{Fields, Owner};
 use crate::points::Axis;
 use crate::raw::{RawEntry, RawKind};
 use crate::vocabulary::TABLE;
+use crate::work::Elaboration;
 
 const INTERPOLATIONS: [(&str, Interpolation); 2] =
     [("linear", Interpolation::Linear), ("pchip", Interpolation::Pchip)];

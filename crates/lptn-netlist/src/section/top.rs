@@ -3,10 +3,10 @@
 use lptn_data::{Diagnostic, Span, list};
 use lptn_units::suggest;
 
-use crate::elaborate::{Elaboration, MISSING_FORMAT};
 use crate::fields::wrong_shape;
 use crate::raw::{RawEntry, RawKind};
 use crate::vocabulary::{MINIMAL, SECTIONS, SECTIONS_LATER, TOP_KEYS};
+use crate::work::{Elaboration, MISSING_FORMAT};
 
 impl Elaboration<'_> {
     pub(crate) fn top_level(&mut self) {

@@ -5,8 +5,8 @@ use lptn_network::is_name;
 use lptn_units::{RESERVED, Type, Unit, parse_quantity, suggest};
 
 use crate::fields::{Fields, Owner, wrong_shape};
+use crate::place::Place;
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
-use crate::value::Place;
 use crate::vocabulary::{NOT_IN_TEMPLATE, OPEN_PARAMETER, PARAM, SECTIONS, TEMPLATE, USE};
 
 const PORT: &str = "port";

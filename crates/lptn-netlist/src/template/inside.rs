@@ -4,8 +4,8 @@ use lptn_data::Diagnostic;
 use lptn_network::is_name;
 
 use super::structure::Structure;
-use crate::result_names::base;
-use crate::value::Place;
+use crate::names::base;
+use crate::place::Place;
 
 /// How a template comes to know something around it.
 pub(crate) fn by_port(name: &str) -> String {

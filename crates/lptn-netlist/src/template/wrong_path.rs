@@ -3,8 +3,6 @@
 use super::structure::Structure;
 use lptn_data::{Diagnostic, Span};
 
-use crate::netlist::Netlist;
-
 /// What is wrong with the indices of a path.
 #[derive(Debug)]
 pub(crate) struct WrongPath {
@@ -59,13 +57,6 @@ impl Structure {
             before = format!("{before}{part}.");
         }
         None
-    }
-}
-
-impl Netlist {
-    /// Why a path such as `planet[9].gear` leads nowhere, and what to write, if its index is to blame.
-    pub fn no_instance(&self, path: &str) -> Option<(String, String)> {
-        self.structure.wrong_path(path).map(|wrong| (wrong.why, wrong.help))
     }
 }
 

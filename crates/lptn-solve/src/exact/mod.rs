@@ -15,7 +15,7 @@ mod reduced;
 mod spectrum;
 
 use lptn_network::{InputError, Network, NodeId};
-use lptn_units::{EvalError, Problem};
+use lptn_units::{Class, EvalError};
 
 use crate::events::EventKind;
 use crate::solution::Solution;
@@ -51,30 +51,38 @@ pub struct Difference {
     pub by_node: Vec<f64>,
 }
 
+const MERGE: &str = "merge the nodes that the largest conductances join";
+
+const CONSTANTS: &str = "only a network of constants has modes; `lptn run` follows it over time";
+
 lptn_units::errors! {
-/// Why a network has no exact solution.
+/// Why a network has no exact solution, or no modes.
 #[derive(Clone, Debug)]
 pub enum ExactError {
-    /// More nodes than are solved by modes.
-    TooLarge { nodes: usize } = "exact::too_large",
-        format!("{nodes} nodes are more than the {} that are solved by modes", Reduced::MOST_NODES);
+    /// More nodes than the dense eigenproblem is for.
+    TooLarge { nodes: usize } = "modes::too_large",
+        format!("{nodes} nodes are more than the {} that are solved by modes", Reduced::MOST_NODES),
+        help "lump nodes until there are at most 2000, or let `lptn run` show how long each node takes";
     /// The times are none, do not increase, or begin before the start.
     Times = "exact::times", "the times must increase and begin at the start or after it";
     /// A source or boundary has no value.
     Input => InputError;
     /// A constant has no value.
-    Value(error: EvalError) = "solve::input", error, source error, help Problem::help(error);
+    Value(error: EvalError) = "solve::input", error, source error;
     /// It is not linear with constant coefficients; the name of the first item that makes it so.
     NotLinear { name: String } = "exact::not_linear",
-        format!("`{name}` makes the network more than constant capacities and conductances");
+        format!("`{name}` makes the network more than constant capacities and conductances"), help CONSTANTS;
     /// It switches at times that are not known beforehand; the name of the first control or comparison.
-    Switches { name: String } = "exact::switches", format!("`{name}` switches at times that depend on the temperatures");
+    Switches { name: String } = "exact::switches",
+        format!("`{name}` switches at times that depend on the temperatures"), help CONSTANTS;
     /// The conductances of the massless nodes span more than the numbers can hold.
-    Singular = "exact::singular", "the conductances of the massless nodes span more than the numbers can hold";
+    Singular = "exact::singular", "the conductances of the massless nodes span more than the numbers can hold",
+        help MERGE, class Class::Numbers;
     /// The eigenvalues were not found.
-    Modes = "exact::modes", "the eigenvalues of the network were not found";
+    Modes = "exact::modes", "the eigenvalues of the network were not found", help MERGE, class Class::Numbers;
     /// An input changes too fast for any series; where the attempt was given up, in s.
-    Quadrature { time: f64 } = "exact::quadrature", format!("an input changes too fast at {time} s to be integrated");
+    Quadrature { time: f64 } = "exact::quadrature",
+        format!("an input changes too fast at {time} s to be integrated"), help MERGE, class Class::Numbers;
 }
 }
 

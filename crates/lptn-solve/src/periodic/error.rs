@@ -1,7 +1,7 @@
 //! Why there is no periodic state.
 
 use lptn_network::{InputError, NodeId, NotPeriodic, list_of_names};
-use lptn_units::format_six as six_digits;
+use lptn_units::{Class, format_six as six_digits};
 
 use crate::error::TransientError;
 
@@ -30,17 +30,17 @@ pub enum PeriodicError {
         format!(
             "{cycles} cycles came to no state that repeats itself; the best one was off by {residual:.1e} K"
         ),
-        help "look at some cycles one after the other: `lptn run`";
+        help "look at some cycles one after the other: `lptn run`", class Class::Numbers;
     /// What switches never does so in one cycle as in the next.
     Switches { cycles: usize } = "periodic::switches",
         format!("in {cycles} cycles controls and comparisons did not come to switch alike twice in a row"),
-        help "the controls have a rhythm of their own: look at `lptn run`, and at means over many cycles";
+        help "the controls have a rhythm of their own: look at `lptn run`, and at means over many cycles", class Class::No;
     /// A cycle could not be integrated.
-    Cycle => TransientError;
+    Cycle => TransientError, class Class::Numbers;
     /// The observer asked for an end, after so many whole cycles; the last difference in K between the start of a cycle and its
     /// end, if there was one.
     Interrupted { cycles: usize, residual: Option<f64> } = "periodic::interrupted",
-        format!("interrupted after {cycles} cycles");
+        format!("interrupted after {cycles} cycles"), class Class::Interrupted;
 }
 }
 

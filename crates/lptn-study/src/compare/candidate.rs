@@ -7,6 +7,7 @@ use lptn_solve::{
     Beyond, Control, End, NodeSummary, Others, OutputTimes, Progress, Record, Solution, SteadyError,
     SteadyState, Summary, Transient, TransientError, Unsolved, first_there,
 };
+use lptn_units::Class;
 
 use crate::compare::limits::{self, LimitResult};
 
@@ -50,20 +51,23 @@ lptn_units::errors! {
 #[derive(Debug)]
 pub enum CompareError {
     /// It is not run and has no steady state.
-    Steady => SteadyError;
+    Steady(error: SteadyError) = error.code(), error, source error, help error.help(), class match error.class() {
+        Class::No => Class::Numbers,
+        class => class,
+    };
     /// Its run failed.
     Run => Box<TransientError>;
     /// A limit, source or boundary has no value.
     Input => InputError;
     /// The balances of its massless nodes have no solution at the start.
-    Start => Unsolved;
+    Start => Unsolved, class Class::Numbers;
     /// Its books do not close: relative residual, and what is allowed.
     Ledger(residual: f64, bound: f64) = "run::ledger",
         format!(
             "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than the {bound:.1e} allowed"
-        );
+        ), class Class::Numbers;
     /// Its run was interrupted at this time in s: peaks and limits of a part would read like those of the whole.
-    Interrupted(time: f64) = "run::interrupted", format!("the run was interrupted at {time} s");
+    Interrupted(time: f64) = "run::interrupted", format!("the run was interrupted at {time} s"), class Class::Interrupted;
 }
 }
 

@@ -3,8 +3,9 @@
 use std::ops::Range;
 
 use super::fix::Source;
+use super::function;
+use super::scope::Scope;
 use super::tree::{Id, Node};
-use super::{Scope, function};
 use crate::error::{UnitError, UnitErrorKind as Kind};
 use crate::suggest::suggest;
 use crate::table::TableSymbol;

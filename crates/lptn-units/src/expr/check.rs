@@ -5,11 +5,12 @@ use std::sync::Arc;
 
 use super::call;
 use super::fix::{Judge, Source};
+use super::fold;
 use super::function::{self, Function};
 use super::operands;
 use super::program::NamedTable;
+use super::scope::{Scope, Symbol};
 use super::tree::{Id, Node, Operator, Tree};
-use super::{Scope, Symbol, fold};
 use crate::error::{UnitError, UnitErrorKind as Kind};
 use crate::rational::Rational;
 use crate::suggest::suggest;

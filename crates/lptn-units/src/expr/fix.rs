@@ -1,12 +1,12 @@
 //! Errors of expressions that show the corrected text.
 
-use super::Scope;
 use super::lexer::splice;
+use super::scope::Scope;
 use super::tree::{Id, Node, Operator, Tree};
 use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind as Kind};
 use crate::format::{number, rounded};
-use crate::quantity::{has_inverse, is_frequency_for_rotation, revolutions};
+use crate::kinship::{has_inverse, is_frequency_for_rotation, revolutions};
 use crate::types::Type;
 use crate::unit::Unit;
 

@@ -1,8 +1,9 @@
 //! What a name must be for an expression to be of the type that is due.
 
+use super::fold;
 use super::function::{self, Function};
+use super::scope::Scope;
 use super::tree::{Id, Node, Operator, Tree};
-use super::{Scope, fold};
 use crate::dimension::Dimension;
 use crate::rational::Rational;
 use crate::types::Type;

@@ -1,6 +1,5 @@
 //! Expressions: text, then tree, then types, then flat code.
 
-mod bracket;
 mod call;
 mod check;
 mod codegen;
@@ -16,6 +15,7 @@ mod operands;
 mod parser;
 mod parts;
 mod program;
+mod scope;
 mod split;
 mod tree;
 mod trend;
@@ -25,56 +25,17 @@ use std::ops::Range;
 use crate::dimension::Dimension;
 use crate::error::UnitError;
 use crate::problems::Problems;
-use crate::table::TableSymbol;
 use crate::types::Type;
 use tree::{Node, Tree};
 
-pub(crate) use bracket::bracketed;
 pub use degree::Degree;
 pub use eval::EvalError;
 pub use function::is_function;
 pub use program::{Program, TableCall};
+pub use scope::{RESERVED, Scope, Symbol};
 pub use split::{SlotKind, Split};
 pub use tree::Comparison;
 pub use trend::Trend;
-
-/// Names with a meaning of their own, which no parameter, signal, control or table may take: the time `t`, `pi`,
-/// the temperatures of the element at hand, and all functions.
-pub const RESERVED: &[&str] = &[
-    "t", "pi", "T", "T_from", "T_to", "T_mean", "dT", "abs", "min", "max", "mean", "sqrt", "exp", "ln",
-    "sin", "cos", "tanh", "if", "kelvin", "absolute",
-];
-
-/// A name in scope: where its value is found and what it is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Symbol {
-    /// Index of the value among the slots given to [`Program::eval`].
-    pub slot: u32,
-    /// The type of the value that the name stands for.
-    pub ty: Type,
-    /// Index to load instead inside the two operands of a comparison. An integrator keeps the truth of
-    /// comparisons fixed between events by freezing the values in these slots.
-    pub in_comparison: Option<u32>,
-}
-
-/// The names an expression may use. `pi` and the functions need not be among them.
-pub trait Scope {
-    /// The meaning of a name: `omega`, `steel.T`, `ring[1,2,3].T`.
-    fn symbol(&self, name: &str) -> Option<Symbol>;
-    /// Every name, for "did you mean"; tables are not among them.
-    fn names(&self) -> Vec<String>;
-
-    /// The meaning of a name that is called: `loss(speed)`. No name is both a symbol and a table.
-    fn table(&self, name: &str) -> Option<TableSymbol> {
-        let _ = name;
-        None
-    }
-
-    /// Every table, for "did you mean".
-    fn table_names(&self) -> Vec<String> {
-        Vec::new()
-    }
-}
 
 /// An expression as parsed: syntax checked, names and dimensions not yet.
 #[derive(Clone, Debug)]

@@ -1,6 +1,9 @@
 //! Bounds on tables while their arguments run through intervals.
 
-use super::{Outside, Table1, Table2, pchip, place};
+use super::axis::{Outside, place};
+use super::one::Table1;
+use super::pchip;
+use super::two::Table2;
 use crate::taylor::Taylor;
 use crate::taylor::interval::Interval;
 

@@ -1,7 +1,9 @@
 //! A tabulated function of one number.
 
+use super::axis::{Interpolation, Outside, Place, line, place};
+use super::error::TableError;
 use super::error::{check_finite, check_knots};
-use super::{Interpolation, Outside, Place, TableError, line, pchip, place};
+use super::pchip;
 
 /// A function of one number through two points or more.
 ///

@@ -1,7 +1,8 @@
 //! A tabulated function of two numbers.
 
+use super::axis::{Outside, Place, line, place};
+use super::error::TableError;
 use super::error::{check_finite, check_knots};
-use super::{Outside, Place, TableError, line, place};
 
 /// A function of two numbers over a grid of points, bilinear in each of its cells.
 ///

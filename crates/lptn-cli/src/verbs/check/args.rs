@@ -1,8 +1,9 @@
 //! The options of `lptn check`.
 
-use clap::{Args as Arguments, ValueEnum};
+use clap::Args as Arguments;
+use lptn_report::Format;
 
-use crate::options::{Source, TEMPLATE};
+use crate::options::{Source, TEMPLATE, one_of};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -18,14 +19,9 @@ pub(crate) struct CheckArgs {
     pub(crate) source: Source,
     /// Print a table or json
     #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
-    pub(crate) format: CheckFormat,
+    #[arg(value_parser = one_of(&[Format::Table, Format::Json], Format::key))]
+    pub(crate) format: Format,
     /// Print it flat, in SI units, without templates
     #[arg(long, conflicts_with = "format")]
     pub(crate) expand: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum CheckFormat {
-    Table,
-    Json,
 }

@@ -4,14 +4,13 @@ mod args;
 
 pub(crate) use args::CheckArgs;
 
-use args::CheckFormat;
-
+use std::io;
 use std::path::Path;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files, Netlist, Severity};
 use lptn_network::{Network, NodeId};
-use lptn_report::{JsonWriter, WIDTH, duration, labelled, significant};
+use lptn_report::{Json, Page, Text, duration, significant};
 use lptn_solve::{Lumping, Stiffness};
 use lptn_study::Scalar;
 use serde_json::{Value, json};
@@ -20,7 +19,7 @@ use crate::console::Console;
 use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::input::{self, Input, Text};
+use crate::input::{self, Given, Input};
 use crate::lumping;
 use crate::select;
 use crate::words::{count, counts};
@@ -32,26 +31,12 @@ pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure
         return expand(&text, &args.source.set, console);
     }
     let finding = Finding::of(&text, &args.source.set)?;
-    let exit = finding.exit();
-    match args.format {
-        CheckFormat::Json => console.write(|out| {
-            let mut json = JsonWriter::new(out);
-            json.member("format", &json!(1))?;
-            json.member("network", &json!(text.stem))?;
-            json.member("ok", &json!(exit == Exit::Done))?;
-            json.member("errors", &finding.list(Severity::Error))?;
-            json.member("warnings", &finding.list(Severity::Warning))?;
-            json.member("stiffness", &finding.stiffness.as_ref().map_or(Value::Null, Stiff::json))?;
-            json.member("lumping", &finding.lumping_json())?;
-            json.finish().map(drop)
-        })?,
-        CheckFormat::Table => console.print(&finding.text(&text.name, console)).map(drop)?,
-    }
-    Ok(exit)
+    console.show(&View { finding: &finding, text: &text, console }, args.format)?;
+    Ok(finding.exit())
 }
 
 /// Writes the network as a flat netlist; what is wrong with it goes to stderr.
-fn expand(text: &Text, set: &[String], console: &Console) -> Result<Exit, Failure> {
+fn expand(text: &Given, set: &[String], console: &Console) -> Result<Exit, Failure> {
     let mut netlist = input::parse(text).map_err(|rejected| Failure {
         exit: if rejected.syntax { Exit::Input } else { Exit::No },
         ..rejected.into()
@@ -89,7 +74,7 @@ struct Finding {
 impl Finding {
     /// # Errors
     /// What is wrong with `--set`: that is no property of the netlist.
-    fn of(text: &Text, set: &[String]) -> Result<Self, Failure> {
+    fn of(text: &Given, set: &[String]) -> Result<Self, Failure> {
         let mut netlist = match input::parse(text) {
             Ok(netlist) => netlist,
             Err(rejected) => {
@@ -101,7 +86,7 @@ impl Finding {
         let counts = Some(counts(&netlist.network));
         let stiffness = Stiff::of(&netlist.network);
         let (files, mut diagnostics) = (netlist.files.clone(), netlist.warnings.clone());
-        let text = Text { bytes: Vec::new(), name: text.name.clone(), stem: text.stem.clone() };
+        let text = Given { bytes: Vec::new(), name: text.name.clone(), stem: text.stem.clone() };
         let input = Input { text, netlist };
         let mut lumping = None;
         match input.assemble() {
@@ -113,10 +98,6 @@ impl Finding {
         let selection = select::of_run(&input.netlist, &[]);
         diagnostics.extend(selection.err().into_iter().flat_map(|failure| failure.diagnostics));
         Ok(Self { files, diagnostics, counts, stiffness, lumping, syntax: false })
-    }
-
-    fn lumping_json(&self) -> Value {
-        self.lumping.as_ref().map_or(Value::Null, |(network, lumping)| lumping::json(network, lumping))
     }
 
     fn number(&self, severity: Severity) -> usize {
@@ -135,22 +116,50 @@ impl Finding {
         let found = self.diagnostics.iter().filter(|d| d.severity == severity);
         found.map(|diagnostic| diagnostics::json(&self.files, diagnostic)).collect()
     }
+}
 
+/// What was found, and how it is shown.
+struct View<'a> {
+    finding: &'a Finding,
+    text: &'a Given,
+    console: &'a Console,
+}
+
+impl Page for View<'_> {
     /// The diagnostics, and one line with the answer at the end.
-    fn text(&self, name: &str, console: &Console) -> String {
-        let rendered = self.diagnostics.iter().map(|d| console.rendered(&self.files, d) + "\n\n");
-        let warnings = count(self.number(Severity::Warning), "warning");
-        let answer = match (self.number(Severity::Error), &self.counts) {
-            (0, Some(counts)) => format!("ok: {name} has {counts}; {warnings}\n"),
-            (errors, _) => format!("not ok: {name} has {}, {warnings}\n", count(errors, "error")),
-        };
-        let stiffness = self.stiffness.as_ref().filter(|_| self.exit() == Exit::Done).map(Stiff::text);
-        let lumping = self.lumping.as_ref().filter(|_| self.exit() == Exit::Done);
-        let lumping = lumping.map_or(Vec::new(), |(network, lumping)| {
-            lumping::lines(network, lumping, ("lumping:   ", console.verbose))
+    fn text(&self) -> Text {
+        let (finding, name) = (self.finding, &self.text.name);
+        let mut text = Text::new();
+        for diagnostic in &finding.diagnostics {
+            text.section().line(self.console.rendered(&finding.files, diagnostic));
+        }
+        text.section();
+        if finding.exit() == Exit::Done {
+            if let Some(stiff) = &finding.stiffness {
+                text.sentence("stiffness: ", &stiff.words());
+            }
+            if let Some((network, lumping)) = &finding.lumping {
+                lumping::lines(&mut text, network, (lumping, "lumping:   ", self.console.verbose));
+            }
+        }
+        let warnings = count(finding.number(Severity::Warning), "warning");
+        text.line(match (finding.number(Severity::Error), &finding.counts) {
+            (0, Some(counts)) => format!("ok: {name} has {counts}; {warnings}"),
+            (errors, _) => format!("not ok: {name} has {}, {warnings}", count(errors, "error")),
         });
-        let lumping: String = lumping.into_iter().map(|line| line + "\n").collect();
-        rendered.collect::<String>() + &stiffness.unwrap_or_default() + &lumping + &answer
+        text
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let finding = self.finding;
+        let lumping = finding.lumping.as_ref();
+        json.member("format", &1)?;
+        json.member("network", &self.text.stem)?;
+        json.member("ok", &(finding.exit() == Exit::Done))?;
+        json.member("errors", &finding.list(Severity::Error))?;
+        json.member("warnings", &finding.list(Severity::Warning))?;
+        json.member("stiffness", &finding.stiffness.as_ref().map(Stiff::json))?;
+        json.member("lumping", &lumping.map(|(network, lumping)| lumping::json(network, lumping)))
     }
 }
 
@@ -169,22 +178,18 @@ impl Stiff {
         Some(Self { fastest: named(stiffness.fastest), slowest: named(stiffness.slowest), ratio })
     }
 
-    fn text(&self) -> String {
+    fn words(&self) -> String {
         let one = |(name, tau): &(String, f64)| format!("{} ({name})", duration(*tau, 3));
         let (fast, slow) = (one(&self.fastest), one(&self.slowest));
-        let words = match self.fastest.0 == self.slowest.0 {
+        match self.fastest.0 == self.slowest.0 {
             true => format!("C / sum of G is {fast}"),
-            false => {
-                format!("{}, C / sum of G is {fast} to {slow}", significant(self.ratio, 3))
-            }
-        };
-        let words: Vec<String> = words.split(' ').map(str::to_owned).collect();
-        labelled("stiffness: ", &words, WIDTH).join("\n") + "\n"
+            false => format!("{}, C / sum of G is {fast} to {slow}", significant(self.ratio, 3)),
+        }
     }
 
     fn json(&self) -> Value {
-        let one = |(name, tau): &(String, f64)| json!({ "node": name, "tau": Scalar::new(*tau, "s").json() });
-        let ratio = Scalar::new(self.ratio, "1").json();
+        let one = |(name, tau): &(String, f64)| json!({ "node": name, "tau": Scalar::new(*tau, "s") });
+        let ratio = Scalar::new(self.ratio, "1");
         json!({ "fastest": one(&self.fastest), "slowest": one(&self.slowest), "ratio": ratio })
     }
 }

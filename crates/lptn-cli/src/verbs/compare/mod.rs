@@ -1,7 +1,7 @@
 //! `lptn compare`
 
 mod args;
-mod text;
+mod page;
 
 pub(crate) use args::CompareArgs;
 
@@ -9,26 +9,25 @@ use std::path::{Path, PathBuf};
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files, Netlist};
-use lptn_network::Field;
-use lptn_report::{JsonWriter, plain, write_csv};
-use lptn_solve::{Progress, SteadyError, Table, TransientError, available_threads, in_parallel};
-use lptn_study::{Candidate, CompareError, CompareRow, compare_table, order};
+use lptn_report::plain;
+use lptn_solve::Progress;
+use lptn_solve::{available_threads, in_parallel};
+use lptn_study::{Candidate, CompareError, CompareRow, order};
 use lptn_units::Unit;
-use serde_json::json;
 
 use crate::console::Console;
-use crate::diagnostics;
 use crate::doubts::others;
 use crate::exit::Exit;
-use crate::failure::{Failure, reason, told};
+use crate::failure::Failure;
+use crate::files;
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
-use crate::options::{Format, Source};
+use crate::options::Source;
 use crate::progress::ProgressOfAll;
 use crate::sense;
 
 pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Failure> {
-    let files = files(&args.files)?;
+    let files = listed(&args.files)?;
     let threads = args.threads.unwrap_or_else(available_threads);
     let loaded = in_parallel(&files, threads, |file| load(file, &args.set));
     used(args, &loaded)?;
@@ -40,12 +39,17 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
     let sorted = places.into_iter().filter_map(|place| outcomes[place].take());
     let comparison = Comparison::of(sorted, unit);
     comparison.report(console);
-    comparison.print(args, console)?;
+    console.show(&comparison, args.printed.format)?;
+    let answer = page::answer(&comparison);
+    match comparison.exit() {
+        Exit::Done => console.note(&answer),
+        _ => console.message(&answer),
+    }
     Ok(comparison.exit())
 }
 
 /// Every file once, folders as their netlists in alphabetical order.
-fn files(given: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+fn listed(given: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     let mut files: Vec<PathBuf> = Vec::new();
     for path in given {
         let found = if path.is_dir() { folder(path)? } else { vec![path.clone()] };
@@ -56,19 +60,11 @@ fn files(given: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
 }
 
 fn folder(path: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let failed = |message: String, help: &str| {
-        Failure::new(Exit::Input, Diagnostic::error("input::cannot_read", message).help(help))
-    };
-    let entries = std::fs::read_dir(path).map_err(|error| {
-        failed(format!("cannot read {}: {}", path.display(), reason(&error)), "name the netlists one by one")
-    })?;
-    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
-    let is_netlist = |path: &PathBuf| path.is_file() && path.extension().is_some_and(|e| e == "toml");
-    let mut found: Vec<PathBuf> = paths.filter(is_netlist).collect();
-    found.sort_unstable();
+    let found = files::of_folder(path, "toml", "name the netlists one by one")?;
     if found.is_empty() {
         let message = format!("there is no netlist in the folder {}", path.display());
-        return Err(failed(message, "netlists end with .toml"));
+        let problem = Diagnostic::error("input::cannot_read", message);
+        return Err(Failure::new(Exit::Input, problem.help("netlists end with .toml")));
     }
     Ok(found)
 }
@@ -128,10 +124,8 @@ fn used(args: &CompareArgs, loaded: &[Loaded]) -> Result<(), Failure> {
         .collect();
     names.sort_unstable();
     let problem = Diagnostic::error("netlist::unknown_parameter", message);
-    let problem = match lptn_units::suggest(name, names.into_iter()) {
-        Some(near) => problem.help(format!("did you mean `{near}`?")),
-        None => problem,
-    };
+    let near = lptn_units::suggest(name, names.into_iter());
+    let problem = problem.help(near.map(|near| format!("did you mean `{near}`?")));
     Err(Failure::new(Exit::Input, problem))
 }
 
@@ -171,29 +165,10 @@ fn evaluate(
             interrupt.control()
         })
     };
-    found.map_err(|error| NoResult::Failure(explained(input, &error)))
-}
-
-/// A question that does not fit the input is a wrong input, as for the verbs `run` and `steady`.
-fn explained(input: &Input, error: &CompareError) -> Failure {
-    let exit = match error {
-        CompareError::Steady(SteadyError::NoBoundary { .. } | SteadyError::Input(_))
-        | CompareError::Input(_) => Exit::Input,
-        CompareError::Run(error) => match **error {
-            TransientError::Settings(_) | TransientError::Input(_) => Exit::Input,
-            _ => Exit::Failed,
-        },
-        CompareError::Interrupted(_) => Exit::Interrupted,
-        _ => Exit::Failed,
-    };
-    let problem = told(error);
-    let map = &input.netlist.source_map;
-    let place = error.input().and_then(|e| map.get(e.item, e.field).or_else(|| map.get(e.item, Field::Name)));
-    let problem = match place {
-        Some(place) => problem.at(place.clone(), ""),
-        None => problem,
-    };
-    Failure::at(exit, input.netlist.files.clone(), problem)
+    found.map_err(|error| {
+        let place = error.input().and_then(|error| input.place_of(error));
+        NoResult::Failure(input.failure(&error, place))
+    })
 }
 
 /// The unit for temperatures: that of the command line, or of the first candidate that was read.
@@ -262,39 +237,6 @@ impl Comparison {
         // the last line names those that were interrupted
         let problems = self.failures.iter().filter(|failure| failure.exit != Exit::Interrupted);
         problems.for_each(|failure| console.report(&failure.files, &failure.diagnostics));
-    }
-
-    fn print(&self, args: &CompareArgs, console: &Console) -> Result<(), Failure> {
-        let table: Table = compare_table(&self.rows, &self.unit);
-        match args.printed.format {
-            Format::Table => console.print(&text::text(self, console)).map(drop)?,
-            Format::Csv => console.write(|out| write_csv(&table, out))?,
-            Format::Json => console.write(|out| self.json(&table, out))?,
-        }
-        let answer = text::answer(self);
-        if self.exit() == Exit::Done {
-            console.note(&answer)
-        } else {
-            console.message(&answer)
-        }
-        Ok(())
-    }
-
-    fn json(&self, table: &Table, out: impl std::io::Write) -> std::io::Result<()> {
-        let warnings = self.warnings.iter().flat_map(|(files, list)| {
-            list.iter().map(|diagnostic| diagnostics::json(files, diagnostic)).collect::<Vec<_>>()
-        });
-        let errors = self.failures.iter().flat_map(|failure| {
-            let list = failure.diagnostics.iter();
-            list.map(|diagnostic| diagnostics::json(&failure.files, diagnostic)).collect::<Vec<_>>()
-        });
-        let mut json = JsonWriter::new(out);
-        json.member("format", &json!(1))?;
-        json.member("network", &json!(null))?;
-        json.member("warnings", &warnings.collect())?;
-        json.member("errors", &errors.collect())?;
-        json.table(table)?;
-        json.finish().map(drop)
     }
 
     /// Ctrl-C goes before what could not be read, that before what failed, and that before a broken limit.

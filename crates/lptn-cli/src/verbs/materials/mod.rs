@@ -4,17 +4,17 @@ mod args;
 
 pub(crate) use args::MaterialsArgs;
 
+use std::io;
+
 use lptn_netlist::Diagnostic;
 use lptn_netlist::library::{self, Record};
-use lptn_report::{Align, Column, JsonWriter, TextTable, WIDTH, labelled, significant, write_rows};
+use lptn_report::{Json, Page, Rows, Text, TextTable, significant};
 use lptn_study::Scalar;
-use lptn_units::suggest;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::options::Format;
 
 /// Digits that are shown: the sources give no more.
 const DIGITS: usize = 5;
@@ -24,28 +24,8 @@ pub(crate) fn materials(args: &MaterialsArgs, console: &Console) -> Result<Exit,
         None => (all(library::materials()), all(library::fluids())),
         Some(name) => one(name)?,
     };
-    match args.printed.format {
-        Format::Table if args.name.is_some() => {
-            let texts: Vec<String> =
-                materials.iter().chain(&fluids).map(|record| described(record)).collect();
-            console.print(&texts.concat())
-        }
-        Format::Table => console.print(&list(&materials, &fluids)),
-        Format::Csv => {
-            console.write(|out| write_rows(&rows(&materials, &fluids), out))?;
-            Ok(Exit::Done)
-        }
-        Format::Json => {
-            console.write(|out| {
-                let mut json = JsonWriter::new(out);
-                json.member("format", &json!(1))?;
-                json.member("materials", &members(&materials))?;
-                json.member("fluids", &members(&fluids))?;
-                json.finish().map(drop)
-            })?;
-            Ok(Exit::Done)
-        }
-    }
+    let found = Found { materials, fluids, named: args.name.is_some() };
+    console.show(&found, args.printed.format)
 }
 
 type Records = Vec<&'static Record>;
@@ -66,40 +46,59 @@ fn one(name: &str) -> Result<(Records, Records), Failure> {
 fn unknown(name: &str) -> Failure {
     let problem = Diagnostic::error("materials::unknown", format!("the library has no material `{name}`"));
     let names = library::materials().iter().chain(library::fluids()).map(|record| record.name.as_str());
-    let help = match suggest(name, names) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => "`lptn materials` lists them all".into(),
-    };
-    Failure::new(Exit::Input, problem.help(help))
+    let all = || "`lptn materials` lists them all".into();
+    Failure::new(Exit::Input, problem.did_you_mean(name, names, all))
 }
 
 fn number(value: Option<f64>) -> String {
     value.map_or("-".into(), |value| significant(value, DIGITS))
 }
 
-fn list(materials: &[&Record], fluids: &[&Record]) -> String {
-    let mut lines = table("material", materials);
-    lines.push(String::new());
-    lines.extend(table("fluid", fluids));
-    let note = "Sources and states: lptn materials NAME, or --format csv. In a netlist: \
-                material = \"steel_8620\", with mass or volume.";
-    lines.push(String::new());
-    lines.extend(labelled("", &note.split(' ').map(str::to_owned).collect::<Vec<_>>(), WIDTH));
-    lines.join("\n") + "\n"
+/// The records that were asked for.
+struct Found {
+    materials: Records,
+    fluids: Records,
+    /// Whether by name.
+    named: bool,
 }
 
-fn table(title: &str, records: &[&Record]) -> Vec<String> {
-    let column = |title: &str, align, text: &dyn Fn(&Record) -> String| {
-        Column::new(title, align, records.iter().map(|record| text(record)).collect())
-    };
-    TextTable::new(vec![
-        column(title, Align::Left, &|r| r.name.clone()),
-        column("kg/m^3", Align::Right, &|r| number(r.density)),
-        column("J/(kg K)", Align::Right, &|r| number(r.cp)),
-        column("W/(m K)", Align::Right, &|r| number(r.k)),
-        column("", Align::Left, &|r| short(&r.title)).optional(),
-    ])
-    .lines(WIDTH)
+impl Page for Found {
+    fn text(&self) -> Text {
+        let mut text = Text::new();
+        if self.named {
+            self.materials.iter().chain(&self.fluids).for_each(|record| describe(record, &mut text));
+            return text;
+        }
+        text.table(table("material", &self.materials));
+        text.section().table(table("fluid", &self.fluids));
+        text.section().sentence(
+            "",
+            "Sources and states: lptn materials NAME, or --format csv. In a netlist: \
+             material = \"steel_8620\", with mass or volume.",
+        );
+        text
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        Rows::Words(rows(&self.materials, &self.fluids))
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        json.member("format", &1)?;
+        json.member("materials", &members(&self.materials))?;
+        json.member("fluids", &members(&self.fluids))
+    }
+}
+
+fn table(title: &str, records: &[&Record]) -> TextTable {
+    TextTable::of(records)
+        .left(title, |r| r.name.as_str())
+        .right("kg/m^3", |r| number(r.density))
+        .right("J/(kg K)", |r| number(r.cp))
+        .right("W/(m K)", |r| number(r.k))
+        .left("", |r| short(&r.title))
+        .optional()
+        .into()
 }
 
 /// A title that leaves room for the numbers.
@@ -107,18 +106,19 @@ fn short(title: &str) -> String {
     title.split([',', ';', '(']).next().unwrap_or(title).trim().to_owned()
 }
 
-fn described(record: &Record) -> String {
-    let line = |label: &str, value: Option<f64>, unit: &str| {
-        value.map(|value| format!("{label:22}{} {unit}", significant(value, DIGITS)))
-    };
-    let mut lines = vec![format!("{}: {}", record.name, record.title), String::new()];
-    lines.extend(line("density", record.density, "kg/m^3"));
-    lines.extend(line("specific heat cp", record.cp, "J/(kg K)"));
-    lines.extend(line("conductivity k", record.k, "W/(m K)"));
-    lines.extend(line("temperature", record.temperature, "K"));
-    let words: Vec<String> = record.source.split(' ').map(str::to_owned).collect();
-    lines.extend(labelled(&format!("{:22}", "source"), &words, WIDTH));
-    lines.join("\n") + "\n"
+fn describe(record: &Record, text: &mut Text) {
+    text.line(format!("{}: {}", record.name, record.title));
+    text.section();
+    let lines = [
+        ("density", record.density, "kg/m^3"),
+        ("specific heat cp", record.cp, "J/(kg K)"),
+        ("conductivity k", record.k, "W/(m K)"),
+        ("temperature", record.temperature, "K"),
+    ];
+    for (label, value, unit) in lines {
+        text.lines(value.map(|value| format!("{label:22}{} {unit}", significant(value, DIGITS))));
+    }
+    text.sentence(&format!("{:22}", "source"), &record.source);
 }
 
 fn rows(materials: &[&Record], fluids: &[&Record]) -> Vec<Vec<String>> {
@@ -137,7 +137,7 @@ fn rows(materials: &[&Record], fluids: &[&Record]) -> Vec<Vec<String>> {
 }
 
 fn members(records: &[&Record]) -> Value {
-    let scalar = |value: Option<f64>, unit: &str| value.map_or(Value::Null, |v| Scalar::new(v, unit).json());
+    let scalar = |value: Option<f64>, unit: &str| value.map(|value| Scalar::new(value, unit));
     let member = |record: &&Record| {
         let value = json!({
             "title": record.title,
@@ -149,5 +149,5 @@ fn members(records: &[&Record]) -> Value {
         });
         (record.name.clone(), value)
     };
-    Value::Object(records.iter().map(member).collect::<Map<_, _>>())
+    records.iter().map(member).collect()
 }

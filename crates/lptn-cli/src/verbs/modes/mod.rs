@@ -4,22 +4,19 @@ mod args;
 
 pub(crate) use args::ModesArgs;
 
-use lptn_netlist::Diagnostic;
-use lptn_network::Network;
-use lptn_report::{
-    Align, Column, JsonWriter, TextTable, WIDTH, duration, fixed, labelled, plain, shortened, write_csv,
-};
-use lptn_solve::{EventKind, ExactError, Mode, Modes};
+use std::io;
+
+use lptn_network::{Network, Node};
+use lptn_report::{Json, Page, Rows, Text, TextTable, duration, fixed, shortened};
+use lptn_solve::{EventKind, Mode, Modes};
 use lptn_study::Scalar;
 use serde_json::{Map, Value, json};
 
 use crate::console::Console;
-use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::options::Format;
-use crate::words::{MOST_NODES, count, counts};
+use crate::words::{MOST_NODES, count};
 
 /// Modes that are shown without `--count`: all of up to so many, else the slowest so many.
 const ALL_UP_TO: usize = 20;
@@ -38,46 +35,13 @@ const PARTNER_WIDTH: usize = 44;
 pub(crate) fn modes(args: &ModesArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
     let netlist = &input.netlist;
-    let mut modes = Modes::solve(&netlist.network).map_err(|error| failed(&input, &error))?;
+    let mut modes = Modes::solve(&netlist.network).map_err(|error| input.failure(&error, None))?;
     let all = modes.modes().len();
     let usual = if all <= ALL_UP_TO { all } else { OF_MORE };
     modes.truncate(args.count.map_or(usual, |count| usize::try_from(count).unwrap_or(usize::MAX)));
     console.warn(&netlist.files, &netlist.warnings);
     let view = View { input: &input, modes: &modes, all };
-    match args.printed.format {
-        Format::Table => console.print(&view.text(console)).map(drop)?,
-        Format::Csv => {
-            let table = modes.table(&netlist.network);
-            console.write(|out| write_csv(&table, out))?;
-        }
-        Format::Json => console.write(|out| view.json(out))?,
-    }
-    Ok(Exit::Done)
-}
-
-fn failed(input: &Input, error: &ExactError) -> Failure {
-    let (exit, code, help) = match error {
-        ExactError::TooLarge { .. } => (
-            Exit::Input,
-            "modes::too_large",
-            Some("lump nodes until there are at most 2000, or let `lptn run` show how long each node takes"),
-        ),
-        ExactError::NotLinear { .. } | ExactError::Switches { .. } => (
-            Exit::Input,
-            error.code(),
-            Some("only a network of constants has modes; `lptn run` follows it over time"),
-        ),
-        ExactError::Input(_) | ExactError::Value(_) | ExactError::Times => (Exit::Input, error.code(), None),
-        ExactError::Singular | ExactError::Modes | ExactError::Quadrature { .. } => {
-            (Exit::Failed, error.code(), Some("merge the nodes that the largest conductances join"))
-        }
-    };
-    let problem = Diagnostic::error(code, error.to_string());
-    let problem = match help {
-        Some(help) => problem.help(help),
-        None => problem,
-    };
-    Failure::at(exit, input.netlist.files.clone(), problem)
+    console.show(&view, args.printed.format)
 }
 
 struct View<'a> {
@@ -92,36 +56,14 @@ impl View<'_> {
         &self.input.netlist.network
     }
 
-    fn text(&self, console: &Console) -> String {
-        let title = self.network().title().map_or(self.input.text.stem.clone(), plain);
-        let mut lines = vec![console.title(&title), counts(self.network())];
-        for block in [self.overview(), self.shapes()].into_iter().filter(|block| !block.is_empty()) {
-            lines.push(String::new());
-            lines.extend(block);
-        }
-        let notes = self.notes();
-        if !notes.is_empty() {
-            lines.push(String::new());
-        }
-        for note in notes {
-            lines.extend(labelled("note: ", &note.split(' ').map(str::to_owned).collect::<Vec<_>>(), WIDTH));
-        }
-        lines.join("\n") + "\n"
-    }
-
     /// A line a mode: its time constant, and the nodes that take most part in it.
-    fn overview(&self) -> Vec<String> {
-        let modes = self.modes.modes();
-        if modes.is_empty() {
-            return Vec::new();
-        }
-        let texts = |text: &dyn Fn(&Mode) -> String| modes.iter().map(text).collect::<Vec<_>>();
-        let table = TextTable::new(vec![
-            Column::new("mode", Align::Right, (1..=modes.len()).map(|k| k.to_string()).collect()),
-            Column::new("tau", Align::Right, texts(&tau)),
-            Column::new("participation", Align::Left, texts(&|mode| self.partners(mode))),
-        ]);
-        table.lines(WIDTH)
+    fn overview(&self) -> TextTable {
+        let modes: Vec<(usize, &Mode)> = (1..).zip(self.modes.modes()).collect();
+        TextTable::of(&modes)
+            .right("mode", |(number, _)| number.to_string())
+            .right("tau", |(_, mode)| tau(mode))
+            .left("participation", |(_, mode)| self.partners(mode))
+            .into()
     }
 
     /// The nodes that take most part, most first, those of equal part in the order of the file.
@@ -146,19 +88,13 @@ impl View<'_> {
     }
 
     /// A line a node: its temperature in each of the slowest modes.
-    fn shapes(&self) -> Vec<String> {
-        let nodes = self.network().nodes();
-        let modes = &self.modes.modes()[..self.modes.modes().len().min(MOST_SHAPES)];
-        if modes.is_empty() {
-            return Vec::new();
+    fn shapes(&self) -> TextTable {
+        let nodes: Vec<(usize, &Node)> = self.network().nodes().iter().take(MOST_NODES).enumerate().collect();
+        let mut table = TextTable::of(&nodes).left("shape", |(_, node)| node.name.as_str());
+        for (k, mode) in self.modes.modes().iter().take(MOST_SHAPES).enumerate() {
+            table = table.right(format!("mode {}", k + 1), |(i, _)| fixed(mode.shape[*i], 3));
         }
-        let names = nodes.iter().take(MOST_NODES).map(|node| node.name.clone()).collect();
-        let mut columns = vec![Column::new("shape", Align::Left, names)];
-        for (k, mode) in modes.iter().enumerate() {
-            let cells = mode.shape.iter().take(MOST_NODES).map(|&x| fixed(x, 3)).collect();
-            columns.push(Column::new(format!("mode {}", k + 1), Align::Right, cells));
-        }
-        TextTable::new(columns).lines(WIDTH)
+        table.into()
     }
 
     /// What the tables cannot say.
@@ -196,29 +132,40 @@ impl View<'_> {
         notes
     }
 
-    fn json(&self, out: impl std::io::Write) -> std::io::Result<()> {
-        let netlist = &self.input.netlist;
-        let modes: Vec<Value> = self.modes.modes().iter().map(|mode| self.mode(mode)).collect();
-        let mut json = JsonWriter::new(out);
-        json.member("format", &json!(1))?;
-        json.member("network", &json!(self.input.text.stem))?;
-        json.member("warnings", &diagnostics::list(&netlist.files, &netlist.warnings))?;
-        json.member("notes", &json!(self.findings()))?;
-        json.member("count", &Scalar::new(count_as_number(self.all), "1").json())?;
-        json.member("modes", &Value::Array(modes))?;
-        json.finish().map(drop)
-    }
-
     fn mode(&self, mode: &Mode) -> Value {
         let by_node = |values: &[f64]| -> Map<String, Value> {
             let named = self.network().nodes().iter().zip(values);
-            named.map(|(node, &x)| (node.name.clone(), Scalar::new(x, "1").json())).collect()
+            named.map(|(node, &x)| (node.name.clone(), json!(Scalar::new(x, "1")))).collect()
         };
         json!({
-            "tau": Scalar::new(mode.tau(), "s").json(),
+            "tau": Scalar::new(mode.tau(), "s"),
             "shape": by_node(&mode.shape),
             "participation": by_node(&mode.participation),
         })
+    }
+}
+
+impl Page for View<'_> {
+    fn text(&self) -> Text {
+        let mut text = self.input.begun();
+        if !self.modes.modes().is_empty() {
+            text.section().table(self.overview());
+            text.section().table(self.shapes());
+        }
+        text.section().notes(self.notes());
+        text
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        self.modes.table(self.network()).into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let modes: Vec<Value> = self.modes.modes().iter().map(|mode| self.mode(mode)).collect();
+        self.input.head(json, &[])?;
+        json.member("notes", &self.findings())?;
+        json.member("count", &Scalar::new(count_as_number(self.all), "1"))?;
+        json.member("modes", &modes)
     }
 }
 

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{Args as Arguments, ValueEnum};
+use clap::Args as Arguments;
 use lptn_reduce::Definition;
+use lptn_report::Format;
 
 use crate::options::{NoFiles, Scale, Source, TEMPLATE, one_of};
 
@@ -37,6 +38,7 @@ pub(crate) struct ReduceArgs {
     pub(crate) window: Option<String>,
     /// Print a table, csv, json, or the one node as toml
     #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    #[arg(value_parser = one_of(&ReduceFormat::ALL, ReduceFormat::key))]
     pub(crate) format: ReduceFormat,
     /// Write the one-node network as a netlist too
     #[arg(long, value_name = "FILE")]
@@ -47,10 +49,22 @@ pub(crate) struct ReduceArgs {
     _no_files: NoFiles,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ReduceFormat {
-    Table,
-    Csv,
-    Json,
+    /// One of every result.
+    Of(Format),
+    /// The netlist of the one node.
     Toml,
+}
+
+impl ReduceFormat {
+    const ALL: [Self; 4] =
+        [Self::Of(Format::Table), Self::Of(Format::Csv), Self::Of(Format::Json), Self::Toml];
+
+    fn key(self) -> &'static str {
+        match self {
+            Self::Of(format) => format.key(),
+            Self::Toml => "toml",
+        }
+    }
 }

@@ -1,27 +1,24 @@
 //! `lptn reduce`
 
 mod args;
-mod json;
-mod text;
+mod page;
 
 pub(crate) use args::ReduceArgs;
 
-use std::io::ErrorKind;
 use std::path::Path;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Derived, Diagnostic};
-use lptn_network::{Field, Item};
 use lptn_reduce::{Bias, Definition, FitError, Options, Pair, ReduceError, Reduction, port};
-use lptn_report::{plain, significant, write_csv};
+use lptn_report::{Format, plain, significant};
 use lptn_solve::Transient;
-use lptn_units::{Dimension, Type, Unit, parse_quantity};
+use lptn_units::{Dimension, Problem as _, Type, Unit};
 
 use args::ReduceFormat;
 
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::failure::{Failure, reason, told};
+use crate::failure::{Failure, told};
 use crate::input::{self, Input, quoted};
 use crate::{files, written};
 
@@ -73,22 +70,19 @@ impl View<'_> {
 
     fn show(&self, console: &Console) -> Result<(), Failure> {
         if let Some(path) = &self.args.write {
-            write_new(path, &self.netlist(Some(path))?)?;
+            files::write_new(path, &self.netlist(Some(path))?, "reduce::exists")?;
         }
         match self.args.format {
-            ReduceFormat::Table => console.print(&text::text(self, console)).map(drop)?,
-            ReduceFormat::Csv => {
-                let table = self.reduction.table();
-                console.write(|out| write_csv(&table, out))?;
-                self.notes().iter().for_each(|note| console.note(&format!("note: {note}")));
-            }
-            ReduceFormat::Json => console.write(|out| json::write(self, out))?,
+            ReduceFormat::Of(format) => console.show(self, format).map(drop)?,
             ReduceFormat::Toml => console.print(&self.netlist(None)?).map(drop)?,
+        }
+        if self.args.format == ReduceFormat::Of(Format::Csv) {
+            self.notes().iter().for_each(|note| console.note(&format!("note: {note}")));
         }
         if let Some(path) = &self.args.write {
             let path = path.display();
             console.note(&format!("wrote  {path}: one node that stands for {}", self.input.text.name));
-        } else if let (ReduceFormat::Table, Some(file), false) =
+        } else if let (ReduceFormat::Of(Format::Table), Some(file), false) =
             (self.args.format, self.input.typed(), self.system.network().has_events())
         {
             let port = quoted(&self.args.port);
@@ -104,8 +98,7 @@ impl View<'_> {
         let pair = self.pair();
         let network = self.reduction.network(self.system, start, pair);
         let network = network.map_err(|error| failed(self.input, self.args, &error))?;
-        let title = self.input.netlist.network.title().map_or(self.input.text.stem.clone(), plain);
-        let title = format!("{title}, seen from {}", self.args.port);
+        let title = format!("{}, seen from {}", self.input.title(), self.args.port);
         let folder = place.map(|place| place.parent().unwrap_or(Path::new("")));
         let made = Derived { network: &network, title: &title, run, folder };
         let text = self.comment() + &self.input.netlist.derived(&made);
@@ -152,15 +145,10 @@ pub(crate) struct Limit {
 impl Limit {
     /// `0.5K` or `2%`.
     fn parse(text: &str) -> Result<Self, Failure> {
-        const OPTION: &str = "--max-error";
         let share = text.trim().ends_with('%');
-        let wanted = if share { Type::of(Dimension::NONE) } else { Type::of(Dimension::TEMPERATURE) };
-        let quantity =
-            parse_quantity(text, Some(wanted)).map_err(|error| input::wrong_unit(OPTION, text, &error))?;
-        if quantity.value.is_nan() || quantity.value <= 0.0 {
-            let problem = Diagnostic::error("reduce::max_error", "the error allowed must be more than zero");
-            return Err(Failure::new(Exit::Input, problem.help("write for example --max-error 0.5K or 2%")));
-        }
+        let wanted = if share { Dimension::NONE } else { Dimension::TEMPERATURE };
+        let what = (wanted, "reduce::max_error", "0.5K or 2%");
+        let quantity = input::positive("--max-error", text, what)?;
         let [kelvin, relative] =
             if share { [None, Some(quantity.value)] } else { [Some(quantity.value), None] };
         Ok(Self { kelvin, relative, text: text.trim().to_owned() })
@@ -168,8 +156,7 @@ impl Limit {
 }
 
 fn window(text: &str) -> Result<f64, Failure> {
-    let quantity = parse_quantity(text, Some(Type::of(Dimension::TIME)));
-    quantity.map(|quantity| quantity.value).map_err(|error| input::wrong_unit("--window", text, &error))
+    input::quantity("--window", text, Type::of(Dimension::TIME)).map(|quantity| quantity.value)
 }
 
 /// One node cannot follow a network that switches over its run: the run is left out, but where it is asked for.
@@ -194,52 +181,19 @@ fn no_run(input: &Input, option: &str) -> Failure {
 
 /// What is wrong, with its place in the file or on the command line.
 fn failed(input: &Input, args: &ReduceArgs, error: &ReduceError) -> Failure {
-    let exit = match error {
-        ReduceError::Factorization(_) | ReduceError::Modes | ReduceError::Equivalent(_) => Exit::Failed,
-        ReduceError::Run(error) if error.code() == "run::integrator" => Exit::Failed,
-        _ => Exit::Input,
-    };
-    let problem = match (error.help(), error, input.netlist.network.nodes().first()) {
-        (None, ReduceError::UnknownPort(_), Some(node)) => {
-            told(error).help(format!("name a node, for example `{}`", node.name))
-        }
-        _ => told(error),
-    };
-    let netlist = &input.netlist;
-    let map = &netlist.source_map;
+    let network = &input.netlist.network;
     let place = match error {
         ReduceError::BoundaryPort { .. } => {
-            netlist.network.item(&args.port).ok().and_then(|item| map.name(item))
+            network.item(&args.port).ok().and_then(|item| input.netlist.source_map.name(item))
         }
-        ReduceError::NoGround { names } => {
-            let first = names.first().and_then(|name| netlist.network.node(name).ok());
-            first.and_then(|node| map.name(Item::Node(node)))
-        }
-        ReduceError::Input(input) => {
-            map.get(input.item, input.field).or_else(|| map.get(input.item, Field::Name))
-        }
+        ReduceError::NoGround { names } => names.first().and_then(|name| input.node_place(name)),
+        ReduceError::Input(error) => input.place_of(error),
         _ => None,
     };
-    match place {
-        Some(place) => Failure::at(exit, netlist.files.clone(), problem.at(place.clone(), "")),
-        None => Failure::new(exit, problem),
-    }
-}
-
-/// Writes a file that is not there yet.
-fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
-    files::write_new(path, text).map_err(|error| {
-        let path = path.display();
-        let problem = match error.kind() {
-            ErrorKind::AlreadyExists => Diagnostic::error(
-                "reduce::exists",
-                format!("{path} exists already, and is never written over"),
-            )
-            .help("choose another name, or remove the file first"),
-            _ => {
-                Diagnostic::error("output::cannot_create", format!("cannot write {path}: {}", reason(&error)))
-            }
-        };
-        Failure::new(Exit::Input, problem)
-    })
+    let example = network
+        .nodes()
+        .first()
+        .filter(|_| matches!(error, ReduceError::UnknownPort(_)) && error.help().is_none());
+    let help = example.map(|node| format!("name a node, for example `{}`", node.name));
+    input.refused(error.class().into(), told(error).at(place, "").help(help))
 }

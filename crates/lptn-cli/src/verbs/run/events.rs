@@ -1,7 +1,7 @@
 //! Events of a run: `events.csv`, JSON, and what a reader wants to know of controls.
 
 use lptn_network::{ControlId, Network};
-use lptn_report::{Align, Column, Shortest, TextTable, WIDTH, duration, fixed, labelled};
+use lptn_report::{Shortest, Text, TextTable, duration, fixed};
 use lptn_solve::{Event, EventKind, Solution};
 use lptn_study::Scalar;
 use serde_json::{Value, json};
@@ -28,7 +28,7 @@ pub(crate) fn json(solution: &Solution) -> Value {
     let state = |state: u8| json!({ "value": state, "unit": "1" });
     let one = |event: &Event| {
         json!({
-            "time": Scalar::new(event.time, "s").json(),
+            "time": Scalar::new(event.time, "s"),
             "kind": event.kind.word(),
             "name": event.kind.name(solution.network()),
             "before": state(event.before),
@@ -76,47 +76,41 @@ impl Use {
     }
 }
 
-/// A line for each control and the first events, from `start` on; nothing where nothing can switch.
-pub(crate) fn lines(solution: &Solution, (start, end): (f64, f64)) -> Vec<String> {
+/// A section with a line for each control and the first events, from `start` on; nothing where nothing can switch.
+pub(crate) fn section(text: &mut Text, solution: &Solution, (start, end): (f64, f64)) {
     let network = solution.network();
     if !network.has_events() {
-        return Vec::new();
+        return;
     }
-    let mut lines = controls(solution, (start, end));
-    lines.extend(first(solution));
-    lines.push(String::new());
-    lines
+    text.section();
+    let ids = network.control_ids().take(MOST_NODES);
+    let uses: Vec<Use> = ids.map(|id| Use::of(solution, id, (start, end))).collect();
+    if !uses.is_empty() {
+        text.table(controls(&uses));
+    }
+    if uses.len() < network.controls().len() {
+        text.line(format!("{} of {} are shown", uses.len(), network.controls().len()));
+    }
+    text.labelled("events: ", first(solution));
 }
 
-fn controls(solution: &Solution, span: (f64, f64)) -> Vec<String> {
-    let ids = solution.network().control_ids().take(MOST_NODES);
-    let uses: Vec<Use> = ids.map(|id| Use::of(solution, id, span)).collect();
-    if uses.is_empty() {
-        return Vec::new();
-    }
-    let cells = |text: &dyn Fn(&Use) -> String| uses.iter().map(text).collect::<Vec<_>>();
+fn controls(uses: &[Use]) -> TextTable {
     let percent = |share: Option<f64>| share.map_or("-".into(), |s| format!("{} %", fixed(100.0 * s, 1)));
-    let mut lines = TextTable::new(vec![
-        Column::new("control", Align::Left, cells(&|u| u.name.clone())),
-        Column::new("starts", Align::Right, cells(&|u| u.starts.to_string())),
-        Column::new("stops", Align::Right, cells(&|u| u.stops.to_string())),
-        Column::new("mean period", Align::Right, cells(&|u| u.period.map_or("-".into(), |p| duration(p, 4)))),
-        Column::new("on for", Align::Right, cells(&|u| percent(u.duty))),
-        Column::new("at the end", Align::Right, cells(&|u| if u.on { "on" } else { "off" }.into())),
-    ])
-    .lines(WIDTH);
-    let all = solution.network().controls().len();
-    if uses.len() < all {
-        lines.push(format!("{} of {all} are shown", uses.len()));
-    }
-    lines
+    TextTable::of(uses)
+        .left("control", |u| u.name.as_str())
+        .right("starts", |u| u.starts.to_string())
+        .right("stops", |u| u.stops.to_string())
+        .right("mean period", |u| u.period.map_or("-".into(), |period| duration(period, 4)))
+        .right("on for", |u| percent(u.duty))
+        .right("at the end", |u| if u.on { "on" } else { "off" })
+        .into()
 }
 
 /// The first events in words.
 fn first(solution: &Solution) -> Vec<String> {
     let events = solution.events();
     if events.is_empty() {
-        return labelled("events: ", &["none".to_owned()], WIDTH);
+        return vec!["none".to_owned()];
     }
     let mut pieces: Vec<String> =
         events.iter().take(SHOWN).map(|event| words(solution.network(), event)).collect();
@@ -125,7 +119,7 @@ fn first(solution: &Solution) -> Vec<String> {
     }
     let last = pieces.len() - 1;
     pieces[..last].iter_mut().for_each(|piece| piece.push(','));
-    labelled("events: ", &pieces, WIDTH)
+    pieces
 }
 
 /// "fan on at 12.05 min".

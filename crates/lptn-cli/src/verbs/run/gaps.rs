@@ -18,10 +18,7 @@ pub(crate) fn gaps(netlist: &Netlist, table: &Table) -> Vec<Diagnostic> {
         );
         let map = &netlist.source_map;
         let place = map.get(Item::Report(id), Field::Value).or_else(|| map.name(Item::Report(id)));
-        Some(match place {
-            Some(place) => warning.at(place.clone(), "nothing here"),
-            None => warning,
-        })
+        Some(warning.at(place, "nothing here"))
     };
     network.reports().iter().zip(network.report_ids()).filter_map(gap).collect()
 }

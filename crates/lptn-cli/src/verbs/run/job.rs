@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings, Span};
-use lptn_network::{End, Field, InputError, InputProblem, Item, Network, NodeId};
+use lptn_network::{End, InputError, InputProblem, Item, Network, NodeId};
 use lptn_solve::{
     Record, Selection, Solution, SteadyError, SteadyState, StopReason, Summary, Transient, TransientError,
     Window,
 };
-use lptn_units::Unit;
+use lptn_units::{Problem as _, Unit};
 
 use super::args::RunArgs;
 use crate::console::Console;
@@ -17,10 +17,10 @@ use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
-use crate::options::Format;
 use crate::progress::ProgressLine;
 use crate::words::MOST_NODES;
 use crate::{balance, select};
+use lptn_report::Format;
 
 /// Why there is no steady state to show.
 #[derive(Debug)]
@@ -69,7 +69,7 @@ impl<'a> Job<'a> {
         steady: Option<&SteadyState>,
         console: &Console,
     ) -> Result<(Solution, Option<Diagnostic>), Failure> {
-        let transient = self.transient(system, steady).map_err(|error| self.failed(&error))?;
+        let transient = self.transient(system, steady).map_err(|error| failed(self.input, &error))?;
         let interrupt = Interrupt::listen();
         let mut line = ProgressLine::new(console.quiet);
         let outcome = transient.solve_observed(system, &mut |progress| {
@@ -80,14 +80,14 @@ impl<'a> Job<'a> {
         match outcome {
             Ok(solution) => Ok((solution, None)),
             Err(error) => {
-                let problem = self.explain(&error);
+                let problem = explain(self.input, &error);
                 match error {
                     // nothing was computed, and nothing could be: the question does not fit the network
                     TransientError::Stopped { reason: StopReason::NothingSwitches, .. } => {
-                        Err(self.failed(&error))
+                        Err(failed(self.input, &error))
                     }
                     TransientError::Stopped { partial, .. } => Ok((*partial, Some(problem))),
-                    error => Err(self.failed(&error)),
+                    error => Err(failed(self.input, &error)),
                 }
             }
         }
@@ -120,36 +120,20 @@ impl<'a> Job<'a> {
             ..lptn_solve::Transient::of(system.network(), &self.settings)
         })
     }
-
-    /// What is wrong at the start is wrong with the input.
-    fn failed(&self, error: &TransientError) -> Failure {
-        let exit = match error {
-            TransientError::Integrator(_) | TransientError::Start(_) => Exit::Failed,
-            _ => Exit::Input,
-        };
-        Failure::at(exit, self.input.netlist.files.clone(), self.explain(error))
-    }
-
-    fn explain(&self, error: &TransientError) -> Diagnostic {
-        explain(self.input, error)
-    }
 }
 
 /// What broke a run off, with the place of the input that did.
 pub(crate) fn explain(input: &Input, error: &TransientError) -> Diagnostic {
-    let problem = told(error);
     let map = &input.netlist.source_map;
     let place = error.place();
-    let place = place.and_then(|(item, field)| map.get(item, field).or_else(|| map.get(item, Field::Name)));
-    let node = || error.node().and_then(|name| input.node_place(name));
-    let problem = match place.or_else(node) {
-        Some(span) => problem.at(span, ""),
-        None => problem,
-    };
-    match other_threshold(input, error) {
-        Some(span) => problem.also(span, "off"),
-        None => problem,
-    }
+    let place = place.and_then(|(item, field)| map.get(item, field).or_else(|| map.name(item)));
+    let place = place.or_else(|| input.node_place(error.node()?));
+    told(error).at(place, "").also(other_threshold(input, error), "off")
+}
+
+/// A run that cannot be begun, or that no part is shown of.
+pub(crate) fn failed(input: &Input, error: &TransientError) -> Failure {
+    input.refused(error.class().into(), explain(input, error))
 }
 
 /// Of thresholds that crossed over: the one that is not said to be at fault.

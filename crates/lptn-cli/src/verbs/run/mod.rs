@@ -6,10 +6,9 @@ mod gaps;
 pub(crate) mod job;
 mod next;
 pub(crate) mod outcome;
+pub(crate) mod page;
 mod state;
-pub(crate) mod text;
 pub(crate) mod uncertainty;
-mod view;
 mod windows;
 
 pub(crate) use args::RunArgs;
@@ -30,7 +29,7 @@ use crate::input::Input;
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
     let job = Job::new(args, &input)?;
-    uncertainty::check(&args.uncertainty, &input.netlist)?;
+    uncertainty::check(&args.uncertainty, &input)?;
     let system = input.assemble()?;
     let folder = (!args.no_files).then(|| Folder::prepare(job.folder(args))).transpose()?;
     console.warn(&input.netlist.files, &input.netlist.warnings);
@@ -42,13 +41,14 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     let uncertainty = if whole { uncertainty::study(&args.uncertainty, &job, console) } else { None };
     let wall_time = begun.elapsed().as_secs_f64();
     let lumping = Lumping::of_run(&solution);
-    let result = Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty };
-    let table = Table::of_solution(&result.solution, &result.job.selection, &result.job.unit);
+    let table = Table::of_solution(&solution, &job.selection, &job.unit);
+    let (verbose, format) = (console.verbose, job.format);
+    let result = Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, verbose };
     if let Some(folder) = &folder {
-        result.write(&args.source.set, folder, &table)?;
+        result.write(&args.source.set, folder)?;
     }
-    result.print(args, &table, console)?;
-    result.messages(folder.as_ref(), &table, console);
+    console.show(&result, format)?;
+    result.messages(folder.as_ref(), console);
     Ok(result.conclude(console, folder.is_some()))
 }
 

@@ -1,29 +1,26 @@
 //! What came of a run: files, the result on stdout, messages on stderr, the exit code.
 
 use lptn_netlist::Diagnostic;
-use lptn_network::Parameter;
-use lptn_report::{JsonWriter, WIDTH, duration, labelled, plain, write_csv, write_rows};
-use lptn_solve::{Beyond, End, Lumping, Solution, SteadyState, Table};
+use lptn_network::{Parameter, list_of_names};
+use lptn_report::{Format, WIDTH, duration, labelled, significant, words, write_csv, write_rows};
+use lptn_solve::{Beyond, End, Lumping, Solution, SteadyState, Table, Unbounded};
 use lptn_study::{
     Environment, FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, Scalar, StatisticsRecord,
     Sundials,
 };
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
-use super::args::RunArgs;
 use super::gaps::gaps;
 use super::job::{Job, NoSteady};
 use super::uncertainty::{Study, elsewhere, files as uncertain};
-use super::view::View;
-use super::{events, next, state, text, windows};
+use super::{events, next, state, windows};
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::Folder;
 use crate::files::names::{EVENTS, MANIFEST, RANKING, RESULT, STATE, UNCERTAINTY, WINDOWS};
 use crate::limits::{self, Judged};
-use crate::options::Format;
-use crate::{balance, diagnostics, lumping, select, sense};
+use crate::{lumping, select, sense};
 
 /// What came of it.
 pub(crate) struct Outcome<'a> {
@@ -37,13 +34,17 @@ pub(crate) struct Outcome<'a> {
     pub(crate) wall_time: f64,
     /// How sure it is, where that was asked.
     pub(crate) uncertainty: Option<Result<Study, Failure>>,
+    /// The selected columns, in the unit that is shown.
+    pub(crate) table: Table,
+    /// Whether more is told of the solver.
+    pub(crate) verbose: bool,
 }
 
 impl Outcome<'_> {
     /// Writes the files: all of them take their places together, the manifest last.
-    pub(crate) fn write(&self, set: &[String], folder: &Folder, table: &Table) -> Result<(), Failure> {
+    pub(crate) fn write(&self, set: &[String], folder: &Folder) -> Result<(), Failure> {
         let mut files = folder.batch();
-        files.write(RESULT, |out| write_csv(table, out))?;
+        files.write(RESULT, |out| write_csv(&self.table, out))?;
         let state = state::of(self.job.input, &self.solution);
         files.write(STATE, |out| state.write(out))?;
         let events = events::rows(&self.solution);
@@ -85,7 +86,7 @@ impl Outcome<'_> {
             end: RunEnd::of(&self.solution, settings.stop, self.ended_early()),
             statistics: StatisticsRecord::new(&self.solution),
             ledger: self.ledger(),
-            limits: limits::members(self.solution.network(), &self.limits()),
+            limits: limits::members(self.solution.network(), &self.limits()).unwrap_or_default(),
             uncertainty: self.uncertainty().map(|study| {
                 let mut members = uncertain::method(&study.found);
                 let parameters = uncertain::parameters(self.solution.network(), &study.found);
@@ -108,7 +109,7 @@ impl Outcome<'_> {
             assigned.find(|(left, _)| left.trim() == name).map(|(_, right)| right.trim().to_owned())
         };
         let record = |(parameter, id): (&Parameter, _)| {
-            let unit = if parameter.ty.absolute { "K".into() } else { parameter.ty.dimension.si_unit() };
+            let unit = parameter.ty.dimension.si_unit();
             let value = network.parameter_value(id);
             ParameterRecord { name: parameter.name.clone(), value, unit, set: set(&parameter.name) }.member()
         };
@@ -116,7 +117,7 @@ impl Outcome<'_> {
     }
 
     /// How sure the result is, where that was asked and is known.
-    fn uncertainty(&self) -> Option<&Study> {
+    pub(super) fn uncertainty(&self) -> Option<&Study> {
         self.uncertainty.as_ref()?.as_ref().ok()
     }
 
@@ -131,7 +132,7 @@ impl Outcome<'_> {
     }
 
     /// Why the run did not reach its stop.
-    fn ended_early(&self) -> Option<String> {
+    pub(super) fn ended_early(&self) -> Option<String> {
         match (self.solution.end(), &self.failure) {
             (_, Some(problem)) => Some(problem.message.clone()),
             (End::Interrupted(time), None) => Some(format!("interrupted at {}", duration(time, 4))),
@@ -139,50 +140,19 @@ impl Outcome<'_> {
         }
     }
 
-    pub(crate) fn print(&self, args: &RunArgs, table: &Table, console: &Console) -> Result<(), Failure> {
-        match args.shown.format {
-            Format::Table => {
-                let netlist = &self.job.input.netlist;
-                let title = netlist.network.title().map_or(self.job.input.text.stem.clone(), plain);
-                let view = View {
-                    title: &title,
-                    lumping: &self.lumping,
-                    origin: state::origin(self.job.input),
-                    solution: &self.solution,
-                    steady: self.steady.as_ref(),
-                    unit: &self.job.unit,
-                    settings: &self.job.settings,
-                    limits: &self.limits(),
-                    uncertainty: self.uncertainty(),
-                    table,
-                    chosen: self.job.chosen,
-                };
-                console.print(&text::summary(&view, console)).map(drop)
-            }
-            Format::Csv => match self.uncertainty() {
-                Some(study) => {
-                    let bands = uncertain::bands(self.solution.network(), &study.found, &self.job.unit);
-                    console.write(|out| write_csv(&bands, out))
-                }
-                None => console.write(|out| write_csv(table, out)),
-            },
-            Format::Json => console.write(|out| self.json(table, out)),
-        }
-    }
-
     /// What the rows show to be wrong with reports, and with nodes that are no lumps.
-    fn found(&self, table: &Table) -> Vec<Diagnostic> {
+    pub(super) fn found(&self) -> Vec<Diagnostic> {
         let netlist = &self.job.input.netlist;
         let certain = self.uncertainty().map_or_else(Vec::new, |_| elsewhere(netlist));
         let lumps = lumping::warnings(netlist, &self.lumping);
         let beyond = Beyond::of_run(&self.solution).map(|beyond| sense::warning(netlist, &beyond));
-        gaps(netlist, table).into_iter().chain(beyond).chain(lumps).chain(certain).collect()
+        gaps(netlist, &self.table).into_iter().chain(beyond).chain(lumps).chain(certain).collect()
     }
 
     /// What a reader should know of the numbers; the table says it in its notes.
-    fn doubts(&self) -> Vec<Diagnostic> {
-        let bound = text::not_bounded(&self.solution);
-        let ledger = text::weak_ledger(&self.solution);
+    pub(super) fn doubts(&self) -> Vec<Diagnostic> {
+        let bound = not_bounded(&self.solution);
+        let ledger = weak_ledger(&self.solution);
         let warning = |code, text: Option<String>| text.map(|text| Diagnostic::warning(code, text));
         [warning("run::error_not_bounded", bound), warning("run::weak_ledger", ledger)]
             .into_iter()
@@ -190,51 +160,18 @@ impl Outcome<'_> {
             .collect()
     }
 
-    fn json(&self, table: &Table, out: impl std::io::Write) -> std::io::Result<()> {
-        let netlist = &self.job.input.netlist;
-        let mut json = JsonWriter::new(out);
-        json.member("format", &json!(1))?;
-        json.member("network", &json!(self.job.input.text.stem))?;
-        let warnings: Vec<Diagnostic> =
-            netlist.warnings.iter().cloned().chain(self.doubts()).chain(self.found(table)).collect();
-        json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
-        json.table(table)?;
-        json.member("events", &events::json(&self.solution))?;
-        json.member("ledger", &serde_json::to_value(self.ledger())?)?;
-        if !self.solution.limits().is_empty() {
-            let limits = limits::members(self.solution.network(), &self.limits());
-            json.member("limits", &Value::Object(limits))?;
-        }
-        if let Some(study) = self.uncertainty() {
-            json.member("uncertainty", &uncertain::json(self.solution.network(), study))?;
-        }
-        if !self.job.settings.windows.is_empty() {
-            json.member("windows", &Value::Object(windows::members(self.solution.windows())))?;
-        }
-        if let Some(of) = self.solution.balance() {
-            json.member("balance", &balance::json(self.solution.network(), of))?;
-        }
-        json.member("lumping", &lumping::json(self.solution.network(), &self.lumping))?;
-        json.member("statistics", &serde_json::to_value(StatisticsRecord::new(&self.solution))?)?;
-        if let Some(message) = self.ended_early() {
-            let end = RunEnd::of(&self.solution, self.job.settings.stop, Some(message));
-            json.member("end", &serde_json::to_value(end)?)?;
-        }
-        json.finish().map(drop)
-    }
-
     /// What is worth knowing beside the result, on stderr.
-    pub(crate) fn messages(&self, folder: Option<&Folder>, table: &Table, console: &Console) {
+    pub(crate) fn messages(&self, folder: Option<&Folder>, console: &Console) {
         if let Some(folder) = folder {
             let path = folder.path().join(RESULT);
             let took = duration(self.wall_time, 2);
-            let rows = table.rows();
+            let rows = self.table.rows();
             let windows = if self.solution.windows().is_empty() { "" } else { ", windows.csv" };
             let bands = if self.uncertainty().is_some() { ", uncertainty.csv, ranking.csv" } else { "" };
             let files = format!("{}{bands}, {EVENTS}{windows}, {STATE}, {MANIFEST}", path.display());
-            let mut words: Vec<String> = files.split(' ').map(str::to_owned).collect();
-            words.push(format!("({rows} rows, solved in {took})"));
-            console.note(&labelled("wrote  ", &words, WIDTH).join("\n"));
+            let mut pieces = words(&files);
+            pieces.push(format!("({rows} rows, solved in {took})"));
+            console.note(&labelled("wrote  ", &pieces, WIDTH).join("\n"));
         }
         if let Some(hidden) = select::hidden(&self.job.input.netlist).filter(|_| !self.job.chosen) {
             console.note(&hidden);
@@ -242,7 +179,7 @@ impl Outcome<'_> {
         if self.job.format != Format::Table {
             console.warn(&self.job.input.netlist.files, &self.doubts());
         }
-        console.warn(&self.job.input.netlist.files, &self.found(table));
+        console.warn(&self.job.input.netlist.files, &self.found());
         if self.job.format == Format::Table && self.solution.end() == End::Reached {
             let command = next::after_run(self.job.input, self.steady.is_ok());
             command.iter().for_each(|command| console.note(&format!("next   {command}")));
@@ -288,4 +225,39 @@ fn does_not_close(solution: &Solution) -> Diagnostic {
     );
     Diagnostic::error("run::ledger", message)
         .help("this is a bug in lptn or a network of extreme numbers: do not use the result")
+}
+
+/// Errors that add up.
+pub(super) fn not_bounded(solution: &Solution) -> Option<String> {
+    let network = solution.network();
+    let why = match solution.why_unbounded()? {
+        Unbounded::NoBoundary(nodes) => {
+            let names: Vec<String> =
+                nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
+            format!("no path leads to a boundary from {}", list_of_names(&names))
+        }
+        Unbounded::LongMemory { steps } => format!(
+            "the network remembers about {} steps of inputs that keep changing; compare with a smaller --tolerance",
+            significant(steps, 1)
+        ),
+        Unbounded::Switches { count } => {
+            format!(
+                "each of {count} switches shifts the times of the next ones; compare with a smaller --tolerance"
+            )
+        }
+    };
+    Some(format!("error not bounded by the tolerance: it adds up, because {why}"))
+}
+
+/// A bound so wide that the books would close on nonsense too.
+pub(super) fn weak_ledger(solution: &Solution) -> Option<String> {
+    const PROOF: f64 = 1e-2;
+    let ledger = solution.ledger();
+    let weak = ledger.turned_over > 0.0 && ledger.bound > PROOF;
+    weak.then(|| {
+        let tolerance = significant(solution.tolerance(), 2);
+        format!(
+            "so little heat is turned over that at a tolerance of {tolerance} K the balance proves nothing"
+        )
+    })
 }

@@ -1,6 +1,6 @@
 //! Means and extremes over windows of a run: table, CSV and JSON.
 
-use lptn_report::{Align, Column, Shortest, TextTable, WIDTH, decimals, duration, fixed};
+use lptn_report::{Shortest, Text, TextTable, decimals, duration, fixed};
 use lptn_solve::{ColumnSeen, WindowSeen};
 use lptn_study::Scalar;
 use lptn_units::Unit;
@@ -8,34 +8,32 @@ use serde_json::{Map, Value, json};
 
 use crate::words::{MOST_NODES, symbol};
 
-/// A block for each window, with an empty line after each.
-pub(crate) fn lines(windows: &[WindowSeen], unit: &Unit) -> Vec<String> {
-    windows.iter().flat_map(|window| block(window, unit)).collect()
+/// A section for each window.
+pub(crate) fn sections(text: &mut Text, windows: &[WindowSeen], unit: &Unit) {
+    windows.iter().for_each(|window| section(text, window, unit));
 }
 
-fn block(window: &WindowSeen, unit: &Unit) -> Vec<String> {
+fn section(text: &mut Text, window: &WindowSeen, unit: &Unit) {
     let shown = &window.columns[..window.columns.len().min(MOST_NODES)];
-    let cells = |text: &dyn Fn(&ColumnSeen) -> String| shown.iter().map(text).collect::<Vec<_>>();
     let number = |column: &ColumnSeen, value: f64| {
         let [low, high] = [column.min.0, column.max.0].map(|value| column.shown(value, unit));
         fixed(column.shown(value, unit), decimals(low.abs().max(high.abs()), 4, 1))
     };
     let title = format!("{}: {} to {}", window.name, duration(window.from, 4), duration(window.to, 4));
-    let name = |c: &ColumnSeen| format!("{} [{}]", c.name, symbol(&c.unit(unit)));
-    let table = TextTable::new(vec![
-        Column::new(title, Align::Left, cells(&name)),
-        Column::new("mean", Align::Right, cells(&|c| number(c, c.mean))),
-        Column::new("min", Align::Right, cells(&|c| number(c, c.min.0))),
-        Column::new("at", Align::Right, cells(&|c| duration(c.min.1, 4))).optional(),
-        Column::new("max", Align::Right, cells(&|c| number(c, c.max.0))),
-        Column::new("at", Align::Right, cells(&|c| duration(c.max.1, 4))).optional(),
-    ]);
-    let mut lines = table.lines(WIDTH);
+    let table = TextTable::of(shown)
+        .left(title, |c| format!("{} [{}]", c.name, symbol(&c.unit(unit))))
+        .right("mean", |c| number(c, c.mean))
+        .right("min", |c| number(c, c.min.0))
+        .right("at", |c| duration(c.min.1, 4))
+        .optional()
+        .right("max", |c| number(c, c.max.0))
+        .right("at", |c| duration(c.max.1, 4))
+        .optional();
+    text.section().table(table);
     if shown.len() < window.columns.len() {
-        lines.push(format!("{} of {} are shown, --select shows others", shown.len(), window.columns.len()));
+        let all = window.columns.len();
+        text.line(format!("{} of {all} are shown, --select shows others", shown.len()));
     }
-    lines.push(String::new());
-    lines
 }
 
 /// The rows of `windows.csv`, temperatures in `unit`.
@@ -59,9 +57,9 @@ pub(crate) fn rows(windows: &[WindowSeen], unit: &Unit) -> Vec<Vec<String>> {
 
 /// Members by the window's name: `{ from, to, columns: { NAME: { mean, min, min_at, max, max_at } } }`, in SI.
 pub(crate) fn members(windows: &[WindowSeen]) -> Map<String, Value> {
-    let time = |time: f64| Scalar::new(time, "s").json();
+    let time = |time: f64| Scalar::new(time, "s");
     let column = |c: &ColumnSeen| {
-        let scalar = |value: f64| Scalar::new(value, &c.ty.dimension.si_unit()).json();
+        let scalar = |value: f64| Scalar::new(value, &c.ty.dimension.si_unit());
         let member = json!({
             "mean": scalar(c.mean),
             "min": scalar(c.min.0),

@@ -5,8 +5,9 @@ use lptn_network::{Changing, Course, Item, Network, SignalId, list_of};
 use lptn_report::significant;
 use lptn_study::SizeError;
 
-use super::text::quantity;
+use super::page::quantity;
 use crate::input::Input;
+use crate::words::spaced;
 
 /// The error with the place of everything that changes.
 pub(crate) fn explained(
@@ -70,8 +71,7 @@ fn largest(network: &Network, id: SignalId) -> Option<String> {
         Course::Expression(_) => return None,
     };
     let most = values.iter().copied().reduce(f64::max)?;
-    let unit = if signal.ty.absolute { "K".into() } else { signal.ty.dimension.si_unit() };
-    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+    let unit = spaced(&signal.ty.dimension.si_unit());
     Some(format!("`{} = \"{}{unit}\"`", signal.name, significant(most, 6)))
 }
 

@@ -1,46 +1,41 @@
 //! `lptn size` without a netlist: what a cooling has to do.
 
-use lptn_report::{Align, Column, JsonWriter, TextTable, WIDTH, plain, significant, write_csv};
+use std::io;
+
+use lptn_netlist::Files;
+use lptn_report::{Json, Page, Rows, Text, TextTable, plain, significant};
 use lptn_solve::Table;
-use lptn_study::{Coolant, Cooling, CoolingError, CoolingTask, Flow, Scalar};
-use lptn_units::{Dimension, Type, parse_quantity};
-use serde_json::{Map, Value, json};
+use lptn_study::{Coolant, Cooling, CoolingTask, Flow, Scalar};
+use lptn_units::{Dimension, Type};
+use serde_json::{Map, json};
 
 use super::args::{CoolingArgs, SizeArgs};
 use crate::console::Console;
+use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::input::wrong_unit;
-use crate::options::Format;
+use crate::input::quantity;
 
 /// How much a coolant warms unless said otherwise.
 const USUAL_RISE: &str = "10 K";
 
 pub(crate) fn cooling(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
     let task = task(&args.cooling)?;
-    let cooling = task.cooling().map_err(|error| wrong(&error))?;
+    let cooling = task.cooling().map_err(|error| Failure::of(&error))?;
     let answer = Answer {
+        asked: &args.cooling,
         task,
         cooling,
         air: Coolant::air(task.ambient).map(|air| (air, task.flow(air))),
         oil: Coolant::oil().map(|oil| (oil, task.flow(oil))),
     };
-    match args.printed.format {
-        Format::Table => console.print(&answer.text(&args.cooling, console)).map(drop)?,
-        Format::Csv => console.write(|out| write_csv(&answer.table(), out))?,
-        Format::Json => console.write(|out| answer.json(out))?,
-    }
-    if args.printed.format != Format::Table && !answer.feasible() {
-        console.message(&answer.infeasible());
-    }
-    Ok(if answer.feasible() { Exit::Done } else { Exit::No })
+    console.show(&answer, args.printed.format)
 }
 
 fn task(args: &CoolingArgs) -> Result<CoolingTask, Failure> {
     let value = |name: &str, text: Option<&String>, usual: &str, ty: Type| {
         let text = text.map_or(usual, String::as_str);
-        let quantity = parse_quantity(text, Some(ty)).map_err(|error| wrong_unit(name, text, &error))?;
-        Ok::<f64, Failure>(quantity.value)
+        quantity(name, text, ty).map(|quantity| quantity.value)
     };
     let absolute = Type::ABSOLUTE_TEMPERATURE;
     Ok(CoolingTask {
@@ -51,11 +46,8 @@ fn task(args: &CoolingArgs) -> Result<CoolingTask, Failure> {
     })
 }
 
-fn wrong(error: &CoolingError) -> Failure {
-    Failure::of(Exit::Input, error)
-}
-
-struct Answer {
+struct Answer<'a> {
+    asked: &'a CoolingArgs,
     task: CoolingTask,
     cooling: Cooling,
     /// Properties and flow; the flow is `None` where the coolant would leave warmer than the limit.
@@ -63,7 +55,7 @@ struct Answer {
     oil: Option<(Coolant, Option<Flow>)>,
 }
 
-impl Answer {
+impl Answer<'_> {
     fn feasible(&self) -> bool {
         self.cooling.available > 0.0
     }
@@ -93,42 +85,7 @@ impl Answer {
         ]
     }
 
-    fn table(&self) -> Table {
-        let mut table = Table::of(&[()]);
-        self.values().into_iter().for_each(|(name, value, unit)| table.column(name, unit, |()| value));
-        table.done()
-    }
-
-    fn json(&self, out: impl std::io::Write) -> std::io::Result<()> {
-        let member =
-            |(name, value, unit): (&str, f64, &str)| (name.to_owned(), Scalar::new(value, unit).json());
-        let values: Map<String, Value> = self.values().map(member).into_iter().collect();
-        let mut json = JsonWriter::new(out);
-        json.member("format", &json!(1))?;
-        json.member("network", &json!(null))?;
-        json.member("warnings", &json!([]))?;
-        json.member("values", &Value::Object(values))?;
-        json.member("margin", &Scalar::new(self.cooling.available, "K").json())?;
-        json.member("binding", &json!(if self.feasible() { Some("limit") } else { None }))?;
-        json.member("feasible", &json!(self.feasible()))?;
-        json.finish().map(drop)
-    }
-
-    fn text(&self, args: &CoolingArgs, console: &Console) -> String {
-        let said = |text: Option<&String>| plain(text.map_or("", String::as_str));
-        let (power, limit, ambient) =
-            (said(args.power.as_ref()), said(args.limit.as_ref()), said(args.ambient.as_ref()));
-        let title = format!("Cooling of {power} at {limit} in {ambient}");
-        let mut lines = vec![console.title(&title), String::new()];
-        if !self.feasible() {
-            lines.push(self.infeasible());
-            return lines.join("\n") + "\n";
-        }
-        lines.extend(self.lines());
-        lines.join("\n") + "\n"
-    }
-
-    fn lines(&self) -> Vec<String> {
+    fn needs(&self) -> TextTable {
         let rise = significant(self.task.rise, 4);
         let mut rows = vec![
             [
@@ -149,9 +106,41 @@ impl Answer {
         for (name, of) in [("air", self.air), ("gear oil", self.oil)] {
             rows.push([format!("{name}, {rise} K warmer"), flow(of), properties(of)]);
         }
-        let column = |i: usize| Column::new("", Align::Left, rows.iter().map(|row| row[i].clone()).collect());
-        let lines = TextTable::new((0..3).map(column).collect()).lines(WIDTH);
-        lines.into_iter().skip(1).collect()
+        TextTable::of(&rows).left("", |row| &row[0]).left("", |row| &row[1]).left("", |row| &row[2]).into()
+    }
+}
+
+impl Page for Answer<'_> {
+    fn text(&self) -> Text {
+        let said = |text: &Option<String>| plain(text.as_deref().unwrap_or_default());
+        let [power, limit, ambient] = [&self.asked.power, &self.asked.limit, &self.asked.ambient].map(said);
+        let mut text = Text::titled(format!("Cooling of {power} at {limit} in {ambient}"));
+        match self.feasible() {
+            true => text.section().table(self.needs()),
+            false => text.section().line(self.infeasible()),
+        };
+        text
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        let mut table = Table::of(&[()]);
+        let values = self.values().into_iter();
+        values.for_each(|(name, value, unit)| table.column(name, unit, |()| value));
+        table.done().into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let member =
+            |(name, value, unit): (&str, f64, &str)| (name.to_owned(), json!(Scalar::new(value, unit)));
+        diagnostics::head(json, None, (&Files::new(), &[]))?;
+        json.member("values", &self.values().map(member).into_iter().collect::<Map<_, _>>())?;
+        json.member("margin", &Scalar::new(self.cooling.available, "K"))?;
+        json.member("binding", &self.feasible().then_some("limit"))?;
+        json.member("feasible", &self.feasible())
+    }
+
+    fn no(&self) -> Option<String> {
+        (!self.feasible()).then(|| self.infeasible())
     }
 }
 

@@ -8,11 +8,12 @@ use lptn_report::Shortest;
 use lptn_study::requirement_margins;
 
 use super::Answer;
-use super::text::rounded;
+use super::page::rounded;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::words::spaced;
 use crate::written::{can_be_written, put, with_numbers};
 
 /// Digits that are tried, the fewest first.
@@ -29,7 +30,7 @@ pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Resu
         return Err(Failure::new(Exit::Failed, problem));
     };
     put(file, &with_numbers(answer.input, &[(answer.parameter, number.clone())])?)?;
-    let unit = if answer.unit.text == "1" { String::new() } else { format!(" {}", answer.unit.text) };
+    let unit = spaced(&answer.unit.text);
     console.note(&format!("wrote  {}: {} = {number}{unit}", file.display(), answer.study.parameter));
     Ok(())
 }

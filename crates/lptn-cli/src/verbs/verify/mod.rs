@@ -4,25 +4,23 @@ mod args;
 
 pub(crate) use args::VerifyArgs;
 
+use std::io;
+
 use lptn_assembly::ThermalSystem;
 use lptn_network::Network;
-use lptn_report::{
-    Align, Column, JsonWriter, TextTable, WIDTH, duration, labelled, plain, shortened, significant, write_csv,
-};
+use lptn_report::{Json, Page, Rows, Text, TextTable, duration, shortened, significant};
 use lptn_solve::{Comparison, NoReference, Reference, Transient, TransientError, Verification};
 use lptn_study::Scalar;
 use serde_json::{Value, json};
 
 use crate::console::Console;
-use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
-use crate::options::Format;
 use crate::progress::ProgressLine;
-use crate::verbs::run::job::{explain, no_run};
-use crate::words::{count, counts};
+use crate::verbs::run::job::{failed, no_run};
+use crate::words::count;
 
 /// Letters of a node's name beside the other columns.
 const NODE_WIDTH: usize = 22;
@@ -42,21 +40,7 @@ pub(crate) fn verify(args: &VerifyArgs, console: &Console) -> Result<Exit, Failu
         return Ok(Exit::Interrupted);
     };
     let view = View { input: &input, verification: &verification };
-    match args.printed.format {
-        Format::Table => console.print(&view.text(console)).map(drop)?,
-        Format::Csv => {
-            let table = verification.table(&netlist.network);
-            console.write(|out| write_csv(&table, out))?;
-        }
-        Format::Json => console.write(|out| view.json(out))?,
-    }
-    if verification.passes() {
-        return Ok(Exit::Done);
-    }
-    if args.printed.format != Format::Table {
-        console.message(&view.verdict());
-    }
-    Ok(Exit::No)
+    console.show(&view, args.printed.format)
 }
 
 /// The verification, with progress on a terminal; `None` after Ctrl-C.
@@ -75,16 +59,6 @@ fn observed(
     found
 }
 
-fn failed(input: &Input, error: &TransientError) -> Failure {
-    let exit = match error {
-        TransientError::Integrator(_) | TransientError::Start(_) | TransientError::Stopped { .. } => {
-            Exit::Failed
-        }
-        TransientError::Settings(_) | TransientError::Input(_) => Exit::Input,
-    };
-    Failure::at(exit, input.netlist.files.clone(), explain(input, error))
-}
-
 struct View<'a> {
     input: &'a Input,
     verification: &'a Verification,
@@ -99,29 +73,14 @@ impl View<'_> {
         &self.network().nodes()[comparison.difference.node.index()].name
     }
 
-    fn text(&self, console: &Console) -> String {
-        let title = self.network().title().map_or(self.input.text.stem.clone(), plain);
-        let mut lines = vec![console.title(&title), counts(self.network()), String::new()];
-        lines.extend(self.comparisons());
-        lines.push(String::new());
-        lines.extend(labelled("compared with: ", &words(&self.reference()), WIDTH));
-        lines.push(self.verdict());
-        lines.join("\n") + "\n"
-    }
-
-    fn comparisons(&self) -> Vec<String> {
-        let comparisons = &self.verification.comparisons;
-        let column = |title: &str, align: Align, text: &dyn Fn(&Comparison) -> String| {
-            Column::new(title, align, comparisons.iter().map(text).collect())
-        };
-        let table = TextTable::new(vec![
-            column("tolerance [K]", Align::Left, &|c| significant(c.tolerance, 3)),
-            column("difference [K]", Align::Right, &|c| significant(c.difference.largest, 2)),
-            column("allowed [K]", Align::Right, &|c| significant(c.allowed, 2)),
-            column("at", Align::Right, &|c| duration(c.difference.time, 4)),
-            column("of node", Align::Left, &|c| shortened(self.node(c), NODE_WIDTH)),
-        ]);
-        table.lines(WIDTH)
+    fn comparisons(&self) -> TextTable {
+        TextTable::of(&self.verification.comparisons)
+            .left("tolerance [K]", |c| significant(c.tolerance, 3))
+            .right("difference [K]", |c| significant(c.difference.largest, 2))
+            .right("allowed [K]", |c| significant(c.allowed, 2))
+            .right("at", |c| duration(c.difference.time, 4))
+            .left("of node", |c| shortened(self.node(c), NODE_WIDTH))
+            .into()
     }
 
     /// What the runs are compared with.
@@ -171,50 +130,63 @@ impl View<'_> {
         }
     }
 
-    fn json(&self, out: impl std::io::Write) -> std::io::Result<()> {
-        let netlist = &self.input.netlist;
-        let worst: Vec<Value> = self.verification.comparisons.iter().map(|c| self.worst(c)).collect();
-        let mut json = JsonWriter::new(out);
-        json.member("format", &json!(1))?;
-        json.member("network", &json!(self.input.text.stem))?;
-        json.member("warnings", &diagnostics::list(&netlist.files, &netlist.warnings))?;
-        json.table(&self.verification.table(&netlist.network))?;
-        json.member("worst", &Value::Array(worst))?;
-        json.member("reference", &self.reference_json())?;
-        json.member("passes", &json!(self.verification.passes()))?;
-        json.finish().map(drop)
-    }
-
     fn worst(&self, comparison: &Comparison) -> Value {
         json!({
-            "tolerance": Scalar::new(comparison.tolerance, "K").json(),
-            "difference": Scalar::new(comparison.difference.largest, "K").json(),
-            "allowed": Scalar::new(comparison.allowed, "K").json(),
+            "tolerance": Scalar::new(comparison.tolerance, "K"),
+            "difference": Scalar::new(comparison.difference.largest, "K"),
+            "allowed": Scalar::new(comparison.allowed, "K"),
             "node": self.node(comparison),
-            "time": Scalar::new(comparison.difference.time, "s").json(),
+            "time": Scalar::new(comparison.difference.time, "s"),
         })
     }
 
     fn reference_json(&self) -> Value {
-        let scalar = |kelvin: f64| Scalar::new(kelvin, "K").json();
+        let kelvin = |value: f64| Scalar::new(value, "K");
         match &self.verification.reference {
             Reference::Exact { quadrature_error, own_error, .. } => json!({
                 "independent": true,
                 "text": self.reference(),
-                "own_error": scalar(*own_error),
-                "quadrature_error": quadrature_error.map(scalar),
+                "own_error": kelvin(*own_error),
+                "quadrature_error": quadrature_error.map(kelvin),
             }),
             Reference::FinerRun { tolerance, .. } => json!({
                 "independent": false,
                 "text": self.reference(),
-                "tolerance": scalar(*tolerance),
+                "tolerance": kelvin(*tolerance),
             }),
         }
     }
 }
 
+impl Page for View<'_> {
+    fn text(&self) -> Text {
+        let mut text = self.input.begun();
+        text.section().table(self.comparisons());
+        text.section().labelled("compared with: ", with_units(&self.reference()));
+        text.line(self.verdict());
+        text
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        self.verification.table(self.network()).into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let worst: Vec<Value> = self.verification.comparisons.iter().map(|c| self.worst(c)).collect();
+        self.input.head(json, &[])?;
+        json.table(&self.verification.table(self.network()))?;
+        json.member("worst", &worst)?;
+        json.member("reference", &self.reference_json())?;
+        json.member("passes", &self.verification.passes())
+    }
+
+    fn no(&self) -> Option<String> {
+        (!self.verification.passes()).then(|| self.verdict())
+    }
+}
+
 /// Words for wrapping; a number stays with its unit.
-fn words(text: &str) -> Vec<String> {
+fn with_units(text: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for word in text.split(' ') {
         match words.last_mut() {

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args as Arguments;
 
-use crate::options::{Format, TEMPLATE};
+use lptn_report::Format;
+
+use crate::options::{TEMPLATE, one_of};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -47,6 +49,7 @@ pub(crate) struct LawArgs {
     pub(crate) capacity: Option<String>,
     /// Print a table, csv or json
     #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
+    #[arg(value_parser = one_of(&Format::ALL, Format::key))]
     pub(crate) format: Format,
     /// Write files here, not into out/FOLDER
     #[arg(short, long, value_name = "DIR", conflicts_with = "no_files")]

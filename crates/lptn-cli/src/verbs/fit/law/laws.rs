@@ -1,21 +1,22 @@
 //! Whether laws of rise, time constant and power can be true together: as text, as JSON, and the form without points.
 
+use std::io;
+
 use lptn_fit::law::{AtSpeed, Consistency, Exponent, LawError, LawOf, Significance, StatedLaw};
 use lptn_fit::step::Capacity;
-use lptn_report::{Align, Column, JsonWriter, TextTable, WIDTH, fixed, labelled, significant, write_csv};
+use lptn_report::{Json, Page, Rows, Text, TextTable, fixed, significant};
 use lptn_solve::Table;
 use lptn_study::Scalar;
-use lptn_units::{Dimension, Type, parse_quantity};
+use lptn_units::{Dimension, Type};
 use serde_json::{Value, json};
 
 use super::args::LawArgs;
 use super::shown::{SpeedUnit, with_error};
-use super::{wrong, wrong_law};
+use super::wrong_law;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::input::wrong_unit;
-use crate::options::Format;
+use crate::input::quantity;
 
 /// Compares three laws of the command line.
 pub(crate) fn laws(args: &LawArgs, capacity: Option<Capacity>, console: &Console) -> Result<Exit, Failure> {
@@ -30,59 +31,71 @@ pub(crate) fn laws(args: &LawArgs, capacity: Option<Capacity>, console: &Console
     ];
     let range = range(args.laws.over.as_deref().unwrap_or_default())?;
     let found = Consistency::of_laws(&stated[0], &stated[1], &stated[2], capacity, range);
-    let found = found.map_err(|error| wrong(&error))?;
-    let unit = SpeedUnit::rpm();
-    match args.format {
-        Format::Table => console.print(&text(&stated, &found, (&unit, console))).map(drop)?,
-        Format::Csv => console.write(|out| write_csv(&table(&found, &unit), out))?,
-        Format::Json => console.write(|out| {
-            let mut json = JsonWriter::new(out);
-            json.member("format", &json!(1))?;
-            json.member("warnings", &json!([]))?;
-            json.member("consistency", &members(&found))?;
-            json.finish().map(drop)
-        })?,
+    let found = found.map_err(|error| Failure::of(&error))?;
+    console.show(&Stated { laws: stated, found, unit: SpeedUnit::rpm() }, args.format)
+}
+
+/// Three laws and how they go together.
+struct Stated {
+    laws: [StatedLaw; 3],
+    found: Consistency,
+    unit: SpeedUnit,
+}
+
+impl Page for Stated {
+    fn text(&self) -> Text {
+        let over = self.unit.range(self.found.range);
+        let mut text = Text::titled(format!("Three laws of the speed, {over}"));
+        let exponents = [self.found.rise, self.found.time_constant, self.found.power];
+        let rows: Vec<_> = self.laws.iter().zip(exponents).collect();
+        text.section().table(
+            TextTable::of(&rows)
+                .left("of", |(law, _)| law.of.symbol())
+                .left("as stated", |(law, _)| law.text.as_str())
+                .names()
+                .right("exponent", |(_, exponent)| fixed(exponent.value, 3)),
+        );
+        sections(&mut text, &self.found, &self.unit);
+        text
     }
-    if found.agrees() {
-        return Ok(Exit::Done);
+
+    /// The comparison at three speeds.
+    fn rows(&self) -> Rows<'_> {
+        let mut table = Table::of(&self.found.at);
+        table.column("omega", &self.unit.0.text, |at| self.unit.0.from_si(at.speed));
+        table.column("dT", "K", |at| at.rise);
+        table.column("t_RC", "s", |at| at.time_constant);
+        table.column("P_implied", "W", |at| at.implied);
+        table.column("P", "W", |at| at.power);
+        table.column("t_RC_needed", "s", |at| at.needed);
+        table.done().into()
     }
-    if args.format != Format::Table {
-        console.message(&verdict(&found, &unit));
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        json.member("format", &1)?;
+        json.member("warnings", &json!([]))?;
+        json.member("consistency", &members(&self.found))
     }
-    Ok(Exit::No)
+
+    fn no(&self) -> Option<String> {
+        (!self.found.agrees()).then(|| verdict(&self.found, &self.unit))
+    }
 }
 
 /// `1000 rpm to 7000 rpm`.
 fn range(text: &str) -> Result<(f64, f64), Failure> {
     let Some((low, high)) = text.split_once(" to ").or_else(|| text.split_once("..")) else {
-        return Err(wrong(&LawError::Range));
+        return Err(Failure::of(&LawError::Range));
     };
     let speed = |text: &str| {
-        let found = parse_quantity(text.trim(), Some(Type::of(Dimension::ANGULAR_VELOCITY)));
-        found.map(|speed| speed.value).map_err(|error| wrong_unit("--over", text.trim(), &error))
+        quantity("--over", text.trim(), Type::of(Dimension::ANGULAR_VELOCITY)).map(|speed| speed.value)
     };
     Ok((speed(low)?, speed(high)?))
 }
 
-fn text(laws: &[StatedLaw; 3], found: &Consistency, (unit, console): (&SpeedUnit, &Console)) -> String {
-    let over = unit.range(found.range);
-    let mut lines = vec![console.title(&format!("Three laws of the speed, {over}")), String::new()];
-    let exponents = [found.rise, found.time_constant, found.power];
-    let table = TextTable::new(vec![
-        Column::new("of", Align::Left, laws.iter().map(|law| law.of.symbol().to_owned()).collect()),
-        Column::new("as stated", Align::Left, laws.iter().map(|law| law.text.clone()).collect()).names(),
-        Column::new("exponent", Align::Right, exponents.iter().map(|e| fixed(e.value, 3)).collect()),
-    ]);
-    lines.extend(table.lines(WIDTH));
-    lines.push(String::new());
-    lines.extend(block(found, unit));
-    lines.join("\n") + "\n"
-}
-
-/// What the comparison shows, in lines; the last of them is the verdict.
-pub(crate) fn block(found: &Consistency, unit: &SpeedUnit) -> Vec<String> {
-    let mut lines = at_speeds(found, unit);
-    lines.push(String::new());
+/// What the comparison shows, in sections; the last of them is the verdict.
+pub(crate) fn sections(text: &mut Text, found: &Consistency, unit: &SpeedUnit) {
+    text.section().table(at_speeds(found, unit));
     let implied = with_error(found.implied.value, found.implied.standard_error);
     let power = with_error(found.power.value, found.power.standard_error);
     let mut pieces =
@@ -95,7 +108,7 @@ pub(crate) fn block(found: &Consistency, unit: &SpeedUnit) -> Vec<String> {
             fixed(apart, 0)
         ));
     }
-    lines.extend(sentence("exponents  ", &pieces));
+    text.section().sentence("exponents  ", &pieces.join(" "));
     let level = match &found.level {
         Some(level) => {
             let mut pieces = vec![format!(
@@ -110,10 +123,8 @@ pub(crate) fn block(found: &Consistency, unit: &SpeedUnit) -> Vec<String> {
             "not given, they agree in the middle".to_owned(),
         ],
     };
-    lines.extend(sentence("level      ", &level));
-    lines.push(String::new());
-    lines.extend(sentence("", &[verdict(found, unit)]));
-    lines
+    text.sentence("level      ", &level.join(" "));
+    text.section().sentence("", &verdict(found, unit));
 }
 
 fn in_words(found: &Significance) -> String {
@@ -124,25 +135,15 @@ fn in_words(found: &Significance) -> String {
     format!("(z = {}, {probability})", fixed(found.z, 1))
 }
 
-/// A sentence behind a label, wrapped between words.
-pub(crate) fn sentence(label: &str, pieces: &[String]) -> Vec<String> {
-    let words: Vec<String> = pieces.join(" ").split(' ').map(str::to_owned).collect();
-    labelled(label, &words, WIDTH)
-}
-
-fn at_speeds(found: &Consistency, unit: &SpeedUnit) -> Vec<String> {
-    let column = |title: &str, cell: &dyn Fn(&AtSpeed) -> String| {
-        Column::new(title, Align::Right, found.at.iter().map(cell).collect())
-    };
-    let table = TextTable::new(vec![
-        column(&format!("omega [{}]", unit.0.text), &|at| significant(unit.0.from_si(at.speed), 4)),
-        column("dT [K]", &|at| fixed(at.rise, 1)),
-        column("t_RC [min]", &|at| fixed(at.time_constant / 60.0, 1)),
-        column("C dT / t_RC [W]", &|at| fixed(at.implied, 1)),
-        column("P [W]", &|at| fixed(at.power, 1)),
-        column("C dT / P [min]", &|at| fixed(at.needed / 60.0, 1)),
-    ]);
-    table.lines(WIDTH)
+fn at_speeds(found: &Consistency, unit: &SpeedUnit) -> TextTable {
+    TextTable::of(&found.at)
+        .right(format!("omega [{}]", unit.0.text), |at| significant(unit.0.from_si(at.speed), 4))
+        .right("dT [K]", |at| fixed(at.rise, 1))
+        .right("t_RC [min]", |at| fixed(at.time_constant / 60.0, 1))
+        .right("C dT / t_RC [W]", |at| fixed(at.implied, 1))
+        .right("P [W]", |at| fixed(at.power, 1))
+        .right("C dT / P [min]", |at| fixed(at.needed / 60.0, 1))
+        .into()
 }
 
 /// One sentence with the answer.
@@ -192,23 +193,11 @@ fn power(value: f64) -> String {
     }
 }
 
-/// The comparison at three speeds.
-fn table(found: &Consistency, unit: &SpeedUnit) -> Table {
-    let mut table = Table::of(&found.at);
-    table.column("omega", &unit.0.text, |at| unit.0.from_si(at.speed));
-    table.column("dT", "K", |at| at.rise);
-    table.column("t_RC", "s", |at| at.time_constant);
-    table.column("P_implied", "W", |at| at.implied);
-    table.column("P", "W", |at| at.power);
-    table.column("t_RC_needed", "s", |at| at.needed);
-    table.done()
-}
-
 /// The comparison as JSON.
 pub(crate) fn members(found: &Consistency) -> Value {
     let exponent =
         |e: &Exponent| json!({ "value": e.value, "unit": "1", "standard_error": e.standard_error });
-    let scalar = |value: f64, unit: &str| Scalar::new(value, unit).json();
+    let scalar = Scalar::new;
     let tested = |s: &Option<Significance>| s.map(|s| json!({ "z": s.z, "probability": s.probability }));
     let at = |at: &AtSpeed| {
         json!({

@@ -2,24 +2,23 @@
 
 mod args;
 mod laws;
-mod output;
+mod page;
 mod points;
 mod runs;
 mod shown;
-mod text;
 
 pub(crate) use args::LawArgs;
 
 use lptn_fit::law::{Candidate, Consistency, Law, LawError, LawStudy, Measured, Outcome, Start, WrittenLaw};
 use lptn_fit::step::Capacity;
 use lptn_netlist::{Diagnostic, Files, Span};
-use lptn_units::{Dimension, Type, parse_quantity};
+use lptn_report::Format;
+use lptn_units::{Dimension, parse_quantity};
 
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::wrong_unit;
-use crate::options::Format;
+use crate::failure::{Failure, told};
+use crate::input::{positive, wrong_unit};
 use points::Data;
 
 pub(crate) fn law(args: &LawArgs, console: &Console) -> Result<Exit, Failure> {
@@ -33,11 +32,7 @@ pub(crate) fn law(args: &LawArgs, console: &Console) -> Result<Exit, Failure> {
     let study = LawStudy::new(data.points.clone(), laws_to_fit(args, &data)?);
     let consistency = consistency(&data, capacity)?;
     let answer = Answer { data, study, consistency };
-    match args.format {
-        Format::Table => console.print(&text::text(&answer, console)).map(drop)?,
-        Format::Csv => console.write(|out| lptn_report::write_csv(&output::table(&answer), out))?,
-        Format::Json => console.write(|out| output::json(&answer, out))?,
-    }
+    console.page(&answer, args.format)?;
     Ok(answer.conclude(args.format, console))
 }
 
@@ -54,19 +49,9 @@ impl Answer {
             console.message(&format!("failed: `{law}`: {remark}"));
             return Exit::Failed;
         }
-        match &self.consistency {
-            Some(found) if !found.agrees() => {
-                if format != Format::Table {
-                    console.message(&laws::verdict(found, &self.data.unit));
-                }
-                Exit::No
-            }
-            _ => Exit::Done,
-        }
+        console.conclude(self, format)
     }
-}
 
-impl Answer {
     /// A law of the user that has no coefficients although there are points enough, and why.
     fn not_fitted(&self) -> Option<(String, String)> {
         let written = |c: &&Candidate| matches!(c.law, Law::Written(_)) && c.fitted().is_none();
@@ -91,15 +76,9 @@ fn laws_to_fit(args: &LawArgs, data: &Data) -> Result<Vec<Law>, Failure> {
     match starts.iter().find(|(name, _)| !known.contains(name)) {
         Some((name, _)) => {
             let error = LawError::Start { name: name.clone() };
-            let problem = Diagnostic::error(error.code(), error.to_string());
             let near = lptn_units::suggest(name, known.iter().map(String::as_str));
-            Err(Failure::new(
-                Exit::Input,
-                match near {
-                    Some(near) => problem.help(format!("did you mean `{near}`?")),
-                    None => problem,
-                },
-            ))
+            let near = near.map(|near| format!("did you mean `{near}`?"));
+            Err(Failure::new(Exit::Input, told(&error).help(near)))
         }
         None => Ok(laws),
     }
@@ -118,13 +97,9 @@ fn start(text: &str) -> Result<Start, Failure> {
 
 fn capacity(text: Option<&str>) -> Result<Option<Capacity>, Failure> {
     let Some(text) = text else { return Ok(None) };
-    let found = parse_quantity(text, Some(Type::of(Dimension::CAPACITY)));
-    let found = found.map_err(|error| wrong_unit("--capacity", text, &error))?;
-    if found.value > 0.0 {
-        return Ok(Some(Capacity { value: found.value, deviation: found.deviation.unwrap_or(0.0) }));
-    }
-    let problem = Diagnostic::error("fit::law_capacity", "the capacity must be more than 0 J/K");
-    Err(Failure::new(Exit::Input, problem.help("write for example --capacity \"2659 J/K ± 5 %\"")))
+    let what = (Dimension::CAPACITY, "fit::law_capacity", "\"2659 J/K ± 5 %\"");
+    let found = positive("--capacity", text, what)?;
+    Ok(Some(Capacity { value: found.value, deviation: found.deviation.unwrap_or(0.0) }))
 }
 
 fn consistency(data: &Data, capacity: Option<Capacity>) -> Result<Option<Consistency>, Failure> {
@@ -137,7 +112,7 @@ fn consistency(data: &Data, capacity: Option<Capacity>) -> Result<Option<Consist
         Ok(found) => Ok(Some(found)),
         // five points and two speeds are needed for this question only
         Err(LawError::TooFew { .. } | LawError::Range) => Ok(None),
-        Err(error) => Err(wrong(&error)),
+        Err(error) => Err(Failure::of(&error)),
     }
 }
 
@@ -145,22 +120,11 @@ fn consistency(data: &Data, capacity: Option<Capacity>) -> Result<Option<Consist
 fn wrong_law(option: &str, text: &str, error: &LawError) -> Failure {
     let mut files = Files::new();
     let file = files.add(option, text);
-    let problem = |found: &lptn_units::UnitError| {
-        let problem = Diagnostic::error(found.code(), found.to_string());
-        let problem = problem.at(Span::new(file, found.span.clone()), "");
-        match found.help() {
-            Some(help) => problem.help(help),
-            None => problem,
-        }
-    };
+    let problem = |found: &lptn_units::UnitError| told(found).at(Span::new(file, found.span.clone()), "");
     match error {
         LawError::Units { errors, .. } => {
             Failure { exit: Exit::Input, diagnostics: errors.iter().map(problem).collect(), files }
         }
-        error => wrong(error),
+        error => Failure::of(error),
     }
-}
-
-fn wrong(error: &LawError) -> Failure {
-    Failure::of(Exit::Input, error)
 }

@@ -9,7 +9,7 @@ use lptn_units::{Dimension, Type, suggest};
 use super::args::LawArgs;
 use super::shown::SpeedUnit;
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, told};
 
 /// Points as they were read.
 pub(crate) struct Data {
@@ -62,10 +62,8 @@ impl<'a> Lookup<'a> {
             let problem = Diagnostic::error("record::no_column", message);
             let problem = problem.at(self.sheet.header.clone(), "the columns");
             let names = self.sheet.columns.iter().map(|column| column.name.as_str());
-            return Err(self.refused(match suggest(name, names) {
-                Some(near) => problem.help(format!("did you mean `{near}`?")),
-                None => problem,
-            }));
+            let near = suggest(name, names).map(|near| format!("did you mean `{near}`?"));
+            return Err(self.refused(problem.help(near)));
         };
         if holds(column, wanted) {
             return Ok(column);
@@ -170,11 +168,6 @@ fn wrong_points(error: &LawError, sheet: &DataSheet, files: &Files, rows: &[usiz
         }
         _ => None,
     };
-    let problem = Diagnostic::error(error.code(), error.to_string());
-    let problem = problem.at(point.unwrap_or_else(|| sheet.header.clone()), "");
-    let problem = match error.help() {
-        Some(help) => problem.help(help),
-        None => problem,
-    };
+    let problem = told(error).at(point.unwrap_or_else(|| sheet.header.clone()), "");
     Failure::at(Exit::Input, files.clone(), problem)
 }

@@ -1,14 +1,14 @@
 //! What is kept of a fit of a network that was interrupted.
 
 use lptn_fit::network::{FitStage, NetworkFitTask};
-use lptn_report::{Align, Column, TextTable, WIDTH, significant};
+use lptn_report::{Format, Text, TextTable, significant};
 
 use super::NetworkArgs;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{Input, quoted};
-use crate::options::Format;
+use crate::words::spaced;
 
 /// Digits with which a search goes on from where it was.
 const DIGITS: usize = 8;
@@ -26,15 +26,10 @@ pub(crate) fn tell(
     let values: Vec<[String; 3]> =
         task.parameters.iter().zip(&best).map(|(varied, si)| cells(input, varied.parameter, *si)).collect();
     if args.printed.format == Format::Table {
-        let column = |title: &str, align: Align, i: usize| {
-            Column::new(title, align, values.iter().map(|cells| cells[i].clone()).collect())
-        };
-        let table = TextTable::new(vec![
-            column("parameter", Align::Left, 0).names(),
-            column("best so far", Align::Right, 1),
-            column("unit", Align::Left, 2),
-        ]);
-        console.print(&(table.lines(WIDTH).join("\n") + "\n"))?;
+        let mut text = Text::new();
+        let table = TextTable::of(&values).left("parameter", |cells| &cells[0]).names();
+        text.table(table.right("best so far", |cells| &cells[1]).left("unit", |cells| &cells[2]));
+        console.page(&text, Format::Table)?;
     }
     let mut message =
         format!("interrupted in {stage}: these values are not a result, and have no standard errors");
@@ -42,7 +37,7 @@ pub(crate) fn tell(
         let study = args.name.as_ref().map_or(String::new(), |name| format!(" {}", quoted(name)));
         message += &format!("\ngo on from them: lptn fit network {file}{study}");
         for [name, value, unit] in &values {
-            let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+            let unit = spaced(unit);
             message += &format!(" --set {}", quoted(&format!("{name}={value}{unit}")));
         }
     }

@@ -2,8 +2,7 @@
 
 mod args;
 mod interrupted;
-mod json;
-mod text;
+mod page;
 mod words;
 mod write;
 
@@ -13,16 +12,15 @@ use std::sync::{Mutex, PoisonError};
 
 use lptn_fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network_observed};
 use lptn_netlist::{Diagnostic, FitStudy};
-use lptn_report::write_csv;
-use lptn_solve::{SensitiveError, Table, available_threads};
+use lptn_solve::{SensitiveError, available_threads};
 use lptn_units::Unit;
 
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::input::Input;
+use crate::input::{Input, Studies};
 use crate::interrupt::Interrupt;
-use crate::options::{Format, Source};
+use crate::options::Source;
 use crate::progress::ProgressLine;
 
 /// What came of a fit, and of what.
@@ -39,7 +37,7 @@ pub(crate) struct Answer<'a> {
 
 pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&Source { file: args.file.clone(), set: args.set.clone() })?;
-    let study = study(&input, args.name.as_deref())?;
+    let study = STUDIES.find(&input, (&input.netlist.fits, |study| &study.name), args.name.as_deref())?;
     console.warn(&input.netlist.files, &input.netlist.warnings);
     let mut task = NetworkFitTask::of(&input.netlist, study, available_threads())
         .map_err(|error| failed(&input, study, &error))?;
@@ -64,21 +62,11 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
     let mut answer = Answer { input: &input, study, task, units, fit, doubts: Vec::new() };
     answer.doubts = words::doubts(&answer);
     console.warn(&input.netlist.files, &answer.doubts);
-    match args.printed.format {
-        Format::Table => console.print(&text::text(&answer, console)).map(drop)?,
-        Format::Csv => console.write(|out| write_csv(&answer.table(), out))?,
-        Format::Json => console.write(|out| json::json(&answer, out))?,
-    }
-    if !answer.is_whole() {
-        if args.printed.format != Format::Table {
-            console.message(&words::verdict(&answer));
-        }
-        return Ok(Exit::No);
-    }
-    if args.write {
+    let exit = console.show(&answer, args.printed.format)?;
+    if args.write && exit == Exit::Done {
         write::write(&answer, &args.file, console)?;
     }
-    Ok(Exit::Done)
+    Ok(exit)
 }
 
 /// The fit, with its progress, until Ctrl-C.
@@ -96,38 +84,13 @@ fn observed(task: &NetworkFitTask<'_>, console: &Console) -> Result<NetworkFit, 
     outcome
 }
 
-/// The study of this name, or the only one.
-fn study<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a FitStudy, Failure> {
-    let fits = &input.netlist.fits;
-    let known = || fits.iter().map(|study| study.name.as_str());
-    let list = || known().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-    let file = &input.text.name;
-    let problem = match (name, fits.as_slice()) {
-        (None, [only]) => return Ok(only),
-        (None, []) => Diagnostic::error(
-            "fit::no_study",
-            format!("{file} has no [fit.NAME]: what is to be fitted to what?"),
-        )
-        .help(
-            "add for example:\n\n[fit.heating]\ndata = \"record.csv\"\ncolumn = { ring_gear = \"steel.T\" }\n\
-                     sigma = \"0.2 K\"\nvary = { R_int = { from = \"1 mK/W\", to = \"1 K/W\" } }",
-        ),
-        (None, _) => Diagnostic::error("fit::which_study", format!("{file} has several [fit.NAME]"))
-            .help(format!("name one of {}", list())),
-        (Some(name), _) => match fits.iter().find(|study| study.name == name) {
-            Some(study) => return Ok(study),
-            None => {
-                let problem = Diagnostic::error("fit::no_study", format!("{file} has no [fit.{name}]"));
-                match lptn_units::suggest(name, known()) {
-                    Some(near) => problem.help(format!("did you mean `{near}`?")),
-                    None if fits.is_empty() => problem,
-                    None => problem.help(format!("name one of {}", list())),
-                }
-            }
-        },
-    };
-    Err(Failure::new(Exit::Input, problem))
-}
+const STUDIES: Studies = Studies {
+    section: "fit",
+    codes: ["fit::no_study", "fit::which_study"],
+    question: "what is to be fitted to what?",
+    example: "[fit.heating]\ndata = \"record.csv\"\ncolumn = { ring_gear = \"steel.T\" }\n\
+              sigma = \"0.2 K\"\nvary = { R_int = { from = \"1 mK/W\", to = \"1 K/W\" } }",
+};
 
 fn failed(input: &Input, study: &FitStudy, error: &NetworkFitError) -> Failure {
     let span = match error {
@@ -181,21 +144,5 @@ impl Answer<'_> {
     /// A difference of two values of a parameter in its unit.
     pub(crate) fn shown_difference(&self, i: usize, si: f64) -> f64 {
         si / self.units[i].scale
-    }
-
-    /// One row for each parameter, in its unit.
-    fn table(&self) -> Table {
-        let all: Vec<usize> = (0..self.fit.parameters.len()).collect();
-        let parameter = |i: usize| &self.fit.parameters[i];
-        let error =
-            |i: usize| parameter(i).standard_error.map_or(f64::NAN, |se| self.shown_difference(i, se));
-        let mut table = Table::of(&all);
-        table.label("parameter", |&i| self.name(i).to_owned());
-        table.label("unit", |&i| self.units[i].text.clone());
-        table.label("state", |&i| words::state(self, i).to_owned());
-        table.column("value", "unit", |&i| self.shown(i, parameter(i).value));
-        table.column("standard_error", "unit", |&i| error(i));
-        table.column("start", "unit", |&i| self.shown(i, parameter(i).start));
-        table.done()
     }
 }

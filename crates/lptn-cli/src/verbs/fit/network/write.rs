@@ -10,6 +10,7 @@ use super::Answer;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::words::spaced;
 use crate::written::{can_be_written, put, with_numbers};
 
 /// Digits that are written: a tenth of a standard error never is beyond them.
@@ -34,10 +35,7 @@ pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Resu
         .collect();
     put(file, &with_numbers(answer.input, &numbers)?)?;
     for (i, (_, number)) in numbers.iter().enumerate() {
-        let unit = match answer.units[i].text.as_str() {
-            "1" => String::new(),
-            text => format!(" {text}"),
-        };
+        let unit = spaced(&answer.units[i].text);
         console.note(&format!("wrote  {}: {} = {number}{unit}", file.display(), answer.name(i)));
     }
     Ok(())

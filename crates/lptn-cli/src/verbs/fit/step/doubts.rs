@@ -8,6 +8,7 @@ use super::estimate::with_error;
 use super::request::{Reference, Request};
 use super::{Column, shown};
 use crate::exit::Exit;
+use crate::failure::told;
 
 /// The warnings about a column's fit.
 pub(crate) fn of(request: &Request, column: &Column<'_>) -> Vec<Diagnostic> {
@@ -127,8 +128,8 @@ pub(crate) fn failed(column: &RecordColumn, error: &StepError) -> (Exit, Diagnos
         StepError::Fit(FitError::NoCurvature { .. }) | StepError::Undetermined { .. } => Exit::Failed,
         _ => Exit::Input,
     };
-    let problem = Diagnostic::error(error.code(), format!("column `{}`: {error}", column.name))
-        .at(column.span.clone(), "");
+    let message = format!("column `{}`: {error}", column.name);
+    let problem = Diagnostic { message, ..told(error) }.at(column.span.clone(), "");
     let help = match error {
         StepError::Fit(FitError::TooFew { .. }) => {
             Some("four samples or more give a curve with an error".to_owned())
@@ -137,10 +138,7 @@ pub(crate) fn failed(column: &RecordColumn, error: &StepError) -> (Exit, Diagnos
         StepError::Saturated { from, to, .. } => {
             Some(format!("leave it out, with --to \"{from} s\" or --from \"{to} s\""))
         }
-        error => error.help(),
+        _ => None,
     };
-    match help {
-        Some(help) => (exit, problem.help(help)),
-        None => (exit, problem),
-    }
+    (exit, problem.help(help))
 }

@@ -1,23 +1,20 @@
 //! `lptn fit step`
 
 mod args;
-mod data;
 mod doubts;
 mod estimate;
 mod model;
+mod page;
 mod request;
-mod text;
 
 pub(crate) use args::StepArgs;
 
 use lptn_fit::step::{Capacity, Power, Reference as Zero, Sensor, StepError, StepFit};
 use lptn_netlist::{Diagnostic, RecordColumn};
-use lptn_report::write_csv;
 
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::options::Format;
 use model::Model;
 use request::{Reference, Request};
 
@@ -66,11 +63,7 @@ pub(crate) fn step(args: &StepArgs, console: &Console) -> Result<Exit, Failure> 
     let model = Model::read(args, &request)?;
     warnings.extend(problems.iter().cloned());
     let answer = Answer { request: &request, columns, without, model, warnings };
-    match args.printed.format {
-        Format::Table => console.print(&text::text(&answer, console)).map(drop)?,
-        Format::Csv => console.write(|out| write_csv(&data::table(&answer), out))?,
-        Format::Json => console.write(|out| data::json(&answer, out))?,
-    }
+    console.page(&answer, args.printed.format)?;
     console.report(files, &problems);
     Ok(exit)
 }

@@ -4,14 +4,13 @@ use std::path::Path;
 
 use lptn_fit::step::{ModelBias, StepError};
 use lptn_netlist::Diagnostic;
-use lptn_network::Item;
 use lptn_network::Time;
 use lptn_solve::Transient;
 
 use super::StepArgs;
 use super::request::Request;
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, told};
 use crate::input::Input;
 use crate::options::Source;
 
@@ -63,20 +62,7 @@ fn failed(input: &Input, port: &str, error: &StepError) -> Failure {
         }
         _ => Exit::Input,
     };
-    let problem = Diagnostic::error(error.code(), format!("the model {}: {error}", input.text.name));
-    let problem = match error.help() {
-        Some(help) => problem.help(help),
-        None => problem,
-    };
-    let place = input
-        .netlist
-        .network
-        .node(port)
-        .ok()
-        .and_then(|node| input.netlist.source_map.name(Item::Node(node)));
-    let problem = match place {
-        Some(span) => problem.at(span.clone(), "the port"),
-        None => problem,
-    };
-    Failure::at(exit, input.netlist.files.clone(), problem)
+    let problem = told(error).at(input.node_place(port), "the port");
+    let message = format!("the model {}: {error}", input.text.name);
+    input.refused(exit, Diagnostic { message, ..problem })
 }

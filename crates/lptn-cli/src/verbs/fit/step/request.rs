@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lptn_netlist::{Diagnostic, Files, Record, RecordName, RecordQuery, read_record};
-use lptn_units::{Dimension, Quantity, Type, Unit, parse_quantity, suggest};
+use lptn_units::{Dimension, Quantity, Type, Unit, parse_quantity};
 
 use super::StepArgs;
 use crate::exit::Exit;
@@ -47,10 +47,13 @@ impl Request {
     }
 
     pub(crate) fn read(args: &StepArgs) -> Result<Self, Failure> {
-        let capacity = args.capacity.as_deref().map(|text| positive("--capacity", text, Dimension::CAPACITY));
-        let sensor = args.sensor.as_deref().map(|text| positive("--sensor", text, Dimension::TEMPERATURE));
+        let positive = |option: &str, text: &Option<String>, dimension, example| {
+            let what = (dimension, "fit::not_positive", example);
+            text.as_deref().map(|text| input::positive(option, text, what)).transpose()
+        };
+        let capacity = positive("--capacity", &args.capacity, Dimension::CAPACITY, "\"2659 J/K ± 5 %\"")?;
+        let sensor = positive("--sensor", &args.sensor, Dimension::TEMPERATURE, "\"3 K\"")?;
         let unit = temperature_unit(args.scale.temperature_unit.as_deref())?;
-        let (capacity, sensor) = (capacity.transpose()?, sensor.transpose()?);
         let text = input::read(&args.record)?;
         let (record, files) = read_record(Path::new(&text.name), &text.bytes, &query(args)?)?;
         let begin = match args.from {
@@ -73,22 +76,8 @@ fn begin(args: &StepArgs, path: &Path, bytes: &[u8]) -> Result<Option<f64>, Fail
     Ok(read_record(path, bytes, &whole).ok().and_then(|(record, _)| record.time.first().copied()))
 }
 
-/// A quantity of the command line that is more than zero.
-fn positive(option: &str, text: &str, dimension: Dimension) -> Result<Quantity, Failure> {
-    let quantity =
-        parse_quantity(text, Some(Type::of(dimension))).map_err(|e| wrong_unit(option, text, &e))?;
-    if quantity.value > 0.0 {
-        return Ok(quantity);
-    }
-    let message = format!("{option} must be more than zero, got `{text}`");
-    Err(Failure::new(Exit::Input, Diagnostic::error("fit::not_positive", message).help("check the sign")))
-}
-
 fn time(option: &str, text: Option<&str>) -> Result<Option<f64>, Failure> {
-    let read = |text| {
-        parse_quantity(text, Some(Type::of(Dimension::TIME)))
-            .map_err(|error| wrong_unit(option, text, &error))
-    };
+    let read = |text| input::quantity(option, text, Type::of(Dimension::TIME));
     Ok(text.map(read).transpose()?.map(|quantity| quantity.value))
 }
 
@@ -142,11 +131,9 @@ fn reference(text: &str, (record, files): (&Record, &Files)) -> Result<Reference
             let message = format!("--reference: there is no column `{text}` of temperatures");
             let problem = Diagnostic::error("fit::reference", message);
             let names = temperatures().map(|(_, column)| column.name.as_str()).chain(["initial"]);
-            let problem = match suggest(text, names) {
-                Some(near) => problem.help(format!("did you mean `{near}`?")),
-                None => problem
-                    .help("name a column of the record, a temperature such as \"25.5 degC\", or initial"),
-            };
+            let problem = problem.did_you_mean(text, names, || {
+                "name a column of the record, a temperature such as \"25.5 degC\", or initial".into()
+            });
             Err(Failure::at(Exit::Input, files.clone(), problem))
         }
     }
@@ -171,10 +158,7 @@ fn columns(args: &StepArgs, record: &Record, reference: &Reference) -> Vec<usize
 fn nothing(record: &Record, files: Files) -> Failure {
     let message = "no column of the record is a temperature that changes";
     let problem = Diagnostic::error("fit::no_column", message);
-    let problem = match record.columns.first() {
-        Some(column) => problem.at(column.span.clone(), ""),
-        None => problem,
-    };
+    let problem = problem.at(record.columns.first().map(|column| column.span.clone()), "");
     let problem = problem.help("the unit of a temperature is `[degC]`, `[K]` or `[degF]`");
     // that a column does not change is what was found out about it
     let diagnostics = record.warnings.iter().cloned().chain([problem]).collect();

@@ -110,8 +110,8 @@ pub(crate) fn parameters(network: &Network, found: &Uncertainty) -> Value {
     let one = |(i, input): (usize, &lptn_study::uncertainty::Uncertain)| {
         let ty = network.parameters()[input.parameter.index()].ty;
         let unit = ty.dimension.si_unit();
-        let value = Scalar::new(input.value, &unit).json();
-        let member = json!({ "value": value, "sd": Scalar::new(input.deviation, &unit).json() });
+        let value = Scalar::new(input.value, &unit);
+        let member = json!({ "value": value, "sd": Scalar::new(input.deviation, &unit) });
         (parameter(network, found, i), member)
     };
     Value::Object(found.inputs.iter().enumerate().map(one).collect())
@@ -144,9 +144,10 @@ fn differs(network: &Network, one: &Discrepancy) -> Value {
         AnswerOf::Margin(_) => unit_of(network, one.of),
         _ => "K".to_owned(),
     };
-    let band = |(low, high): (f64, f64)| json!({ "low": Scalar::new(low, &unit).json(), "high": Scalar::new(high, &unit).json() });
+    let scalar = |value: f64| Scalar::new(value, &unit);
+    let band = |(low, high): (f64, f64)| json!({ "low": scalar(low), "high": scalar(high) });
     let (name, part) = place(network, one.of);
-    let time = one.time.map_or(Value::Null, |time| Scalar::new(time, "s").json());
+    let time = one.time.map(|time| Scalar::new(time, "s"));
     let part = if one.time.is_some() { "row" } else { part };
     json!({ "of": name, "part": part, "time": time, "linear": band(one.linear), "sampled": band(one.sampled) })
 }
@@ -162,7 +163,7 @@ fn place(network: &Network, of: AnswerOf) -> (String, &'static str) {
 fn of_answer(network: &Network, found: &Uncertainty, answer: &Answer) -> Value {
     let unit = unit_of(network, answer.of);
     let mut member = Map::new();
-    member.insert("value".into(), Scalar::new(answer.value, &unit).json());
+    member.insert("value".into(), json!(Scalar::new(answer.value, &unit)));
     member.insert("sd".into(), estimate(answer.deviation, &unit));
     member.insert("low".into(), estimate(answer.low, &unit));
     if let Some(median) = answer.median {
@@ -175,7 +176,7 @@ fn of_answer(network: &Network, found: &Uncertainty, answer: &Answer) -> Value {
     let part = |part: &Contribution| {
         let mut ranked = Map::new();
         ranked.insert("parameter".into(), json!(parameter(network, found, part.input)));
-        ranked.insert("effect".into(), Scalar::new(part.effect, &unit).json());
+        ranked.insert("effect".into(), json!(Scalar::new(part.effect, &unit)));
         ranked.insert("share".into(), estimate(part.share, "1"));
         ranked.extend(part.total.map(|total| ("total".to_owned(), estimate(total, "1"))));
         Value::Object(ranked)

@@ -13,8 +13,8 @@ use lptn_study::uncertainty::{
 
 use super::job::{Job, shown};
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::{Failure, told};
+use crate::failure::Failure;
+use crate::input::Input;
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressOfAll;
 
@@ -27,12 +27,12 @@ const SEED: u32 = 1;
 const WIDTHS: f64 = 100.0;
 
 /// Refuses before anything is run what cannot be answered.
-pub(crate) fn check(args: &UncertaintyArgs, netlist: &Netlist) -> Result<(), Failure> {
+pub(crate) fn check(args: &UncertaintyArgs, input: &Input) -> Result<(), Failure> {
     if args.uncertainty.is_none() {
         return Ok(());
     }
-    let inputs = uncertain(&netlist.network, &netlist.overrides());
-    inputs.map(drop).map_err(|error| failure(&error, netlist))
+    let inputs = uncertain(&input.netlist.network, &input.netlist.overrides());
+    inputs.map(drop).map_err(|error| input.failure(&error, None))
 }
 
 /// Values with `±` that are no parameters, and so are taken as certain.
@@ -82,7 +82,7 @@ pub(crate) fn study(
             Study { found, linear: Some(linear) }
         }),
     };
-    Some(outcome.map_err(|error| failure(&error, netlist)))
+    Some(outcome.map_err(|error| job.input.failure(&error, None)))
 }
 
 fn sobol(
@@ -103,14 +103,4 @@ fn sobol(
     });
     progress.clear();
     outcome
-}
-
-fn failure(error: &UncertaintyError, netlist: &Netlist) -> Failure {
-    use UncertaintyError as E;
-    let exit = match error {
-        E::NoDeviation | E::TooManyParameters(_) | E::Samples(_) | E::TooLarge(_) => Exit::Input,
-        E::Interrupted => Exit::Interrupted,
-        _ => Exit::Failed,
-    };
-    Failure::at(exit, netlist.files.clone(), told(error))
 }

@@ -1,7 +1,7 @@
 //! Uncertain results for reading.
 
 use lptn_network::{Item, Network};
-use lptn_report::{Align, Column, TextTable, WIDTH, decimals, duration, fixed, labelled, significant};
+use lptn_report::{Align, Column, Text, TextTable, WIDTH, decimals, duration, fixed, significant};
 use lptn_study::uncertainty::{Answer, AnswerOf, Contribution, Discrepancy, Estimate, Method, Uncertainty};
 use lptn_units::Unit;
 
@@ -18,25 +18,13 @@ const LEAST_SHARE: f64 = 0.0005;
 /// Results whose rankings stand side by side.
 const MOST_RANKINGS: usize = 3;
 
-/// A block with the bands, one with the limits and one with what matters; an empty line after each.
-pub(crate) fn lines(network: &Network, study: &Study, unit: &Unit) -> Vec<String> {
+/// A section with the bands, one with the limits and one with what matters.
+pub(crate) fn sections(text: &mut Text, network: &Network, (study, unit): (&Study, &Unit)) {
     let found = &study.found;
-    let mut lines = labelled("uncertainty: ", &words(&heading(found)), WIDTH);
-    lines.push(String::new());
-    for block in [temperatures(network, found, unit), margins(network, found), ranking(network, found)] {
-        if !block.is_empty() {
-            lines.extend(block);
-            lines.push(String::new());
-        }
-    }
-    for note in notes(network, study, unit) {
-        lines.extend(labelled("note: ", &words(&note), WIDTH));
-    }
-    lines
-}
-
-fn words(text: &str) -> Vec<String> {
-    text.split(' ').map(str::to_owned).collect()
+    text.section().sentence("uncertainty: ", &heading(found));
+    temperatures(text.section(), network, (found, unit));
+    margins(text.section(), network, found);
+    ranking(text.section(), network, found);
 }
 
 fn heading(found: &Uncertainty) -> String {
@@ -52,10 +40,13 @@ fn heading(found: &Uncertainty) -> String {
     }
 }
 
-fn temperatures(network: &Network, found: &Uncertainty, unit: &Unit) -> Vec<String> {
+fn temperatures(text: &mut Text, network: &Network, (found, unit): (&Uncertainty, &Unit)) {
     let is = |of: fn(&AnswerOf) -> bool| found.answers.iter().filter(move |answer| of(&answer.of));
     let ends: Vec<&Answer> = is(|of| matches!(of, AnswerOf::End(_))).take(MOST_NODES).collect();
     let peaks: Vec<&Answer> = is(|of| matches!(of, AnswerOf::Max(_))).take(MOST_NODES).collect();
+    if ends.is_empty() {
+        return;
+    }
     let widest = ends.iter().chain(&peaks).map(|answer| answer.deviation.value).fold(0.0, f64::max);
     let digits = decimals(widest / unit.scale, 3, 1);
     let names = ends.iter().map(|answer| name(network, answer.of)).collect();
@@ -68,15 +59,11 @@ fn temperatures(network: &Network, found: &Uncertainty, unit: &Unit) -> Vec<Stri
     if !same {
         columns.extend(peak);
     }
-    if ends.is_empty() {
-        return Vec::new();
-    }
-    let mut lines = TextTable::new(columns).lines(WIDTH);
+    text.table(TextTable::new(columns));
     let more = is(|of| matches!(of, AnswerOf::End(_))).count() - ends.len();
     if more > 0 {
-        lines.push(format!("not shown: {}, which uncertainty.csv has", count(more, "more node")));
+        text.line(format!("not shown: {}, which uncertainty.csv has", count(more, "more node")));
     }
-    lines
 }
 
 fn name(network: &Network, of: AnswerOf) -> String {
@@ -99,29 +86,24 @@ fn band(answers: &[&Answer], title: &str, (unit, digits): (&Unit, usize)) -> Vec
     ]
 }
 
-fn margins(network: &Network, found: &Uncertainty) -> Vec<String> {
+fn margins(text: &mut Text, network: &Network, found: &Uncertainty) {
     let margins: Vec<&Answer> =
         found.answers.iter().filter(|answer| matches!(answer.of, AnswerOf::Margin(_))).collect();
     if margins.is_empty() {
-        return Vec::new();
+        return;
     }
-    let column = |title: &str, text: &dyn Fn(&Answer) -> String| {
-        Column::new(title, Align::Right, margins.iter().map(|answer| text(answer)).collect())
-    };
     let number = |answer: &Answer, value: f64| {
         let digits = decimals(answer.deviation.value, 3, 1);
         format!("{} {}", fixed(value, digits), unit_of(network, answer.of))
     };
-    let names = margins.iter().map(|answer| name(network, answer.of)).collect();
-    TextTable::new(vec![
-        Column::new("limit", Align::Left, names),
-        column("margin", &|a| number(a, a.value)),
-        column("sd", &|a| number(a, a.deviation.value)),
-        column("2.5 %", &|a| number(a, a.low.value)),
-        column("97.5 %", &|a| number(a, a.high.value)),
-        column("P(broken)", &|a| probability(a.below_zero, sampled(found))),
-    ])
-    .lines(WIDTH)
+    let table = TextTable::of(&margins)
+        .left("limit", |a| name(network, a.of))
+        .right("margin", |a| number(a, a.value))
+        .right("sd", |a| number(a, a.deviation.value))
+        .right("2.5 %", |a| number(a, a.low.value))
+        .right("97.5 %", |a| number(a, a.high.value))
+        .right("P(broken)", |a| probability(a.below_zero, sampled(found)));
+    text.table(table);
 }
 
 /// How many samples there are; 0 where nothing is sampled.
@@ -157,29 +139,24 @@ fn probability(of: Estimate, samples: usize) -> String {
 }
 
 /// What matters for the ends of as many nodes as fit, for the margins where no temperature is asked for.
-fn ranking(network: &Network, found: &Uncertainty) -> Vec<String> {
+fn ranking(text: &mut Text, network: &Network, found: &Uncertainty) {
     let ends: Vec<&Answer> =
         found.answers.iter().filter(|answer| matches!(answer.of, AnswerOf::End(_))).collect();
     let all = if ends.is_empty() { found.answers.iter().collect() } else { ends };
     let varied: Vec<&Answer> = all.into_iter().filter(|answer| answer.deviation.value > 0.0).collect();
     let most = varied.len().min(MOST_RANKINGS);
-    let fitting = (1..=most).rev().map(|count| side_by_side(network, found, &varied[..count]));
-    let mut tables: Vec<Vec<String>> = fitting.collect();
-    let narrow = |table: &Vec<String>| table.iter().all(|line| line.chars().count() <= WIDTH);
-    let place = tables.iter().position(narrow).unwrap_or(tables.len().saturating_sub(1));
-    if tables.is_empty() {
-        return Vec::new();
-    }
-    let mut table = tables.swap_remove(place);
-    let more = varied.len() - (most - place);
+    let tables = (1..=most).rev().map(|count| (count, side_by_side(network, found, &varied[..count])));
+    let fits = |(count, (table, _)): &(usize, (TextTable, _))| *count == 1 || table.width() <= WIDTH;
+    let Some((shown, (table, others))) = tables.into_iter().find(fits) else { return };
+    text.table(table).lines(others);
+    let more = varied.len() - shown;
     if more > 0 {
         let results = if more == 1 { "result" } else { "results" };
-        table.push(format!("not shown: the rankings of {more} more {results}, which ranking.csv has"));
+        text.line(format!("not shown: the rankings of {more} more {results}, which ranking.csv has"));
     }
-    table
 }
 
-fn side_by_side(network: &Network, found: &Uncertainty, answers: &[&Answer]) -> Vec<String> {
+fn side_by_side(network: &Network, found: &Uncertainty, answers: &[&Answer]) -> (TextTable, Option<String>) {
     let part = |answer: &Answer, input: usize| -> Option<Contribution> {
         answer.ranking.iter().copied().find(|part| part.input == input)
     };
@@ -191,30 +168,25 @@ fn side_by_side(network: &Network, found: &Uncertainty, answers: &[&Answer]) -> 
     inputs.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
     let named = inputs.iter().take_while(|input| weight(input) >= LEAST_SHARE).take(MOST_RANKED).count();
     let (shown, others) = inputs.split_at(named);
-    let names = shown.iter().map(|input| parameter(network, found, *input)).collect();
-    let deviations = shown.iter().map(|input| deviation(network, found, *input)).collect();
-    let mut columns =
-        vec![Column::new("what matters", Align::Left, names), Column::new("±", Align::Right, deviations)];
+    let mut table = TextTable::of(shown)
+        .left("what matters", |input| parameter(network, found, *input))
+        .right("±", |input| deviation(network, found, *input));
     for answer in answers {
-        let unit = unit_of(network, answer.of);
         let digits = decimals(answer.deviation.value, 3, 1);
-        let cells = |text: &dyn Fn(Contribution) -> String| {
-            shown.iter().map(|input| part(answer, *input).map_or("-".into(), text)).collect::<Vec<_>>()
+        let of = |input: usize, text: &dyn Fn(Contribution) -> String| {
+            part(answer, input).map_or("-".into(), text)
         };
-        let effect = |part: Contribution| signed(part.effect, digits);
-        let title = format!("{} [{unit}]", name(network, answer.of));
-        columns.push(Column::new(title, Align::Right, cells(&effect)));
-        if matches!(found.method, Method::Linear { .. }) {
-            columns.push(Column::new("share", Align::Right, cells(&|part| percent(part.share.value))));
-        } else {
+        let title = format!("{} [{}]", name(network, answer.of), unit_of(network, answer.of));
+        let linear = matches!(found.method, Method::Linear { .. });
+        table = table
+            .right(title, |i| of(*i, &|part| signed(part.effect, digits)))
+            .right(if linear { "share" } else { "alone" }, |i| of(*i, &|part| percent(part.share.value)));
+        if !linear {
             let total = |part: Contribution| part.total.map_or("-".into(), |total| percent(total.value));
-            columns.push(Column::new("alone", Align::Right, cells(&|part| percent(part.share.value))));
-            columns.push(Column::new("in all", Align::Right, cells(&total)));
+            table = table.right("in all", |i| of(*i, &total));
         }
     }
-    let mut lines = TextTable::new(columns).lines(WIDTH.max(200));
-    lines.extend(left_out(found, answers, others));
-    lines
+    (table.into(), left_out(found, answers, others))
 }
 
 /// What the parameters that are not named have of the variance.
@@ -275,7 +247,8 @@ fn wide<'a>(network: &'a Network, found: &'a Uncertainty) -> impl Iterator<Item 
     })
 }
 
-fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String> {
+/// What the tables cannot say.
+pub(crate) fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String> {
     let found = &study.found;
     let lost = match &found.method {
         Method::Linear { differences } => {

@@ -1,33 +1,31 @@
 //! `lptn steady --periodic`
 
-mod text;
+mod page;
 
 use std::time::Instant;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings};
-use lptn_network::OutputTimes;
-use lptn_report::{JsonWriter, duration, write_rows};
+use lptn_network::{Item, OutputTimes};
+use lptn_report::duration;
 use lptn_solve::{Beyond, Lumping, Method, Periodic, PeriodicError, Table, Transient, Window, WindowSeen};
-use lptn_study::{Scalar, StatisticsRecord};
-use lptn_units::{Dimension, Type, parse_quantity};
+use lptn_study::Scalar;
+use lptn_units::{Dimension, Problem as _};
 use serde_json::{Map, Value, json};
 
 use super::SteadyArgs;
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::failure::{Failure, told};
+use crate::failure::Failure;
 use crate::files::Folder;
 use crate::files::names::{MANIFEST, RESULT, WINDOWS};
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
 use crate::limits::{self, Judgement};
-use crate::options::Format;
 use crate::progress::ProgressLine;
 use crate::verbs::run::job::{Job, NoSteady, explain};
 use crate::verbs::run::outcome::Outcome;
-use crate::words::symbol;
-use crate::{balance, diagnostics, select, sense};
+use crate::{balance, select, sense};
 
 /// The name of the window over the cycle.
 const CYCLE: &str = "cycle";
@@ -60,17 +58,14 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
     let lumping = Lumping::of_run(&solution);
     let (failure, uncertainty) = (None, None);
     let steady = Err(NoSteady::Inputs);
-    let outcome = Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty };
-    let table = Table::of_solution(&outcome.solution, &outcome.job.selection, &outcome.job.unit);
-    let view = View { outcome: &outcome, found: &found, table: &table };
+    let table = Table::of_solution(&solution, &job.selection, &job.unit);
+    let verbose = console.verbose;
+    let outcome = Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, verbose };
+    let view = View { outcome: &outcome, found: &found };
     if let Some(folder) = &folder {
-        outcome.write(&args.source.set, folder, &table)?;
+        outcome.write(&args.source.set, folder)?;
     }
-    match args.shown.format {
-        Format::Table => console.print(&text::text(&view, console)).map(drop)?,
-        Format::Csv => console.write(|out| write_rows(&view.rows(), out)).map(drop)?,
-        Format::Json => console.write(|out| view.json(out)).map(drop)?,
-    }
+    console.show(&view, args.shown.format)?;
     let beyond = Beyond::of_run(&outcome.solution).map(|beyond| sense::warning(netlist, &beyond));
     console.warn(&netlist.files, &Vec::from_iter(beyond));
     if let Some(folder) = &folder {
@@ -101,13 +96,8 @@ fn settings(args: &SteadyArgs, input: &Input) -> Result<RunSettings, Failure> {
 /// The period that was given, or that of the repeated signals, in s.
 fn period(args: &SteadyArgs, input: &Input) -> Result<f64, Failure> {
     let Some(text) = &args.cycle.period else { return period_of_signals(input) };
-    let quantity = parse_quantity(text, Some(Type::of(Dimension::TIME)));
-    let quantity = quantity.map_err(|error| input::wrong_unit("--period", text, &error))?;
-    if quantity.value > 0.0 && quantity.value.is_finite() {
-        return Ok(quantity.value);
-    }
-    let problem = Diagnostic::error("periodic::period", "the period must be more than 0 s");
-    Err(Failure::new(Exit::Input, problem.help("write for example --period \"10 min\"")))
+    let what = (Dimension::TIME, "periodic::period", "\"10 min\"");
+    Ok(input::positive("--period", text, what)?.value)
 }
 
 fn period_of_signals(input: &Input) -> Result<f64, Failure> {
@@ -128,12 +118,11 @@ fn period_of_signals(input: &Input) -> Result<f64, Failure> {
                 "`{second}` repeats itself every {b} and `{first}` every {a}: they have no period in common"
             );
             let problem = Diagnostic::error("periodic::no_common_period", message);
-            let place = input.netlist.source_map.name(lptn_network::Item::Signal(none.signals[1]));
-            let problem = problem.help("change one of the periods, or look at `lptn run`");
-            place.map_or(problem.clone(), |place| problem.at(place.clone(), ""))
+            let place = input.netlist.source_map.name(Item::Signal(none.signals[1]));
+            problem.help("change one of the periods, or look at `lptn run`").at(place, "")
         }
     };
-    Err(Failure::at(Exit::Input, input.netlist.files.clone(), problem))
+    Err(input.refused(Exit::Input, problem))
 }
 
 fn find(job: &Job<'_>, system: &ThermalSystem, console: &Console) -> Result<Periodic, Failure> {
@@ -156,39 +145,24 @@ fn find(job: &Job<'_>, system: &ThermalSystem, console: &Console) -> Result<Peri
 }
 
 fn failed(input: &Input, error: &PeriodicError) -> Failure {
-    let exit = match error {
-        PeriodicError::NotPeriodic(_) | PeriodicError::NoBalance { .. } | PeriodicError::Input(_) => {
-            Exit::Input
-        }
-        PeriodicError::Switches { .. } => Exit::No,
-        PeriodicError::NotFound { .. } | PeriodicError::Cycle(_) => Exit::Failed,
-        PeriodicError::Interrupted { .. } => Exit::Interrupted,
-    };
     let map = &input.netlist.source_map;
     let place = match error {
         PeriodicError::NotPeriodic(found) => {
             map.get(found.item, found.field).or_else(|| map.name(found.item))
         }
-        PeriodicError::NoBalance { nodes, .. } => {
-            nodes.first().and_then(|&node| map.name(lptn_network::Item::Node(node)))
+        PeriodicError::NoBalance { nodes, .. } => nodes.first().and_then(|&node| map.name(Item::Node(node))),
+        PeriodicError::Cycle(cause) => {
+            return input.refused(error.class().into(), explain(input, cause));
         }
-        error => error.input().and_then(|input| map.get(input.item, input.field)),
+        error => error.input().and_then(|error| input.place_of(error)),
     };
-    let mut problem = match error {
-        PeriodicError::Cycle(error) => explain(input, error),
-        error => told(error),
-    };
-    if let Some(place) = place {
-        problem = problem.at(place.clone(), "");
-    }
-    Failure::at(exit, input.netlist.files.clone(), problem)
+    input.failure(error, place)
 }
 
 /// A periodic state and how it is shown.
 pub(crate) struct View<'a> {
     pub(crate) outcome: &'a Outcome<'a>,
     pub(crate) found: &'a Periodic,
-    pub(crate) table: &'a Table,
 }
 
 impl View<'_> {
@@ -207,56 +181,18 @@ impl View<'_> {
         Some(-self.period() / rho.ln())
     }
 
-    /// Name, unit, value at the start, mean, extremes with their times, and swing of each column.
-    fn rows(&self) -> Vec<Vec<String>> {
-        let heading = ["name", "unit", "start", "mean", "min", "min_at [s]", "max", "max_at [s]", "swing"];
-        let mut rows = vec![heading.map(str::to_owned).to_vec()];
-        let mut text = lptn_report::Shortest::new();
-        let unit = &self.outcome.job.unit;
-        for (seen, start) in self.cycle().into_iter().flat_map(|cycle| &cycle.columns).zip(self.starts()) {
-            let [mean, min, max] = [seen.mean, seen.min.0, seen.max.0].map(|x| seen.shown(x, unit));
-            let numbers = [start, mean, min, seen.min.1, max, seen.max.1, max - min];
-            let mut row = vec![seen.name.clone(), symbol(&seen.unit(unit)).to_owned()];
-            row.extend(numbers.map(|number| text.text(number).to_owned()));
-            rows.push(row);
-        }
-        rows
-    }
-
     /// The first row of every column, in the unit that is shown.
     fn starts(&self) -> impl Iterator<Item = f64> + '_ {
-        self.table.columns().iter().skip(1).map(|c| c.values.first().copied().unwrap_or(f64::NAN))
-    }
-
-    fn json(&self, out: impl std::io::Write) -> std::io::Result<()> {
-        let (input, network) = (self.outcome.job.input, self.found.solution.network());
-        let mut json = JsonWriter::new(out);
-        json.member("format", &json!(1))?;
-        json.member("network", &json!(input.text.stem))?;
-        json.member("warnings", &diagnostics::list(&input.netlist.files, &input.netlist.warnings))?;
-        json.member("start", &Scalar::new(self.outcome.job.settings.start, "s").json())?;
-        json.member("period", &Scalar::new(self.period(), "s").json())?;
-        json.member("columns", &Value::Object(self.members()))?;
-        json.member("search", &self.search())?;
-        json.member("ledger", &serde_json::to_value(self.outcome.ledger())?)?;
-        if !self.found.solution.limits().is_empty() {
-            json.member("limits", &Value::Object(limits::members(network, &self.outcome.limits())))?;
-        }
-        if let Some(of) = self.found.solution.balance() {
-            json.member("balance", &balance::json(network, of))?;
-        }
-        let statistics = StatisticsRecord::new(&self.found.solution);
-        json.member("statistics", &serde_json::to_value(statistics)?)?;
-        json.finish().map(drop)
+        self.outcome.table.columns().iter().skip(1).map(|c| c.values.first().copied().unwrap_or(f64::NAN))
     }
 
     /// By column: start, mean, extremes and swing in SI.
     fn members(&self) -> Map<String, Value> {
         let unit = &self.outcome.job.unit;
-        let seconds = |time: f64| Scalar::new(time, "s").json();
+        let seconds = |time: f64| Scalar::new(time, "s");
         let columns = self.cycle().into_iter().flat_map(|cycle| &cycle.columns).zip(self.starts());
         let member = |(seen, start): (&lptn_solve::ColumnSeen, f64)| {
-            let scalar = |value: f64| Scalar::new(value, &seen.ty.dimension.si_unit()).json();
+            let scalar = |value: f64| Scalar::new(value, &seen.ty.dimension.si_unit());
             let start = if seen.ty.absolute { unit.to_si(start) } else { start };
             let member = json!({
                 "start": scalar(start),
@@ -274,7 +210,7 @@ impl View<'_> {
 
     fn search(&self) -> Value {
         let found = self.found;
-        let kelvin = |value: f64| Scalar::new(value, "K").json();
+        let kelvin = |value: f64| Scalar::new(value, "K");
         json!({
             "method": match found.method {
                 Method::Modes => "modes",
@@ -287,7 +223,7 @@ impl View<'_> {
             "residual": kelvin(found.residual),
             "error": kelvin(found.error),
             "multiplier": found.multiplier,
-            "time_constant": self.slowest().map(|tau| Scalar::new(tau, "s").json()),
+            "time_constant": self.slowest().map(|tau| Scalar::new(tau, "s")),
         })
     }
 

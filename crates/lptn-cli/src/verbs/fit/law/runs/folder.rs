@@ -9,7 +9,8 @@ use lptn_units::{Dimension, Type, parse_quantity};
 
 use super::super::shown::SpeedUnit;
 use crate::exit::Exit;
-use crate::failure::{Failure, reason};
+use crate::failure::Failure;
+use crate::files::of_folder;
 
 /// The sheet that gives the speeds of records.
 const RUNS: &str = "runs.csv";
@@ -74,14 +75,8 @@ fn file_name(path: &Path) -> String {
 
 /// The CSV files of the folder but the sheet of speeds, by name.
 fn records(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let entries = std::fs::read_dir(folder).map_err(|error| {
-        let message = format!("cannot read {}: {}", folder.display(), reason(&error));
-        Failure::new(Exit::Input, Diagnostic::error("input::cannot_read", message))
-    })?;
-    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
-    let is_record = |path: &PathBuf| path.extension().is_some_and(|e| e == "csv") && file_name(path) != RUNS;
-    let mut paths: Vec<PathBuf> = paths.filter(is_record).collect();
-    paths.sort();
+    let mut paths = of_folder(folder, "csv", None)?;
+    paths.retain(|path| file_name(path) != RUNS);
     if paths.is_empty() {
         let message = format!("{} holds no records: no file ends with .csv", folder.display());
         return Err(Failure::new(Exit::Input, Diagnostic::error("fit::law_no_records", message)));

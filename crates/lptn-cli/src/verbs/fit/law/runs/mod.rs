@@ -3,30 +3,29 @@
 mod folder;
 mod output;
 
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use lptn_fit::law::{Candidate, ColumnFits, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy};
 use lptn_fit::step::{Capacity, LONG_ENOUGH, Sensor};
 use lptn_netlist::{Diagnostic, Files};
-use lptn_report::{Align, Column, TextTable, WIDTH, duration, fixed, significant, write_csv};
+use lptn_report::{Json, Page, Rows, Text, TextTable, WIDTH, duration, fixed, labelled, significant, words};
 use lptn_solve::available_threads;
 use lptn_study::FileHash;
-use lptn_units::{Dimension, Type, parse_quantity, suggest};
+use lptn_units::{Dimension, Type, parse_quantity};
 
 use folder::Folder;
 
 use super::args::LawArgs;
-use super::laws::sentence;
 use super::points::Data;
 use super::shown::with_error;
-use super::{Answer, laws_to_fit, text};
+use super::{Answer, laws_to_fit};
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files;
-use crate::input::wrong_unit;
-use crate::options::Format;
+use crate::input::{quantity, wrong_unit};
 
 /// What is shown of a folder.
 pub(crate) struct Runs {
@@ -53,16 +52,12 @@ pub(crate) fn runs(
     if let Some(place) = &place {
         output::write(&found, place)?;
     }
-    match args.format {
-        Format::Table => console.print(&found.text(console)).map(drop)?,
-        Format::Csv => console.write(|out| write_csv(&output::power(&found), out))?,
-        Format::Json => console.write(|out| output::json(&found, out))?,
-    }
+    console.page(&found, args.format)?;
     if let Some(place) = &place {
         let took = duration(found.wall_time, 2);
         let names = output::NAMES.join(", ");
         let text = format!("{}/: {names} (in {took})", place.path().display());
-        console.note(&sentence("wrote  ", &[text]).join("\n"));
+        console.note(&labelled("wrote  ", &words(&text), WIDTH).join("\n"));
     }
     Ok(found.answer.conclude(args.format, console))
 }
@@ -86,7 +81,8 @@ fn study(
                 console.warn(&Files::new(), &[warning]);
                 settings.columns.retain(|other| *other != column);
             }
-            Err(error) => return Err(failed(&error)),
+            // a record that has no exponential is no failure of the numbers
+            Err(error) => return Err(Failure::of(&error)),
         }
     }
 }
@@ -101,11 +97,6 @@ fn target(path: &Path, args: &LawArgs) -> PathBuf {
 fn no_capacity() -> Failure {
     let problem = Diagnostic::error("fit::law_capacity", "a power needs the heat capacity, P = C dT / t_RC");
     Failure::new(Exit::Input, problem.help("write for example --capacity \"2659 J/K ± 5 %\""))
-}
-
-fn failed(error: &RunsError) -> Failure {
-    // a record that has no exponential is no failure of the numbers
-    Failure::of(Exit::Input, error)
 }
 
 fn settings(args: &LawArgs, runs: &[Run], capacity: Capacity) -> Result<RunsSettings, Failure> {
@@ -127,10 +118,7 @@ fn settings(args: &LawArgs, runs: &[Run], capacity: Capacity) -> Result<RunsSett
     }
     let class = match &args.records.sensor {
         None => 0.0,
-        Some(text) => {
-            let found = parse_quantity(text, Some(Type::of(Dimension::TEMPERATURE)));
-            found.map_err(|error| wrong_unit("--sensor", text, &error))?.value.abs()
-        }
+        Some(text) => quantity("--sensor", text, Type::of(Dimension::TEMPERATURE))?.value.abs(),
     };
     Ok(RunsSettings {
         columns,
@@ -161,11 +149,8 @@ fn reference(text: &str, known: &[&str]) -> Result<RunReference, Failure> {
 
 fn no_column(name: &str, known: &[&str]) -> Failure {
     let problem = Diagnostic::error("record::no_column", format!("the records have no column `{name}`"));
-    let help = match suggest(name, known.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("their temperatures are {}", known.join(", ")),
-    };
-    Failure::new(Exit::Input, problem.help(help))
+    let all = || format!("their temperatures are {}", known.join(", "));
+    Failure::new(Exit::Input, problem.did_you_mean(name, known.iter().copied(), all))
 }
 
 impl Runs {
@@ -199,28 +184,12 @@ impl Runs {
         Ok(Self { study, answer, inputs: folder.inputs, wall_time })
     }
 
-    fn text(&self, console: &Console) -> String {
-        let count = self.study.runs.len();
-        let mut lines = vec![console.title(&format!("{count} records of {}", self.answer.data.name))];
-        lines.extend(self.zero());
-        lines.push(String::new());
-        lines.extend(self.table());
-        lines.push(String::new());
-        lines.extend(self.notes());
-        lines.push(String::new());
-        let laws = text::text(&self.answer, console);
-        lines.extend(laws.trim_end().lines().map(str::to_owned));
-        lines.push(String::new());
-        lines.extend(self.errors());
-        lines.join("\n") + "\n"
-    }
-
     fn first(&self) -> &[RunFit] {
         self.study.columns.first().map_or(&[], |column| &column.fits)
     }
 
     /// What dT is counted from.
-    fn zero(&self) -> Vec<String> {
+    fn zero(&self) -> String {
         let settings = self.study.settings();
         let zero = match &settings.reference {
             RunReference::Initial => "T_i of the same column".to_owned(),
@@ -228,89 +197,81 @@ impl Runs {
             RunReference::Value(kelvin) => format!("{} degC", significant(kelvin - 273.15, 5)),
         };
         let capacity = with_error(settings.capacity.value, Some(settings.capacity.deviation));
-        sentence("", &[format!("dT = T_f less {zero}; P = C dT / t_RC with C = {capacity} J/K")])
+        format!("dT = T_f less {zero}; P = C dT / t_RC with C = {capacity} J/K")
     }
 
-    fn table(&self) -> Vec<String> {
+    fn table(&self) -> TextTable {
         let unit = &self.answer.data.unit;
         let name = self.study.columns.first().map_or("", |column| column.column.as_str());
-        let cells = |cell: &dyn Fn(&RunFit) -> String| self.first().iter().map(cell).collect();
-        let speed = |(_, speed): &(String, f64)| significant(unit.0.from_si(*speed), 5);
-        let right = |title: &str, cells: Vec<String>| Column::new(title, Align::Right, cells);
+        let rows: Vec<_> = self.study.runs.iter().zip(self.first()).collect();
         let minutes = |f: &RunFit| {
             let tau = f.fit.tau;
             with_error(tau.value / 60.0, Some(tau.standard_error / 60.0))
         };
-        let table = TextTable::new(vec![
-            Column::new(name, Align::Left, self.study.runs.iter().map(|run| run.0.clone()).collect()),
-            right(&unit.0.text, self.study.runs.iter().map(speed).collect()),
-            right("dT [K]", cells(&|f| with_error(f.power.rise.value, Some(f.power.rise.random)))),
-            right("t_RC [min]", cells(&minutes)),
-            right("P [W]", cells(&|f| with_error(f.power.power.value, Some(f.power.power.random)))),
-        ]);
-        table.lines(WIDTH)
+        TextTable::of(&rows)
+            .left(name, |(run, _)| run.0.as_str())
+            .right(unit.0.text.as_str(), |(run, _)| significant(unit.0.from_si(run.1), 5))
+            .right("dT [K]", |(_, f)| with_error(f.power.rise.value, Some(f.power.rise.random)))
+            .right("t_RC [min]", |(_, f)| minutes(f))
+            .right("P [W]", |(_, f)| with_error(f.power.power.value, Some(f.power.power.random)))
+            .into()
     }
 
     /// What a reader should know of the fits.
-    fn notes(&self) -> Vec<String> {
-        let mut lines = Vec::new();
+    fn notes(&self, text: &mut Text) {
         for column in &self.study.columns {
             let (mean, scatter) = self.study.time_constant(column);
-            let text =
-                format!("{}: mean {} min", column.column, with_error(mean / 60.0, Some(scatter / 60.0)));
-            lines.extend(sentence("t_RC   ", &[format!("{text} (standard deviation of one run)")]));
+            let mean = with_error(mean / 60.0, Some(scatter / 60.0));
+            let note = format!("{}: mean {mean} min (standard deviation of one run)", column.column);
+            text.sentence("t_RC   ", &note);
         }
-        lines.extend(self.lengths());
-        let asked = self.first().iter().filter(|f| f.fit.second.offer.is_some()).count();
+        let all = self.first();
+        let short = all.iter().filter(|f| f.fit.extrapolates()).count();
+        if short > 0 {
+            let least = all.iter().map(|f| f.fit.time_constants()).fold(f64::INFINITY, f64::min);
+            let beyond = all.iter().map(|f| f.fit.beyond.abs()).fold(0.0, f64::max);
+            let note = format!(
+                "{short} records are shorter than {LONG_ENOUGH} t_RC (the shortest: {}): T_f is extrapolated by up to {} K",
+                fixed(least, 1),
+                fixed(beyond, 1)
+            );
+            text.sentence("length ", &note);
+        }
+        let asked = all.iter().filter(|f| f.fit.second.offer.is_some()).count();
         if asked > 0 {
-            let text =
-                format!("{asked} of {} runs ask for a second exponential: lptn fit step", self.first().len());
-            lines.extend(sentence("shape  ", &[text]));
+            let note = format!("{asked} of {} runs ask for a second exponential: lptn fit step", all.len());
+            text.sentence("shape  ", &note);
         }
-        let text = "± are standard errors of the noise alone; what one exponential makes wrong of a network is in none of them";
-        lines.extend(sentence("error  ", &[text.to_owned()]));
-        lines
-    }
-
-    fn lengths(&self) -> Vec<String> {
-        let short = self.first().iter().filter(|f| f.fit.extrapolates()).count();
-        let least = self.first().iter().map(|f| f.fit.time_constants()).fold(f64::INFINITY, f64::min);
-        let beyond = self.first().iter().map(|f| f.fit.beyond.abs()).fold(0.0, f64::max);
-        if short == 0 {
-            return Vec::new();
-        }
-        let text = format!(
-            "{short} records are shorter than {LONG_ENOUGH} t_RC (the shortest: {}): T_f is extrapolated by up to {} K",
-            fixed(least, 1),
-            fixed(beyond, 1)
+        text.sentence(
+            "error  ",
+            "± are standard errors of the noise alone; what one exponential makes wrong of a network is in none of them",
         );
-        sentence("length ", &[text])
     }
 
     /// Random and systematic error of the best law's coefficients, apart.
-    fn errors(&self) -> Vec<String> {
-        let Some((best, fit)) = self.best() else { return Vec::new() };
-        let Some(systematic) = self.study.systematic(best) else { return Vec::new() };
+    fn errors(&self, text: &mut Text) {
+        let Some((best, fit)) = self.best() else { return };
+        let Some(systematic) = self.study.systematic(best) else { return };
         let unit = &self.answer.data.unit;
-        let mut lines = Vec::new();
         for (c, systematic) in fit.coefficients.iter().zip(systematic) {
             let (scale, unit) = unit.unit(c.value, c.dimension);
             let show = |value: f64| significant(value / scale, 2);
             let value = with_error(c.value / scale, c.standard_error.map(|error| error / scale));
-            let text = format!(
+            let errors = format!(
                 "{} = {value} (random) ± {} (systematic: capacity {}, offset of the sensors {}) {unit}",
                 c.name,
                 show(systematic.total()),
                 show(systematic.capacity),
                 show(systematic.offset)
             );
-            lines.extend(sentence("", &[text.trim_end().to_owned()]));
+            text.sentence("", errors.trim_end());
         }
         if self.study.settings().capacity.deviation == 0.0 {
-            let text = "C was given without ±: its error, which every power shares, is missing from these";
-            lines.extend(sentence("", &[text.to_owned()]));
+            text.sentence(
+                "",
+                "C was given without ±: its error, which every power shares, is missing from these",
+            );
         }
-        lines
     }
 
     pub(crate) fn best(&self) -> Option<(&Candidate, &lptn_fit::law::Fitted)> {
@@ -320,5 +281,26 @@ impl Runs {
 
     pub(crate) fn columns(&self) -> &[ColumnFits] {
         &self.study.columns
+    }
+}
+
+impl Page for Runs {
+    fn text(&self) -> Text {
+        let count = self.study.runs.len();
+        let mut text = Text::titled(format!("{count} records of {}", self.answer.data.name));
+        text.sentence("", &self.zero());
+        text.section().table(self.table());
+        self.notes(text.section());
+        text.append(self.answer.text());
+        self.errors(text.section());
+        text
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        output::power(self).into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        output::json(self, json)
     }
 }

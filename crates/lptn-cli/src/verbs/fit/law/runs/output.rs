@@ -3,12 +3,11 @@
 use std::io;
 
 use lptn_fit::law::{RunFit, Systematic};
-use lptn_report::{JsonWriter, write_csv};
+use lptn_report::{Format, Json, Page as _, write_csv};
 use lptn_solve::{Table, TableOf};
 use lptn_study::{Environment, Scalar, utc};
 use serde_json::{Map, Value, json};
 
-use super::super::output;
 use super::Runs;
 use crate::failure::Failure;
 use crate::files::Folder;
@@ -19,14 +18,10 @@ pub(crate) const NAMES: [&str; 5] = [RISE, TIME_CONSTANT, POWER, LAWS, MANIFEST]
 
 pub(crate) fn write(found: &Runs, folder: &Folder) -> Result<(), Failure> {
     let mut files = folder.batch();
-    for (name, table) in [
-        (RISE, rise(found)),
-        (TIME_CONSTANT, time_constant(found)),
-        (POWER, power(found)),
-        (LAWS, output::table(&found.answer)),
-    ] {
+    for (name, table) in [(RISE, rise(found)), (TIME_CONSTANT, time_constant(found)), (POWER, power(found))] {
         files.write(name, |out| write_csv(&table, out))?;
     }
+    files.write(LAWS, |mut out| lptn_report::write(&found.answer, Format::Csv, false, &mut out))?;
     let environment = Environment {
         written: utc(std::time::SystemTime::now()),
         host: std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default().trim().to_owned(),
@@ -119,18 +114,15 @@ pub(crate) fn power(found: &Runs) -> Table {
     table.done()
 }
 
-pub(crate) fn json(found: &Runs, out: impl io::Write) -> io::Result<()> {
-    let mut json = JsonWriter::new(out);
-    output::members(&found.answer, &mut json)?;
+pub(crate) fn json(found: &Runs, json: &mut Json<'_>) -> io::Result<()> {
+    found.answer.json(json)?;
     json.member("runs", &runs(found))?;
+    let part = |e: &Systematic| json!({ "capacity": e.capacity, "offset": e.offset, "gain": e.gain, "total": e.total() });
     let systematic = found.best().and_then(|(best, fit)| {
-        let errors = found.study.systematic(best)?;
-        let named = fit.coefficients.iter().zip(errors);
-        let part = |e: &Systematic| json!({ "capacity": e.capacity, "offset": e.offset, "gain": e.gain, "total": e.total() });
+        let named = fit.coefficients.iter().zip(found.study.systematic(best)?);
         Some(named.map(|(c, e)| (c.name.clone(), part(&e))).collect::<Map<String, Value>>())
     });
-    json.member("systematic", &json!(systematic))?;
-    json.finish().map(drop)
+    json.member("systematic", &systematic)
 }
 
 fn runs(found: &Runs) -> Value {
@@ -142,7 +134,7 @@ fn runs(found: &Runs) -> Value {
             "T_i": number(f.fit.initial.value, "K", f.fit.initial.standard_error),
             "T_f": number(f.fit.settled.value, "K", f.fit.settled.standard_error),
             "t_RC": number(f.fit.tau.value, "s", f.fit.tau.standard_error),
-            "rms": Scalar::new(f.fit.rms, "K").json(),
+            "rms": Scalar::new(f.fit.rms, "K"),
             "dT": parted(f.power.rise, "K"),
             "R_eq": parted(f.power.resistance, "K/W"),
             "P_disp": parted(f.power.power, "W"),
@@ -151,7 +143,7 @@ fn runs(found: &Runs) -> Value {
     };
     let run = |(i, (name, speed)): (usize, &(String, f64))| {
         let columns = found.columns().iter().map(|of| (of.column.clone(), column(&of.fits[i])));
-        json!({ "run": name, "speed": Scalar::new(*speed, "rad/s").json(), "columns": columns.collect::<Map<_, _>>() })
+        json!({ "run": name, "speed": Scalar::new(*speed, "rad/s"), "columns": columns.collect::<Map<_, _>>() })
     };
     found.study.runs.iter().enumerate().map(run).collect()
 }

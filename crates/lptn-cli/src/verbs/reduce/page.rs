@@ -1,44 +1,58 @@
-//! A reduction as text for a terminal.
+//! What `lptn reduce` shows.
 
 use std::borrow::Cow;
+use std::io;
 
 use lptn_reduce::{Bias, Definition, Deviation, Dynamics, FitError, Pair, Window};
-use lptn_report::{Align, Column, TextTable, WIDTH, decimals, duration, fixed, labelled, plain, significant};
+use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, duration, fixed, significant};
+use lptn_study::Scalar;
+use serde_json::{Value, json};
 
 use super::View;
-use crate::console::Console;
-use crate::words::{count, counts};
+use crate::words::count;
 
-pub(crate) fn text(view: &View<'_>, console: &Console) -> String {
-    let network = &view.input.netlist.network;
-    let title = network.title().map_or(view.input.text.stem.clone(), plain);
-    let mut lines = vec![console.title(&title), counts(network), String::new()];
-    lines.extend(view.equivalent());
-    if let Some(dynamics) = &view.reduction.dynamics {
-        lines.push(String::new());
-        lines.extend(pairs(dynamics));
-        lines.push(String::new());
-        lines.extend(labelled("use ", &words(&view.advice(dynamics)), WIDTH));
+impl Page for View<'_> {
+    fn text(&self) -> Text {
+        let mut text = self.input.begun();
+        text.section().table(self.equivalent());
+        if let Some(dynamics) = &self.reduction.dynamics {
+            text.section().table(pairs(dynamics));
+            text.section().sentence("use ", &self.advice(dynamics));
+        }
+        match &self.bias {
+            Some(Ok(bias)) => text.section().table(self.bias(bias)),
+            Some(Err(error)) => text.section().sentence("one exponential: ", &error.to_string()),
+            None => &mut text,
+        };
+        text.section().notes(self.notes());
+        text
     }
-    if let Some(bias) = &view.bias {
-        lines.push(String::new());
-        lines.extend(view.bias(bias));
-    }
-    let notes = view.notes();
-    if !notes.is_empty() {
-        lines.push(String::new());
-    }
-    lines.extend(notes.iter().flat_map(|note| labelled("note: ", &words(note), WIDTH)));
-    lines.join("\n") + "\n"
-}
 
-fn words(text: &str) -> Vec<String> {
-    text.split(' ').map(str::to_owned).collect()
+    fn rows(&self) -> Rows<'_> {
+        self.reduction.table().into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let netlist = &self.input.netlist;
+        let (norton, inputs) = (&self.reduction.norton, &self.reduction.inputs);
+        let boundaries = netlist.network.boundaries().iter().map(|b| Cow::from(&b.name));
+        let sources = netlist.network.sources().iter().map(|s| s.name());
+        self.input.head(json, &[])?;
+        json.member("port", &self.args.port)?;
+        json.member("R_eq", &scalar(norton.resistance, "K/W"))?;
+        json.member("T_ref", &scalar(inputs.reference, "K"))?;
+        json.member("Q_N", &scalar(inputs.heat, "W"))?;
+        json.member("boundary_weights", &named(boundaries, &norton.boundary_weights))?;
+        json.member("source_weights", &named(sources, &norton.source_weights))?;
+        dynamics(self.reduction.dynamics.as_ref(), json)?;
+        json.optional("bias", self.bias.as_ref().map(of_bias))?;
+        json.member("notes", &self.notes())
+    }
 }
 
 impl View<'_> {
     /// What the port sees in steady state.
-    fn equivalent(&self) -> Vec<String> {
+    fn equivalent(&self) -> TextTable {
         let network = &self.input.netlist.network;
         let (norton, inputs) = (&self.reduction.norton, &self.reduction.inputs);
         let boundaries = network.boundaries().iter().map(|b| Cow::from(&b.name));
@@ -63,13 +77,12 @@ impl View<'_> {
             let what = format!("slowest time constant, {share} % of R_eq");
             rows.push(["tau_1".to_owned(), duration(slowest.tau, 5), what]);
         }
-        let cells = |k: usize| rows.iter().map(|row| row[k].clone()).collect::<Vec<_>>();
-        let table = TextTable::new(vec![
-            Column::new(format!("seen from {}", self.args.port), Align::Left, cells(0)),
-            Column::new("", Align::Left, cells(1)),
-            Column::new("q = Q_N - (T - T_ref) / R_eq", Align::Left, cells(2)).optional(),
-        ]);
-        table.lines(WIDTH)
+        TextTable::of(&rows)
+            .left(format!("seen from {}", self.args.port), |row| &row[0])
+            .left("", |row| &row[1])
+            .left("q = Q_N - (T - T_ref) / R_eq", |row| &row[2])
+            .optional()
+            .into()
     }
 
     /// Which pair to use, and why.
@@ -95,11 +108,7 @@ impl View<'_> {
         )
     }
 
-    fn bias(&self, bias: &Result<Bias, FitError>) -> Vec<String> {
-        let bias = match bias {
-            Ok(bias) => bias,
-            Err(error) => return labelled("one exponential: ", &words(&error.to_string()), WIDTH),
-        };
+    fn bias(&self, bias: &Bias) -> TextTable {
         let unit = &self.unit;
         let temperature = |kelvin: f64| format!("{} {}", fixed(unit.from_si(kelvin), 2), unit.text);
         let heat = match bias.relative() {
@@ -108,39 +117,33 @@ impl View<'_> {
         };
         let varies = self.input.netlist.network.has_time_dependent_inputs();
         let mean = if varies { "as a mean; " } else { "" };
+        let resistance = format!("R_eq = t_RC / C_eq = {} K/W", significant(bias.resistance, 4));
         let rows = [
-            ["T_i", &temperature(bias.fit.initial), "at the start"],
-            ["T_f", &temperature(bias.fit.settled), "in the end"],
-            [
-                "t_RC",
-                &duration(bias.fit.tau, 5),
-                &format!("R_eq = t_RC / C_eq = {} K/W", significant(bias.resistance, 4)),
-            ],
-            [
+            ("T_i", temperature(bias.fit.initial), "at the start".to_owned()),
+            ("T_f", temperature(bias.fit.settled), "in the end".to_owned()),
+            ("t_RC", duration(bias.fit.tau, 5), resistance),
+            (
                 "P",
-                &format!("{} W", significant(bias.inferred, 5)),
-                "(T_f - T_i) C_eq / t_RC, with C_eq by sum",
-            ],
-            [
+                format!("{} W", significant(bias.inferred, 5)),
+                "(T_f - T_i) C_eq / t_RC, with C_eq by sum".to_owned(),
+            ),
+            (
                 "put in",
-                &format!("{} W", significant(bias.heat, 5)),
-                &format!("{mean}bias of the method: {heat}"),
-            ],
-        ]
-        .map(|row| row.map(str::to_owned));
-        let cells = |k: usize| rows.iter().map(|row| row[k].clone()).collect::<Vec<_>>();
+                format!("{} W", significant(bias.heat, 5)),
+                format!("{mean}bias of the method: {heat}"),
+            ),
+        ];
         let heading = format!(
             "{} points over {}, missed by {} K rms",
             bias.points,
             duration(bias.length, 4),
             significant(bias.fit.rms, 3)
         );
-        let table = TextTable::new(vec![
-            Column::new("one exponential", Align::Left, cells(0)),
-            Column::new("", Align::Left, cells(1)),
-            Column::new(heading, Align::Left, cells(2)),
-        ]);
-        table.lines(WIDTH)
+        TextTable::of(&rows)
+            .left("one exponential", |row| row.0)
+            .left("", |row| &row.1)
+            .left(heading, |row| &row.2)
+            .into()
     }
 
     /// What has to be known beside the numbers.
@@ -235,30 +238,89 @@ fn signed(value: f64) -> String {
 }
 
 /// The four capacities with their errors.
-fn pairs(dynamics: &Dynamics) -> Vec<String> {
+fn pairs(dynamics: &Dynamics) -> TextTable {
     let list = &dynamics.pairs;
-    let cells = |text: &dyn Fn(&Pair) -> String| list.iter().map(text).collect::<Vec<_>>();
     let largest = |values: &dyn Fn(&Pair) -> f64| list.iter().map(values).fold(0.0, f64::max);
     let digits = decimals(largest(&|p| p.capacity), 5, 0);
     let percent = |deviation: Option<Deviation>| {
         let relative = deviation.and_then(|d| d.relative);
         relative.map_or_else(|| "-".to_owned(), |r| fixed(100.0 * r, 3))
     };
-    let mut columns = vec![
-        Column::new("error with C_eq by", Align::Left, cells(&|p| p.definition.key().to_owned())),
-        Column::new("[J/K]", Align::Right, cells(&|p| fixed(p.capacity, digits))),
-        Column::new("step [%]", Align::Right, cells(&|p| percent(Some(p.step)))),
-        Column::new("at", Align::Left, cells(&|p| duration(p.step.time, 3))),
-    ];
-    if dynamics.rise.is_some() {
-        let kelvin = |p: &Pair| p.run.map_or(0.0, |run| run.kelvin);
-        // below a mK it is the runs' own tolerance that shows
-        let digits = decimals(largest(&kelvin).max(1e-3), 3, 2);
-        columns.extend([
-            Column::new("run [K]", Align::Right, cells(&|p| fixed(kelvin(p), digits))),
-            Column::new("[%]", Align::Right, cells(&|p| percent(p.run))),
-            Column::new("at", Align::Left, cells(&|p| p.run.map_or(String::new(), |r| duration(r.time, 3)))),
-        ]);
+    let table = TextTable::of(list)
+        .left("error with C_eq by", |p| p.definition.key())
+        .right("[J/K]", |p| fixed(p.capacity, digits))
+        .right("step [%]", |p| percent(Some(p.step)))
+        .left("at", |p| duration(p.step.time, 3));
+    if dynamics.rise.is_none() {
+        return table.into();
     }
-    TextTable::new(columns).lines(WIDTH)
+    let kelvin = |p: &Pair| p.run.map_or(0.0, |run| run.kelvin);
+    // below a mK it is the runs' own tolerance that shows
+    let digits = decimals(largest(&kelvin).max(1e-3), 3, 2);
+    table
+        .right("run [K]", |p| fixed(kelvin(p), digits))
+        .right("[%]", |p| percent(p.run))
+        .left("at", |p| p.run.map_or(String::new(), |r| duration(r.time, 3)))
+        .into()
+}
+
+fn dynamics(dynamics: Option<&Dynamics>, json: &mut Json<'_>) -> io::Result<()> {
+    let Some(dynamics) = dynamics else {
+        return ["C_eq", "errors", "recommended"]
+            .into_iter()
+            .try_for_each(|name| json.member(name, &Value::Null));
+    };
+    let by_name = |value: &dyn Fn(&lptn_reduce::Pair) -> Value| -> Value {
+        dynamics.pairs.iter().map(|pair| (pair.definition.key().to_owned(), value(pair))).collect()
+    };
+    json.member("C_eq", &by_name(&|pair| json!(scalar(pair.capacity, "J/K"))))?;
+    let errors =
+        |pair: &lptn_reduce::Pair| json!({ "step": error(&pair.step), "run": pair.run.as_ref().map(error) });
+    json.member("errors", &by_name(&errors))?;
+    json.member("recommended", dynamics.recommended.definition.key())?;
+    json.member("recommended_by", if dynamics.recommended.by_run { "run" } else { "step" })?;
+    json.member("tau_1", &scalar(dynamics.step.slowest().tau, "s"))?;
+    let of = match dynamics.window {
+        Window::Given(_) => "given",
+        Window::Run(_) => "run",
+        Window::TimeConstants(_) => "five time constants",
+    };
+    json.member("window", &json!({ "value": dynamics.window.length(), "unit": "s", "from": of }))?;
+    let kelvin = |value: f64| scalar(value, "K");
+    json.member("rise", &dynamics.rise.map(kelvin))?;
+    json.member("tolerance", &dynamics.tolerance.map(kelvin))
+}
+
+fn error(deviation: &Deviation) -> Value {
+    json!({
+        "max": scalar(deviation.kelvin, "K"),
+        "relative": deviation.relative.map(|relative| scalar(relative, "1")),
+        "time": scalar(deviation.time, "s"),
+    })
+}
+
+fn of_bias(bias: &Result<Bias, FitError>) -> Value {
+    match bias {
+        Err(error) => json!({ "code": error.code(), "message": error.to_string() }),
+        Ok(bias) => json!({
+            "T_i": scalar(bias.fit.initial, "K"),
+            "T_f": scalar(bias.fit.settled, "K"),
+            "t_RC": scalar(bias.fit.tau, "s"),
+            "rms": scalar(bias.fit.rms, "K"),
+            "points": json!({ "value": bias.points, "unit": "1" }),
+            "C_eq": scalar(bias.capacity, "J/K"),
+            "R_eq": scalar(bias.resistance, "K/W"),
+            "P_inferred": scalar(bias.inferred, "W"),
+            "P_true": scalar(bias.heat, "W"),
+            "relative": bias.relative().map(|relative| scalar(relative, "1")),
+        }),
+    }
+}
+
+fn scalar(value: f64, unit: &str) -> Scalar {
+    Scalar::new(value, unit)
+}
+
+fn named<'a>(names: impl Iterator<Item = Cow<'a, str>>, values: &[f64]) -> Value {
+    names.zip(values).map(|(name, &value)| (name.into_owned(), json!(scalar(value, "1")))).collect()
 }

@@ -1,12 +1,16 @@
-//! What came of sizing, for reading.
+//! What `lptn size` shows.
 
-use lptn_netlist::Goal;
-use lptn_report::{Align, Column, TextTable, WIDTH, labelled, plain, significant};
-use lptn_study::Verdict;
+use std::io;
+
+use lptn_netlist::{Goal, Requirement};
+use lptn_report::{Json, Page, Rows, Text, TextTable, plain, significant};
+use lptn_solve::Table;
+use lptn_study::{Scalar, Verdict};
 use lptn_units::Unit;
+use serde_json::json;
 
 use super::Answer;
-use crate::console::Console;
+use crate::words::spaced;
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 6;
@@ -14,34 +18,67 @@ const DIGITS: usize = 6;
 /// Margins below this share of a unit are rounding.
 const ZERO: f64 = 1e-9;
 
-pub(crate) fn text(answer: &Answer<'_>, console: &Console) -> String {
-    let (study, network) = (answer.study, &answer.input.netlist.network);
-    let title = network.title().map_or(answer.input.text.stem.clone(), plain);
-    let (goal, range) = (goal(study.goal), study.range(network).unwrap_or((f64::NAN, f64::NAN)));
-    let unit = &answer.unit;
-    let number = |si: f64| significant(unit.from_si(si), DIGITS);
-    let sought = format!(
-        "size {}: the {goal} {} from {} to {}{}",
-        study.name,
-        study.parameter,
-        number(range.0),
-        number(range.1),
-        spaced(unit)
-    );
-    let words: Vec<String> = sought.split(' ').map(str::to_owned).collect();
-    let mut lines = vec![console.title(&title)];
-    lines.extend(labelled("", &words, WIDTH));
-    lines.push(String::new());
-    lines.extend(requirements(answer));
-    lines.push(String::new());
-    for (label, note) in notes(answer) {
-        let words: Vec<String> = note.split(' ').map(str::to_owned).collect();
-        lines.extend(labelled(&format!("{label:13}"), &words, WIDTH));
+impl Page for Answer<'_> {
+    fn text(&self) -> Text {
+        let (study, network) = (self.study, &self.input.netlist.network);
+        let (goal, range) = (goal(study.goal), study.range(network).unwrap_or((f64::NAN, f64::NAN)));
+        let unit = &self.unit;
+        let number = |si: f64| significant(unit.from_si(si), DIGITS);
+        let sought = format!(
+            "size {}: the {goal} {} from {} to {}{}",
+            study.name,
+            study.parameter,
+            number(range.0),
+            number(range.1),
+            spaced(&unit.text)
+        );
+        let mut text = Text::titled(self.input.title());
+        text.sentence("", &sought);
+        text.section().table(requirements(self));
+        text.section();
+        for (label, note) in notes(self) {
+            text.sentence(&format!("{label:13}"), &note);
+        }
+        text.section().sentence("", &verdict(self));
+        text
     }
-    lines.push(String::new());
-    let words: Vec<String> = verdict(answer).split(' ').map(str::to_owned).collect();
-    lines.extend(labelled("", &words, WIDTH));
-    lines.join("\n") + "\n"
+
+    /// One row: the value in its unit, the margin of every requirement in SI units.
+    fn rows(&self) -> Rows<'_> {
+        let mut table = Table::of(&[()]);
+        let value = self.unit.from_si(self.sizing.trial.value);
+        table.column(&self.study.parameter, &self.unit.text, |()| value);
+        table.column("feasible", "-", |()| if self.sizing.feasible() { 1.0 } else { 0.0 });
+        for (r, &margin) in self.study.requirements.iter().zip(&self.sizing.trial.margins) {
+            table.column(&r.text, r.ty.dimension.si_unit(), |()| margin);
+        }
+        table.done().into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let (network, sizing) = (&self.input.netlist.network, &self.sizing);
+        let si = network.parameters()[self.parameter.index()].ty.dimension.si_unit();
+        let requirement = |(r, &margin): (&Requirement, &f64)| {
+            let margin = Scalar::new(margin, &r.ty.dimension.si_unit());
+            json!({ "requirement": r.text, "margin": margin })
+        };
+        let margins = self.study.requirements.iter().zip(&sizing.trial.margins);
+        let scalar = |value: f64| Scalar::new(value, &si);
+        let of_margin = |value: f64| Scalar::new(value, &self.closest_unit());
+        self.input.head(json, &[])?;
+        json.member("values", &json!({ (self.study.parameter.as_str()): scalar(sizing.trial.value) }))?;
+        json.member("margin", &of_margin(sizing.margin()))?;
+        json.member("binding", &self.binding().map(|requirement| &requirement.text))?;
+        json.member("feasible", &sizing.feasible())?;
+        json.member("requirements", &margins.map(requirement).collect::<Vec<_>>())?;
+        json.member("sensitivity", &sizing.sensitivity.map(of_margin))?;
+        json.member("breaks_again", &sizing.breaks_again.map(scalar))?;
+        json.member("first_guess", &sizing.first_guess.map(scalar))
+    }
+
+    fn no(&self) -> Option<String> {
+        (!self.sizing.feasible()).then(|| verdict(self))
+    }
 }
 
 fn goal(goal: Goal) -> &'static str {
@@ -51,13 +88,9 @@ fn goal(goal: Goal) -> &'static str {
     }
 }
 
-fn spaced(unit: &Unit) -> String {
-    if unit.text == "1" { String::new() } else { format!(" {}", unit.text) }
-}
-
 /// "G_fan = 3.41 W/K".
 pub(crate) fn quantity(name: &str, si: f64, unit: &Unit) -> String {
-    format!("{name} = {}{}", significant(unit.from_si(si), DIGITS), spaced(unit))
+    format!("{name} = {}{}", significant(unit.from_si(si), DIGITS), spaced(&unit.text))
 }
 
 /// The value, rounded so that what is shown keeps the requirements.
@@ -68,7 +101,7 @@ fn value(answer: &Answer<'_>) -> String {
     } else {
         significant(value, DIGITS)
     };
-    format!("{} = {shown}{}", answer.study.parameter, spaced(&answer.unit))
+    format!("{} = {shown}{}", answer.study.parameter, spaced(&answer.unit.text))
 }
 
 /// `value` with so many digits, rounded up or down.
@@ -86,27 +119,24 @@ pub(crate) fn rounded(value: f64, digits: usize, up: bool) -> f64 {
     read(&text(if up { nearest + step } else { nearest - step }))
 }
 
-fn requirements(answer: &Answer<'_>) -> Vec<String> {
+fn requirements(answer: &Answer<'_>) -> TextTable {
     let (study, sizing) = (answer.study, &answer.sizing);
     let margin = |i: usize| {
         let (margin, unit) = (sizing.trial.margins[i], study.requirements[i].ty.dimension.si_unit());
-        let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
         let margin = if margin.abs() < ZERO { 0.0 } else { margin };
-        format!("{}{unit}", significant(margin, 4))
+        format!("{}{}", significant(margin, 4), spaced(&unit))
     };
     let word = |i: usize| match sizing.verdict {
         _ if sizing.trial.margins[i] < 0.0 => "broken",
         Verdict::Bound if i == sizing.closest => "binds",
         _ => "kept",
     };
-    let all = 0..study.requirements.len();
-    let texts = study.requirements.iter().map(|r| plain(&r.text)).collect();
-    let table = TextTable::new(vec![
-        Column::new("requirement", Align::Left, texts),
-        Column::new("margin", Align::Right, all.clone().map(margin).collect()),
-        Column::new("", Align::Left, all.map(|i| word(i).to_owned()).collect()),
-    ]);
-    table.lines(WIDTH)
+    let rows: Vec<usize> = (0..study.requirements.len()).collect();
+    TextTable::of(&rows)
+        .left("requirement", |&i| plain(&study.requirements[i].text))
+        .right("margin", |&i| margin(i))
+        .left("", |&i| word(i))
+        .into()
 }
 
 /// What the table cannot say, each with its label.

@@ -1,31 +1,54 @@
-//! A comparison for reading.
+//! What `lptn compare` shows.
 
+use std::io;
 use std::path::Path;
 
 use lptn_network::Severity;
-use lptn_report::{Align, Column, TextTable, WIDTH, decimals, duration, fixed, plain, significant};
-use lptn_study::{Candidate, CompareRow, LimitResult};
+use lptn_report::{
+    Align, Column, Json, Page, Rows, Text, TextTable, WIDTH, decimals, duration, fixed, plain, significant,
+    stacked,
+};
+use lptn_study::{Candidate, CompareRow, LimitResult, compare_table};
 
 use super::Comparison;
-use crate::console::Console;
+use crate::diagnostics;
 use crate::exit::Exit;
-use crate::words::count;
+use crate::words::{count, spaced};
 
 /// What is not known or does not exist.
 const NOTHING: &str = "-";
 
-pub(crate) fn text(comparison: &Comparison, console: &Console) -> String {
-    let rows = &comparison.rows;
-    let mut lines = vec![console.title(&count(rows.len(), "candidate")), String::new()];
-    lines.extend(overview(comparison));
-    let blocks = [("margin to", margins(rows)), ("heat out", heat(rows))];
-    for (title, columns) in blocks.into_iter().filter(|(_, columns)| !columns.is_empty()) {
-        for block in blocks_of(title, rows, columns) {
-            lines.push(String::new());
-            lines.extend(block);
+impl Page for Comparison {
+    fn text(&self) -> Text {
+        let rows = &self.rows;
+        let mut text = Text::titled(count(rows.len(), "candidate"));
+        text.section().table(overview(self));
+        for (title, columns) in [("margin to", margins(rows)), ("heat out", heat(rows))] {
+            for table in tables(title, rows, columns) {
+                text.section().table(table);
+            }
         }
+        text
     }
-    lines.join("\n") + "\n"
+
+    fn rows(&self) -> Rows<'_> {
+        compare_table(&self.rows, &self.unit).into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let warnings = self.warnings.iter().flat_map(|(files, list)| {
+            list.iter().map(|diagnostic| diagnostics::json(files, diagnostic)).collect::<Vec<_>>()
+        });
+        let errors = self.failures.iter().flat_map(|failure| {
+            let list = failure.diagnostics.iter();
+            list.map(|diagnostic| diagnostics::json(&failure.files, diagnostic)).collect::<Vec<_>>()
+        });
+        json.member("format", &1)?;
+        json.member("network", &())?;
+        json.member("warnings", &warnings.collect::<Vec<_>>())?;
+        json.member("errors", &errors.collect::<Vec<_>>())?;
+        json.table(&compare_table(&self.rows, &self.unit))
+    }
 }
 
 /// The names of the candidates: their files without folder and ending, unless two would be the same.
@@ -39,38 +62,37 @@ fn names(rows: &[CompareRow]) -> Vec<String> {
     rows.iter().zip(&stems).map(|(row, s)| if twice(s) { plain(&row.file) } else { s.clone() }).collect()
 }
 
-fn overview(comparison: &Comparison) -> Vec<String> {
+fn overview(comparison: &Comparison) -> TextTable {
     let (rows, unit) = (&comparison.rows, &comparison.unit);
-    let all = rows.iter().filter_map(CompareRow::candidate);
-    let of = |c: &Candidate| [c.peak.map(|peak| peak.temperature), c.steady];
-    let temperatures: Vec<f64> = all.flat_map(of).flatten().collect();
+    let candidates = rows.iter().filter_map(CompareRow::candidate);
+    let shown = |c: &Candidate| [c.peak.map(|peak| peak.temperature), c.steady];
+    let temperatures: Vec<f64> = candidates.flat_map(shown).flatten().collect();
     let low = temperatures.iter().copied().fold(f64::INFINITY, f64::min);
     let high = temperatures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     // finer than that is the error of the runs
     let digits = decimals((high - low) / unit.scale, 3, 1).min(4);
     let number = |kelvin: f64| fixed(unit.from_si(kelvin), digits);
-    let cells = |text: &dyn Fn(&Candidate) -> Option<String>| -> Vec<String> {
-        rows.iter().map(|row| row.candidate().and_then(text).unwrap_or_else(|| NOTHING.into())).collect()
-    };
-    let column = |title: &str, text: &dyn Fn(&Candidate) -> Option<String>| {
-        Column::new(title, Align::Right, cells(text))
-    };
-    let answers = rows.iter().zip(&comparison.ends).map(|(row, end)| verdict(row, *end).to_owned());
-    let mut columns = vec![
-        Column::new(format!("T [{}]", unit.text), Align::Left, names(rows)),
-        Column::new("hottest", Align::Left, cells(&|c| c.hottest.clone())).names(),
-        column("peak", &|c| c.peak.map(|peak| number(peak.temperature))),
-        column("at", &|c| c.peak?.at.map(|time| duration(time, 3))).optional(),
-        column("steady", &|c| c.steady.map(number)),
-        column("95 % after", &|c| c.time_to_95.map(|time| duration(time, 3))),
-        column("C [J/K]", &|c| Some(significant(c.capacity, 4))).optional(),
-        Column::new("limits", Align::Left, answers.collect()),
-    ];
+    let (mut names, mut ends) = (names(rows).into_iter(), comparison.ends.iter());
+    let mut table = TextTable::of(rows)
+        .left(format!("T [{}]", unit.text), |_| names.next().unwrap_or_default())
+        .left("hottest", cell(|c| c.hottest.clone()))
+        .names()
+        .right("peak", cell(|c| c.peak.map(|peak| number(peak.temperature))))
+        .right("at", cell(|c| c.peak?.at.map(|time| duration(time, 3))))
+        .optional()
+        .right("steady", cell(|c| c.steady.map(number)))
+        .right("95 % after", cell(|c| c.time_to_95.map(|time| duration(time, 3))))
+        .right("C [J/K]", cell(|c| Some(significant(c.capacity, 4))))
+        .optional();
     if rows.iter().filter_map(CompareRow::candidate).any(|candidate| candidate.mass.is_some()) {
-        let mass = column("m [kg]", &|c| c.mass.map(|mass| significant(mass, 4))).optional();
-        columns.insert(columns.len() - 1, mass);
+        table = table.right("m [kg]", cell(|c| c.mass.map(|mass| significant(mass, 4)))).optional();
     }
-    TextTable::new(columns).lines(WIDTH)
+    table.left("limits", |row| verdict(row, ends.next().copied().unwrap_or(Exit::Done))).into()
+}
+
+/// What a text says of a candidate that was evaluated.
+fn cell<'a>(text: impl Fn(&'a Candidate) -> Option<String>) -> impl Fn(&'a CompareRow) -> String {
+    move |row| row.candidate().and_then(&text).unwrap_or_else(|| NOTHING.into())
 }
 
 fn verdict(row: &CompareRow, end: Exit) -> &str {
@@ -95,8 +117,7 @@ fn margin(limit: &LimitResult) -> String {
     if limit.is_open() {
         return NOTHING.into();
     }
-    let unit = limit.ty.dimension.si_unit();
-    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+    let unit = spaced(&limit.ty.dimension.si_unit());
     let number = if limit.is_temperature() {
         fixed(limit.margin, decimals(limit.margin, 3, 1).min(4))
     } else {
@@ -119,34 +140,18 @@ fn heat(rows: &[CompareRow]) -> Vec<Column> {
 }
 
 /// As many tables as it takes to show every column within the width; a row with nothing in it is left out.
-fn blocks_of(title: &str, rows: &[CompareRow], mut columns: Vec<Column>) -> Vec<Vec<String>> {
+fn tables(title: &str, rows: &[CompareRow], mut columns: Vec<Column>) -> Vec<TextTable> {
+    let mut first = Column::new(title, Align::Left, names(rows));
     let kept: Vec<bool> =
         (0..rows.len()).map(|row| columns.iter().any(|column| column.cells[row] != NOTHING)).collect();
-    let keep =
-        |cells: Vec<String>| cells.into_iter().zip(&kept).filter(|(_, k)| **k).map(|(c, _)| c).collect();
-    for column in &mut columns {
-        column.cells = keep(std::mem::take(&mut column.cells));
+    for column in columns.iter_mut().chain([&mut first]) {
+        let mut kept = kept.iter();
+        column.cells.retain(|_| kept.next().is_some_and(|kept| *kept));
     }
-    let names: Vec<String> = keep(names(rows));
-    if names.is_empty() {
+    if first.cells.is_empty() {
         return Vec::new();
     }
-    let first = || Column::new(title, Align::Left, names.clone());
-    let fits = |columns: &[Column]| {
-        let table = TextTable::new([vec![first()], columns.to_vec()].concat());
-        table.lines(usize::MAX).iter().all(|line| line.chars().count() <= WIDTH)
-    };
-    let mut blocks: Vec<Vec<Column>> = Vec::new();
-    for column in columns {
-        match blocks.last_mut() {
-            Some(block) if fits(&[block.as_slice(), std::slice::from_ref(&column)].concat()) => {
-                block.push(column)
-            }
-            _ => blocks.push(vec![column]),
-        }
-    }
-    let table = |columns| TextTable::new([vec![first()], columns].concat()).lines(WIDTH);
-    blocks.into_iter().map(table).collect()
+    stacked(&first, columns, |table| table.width() <= WIDTH)
 }
 
 /// One sentence: what was not finished, else what could not be read, else what failed, else which limits are broken.

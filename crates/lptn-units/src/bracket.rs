@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::expr::{Expression, Scope, Symbol};
 use crate::number;
 use crate::repair;
 use crate::unit_parser::is_name_start;
@@ -34,7 +35,7 @@ pub(crate) fn bracketed(text: &str, is_parameter: &dyn Fn(&str) -> bool) -> Opti
             at = end;
         }
     }
-    let expression = super::Expression::parse(&result).ok()?;
+    let expression = Expression::parse(&result).ok()?;
     // without names it can be told whether it is right
     let constant = expression.names().is_empty() && expression.calls().is_empty();
     if constant && expression.compile(&Nothing, None).is_err() {
@@ -46,8 +47,8 @@ pub(crate) fn bracketed(text: &str, is_parameter: &dyn Fn(&str) -> bool) -> Opti
 /// No names.
 struct Nothing;
 
-impl super::Scope for Nothing {
-    fn symbol(&self, _: &str) -> Option<super::Symbol> {
+impl Scope for Nothing {
+    fn symbol(&self, _: &str) -> Option<Symbol> {
         None
     }
 

@@ -1,0 +1,267 @@
+//! What `lptn fit network` shows.
+
+use std::io;
+
+use lptn_fit::least_squares::Side;
+use lptn_fit::network::{ColumnMisfit, Combination, Unseparated};
+use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, differing, fixed, significant};
+use lptn_solve::Gradient;
+use lptn_solve::Table;
+use lptn_study::Scalar;
+use serde_json::{Map, Value, json};
+
+use super::Answer;
+use super::words::{combination, state, type_of, verdict};
+use crate::diagnostics;
+use crate::words::{count, symbol};
+
+impl Page for Answer<'_> {
+    fn text(&self) -> Text {
+        let fit = &self.fit;
+        let mut text = Text::titled(self.input.title());
+        text.line(format!(
+            "fit {}: {} to {} of {}",
+            self.study.name,
+            count(fit.parameters.len(), "parameter"),
+            count(fit.samples(), "value"),
+            count(self.task.runs.len(), "record")
+        ));
+        text.section().table(parameters(self));
+        text.section().table(misfits(self));
+        if let Some(table) = correlations(self) {
+            text.section().table(table);
+        }
+        text.section();
+        for (label, note) in notes(self) {
+            text.sentence(&format!("{label:13}"), &note);
+        }
+        text.section().sentence("", &verdict(self));
+        text
+    }
+
+    /// One row for each parameter, in its unit.
+    fn rows(&self) -> Rows<'_> {
+        let all: Vec<usize> = (0..self.fit.parameters.len()).collect();
+        let parameter = |i: usize| &self.fit.parameters[i];
+        let error =
+            |i: usize| parameter(i).standard_error.map_or(f64::NAN, |se| self.shown_difference(i, se));
+        let mut table = Table::of(&all);
+        table.label("parameter", |&i| self.name(i).to_owned());
+        table.label("unit", |&i| self.units[i].text.clone());
+        table.label("state", |&i| state(self, i).to_owned());
+        table.column("value", "unit", |&i| self.shown(i, parameter(i).value));
+        table.column("standard_error", "unit", |&i| error(i));
+        table.column("start", "unit", |&i| self.shown(i, parameter(i).start));
+        table.done().into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let (netlist, fit) = (&self.input.netlist, &self.fit);
+        let warnings = [netlist.warnings.as_slice(), &self.doubts].concat();
+        let all = 0..fit.parameters.len();
+        let parameters: Map<String, Value> =
+            all.clone().map(|i| (self.name(i).to_owned(), parameter(self, i))).collect();
+        let row = |i: usize| -> Map<String, Value> {
+            all.clone().map(|j| (self.name(j).to_owned(), json!(fit.correlation(i, j)))).collect()
+        };
+        let correlation: Map<String, Value> =
+            all.clone().map(|i| (self.name(i).to_owned(), Value::Object(row(i)))).collect();
+        let known = fit.identifiability.as_ref();
+        let starts = fit.starts;
+        json.member("format", &1)?;
+        json.member("network", &self.input.text.stem)?;
+        json.member("study", &self.study.name)?;
+        json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
+        json.member("parameters", &parameters)?;
+        json.member("rms", &Scalar::new(fit.rms, "K"))?;
+        json.member("samples", &fit.samples())?;
+        json.member("columns", &columns(self))?;
+        json.member("correlation", &correlation)?;
+        json.member("identifiable", &self.is_whole())?;
+        json.member("rank", &known.map(|known| known.rank))?;
+        json.member("singular_values", &known.map(|known| &known.singular_values))?;
+        json.member("unidentified", &unidentified(self))?;
+        json.member("verdict", &verdict(self))?;
+        json.member(
+            "starts",
+            &json!({ "tried": starts.tried, "same": starts.same, "other": starts.other, "failed": starts.failed }),
+        )?;
+        json.member("gradient", if fit.gradient == Gradient::Exact { "exact" } else { "differences" })
+    }
+
+    fn no(&self) -> Option<String> {
+        (!self.is_whole()).then(|| verdict(self))
+    }
+}
+
+/// Digits of a value without a standard error.
+const DIGITS: usize = 6;
+
+/// A value with as many digits as its standard error has a use for: two of the error's own.
+fn with_error(value: f64, error: Option<f64>) -> (String, String) {
+    match error {
+        Some(error) if error > 0.0 && error.is_finite() => {
+            let digits = decimals(error, 2, 0);
+            let size = value.abs().log10().floor();
+            if (1e-3..1e6).contains(&value.abs()) && digits <= 9 {
+                return (fixed(value, digits), fixed(error, digits));
+            }
+            let digits = (size - error.log10().floor()).max(0.0);
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 700")]
+            let digits = 2 + digits.min(15.0) as usize;
+            (significant(value, digits), significant(error, 2))
+        }
+        _ => (significant(value, DIGITS), String::new()),
+    }
+}
+
+fn parameters(answer: &Answer<'_>) -> TextTable {
+    let all: Vec<usize> = (0..answer.fit.parameters.len()).collect();
+    let cells = |i: usize| {
+        let parameter = &answer.fit.parameters[i];
+        let error = parameter.standard_error.map(|error| answer.shown_difference(i, error));
+        with_error(answer.shown(i, parameter.value), error)
+    };
+    let bound = |i: usize, si: f64| match si.is_finite() {
+        true => significant(answer.shown(i, si), 4),
+        false => String::new(),
+    };
+    TextTable::of(&all)
+        .left("parameter", |&i| answer.name(i))
+        .names()
+        .right("value", |&i| cells(i).0)
+        .right("std. error", |&i| cells(i).1)
+        .left("unit", |&i| symbol(&answer.units[i].text))
+        .right("start", |&i| significant(answer.shown(i, answer.fit.parameters[i].start), 4))
+        .right("from", |&i| bound(i, answer.task.parameters[i].bounds.0))
+        .optional()
+        .right("to", |&i| bound(i, answer.task.parameters[i].bounds.1))
+        .optional()
+        .left("", |&i| Some(state(answer, i)).filter(|state| *state != "free").unwrap_or_default())
+        .into()
+}
+
+fn misfits(answer: &Answer<'_>) -> TextTable {
+    let several = answer.task.runs.len() > 1;
+    let records: Vec<String> = answer.task.runs.iter().map(|run| run.name.clone()).collect();
+    let records = differing(&records);
+    let name = |misfit: &ColumnMisfit| {
+        let name = &answer.task.runs[misfit.run].columns[misfit.column].name;
+        if several { format!("{name} ({})", records[misfit.run]) } else { name.clone() }
+    };
+    TextTable::of(&answer.fit.columns)
+        .left("column", name)
+        .names()
+        .right("misfit rms [K]", |misfit| significant(misfit.rms, 3))
+        .right("mean [K]", |misfit| significant(misfit.mean, 2))
+        .right("sigma [K]", |m| m.sigma.map_or("-".to_owned(), |sigma| significant(sigma, 3)))
+        .right("values", |misfit| misfit.samples.to_string())
+        .right("independent", |misfit| significant(misfit.effective.round(), 6))
+        .into()
+}
+
+/// Parameters that are shown with their correlations, at most: more do not fit a line.
+const MOST: usize = 7;
+
+fn correlations(answer: &Answer<'_>) -> Option<TextTable> {
+    let known: Vec<usize> =
+        (0..answer.fit.parameters.len()).filter(|&i| answer.fit.correlation(i, i).is_some()).collect();
+    if known.len() < 2 || known.len() > MOST {
+        return None;
+    }
+    let cell = |i: usize, j: usize| match answer.fit.correlation(i, j) {
+        Some(correlation) if j < i => fixed(correlation, 3),
+        _ => String::new(),
+    };
+    let mut table = TextTable::of(&known[1..]).left("correlation", |&i| answer.name(i)).names();
+    for &j in &known[..known.len() - 1] {
+        table = table.right(answer.name(j), |&i| cell(i, j));
+    }
+    Some(table.into())
+}
+
+fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
+    let fit = &answer.fit;
+    let mut notes =
+        vec![("misfit", format!("{} K rms over all {} values", significant(fit.rms, 4), fit.samples()))];
+    let starts = fit.starts;
+    if starts.tried > 1 {
+        let mut text = format!("{} of {} searches found this minimum", starts.same, starts.tried);
+        if starts.other > 0 {
+            text += &format!(", {} a worse one", starts.other);
+        }
+        if starts.failed > 0 {
+            text += &format!(", {} none", starts.failed);
+        }
+        notes.push(("starts", text));
+    }
+    let how = match fit.gradient {
+        Gradient::Exact => "exact sensitivities".to_owned(),
+        Gradient::Differences(why) => {
+            format!("differences of runs, for {}", why.describe(answer.task.network))
+        }
+    };
+    notes.push(("gradient", format!("{how}; all records were run {} times", fit.evaluations)));
+    if let Some(known) = &fit.identifiability {
+        let values: Vec<String> = known.singular_values.iter().map(|value| significant(*value, 3)).collect();
+        notes.push((
+            "determined",
+            format!("{} of {}; singular values {}", known.rank, fit.parameters.len(), values.join(", ")),
+        ));
+    }
+    notes
+}
+
+fn parameter(answer: &Answer<'_>, i: usize) -> Value {
+    let (fitted, varied) = (&answer.fit.parameters[i], &answer.task.parameters[i]);
+    let ty = answer.task.network.parameters()[varied.parameter.index()].ty;
+    let unit = ty.dimension.si_unit();
+    let finite = |value: f64| value.is_finite().then_some(value);
+    let side = fitted.on_bound.map(|side| if side == Side::Lower { "from" } else { "to" });
+    json!({
+        "value": fitted.value,
+        "unit": unit,
+        "standard_error": fitted.standard_error,
+        "start": fitted.start,
+        "from": finite(varied.bounds.0),
+        "to": finite(varied.bounds.1),
+        "prior": varied.prior,
+        "on_bound": side,
+    })
+}
+
+fn columns(answer: &Answer<'_>) -> Value {
+    let column = |misfit: &lptn_fit::network::ColumnMisfit| {
+        let run = &answer.task.runs[misfit.run];
+        json!({
+            "record": run.name,
+            "column": run.columns[misfit.column].name,
+            "rms": Scalar::new(misfit.rms, "K"),
+            "mean": Scalar::new(misfit.mean, "K"),
+            "sigma": misfit.sigma.map(|sigma| Scalar::new(sigma, "K")),
+            "samples": misfit.samples,
+            "effective_samples": misfit.effective,
+        })
+    };
+    answer.fit.columns.iter().map(column).collect()
+}
+
+/// What the records do not determine: parameters that nothing depends on, then those that cannot be told apart.
+fn unidentified(answer: &Answer<'_>) -> Value {
+    let Some(known) = &answer.fit.identifiability else { return Value::Null };
+    let unfelt = known
+        .unfelt
+        .iter()
+        .map(|&i| json!({ "parameters": [answer.name(i)], "missing": 1, "determined": [] }));
+    unfelt.chain(known.unseparated.iter().map(|group| unseparated(answer, group))).collect()
+}
+
+fn unseparated(answer: &Answer<'_>, group: &Unseparated) -> Value {
+    let names: Vec<&str> = group.parameters.iter().map(|&i| answer.name(i)).collect();
+    let one = |c: &Combination| {
+        let unit = type_of(answer, c).map_or_else(String::new, |ty| ty.dimension.si_unit());
+        json!({ "combination": combination(answer, c), "value": Scalar::new(c.value, &unit) })
+    };
+    let determined: Option<Value> = group.determined.as_ref().map(|all| all.iter().map(one).collect());
+    json!({ "parameters": names, "missing": group.missing, "determined": determined })
+}

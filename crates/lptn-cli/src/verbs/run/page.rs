@@ -1,0 +1,269 @@
+//! What `lptn run` shows: the table of a run, its heat and its notes, and its object.
+
+use std::borrow::Cow;
+use std::io;
+
+use lptn_report::{
+    Flow, Json, Page, Rows, Text, TextTable, decimals, duration, fixed, significant, sparkline,
+};
+use lptn_solve::{End, NodeSummary, Solution, SteadyError, Summary, first_there};
+use lptn_study::{RunEnd, StatisticsRecord};
+
+use super::job::NoSteady;
+use super::outcome::{Outcome, not_bounded, weak_ledger};
+use super::uncertainty::files::bands;
+use super::{events, state, uncertainty, windows};
+use crate::doubts::others;
+use crate::words::MOST_NODES;
+use crate::{balance, limits, lumping};
+
+/// Characters of a curve.
+const CURVE: usize = 16;
+
+/// A node that varies by less than this, in K, is drawn as flat.
+const FLAT: f64 = 1e-3;
+
+impl Page for Outcome<'_> {
+    fn text(&self) -> Text {
+        let mut nodes = Summary::new(&self.solution, self.steady.as_ref().ok()).nodes;
+        nodes.iter_mut().for_each(|node| include_rows(self, node));
+        let (network, span) = (self.solution.network(), (self.job.settings.start, reached(self)));
+        let mut text = self.job.input.begun();
+        if let Some(origin) = state::origin(self.job.input) {
+            text.sentence("", &origin);
+        }
+        if !nodes.is_empty() {
+            text.section().table(temperatures(self, &nodes));
+        }
+        limits::section(&mut text, network, &self.limits(), &self.job.unit);
+        if let Some(study) = self.uncertainty() {
+            uncertainty::text::sections(&mut text, network, (study, &self.job.unit));
+        }
+        events::section(&mut text, &self.solution, span);
+        columns(self, &mut text);
+        windows::sections(&mut text, self.solution.windows(), &self.job.unit);
+        let uncertain = |study| uncertainty::text::notes(network, study, &self.job.unit);
+        text.section().notes(self.uncertainty().into_iter().flat_map(uncertain));
+        text.notes(notes(self, &nodes)).section();
+        // where a run breaks off, the integrals and the state are not those of one time
+        if !matches!(self.solution.end(), End::Failed(_)) {
+            heat_over(&mut text, &self.solution, span.1 - span.0);
+            if let Some(of) = self.solution.balance() {
+                balance::section(&mut text, network, (of, Some(span)));
+            }
+        }
+        let label = format!("{:1$}", "lumping:", over(span.1 - span.0).len() + 2);
+        lumping::lines(&mut text, network, (&self.lumping, &label, self.verbose));
+        if self.verbose {
+            text.labelled("solver: ", solver(self));
+        }
+        text
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        match self.uncertainty() {
+            Some(study) => bands(self.solution.network(), &study.found, &self.job.unit).into(),
+            None => (&self.table).into(),
+        }
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let network = self.solution.network();
+        self.job.input.head(json, &[self.doubts(), self.found()].concat())?;
+        json.table(&self.table)?;
+        json.member("events", &events::json(&self.solution))?;
+        json.member("ledger", &self.ledger())?;
+        let uncertain = |study| uncertainty::files::json(network, study);
+        let windowed = !self.job.settings.windows.is_empty();
+        json.optional("limits", limits::members(network, &self.limits()))?;
+        json.optional("uncertainty", self.uncertainty().map(uncertain))?;
+        json.optional("windows", windowed.then(|| windows::members(self.solution.windows())))?;
+        json.optional("balance", self.solution.balance().map(|of| balance::json(network, of)))?;
+        json.member("lumping", &lumping::json(network, &self.lumping))?;
+        json.member("statistics", &StatisticsRecord::new(&self.solution))?;
+        let end = |message| RunEnd::of(&self.solution, self.job.settings.stop, Some(message));
+        json.optional("end", self.ended_early().map(end))
+    }
+}
+
+/// Takes in the rows, since a network without state is not watched between them; and a peak that the tolerance
+/// cannot tell from the start or from the end is there.
+fn include_rows(of: &Outcome<'_>, node: &mut NodeSummary) {
+    let values = of.solution.temperature(node.node).unwrap_or_default();
+    node.end = values.last().copied().filter(|_| of.solution.end() == End::Reached).unwrap_or(node.end);
+    for (&time, &value) in of.solution.times().iter().zip(&values) {
+        if value > node.peak.0 {
+            node.peak = (value, time);
+        }
+    }
+    let ends = [(node.start, of.job.settings.start), (node.end, reached(of))];
+    node.peak.1 = first_there(node.peak, ends, 10.0 * of.job.settings.tolerance);
+}
+
+/// The time up to which there are rows: the stop, unless the run ended early.
+fn reached(of: &Outcome<'_>) -> f64 {
+    match of.solution.end() {
+        End::Reached => of.job.settings.stop,
+        End::Interrupted(time) | End::Failed(time) => time,
+    }
+}
+
+fn temperatures(of: &Outcome<'_>, nodes: &[NodeSummary]) -> TextTable {
+    let (unit, settings) = (&of.job.unit, &of.job.settings);
+    let temperatures = nodes.iter().flat_map(|n| [Some(n.start), Some(n.end), Some(n.peak.0), n.steady]);
+    let (low, high) = range(temperatures.flatten());
+    // what the tolerance cannot tell from rest takes no decimals
+    let span = Some(high - low).filter(|span| *span > 10.0 * settings.tolerance).unwrap_or(0.0);
+    let digits = decimals(span / unit.scale, 3, 1);
+    let number = |kelvin: f64| fixed(unit.from_si(kelvin), digits);
+    let network = of.solution.network();
+    let end = duration(reached(of), 4);
+    TextTable::of(nodes)
+        .left(format!("T [{}]", unit.text), |n| network.nodes()[n.node.index()].name.as_str())
+        .right("start", |n| number(n.start))
+        .right(end.as_str(), |n| number(n.end))
+        .right("peak", |n| number(n.peak.0))
+        .right("at", |n| duration(n.peak.1, 3))
+        .optional()
+        .right("steady", |n| n.steady.map_or("-".into(), number))
+        .right("95 % after", |n| time_to_95(of, n))
+        .left(format!("{} to {end}", start_of_curve(settings.start)), |n| curve(of, n))
+        .optional()
+        .into()
+}
+
+/// What is no temperature of a node: every report, the values of grids, and the other columns that were asked for by
+/// name.
+fn columns(of: &Outcome<'_>, text: &mut Text) {
+    let network = of.solution.network();
+    let is_report = |name: &str| network.reports().iter().any(|report| report.name == name);
+    let is_node = |name: &str| name.strip_suffix(".T").is_some_and(|name| network.node(name).is_ok());
+    let of_grids: Vec<String> = network.grid_values().map(|value| value.name(network)).collect();
+    let is_of_grid = |name: &str| of_grids.iter().any(|value| value == name);
+    let wanted = |name: &str| is_report(name) || is_of_grid(name) || (of.job.chosen && !is_node(name));
+    let all = of.table.columns().get(1..).unwrap_or_default();
+    let shown: Vec<_> = all.iter().filter(|column| wanted(&column.name)).take(MOST_NODES).collect();
+    if shown.is_empty() {
+        return;
+    }
+    type Of<'a> = &'a lptn_solve::Column;
+    let number = |column: Of<'_>, value: Option<&f64>| {
+        let (low, high) = range(column.values.iter().copied());
+        let digits = decimals(low.abs().max(high.abs()), 4, 1);
+        value.map_or("-".into(), |&value| fixed(value, digits))
+    };
+    let table = TextTable::of(&shown)
+        .left("column", |c| c.header())
+        .right("start", |c| number(c, c.values.first()))
+        .right(duration(reached(of), 4), |c| number(c, c.values.last()))
+        .left("", |c| sparkline(of.solution.times(), &c.values, CURVE, 0.0))
+        .optional();
+    text.section().table(table);
+}
+
+fn start_of_curve(start: f64) -> String {
+    if start == 0.0 { "0".into() } else { duration(start, 4) }
+}
+
+fn curve(of: &Outcome<'_>, node: &NodeSummary) -> String {
+    let values = of.solution.temperature(node.node).unwrap_or_default();
+    sparkline(of.solution.times(), &values, CURVE, FLAT)
+}
+
+fn time_to_95(of: &Outcome<'_>, node: &NodeSummary) -> String {
+    match (node.time_to_95, node.reached()) {
+        (Some(time), _) => duration(time, 3),
+        (None, Some(_)) => format!("> {}", duration(reached(of) - of.job.settings.start, 3)),
+        (None, None) => "-".into(),
+    }
+}
+
+fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
+}
+
+/// What the table cannot say.
+fn notes(of: &Outcome<'_>, nodes: &[NodeSummary]) -> Vec<String> {
+    let mut notes: Vec<String> = Vec::new();
+    let network = of.solution.network();
+    if nodes.len() < network.nodes().len() && nodes.len() == MOST_NODES {
+        let which = if of.steady.is_ok() { "those that get hottest" } else { "the first ones" };
+        let all = network.nodes().len();
+        notes.push(format!(
+            "{} of {all} nodes are shown, {which}; --select 'NAME.T' shows others",
+            nodes.len()
+        ));
+    }
+    notes.extend(short_record(nodes));
+    match &of.steady {
+        Err(NoSteady::Inputs) => notes.push("steady is `-`: the inputs change with time".into()),
+        Ok(steady) => notes.extend(others(network, steady, &of.job.unit).map(|found| found.message)),
+        Err(NoSteady::Network(SteadyError::NoBoundary { .. })) => {}
+        Err(NoSteady::Network(error)) => notes.push(format!("steady is `-`: {error}")),
+    }
+    let reached = of.solution.end() == End::Reached;
+    let switched = of.solution.statistics().switched_to_lu.filter(|_| reached);
+    notes.extend(switched.map(|time| {
+        format!(
+            "from {} s on the Newton matrix is unsymmetric: the symmetric one did not converge",
+            significant(time, 4)
+        )
+    }));
+    notes.extend(not_bounded(&of.solution));
+    notes.extend(weak_ledger(&of.solution));
+    notes
+}
+
+/// The record ends before some node has come near its steady state.
+fn short_record(nodes: &[NodeSummary]) -> Option<String> {
+    let short = nodes.iter().filter(|n| n.time_to_95.is_none()).filter_map(NodeSummary::reached);
+    let (least, most) = range(short);
+    if least > most {
+        return None;
+    }
+    let (least, most) = (fixed(100.0 * least, 0), fixed(100.0 * most, 0));
+    let share = if least == most { format!("{least} %") } else { format!("{least} to {most} %") };
+    let rises = nodes.iter().all(|n| n.steady.is_some_and(|steady| steady >= n.start));
+    let way = if rises { "rise" } else { "way" };
+    Some(format!("record ends at {share} of the {way} to steady"))
+}
+
+/// The label of the heat, with which those below it line up.
+fn over(length: f64) -> String {
+    format!("heat over {}:", duration(length, 4))
+}
+
+/// The heat of a run of this length in s, and how far the books close.
+pub(crate) fn heat_over(text: &mut Text, solution: &Solution, length: f64) {
+    let (network, ledger) = (solution.network(), solution.ledger());
+    let sources = network.sources().iter().map(|s| s.name()).zip(&ledger.sources);
+    let boundaries = network.boundaries().iter().map(|b| Cow::from(&b.name)).zip(&ledger.boundaries);
+    let flow = |(name, &heat): (Cow<'_, str>, &f64)| Flow { name: name.into_owned(), heat };
+    let mut flows: Vec<Flow> = sources.chain(boundaries).map(flow).collect();
+    // one stream hands on what another brings: only all of them together say something
+    flows.push(Flow { name: "streams".into(), heat: ledger.streams.iter().sum() });
+    let pieces = lptn_report::balance(&flows, ledger.stored.iter().sum(), ledger.turned_over);
+    let over = over(length);
+    let width = over.len() + 2;
+    text.labelled(&format!("{over:width$}"), pieces);
+    let balance = match ledger.relative_residual() {
+        Some(residual) => {
+            let (residual, bound) = (significant(residual.abs(), 2), significant(ledger.bound, 2));
+            format!("closes to {residual} of the heat turned over (allowed: {bound})")
+        }
+        None => format!("residual {} J; no heat was turned over", significant(ledger.residual(), 2)),
+    };
+    text.sentence(&format!("{:width$}", "balance:"), &balance);
+}
+
+fn solver(of: &Outcome<'_>) -> Vec<String> {
+    let statistics = of.solution.statistics();
+    let repeated = statistics.error_test_failures + statistics.newton_failures;
+    vec![
+        format!("tolerance {} K,", significant(of.job.settings.tolerance, 3)),
+        format!("{} steps,", statistics.steps),
+        format!("{repeated} repeated,"),
+        format!("{} Newton iterations,", statistics.newton_iterations),
+        format!("{} factorisations", statistics.factorizations),
+    ]
+}

@@ -1,0 +1,168 @@
+//! What `lptn steady --periodic` shows.
+
+use std::io;
+
+use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, duration, fixed, prefix, significant};
+use lptn_solve::{ColumnSeen, Method};
+use lptn_study::{Scalar, StatisticsRecord};
+use lptn_units::Dimension;
+
+use super::View;
+use crate::verbs::run::page::heat_over;
+use crate::words::{MOST_NODES, count, difference, some_of, symbol};
+use crate::{balance, limits};
+
+/// A column with its first value, in SI.
+type Row<'a> = (&'a ColumnSeen, f64);
+
+impl Page for View<'_> {
+    fn text(&self) -> Text {
+        let (job, solution) = (&self.outcome.job, &self.found.solution);
+        let network = solution.network();
+        let mut text = job.input.begun();
+        let seen = self.cycle().map_or(&[][..], |cycle| &cycle.columns);
+        let rows: Vec<Row<'_>> = seen.iter().zip(self.starts()).collect();
+        let (temperatures, rest): (Vec<Row<'_>>, Vec<Row<'_>>) =
+            rows.into_iter().partition(|(c, _)| c.ty.absolute);
+        let (flows, others): (Vec<Row<'_>>, Vec<Row<'_>>) =
+            rest.into_iter().partition(|(c, _)| c.ty.dimension == Dimension::POWER && c.name.contains('.'));
+        temperature_section(&mut text, self, temperatures);
+        flow_section(&mut text, flows);
+        other_section(&mut text, self, &others);
+        limits::section(&mut text, network, &self.outcome.limits(), &job.unit);
+        if let Some(of) = solution.balance() {
+            let times = Some((job.settings.start, job.settings.stop));
+            balance::section(&mut text, network, (of, times));
+        }
+        found_section(&mut text, self);
+        heat_over(text.section(), solution, self.period());
+        text
+    }
+
+    /// Name, unit, value at the start, mean, extremes with their times, and swing of each column.
+    fn rows(&self) -> Rows<'_> {
+        let heading = ["name", "unit", "start", "mean", "min", "min_at [s]", "max", "max_at [s]", "swing"];
+        let mut rows = vec![heading.map(str::to_owned).to_vec()];
+        let mut text = lptn_report::Shortest::new();
+        let unit = &self.outcome.job.unit;
+        for (seen, start) in self.cycle().into_iter().flat_map(|cycle| &cycle.columns).zip(self.starts()) {
+            let [mean, min, max] = [seen.mean, seen.min.0, seen.max.0].map(|x| seen.shown(x, unit));
+            let numbers = [start, mean, min, seen.min.1, max, seen.max.1, max - min];
+            let mut row = vec![seen.name.clone(), symbol(&seen.unit(unit)).to_owned()];
+            row.extend(numbers.map(|number| text.text(number).to_owned()));
+            rows.push(row);
+        }
+        Rows::Words(rows)
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let (solution, settings) = (&self.found.solution, &self.outcome.job.settings);
+        self.outcome.job.input.head(json, &[])?;
+        json.member("start", &Scalar::new(settings.start, "s"))?;
+        json.member("period", &Scalar::new(self.period(), "s"))?;
+        json.member("columns", &self.members())?;
+        json.member("search", &self.search())?;
+        json.member("ledger", &self.outcome.ledger())?;
+        let network = solution.network();
+        json.optional("limits", limits::members(network, &self.outcome.limits()))?;
+        json.optional("balance", solution.balance().map(|of| balance::json(network, of)))?;
+        json.member("statistics", &StatisticsRecord::new(solution))
+    }
+}
+
+fn temperature_section(text: &mut Text, view: &View<'_>, mut rows: Vec<Row<'_>>) {
+    let unit = &view.outcome.job.unit;
+    let all = rows.len();
+    if all > MOST_NODES {
+        rows.sort_by(|a, b| b.0.max.0.total_cmp(&a.0.max.0));
+        rows.truncate(MOST_NODES);
+    }
+    let swing = |c: &ColumnSeen| c.max.0 - c.min.0;
+    let span = rows.iter().map(|(c, _)| swing(c)).fold(0.0, f64::max);
+    let digits = decimals(span / unit.scale, 3, 1);
+    // what the tolerance cannot tell from rest is none
+    let clear = |swing: f64| if swing > 10.0 * view.outcome.job.settings.tolerance { swing } else { 0.0 };
+    let kelvin = |value: f64| fixed(unit.from_si(value), digits);
+    let table = TextTable::of(&rows)
+        .left(format!("T [{}]", unit.text), |(c, _)| c.name.strip_suffix(".T").unwrap_or(&c.name))
+        .right("start", |(_, start)| fixed(*start, digits))
+        .right("mean", |(c, _)| kelvin(c.mean))
+        .right("min", |(c, _)| kelvin(c.min.0))
+        .right("max", |(c, _)| kelvin(c.max.0))
+        .right("at", |(c, _)| at(c))
+        .optional()
+        .right(format!("swing [{}]", difference(unit)), |(c, _)| {
+            significant(clear(swing(c)) / unit.scale, 3)
+        });
+    some_of(text, table, (all, "the hottest first; --select 'NAME.T' shows others"));
+}
+
+/// When the largest value is there; nothing for a constant.
+fn at(column: &ColumnSeen) -> String {
+    if column.max.0 > column.min.0 { duration(column.max.1, 3) } else { "-".into() }
+}
+
+fn flow_section(text: &mut Text, mut rows: Vec<Row<'_>>) {
+    let all = rows.len();
+    if all > MOST_NODES {
+        rows.sort_by(|a, b| b.0.mean.abs().total_cmp(&a.0.mean.abs()));
+        rows.truncate(MOST_NODES);
+    }
+    let largest = rows.iter().map(|(c, _)| c.mean.abs()).fold(0.0, f64::max);
+    let (scale, letter) = prefix(largest);
+    let digits = decimals(largest / scale, 4, 0);
+    let watt = |value: f64| fixed(value / scale, digits);
+    let table = TextTable::of(&rows)
+        .left(format!("heat flow [{letter}W]"), |(c, _)| c.name.as_str())
+        .right("mean", |(c, _)| watt(c.mean))
+        .right("min", |(c, _)| watt(c.min.0))
+        .right("max", |(c, _)| watt(c.max.0));
+    some_of(text, table, (all, "the largest first; --select 'NAME.Q' shows others"));
+}
+
+/// Signals and reports.
+fn other_section(text: &mut Text, view: &View<'_>, rows: &[Row<'_>]) {
+    let unit = &view.outcome.job.unit;
+    let number = |c: &ColumnSeen, value: f64| significant(c.shown(value, unit), 5);
+    let table = TextTable::of(rows)
+        .left("column", |(c, _)| format!("{} [{}]", c.name, symbol(&c.unit(unit))))
+        .right("mean", |(c, _)| number(c, c.mean))
+        .right("min", |(c, _)| number(c, c.min.0))
+        .right("max", |(c, _)| number(c, c.max.0));
+    some_of(text, table, (rows.len(), ""));
+}
+
+/// How the cycle was found, and how far it is to be believed.
+fn found_section(text: &mut Text, view: &View<'_>) {
+    let found = view.found;
+    let kelvin = |value: f64| format!("{} K", significant(value, 2));
+    let how = match found.method {
+        Method::Modes => "in closed form, mode by mode;",
+        Method::Shooting => "by shooting;",
+        Method::Stateless => "without a search, as nothing is stored;",
+    };
+    let mut pieces = vec![how.to_owned(), format!("{} integrated,", count(found.cycles, "cycle"))];
+    pieces.push(format!("{} steps", found.steps));
+    let cycle =
+        format!("{}, from {} on", duration(view.period(), 6), duration(view.outcome.job.settings.start, 4));
+    text.section().line(format!("cycle:   {cycle}"));
+    text.labelled("found:   ", pieces);
+    let bound = if found.error.is_finite() {
+        format!("at most about {}", kelvin(found.error))
+    } else {
+        "not known".into()
+    };
+    let ends = vec![
+        format!("end and start differ by {},", kelvin(found.residual)),
+        format!("error of taking it for settled {bound}"),
+    ];
+    text.labelled("settled: ", ends);
+    if let (Some(tau), Some(rho)) = (view.slowest(), found.multiplier) {
+        let about = if found.method == Method::Modes { "" } else { "about " };
+        text.line(format!(
+            "memory:  {about}{} % of a disturbance outlasts a cycle, time constant {}",
+            significant(100.0 * rho, 3),
+            duration(tau, 3)
+        ));
+    }
+}

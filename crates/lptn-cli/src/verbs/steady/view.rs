@@ -1,0 +1,266 @@
+//! What `lptn steady` shows.
+
+use std::collections::HashSet;
+use std::io;
+
+use lptn_netlist::Diagnostic;
+use lptn_network::{BoundaryId, ConductorId, GridValue, HeatOf, Item, JointId, Network, NodeId};
+use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, fixed, prefix, shortened, significant};
+use lptn_solve::{Balance, Selection, SteadyState, Table};
+use lptn_study::Scalar;
+use lptn_units::Unit;
+use serde_json::{Map, json};
+
+use crate::console::Console;
+use crate::doubts::{adiabatic, inputs_vary, others};
+use crate::input::Input;
+use crate::limits::{self, Judged};
+use crate::words::{MOST_NODES, difference, some_of};
+use crate::{balance, sense};
+
+/// Rises in K and heats in W below this are what rounding left over: no unit and no decimals are chosen to show them.
+const NOISE: f64 = 1e-9;
+
+/// A steady state and how it is shown.
+pub(super) struct View<'a> {
+    pub(super) input: &'a Input,
+    pub(super) steady: &'a SteadyState,
+    pub(super) selection: &'a Selection,
+    /// What is selected, in the unit that is shown.
+    pub(super) table: &'a Table,
+    pub(super) unit: &'a Unit,
+    pub(super) limits: &'a [Judged],
+    pub(super) balance: Option<&'a Balance>,
+    /// Whether nothing was selected.
+    pub(super) all: bool,
+}
+
+/// A temperature or heat flow with its value. Names are made for those that are shown.
+#[derive(Clone, Copy)]
+struct Row {
+    of: Of,
+    value: f64,
+}
+
+#[derive(Clone, Copy)]
+enum Of {
+    Node(NodeId),
+    Boundary(BoundaryId),
+    Grid(GridValue),
+    Heat(HeatOf),
+}
+
+impl Row {
+    /// The name of its column.
+    fn column(self, network: &Network) -> String {
+        match self.of {
+            Of::Node(id) => format!("{}.T", network.name_of(Item::Node(id))),
+            Of::Boundary(id) => format!("{}.T", network.name_of(Item::Boundary(id))),
+            Of::Grid(value) => value.name(network),
+            Of::Heat(heat) => heat.name(network),
+        }
+    }
+
+    /// Its name; `T`, `Q` and `P` go without saying.
+    fn label(self, network: &Network) -> String {
+        match self.of {
+            Of::Node(id) => network.name_of(Item::Node(id)).into_owned(),
+            Of::Boundary(id) => network.name_of(Item::Boundary(id)).into_owned(),
+            Of::Heat(heat) => network.name_of(heat.item()).into_owned(),
+            Of::Grid(GridValue::Mean(_) | GridValue::Min(_) | GridValue::Max(_)) => self.column(network),
+            Of::Grid(_) => self.column(network).trim_end_matches(".T").to_owned(),
+        }
+    }
+
+    fn words(self, network: &Network) -> String {
+        let name = |end: lptn_network::End| network.name_of(end.into());
+        let ends = |id: lptn_network::ConductorId| {
+            let conductor = &network.conductors()[id.index()];
+            (name(conductor.from), name(conductor.to))
+        };
+        match self.of {
+            Of::Node(id) if network.nodes()[id.index()].massless => "junction".into(),
+            Of::Node(_) => "node".into(),
+            Of::Boundary(_) => "boundary".into(),
+            Of::Grid(GridValue::Mean(_)) => "mean of the grid".into(),
+            Of::Grid(GridValue::Min(_)) => "coldest cell".into(),
+            Of::Grid(GridValue::Max(_)) => "hottest cell".into(),
+            Of::Grid(_) => "mean of the face".into(),
+            Of::Heat(HeatOf::Joint(id)) => {
+                let joint = &network.joints()[id.index()];
+                let [from, to] = [joint.from, joint.to].map(|terminal| network.terminal_name(terminal));
+                format!("{from} -> {to}")
+            }
+            Of::Heat(HeatOf::Conductor(id)) => {
+                let (from, to) = ends(id);
+                format!("{from} -> {to}")
+            }
+            Of::Heat(HeatOf::ReceivedFrom(id)) => format!("stream to {}", ends(id).0),
+            Of::Heat(HeatOf::ReceivedTo(id)) => format!("stream to {}", ends(id).1),
+            Of::Heat(HeatOf::Source(id)) => {
+                let into = network.sources()[id.index()].into.iter();
+                let mut into: Vec<String> = into.map(|(node, _)| network.place_name(*node)).collect();
+                into.dedup();
+                format!("source into {}", into.join(", "))
+            }
+            Of::Heat(HeatOf::Boundary(_)) if self.value > 0.0 => "boundary gives".into(),
+            Of::Heat(HeatOf::Boundary(_)) => "boundary takes".into(),
+        }
+    }
+}
+
+impl View<'_> {
+    fn temperatures(&self, inside: bool) -> Vec<Row> {
+        let network = &self.input.netlist.network;
+        let ids: Box<dyn Iterator<Item = NodeId>> =
+            if inside { Box::new(network.node_ids()) } else { Box::new(network.outer_nodes()) };
+        let nodes = ids.map(|id| Row { of: Of::Node(id), value: self.steady.temperatures[id.index()] });
+        let idle = network.idle_grid_values().filter(|_| inside);
+        let grids = network
+            .grid_values()
+            .chain(idle)
+            .map(|of| Row { of: Of::Grid(of), value: network.grid_value(of, &self.steady.temperatures) });
+        let boundaries = network.boundary_ids().zip(&self.steady.boundary_temperatures);
+        let boundaries = boundaries.map(|(id, &value)| Row { of: Of::Boundary(id), value });
+        nodes.chain(grids).chain(boundaries).collect()
+    }
+
+    /// The heat that the end of a path to a face receives.
+    fn through(&self, id: JointId) -> f64 {
+        let joint = &self.input.netlist.network.joints()[id.index()];
+        joint.conductors().map(|id| self.steady.received[id.index()][1]).sum()
+    }
+
+    fn flows(&self, inside: bool) -> Vec<Row> {
+        let network = &self.input.netlist.network;
+        let row = |heat: HeatOf, value: f64| Row { of: Of::Heat(heat), value };
+        let shown = |id: &ConductorId| inside || network.whole(Item::Conductor(*id)).is_none();
+        let paths = network.conductor_ids().filter(shown).flat_map(|id| {
+            let [back, on] = self.steady.received[id.index()];
+            let heats = network.heats_of(id).into_iter();
+            heats.map(move |heat| row(heat, if heat == HeatOf::ReceivedFrom(id) { back } else { on }))
+        });
+        let sources = network.source_ids().zip(&self.steady.source_heat);
+        let boundaries = network.boundary_ids().zip(&self.steady.boundary_heat);
+        let sources = sources.map(|(id, &value)| row(HeatOf::Source(id), value));
+        let joints = network.shared_joints().map(|id| row(HeatOf::Joint(id), self.through(id)));
+        let boundaries = boundaries.map(|(id, &value)| row(HeatOf::Boundary(id), value));
+        sources.chain(paths).chain(joints).chain(boundaries).collect()
+    }
+
+    /// Temperatures with their rise over the coldest boundary, hottest first where there are many.
+    fn nodes(&self, mut rows: Vec<Row>, text: &mut Text) {
+        let all = rows.len();
+        if all > MOST_NODES {
+            rows.sort_by(|a, b| b.value.total_cmp(&a.value));
+        }
+        let network = &self.input.netlist.network;
+        let coldest = coldest(network, self.steady).unwrap_or_default();
+        let rises = rows.iter().map(|r| (r.value - coldest.1).abs());
+        let largest = rises.filter(|rise| *rise > NOISE).fold(0.0, f64::max);
+        let digits = decimals(largest / self.unit.scale, 3, 1);
+        rows.truncate(MOST_NODES);
+        let kelvin = |r: &Row| fixed((r.value - coldest.1) / self.unit.scale, digits);
+        let table = TextTable::of(&rows)
+            .left("temperature", |row| row.label(network))
+            .right(format!("T [{}]", self.unit.text), |r| fixed(self.unit.from_si(r.value), digits))
+            .right(format!("over {} [{}]", shortened(&coldest.0, 24), difference(self.unit)), kelvin)
+            .left("", |r| r.words(network))
+            .optional();
+        some_of(text, table, (all, "the hottest first; --select 'NAME.T' shows others"));
+    }
+
+    fn heat_flows(&self, mut rows: Vec<Row>, text: &mut Text) {
+        let network = &self.input.netlist.network;
+        let all = rows.len();
+        if all > MOST_NODES {
+            rows.sort_by(|a, b| b.value.abs().total_cmp(&a.value.abs()));
+        }
+        let largest = rows.iter().map(|r| r.value.abs()).filter(|heat| *heat > NOISE).fold(0.0, f64::max);
+        let (scale, letter) = prefix(largest);
+        let digits = decimals(largest / scale, 4, 0);
+        rows.truncate(MOST_NODES);
+        let table = TextTable::of(&rows)
+            .left("heat flow", |row| row.label(network))
+            .right(format!("Q [{letter}W]"), |r| fixed(r.value / scale, digits))
+            .left("", |r| r.words(network))
+            .optional();
+        some_of(text, table, (all, "the largest first; --select 'NAME.Q' shows others"));
+    }
+
+    /// Signals, controls and reports.
+    fn others(&self, text: &mut Text) {
+        let network = &self.input.netlist.network;
+        let of_item = |name: &str| name.rsplit_once('.').is_some_and(|(item, _)| network.item(item).is_ok());
+        let shown: Vec<_> = self.table.columns().iter().filter(|c| !of_item(&c.name)).collect();
+        if !shown.is_empty() {
+            let table = TextTable::of(&shown);
+            let value = |c: &&lptn_solve::Column| significant(c.values[0], 5);
+            text.section().table(table.left("column", |c| c.header()).right("", value));
+        }
+    }
+
+    /// What to know before this is believed.
+    pub(super) fn doubts(&self) -> Vec<Diagnostic> {
+        let netlist = &self.input.netlist;
+        let vary = inputs_vary(self.input, self.steady, self.limits);
+        let adiabatic = adiabatic(&netlist.network, self.steady);
+        let others = others(&netlist.network, self.steady, self.unit);
+        vary.into_iter().chain(adiabatic).chain(others).collect()
+    }
+
+    pub(super) fn messages(&self, console: &Console) {
+        if let (Some(file), Some(_)) = (self.input.typed(), &self.input.netlist.run) {
+            console.note(&format!("next   lptn run {file}"));
+        }
+    }
+}
+
+impl Page for View<'_> {
+    fn text(&self) -> Text {
+        let network = &self.input.netlist.network;
+        let mut text = self.input.begun();
+        let kept: HashSet<&str> = self.table.columns().iter().map(|column| column.name.as_str()).collect();
+        let keep = |row: &Row| self.all || kept.contains(row.column(network).as_str());
+        // cells and their paths are shown where they are asked for
+        let inside = !self.all && !network.grids().is_empty();
+        self.nodes(self.temperatures(inside).into_iter().filter(keep).collect(), &mut text);
+        self.heat_flows(self.flows(inside).into_iter().filter(keep).collect(), &mut text);
+        self.others(&mut text);
+        limits::section(&mut text, network, self.limits, self.unit);
+        if let Some(of) = self.balance {
+            balance::section(&mut text, network, (of, None));
+        }
+        for doubt in self.doubts() {
+            text.section().sentence("note: ", &doubt.message);
+        }
+        text
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        self.table.into()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let netlist = &self.input.netlist;
+        let kelvin = Unit { text: "K".into(), scale: 1.0, offset: 0.0, ty: self.unit.ty };
+        let table = Table::of_steady(&netlist.network, self.steady, self.selection, &kelvin);
+        let table = table.map_err(io::Error::other)?;
+        let value = |c: &lptn_solve::Column| (c.name.clone(), json!(Scalar::new(c.values[0], &c.unit)));
+        let found = self.doubts().into_iter().chain(sense::of_steady(netlist, self.steady));
+        self.input.head(json, &found.collect::<Vec<_>>())?;
+        json.member("values", &table.columns().iter().map(value).collect::<Map<_, _>>())?;
+        json.optional("limits", limits::members(&netlist.network, self.limits))?;
+        json.optional("balance", self.balance.map(|of| balance::json(&netlist.network, of)))
+    }
+}
+
+/// The boundary that rises are measured against; without one the coldest node.
+fn coldest(network: &Network, steady: &SteadyState) -> Option<(String, f64)> {
+    let coldest = |a: &(Item, f64), b: &(Item, f64)| a.1.total_cmp(&b.1);
+    let boundaries =
+        network.boundary_ids().map(Item::Boundary).zip(steady.boundary_temperatures.iter().copied());
+    let nodes = network.node_ids().map(Item::Node).zip(steady.temperatures.iter().copied());
+    let (item, temperature) = boundaries.min_by(coldest).or_else(|| nodes.min_by(coldest))?;
+    Some((network.name_of(item).into_owned(), temperature))
+}

@@ -1,0 +1,50 @@
+//! A constant of a run or a window, before it is evaluated: `--set` may change what it uses.
+
+use lptn_data::Span;
+use lptn_network::Value;
+use lptn_units::{Dimension, Type, format_number};
+
+use crate::fields::{Owner, sample};
+use crate::place::{Place, Wanted};
+use crate::raw::RawValue;
+use crate::toml_text::string;
+use crate::work::Elaboration;
+
+pub(crate) const TIME: Type = Type::of(Dimension::TIME);
+
+/// A value with its place.
+#[derive(Clone, Debug)]
+pub(crate) struct Setting {
+    pub(crate) value: Value,
+    pub(crate) span: Span,
+    pub(crate) words: String,
+    pub(crate) unit: String,
+    pub(crate) help: String,
+}
+
+impl Setting {
+    /// As a field of a netlist, in SI units.
+    pub(crate) fn written(&self) -> String {
+        match &self.value {
+            Value::Constant(number) => format!("\"{} {}\"", format_number(*number), self.unit),
+            other => {
+                other.programs().first().map_or_else(String::new, |program| string(program.text().trim()))
+            }
+        }
+    }
+}
+
+impl Elaboration<'_> {
+    pub(crate) fn setting(
+        &mut self,
+        owner: &Owner,
+        (key, raw): (&str, &RawValue),
+        ty: Type,
+    ) -> Option<Setting> {
+        let place = Place { owner, key, raw };
+        let words = place.words();
+        let value = self.given(place, Wanted::constant(ty))?.value();
+        let help = format!("write it like this: `{}`", sample(key));
+        Some(Setting { value, span: raw.span.clone(), words, unit: ty.usual_unit(), help })
+    }
+}

@@ -1,0 +1,116 @@
+//! What is being read: the network as far as it is built, and everything found on the way.
+
+use std::collections::{HashMap, HashSet};
+
+use lptn_data::{Diagnostic, Span};
+use lptn_network::{BuildError, BuildErrorKind, FluidId, Input, Item, MaterialId, Naming, NetworkBuilder};
+use lptn_units::{Quantity, Type};
+
+use crate::csv_files::CsvFiles;
+use crate::initial::StateFile;
+use crate::names::Names;
+use crate::raw::{RawEntry, RawNetlist};
+use crate::scales::Scales;
+use crate::source_map::SourceMap;
+use crate::template::Structure;
+
+pub(crate) const MISSING_FORMAT: &str = "netlist::missing_format";
+
+/// Work in progress: the network as far as it is built, and everything found on the way.
+pub(crate) struct Elaboration<'a> {
+    pub(crate) raw: &'a RawNetlist,
+    /// What templates made of it.
+    pub(crate) structure: &'a Structure,
+    pub(crate) csv: &'a CsvFiles,
+    /// The state that the run starts from.
+    pub(crate) state: Option<&'a StateFile>,
+    pub(crate) builder: NetworkBuilder,
+    pub(crate) map: SourceMap,
+    pub(crate) names: Names,
+    pub(crate) problems: Vec<Diagnostic>,
+    /// How many problems of imported rows were not even written down.
+    pub(crate) dropped: usize,
+    pub(crate) doubts: Doubts,
+    pub(crate) scales: Scales,
+    /// Materials by name: those of the file, and those of the library that are used.
+    pub(crate) known: HashMap<String, Known>,
+    pub(crate) used_materials: HashSet<String>,
+    /// Fluids by name, in the same way.
+    pub(crate) known_fluids: HashMap<String, KnownFluid>,
+    pub(crate) used_fluids: HashSet<String>,
+}
+
+/// What was left out because of an error, so that its absence is not reported as another one.
+#[derive(Debug, Default)]
+pub(crate) struct Doubts {
+    /// A section is not known or not a table: what it holds may be what is missing.
+    pub(crate) sections: bool,
+    /// `format = 1` below a heading: it is no element of that section.
+    pub(crate) format: Option<Span>,
+    /// A path is missing: islands cannot be told.
+    pub(crate) paths: bool,
+    /// A part of a capacity is missing: nodes may only seem to have none.
+    pub(crate) parts: bool,
+    /// Items with unknown keys or missing values.
+    pub(crate) items: HashSet<Item>,
+}
+
+impl Doubts {
+    /// What an instance would have held may be what is missing.
+    pub(crate) fn of(structure: &Structure) -> Self {
+        let lost = structure.has_lost();
+        Self { sections: lost, paths: lost, parts: lost, ..Self::default() }
+    }
+
+    pub(crate) fn cover(&self, error: &BuildError) -> bool {
+        use BuildErrorKind as K;
+        let item = error.place().is_some_and(|(item, _)| self.items.contains(&item));
+        match error.kind {
+            K::NoCapacity { .. } => item || self.parts,
+            K::NoInitialTemperature { .. } | K::MasslessWithCapacity { .. } | K::NoThermostat { .. } => item,
+            K::FloatingIsland { ref nodes, .. } => {
+                self.paths || self.parts || nodes.iter().any(|&n| self.items.contains(&Item::Node(n)))
+            }
+            K::Empty => self.sections,
+            _ => false,
+        }
+    }
+}
+
+/// A material in use or ready to be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Known {
+    pub(crate) id: MaterialId,
+    pub(crate) density: bool,
+    pub(crate) cp: bool,
+    pub(crate) k: bool,
+}
+
+/// A fluid in use or ready to be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct KnownFluid {
+    pub(crate) id: FluidId,
+    pub(crate) density: bool,
+}
+
+impl<'a> Elaboration<'a> {
+    /// The elements of a section, in file order.
+    pub(crate) fn elements(&self, kind: &str) -> &'a [RawEntry] {
+        self.raw.elements(kind)
+    }
+
+    /// The section of the element of this name, imported ones included.
+    pub(crate) fn kind_of(&self, name: &str) -> Option<&'static str> {
+        let imported = || self.builder.item(name).map(|item| self.map.kind(item));
+        self.names.kind_of(name).or_else(imported)
+    }
+
+    pub(crate) fn report(&mut self, problem: Diagnostic) {
+        self.problems.push(problem);
+    }
+}
+
+/// A value in place of one that has been reported.
+pub(crate) fn stand_in(ty: Type) -> Input {
+    Quantity { value: 1.0, deviation: None, ty }.into()
+}

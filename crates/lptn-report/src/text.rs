@@ -1,0 +1,140 @@
+//! A result for reading: a title, and sections of lines, sentences and tables.
+
+use std::io::{self, Write};
+
+use crate::json::Json;
+use crate::layout::{TextTable, WIDTH, labelled};
+use crate::page::Page;
+
+/// What a person reads of a result, from the title to the verdict.
+#[derive(Clone, Debug, Default)]
+pub struct Text {
+    sections: Vec<Vec<Block>>,
+}
+
+/// A part of a section.
+#[derive(Clone, Debug)]
+pub enum Block {
+    /// What the result is about.
+    Title(String),
+    /// A line as it is.
+    Line(String),
+    /// A table.
+    Table(TextTable),
+    /// A label, and what stands behind it, in pieces that are not broken.
+    Labelled(String, Vec<String>),
+}
+
+impl Text {
+    /// A text without a title.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// A text with a title; what is added before a section is begun stands directly below it.
+    pub fn titled(title: impl Into<String>) -> Self {
+        Self { sections: vec![vec![Block::Title(title.into())]] }
+    }
+
+    /// Begins a section: an empty line stands before it, unless it stays empty.
+    pub fn section(&mut self) -> &mut Self {
+        self.sections.push(Vec::new());
+        self
+    }
+
+    /// Adds a title inside the text.
+    pub fn title(&mut self, title: &str) -> &mut Self {
+        self.add(Block::Title(title.to_owned()))
+    }
+
+    /// Adds the sections of another text.
+    pub fn append(&mut self, other: Self) -> &mut Self {
+        self.sections.extend(other.sections);
+        self
+    }
+
+    /// Adds a line.
+    pub fn line(&mut self, line: impl Into<String>) -> &mut Self {
+        self.add(Block::Line(line.into()))
+    }
+
+    /// Adds lines.
+    pub fn lines(&mut self, lines: impl IntoIterator<Item = String>) -> &mut Self {
+        for line in lines {
+            self.line(line);
+        }
+        self
+    }
+
+    /// Adds a table.
+    pub fn table(&mut self, table: impl Into<TextTable>) -> &mut Self {
+        self.add(Block::Table(table.into()))
+    }
+
+    /// Adds a sentence behind a label, such as `note: `, wrapped between words; further lines stand under its first word.
+    pub fn sentence(&mut self, label: &str, text: &str) -> &mut Self {
+        self.labelled(label, words(text))
+    }
+
+    /// Adds sentences, each behind `note: `.
+    pub fn notes<S: AsRef<str>>(&mut self, notes: impl IntoIterator<Item = S>) -> &mut Self {
+        for note in notes {
+            self.sentence("note: ", note.as_ref());
+        }
+        self
+    }
+
+    /// Adds a sentence in pieces that are not broken.
+    pub fn labelled(&mut self, label: &str, pieces: Vec<String>) -> &mut Self {
+        self.add(Block::Labelled(label.to_owned(), pieces))
+    }
+
+    fn add(&mut self, block: Block) -> &mut Self {
+        match self.sections.last_mut() {
+            Some(section) => section.push(block),
+            None => self.sections.push(vec![block]),
+        }
+        self
+    }
+
+    /// The sections that hold something.
+    pub fn sections(&self) -> impl Iterator<Item = &[Block]> {
+        self.sections.iter().map(Vec::as_slice).filter(|section| !section.is_empty())
+    }
+}
+
+/// What has nothing for programs.
+impl Page for Text {
+    fn text(&self) -> Text {
+        self.clone()
+    }
+
+    fn json(&self, _: &mut Json<'_>) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// The words of a text.
+pub fn words(text: &str) -> Vec<String> {
+    text.split(' ').map(str::to_owned).collect()
+}
+
+/// Writes a text for a terminal, its title bold where that is `styled`.
+pub(crate) fn write(text: &Text, styled: bool, out: &mut dyn Write) -> io::Result<()> {
+    for (i, section) in text.sections().enumerate() {
+        if i > 0 {
+            writeln!(out)?;
+        }
+        section.iter().flat_map(|block| lines(block, styled)).try_for_each(|line| writeln!(out, "{line}"))?;
+    }
+    Ok(())
+}
+
+fn lines(block: &Block, styled: bool) -> Vec<String> {
+    match block {
+        Block::Title(title) if styled => vec![format!("\u{1b}[1m{title}\u{1b}[0m")],
+        Block::Title(line) | Block::Line(line) => vec![line.clone()],
+        Block::Table(table) => table.clone().lines(WIDTH),
+        Block::Labelled(label, pieces) => labelled(label, pieces, WIDTH),
+    }
+}
