@@ -42,7 +42,7 @@ pub struct Significance {
 /// Implied power over the law's, in the middle of the range: a wrong capacity shows here, a wrong law in the exponents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
-    /// The ratio.
+    /// Implied over stated power; 1 where they agree.
     pub ratio: f64,
     /// Its relative standard error.
     pub relative_error: Option<f64>,
@@ -106,7 +106,7 @@ impl Consistency {
     /// Compares three stated laws over a range of speeds in rad/s.
     ///
     /// # Errors
-    /// [`LawError`] for a range that is none, or a law that is not positive in it.
+    /// [`LawError`] for a range that does not rise from above 0, or a law that is not positive in it.
     pub fn of_laws(
         rise: &StatedLaw,
         time_constant: &StatedLaw,

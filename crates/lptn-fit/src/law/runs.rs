@@ -15,7 +15,7 @@ use crate::step::{Capacity, Power, Reference, Sensor, StepError, StepFit};
 /// A record at one speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
-    /// What it is called.
+    /// What messages and tables call it, such as its file.
     pub name: String,
     /// Its speed in rad/s, above 0.
     pub speed: f64,
@@ -72,7 +72,7 @@ pub enum RunsError {
 /// One column of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunFit {
-    /// Its exponential.
+    /// The exponential through the column.
     pub fit: StepFit,
     /// Rise, resistance and power.
     pub power: Power,
@@ -81,7 +81,7 @@ pub struct RunFit {
 /// A column of every run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnFits {
-    /// Its name.
+    /// The name of the column in every record.
     pub column: String,
     /// In the order of the runs.
     pub fits: Vec<RunFit>,

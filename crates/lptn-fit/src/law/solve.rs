@@ -166,7 +166,7 @@ fn descend(law: &Law, points: &Points, start: &[f64]) -> Result<(f64, Vec<f64>),
     }
 }
 
-/// A coefficient whose standard error is so many times its value is none that was found.
+/// A coefficient whose standard error is this many times its value was not found.
 const DRIFT: f64 = 1e3;
 
 /// Everything about a law with these coefficients but its criterion.

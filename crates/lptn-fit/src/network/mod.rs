@@ -40,7 +40,7 @@ use crate::network::search::{Found, search};
 /// The size of a temperature as a parameter, in K: its zero says nothing.
 const TEMPERATURE: f64 = 10.0;
 
-/// A value below this part of a parameter's size is no measure of it.
+/// A value below this part of a parameter's size does not measure it.
 const SMALL: f64 = 0.1;
 
 /// How accurate derivatives are, relative: those that come with runs at a tolerance of 1e-7 K, and differences.

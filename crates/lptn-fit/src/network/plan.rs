@@ -21,7 +21,7 @@ impl<'a> NetworkFitTask<'a> {
     /// times of its rows are times of that run.
     ///
     /// # Errors
-    /// [`NetworkFitError`] for a result that is no temperature of nodes or mean of some, and what the evaluation of the
+    /// [`NetworkFitError`] for a result that is not a temperature of a node or a mean of some, and what the evaluation of the
     /// study's numbers reports.
     pub fn of(netlist: &'a Netlist, study: &FitStudy, threads: usize) -> Result<Self, NetworkFitError> {
         let network = &netlist.network;
@@ -65,7 +65,7 @@ fn weights(network: &Network, observed: &Observed) -> Result<Vec<(NodeId, f64)>,
 
 /// The factors of a result that is a weighted sum of temperatures of nodes. What it reads is known from its code:
 /// a parameter that is 0 now may be another number later. The factors are found by raising the temperatures one after
-/// the other; a result that answers otherwise when all are raised by different amounts is none.
+/// the other; a result that answers otherwise when all are raised by different amounts is not such a sum.
 fn linear(network: &Network, observed: &Observed) -> Option<Vec<(NodeId, f64)>> {
     if !network.reads_node_temperatures_only(&observed.value) {
         return None;

@@ -62,7 +62,7 @@ pub struct MeasuredRun {
 /// A measured column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// Its name.
+    /// The name of the column in its file.
     pub name: String,
     /// The temperature that was measured: the sum of temperatures of nodes times these factors.
     pub of: Vec<(NodeId, f64)>,

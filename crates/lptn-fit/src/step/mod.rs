@@ -30,7 +30,7 @@ pub const LONG_ENOUGH: f64 = 3.0;
 /// A number with its standard error and 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimated {
-    /// The number.
+    /// The number, in the unit of its quantity.
     pub value: f64,
     /// Its standard error, corrected for residuals that depend on each other.
     pub standard_error: f64,

@@ -10,7 +10,7 @@ use crate::noise::{Noise, student_95};
 /// `P` is proportional to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capacity {
-    /// Its value.
+    /// The most likely value, above 0.
     pub value: f64,
     /// One standard deviation; 0 if it is taken as exact.
     pub deviation: f64,
@@ -33,7 +33,7 @@ pub enum Reference<'a> {
     Initial,
     /// The mean of another column over the whole record.
     Column {
-        /// Its name.
+        /// The name of the column in the record.
         name: String,
         /// The record's times in s.
         times: &'a [f64],
@@ -48,7 +48,7 @@ pub enum Reference<'a> {
 /// second is the same in every run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parted {
-    /// The number.
+    /// The number, in the unit of its quantity.
     pub value: f64,
     /// Its random standard error.
     pub random: f64,
@@ -58,7 +58,7 @@ pub struct Parted {
     pub systematic: f64,
 }
 
-/// What a step says with a capacity. That a network of several nodes is no single exponential is in none of the errors:
+/// What a step says with a capacity. That a network of several nodes does not follow one exponential is not in the errors:
 /// [`ModelBias`](super::ModelBias).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Power {
@@ -75,7 +75,7 @@ pub struct Power {
     /// That error.
     pub reference_error: f64,
     /// How much the reference column changes over the record by its straight line, in K; 0 for the others. A bed that
-    /// warms is no fixed ground.
+    /// warms is not fixed ground.
     pub drift: f64,
 }
 

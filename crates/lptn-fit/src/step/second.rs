@@ -11,7 +11,7 @@ use crate::noise::{Noise, orthonormal, stretches};
 const STRETCHES: usize = 400;
 
 /// Of 1000 records without a second exponential at most some 10 have a larger likelihood ratio (measured in the tests:
-/// its time constant is free, so the ratio is no chi-square with two degrees of freedom, whose value would be 9.2).
+/// its time constant is free, so the ratio does not follow chi-square with two degrees of freedom, whose value would be 9.2).
 const THRESHOLD: f64 = 13.0;
 
 /// Whether the residuals ask for a second exponential.

@@ -30,7 +30,7 @@ pub enum UncertaintyError {
     /// So few samples have a result that nothing can be said; why the others have none.
     TooFew(lost: Vec<Lost>) = "uncertainty::too_few",
         lost.iter().fold("too few samples have a result".to_owned(), |text, lost| format!("{text}; {lost}")),
-        help "make the `±` smaller: most of what it allows is no network that runs", class Class::Numbers;
+        help "make the `±` smaller: most of what it allows is not a network that runs", class Class::Numbers;
     /// There is no network a little beside the parameters' values.
     Network(errors: BuildErrors) = "uncertainty::network", format!("there is no network beside the values: {errors}"),
         source errors, class Class::Numbers;

@@ -5,7 +5,7 @@ use lptn_units::statistics;
 /// A number, and one standard error of it where it comes from samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// The number.
+    /// The number, from all samples.
     pub value: f64,
     /// One standard error; `None` for what is not sampled.
     pub error: Option<f64>,
