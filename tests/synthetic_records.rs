@@ -7,7 +7,7 @@ mod synthetic_records;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use lptn::fit::law::{Law, Run, RunReference, RunSettings, RunsStudy};
+use lptn::fit::law::{Law, Run, RunReference, RunsSettings, RunsStudy};
 use lptn::fit::step::{Capacity, Sensor};
 use lptn::netlist::{RecordQuery, read_record};
 
@@ -30,7 +30,7 @@ fn runs() -> Vec<Run> {
 }
 
 fn study(reference: RunReference, threads: usize) -> RunsStudy {
-    let settings = RunSettings {
+    let settings = RunsSettings {
         columns: vec!["ring_gear".to_owned(), "housing".to_owned()],
         capacity: Capacity { value: C_EQ, deviation: 0.05 * C_EQ },
         reference,

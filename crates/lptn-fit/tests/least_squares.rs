@@ -3,7 +3,7 @@
 
 use lptn_fit::Spectrum;
 use lptn_fit::least_squares::{
-    Estimate, LeastSquaresError, Outcome, Prior, Residuals, Settings, Side, Stop, minimise,
+    Estimate, Evaluated, LeastSquaresError, Outcome, Prior, Residuals, Settings, Side, Stop, minimise,
 };
 use lptn_units::{Dual, Scalar};
 
@@ -22,21 +22,12 @@ impl Residuals for Curve<'_> {
         self.parameters
     }
 
-    fn evaluate(
-        &mut self,
-        p: &[f64],
-        residuals: &mut Vec<f64>,
-        jacobian: Option<&mut Vec<f64>>,
-    ) -> Result<(), LeastSquaresError> {
+    fn evaluate(&mut self, p: &[f64], _: bool) -> Evaluated {
         let b: Vec<Number> = p.iter().enumerate().map(|(j, &v)| Dual::variable(v, j)).collect();
         let values: Vec<Number> = self.points.iter().map(|(x, _)| (self.model)(*x, &b)).collect();
-        residuals.extend(values.iter().zip(self.points).map(|(v, (_, y))| v.value - y));
-        if let Some(jacobian) = jacobian {
-            for j in 0..p.len() {
-                jacobian.extend(values.iter().map(|v| v.derivatives[j]));
-            }
-        }
-        Ok(())
+        let residuals = values.iter().zip(self.points).map(|(v, (_, y))| v.value - y).collect();
+        let column = |j: usize| values.iter().map(move |v| v.derivatives[j]);
+        Ok((residuals, (0..p.len()).flat_map(column).collect()))
     }
 }
 
@@ -302,17 +293,8 @@ impl Residuals for Liar {
         1
     }
 
-    fn evaluate(
-        &mut self,
-        p: &[f64],
-        residuals: &mut Vec<f64>,
-        jacobian: Option<&mut Vec<f64>>,
-    ) -> Result<(), LeastSquaresError> {
-        residuals.push(p[0] - 3.0);
-        if let Some(jacobian) = jacobian {
-            jacobian.push(-1.0);
-        }
-        Ok(())
+    fn evaluate(&mut self, p: &[f64], _: bool) -> Evaluated {
+        Ok((vec![p[0] - 3.0], vec![-1.0]))
     }
 }
 

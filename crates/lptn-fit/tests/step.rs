@@ -88,7 +88,7 @@ fn random_and_systematic_errors_stand_apart() {
     let power = Power::new(&fit, capacity, &Reference::Initial, sensor).unwrap();
     let (rise, tau) = (fit.settled.value - fit.initial.value, fit.tau.value);
     let gradient = [-2659.0 / tau, 2659.0 / tau, -2659.0 * rise / (tau * tau)];
-    let covariance = |i: usize, j: usize| fit.covariance.between(i, j).unwrap();
+    let covariance = |i: usize, j: usize| fit.covariance().between(i, j).unwrap();
     let variance: f64 =
         (0..9).map(|at| gradient[at / 3] * covariance(at / 3, at % 3) * gradient[at % 3]).sum();
     near(power.power.random, variance.sqrt(), 1e-10);

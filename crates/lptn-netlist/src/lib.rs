@@ -79,7 +79,7 @@ mod work;
 mod write_back;
 
 pub use expand::{Derived, WrittenError, prove};
-pub use fit::{FitPlan, FitRecord, FitStudy, Observed, Varied, VariedName};
+pub use fit::{FitPlan, FitRecord, FitStudy, Observed, VariedName};
 pub use format::{Format, KeyDeclaration, Role, SectionDeclaration};
 pub use include::Loader;
 pub use initial::InitialState;

@@ -102,7 +102,7 @@ fn an_expansion_is_the_same_network_and_its_own_expansion() {
                     fit.observed.iter().map(|o| (o.column.clone(), o.text.clone())).collect();
                 let plan = fit.plan(&netlist.network, &netlist.overrides()).unwrap();
                 let varied: Vec<_> =
-                    plan.varied.iter().map(|v| (v.id, v.start, v.from, v.to, v.prior)).collect();
+                    plan.varied.iter().map(|v| (*v, netlist.network.parameter_value(v.parameter))).collect();
                 let records: Vec<_> = fit.records.iter().map(|record| record.record.time.clone()).collect();
                 (fit.name.clone(), columns, varied, plan.sigmas, records)
             };

@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use lptn_netlist::{Netlist, parse_with};
-use lptn_network::End;
+use lptn_network::{End, Varied};
 use lptn_units::{Dimension, Type};
 
 const FIT: &str = include_str!("good/fit.toml");
@@ -32,16 +32,18 @@ fn analytic_bounds_priors_and_deviations_are_in_si() {
     let [fit] = netlist.fits.as_slice() else { panic!("one fit") };
     assert_eq!(fit.name, "block");
     let plan = fit.plan(&netlist.network, &netlist.overrides()).unwrap();
-    let names: Vec<&str> = plan.varied.iter().map(|varied| varied.name.as_str()).collect();
+    let network = &netlist.network;
+    let name = |varied: &Varied| network.parameters()[varied.parameter.index()].name.as_str();
+    let names: Vec<&str> = plan.varied.iter().map(name).collect();
     assert_eq!(names, ["a", "R", "C"]);
     let [a, r, c] = plan.varied.as_slice() else { panic!("three parameters") };
-    near(a.start, 0.1 / RPM);
-    near(a.from, 0.01 / RPM);
-    near(a.to, 1.0 / RPM);
+    near(network.parameter_value(a.parameter), 0.1 / RPM);
+    near(a.bounds.0, 0.01 / RPM);
+    near(a.bounds.1, 1.0 / RPM);
     assert_eq!((a.prior, c.prior), (None, None));
-    near(r.start, 0.3);
-    near(r.from, 0.1);
-    assert_eq!((r.to, c.from, c.to), (f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY));
+    near(network.parameter_value(r.parameter), 0.3);
+    near(r.bounds.0, 0.1);
+    assert_eq!((r.bounds.1, c.bounds.0, c.bounds.1), (f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY));
     near(r.prior.unwrap(), 0.05);
     let sigmas: Vec<f64> = plan.sigmas.iter().map(|sigma| sigma.unwrap()).collect();
     assert_eq!(sigmas, [0.2, 5.0, 0.2]);

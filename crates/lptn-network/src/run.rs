@@ -1,4 +1,6 @@
-//! What a run is asked for: said in a netlist, kept by the analyses.
+//! What a run or a fit is asked for: said in a netlist, kept by the analyses.
+
+use crate::id::ParameterId;
 
 /// What to simulate, in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +31,17 @@ pub struct WindowSettings {
     pub from: f64,
     /// When it ends, in s; after `from` and not after the run.
     pub to: f64,
+}
+
+/// A parameter that a fit varies, around its own value. All numbers are in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Varied {
+    /// Which one.
+    pub parameter: ParameterId,
+    /// The least and the greatest value it may take; infinite where there is none.
+    pub bounds: (f64, f64),
+    /// One standard deviation of what is known of it beforehand, which is its own value; `None` if nothing is.
+    pub prior: Option<f64>,
 }
 
 /// When a run writes a row. Start and stop of the run always have one.

@@ -47,7 +47,7 @@ pub struct Pair {
 /// The pair to use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recommended {
-    /// Its definition.
+    /// The definition whose capacity is recommended.
     pub definition: Definition,
     /// Whether it has the smallest error of the run, or else of the unit step.
     pub by_run: bool,

@@ -1,5 +1,7 @@
 //! One exponential through a record.
 
+use lptn_units::statistics::mean;
+
 use crate::error::FitError;
 
 /// The curve `T_i + (T_f - T_i)(1 - exp(-t / tau))` that is nearest to a record by least squares.
@@ -163,11 +165,6 @@ fn line(shape: &[f64], values: &[f64]) -> (f64, f64) {
     }
     let factor = if square > 0.0 { product / square } else { 0.0 };
     (mean_value - factor * mean_shape, factor)
-}
-
-#[expect(clippy::cast_precision_loss, reason = "records are shorter than 2^52")]
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
 }
 
 /// At least this many stretches stand for a long record.

@@ -15,7 +15,7 @@ use crate::rises::Rises;
 /// C. A. Desoer, E. S. Kuh, Linear and Nonlinear Circuits (1987), chapters 5 and 13.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NortonEquivalent {
-    /// The port.
+    /// The node seen from outside.
     pub port: NodeId,
     /// `R_eq` in K/W, positive.
     pub resistance: f64,

@@ -25,7 +25,7 @@ pub struct Manifest {
     pub start: Scalar,
     /// The stop it was given.
     pub stop: Scalar,
-    /// Its tolerance.
+    /// The tolerance of its temperatures in K.
     pub tolerance: Scalar,
     /// How it ended.
     pub end: RunEnd,

@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 /// A number with its unit, in SI.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scalar {
-    /// The number.
+    /// The number in `unit`.
     pub value: f64,
     /// Its unit; `1` for a plain number.
     pub unit: String,
@@ -22,7 +22,7 @@ impl Scalar {
         Self { value, unit: unit.to_owned() }
     }
 
-    /// The object `{ "value": .., "unit": .. }`; a value that is no number is `null`.
+    /// The object `{ "value": .., "unit": .. }`; a value that is not a number is `null`.
     pub fn json(&self) -> Value {
         serde_json::json!({ "value": self.value, "unit": self.unit })
     }

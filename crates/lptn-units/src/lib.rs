@@ -35,6 +35,7 @@ mod rational;
 mod repair;
 mod scalar;
 mod separators;
+pub mod statistics;
 mod suggest;
 pub mod table;
 mod taylor;

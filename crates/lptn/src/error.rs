@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use lptn_units::Problem;
+use lptn_units::{Class, Problem};
 
 /// Whatever a call of this library can fail with: `?` makes one of every error, so that `fn main() -> Result<(), Error>`
 /// does. Its sentence is that of the error, [`Problem::code`] and [`Problem::help`] are too; which error it was tells
@@ -53,6 +53,10 @@ impl Problem for Error {
 
     fn help(&self) -> Option<String> {
         self.0.help()
+    }
+
+    fn class(&self) -> Class {
+        self.0.class()
     }
 }
 

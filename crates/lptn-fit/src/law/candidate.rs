@@ -8,7 +8,7 @@ use crate::least_squares::Stop;
 /// A law and what came of fitting it.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// The law.
+    /// What was fitted.
     pub law: Law,
     /// What came of it.
     pub outcome: Outcome,
@@ -51,14 +51,14 @@ pub struct Coefficient {
     pub value: f64,
     /// Its standard error in SI units; `None` where no point is left over to tell.
     pub standard_error: Option<f64>,
-    /// What it is.
+    /// Its dimension: power over a power of the speed, for example.
     pub dimension: Dimension,
 }
 
 /// A fitted law.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fitted {
-    /// Its coefficients.
+    /// The coefficients in the order of the law.
     pub coefficients: Vec<Coefficient>,
     /// Their correlations, row by row, in -1..1.
     pub correlation: Vec<Vec<f64>>,
@@ -107,7 +107,7 @@ impl Candidate {
         fitted.is_some_and(|fitted| matches!(self.law, Law::Written(_)) || !fitted.negative())
     }
 
-    /// Why there is nothing to show, or why it is no answer; `None` where there is nothing to say.
+    /// Why there is nothing to show, or why it is not an answer; `None` where nothing has to be said.
     pub fn remark(&self) -> Option<String> {
         match &self.outcome {
             Outcome::Fitted(fitted) if !matches!(self.law, Law::Written(_)) && fitted.negative() => {

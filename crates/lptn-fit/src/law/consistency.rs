@@ -1,6 +1,7 @@
 //! Whether laws of temperature rise, time constant and power can be true together.
 
-use super::criteria::number;
+use lptn_units::statistics;
+
 use super::error::LawError;
 use super::significance::two_sided;
 use super::stated::{Exponent, LawOf, StatedLaw};
@@ -41,7 +42,7 @@ pub struct Significance {
 /// Implied power over the law's, in the middle of the range: a wrong capacity shows here, a wrong law in the exponents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
-    /// The ratio.
+    /// Implied over stated power; 1 where they agree.
     pub ratio: f64,
     /// Its relative standard error.
     pub relative_error: Option<f64>,
@@ -105,7 +106,7 @@ impl Consistency {
     /// Compares three stated laws over a range of speeds in rad/s.
     ///
     /// # Errors
-    /// [`LawError`] for a range that is none, or a law that is not positive in it.
+    /// [`LawError`] for a range that does not rise from above 0, or a law that is not positive in it.
     pub fn of_laws(
         rise: &StatedLaw,
         time_constant: &StatedLaw,
@@ -196,7 +197,7 @@ impl Consistency {
         let difference = |kept: &[usize]| slope(1, kept) - slope(2, kept) - slope(3, kept);
         // ln (dT / (t_RC P)) of every point
         let offsets: Vec<f64> = (0..points).map(|i| logs[1][i] - logs[2][i] - logs[3][i]).collect();
-        let mean = offsets.iter().sum::<f64>() / number(points);
+        let mean = statistics::mean(&offsets);
         self.derived = offsets.iter().all(|offset| (offset - mean).abs() < ROUNDED);
         self.degrees_of_freedom = freedom;
         if self.derived {
@@ -208,7 +209,7 @@ impl Consistency {
         let error = jackknife(points, &difference);
         self.difference.standard_error = Some(error);
         self.exponents = Some(significance(self.difference.value / error, freedom));
-        let kept = |kept: &[usize]| kept.iter().map(|&i| offsets[i]).sum::<f64>() / number(kept.len());
+        let kept = |kept: &[usize]| kept.iter().map(|&i| offsets[i]).sum::<f64>() / kept.len() as f64;
         let own = Some(jackknife(points, &kept));
         self.level = capacity
             .map(|c| level(c.value * mean.exp(), quadrature([own, relative(c)].into_iter()), freedom));
@@ -319,7 +320,7 @@ impl Logarithms {
         let square = sum(&|i| (x[i] - centre).powi(2));
         let slope = sum(&|i| (x[i] - centre) * (y[i] - mean)) / square;
         let squares = sum(&|i| (y[i] - mean - slope * (x[i] - centre)).powi(2));
-        let shown = squares / (number(kept.len()) - 2.0);
+        let shown = squares / (kept.len() as f64 - 2.0);
         let variance = if self.errors.is_some() { shown.max(1.0) } else { shown };
         let (mean_error, slope_error) = ((variance / whole).sqrt(), (variance / square).sqrt());
         Line { centre, mean, mean_error, slope, slope_error }
@@ -342,9 +343,7 @@ struct Line {
 fn jackknife(points: usize, of: &dyn Fn(&[usize]) -> f64) -> f64 {
     let without = |out: usize| of(&(0..points).filter(|i| *i != out).collect::<Vec<_>>());
     let values: Vec<f64> = (0..points).map(without).collect();
-    let n = number(points);
-    let mean = values.iter().sum::<f64>() / n;
-    ((n - 1.0) / n * values.iter().map(|v| (v - mean).powi(2)).sum::<f64>()).sqrt()
+    statistics::jackknife(&values)
 }
 
 fn significance(z: f64, degrees_of_freedom: Option<usize>) -> Significance {

@@ -5,7 +5,7 @@ use super::points::Points;
 
 /// Root of the mean square of misses: the divisor is their number.
 pub(crate) fn rms(misses: impl ExactSizeIterator<Item = f64>) -> f64 {
-    let count = number(misses.len());
+    let count = misses.len() as f64;
     (misses.map(|miss| miss * miss).sum::<f64>() / count).sqrt()
 }
 
@@ -17,7 +17,7 @@ pub(crate) fn dispersion(candidates: &[Candidate], points: &Points) -> f64 {
         return 1.0;
     }
     let fits = candidates.iter().filter_map(Candidate::fitted).filter(|fit| fit.degrees_of_freedom > 0);
-    let ratio = |fit: &Fitted| fit.squares / number(fit.degrees_of_freedom);
+    let ratio = |fit: &Fitted| fit.squares / fit.degrees_of_freedom as f64;
     let general = fits
         .min_by(|a, b| a.degrees_of_freedom.cmp(&b.degrees_of_freedom).then(ratio(a).total_cmp(&ratio(b))));
     general.map_or(1.0, |fit| ratio(fit).max(1.0))
@@ -30,7 +30,7 @@ pub(crate) fn aicc(fit: &Fitted, points: &Points, dispersion: f64) -> Option<f64
     let own = !weighted || dispersion > 1.0;
     let k = fit.coefficients.len() + usize::from(own);
     let left = points.len().checked_sub(k + 1).filter(|left| *left > 0)?;
-    let (n, k, left) = (number(points.len()), number(k), number(left));
+    let (n, k, left) = (points.len() as f64, k as f64, left as f64);
     let misfit = if weighted { fit.squares / dispersion } else { n * (least(fit, points) / n).ln() };
     Some(misfit + 2.0 * k + 2.0 * k * (k + 1.0) / left)
 }
@@ -38,10 +38,5 @@ pub(crate) fn aicc(fit: &Fitted, points: &Points, dispersion: f64) -> Option<f64
 /// The sum of squares, but no less than rounding leaves of it: points without noise are no proof of infinite weight.
 fn least(fit: &Fitted, points: &Points) -> f64 {
     let rounding = 16.0 * f64::EPSILON * points.largest_power();
-    fit.squares.max(number(points.len()) * rounding * rounding)
-}
-
-#[expect(clippy::cast_precision_loss, reason = "counts are far below 2^52")]
-pub(crate) fn number(count: usize) -> f64 {
-    count as f64
+    fit.squares.max(points.len() as f64 * rounding * rounding)
 }

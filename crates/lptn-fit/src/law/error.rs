@@ -50,8 +50,8 @@ pub enum LawError {
     /// A law that has no positive value at a speed, in rad/s, of the range.
     NotPositive { of: &'static str, speed: f64 } = "fit::law_not_positive",
         format!("the law of {of} is not above 0 at {speed} rad/s");
-    /// A range of speeds that is none.
-    Range = "fit::law_range", "the range of speeds is none",
+    /// A range of speeds that does not rise from above 0.
+    Range = "fit::law_range", "the speeds do not span a range above 0",
         help "give two positive speeds, for example --over \"1000 rpm to 7000 rpm\"";
     /// Too few points for a comparison of laws.
     TooFew { needed: usize, points: usize } = "fit::law_too_few",

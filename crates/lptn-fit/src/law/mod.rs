@@ -39,7 +39,7 @@ pub use consistency::{AtSpeed, CLOSE, Consistency, Level, Measured, SIGNIFICANT,
 pub use error::LawError;
 pub use model::Law;
 pub use points::{Points, Variable};
-pub use runs::{ColumnFits, Run, RunFit, RunReference, RunSettings, RunsError, RunsStudy, Systematic};
+pub use runs::{ColumnFits, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy, Systematic};
 pub use stated::{Exponent, LawOf, StatedLaw};
 pub use study::{ALIKE, LawStudy};
 pub use written::{Start, WrittenLaw};

@@ -7,9 +7,9 @@ use super::error::LawError;
 /// A quantity that was measured beside the power, and that a written law may use.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    /// Its name.
+    /// The name by which laws use it.
     pub name: String,
-    /// What it is.
+    /// Its dimension, and whether it is an absolute temperature.
     pub ty: Type,
     /// One value a point, in SI units.
     pub values: Vec<f64>,

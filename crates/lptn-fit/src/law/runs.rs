@@ -1,6 +1,7 @@
 //! From records at several speeds to a law: the seed paper from Figure 6 to Figure 9.
 
 use lptn_solve::in_parallel;
+use lptn_units::statistics;
 
 use super::candidate::{Candidate, Outcome};
 use super::consistency::{Consistency, Measured};
@@ -14,7 +15,7 @@ use crate::step::{Capacity, Power, Reference, Sensor, StepError, StepFit};
 /// A record at one speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
-    /// What it is called.
+    /// What messages and tables call it, such as its file.
     pub name: String,
     /// Its speed in rad/s, above 0.
     pub speed: f64,
@@ -37,7 +38,7 @@ pub enum RunReference {
 
 /// How records become powers.
 #[derive(Clone, Debug)]
-pub struct RunSettings {
+pub struct RunsSettings {
     /// The columns to fit; the first is the one whose power gets a law.
     pub columns: Vec<String>,
     /// The heat capacity.
@@ -71,7 +72,7 @@ pub enum RunsError {
 /// One column of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunFit {
-    /// Its exponential.
+    /// The exponential through the column.
     pub fit: StepFit,
     /// Rise, resistance and power.
     pub power: Power,
@@ -80,7 +81,7 @@ pub struct RunFit {
 /// A column of every run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnFits {
-    /// Its name.
+    /// The name of the column in every record.
     pub column: String,
     /// In the order of the runs.
     pub fits: Vec<RunFit>,
@@ -116,7 +117,7 @@ pub struct RunsStudy {
     /// The exponents of the first column's rise, time constant and power; `None` where there are too few runs, or a rise
     /// that is not above 0. The power was computed from the other two: this shows which laws of them are possible.
     pub consistency: Option<Consistency>,
-    settings: RunSettings,
+    settings: RunsSettings,
 }
 
 impl RunsStudy {
@@ -124,7 +125,7 @@ impl RunsStudy {
     ///
     /// # Errors
     /// [`RunsError`] for the first run that cannot be fitted.
-    pub fn new(runs: &[Run], settings: RunSettings) -> Result<Self, RunsError> {
+    pub fn new(runs: &[Run], settings: RunsSettings) -> Result<Self, RunsError> {
         let fitted = in_parallel(runs, settings.threads, |run| fits(run, &settings));
         let fitted: Result<Vec<Vec<RunFit>>, RunsError> = fitted.into_iter().collect();
         let mut columns: Vec<ColumnFits> =
@@ -191,14 +192,13 @@ impl RunsStudy {
     /// Mean of a column's time constants in s and their standard deviation (divisor: number less one), as the paper's
     /// Figure 8 gives them; the deviation of a single run is NaN.
     pub fn time_constant(&self, column: &ColumnFits) -> (f64, f64) {
-        let n = super::criteria::number(column.fits.len());
-        let mean = column.fits.iter().map(|f| f.fit.tau.value).sum::<f64>() / n;
-        let squares: f64 = column.fits.iter().map(|f| (f.fit.tau.value - mean).powi(2)).sum();
-        (mean, (squares / (n - 1.0)).sqrt())
+        let taus: Vec<f64> = column.fits.iter().map(|f| f.fit.tau.value).collect();
+        let squares = statistics::squares_about_mean(&taus);
+        (statistics::mean(&taus), (squares / (taus.len() as f64 - 1.0)).sqrt())
     }
 
     /// How the study was made.
-    pub fn settings(&self) -> &RunSettings {
+    pub fn settings(&self) -> &RunsSettings {
         &self.settings
     }
 }
@@ -210,7 +210,7 @@ impl ColumnFits {
 }
 
 /// The fits of one run, in the order of the columns.
-fn fits(run: &Run, settings: &RunSettings) -> Result<Vec<RunFit>, RunsError> {
+fn fits(run: &Run, settings: &RunsSettings) -> Result<Vec<RunFit>, RunsError> {
     let find = |column: &String| {
         let found = run.columns.iter().find(|(name, _)| name == column).map(|(_, values)| values);
         found.ok_or_else(|| RunsError::Column { run: run.name.clone(), column: column.clone() })

@@ -1,7 +1,5 @@
 //! How likely chance alone is.
 
-use super::criteria::number;
-
 /// The probability that a standard normal variable, or Student's t with so many degrees of freedom (at least 1), is
 /// further from 0 than `z`.
 ///
@@ -15,7 +13,7 @@ pub(crate) fn two_sided(z: f64, degrees_of_freedom: Option<usize>) -> f64 {
 
 /// The probability that Student's t is nearer to 0 than `t`.
 fn inside(t: f64, freedom: usize) -> f64 {
-    let angle = (t / number(freedom).sqrt()).atan();
+    let angle = (t / (freedom as f64).sqrt()).atan();
     let (sine, cosine) = angle.sin_cos();
     let odd = freedom % 2 == 1;
     let (mut term, mut sum) = (if odd { cosine } else { 1.0 }, 0.0);
@@ -23,7 +21,7 @@ fn inside(t: f64, freedom: usize) -> f64 {
     let mut k = if odd { 1 } else { 0 };
     while k + 2 <= freedom {
         sum += term;
-        term *= cosine * cosine * number(k + 1) / number(k + 2);
+        term *= cosine * cosine * (k + 1) as f64 / (k + 2) as f64;
         k += 2;
     }
     if odd { std::f64::consts::FRAC_2_PI * (angle + sine * sum) } else { sine * sum }

@@ -4,11 +4,11 @@ use faer::Mat;
 use lptn_integrate::dense;
 
 use super::candidate::{Coefficient, Fitted, Outcome};
-use super::criteria::{number, rms};
+use super::criteria::rms;
 use super::model::Law;
 use super::points::Points;
 use crate::Covariance;
-use crate::least_squares::{self, LeastSquaresError, Residuals, Settings};
+use crate::least_squares::{self, Residuals, Settings};
 
 /// Up to here each point is left out in turn and the law fitted anew; beyond, and for laws that are linear in their
 /// coefficients, what is missed then follows from the leverage of the point.
@@ -146,23 +146,12 @@ impl Residuals for Search<'_> {
         self.law.count()
     }
 
-    fn evaluate(
-        &mut self,
-        p: &[f64],
-        residuals: &mut Vec<f64>,
-        jacobian: Option<&mut Vec<f64>>,
-    ) -> Result<(), LeastSquaresError> {
+    fn evaluate(&mut self, p: &[f64], _: bool) -> least_squares::Evaluated {
         // where the law has no value a shorter step is asked for
-        let local = Local::new(self.law, self.points, p).unwrap_or_else(|_| Local {
-            misses: vec![f64::NAN; self.points.len()],
-            values: Vec::new(),
-            jacobian: vec![f64::NAN; self.points.len() * p.len()],
-        });
-        residuals.extend(local.misses);
-        if let Some(jacobian) = jacobian {
-            jacobian.extend(local.jacobian);
-        }
-        Ok(())
+        let rows = self.points.len();
+        let nowhere = |_| (vec![f64::NAN; rows], vec![f64::NAN; rows * p.len()]);
+        let local = Local::new(self.law, self.points, p);
+        Ok(local.map_or_else(nowhere, |local| (local.misses, local.jacobian)))
     }
 }
 
@@ -177,7 +166,7 @@ fn descend(law: &Law, points: &Points, start: &[f64]) -> Result<(f64, Vec<f64>),
     }
 }
 
-/// A coefficient whose standard error is so many times its value is none that was found.
+/// A coefficient whose standard error is this many times its value was not found.
 const DRIFT: f64 = 1e3;
 
 /// Everything about a law with these coefficients but its criterion.
@@ -214,7 +203,7 @@ fn conclude(law: &Law, points: &Points, p: &[f64]) -> Outcome {
 
 /// The variance of one residual: what the residuals show, and where standard errors are given no less than these say.
 fn variance(squares: f64, degrees_of_freedom: usize, points: &Points) -> Option<f64> {
-    let shown = (degrees_of_freedom > 0).then(|| squares / number(degrees_of_freedom));
+    let shown = (degrees_of_freedom > 0).then(|| squares / degrees_of_freedom as f64);
     if points.deviation().is_some() { Some(shown.unwrap_or(1.0).max(1.0)) } else { shown }
 }
 

@@ -25,7 +25,7 @@ impl LawOf {
         }
     }
 
-    /// Its dimension.
+    /// The dimension of what it gives: temperature, time or power.
     pub fn dimension(self) -> Dimension {
         match self {
             Self::Rise => Dimension::TEMPERATURE,
@@ -38,7 +38,7 @@ impl LawOf {
 /// An exponent, or the mean of one over a range: how many per cent a quantity grows by for one per cent of speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exponent {
-    /// Its value.
+    /// Per cent of the quantity for one per cent of speed.
     pub value: f64,
     /// Its standard error; `None` where the exponent was not fitted but stated.
     pub standard_error: Option<f64>,

@@ -13,7 +13,7 @@ pub const ALIKE: f64 = 2.0;
 /// Laws that were fitted to the same points, best first.
 #[derive(Clone, Debug)]
 pub struct LawStudy {
-    /// The points.
+    /// What the laws were fitted to.
     pub points: Points,
     /// The laws: those that may be the answer by AICc, then the others.
     pub candidates: Vec<Candidate>,

@@ -47,7 +47,7 @@ impl WrittenLaw {
     /// settles those that it leaves open, and where a search begins.
     ///
     /// # Errors
-    /// [`LawError`] where the text is no expression, its units do not give a power, or a unit stays open.
+    /// [`LawError`] where the text is not an expression, its units do not give a power, or a unit stays open.
     pub fn new(text: &str, points: &Points, starts: &[Start]) -> Result<Self, LawError> {
         let refused = |errors| LawError::Units { law: text.to_owned(), errors };
         let expression = Expression::parse(text).map_err(|error| refused(error.into()))?;
@@ -69,7 +69,7 @@ impl WrittenLaw {
         Ok(Self { text: text.to_owned(), program, coefficients, start, variables, given: all_given })
     }
 
-    /// The text.
+    /// The law as the user wrote it.
     pub fn text(&self) -> &str {
         &self.text
     }

@@ -75,7 +75,7 @@ pub struct Estimate {
     pub on_bound: Vec<Option<Side>>,
     /// Sum of the squares of the residuals, priors included.
     pub squares: f64,
-    /// The residuals.
+    /// The residuals at `parameters`, those of the data first.
     pub residuals: Vec<f64>,
     /// Their derivatives by the parameters, one parameter after the other.
     pub jacobian: Vec<f64>,

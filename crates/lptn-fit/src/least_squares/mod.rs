@@ -10,7 +10,7 @@
 //! Only the triangular factor of `[J r]` is used; `J^T J` is never formed.
 //!
 //! ```
-//! use lptn_fit::least_squares::{LeastSquaresError, Residuals, Settings, minimise};
+//! use lptn_fit::least_squares::{Evaluated, LeastSquaresError, Residuals, Settings, minimise};
 //!
 //! /// y = a exp(b x) through three points.
 //! struct Growth;
@@ -20,19 +20,12 @@
 //!         2
 //!     }
 //!
-//!     fn evaluate(
-//!         &mut self,
-//!         p: &[f64],
-//!         residuals: &mut Vec<f64>,
-//!         jacobian: Option<&mut Vec<f64>>,
-//!     ) -> Result<(), LeastSquaresError> {
+//!     fn evaluate(&mut self, p: &[f64], _: bool) -> Evaluated {
 //!         let data = [(0.0, 2.0), (1.0, 4.0), (2.0, 8.0)];
-//!         residuals.extend(data.iter().map(|(x, y)| p[0] * f64::exp(p[1] * x) - y));
-//!         if let Some(jacobian) = jacobian {
-//!             jacobian.extend(data.iter().map(|(x, _)| f64::exp(p[1] * x)));
-//!             jacobian.extend(data.iter().map(|(x, _)| p[0] * x * f64::exp(p[1] * x)));
-//!         }
-//!         Ok(())
+//!         let residuals = data.map(|(x, y)| p[0] * f64::exp(p[1] * x) - y);
+//!         let by_a = data.map(|(x, _)| f64::exp(p[1] * x));
+//!         let by_b = data.map(|(x, _)| p[0] * x * f64::exp(p[1] * x));
+//!         Ok((residuals.to_vec(), [by_a, by_b].concat()))
 //!     }
 //! }
 //!
@@ -52,25 +45,23 @@ pub use error::LeastSquaresError;
 pub use estimate::{Estimate, Outcome, Side, Stop, Test};
 pub use search::minimise;
 
+/// Residuals, and their derivatives or nothing.
+pub type Evaluated = Result<(Vec<f64>, Vec<f64>), LeastSquaresError>;
+
 /// A model with data: residuals as functions of parameters.
 pub trait Residuals {
     /// The number of parameters, which does not change.
     fn parameters(&self) -> usize;
 
-    /// Writes the residuals (model less data, each over its standard deviation if they differ) at `p`, and where asked
-    /// for their derivatives, one parameter after the other: `d r_i / d p_j` at `j * residuals.len() + i`.
+    /// The residuals (model less data, each over its standard deviation if they differ) at `p`, and where `derivatives` are
+    /// asked for also these, one parameter after the other: `d r_i / d p_j` at `j * residuals.len() + i`.
     ///
-    /// Both lists come empty; the number of residuals does not change. `p` keeps the bounds. Where the model has no value
-    /// at `p`, a residual that is NaN or infinite asks for a shorter step.
+    /// The number of residuals does not change. `p` keeps the bounds. Where the model has no value at `p`, a residual that
+    /// is NaN or infinite asks for a shorter step.
     ///
     /// # Errors
     /// [`LeastSquaresError::Interrupted`] ends the search.
-    fn evaluate(
-        &mut self,
-        p: &[f64],
-        residuals: &mut Vec<f64>,
-        jacobian: Option<&mut Vec<f64>>,
-    ) -> Result<(), LeastSquaresError>;
+    fn evaluate(&mut self, p: &[f64], derivatives: bool) -> Evaluated;
 }
 
 /// What is known of a parameter without the data: `value ± sigma`. It counts as one more residual,

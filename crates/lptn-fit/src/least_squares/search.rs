@@ -4,7 +4,7 @@ use super::error::LeastSquaresError;
 use super::estimate::{Estimate, Outcome, Side, Stop, Test};
 use super::linear::Triangle;
 use super::region::{Region, Room, length};
-use super::{Residuals, Settings};
+use super::{Evaluated, Residuals, Settings};
 
 /// So many times a step is shortened.
 const MOST_TRIALS: usize = 100;
@@ -118,11 +118,9 @@ impl<P: Residuals> Search<'_, P> {
     }
 
     /// Residuals, and derivatives where asked for, with those of the priors.
-    fn evaluate(&mut self, p: &[f64], with_jacobian: bool) -> Fallible<(Vec<f64>, Vec<f64>)> {
-        let (mut residuals, mut jacobian) = (Vec::new(), Vec::new());
+    fn evaluate(&mut self, p: &[f64], with_jacobian: bool) -> Evaluated {
         self.evaluations += 1;
-        let wanted = with_jacobian.then_some(&mut jacobian);
-        self.problem.evaluate(p, &mut residuals, wanted)?;
+        let (mut residuals, mut jacobian) = self.problem.evaluate(p, with_jacobian)?;
         let rows = residuals.len();
         if self.data == 0 {
             self.data = rows;

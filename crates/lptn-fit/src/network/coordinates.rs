@@ -1,6 +1,6 @@
 //! The coordinates in which a search moves.
 
-use crate::network::task::Varied;
+use lptn_network::Varied;
 
 /// For each varied parameter whether the search moves in its logarithm.
 pub(crate) struct Coordinates {

@@ -36,7 +36,7 @@ pub struct NetworkFit {
 /// A parameter after the fit, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FittedParameter {
-    /// Its value.
+    /// Where the search ended.
     pub value: f64,
     /// Its standard error; `None` on a bound, where the records do not determine it and where nothing tells it.
     pub standard_error: Option<f64>,

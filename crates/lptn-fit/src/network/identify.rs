@@ -31,7 +31,7 @@ pub struct Unseparated {
     pub parameters: Vec<usize>,
     /// How many more of them have to be known from elsewhere.
     pub missing: usize,
-    /// What is determined of them; `None` if that is no simple product or sum.
+    /// What is determined of them; `None` if that is not a simple product or sum.
     pub determined: Option<Vec<Combination>>,
     /// Changes, in SI units, that leave every column as it is to first order: one list for each missing one.
     pub directions: Vec<Vec<f64>>,

@@ -25,8 +25,9 @@ pub use combination::Kind;
 pub use error::NetworkFitError;
 pub use fitted::{ColumnMisfit, FittedParameter, NetworkFit};
 pub use identify::{Combination, Identifiability, Unseparated};
+pub use lptn_network::Varied;
 pub use search::Starts;
-pub use task::{FitObserver, FitStage, Measured, MeasuredRun, NetworkFitTask, Varied};
+pub use task::{FitObserver, FitStage, Measured, MeasuredRun, NetworkFitTask};
 
 use lptn_solve::{Control, Gradient};
 
@@ -39,7 +40,7 @@ use crate::network::search::{Found, search};
 /// The size of a temperature as a parameter, in K: its zero says nothing.
 const TEMPERATURE: f64 = 10.0;
 
-/// A value below this part of a parameter's size is no measure of it.
+/// A value below this part of a parameter's size does not measure it.
 const SMALL: f64 = 0.1;
 
 /// How accurate derivatives are, relative: those that come with runs at a tolerance of 1e-7 K, and differences.

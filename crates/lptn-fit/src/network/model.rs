@@ -3,15 +3,15 @@
 use std::ops::Range;
 
 use lptn_assembly::ChangeError;
-use lptn_network::{Network, OutputTimes, ParameterId};
+use lptn_network::{Network, OutputTimes, ParameterId, Varied};
 use lptn_solve::{
     Gradient, Record, SensitiveError, SensitiveRun, Transient, in_parallel, sensitive_run_observed,
 };
 
-use crate::least_squares::{LeastSquaresError, Residuals};
+use crate::least_squares::{self, LeastSquaresError, Residuals};
 use crate::network::coordinates::Coordinates;
 use crate::network::error::NetworkFitError;
-use crate::network::task::{FitObserver, FitStage, Measured, MeasuredRun, NetworkFitTask, Varied};
+use crate::network::task::{FitObserver, FitStage, Measured, MeasuredRun, NetworkFitTask};
 
 /// The residuals of one column of one record.
 #[derive(Clone, Debug)]
@@ -277,31 +277,17 @@ impl Residuals for Model<'_> {
     }
 
     /// Derivatives come with the runs at little cost, so they are always computed: the next call may ask for them.
-    fn evaluate(
-        &mut self,
-        p: &[f64],
-        residuals: &mut Vec<f64>,
-        jacobian: Option<&mut Vec<f64>>,
-    ) -> Result<(), LeastSquaresError> {
+    fn evaluate(&mut self, p: &[f64], _: bool) -> least_squares::Evaluated {
         let (values, slopes) = self.coordinates.values(p);
         let count = self.data() + self.priors().len();
         match self.at(&values) {
             Ok(found) => {
-                residuals.extend_from_slice(&found.residuals);
-                if let Some(jacobian) = jacobian {
-                    let rows = found.residuals.len().max(1);
-                    let scaled = found.jacobian.chunks(rows).zip(slopes);
-                    scaled.for_each(|(column, slope)| jacobian.extend(column.iter().map(|x| x * slope)));
-                }
+                let columns = found.jacobian.chunks(found.residuals.len().max(1)).zip(slopes);
+                let scaled = columns.flat_map(|(column, slope)| column.iter().map(move |x| x * slope));
+                Ok((found.residuals.clone(), scaled.collect()))
             }
-            Err((_, SensitiveError::Interrupted)) => return Err(LeastSquaresError::Interrupted),
-            Err(_) => {
-                residuals.resize(count, f64::NAN);
-                if let Some(jacobian) = jacobian {
-                    jacobian.resize(count * p.len(), f64::NAN);
-                }
-            }
+            Err((_, SensitiveError::Interrupted)) => Err(LeastSquaresError::Interrupted),
+            Err(_) => Ok((vec![f64::NAN; count], vec![f64::NAN; count * p.len()])),
         }
-        Ok(())
     }
 }

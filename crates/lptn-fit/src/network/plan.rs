@@ -5,7 +5,7 @@ use lptn_network::{End, Network, NodeId, Time};
 use lptn_solve::Transient;
 
 use crate::network::error::NetworkFitError;
-use crate::network::task::{Measured, MeasuredRun, NetworkFitTask, Varied};
+use crate::network::task::{Measured, MeasuredRun, NetworkFitTask};
 
 /// Searches that begin between the bounds, where the netlist does not say.
 const MORE_STARTS: usize = 4;
@@ -21,7 +21,7 @@ impl<'a> NetworkFitTask<'a> {
     /// times of its rows are times of that run.
     ///
     /// # Errors
-    /// [`NetworkFitError`] for a result that is no temperature of nodes or mean of some, and what the evaluation of the
+    /// [`NetworkFitError`] for a result that is not a temperature of a node or a mean of some, and what the evaluation of the
     /// study's numbers reports.
     pub fn of(netlist: &'a Netlist, study: &FitStudy, threads: usize) -> Result<Self, NetworkFitError> {
         let network = &netlist.network;
@@ -46,10 +46,7 @@ impl<'a> NetworkFitTask<'a> {
                 columns: study.observed.iter().enumerate().map(column).collect(),
             });
         }
-        let varied =
-            |v: &lptn_netlist::Varied| Varied { parameter: v.id, bounds: (v.from, v.to), prior: v.prior };
-        let parameters = plan.varied.iter().map(varied).collect();
-        Ok(Self { network, parameters, runs, more_starts: MORE_STARTS, threads })
+        Ok(Self { network, parameters: plan.varied, runs, more_starts: MORE_STARTS, threads })
     }
 }
 
@@ -68,7 +65,7 @@ fn weights(network: &Network, observed: &Observed) -> Result<Vec<(NodeId, f64)>,
 
 /// The factors of a result that is a weighted sum of temperatures of nodes. What it reads is known from its code:
 /// a parameter that is 0 now may be another number later. The factors are found by raising the temperatures one after
-/// the other; a result that answers otherwise when all are raised by different amounts is none.
+/// the other; a result that answers otherwise when all are raised by different amounts is not such a sum.
 fn linear(network: &Network, observed: &Observed) -> Option<Vec<(NodeId, f64)>> {
     if !network.reads_node_temperatures_only(&observed.value) {
         return None;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use lptn_network::{Network, NodeId, ParameterId, Parameters};
+use lptn_network::{Network, NodeId, Parameters, Varied};
 use lptn_solve::{Control, Progress, Transient};
 
 /// A fit of parameters of a network to records of its temperatures.
@@ -44,17 +44,6 @@ impl fmt::Display for FitStage {
 /// Is called after every step of every run, on its thread, and may interrupt the fit.
 pub type FitObserver<'a> = dyn Fn(FitStage, Progress) -> Control + Sync + 'a;
 
-/// A parameter that is varied. All numbers are in SI units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Varied {
-    /// Which one.
-    pub parameter: ParameterId,
-    /// The least and the greatest value it may take; infinite where there is none.
-    pub bounds: (f64, f64),
-    /// One standard deviation of what is known of it beforehand, which is its own value; `None` if nothing is.
-    pub prior: Option<f64>,
-}
-
 /// A record, and the run that it is one of.
 #[derive(Clone, Debug)]
 pub struct MeasuredRun {
@@ -73,7 +62,7 @@ pub struct MeasuredRun {
 /// A measured column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// Its name.
+    /// The name of the column in its file.
     pub name: String,
     /// The temperature that was measured: the sum of temperatures of nodes times these factors.
     pub of: Vec<(NodeId, f64)>,

@@ -1,5 +1,7 @@
 //! Quantiles of Student's t.
 
+use lptn_units::statistics::NORMAL_95;
+
 /// The t that a variable of Student's distribution with so many degrees of freedom (at least 1) exceeds in size with
 /// probability 5 %: 1.96 for many, 12.7 for one. To 1e-4 of itself from 2 on; below, between the two exact values.
 ///
@@ -7,13 +9,12 @@
 pub fn student_95(degrees: f64) -> f64 {
     const ONE: f64 = 12.706_204_736_174_698;
     const TWO: f64 = 4.302_652_729_749_464;
-    const NORMAL: f64 = -1.959_963_984_540_054;
     let n = degrees.max(1.0);
     if n <= 2.0 {
         return (ONE.ln() + (n - 1.0) * (TWO / ONE).ln()).exp();
     }
     if n.is_infinite() {
-        return -NORMAL;
+        return NORMAL_95;
     }
     let a = 1.0 / (n - 0.5);
     let b = 48.0 / (a * a);
@@ -21,7 +22,7 @@ pub fn student_95(degrees: f64) -> f64 {
     let d = ((94.5 / (b + c) - 3.0) / b + 1.0) * (a * std::f64::consts::FRAC_PI_2).sqrt() * n;
     let mut y = (0.05 * d).powf(2.0 / n);
     if y > 0.05 + a {
-        let x = NORMAL;
+        let x = -NORMAL_95;
         y = x * x;
         if n < 5.0 {
             c += 0.3 * (n - 4.5) * (x + 0.6);

@@ -1,5 +1,7 @@
 //! Records that tell no time constant.
 
+use lptn_units::statistics;
+
 use super::Estimated;
 use super::error::Lack;
 use crate::noise::stretches;
@@ -23,8 +25,7 @@ pub(super) fn of(tau: &Estimated, values: &[f64], residuals: &[f64]) -> Option<L
     let curve: Vec<f64> = values.iter().zip(residuals).map(|(v, r)| v + r).collect();
     let (curve, missed) = (stretches::means(&curve, size), stretches::means(residuals, size));
     let count = curve.len() as f64;
-    let mean = curve.iter().sum::<f64>() / count;
-    let changed = (curve.iter().map(|c| (c - mean).powi(2)).sum::<f64>() / count).sqrt();
+    let changed = (statistics::squares_about_mean(&curve) / count).sqrt();
     let missed = (missed.iter().map(|m| m * m).sum::<f64>() / count).sqrt();
     (missed > changed).then_some(Lack::Shape { missed, changed })
 }

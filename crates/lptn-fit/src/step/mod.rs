@@ -30,7 +30,7 @@ pub const LONG_ENOUGH: f64 = 3.0;
 /// A number with its standard error and 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimated {
-    /// The number.
+    /// The number, in the unit of its quantity.
     pub value: f64,
     /// Its standard error, corrected for residuals that depend on each other.
     pub standard_error: f64,
@@ -58,8 +58,6 @@ pub struct StepFit {
     pub settled: Estimated,
     /// `t_RC` in s.
     pub tau: Estimated,
-    /// Covariance of `T_i`, `T_f` and `t_RC`, corrected as the errors are.
-    pub covariance: Covariance,
     /// Root of the mean square of what the curve misses, in K.
     pub rms: f64,
     /// Number of samples that were fitted.
@@ -85,11 +83,37 @@ pub struct StepFit {
     random: Random,
 }
 
-/// How well any function of the three numbers is known.
+/// How well any function of fitted numbers is known.
 #[derive(Clone, Debug, PartialEq)]
 struct Random {
+    /// `(J^T J)^-1`.
     bread: Covariance,
     middle: Middle,
+    /// The sandwich of both.
+    covariance: Covariance,
+    /// Standard deviation of the residuals.
+    deviation: f64,
+}
+
+impl Random {
+    /// From the derivatives of residuals at these times, one number after the other; `None` where they do not determine
+    /// all numbers.
+    fn new(times: &[f64], jacobian: &[f64], noise: &Noise) -> Option<Self> {
+        let all: Vec<usize> = (0..jacobian.len() / times.len()).collect();
+        let bread = Covariance::inverse(jacobian, times.len(), &all)?;
+        let middle = noise.middle(times, jacobian);
+        let covariance = bread.sandwich(&middle.values);
+        Some(Self { bread, middle, covariance, deviation: noise.deviation })
+    }
+
+    /// A function of the numbers with this value and these derivatives by them.
+    fn estimated(&self, value: f64, gradient: &[f64]) -> Estimated {
+        let standard_error = self.covariance.propagated(gradient);
+        let degrees_of_freedom = self.middle.degrees_of_freedom(&self.bread, gradient);
+        let naive = self.deviation * self.bread.propagated(gradient);
+        let half_width = standard_error * student_95(degrees_of_freedom);
+        Estimated { value, standard_error, naive, half_width, degrees_of_freedom }
+    }
 }
 
 impl StepFit {
@@ -114,23 +138,11 @@ impl StepFit {
         }
         let (residuals, jacobian) = curve(&times, &values, [fit.initial, fit.settled, fit.tau]);
         let noise = Noise::estimate(&times, &residuals, &jacobian);
-        let bread =
-            Covariance::inverse(&jacobian, times.len(), &[0, 1, 2]).ok_or(undetermined(Lack::Alike))?;
-        let middle = noise.middle(&times, &jacobian);
-        let covariance = bread.sandwich(&middle.values);
-        let random = Random { bread, middle };
+        let random = Random::new(&times, &jacobian, &noise).ok_or(undetermined(Lack::Alike))?;
         let coarse = step.is_some_and(|step| step / 12_f64.sqrt() > 0.7 * fit.rms);
         let estimated = |j: usize, value: f64| {
             let gradient: [f64; 3] = std::array::from_fn(|k| if k == j { 1.0 } else { 0.0 });
-            let error = covariance.propagated(&gradient);
-            let degrees = random.middle.degrees_of_freedom(&random.bread, &gradient);
-            Estimated {
-                value,
-                standard_error: error,
-                naive: noise.deviation * random.bread.propagated(&gradient),
-                half_width: error * student_95(degrees),
-                degrees_of_freedom: degrees,
-            }
+            random.estimated(value, &gradient)
         };
         let tau = estimated(2, fit.tau);
         if let Some(lack) = lack::of(&tau, &values, &residuals) {
@@ -148,10 +160,14 @@ impl StepFit {
             second: second::ask(&times, &values, &fit),
             resolution: step,
             coarse,
-            covariance,
             noise,
             random,
         })
+    }
+
+    /// Covariance of `T_i`, `T_f` and `t_RC`, corrected as the errors are.
+    pub fn covariance(&self) -> &Covariance {
+        &self.random.covariance
     }
 
     /// The length of the record in time constants.
@@ -162,12 +178,6 @@ impl StepFit {
     /// Whether the record is so short that `T_f` and `t_RC` are extrapolated.
     pub fn extrapolates(&self) -> bool {
         self.time_constants() < LONG_ENOUGH
-    }
-
-    /// The error of a function of `T_i`, `T_f` and `t_RC` with these derivatives, and its degrees of freedom.
-    fn error_of(&self, gradient: [f64; 3]) -> (f64, f64) {
-        let degrees = self.random.middle.degrees_of_freedom(&self.random.bread, &gradient);
-        (self.covariance.propagated(&gradient), degrees)
     }
 }
 

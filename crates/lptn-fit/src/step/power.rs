@@ -1,15 +1,16 @@
 //! From a time constant to a heat.
 
+use lptn_units::statistics;
+
 use super::error::StepError;
-use super::{Estimated, StepFit};
-use crate::Covariance;
+use super::{Random, StepFit};
 use crate::noise::{Noise, student_95};
 
 /// The capacity that is believed, with one standard deviation, in J/K. The paper gives none for its 2659 J/K, although
 /// `P` is proportional to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capacity {
-    /// Its value.
+    /// The most likely value, above 0.
     pub value: f64,
     /// One standard deviation; 0 if it is taken as exact.
     pub deviation: f64,
@@ -32,7 +33,7 @@ pub enum Reference<'a> {
     Initial,
     /// The mean of another column over the whole record.
     Column {
-        /// Its name.
+        /// The name of the column in the record.
         name: String,
         /// The record's times in s.
         times: &'a [f64],
@@ -47,7 +48,7 @@ pub enum Reference<'a> {
 /// second is the same in every run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parted {
-    /// The number.
+    /// The number, in the unit of its quantity.
     pub value: f64,
     /// Its random standard error.
     pub random: f64,
@@ -57,7 +58,7 @@ pub struct Parted {
     pub systematic: f64,
 }
 
-/// What a step says with a capacity. That a network of several nodes is no single exponential is in none of the errors:
+/// What a step says with a capacity. That a network of several nodes does not follow one exponential is not in the errors:
 /// [`ModelBias`](super::ModelBias).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Power {
@@ -74,7 +75,7 @@ pub struct Power {
     /// That error.
     pub reference_error: f64,
     /// How much the reference column changes over the record by its straight line, in K; 0 for the others. A bed that
-    /// warms is no fixed ground.
+    /// warms is not fixed ground.
     pub drift: f64,
 }
 
@@ -119,9 +120,9 @@ impl Power {
 
 /// With derivatives by `T_i`, `T_f`, `t_RC` and an error from elsewhere.
 fn parted(fit: &StepFit, value: f64, gradient: [f64; 3], more: f64, systematic: f64) -> Parted {
-    let (error, degrees) = fit.error_of(gradient);
-    let random = error.hypot(more);
-    Parted { value, random, half_width: random * student_95(degrees), systematic }
+    let found = fit.random.estimated(value, &gradient);
+    let random = found.standard_error.hypot(more);
+    Parted { value, random, half_width: random * student_95(found.degrees_of_freedom), systematic }
 }
 
 /// The zero of dT.
@@ -139,21 +140,14 @@ struct Zero {
 
 impl Zero {
     fn new(fit: &StepFit, reference: &Reference<'_>) -> Result<Self, StepError> {
-        let Estimated { value, .. } = fit.initial;
-        match reference {
-            Reference::Initial => {
-                Ok(Self { name: "initial".into(), value, error: 0.0, own: true, sensors: 0.0, drift: 0.0 })
+        let (name, value, own, sensors) = match reference {
+            Reference::Initial => ("initial", fit.initial.value, true, 0.0),
+            Reference::Value(value) => ("value", *value, false, 1.0),
+            Reference::Column { name, times, temperatures } => {
+                return Self::column(name, times, temperatures);
             }
-            Reference::Value(value) => Ok(Self {
-                name: "value".into(),
-                value: *value,
-                error: 0.0,
-                own: false,
-                sensors: 1.0,
-                drift: 0.0,
-            }),
-            Reference::Column { name, times, temperatures } => Self::column(name, times, temperatures),
-        }
+        };
+        Ok(Self { name: name.into(), value, error: 0.0, own, sensors, drift: 0.0 })
     }
 
     /// The mean of a column. Its random error is that of the noise around the column's straight line.
@@ -163,23 +157,19 @@ impl Zero {
         if values.is_empty() {
             return Err(StepError::Reference);
         }
-        let count = values.len() as f64;
-        let (mean, middle) = (values.iter().sum::<f64>() / count, times.iter().sum::<f64>() / count);
+        let (mean, middle) = (statistics::mean(&values), statistics::mean(&times));
         let apart: Vec<f64> = times.iter().map(|t| t - middle).collect();
         let square: f64 = apart.iter().map(|a| a * a).sum();
         let product: f64 = apart.iter().zip(&values).map(|(a, v)| a * (v - mean)).sum();
         let slope = if square > 0.0 { product / square } else { 0.0 };
         let residuals: Vec<f64> = apart.iter().zip(&values).map(|(a, v)| mean + slope * a - v).collect();
         let jacobian: Vec<f64> = std::iter::repeat_n(1.0, values.len()).chain(apart).collect();
-        let error = if values.len() > 2 { error_of_mean(&times, &residuals, &jacobian) } else { 0.0 };
+        let error = || {
+            let noise = Noise::estimate(&times, &residuals, &jacobian);
+            Random::new(&times, &jacobian, &noise)?.covariance.standard_error(0)
+        };
+        let error = if values.len() > 2 { error().unwrap_or(0.0) } else { 0.0 };
         let drift = slope * (times[times.len() - 1] - times[0]);
         Ok(Self { name: name.to_owned(), value: mean, error, own: false, sensors: 2.0, drift })
     }
-}
-
-fn error_of_mean(times: &[f64], residuals: &[f64], jacobian: &[f64]) -> f64 {
-    let noise = Noise::estimate(times, residuals, jacobian);
-    let bread = Covariance::inverse(jacobian, times.len(), &[0, 1]);
-    let whole = bread.map(|bread| bread.sandwich(&noise.middle(times, jacobian).values));
-    whole.and_then(|covariance| covariance.standard_error(0)).unwrap_or(0.0)
 }

@@ -9,7 +9,7 @@ const FEWEST: usize = 10;
 
 /// Refuses a record that stands still at its least or greatest value where, by the exponential through the rest of it, it
 /// should be elsewhere: in the mean by more than five times what that exponential misses of the rest, or than the
-/// instrument's `step`. A record that has settled to within a step is none.
+/// instrument's `step`. A record that has settled to within a step is not refused.
 pub(super) fn check(times: &[f64], values: &[f64], first: f64, step: f64) -> Result<(), StepError> {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -1,17 +1,17 @@
 //! Whether a record asks for a second exponential, and that.
 
 use lptn_reduce::ExponentialFit;
+use lptn_units::statistics;
 
-use super::Estimated;
-use crate::Covariance;
-use crate::least_squares::{Estimate, LeastSquaresError, Residuals, Settings, minimise};
-use crate::noise::{Noise, orthonormal, stretches, student_95};
+use super::{Estimated, Random};
+use crate::least_squares::{Estimate, Evaluated, Residuals, Settings, minimise};
+use crate::noise::{Noise, orthonormal, stretches};
 
 /// A record is looked at through the means of some so many stretches.
 const STRETCHES: usize = 400;
 
 /// Of 1000 records without a second exponential at most some 10 have a larger likelihood ratio (measured in the tests:
-/// its time constant is free, so the ratio is no chi-square with two degrees of freedom, whose value would be 9.2).
+/// its time constant is free, so the ratio does not follow chi-square with two degrees of freedom, whose value would be 9.2).
 const THRESHOLD: f64 = 13.0;
 
 /// Whether the residuals ask for a second exponential.
@@ -78,21 +78,11 @@ fn offered(times: &[f64], found: &Estimate) -> Option<TwoExponentials> {
     if !distinct(found, times) {
         return None;
     }
-    let bread = found.covariance()?;
-    let middle = noise.middle(times, &found.jacobian);
-    let covariance: Covariance = bread.sandwich(&middle.values);
+    let random = Random::new(times, &found.jacobian, &noise)?;
     // parameter j times this: a time constant is the exponential of its parameter
     let estimated = |j: usize, value: f64, scale: f64| {
         let gradient: [f64; 5] = std::array::from_fn(|k| if k == j { scale } else { 0.0 });
-        let standard_error = covariance.propagated(&gradient);
-        let degrees = middle.degrees_of_freedom(&bread, &gradient);
-        Estimated {
-            value,
-            standard_error,
-            naive: noise.deviation * bread.propagated(&gradient),
-            half_width: standard_error * student_95(degrees),
-            degrees_of_freedom: degrees,
-        }
+        random.estimated(value, &gradient)
     };
     let p = &found.parameters;
     let [slow, fast] = if p[3] > p[4] { [0, 1] } else { [1, 0] };
@@ -166,9 +156,7 @@ impl Two<'_> {
 
     /// `values = s + a x + b y`, by least squares.
     fn linear(&self, x: &[f64], y: &[f64]) -> Option<(f64, f64, f64)> {
-        let count = x.len() as f64;
-        let mean = |v: &[f64]| v.iter().sum::<f64>() / count;
-        let (mx, my, mv) = (mean(x), mean(y), mean(self.values));
+        let (mx, my, mv) = (statistics::mean(x), statistics::mean(y), statistics::mean(self.values));
         let [mut xx, mut xy, mut yy, mut xv, mut yv] = [0.0; 5];
         for ((x, y), v) in x.iter().zip(y).zip(self.values) {
             let (x, y, v) = (x - mx, y - my, v - mv);
@@ -189,24 +177,19 @@ impl Residuals for Two<'_> {
         5
     }
 
-    fn evaluate(
-        &mut self,
-        p: &[f64],
-        residuals: &mut Vec<f64>,
-        jacobian: Option<&mut Vec<f64>>,
-    ) -> Result<(), LeastSquaresError> {
-        let [first, second] = [self.decay(p[3]), self.decay(p[4])];
-        let curve = first.iter().zip(&second).map(|(x, y)| p[0] + p[1] * x + p[2] * y);
-        residuals.extend(curve.zip(self.values).map(|(curve, value)| curve - value));
-        if let Some(jacobian) = jacobian {
-            jacobian.extend(std::iter::repeat_n(1.0, self.times.len()));
-            jacobian.extend_from_slice(&first);
-            jacobian.extend_from_slice(&second);
-            for (k, decay) in [first, second].iter().enumerate() {
+    fn evaluate(&mut self, p: &[f64], derivatives: bool) -> Evaluated {
+        let decays = [self.decay(p[3]), self.decay(p[4])];
+        let curve = decays[0].iter().zip(&decays[1]).map(|(x, y)| p[0] + p[1] * x + p[2] * y);
+        let residuals = curve.zip(self.values).map(|(curve, value)| curve - value).collect();
+        let mut jacobian = Vec::new();
+        if derivatives {
+            jacobian.resize(self.times.len(), 1.0);
+            jacobian.extend(decays.iter().flatten());
+            for (k, decay) in decays.iter().enumerate() {
                 let slope = |(t, d): (&f64, &f64)| p[1 + k] * d * t / p[3 + k].exp();
                 jacobian.extend(self.times.iter().zip(decay).map(slope));
             }
         }
-        Ok(())
+        Ok((residuals, jacobian))
     }
 }

@@ -8,7 +8,7 @@ pub(crate) use data::files;
 use std::sync::Arc;
 
 use lptn_data::{Diagnostic, FileId, Record, Span};
-use lptn_network::{End, Network, ParameterId, Parameters, Value};
+use lptn_network::{End, Network, Parameters, Value, Varied};
 use lptn_units::{EvalError, Type};
 
 use crate::format::{Role, SectionDeclaration, key};
@@ -130,25 +130,6 @@ pub struct FitPlan {
     pub parameters: Vec<Parameters>,
 }
 
-/// A parameter to find, with numbers in SI units.
-#[derive(Clone, Debug)]
-pub struct Varied {
-    /// Which parameter.
-    pub id: ParameterId,
-    /// Its name.
-    pub name: String,
-    /// Its type.
-    pub ty: Type,
-    /// Its own value, from which the search starts.
-    pub start: f64,
-    /// The least value it may take; minus infinity without one.
-    pub from: f64,
-    /// The largest value it may take; infinity without one.
-    pub to: f64,
-    /// One standard deviation of what was known before: the parameter's own `±`, around [`Varied::start`].
-    pub prior: Option<f64>,
-}
-
 impl FitStudy {
     /// The numbers for the parameters of `network`; `set` is what was set in it, see
     /// [`Netlist::overrides`](crate::Netlist::overrides).
@@ -160,17 +141,12 @@ impl FitStudy {
         let mut at = |value: &Value| value.at(&mut scope);
         let mut varied = Vec::with_capacity(self.varied.len());
         for entry in &self.varied {
-            let Ok(id) = network.parameter(&entry.name) else { continue };
-            let parameter = &network.parameters()[id.index()];
-            varied.push(Varied {
-                id,
-                name: entry.name.clone(),
-                ty: parameter.ty,
-                start: network.parameter_value(id),
-                from: entry.from.as_ref().map_or(Ok(f64::NEG_INFINITY), &mut at)?,
-                to: entry.to.as_ref().map_or(Ok(f64::INFINITY), &mut at)?,
-                prior: parameter.deviation.filter(|deviation| *deviation > 0.0),
-            });
+            let Ok(parameter) = network.parameter(&entry.name) else { continue };
+            let from = entry.from.as_ref().map_or(Ok(f64::NEG_INFINITY), &mut at)?;
+            let to = entry.to.as_ref().map_or(Ok(f64::INFINITY), &mut at)?;
+            let deviation = network.parameters()[parameter.index()].deviation;
+            let prior = deviation.filter(|deviation| *deviation > 0.0);
+            varied.push(Varied { parameter, bounds: (from, to), prior });
         }
         let sigmas: Result<_, _> =
             self.observed.iter().map(|observed| observed.sigma.as_ref().map(&mut at).transpose()).collect();
@@ -244,7 +220,7 @@ impl FitStudy {
         };
         let mut problems = Vec::new();
         for (entry, varied) in self.varied.iter().zip(&plan.varied) {
-            problems.extend(self.check_range(entry, varied));
+            problems.extend(self.check_range(network, (entry, varied)));
         }
         for (observed, sigma) in self.observed.iter().zip(&plan.sigmas) {
             if sigma.is_some_and(|sigma| !(sigma > 0.0 && sigma.is_finite())) {
@@ -260,19 +236,22 @@ impl FitStudy {
         problems
     }
 
-    fn check_range(&self, entry: &VariedName, varied: &Varied) -> Option<Diagnostic> {
+    fn check_range(&self, network: &Network, (entry, varied): (&VariedName, &Varied)) -> Option<Diagnostic> {
         let (name, fit) = (&entry.name, &self.name);
         let at =
             |message: String| Diagnostic::error("netlist::fit_range", message).at(entry.span.clone(), "");
-        if varied.from >= varied.to {
+        let (from, to) = varied.bounds;
+        if from >= to {
             let message = format!("`vary` of fit `{fit}`: `from` of `{name}` has to be less than `to`");
             return Some(at(message).help("write the least value as `from` and the largest as `to`"));
         }
-        if (varied.from..=varied.to).contains(&varied.start) {
+        let start = network.parameter_value(varied.parameter);
+        if (from..=to).contains(&start) {
             return None;
         }
-        let unit = if varied.ty.absolute { "K".to_owned() } else { varied.ty.dimension.si_unit() };
-        let start = lptn_units::format_short(varied.start);
+        let ty = network.parameters()[varied.parameter.index()].ty;
+        let unit = if ty.absolute { "K".to_owned() } else { ty.dimension.si_unit() };
+        let start = lptn_units::format_short(start);
         let message = format!(
             "`vary` of fit `{fit}`: the range of `{name}` does not hold its own value, {start} {unit}, from which the \
              search starts"

@@ -7,7 +7,7 @@ use lptn_units::{Dimension, Type};
 /// What became of a limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LimitResult {
-    /// Its name.
+    /// The name of the limit in its network.
     pub name: String,
     /// Type of the margin; a difference for temperatures.
     pub ty: Type,

@@ -19,7 +19,7 @@ pub struct CompareRow {
 }
 
 impl CompareRow {
-    /// Its results.
+    /// Its results; `None` where it has a problem instead.
     pub fn candidate(&self) -> Option<&Candidate> {
         self.outcome.as_ref().ok()
     }

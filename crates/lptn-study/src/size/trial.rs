@@ -12,7 +12,7 @@ use crate::size::SizeError;
 /// What is to be sized.
 #[derive(Debug)]
 pub struct SizeTask<'a> {
-    /// The network.
+    /// The network with every parameter at its own value.
     pub network: &'a Network,
     /// The values that its other parameters keep; see [`Network::overrides`].
     pub parameters: Parameters,

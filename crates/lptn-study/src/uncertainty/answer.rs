@@ -55,7 +55,7 @@ impl Contribution {
 /// One answer of a run with its uncertainty.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// What it is.
+    /// Which number of the run it is.
     pub of: AnswerOf,
     /// Its value in SI units with every parameter at its own.
     pub value: f64,

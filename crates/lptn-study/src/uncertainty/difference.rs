@@ -29,7 +29,7 @@ pub struct Discrepancy {
 }
 
 /// Where the two methods, asked the same, differ by more than a tenth of the band: for each node the row where they
-/// differ most, then maxima and margins; what the number of samples cannot tell is no difference. `least` in K is the width
+/// differ most, then maxima and margins; what the number of samples cannot tell does not count. `least` in K is the width
 /// below which a band is that of the solver.
 pub fn discrepancies(linear: &Uncertainty, sampled: &Uncertainty, least: f64) -> Vec<Discrepancy> {
     let noise = match sampled.method {

@@ -30,16 +30,16 @@ pub enum UncertaintyError {
     /// So few samples have a result that nothing can be said; why the others have none.
     TooFew(lost: Vec<Lost>) = "uncertainty::too_few",
         lost.iter().fold("too few samples have a result".to_owned(), |text, lost| format!("{text}; {lost}")),
-        help "make the `±` smaller: most of what it allows is no network that runs", class Class::Numbers;
+        help "make the `±` smaller: most of what it allows is not a network that runs", class Class::Numbers;
     /// There is no network a little beside the parameters' values.
-    Network(errors: BuildErrors) = "uncertainty::network",
-        format!("there is no network beside the values: {errors}"), source errors, class Class::Numbers;
+    Network(errors: BuildErrors) = "uncertainty::network", format!("there is no network beside the values: {errors}"),
+        source errors, class Class::Numbers;
     /// The network itself cannot be assembled.
-    Assembly => AssemblyError as Class::of_numbers;
+    Assembly => AssemblyError, class Class::Numbers;
     /// The run itself, with every parameter at its value, fails.
-    Run => Box<TransientError> as Class::of_numbers;
+    Run => Box<TransientError>, class Class::Numbers;
     /// A limit has no value beside the run.
-    Limit => InputError as Class::of_numbers;
+    Limit => InputError, class Class::Numbers;
     /// It was interrupted.
     Interrupted = "uncertainty::interrupted", "the sampling was interrupted", class Class::Interrupted;
 }

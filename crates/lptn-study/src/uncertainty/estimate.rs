@@ -1,9 +1,11 @@
 //! Numbers that were computed from samples, with their own error.
 
+use lptn_units::statistics;
+
 /// A number, and one standard error of it where it comes from samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// The number.
+    /// The number, from all samples.
     pub value: f64,
     /// One standard error; `None` for what is not sampled.
     pub error: Option<f64>,
@@ -20,19 +22,14 @@ impl Estimate {
     /// whole groups are left out).
     pub(crate) fn jackknife(groups: usize, of: impl Fn(Option<usize>) -> f64) -> Self {
         let parts: Vec<f64> = (0..groups).map(|group| of(Some(group))).collect();
-        let mean = parts.iter().sum::<f64>() / parts.len() as f64;
-        let squares: f64 = parts.iter().map(|part| (part - mean) * (part - mean)).sum();
-        let error = ((groups as f64 - 1.0) / groups as f64 * squares).sqrt();
-        Self { value: of(None), error: Some(error) }
+        Self { value: of(None), error: Some(statistics::jackknife(&parts)) }
     }
 }
 
 /// Mean and standard deviation of a sample; the deviation with the divisor n - 1, zero for fewer than two numbers.
 pub(crate) fn moments(values: &[f64]) -> (f64, f64) {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
-    (mean, (squares / (n - 1.0).max(1.0)).sqrt())
+    let free = (values.len() as f64 - 1.0).max(1.0);
+    (statistics::mean(values), (statistics::squares_about_mean(values) / free).sqrt())
 }
 
 /// The quantile of an ascending sample: linear between its order statistics, of which the first is at 0 and the last at 1

@@ -7,7 +7,7 @@ use crate::uncertainty::UncertaintyError;
 /// A parameter whose value is known with a standard deviation only.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uncertain {
-    /// The parameter.
+    /// Which parameter carries `±`.
     pub parameter: ParameterId,
     /// Its value in SI units, absolute temperatures in K: the mean.
     pub value: f64,

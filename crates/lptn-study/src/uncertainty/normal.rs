@@ -1,7 +1,6 @@
 //! The standard normal distribution.
 
-/// The 97.5 % quantile: 95 % of a normal distribution lie within so many standard deviations of its mean.
-pub(crate) const BAND: f64 = 1.959_963_984_540_054;
+pub(crate) use lptn_units::statistics::NORMAL_95 as BAND;
 
 /// The share of a normal distribution below `x` standard deviations over its mean.
 pub(crate) fn share_below(x: f64) -> f64 {

@@ -52,7 +52,7 @@ impl fmt::Display for Lost {
 /// The temperature of a node over the rows, in K, with its band of 95 %.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bands {
-    /// The node.
+    /// The node whose temperature it is.
     pub node: NodeId,
     /// With every parameter at its own value.
     pub value: Vec<f64>,

@@ -7,7 +7,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use lptn_fit::law::{Candidate, ColumnFits, Run, RunFit, RunReference, RunSettings, RunsError, RunsStudy};
+use lptn_fit::law::{Candidate, ColumnFits, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy};
 use lptn_fit::step::{Capacity, LONG_ENOUGH, Sensor};
 use lptn_netlist::{Diagnostic, Files};
 use lptn_report::{Json, Page, Rows, Text, TextTable, WIDTH, duration, fixed, labelled, significant, words};
@@ -66,7 +66,7 @@ pub(crate) fn runs(
 /// left out with a warning.
 fn study(
     folder: &Folder,
-    mut settings: RunSettings,
+    mut settings: RunsSettings,
     (args, console): (&LawArgs, &Console),
 ) -> Result<RunsStudy, Failure> {
     loop {
@@ -99,7 +99,7 @@ fn no_capacity() -> Failure {
     Failure::new(Exit::Input, problem.help("write for example --capacity \"2659 J/K ± 5 %\""))
 }
 
-fn settings(args: &LawArgs, runs: &[Run], capacity: Capacity) -> Result<RunSettings, Failure> {
+fn settings(args: &LawArgs, runs: &[Run], capacity: Capacity) -> Result<RunsSettings, Failure> {
     let known: Vec<&str> =
         runs.first().map_or(Vec::new(), |run| run.columns.iter().map(|(name, _)| name.as_str()).collect());
     let reference = reference(&args.records.reference, &known)?;
@@ -120,7 +120,7 @@ fn settings(args: &LawArgs, runs: &[Run], capacity: Capacity) -> Result<RunSetti
         None => 0.0,
         Some(text) => quantity("--sensor", text, Type::of(Dimension::TEMPERATURE))?.value.abs(),
     };
-    Ok(RunSettings {
+    Ok(RunsSettings {
         columns,
         capacity,
         reference,

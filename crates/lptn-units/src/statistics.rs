@@ -1,0 +1,22 @@
+//! Numbers that many numbers are told by.
+
+/// 95 % of a normal distribution lie within so many standard deviations of its mean.
+pub const NORMAL_95: f64 = 1.959_963_984_540_054;
+
+/// The mean; NaN of nothing.
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// The sum of the squares of the distances from the mean.
+pub fn squares_about_mean(values: &[f64]) -> f64 {
+    let mean = mean(values);
+    values.iter().map(|value| (value - mean) * (value - mean)).sum()
+}
+
+/// The standard error of a number from its `values` when one part of the data after the other is left out (jackknife:
+/// B. Efron, R. J. Tibshirani, An Introduction to the Bootstrap, Chapman & Hall 1993, chapter 11).
+pub fn jackknife(values: &[f64]) -> f64 {
+    let n = values.len() as f64;
+    ((n - 1.0) / n * squares_about_mean(values)).sqrt()
+}
