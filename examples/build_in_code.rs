@@ -4,7 +4,7 @@
 
 use lptn::prelude::*;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<(), lptn::Error> {
     let ambient = Temperature::celsius(40.0);
     let mut b = NetworkBuilder::new();
     let sink = b.node("sink", HeatCapacity(180.0), ambient);
@@ -12,12 +12,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let air = b.boundary("air", ambient);
     b.resistor("package", junction, sink, Resistance(0.4));
     b.convection("fins", sink, air, Resistance(1.2));
-    let pulse = b.expression("if(t < 120 [s], 25 [W], 0 [W])", None).map_err(|e| e[0].to_string())?;
+    let pulse = b.expression("if(t < 120 [s], 25 [W], 0 [W])", None)?;
     b.source("losses", junction, pulse);
 
     let system = ThermalSystem::assemble(&b.build()?)?;
     let solution = Transient::until(Time(360.0)).every(Time(60.0)).solve(&system)?;
-    let [sink, junction] = [sink, junction].map(|node| solution.temperature(node).unwrap_or_default());
+    let (sink, junction) = (solution.series(sink)?, solution.series(junction)?);
     println!("{:>6}{:>12}{:>12}{:>12}", "t [s]", "sink", "exact", "junction");
     for (row, &t) in solution.times().iter().enumerate() {
         let [sink, junction] = [sink[row], junction[row]].map(|t| Temperature(t).in_celsius());

@@ -24,17 +24,14 @@ outer = { from = "aluminium", to = "ambient", R = "0.297 K/W" }
 losses = { into = "steel", P = "220.6 W" }
 "#;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let netlist = lptn::parse("candidates", NETWORK)?;
-    let steel = netlist.network.node("steel")?;
+fn main() -> Result<(), lptn::Error> {
+    let network = lptn::parse("candidates", NETWORK)?.network;
+    let (steel, system) = (network.node("steel")?, ThermalSystem::assemble(&network)?);
     println!("{:>12}{:>14}{:>14}", "R_joint", "at 25 min", "steady");
     for joint in ["2 mK/W", "7.7 mK/W", "20 mK/W", "50 mK/W", "0.1 K/W"] {
-        let mut parameters = netlist.network.overrides();
-        parameters.set_text("R_joint", joint)?;
-        let system = ThermalSystem::assemble(&netlist.network.with(&parameters)?)?;
-        let steady = SteadyState::solve(&system, 0.0)?.temperatures[steel.index()];
-        let solution = Transient::until(Time::minutes(25.0)).solve(&system)?;
-        let end = solution.temperature(steel).and_then(|t| t.last().copied()).ok_or("no rows")?;
+        let candidate = system.with(&network.overrides().with("R_joint", joint)?)?;
+        let steady = SteadyState::solve(&candidate, 0.0)?[steel];
+        let end = Transient::until(Time::minutes(25.0)).solve(&candidate)?.at_end(steel)?;
         let [end, steady] = [end, steady].map(|t| Temperature(t).in_celsius());
         println!("{joint:>12}{end:>9.2} degC{steady:>9.2} degC");
     }

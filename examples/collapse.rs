@@ -8,7 +8,7 @@ use lptn::reduce::{Definition, Options, Reduction, fit_exponential};
 
 const POWER: f64 = 220.6;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<(), lptn::Error> {
     println!("largest error of a step at the steel node in % of its rise, and the order in R_int/R_amb");
     println!("{:>12}{:>16}{:>16}{:>16}", "R_int/R_amb", "sum", "first_moment", "dominant_pole");
     let mut before: Option<[f64; 3]> = None;
@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let ratio = 10_f64.powi(decade);
         let (system, steel, _) = gearbox(ratio * 0.3)?;
         let reduction = Reduction::new(&system, steel, &Options::default())?;
-        let pairs = reduction.dynamics.ok_or("the gearbox stores heat")?.pairs;
+        let pairs = reduction.dynamics.expect("the gearbox stores heat").pairs;
         let error = |i: usize| pairs[i].step.relative.unwrap_or(0.0);
         let now = [Definition::Sum, Definition::FirstMoment, Definition::DominantPole]
             .map(|d| Definition::ALL.iter().position(|other| *other == d).map_or(0.0, error));
@@ -30,18 +30,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for internal in [1.7 / POWER, 0.03, 0.1, 0.3] {
         let (system, steel, aluminium) = gearbox(internal)?;
         let run = Transient::until(Time::minutes(25.0)).every(Time(0.2)).solve(&system)?;
-        let fit = |node: NodeId| {
-            let record = run.temperature(node).unwrap_or_default();
-            fit_exponential(run.times(), &record).map(|fit| fit.tau / 60.0)
+        let tau = |node: NodeId| -> Result<f64, lptn::Error> {
+            Ok(fit_exponential(run.times(), &run.series(node)?)?.tau / 60.0)
         };
         let apart = internal * POWER;
-        println!("{internal:>12.4}{:>10.2}{:>12.2}{apart:>14.1} K", fit(steel)?, fit(aluminium)?);
+        println!("{internal:>12.4}{:>10.2}{:>12.2}{apart:>14.1} K", tau(steel)?, tau(aluminium)?);
     }
     Ok(())
 }
 
 /// Steel 1235 J/K, aluminium 1424 J/K, 0.3 K/W to ambient at 25.5 degC.
-fn gearbox(internal: f64) -> Result<(ThermalSystem, NodeId, NodeId), Box<dyn std::error::Error>> {
+fn gearbox(internal: f64) -> Result<(ThermalSystem, NodeId, NodeId), lptn::Error> {
     let ambient = Temperature::celsius(25.5);
     let mut b = NetworkBuilder::new();
     let steel = b.node("steel", HeatCapacity(1235.0), ambient);

@@ -4,7 +4,7 @@
 
 use lptn::prelude::*;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<(), lptn::Error> {
     let netlist = lptn::read("networks/gearbox.toml".as_ref())?;
     let network = &netlist.network;
     let system = ThermalSystem::assemble(network)?;
@@ -13,8 +13,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     println!("{:<12}{:>10}{:>10}", "node", "25 min", "steady");
     for id in network.node_ids() {
-        let end = solution.temperature(id).and_then(|t| t.last().copied()).ok_or("no rows")?;
-        let [end, steady] = [end, steady.temperatures[id.index()]].map(|t| Temperature(t).in_celsius());
+        let [end, steady] = [solution.at_end(id)?, steady[id]].map(|t| Temperature(t).in_celsius());
         println!("{:<12}{end:>10.2}{steady:>10.2} degC", network.nodes()[id.index()].name);
     }
     let ledger = solution.ledger();

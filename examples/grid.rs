@@ -10,12 +10,12 @@ const N: usize = 100;
 const SOURCE: (usize, usize) = (30, 60);
 const PROBE: (usize, usize) = (35, 50);
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<(), lptn::Error> {
     let (network, probe) = plate()?;
     let system = ThermalSystem::assemble(&network)?;
     let run = Transient::until(Time(2e4)).every(Time(100.0)).tolerance(1e-4).record(&[probe]);
     let solution = run.solve(&system)?;
-    let found = solution.temperature(probe).ok_or("the probe was recorded")?;
+    let found = solution.series(probe)?;
     let error = |(t, found): (&f64, &f64)| (found - 273.15 - exact(*t)).abs();
     // the series takes longer than the run, so only some rows are compared
     let worst = solution.times().iter().zip(&found).step_by(25).map(error).fold(0.0, f64::max);
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 /// Cells of 1 J/K joined by 1 W/K, an edge at 0 degC all around, 100 W into one cell.
-fn plate() -> Result<(Network, NodeId), Box<dyn std::error::Error>> {
+fn plate() -> Result<(Network, NodeId), lptn::Error> {
     let mut b = NetworkBuilder::new();
     let (zero, joint) = (Temperature::celsius(0.0), Conductance(1.0));
     let edge = b.boundary("edge", zero);

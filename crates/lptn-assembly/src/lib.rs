@@ -19,7 +19,7 @@ mod tangent;
 mod workspace;
 
 pub use element::Form;
-pub use error::AssemblyError;
+pub use error::{AssemblyError, ChangeError};
 pub use pattern::JacobianPattern;
 pub use system::ThermalSystem;
 pub use workspace::Workspace;

@@ -4,6 +4,8 @@ use std::fmt;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use lptn_units::Problem;
+
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::file::{FileId, Files, Span};
 
@@ -48,36 +50,25 @@ impl fmt::Display for Rejected {
 
 impl std::error::Error for Rejected {}
 
+impl Problem for Rejected {
+    fn code(&self) -> &'static str {
+        self.diagnostics.first().map_or("netlist::rejected", |first| first.code)
+    }
+
+    fn help(&self) -> Option<String> {
+        self.diagnostics.first()?.help.clone()
+    }
+}
+
+lptn_units::errors! {
 /// Why a file cannot be used.
 #[derive(Debug)]
 pub enum ReadError {
     /// The file could not be read.
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// The reason.
-        error: std::io::Error,
-    },
+    Io { path: PathBuf, error: io::Error } = "io::error", format!("cannot read {}: {error}", path.display()), source error;
     /// Its content cannot be used.
-    Rejected(Rejected),
+    Rejected => Rejected;
 }
-
-impl fmt::Display for ReadError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Io { path, error } => write!(f, "cannot read {}: {error}", path.display()),
-            Self::Rejected(rejected) => rejected.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for ReadError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Self::Io { error, .. } => Some(error),
-            Self::Rejected(rejected) => Some(rejected),
-        }
-    }
 }
 
 /// The bytes of a file, which need not be text, up to [`MOST_BYTES`]; an input without an end is not read on.

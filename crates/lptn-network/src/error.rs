@@ -3,7 +3,7 @@
 use std::fmt;
 
 use lptn_laws::Formula;
-use lptn_units::{EvalError, Type, format_short};
+use lptn_units::{EvalError, Problem, Problems, Type, format_short};
 
 use crate::error_words::{
     Say, area, by, crossed, evaluation, in_unit, inside, keys, not_positive, unused_name, usable,
@@ -13,17 +13,7 @@ use crate::names::list_of_names;
 use crate::parts::grid::{GridFace, MOST_CELLS};
 
 /// All problems found while a network was built; never empty.
-#[derive(Clone, Debug)]
-pub struct BuildErrors(pub Vec<BuildError>);
-
-impl fmt::Display for BuildErrors {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let all: Vec<String> = self.0.iter().map(ToString::to_string).collect();
-        f.write_str(&all.join("\n"))
-    }
-}
-
-impl std::error::Error for BuildErrors {}
+pub type BuildErrors = Problems<BuildError>;
 
 /// One problem: its kind, and the names that a message needs.
 #[derive(Clone, Debug)]
@@ -57,7 +47,24 @@ impl fmt::Display for BuildError {
     }
 }
 
-impl std::error::Error for BuildError {}
+impl std::error::Error for BuildError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match &self.kind {
+            BuildErrorKind::Evaluation { error, .. } => Some(error),
+            _ => None,
+        }
+    }
+}
+
+impl Problem for BuildError {
+    fn code(&self) -> &'static str {
+        self.code()
+    }
+
+    fn help(&self) -> Option<String> {
+        self.help()
+    }
+}
 
 /// Help that needs no more than the words.
 #[allow(clippy::unnecessary_wraps, reason = "in the form of all helps")]

@@ -2,9 +2,10 @@
 
 use std::fmt;
 
-use lptn_units::{EvalError, format_number};
+use lptn_units::{EvalError, Problem, format_number, format_six as six_digits};
 
 use crate::id::{Field, Item};
+use crate::typed::ZERO_CELSIUS;
 
 /// A source or boundary whose value could not be had during a run.
 #[derive(Clone, Debug)]
@@ -19,59 +20,64 @@ pub struct InputError {
     pub problem: InputProblem,
 }
 
-/// Why an input has no value.
+lptn_units::errors! {
+/// Why an input has no value. Sentences begin behind the field that they are about.
 #[derive(Clone, Debug)]
 pub enum InputProblem {
     /// The expression gave an infinite number or none.
-    NotFinite(f64),
+    NotFinite(value: f64) = INPUT, format!("is {value}");
     /// A temperature below 0 K.
-    BelowAbsoluteZero(f64),
+    BelowAbsoluteZero(value: f64) = INPUT, format!("is below absolute zero: {value} K");
     /// The expression could not be evaluated.
-    Evaluation(Box<EvalError>),
+    Evaluation(error: Box<EvalError>) = INPUT, format!("cannot be evaluated: {error}"),
+        source error.as_ref(), help Problem::help(error);
     /// A conductance below 0 W/K.
-    NegativeConductance(f64),
-    /// A signal was read before its first point.
-    BeforeSignal {
-        /// The time in s.
-        time: f64,
-        /// The first point in s.
-        first: f64,
-    },
-    /// A signal was read after its last point.
-    AfterSignal {
-        /// The time in s.
-        time: f64,
-        /// The last point in s.
-        last: f64,
-    },
+    NegativeConductance(value: f64) = INPUT, format!("makes a negative conductance: {} W/K", format_number(*value)),
+        help "keep it positive: `max(x, 0 [W/K])` with its own unit";
+    /// A signal was read before its first point; times in s.
+    BeforeSignal { time: f64, first: f64 } = INPUT, format!("is not known at {time} s: its first point is at {first} s"),
+        help format!("begin the signal earlier, or the run at `start = \"{first} s\"`");
+    /// A signal was read after its last point; times in s.
+    AfterSignal { time: f64, last: f64 } = INPUT, format!("is not known at {time} s: its last point is at {last} s"),
+        help "write `after_end = \"hold\"` or `after_end = \"repeat\"` in the signal, or stop the run there";
     /// A signal that is repeated so often that a run would have to stop at this many points.
-    TooManyPoints(f64),
+    TooManyPoints(count: f64) = INPUT,
+        format!("repeats the signal so often that the run would stop at {count:.0} points"),
+        help "give the signal a longer period, or put its mean in its place";
     /// An emissivity or view factor outside 0 to 1.
-    NotAFraction(f64),
+    NotAFraction(value: f64) = INPUT, format!("is not between 0 and 1: {value}"),
+        help "keep it between 0 and 1: `min(max(x, 0), 1)`";
     /// A quantity that cannot be negative, in SI units.
-    Negative(f64),
+    Negative(value: f64) = INPUT, format!("is negative: {value} (SI units)"),
+        help "keep it positive: `max(x, 0)` with its unit";
     /// A volume flow of a fluid whose density is not known.
-    NoDensity,
-    /// A fluid outside the temperatures for which its specific heat is known and positive.
-    OutsideFluid {
-        /// The temperature in K.
-        temperature: f64,
-        /// The temperatures it is known for, in K.
-        range: (f64, f64),
-    },
-    /// The threshold at which a control switches on lies beyond that at which it switches off.
-    ThresholdsCrossed {
-        /// On, in K.
-        on: f64,
-        /// Off, in K.
-        off: f64,
-    },
-    /// A node outside the temperatures for which its capacity is known and positive.
-    OutsideCapacity {
-        /// The temperatures it is known for, in K.
-        range: (f64, f64),
-    },
+    NoDensity = INPUT, "has no density, which a volume flow needs",
+        help "add `density` to the fluid, or give a mass flow";
+    /// A fluid outside the temperatures in K for which its specific heat is known and positive.
+    OutsideFluid { temperature: f64, range: (f64, f64) } = INPUT,
+        format!("is asked for at {temperature} K, but is known from {} to {} K only", range.0, range.1), help FURTHER;
+    /// The threshold in K at which a control switches on lies beyond that at which it switches off.
+    ThresholdsCrossed { on: f64, off: f64 } = INPUT,
+        format!(
+            "crosses over the threshold for off: on at {} degC, off at {} degC",
+            six_digits(on - ZERO_CELSIUS),
+            six_digits(off - ZERO_CELSIUS)
+        ),
+        help "keep a dead band between the two, wide enough for the equipment";
+    /// A node outside the temperatures in K for which its capacity is known and positive.
+    OutsideCapacity { range: (f64, f64) } = INPUT,
+        format!(
+            "is not known where the temperature goes: it is known and positive from {} to {} K only",
+            range.0, range.1
+        ),
+        help FURTHER;
 }
+}
+
+const INPUT: &str = "solve::input";
+
+const FURTHER: &str =
+    "let the table or expression reach further, or keep the end values of a table with `outside = \"hold\"`";
 
 impl From<EvalError> for InputProblem {
     fn from(error: EvalError) -> Self {
@@ -79,81 +85,24 @@ impl From<EvalError> for InputProblem {
     }
 }
 
-impl InputProblem {
-    /// What to do about it.
-    pub fn help(&self) -> Option<String> {
-        match self {
-            Self::Evaluation(error) => error.help().map(str::to_owned),
-            Self::AfterSignal { .. } => Some(
-                "write `after_end = \"hold\"` or `after_end = \"repeat\"` in the signal, or stop the run there"
-                    .into(),
-            ),
-            Self::BeforeSignal { first, .. } => {
-                Some(format!("begin the signal earlier, or the run at `start = \"{first} s\"`"))
-            }
-            Self::NegativeConductance(_) => Some("keep it positive: `max(x, 0 [W/K])` with its own unit".into()),
-            Self::TooManyPoints(_) => {
-                Some("give the signal a longer period, or put its mean in its place".into())
-            }
-            Self::NotAFraction(_) => Some("keep it between 0 and 1: `min(max(x, 0), 1)`".into()),
-            Self::Negative(_) => Some("keep it positive: `max(x, 0)` with its unit".into()),
-            Self::OutsideCapacity { .. } | Self::OutsideFluid { .. } => Some(
-                "let the table or expression reach further, or keep the end values of a table with \
-                 `outside = \"hold\"`"
-                    .into(),
-            ),
-            Self::ThresholdsCrossed { .. } => {
-                Some("keep a dead band between the two, wide enough for the equipment".into())
-            }
-            Self::NoDensity => Some("add `density` to the fluid, or give a mass flow".into()),
-            _ => None,
-        }
-    }
-}
-
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}` of `{}` ", self.field.key(), self.name)?;
-        match &self.problem {
-            InputProblem::NotFinite(value) => write!(f, "is {value}"),
-            InputProblem::BelowAbsoluteZero(value) => write!(f, "is below absolute zero: {value} K"),
-            InputProblem::Evaluation(error) => write!(f, "cannot be evaluated: {error}"),
-            InputProblem::NegativeConductance(value) => {
-                write!(f, "makes a negative conductance: {} W/K", format_number(*value))
-            }
-            InputProblem::TooManyPoints(count) => {
-                write!(f, "repeats the signal so often that the run would stop at {count:.0} points")
-            }
-            InputProblem::NotAFraction(value) => write!(f, "is not between 0 and 1: {value}"),
-            InputProblem::Negative(value) => write!(f, "is negative: {value} (SI units)"),
-            InputProblem::BeforeSignal { time, first } => {
-                write!(f, "is not known at {time} s: its first point is at {first} s")
-            }
-            InputProblem::AfterSignal { time, last } => {
-                write!(f, "is not known at {time} s: its last point is at {last} s")
-            }
-            InputProblem::ThresholdsCrossed { on, off } => {
-                let celsius = |t: &f64| six_digits(t - crate::typed::ZERO_CELSIUS);
-                let (on, off) = (celsius(on), celsius(off));
-                write!(f, "crosses over the threshold for off: on at {on} degC, off at {off} degC")
-            }
-            InputProblem::NoDensity => f.write_str("has no density, which a volume flow needs"),
-            InputProblem::OutsideFluid { temperature, range: (from, to) } => {
-                write!(f, "is asked for at {temperature} K, but is known from {from} to {to} K only")
-            }
-            InputProblem::OutsideCapacity { range: (from, to) } => {
-                write!(
-                    f,
-                    "is not known where the temperature goes: it is known and positive from {from} to {to} K only"
-                )
-            }
-        }
+        write!(f, "`{}` of `{}` {}", self.field.key(), self.name, self.problem)
     }
 }
 
-/// A number without the digits that tell a reader nothing.
-fn six_digits(x: f64) -> String {
-    format!("{x:.5e}").parse().map_or_else(|_| x.to_string(), format_number)
+impl std::error::Error for InputError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        self.problem.source()
+    }
 }
 
-impl std::error::Error for InputError {}
+impl Problem for InputError {
+    fn code(&self) -> &'static str {
+        self.problem.code()
+    }
+
+    fn help(&self) -> Option<String> {
+        self.problem.help()
+    }
+}

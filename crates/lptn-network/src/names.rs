@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use lptn_units::suggest;
+use lptn_units::{Problem, suggest};
 
 /// A name that the network does not have.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,6 +31,16 @@ impl fmt::Display for UnknownName {
 }
 
 impl std::error::Error for UnknownName {}
+
+impl Problem for UnknownName {
+    fn code(&self) -> &'static str {
+        "network::unknown_name"
+    }
+
+    fn help(&self) -> Option<String> {
+        None // the sentence has it
+    }
+}
 
 /// Whether it is a name: letters, digits and `_`, not a digit first.
 pub fn is_name(text: &str) -> bool {

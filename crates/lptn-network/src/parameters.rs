@@ -1,6 +1,5 @@
 //! Other values for the parameters of a network.
 
-use std::fmt;
 use std::sync::Arc;
 
 use lptn_units::{Expression, Quantity, Scope, Symbol, Type, UnitError, kelvin_alone, parse_quantity};
@@ -35,6 +34,15 @@ impl Parameters {
     /// Sets a parameter to a number in SI units; an absolute temperature in K.
     pub fn set(&mut self, id: ParameterId, value: f64) {
         self.values[id.index()] = Some(value);
+    }
+
+    /// These values with one more, set as by [`Parameters::set_text`].
+    ///
+    /// # Errors
+    /// As [`Parameters::set_text`].
+    pub fn with(mut self, name: &str, text: &str) -> Result<Self, ParameterError> {
+        self.set_text(name, text)?;
+        Ok(self)
     }
 
     /// One standard deviation in SI units of a parameter that was set by a text with `±`.
@@ -92,29 +100,14 @@ fn constant(text: &str, ty: Type) -> Option<Quantity> {
     Some(Quantity { value, deviation: None, ty })
 }
 
+lptn_units::errors! {
 /// Why a parameter could not be set.
 #[derive(Clone, Debug)]
 pub enum ParameterError {
     /// There is no such parameter.
-    Unknown(UnknownName),
-    /// The text is not a quantity of the parameter's type.
-    Unit {
-        /// The parameter's name.
-        name: String,
-        /// Its type.
-        ty: Type,
-        /// What is wrong with the text.
-        error: Box<UnitError>,
-    },
+    Unknown(unknown: UnknownName) = "network::unknown_parameter", format!("no parameter: {unknown}"), source unknown;
+    /// The text is not a quantity of the type of this parameter.
+    Unit { name: String, ty: Type, error: Box<UnitError> } = error.code(), format!("`{name}`: {error}"),
+        source error.as_ref(), help error.help();
 }
-
-impl fmt::Display for ParameterError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unknown(unknown) => write!(f, "no parameter: {unknown}"),
-            Self::Unit { name, error, .. } => write!(f, "`{name}`: {error}"),
-        }
-    }
 }
-
-impl std::error::Error for ParameterError {}

@@ -30,18 +30,15 @@ pub enum ReduceError {
         format!("`{name}` switches during a run, which an equivalent of one node cannot follow"),
         help format!("write 0 or 1 in place of `{name}`, and reduce what is then there");
     /// A source or boundary has no value.
-    Input(error: InputError) = "solve::input", error;
+    Input => InputError;
     /// The conductances span more than the numbers can hold.
     Factorization(error: FactorError) = "reduce::singular",
-        format!("the conductances cannot be factorised: {error}"),
+        format!("the conductances cannot be factorised: {error}"), source error,
         help "replace the largest conductances by merging the nodes they join", class Class::Numbers;
     /// The modes at the port could not be computed.
     Modes = "reduce::modes", "the time constants at the port cannot be computed", class Class::Numbers;
     /// A run of the network or of its equivalent failed.
-    Run(error: TransientError) = error.code(), error, class match error.code() {
-        "run::integrator" => Class::Numbers,
-        _ => Class::Input,
-    };
+    Run => TransientError;
     /// The equivalent network could not be built; the text says why.
     Equivalent(why: String) = "reduce::equivalent", format!("the equivalent network cannot be built: {why}"), class Class::Numbers;
     /// The window in s of the least-squares definition is not a positive time, or too short to see the port warm.
@@ -54,12 +51,6 @@ pub enum ReduceError {
 impl From<FactorError> for ReduceError {
     fn from(error: FactorError) -> Self {
         Self::Factorization(error)
-    }
-}
-
-impl From<TransientError> for ReduceError {
-    fn from(error: TransientError) -> Self {
-        Self::Run(error)
     }
 }
 

@@ -2,10 +2,9 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    BuildErrors, Course, HeatCapacity, HeatFlow, Input, Network, NetworkBuilder, NodeId, Resistance,
-    Temperature, Value,
+    Course, HeatCapacity, HeatFlow, Input, Network, NetworkBuilder, NodeId, Resistance, Temperature, Value,
 };
-use lptn_units::{Dimension, Quantity, Type, UnitError, format_number};
+use lptn_units::{Dimension, Problem, Problems, Quantity, Type, format_number};
 
 use crate::error::ReduceError;
 use crate::norton::NortonEquivalent;
@@ -137,15 +136,12 @@ fn input(builder: &NetworkBuilder, value: &Value, ty: Type, weight: f64) -> Resu
             } else {
                 format!("{factor} * ({})", program.text())
             };
-            let failed = |errors: Vec<UnitError>| {
-                let error = errors.first().map(ToString::to_string).unwrap_or_default();
-                ReduceError::Equivalent(format!("`{text}`: {error}"))
-            };
+            let failed = |errors| ReduceError::Equivalent(format!("`{text}`: {}", first(&errors)));
             Ok(builder.expression(&text, Some(ty)).map_err(failed)?.into())
         }
     }
 }
 
-fn first(errors: &BuildErrors) -> String {
-    errors.0.first().map(|error| error.to_string()).unwrap_or_default()
+fn first<P: Problem>(errors: &Problems<P>) -> String {
+    errors.first().map(ToString::to_string).unwrap_or_default()
 }

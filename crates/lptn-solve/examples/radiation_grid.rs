@@ -83,7 +83,7 @@ fn network(plate: &Plate) -> Outcome<(Network, Vec<NodeId>)> {
     for (k, (cell, points)) in plate.sources.iter().enumerate() {
         let signal = format!("p{k}");
         b.signal(&signal, Type::of(Dimension::POWER), course(points)?);
-        let power = b.expression(&signal, None).map_err(|errors| format!("{errors:?}"))?;
+        let power = b.expression(&signal, None)?;
         b.source(&format!("s{k}"), cells[*cell], power);
     }
     let probes = plate.probes.iter().map(|&i| cells[i]).collect();

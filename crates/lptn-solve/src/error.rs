@@ -22,12 +22,12 @@ pub enum SteadyError {
         ),
         help "add a path to a boundary, or run the network over time: `lptn run`";
     /// A source or boundary has no value.
-    Input(error: InputError) = "solve::input", error, help error.problem.help();
+    Input => InputError;
     /// The balances of a nonlinear network were not solved.
-    Unsolved(unsolved: Unsolved) = unsolved.code(), unsolved, help unsolved.help(), class Class::Numbers;
+    Unsolved => Unsolved as Class::of_numbers;
     /// The conductances span more than the numbers can hold.
     Factorization(error: FactorError) = "steady::singular",
-        format!("the conductances cannot be factorised: {error}"), help MERGE, class Class::Numbers;
+        format!("the conductances cannot be factorised: {error}"), source error, help MERGE, class Class::Numbers;
     /// More heat is taken out than there is: a linear network goes below 0 K, a real one does not. The first such node and its
     /// temperature in K.
     BelowAbsoluteZero { name: String, temperature: f64 } = "solve::below_absolute_zero", cold(name, *temperature),
@@ -62,16 +62,18 @@ lptn_units::errors! {
 #[derive(Debug)]
 pub enum TransientError {
     /// The settings of the run contradict themselves.
-    Settings(error: SettingsError) = "run::settings", error, help error.help();
+    Settings => SettingsError;
     /// A source or boundary has no value at the start.
-    Input(error: InputError) = "solve::input", error, help error.problem.help();
+    Input => InputError;
     /// The balances of massless nodes could not be set up.
-    Start(unsolved: Unsolved) = unsolved.code(), unsolved, help unsolved.help(), class Class::Numbers;
+    Start => Unsolved as Class::of_numbers;
     /// The integrator could not be set up or read.
-    Integrator(error: IntegrateError) = "run::integrator", format!("the integrator failed: {error}"), class Class::Numbers;
+    Integrator(error: IntegrateError) = "run::integrator", format!("the integrator failed: {error}"), source error,
+        class Class::Numbers;
     /// The run broke off at this time in s; what was computed before is whole.
     Stopped { time: f64, reason: StopReason, partial: Box<Solution> } = reason.code(),
-        format!("stopped at {} s: {reason}", six_digits(*time)), help reason.help(), class match reason {
+        format!("stopped at {} s: {reason}", six_digits(*time)), source reason, help reason.help(),
+        class match reason {
             StopReason::NothingSwitches => Class::Input,
             _ => Class::Numbers,
         };
@@ -83,9 +85,9 @@ lptn_units::errors! {
 #[derive(Debug)]
 pub enum StopReason {
     /// A source or boundary has no value.
-    Input(error: InputError) = "solve::input", error, help error.problem.help();
+    Input => InputError;
     /// The balances of massless nodes have no solution.
-    Unsolved(unsolved: Unsolved) = unsolved.code(), unsolved, help unsolved.help();
+    Unsolved => Unsolved;
     /// A node fell below 0 K: the first such node and its temperature in K.
     BelowAbsoluteZero { name: String, temperature: f64 } = "solve::below_absolute_zero", cold(name, *temperature),
         help COLD;
@@ -116,7 +118,8 @@ pub enum StopReason {
         match node {
             Some(node) => format!("{error} (largest error at node `{node}`)"),
             None => error.to_string(),
-        };
+        },
+        source error;
 }
 }
 
@@ -144,10 +147,10 @@ impl TransientError {
     pub fn node(&self) -> Option<&str> {
         let Self::Stopped { reason, .. } = self else {
             let Self::Start(unsolved) = self else { return None };
-            return Some(&unsolved.node);
+            return Some(unsolved.node());
         };
         match reason {
-            StopReason::Unsolved(unsolved) => Some(&unsolved.node),
+            StopReason::Unsolved(unsolved) => Some(unsolved.node()),
             StopReason::BelowAbsoluteZero { name, .. } => Some(name),
             StopReason::Integrator { node, .. } => node.as_deref(),
             _ => None,

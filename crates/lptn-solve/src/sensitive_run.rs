@@ -1,9 +1,7 @@
 //! A run together with how its temperatures change with parameters.
 
-use std::fmt;
-
-use lptn_assembly::{AssemblyError, ThermalSystem};
-use lptn_network::{BuildErrors, LimitId, Network, NoTangents, NodeId, ParameterId};
+use lptn_assembly::{ChangeError, ThermalSystem};
+use lptn_network::{LimitId, Network, NoTangents, NodeId, ParameterId};
 
 use crate::error::TransientError;
 use crate::settings::{Control, Progress, Transient};
@@ -37,17 +35,17 @@ pub struct SensitiveRun {
     differences: Vec<(ParameterId, [Solution; 2], f64)>,
 }
 
+lptn_units::errors! {
 /// Why a run or one beside it failed.
 #[derive(Debug)]
 pub enum SensitiveError {
     /// The run.
-    Run(TransientError),
-    /// The network with a parameter changed.
-    Build(BuildErrors),
-    /// The same.
-    Assembly(AssemblyError),
+    Run => TransientError;
+    /// The network, or what it is with a parameter changed.
+    Change => ChangeError;
     /// It was interrupted.
-    Interrupted,
+    Interrupted = "run::interrupted", "the run was interrupted";
+}
 }
 
 /// Runs a network and follows its sensitivities by `parameters`: exactly, or by differences where a network has no exact
@@ -72,24 +70,23 @@ pub fn sensitive_run_observed(
     (settings, parameters): (&Transient, &[ParameterId]),
     observer: &dyn Fn(Progress) -> Control,
 ) -> Result<SensitiveRun, SensitiveError> {
-    let run = |network: &Network, settings: &Transient| {
-        let system = ThermalSystem::assemble(network).map_err(SensitiveError::Assembly)?;
-        let solution = settings.solve_observed(&system, &mut |step| observer(step));
-        let solution = solution.map_err(SensitiveError::Run)?;
+    let run = |system: &ThermalSystem, settings: &Transient| {
+        let solution = settings.solve_observed(system, &mut |step| observer(step))?;
         match solution.end() {
             End::Interrupted(_) => Err(SensitiveError::Interrupted),
             _ => Ok(solution),
         }
     };
-    match run(network, &settings.clone().sensitivities(parameters)) {
+    let system = ThermalSystem::assemble(network).map_err(ChangeError::from)?;
+    match run(&system, &settings.clone().sensitivities(parameters)) {
         Err(SensitiveError::Run(TransientError::Settings(SettingsError::Sensitivity(why)))) => {
-            let solution = run(network, &settings.clone().sensitivities(&[]))?;
+            let solution = run(&system, &settings.clone().sensitivities(&[]))?;
             let one = |&id: &ParameterId| {
                 let (value, step) = (network.parameter_value(id), step(network, id));
                 let at = |value: f64| {
                     let mut changed = network.given();
                     changed.set(id, value);
-                    run(&network.with(&changed).map_err(SensitiveError::Build)?, settings)
+                    run(&system.with(&changed)?, settings)
                 };
                 Ok((id, [at(value - step)?, at(value + step)?], 2.0 * step))
             };
@@ -143,16 +140,3 @@ impl SensitiveRun {
         Some((above - below) / distance)
     }
 }
-
-impl fmt::Display for SensitiveError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Run(error) => error.fmt(f),
-            Self::Build(error) => error.fmt(f),
-            Self::Assembly(error) => error.fmt(f),
-            Self::Interrupted => f.write_str("the run was interrupted"),
-        }
-    }
-}
-
-impl std::error::Error for SensitiveError {}

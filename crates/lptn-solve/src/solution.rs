@@ -31,6 +31,16 @@ pub enum End {
     Failed(f64),
 }
 
+lptn_units::errors! {
+/// What a solution cannot answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SolutionError {
+    /// The temperatures of this node were not kept.
+    NotRecorded { name: String } = "solve::not_recorded", format!("the run kept no temperatures of node `{name}`"),
+        help "name the node in `Transient::record`, or leave that out to keep all of them";
+}
+}
+
 /// Temperatures over time, from which heat flows follow. Times increase strictly, one row each.
 #[derive(Clone, Debug)]
 pub struct Solution {
@@ -89,6 +99,25 @@ impl Solution {
         let column = self.recorded.binary_search(&node).ok()?;
         let rows = self.temperatures.chunks_exact(self.recorded.len());
         Some(rows.map(|row| row[column]).collect())
+    }
+
+    /// Temperature of a node over the rows in K.
+    ///
+    /// # Errors
+    /// [`SolutionError::NotRecorded`] if the run did not keep it: see [`Transient::record`](crate::Transient::record).
+    pub fn series(&self, node: NodeId) -> Result<Vec<f64>, SolutionError> {
+        self.temperature(node).ok_or_else(|| {
+            let known = self.network().nodes().get(node.index());
+            SolutionError::NotRecorded { name: known.map_or(String::new(), |node| node.name.clone()) }
+        })
+    }
+
+    /// Temperature of a node in the last row, in K.
+    ///
+    /// # Errors
+    /// As [`Solution::series`].
+    pub fn at_end(&self, node: NodeId) -> Result<f64, SolutionError> {
+        Ok(self.series(node)?.last().copied().unwrap_or(f64::NAN)) // there is a row at the start at least
     }
 
     /// How the temperature of a node changes with a parameter, over the rows in K per SI unit of the parameter, all other

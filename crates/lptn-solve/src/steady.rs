@@ -64,6 +64,18 @@ const SAME: f64 = 1e-5;
 /// How far heat in and heat out of a steady state may differ, relative to the heat turned over.
 const BALANCE: f64 = 1e-9;
 
+impl std::ops::Index<NodeId> for SteadyState {
+    type Output = f64;
+
+    /// The temperature of a node in K.
+    ///
+    /// # Panics
+    /// For a node that the network does not have.
+    fn index(&self, node: NodeId) -> &f64 {
+        &self.temperatures[node.index()]
+    }
+}
+
 impl SteadyState {
     /// The heat balance of a node or boundary.
     pub fn balance(&self, network: &Network, of: End) -> Balance {
@@ -152,7 +164,7 @@ impl SteadyState {
         if network.has_events() {
             work.set_positions(positions);
         }
-        system.read_inputs(&mut work, time, just_after(time)).map_err(SteadyError::Input)?;
+        system.read_inputs(&mut work, time, just_after(time))?;
         let islands = Island::all_of(system);
         let unknowns = if system.is_linear() && islands.is_empty() {
             states(system, &work).map_err(SteadyError::Factorization)?
@@ -160,12 +172,11 @@ impl SteadyState {
             balanced(system, &mut work, &islands, start)?
         };
         system.recover(&mut work, &unknowns);
-        let mut steady = Self::from_workspace(system, &mut work, &unknowns).map_err(SteadyError::Input)?;
+        let mut steady = Self::from_workspace(system, &mut work, &unknowns)?;
         steady.time = time;
         steady.positions.clone_from(positions);
         steady.adiabatic = islands.into_iter().flat_map(|island| island.nodes).collect();
-        let rest = rounding(system, &steady)
-            + unsettled(system, &mut work, &unknowns).map_err(SteadyError::Input)?;
+        let rest = rounding(system, &steady) + unsettled(system, &mut work, &unknowns)?;
         if steady.imbalance().abs() > BALANCE * steady.turned_over() + rest {
             return Err(SteadyError::Unbalanced { residual: steady.imbalance() / steady.turned_over() });
         }

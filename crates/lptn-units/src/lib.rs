@@ -52,7 +52,7 @@ pub use expr::{
     Trend, is_function,
 };
 pub use format::{number as format_number, short as format_short, six as format_six};
-pub use problems::{Class, Help, Problem};
+pub use problems::{Class, Help, Problem, Problems};
 pub use quantity::{Quantity, WrittenQuantity, kelvin_alone, parse_quantity, written_quantity};
 pub use rational::Rational;
 pub use scalar::Scalar;

@@ -1,7 +1,10 @@
 //! One declarative form for the problems of every crate.
 
+use std::error::Error;
+use std::fmt;
+
 /// What can be wrong, for who tells it: every error of this workspace that people may meet.
-pub trait Problem: std::error::Error {
+pub trait Problem: Error {
     /// The stable code, as diagnostics print it.
     fn code(&self) -> &'static str;
 
@@ -25,6 +28,95 @@ pub enum Class {
     No,
     /// It was interrupted.
     Interrupted,
+}
+
+impl Problem for std::io::Error {
+    fn code(&self) -> &'static str {
+        "io::error"
+    }
+
+    fn help(&self) -> Option<String> {
+        None
+    }
+}
+
+impl<P: Problem> Problem for Box<P> {
+    fn code(&self) -> &'static str {
+        self.as_ref().code()
+    }
+
+    fn help(&self) -> Option<String> {
+        self.as_ref().help()
+    }
+
+    fn class(&self) -> Class {
+        self.as_ref().class()
+    }
+}
+
+/// Several problems of one kind, all that were found; never empty. Code and help are those of the first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problems<P>(pub Vec<P>);
+
+impl<P: fmt::Display> fmt::Display for Problems<P> {
+    /// One a line.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let all: Vec<String> = self.0.iter().map(ToString::to_string).collect();
+        f.write_str(&all.join("\n"))
+    }
+}
+
+impl<P: Error> Error for Problems<P> {}
+
+impl<P: Problem> Problem for Problems<P> {
+    fn code(&self) -> &'static str {
+        self.0.first().map_or("problems::none", Problem::code)
+    }
+
+    fn help(&self) -> Option<String> {
+        self.0.first()?.help()
+    }
+
+    fn class(&self) -> Class {
+        self.0.first().map_or(Class::Input, Problem::class)
+    }
+}
+
+impl<P> From<P> for Problems<P> {
+    fn from(one: P) -> Self {
+        Self(vec![one])
+    }
+}
+
+impl<P> std::ops::Deref for Problems<P> {
+    type Target = [P];
+
+    fn deref(&self) -> &[P] {
+        &self.0
+    }
+}
+
+impl<P> IntoIterator for Problems<P> {
+    type Item = P;
+    type IntoIter = std::vec::IntoIter<P>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.into_iter()
+    }
+}
+
+impl Class {
+    /// Whoever passes the problem on could not compute what was asked for.
+    #[must_use]
+    pub fn of_numbers(self) -> Self {
+        Self::Numbers
+    }
+
+    /// What is an answer to one question is a failure of another one that needed it.
+    #[must_use]
+    pub fn not_an_answer(self) -> Self {
+        if self == Self::No { Self::Numbers } else { self }
+    }
 }
 
 /// Help as a declaration gives it: words, or none.
@@ -58,8 +150,11 @@ impl Help for Option<String> {
 }
 
 /// Declares an enum of errors, each told once: its fields, its stable code, its sentence and, where there is one, the help;
-/// its class where it is not that of a wrong input.
-/// The expressions see the fields by reference; a sentence is anything that can be displayed, such as the error it is about.
+/// its class where it is not that of a wrong input. The expressions see the fields by reference; a sentence is anything that
+/// can be displayed. Where another error is a part of it, `source` names that. A variant that only passes an error on says
+/// which, `Name => ItsError;`: code, sentence, help, source and class are that error's, and `?` makes one of the other;
+/// `Name => ItsError as Class::of_numbers;` makes another class
+/// of its class.
 ///
 /// ```
 /// lptn_units::errors! {
@@ -68,8 +163,17 @@ impl Help for Option<String> {
 ///     pub enum DoorError {
 ///         /// It does not open.
 ///         Stuck { after: u32 } = "door::stuck", format!("stuck since day {after}"), help "oil its hinges";
-///         /// Its house is gone.
-///         House(error: std::fmt::Error) = "door::house", error;
+///         /// Its sign cannot be written.
+///         Sign(error: std::fmt::Error) = "door::sign", format!("no sign: {error}"), source error;
+///     }
+/// }
+///
+/// lptn_units::errors! {
+///     /// What can be wrong with a house.
+///     #[derive(Debug)]
+///     pub enum HouseError {
+///         /// Its door.
+///         Door => DoorError;
 ///     }
 /// }
 ///
@@ -77,7 +181,9 @@ impl Help for Option<String> {
 /// let stuck = DoorError::Stuck { after: 3 };
 /// assert_eq!((stuck.code(), stuck.to_string().as_str()), ("door::stuck", "stuck since day 3"));
 /// assert_eq!(stuck.help().as_deref(), Some("oil its hinges"));
-/// assert_eq!(DoorError::House(std::fmt::Error).help(), None);
+/// let house = HouseError::from(stuck);
+/// assert_eq!((house.code(), house.help().as_deref()), ("door::stuck", Some("oil its hinges")));
+/// assert_eq!(DoorError::Sign(std::fmt::Error).help(), None);
 /// ```
 #[macro_export]
 macro_rules! errors {
@@ -86,27 +192,31 @@ macro_rules! errors {
         pub enum $name:ident {
             $(
                 $(#[$doc:meta])*
-                $variant:ident $(($($arg:ident: $arg_ty:ty),*))? $({ $($field:ident: $ty:ty),* })? =
-                    $code:expr, $says:expr $(, help $help:expr)? $(, class $class:expr)?;
+                $variant:ident $(($($arg:ident: $arg_ty:ty),*))? $({ $($field:ident: $ty:ty),* })?
+                    $(=> $inner:ty $(as $own:path)?)?
+                    $(= $code:expr, $says:expr $(, source $source:expr)? $(, help $help:expr)? $(, class $class:expr)?)?;
             )*
         }
     ) => {
         $(#[$meta])*
         #[allow(missing_docs, reason = "what each says tells what its fields are; all in SI units")]
-        pub enum $name { $($(#[$doc])* $variant $(($($arg_ty),*))? $({ $($field: $ty),* })?,)* }
+        pub enum $name { $($(#[$doc])* $variant $(($($arg_ty),*))? $({ $($field: $ty),* })? $(($inner))?,)* }
 
         #[allow(unused_variables, reason = "each takes the fields that it needs")]
         impl $name {
             /// The stable code, as diagnostics print it.
             pub fn code(&self) -> &'static str {
-                match self { $(Self::$variant $(($($arg),*))? $({ $($field),* })? => $code,)* }
+                match self {
+                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? $(($crate::bound!(inner $inner)))? =>
+                        { $($code)? $(<$inner as $crate::Problem>::code(inner))? })*
+                }
             }
 
             /// What to do about it, in words that can be pasted where possible.
             pub fn help(&self) -> Option<String> {
                 match self {
-                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? =>
-                        $crate::help_of!($($help)?),)*
+                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? $(($crate::bound!(inner $inner)))? =>
+                        { $($crate::help_of!($($help)?))? $(<$inner as $crate::Problem>::help(inner))? })*
                 }
             }
         }
@@ -115,12 +225,27 @@ macro_rules! errors {
             #[allow(unused_variables, reason = "each takes the fields that it needs")]
             fn fmt(&self, f: &mut ::std::fmt::Formatter<'_>) -> ::std::fmt::Result {
                 match self {
-                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? => ::std::write!(f, "{}", $says),)*
+                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? $(($crate::bound!(inner $inner)))? =>
+                        { $(::std::write!(f, "{}", $says))? $(<$inner as ::std::fmt::Display>::fmt(inner, f))? })*
                 }
             }
         }
 
-        impl ::std::error::Error for $name {}
+        impl ::std::error::Error for $name {
+            #[allow(unused_variables, reason = "each takes the fields that it needs")]
+            fn source(&self) -> Option<&(dyn ::std::error::Error + 'static)> {
+                match self {
+                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? $(($crate::bound!(inner $inner)))? =>
+                        { $($crate::source_of!($($source)?))? $(<$inner as ::std::error::Error>::source(inner))? })*
+                }
+            }
+        }
+
+        $($(impl From<$inner> for $name {
+            fn from(inner: $inner) -> Self {
+                Self::$variant(inner)
+            }
+        })?)*
 
         impl $crate::Problem for $name {
             fn code(&self) -> &'static str {
@@ -134,8 +259,8 @@ macro_rules! errors {
             #[allow(unused_variables, reason = "each takes the fields that it needs")]
             fn class(&self) -> $crate::Class {
                 match self {
-                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? =>
-                        $crate::class_of!($($class)?),)*
+                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? $(($crate::bound!(inner $inner)))? =>
+                        { $($crate::class_of!($($class)?))? $($crate::class_in!(inner $(, $own)?))? })*
                 }
             }
         }
@@ -151,6 +276,39 @@ macro_rules! class_of {
     };
     ($class:expr) => {
         $class
+    };
+}
+
+/// The class of what a variant passes on, or what it makes of that.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! class_in {
+    ($inner:expr) => {
+        $crate::Problem::class($inner)
+    };
+    ($inner:expr, $own:path) => {
+        $own($crate::Problem::class($inner))
+    };
+}
+
+/// A name for what a variant holds.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! bound {
+    ($name:ident $inner:ty) => {
+        $name
+    };
+}
+
+/// The source of a declaration, if it has one.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! source_of {
+    () => {
+        None
+    };
+    ($source:expr) => {
+        Some($source)
     };
 }
 

@@ -141,7 +141,7 @@ fn compile_errors(text: &str, expected: Option<Type>) -> Vec<lptn_units::UnitErr
             );
             Vec::new()
         }
-        Err(errors) => errors,
+        Err(errors) => errors.0,
     }
 }
 

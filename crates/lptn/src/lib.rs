@@ -3,7 +3,7 @@
 //! ```
 //! use lptn::prelude::*;
 //!
-//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # fn main() -> Result<(), lptn::Error> {
 //! let mut b = NetworkBuilder::new();
 //! let steel = b.node("steel", HeatCapacity(2659.0), Temperature::celsius(25.5));
 //! let bed = b.boundary("bed", Temperature::celsius(25.5));
@@ -12,13 +12,16 @@
 //! let system = ThermalSystem::assemble(&b.build()?)?;
 //!
 //! let steady = SteadyState::solve(&system, 0.0)?;
-//! assert!((steady.temperatures[steel.index()] - (273.15 + 25.5 + 220.6 * 0.3046)).abs() < 1e-9);
+//! assert!((steady[steel] - (273.15 + 25.5 + 220.6 * 0.3046)).abs() < 1e-9);
 //!
 //! let run = Transient::until(Time::minutes(25.0)).solve(&system)?;
-//! assert!(run.ledger().closes());
+//! assert!(run.at_end(steel)? < steady[steel] && run.ledger().closes());
 //! # Ok(())
 //! # }
 //! ```
+//!
+//! Every error becomes an [`Error`], which `main` can return. Many candidates of one network need no second assembly from
+//! text: [`ThermalSystem::with`](assembly::ThermalSystem::with) takes other values of its parameters.
 //!
 //! A network comes from a TOML netlist ([`read`], [`parse`]) or from a
 //! [`NetworkBuilder`](network::NetworkBuilder). Each module is a crate of its own; ARCHITECTURE.md says what
@@ -37,6 +40,9 @@ pub use lptn_solve as solve;
 pub use lptn_study as study;
 pub use lptn_units as units;
 
+mod error;
+
+pub use error::Error;
 pub use lptn_netlist::{parse, read};
 
 /// What a program that uses the library most often needs.

@@ -1,6 +1,6 @@
 //! What cannot be fitted.
 
-use lptn_units::{Type, UnitError};
+use lptn_units::{Problem, Problems, Type, UnitError};
 
 /// The most coefficients of one law.
 pub(crate) const MOST: usize = 8;
@@ -26,9 +26,8 @@ pub enum LawError {
         format!("the standard error of point {} is {value} W, which is not above 0", point + 1),
         help "leave the column out for a fit without weights";
     /// A law that cannot be read, or whose units do not fit.
-    Units { law: String, errors: Vec<UnitError> } = errors.first().map_or("fit::law_units", UnitError::code),
-        errors.first().map_or_else(|| "the units do not fit".to_owned(), ToString::to_string),
-        help errors.first().and_then(UnitError::help);
+    Units { law: String, errors: Problems<UnitError> } = Problem::code(errors), errors, source errors,
+        help Problem::help(errors);
     /// A law without a coefficient.
     NoCoefficient { law: String } = "fit::law_no_coefficient", format!("`{law}` has no coefficient that could be fitted"),
         help "names that are no column are coefficients: \"a * omega\"";

@@ -62,16 +62,10 @@ pub enum RunsError {
     Column { run: String, column: String } = "record::no_column", format!("{run} has no column `{column}`");
     /// A column of a run could not be fitted.
     Step { run: String, column: String, error: Box<StepError> } = error.code(),
-        format!("{run}, column `{column}`: {error}"), help error.help();
+        format!("{run}, column `{column}`: {error}"), source error.as_ref(), help error.help();
     /// The powers could not become points of a law.
-    Law(error: LawError) = error.code(), error, help error.help();
+    Law => LawError;
 }
-}
-
-impl From<LawError> for RunsError {
-    fn from(error: LawError) -> Self {
-        Self::Law(error)
-    }
 }
 
 /// One column of one run.

@@ -1,14 +1,14 @@
 //! The coefficients of one law.
 
 use faer::Mat;
-use faer::linalg::solvers::SolveLstsq as _;
+use lptn_integrate::dense;
 
 use super::candidate::{Coefficient, Fitted, Outcome};
 use super::criteria::{number, rms};
 use super::model::Law;
 use super::points::Points;
 use crate::Covariance;
-use crate::least_squares::{self, LeastSquaresError, Problem, Settings};
+use crate::least_squares::{self, LeastSquaresError, Residuals, Settings};
 
 /// Up to here each point is left out in turn and the law fitted anew; beyond, and for laws that are linear in their
 /// coefficients, what is missed then follows from the leverage of the point.
@@ -65,7 +65,7 @@ impl Local {
         let norms: Vec<f64> = (0..count).map(norm).collect();
         let scaled = Mat::from_fn(rows, count, |i, j| self.column(j)[i] / norms[j]);
         let target = Mat::from_fn(rows, 1, |i, _| -self.misses[i]);
-        let step = scaled.qr().solve_lstsq(&target);
+        let step = dense::least_squares(scaled.as_ref(), target.as_ref());
         let found: Vec<f64> = (0..count).map(|j| p[j] + step[(j, 0)] / norms[j]).collect();
         found.iter().all(|x| x.is_finite()).then_some(found)
     }
@@ -141,9 +141,7 @@ struct Search<'a> {
     points: &'a Points,
 }
 
-impl Problem for Search<'_> {
-    type Error = std::convert::Infallible;
-
+impl Residuals for Search<'_> {
     fn parameters(&self) -> usize {
         self.law.count()
     }
@@ -153,7 +151,7 @@ impl Problem for Search<'_> {
         p: &[f64],
         residuals: &mut Vec<f64>,
         jacobian: Option<&mut Vec<f64>>,
-    ) -> Result<(), Self::Error> {
+    ) -> Result<(), LeastSquaresError> {
         // where the law has no value a shorter step is asked for
         let local = Local::new(self.law, self.points, p).unwrap_or_else(|_| Local {
             misses: vec![f64::NAN; self.points.len()],
@@ -175,7 +173,6 @@ fn descend(law: &Law, points: &Points, start: &[f64]) -> Result<(f64, Vec<f64>),
             least_squares::Outcome::Converged(_) => Ok((found.squares, found.parameters)),
             least_squares::Outcome::NotConverged(stop) => Err(Outcome::NotConverged(stop)),
         },
-        Err(LeastSquaresError::Problem(never)) => match never {},
         Err(_) => Err(Outcome::NotDetermined),
     }
 }

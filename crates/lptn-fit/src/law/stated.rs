@@ -87,7 +87,7 @@ impl StatedLaw {
     pub fn parse(of: LawOf, text: &str) -> Result<Self, LawError> {
         let refused = |errors| LawError::Units { law: text.to_owned(), errors };
         if written_quantity(text).is_none() {
-            let expression = Expression::parse(text).map_err(|error| refused(vec![error]))?;
+            let expression = Expression::parse(text).map_err(|error| refused(error.into()))?;
             let program = expression.compile(&Omega, Some(Type::of(of.dimension()))).map_err(refused)?;
             return Ok(Self {
                 of,
@@ -96,7 +96,7 @@ impl StatedLaw {
                 form: Form::Written(Box::new(program)),
             });
         }
-        let quantity = parse_quantity(text, None).map_err(|error| refused(vec![error]))?;
+        let quantity = parse_quantity(text, None).map_err(|error| refused(error.into()))?;
         let [.., angle] = quantity.ty.dimension.exponents();
         let exponent = angle.checked_neg();
         let speed = exponent.and_then(|e| Dimension::ANGULAR_VELOCITY.checked_pow(e));

@@ -50,7 +50,7 @@ impl WrittenLaw {
     /// [`LawError`] where the text is no expression, its units do not give a power, or a unit stays open.
     pub fn new(text: &str, points: &Points, starts: &[Start]) -> Result<Self, LawError> {
         let refused = |errors| LawError::Units { law: text.to_owned(), errors };
-        let expression = Expression::parse(text).map_err(|error| refused(vec![error]))?;
+        let expression = Expression::parse(text).map_err(|error| refused(error.into()))?;
         let variables = points.variables();
         let coefficients = coefficients(&expression, variables, starts)?;
         if coefficients.is_empty() {

@@ -10,14 +10,12 @@
 //! Only the triangular factor of `[J r]` is used; `J^T J` is never formed.
 //!
 //! ```
-//! use lptn_fit::least_squares::{Problem, Settings, minimise};
+//! use lptn_fit::least_squares::{LeastSquaresError, Residuals, Settings, minimise};
 //!
 //! /// y = a exp(b x) through three points.
 //! struct Growth;
 //!
-//! impl Problem for Growth {
-//!     type Error = std::convert::Infallible;
-//!
+//! impl Residuals for Growth {
 //!     fn parameters(&self) -> usize {
 //!         2
 //!     }
@@ -27,7 +25,7 @@
 //!         p: &[f64],
 //!         residuals: &mut Vec<f64>,
 //!         jacobian: Option<&mut Vec<f64>>,
-//!     ) -> Result<(), Self::Error> {
+//!     ) -> Result<(), LeastSquaresError> {
 //!         let data = [(0.0, 2.0), (1.0, 4.0), (2.0, 8.0)];
 //!         residuals.extend(data.iter().map(|(x, y)| p[0] * f64::exp(p[1] * x) - y));
 //!         if let Some(jacobian) = jacobian {
@@ -41,7 +39,7 @@
 //! let found = minimise(&mut Growth, &[1.0, 1.0], &Settings::default())?;
 //! assert!(found.outcome.converged());
 //! assert!((found.parameters[1] - 2_f64.ln()).abs() < 1e-9);
-//! # Ok::<(), lptn_fit::least_squares::LeastSquaresError<std::convert::Infallible>>(())
+//! # Ok::<(), LeastSquaresError>(())
 //! ```
 
 mod error;
@@ -55,27 +53,24 @@ pub use estimate::{Estimate, Outcome, Side, Stop, Test};
 pub use search::minimise;
 
 /// A model with data: residuals as functions of parameters.
-pub trait Problem {
-    /// Why the model could not be computed at all; it ends the search. Where only these parameters are out of the
-    /// model's reach, a residual that is NaN or infinite asks for a shorter step instead.
-    type Error;
-
+pub trait Residuals {
     /// The number of parameters, which does not change.
     fn parameters(&self) -> usize;
 
     /// Writes the residuals (model less data, each over its standard deviation if they differ) at `p`, and where asked
     /// for their derivatives, one parameter after the other: `d r_i / d p_j` at `j * residuals.len() + i`.
     ///
-    /// Both lists come empty; the number of residuals does not change. `p` keeps the bounds.
+    /// Both lists come empty; the number of residuals does not change. `p` keeps the bounds. Where the model has no value
+    /// at `p`, a residual that is NaN or infinite asks for a shorter step.
     ///
     /// # Errors
-    /// What ends the search.
+    /// [`LeastSquaresError::Interrupted`] ends the search.
     fn evaluate(
         &mut self,
         p: &[f64],
         residuals: &mut Vec<f64>,
         jacobian: Option<&mut Vec<f64>>,
-    ) -> Result<(), Self::Error>;
+    ) -> Result<(), LeastSquaresError>;
 }
 
 /// What is known of a parameter without the data: `value ± sigma`. It counts as one more residual,

@@ -4,12 +4,12 @@ use super::error::LeastSquaresError;
 use super::estimate::{Estimate, Outcome, Side, Stop, Test};
 use super::linear::Triangle;
 use super::region::{Region, Room, length};
-use super::{Problem, Settings};
+use super::{Residuals, Settings};
 
 /// So many times a step is shortened.
 const MOST_TRIALS: usize = 100;
 
-type Fallible<T, E> = Result<T, LeastSquaresError<E>>;
+type Fallible<T> = Result<T, LeastSquaresError>;
 
 /// Finds the parameters, near `start`, for which the sum of the squares of residuals and priors is least.
 ///
@@ -19,11 +19,7 @@ type Fallible<T, E> = Result<T, LeastSquaresError<E>>;
 ///
 /// # Errors
 /// [`LeastSquaresError`]
-pub fn minimise<P: Problem>(
-    problem: &mut P,
-    start: &[f64],
-    settings: &Settings,
-) -> Fallible<Estimate, P::Error> {
+pub fn minimise<P: Residuals>(problem: &mut P, start: &[f64], settings: &Settings) -> Fallible<Estimate> {
     check(problem.parameters(), start, settings)?;
     let mut search = Search { problem, settings, evaluations: 0, data: 0 };
     let clamped = start.iter().enumerate().map(|(j, p)| p.clamp(search.bounds(j).0, search.bounds(j).1));
@@ -31,7 +27,7 @@ pub fn minimise<P: Problem>(
     search.run(first)
 }
 
-fn check<E>(count: usize, start: &[f64], settings: &Settings) -> Fallible<(), E> {
+fn check(count: usize, start: &[f64], settings: &Settings) -> Fallible<()> {
     let wrong = |got: usize| LeastSquaresError::Parameters { expected: count, got };
     if start.len() != count {
         return Err(wrong(start.len()));
@@ -69,7 +65,7 @@ impl Point {
     }
 }
 
-struct Search<'a, P: Problem> {
+struct Search<'a, P: Residuals> {
     problem: &'a mut P,
     settings: &'a Settings,
     evaluations: usize,
@@ -116,17 +112,17 @@ struct Trial {
     lowered: f64,
 }
 
-impl<P: Problem> Search<'_, P> {
+impl<P: Residuals> Search<'_, P> {
     fn bounds(&self, j: usize) -> (f64, f64) {
         self.settings.bounds.get(j).copied().unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
     }
 
     /// Residuals, and derivatives where asked for, with those of the priors.
-    fn evaluate(&mut self, p: &[f64], with_jacobian: bool) -> Fallible<(Vec<f64>, Vec<f64>), P::Error> {
+    fn evaluate(&mut self, p: &[f64], with_jacobian: bool) -> Fallible<(Vec<f64>, Vec<f64>)> {
         let (mut residuals, mut jacobian) = (Vec::new(), Vec::new());
         self.evaluations += 1;
         let wanted = with_jacobian.then_some(&mut jacobian);
-        self.problem.evaluate(p, &mut residuals, wanted).map_err(LeastSquaresError::Problem)?;
+        self.problem.evaluate(p, &mut residuals, wanted)?;
         let rows = residuals.len();
         if self.data == 0 {
             self.data = rows;
@@ -156,7 +152,7 @@ impl<P: Problem> Search<'_, P> {
     }
 
     /// A point with its derivatives.
-    fn point(&mut self, parameters: Vec<f64>) -> Fallible<Point, P::Error> {
+    fn point(&mut self, parameters: Vec<f64>) -> Fallible<Point> {
         let (residuals, jacobian) = self.evaluate(&parameters, true)?;
         let squares = residuals.iter().map(|r| r * r).sum();
         let side = |(j, p): (usize, &f64)| match self.bounds(j) {
@@ -173,7 +169,7 @@ impl<P: Problem> Search<'_, P> {
         parameters.iter().enumerate().map(room).collect()
     }
 
-    fn run(&mut self, start: Point) -> Fallible<Estimate, P::Error> {
+    fn run(&mut self, start: Point) -> Fallible<Estimate> {
         if !start.is_finite() {
             return Ok(self.end(start, Outcome::NotConverged(Stop::StartNotFinite), f64::NAN, 0));
         }
@@ -208,7 +204,7 @@ impl<P: Problem> Search<'_, P> {
     }
 
     /// The linear model of a point.
-    fn place(&self, point: Point, scales: &mut [f64]) -> Fallible<Place, P::Error> {
+    fn place(&self, point: Point, scales: &mut [f64]) -> Fallible<Place> {
         let model = Triangle::new(&point.jacobian, &point.residuals);
         widen(scales, &model.norms());
         let room = self.room(&point.parameters);
@@ -232,7 +228,7 @@ impl<P: Problem> Search<'_, P> {
     }
 
     /// Shortens the step until one lowers the sum of squares.
-    fn descend(&mut self, here: &Place, scales: &[f64], radius: &mut f64) -> Fallible<Descent, P::Error> {
+    fn descend(&mut self, here: &Place, scales: &[f64], radius: &mut f64) -> Fallible<Descent> {
         let region = Region { model: &here.model, scales, room: &here.room };
         let least = f64::EPSILON * region.length(&here.point.parameters);
         if here.offset * here.offset <= self.settings.cost {
@@ -256,7 +252,7 @@ impl<P: Problem> Search<'_, P> {
         Ok(Descent::Stopped(Stop::Stalled))
     }
 
-    fn attempt(&mut self, point: &Point, region: &Region<'_>, radius: f64) -> Fallible<Trial, P::Error> {
+    fn attempt(&mut self, point: &Point, region: &Region<'_>, radius: f64) -> Fallible<Trial> {
         let (taken, cut) = region.step(radius).ok_or(LeastSquaresError::Decomposition)?;
         let moved = |j: usize| match taken.sides[j] {
             Some(Side::Lower) => self.bounds(j).0,

@@ -1,7 +1,6 @@
 //! Why a network cannot be fitted.
 
-use std::fmt;
-
+use lptn_assembly::ChangeError;
 use lptn_solve::SensitiveError;
 use lptn_units::{Class, EvalError};
 
@@ -33,12 +32,11 @@ pub enum NetworkFitError {
     /// The run of a record fails with the own values of the parameters.
     Start { record: String, error: Box<SensitiveError> } =
         match &**error {
-            SensitiveError::Run(error) => error.code(),
-            SensitiveError::Build(_) => "fit::network",
-            SensitiveError::Assembly(error) => error.code(),
+            SensitiveError::Change(ChangeError::Network(_)) => "fit::network",
             SensitiveError::Interrupted => "fit::interrupted",
+            SensitiveError::Run(_) | SensitiveError::Change(ChangeError::Assembly(_)) => error.code(),
         },
-        format!("{record}: there is no run with the parameters' own values: {error}"),
+        format!("{record}: there is no run with the parameters' own values: {error}"), source error.as_ref(),
         class match &**error {
             SensitiveError::Run(_) => Class::Numbers,
             _ => Class::Input,
@@ -49,21 +47,11 @@ pub enum NetworkFitError {
         help "write the temperature of a node, `\"steel.T\"`, or a mean, `\"mean(steel.T, bed.T)\"`; parameters, signals, \
               boundaries, heat flows and `t` cannot stand there, and an offset of a sensor is not fitted";
     /// A number of the study has no value.
-    Plan(error: EvalError) = error.code(), error;
+    Plan => EvalError;
     /// The sum of squares cannot be minimised.
-    Search(error: LeastSquaresError<Interrupted>) = error.code().unwrap_or("fit::search"), error, class Class::Numbers;
+    Search => LeastSquaresError as Class::of_numbers;
     /// It was interrupted at this stage; the values in SI units that describe the records best among those that were tried.
     Interrupted { stage: FitStage, best: Option<Vec<f64>> } = "fit::interrupted",
         format!("the fit was interrupted in {stage}"), class Class::Interrupted;
 }
-}
-
-/// That a search was interrupted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Interrupted;
-
-impl fmt::Display for Interrupted {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the search was interrupted")
-    }
 }

@@ -22,7 +22,7 @@ mod search;
 mod task;
 
 pub use combination::Kind;
-pub use error::{Interrupted, NetworkFitError};
+pub use error::NetworkFitError;
 pub use fitted::{ColumnMisfit, FittedParameter, NetworkFit};
 pub use identify::{Combination, Identifiability, Unseparated};
 pub use search::Starts;

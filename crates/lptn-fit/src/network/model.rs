@@ -2,14 +2,15 @@
 
 use std::ops::Range;
 
+use lptn_assembly::ChangeError;
 use lptn_network::{Network, OutputTimes, ParameterId};
 use lptn_solve::{
     Gradient, Record, SensitiveError, SensitiveRun, Transient, in_parallel, sensitive_run_observed,
 };
 
-use crate::least_squares::{LeastSquaresError, Problem};
+use crate::least_squares::{LeastSquaresError, Residuals};
 use crate::network::coordinates::Coordinates;
-use crate::network::error::{Interrupted, NetworkFitError};
+use crate::network::error::NetworkFitError;
 use crate::network::task::{FitObserver, FitStage, Measured, MeasuredRun, NetworkFitTask, Varied};
 
 /// The residuals of one column of one record.
@@ -79,9 +80,9 @@ impl<'a> Model<'a> {
     }
 
     /// Why a search ended without an answer.
-    pub(crate) fn ended(&self, error: LeastSquaresError<Interrupted>) -> NetworkFitError {
+    pub(crate) fn ended(&self, error: LeastSquaresError) -> NetworkFitError {
         match error {
-            LeastSquaresError::Problem(Interrupted) => self.broken_off(),
+            LeastSquaresError::Interrupted => self.broken_off(),
             error => NetworkFitError::Search(error),
         }
     }
@@ -184,7 +185,7 @@ impl NetworkFitTask<'_> {
             .iter()
             .zip(values)
             .for_each(|(varied, &value)| parameters.set(varied.parameter, value));
-        self.network.with(&parameters).map_err(SensitiveError::Build)
+        Ok(self.network.with(&parameters).map_err(ChangeError::from)?)
     }
 }
 
@@ -270,9 +271,7 @@ fn combined(
     sum.split_off(skipped.min(sum.len()))
 }
 
-impl Problem for Model<'_> {
-    type Error = Interrupted;
-
+impl Residuals for Model<'_> {
     fn parameters(&self) -> usize {
         self.task.parameters.len()
     }
@@ -283,7 +282,7 @@ impl Problem for Model<'_> {
         p: &[f64],
         residuals: &mut Vec<f64>,
         jacobian: Option<&mut Vec<f64>>,
-    ) -> Result<(), Interrupted> {
+    ) -> Result<(), LeastSquaresError> {
         let (values, slopes) = self.coordinates.values(p);
         let count = self.data() + self.priors().len();
         match self.at(&values) {
@@ -295,7 +294,7 @@ impl Problem for Model<'_> {
                     scaled.for_each(|(column, slope)| jacobian.extend(column.iter().map(|x| x * slope)));
                 }
             }
-            Err((_, SensitiveError::Interrupted)) => return Err(Interrupted),
+            Err((_, SensitiveError::Interrupted)) => return Err(LeastSquaresError::Interrupted),
             Err(_) => {
                 residuals.resize(count, f64::NAN);
                 if let Some(jacobian) = jacobian {

@@ -25,7 +25,7 @@ impl<'a> NetworkFitTask<'a> {
     /// study's numbers reports.
     pub fn of(netlist: &'a Netlist, study: &FitStudy, threads: usize) -> Result<Self, NetworkFitError> {
         let network = &netlist.network;
-        let plan = study.plan(network, &netlist.overrides()).map_err(NetworkFitError::Plan)?;
+        let plan = study.plan(network, &netlist.overrides())?;
         let settings = netlist
             .run
             .as_ref()

@@ -34,7 +34,7 @@ pub enum StepError {
     /// Times and values are not as many.
     Length { times: usize, values: usize } = "fit::not_a_record", format!("there are {times} times and {values} values");
     /// Too few samples, not a record, a constant column, or one without curvature.
-    Fit(error: FitError) = error.code(), error,
+    Fit(error: FitError) = error.code(), error, source error,
         help match error {
             FitError::NoCurvature { .. } => Some(LONGER.to_owned()),
             error => error.help(),
@@ -54,10 +54,7 @@ pub enum StepError {
     Capacity(value: f64) = "fit::capacity", format!("the capacity has to be positive, got {value} J/K"),
         help "write for example --capacity \"2659 J/K ± 5 %\"";
     /// The model has no equivalent at the port, or its run failed.
-    Model(error: ReduceError) = error.code(), error, help error.help(), class match error {
-        ReduceError::Run(_) => Class::Numbers,
-        error => error.class(),
-    };
+    Model => ReduceError;
 }
 }
 

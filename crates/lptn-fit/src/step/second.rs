@@ -1,12 +1,10 @@
 //! Whether a record asks for a second exponential, and that.
 
-use std::convert::Infallible;
-
 use lptn_reduce::ExponentialFit;
 
 use super::Estimated;
 use crate::Covariance;
-use crate::least_squares::{Estimate, Problem, Settings, minimise};
+use crate::least_squares::{Estimate, LeastSquaresError, Residuals, Settings, minimise};
 use crate::noise::{Noise, orthonormal, stretches, student_95};
 
 /// A record is looked at through the means of some so many stretches.
@@ -186,9 +184,7 @@ impl Two<'_> {
     }
 }
 
-impl Problem for Two<'_> {
-    type Error = Infallible;
-
+impl Residuals for Two<'_> {
     fn parameters(&self) -> usize {
         5
     }
@@ -198,7 +194,7 @@ impl Problem for Two<'_> {
         p: &[f64],
         residuals: &mut Vec<f64>,
         jacobian: Option<&mut Vec<f64>>,
-    ) -> Result<(), Infallible> {
+    ) -> Result<(), LeastSquaresError> {
         let [first, second] = [self.decay(p[3]), self.decay(p[4])];
         let curve = first.iter().zip(&second).map(|(x, y)| p[0] + p[1] * x + p[2] * y);
         residuals.extend(curve.zip(self.values).map(|(curve, value)| curve - value));

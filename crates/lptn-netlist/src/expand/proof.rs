@@ -1,40 +1,23 @@
 //! What was written is read again before anybody gets it.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::Path;
 
 use lptn_network::{Flow, Item, Network};
 
 use crate::netlist::{Netlist, parse_file};
 
+lptn_units::errors! {
 /// A netlist that was written is not the network that it was written for: a mistake of this program.
 #[derive(Clone, Debug)]
 pub enum WrittenError {
-    /// It is not read.
-    Rejected {
-        /// The first reason.
-        reason: String,
-    },
-    /// It is read as another network.
-    Differs {
-        /// What differs, such as "node `steel`".
-        what: String,
-    },
+    /// It is not read; the first reason.
+    Rejected { reason: String } = "netlist::written", format!("the netlist to be written would not be read: {reason}");
+    /// It is read as another network; what differs, such as "node `steel`".
+    Differs { what: String } = "netlist::written",
+        format!("the netlist to be written would be read as another network: {what} differs");
 }
-
-impl fmt::Display for WrittenError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Rejected { reason } => write!(f, "the netlist to be written would not be read: {reason}"),
-            Self::Differs { what } => {
-                write!(f, "the netlist to be written would be read as another network: {what} differs")
-            }
-        }
-    }
 }
-
-impl std::error::Error for WrittenError {}
 
 /// How far two numbers may be apart that come from one text, relative to their size: rounding of a unit.
 const ROUNDING: f64 = 1e-12;

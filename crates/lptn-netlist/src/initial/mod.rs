@@ -12,15 +12,20 @@ use std::path::Path;
 
 use lptn_data::{Diagnostic, Files, Span};
 
-use crate::include::{Loader, reason};
+use crate::include::Loader;
 use crate::json::{Json, JsonValue};
-use crate::near_file;
-use crate::raw::{RawKind, RawNetlist, RawValue};
+use crate::near_file::NamedFile;
+use crate::raw::{RawKind, RawValue};
 use crate::state::{FORMAT, StateEnd};
-use crate::vocabulary::RUN;
 use stand::Stand;
 
-const KEY: &str = "initial";
+const NAMED: NamedFile = NamedFile {
+    does: "read a state",
+    verb: "read",
+    without_folder: "netlist::state_without_folder",
+    not_found: "netlist::state_not_found",
+    else_help: "; `lptn run` writes `out/NAME/state.json`",
+};
 
 /// Where a node whose state is not known is looked at for other mistakes, in K.
 const ANYWHERE: f64 = 298.15;
@@ -81,13 +86,11 @@ pub(crate) struct StateFile {
 }
 
 impl StateFile {
-    /// Reads the file that `initial` of `[run]` names; `None` if nothing does.
-    pub(crate) fn read(files: &mut Files, raw: &RawNetlist, loader: Option<&mut Loader<'_>>) -> Option<Self> {
-        let RawKind::Table(run) = &raw.top.get(RUN.name)?.value.kind else { return None };
-        let value = &run.get(KEY)?.value;
+    /// Reads the file that a value names, `initial` of `[run]`.
+    pub(crate) fn read(files: &mut Files, value: &RawValue, loader: Option<&mut Loader<'_>>) -> Self {
         let RawKind::String { text, .. } = &value.kind else {
             // said where `[run]` is read; nodes are not missing a start for it
-            return Some(Self { usable: false, ..Self::empty(String::new(), value) });
+            return Self { usable: false, ..Self::empty(String::new(), value) };
         };
         let from = Path::new(files.name(value.span.file)).parent().unwrap_or(Path::new("")).to_owned();
         let path = from.join(text);
@@ -96,7 +99,7 @@ impl StateFile {
             Ok(json) => state.take(files, json),
             Err(problem) => state.problems.push(problem),
         }
-        Some(state)
+        state
     }
 
     fn empty(file: String, value: &RawValue) -> Self {
@@ -266,27 +269,13 @@ fn load(
     value: &RawValue,
     loader: Option<&mut Loader<'_>>,
 ) -> Result<crate::FileId, Diagnostic> {
-    let refused = |code, message: String, help: &str| {
-        Err(Diagnostic::error(code, message).at(value.span.clone(), "").help(help))
-    };
-    let Some(loader) = loader else {
-        let message = "this netlist is not read from a file, so it cannot read a state".to_owned();
-        return refused("netlist::state_without_folder", message, "save it, and give the name of the file");
-    };
-    let name = path.display();
-    match loader(path) {
-        Ok(bytes) => match std::str::from_utf8(&bytes) {
-            Ok(text) => Ok(files.add(name.to_string(), text)),
-            Err(_) => {
-                let message = format!("{name} is not a text file in UTF-8");
-                refused("netlist::not_text", message, "use the `state.json` that `lptn run` writes")
-            }
-        },
-        Err(error) => {
-            let message = format!("cannot read {name}: {}", reason(&error));
-            let near = near_file::help(value, path, &error);
-            let help = format!("{near}; `lptn run` writes `out/NAME/state.json`");
-            refused("netlist::state_not_found", message, &help)
+    let bytes = NAMED.load(path, value, loader)?;
+    match std::str::from_utf8(&bytes) {
+        Ok(text) => Ok(files.add(path.display().to_string(), text)),
+        Err(_) => {
+            let message = format!("{} is not a text file in UTF-8", path.display());
+            let help = "use the `state.json` that `lptn run` writes";
+            Err(Diagnostic::wrong("netlist::not_text", message, &value.span, help))
         }
     }
 }

@@ -12,7 +12,7 @@ pub(crate) mod substance;
 use std::sync::Arc;
 
 use lptn_laws::{Formula, Kind};
-use lptn_units::{Dimension, Expression, Program, RESERVED, TableSymbol, Type, UnitError};
+use lptn_units::{Dimension, Expression, Problems, Program, RESERVED, TableSymbol, Type, UnitError};
 
 use crate::error::{BuildError, BuildErrorKind, BuildErrors};
 use crate::id::{
@@ -221,15 +221,15 @@ impl NetworkBuilder {
         context: Context,
         text: &str,
         expected: Option<Type>,
-    ) -> Result<Program, Vec<UnitError>> {
-        Expression::parse(text).map_err(|e| vec![e])?.compile(&self.scope(context), expected)
+    ) -> Result<Program, Problems<UnitError>> {
+        Expression::parse(text)?.compile(&self.scope(context), expected)
     }
 
     /// Compiles an expression over the parameters, signals and tables added so far and `t`.
     ///
     /// # Errors
     /// Every problem of the text: syntax, unknown names, dimensions.
-    pub fn expression(&self, text: &str, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
+    pub fn expression(&self, text: &str, expected: Option<Type>) -> Result<Program, Problems<UnitError>> {
         self.expression_in(Context::Time, text, expected)
     }
 
@@ -262,7 +262,7 @@ impl NetworkBuilder {
     /// All problems at once.
     pub fn build(mut self) -> Result<Network, BuildErrors> {
         if self.errors.iter().any(|e| matches!(e.kind, BuildErrorKind::ForeignId { .. })) {
-            return Err(BuildErrors(self.errors)); // nothing else can be looked up
+            return Err(Problems(self.errors)); // nothing else can be looked up
         }
         check::structure(&self.parts, &mut self.errors);
         clash::names(&self.parts, &mut self.errors);
@@ -273,10 +273,10 @@ impl NetworkBuilder {
             Ok(numbers) if self.errors.is_empty() => {
                 Ok(Network { parts: Arc::new(self.parts), numbers: Arc::new(numbers) })
             }
-            Ok(_) => Err(BuildErrors(self.errors)),
+            Ok(_) => Err(Problems(self.errors)),
             Err(more) => {
                 self.errors.extend(more);
-                Err(BuildErrors(self.errors))
+                Err(Problems(self.errors))
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lptn_units::{Expression, Program, Type, UnitError};
+use lptn_units::{Expression, Problems, Program, Type, UnitError};
 
 use crate::builder::NetworkBuilder;
 use crate::id::{Item, ReportId};
@@ -27,8 +27,12 @@ impl NetworkBuilder {
     ///
     /// # Errors
     /// Every problem of the text: syntax, unknown names, dimensions.
-    pub fn post_expression(&mut self, text: &str, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
-        let expression = Expression::parse(text).map_err(|e| vec![e])?;
+    pub fn post_expression(
+        &mut self,
+        text: &str,
+        expected: Option<Type>,
+    ) -> Result<Program, Problems<UnitError>> {
+        let expression = Expression::parse(text)?;
         self.name_heats(&expression);
         expression.compile(&self.scope(Context::Result), expected)
     }

@@ -23,6 +23,7 @@ use crate::numbers::Numbers;
 use crate::parameters::Parameters;
 use crate::parts::Parts;
 use crate::value::Value;
+use lptn_units::Problems;
 
 /// A thermal network: nodes, boundaries, the paths between them and the heat put in.
 ///
@@ -135,9 +136,9 @@ impl Network {
     pub fn with(&self, parameters: &Parameters) -> Result<Self, BuildErrors> {
         if !parameters.belong_to(&self.parts) {
             let name = self.title().unwrap_or_default().to_owned();
-            return Err(BuildErrors(vec![BuildError { kind: BuildErrorKind::ForeignParameters, name }]));
+            return Err(Problems::from(BuildError { kind: BuildErrorKind::ForeignParameters, name }));
         }
-        let numbers = Numbers::evaluate(&self.parts, parameters.values()).map_err(BuildErrors)?;
+        let numbers = Numbers::evaluate(&self.parts, parameters.values()).map_err(Problems)?;
         Ok(Self { parts: Arc::clone(&self.parts), numbers: Arc::new(numbers) })
     }
 

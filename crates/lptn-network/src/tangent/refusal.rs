@@ -2,36 +2,38 @@
 
 use std::fmt;
 
+use lptn_units::Problem;
+
 use super::live::Live;
 use crate::id::{FluidId, Item, NodeId};
 use crate::network::Network;
 
-/// Why a network cannot be differentiated by some parameters.
+lptn_units::problems! {
+/// Why a network cannot be differentiated by some parameters. Of an item and what kind of thing it is, `say` tells one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoTangents {
-    /// It switches: the times of events move with the parameters.
-    Events {
-        /// The first control, or what a comparison of temperatures stands in.
-        item: Item,
-    },
+pub enum NoTangents for |say: &dyn Fn(Item, &str) -> String| at Item {
+    /// It switches: the times of events move with the parameters. The first control, or what a comparison of temperatures
+    /// stands in.
+    Events { item: Item } = "sensitivity::events", at Some(*item),
+        says format!("{} switches, at times that move with the parameters", say(*item, "the network")), help None;
     /// An input jumps at a time that moves with a parameter.
-    MovingJump {
-        /// The input.
-        item: Item,
-    },
+    MovingJump { item: Item } = "sensitivity::moving_jump", at Some(*item),
+        says format!("{} jumps at a time that moves with a parameter", say(*item, "an input")), help None;
     /// A massless node leaps from one solution of its balance to another, at a time that moves with the parameters. A run
     /// finds that, not the form of the network.
-    Leaps,
+    Leaps = "sensitivity::leaps", at None,
+        says "a massless node leaps, at a time that moves with the parameters".to_owned(), help None;
     /// How a node melts changes by more than its size.
-    Melting {
-        /// The node.
-        node: NodeId,
-    },
+    Melting { node: NodeId } = "sensitivity::melting", at Some(Item::Node(*node)),
+        says format!("how {} melts depends on a parameter", say(Item::Node(*node), "a node")), help None;
     /// The specific heat of a fluid depends on its temperature and on a parameter.
-    Fluid {
-        /// The fluid.
-        fluid: FluidId,
-    },
+    Fluid { fluid: FluidId } = "sensitivity::fluid", at Some(Item::Fluid(*fluid)),
+        says format!(
+            "the specific heat of {} depends on a parameter and on its temperature",
+            say(Item::Fluid(*fluid), "a fluid")
+        ),
+        help None;
+}
 }
 
 pub(super) fn check(network: &Network, live: &Live<'_>) -> Result<(), NoTangents> {
@@ -52,37 +54,24 @@ pub(super) fn check(network: &Network, live: &Live<'_>) -> Result<(), NoTangents
 impl NoTangents {
     /// What it is said of, in words; the name in backquotes.
     pub fn describe(&self, network: &Network) -> String {
-        let name = |item| format!("`{}`", network.name_of(item));
-        match *self {
-            Self::Events { item } => {
-                format!("{} switches, at times that move with the parameters", name(item))
-            }
-            Self::MovingJump { item } => {
-                format!("{} jumps at a time that moves with a parameter", name(item))
-            }
-            Self::Leaps => self.to_string(),
-            Self::Melting { node } => {
-                format!("how {} melts depends on a parameter", name(Item::Node(node)))
-            }
-            Self::Fluid { fluid } => {
-                format!("the specific heat of {} depends on a parameter and on T", name(Item::Fluid(fluid)))
-            }
-        }
+        self.message(&|item, _| format!("`{}`", network.name_of(item)))
     }
 }
 
 impl fmt::Display for NoTangents {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Events { .. } => "the network switches, at times that move with the parameters",
-            Self::MovingJump { .. } => "an input jumps at a time that moves with a parameter",
-            Self::Leaps => "a massless node leaps, at a time that moves with the parameters",
-            Self::Melting { .. } => "how a node melts depends on a parameter",
-            Self::Fluid { .. } => {
-                "the specific heat of a fluid depends on a parameter and on its temperature"
-            }
-        })
+        f.write_str(&self.message(&|_, kind| kind.to_owned()))
     }
 }
 
 impl std::error::Error for NoTangents {}
+
+impl Problem for NoTangents {
+    fn code(&self) -> &'static str {
+        self.code()
+    }
+
+    fn help(&self) -> Option<String> {
+        Some("take differences of runs: `sensitive_run` does so where it has to".to_owned())
+    }
+}

@@ -79,7 +79,7 @@ impl Search<'_> {
                 return Ok(Attempt::Nowhere);
             }
         };
-        let beyond = self.beyond(&steady).map_err(SteadyError::Input)?;
+        let beyond = self.beyond(&steady)?;
         if beyond.is_empty() {
             return Ok(Attempt::Settled(Box::new(steady)));
         }

@@ -87,7 +87,7 @@ impl<'a> March<'a> {
         let mut open = vec![(from, to)];
         while let Some((from, to)) = open.pop() {
             self.panels += 1;
-            let panel = self.inputs.panel((from, to)).map_err(ExactError::Input)?;
+            let panel = self.inputs.panel((from, to))?;
             let middle = 0.5 * (from + to);
             let divisible = from < middle && middle < to;
             if !divisible || self.accepts(&panel, to - from) {

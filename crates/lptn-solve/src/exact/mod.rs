@@ -15,7 +15,7 @@ mod reduced;
 mod spectrum;
 
 use lptn_network::{InputError, Network, NodeId};
-use lptn_units::{Class, EvalError};
+use lptn_units::{Class, EvalError, Problem};
 
 use crate::events::EventKind;
 use crate::solution::Solution;
@@ -66,9 +66,9 @@ pub enum ExactError {
     /// The times are none, do not increase, or begin before the start.
     Times = "exact::times", "the times must increase and begin at the start or after it";
     /// A source or boundary has no value.
-    Input(error: InputError) = "solve::input", error;
+    Input => InputError;
     /// A constant has no value.
-    Value(error: EvalError) = "solve::input", error;
+    Value(error: EvalError) = "solve::input", error, source error, help Problem::help(error);
     /// It is not linear with constant coefficients; the name of the first item that makes it so.
     NotLinear { name: String } = "exact::not_linear",
         format!("`{name}` makes the network more than constant capacities and conductances"), help CONSTANTS;
@@ -103,7 +103,7 @@ impl ExactSolution {
         if let Some(kind) = EventKind::switching(network).next() {
             return Err(ExactError::Switches { name: kind.name(network) });
         }
-        let breakpoints = network.breakpoints(start, stop).map_err(ExactError::Input)?;
+        let breakpoints = network.breakpoints(start, stop)?;
         let reduced = Reduced::new(network)?;
         let islands = islands(&reduced, network.boundaries().len())?;
         let mut rows = Rows::new(network, &reduced, (start, times))?;
@@ -256,11 +256,11 @@ impl<'a> Rows<'a> {
 
     fn push(&mut self, march: &mut March<'_>, time: f64) -> Result<(), ExactError> {
         if self.is_tested(time) {
-            self.defect = self.defect.max(march.defect(time).map_err(ExactError::Input)?);
+            self.defect = self.defect.max(march.defect(time)?);
         }
         let mut known = march.rises();
         let states = known.len();
-        known.extend(march.inputs(time).map_err(ExactError::Input)?);
+        known.extend(march.inputs(time)?);
         let mut row = vec![f64::NAN; self.nodes];
         for (id, rise) in self.reduced.states.iter().zip(&known[..states]) {
             row[id.index()] = *rise;

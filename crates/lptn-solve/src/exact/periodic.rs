@@ -23,7 +23,7 @@ impl ExactCycle {
     /// The cycle from `start` on, both in s. What nothing carries away stays as the network's own start has it.
     pub(crate) fn solve(network: &Network, start: f64, period: f64) -> Result<Self, ExactError> {
         let stop = start + period;
-        let breakpoints = network.breakpoints(start, stop).map_err(ExactError::Input)?;
+        let breakpoints = network.breakpoints(start, stop)?;
         let reduced = Reduced::new(network)?;
         let islands = islands(&reduced, network.boundaries().len())?;
         let initial = reduced.initial(network)?;

@@ -16,7 +16,7 @@ pub enum PeriodicError {
             _ => "give the period with which all inputs repeat: --period \"10 min\"",
         };
     /// An input has no value.
-    Input(error: InputError) = "solve::input", error, help error.problem.help();
+    Input => InputError;
     /// Some nodes lead to no boundary and gain or lose heat in every cycle, this much in J in the first one.
     NoBalance { nodes: Vec<NodeId>, names: Vec<String>, heat: f64 } = "periodic::no_balance",
         format!(
@@ -36,7 +36,7 @@ pub enum PeriodicError {
         format!("in {cycles} cycles controls and comparisons did not come to switch alike twice in a row"),
         help "the controls have a rhythm of their own: look at `lptn run`, and at means over many cycles", class Class::No;
     /// A cycle could not be integrated.
-    Cycle(error: TransientError) = error.code(), error, help error.help(), class Class::Numbers;
+    Cycle => TransientError as Class::of_numbers;
     /// The observer asked for an end, after so many whole cycles; the last difference in K between the start of a cycle and its
     /// end, if there was one.
     Interrupted { cycles: usize, residual: Option<f64> } = "periodic::interrupted",

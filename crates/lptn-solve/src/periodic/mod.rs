@@ -82,7 +82,7 @@ impl Periodic {
     ) -> Result<Self, PeriodicError> {
         settings.check().map_err(|e| PeriodicError::Cycle(crate::error::TransientError::Settings(e)))?;
         let (network, period) = (system.network(), settings.stop - settings.start);
-        let repeats = network.check_period(settings.start, period).map_err(PeriodicError::Input)?;
+        let repeats = network.check_period(settings.start, period)?;
         repeats.map_err(PeriodicError::NotPeriodic)?;
         let mut observer = |progress: Progress| observer(progress);
         let observer: &mut Observer<'_> = &mut observer;

@@ -9,7 +9,7 @@ use lptn_integrate::{IntegrateError, OdeSystem};
 use crate::error::StopReason;
 use crate::times::Segment;
 use crate::transient::{Break, Care, Run};
-use crate::unsolved::UnsolvedReason;
+use crate::unsolved::Unsolved;
 
 /// How late a massless node may be at a fold: the share of the tolerance by which another node moves meanwhile.
 const LATE: f64 = 1e-2;
@@ -97,8 +97,7 @@ impl Run<'_> {
             Err(Break::Failed(reason)) => reason,
             Err(other) => return Err(other),
         };
-        let at_fold =
-            matches!(&reason, StopReason::Unsolved(why) if matches!(*why.reason, UnsolvedReason::Fold));
+        let at_fold = matches!(&reason, StopReason::Unsolved(Unsolved::Fold { .. }));
         if at_fold {
             let time = self.integrator.time();
             self.integrator.system_mut().fold = Some(time);

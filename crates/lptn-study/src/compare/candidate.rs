@@ -51,16 +51,13 @@ lptn_units::errors! {
 #[derive(Debug)]
 pub enum CompareError {
     /// It is not run and has no steady state.
-    Steady(error: SteadyError) = error.code(), error, help error.help(), class match error.class() {
-        Class::No => Class::Numbers,
-        class => class,
-    };
+    Steady => SteadyError as Class::not_an_answer;
     /// Its run failed.
-    Run(error: Box<TransientError>) = error.code(), error, help error.help(), class error.class();
+    Run => Box<TransientError>;
     /// A limit, source or boundary has no value.
-    Input(error: InputError) = "solve::input", error, help error.problem.help();
+    Input => InputError;
     /// The balances of its massless nodes have no solution at the start.
-    Start(unsolved: Unsolved) = unsolved.code(), unsolved, help unsolved.help(), class Class::Numbers;
+    Start => Unsolved as Class::of_numbers;
     /// Its books do not close: relative residual, and what is allowed.
     Ledger(residual: f64, bound: f64) = "run::ledger",
         format!(

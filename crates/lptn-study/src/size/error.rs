@@ -20,11 +20,12 @@ pub enum SizeError {
         "what is required depends on inputs that change with time, and a steady state knows only one moment of them";
     /// The network does not exist for a value inside the range.
     Network { value: f64, errors: BuildErrors } = "size::network", format!("there is no network at {value}: {errors}"),
-        help LEAVE_OUT;
+        source errors, help LEAVE_OUT;
     /// The network cannot be assembled.
-    Assembly(error: AssemblyError) = error.code(), error, help error.help();
+    Assembly => AssemblyError;
     /// The network has no steady state for a value inside the range.
     Steady { value: f64, error: SteadyError } = error.code(), format!("there is no steady state at {value}: {error}"),
+        source error,
         help match error {
             SteadyError::BelowAbsoluteZero { .. } | SteadyError::Cycles { .. } => Some(LEAVE_OUT.to_owned()),
             error => error.help(),

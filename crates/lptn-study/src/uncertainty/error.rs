@@ -1,8 +1,8 @@
 //! Why the uncertainty of a run cannot be had.
 
-use lptn_assembly::AssemblyError;
+use lptn_assembly::{AssemblyError, ChangeError};
 use lptn_network::{BuildErrors, InputError};
-use lptn_solve::TransientError;
+use lptn_solve::{SensitiveError, TransientError};
 use lptn_units::Class;
 
 use crate::uncertainty::points::{LEAST, MOST_DIMENSIONS, MOST_POINTS};
@@ -32,14 +32,34 @@ pub enum UncertaintyError {
         lost.iter().fold("too few samples have a result".to_owned(), |text, lost| format!("{text}; {lost}")),
         help "make the `±` smaller: most of what it allows is no network that runs", class Class::Numbers;
     /// There is no network a little beside the parameters' values.
-    Network(errors: BuildErrors) = "uncertainty::network", format!("there is no network beside the values: {errors}"), class Class::Numbers;
+    Network(errors: BuildErrors) = "uncertainty::network",
+        format!("there is no network beside the values: {errors}"), source errors, class Class::Numbers;
     /// The network itself cannot be assembled.
-    Assembly(error: AssemblyError) = error.code(), error, help error.help(), class Class::Numbers;
+    Assembly => AssemblyError as Class::of_numbers;
     /// The run itself, with every parameter at its value, fails.
-    Run(error: Box<TransientError>) = error.code(), error, help error.help(), class Class::Numbers;
+    Run => Box<TransientError> as Class::of_numbers;
     /// A limit has no value beside the run.
-    Limit(error: InputError) = "solve::input", error, class Class::Numbers;
+    Limit => InputError as Class::of_numbers;
     /// It was interrupted.
     Interrupted = "uncertainty::interrupted", "the sampling was interrupted", class Class::Interrupted;
 }
+}
+
+impl From<ChangeError> for UncertaintyError {
+    fn from(error: ChangeError) -> Self {
+        match error {
+            ChangeError::Network(errors) => Self::Network(errors),
+            ChangeError::Assembly(error) => Self::Assembly(error),
+        }
+    }
+}
+
+impl From<SensitiveError> for UncertaintyError {
+    fn from(error: SensitiveError) -> Self {
+        match error {
+            SensitiveError::Run(error) => Self::Run(Box::new(error)),
+            SensitiveError::Change(error) => error.into(),
+            SensitiveError::Interrupted => Self::Interrupted,
+        }
+    }
 }

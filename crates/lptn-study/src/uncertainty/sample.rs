@@ -1,7 +1,6 @@
 //! What one run gives, or why it gives nothing.
 
-use lptn_assembly::AssemblyError;
-use lptn_network::BuildErrors;
+use lptn_assembly::ChangeError;
 use lptn_solve::{Solution, TransientError};
 
 use crate::uncertainty::result::Lost;
@@ -43,16 +42,14 @@ pub(crate) enum NoSample {
 }
 
 impl NoSample {
-    pub(crate) fn refused(errors: &BuildErrors) -> Self {
-        let first = errors.0.first();
-        let code = first.map_or("network::refused", lptn_network::BuildError::code);
-        let (name, message) =
-            (first.map_or("", |e| e.name.as_str()), first.map_or(String::new(), ToString::to_string));
-        Self::lost((code, name), true, message)
-    }
-
-    pub(crate) fn assembly(error: &AssemblyError) -> Self {
-        Self::lost((error.code(), ""), true, error.to_string())
+    pub(crate) fn refused(error: &ChangeError) -> Self {
+        let first = match error {
+            ChangeError::Network(errors) => errors.first(),
+            ChangeError::Assembly(_) => None,
+        };
+        let name = first.map_or("", |first| first.name.as_str());
+        let message = first.map_or_else(|| error.to_string(), ToString::to_string);
+        Self::lost((error.code(), name), true, message)
     }
 
     pub(crate) fn failed(error: &TransientError) -> Self {

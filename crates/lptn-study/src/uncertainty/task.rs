@@ -1,7 +1,7 @@
 //! What is asked, and one run of it.
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::{BuildErrors, Network, NodeId, OutputTimes, Parameters};
+use lptn_network::{Network, NodeId, OutputTimes, Parameters};
 use lptn_solve::{Control, End, Record, Solution, Transient, TransientError, Watch};
 
 use crate::uncertainty::answer::AnswerOf;
@@ -50,9 +50,8 @@ impl UncertaintyTask<'_> {
         rows: bool,
         control: &(dyn Fn() -> Control + Sync),
     ) -> Result<Sample, NoSample> {
-        let network =
-            self.network.with(parameters).map_err(|errors: BuildErrors| NoSample::refused(&errors))?;
-        let system = ThermalSystem::assemble(&network).map_err(|error| NoSample::assembly(&error))?;
+        let system =
+            ThermalSystem::of(self.network, parameters).map_err(|error| NoSample::refused(&error))?;
         let solution = self.solve(&system, rows, control).map_err(|error| NoSample::failed(&error))?;
         let ledger = solution.ledger();
         match solution.end() {

@@ -132,6 +132,16 @@ impl fmt::Display for EvalError {
 
 impl std::error::Error for EvalError {}
 
+impl crate::Problem for EvalError {
+    fn code(&self) -> &'static str {
+        self.code()
+    }
+
+    fn help(&self) -> Option<String> {
+        self.help().map(str::to_owned)
+    }
+}
+
 /// A number with the unit in which people give it.
 fn in_unit(si: f64, unit: Option<&Unit>, digits: usize) -> String {
     match unit {

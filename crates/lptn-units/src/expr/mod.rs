@@ -24,6 +24,7 @@ use std::ops::Range;
 
 use crate::dimension::Dimension;
 use crate::error::UnitError;
+use crate::problems::Problems;
 use crate::types::Type;
 use tree::{Node, Tree};
 
@@ -140,8 +141,8 @@ impl Expression {
     ///
     /// Every unknown name, wrong dimension and misuse of an absolute temperature, in order of place. Parts
     /// that contain an error raise no further ones.
-    pub fn compile(&self, scope: &dyn Scope, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
-        let checked = check::check(&self.text, &self.tree, scope, expected)?;
+    pub fn compile(&self, scope: &dyn Scope, expected: Option<Type>) -> Result<Program, Problems<UnitError>> {
+        let checked = check::check(&self.text, &self.tree, scope, expected).map_err(Problems)?;
         Ok(parts::generate(&self.meant(), &self.tree, checked))
     }
 

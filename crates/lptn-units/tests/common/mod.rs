@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "each test uses a part of this")]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-use lptn_units::{Dimension, EvalError, Expression, Program, Scope, Symbol, Type, UnitError};
+use lptn_units::{Dimension, EvalError, Expression, Problems, Program, Scope, Symbol, Type, UnitError};
 
 /// Name, type, value in SI, slot for comparisons.
 const NAMES: [(&str, Type, f64, Option<u32>); 10] = [
@@ -39,8 +39,8 @@ pub(crate) fn values() -> Vec<f64> {
     values
 }
 
-pub(crate) fn compile(text: &str, expected: Option<Type>) -> Result<Program, Vec<UnitError>> {
-    Expression::parse(text).map_err(|e| vec![e])?.compile(&Names, expected)
+pub(crate) fn compile(text: &str, expected: Option<Type>) -> Result<Program, Problems<UnitError>> {
+    Expression::parse(text)?.compile(&Names, expected)
 }
 
 pub(crate) fn program(text: &str) -> Program {

@@ -6,8 +6,8 @@
 use std::sync::Arc;
 
 use lptn_units::{
-    Dimension, EvalError, Expression, Interpolation, Outside, Program, Scope, Symbol, Table, Table1, Table2,
-    TableSymbol, Type, UnitError,
+    Dimension, EvalError, Expression, Interpolation, Outside, Problems, Program, Scope, Symbol, Table,
+    Table1, Table2, TableSymbol, Type, UnitError,
 };
 
 pub(crate) const SPEED: Type = Type::of(Dimension::ANGULAR_VELOCITY);
@@ -84,8 +84,8 @@ impl Scope for Names {
     }
 }
 
-pub(crate) fn compile(text: &str) -> Result<Program, Vec<UnitError>> {
-    Expression::parse(text).map_err(|error| vec![error])?.compile(&Names::default(), None)
+pub(crate) fn compile(text: &str) -> Result<Program, Problems<UnitError>> {
+    Expression::parse(text)?.compile(&Names::default(), None)
 }
 
 pub(crate) fn program(text: &str) -> Program {

@@ -82,7 +82,7 @@ fn failed(input: &Input, error: &SteadyError) -> Failure {
         SteadyError::NoBoundary { nodes, .. } => {
             nodes.first().and_then(|&node| input.netlist.source_map.name(Item::Node(node)))
         }
-        SteadyError::Unsolved(unsolved) if unsolved.input().is_none() => input.node_place(&unsolved.node),
+        SteadyError::Unsolved(unsolved) if unsolved.input().is_none() => input.node_place(unsolved.node()),
         SteadyError::BelowAbsoluteZero { name, .. } => input.node_place(name),
         error => error.input().and_then(|error| input.place_of(error)),
     };

@@ -1,7 +1,7 @@
 //! A run with its sensitivities at the rows and where temperatures are highest.
 
 use lptn_network::{NodeId, OutputTimes, ParameterId};
-use lptn_solve::{Gradient, SensitiveError, SensitiveRun, Solution, Transient, sensitive_run};
+use lptn_solve::{Gradient, SensitiveRun, Solution, Transient, sensitive_run};
 
 use crate::uncertainty::error::UncertaintyError;
 use crate::uncertainty::input::Uncertain;
@@ -31,7 +31,7 @@ impl<'a> Line<'a> {
         let times = joined(&rows, solution.seen().iter().map(|seen| seen.peak.1));
         let places = rows.iter().map(|row| times.partition_point(|time| time < row)).collect();
         let run = Transient { output: OutputTimes::At(times), ..task.watched() };
-        let run = sensitive_run(task.network, &run, &ids(inputs)).map_err(refused)?;
+        let run = sensitive_run(task.network, &run, &ids(inputs))?;
         Ok(Self { inputs, run, rows: places })
     }
 
@@ -109,16 +109,6 @@ pub(super) fn joined(times: &[f64], more: impl Iterator<Item = f64>) -> Vec<f64>
         }
     }
     all
-}
-
-/// Why there is no run with sensitivities.
-pub(super) fn refused(error: SensitiveError) -> UncertaintyError {
-    match error {
-        SensitiveError::Run(error) => UncertaintyError::Run(Box::new(error)),
-        SensitiveError::Build(errors) => UncertaintyError::Network(errors),
-        SensitiveError::Assembly(error) => UncertaintyError::Assembly(error),
-        SensitiveError::Interrupted => UncertaintyError::Interrupted,
-    }
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use lptn_solve::{
 
 use crate::uncertainty::error::UncertaintyError;
 use crate::uncertainty::input::Uncertain;
-use crate::uncertainty::linear::line::{Line, ids, joined, refused};
+use crate::uncertainty::linear::line::{Line, ids, joined};
 use crate::uncertainty::task::UncertaintyTask;
 
 /// The part of a standard deviation over which the expression of a limit is differentiated. Its temperatures are moved
@@ -36,7 +36,7 @@ pub(super) fn effects(
     let ends = [task.run.start, task.run.stop];
     let output = OutputTimes::At(joined(&ends, seen.iter().map(|limit| limit.worst_at)));
     let settings = Transient { output, record: Record::All, watch: Vec::new(), ..task.watched() };
-    let run = sensitive_run(task.network, &settings, &ids(line.inputs)).map_err(refused)?;
+    let run = sensitive_run(task.network, &settings, &ids(line.inputs))?;
     let all = |limit: &LimitSeen| {
         line.inputs.iter().map(|input| of_expression(task, &run, (limit, input))).collect()
     };
@@ -74,8 +74,6 @@ fn margin(
     (limit, time): (LimitId, f64),
     temperatures: &[f64],
 ) -> Result<f64, UncertaintyError> {
-    let network = task.network.with(parameters).map_err(UncertaintyError::Network)?;
-    let system = ThermalSystem::assemble(&network).map_err(UncertaintyError::Assembly)?;
-    let margins = limit_margins_at(&system, time, temperatures).map_err(UncertaintyError::Limit)?;
-    Ok(margins[limit.index()])
+    let system = ThermalSystem::of(task.network, parameters)?;
+    Ok(limit_margins_at(&system, time, temperatures)?[limit.index()])
 }
