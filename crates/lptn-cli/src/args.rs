@@ -1,13 +1,9 @@
-//! The command line: its verbs, each with the options in its own folder.
+//! The command line: a verb, and the options of every verb.
 
-use clap::{Parser, Subcommand};
+use clap::Parser;
 
 use crate::options::{Global, TEMPLATE};
-use crate::verbs::{
-    check::CheckArgs, compare::CompareArgs, completions::CompletionsArgs, fit::FitArgs,
-    materials::MaterialsArgs, modes::ModesArgs, new::NewArgs, reduce::ReduceArgs, run::RunArgs,
-    size::SizeArgs, steady::SteadyArgs, units::UnitsArgs, verify::VerifyArgs,
-};
+use crate::verbs::Verb;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,21 +23,4 @@ pub(crate) struct Args {
     pub(crate) global: Global,
     #[command(subcommand)]
     pub(crate) verb: Option<Verb>,
-}
-
-#[derive(Debug, Subcommand)]
-pub(crate) enum Verb {
-    Run(RunArgs),
-    Steady(SteadyArgs),
-    Modes(ModesArgs),
-    Verify(VerifyArgs),
-    Compare(CompareArgs),
-    Size(SizeArgs),
-    Fit(FitArgs),
-    Reduce(ReduceArgs),
-    Check(CheckArgs),
-    New(NewArgs),
-    Units(UnitsArgs),
-    Materials(MaterialsArgs),
-    Completions(CompletionsArgs),
 }

@@ -28,9 +28,9 @@ mod written;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory as _, Parser as _};
+use clap::Parser as _;
 
-use args::{Args, Verb};
+use args::Args;
 use console::Console;
 use exit::Exit;
 use failure::Failure;
@@ -58,19 +58,7 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
             console.message(&command::help());
             Ok(Exit::Input)
         }
-        Some(Verb::Run(args)) => verbs::run::run(args, console),
-        Some(Verb::Check(args)) => verbs::check::check(args, console),
-        Some(Verb::Steady(args)) => verbs::steady::steady(args, console),
-        Some(Verb::Modes(args)) => verbs::modes::modes(args, console),
-        Some(Verb::Verify(args)) => verbs::verify::verify(args, console),
-        Some(Verb::Compare(args)) => verbs::compare::compare(args, console),
-        Some(Verb::Size(args)) => verbs::size::size(args, console),
-        Some(Verb::Fit(args)) => verbs::fit::fit(args, console),
-        Some(Verb::Reduce(args)) => verbs::reduce::reduce(args, console),
-        Some(Verb::New(args)) => verbs::new::new(args, console),
-        Some(Verb::Units(args)) => verbs::units::units(args, console),
-        Some(Verb::Materials(args)) => verbs::materials::materials(args, console),
-        Some(Verb::Completions(args)) => verbs::completions::completions(args, Args::command(), console),
+        Some(verb) => verb.run(console),
     }
 }
 

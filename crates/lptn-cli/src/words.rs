@@ -34,6 +34,16 @@ pub(crate) fn counts(network: &Network) -> String {
     parts.join(", ")
 }
 
+/// Of too many rows those of which this is largest, the largest first; how many there were.
+pub(crate) fn largest<T>(rows: &mut Vec<T>, size: impl Fn(&T) -> f64) -> usize {
+    let all = rows.len();
+    if all > MOST_NODES {
+        rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        rows.truncate(MOST_NODES);
+    }
+    all
+}
+
 /// A section with a table of some of `all` rows, and how to see the others; nothing where there are none.
 pub(crate) fn some_of(text: &mut Text, table: impl Into<TextTable>, (all, how): (usize, &str)) {
     let table = table.into();

@@ -7,17 +7,9 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::number::Shortest;
-use crate::page::Page;
 
 /// The object of a page that is being written.
 pub type Json<'a> = JsonWriter<&'a mut dyn Write>;
-
-/// Writes the object of a page.
-pub(crate) fn write(page: &dyn Page, out: &mut dyn Write) -> io::Result<()> {
-    let mut json = JsonWriter::new(out);
-    page.json(&mut json)?;
-    json.finish().map(drop)
-}
 
 /// Writes one JSON object, a member at a time; rows of a table never stand in memory as text.
 ///

@@ -280,7 +280,7 @@ pub fn plain(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Align, Column, TextTable, differing, labelled, plain};
+    use super::{Align, Column, TextTable, differing, labelled, plain, stacked};
 
     fn texts(cells: &[&str]) -> Vec<String> {
         cells.iter().map(|&c| c.to_owned()).collect()
@@ -333,6 +333,17 @@ mod tests {
         let lines = table(&[long, "al"]).lines(30);
         assert_eq!(lines[1], "first_stage.._outer_ring  92.7");
         assert!(lines.iter().all(|line| line.chars().count() <= 30), "{lines:?}");
+    }
+
+    #[test]
+    fn columns_that_do_not_fit_stand_in_a_further_table() {
+        let column = |title: &str| Column::new(title, Align::Right, texts(&["92.7"]));
+        let first = Column::new("node", Align::Left, texts(&["steel"]));
+        let columns = vec![column("start"), column("peak"), column("end")];
+        let tables = stacked(&first, columns, |table| table.width() <= 18);
+        let lines: Vec<Vec<String>> = tables.into_iter().map(|table| table.lines(80)).collect();
+        assert_eq!(lines[0], ["node   start  peak", "steel   92.7  92.7"]);
+        assert_eq!(lines[1], ["node    end", "steel  92.7"]);
     }
 
     #[test]

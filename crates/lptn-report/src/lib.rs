@@ -5,6 +5,7 @@
 //! for reading, numbers are rounded and say their unit.
 
 mod csv;
+mod format;
 mod heat;
 mod json;
 mod layout;
@@ -14,12 +15,13 @@ mod sparkline;
 mod text;
 
 pub use csv::{write_csv, write_rows};
+pub use format::{Format, write};
 pub use heat::{Flow, balance};
 pub use json::{Json, JsonWriter};
 pub use layout::{
     Align, Column, TextTable, TextTableOf, WIDTH, differing, labelled, plain, shortened, stacked,
 };
 pub use number::{Shortest, decimals, duration, fixed, prefix, significant};
-pub use page::{Format, Page, Rows, write};
+pub use page::{Page, Rows};
 pub use sparkline::sparkline;
 pub use text::{Block, Text, words};

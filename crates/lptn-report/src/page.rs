@@ -1,13 +1,12 @@
-//! What a command has to say, and the formats in which it can say it.
+//! What a command has to say.
 
 use std::borrow::Cow;
-use std::io::{self, Write};
+use std::io;
 
 use lptn_solve::Table;
 
 use crate::json::Json;
 use crate::text::Text;
-use crate::{csv, json, text};
 
 /// What a command has to say, for readers and for programs. Each format asks only for what it writes.
 pub trait Page {
@@ -31,6 +30,17 @@ pub trait Page {
     }
 }
 
+/// What has nothing for programs.
+impl Page for Text {
+    fn text(&self) -> Text {
+        self.clone()
+    }
+
+    fn json(&self, _: &mut Json<'_>) -> io::Result<()> {
+        Ok(())
+    }
+}
+
 /// Rows of a result.
 pub enum Rows<'a> {
     /// Columns of numbers with units.
@@ -48,42 +58,5 @@ impl From<Table> for Rows<'_> {
 impl<'a> From<&'a Table> for Rows<'a> {
     fn from(table: &'a Table) -> Self {
         Self::Table(Cow::Borrowed(table))
-    }
-}
-
-/// How a result is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// Text for a terminal of 80 columns.
-    Table,
-    /// Comma-separated values.
-    Csv,
-    /// One JSON object.
-    Json,
-}
-
-impl Format {
-    /// Every format.
-    pub const ALL: [Self; 3] = [Self::Table, Self::Csv, Self::Json];
-
-    /// Its name on the command line.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Table => "table",
-            Self::Csv => "csv",
-            Self::Json => "json",
-        }
-    }
-}
-
-/// Writes a page in a format; titles of texts are bold where that is `styled`.
-///
-/// # Errors
-/// What the stream reports.
-pub fn write(page: &dyn Page, format: Format, styled: bool, out: &mut dyn Write) -> io::Result<()> {
-    match format {
-        Format::Table => text::write(&page.text(), styled, out),
-        Format::Csv => csv::write(&page.rows(), out),
-        Format::Json => json::write(page, out),
     }
 }

@@ -2,9 +2,7 @@
 
 use std::io::{self, Write};
 
-use crate::json::Json;
 use crate::layout::{TextTable, WIDTH, labelled};
-use crate::page::Page;
 
 /// What a person reads of a result, from the title to the verdict.
 #[derive(Clone, Debug, Default)]
@@ -103,17 +101,6 @@ impl Text {
     }
 }
 
-/// What has nothing for programs.
-impl Page for Text {
-    fn text(&self) -> Text {
-        self.clone()
-    }
-
-    fn json(&self, _: &mut Json<'_>) -> io::Result<()> {
-        Ok(())
-    }
-}
-
 /// The words of a text.
 pub fn words(text: &str) -> Vec<String> {
     text.split(' ').map(str::to_owned).collect()
@@ -136,5 +123,29 @@ fn lines(block: &Block, styled: bool) -> Vec<String> {
         Block::Title(line) | Block::Line(line) => vec![line.clone()],
         Block::Table(table) => table.clone().lines(WIDTH),
         Block::Labelled(label, pieces) => labelled(label, pieces, WIDTH),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Text, write};
+    use crate::TextTable;
+
+    fn written(text: &Text, styled: bool) -> String {
+        let mut out = Vec::new();
+        write(text, styled, &mut out).unwrap();
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn sections_stand_apart_and_empty_ones_vanish() {
+        let mut text = Text::titled("motor");
+        text.line("2 nodes").section().section().notes(["hot", "cold"]);
+        let table = TextTable::of(&[92.7, 25.0]).left("", |_| "steel").right("T", |t: &f64| t.to_string());
+        text.section().table(table).section();
+        let shown = "motor\n2 nodes\n\nnote: hot\nnote: cold\n\n          T\nsteel  92.7\nsteel    25\n";
+        assert_eq!(written(&text, false), shown);
+        assert!(written(&text, true).starts_with("\u{1b}[1mmotor\u{1b}[0m\n2 nodes\n"));
+        assert_eq!(written(&Text::new(), false), "");
     }
 }

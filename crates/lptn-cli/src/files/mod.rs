@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use lptn_netlist::Diagnostic;
+use lptn_study::{Environment, Scalar};
 use lptn_units::Help;
 
 use crate::exit::Exit;
@@ -85,6 +86,21 @@ fn in_use(path: &Path, process: Option<u32>) -> Failure {
 fn refused(code: &'static str, message: String) -> Failure {
     let help = "choose another folder with -o DIR, or write none with --no-files";
     Failure::new(Exit::Input, Diagnostic::error(code, message).help(help))
+}
+
+/// When and where results were written, for their manifest; they took this long, in s.
+pub(crate) fn environment(wall_time: f64) -> Environment {
+    let host = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
+    Environment {
+        written: lptn_study::utc(std::time::SystemTime::now()),
+        host: host.trim().to_owned(),
+        wall_time: Scalar::new(wall_time, "s"),
+    }
+}
+
+/// The words of the command line.
+pub(crate) fn arguments() -> Vec<String> {
+    std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect()
 }
 
 /// The files of a folder with this ending, by name.

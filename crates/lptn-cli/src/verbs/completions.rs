@@ -1,7 +1,9 @@
 //! `lptn completions`
 
+use clap::CommandFactory as _;
 use clap_complete::Shell;
 
+use crate::args::Args;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -14,12 +16,8 @@ pub(crate) struct CompletionsArgs {
     pub(crate) shell: Shell,
 }
 
-pub(crate) fn completions(
-    args: &CompletionsArgs,
-    mut command: clap::Command,
-    console: &Console,
-) -> Result<Exit, Failure> {
+pub(crate) fn completions(args: &CompletionsArgs, console: &Console) -> Result<Exit, Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut command, "lptn", &mut script);
+    clap_complete::generate(args.shell, &mut Args::command(), "lptn", &mut script);
     console.print(&String::from_utf8_lossy(&script))
 }

@@ -1,4 +1,4 @@
-//! The verbs of the command line, each in a folder with its options, its work and what it shows.
+//! The verbs of the command line, each in a folder with its options, its work and its page.
 
 pub(crate) mod check;
 pub(crate) mod compare;
@@ -13,3 +13,45 @@ pub(crate) mod size;
 pub(crate) mod steady;
 pub(crate) mod units;
 pub(crate) mod verify;
+
+use clap::Subcommand;
+
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+
+/// Names each verb with its options and what does it.
+macro_rules! verbs {
+    ($($Verb:ident($($args:ident)::*) => $($does:ident)::*,)*) => {
+        /// What is to be done.
+        #[derive(Debug, Subcommand)]
+        pub(crate) enum Verb {
+            $($Verb($($args)::*),)*
+        }
+
+        impl Verb {
+            /// Does it.
+            pub(crate) fn run(&self, console: &Console) -> Result<Exit, Failure> {
+                match self {
+                    $(Self::$Verb(args) => $($does)::*(args, console),)*
+                }
+            }
+        }
+    };
+}
+
+verbs! {
+    Run(run::RunArgs) => run::run,
+    Steady(steady::SteadyArgs) => steady::steady,
+    Modes(modes::ModesArgs) => modes::modes,
+    Verify(verify::VerifyArgs) => verify::verify,
+    Compare(compare::CompareArgs) => compare::compare,
+    Size(size::SizeArgs) => size::size,
+    Fit(fit::FitArgs) => fit::fit,
+    Reduce(reduce::ReduceArgs) => reduce::reduce,
+    Check(check::CheckArgs) => check::check,
+    New(new::NewArgs) => new::new,
+    Units(units::UnitsArgs) => units::units,
+    Materials(materials::MaterialsArgs) => materials::materials,
+    Completions(completions::CompletionsArgs) => completions::completions,
+}

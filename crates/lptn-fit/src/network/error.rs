@@ -2,7 +2,7 @@
 
 use lptn_assembly::ChangeError;
 use lptn_solve::SensitiveError;
-use lptn_units::EvalError;
+use lptn_units::{Class, EvalError};
 
 use crate::least_squares::LeastSquaresError;
 use crate::network::task::FitStage;
@@ -17,10 +17,15 @@ pub enum NetworkFitError {
     NoData = "fit::no_data", "the records hold no value of a column that is fitted";
     /// A record, its first and last time in s, begins before its run, whose start is in s, or has no row behind the start.
     Times { record: String, span: (f64, f64), start: f64 } = "fit::record_times",
-        format!("{record}: rows from {} s to {} s do not fit a run that starts at {start} s", span.0, span.1);
+        format!("{record}: rows from {} s to {} s do not fit a run that starts at {start} s", span.0, span.1),
+        help format!(
+            "the times of a record are times of the run, which begins at {start} s: set `start` in [run] to the time at which \
+             the network stood as `T0` says, or take the rows before it out of the record"
+        );
     /// There are fewer values and priors than parameters.
     TooFew { values: usize, parameters: usize } = "fit::too_few_values",
-        format!("{values} values cannot determine {parameters} parameters");
+        format!("{values} values cannot determine {parameters} parameters"),
+        help "vary fewer parameters, or give some a prior with `±`";
     /// The own value of a parameter, by its place among the varied ones, is outside its bounds.
     StartOutside { parameter: usize } = "fit::start_outside",
         format!("the own value of varied parameter {parameter} is outside its bounds");
@@ -31,16 +36,22 @@ pub enum NetworkFitError {
             SensitiveError::Interrupted => "fit::interrupted",
             SensitiveError::Run(_) | SensitiveError::Change(ChangeError::Assembly(_)) => error.code(),
         },
-        format!("{record}: there is no run with the parameters' own values: {error}"), source error.as_ref();
+        format!("{record}: there is no run with the parameters' own values: {error}"), source error.as_ref(),
+        class match &**error {
+            SensitiveError::Run(_) => Class::Numbers,
+            _ => Class::Input,
+        };
     /// A column measures something, as it is written, that is neither the temperature of a node nor a mean of some.
     Observed { column: String, result: String } = "fit::observed",
-        format!("column `{column}` measures `{result}`, which is not a temperature of a node or a mean of some");
+        format!("column `{column}` measures `{result}`, which is not a temperature of a node or a mean of some"),
+        help "write the temperature of a node, `\"steel.T\"`, or a mean, `\"mean(steel.T, bed.T)\"`; parameters, signals, \
+              boundaries, heat flows and `t` cannot stand there, and an offset of a sensor is not fitted";
     /// A number of the study has no value.
     Plan => EvalError;
     /// The sum of squares cannot be minimised.
-    Search => LeastSquaresError;
+    Search => LeastSquaresError as Class::of_numbers;
     /// It was interrupted at this stage; the values in SI units that describe the records best among those that were tried.
     Interrupted { stage: FitStage, best: Option<Vec<f64>> } = "fit::interrupted",
-        format!("the fit was interrupted in {stage}");
+        format!("the fit was interrupted in {stage}"), class Class::Interrupted;
 }
 }

@@ -1,6 +1,7 @@
 //! Why a record has no exponential.
 
 use lptn_reduce::{FitError, ReduceError};
+use lptn_units::Class;
 
 /// Why a record does not tell its time constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +35,10 @@ pub enum StepError {
     Length { times: usize, values: usize } = "fit::not_a_record", format!("there are {times} times and {values} values");
     /// Too few samples, not a record, a constant column, or one without curvature.
     Fit(error: FitError) = error.code(), error, source error,
-        help matches!(error, FitError::NoCurvature { .. }).then(|| LONGER.to_owned());
+        help match error {
+            FitError::NoCurvature { .. } => Some(LONGER.to_owned()),
+            error => error.help(),
+        }, class error.class();
     /// The record stands still at its least or greatest value in K, between these times in s, while it changes beside.
     Saturated { value: f64, from: f64, to: f64, samples: usize } = "fit::saturated",
         format!(
@@ -43,7 +47,7 @@ pub enum StepError {
         ),
         help format!("leave {from} s to {to} s out of the record");
     /// The record does not tell `T_i`, `T_f` and `t_RC`: the time constant in s at which it does not, and what is missing.
-    Undetermined { tau: f64, lack: Lack } = "fit::undetermined", lack.explain(*tau), help lack.help();
+    Undetermined { tau: f64, lack: Lack } = "fit::undetermined", lack.explain(*tau), help lack.help(), class Class::Numbers;
     /// The reference column has no samples.
     Reference = "fit::no_reference", "the reference column has no samples";
     /// The capacity in J/K or its deviation is not a positive number.

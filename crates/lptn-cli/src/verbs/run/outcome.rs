@@ -5,8 +5,7 @@ use lptn_network::{Parameter, list_of_names};
 use lptn_report::{Format, WIDTH, duration, labelled, significant, words, write_csv, write_rows};
 use lptn_solve::{Beyond, End, Lumping, Solution, SteadyState, Table, Unbounded};
 use lptn_study::{
-    Environment, FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, Scalar, StatisticsRecord,
-    Sundials,
+    FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, Scalar, StatisticsRecord, Sundials,
 };
 use serde_json::{Map, Value};
 
@@ -20,7 +19,7 @@ use crate::failure::Failure;
 use crate::files::Folder;
 use crate::files::names::{EVENTS, MANIFEST, RANKING, RESULT, STATE, UNCERTAINTY, WINDOWS};
 use crate::limits::{self, Judged};
-use crate::{lumping, select, sense};
+use crate::{files, lumping, select, sense};
 
 /// What came of it.
 pub(crate) struct Outcome<'a> {
@@ -72,12 +71,11 @@ impl Outcome<'_> {
             name: name.to_owned(),
             sha256: lptn_study::sha256(text.as_bytes()),
         };
-        let host = std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
         Manifest {
             format: 1,
             lptn: env!("CARGO_PKG_VERSION").to_owned(),
             sundials: Sundials::linked(),
-            arguments: std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned()).collect(),
+            arguments: files::arguments(),
             inputs: self.job.input.netlist.inputs().map(hash).collect(),
             parameters: self.parameters(set),
             start: Scalar::new(settings.start, "s"),
@@ -94,11 +92,7 @@ impl Outcome<'_> {
                 Value::Object(members)
             }),
             results,
-            environment: Environment {
-                written: lptn_study::utc(std::time::SystemTime::now()),
-                host: host.trim().to_owned(),
-                wall_time: Scalar::new(self.wall_time, "s"),
-            },
+            environment: files::environment(self.wall_time),
         }
     }
 

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::io;
 
 use lptn_netlist::Diagnostic;
-use lptn_network::{BoundaryId, ConductorId, GridValue, HeatOf, Item, JointId, Network, NodeId};
+use lptn_network::{ConductorId, GridValue, HeatOf, Item, JointId, Network, NodeId};
 use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, fixed, prefix, shortened, significant};
 use lptn_solve::{Balance, Selection, SteadyState, Table};
 use lptn_study::Scalar;
@@ -15,7 +15,7 @@ use crate::console::Console;
 use crate::doubts::{adiabatic, inputs_vary, others};
 use crate::input::Input;
 use crate::limits::{self, Judged};
-use crate::words::{MOST_NODES, difference, some_of};
+use crate::words::{difference, largest, some_of};
 use crate::{balance, sense};
 
 /// Rises in K and heats in W below this are what rounding left over: no unit and no decimals are chosen to show them.
@@ -44,8 +44,8 @@ struct Row {
 
 #[derive(Clone, Copy)]
 enum Of {
-    Node(NodeId),
-    Boundary(BoundaryId),
+    /// A node or boundary.
+    Item(Item),
     Grid(GridValue),
     Heat(HeatOf),
 }
@@ -54,8 +54,7 @@ impl Row {
     /// The name of its column.
     fn column(self, network: &Network) -> String {
         match self.of {
-            Of::Node(id) => format!("{}.T", network.name_of(Item::Node(id))),
-            Of::Boundary(id) => format!("{}.T", network.name_of(Item::Boundary(id))),
+            Of::Item(item) => format!("{}.T", network.name_of(item)),
             Of::Grid(value) => value.name(network),
             Of::Heat(heat) => heat.name(network),
         }
@@ -64,8 +63,7 @@ impl Row {
     /// Its name; `T`, `Q` and `P` go without saying.
     fn label(self, network: &Network) -> String {
         match self.of {
-            Of::Node(id) => network.name_of(Item::Node(id)).into_owned(),
-            Of::Boundary(id) => network.name_of(Item::Boundary(id)).into_owned(),
+            Of::Item(item) => network.name_of(item).into_owned(),
             Of::Heat(heat) => network.name_of(heat.item()).into_owned(),
             Of::Grid(GridValue::Mean(_) | GridValue::Min(_) | GridValue::Max(_)) => self.column(network),
             Of::Grid(_) => self.column(network).trim_end_matches(".T").to_owned(),
@@ -79,9 +77,9 @@ impl Row {
             (name(conductor.from), name(conductor.to))
         };
         match self.of {
-            Of::Node(id) if network.nodes()[id.index()].massless => "junction".into(),
-            Of::Node(_) => "node".into(),
-            Of::Boundary(_) => "boundary".into(),
+            Of::Item(Item::Node(id)) if network.nodes()[id.index()].massless => "junction".into(),
+            Of::Item(Item::Node(_)) => "node".into(),
+            Of::Item(_) => "boundary".into(),
             Of::Grid(GridValue::Mean(_)) => "mean of the grid".into(),
             Of::Grid(GridValue::Min(_)) => "coldest cell".into(),
             Of::Grid(GridValue::Max(_)) => "hottest cell".into(),
@@ -114,14 +112,15 @@ impl View<'_> {
         let network = &self.input.netlist.network;
         let ids: Box<dyn Iterator<Item = NodeId>> =
             if inside { Box::new(network.node_ids()) } else { Box::new(network.outer_nodes()) };
-        let nodes = ids.map(|id| Row { of: Of::Node(id), value: self.steady.temperatures[id.index()] });
+        let row = |item, value| Row { of: Of::Item(item), value };
+        let nodes = ids.map(|id| row(Item::Node(id), self.steady.temperatures[id.index()]));
         let idle = network.idle_grid_values().filter(|_| inside);
         let grids = network
             .grid_values()
             .chain(idle)
             .map(|of| Row { of: Of::Grid(of), value: network.grid_value(of, &self.steady.temperatures) });
         let boundaries = network.boundary_ids().zip(&self.steady.boundary_temperatures);
-        let boundaries = boundaries.map(|(id, &value)| Row { of: Of::Boundary(id), value });
+        let boundaries = boundaries.map(|(id, &value)| row(Item::Boundary(id), value));
         nodes.chain(grids).chain(boundaries).collect()
     }
 
@@ -150,16 +149,12 @@ impl View<'_> {
 
     /// Temperatures with their rise over the coldest boundary, hottest first where there are many.
     fn nodes(&self, mut rows: Vec<Row>, text: &mut Text) {
-        let all = rows.len();
-        if all > MOST_NODES {
-            rows.sort_by(|a, b| b.value.total_cmp(&a.value));
-        }
         let network = &self.input.netlist.network;
         let coldest = coldest(network, self.steady).unwrap_or_default();
         let rises = rows.iter().map(|r| (r.value - coldest.1).abs());
-        let largest = rises.filter(|rise| *rise > NOISE).fold(0.0, f64::max);
-        let digits = decimals(largest / self.unit.scale, 3, 1);
-        rows.truncate(MOST_NODES);
+        let most = rises.filter(|rise| *rise > NOISE).fold(0.0, f64::max);
+        let digits = decimals(most / self.unit.scale, 3, 1);
+        let all = largest(&mut rows, |row| row.value);
         let kelvin = |r: &Row| fixed((r.value - coldest.1) / self.unit.scale, digits);
         let table = TextTable::of(&rows)
             .left("temperature", |row| row.label(network))
@@ -172,14 +167,10 @@ impl View<'_> {
 
     fn heat_flows(&self, mut rows: Vec<Row>, text: &mut Text) {
         let network = &self.input.netlist.network;
-        let all = rows.len();
-        if all > MOST_NODES {
-            rows.sort_by(|a, b| b.value.abs().total_cmp(&a.value.abs()));
-        }
-        let largest = rows.iter().map(|r| r.value.abs()).filter(|heat| *heat > NOISE).fold(0.0, f64::max);
-        let (scale, letter) = prefix(largest);
-        let digits = decimals(largest / scale, 4, 0);
-        rows.truncate(MOST_NODES);
+        let all = largest(&mut rows, |row| row.value.abs());
+        let most = rows.iter().map(|r| r.value.abs()).filter(|heat| *heat > NOISE).fold(0.0, f64::max);
+        let (scale, letter) = prefix(most);
+        let digits = decimals(most / scale, 4, 0);
         let table = TextTable::of(&rows)
             .left("heat flow", |row| row.label(network))
             .right(format!("Q [{letter}W]"), |r| fixed(r.value / scale, digits))

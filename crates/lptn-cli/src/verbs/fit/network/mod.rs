@@ -12,7 +12,7 @@ use std::sync::{Mutex, PoisonError};
 
 use lptn_fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network_observed};
 use lptn_netlist::{Diagnostic, FitStudy};
-use lptn_solve::{SensitiveError, available_threads};
+use lptn_solve::available_threads;
 use lptn_units::Unit;
 
 use crate::console::Console;
@@ -56,7 +56,7 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
         let problem = Diagnostic::error("fit::not_converged", message).at(study.span.clone(), "").help(
             "give the parameters start values nearer to what is expected, and bounds with `from` and `to`",
         );
-        return Err(Failure::at(Exit::Failed, input.netlist.files.clone(), problem));
+        return Err(input.refused(Exit::Failed, problem));
     }
     let units = task.parameters.iter().map(|varied| input.unit_of(varied.parameter)).collect();
     let mut answer = Answer { input: &input, study, task, units, fit, doubts: Vec::new() };
@@ -105,25 +105,7 @@ fn failed(input: &Input, study: &FitStudy, error: &NetworkFitError) -> Failure {
         }
         _ => None,
     };
-    let problem =
-        Diagnostic::error(error.code(), error.to_string()).at(span.unwrap_or(&study.span).clone(), "");
-    let numbers =
-        matches!(error, NetworkFitError::Start { error, .. } if matches!(**error, SensitiveError::Run(_)));
-    let exit =
-        if numbers || matches!(error, NetworkFitError::Search(_)) { Exit::Failed } else { Exit::Input };
-    let problem = match error {
-        NetworkFitError::Times { start, .. } => problem.help(format!(
-            "the times of a record are times of the run, which begins at {start} s: set `start` in [run] to the time at \
-             which the network stood as `T0` says, or take the rows before it out of the record"
-        )),
-        NetworkFitError::Observed { .. } => problem.help(
-            "write the temperature of a node, `\"steel.T\"`, or a mean, `\"mean(steel.T, bed.T)\"`; parameters, signals, \
-             boundaries, heat flows and `t` cannot stand there, and an offset of a sensor is not fitted",
-        ),
-        NetworkFitError::TooFew { .. } => problem.help("vary fewer parameters, or give some a prior with `±`"),
-        _ => problem,
-    };
-    Failure::at(exit, input.netlist.files.clone(), problem)
+    input.failure(error, Some(span.unwrap_or(&study.span).clone()))
 }
 
 impl Answer<'_> {

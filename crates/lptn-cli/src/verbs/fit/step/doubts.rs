@@ -3,6 +3,7 @@
 use lptn_fit::step::{LONG_ENOUGH, StepError, StepFit, TwoExponentials};
 use lptn_netlist::{Diagnostic, RecordColumn};
 use lptn_report::{duration, significant};
+use lptn_units::Problem as _;
 
 use super::estimate::with_error;
 use super::request::{Reference, Request};
@@ -123,22 +124,13 @@ fn second(name: &str, two: &TwoExponentials, request: &Request) -> Diagnostic {
 
 /// Why a column has no fit, and how the command ends.
 pub(crate) fn failed(column: &RecordColumn, error: &StepError) -> (Exit, Diagnostic) {
-    use lptn_reduce::FitError;
-    let exit = match error {
-        StepError::Fit(FitError::NoCurvature { .. }) | StepError::Undetermined { .. } => Exit::Failed,
-        _ => Exit::Input,
-    };
     let message = format!("column `{}`: {error}", column.name);
     let problem = Diagnostic { message, ..told(error) }.at(column.span.clone(), "");
-    let help = match error {
-        StepError::Fit(FitError::TooFew { .. }) => {
-            Some("four samples or more give a curve with an error".to_owned())
-        }
-        StepError::Fit(FitError::Flat) => Some("name the columns that change: --column NAME".to_owned()),
+    let options = match error {
         StepError::Saturated { from, to, .. } => {
             Some(format!("leave it out, with --to \"{from} s\" or --from \"{to} s\""))
         }
         _ => None,
     };
-    (exit, problem.help(help))
+    (error.class().into(), problem.help(options))
 }

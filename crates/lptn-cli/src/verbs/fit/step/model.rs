@@ -6,6 +6,7 @@ use lptn_fit::step::{ModelBias, StepError};
 use lptn_netlist::Diagnostic;
 use lptn_network::Time;
 use lptn_solve::Transient;
+use lptn_units::Problem as _;
 
 use super::StepArgs;
 use super::request::Request;
@@ -55,14 +56,7 @@ fn unknown_begin() -> Failure {
 }
 
 fn failed(input: &Input, port: &str, error: &StepError) -> Failure {
-    use lptn_reduce::ReduceError;
-    let exit = match error {
-        StepError::Model(ReduceError::Run(_) | ReduceError::Factorization(_) | ReduceError::Modes) => {
-            Exit::Failed
-        }
-        _ => Exit::Input,
-    };
     let problem = told(error).at(input.node_place(port), "the port");
     let message = format!("the model {}: {error}", input.text.name);
-    input.refused(exit, Diagnostic { message, ..problem })
+    input.refused(error.class().into(), Diagnostic { message, ..problem })
 }

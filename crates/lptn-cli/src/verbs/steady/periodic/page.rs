@@ -9,7 +9,7 @@ use lptn_units::Dimension;
 
 use super::View;
 use crate::verbs::run::page::heat_over;
-use crate::words::{MOST_NODES, count, difference, some_of, symbol};
+use crate::words::{count, difference, largest, some_of, symbol};
 use crate::{balance, limits};
 
 /// A column with its first value, in SI.
@@ -72,11 +72,7 @@ impl Page for View<'_> {
 
 fn temperature_section(text: &mut Text, view: &View<'_>, mut rows: Vec<Row<'_>>) {
     let unit = &view.outcome.job.unit;
-    let all = rows.len();
-    if all > MOST_NODES {
-        rows.sort_by(|a, b| b.0.max.0.total_cmp(&a.0.max.0));
-        rows.truncate(MOST_NODES);
-    }
+    let all = largest(&mut rows, |row| row.0.max.0);
     let swing = |c: &ColumnSeen| c.max.0 - c.min.0;
     let span = rows.iter().map(|(c, _)| swing(c)).fold(0.0, f64::max);
     let digits = decimals(span / unit.scale, 3, 1);
@@ -103,14 +99,10 @@ fn at(column: &ColumnSeen) -> String {
 }
 
 fn flow_section(text: &mut Text, mut rows: Vec<Row<'_>>) {
-    let all = rows.len();
-    if all > MOST_NODES {
-        rows.sort_by(|a, b| b.0.mean.abs().total_cmp(&a.0.mean.abs()));
-        rows.truncate(MOST_NODES);
-    }
-    let largest = rows.iter().map(|(c, _)| c.mean.abs()).fold(0.0, f64::max);
-    let (scale, letter) = prefix(largest);
-    let digits = decimals(largest / scale, 4, 0);
+    let all = largest(&mut rows, |row| row.0.mean.abs());
+    let most = rows.iter().map(|(c, _)| c.mean.abs()).fold(0.0, f64::max);
+    let (scale, letter) = prefix(most);
+    let digits = decimals(most / scale, 4, 0);
     let watt = |value: f64| fixed(value / scale, digits);
     let table = TextTable::of(&rows)
         .left(format!("heat flow [{letter}W]"), |(c, _)| c.name.as_str())

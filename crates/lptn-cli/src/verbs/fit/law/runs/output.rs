@@ -5,13 +5,13 @@ use std::io;
 use lptn_fit::law::{RunFit, Systematic};
 use lptn_report::{Format, Json, Page as _, write_csv};
 use lptn_solve::{Table, TableOf};
-use lptn_study::{Environment, Scalar, utc};
+use lptn_study::Scalar;
 use serde_json::{Map, Value, json};
 
 use super::Runs;
 use crate::failure::Failure;
-use crate::files::Folder;
 use crate::files::names::{LAWS, MANIFEST, POWER, RISE, TIME_CONSTANT};
+use crate::files::{Folder, arguments, environment};
 
 /// What is written.
 pub(crate) const NAMES: [&str; 5] = [RISE, TIME_CONSTANT, POWER, LAWS, MANIFEST];
@@ -22,20 +22,13 @@ pub(crate) fn write(found: &Runs, folder: &Folder) -> Result<(), Failure> {
         files.write(name, |out| write_csv(&table, out))?;
     }
     files.write(LAWS, |mut out| lptn_report::write(&found.answer, Format::Csv, false, &mut out))?;
-    let environment = Environment {
-        written: utc(std::time::SystemTime::now()),
-        host: std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default().trim().to_owned(),
-        wall_time: Scalar::new(found.wall_time, "s"),
-    };
-    let arguments: Vec<String> =
-        std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned()).collect();
     let text = json!({
         "format": 1,
         "lptn": env!("CARGO_PKG_VERSION"),
-        "arguments": arguments,
+        "arguments": arguments(),
         "inputs": found.inputs,
         "results": files.written(),
-        "environment": environment,
+        "environment": environment(found.wall_time),
     });
     files.write(MANIFEST, |out| out.write_all(format!("{text:#}\n").as_bytes()))?;
     files.commit(&[])

@@ -1,0 +1,89 @@
+//! The formats in which a page is written.
+
+use std::io::{self, Write};
+
+use crate::json::JsonWriter;
+use crate::page::Page;
+use crate::{csv, text};
+
+/// How a result is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Text for a terminal of 80 columns.
+    Table,
+    /// Comma-separated values.
+    Csv,
+    /// One JSON object.
+    Json,
+}
+
+impl Format {
+    /// Every format.
+    pub const ALL: [Self; 3] = [Self::Table, Self::Csv, Self::Json];
+
+    /// Its name on the command line.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Table => "table",
+            Self::Csv => "csv",
+            Self::Json => "json",
+        }
+    }
+}
+
+/// Writes a page in a format; titles of texts are bold where that is `styled`.
+///
+/// # Errors
+/// What the stream reports.
+pub fn write(page: &dyn Page, format: Format, styled: bool, out: &mut dyn Write) -> io::Result<()> {
+    match format {
+        Format::Table => text::write(&page.text(), styled, out),
+        Format::Csv => csv::write(&page.rows(), out),
+        Format::Json => {
+            let mut json = JsonWriter::new(out);
+            page.json(&mut json)?;
+            json.finish().map(drop)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use lptn_solve::Table;
+
+    use super::{Format, write};
+    use crate::{Json, Page, Rows, Text};
+
+    struct Answer;
+
+    impl Page for Answer {
+        fn text(&self) -> Text {
+            Text::titled("hot")
+        }
+
+        fn rows(&self) -> Rows<'_> {
+            let mut table = Table::of(&[300.5, f64::NAN]);
+            table.column("steel.T", "K", |value| *value);
+            table.done().into()
+        }
+
+        fn json(&self, json: &mut Json<'_>) -> std::io::Result<()> {
+            json.member("format", &1)?;
+            json.optional("limits", None::<f64>)?;
+            json.member("none", &f64::NAN)
+        }
+    }
+
+    /// A format that is not in the list would never be written.
+    #[test]
+    fn every_format_has_a_name_and_a_writer() {
+        let written = Format::ALL.map(|format| {
+            let mut out = Vec::new();
+            write(&Answer, format, false, &mut out).unwrap();
+            (format.key(), String::from_utf8(out).unwrap())
+        });
+        let csv = "steel.T [K]\n300.5\nNaN\n".to_owned();
+        let json = "{\n  \"format\": 1,\n  \"none\": null\n}\n".to_owned();
+        assert_eq!(written, [("table", "hot\n".to_owned()), ("csv", csv), ("json", json)]);
+    }
+}
