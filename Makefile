@@ -5,19 +5,24 @@
 #              another (5,496 in all) and runs the tests of the crate each time: some ten hours on two cores. Results go to
 #              target/mutants/CRATE. MUTANTS="--shard 1/40" takes every fortieth place, in a quarter of an hour.
 # make fuzz    feeds six readers with inputs guided by coverage, FUZZ_MINUTES (5) each; fuzz/run says how
+# make dist    builds target/dist/lptn with link-time optimisation: see docs/performance.md
+# make check-wasm  builds the core, which knows no C, for WebAssembly; says SKIPPED where no Rust can
 # SUNDIALS=bundled make demo    builds SUNDIALS itself: needs gcc, cmake and libclang only
 
 SUNDIALS ?= system
 export SUNDIALS
-features = $(if $(filter bundled,$(SUNDIALS)),--features lptn/bundled)
+features = $(if $(filter bundled,$(SUNDIALS)),--features lptn-cli/bundled)
 
-.PHONY: demo test build setup setup-tests bench audit fuzz mutants clean
+.PHONY: demo test build dist setup setup-tests bench audit fuzz mutants check-wasm clean
 
 demo: build
 	./target/release/lptn run networks/gearbox.toml
 
 build: setup
-	cargo build --release --locked -p lptn-cli -p lptn $(features)
+	cargo build --release --locked -p lptn-cli $(features)
+
+dist: setup
+	cargo build --profile dist --locked -p lptn-cli $(features)
 
 test: setup-tests
 	cargo test --workspace --locked $(features)
@@ -39,6 +44,9 @@ fuzz:
 
 audit:
 	@./.ci/audit
+
+check-wasm:
+	@./.ci/check-wasm
 
 setup:
 	@./.ci/setup

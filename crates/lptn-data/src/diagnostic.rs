@@ -55,16 +55,33 @@ impl Diagnostic {
         Self { severity: Severity::Warning, ..Self::error(code, message) }
     }
 
-    /// Adds the place of the problem, where it is known.
+    /// An error at its place, with what to do about it.
+    pub fn wrong(code: &'static str, message: impl Into<String>, at: &Span, help: impl Help) -> Self {
+        Self::error(code, message).at(at.clone(), "").help(help)
+    }
+
+    /// A warning at its place, with what to do about it.
+    pub fn doubt(code: &'static str, message: impl Into<String>, at: &Span, help: impl Help) -> Self {
+        Self { severity: Severity::Warning, ..Self::wrong(code, message, at, help) }
+    }
+
+    /// Adds the place of the problem, where there is one.
     #[must_use]
     pub fn at(self, span: impl Into<Option<Span>>, text: impl Into<String>) -> Self {
         self.label(span.into(), text.into(), true)
     }
 
-    /// Adds a place that explains the problem, where it is known.
+    /// Adds a place that explains the problem, where there is one.
     #[must_use]
     pub fn also(self, span: impl Into<Option<Span>>, text: impl Into<String>) -> Self {
         self.label(span.into(), text.into(), false)
+    }
+
+    /// Adds several places, of which the first is that of the problem.
+    #[must_use]
+    pub fn places(self, places: impl IntoIterator<Item = (Span, String)>) -> Self {
+        let places = places.into_iter().enumerate();
+        places.fold(self, |problem, (n, (span, text))| problem.label(Some(span), text, n == 0))
     }
 
     /// Sets what to do about it, where something is known.

@@ -1,12 +1,12 @@
 //! The header of a CSV file and the cells below it: columns by name, numbers with their units, places, and what is
 //! wrong with them.
 
-use lptn_units::{Dimension, Type, Unit};
+use lptn_units::{Dimension, Type, Unit, suggest};
 
 use crate::diagnostic::Diagnostic;
 use crate::file::{FileId, Span};
 use crate::hints::{Codes, other_brackets, text_help};
-use crate::words::list;
+use crate::words::nearest;
 
 /// Who reads a column.
 #[derive(Clone, Debug, Default)]
@@ -20,10 +20,7 @@ pub struct Asked {
 impl Asked {
     /// Adds the place that names the file or the column.
     pub fn also(&self, problem: Diagnostic) -> Diagnostic {
-        match &self.span {
-            Some(span) => problem.also(span.clone(), "read here"),
-            None => problem,
-        }
+        problem.also(self.span.clone(), "read here")
     }
 
     /// What a sentence begins with.
@@ -183,11 +180,7 @@ impl Head {
         let text = header.unit.as_deref().filter(|unit| *unit != "-").unwrap_or("1");
         let unit = Unit::parse(text).map_err(|error| {
             let message = format!("the unit of column `{}`: {error}", header.name);
-            let problem = at(Diagnostic::error(error.code(), message));
-            match error.help() {
-                Some(help) => problem.help(help),
-                None => problem,
-            }
+            at(Diagnostic::error(error.code(), message)).help(error.help())
         })?;
         let kelvin = self.codes.of_record && unit.ty == Type::of(Dimension::TEMPERATURE);
         let ty = if kelvin && wanted.is_none() { Type::ABSOLUTE_TEMPERATURE } else { unit.ty };
@@ -230,9 +223,8 @@ impl Head {
         if let Some((bare, unit)) = names().filter_map(other_brackets).find(|(bare, _)| *bare == name) {
             return problem.help(format!("write its unit in square brackets: `{bare} [{unit}]`"));
         }
-        problem.did_you_mean(name, names(), || {
-            format!("its columns are {}", list(&names().take(12).collect::<Vec<_>>()))
-        })
+        let near = suggest(name, names());
+        problem.help(nearest(name, near.into_iter().chain(names()).take(12), "its columns are"))
     }
 
     pub(crate) fn two_columns(&self, first: usize, second: usize, ask: &Asked) -> Diagnostic {

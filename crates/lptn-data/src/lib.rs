@@ -31,4 +31,4 @@ pub use record::{
 };
 pub use rows::{Marks, Rows};
 pub use text::CsvText;
-pub use words::list;
+pub use words::{list, nearest};

@@ -8,7 +8,7 @@ use crate::form::header;
 use crate::head::{Asked, Column, Head, Row, Wrong, position, reader, row, value};
 use crate::hints;
 use crate::text::CsvText;
-use crate::words::list;
+use crate::words::nearest;
 
 /// The place of every so manyeth row is kept; the others are counted from there.
 const STRIDE: usize = 256;
@@ -145,11 +145,11 @@ impl<'s> Rows<'s> {
         let told = unknown.map(|column| {
             let message = format!("{} have no column `{}`", self.asked.words, column.name);
             let problem = Diagnostic::error("netlist::csv_unknown_column", message);
-            self.asked.also(problem.at(column.place.clone(), "unknown column")).did_you_mean(
+            self.asked.also(problem.at(column.place.clone(), "unknown column")).help(nearest(
                 &column.name,
                 known.iter().copied(),
-                || format!("the columns are {}", list(known)),
-            )
+                "the columns are",
+            ))
         });
         told.collect()
     }

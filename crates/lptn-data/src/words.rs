@@ -1,5 +1,10 @@
 //! Lists in sentences.
 
+use lptn_units::suggest;
+
+/// So many names are listed at most.
+const MOST: usize = 40;
+
 /// "`a`, `b` and `c`".
 pub fn list(names: &[&str]) -> String {
     match names {
@@ -9,5 +14,14 @@ pub fn list(names: &[&str]) -> String {
             let most: Vec<String> = most.iter().map(|name| format!("`{name}`")).collect();
             format!("{} and `{last}`", most.join(", "))
         }
+    }
+}
+
+/// What was probably meant by `wrong`: the nearest of the names, else `all`, "its names are", with all of them.
+pub fn nearest<'n>(wrong: &str, names: impl IntoIterator<Item = &'n str>, all: &str) -> String {
+    let names: Vec<&str> = names.into_iter().collect();
+    match suggest(wrong, names.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("{all} {}", list(names.get(..MOST).unwrap_or(&names))),
     }
 }

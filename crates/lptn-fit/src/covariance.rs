@@ -1,6 +1,7 @@
 //! How well parameters are determined, and together with which others.
 
 use faer::{Mat, MatRef};
+use lptn_integrate::dense;
 
 /// The covariance of some parameters of a fit.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +31,8 @@ impl Covariance {
     pub fn sandwich(&self, middle: &[f64]) -> Self {
         let n = self.parameters.len();
         let bread = MatRef::from_row_major_slice(&self.values, n, n);
-        let whole = bread * MatRef::from_row_major_slice(middle, n, n) * bread;
+        let half = dense::product(bread, MatRef::from_row_major_slice(middle, n, n));
+        let whole = dense::product(half.as_ref(), bread);
         // rounding leaves the two halves unequal
         let values = (0..n * n).map(|at| 0.5 * (whole[(at / n, at % n)] + whole[(at % n, at / n)])).collect();
         Self { parameters: self.parameters.clone(), values }
@@ -87,8 +89,8 @@ fn pseudo_inverse(jacobian: &[f64], rows: usize, parameters: &[usize]) -> Option
     if norms.iter().any(|norm| !(norm.is_normal() && norm.is_finite())) {
         return None;
     }
-    let svd = Mat::from_fn(rows, n, |i, j| column(j)[i] / norms[j]).qr().thin_R().thin_svd().ok()?;
-    let values: Vec<f64> = svd.S().column_vector().iter().copied().collect();
+    let scaled = Mat::from_fn(rows, n, |i, j| column(j)[i] / norms[j]);
+    let dense::Singular { values, v, .. } = dense::singular(dense::triangle(scaled.as_ref()).as_ref())?;
     let determined = values.iter().all(|value| *value > 1e-12 * values[0]);
-    determined.then(|| Mat::from_fn(n, n, |i, k| svd.V()[(i, k)] / (values[k] * norms[i])))
+    determined.then(|| Mat::from_fn(n, n, |i, k| v[(i, k)] / (values[k] * norms[i])))
 }

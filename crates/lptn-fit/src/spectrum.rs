@@ -1,6 +1,7 @@
 //! Which combinations of parameters data determine.
 
 use faer::{Mat, MatRef};
+use lptn_integrate::dense;
 
 /// The singular values of a scaled Jacobian. Moving the scaled parameters by 1 along `directions[k]` changes the residuals
 /// by `values[k]` (root of the sum of squares), so a standard error along it is `1 / values[k]`.
@@ -29,14 +30,12 @@ impl Spectrum {
         if scaled.iter().any(|x| !x.is_finite()) {
             return None;
         }
-        let qr = MatRef::from_column_major_slice(&scaled, rows, n).qr();
-        let upper = qr.thin_R();
+        let upper = dense::triangle(MatRef::from_column_major_slice(&scaled, rows, n));
         let square = Mat::from_fn(n, n, |i, j| if i < upper.nrows() && i <= j { upper[(i, j)] } else { 0.0 });
-        let svd = square.svd().ok()?;
-        let values: Vec<f64> = svd.S().column_vector().iter().copied().collect();
+        let dense::Singular { values, v, .. } = dense::singular(square.as_ref())?;
         let least = threshold * values.first().copied().unwrap_or(0.0);
         let rank = values.iter().filter(|value| **value > least).count();
-        let directions = (0..n).map(|k| svd.V().col(k).iter().copied().collect()).collect();
+        let directions = (0..n).map(|k| v.col(k).iter().copied().collect()).collect();
         Some(Self { values, directions, rank, threshold })
     }
 

@@ -1,26 +1,6 @@
-//! Stepping a system from one discontinuity to the next.
+//! What a stiff integrator has to offer: stepping a system from one discontinuity to the next.
 
-mod failure;
-mod first;
-mod roots;
-mod running;
-mod sensitivities;
-mod times;
-
-use roots::Roots;
-use sensitivities::Sensitivities;
-use times::Shown;
-
-use crate::context::Context;
-use crate::linear_solver::SolverHandles;
-use crate::memory::{Counters, Flag, Memory, Reached};
-use crate::shared::SharedBox;
-use crate::symmetry::{ATTEMPTS, SYMMETRIC_ATTEMPTS, Symmetry};
-use crate::vector::Vector;
-use crate::{IntegrateError, LinearSolverKind, OdeSystem, Options, Statistics, linear, start};
-
-/// Steps in a row without progress after which the integration has stalled.
-const STALLED: u32 = 50;
+use crate::{IntegrateError, LinearSolverKind, OdeSystem, Statistics};
 
 /// One internal step, in units of t.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,352 +15,124 @@ pub struct Step {
     pub roots: bool,
 }
 
-/// Integrates an [`OdeSystem`] with variable-order BDF.
+/// Integrates an [`OdeSystem`] that it owns, in steps of its own choice.
 ///
-/// Steps may be shorter than the distance of two doubles at a time far from 0; the flow is then asked for at times that
-/// are rounded.
+/// Steps may be shorter than the distance of two doubles at a time far from 0; the flow is then
+/// asked for at times that are rounded.
 ///
-/// The running integrals obey the same formula as the state, so a balance such as `sum of M (y1 - y0) = integral of the
-/// total flow` holds up to what Newton's method leaves over. The defaults keep that small; see
-/// [`Options::newton_coefficient`].
-pub struct Integrator<S: OdeSystem> {
-    // The order of the fields is the order in which SUNDIALS wants its objects freed.
-    memory: Memory,
-    handles: SolverHandles,
-    state: Vector,
-    scratch: Vector,
-    quadratures: Option<Vector>,
-    sensitivities: Sensitivities,
-    context: Context,
-    shared: SharedBox<S>,
-    /// What CVODES counts its time from. It begins at 0: a step may be shorter than what a double tells of a time far
-    /// from 0.
-    origin: f64,
-    /// In CVODES' time.
-    time: f64,
-    /// Start of the last step; equal to `time` if there is none to interpolate in. In CVODES' time.
-    from: f64,
-    /// In CVODES' time.
-    stop: f64,
-    /// `time`, `from` and `stop` as the caller counts.
-    shown: Shown,
-    /// From now on no step is longer.
-    longest: f64,
-    max_steps: u64,
-    /// Length of the first step after a start; 0 if CVODES is to guess it.
-    first_step: f64,
-    symmetry: Symmetry,
-    roots: Roots,
-    /// What CVODES had counted when it was last restarted.
-    before: Counters,
-    restarts: u64,
-    /// Steps in a row that did not move the time.
-    still: u32,
-}
-
-impl<S: OdeSystem> Integrator<S> {
-    /// Takes the system at time `t0` in the state `y0` (one value per component, units of y).
-    ///
-    /// # Errors
-    /// Lengths that do not match, options out of range, a state or a mass that is not usable, no memory.
-    pub fn new(system: S, t0: f64, y0: &[f64], options: &Options) -> Result<Self, IntegrateError> {
-        start::check_options(t0, options)?;
-        start::check_system(&system, y0)?;
-        start::check_scales(&system, options)?;
-        let context = Context::new()?;
-        let mut state = Vector::new(&context, y0.len())?;
-        state.as_mut_slice().copy_from_slice(y0);
-        let scratch = Vector::new(&context, y0.len())?;
-        let quadratures = match system.quadrature_count() {
-            0 => None,
-            count => Some(Vector::new(&context, count)?),
-        };
-        let sensitivities = Sensitivities::new(&context, &system)?;
-        let symmetry = Symmetry::of(&system, options.linear_solver);
-        let roots = Roots::new(system.root_count());
-        let shared = SharedBox::new(start::shared(system, t0, options)?);
-        let handles = SolverHandles::new(&context, shared.as_ptr())?;
-        let memory = Memory::new(&context)?;
-        let mut integrator = Self {
-            memory,
-            handles,
-            state,
-            scratch,
-            quadratures,
-            sensitivities,
-            context,
-            shared,
-            origin: t0,
-            time: 0.0,
-            from: 0.0,
-            stop: f64::INFINITY,
-            shown: Shown { time: t0, from: t0, stop: f64::INFINITY },
-            longest: options.max_step_size.unwrap_or(f64::INFINITY),
-            max_steps: u64::try_from(options.max_steps).unwrap_or(u64::MAX),
-            first_step: options.initial_step.unwrap_or(0.0),
-            symmetry,
-            roots,
-            before: Counters::default(),
-            restarts: 0,
-            still: 0,
-        };
-        integrator.set_up(options).map_err(|flag| integrator.unexpected(flag))?;
-        Ok(integrator)
-    }
-
-    fn set_up(&mut self, options: &Options) -> Result<(), Flag> {
-        let pointer = self.shared.as_ptr();
-        self.memory.start((self.time, &self.state), pointer)?;
-        self.memory.attach_solver::<S>(&self.handles)?;
-        if let Some(quadratures) = &self.quadratures {
-            self.memory.start_quadratures::<S>(quadratures)?;
-        }
-        self.start_sensitivities(options)?;
-        self.start_roots()?;
-        if let Some(step) = options.initial_step {
-            self.memory.set_initial_step(step)?;
-        }
-        if self.symmetry.is_held() {
-            self.memory.set_attempts(SYMMETRIC_ATTEMPTS)?;
-        }
-        self.choose_newton(options)
-    }
-
-    fn choose_newton(&self, options: &Options) -> Result<(), Flag> {
-        if self.system().jacobian_is_constant() {
-            self.memory.always_match_gamma()?;
-        } else if linear::is_dense(options.linear_solver, self.system().pattern().size()) {
-            self.memory.always_set_up()?;
-        }
-        self.memory.set_newton_coefficient(start::newton_coefficient(self.system(), options))
-    }
-
+/// The running integrals obey the same formula as the state, so a balance such as `sum of M (y1 -
+/// y0) = integral of the total flow` holds up to what Newton's method leaves over. The defaults keep
+/// that small; see [`Options::newton_coefficient`](crate::Options::newton_coefficient).
+pub trait Integrator<S: OdeSystem> {
     /// Present time.
-    pub fn time(&self) -> f64 {
-        self.shown.time
-    }
+    fn time(&self) -> f64;
 
     /// State at [`time`](Self::time), in units of y.
-    pub fn state(&self) -> &[f64] {
-        self.state.as_slice()
-    }
+    fn state(&self) -> &[f64];
 
     /// The system.
-    pub fn system(&self) -> &S {
-        &self.shared.get().system
-    }
+    fn system(&self) -> &S;
 
-    /// The system, to be changed. A change that makes `f` jump must be followed by [`restart`](Self::restart); its size,
-    /// pattern, symmetry and number of quadratures must stay.
-    pub fn system_mut(&mut self) -> &mut S {
-        &mut self.shared.get_mut().system
-    }
+    /// The system, to be changed. A change that makes `f` jump must be followed by
+    /// [`restart`](Self::restart); its size, pattern, symmetry and number of quadratures must stay.
+    fn system_mut(&mut self) -> &mut S;
 
-    /// Ends the integration and hands the system back.
-    pub fn into_system(self) -> S {
-        let Self { memory, handles, shared, .. } = self;
-        drop((memory, handles));
-        shared.into_inner().system
-    }
+    /// From now on no step crosses `t`, until another stop time is set; `f64::INFINITY` means no
+    /// stop. The first step after a start is at most a tenth of the way to the stop time.
+    fn set_stop(&mut self, t: f64);
 
-    /// From now on no step crosses `t`, until another stop time is set; `f64::INFINITY` means no stop. The first step
-    /// after a start is at most a tenth of the way to the stop time.
-    pub fn set_stop(&mut self, t: f64) {
-        self.stop = t - self.origin;
-        self.shown.stop = t;
-    }
+    /// From now on no step is longer than this, positive, in units of t; in place of
+    /// [`Options::max_step_size`](crate::Options::max_step_size).
+    fn set_longest_step(&mut self, step: f64);
 
-    /// Takes one step of the size that the error allows. At the stop time it does nothing, says so, and returns a step
-    /// of no length.
+    /// Takes one step of the size that the error allows. At the stop time it does nothing, says so,
+    /// and returns a step of no length.
     ///
-    /// If the Jacobian is symmetric but not constant, and Newton's method fails three times in a row (the matrix not
-    /// being positive definite is one way to fail) or in a quarter of 60 steps, the symmetric values are given up for the
-    /// rest of the run: see
-    /// [`OdeSystem::leave_symmetry`] and [`Statistics::switched_to_lu`]. The running integrals go on.
+    /// If the Jacobian is symmetric but not constant, and Newton's method fails three times in a row
+    /// (the matrix not being positive definite is one way to fail) or in a quarter of 60 steps, the
+    /// symmetric values are given up for the rest of the run: see [`OdeSystem::leave_symmetry`] and
+    /// [`Statistics::switched_to_lu`]. The running integrals go on.
     ///
     /// # Errors
-    /// See [`IntegrateError`]; [`time`](Self::time) and [`state`](Self::state) are then those of the last good step.
-    pub fn step(&mut self) -> Result<Step, IntegrateError> {
-        let from = self.time;
-        if self.stop <= from || self.stop.is_nan() || self.starts_at_stop() {
-            return self.step_at_stop();
-        }
-        let so_far = self.statistics();
-        if so_far.steps >= self.max_steps {
-            return Err(IntegrateError::TooManySteps { time: self.shown.time, steps: so_far.steps });
-        }
-        if self.symmetry.stalls(&so_far) {
-            self.leave_symmetry();
-        }
-        let mut outcome = self.advance();
-        if let Err(flag) = &outcome
-            && self.symmetry.is_to_blame(flag)
-            && self.leave_symmetry()
-        {
-            outcome = self.advance();
-        }
-        let to = self.time;
-        self.shown.from = self.shown.time;
-        self.show();
-        match outcome {
-            Ok(_) => {
-                self.from = from;
-                self.watch_progress(to > from)?;
-                let Shown { from, time, .. } = self.shown;
-                Ok(Step { from, to: time, at_stop: to >= self.stop, roots: self.roots.met() })
-            }
-            Err(flag) => {
-                self.from = to;
-                self.shown.from = self.shown.time;
-                Err(self.explain(flag))
-            }
-        }
-    }
+    /// See [`IntegrateError`]; [`time`](Self::time) and [`state`](Self::state) are then those of the
+    /// last good step.
+    fn step(&mut self) -> Result<Step, IntegrateError>;
 
-    /// One step of CVODES.
-    fn advance(&mut self) -> Result<Reached, Flag> {
-        self.shared.get_mut().failure = None;
-        self.leave_rest()?;
-        // Version 6 cannot forget a stop time; the largest double serves as none. It is set for every step because
-        // CVODES forgets it when it is reached and keeps it at a restart.
-        let stop = self.held_stop().min(f64::MAX);
-        let towards = if self.stop.is_finite() { self.stop } else { self.time + self.time.abs().max(1.0) };
-        self.memory.set_stop(stop)?;
-        self.memory.set_max_step(if self.longest.is_finite() { self.longest } else { 0.0 })?;
-        let reached = self.take_step(towards);
-        if self.roots.are_none() { reached } else { self.look_for_roots(towards, reached) }
-    }
-
-    /// From the last good state on with LU; false if that cannot be had.
-    fn leave_symmetry(&mut self) -> bool {
-        let choice = self.symmetry.leave();
-        let Ok(factors) = linear::new(self.system().pattern(), false, choice) else { return false };
-        self.shared.get_mut().leave_symmetry(factors);
-        self.symmetry.set_switched(self.shown.time);
-        self.read_running().is_ok()
-            && self.begin_anew().and_then(|()| self.memory.set_attempts(ATTEMPTS)).is_ok()
-    }
-
-    /// CVODES goes on for ever with steps that are lost in the rounding of the time.
-    fn watch_progress(&mut self, moved: bool) -> Result<(), IntegrateError> {
-        if moved {
-            self.still = 0;
-            self.shared.get_mut().overcome = None;
-            return Ok(());
-        }
-        self.still += 1;
-        if self.still < STALLED {
-            return Ok(());
-        }
-        self.still = 0;
-        let (time, step) = (self.shown.time, self.memory.counters().current_step);
-        match self.shared.get_mut().overcome.take() {
-            Some(failure) => Err(failure.into_error()),
-            None => Err(IntegrateError::Stalled { time, step, index: self.worst() }),
-        }
-    }
-
-    fn step_at_stop(&self) -> Result<Step, IntegrateError> {
-        let Shown { time, stop, .. } = self.shown;
-        if stop < time {
-            return Err(IntegrateError::StopBehind { time, stop });
-        }
-        if stop.is_nan() {
-            return Err(IntegrateError::InvalidOption { option: "stop", value: stop });
-        }
-        Ok(Step { from: time, to: stop, at_stop: true, roots: false })
-    }
-
-    /// Writes the state at a time inside the last step, ends included, to `y` (one value per component).
+    /// Writes the state at a time inside the last step, ends included, to `y` (one value per
+    /// component).
     ///
     /// # Errors
-    /// [`IntegrateError::OutsideLastStep`] (after a start or a restart only the present time is inside), a wrong length.
-    pub fn interpolate(&mut self, t: f64, y: &mut [f64]) -> Result<(), IntegrateError> {
-        start::expect_length("y", self.state.as_slice().len(), y.len())?;
-        let Shown { from, time: to, .. } = self.shown;
-        if !(from..=to).contains(&t) {
-            return Err(IntegrateError::OutsideLastStep { time: t, from, to });
-        }
-        let t = self.within(t);
-        if t >= self.time {
-            y.copy_from_slice(self.state.as_slice());
-            return Ok(());
-        }
-        self.memory.interpolate(t, &mut self.scratch).map_err(|flag| self.unexpected(flag))?;
-        y.copy_from_slice(self.scratch.as_slice());
-        Ok(())
-    }
+    /// [`IntegrateError::OutsideLastStep`] (after a start or a restart only the present time is
+    /// inside), a wrong length.
+    fn interpolate(&mut self, t: f64, y: &mut [f64]) -> Result<(), IntegrateError>;
 
-    /// Begins anew at [`time`](Self::time), from the present state or from `y`, because `f` or the state jumps here.
-    /// The running integrals go on, and so do the sensitivities, unless they jump too: see
-    /// [`set_sensitivities`](Self::set_sensitivities).
+    /// Begins anew at [`time`](Self::time), from the present state or from `y`, because `f` or the
+    /// state jumps here. The running integrals go on, and so do the sensitivities, unless they jump
+    /// too: see [`set_sensitivities`](Self::set_sensitivities).
     ///
     /// # Errors
     /// A state of the wrong length or not finite.
-    pub fn restart(&mut self, y: Option<&[f64]>) -> Result<(), IntegrateError> {
-        self.read_running().map_err(|flag| self.unexpected(flag))?;
-        if let Some(y) = y {
-            start::expect_length("y", self.state.as_slice().len(), y.len())?;
-            start::check_state(y)?;
-            self.state.as_mut_slice().copy_from_slice(y);
-        }
-        self.restart_here()
-    }
+    fn restart(&mut self, y: Option<&[f64]>) -> Result<(), IntegrateError>;
 
-    fn restart_here(&mut self) -> Result<(), IntegrateError> {
-        self.restarts += 1;
-        self.shared.get_mut().jacobian_is_current = false;
-        self.begin_anew().map_err(|flag| self.unexpected(flag))
-    }
+    /// Goes back to a time inside the last step, ends included, and begins anew there as
+    /// [`restart`](Self::restart) does: with the state of [`interpolate`](Self::interpolate), the
+    /// running integrals and the sensitivities at that time.
+    ///
+    /// # Errors
+    /// [`IntegrateError::OutsideLastStep`]; then nothing is changed.
+    fn rewind(&mut self, t: f64) -> Result<(), IntegrateError>;
 
-    /// Restarts CVODES from the present state with the running integrals and the sensitivities read last.
-    fn begin_anew(&mut self) -> Result<(), Flag> {
-        let now = self.memory.counters();
-        self.before = sum(&self.before, &now);
-        self.from = self.time;
-        self.shown.from = self.shown.time;
-        self.memory_at(self.time)
-    }
+    /// For every function of [`OdeSystem::roots`] at the last step that ended at a root: 1 where it
+    /// rises through zero, -1 where it falls, 0 where it has no root there. All 0 before the first.
+    ///
+    /// After such a step [`step`](Self::step) takes the rest of the same internal step, if nothing
+    /// is done; a [`restart`](Self::restart) is due if the flow jumps.
+    fn root_directions(&self) -> &[i32];
+
+    /// The running integrals from the start to [`time`](Self::time), restarts included; one per
+    /// [`OdeSystem::quadrature_count`].
+    ///
+    /// # Errors
+    /// [`IntegrateError::Sundials`] only.
+    fn quadratures(&mut self) -> Result<&[f64], IntegrateError>;
+
+    /// The sensitivities at [`time`](Self::time): [`OdeSystem::sensitivity_count`] blocks of
+    /// [`OdeSystem::size`] values, one behind the other, in units of y per unit of the parameter.
+    /// They begin at 0.
+    ///
+    /// Their error against those of the exact solution stays below ten times the tolerance over
+    /// [`Options::sensitivity_scales`](crate::Options::sensitivity_scales), by the same rule as that
+    /// of the state.
+    ///
+    /// # Errors
+    /// [`IntegrateError::Sundials`] only.
+    fn sensitivities(&mut self) -> Result<&[f64], IntegrateError>;
+
+    /// Sets the sensitivities at [`time`](Self::time), in the order of
+    /// [`sensitivities`](Self::sensitivities): because the start depends on the parameters, or
+    /// because the state or the time of a jump does. If steps were taken since the last start, this
+    /// begins anew as [`restart`](Self::restart) does and counts as one; behind a start, a restart
+    /// or a rewind it costs nothing.
+    ///
+    /// If `f` jumps by `D` (after minus before) at the time `tau` that itself moves with a
+    /// parameter, `s_i` jumps by `-D / M dtau/dp_i`.
+    ///
+    /// # Errors
+    /// A wrong length, a value that is not finite ([`IntegrateError::InvalidState`] with its place
+    /// in all blocks).
+    fn set_sensitivities(&mut self, s: &[f64]) -> Result<(), IntegrateError>;
+
+    /// Writes the sensitivities at a time inside the last step, ends included, in the order of
+    /// [`sensitivities`](Self::sensitivities).
+    ///
+    /// # Errors
+    /// [`IntegrateError::OutsideLastStep`] (after a start or a restart only the present time is
+    /// inside), a wrong length.
+    fn interpolate_sensitivities(&mut self, t: f64, s: &mut [f64]) -> Result<(), IntegrateError>;
 
     /// Counters since the integrator was made.
-    pub fn statistics(&self) -> Statistics {
-        let total = sum(&self.before, &self.memory.counters());
-        let counts = &self.shared.get().counts;
-        Statistics {
-            steps: total.steps,
-            flow_evaluations: counts.flow,
-            jacobian_evaluations: counts.jacobian,
-            quadrature_evaluations: counts.quadrature,
-            sensitivity_evaluations: counts.sensitivity,
-            linear_setups: counts.setups,
-            factorizations: counts.factorizations,
-            linear_solves: counts.solves,
-            newton_iterations: total.newton_iterations,
-            error_test_failures: total.error_test_failures,
-            newton_failures: total.newton_failures,
-            restarts: self.restarts,
-            switched_to_lu: self.symmetry.switched(),
-            last_order: total.last_order,
-            last_step: total.last_step,
-        }
-    }
+    fn statistics(&self) -> Statistics;
 
     /// The linear solver in use.
-    pub fn linear_solver(&self) -> LinearSolverKind {
-        self.shared.get().factors.kind()
-    }
-}
-
-/// Totals of the counters, last values of the rest.
-fn sum(before: &Counters, now: &Counters) -> Counters {
-    let stepped = now.steps > 0;
-    Counters {
-        steps: before.steps + now.steps,
-        error_test_failures: before.error_test_failures + now.error_test_failures,
-        newton_iterations: before.newton_iterations + now.newton_iterations,
-        newton_failures: before.newton_failures + now.newton_failures,
-        last_order: if stepped { now.last_order } else { before.last_order },
-        last_step: if stepped { now.last_step } else { before.last_step },
-        current_step: now.current_step,
-    }
+    fn linear_solver(&self) -> LinearSolverKind;
 }

@@ -6,14 +6,14 @@
 const LANES: usize = 8;
 
 /// `z = a x + b y`
-pub(crate) fn linear_sum(a: f64, x: &[f64], b: f64, y: &[f64], z: &mut [f64]) {
+pub fn linear_sum(a: f64, x: &[f64], b: f64, y: &[f64], z: &mut [f64]) {
     for ((z, x), y) in z.iter_mut().zip(x).zip(y) {
         *z = a * x + b * y;
     }
 }
 
 /// `z = b z + a x`
-pub(crate) fn scale_and_add(b: f64, z: &mut [f64], a: f64, x: &[f64]) {
+pub fn scale_and_add(b: f64, z: &mut [f64], a: f64, x: &[f64]) {
     if b.to_bits() == 1.0_f64.to_bits() {
         return z.iter_mut().zip(x).for_each(|(z, x)| *z += a * x);
     }
@@ -21,29 +21,29 @@ pub(crate) fn scale_and_add(b: f64, z: &mut [f64], a: f64, x: &[f64]) {
 }
 
 /// `z[i] = f(x[i])`
-pub(crate) fn map(x: &[f64], z: &mut [f64], f: impl Fn(f64) -> f64) {
+pub fn map(x: &[f64], z: &mut [f64], f: impl Fn(f64) -> f64) {
     z.iter_mut().zip(x).for_each(|(z, &x)| *z = f(x));
 }
 
 /// `z[i] = f(z[i])`
-pub(crate) fn map_in_place(z: &mut [f64], f: impl Fn(f64) -> f64) {
+pub fn map_in_place(z: &mut [f64], f: impl Fn(f64) -> f64) {
     z.iter_mut().for_each(|z| *z = f(*z));
 }
 
 /// `z[i] = f(x[i], y[i])`
-pub(crate) fn zip(x: &[f64], y: &[f64], z: &mut [f64], f: impl Fn(f64, f64) -> f64) {
+pub fn zip(x: &[f64], y: &[f64], z: &mut [f64], f: impl Fn(f64, f64) -> f64) {
     for ((z, &x), &y) in z.iter_mut().zip(x).zip(y) {
         *z = f(x, y);
     }
 }
 
 /// `z[i] = f(z[i], y[i])`
-pub(crate) fn zip_in_place(z: &mut [f64], y: &[f64], f: impl Fn(f64, f64) -> f64) {
+pub fn zip_in_place(z: &mut [f64], y: &[f64], f: impl Fn(f64, f64) -> f64) {
     z.iter_mut().zip(y).for_each(|(z, &y)| *z = f(*z, y));
 }
 
 /// Sum of `x[i] y[i]`.
-pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
+pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     let mut lanes = [0.0; LANES];
     let (xs, x_tail) = x.as_chunks::<LANES>();
     let (ys, y_tail) = y.as_chunks::<LANES>();
@@ -60,7 +60,7 @@ pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
 /// The maximum instruction drops a NaN, so a sum of `0 * a` watches for it: it is zero for finite numbers and NaN
 /// otherwise. The answer is infinity rather than NaN because CVODE's tests are comparisons, all of which are false for
 /// NaN, some of them meaning "converged".
-pub(crate) fn weighted_max(x: &[f64], w: &[f64]) -> f64 {
+pub fn weighted_max(x: &[f64], w: &[f64]) -> f64 {
     let mut largest = [0.0_f64; LANES];
     let mut watch = [0.0_f64; LANES];
     let (xs, x_tail) = x.as_chunks::<LANES>();
@@ -85,23 +85,23 @@ pub(crate) fn weighted_max(x: &[f64], w: &[f64]) -> f64 {
 }
 
 /// [`weighted_max`] over the components with a positive mask.
-pub(crate) fn weighted_max_masked(x: &[f64], w: &[f64], mask: &[f64]) -> f64 {
+pub fn weighted_max_masked(x: &[f64], w: &[f64], mask: &[f64]) -> f64 {
     let chosen = x.iter().zip(w).zip(mask).filter(|(_, mask)| **mask > 0.0).map(|((x, w), _)| (x * w).abs());
     chosen.fold(0.0, |largest, a| if a.is_nan() { f64::INFINITY } else { f64::max(largest, a) })
 }
 
 /// Largest `|x[i]|`, infinity if any of them is not a number.
-pub(crate) fn max_norm(x: &[f64]) -> f64 {
+pub fn max_norm(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |largest, x| if x.is_nan() { f64::INFINITY } else { f64::max(largest, x.abs()) })
 }
 
 /// Smallest `x[i]`.
-pub(crate) fn min(x: &[f64]) -> f64 {
+pub fn min(x: &[f64]) -> f64 {
     x.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 /// Index of the largest `|x[i] w[i]|`; a component that is not a number counts as the largest.
-pub(crate) fn worst(x: &[f64], w: &[f64]) -> usize {
+pub fn worst(x: &[f64], w: &[f64]) -> usize {
     let mut worst = (0, -1.0);
     for (i, (x, w)) in x.iter().zip(w).enumerate() {
         let a = (x * w).abs();
@@ -116,7 +116,7 @@ pub(crate) fn worst(x: &[f64], w: &[f64]) -> usize {
 }
 
 /// Index of the first component that is not finite.
-pub(crate) fn first_not_finite(x: &[f64]) -> Option<usize> {
+pub fn first_not_finite(x: &[f64]) -> Option<usize> {
     let mut watch = [0.0; LANES];
     let (chunks, tail) = x.as_chunks::<LANES>();
     for x in chunks {
@@ -130,7 +130,7 @@ pub(crate) fn first_not_finite(x: &[f64]) -> Option<usize> {
 
 /// CVODE's constraint test: 2 means positive, 1 not negative, -1 not positive, -2 negative. Writes 1 into `mask` where
 /// a constraint is broken, else 0, and says whether all hold.
-pub(crate) fn constraints_hold(constraint: &[f64], x: &[f64], mask: &mut [f64]) -> bool {
+pub fn constraints_hold(constraint: &[f64], x: &[f64], mask: &mut [f64]) -> bool {
     let mut all = true;
     for ((mask, &c), &x) in mask.iter_mut().zip(constraint).zip(x) {
         let broken = (c.abs() > 1.5 && x * c <= 0.0) || (c.abs() > 0.5 && x * c < 0.0);
@@ -141,7 +141,7 @@ pub(crate) fn constraints_hold(constraint: &[f64], x: &[f64], mask: &mut [f64]) 
 }
 
 /// Smallest `x[i] / y[i]` over the nonzero `y[i]`, the largest double if there is none.
-pub(crate) fn min_quotient(x: &[f64], y: &[f64]) -> f64 {
+pub fn min_quotient(x: &[f64], y: &[f64]) -> f64 {
     let quotients = x.iter().zip(y).filter(|(_, y)| y.abs() > 0.0).map(|(x, y)| x / y);
     quotients.fold(f64::MAX, f64::min)
 }

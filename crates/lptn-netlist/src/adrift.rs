@@ -1,6 +1,6 @@
 //! What hangs together with nothing: nodes that no path leads from to a boundary, boundaries that nothing touches.
 
-use lptn_data::{Diagnostic, Span};
+use lptn_data::Diagnostic;
 use lptn_network::{End, Item, Network, list_of, list_of_names};
 
 use crate::source_map::SourceMap;
@@ -14,13 +14,6 @@ pub(crate) fn warnings(
     [ungrounded(network, map), idle(network, map, is_read)].into_iter().flatten()
 }
 
-fn at(warning: Diagnostic, place: Option<Span>) -> Diagnostic {
-    match place {
-        Some(span) => warning.at(span, ""),
-        None => warning,
-    }
-}
-
 /// A path that was left out looks like this.
 fn ungrounded(network: &Network, map: &SourceMap) -> Option<Diagnostic> {
     let nodes: Vec<_> = network.ungrounded().into_iter().flatten().collect();
@@ -30,7 +23,7 @@ fn ungrounded(network: &Network, map: &SourceMap) -> Option<Diagnostic> {
     let warning = Diagnostic::warning("network::no_boundary", message).help(
         "add a path if heat is to get out; without one the energy at the start decides the steady state",
     );
-    Some(at(warning, map.name(Item::Node(first))))
+    Some(warning.at(map.name(Item::Node(first)), ""))
 }
 
 fn idle(network: &Network, map: &SourceMap, is_read: &dyn Fn(&str) -> bool) -> Option<Diagnostic> {
@@ -52,5 +45,5 @@ fn idle(network: &Network, map: &SourceMap, is_read: &dyn Fn(&str) -> bool) -> O
     let message = format!("nothing touches {noun} {}", list_of(&names, "boundaries"));
     let warning = Diagnostic::warning("network::idle_boundary", message)
         .help("end a path there, or remove it; a path that leads elsewhere may be the cause");
-    Some(at(warning, map.name(Item::Boundary(first))))
+    Some(warning.at(map.name(Item::Boundary(first)), ""))
 }

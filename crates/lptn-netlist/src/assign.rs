@@ -103,10 +103,7 @@ impl Netlist {
                 let message = format!("there is no parameter `{}`", unknown.name);
                 let problem = Diagnostic::error("netlist::unknown_parameter", message).at(place, "");
                 if let Some(id) = self.signal(&unknown.name) {
-                    let problem = match self.source_map.name(Item::Signal(id)) {
-                        Some(span) => problem.also(span.clone(), "a signal"),
-                        None => problem,
-                    };
+                    let problem = problem.also(self.source_map.name(Item::Signal(id)), "a signal");
                     return problem
                         .help("a signal changes with time: scale it with a parameter, and set that");
                 }
@@ -134,10 +131,7 @@ impl Netlist {
                     return problem
                         .help("`--set` takes a number or a quantity, not an expression: `omega=5000rpm`");
                 }
-                match error.help() {
-                    Some(help) => problem.help(help),
-                    None => problem,
-                }
+                problem.help(error.help())
             }
         }
     }
@@ -169,10 +163,7 @@ impl Netlist {
     }
 
     fn defined(&self, problem: Diagnostic, id: ParameterId) -> Diagnostic {
-        match self.source_map.parameter(id) {
-            Some(span) => problem.also(span, "its value in the netlist"),
-            None => problem,
-        }
+        problem.also(self.source_map.parameter(id), "its value in the netlist")
     }
 
     fn evaluate(

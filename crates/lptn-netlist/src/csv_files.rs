@@ -6,13 +6,18 @@ use std::sync::Arc;
 
 use lptn_data::{CsvFile, CsvText, Diagnostic, Files, Span};
 
-use crate::include::{Loader, reason};
-use crate::near_file;
+use crate::format::{Format, Role};
+use crate::include::Loader;
+use crate::near_file::NamedFile;
 use crate::raw::{RawKind, RawNetlist, RawTable, RawValue};
-use crate::vocabulary::IMPORT;
 
-/// The sections in which `csv` names a file of numbers.
-const READERS: [&str; 4] = ["table", "signal", "material", "fluid"];
+const NAMED: NamedFile = NamedFile {
+    does: "read a CSV file",
+    verb: "read",
+    without_folder: "netlist::csv_without_folder",
+    not_found: "netlist::csv_not_found",
+    else_help: "",
+};
 
 /// The key that names the file.
 const CSV: &str = "csv";
@@ -26,10 +31,17 @@ pub(crate) struct CsvFiles {
 }
 
 impl CsvFiles {
-    /// Reads every file that the netlist names, through the loader that reads what it includes.
-    pub(crate) fn read(files: &mut Files, raw: &RawNetlist, mut loader: Option<&mut Loader<'_>>) -> Self {
+    /// Reads every file of tables, signals and properties that the netlist names, and those of `[import]` and `[fit]`,
+    /// which are given, through the loader that reads what it includes.
+    pub(crate) fn read<'r>(
+        files: &mut Files,
+        (raw, format): (&RawNetlist, &Format),
+        long: impl Iterator<Item = (&'r str, &'r RawValue)>,
+        mut loader: Option<&mut Loader<'_>>,
+    ) -> Self {
         let mut named = Vec::new();
-        for entry in raw.top.entries.iter().filter(|entry| READERS.contains(&entry.key.as_str())) {
+        let curves = |key: &str| matches!(format.role(key), Some(Role::Value | Role::Substance));
+        for entry in raw.top.entries.iter().filter(|entry| curves(&entry.key)) {
             if let RawKind::Table(table) = &entry.value.kind {
                 table.entries.iter().for_each(|element| find(&element.value, &mut named));
             }
@@ -46,7 +58,7 @@ impl CsvFiles {
             }
             read.files.insert(value.span.clone(), result);
         }
-        for (text, value) in imported(raw).chain(crate::fit::files(raw)) {
+        for (text, value) in long {
             let result = load_text(files, &path(files, text, value), value, loader.as_deref_mut());
             read.texts.insert(value.span.clone(), result);
         }
@@ -75,15 +87,6 @@ fn find<'a>(value: &'a RawValue, named: &mut Vec<(&'a str, &'a RawValue)>) {
     }
 }
 
-/// The files that `[import]` names.
-fn imported(raw: &RawNetlist) -> impl Iterator<Item = (&str, &RawValue)> {
-    let entries = raw.elements(IMPORT.name).iter();
-    entries.filter_map(|entry| match &entry.value.kind {
-        RawKind::String { text, .. } => Some((text.as_str(), &entry.value)),
-        _ => None,
-    })
-}
-
 /// The path of a file, which is relative to the file that names it.
 fn path(files: &Files, text: &str, value: &RawValue) -> PathBuf {
     Path::new(files.name(value.span.file)).parent().unwrap_or(Path::new("")).join(text)
@@ -105,29 +108,8 @@ fn load_text(
     value: &RawValue,
     loader: Option<&mut Loader<'_>>,
 ) -> Result<CsvText, Diagnostic> {
-    let refused = |code, message: String, help: &str| {
-        Err(Diagnostic::error(code, message).at(value.span.clone(), "").help(help))
-    };
+    let bytes = NAMED.load(path, value, loader)?;
     let name = path.display();
-    let Some(loader) = loader else {
-        let message = "this netlist is not read from a file, so it cannot read a CSV file";
-        return refused(
-            "netlist::csv_without_folder",
-            message.into(),
-            "save it, and give the name of the file",
-        );
-    };
-    let bytes = match loader(path) {
-        Ok(bytes) => bytes,
-        Err(error) if error.kind() == std::io::ErrorKind::FileTooLarge => {
-            let help = "leave out rows between which nothing changes, or split the file by its columns";
-            return refused("netlist::csv_too_long", format!("cannot read {name}: {error}"), help);
-        }
-        Err(error) => {
-            let message = format!("cannot read {name}: {}", reason(&error));
-            return refused("netlist::csv_not_found", message, &near_file::help(value, path, &error));
-        }
-    };
     let text = CsvText::of(files, name.to_string(), &bytes);
     text.map_err(|problem| problem.also(value.span.clone(), "read here"))
 }

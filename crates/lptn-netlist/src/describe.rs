@@ -1,10 +1,10 @@
 //! What the network's builder found, said about the file.
 
-use lptn_data::{Diagnostic, Span};
-use lptn_network::{BuildError, BuildErrorKind as Kind, Field, Item, NodeId, Say};
+use lptn_data::Diagnostic;
+use lptn_network::{BuildError, BuildErrorKind as Kind, Field, Item, Say};
 
+use crate::format::MINIMAL;
 use crate::source_map::SourceMap;
-use crate::vocabulary::MINIMAL;
 
 /// The error with its places in the file.
 pub(crate) fn describe(error: &BuildError, map: &SourceMap) -> Diagnostic {
@@ -13,17 +13,10 @@ pub(crate) fn describe(error: &BuildError, map: &SourceMap) -> Diagnostic {
     let diagnostic = places(diagnostic, error, map);
     let whole = matches!(error.kind, Kind::Empty)
         .then(|| format!("add a section [node]; {MINIMAL}").trim_end().to_owned());
-    match imported(error, map).or(whole).or_else(|| error.kind.help(&say)) {
-        Some(help) => diagnostic.help(help),
-        None => diagnostic,
-    }
+    diagnostic.help(imported(error, map).or(whole).or_else(|| error.kind.help(&say)))
 }
 
 fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagnostic {
-    let also = |d: Diagnostic, span: Option<Span>, text: &str| match span {
-        Some(span) => d.also(span, text),
-        None => d,
-    };
     match &error.kind {
         Kind::DuplicateName { .. } => match map.duplicate(&error.kind) {
             Some((first, second)) => diagnostic.at(second, "named again").also(first, "first named here"),
@@ -31,17 +24,21 @@ fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagno
         },
         Kind::NameInside { item, whole } => {
             let grid = if matches!(whole, Item::Grid(_)) { "the grid" } else { "the element" };
-            also(at(diagnostic, map.name(*item), "named here"), map.name(*whole), grid)
+            diagnostic.at(map.name(*item), "named here").also(map.name(*whole), grid)
         }
-        Kind::FloatingIsland { nodes, .. } => island(diagnostic, nodes, map),
-        Kind::Evaluation { item, field, error } => match map.part(*item, *field, &error.span()) {
-            Some(span) => diagnostic.at(span, ""),
-            None => at(diagnostic, map.nearest(*item, *field), ""),
-        },
+        // every node of the island, as far as a reader can take them in
+        Kind::FloatingIsland { nodes, .. } => {
+            let spans = nodes.iter().take(8).filter_map(|node| map.name(Item::Node(*node)));
+            let texts = ["not determined"].into_iter().chain(std::iter::repeat("connected to it"));
+            diagnostic.places(spans.zip(texts.map(str::to_owned)))
+        }
+        Kind::Evaluation { item, field, error } => {
+            let part = map.part(*item, *field, &error.span());
+            diagnostic.at(part.or_else(|| map.nearest(*item, *field)), "")
+        }
         Kind::ThresholdsCrossed { control, fields: [on, off], .. } => {
             let item = Item::Control(*control);
-            let diagnostic = at(diagnostic, map.nearest(item, *on), "on");
-            also(diagnostic, map.get(item, *off), "off")
+            diagnostic.at(map.nearest(item, *on), "on").also(map.get(item, *off), "off")
         }
         Kind::MasslessWithCapacity { node } => {
             let item = Item::Node(*node);
@@ -49,39 +46,27 @@ fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagno
             let capacity = capacity
                 .or_else(|| map.get(item, Field::Material))
                 .or_else(|| map.capacitor_of(*node).cloned());
-            let diagnostic = at(diagnostic, map.name(item), "declared massless");
-            also(diagnostic, capacity, "given a capacity here")
+            diagnostic.at(map.name(item), "declared massless").also(capacity, "given a capacity here")
         }
         Kind::SelfLink { conductor } => {
             let item = Item::Conductor(*conductor);
-            let diagnostic = at(diagnostic, map.get(item, Field::To), "the same place");
-            also(diagnostic, map.get(item, Field::From), "leads from here")
+            let diagnostic = diagnostic.at(map.get(item, Field::To), "the same place");
+            diagnostic.also(map.get(item, Field::From), "leads from here")
         }
         Kind::FaceArea { item, face, .. } => {
-            let diagnostic = at(
-                diagnostic,
-                Field::of_law("area").and_then(|area| map.get(*item, area)),
-                "not the area of the face",
-            );
-            also(diagnostic, map.get(Item::Grid(face.grid), Field::Size), "which is as large as this says")
+            let area = Field::of_law("area").and_then(|area| map.get(*item, area));
+            let size = map.get(Item::Grid(face.grid), Field::Size);
+            diagnostic.at(area, "not the area of the face").also(size, "which is as large as this says")
         }
         Kind::FaceCells { item, faces, .. } | Kind::FaceSides { item, faces, .. } => {
             let field = if matches!(error.kind, Kind::FaceCells { .. }) { Field::Cells } else { Field::Size };
-            let diagnostic = at(diagnostic, map.get(*item, Field::To), "");
             let [a, b] = faces.map(|face| map.get(Item::Grid(face.grid), field));
-            also(also(diagnostic, a, "from this grid"), b, "to this grid")
+            diagnostic.at(map.get(*item, Field::To), "").also(a, "from this grid").also(b, "to this grid")
         }
         kind => match error.place() {
-            Some((item, field)) => at(diagnostic, map.nearest(item, field), label(kind)),
-            None => at(diagnostic, map.top().cloned(), ""),
+            Some((item, field)) => diagnostic.at(map.nearest(item, field), label(kind)),
+            None => diagnostic.at(map.top().cloned(), ""),
         },
-    }
-}
-
-fn at(diagnostic: Diagnostic, span: Option<Span>, text: &str) -> Diagnostic {
-    match span {
-        Some(span) => diagnostic.at(span, text),
-        None => diagnostic,
     }
 }
 
@@ -92,18 +77,6 @@ fn label(kind: &Kind) -> &'static str {
         Kind::SourceIntoBoundary { .. } => "a boundary",
         _ => "",
     }
-}
-
-/// Every node of the island, as far as a reader can take them in.
-fn island(mut diagnostic: Diagnostic, nodes: &[NodeId], map: &SourceMap) -> Diagnostic {
-    for (n, span) in nodes.iter().take(8).filter_map(|node| map.name(Item::Node(*node))).enumerate() {
-        diagnostic = if n == 0 {
-            diagnostic.at(span, "not determined")
-        } else {
-            diagnostic.also(span, "connected to it")
-        };
-    }
-    diagnostic
 }
 
 /// What to do about a row, where it is not what to do about a field.

@@ -18,10 +18,7 @@ pub(crate) fn explain(text: &str, second: &Span, top: &RawTable) -> Diagnostic {
 
 fn key(name: &str, second: &Span, first: Option<Span>) -> Diagnostic {
     let error = Diagnostic::error(CODE, format!("`{name}` is given twice")).at(second.clone(), "given again");
-    let error = match first {
-        Some(first) => error.also(first, "first given here"),
-        None => error,
-    };
+    let error = error.also(first, "first given here");
     error.help("remove one of the two, or give one another name")
 }
 

@@ -11,6 +11,7 @@ use crate::adrift;
 use crate::csv_files::CsvFiles;
 use crate::describe::describe;
 use crate::fit::FitStudy;
+use crate::head::MISSING_FORMAT;
 use crate::initial::StateFile;
 use crate::names::{Names, ValueKind};
 use crate::raw::RawNetlist;
@@ -20,7 +21,7 @@ use crate::section;
 use crate::size::SizeStudy;
 use crate::source_map::SourceMap;
 use crate::template::Structure;
-use crate::work::{Doubts, Elaboration, MISSING_FORMAT};
+use crate::work::{Doubts, Elaboration};
 
 /// What a netlist means.
 pub(crate) struct Elaborated {
@@ -52,20 +53,20 @@ pub(crate) fn elaborate(
 ) -> (Option<Elaborated>, Found) {
     let mut work = Elaboration {
         raw,
+        format: section::format(),
         structure,
         csv,
         state,
         builder: NetworkBuilder::new(),
         map: SourceMap::default(),
-        names: Names::of(raw, structure),
+        names: Names::of(raw, structure, section::format()),
         problems: Vec::new(),
         dropped: 0,
         doubts: Doubts::of(structure),
         scales: Scales::default(),
         known: HashMap::new(),
-        used_materials: HashSet::new(),
         known_fluids: HashMap::new(),
-        used_fluids: HashSet::new(),
+        used: HashSet::new(),
     };
     work.map.set_top(raw.top.span.clone());
     work.top_level();
@@ -104,8 +105,7 @@ impl<'a> Elaboration<'a> {
         (run, sizes, fits): (Option<RunPlan>, Vec<SizeStudy>, Vec<FitStudy>),
         default: section::Default<'_>,
     ) -> (Option<Elaborated>, Found) {
-        let mut substances = self.unused_materials();
-        substances.extend(self.unused_fluids());
+        let substances = self.unused_substances();
         let (map, doubts) = (&self.map, &self.doubts);
         let network = match self.builder.build() {
             Ok(network) => Some(network),
@@ -148,7 +148,10 @@ fn unused(kind: ValueKind, name: &str, span: &Span) -> Diagnostic {
         ValueKind::Control => "netlist::unused_control",
         ValueKind::Table => "netlist::unused_table",
     };
-    Diagnostic::warning(code, format!("nothing uses {} `{name}`", kind.word()))
-        .at(span.clone(), "")
-        .help("use it or remove it; a misspelt name elsewhere may be the cause")
+    Diagnostic::doubt(
+        code,
+        format!("nothing uses {} `{name}`", kind.word()),
+        span,
+        "use it or remove it; a misspelt name elsewhere may be the cause",
+    )
 }

@@ -1,45 +1,59 @@
 //! Reads one table: which of its keys there are, which are missing, which nobody knows.
 
-use lptn_data::{Diagnostic, Span};
-use lptn_laws::Formula;
+use lptn_data::{Diagnostic, Span, list};
 use lptn_network::Input;
 
+use crate::format::SectionDeclaration;
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
-use crate::vocabulary::Section;
 
 /// What a field belongs to, in words.
 #[derive(Clone, Debug)]
-pub(crate) struct Owner(String);
+pub(crate) struct Owner {
+    words: String,
+    /// Where its keys are declared.
+    section: &'static SectionDeclaration,
+}
 
 impl Owner {
     /// An element, such as resistor `internal`.
     pub(crate) fn element(kind: &str, name: &str) -> Self {
-        Self(format!("{kind} `{name}`"))
+        Self { words: format!("{kind} `{name}`"), section: &SectionDeclaration::NEW }
     }
 
     /// A section without elements, such as `[run]`.
     pub(crate) fn section(name: &str) -> Self {
-        Self(format!("[{name}]"))
+        Self { words: format!("[{name}]"), section: &SectionDeclaration::NEW }
     }
 
     /// Whether it is a section and no element.
     fn is_section(&self) -> bool {
-        self.0.contains('[')
+        self.words.contains('[')
     }
 
     /// A table inside a section, such as `output` of [run].
     pub(crate) fn inside(&self, key: &str) -> Self {
-        Self(self.field(key))
+        Self { words: self.field(key), section: &SectionDeclaration::NEW }
     }
 
     /// "`R` of resistor `internal`".
     pub(crate) fn field(&self, key: &str) -> String {
-        format!("`{key}` of {}", self.0)
+        format!("`{key}` of {}", self.words)
     }
 
     /// "resistor `internal`".
     pub(crate) fn words(&self) -> &str {
-        &self.0
+        &self.words
+    }
+
+    /// One of its keys as it could be written.
+    pub(crate) fn sample(&self, key: &str) -> String {
+        self.section.sample(key)
+    }
+
+    /// The example of one of its keys below another name.
+    pub(crate) fn sample_as(&self, key: &str, name: &str) -> String {
+        let example = self.section.key(key).map_or("\"..\"", |key| key.example);
+        format!("{name} = {example}")
     }
 }
 
@@ -53,14 +67,13 @@ pub(crate) struct Fields<'a> {
     pub(crate) complete: bool,
     /// The area that is meant where none is given: that of the face at which a path ends.
     pub(crate) area: Option<Input>,
-    section: &'static [&'static str],
     table: &'a RawTable,
 }
 
 impl<'a> Fields<'a> {
     /// The fields of `entry`; `None` if it is no table.
     pub(crate) fn of(
-        section: &Section,
+        section: &'static SectionDeclaration,
         owner: Owner,
         entry: &'a RawEntry,
         problems: &mut Vec<Diagnostic>,
@@ -70,7 +83,7 @@ impl<'a> Fields<'a> {
             return None;
         };
         let mut complete = true;
-        for field in table.entries.iter().filter(|f| !section.keys.contains(&f.key.as_str())) {
+        for field in table.entries.iter().filter(|field| section.key(&field.key).is_none()) {
             complete = false;
             let below = field.key_span.range.start >= table.span.range.end;
             let inner = below && matches!(field.value.kind, RawKind::Table(_));
@@ -80,7 +93,8 @@ impl<'a> Fields<'a> {
                 false => unknown(section, &owner, field),
             });
         }
-        Some(Self { owner, place: &entry.key_span, complete, area: None, section: section.keys, table })
+        let owner = Owner { section, ..owner };
+        Some(Self { owner, place: &entry.key_span, complete, area: None, table })
     }
 
     /// Whether a key is there or is meant without.
@@ -100,7 +114,7 @@ impl<'a> Fields<'a> {
 
     /// Whether this kind of element has such a key.
     pub(crate) fn known(&self, key: &str) -> bool {
-        self.section.contains(&key)
+        self.owner.section.key(key).is_some()
     }
 
     /// The place of a key.
@@ -113,13 +127,16 @@ impl<'a> Fields<'a> {
         let value = self.get(key);
         if value.is_none() && self.complete {
             let message = format!("{} has no `{key}`", self.owner.words());
-            problems.push(
-                Diagnostic::error("netlist::missing_field", message)
-                    .at(self.place.clone(), format!("`{key}` is missing"))
-                    .help(format!("add `{}`", sample(key))),
-            );
+            problems.push(self.missing(key, message));
         }
         value
+    }
+
+    /// That a key is missing, with how it could be written.
+    pub(crate) fn missing(&self, key: &str, message: String) -> Diagnostic {
+        Diagnostic::error("netlist::missing_field", message)
+            .at(self.place.clone(), format!("`{key}` is missing"))
+            .help(format!("add `{}`", self.sample(key)))
     }
 
     /// The text of a string, for a field that holds a name and not a value.
@@ -132,109 +149,33 @@ impl<'a> Fields<'a> {
         match &value.kind {
             RawKind::String { text, .. } => Some(text),
             _ => {
-                problems.push(wrong_shape(&self.owner.field(key), value, "a string", &sample(key)));
+                problems.push(self.wrong_shape(key, value, "a string"));
                 None
             }
         }
     }
-}
 
-/// A field of a known key, as it could be written.
-pub(crate) fn sample(key: &str) -> String {
-    format!("{key} = {}", sample_value(key))
-}
-
-/// The right side of a field of a known key.
-pub(crate) fn sample_value(key: &str) -> &'static str {
-    match key {
-        "of" => "\"steel.T\"",
-        "below" => "\"110 degC\"",
-        "above" => "\"-20 degC\"",
-        "report" => "{ rise = \"steel.T - air.T\" }",
-        "window" => "{ climb = { from = \"10 min\", to = \"20 min\" } }",
-        "severity" => "\"warning\"",
-        "minimise" | "maximise" => "\"name of a parameter\"",
-        "vary" => "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
-        "require" => "[\"steel.T <= 80 [degC]\"]",
-        "over" => "\"steady\"",
-        "data" => "\"record.csv\"",
-        "column" => "{ ring = \"steel.T\" }",
-        "sigma" => "\"0.2 K\"",
-        "template" => "\"planet\"",
-        "count" => "3",
-        "connect" => "{ carrier = \"carrier\" }",
-        "set" => "{ ratio = 0.5 }",
-        "unit" => "\"K/W\"",
-        "material" => "\"steel_8620\"",
-        "mass" => "\"1.2 kg\"",
-        "volume" => "\"150 cm^3\"",
-        "density" => "\"7850 kg/m^3\"",
-        "cp" => "\"475 J/(kg K)\"",
-        "source" => "\"where the numbers come from\"",
-        "size" => "[\"0.5 m\", \"0.5 m\", \"20 mm\"]",
-        "cells" => "[20, 20, 4]",
-        "T0" | "T" => "\"25 degC\"",
-        "C" => "\"500 J/K\"",
-        "P" => "\"100 W\"",
-        "stop" => "\"25 min\"",
-        "start" => "\"0 s\"",
-        "initial" => "\"out/gearbox/state.json\"",
-        "min_dwell" => "\"30 s\"",
-        "every" => "\"5 s\"",
-        "tolerance" => "\"1e-5 K\"",
-        "temperature_unit" => "\"degC\"",
-        "select" => "[\"*.T\"]",
-        "at" => "[\"0 s\", \"5 s\"]",
-        "output" => "{ every = \"5 s\" }",
-        "L_char" => "\"12 mm\"",
-        "massless" => "true",
-        "integrator" => "\"auto\"",
-        "from" => "\"name of a node or boundary\"",
-        "to" => "\"name of another node or boundary\"",
-        "sense" => "\"name of a node or boundary\"",
-        "node" | "into" => "\"name of a node\"",
-        _ => sample_of_law(key).or_else(|| sample_of_curve(key)).unwrap_or("\"..\""),
+    /// That a value of a key, or a part of it, is not what the key takes.
+    pub(crate) fn wrong_shape(&self, key: &str, value: &RawValue, wanted: &str) -> Diagnostic {
+        wrong_shape(&self.owner.field(key), value, wanted, &self.sample(key))
     }
-}
 
-/// The right side of a field of a path or of what it is made of.
-fn sample_of_law(key: &str) -> Option<&'static str> {
-    Some(match key {
-        "on_above" => "\"60 degC\"",
-        "off_below" => "\"55 degC\"",
-        "on_below" => "\"18 degC\"",
-        "off_above" => "\"20 degC\"",
-        "shape" => "\"slab\"",
-        "fluid" => "\"water\"",
-        "solidus" => "\"55 degC\"",
-        "liquidus" => "\"57 degC\"",
-        "latent_heat" => "\"200 kJ/kg\"",
-        _ => return Formula::ALL.iter().find_map(|law| law.field(key)).map(|field| field.example),
-    })
-}
+    /// That of several keys only one can be there: each that is has a label.
+    pub(crate) fn several<'k>(
+        &self,
+        code: &'static str,
+        message: String,
+        keys: impl IntoIterator<Item = &'k str>,
+    ) -> Diagnostic {
+        let places = keys.into_iter();
+        let places = places.filter_map(|key| Some((self.key(key)?.clone(), format!("`{key}` here"))));
+        Diagnostic::error(code, format!("{} {message}", self.owner.words())).places(places)
+    }
 
-/// The right side of a field of a table or signal.
-fn sample_of_curve(key: &str) -> Option<&'static str> {
-    Some(match key {
-        "x" => "[\"0 rpm\", \"5000 rpm\"]",
-        "y" => "[\"0 W\", \"80 W\"]",
-        "t" => "[\"0 s\", \"60 s\"]",
-        "v" => "[\"0 rpm\", \"5000 rpm\"]",
-        "x_unit" | "v_unit" => "\"rpm\"",
-        "y_unit" => "\"W\"",
-        "t_unit" => "\"s\"",
-        "csv" => "\"cycle.csv\"",
-        "nodes" => "\"nodes.csv\"",
-        "boundaries" => "\"boundaries.csv\"",
-        "conductors" => "\"conductors.csv\"",
-        "sources" => "\"sources.csv\"",
-        "time" => "\"t\"",
-        "value" => "\"speed\"",
-        "interp" => "\"linear\"",
-        "outside" | "after_end" => "\"hold\"",
-        "period" => "\"60 s\"",
-        _ => return None,
-    })
+    /// One of its keys as it could be written.
+    pub(crate) fn sample(&self, key: &str) -> String {
+        self.owner.sample(key)
+    }
 }
 
 /// A value of another TOML type than its field takes.
@@ -245,7 +186,7 @@ pub(crate) fn wrong_shape(field: &str, value: &RawValue, wanted: &str, sample: &
         .help(format!("write it like this: `{sample}`"))
 }
 
-fn not_a_table(section: &Section, owner: &Owner, entry: &RawEntry) -> Diagnostic {
+fn not_a_table(section: &SectionDeclaration, owner: &Owner, entry: &RawEntry) -> Diagnostic {
     let got = entry.value.kind.with_article();
     let message = format!("{} must be a table of fields, got {got}", owner.words());
     let error = Diagnostic::error("netlist::not_a_table", message).at(entry.value.span.clone(), "");
@@ -256,7 +197,11 @@ fn not_a_table(section: &Section, owner: &Owner, entry: &RawEntry) -> Diagnostic
 }
 
 /// An element below the heading of another one.
-fn element_inside(section: &Section, (owner, name): (&Owner, &str), field: &RawEntry) -> Diagnostic {
+fn element_inside(
+    section: &SectionDeclaration,
+    (owner, name): (&Owner, &str),
+    field: &RawEntry,
+) -> Diagnostic {
     let (key, kind) = (&field.key, section.name);
     Diagnostic::error("netlist::unknown_key", format!("{} has no field `{key}`", owner.words()))
         .at(field.key_span.clone(), format!("belongs to `[{kind}.{name}]`, which lasts to the next heading"))
@@ -265,13 +210,16 @@ fn element_inside(section: &Section, (owner, name): (&Owner, &str), field: &RawE
         ))
 }
 
-fn unknown(section: &Section, owner: &Owner, field: &RawEntry) -> Diagnostic {
+fn unknown(section: &SectionDeclaration, owner: &Owner, field: &RawEntry) -> Diagnostic {
     let key = &field.key;
     if section.later.contains(&key.as_str()) {
         let message = format!("{} is not supported yet", owner.field(key));
-        return Diagnostic::error("netlist::not_supported_yet", message)
-            .at(field.key_span.clone(), "")
-            .help(format!("the keys here are {} so far", lptn_data::list(section.keys)));
+        return Diagnostic::wrong(
+            "netlist::not_supported_yet",
+            message,
+            &field.key_span,
+            format!("the keys here are {} so far", list(&section.names())),
+        );
     }
     Diagnostic::error("netlist::unknown_key", format!("{} has no field `{key}`", owner.words()))
         .at(field.key_span.clone(), "unknown key")

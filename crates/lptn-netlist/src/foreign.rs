@@ -3,7 +3,7 @@
 
 use lptn_data::{Diagnostic, FileId, Span};
 
-use crate::headings::SECTIONS;
+use crate::format::Format;
 
 /// The file is not a netlist at all.
 pub(crate) const CODE: &str = "netlist::not_a_netlist";
@@ -17,9 +17,13 @@ const MANY: usize = 8;
 const NEW: &str = "a netlist is a TOML file; `lptn new NAME` writes one to start from";
 
 /// What a text is that is not TOML, if it is plainly something else; so many of its lines are broken.
-pub(crate) fn recognise(name: &str, (file, text): (FileId, &str), broken: usize) -> Option<Diagnostic> {
+pub(crate) fn recognise(
+    (name, format): (&str, &Format),
+    (file, text): (FileId, &str),
+    broken: usize,
+) -> Option<Diagnostic> {
     let all: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
-    if all.iter().any(|line| is_heading(line)) {
+    if all.iter().any(|line| is_heading(line, format)) {
         return None;
     }
     let lines = &all[..all.len().min(ENOUGH)];
@@ -62,9 +66,9 @@ fn json_help(text: &str) -> String {
 }
 
 /// The heading of a section that there is.
-fn is_heading(line: &str) -> bool {
+fn is_heading(line: &str, format: &Format) -> bool {
     let inner = line.split('#').next().unwrap_or_default().trim().trim_matches(['[', ']']).trim();
-    line.starts_with('[') && SECTIONS.contains(&inner.split('.').next().unwrap_or_default().trim())
+    line.starts_with('[') && format.has(inner.split('.').next().unwrap_or_default().trim())
 }
 
 /// Two lines or more, all of them with the same separator and none with an equals sign.

@@ -68,7 +68,10 @@ impl Names {
             GridPart::Nothing(why, help) => unknown(why).help(help),
             GridPart::Face(_) | GridPart::Whole(_) if value && wanted.names_nodes() => {
                 let message = format!("{words} cannot use `{name}`, which is a result");
-                Diagnostic::error("netlist::temperature_not_here", message).at(at.clone(), "").help(
+                Diagnostic::wrong(
+                    "netlist::temperature_not_here",
+                    message,
+                    at,
                     "limits and reports may use it; name a single cell, whose temperature is that of a node",
                 )
             }

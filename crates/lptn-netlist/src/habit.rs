@@ -4,14 +4,18 @@
 use lptn_data::{Diagnostic, FileId, Span};
 use lptn_units::parse_quantity;
 
-use crate::fields::sample_value;
+use crate::format::Format;
 use crate::toml_1_1::string_length;
 
 /// Longer lines were not written by hand.
 const LONGEST: usize = 2000;
 
 /// Explains a broken line by the first habit found in it.
-pub(crate) fn explain((start, line): &(usize, &str), file: FileId, message: &str) -> Option<Diagnostic> {
+pub(crate) fn explain(
+    (start, line): &(usize, &str),
+    (file, format): (FileId, &Format),
+    message: &str,
+) -> Option<Diagnostic> {
     if line.len() > LONGEST {
         return None;
     }
@@ -29,7 +33,7 @@ pub(crate) fn explain((start, line): &(usize, &str), file: FileId, message: &str
             ';' if in_table => return Some(semicolon(place(at, 1))),
             '=' => {
                 let value = Value::after(line, at);
-                if let Some(found) = value.explain(message) {
+                if let Some(found) = value.explain(message, format) {
                     return Some(found.at(place(value.start, value.text.len().max(1)), ""));
                 }
             }
@@ -62,7 +66,7 @@ impl<'a> Value<'a> {
         Self { key: key.unwrap_or(""), start, text: rest.get(..length(rest)).unwrap_or("").trim_end() }
     }
 
-    fn explain(&self, message: &str) -> Option<Diagnostic> {
+    fn explain(&self, message: &str, format: &Format) -> Option<Diagnostic> {
         if self.text.starts_with(['"', '\'', '{', '[']) || self.text.is_empty() {
             return None;
         }
@@ -70,7 +74,7 @@ impl<'a> Value<'a> {
             let error = Diagnostic::error("netlist::syntax", "fields stand in braces");
             return Some(error.help(format!("write `{}`", self.in_braces())));
         }
-        self.decimal_comma().or_else(|| self.unquoted(message))
+        self.decimal_comma(format).or_else(|| self.unquoted(message))
     }
 
     fn in_braces(&self) -> String {
@@ -79,8 +83,9 @@ impl<'a> Value<'a> {
     }
 
     /// `R = 0,35`, with the unit of the field where none is written.
-    fn decimal_comma(&self) -> Option<Diagnostic> {
-        let unit = sample_value(self.key).trim_matches('"').split_once(' ').map_or("", |(_, unit)| unit);
+    fn decimal_comma(&self, format: &Format) -> Option<Diagnostic> {
+        let example = format.example(self.key).unwrap_or_default().trim_matches('"');
+        let unit = example.split_once(' ').map_or("", |(_, unit)| unit);
         let number = self.text.trim_end_matches(|c: char| !c.is_ascii_digit());
         let quantity = if number == self.text { format!("{number} {unit}") } else { self.text.to_owned() };
         let error = parse_quantity(quantity.trim(), None).err()?;

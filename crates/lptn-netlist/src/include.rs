@@ -8,10 +8,11 @@ use lptn_data::{Diagnostic, FileId, Files, MOST_BYTES, Severity, Span};
 
 use crate::duplicate;
 use crate::fields::wrong_shape;
-use crate::near_file;
+use crate::format::{Format, Role};
+use crate::head::check_head;
+use crate::near_file::NamedFile;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
-use crate::section::check_head;
-use crate::syntax::parse_raw;
+use crate::syntax;
 
 /// Reads the bytes of a file that a netlist names: one that it includes, or a CSV file.
 pub type Loader<'a> = dyn FnMut(&Path) -> io::Result<Vec<u8>> + 'a;
@@ -21,8 +22,13 @@ const DEEPEST: usize = 8;
 
 const INCLUDE: &str = "include";
 
-/// What belongs to the question that is asked of a network, and not to a part of it.
-const STUDIES: [&str; 4] = ["run", "size", "sweep", "fit"];
+const INCLUDED: NamedFile = NamedFile {
+    does: "include one",
+    verb: "include",
+    without_folder: "netlist::include_without_folder",
+    not_found: "netlist::include_not_found",
+    else_help: "",
+};
 
 /// A netlist with everything it includes.
 #[derive(Debug)]
@@ -37,7 +43,7 @@ pub(crate) struct Merged {
 
 /// Puts what a netlist includes in front of its own entries; without `include` nothing is done.
 pub(crate) fn merge(
-    files: &mut Files,
+    (files, format): (&mut Files, &Format),
     raw: RawNetlist,
     (path, file): (&Path, FileId),
     loader: Option<&mut Loader<'_>>,
@@ -48,7 +54,8 @@ pub(crate) fn merge(
     }
     let span = merged.raw.top.span.clone();
     let own = std::mem::take(&mut merged.raw.top.entries);
-    let mut work = Work { files, loader, stack: vec![(normal(path), file)], done: HashSet::new(), merged };
+    let mut work =
+        Work { files, format, loader, stack: vec![(normal(path), file)], done: HashSet::new(), merged };
     let (entries, includes) = split(own);
     work.includes(&includes, path);
     work.append(entries);
@@ -59,6 +66,7 @@ pub(crate) fn merge(
 
 struct Work<'a, 'l> {
     files: &'a mut Files,
+    format: &'a Format,
     loader: Option<&'a mut Loader<'l>>,
     /// The files that are open: each includes the next.
     stack: Vec<(PathBuf, FileId)>,
@@ -96,14 +104,14 @@ impl Work<'_, '_> {
         if self.stack.len() > DEEPEST {
             return self.lost(too_deep(value));
         }
-        let Some(loader) = self.loader.as_mut() else { return self.lost(no_folder(value)) };
-        let bytes = match loader(&path) {
+        let bytes = match INCLUDED.load(&path, value, self.loader.as_deref_mut()) {
             Ok(bytes) => bytes,
-            Err(error) => return self.unread(cannot_read(&path, &error, value)),
+            Err(problem) if problem.code == INCLUDED.without_folder => return self.lost(problem),
+            Err(problem) => return self.unread(problem),
         };
         if bytes.len() as u64 > MOST_BYTES {
             let error = io::Error::other(format!("it is longer than {} MB", MOST_BYTES / 1_000_000));
-            return self.unread(cannot_read(&path, &error, value));
+            return self.unread(INCLUDED.unreadable(&path, value, &error));
         }
         let Some(text) = std::str::from_utf8(&bytes).ok().filter(|text| !text.contains('\0')) else {
             return self.unread(not_text(&path, value));
@@ -113,7 +121,7 @@ impl Work<'_, '_> {
     }
 
     fn file(&mut self, path: &Path, key: PathBuf, file: FileId) {
-        let (raw, broken) = parse_raw(self.files, file);
+        let (raw, broken) = syntax::read(self.files, file, self.format);
         if !broken.is_empty() {
             self.merged.syntax = true;
             self.merged.incomplete = true;
@@ -127,7 +135,7 @@ impl Work<'_, '_> {
         self.stack.pop();
         self.done.insert(key);
         let (refused, entries): (Vec<_>, Vec<_>) =
-            entries.into_iter().partition(|entry| STUDIES.contains(&entry.key.as_str()));
+            entries.into_iter().partition(|entry| self.format.role(&entry.key) == Some(Role::Study));
         self.merged.problems.extend(refused.iter().map(study));
         // title and format are the file's own
         let own = ["format", "title", "description"];
@@ -179,9 +187,12 @@ impl Work<'_, '_> {
             [one, _] => format!("{one} includes itself"),
             _ => format!("files include each other: {}", chain.join(" -> ")),
         };
-        Diagnostic::error("netlist::include_cycle", message)
-            .at(value.span.clone(), "")
-            .help("move what both need into a file of its own")
+        Diagnostic::wrong(
+            "netlist::include_cycle",
+            message,
+            &value.span,
+            "move what both need into a file of its own",
+        )
     }
 }
 
@@ -233,45 +244,26 @@ fn shape(value: &RawValue) -> Diagnostic {
 
 fn study(entry: &RawEntry) -> Diagnostic {
     let message = format!("`[{}]` cannot stand in a file that is included", entry.key);
-    Diagnostic::error("netlist::study_in_include", message)
-        .at(entry.key_span.clone(), "")
-        .help("move it to the file that is run: what is asked of a network is no part of it")
+    Diagnostic::wrong(
+        "netlist::study_in_include",
+        message,
+        &entry.key_span,
+        "move it to the file that is run: what is asked of a network is no part of it",
+    )
 }
 
 fn too_deep(value: &RawValue) -> Diagnostic {
     let message = format!("files are included more than {DEEPEST} deep");
-    Diagnostic::error("netlist::include_depth", message)
-        .at(value.span.clone(), "")
-        .help("include the innermost file directly")
-}
-
-fn no_folder(value: &RawValue) -> Diagnostic {
-    let message = "this netlist is not read from a file, so it cannot include one";
-    Diagnostic::error("netlist::include_without_folder", message)
-        .at(value.span.clone(), "")
-        .help("save it, and give the name of the file")
-}
-
-fn cannot_read(path: &Path, error: &io::Error, value: &RawValue) -> Diagnostic {
-    let message = format!("cannot include {}: {}", path.display(), reason(error));
-    Diagnostic::error("netlist::include_not_found", message)
-        .at(value.span.clone(), "")
-        .help(near_file::help(value, path, error))
-}
-
-/// Why a file could not be read, in words.
-pub(crate) fn reason(error: &io::Error) -> String {
-    match error.kind() {
-        io::ErrorKind::NotFound => "there is no such file".to_owned(),
-        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
-        _ => error.to_string(),
-    }
+    Diagnostic::wrong("netlist::include_depth", message, &value.span, "include the innermost file directly")
 }
 
 fn not_text(path: &Path, value: &RawValue) -> Diagnostic {
-    Diagnostic::error("netlist::not_text", format!("{} is not a text file in UTF-8", path.display()))
-        .at(value.span.clone(), "")
-        .help("a netlist is a TOML file in UTF-8; choose UTF-8 where your editor saves it")
+    Diagnostic::wrong(
+        "netlist::not_text",
+        format!("{} is not a text file in UTF-8", path.display()),
+        &value.span,
+        "a netlist is a TOML file in UTF-8; choose UTF-8 where your editor saves it",
+    )
 }
 
 /// Whether any of the problems keeps the netlist from being used.

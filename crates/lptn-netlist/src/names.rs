@@ -1,16 +1,15 @@
 //! The names of a netlist: what each stands for.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use lptn_data::Span;
-use lptn_laws::Kind;
 use lptn_units::Expression;
 
+use crate::format::Format;
 use crate::grid_part::KnownGrid;
 use crate::raw::{RawEntry, RawKind, RawNetlist};
 use crate::template::Structure;
-use crate::vocabulary::{CONTROL, PARAM, SIGNAL, TABLE};
 
 /// What a name in an expression can stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,13 +21,18 @@ pub(crate) enum ValueKind {
 }
 
 impl ValueKind {
-    /// Each with its section.
-    const ALL: [(Self, &'static str); 4] = [
-        (Self::Parameter, PARAM),
-        (Self::Signal, SIGNAL.name),
-        (Self::Control, CONTROL.name),
-        (Self::Table, TABLE.name),
-    ];
+    /// All of them.
+    const ALL: [Self; 4] = [Self::Parameter, Self::Signal, Self::Control, Self::Table];
+
+    /// The section of such values.
+    pub(crate) const fn section(self) -> &'static str {
+        match self {
+            Self::Parameter => "param",
+            Self::Signal => "signal",
+            Self::Control => "control",
+            Self::Table => "table",
+        }
+    }
 
     /// What it is called in messages.
     pub(crate) fn word(self) -> &'static str {
@@ -58,10 +62,8 @@ pub(crate) struct Names {
     pub(crate) read: HashSet<String>,
     /// Names in sections that are not known: they may be what is looked for.
     hidden: HashSet<String>,
-    /// Materials that cannot be read.
-    hidden_materials: HashSet<String>,
-    /// Fluids that cannot be read.
-    hidden_fluids: HashSet<String>,
+    /// Materials and fluids that cannot be read, by section.
+    hidden_substances: HashSet<(&'static str, String)>,
     /// A file of names is missing: any name may be what is looked for.
     all_hidden: bool,
     /// How many similar names were looked for.
@@ -80,17 +82,11 @@ const MOST_SEARCHES: usize = 100;
 /// After so many looks at names neither.
 const MOST_LOOKS: usize = 4_000_000;
 
-/// The sections whose elements share one set of names.
-static ELEMENTS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
-    let paths = Kind::ALL.iter().map(|kind| kind.declaration().section);
-    ["node", "grid", "boundary", "source", "capacitor"].into_iter().chain(paths).chain(["limit"]).collect()
-});
-
 impl Names {
-    pub(crate) fn of(raw: &RawNetlist, structure: &Arc<Structure>) -> Self {
+    pub(crate) fn of(raw: &RawNetlist, structure: &Arc<Structure>, format: &Format) -> Self {
         let mut names = Self { structure: Arc::clone(structure), ..Self::default() };
-        for (kind, heading) in ValueKind::ALL {
-            let entries = raw.elements(heading).iter();
+        for kind in ValueKind::ALL {
+            let entries = raw.elements(kind.section()).iter();
             for (position, entry) in entries.enumerate() {
                 names.order.push(entry.key.clone());
                 if names.values.contains_key(&entry.key) {
@@ -100,7 +96,7 @@ impl Names {
                 }
             }
         }
-        for kind in ELEMENTS.iter() {
+        for kind in format.elements() {
             let entries = raw.elements(kind).iter();
             for entry in entries {
                 names.elements.entry(entry.key.clone()).or_insert(kind);
@@ -114,8 +110,7 @@ impl Names {
     pub(crate) fn line<'a>(&self, raw: &'a RawNetlist, name: &str) -> Option<&'a RawEntry> {
         let (kind, _, position) = self.values.get(name)?;
         let entries = match kind {
-            ValueKind::Parameter => raw.elements(PARAM),
-            ValueKind::Signal => raw.elements(SIGNAL.name),
+            ValueKind::Parameter | ValueKind::Signal => raw.elements(kind.section()),
             ValueKind::Control | ValueKind::Table => return None,
         };
         entries.get(*position)
@@ -195,22 +190,13 @@ impl Names {
         expression.renamed(&|name| self.structure.meaning(place, name))
     }
 
-    /// Notes a material that cannot be read.
-    pub(crate) fn hide_material(&mut self, name: &str) {
-        self.hidden_materials.insert(name.to_owned());
+    /// Notes a material or fluid that cannot be read, with its section.
+    pub(crate) fn hide_substance(&mut self, section: &'static str, name: &str) {
+        self.hidden_substances.insert((section, name.to_owned()));
     }
 
-    pub(crate) fn is_hidden_material(&self, name: &str) -> bool {
-        self.hidden_materials.contains(name)
-    }
-
-    /// Notes a fluid that cannot be read.
-    pub(crate) fn hide_fluid(&mut self, name: &str) {
-        self.hidden_fluids.insert(name.to_owned());
-    }
-
-    pub(crate) fn is_hidden_fluid(&self, name: &str) -> bool {
-        self.hidden_fluids.contains(name)
+    pub(crate) fn is_hidden_substance(&self, section: &'static str, name: &str) -> bool {
+        self.hidden_substances.contains(&(section, name.to_owned()))
     }
 
     pub(crate) fn fail(&mut self, name: &str) {

@@ -1,8 +1,9 @@
-//! The file that was probably meant by a path that leads nowhere.
+//! Files that a netlist names: how they are read, and which was probably meant by a path that leads nowhere.
 
-use std::io::{Error, ErrorKind};
+use std::io::{self, Error, ErrorKind};
 use std::path::{Component, Path, PathBuf};
 
+use lptn_data::Diagnostic;
 use lptn_units::suggest;
 
 use crate::raw::{RawKind, RawValue};
@@ -62,7 +63,7 @@ fn names(folder: &Path) -> Option<Vec<String>> {
 
 /// What to write in place of a value that names a file, by a path relative to that of the netlist, which could not be
 /// read.
-pub(crate) fn help(value: &RawValue, path: &Path, error: &Error) -> String {
+fn help(value: &RawValue, path: &Path, error: &Error) -> String {
     let RawKind::String { text: written, .. } = &value.kind else { return String::new() };
     if written.contains(char::is_control) {
         return "a backslash begins an escape in a string: write the path with `/`".to_owned();
@@ -72,5 +73,53 @@ pub(crate) fn help(value: &RawValue, path: &Path, error: &Error) -> String {
     match near {
         Some(near) => format!("did you mean \"{}\"?", near.strip_prefix(folder).unwrap_or(&near).display()),
         None => "paths are relative to the file that names it".to_owned(),
+    }
+}
+
+/// How a kind of file is spoken of that a netlist names.
+pub(crate) struct NamedFile {
+    /// What the netlist does with one: "include one", "read a CSV file".
+    pub(crate) does: &'static str,
+    /// The same of a certain one: "include", "read".
+    pub(crate) verb: &'static str,
+    pub(crate) without_folder: &'static str,
+    pub(crate) not_found: &'static str,
+    /// What else to do where it cannot be read.
+    pub(crate) else_help: &'static str,
+}
+
+impl NamedFile {
+    /// The bytes of the file that a value names.
+    pub(crate) fn load(
+        &self,
+        path: &Path,
+        value: &RawValue,
+        loader: Option<&mut (impl FnMut(&Path) -> io::Result<Vec<u8>> + ?Sized)>,
+    ) -> Result<Vec<u8>, Diagnostic> {
+        let Some(loader) = loader else {
+            let message = format!("this netlist is not read from a file, so it cannot {}", self.does);
+            let help = "save it, and give the name of the file";
+            return Err(Diagnostic::wrong(self.without_folder, message, &value.span, help));
+        };
+        loader(path).map_err(|error| match error.kind() {
+            ErrorKind::FileTooLarge if self.not_found == "netlist::csv_not_found" => {
+                let message = format!("cannot read {}: {error}", path.display());
+                let help = "leave out rows between which nothing changes, or split the file by its columns";
+                Diagnostic::wrong("netlist::csv_too_long", message, &value.span, help)
+            }
+            _ => self.unreadable(path, value, &error),
+        })
+    }
+
+    /// That the file cannot be read.
+    pub(crate) fn unreadable(&self, path: &Path, value: &RawValue, error: &Error) -> Diagnostic {
+        let reason = match error.kind() {
+            ErrorKind::NotFound => "there is no such file".to_owned(),
+            ErrorKind::IsADirectory => "it is a folder".to_owned(),
+            _ => error.to_string(),
+        };
+        let message = format!("cannot {} {}: {reason}", self.verb, path.display());
+        let help = format!("{}{}", help(value, path, error), self.else_help);
+        Diagnostic::wrong(self.not_found, message, &value.span, help)
     }
 }

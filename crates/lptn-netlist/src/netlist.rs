@@ -13,18 +13,20 @@ use lptn_units::Unit;
 
 use crate::csv_files::CsvFiles;
 use crate::elaborate::{Elaborated, elaborate};
-use crate::fit::FitStudy;
+use crate::fit::{self, FitStudy};
 use crate::foreign;
+use crate::head;
+use crate::import;
 use crate::include::{self, Loader, Merged};
 use crate::initial::{self, InitialState, StateFile};
 use crate::plausible;
 use crate::raw::RawNetlist;
-use crate::run::RunPlan;
+use crate::run::{RUN, RunPlan};
 use crate::section;
 use crate::size::SizeStudy;
 use crate::source_map::SourceMap;
 use crate::streams;
-use crate::syntax::parse_raw;
+use crate::syntax;
 use crate::syntax_error::NOT_CLOSED;
 use crate::template::{self, Expanded, Structure};
 
@@ -99,6 +101,12 @@ impl Netlist {
     }
 }
 
+/// Reads the text of a file, without a look at what it means. The tree holds what could be read, whatever is wrong
+/// elsewhere.
+pub fn parse_raw(files: &Files, file: FileId) -> (RawNetlist, Vec<Diagnostic>) {
+    syntax::read(files, file, section::format())
+}
+
 /// Reads a netlist from a file.
 ///
 /// # Errors
@@ -163,20 +171,20 @@ fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netl
         return Err(not_text((name, ""), 0..0, "it contains zero bytes"));
     }
     let file = files.add(name, text);
-    let (raw, mut diagnostics) = parse_raw(&files, file);
+    let (raw, mut diagnostics) = syntax::read(&files, file, section::format());
     let syntax = !diagnostics.is_empty();
     if diagnostics.first().is_some_and(|problem| problem.code == foreign::CODE) {
         return Err(Rejected { files, diagnostics, syntax });
     }
     if raw.top.entries.is_empty() && !syntax {
-        let empty = section::empty(text, Span::new(file, 0..0));
+        let empty = head::empty(text, Span::new(file, 0..0));
         return Err(Rejected { files, diagnostics: vec![empty], syntax });
     }
     if !syntax {
         return included(files, raw, (Path::new(name), file), loader);
     }
     // what is wrong with templates may follow from the broken line
-    let Expanded { raw, structure, .. } = template::expand(&mut files, raw);
+    let Expanded { raw, structure, .. } = template::expand(&mut files, raw, section::format());
     let (_, found) = elaborate(&raw, &structure, &CsvFiles::default(), None);
     add_certain(&mut diagnostics, found.problems, (&files, file));
     shorten(&mut diagnostics, found.dropped);
@@ -191,16 +199,18 @@ fn included(
     mut loader: Option<&mut Loader<'_>>,
 ) -> Result<Netlist, Rejected> {
     let Merged { raw, problems: mut diagnostics, incomplete, syntax } =
-        include::merge(&mut files, raw, main, loader.as_deref_mut());
+        include::merge((&mut files, section::format()), raw, main, loader.as_deref_mut());
     if incomplete {
         arrange(&files, &mut diagnostics);
         shorten(&mut diagnostics, 0);
         return Err(Rejected { files, diagnostics, syntax });
     }
-    let Expanded { raw, structure, problems } = template::expand(&mut files, raw);
+    let Expanded { raw, structure, problems } = template::expand(&mut files, raw, section::format());
     diagnostics.extend(problems);
-    let state = StateFile::read(&mut files, &raw, loader.as_deref_mut());
-    let csv = CsvFiles::read(&mut files, &raw, loader);
+    let initial = raw.section(RUN.name).and_then(|run| run.get("initial"));
+    let state = initial.map(|named| StateFile::read(&mut files, &named.value, loader.as_deref_mut()));
+    let long = import::files(&raw).chain(fit::files(&raw));
+    let csv = CsvFiles::read(&mut files, (&raw, section::format()), long, loader);
     let (done, mut found) = elaborate(&raw, &structure, &csv, state.as_ref());
     if include::any_error(&diagnostics) {
         found.problems.retain(|problem| problem.severity == Severity::Error);

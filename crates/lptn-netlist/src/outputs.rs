@@ -3,12 +3,20 @@
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Field, Item, WindowSettings};
 
-use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::fields::{Fields, Owner};
+use crate::format::{SectionDeclaration, key};
 use crate::place::{Place, Wanted};
-use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::raw::{RawEntry, RawKind};
 use crate::setting::{Setting, TIME};
-use crate::vocabulary::WINDOW;
 use crate::work::Elaboration;
+
+/// `climb = { from = .., to = .. }` in `window` of `[run]`.
+const WINDOW: SectionDeclaration = SectionDeclaration {
+    name: "window",
+    keys: &[key("from", "s", "when it begins", "\"10 min\""), key("to", "s", "when it ends", "\"20 min\"")],
+    example: "{ from = \"10 min\", to = \"20 min\" }",
+    ..SectionDeclaration::NEW
+};
 
 /// A window before its expressions are evaluated.
 #[derive(Clone, Debug)]
@@ -30,8 +38,8 @@ impl<'a> Elaboration<'a> {
         let owner = Owner::element("report", &entry.key);
         let place = Place { owner: &owner, key: "", raw: &entry.value };
         if entry.key == "time" {
-            let problem = Diagnostic::error("netlist::report_name", "`time` is the column of the time");
-            self.report(problem.at(entry.key_span.clone(), "").help("give the report another name"));
+            let message = "`time` is the column of the time";
+            self.refuse("netlist::report_name", message, &entry.key_span, "give the report another name");
             return None;
         }
         let input = self.given(place, Wanted::of_results())?.input();
@@ -53,7 +61,7 @@ impl<'a> Elaboration<'a> {
     }
 
     fn window(&mut self, entry: &'a RawEntry) -> Option<WindowPlan> {
-        let fields = Fields::of(&WINDOW, Owner::element(WINDOW.name, &entry.key), entry, &mut self.problems)?;
+        let fields = self.fields(&WINDOW, entry)?;
         let (from, to) = (self.window_end(&fields, "from"), self.window_end(&fields, "to"));
         Some(WindowPlan { name: entry.key.clone(), from: from?, to: to? })
     }
@@ -62,8 +70,7 @@ impl<'a> Elaboration<'a> {
         let Some(raw) = fields.get(key) else {
             if fields.complete {
                 let message = format!("{} has no `{key}`", fields.owner.words());
-                let problem = Diagnostic::error("netlist::missing_field", message);
-                self.report(problem.at(fields.place.clone(), format!("`{key}` is missing")).help(HELP));
+                self.report(fields.missing(key, message).help(HELP));
             }
             return None;
         };
@@ -75,12 +82,7 @@ impl<'a> Elaboration<'a> {
 
     /// The entries of a table in `[run]`.
     fn members(&mut self, fields: &Fields<'a>, key: &str) -> &'a [RawEntry] {
-        let Some(raw): Option<&'a RawValue> = fields.get(key) else { return &[] };
-        let RawKind::Table(table) = &raw.kind else {
-            self.report(wrong_shape(&fields.owner.field(key), raw, "a table", &sample(key)));
-            return &[];
-        };
-        &table.entries
+        self.table_of(fields, (key, "a table")).map_or(&[], |table| &table.entries)
     }
 }
 

@@ -7,10 +7,20 @@ use lptn_network::{Field, Item};
 use lptn_units::{Quantity, Type};
 
 use crate::fields::Owner;
+use crate::format::{Role, SectionDeclaration};
+use crate::names::ValueKind;
 use crate::place::{Place, Text, Wanted};
 use crate::raw::{RawEntry, RawKind};
-use crate::vocabulary::{PARAM, SIGNAL};
+
 use crate::work::Elaboration;
+
+pub(crate) const PARAM: SectionDeclaration = SectionDeclaration {
+    name: ValueKind::Parameter.section(),
+    sentence: "Quantities, numbers, or expressions over other parameters, each below a name of its own.",
+    role: Role::Value,
+    example: "\"0.3 K/W\"",
+    ..SectionDeclaration::NEW
+};
 
 /// A parameter or signal before its names are resolved.
 pub(crate) struct Pending<'a> {
@@ -25,19 +35,15 @@ pub(crate) struct Pending<'a> {
 impl<'a> Elaboration<'a> {
     /// Gives all parameters to the builder.
     pub(crate) fn parameters(&mut self) {
-        for mut pending in self.in_order((PARAM, "parameter"), "netlist::parameter_cycle") {
+        for mut pending in self.in_order(ValueKind::Parameter, "netlist::parameter_cycle") {
             self.parameter(&mut pending);
         }
     }
 
     /// The entries of a section so that each comes after those it uses; cycles are reported, and their members left
     /// without text.
-    pub(crate) fn in_order(
-        &mut self,
-        (heading, kind): (&str, &'static str),
-        code: &'static str,
-    ) -> Vec<Pending<'a>> {
-        let entries = self.elements(heading);
+    pub(crate) fn in_order(&mut self, kind: ValueKind, code: &'static str) -> Vec<Pending<'a>> {
+        let entries = self.elements(kind.section());
         let positions: HashMap<&str, usize> =
             entries.iter().enumerate().map(|(i, entry)| (entry.key.as_str(), i)).collect();
         let mut pending: Vec<Option<Pending<'a>>> =
@@ -45,7 +51,7 @@ impl<'a> Elaboration<'a> {
         let (order, cycles) = order(&pending);
         for cycle in &cycles {
             let members: Vec<&Pending<'_>> = cycle.iter().filter_map(|&i| pending[i].as_ref()).collect();
-            self.problems.push(describe_cycle(kind, code, &members));
+            self.problems.push(describe_cycle(kind.word(), code, &members));
             for &member in cycle {
                 if let Some(pending) = &mut pending[member] {
                     pending.text = None;
@@ -58,12 +64,12 @@ impl<'a> Elaboration<'a> {
 
     fn pending(
         &mut self,
-        kind: &'static str,
+        kind: ValueKind,
         entry: &'a RawEntry,
         positions: &HashMap<&str, usize>,
     ) -> Pending<'a> {
-        let owner = Owner::element(kind, &entry.key);
-        if let (RawKind::Table(_), true) = (&entry.value.kind, kind == SIGNAL.name) {
+        let owner = Owner::element(kind.word(), &entry.key);
+        if let (RawKind::Table(_), true) = (&entry.value.kind, kind == ValueKind::Signal) {
             return Pending { entry, owner, text: None, uses: Vec::new() }; // its points are read later
         }
         let place = Place { owner: &owner, key: "", raw: &entry.value };
@@ -167,11 +173,7 @@ fn describe_cycle(kind: &str, code: &'static str, cycle: &[&Pending<'_>]) -> Dia
         [one] => format!("{kind} {} is defined by itself", name(one)),
         _ => format!("{kind}s are defined by each other: {}", chain.join(" -> ")),
     };
-    let mut error = Diagnostic::error(code, message);
-    for (n, (member, next)) in cycle.iter().zip(chain.iter().skip(1)).enumerate() {
-        let span = member.entry.value.span.clone();
-        let text = format!("uses {next}");
-        error = if n == 0 { error.at(span, text) } else { error.also(span, text) };
-    }
-    error.help("give one of them a value of its own")
+    let members = cycle.iter().zip(chain.iter().skip(1));
+    let uses = members.map(|(member, next)| (member.entry.value.span.clone(), format!("uses {next}")));
+    Diagnostic::error(code, message).places(uses).help("give one of them a value of its own")
 }

@@ -6,7 +6,7 @@ use lptn_data::{Asked, Diagnostic};
 use lptn_network::{Context, Input, Value};
 use lptn_units::{Expression, Program, Quantity, Type, UnitError, UnitErrorKind, kelvin_alone};
 
-use crate::fields::{Owner, sample};
+use crate::fields::Owner;
 use crate::raw::{RawKind, RawValue};
 use crate::value_help::celsius_or_kelvin;
 
@@ -163,10 +163,7 @@ impl Place<'_> {
         let problem = self.unit_error(&error);
         let key = if self.key.is_empty() { String::new() } else { format!("{} = ", self.key) };
         let line = |value: &str| format!("`{key}\"{value}\"`");
-        Some(match celsius_or_kelvin(text, line, "") {
-            Some(help) => problem.help(help),
-            None => problem,
-        })
+        Some(problem.help(celsius_or_kelvin(text, line, "")))
     }
 
     /// Puts a mistake in the string at its place in the file.
@@ -184,10 +181,7 @@ impl Place<'_> {
             _ => self.raw.part(&error.span),
         };
         let diagnostic = diagnostic.at(place, "");
-        match self.unit_help(error) {
-            Some(help) => diagnostic.help(help),
-            None => diagnostic,
-        }
+        diagnostic.help(self.unit_help(error))
     }
 
     /// The part of the string that is wrong, if it is not the whole string.
@@ -207,7 +201,7 @@ impl Place<'_> {
                 if matches!(self.key, "x" | "y" | "t" | "v") {
                     return Some(format!("give it in {unit}, for example `\"1 {unit}\"`"));
                 }
-                Some(format!("give it in {unit}, for example `{}`", sample(self.key)))
+                Some(format!("give it in {unit}, for example `{}`", self.owner.sample(self.key)))
             }
             UnitErrorKind::NotFinite { text } if text.starts_with("inf") && self.key == "R" => {
                 Some("leave the path out if no heat flows through it".into())

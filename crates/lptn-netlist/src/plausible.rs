@@ -176,14 +176,8 @@ fn apart(
     );
     let warning = Diagnostic::warning("network::decades_apart", message);
     let place = |id: ConductorId| map.name(Item::Conductor(id));
-    let warning = match place(weak) {
-        Some(span) => warning.at(span, ""),
-        None => warning,
-    };
-    let warning = match place(strong) {
-        Some(span) => warning.also(span, "beside it"),
-        None => warning,
-    };
+    let warning = warning.at(place(weak), "");
+    let warning = warning.also(place(strong), "beside it");
     warning
         .help("check the prefix of the unit: m is a thousandth, M a million; leave out what carries no heat")
 }

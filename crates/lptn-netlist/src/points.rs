@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use lptn_data::{CsvFile, Diagnostic, Places, Points, fit};
-use lptn_units::{Expression, TableError, Type, Unit, parse_quantity, suggest, written_quantity};
+use lptn_units::{Expression, TableError, Type, Unit, parse_quantity, written_quantity};
 
-use crate::fields::{Fields, sample, wrong_shape};
+use crate::fields::{Fields, wrong_shape};
 use crate::place::Place;
 use crate::raw::{RawKind, RawValue};
 use crate::work::Elaboration;
@@ -27,7 +27,7 @@ impl<'a> Elaboration<'a> {
         let [x, y] = axes;
         if fields.get("csv").is_none() {
             self.refuse_keys(fields, &["time", "value"], "names a column, but there is no `csv`");
-            let (x, y) = (self.list(fields, x), self.list(fields, y));
+            let (x, y) = (self.points(fields, x), self.points(fields, y));
             return Some([x?, y?]);
         }
         let lists = [x.list, y.list].into_iter().filter(|key| *key != x.column && *key != y.column);
@@ -44,8 +44,7 @@ impl<'a> Elaboration<'a> {
 
     /// The file that `csv` names.
     pub(crate) fn csv_file(&mut self, fields: &Fields<'a>) -> Option<Arc<CsvFile>> {
-        let raw = fields.get("csv")?;
-        fields.text("csv", raw, &mut self.problems)?;
+        let (_, raw) = self.word(fields, "csv")?;
         match self.csv.get(raw)? {
             Ok(file) => Some(file),
             Err(problem) => {
@@ -94,24 +93,13 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// Keys that mean nothing here.
-    pub(crate) fn refuse_keys(&mut self, fields: &Fields<'_>, keys: &[&str], why: &str) {
-        for key in keys {
-            if let Some(span) = fields.key(key) {
-                let message = format!("{} {why}", fields.owner.field(key));
-                let problem = Diagnostic::error("netlist::useless_key", message).at(span.clone(), "");
-                self.report(problem.help(format!("remove `{key}`")));
-            }
-        }
-    }
-
-    fn list(&mut self, fields: &Fields<'a>, axis: Axis<'_>) -> Option<Points> {
-        let raw = fields.require(axis.list, &mut self.problems);
+    fn points(&mut self, fields: &Fields<'a>, axis: Axis<'_>) -> Option<Points> {
+        let raw = self.require(fields, axis.list);
         let unit = fields.get(axis.unit).map(|raw| self.unit(fields, axis, raw));
         let raw = raw?;
         let place = Place { owner: &fields.owner, key: axis.list, raw };
         let RawKind::Array(items) = &raw.kind else {
-            self.report(wrong_shape(&place.words(), raw, "a list", &sample(axis.list)));
+            self.report(fields.wrong_shape(axis.list, raw, "a list"));
             return None;
         };
         let unit = match unit {
@@ -177,7 +165,7 @@ impl<'a> Elaboration<'a> {
             },
             _ => {
                 let wanted = "a list of quantities or numbers";
-                wrong_shape(&list.words(), item, wanted, &sample(axis.list))
+                wrong_shape(&list.words(), item, wanted, &list.owner.sample(axis.list))
             }
         };
         self.report(problem);
@@ -200,35 +188,16 @@ impl<'a> Elaboration<'a> {
                         found.with_article()
                     );
                     let example = format!("{} = \"{}\"", axis.unit, wanted.usual_unit());
-                    Diagnostic::error("units::dimension", message)
-                        .at(raw.span.clone(), "")
-                        .help(format!("write it like this: `{example}`"))
+                    Diagnostic::wrong(
+                        "units::dimension",
+                        message,
+                        &raw.span,
+                        format!("write it like this: `{example}`"),
+                    )
                 }
             },
         };
         self.report(problem);
-        None
-    }
-
-    /// One of several words; the first unless said otherwise.
-    pub(crate) fn choice<T: Copy>(
-        &mut self,
-        fields: &Fields<'a>,
-        key: &str,
-        words: &[(&str, T)],
-    ) -> Option<T> {
-        let Some(raw) = fields.get(key) else { return words.first().map(|(_, value)| *value) };
-        let text = fields.text(key, raw, &mut self.problems)?;
-        if let Some((_, value)) = words.iter().find(|(word, _)| *word == text) {
-            return Some(*value);
-        }
-        let message = format!("{} cannot be \"{text}\"", fields.owner.field(key));
-        let problem = Diagnostic::error("netlist::unknown_word", message).at(raw.span.clone(), "");
-        let all: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
-        self.report(match suggest(text, all.iter().copied()) {
-            Some(near) => problem.help(format!("did you mean `{key} = \"{near}\"`?")),
-            None => problem.help(format!("it is one of {}", lptn_data::list(&all))),
-        });
         None
     }
 
@@ -255,13 +224,7 @@ impl<'a> Elaboration<'a> {
                 let (n, m) = (x.numbers.len(), y.numbers.len());
                 at_list(format!("{words} has {n} arguments but {m} values")).help("give one value for each")
             }
-            other => {
-                let problem = at_list(format!("{words}: {other}"));
-                match other.help() {
-                    Some(help) => problem.help(help),
-                    None => problem,
-                }
-            }
+            other => at_list(format!("{words}: {other}")).help(other.help()),
         };
         self.report(problem);
     }
@@ -287,19 +250,22 @@ fn rising(words: &str, arguments: &str, x: &Points, index: usize) -> Diagnostic 
 }
 
 fn cold(place: Place<'_>) -> Diagnostic {
-    Diagnostic::error("units::below_absolute_zero", format!("{} goes below absolute zero", place.words()))
-        .at(place.raw.span.clone(), "")
-        .help("0 K is -273.15 degC")
+    Diagnostic::wrong(
+        "units::below_absolute_zero",
+        format!("{} goes below absolute zero", place.words()),
+        &place.raw.span,
+        "0 K is -273.15 degC",
+    )
 }
 
 fn no_unit(place: Place<'_>, axis: Axis<'_>, ty: Type) -> Diagnostic {
     let unit = ty.usual_unit();
-    Diagnostic::error(
+    Diagnostic::wrong(
         "units::bare_number",
         format!("{} must be {}, got a plain number", place.words(), ty.with_article()),
+        &place.raw.span,
+        format!("give the unit once for the whole list: `{} = \"{unit}\"`", axis.unit),
     )
-    .at(place.raw.span.clone(), "")
-    .help(format!("give the unit once for the whole list: `{} = \"{unit}\"`", axis.unit))
 }
 
 /// A list of one type so far, and an item of another.
@@ -324,10 +290,15 @@ fn mixed(place: Place<'_>, axis: Axis<'_>, (first, found): (Option<Type>, Type))
 
 fn two_units(place: Place<'_>, axis: Axis<'_>) -> Diagnostic {
     let message = format!("{} holds a string, but `{}` is for plain numbers", place.words(), axis.unit);
-    Diagnostic::error("netlist::two_units", message).at(place.raw.span.clone(), "").help(format!(
-        "write the number without quotes and unit, or remove `{}` and give every number its unit",
-        axis.unit
-    ))
+    Diagnostic::wrong(
+        "netlist::two_units",
+        message,
+        &place.raw.span,
+        format!(
+            "write the number without quotes and unit, or remove `{}` and give every number its unit",
+            axis.unit
+        ),
+    )
 }
 
 fn is_expression(text: &str) -> bool {
@@ -335,7 +306,10 @@ fn is_expression(text: &str) -> bool {
 }
 
 fn not_constant(place: Place<'_>) -> Diagnostic {
-    Diagnostic::error("netlist::point_not_constant", format!("{} holds an expression", place.words()))
-        .at(place.raw.span.clone(), "")
-        .help("points are numbers or quantities; multiply where the curve is used: `scale * name(x)`")
+    Diagnostic::wrong(
+        "netlist::point_not_constant",
+        format!("{} holds an expression", place.words()),
+        &place.raw.span,
+        "points are numbers or quantities; multiply where the curve is used: `scale * name(x)`",
+    )
 }

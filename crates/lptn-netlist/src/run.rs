@@ -4,12 +4,63 @@ use lptn_data::{Diagnostic, Span};
 use lptn_network::{AfterEnd, Evaluation, Network, OutputTimes, RunSettings, WindowSettings};
 use lptn_units::{Dimension, Type};
 
-use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::fields::{Fields, Owner};
+use crate::format::{Role, SectionDeclaration, key};
 use crate::outputs::WindowPlan;
 use crate::raw::{RawKind, RawValue};
+use crate::section::SIGNAL;
 use crate::setting::{Setting, TIME};
-use crate::vocabulary::{OUTPUT, RUN, SIGNAL};
 use crate::work::Elaboration;
+
+pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
+    name: "run",
+    sentence: "What to simulate.",
+    role: Role::Study,
+    keys: &[
+        key("stop", "s", "when the run ends", "\"25 min\""),
+        key("start", "s", "when it begins", "\"0 s\"").or("0 s"),
+        key(
+            "initial",
+            "file",
+            "the state of another run, which it starts from",
+            "\"out/gearbox/state.json\"",
+        ),
+        key(
+            "output",
+            "table",
+            "when a row is written: `every` so often, or `at` these times",
+            "{ every = \"5 s\" }",
+        )
+        .or("300 rows"),
+        key("select", "list of patterns", "which columns are written", "[\"*.T\"]").or("all"),
+        key("report", "table of expressions of results", "further columns", "{ rise = \"steel.T - air.T\" }"),
+        key(
+            "window",
+            "table",
+            "parts of the run with means and extremes: `from` and `to`",
+            "{ climb = { from = \"10 min\", to = \"20 min\" } }",
+        ),
+        key("tolerance", "K", "how far temperatures may be off", "\"1e-5 K\"").or("1e-5 K"),
+        key("integrator", "`\"auto\"`", "how it is computed", "\"auto\"").or("`\"auto\"`"),
+    ],
+    example: "{ stop = \"25 min\" }",
+    elsewhere: &[
+        ("every", "write `output = { every = \"5 s\" }`"),
+        ("at", "write `output = { at = [\"5 s\"] }`"),
+    ],
+    ..SectionDeclaration::NEW
+};
+
+/// `output = { .. }` of `[run]`.
+const OUTPUT: SectionDeclaration = SectionDeclaration {
+    name: "output",
+    keys: &[
+        key("every", "s", "the time between two rows", "\"5 s\""),
+        key("at", "list of times", "the times of the rows, rising", "[\"0 s\", \"5 s\"]"),
+    ],
+    example: "{ every = \"5 s\" }",
+    ..SectionDeclaration::NEW
+};
 
 /// The tolerance in K of a run that does not say.
 const USUAL_TOLERANCE: f64 = 1e-5;
@@ -40,17 +91,15 @@ pub(crate) enum OutputPlan {
 impl<'a> Elaboration<'a> {
     pub(crate) fn run(&mut self) -> Option<RunPlan> {
         let entry = self.raw.top.get(RUN.name)?;
-        let fields = Fields::of(&RUN, Owner::section(RUN.name), entry, &mut self.problems)?;
+        let fields = self.inner(&RUN, Owner::section(RUN.name), entry)?;
         self.integrator(&fields);
-        if let Some(raw) = fields.get("initial") {
-            fields.text("initial", raw, &mut self.problems);
-        }
-        let stop = fields.require("stop", &mut self.problems);
-        let stop = stop.and_then(|raw| self.setting(&fields.owner, ("stop", raw), TIME));
+        self.word(&fields, "initial");
+        self.require(&fields, "stop");
+        let stop = self.optional(&fields, "stop", TIME);
         let start = self.optional(&fields, "start", TIME);
         let tolerance = self.optional(&fields, "tolerance", DIFFERENCE);
         let output = self.output(&fields);
-        let select = fields.get("select").map_or_else(Vec::new, |raw| self.select(&fields, raw));
+        let select = self.select(&fields);
         self.reports(&fields);
         let windows = self.windows(&fields);
         let (signals, held) = (self.used_signals(), self.held());
@@ -70,28 +119,25 @@ impl<'a> Elaboration<'a> {
     }
 
     fn integrator(&mut self, fields: &Fields<'a>) {
-        let Some(raw) = fields.get("integrator") else { return };
-        if fields.text("integrator", raw, &mut self.problems).is_some_and(|text| text != "auto") {
+        if let Some((_, raw)) = self.word(fields, "integrator").filter(|(text, _)| *text != "auto") {
             let message = "a choice of `integrator` in [run] is not supported yet";
-            self.report(
-                Diagnostic::error("netlist::not_supported_yet", message)
-                    .at(raw.span.clone(), "")
-                    .help("write `integrator = \"auto\"` or leave it out"),
-            );
+            let help = "write `integrator = \"auto\"` or leave it out";
+            self.refuse("netlist::not_supported_yet", message, &raw.span, help);
         }
     }
 
     fn output(&mut self, fields: &Fields<'a>) -> Option<OutputPlan> {
+        self.table_of(fields, ("output", "a table"))?;
         let entry = fields.entry("output")?;
-        if !matches!(entry.value.kind, RawKind::Table(_)) {
-            let words = fields.owner.field("output");
-            self.report(wrong_shape(&words, &entry.value, "a table", &sample("output")));
-            return None;
-        }
-        let output = Fields::of(&OUTPUT, fields.owner.inside("output"), entry, &mut self.problems)?;
+        let output = self.inner(&OUTPUT, fields.owner.inside("output"), entry)?;
         match (output.get("every"), output.get("at")) {
-            (Some(every), None) => self.setting(&output.owner, ("every", every), TIME).map(OutputPlan::Every),
-            (None, Some(at)) => self.times(&output.owner, at),
+            (Some(_), None) => self.optional(&output, "every", TIME).map(OutputPlan::Every),
+            (None, Some(_)) => {
+                let list = self.list(&output, ("at", "a list of times"))?;
+                let times: Vec<_> =
+                    list.iter().map(|raw| self.setting(&output.owner, ("at", raw), TIME)).collect();
+                times.into_iter().collect::<Option<Vec<_>>>().map(OutputPlan::At)
+            }
             (every, _) => {
                 if output.complete {
                     self.report(one_of(&entry.value, every.is_some()));
@@ -101,41 +147,33 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    fn times(&mut self, owner: &Owner, raw: &RawValue) -> Option<OutputPlan> {
-        let RawKind::Array(list) = &raw.kind else {
-            self.report(wrong_shape(&owner.field("at"), raw, "a list of times", &sample("at")));
-            return None;
-        };
-        let times: Vec<_> = list.iter().map(|raw| self.setting(owner, ("at", raw), TIME)).collect();
-        times.into_iter().collect::<Option<Vec<_>>>().map(OutputPlan::At)
-    }
-
-    fn select(&mut self, fields: &Fields<'a>, raw: &RawValue) -> Vec<String> {
-        let words = fields.owner.field("select");
-        let RawKind::Array(list) = &raw.kind else {
-            self.report(wrong_shape(&words, raw, "a list of patterns", &sample("select")));
-            return Vec::new();
-        };
+    fn select(&mut self, fields: &Fields<'a>) -> Vec<String> {
         let (mut patterns, mut spans) = (Vec::new(), Vec::new());
-        for item in list {
+        let list = self.list(fields, ("select", "a list of patterns"));
+        for item in list.unwrap_or_default() {
             match &item.kind {
                 RawKind::String { text, .. } => {
                     patterns.push(text.clone());
                     spans.push(item.span.clone());
                 }
-                _ => self.report(wrong_shape(&words, item, "a list of strings", &sample("select"))),
+                _ => self.report(fields.wrong_shape("select", item, "a list of strings")),
             }
         }
-        self.map.set_select(spans);
+        if list.is_some() {
+            self.map.set_select(spans);
+        }
         patterns
     }
 }
 
 fn one_of(raw: &RawValue, both: bool) -> Diagnostic {
     let message = if both { "has both `every` and `at`" } else { "has neither `every` nor `at`" };
-    Diagnostic::error("netlist::run_output", format!("`output` of [run] {message}"))
-        .at(raw.span.clone(), "")
-        .help("write `output = { every = \"5 s\" }` or `output = { at = [\"0 s\", \"5 s\"] }`")
+    Diagnostic::wrong(
+        "netlist::run_output",
+        format!("`output` of [run] {message}"),
+        &raw.span,
+        "write `output = { every = \"5 s\" }` or `output = { at = [\"0 s\", \"5 s\"] }`",
+    )
 }
 
 impl RunPlan {
@@ -293,7 +331,10 @@ fn same(a: f64, b: f64) -> bool {
 
 fn too_many(setting: &Setting, rows: f64) -> Diagnostic {
     let message = format!("{} makes {rows:.0} rows, more than {:.0}", setting.words, OutputTimes::MOST_ROWS);
-    Diagnostic::error("netlist::too_many_rows", message)
-        .at(setting.span.clone(), "")
-        .help("write a longer time, or leave `output` out for 300 rows")
+    Diagnostic::wrong(
+        "netlist::too_many_rows",
+        message,
+        &setting.span,
+        "write a longer time, or leave `output` out for 300 rows",
+    )
 }

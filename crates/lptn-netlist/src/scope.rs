@@ -6,7 +6,7 @@ use lptn_data::{Diagnostic, Span};
 use lptn_network::Context;
 use lptn_units::{Expression, Type, Written, is_function, parse_quantity, parse_value, suggest};
 
-use crate::fields::{sample, sample_value, wrong_shape};
+use crate::fields::wrong_shape;
 use crate::misplaced::{LOCAL, control_not_here, depends_on_time, not_here};
 use crate::names::{Names, ValueKind, base};
 use crate::place::{Place, Text, Wanted};
@@ -32,8 +32,11 @@ impl Names {
                 Err(error) => Err(place.unit_error(&error)),
             },
             _ => {
-                let sample =
-                    if place.key.is_empty() { "name = \"25.5 degC\"".into() } else { sample(place.key) };
+                let sample = if place.key.is_empty() {
+                    "name = \"25.5 degC\"".into()
+                } else {
+                    place.owner.sample(place.key)
+                };
                 Err(wrong_shape(&place.words(), place.raw, "a quantity or an expression in quotes", &sample))
             }
         }
@@ -145,9 +148,8 @@ impl Names {
                 error.help(format!("its temperature is `{name}.T`"))
             }
             Some(kind) => error.help(format!("`{name}` is a {kind}; expressions use parameters")),
-            None => {
-                error.help(format!("add it to [param], for example `{name} = {}`", sample_value(place.key)))
-            }
+            None => error
+                .help(format!("add it to [param], for example `{}`", place.owner.sample_as(place.key, name))),
         }
     }
 }

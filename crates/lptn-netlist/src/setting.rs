@@ -4,7 +4,7 @@ use lptn_data::Span;
 use lptn_network::Value;
 use lptn_units::{Dimension, Type, format_number};
 
-use crate::fields::{Owner, sample};
+use crate::fields::Owner;
 use crate::place::{Place, Wanted};
 use crate::raw::RawValue;
 use crate::toml_text::string;
@@ -44,7 +44,7 @@ impl Elaboration<'_> {
         let place = Place { owner, key, raw };
         let words = place.words();
         let value = self.given(place, Wanted::constant(ty))?.value();
-        let help = format!("write it like this: `{}`", sample(key));
+        let help = format!("write it like this: `{}`", owner.sample(key));
         Some(Setting { value, span: raw.span.clone(), words, unit: ty.usual_unit(), help })
     }
 }

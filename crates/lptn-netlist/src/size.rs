@@ -2,13 +2,53 @@
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Context, Evaluation, Network, Value};
-use lptn_units::{Comparison, EvalError, Expression, Scope as _, Type, suggest};
+use lptn_units::{Comparison, EvalError, Expression, Scope as _, Type};
 
-use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::fields::{Fields, Owner};
+use crate::format::{Role, SectionDeclaration, key};
 use crate::place::{Given, Place, Text, Wanted};
-use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::vocabulary::{SIZE, VARY};
+use crate::raw::{RawEntry, RawValue};
+use crate::toml_text::{TomlFields, key as toml_key, like, strings};
 use crate::work::Elaboration;
+
+pub(crate) const SIZE: SectionDeclaration = SectionDeclaration {
+    name: "size",
+    sentence: "A parameter to size: the least or largest value that keeps every requirement.",
+    role: Role::Study,
+    keys: &[
+        key("minimise", "parameter", "whose least value is sought", "\"name of a parameter\""),
+        key("maximise", "parameter", "whose largest value is sought", "\"name of a parameter\""),
+        key("vary", "table", "its range, `from` and `to`", "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }"),
+        key("require", "list of comparisons of results", "what has to be kept", "[\"steel.T <= 80 [degC]\"]"),
+        key("over", "`\"steady\"`", "the results in which it has to be kept", "\"steady\"")
+            .or("`\"steady\"`"),
+    ],
+    later: &["catalogue"],
+    example: "{ minimise = \"p\", vary = { p = { from = \"..\", to = \"..\" } }, require = [\"a.T <= 80 [degC]\"] }",
+    elsewhere: &[
+        ("minimize", "did you mean `minimise`?"),
+        ("maximize", "did you mean `maximise`?"),
+        ("from", "write `vary = { p = { from = \"..\", to = \"..\" } }`"),
+        ("to", "write `vary = { p = { from = \"..\", to = \"..\" } }`"),
+    ],
+};
+
+/// `p = { from = .., to = .. }` in `vary` of a size or fit.
+pub(crate) const VARY: SectionDeclaration = SectionDeclaration {
+    name: "vary",
+    keys: &[
+        key("from", "as the parameter", "the least value", "\"1 W/K\""),
+        key("to", "as the parameter", "the largest value", "\"10 W/K\""),
+    ],
+    example: "{ from = \"1 W/K\", to = \"10 W/K\" }",
+    elsewhere: &[
+        ("min", "the least value is `from`"),
+        ("lower", "the least value is `from`"),
+        ("max", "the largest value is `to`"),
+        ("upper", "the largest value is `to`"),
+    ],
+    ..SectionDeclaration::NEW
+};
 
 /// Which of several values that keep every requirement is the best.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,9 +114,18 @@ impl SizeStudy {
         Ok((self.from.at(&mut scope)?, self.to.at(&mut scope)?))
     }
 
-    /// The least and the largest value as they are written.
-    pub(crate) fn ends(&self) -> [&Value; 2] {
-        [&self.from, &self.to]
+    /// Its fields as they are written.
+    pub(crate) fn written(&self, network: &Network) -> TomlFields {
+        let mut fields = TomlFields::default();
+        fields.word(if self.goal == Goal::Minimise { "minimise" } else { "maximise" }, &self.parameter);
+        if let Ok(id) = network.parameter(&self.parameter) {
+            let ty = network.parameters()[id.index()].ty;
+            let [from, to] = [&self.from, &self.to].map(|end| like(end, ty));
+            let name = toml_key(&self.parameter);
+            fields.put("vary", format!("{{ {name} = {{ from = {from}, to = {to} }} }}"));
+        }
+        fields.put("require", strings(self.requirements.iter().map(|r| r.text.as_str())));
+        fields
     }
 
     /// What is wrong with the range, if anything.
@@ -96,17 +145,22 @@ impl SizeStudy {
 }
 
 impl<'a> Elaboration<'a> {
+    /// An end of the range of a parameter of this type: `None` if it is not there, `Some(None)` if it is wrong.
+    pub(crate) fn range_end(&mut self, range: &Fields<'a>, key: &str, ty: Type) -> Option<Option<Value>> {
+        let given = self.given_inside(&range.owner, (key, range.get(key)?), Wanted::like(ty));
+        Some(given.map(Given::value))
+    }
+
     pub(crate) fn sizes(&mut self) -> Vec<SizeStudy> {
         self.elements(SIZE.name).iter().filter_map(|entry| self.size_study(entry)).collect()
     }
 
     fn size_study(&mut self, entry: &'a RawEntry) -> Option<SizeStudy> {
-        let owner = Owner::element(SIZE.name, &entry.key);
-        let fields = Fields::of(&SIZE, owner, entry, &mut self.problems)?;
+        let fields = self.fields(&SIZE, entry)?;
         self.over(&fields);
         let sought = self.goal(&fields);
         let range = sought.and_then(|(_, parameter)| self.vary(&fields, parameter));
-        let requirements = self.require(&fields);
+        let requirements = self.requirements(&fields);
         let ((goal, parameter), (from, to)) = (sought?, range?);
         Some(SizeStudy {
             name: entry.key.clone(),
@@ -121,29 +175,24 @@ impl<'a> Elaboration<'a> {
     }
 
     fn over(&mut self, fields: &Fields<'a>) {
-        let Some(raw) = fields.get("over") else { return };
-        let Some(text) = fields.text("over", raw, &mut self.problems) else { return };
-        let words = fields.owner.field("over");
-        let problem = match text {
-            "steady" => return,
-            "run" | "periodic" => Diagnostic::error(
-                "netlist::not_supported_yet",
-                format!("{words} = \"{text}\" is not supported yet"),
-            ),
-            _ => {
-                let message = format!("{words} has to be \"steady\", got \"{text}\"");
-                Diagnostic::error("netlist::size_over", message)
-            }
+        let Some((text, raw)) = self.word(fields, "over").filter(|(text, _)| *text != "steady") else {
+            return;
         };
-        let help = "write `over = \"steady\"` or leave it out";
-        self.report(problem.at(raw.span.clone(), "").help(help));
+        let words = fields.owner.field("over");
+        let (code, message) = match text {
+            "run" | "periodic" => {
+                ("netlist::not_supported_yet", format!("{words} = \"{text}\" is not supported yet"))
+            }
+            _ => ("netlist::size_over", format!("{words} has to be \"steady\", got \"{text}\"")),
+        };
+        self.refuse(code, message, &raw.span, "write `over = \"steady\"` or leave it out");
     }
 
     /// Which parameter is sought, and in which direction.
     fn goal(&mut self, fields: &Fields<'a>) -> Option<(Goal, &'a str)> {
-        let (goal, key, raw) = match (fields.get("minimise"), fields.get("maximise")) {
-            (Some(raw), None) => (Goal::Minimise, "minimise", raw),
-            (None, Some(raw)) => (Goal::Maximise, "maximise", raw),
+        let (goal, key) = match (fields.get("minimise"), fields.get("maximise")) {
+            (Some(_), None) => (Goal::Minimise, "minimise"),
+            (None, Some(_)) => (Goal::Maximise, "maximise"),
             (both, _) => {
                 if fields.complete {
                     self.report(one_goal(fields, both.is_some()));
@@ -151,30 +200,15 @@ impl<'a> Elaboration<'a> {
                 return None;
             }
         };
-        let name = fields.text(key, raw, &mut self.problems)?;
-        if self.names.is_parameter(name) {
-            return (!self.names.has_failed(name)).then_some((goal, name));
-        }
-        let words = fields.owner.field(key);
-        let message = format!("{words} has to name a parameter, got `{name}`");
-        let problem = Diagnostic::error("netlist::unknown_parameter", message).at(raw.span.clone(), "");
-        let parameters = self.raw.section(crate::vocabulary::PARAM);
-        let names = parameters.into_iter().flat_map(|table| &table.entries).map(|entry| entry.key.as_str());
-        let help = match suggest(name, names) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => "give the value a name in [param] and use it in the element".to_owned(),
-        };
-        self.report(problem.help(help));
-        None
+        let (name, raw) = self.word(fields, key)?;
+        let known = self.is_parameter_here(&fields.owner.field(key), name, &raw.span);
+        (known && !self.names.has_failed(name)).then_some((goal, name))
     }
 
     /// The range of the parameter.
     fn vary(&mut self, fields: &Fields<'a>, parameter: &str) -> Option<(Value, Value)> {
-        let raw = fields.require("vary", &mut self.problems)?;
-        let RawKind::Table(table) = &raw.kind else {
-            self.report(wrong_shape(&fields.owner.field("vary"), raw, "a table", &sample("vary")));
-            return None;
-        };
+        let raw = self.require(fields, "vary")?;
+        let table = self.table_of(fields, ("vary", "a table"))?;
         let [entry] = table.entries.as_slice() else {
             self.report(one_parameter(fields, raw, parameter));
             return None;
@@ -183,38 +217,28 @@ impl<'a> Elaboration<'a> {
             self.report(one_parameter(fields, raw, parameter));
             return None;
         }
-        let owner = fields.owner.inside("vary").inside(parameter);
-        let range = Fields::of(&VARY, owner, entry, &mut self.problems)?;
+        let range = self.inner(&VARY, fields.owner.inside("vary").inside(parameter), entry)?;
         let ty = self.builder.scope(Context::Time).symbol(parameter)?.ty;
-        let (from, to) = (self.range_end(&range, "from", ty), self.range_end(&range, "to", ty));
-        Some((from?, to?))
-    }
-
-    fn range_end(&mut self, range: &Fields<'a>, key: &str, ty: Type) -> Option<Value> {
-        let Some(raw) = range.get(key) else {
-            if range.complete {
+        let [from, to] = ["from", "to"].map(|key| {
+            let end = self.range_end(&range, key, ty);
+            if end.is_none() && range.complete {
                 let message = format!("{} has no `{key}`", range.owner.words());
-                let problem = Diagnostic::error("netlist::missing_field", message);
-                let help = format!("write it like this: `{}`", sample("vary"));
-                self.report(problem.at(range.place.clone(), format!("`{key}` is missing")).help(help));
+                let help = format!("write it like this: `{}`", fields.sample("vary"));
+                self.report(range.missing(key, message).help(help));
             }
-            return None;
-        };
-        // an owner without a key: the key `from` of a path takes something else
-        let owner = range.owner.inside(key);
-        Some(self.given(Place { owner: &owner, key: "", raw }, Wanted::like(ty))?.value())
+            end
+        });
+        Some((from??, to??))
     }
 
-    fn require(&mut self, fields: &Fields<'a>) -> Option<Vec<Requirement>> {
-        let raw = fields.require("require", &mut self.problems)?;
-        let list = match &raw.kind {
-            RawKind::Array(list) if !list.is_empty() => list,
-            _ => {
-                let words = fields.owner.field("require");
-                self.report(wrong_shape(&words, raw, "a list of requirements", &sample("require")));
-                return None;
-            }
-        };
+    /// The requirements of a study: comparisons of results.
+    pub(crate) fn requirements(&mut self, fields: &Fields<'a>) -> Option<Vec<Requirement>> {
+        let raw = self.require(fields, "require")?;
+        let list = self.list(fields, ("require", "a list of requirements"))?;
+        if list.is_empty() {
+            self.report(fields.wrong_shape("require", raw, "a list of requirements"));
+            return None;
+        }
         let all: Vec<_> = list.iter().map(|raw| self.requirement(&fields.owner, raw)).collect();
         all.into_iter().collect()
     }
@@ -254,8 +278,8 @@ impl<'a> Elaboration<'a> {
 
     fn no_comparison(&mut self, place: Place<'_>) -> Option<Requirement> {
         let message = format!("{} has to compare two values with `<=` or `>=`", place.words());
-        let problem = Diagnostic::error("netlist::size_require", message).at(place.raw.span.clone(), "");
-        self.report(problem.help(format!("write it like this: `{}`", sample("require"))));
+        let help = format!("write it like this: `{}`", place.owner.sample("require"));
+        self.refuse("netlist::size_require", message, &place.raw.span, help);
         None
     }
 }
@@ -263,15 +287,21 @@ impl<'a> Elaboration<'a> {
 fn one_goal(fields: &Fields<'_>, both: bool) -> Diagnostic {
     let has =
         if both { "has both `minimise` and `maximise`" } else { "says neither `minimise` nor `maximise`" };
-    Diagnostic::error("netlist::size_goal", format!("{} {has}", fields.owner.words()))
-        .at(fields.place.clone(), "")
-        .help("name one parameter: `minimise = \"p\"` for the least value that does, `maximise` for the largest")
+    Diagnostic::wrong(
+        "netlist::size_goal",
+        format!("{} {has}", fields.owner.words()),
+        fields.place,
+        "name one parameter: `minimise = \"p\"` for the least value that does, `maximise` for the largest",
+    )
 }
 
 fn one_parameter(fields: &Fields<'_>, raw: &RawValue, parameter: &str) -> Diagnostic {
     let message =
         format!("{} has to give the range of `{parameter}` and of nothing else", fields.owner.field("vary"));
-    Diagnostic::error("netlist::size_vary", message)
-        .at(raw.span.clone(), "")
-        .help(format!("write it like this: `vary = {{ {parameter} = {{ from = \"..\", to = \"..\" }} }}`"))
+    Diagnostic::wrong(
+        "netlist::size_vary",
+        message,
+        &raw.span,
+        format!("write it like this: `vary = {{ {parameter} = {{ from = \"..\", to = \"..\" }} }}`"),
+    )
 }

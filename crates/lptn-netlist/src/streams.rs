@@ -28,14 +28,8 @@ fn warning(network: &Network, map: &SourceMap, passing: Passing) -> Diagnostic {
         short(outflow)
     );
     let problem = Diagnostic::warning("network::unbalanced_streams", message);
-    let problem = match first.and_then(|(_, id)| map.name(Item::Conductor(id))) {
-        Some(span) => problem.at(span, ""),
-        None => problem,
-    };
-    let problem = match map.name(Item::Node(node)) {
-        Some(span) => problem.also(span, "the node"),
-        None => problem,
-    };
+    let problem = problem.at(first.and_then(|(_, id)| map.name(Item::Conductor(id))), "");
+    let problem = problem.also(map.name(Item::Node(node)), "the node");
     problem.help(
         "what flows in flows out: an [advection] to the next node, or to a boundary where the stream leaves the \
          network",

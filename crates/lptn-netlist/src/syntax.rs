@@ -6,21 +6,24 @@ use toml::de::{DeArray, DeTable, DeValue};
 use lptn_data::{Diagnostic, FileId, Files, Span, arrange};
 
 use crate::foreign;
+use crate::format::Format;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::syntax_error;
 use crate::toml_1_1;
 
 /// Reads the text of a file. The tree holds what could be read, whatever is wrong elsewhere.
-pub fn parse_raw(files: &Files, file: FileId) -> (RawNetlist, Vec<Diagnostic>) {
+pub(crate) fn read(files: &Files, file: FileId, format: &Format) -> (RawNetlist, Vec<Diagnostic>) {
     let text = files.text(file);
     let (tree, errors) = DeTable::parse_recoverable(text);
     let mut reader = Reader { file, text, newer: Vec::new() };
     let top = reader.table(tree.get_ref(), 0..0);
-    let mut diagnostics = syntax_error::explain(&errors, file, text, &top);
+    let mut diagnostics = syntax_error::explain(&errors, (file, format), text, &top);
     if diagnostics.is_empty() {
         // next to broken TOML it would only say the same again
         diagnostics = reader.newer;
-    } else if let Some(other) = foreign::recognise(files.name(file), (file, text), diagnostics.len()) {
+    } else if let Some(other) =
+        foreign::recognise((files.name(file), format), (file, text), diagnostics.len())
+    {
         return (RawNetlist { top: RawTable { entries: Vec::new(), ..top } }, vec![other]);
     }
     arrange(files, &mut diagnostics);
@@ -97,7 +100,8 @@ fn decimal(digits: &str, radix: u32) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{content_start, parse_raw};
+    use super::content_start;
+    use crate::parse_raw;
     use crate::raw::RawKind;
     use lptn_data::Files;
 

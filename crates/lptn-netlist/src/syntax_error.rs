@@ -8,6 +8,7 @@ use toml::de::Error;
 use lptn_data::{Diagnostic, FileId, Span, on_borders};
 
 use crate::duplicate;
+use crate::format::Format;
 use crate::habit;
 use crate::raw::RawTable;
 
@@ -20,7 +21,12 @@ pub(crate) const NOT_CLOSED: &str = "netlist::not_closed";
 const MOST_ERRORS: usize = 200;
 
 /// Explains the parser's errors, one for each line: after the first the parser has lost its place in the line.
-pub(crate) fn explain(errors: &[Error], file: FileId, text: &str, top: &RawTable) -> Vec<Diagnostic> {
+pub(crate) fn explain(
+    errors: &[Error],
+    (file, format): (FileId, &Format),
+    text: &str,
+    top: &RawTable,
+) -> Vec<Diagnostic> {
     let mut lines = HashSet::new();
     let mut found: Vec<Diagnostic> = Vec::new();
     let mut unclosed = false;
@@ -40,7 +46,7 @@ pub(crate) fn explain(errors: &[Error], file: FileId, text: &str, top: &RawTable
             found.push(Diagnostic::error(SYNTAX, message).at(place.span(), ""));
             continue;
         }
-        if let Some(habit) = habit::explain(&place.line(), file, message) {
+        if let Some(habit) = habit::explain(&place.line(), (file, format), message) {
             found.push(habit);
             continue;
         }

@@ -1,6 +1,7 @@
-//! Keys and strings as TOML has them.
+//! What is written: keys, strings, numbers in SI units.
 
-use lptn_network::is_name;
+use lptn_network::{Value, ZERO_CELSIUS, is_name};
+use lptn_units::{Type, Unit, format_number};
 
 /// A key; a path stands in quotes.
 pub(crate) fn key(name: &str) -> String {
@@ -24,9 +25,139 @@ pub(crate) fn string(text: &str) -> String {
     written + "\""
 }
 
+/// A list of strings.
+pub(crate) fn strings<'t>(texts: impl Iterator<Item = &'t str>) -> String {
+    let texts: Vec<String> = texts.map(string).collect();
+    format!("[{}]", texts.join(", "))
+}
+
+/// A number in SI units with its unit; an absolute temperature in K, for a field that wants one.
+pub(crate) fn quantity(value: f64, ty: Type) -> String {
+    if ty.is_scalar() {
+        return format_number(value);
+    }
+    let unit = if ty.absolute { "K".to_owned() } else { ty.dimension.si_unit() };
+    format!("\"{} {unit}\"", format_number(value))
+}
+
+/// The value of a field of this type.
+pub(crate) fn value(value: &Value, ty: Type) -> String {
+    match value {
+        Value::Constant(number) => quantity(*number, ty),
+        Value::Expression(program) => string(program.text().trim()),
+        Value::Product(factors) => {
+            // lumps are written by what they are made of; nothing else is a product
+            let factors: Vec<String> = factors.iter().map(|f| self::value(f, Type::SCALAR)).collect();
+            factors.join(" * ")
+        }
+    }
+}
+
+/// A constant of the type that something else has: there `K` would be a difference.
+pub(crate) fn like(value: &Value, ty: Type) -> String {
+    match value {
+        Value::Constant(number) if ty.absolute => point(*number),
+        other => self::value(other, ty),
+    }
+}
+
+/// A point on the temperature scale, wherever it stands.
+pub(crate) fn point(kelvin: f64) -> String {
+    format!("\"absolute({} [K])\"", format_number(kelvin))
+}
+
+/// A point on the temperature scale in degC, with the fewest digits that give back the same number in K.
+pub(crate) fn celsius(kelvin: f64) -> String {
+    let celsius = kelvin - ZERO_CELSIUS;
+    let exact = |text: &String| {
+        text.parse::<f64>().is_ok_and(|value| (value + ZERO_CELSIUS).to_bits() == kelvin.to_bits())
+    };
+    let shortest = (0..=17).map(|digits| format!("{celsius:.digits$}")).find(exact);
+    let text = shortest.unwrap_or_else(|| format!("{celsius}"));
+    if text == "-0" { "0".to_owned() } else { text }
+}
+
+/// A list of numbers in the unit that people gave them in, if that gives back the same numbers.
+pub(crate) fn list_in(numbers: &[f64], ty: Type, unit: Option<&Unit>) -> (String, Option<String>) {
+    let own = |unit: &&Unit| !ty.absolute && unit.text != "1";
+    let written = |unit: &Unit| numbers.iter().map(|&si| exact(si, unit)).collect::<Option<Vec<String>>>();
+    match unit.filter(own).and_then(|unit| Some((written(unit)?, unit))) {
+        Some((written, unit)) => (format!("[{}]", written.join(", ")), Some(unit.text.clone())),
+        None => list(numbers, ty),
+    }
+}
+
+/// The shortest text in a unit that is read as this number to the last bit.
+fn exact(si: f64, unit: &Unit) -> Option<String> {
+    let value = unit.from_si(si);
+    let texts = (0..17).filter_map(|digits| format!("{value:.digits$e}").parse().ok());
+    let found = texts.into_iter().find(|text: &f64| unit.to_si(*text).to_bits() == si.to_bits());
+    found.map(format_number)
+}
+
+/// A list of numbers, and their unit where they have one; points on the temperature scale in degC, as `K` would be
+/// a difference.
+pub(crate) fn list(numbers: &[f64], ty: Type) -> (String, Option<String>) {
+    let written: Vec<String> =
+        numbers.iter().map(|&x| if ty.absolute { celsius(x) } else { format_number(x) }).collect();
+    let unit = match ty {
+        ty if ty.absolute => Some("degC".to_owned()),
+        ty if ty.is_scalar() => None,
+        ty => Some(ty.dimension.si_unit()),
+    };
+    (format!("[{}]", written.join(", ")), unit)
+}
+
+/// The fields of an inline table.
+#[derive(Debug, Default)]
+pub(crate) struct TomlFields(Vec<String>);
+
+impl TomlFields {
+    pub(crate) fn put(&mut self, name: &str, written: impl AsRef<str>) {
+        self.0.push(format!("{} = {}", key(name), written.as_ref()));
+    }
+
+    /// A field that holds a name or word.
+    pub(crate) fn word(&mut self, name: &str, word: &str) {
+        self.put(name, string(word));
+    }
+
+    /// A list with its unit.
+    pub(crate) fn list(&mut self, name: &str, (list, unit): (String, Option<String>)) {
+        self.put(name, list);
+        if let Some(unit) = unit {
+            self.word(&format!("{name}_unit"), &unit);
+        }
+    }
+
+    /// `{ a = 1, b = 2 }`
+    pub(crate) fn inline(&self) -> String {
+        if self.0.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", self.0.join(", ")) }
+    }
+
+    /// One line for each.
+    pub(crate) fn lines(&self) -> String {
+        self.0.iter().map(|field| format!("{field}\n")).collect()
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{key, string};
+    use super::{celsius, key, string};
+
+    #[test]
+    fn temperatures_come_back_to_the_last_bit() {
+        for written in [25.0, -273.15, 0.0, 25.5, 1200.0, 36.6, -40.0, 0.1] {
+            let kelvin: f64 = written + 273.15;
+            assert_eq!(celsius(kelvin).parse::<f64>().ok().map(|c| c + 273.15), Some(kelvin));
+        }
+        assert_eq!(celsius(25.5 + 273.15), "25.5");
+        assert_eq!(celsius(273.15), "0");
+    }
 
     #[test]
     fn strings_are_toml() {

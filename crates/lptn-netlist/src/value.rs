@@ -157,8 +157,5 @@ fn with_parameter(
     let diagnostic = diagnostic.also(entry.value.span.clone(), "its value");
     let alone = expression.text().trim() == name && all.is_parameter(name);
     let help = wanted.ty.filter(|_| alone).and_then(|ty| parameter_help(entry, ty));
-    match help {
-        Some(help) => diagnostic.help(help),
-        None => diagnostic,
-    }
+    diagnostic.help(help)
 }

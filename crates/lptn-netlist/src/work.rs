@@ -7,6 +7,7 @@ use lptn_network::{BuildError, BuildErrorKind, FluidId, Input, Item, MaterialId,
 use lptn_units::{Quantity, Type};
 
 use crate::csv_files::CsvFiles;
+use crate::format::Format;
 use crate::initial::StateFile;
 use crate::names::Names;
 use crate::raw::{RawEntry, RawNetlist};
@@ -14,11 +15,11 @@ use crate::scales::Scales;
 use crate::source_map::SourceMap;
 use crate::template::Structure;
 
-pub(crate) const MISSING_FORMAT: &str = "netlist::missing_format";
-
 /// Work in progress: the network as far as it is built, and everything found on the way.
 pub(crate) struct Elaboration<'a> {
     pub(crate) raw: &'a RawNetlist,
+    /// The sections there are.
+    pub(crate) format: &'static Format,
     /// What templates made of it.
     pub(crate) structure: &'a Structure,
     pub(crate) csv: &'a CsvFiles,
@@ -34,10 +35,10 @@ pub(crate) struct Elaboration<'a> {
     pub(crate) scales: Scales,
     /// Materials by name: those of the file, and those of the library that are used.
     pub(crate) known: HashMap<String, Known>,
-    pub(crate) used_materials: HashSet<String>,
     /// Fluids by name, in the same way.
     pub(crate) known_fluids: HashMap<String, KnownFluid>,
-    pub(crate) used_fluids: HashSet<String>,
+    /// Materials and fluids that something names, by section.
+    pub(crate) used: HashSet<(&'static str, String)>,
 }
 
 /// What was left out because of an error, so that its absence is not reported as another one.

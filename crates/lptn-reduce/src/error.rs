@@ -38,10 +38,7 @@ pub enum ReduceError {
     /// The modes at the port could not be computed.
     Modes = "reduce::modes", "the time constants at the port cannot be computed", class Class::Numbers;
     /// A run of the network or of its equivalent failed.
-    Run(error: TransientError) = error.code(), error, source error, help error.help(), class match error.code() {
-        "run::integrator" => Class::Numbers,
-        _ => Class::Input,
-    };
+    Run => TransientError;
     /// The equivalent network could not be built; the text says why.
     Equivalent(why: String) = "reduce::equivalent", format!("the equivalent network cannot be built: {why}"), class Class::Numbers;
     /// The window in s of the least-squares definition is not a positive time, or too short to see the port warm.
@@ -54,12 +51,6 @@ pub enum ReduceError {
 impl From<FactorError> for ReduceError {
     fn from(error: FactorError) -> Self {
         Self::Factorization(error)
-    }
-}
-
-impl From<TransientError> for ReduceError {
-    fn from(error: TransientError) -> Self {
-        Self::Run(error)
     }
 }
 

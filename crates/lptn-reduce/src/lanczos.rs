@@ -1,6 +1,7 @@
 //! The modes of a symmetric operator that one vector excites.
 
-use faer::{Mat, Side};
+use faer::Mat;
+use lptn_integrate::dense;
 
 use crate::error::ReduceError;
 
@@ -79,8 +80,8 @@ fn ritz(diagonal: &[f64], beside: &[f64], coupling: f64, length: f64) -> Result<
         1 => beside[i.min(j)],
         _ => 0.0,
     };
-    let eigen = Mat::from_fn(n, n, entry).self_adjoint_eigen(Side::Lower).map_err(|_| ReduceError::Modes)?;
-    let (values, vectors) = (eigen.S().column_vector(), eigen.U());
+    let tridiagonal = Mat::from_fn(n, n, entry);
+    let (values, vectors) = dense::symmetric_eigen(tridiagonal.as_ref()).ok_or(ReduceError::Modes)?;
     let mode = |k: usize| Mode {
         value: values[k],
         weight: (length * vectors[(0, k)]).powi(2),

@@ -2,7 +2,7 @@
 //!
 //! [`SteadyState::solve`] solves `G T = q` directly; [`Transient`] integrates `C dT/dt = q(t, T)` from one known
 //! discontinuity to the next and gives a [`Solution`] with its [`Ledger`]. This crate knows nothing of TOML
-//! and of pointers.
+//! and of pointers, and of C only the name of the integrator that steps its runs (`stepper.rs`).
 //!
 //! Units: SI, temperatures in K, heat positive into a node and from `from` to `to`.
 
@@ -21,7 +21,7 @@ mod ledger;
 mod limit;
 mod lumping;
 mod modes;
-#[cfg(test)]
+#[cfg(all(test, feature = "cvodes"))]
 mod mutants;
 mod newton;
 mod parallel;
@@ -43,6 +43,7 @@ mod stability;
 mod state;
 mod stateless;
 mod steady;
+mod stepper;
 mod stiffness;
 mod summary;
 mod table;
@@ -64,7 +65,9 @@ pub use exact::{Difference, ExactError, ExactSolution};
 pub use last::LastState;
 pub use ledger::Ledger;
 pub use limit::{LimitSeen, limit_margins_at};
-pub use lptn_integrate::{LinearSolver, Linkage, Statistics, linked};
+#[cfg(feature = "cvodes")]
+pub use lptn_cvodes::{Linkage, linked};
+pub use lptn_integrate::{LinearSolver, Statistics};
 pub use lptn_network::OutputTimes;
 pub use lumping::{Biot, LumpCheck, Lumping, NotChecked, Stretch};
 pub use modes::{Mode, Modes};

@@ -1,5 +1,6 @@
 //! Wrong systems that the ledger must find: it is worth nothing if it closes whatever happens.
 
+use lptn_cvodes::Cvodes;
 use lptn_integrate::{Integrator, OdeSystem, Options, Pattern, Retry};
 use lptn_network::{
     Conductance, ConductorKind, Context, HeatCapacity, HeatFlow, Melting, NetworkBuilder, Path, Properties,
@@ -88,7 +89,7 @@ fn ledger(wrong: Wrong) -> Ledger {
     let system = ThermalSystem::assemble(&b.build().unwrap()).unwrap();
     let mutant = Mutant { heat: Heat::new(&system, 500.0, crate::balance::Books::default()).unwrap(), wrong };
     let options = Options { tolerance: 1e-5, ..Options::default() };
-    let mut run = Integrator::new(mutant, 0.0, &system.initial(), &options).unwrap();
+    let mut run = Cvodes::new(mutant, 0.0, &system.initial(), &options).unwrap();
     run.set_stop(1000.0);
     while run.time() < 1000.0 {
         run.step().unwrap();
@@ -224,7 +225,7 @@ fn bent_ledger(wrong: Bent) -> Ledger {
     let heat = Heat::new(&system, 100.0, crate::balance::Books::default()).unwrap();
     let mutant = BentMutant { heat, system: &system, wrong };
     let options = Options { tolerance: 1e-5, ..Options::default() };
-    let mut run = Integrator::new(mutant, 0.0, &system.initial(), &options).unwrap();
+    let mut run = Cvodes::new(mutant, 0.0, &system.initial(), &options).unwrap();
     run.set_stop(200.0);
     while run.time() < 200.0 {
         run.step().unwrap();

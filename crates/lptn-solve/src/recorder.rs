@@ -218,7 +218,7 @@ impl<'a> Recorder<'a> {
     /// segment, whose inputs hold there.
     pub(crate) fn step(
         &mut self,
-        integrator: &mut Integrator<Heat<'_>>,
+        integrator: &mut dyn Integrator<Heat<'a>>,
         from: f64,
         to: f64,
     ) -> Result<(), StopReason> {

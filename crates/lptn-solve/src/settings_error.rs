@@ -43,6 +43,9 @@ pub enum SettingsError {
     OutputEvery(every: f64) = "run::settings", format!("outputs every {every} s are none, or more than 10 million");
     /// The state to begin with is one of another network, or not finite.
     State = "run::settings", "the state to begin with is not one of this network";
+    /// The library was built without an integrator.
+    NoIntegrator = "run::settings", "this build has no integrator for runs over time",
+        help "build lptn with its feature `cvodes`";
     /// Sensitivities are asked for that do not exist or are not to be had.
     Sensitivity(refusal: NoTangents) = "run::settings", format!("no exact sensitivities: {refusal}"),
         source refusal;

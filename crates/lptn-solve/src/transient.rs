@@ -4,7 +4,7 @@ mod fold;
 mod rest;
 
 use lptn_assembly::ThermalSystem;
-use lptn_integrate::{FactorError, IntegrateError, Integrator, Statistics, Step};
+use lptn_integrate::{FactorError, IntegrateError, Statistics, Step};
 use lptn_network::NoTangents;
 
 use crate::balance::Books;
@@ -20,6 +20,7 @@ use crate::settings_error::SettingsError;
 use crate::solution::{End, Solution};
 use crate::state::{self, State};
 use crate::stateless;
+use crate::stepper::{Stepper, stepper};
 use crate::tangent::Tangent;
 use crate::times::{Segment, check_resolution, segments, snap};
 use crate::unsolved::Unsolved;
@@ -131,7 +132,7 @@ enum Break {
 
 /// A run under way.
 pub(crate) struct Run<'a> {
-    integrator: Integrator<Heat<'a>>,
+    integrator: Stepper<'a>,
     recorder: Recorder<'a>,
     initial: Vec<f64>,
     books: Books,
@@ -180,8 +181,7 @@ impl<'a> Run<'a> {
         let finer = system.network().has_events() || care == Care::Leaps;
         let care = if finer { Care::Leaps } else { care };
         let options = settings.options(system.network(), finer, curved.as_ref());
-        let mut integrator =
-            Integrator::new(heat, settings.start, &initial, &options).map_err(TransientError::Integrator)?;
+        let mut integrator = stepper(heat, (settings.start, &initial), &options)?;
         if !carried.is_empty() {
             integrator.set_sensitivities(&carried).map_err(TransientError::Integrator)?;
         }
@@ -286,7 +286,7 @@ impl<'a> Run<'a> {
             self.recorder.cut(to);
         }
         let row = self.recorder.written();
-        self.recorder.step(&mut self.integrator, step.from, to).map_err(Break::Failed)?;
+        self.recorder.step(self.integrator.as_mut(), step.from, to).map_err(Break::Failed)?;
         if let Some(switching) = &mut self.switching {
             switching.reach(to, self.recorder.span(), self.recorder.written() > row);
         }
@@ -310,7 +310,7 @@ impl<'a> Run<'a> {
         if self.switching.is_none() {
             return Ok((Vec::new(), step.to));
         }
-        find_crossings(&mut self.integrator, step).map_err(|trouble| match trouble {
+        find_crossings(self.integrator.as_mut(), step).map_err(|trouble| match trouble {
             Trouble::Integrator(error) => self.failed(error),
             Trouble::Stop(reason) => Break::Failed(reason),
         })

@@ -1,6 +1,6 @@
 //! What made a result.
 
-use lptn_solve::{End, Linkage, Solution};
+use lptn_solve::{End, Solution};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -57,11 +57,12 @@ pub struct Sundials {
 
 impl Sundials {
     /// The one this program runs with.
+    #[cfg(feature = "cvodes")]
     pub fn linked() -> Self {
         let linked = lptn_solve::linked();
         let linkage = match linked.linkage {
-            Linkage::System => "system",
-            Linkage::Bundled => "bundled",
+            lptn_solve::Linkage::System => "system",
+            lptn_solve::Linkage::Bundled => "bundled",
         };
         Self { version: linked.version, linkage }
     }

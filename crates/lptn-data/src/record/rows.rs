@@ -130,9 +130,12 @@ impl<'t> Work<'t> {
 /// That the window holds no row.
 fn outside(head: &Head, (from, to): (&str, &str)) -> Diagnostic {
     let message = format!("no row lies in the window of time: the record goes from {from} to {to}");
-    Diagnostic::error("record::window", message)
-        .at(head.place.clone(), "")
-        .help(format!("times are those of the record: from {from} to {to}"))
+    Diagnostic::wrong(
+        "record::window",
+        message,
+        &head.place,
+        format!("times are those of the record: from {from} to {to}"),
+    )
 }
 
 fn no_values(column: &RecordColumn) -> Diagnostic {

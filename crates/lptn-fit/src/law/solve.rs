@@ -1,7 +1,7 @@
 //! The coefficients of one law.
 
 use faer::Mat;
-use faer::linalg::solvers::SolveLstsq as _;
+use lptn_integrate::dense;
 
 use super::candidate::{Coefficient, Fitted, Outcome};
 use super::criteria::rms;
@@ -65,7 +65,7 @@ impl Local {
         let norms: Vec<f64> = (0..count).map(norm).collect();
         let scaled = Mat::from_fn(rows, count, |i, j| self.column(j)[i] / norms[j]);
         let target = Mat::from_fn(rows, 1, |i, _| -self.misses[i]);
-        let step = scaled.qr().solve_lstsq(&target);
+        let step = dense::least_squares(scaled.as_ref(), target.as_ref());
         let found: Vec<f64> = (0..count).map(|j| p[j] + step[(j, 0)] / norms[j]).collect();
         found.iter().all(|x| x.is_finite()).then_some(found)
     }

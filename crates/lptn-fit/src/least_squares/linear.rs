@@ -1,6 +1,7 @@
 //! The linear model of the residuals at one point.
 
 use faer::{Mat, MatRef};
+use lptn_integrate::dense;
 
 /// The triangular factor of `[J r]`: `|J s + r|^2 = |R s + q|^2 + rest^2`.
 pub(crate) struct Triangle {
@@ -16,8 +17,7 @@ impl Triangle {
         let rows = residuals.len();
         let n = jacobian.len() / rows;
         let both = [jacobian, residuals].concat();
-        let qr = MatRef::from_column_major_slice(&both, rows, n + 1).qr();
-        let upper = qr.thin_R();
+        let upper = dense::triangle(MatRef::from_column_major_slice(&both, rows, n + 1));
         let entry = |i: usize, j: usize| if i < upper.nrows() && i <= j { upper[(i, j)] } else { 0.0 };
         Self { factor: Mat::from_fn(n, n, entry), inside: (0..n).map(|i| entry(i, n)).collect() }
     }
@@ -57,15 +57,14 @@ impl Triangle {
     ) -> Option<Vec<f64>> {
         let n = self.inside.len();
         let scaled = Mat::from_fn(n, free.len(), |i, j| self.factor[(i, free[j])] / scales[free[j]]);
-        let svd = scaled.thin_svd().ok()?;
-        let values: Vec<f64> = svd.S().column_vector().iter().copied().collect();
-        let least = 1e-14 * values.first().copied().unwrap_or(0.0);
+        let svd = dense::singular(scaled.as_ref())?;
+        let least = 1e-14 * svd.values.first().copied().unwrap_or(0.0);
         let mut step = vec![0.0; free.len()];
-        for (k, &value) in values.iter().enumerate().filter(|(_, value)| **value > least) {
-            let seen: f64 = (0..n).map(|i| svd.U()[(i, k)] * target[i]).sum();
+        for (k, &value) in svd.values.iter().enumerate().filter(|(_, value)| **value > least) {
+            let seen: f64 = (0..n).map(|i| svd.u[(i, k)] * target[i]).sum();
             let along = -seen * value / (value * value + damping);
             for (j, s) in step.iter_mut().enumerate() {
-                *s += svd.V()[(j, k)] * along;
+                *s += svd.v[(j, k)] * along;
             }
         }
         Some(step.iter().zip(free).map(|(s, &j)| s / scales[j]).collect())

@@ -1,6 +1,7 @@
 //! The restricted likelihood of correlated and white noise.
 
-use faer::{Mat, Side};
+use faer::Mat;
+use lptn_integrate::dense;
 
 use super::simplex;
 
@@ -103,8 +104,7 @@ impl Likelihood {
             }
         }
         let nowhere = Value { restricted: f64::INFINITY, whole: f64::INFINITY, deviation: f64::NAN };
-        let Ok(factor) = gram.llt(Side::Lower) else { return nowhere };
-        let diagonal: Vec<f64> = (0..width).map(|j| factor.L()[(j, j)]).collect();
+        let Some(diagonal) = dense::cholesky_diagonal(gram.as_ref()) else { return nowhere };
         let squares = diagonal[self.rank] * diagonal[self.rank];
         let free = self.count() - self.rank as f64;
         let basis: f64 = diagonal[..self.rank].iter().map(|d| 2.0 * d.ln()).sum();

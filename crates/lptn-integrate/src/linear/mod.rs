@@ -102,7 +102,7 @@ pub trait Factorization {
 }
 
 /// Whether [`new`] gives a dense solver.
-pub(crate) fn is_dense(choice: LinearSolver, size: usize) -> bool {
+pub fn is_dense(choice: LinearSolver, size: usize) -> bool {
     choice == LinearSolver::Dense || (choice == LinearSolver::Auto && size <= DENSE_LIMIT)
 }
 

@@ -3,14 +3,14 @@
 use lptn_units::{Dimension, Type};
 
 use super::Writer;
-use super::text::{Fields, value};
+use crate::toml_text::{TomlFields, value};
 
 impl Writer<'_> {
     pub(super) fn controls(&mut self) {
-        let (network, mut section) = (&self.network, Fields::default());
+        let (network, mut section) = (&self.network, TomlFields::default());
         for (id, control) in network.control_ids().zip(network.controls()) {
             let Some(thermostat) = network.thermostat(id) else { continue };
-            let mut fields = Fields::default();
+            let mut fields = TomlFields::default();
             fields.word("sense", &self.name(thermostat.sense));
             let [on, off] = thermostat.acts.fields();
             fields.put(on.key(), value(&thermostat.on, Type::ABSOLUTE_TEMPERATURE));

@@ -5,14 +5,13 @@ use lptn_network::{Bound, Conductor, Item, Lump, Severity, Size, Value};
 use lptn_units::{Dimension, Type, format_number};
 
 use super::Writer;
-use super::text::{Fields, like, value};
-use crate::toml_text::string;
+use crate::toml_text::{TomlFields, like, string, value};
 
 impl Writer<'_> {
     pub(super) fn nodes(&mut self) {
-        let mut section = Fields::default();
+        let mut section = TomlFields::default();
         for node in self.network.nodes() {
-            let mut fields = Fields::default();
+            let mut fields = TomlFields::default();
             self.capacity(&mut fields, node.capacity.as_ref(), node.lump.as_ref());
             if node.massless {
                 fields.put("massless", "true");
@@ -28,7 +27,7 @@ impl Writer<'_> {
     }
 
     /// `C`, or what the lump is made of.
-    fn capacity(&self, fields: &mut Fields, capacity: Option<&Value>, lump: Option<&Lump>) {
+    fn capacity(&self, fields: &mut TomlFields, capacity: Option<&Value>, lump: Option<&Lump>) {
         if let Some(Lump { material, size }) = lump {
             fields.word("material", &self.name(Item::Material(*material)));
             match size {
@@ -41,9 +40,9 @@ impl Writer<'_> {
     }
 
     pub(super) fn capacitors(&mut self) {
-        let mut section = Fields::default();
+        let mut section = TomlFields::default();
         for capacitor in self.network.capacitors() {
-            let mut fields = Fields::default();
+            let mut fields = TomlFields::default();
             fields.word("node", &self.name(Item::Node(capacitor.node)));
             self.capacity(&mut fields, Some(&capacitor.capacity), capacitor.lump.as_ref());
             section.put(&capacitor.name, fields.inline());
@@ -52,9 +51,9 @@ impl Writer<'_> {
     }
 
     pub(super) fn boundaries(&mut self) {
-        let mut section = Fields::default();
+        let mut section = TomlFields::default();
         for boundary in self.network.boundaries() {
-            let mut fields = Fields::default();
+            let mut fields = TomlFields::default();
             fields.put("T", value(&boundary.temperature, Type::ABSOLUTE_TEMPERATURE));
             section.put(&boundary.name, fields.inline());
         }
@@ -63,7 +62,7 @@ impl Writer<'_> {
 
     pub(super) fn conductors(&mut self) {
         for kind in Kind::ALL {
-            let mut section = Fields::default();
+            let mut section = TomlFields::default();
             let conductors = self.network.conductors().iter();
             for conductor in conductors.filter(|conductor| conductor.kind == *kind) {
                 section.put(&conductor.name(), self.conductor(conductor));
@@ -73,7 +72,7 @@ impl Writer<'_> {
     }
 
     fn conductor(&self, conductor: &Conductor) -> String {
-        let mut fields = Fields::default();
+        let mut fields = TomlFields::default();
         fields.word("from", &self.name(conductor.from));
         fields.word("to", &self.name(conductor.to));
         let (law, kind) = (&conductor.law, conductor.kind.declaration());
@@ -93,7 +92,7 @@ impl Writer<'_> {
     }
 
     /// The values of one key.
-    fn part(&self, fields: &mut Fields, same: &[(&lptn_laws::Field, &Value)]) {
+    fn part(&self, fields: &mut TomlFields, same: &[(&lptn_laws::Field, &Value)]) {
         let (field, first) = same[0];
         let material = self.material_of(first).filter(|_| field.property);
         match (material, same) {
@@ -107,13 +106,13 @@ impl Writer<'_> {
     }
 
     pub(super) fn sources(&mut self) {
-        let mut section = Fields::default();
+        let mut section = TomlFields::default();
         for source in self.network.sources() {
-            let mut fields = Fields::default();
+            let mut fields = TomlFields::default();
             match source.into.as_slice() {
                 [(node, _)] => fields.word("into", &self.name(Item::Node(*node))),
                 nodes => {
-                    let mut into = Fields::default();
+                    let mut into = TomlFields::default();
                     for (node, share) in nodes {
                         into.put(&self.name(Item::Node(*node)), format_number(*share));
                     }
@@ -127,9 +126,9 @@ impl Writer<'_> {
     }
 
     pub(super) fn limits(&mut self) {
-        let mut section = Fields::default();
+        let mut section = TomlFields::default();
         for limit in self.network.limits() {
-            let mut fields = Fields::default();
+            let mut fields = TomlFields::default();
             fields.put("of", string(&limit.text));
             let bound = match limit.bound {
                 Bound::Below => "below",

@@ -13,10 +13,7 @@ impl Netlist {
         let (item, words, help) = grid(network).or_else(|| unnamed(network)).or_else(|| self.of_state())?;
         let problem = Diagnostic::error("netlist::not_flat", format!("{words}, which has no flat form"));
         let problem = problem.help(help);
-        Some(match self.source_map.name(item) {
-            Some(span) => problem.at(span, ""),
-            None => problem,
-        })
+        Some(problem.at(self.source_map.name(item), ""))
     }
 
     /// What only a state can say: see `initial` of `[run]`.

@@ -9,7 +9,6 @@ mod flat;
 mod proof;
 mod questions;
 mod substances;
-mod text;
 mod values;
 
 use std::path::{Component, Path, PathBuf};
@@ -18,10 +17,8 @@ use lptn_data::FileId;
 use lptn_network::{Network, RunSettings};
 
 use crate::netlist::Netlist;
-use crate::toml_text::string;
+use crate::toml_text::{TomlFields, string};
 pub use proof::{WrittenError, prove};
-
-use text::Fields;
 
 /// A network that was made from that of a netlist, and what is written with it.
 #[derive(Clone, Copy, Debug)]
@@ -112,8 +109,7 @@ impl Netlist {
         }
         writer.elements();
         writer.run();
-        writer.sizes();
-        writer.fits();
+        writer.studies();
         writer.text
     }
 
@@ -146,7 +142,7 @@ impl Writer<'_> {
     }
 
     /// A section with one line for each element; none if it is empty.
-    fn section(&mut self, heading: &str, fields: &Fields) {
+    fn section(&mut self, heading: &str, fields: &TomlFields) {
         if !fields.is_empty() {
             self.text += &format!("\n[{heading}]\n{}", fields.lines());
         }

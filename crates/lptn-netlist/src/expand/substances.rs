@@ -7,13 +7,13 @@ use lptn_network::{Lump, MaterialId, Value};
 use lptn_units::{Dimension, Table, Type};
 
 use super::Writer;
-use super::text::{Fields, quantity, value};
 use super::values::over_temperature;
 use crate::library;
+use crate::toml_text::{TomlFields, quantity, value};
 
 impl Writer<'_> {
     pub(super) fn materials(&mut self) {
-        let (network, mut section) = (&self.network, Fields::default());
+        let (network, mut section) = (&self.network, TomlFields::default());
         let used = self.used_materials();
         for (id, material) in network.material_ids().zip(network.materials()) {
             let source = material.source.as_deref();
@@ -22,7 +22,7 @@ impl Writer<'_> {
             if shipped || !used.contains(&id) {
                 continue;
             }
-            let mut fields = Fields::default();
+            let mut fields = TomlFields::default();
             let properties = [
                 ("density", &material.density, Dimension::DENSITY),
                 ("cp", &material.cp, Dimension::SPECIFIC_HEAT),
@@ -47,7 +47,7 @@ impl Writer<'_> {
     }
 
     pub(super) fn fluids(&mut self) {
-        let (network, mut section) = (&self.network, Fields::default());
+        let (network, mut section) = (&self.network, TomlFields::default());
         let streams = network.conductors().iter().filter_map(|conductor| conductor.law.fluid());
         let used: BTreeSet<_> = streams.collect();
         for (id, fluid) in network.fluid_ids().zip(network.fluids()) {
@@ -58,7 +58,7 @@ impl Writer<'_> {
             if shipped || !used.contains(&id) {
                 continue;
             }
-            let mut fields = Fields::default();
+            let mut fields = TomlFields::default();
             if let Some(density) = &fluid.density {
                 fields.put("density", self.property(density, "density", Type::of(Dimension::DENSITY)));
             }

@@ -7,15 +7,14 @@ use lptn_network::{AfterEnd, Course, Evaluation, Item, Parameter, ParameterId, S
 use lptn_units::{Dimension, Interpolation, Outside, Table, Table1, TableSymbol, Type, format_number};
 
 use super::Writer;
-use super::text::{Fields, celsius, list, list_in, point, quantity, value};
 use crate::raw::{RawKind, RawTable};
-use crate::toml_text::string;
+use crate::toml_text::{TomlFields, celsius, list, list_in, point, quantity, string, value};
 
 const TIME: Type = Type::of(Dimension::TIME);
 
 impl Writer<'_> {
     pub(super) fn parameters(&mut self) {
-        let (network, mut fields) = (&self.network, Fields::default());
+        let (network, mut fields) = (&self.network, TomlFields::default());
         let mut scope = network.evaluation();
         for (id, parameter) in network.parameter_ids().zip(network.parameters()) {
             fields.put(&parameter.name, self.parameter((id, parameter), &mut scope));
@@ -50,7 +49,7 @@ impl Writer<'_> {
     }
 
     pub(super) fn tables(&mut self) {
-        let (network, mut fields) = (&self.network, Fields::default());
+        let (network, mut fields) = (&self.network, TomlFields::default());
         for (name, symbol) in network.tables() {
             let written = match (&*symbol.table, self.map_of(&symbol.table)) {
                 (Table::One(table), _) => of_one(table, symbol).inline(),
@@ -72,7 +71,7 @@ impl Writer<'_> {
 
     /// A table of two arguments, which has no other form than its file.
     fn csv_map(&self, raw: &RawTable) -> String {
-        let mut fields = Fields::default();
+        let mut fields = TomlFields::default();
         for entry in &raw.entries {
             let RawKind::String { text, .. } = &entry.value.kind else { continue };
             if entry.key == "csv" {
@@ -85,7 +84,7 @@ impl Writer<'_> {
     }
 
     pub(super) fn signals(&mut self) {
-        let mut fields = Fields::default();
+        let mut fields = TomlFields::default();
         for signal in self.network.signals() {
             fields.put(&signal.name, course(signal));
         }
@@ -93,7 +92,7 @@ impl Writer<'_> {
     }
 
     pub(super) fn default(&mut self) {
-        let mut fields = Fields::default();
+        let mut fields = TomlFields::default();
         let unit = &self.origin.temperature_unit.text;
         if unit != "degC" {
             fields.word("temperature_unit", unit);
@@ -114,9 +113,9 @@ impl Writer<'_> {
 }
 
 /// A table of one argument.
-fn of_one(table: &Table1, symbol: &TableSymbol) -> Fields {
+fn of_one(table: &Table1, symbol: &TableSymbol) -> TomlFields {
     let argument = symbol.arguments.first().copied().unwrap_or(Type::SCALAR);
-    let mut fields = Fields::default();
+    let mut fields = TomlFields::default();
     fields.list("x", list_in(table.knots(), argument, symbol.units.first()));
     fields.list("y", list_in(table.values(), symbol.ty, symbol.units.get(1)));
     joined(&mut fields, table);
@@ -125,7 +124,7 @@ fn of_one(table: &Table1, symbol: &TableSymbol) -> Fields {
 
 /// A property over temperature; its argument is a point on the temperature scale in any case.
 pub(super) fn over_temperature(table: &Table1, ty: Type) -> String {
-    let mut fields = Fields::default();
+    let mut fields = TomlFields::default();
     let (knots, _) = list(table.knots(), Type::SCALAR);
     fields.list("x", (knots, Some("K".to_owned())));
     fields.list("y", list(table.values(), ty));
@@ -134,7 +133,7 @@ pub(super) fn over_temperature(table: &Table1, ty: Type) -> String {
 }
 
 /// How the points of a table are joined, where that is not the usual way.
-fn joined(fields: &mut Fields, table: &Table1) {
+fn joined(fields: &mut TomlFields, table: &Table1) {
     if table.interpolation() == Interpolation::Pchip {
         fields.word("interp", "pchip");
     }
@@ -152,7 +151,7 @@ fn course(signal: &Signal) -> String {
             (points.knots(), points.values(), pchip.then_some("pchip"))
         }
     };
-    let mut fields = Fields::default();
+    let mut fields = TomlFields::default();
     fields.list("t", list(times, TIME));
     fields.list("v", list_in(values, signal.ty, signal.unit.as_ref()));
     if let Some(interpolation) = interpolation {

@@ -2,15 +2,14 @@
 
 use std::sync::Arc;
 
-use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, list, read_text};
+use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, nearest, read_text};
 use lptn_network::{Context, Value};
-use lptn_units::{Scope as _, suggest};
+use lptn_units::Scope as _;
 
-use crate::fields::{Fields, sample, wrong_shape};
+use crate::fields::{Fields, wrong_shape};
 use crate::fit::read::Column;
-use crate::fit::words::FIT;
-use crate::fit::{FitRecord, VariedName};
-use crate::place::{Place, Wanted};
+use crate::fit::{FIT, FitRecord, VariedName};
+use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::work::Elaboration;
 
@@ -55,13 +54,12 @@ impl<'a> Elaboration<'a> {
         columns: &[Column<'a>],
         time: Option<(&str, &RawValue)>,
     ) -> Option<Vec<FitRecord>> {
-        let raw = fields.require("data", &mut self.problems)?;
+        let raw = self.require(fields, "data")?;
         let items = match &raw.kind {
             RawKind::Array(list) if !list.is_empty() => list.as_slice(),
             RawKind::String { .. } | RawKind::Table(_) => std::slice::from_ref(raw),
             _ => {
-                let words = fields.owner.field("data");
-                self.report(wrong_shape(&words, raw, "a CSV file or a list of them", &sample("data")));
+                self.report(fields.wrong_shape("data", raw, "a CSV file or a list of them"));
                 return None;
             }
         };
@@ -113,8 +111,7 @@ impl<'a> Elaboration<'a> {
         }
         let Some((text, raw)) = csv_of(item) else {
             if sound {
-                let words = fields.owner.field("data");
-                self.report(wrong_shape(&words, item, "a CSV file or a table with `csv`", &sample("data")));
+                self.report(fields.wrong_shape("data", item, "a CSV file or a table with `csv`"));
             }
             return None;
         };
@@ -167,11 +164,10 @@ impl<'a> Elaboration<'a> {
                 sound = false;
                 continue;
             }
-            let value = self.builder.scope(Context::Time).symbol(name).and_then(|symbol| {
-                let owner = owner.inside(name);
-                let place = Place { owner: &owner, key: "", raw: &entry.value };
-                self.given(place, Wanted::like(symbol.ty))
-            });
+            let value =
+                self.builder.scope(Context::Time).symbol(name).and_then(|symbol| {
+                    self.given_inside(&owner, (name, &entry.value), Wanted::like(symbol.ty))
+                });
             match value {
                 Some(value) => set.push((name.clone(), value.value())),
                 None => sound = false,
@@ -205,10 +201,7 @@ fn unknown_key(fields: &Fields<'_>, entry: &RawEntry, key: &str) -> Diagnostic {
     let message = format!("a record of {} has no field `{key}`", fields.owner.words());
     let problem =
         Diagnostic::error("netlist::unknown_key", message).at(entry.key_span.clone(), "unknown key");
-    match suggest(key, KEYS.into_iter()) {
-        Some(near) => problem.help(format!("did you mean `{near}`?")),
-        None => problem.help(format!("the keys here are {}", list(&KEYS))),
-    }
+    problem.help(nearest(key, KEYS, "the keys here are"))
 }
 
 fn twice(record: &FitRecord, first: &FitRecord) -> Diagnostic {

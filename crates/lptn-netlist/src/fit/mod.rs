@@ -2,15 +2,60 @@
 
 mod data;
 mod read;
-pub(crate) mod words;
 
 pub(crate) use data::files;
 
 use std::sync::Arc;
 
-use lptn_data::{Diagnostic, Record, Span};
+use lptn_data::{Diagnostic, FileId, Record, Span};
 use lptn_network::{End, Network, Parameters, Value, Varied};
 use lptn_units::{EvalError, Type};
+
+use crate::format::{Role, SectionDeclaration, key};
+use crate::toml_text::{TomlFields, key as toml_key, like, string, value};
+
+pub(crate) const FIT: SectionDeclaration = SectionDeclaration {
+    name: "fit",
+    sentence: "Parameters to find from records.",
+    role: Role::Study,
+    keys: &[
+        key("data", "file, or a list of files", "the records; one may `set` parameters", "\"record.csv\""),
+        key("time", "name of a column", "the column of the times", "\"t\"").or("the first in a unit of time"),
+        key("column", "table of results", "what each column measures", "{ ring = \"steel.T\" }"),
+        key("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\""),
+        key(
+            "vary",
+            "table of ranges, or names",
+            "the parameters to find",
+            "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
+        ),
+    ],
+    example: "{ data = \"record.csv\", column = { ring = \"steel.T\" }, vary = [\"R\"] }",
+    elsewhere: &[
+        ("csv", "the records are `data`: `data = \"record.csv\"`"),
+        ("columns", "what a column measures is `column = { ring = \"steel.T\" }`"),
+        (
+            "set",
+            "what a record sets stands beside its file: `data = [{ csv = \"r1.csv\", set = { omega = \"1000 rpm\" } }]`",
+        ),
+        ("parameters", "the parameters to find are `vary`"),
+        ("prior", "what is known of a parameter stands in [param]: `R = \"0.3 ± 0.05 K/W\"`"),
+        ("start", "the search starts from the value in [param]"),
+    ],
+    ..SectionDeclaration::NEW
+};
+
+/// `ring = { of = "steel.T", sigma = "0.2 K" }` in `column` of a fit.
+const FIT_COLUMN: SectionDeclaration = SectionDeclaration {
+    name: "column",
+    keys: &[
+        key("of", "expression of results", "what the column measures", "\"steel.T\""),
+        key("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\""),
+    ],
+    example: "{ of = \"steel.T\", sigma = \"0.2 K\" }",
+    elsewhere: &[("unit", "the unit stands in the header of the file: `ring [degC]`")],
+    ..SectionDeclaration::NEW
+};
 
 /// One `[fit.NAME]`, as it is written; [`FitStudy::plan`] has its numbers.
 #[derive(Clone, Debug)]
@@ -116,6 +161,52 @@ impl FitStudy {
             parameters.push(own);
         }
         Ok(FitPlan { varied, sigmas: sigmas?, parameters })
+    }
+
+    /// Its fields as they are written; `path` is how a file that a file names is named there.
+    pub(crate) fn written(&self, network: &Network, path: &dyn Fn(FileId, &str) -> String) -> TomlFields {
+        let ty = |name: &str| {
+            let id = network.parameter(name).ok();
+            id.map_or(Type::SCALAR, |id| network.parameters()[id.index()].ty)
+        };
+        let mut fields = TomlFields::default();
+        let record = |record: &FitRecord| {
+            let csv = string(&path(record.span.file, &record.csv));
+            let set: Vec<String> = record
+                .set
+                .iter()
+                .map(|(name, own)| format!("{} = {}", toml_key(name), like(own, ty(name))))
+                .collect();
+            if set.is_empty() { csv } else { format!("{{ csv = {csv}, set = {{ {} }} }}", set.join(", ")) }
+        };
+        let records: Vec<String> = self.records.iter().map(record).collect();
+        fields.put("data", format!("[{}]", records.join(", ")));
+        if let Some(time) = &self.time {
+            fields.word("time", time);
+        }
+        let column = |observed: &Observed| {
+            let (name, of) = (toml_key(&observed.column), string(&observed.text));
+            match &observed.sigma {
+                None => format!("{name} = {of}"),
+                Some(sigma) => {
+                    let sigma = value(sigma, Type::of(observed.ty.dimension));
+                    format!("{name} = {{ of = {of}, sigma = {sigma} }}")
+                }
+            }
+        };
+        let columns: Vec<String> = self.observed.iter().map(column).collect();
+        fields.put("column", format!("{{ {} }}", columns.join(", ")));
+        let varied = |varied: &VariedName| {
+            let ends = [("from", &varied.from), ("to", &varied.to)].into_iter();
+            let ends: Vec<String> = ends
+                .filter_map(|(name, end)| Some(format!("{name} = {}", like(end.as_ref()?, ty(&varied.name)))))
+                .collect();
+            let range = if ends.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", ends.join(", ")) };
+            format!("{} = {range}", toml_key(&varied.name))
+        };
+        let varied: Vec<String> = self.varied.iter().map(varied).collect();
+        fields.put("vary", format!("{{ {} }}", varied.join(", ")));
+        fields
     }
 
     /// What is wrong with the numbers.

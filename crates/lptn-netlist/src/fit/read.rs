@@ -1,15 +1,14 @@
 //! Reads `[fit.NAME]`: what is varied and what is observed.
 
 use lptn_data::{Diagnostic, Span, list};
-use lptn_network::{Context, Value};
-use lptn_units::{Scope as _, Type, suggest};
+use lptn_network::Context;
+use lptn_units::{Scope as _, Type};
 
-use crate::fields::{Fields, Owner, sample, wrong_shape};
-use crate::fit::words::{FIT, FIT_COLUMN};
-use crate::fit::{FitStudy, Observed, VariedName};
+use crate::fields::{Fields, wrong_shape};
+use crate::fit::{FIT, FIT_COLUMN, FitStudy, Observed, VariedName};
 use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::vocabulary::{PARAM, VARY};
+use crate::size::VARY;
 use crate::work::Elaboration;
 
 /// A column whose result could not be read is still looked for in the records.
@@ -21,7 +20,7 @@ pub(crate) struct Column<'a> {
 impl<'a> Elaboration<'a> {
     pub(crate) fn fits(&mut self) -> Vec<FitStudy> {
         let entries = self.elements(FIT.name);
-        if let Some(first) = entries.iter().find(|entry| FIT.keys.contains(&entry.key.as_str())) {
+        if let Some(first) = entries.iter().find(|entry| FIT.key(&entry.key).is_some()) {
             let message = format!("`{}` belongs to a fit with a name", first.key);
             let problem = Diagnostic::error("netlist::fit_without_name", message);
             let problem = problem.at(first.key_span.clone(), "below [fit]");
@@ -32,8 +31,7 @@ impl<'a> Elaboration<'a> {
     }
 
     fn fit_study(&mut self, entry: &'a RawEntry) -> Option<FitStudy> {
-        let owner = Owner::element(FIT.name, &entry.key);
-        let fields = Fields::of(&FIT, owner, entry, &mut self.problems)?;
+        let fields = self.fields(&FIT, entry)?;
         self.all_there(&fields)?;
         let varied = self.varied(&fields);
         let columns = self.observed(&fields);
@@ -61,15 +59,15 @@ impl<'a> Elaboration<'a> {
             return Some(());
         }
         let message = format!("{} has no {}", fields.owner.words(), list(&missing));
-        let lines: Vec<String> = missing.iter().map(|key| sample(key)).collect();
-        let problem = Diagnostic::error("netlist::missing_field", message).at(fields.place.clone(), "");
-        self.report(problem.help(format!("add for example:\n\n{}", lines.join("\n"))));
+        let lines: Vec<String> = missing.iter().map(|key| fields.sample(key)).collect();
+        let help = format!("add for example:\n\n{}", lines.join("\n"));
+        self.refuse("netlist::missing_field", message, fields.place, help);
         None
     }
 
     /// `vary = { R_int = { from = .., to = .. } }`, or a list of names.
     fn varied(&mut self, fields: &Fields<'a>) -> Option<Vec<VariedName>> {
-        let raw = fields.require("vary", &mut self.problems)?;
+        let raw = self.require(fields, "vary")?;
         let all: Vec<Option<VariedName>> = match &raw.kind {
             RawKind::Table(table) if !table.entries.is_empty() => {
                 table.entries.iter().map(|entry| self.varied_entry(fields, entry)).collect()
@@ -78,13 +76,8 @@ impl<'a> Elaboration<'a> {
                 list.iter().map(|raw| self.varied_name(fields, raw)).collect()
             }
             _ => {
-                let problem = wrong_shape(
-                    &fields.owner.field("vary"),
-                    raw,
-                    "a table of parameters or a list of their names",
-                    &sample("vary"),
-                );
-                self.report(problem);
+                let wanted = "a table of parameters or a list of their names";
+                self.report(fields.wrong_shape("vary", raw, wanted));
                 return None;
             }
         };
@@ -112,18 +105,13 @@ impl<'a> Elaboration<'a> {
     fn varied_entry(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<VariedName> {
         let name = &entry.key;
         let known = self.can_vary(fields, name, &entry.key_span);
-        let range = Fields::of(&VARY, fields.owner.inside("vary").inside(name), entry, &mut self.problems)?;
+        let range = self.inner(&VARY, fields.owner.inside("vary").inside(name), entry)?;
         known?;
         let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
-        let mut end = |key: &str| match range.get(key) {
-            None => Some(None),
-            Some(raw) => {
-                // an owner without a key: the key `from` of a path takes something else
-                let owner = range.owner.inside(key);
-                Some(Some(self.given(Place { owner: &owner, key: "", raw }, Wanted::like(ty))?.value()))
-            }
-        };
-        let (from, to) = (end("from"), end("to"));
+        let [from, to] = ["from", "to"].map(|key| self.range_end(&range, key, ty));
+        // one that is there and wrong has been reported
+        let (from, to) =
+            (from.map_or(Some(None), |end| end.map(Some)), to.map_or(Some(None), |end| end.map(Some)));
         Some(VariedName { name: name.clone(), span: entry.key_span.clone(), from: from?, to: to? })
     }
 
@@ -135,41 +123,20 @@ impl<'a> Elaboration<'a> {
         }
         if !self.names.is_used(name) {
             let message = format!("{words} names `{name}`, which nothing in the network uses");
-            let problem = Diagnostic::error("netlist::fit_unused", message).at(place.clone(), "");
-            self.report(problem.help("use it in an element, or leave it out: no record can tell its value"));
+            let help = "use it in an element, or leave it out: no record can tell its value";
+            self.refuse("netlist::fit_unused", message, place, help);
             return None;
         }
         (!self.names.has_failed(name)).then_some(())
     }
 
-    /// Whether a name is that of a parameter; if not, it is reported.
-    pub(crate) fn is_parameter_here(&mut self, words: &str, name: &str, place: &Span) -> bool {
-        if self.names.is_parameter(name) {
-            return true;
-        }
-        let message = format!("{words} has to name parameters, got `{name}`");
-        let problem = Diagnostic::error("netlist::unknown_parameter", message).at(place.clone(), "");
-        let parameters = self.raw.section(PARAM);
-        let names = parameters.into_iter().flat_map(|table| &table.entries).map(|entry| entry.key.as_str());
-        let help = match suggest(name, names) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => match self.names.value_kind(name) {
-                Some(kind) => format!("`{name}` is a {}; only the values of [param] are found", kind.word()),
-                None => "give the value a name in [param] and use it in the element".to_owned(),
-            },
-        };
-        self.report(problem.help(help));
-        false
-    }
-
     /// `column = { ring_gear = "steel.T", housing = { of = "aluminium.T", sigma = "0.2 K" } }`.
     fn observed(&mut self, fields: &Fields<'a>) -> Vec<Column<'a>> {
-        let Some(raw) = fields.require("column", &mut self.problems) else { return Vec::new() };
+        let Some(raw) = self.require(fields, "column") else { return Vec::new() };
         let entries = match &raw.kind {
             RawKind::Table(table) if !table.entries.is_empty() => &table.entries,
             _ => {
-                let (words, sample) = (fields.owner.field("column"), sample("column"));
-                self.report(wrong_shape(&words, raw, "a table of columns and what they measure", &sample));
+                self.report(fields.wrong_shape("column", raw, "a table of columns and what they measure"));
                 return Vec::new();
             }
         };
@@ -181,8 +148,8 @@ impl<'a> Elaboration<'a> {
         let owner = fields.owner.inside("column").inside(&entry.key);
         let (of, own) = match &entry.value.kind {
             RawKind::Table(_) => {
-                let inner = Fields::of(&FIT_COLUMN, owner.clone(), entry, &mut self.problems)?;
-                (inner.require("of", &mut self.problems)?, inner.get("sigma"))
+                let inner = self.inner(&FIT_COLUMN, owner.clone(), entry)?;
+                (self.require(&inner, "of")?, inner.get("sigma"))
             }
             _ => (&entry.value, None),
         };
@@ -194,18 +161,16 @@ impl<'a> Elaboration<'a> {
         let ty = given.ty();
         let sigma = match own.or_else(|| fields.get("sigma")) {
             None => None,
-            Some(raw) => Some(self.sigma(&owner.inside("sigma"), raw, ty)?),
+            // a difference where a temperature is measured
+            Some(raw) => {
+                let wanted = Wanted::constant(Type::of(ty.dimension));
+                Some(self.given_inside(&owner, ("sigma", raw), wanted)?.value())
+            }
         };
         let text = text.trim();
         let end = text.strip_suffix(".T").and_then(|name| self.builder.end(name));
         let column = entry.key.clone();
         let span = entry.key_span.clone();
         Some(Observed { column, text: text.to_owned(), end, value: given.value(), ty, sigma, span })
-    }
-
-    /// The deviation of a sample: a difference where a temperature is measured.
-    fn sigma(&mut self, owner: &Owner, raw: &'a RawValue, ty: Type) -> Option<Value> {
-        let wanted = Wanted::constant(Type::of(ty.dimension));
-        Some(self.given(Place { owner, key: "", raw }, wanted)?.value())
     }
 }

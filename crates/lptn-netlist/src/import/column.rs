@@ -23,8 +23,7 @@ impl<'a> Elaboration<'a> {
     }
 
     fn opened(&mut self, fields: &Fields<'a>, contents: &Contents) -> Option<Rows<'a>> {
-        let raw = fields.get(contents.key)?;
-        fields.text(contents.key, raw, &mut self.problems)?;
+        let (_, raw) = self.word(fields, contents.key)?;
         let asked = Place { owner: &fields.owner, key: contents.key, raw }.asked();
         let csv: &'a crate::csv_files::CsvFiles = self.csv;
         let text = csv.text(raw)?.map_err(Diagnostic::clone);
@@ -87,7 +86,7 @@ impl<'a> Elaboration<'a> {
         match rows.number(column) {
             Ok(value) => Quantity { value, deviation: None, ty }.into(),
             Err(wrong) => {
-                self.refuse(rows, |rows| rows.no_number(column.index, wrong));
+                self.refuse_row(rows, |rows| rows.no_number(column.index, wrong));
                 stand_in(ty)
             }
         }
@@ -106,12 +105,12 @@ impl<'a> Elaboration<'a> {
             return None; // what hides it has been reported
         }
         if rows.problems >= MOST_PROBLEMS || name.is_empty() {
-            self.refuse(rows, |rows| rows.no_name(index));
+            self.refuse_row(rows, |rows| rows.no_name(index));
             return None;
         }
         let name = name.to_owned();
         let problem = self.unknown_end((&format!("column `{key}`"), key), (&name, &rows.place(index)));
-        self.refuse(rows, |rows| rows.asked.also(problem));
+        self.refuse_row(rows, |rows| rows.asked.also(problem));
         None
     }
 
@@ -119,7 +118,7 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn is_named(&mut self, rows: &mut Rows<'_>, index: usize) -> bool {
         let named = !rows.cell(index).is_empty();
         if !named && rows.sound {
-            self.refuse(rows, |rows| rows.no_name(index));
+            self.refuse_row(rows, |rows| rows.no_name(index));
         }
         if !named {
             rows.skip();
@@ -132,13 +131,13 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn next_row(&mut self, rows: &mut Rows<'_>) -> bool {
         let there = rows.step();
         if there && !rows.sound {
-            self.refuse(rows, Rows::wrong_length);
+            self.refuse_row(rows, Rows::wrong_length);
         }
         there
     }
 
     /// Reports a problem of a row, up to so many of a file.
-    fn refuse<'s>(&mut self, rows: &mut Rows<'s>, problem: impl FnOnce(&Rows<'s>) -> Diagnostic) {
+    fn refuse_row<'s>(&mut self, rows: &mut Rows<'s>, problem: impl FnOnce(&Rows<'s>) -> Diagnostic) {
         rows.problems += 1;
         if rows.problems > MOST_PROBLEMS {
             self.dropped += 1;

@@ -8,13 +8,42 @@ use lptn_network::{ConductorKind, Field, Path};
 use lptn_units::{Dimension, Type};
 
 use crate::fields::{Fields, Owner};
+use crate::format::{Role, SectionDeclaration, key};
 use crate::imported::{Kind, Places};
-use crate::raw::RawKind;
+use crate::raw::{RawKind, RawNetlist, RawValue};
 use crate::section::Initial;
-use crate::vocabulary::IMPORT;
 use crate::work::Elaboration;
 
 const ABSOLUTE: Type = Type::ABSOLUTE_TEMPERATURE;
+
+pub(crate) const IMPORT: SectionDeclaration = SectionDeclaration {
+    name: "import",
+    sentence: "Elements from CSV files, one in each row.",
+    role: Role::Import,
+    keys: &[
+        key("nodes", "file", "columns `name`, `C`, and `T0` if there is one", "\"nodes.csv\""),
+        key("boundaries", "file", "columns `name`, `T`", "\"boundaries.csv\""),
+        key("conductors", "file", "columns `from`, `to`, `G` or `R`, and `name`", "\"conductors.csv\""),
+        key("sources", "file", "columns `into`, `P`, and `name`", "\"sources.csv\""),
+    ],
+    example: "{ nodes = \"nodes.csv\", conductors = \"conductors.csv\" }",
+    elsewhere: &[
+        ("node", "did you mean `nodes`?"),
+        ("boundary", "did you mean `boundaries`?"),
+        ("conductor", "did you mean `conductors`?"),
+        ("resistors", "paths between two ends are `conductors`"),
+        ("source", "did you mean `sources`?"),
+    ],
+    ..SectionDeclaration::NEW
+};
+
+/// The files that it names.
+pub(crate) fn files(raw: &RawNetlist) -> impl Iterator<Item = (&str, &RawValue)> {
+    raw.elements(IMPORT.name).iter().filter_map(|entry| match &entry.value.kind {
+        RawKind::String { text, .. } => Some((text.as_str(), &entry.value)),
+        _ => None,
+    })
+}
 
 /// What a file holds: the key that names it, and its columns.
 pub(crate) struct Contents {
@@ -46,7 +75,7 @@ impl<'a> Elaboration<'a> {
             self.lost(); // which has been reported
             return None;
         }
-        let fields = Fields::of(&IMPORT, Owner::section(IMPORT.name), entry, &mut self.problems);
+        let fields = self.inner(&IMPORT, Owner::section(IMPORT.name), entry);
         if fields.as_ref().is_none_or(|fields| !fields.complete) {
             self.lost(); // the unknown key may be what names the nodes
         }

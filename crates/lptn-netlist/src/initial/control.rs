@@ -4,7 +4,7 @@ use lptn_data::Diagnostic;
 use lptn_units::suggest;
 
 use super::StateFile;
-use crate::vocabulary::CONTROL;
+use crate::section::CONTROL;
 use crate::work::Elaboration;
 
 impl Elaboration<'_> {

@@ -12,15 +12,20 @@ use std::path::Path;
 
 use lptn_data::{Diagnostic, Files, Span};
 
-use crate::include::{Loader, reason};
+use crate::include::Loader;
 use crate::json::{Json, JsonValue};
-use crate::near_file;
-use crate::raw::{RawKind, RawNetlist, RawValue};
+use crate::near_file::NamedFile;
+use crate::raw::{RawKind, RawValue};
 use crate::state::{FORMAT, StateEnd};
-use crate::vocabulary::RUN;
 use stand::Stand;
 
-const KEY: &str = "initial";
+const NAMED: NamedFile = NamedFile {
+    does: "read a state",
+    verb: "read",
+    without_folder: "netlist::state_without_folder",
+    not_found: "netlist::state_not_found",
+    else_help: "; `lptn run` writes `out/NAME/state.json`",
+};
 
 /// Where a node whose state is not known is looked at for other mistakes, in K.
 const ANYWHERE: f64 = 298.15;
@@ -49,8 +54,6 @@ struct Named<T> {
     index: HashMap<String, usize>,
 }
 
-type Numbers = Named<f64>;
-
 impl<T: Copy> Named<T> {
     fn new() -> Self {
         Self { all: Vec::new(), index: HashMap::new() }
@@ -72,8 +75,8 @@ impl<T: Copy> Named<T> {
 #[derive(Clone, Debug)]
 pub(crate) struct StateFile {
     pub(crate) state: InitialState,
-    temperatures: Numbers,
-    melted: Numbers,
+    temperatures: Named<f64>,
+    melted: Named<f64>,
     controls: Named<Stand>,
     problems: Vec<Diagnostic>,
     /// Whether a file was named.
@@ -81,13 +84,11 @@ pub(crate) struct StateFile {
 }
 
 impl StateFile {
-    /// Reads the file that `initial` of `[run]` names; `None` if nothing does.
-    pub(crate) fn read(files: &mut Files, raw: &RawNetlist, loader: Option<&mut Loader<'_>>) -> Option<Self> {
-        let RawKind::Table(run) = &raw.top.get(RUN.name)?.value.kind else { return None };
-        let value = &run.get(KEY)?.value;
+    /// Reads the file that a value names, `initial` of `[run]`.
+    pub(crate) fn read(files: &mut Files, value: &RawValue, loader: Option<&mut Loader<'_>>) -> Self {
         let RawKind::String { text, .. } = &value.kind else {
             // said where `[run]` is read; nodes are not missing a start for it
-            return Some(Self { usable: false, ..Self::empty(String::new(), value) });
+            return Self { usable: false, ..Self::empty(String::new(), value) };
         };
         let from = Path::new(files.name(value.span.file)).parent().unwrap_or(Path::new("")).to_owned();
         let path = from.join(text);
@@ -96,7 +97,7 @@ impl StateFile {
             Ok(json) => state.take(files, json),
             Err(problem) => state.problems.push(problem),
         }
-        Some(state)
+        state
     }
 
     fn empty(file: String, value: &RawValue) -> Self {
@@ -131,18 +132,20 @@ impl StateFile {
             self.refuse("netlist::state_member", words, value.span());
         }
         let top = Span::new(file, 0..0);
-        self.time(&members, &top);
-        self.end(&members);
-        if let Some(values) = self.in_unit(&members, ("temperatures", "values", "K"), &top) {
-            self.temperatures = self.numbers(values, "temperatures");
+        if let Some(time) = self.in_unit(&members, ("time", "value", "s"), &top) {
+            self.state.time = self.number(time, "`time` of the state").unwrap_or(f64::NAN);
         }
-        self.check_range();
+        if let Some(end) = member(&members, "end") {
+            self.end(end);
+        }
+        if let Some(values) = self.in_unit(&members, ("temperatures", "values", "K"), &top) {
+            self.temperatures = self.named(values, "temperatures", Self::temperature);
+        }
         if let Some(melted) = member(&members, "melted") {
-            self.melted = self.numbers(melted, "melted");
-            self.check_shares();
+            self.melted = self.named(melted, "melted", Self::share);
         }
         if let Some(controls) = member(&members, "controls") {
-            self.take_controls(controls);
+            self.controls = self.named(controls, "controls", Self::stand);
         }
     }
 
@@ -179,19 +182,7 @@ impl StateFile {
         held
     }
 
-    fn time(&mut self, members: &Members<'_>, top: &Span) {
-        let Some(time) = self.in_unit(members, ("time", "value", "s"), top) else { return };
-        match time.number() {
-            Some(number) => self.state.time = number,
-            None => {
-                let words = "`time` of the state is no number".to_owned();
-                self.refuse("netlist::state_not_a_number", words, time.span());
-            }
-        }
-    }
-
-    fn end(&mut self, members: &Members<'_>) {
-        let Some(value) = member(members, "end") else { return };
+    fn end(&mut self, value: JsonValue<'_>) {
         match value.string().and_then(|word| StateEnd::of(&word)) {
             Some(end) => self.state.end = end,
             None => {
@@ -201,43 +192,55 @@ impl StateFile {
         }
     }
 
-    /// The numbers of an object by name.
-    fn numbers(&mut self, value: JsonValue<'_>, what: &str) -> Numbers {
-        let mut numbers = Numbers::new();
+    fn number(&mut self, value: JsonValue<'_>, what: &str) -> Option<f64> {
+        let number = value.number();
+        if number.is_none() {
+            let words = format!("{what} is not a number: {}", value.written());
+            self.refuse("netlist::state_not_a_number", words, value.span());
+        }
+        number
+    }
+
+    /// The members of an object by name, each read in this way.
+    fn named<T: Copy>(
+        &mut self,
+        value: JsonValue<'_>,
+        what: &str,
+        read: impl Fn(&mut Self, &str, JsonValue<'_>) -> Option<T>,
+    ) -> Named<T> {
+        let mut named = Named::new();
         let Some(members) = value.members() else {
-            let words = format!("`{what}` of a state is an object of numbers");
+            let words = format!("`{what}` of a state is an object with a member for each name");
             self.refuse("netlist::state_member", words, value.span());
-            return numbers;
+            return named;
         };
         for (name, value) in members {
-            let Some(number) = value.number() else {
-                let words = format!("`{name}` in `{what}` of the state is no number: {}", value.written());
-                self.refuse("netlist::state_not_a_number", words, value.span());
-                continue;
-            };
-            if !numbers.insert(&name, number, value.span()) {
+            let Some(found) = read(self, &name, value) else { continue };
+            if !named.insert(&name, found, value.span()) {
                 let words = format!("`{name}` stands twice in `{what}` of the state");
                 self.refuse("netlist::state_twice", words, value.span());
             }
         }
-        numbers
+        named
     }
 
-    fn check_range(&mut self) {
-        let cold = self.temperatures.all.iter().filter(|(_, number, _)| *number < 0.0).cloned();
-        for (name, number, place) in cold.collect::<Vec<_>>() {
+    fn temperature(&mut self, name: &str, value: JsonValue<'_>) -> Option<f64> {
+        let number = self.number(value, &format!("`{name}` in `temperatures` of the state"))?;
+        if number < 0.0 {
             let words =
                 format!("the temperature of `{name}` in the state is below absolute zero: {number} K");
-            self.refuse("netlist::state_below_absolute_zero", words, place);
+            self.refuse("netlist::state_below_absolute_zero", words, value.span());
         }
+        Some(number)
     }
 
-    fn check_shares(&mut self) {
-        let wrong = self.melted.all.iter().filter(|(_, share, _)| !(0.0..=1.0).contains(share)).cloned();
-        for (name, share, place) in wrong.collect::<Vec<_>>() {
+    fn share(&mut self, name: &str, value: JsonValue<'_>) -> Option<f64> {
+        let share = self.number(value, &format!("`{name}` in `melted` of the state"))?;
+        if !(0.0..=1.0).contains(&share) {
             let words = format!("how much of `{name}` is molten must be from 0 to 1, got {share}");
-            self.refuse("netlist::state_share", words, place);
+            self.refuse("netlist::state_share", words, value.span());
         }
+        Some(share)
     }
 
     fn unknown(&self, (what, name, place): (&str, &str, &Span), near: Option<&str>) -> Diagnostic {
@@ -245,12 +248,8 @@ impl StateFile {
         let problem = Diagnostic::error("netlist::state_unknown_name", message)
             .at(place.clone(), "")
             .also(self.state.place.clone(), "read here");
-        problem.help(match near {
-            Some(near) => {
-                format!("was `{near}` renamed? a state belongs to the network that it was computed with")
-            }
-            None => "a state belongs to the network that it was computed with".to_owned(),
-        })
+        let renamed = near.map(|near| format!("was `{near}` renamed? ")).unwrap_or_default();
+        problem.help(renamed + "a state belongs to the network that it was computed with")
     }
 }
 
@@ -266,27 +265,13 @@ fn load(
     value: &RawValue,
     loader: Option<&mut Loader<'_>>,
 ) -> Result<crate::FileId, Diagnostic> {
-    let refused = |code, message: String, help: &str| {
-        Err(Diagnostic::error(code, message).at(value.span.clone(), "").help(help))
-    };
-    let Some(loader) = loader else {
-        let message = "this netlist is not read from a file, so it cannot read a state".to_owned();
-        return refused("netlist::state_without_folder", message, "save it, and give the name of the file");
-    };
-    let name = path.display();
-    match loader(path) {
-        Ok(bytes) => match std::str::from_utf8(&bytes) {
-            Ok(text) => Ok(files.add(name.to_string(), text)),
-            Err(_) => {
-                let message = format!("{name} is not a text file in UTF-8");
-                refused("netlist::not_text", message, "use the `state.json` that `lptn run` writes")
-            }
-        },
-        Err(error) => {
-            let message = format!("cannot read {name}: {}", reason(&error));
-            let near = near_file::help(value, path, &error);
-            let help = format!("{near}; `lptn run` writes `out/NAME/state.json`");
-            refused("netlist::state_not_found", message, &help)
+    let bytes = NAMED.load(path, value, loader)?;
+    match std::str::from_utf8(&bytes) {
+        Ok(text) => Ok(files.add(path.display().to_string(), text)),
+        Err(_) => {
+            let message = format!("{} is not a text file in UTF-8", path.display());
+            let help = "use the `state.json` that `lptn run` writes";
+            Err(Diagnostic::wrong("netlist::not_text", message, &value.span, help))
         }
     }
 }

@@ -14,21 +14,7 @@ pub(super) struct Stand {
 }
 
 impl StateFile {
-    pub(super) fn take_controls(&mut self, value: JsonValue<'_>) {
-        let Some(members) = value.members() else {
-            let words = "`controls` of a state is an object".to_owned();
-            return self.refuse("netlist::state_member", words, value.span());
-        };
-        for (name, value) in members {
-            let stand = self.stand(&name, value);
-            if !self.controls.insert(&name, stand, value.span()) {
-                let words = format!("`{name}` stands twice in `controls` of the state");
-                self.refuse("netlist::state_twice", words, value.span());
-            }
-        }
-    }
-
-    fn stand(&mut self, name: &str, value: JsonValue<'_>) -> Stand {
+    pub(super) fn stand(&mut self, name: &str, value: JsonValue<'_>) -> Option<Stand> {
         let members = value.members().unwrap_or_default();
         for (other, value) in members.iter().filter(|(other, _)| !["on", "held"].contains(&&**other)) {
             let words = format!("control `{name}` of a state has no member `{other}`");
@@ -45,23 +31,16 @@ impl StateFile {
             self.refuse("netlist::state_control", words, on.unwrap_or(value).span());
         }
         let held = member(&members, "held").and_then(|_| self.held(name, &members, &value.span()));
-        Stand { on: known.unwrap_or_default(), held }
+        Some(Stand { on: known.unwrap_or_default(), held })
     }
 
     fn held(&mut self, name: &str, members: &Members<'_>, place: &Span) -> Option<f64> {
         let value = self.in_unit(members, ("held", "value", "s"), place)?;
-        let (code, words) = match value.number() {
-            Some(held) if held >= 0.0 => return Some(held),
-            Some(held) => {
-                let words = format!("how long control `{name}` was held must be at least 0 s, got {held} s");
-                ("netlist::state_control", words)
-            }
-            None => {
-                let words = format!("`held` of control `{name}` in the state is no number");
-                ("netlist::state_not_a_number", words)
-            }
-        };
-        self.refuse(code, words, value.span());
-        None
+        let held = self.number(value, &format!("`held` of control `{name}` in the state"))?;
+        if held < 0.0 {
+            let words = format!("how long control `{name}` was held must be at least 0 s, got {held} s");
+            self.refuse("netlist::state_control", words, value.span());
+        }
+        Some(held).filter(|held| *held >= 0.0)
     }
 }

@@ -9,6 +9,7 @@ use lptn_units::{Quantity, Type, suggest};
 use super::{ANYWHERE, InitialState};
 use crate::raw::RawEntry;
 use crate::run::RunPlan;
+use crate::section::NODE;
 use crate::state::StateEnd;
 use crate::work::Elaboration;
 
@@ -42,7 +43,8 @@ impl<'a> Elaboration<'a> {
     /// those that the file gives them. And all massless nodes: where they stood.
     pub(crate) fn start_the_others(&mut self) {
         let Some(file) = self.state.filter(|file| file.usable && file.problems.is_empty()) else { return };
-        let written: HashSet<&str> = self.elements("node").iter().map(|entry| entry.key.as_str()).collect();
+        let written: HashSet<&str> =
+            self.elements(NODE.name).iter().map(|entry| entry.key.as_str()).collect();
         let names: Vec<String> = self.builder.end_names(true).map(str::to_owned).collect();
         let mut missing = Vec::new();
         for (id, name) in self.builder.node_ids().zip(names) {
@@ -77,7 +79,7 @@ impl<'a> Elaboration<'a> {
         let lists = [&file.temperatures, &file.melted].into_iter().flat_map(|numbers| &numbers.all);
         let mut unknown = Vec::new();
         for (name, _, place) in lists.filter(|(name, ..)| !node(name)) {
-            let nodes = self.elements("node").iter().map(|entry| entry.key.as_str());
+            let nodes = self.elements(NODE.name).iter().map(|entry| entry.key.as_str());
             let missing = nodes.filter(|name| file.temperatures.get(name).is_none());
             unknown.push(file.unknown(("node", name, place), suggest(name, missing)));
         }

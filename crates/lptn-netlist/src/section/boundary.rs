@@ -3,11 +3,23 @@
 use lptn_network::{Field, Item};
 use lptn_units::Type;
 
-use crate::fields::{Fields, Owner};
-use crate::place::{Place, Wanted};
+use crate::format::{ABSOLUTE, Role, SectionDeclaration, key};
+use crate::place::Wanted;
 use crate::raw::RawEntry;
-use crate::vocabulary::BOUNDARY;
 use crate::work::{Elaboration, stand_in};
+
+pub(crate) const BOUNDARY: SectionDeclaration = SectionDeclaration {
+    name: "boundary",
+    sentence: "A place whose temperature is given, whatever flows in.",
+    role: Role::Element,
+    keys: &[key("T", ABSOLUTE, "temperature, constant or a function of `t`", "\"25 degC\"")],
+    example: "{ T = \"25 degC\" }",
+    elsewhere: &[
+        ("T0", "the temperature of a boundary is `T`"),
+        ("C", "a boundary keeps its temperature whatever flows in; what has a capacity is a [node]"),
+    ],
+    ..SectionDeclaration::NEW
+};
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn boundaries(&mut self) {
@@ -18,22 +30,17 @@ impl<'a> Elaboration<'a> {
 
     /// A boundary keeps its name even if its temperature is wrong, so that paths to it are not reported too.
     fn boundary(&mut self, entry: &'a RawEntry) {
-        let owner = Owner::element(BOUNDARY.name, &entry.key);
-        let fields = Fields::of(&BOUNDARY, owner, entry, &mut self.problems);
-        let raw = fields.as_ref().and_then(|fields| fields.require("T", &mut self.problems));
+        let fields = self.fields(&BOUNDARY, entry);
         let ty = Type::ABSOLUTE_TEMPERATURE;
-        let given = match (&fields, raw) {
-            (Some(fields), Some(raw)) => {
-                self.given(Place { owner: &fields.owner, key: "T", raw }, Wanted::in_time(ty))
-            }
-            _ => None,
-        };
-        let temperature = given.map_or_else(|| stand_in(ty), |given| given.input());
-        let id = self.builder.boundary(&entry.key, temperature);
+        let temperature = fields.as_ref().and_then(|fields| {
+            self.require(fields, "T");
+            self.input(fields, "T", Wanted::in_time(ty))
+        });
+        let id = self.builder.boundary(&entry.key, temperature.unwrap_or_else(|| stand_in(ty)));
         let item = Item::Boundary(id);
-        self.map.insert(item, Field::Name, entry.key_span.clone());
-        if let Some(raw) = raw {
-            self.map.value(item, Field::Temperature, raw);
+        match &fields {
+            Some(fields) => self.note(item, &entry.key_span, fields, &[Field::Temperature]),
+            None => self.map.insert(item, Field::Name, entry.key_span.clone()),
         }
     }
 }

@@ -1,12 +1,28 @@
 //! `[capacitor]`: parts that are lumped into one node.
 
-use lptn_network::{Field, Item};
+use lptn_network::Item;
 use lptn_units::{Dimension, Type};
 
-use crate::fields::{Fields, Owner};
+use crate::format::{Role, SectionDeclaration, key};
 use crate::raw::RawEntry;
-use crate::vocabulary::CAPACITOR;
+use crate::section::keys::{CAPACITY, MASS, MATERIAL_OF, VOLUME};
 use crate::work::{Elaboration, stand_in};
+
+pub(crate) const CAPACITOR: SectionDeclaration = SectionDeclaration {
+    name: "capacitor",
+    sentence: "A part of a node's capacity; the parts of a node add.",
+    role: Role::Element,
+    keys: &[
+        key("node", "name of a node", "the node that it is a part of", "\"name of a node\""),
+        CAPACITY,
+        MATERIAL_OF,
+        MASS,
+        VOLUME,
+    ],
+    example: "{ node = \"a\", C = \"500 J/K\" }",
+    elsewhere: &[("T0", "the temperature at the start belongs to the node")],
+    ..SectionDeclaration::NEW
+};
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn capacitors(&mut self) {
@@ -18,17 +34,15 @@ impl<'a> Elaboration<'a> {
     }
 
     fn capacitor(&mut self, entry: &'a RawEntry) -> Option<()> {
-        let owner = Owner::element(CAPACITOR.name, &entry.key);
-        let fields = Fields::of(&CAPACITOR, owner, entry, &mut self.problems)?;
+        let fields = self.fields(&CAPACITOR, entry)?;
         let node = self.node_end(&fields, "node");
         let capacity = self.capacity(&fields).unwrap_or_else(|| {
-            fields.require("C", &mut self.problems);
+            self.require(&fields, "C");
             stand_in(Type::of(Dimension::CAPACITY))
         });
         let (node, at) = node?;
-        let id = self.builder.capacitor(&entry.key, node, capacity);
-        let item = Item::Capacitor(id);
-        self.map.insert(item, Field::Name, entry.key_span.clone());
+        let item = Item::Capacitor(self.builder.capacitor(&entry.key, node, capacity));
+        self.note(item, &entry.key_span, &fields, &[]);
         self.map.part_of(node, at.span.clone());
         self.map_capacity(item, &fields);
         Some(())

@@ -4,14 +4,50 @@ use lptn_data::Diagnostic;
 use lptn_network::{Acts, ControlId, Field, Input, Item, Network, Thermostat};
 use lptn_units::{Dimension, Quantity, Type, format_number};
 
-use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::fields::Fields;
+use crate::format::{ABSOLUTE, Role, SectionDeclaration, key};
+use crate::names::ValueKind;
 use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind};
 use crate::source_map::SourceMap;
-use crate::vocabulary::CONTROL;
 use crate::work::Elaboration;
 
 const TIME: Type = Type::of(Dimension::TIME);
+
+/// What a control for something else than a thermostat would be given.
+const BOTH: &str =
+    "give both thresholds: `on_above` and `off_below` for cooling, `on_below` and `off_above` for heating";
+
+pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
+    name: ValueKind::Control.section(),
+    sentence: "A thermostat; its name is 1 while it is on, else 0.",
+    role: Role::Value,
+    keys: &[
+        key("sense", "name", "the node or boundary that is felt", "\"name of a node or boundary\""),
+        key("on_above", ABSOLUTE, "of cooling: above it, it goes on", "\"60 degC\""),
+        key("off_below", ABSOLUTE, "of cooling: below it, it goes off", "\"55 degC\""),
+        key("on_below", ABSOLUTE, "of heating: below it, it goes on", "\"18 degC\""),
+        key("off_above", ABSOLUTE, "of heating: above it, it goes off", "\"20 degC\""),
+        key("start", "`\"on\"`, `\"off\"`", "how it stands at the start, between the thresholds", "\"on\"")
+            .or("`\"off\"`"),
+        key("min_dwell", "s", "the least time between two switches", "\"30 s\"").or("0 s"),
+    ],
+    example: "{ sense = \"a\", on_above = \"60 degC\", off_below = \"55 degC\" }",
+    elsewhere: &[
+        ("kind", "every control is a thermostat: leave `kind` out"),
+        ("type", "every control is a thermostat: leave `type` out"),
+        ("node", "the node or boundary that is felt is `sense`"),
+        ("of", "the node or boundary that is felt is `sense`"),
+        ("sensor", "the node or boundary that is felt is `sense`"),
+        ("setpoint", BOTH),
+        ("hysteresis", BOTH),
+        ("band", BOTH),
+        ("initial", "whether it is on at the start is `start`"),
+        ("dwell", "the least time between two switches is `min_dwell`"),
+        ("P", "what it switches uses its name, which is 0 or 1: `P = \"100 [W] * name\"` of a [source]"),
+    ],
+    ..SectionDeclaration::NEW
+};
 
 /// A dead band of fewer tolerances than this is no wider than the error of a run.
 const NARROW: f64 = 10.0;
@@ -38,8 +74,7 @@ impl<'a> Elaboration<'a> {
     }
 
     fn thermostat(&mut self, id: ControlId, entry: &'a RawEntry) -> Option<()> {
-        let owner = Owner::element(CONTROL.name, &entry.key);
-        let fields = Fields::of(&CONTROL, owner, entry, &mut self.problems)?;
+        let fields = self.fields(&CONTROL, entry)?;
         let sense = self.end(&fields, "sense");
         let thresholds = self.thresholds(id, &fields);
         let (start, min_dwell) = (self.begins_on(&fields), self.dwell(id, &fields));
@@ -93,8 +128,7 @@ impl<'a> Elaboration<'a> {
     fn begins_on(&mut self, fields: &Fields<'a>) -> Option<bool> {
         match fields.get("start") {
             Some(raw) if !matches!(raw.kind, RawKind::String { .. }) => {
-                let words = fields.owner.field("start");
-                self.report(wrong_shape(&words, raw, "\"off\" or \"on\"", "start = \"on\""));
+                self.report(fields.wrong_shape("start", raw, "\"off\" or \"on\""));
                 None
             }
             _ => self.choice(fields, "start", &[("off", false), ("on", true)]),
@@ -113,8 +147,8 @@ impl<'a> Elaboration<'a> {
 
 /// Both pairs, as they could be written.
 fn both_pairs() -> String {
-    let [cooling, heating] =
-        [Acts::Cooling, Acts::Heating].map(|acts| acts.fields().map(|field| sample(field.key())).join(", "));
+    let [cooling, heating] = [Acts::Cooling, Acts::Heating]
+        .map(|acts| acts.fields().map(|field| CONTROL.sample(field.key())).join(", "));
     format!("`{cooling}` for cooling or `{heating}` for heating")
 }
 
@@ -127,21 +161,18 @@ fn no_thresholds(fields: &Fields<'_>) -> Diagnostic {
 
 fn half_a_pair(fields: &Fields<'_>, there: &str, missing: &str) -> Diagnostic {
     let message = format!("{} has `{there}` but no `{missing}`", fields.owner.words());
-    Diagnostic::error("netlist::missing_field", message)
-        .at(fields.place.clone(), format!("`{missing}` is missing"))
-        .help(format!("add `{}`: a thermostat needs a dead band between two temperatures", sample(missing)))
+    let sample = fields.sample(missing);
+    let help = format!("add `{sample}`: a thermostat needs a dead band between two temperatures");
+    fields.missing(missing, message).help(help)
 }
 
 /// Thresholds of both pairs.
 fn mixed(fields: &Fields<'_>) -> Diagnostic {
     let message = format!("{} has thresholds for cooling as well as for heating", fields.owner.words());
-    let mut error = Diagnostic::error("netlist::two_thermostats", message);
-    let labels = [("cooling", Acts::Cooling), ("heating", Acts::Heating)];
-    let keys = labels.into_iter().flat_map(|(word, acts)| acts.fields().map(|field| (word, field.key())));
-    for (n, (word, span)) in keys.filter_map(|(word, key)| Some((word, fields.key(key)?))).enumerate() {
-        let label = format!("for {word}");
-        error = if n == 0 { error.at(span.clone(), label) } else { error.also(span.clone(), label) };
-    }
+    let pairs = [("cooling", Acts::Cooling), ("heating", Acts::Heating)];
+    let keys = pairs.into_iter().flat_map(|(word, acts)| acts.fields().map(|field| (word, field.key())));
+    let given = keys.filter_map(|(word, key)| Some((fields.key(key)?.clone(), format!("for {word}"))));
+    let error = Diagnostic::error("netlist::two_thermostats", message).places(given);
     error.help(format!("keep one pair, {}", both_pairs()))
 }
 
@@ -168,10 +199,7 @@ fn narrow_band(
     let problem = Diagnostic::warning("netlist::narrow_dead_band", message);
     let fields = network.thermostat(id).map(|thermostat| thermostat.acts.fields());
     let places = fields.into_iter().flatten().filter_map(|field| map.get(Item::Control(id), field));
-    let problem = places.enumerate().fold(problem, |problem, (n, span)| match n {
-        0 => problem.at(span.clone(), ""),
-        _ => problem.also(span.clone(), ""),
-    });
+    let problem = problem.places(places.map(|span| (span, String::new())));
     problem.help(format!(
         "widen it, or write `tolerance = \"{} K\"` in [run]: when it switches is not resolved",
         short(band / NARROW)

@@ -4,11 +4,23 @@ use lptn_data::Diagnostic;
 use lptn_network::Input;
 use lptn_units::{Dimension, Type, Unit, UnitError};
 
-use crate::fields::{Fields, Owner};
-use crate::place::{Place, Wanted};
+use crate::fields::Owner;
+use crate::format::{ABSOLUTE, Role, SectionDeclaration, key};
+use crate::place::Wanted;
 use crate::raw::RawValue;
-use crate::vocabulary::DEFAULT;
 use crate::work::{Elaboration, stand_in};
+
+pub(crate) const DEFAULT: SectionDeclaration = SectionDeclaration {
+    name: "default",
+    sentence: "What holds unless an element says otherwise.",
+    role: Role::Default,
+    keys: &[
+        key("T0", ABSOLUTE, "temperature of the nodes at the start", "\"25 degC\""),
+        key("temperature_unit", "unit", "unit of temperatures in results", "\"degC\"").or("`\"degC\"`"),
+    ],
+    example: "{ T0 = \"25 degC\" }",
+    ..SectionDeclaration::NEW
+};
 
 /// A temperature at the start, and where it stands.
 pub(crate) type Initial<'a> = (Input, &'a RawValue);
@@ -25,20 +37,14 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn defaults(&mut self) -> Default<'a> {
         let mut default = Default { initial: None, temperature_unit: celsius() };
         let Some(entry) = self.raw.top.get(DEFAULT.name) else { return default };
-        let Some(fields) = Fields::of(&DEFAULT, Owner::section(DEFAULT.name), entry, &mut self.problems)
-        else {
-            return default;
-        };
-        if let Some(raw) = fields.get("T0") {
-            let place = Place { owner: &fields.owner, key: "T0", raw };
-            let given = self.given(place, Wanted::constant(Type::ABSOLUTE_TEMPERATURE));
-            let input = given.map_or_else(|| stand_in(Type::ABSOLUTE_TEMPERATURE), |given| given.input());
+        let Some(fields) = self.inner(&DEFAULT, Owner::section(DEFAULT.name), entry) else { return default };
+        let ty = Type::ABSOLUTE_TEMPERATURE;
+        if let (Some(raw), Some(input)) = (fields.get("T0"), self.input(&fields, "T0", Wanted::constant(ty)))
+        {
             self.map.set_default(raw.span.clone());
             default.initial = Some((input, raw));
         }
-        if let Some(raw) = fields.get("temperature_unit")
-            && let Some(text) = fields.text("temperature_unit", raw, &mut self.problems)
-        {
+        if let Some((text, raw)) = self.word(&fields, "temperature_unit") {
             match temperature_unit(text) {
                 Ok(unit) => default.temperature_unit = unit,
                 Err(error) => self.report(bad_unit(&fields.owner, raw, text, error.as_ref())),
@@ -46,7 +52,7 @@ impl<'a> Elaboration<'a> {
         }
         if !fields.complete && default.initial.is_none() {
             // the unknown key may be the missing `T0`
-            default.initial = Some((stand_in(Type::ABSOLUTE_TEMPERATURE), &entry.value));
+            default.initial = Some((stand_in(ty), &entry.value));
         }
         default
     }
@@ -77,7 +83,5 @@ fn bad_unit(owner: &Owner, raw: &RawValue, text: &str, error: Option<&UnitError>
         None => format!("{words} must be a unit of temperature, got `{text}`"),
     };
     let code = error.map_or("netlist::temperature_unit", UnitError::code);
-    Diagnostic::error(code, message)
-        .at(raw.span.clone(), "")
-        .help("write `temperature_unit = \"degC\"`, or \"K\", \"degF\"")
+    Diagnostic::wrong(code, message, &raw.span, "write `temperature_unit = \"degC\"`, or \"K\", \"degF\"")
 }

@@ -2,22 +2,21 @@
 
 use std::sync::Arc;
 
-use lptn_data::{Diagnostic, Span, list};
+use lptn_data::{Diagnostic, Span, nearest};
 use lptn_network::{End, GridFace, Input, NodeId, Terminal, is_name};
 use lptn_units::{Dimension, Type, suggest};
 
 use crate::fields::{Fields, Owner};
 use crate::grid_part::GridPart;
 use crate::raw::{RawKind, RawValue};
+use crate::template::USE;
 use crate::template::{by_port, wrong_path};
-use crate::vocabulary::USE;
 use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
     /// The node, boundary or face of a grid that a field names.
     pub(crate) fn terminal(&mut self, fields: &Fields<'a>, key: &str) -> Option<(Terminal, &'a RawValue)> {
-        let raw = fields.require(key, &mut self.problems)?;
-        let name = fields.text(key, raw, &mut self.problems)?;
+        let (name, raw) = self.required_word(fields, key)?;
         match self.face_at(&raw.span, name) {
             Some(at) => Some((at.into(), raw)),
             _ => self.named_end(fields, key, (name, raw)).map(|(end, raw)| (end.into(), raw)),
@@ -113,8 +112,7 @@ impl<'a> Elaboration<'a> {
 
     /// The node or boundary that a field names.
     pub(crate) fn end(&mut self, fields: &Fields<'a>, key: &str) -> Option<(End, &'a RawValue)> {
-        let raw = fields.require(key, &mut self.problems)?;
-        let name = fields.text(key, raw, &mut self.problems)?;
+        let (name, raw) = self.required_word(fields, key)?;
         self.named_end(fields, key, (name, raw))
     }
 
@@ -179,10 +177,7 @@ impl<'a> Elaboration<'a> {
             format!("template `{template}` has no node, boundary or port `{name}`, which {words} refers to");
         let problem = Diagnostic::error("netlist::unknown_node", message).at(raw.span.clone(), "");
         let names = self.structure.names_at(&raw.span);
-        match suggest(name, names.iter().copied()) {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
-            None => problem.help(format!("its names are {}", list(&names))),
-        }
+        problem.help(nearest(name, names.iter().copied(), "its names are"))
     }
 
     /// The node that a field names; a boundary is not one.
@@ -213,10 +208,8 @@ impl<'a> Elaboration<'a> {
         }
         if let Some(near) = self.similar_end(name, wanted == "node") {
             let error = error.help(format!("did you mean `{near}`?"));
-            return match self.builder.end(&near).and_then(|end| self.map.name(end.into())) {
-                Some(span) => error.also(span, "similar name"),
-                None => error,
-            };
+            return error
+                .also(self.builder.end(&near).and_then(|end| self.map.name(end.into())), "similar name");
         }
         let value = || self.names.value_kind(name).map(|kind| kind.word());
         match self.kind_of(name).or_else(value) {

@@ -5,42 +5,54 @@ use lptn_laws::{Carries, Formula};
 use lptn_network::{Field, FluidId, Input, Item};
 use lptn_units::{Dimension, Quantity, Type, suggest};
 
-use crate::fields::{Fields, Owner, sample};
+use crate::fields::Fields;
+use crate::format::{Role, SectionDeclaration, key};
 use crate::library::{self, Record};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawValue};
-use crate::vocabulary::FLUID;
+use crate::section::keys::{CP, SOURCE_OF};
 use crate::work::{Elaboration, KnownFluid, stand_in};
+
+pub(crate) const FLUID: SectionDeclaration = SectionDeclaration {
+    name: "fluid",
+    sentence: "What streams are made of.",
+    role: Role::Substance,
+    keys: &[
+        key("density", "kg/m^3", "density, for volume flows; may depend on `T`", "\"870 kg/m^3\""),
+        CP,
+        SOURCE_OF,
+    ],
+    later: &["k", "viscosity"],
+    example: "{ density = \"870 kg/m^3\", cp = \"2000 J/(kg K)\" }",
+    elsewhere: &[
+        ("c", "the specific heat capacity is `cp`"),
+        ("rho", "the density is `density`"),
+        ("flow", "the flow belongs to the [advection] that carries the fluid"),
+    ],
+};
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn fluids(&mut self) {
         for entry in self.elements(FLUID.name) {
             if self.fluid(entry).is_none() {
-                self.names.hide_fluid(&entry.key);
+                self.names.hide_substance(FLUID.name, &entry.key);
             }
         }
     }
 
     fn fluid(&mut self, entry: &'a RawEntry) -> Option<()> {
-        let owner = Owner::element(FLUID.name, &entry.key);
-        let fields = Fields::of(&FLUID, owner, entry, &mut self.problems)?;
-        let cp = fields.require("cp", &mut self.problems);
+        let fields = self.fields(&FLUID, entry)?;
         let cp_type = Type::of(Dimension::SPECIFIC_HEAT);
-        let cp = cp.and_then(|_| self.property(&fields, "cp", Wanted::own(cp_type)));
-        let density = self.property(&fields, "density", Wanted::own(Type::of(Dimension::DENSITY)));
-        let source = fields.get("source").and_then(|raw| fields.text("source", raw, &mut self.problems));
+        self.require(&fields, "cp");
+        let cp = self.property(&fields, "cp", Wanted::own(cp_type)).unwrap_or_else(|| stand_in(cp_type));
+        let ty = Type::of(Dimension::DENSITY);
+        let density = self.property(&fields, "density", Wanted::own(ty));
         // an unknown key may be the property that is missing
-        let known = density.is_some() || !fields.complete;
-        let density = density.or_else(|| (!fields.complete).then(|| stand_in(Type::of(Dimension::DENSITY))));
-        let cp = cp.unwrap_or_else(|| stand_in(cp_type));
-        let id = self.builder.fluid(&entry.key, density, cp, source.map(str::to_owned));
-        let item = Item::Fluid(id);
-        self.map.insert(item, Field::Name, entry.key_span.clone());
-        for (key, field) in [("density", Field::Density), ("cp", Field::SpecificHeat)] {
-            if let Some(raw) = fields.get(key) {
-                self.map.value(item, field, raw);
-            }
-        }
+        let density = density.or_else(|| (!fields.complete).then(|| stand_in(ty)));
+        let source = self.word(&fields, "source").map(|(text, _)| text.to_owned());
+        let known = density.is_some();
+        let id = self.builder.fluid(&entry.key, density, cp, source);
+        self.note(Item::Fluid(id), &entry.key_span, &fields, &[Field::Density, Field::SpecificHeat]);
         self.known_fluids.insert(entry.key.clone(), KnownFluid { id, density: known });
         Some(())
     }
@@ -58,7 +70,9 @@ impl<'a> Elaboration<'a> {
         }
         let message = format!("{} needs `density` of fluid `{name}`, which has none", fields.owner.words());
         let problem = Diagnostic::error("netlist::no_property", message).at(raw.span.clone(), "");
-        self.report(problem.help(format!("add `{}` to the fluid, or give a mass flow", sample("density"))));
+        self.report(
+            problem.help(format!("add `{}` to the fluid, or give a mass flow", FLUID.sample("density"))),
+        );
         None
     }
 
@@ -69,11 +83,11 @@ impl<'a> Elaboration<'a> {
         raw: &'a RawValue,
     ) -> Option<(KnownFluid, &'a str, &'a RawValue)> {
         let name = fields.text("fluid", raw, &mut self.problems)?;
-        self.used_fluids.insert(name.to_owned());
+        self.used.insert((FLUID.name, name.to_owned()));
         if let Some(known) = self.known_fluids.get(name) {
             return Some((*known, name, raw));
         }
-        if self.names.is_hidden_fluid(name) {
+        if self.names.is_hidden_substance(FLUID.name, name) {
             return None;
         }
         let record = library::fluids().iter().find(|record| record.name == name);
@@ -114,18 +128,5 @@ impl<'a> Elaboration<'a> {
             "`lptn materials` lists the library; your own belong below [fluid], for example `{name} = {}`",
             FLUID.example
         ))
-    }
-
-    /// The fluids of the file that nothing uses.
-    pub(crate) fn unused_fluids(&self) -> Vec<Diagnostic> {
-        let unused = self.elements(FLUID.name).iter().filter(|e| !self.used_fluids.contains(&e.key));
-        let warning = |entry: &RawEntry| {
-            Diagnostic::warning("netlist::unused_fluid", format!("nothing uses fluid `{}`", entry.key))
-                .at(entry.key_span.clone(), "")
-                .help("use it or remove it; a misspelt name elsewhere may be the cause")
-        };
-        // a file of fluids is there to be chosen from
-        let main = self.raw.top.span.file;
-        unused.filter(|entry| entry.key_span.file == main).map(warning).collect()
     }
 }

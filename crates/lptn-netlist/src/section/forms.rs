@@ -2,7 +2,7 @@
 
 use lptn_data::Diagnostic;
 
-use crate::fields::{Fields, sample};
+use crate::fields::Fields;
 
 /// Exactly one form, and all of it.
 pub(crate) fn check_forms(fields: &Fields<'_>, forms: &[&[&str]]) -> Option<Diagnostic> {
@@ -20,14 +20,14 @@ fn words(form: &[&str]) -> String {
     form.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(" and ")
 }
 
-fn written(form: &[&str]) -> String {
-    form.iter().map(|key| sample(key)).collect::<Vec<_>>().join(", ")
+fn written(fields: &Fields<'_>, form: &[&str]) -> String {
+    form.iter().map(|key| fields.sample(key)).collect::<Vec<_>>().join(", ")
 }
 
 fn no_form(fields: &Fields<'_>, forms: &[&[&str]]) -> Diagnostic {
     let either: Vec<String> = forms.iter().map(|form| words(form)).collect();
     let message = format!("{} has neither {}", fields.owner.words(), either.join(" nor "));
-    let samples: Vec<String> = forms.iter().map(|form| format!("`{}`", written(form))).collect();
+    let samples: Vec<String> = forms.iter().map(|form| format!("`{}`", written(fields, form))).collect();
     Diagnostic::error("netlist::no_law", message)
         .at(fields.place.clone(), "does not say how much heat it carries")
         .help(format!("add {}", samples.join(" or ")))
@@ -39,25 +39,13 @@ fn half(fields: &Fields<'_>, form: &[&str], missing: &str) -> Option<Diagnostic>
     }
     let given = form.iter().find(|key| **key != missing)?;
     let message = format!("{} has `{given}` but no `{missing}`", fields.owner.words());
-    Some(
-        Diagnostic::error("netlist::missing_field", message)
-            .at(fields.place.clone(), format!("`{missing}` is missing"))
-            .help(format!("add `{}`", sample(missing))),
-    )
+    Some(fields.missing(missing, message))
 }
 
 fn two_forms(fields: &Fields<'_>, begun: &[&&[&str]]) -> Diagnostic {
     let both: Vec<String> = begun.iter().map(|form| words(form)).collect();
-    let message = format!("{} has {} as well as {}", fields.owner.words(), both[0], both[1..].join(" and "));
-    let mut error = Diagnostic::error("netlist::two_laws", message);
-    let keys = begun.iter().flat_map(|form| form.iter()).filter_map(|key| Some((*key, fields.key(key)?)));
-    for (n, (key, span)) in keys.enumerate() {
-        let span = span.clone();
-        error = if n == 0 {
-            error.at(span, format!("`{key}` here"))
-        } else {
-            error.also(span, format!("`{key}` here"))
-        };
-    }
+    let message = format!("has {} as well as {}", both[0], both[1..].join(" and "));
+    let keys = begun.iter().flat_map(|form| form.iter().copied());
+    let error = fields.several("netlist::two_laws", message, keys);
     error.help("keep one of them; two paths side by side are two elements")
 }

@@ -4,14 +4,42 @@ use lptn_data::Diagnostic;
 use lptn_network::{Block, Field, GridId, Input, Item, Substance};
 use lptn_units::{Dimension, Type};
 
-use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::fields::Fields;
+use crate::format::{Role, SectionDeclaration, key};
 use crate::grid_part::{GridPart, KnownGrid};
-use crate::place::{Given, Place, Wanted};
+use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::section::default::Initial;
+use crate::section::keys::{CP, DENSITY, MATERIAL_OF};
+use crate::section::node::START;
 use crate::section::path::PATHS;
-use crate::vocabulary::{GRID, SOURCE};
+use crate::section::source::SOURCE;
 use crate::work::{Elaboration, stand_in};
+
+/// A block that is cut into cells.
+pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
+    name: "grid",
+    sentence: "A block that is cut into cells.",
+    role: Role::Element,
+    keys: &[
+        key("size", "list of three lengths", "along x, y and z", "[\"0.5 m\", \"0.5 m\", \"20 mm\"]"),
+        key("cells", "list of one to three whole numbers", "how many cells along x, y and z", "[20, 20, 4]"),
+        MATERIAL_OF,
+        key("k", "W/(m K), or three", "conductivity, or those along x, y and z", "\"46.6 W/(m K)\""),
+        DENSITY,
+        CP,
+        START,
+    ],
+    example: "{ size = [\"0.5 m\", \"0.5 m\", \"20 mm\"], cells = [20, 20, 4], material = \"steel_8620\" }",
+    elsewhere: &[
+        ("rho", "the density is `density`"),
+        ("lambda", "the thermal conductivity is `k`"),
+        ("C", "the capacity of a grid follows from its size and its `material`, or `density` and `cp`"),
+        ("T", "the temperature at the start is `T0`"),
+        ("area", "the areas follow from `size`"),
+    ],
+    ..SectionDeclaration::NEW
+};
 
 const LENGTH: Type = Type::of(Dimension::LENGTH);
 const CONDUCTIVITY: Type = Type::of(Dimension::CONDUCTIVITY);
@@ -41,7 +69,7 @@ impl<'a> Elaboration<'a> {
         if self.names.grids.is_empty() {
             return;
         }
-        let sections = PATHS.iter().map(|(section, _)| section.name).chain([SOURCE.name]);
+        let sections = PATHS.iter().map(|path| path.section.name).chain([SOURCE.name]);
         let entries: Vec<&'a RawEntry> = sections.flat_map(|name| self.elements(name)).collect();
         for entry in entries {
             if let RawKind::Table(table) = &entry.value.kind {
@@ -82,8 +110,7 @@ impl<'a> Elaboration<'a> {
     }
 
     fn grid(&mut self, entry: &'a RawEntry, default: Option<&Initial<'a>>) -> Option<()> {
-        let owner = Owner::element(GRID.name, &entry.key);
-        let fields = Fields::of(&GRID, owner, entry, &mut self.problems)?;
+        let fields = self.fields(&GRID, entry)?;
         let size = self.lengths(&fields);
         let cells = self.cell_counts(&fields);
         let substance = self.substance(&fields);
@@ -97,12 +124,7 @@ impl<'a> Elaboration<'a> {
         let id = self.builder.grid(&entry.key, block);
         let item = Item::Grid(id);
         self.note_parts(before, item, GRID.name);
-        self.map.insert(item, Field::Name, entry.key_span.clone());
-        for field in FIELDS {
-            if let Some(raw) = fields.get(field.key()) {
-                self.map.value(item, field, raw);
-            }
-        }
+        self.note(item, &entry.key_span, &fields, &FIELDS);
         if let Some(raw) = initial_at {
             self.map.value(item, Field::Initial, raw);
         }
@@ -117,45 +139,27 @@ impl<'a> Elaboration<'a> {
 
     /// `size = ["0.5 m", "0.5 m", "20 mm"]`.
     fn lengths(&mut self, fields: &Fields<'a>) -> Option<[Input; 3]> {
-        let raw = fields.require("size", &mut self.problems)?;
-        let RawKind::Array(list) = &raw.kind else {
-            self.report(wrong_shape(
-                &fields.owner.field("size"),
-                raw,
-                "a list of three lengths",
-                &sample("size"),
-            ));
-            return None;
-        };
-        let [x, y, z] = list.as_slice() else {
+        let raw = self.require(fields, "size")?;
+        let list = self.list(fields, ("size", "a list of three lengths"))?;
+        let [x, y, z] = list else {
             let message = format!("{} has {}, not three", fields.owner.field("size"), lengths(list.len()));
-            let problem = Diagnostic::error("netlist::grid_size", message).at(raw.span.clone(), "");
-            self.report(problem.help(format!(
-                "a block has three lengths, along x, y and z, also where it is not divided: `{}`",
-                sample("size")
-            )));
+            let help = "a block has three lengths, along x, y and z, also where it is not divided";
+            let help = format!("{help}: `{}`", fields.sample("size"));
+            self.refuse("netlist::grid_size", message, &raw.span, help);
             return None;
         };
-        let mut length = |raw: &'a RawValue| {
-            let place = Place { owner: &fields.owner, key: "size", raw };
-            self.given(place, Wanted::constant(LENGTH)).map_or_else(|| stand_in(LENGTH), Given::input)
-        };
-        Some([length(x), length(y), length(z)])
+        Some([x, y, z].map(|raw| self.input_at(fields, "size", raw, Wanted::constant(LENGTH))))
     }
 
     /// `cells = [20, 20, 4]`.
     fn cell_counts(&mut self, fields: &Fields<'a>) -> Option<Vec<usize>> {
-        let raw = fields.require("cells", &mut self.problems)?;
-        let RawKind::Array(list) = &raw.kind else {
-            let wanted = "a list of one to three whole numbers";
-            self.report(wrong_shape(&fields.owner.field("cells"), raw, wanted, &sample("cells")));
-            return None;
-        };
+        let raw = self.require(fields, "cells")?;
+        let list = self.list(fields, ("cells", "a list of one to three whole numbers"))?;
         if list.is_empty() || list.len() > 3 {
-            let message =
-                format!("{} has {} counts, not one to three", fields.owner.field("cells"), list.len());
-            let problem = Diagnostic::error("netlist::grid_cells", message).at(raw.span.clone(), "");
-            self.report(problem.help(format!("give the cells along x, y and z: `{}`", sample("cells"))));
+            let words = fields.owner.field("cells");
+            let message = format!("{words} has {} counts, not one to three", list.len());
+            let help = format!("give the cells along x, y and z: `{}`", fields.sample("cells"));
+            self.refuse("netlist::grid_cells", message, &raw.span, help);
             return None;
         }
         let counts: Vec<Option<usize>> = list.iter().map(|raw| self.cell_count(fields, raw)).collect();
@@ -166,17 +170,16 @@ impl<'a> Elaboration<'a> {
         let text = match &raw.kind {
             RawKind::Integer(text) | RawKind::Float(text) => text,
             _ => {
-                let words = fields.owner.field("cells");
-                self.report(wrong_shape(&words, raw, "a list of whole numbers", &sample("cells")));
+                self.report(fields.wrong_shape("cells", raw, "a list of whole numbers"));
                 return None;
             }
         };
         let count = text.parse().ok().filter(|count: &usize| *count > 0);
         if count.is_none() {
-            let message =
-                format!("{} must be whole numbers of at least 1, got {text}", fields.owner.field("cells"));
-            let problem = Diagnostic::error("netlist::grid_cells", message).at(raw.span.clone(), "");
-            self.report(problem.help("an axis along which the block is not divided has 1 cell"));
+            let words = fields.owner.field("cells");
+            let message = format!("{words} must be whole numbers of at least 1, got {text}");
+            let help = "an axis along which the block is not divided has 1 cell";
+            self.refuse("netlist::grid_cells", message, &raw.span, help);
         }
         count
     }
@@ -195,12 +198,12 @@ impl<'a> Elaboration<'a> {
             self.report(
                 problem
                     .at(fields.place.clone(), "does not say what it is made of")
-                    .help(format!("add `{}`, or the properties themselves", sample("material"))),
+                    .help(format!("add `{}`, or the properties themselves", fields.sample("material"))),
             );
             return None;
         }
         for key in ["k", "density", "cp"] {
-            fields.require(key, &mut self.problems);
+            self.require(fields, key);
         }
         let density = self.property(fields, "density", Wanted::constant(Type::of(Dimension::DENSITY)));
         let cp = self.property(fields, "cp", Wanted::own(Type::of(Dimension::SPECIFIC_HEAT)));
@@ -212,8 +215,7 @@ impl<'a> Elaboration<'a> {
         fields: &Fields<'a>,
         k: Option<[Input; 3]>,
     ) -> Option<(Substance<Input>, [Input; 3])> {
-        let raw = fields.get("material")?;
-        let name = fields.text("material", raw, &mut self.problems)?;
+        let (name, raw) = self.word(fields, "material")?;
         let known = self.known_material(fields, name, raw)?;
         let needs = [("density", known.density), ("cp", known.cp), ("k", known.k || k.is_some())];
         let missing: Vec<&str> = needs.into_iter().filter(|(_, has)| !has).map(|(key, _)| key).collect();
@@ -238,20 +240,12 @@ impl<'a> Elaboration<'a> {
         };
         let [x, y, z] = list.as_slice() else {
             let message = format!("{} has {} values", fields.owner.field("k"), list.len());
-            let problem = Diagnostic::error("netlist::grid_conductivity", message).at(raw.span.clone(), "");
-            self.report(
-                problem.help(format!(
-                    "give one for all directions, `{}`, or three, along x, y and z",
-                    sample("k")
-                )),
-            );
+            let help =
+                format!("give one for all directions, `{}`, or three, along x, y and z", fields.sample("k"));
+            self.refuse("netlist::grid_conductivity", message, &raw.span, help);
             return [(); 3].map(|()| stand_in(CONDUCTIVITY));
         };
-        let mut one = |raw: &'a RawValue| {
-            let place = Place { owner: &fields.owner, key: "k", raw };
-            self.given(place, wanted).map_or_else(|| stand_in(CONDUCTIVITY), Given::input)
-        };
-        [one(x), one(y), one(z)]
+        [x, y, z].map(|raw| self.input_at(fields, "k", raw, wanted))
     }
 }
 

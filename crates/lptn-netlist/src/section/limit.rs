@@ -4,11 +4,30 @@ use lptn_data::Diagnostic;
 use lptn_network::{Bound, Field, Input, Item, Severity};
 use lptn_units::Type;
 
-use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::fields::Fields;
+use crate::format::{Role, SectionDeclaration, key};
 use crate::place::{Given, Place, Wanted};
-use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::vocabulary::LIMIT;
+use crate::raw::{RawEntry, RawKind};
 use crate::work::{Elaboration, stand_in};
+
+pub(crate) const LIMIT: SectionDeclaration = SectionDeclaration {
+    name: "limit",
+    sentence: "What the results have to keep: an upper or a lower bound of a result.",
+    role: Role::Element,
+    keys: &[
+        key("of", "expression of results", "what is limited", "\"steel.T\""),
+        key("below", "as `of`", "the highest value that is allowed", "\"110 degC\""),
+        key("above", "as `of`", "the lowest value that is allowed", "\"-20 degC\""),
+        key("severity", "`\"error\"`, `\"warning\"`", "how bad it is", "\"warning\"").or("`\"error\"`"),
+    ],
+    example: "{ of = \"a.T\", below = \"110 degC\" }",
+    elsewhere: &[
+        ("node", "what is limited is `of`, for example `of = \"a.T\"`"),
+        ("max", "the highest value that is allowed is `below`"),
+        ("min", "the lowest value that is allowed is `above`"),
+    ],
+    ..SectionDeclaration::NEW
+};
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn limits(&mut self) {
@@ -18,30 +37,27 @@ impl<'a> Elaboration<'a> {
     }
 
     fn limit(&mut self, entry: &'a RawEntry) -> Option<()> {
-        let owner = Owner::element(LIMIT.name, &entry.key);
-        let fields = Fields::of(&LIMIT, owner, entry, &mut self.problems)?;
+        let fields = self.fields(&LIMIT, entry)?;
         let (of, ty, text) = self.limited(&fields);
-        let (bound, raw, value) = self.bound(&fields, ty);
+        let (bound, value) = self.bound(&fields, ty);
         let severity = self.severity(&fields);
         let id = self.builder.limit(&entry.key, (of, &text), (bound, value), severity);
-        let item = Item::Limit(id);
-        self.map.insert(item, Field::Name, entry.key_span.clone());
-        for (field, raw) in [(Field::Of, fields.get("of")), (bound.field(), raw)] {
-            if let Some(raw) = raw {
-                self.map.value(item, field, raw);
-            }
-        }
+        self.note(Item::Limit(id), &entry.key_span, &fields, &[Field::Of, bound.field()]);
         Some(())
     }
 
     /// What is limited, its type where that is known, and how it is written.
     fn limited(&mut self, fields: &Fields<'a>) -> (Input, Option<Type>, String) {
         let nothing = || (stand_in(Type::ABSOLUTE_TEMPERATURE), None, String::new());
-        let Some(raw) = fields.require("of", &mut self.problems) else { return nothing() };
+        let Some(raw) = self.require(fields, "of") else { return nothing() };
         let place = Place { owner: &fields.owner, key: "of", raw };
         match self.given(place, Wanted::of_results()) {
             Some(Given::Quantity(_)) => {
-                self.report(constant(place));
+                self.report(
+                    Diagnostic::error("netlist::constant_limit", format!("{} is a constant", place.words()))
+                        .at(raw.span.clone(), "never changes")
+                        .help("name what the run computes, for example `of = \"steel.T\"`"),
+                );
                 nothing()
             }
             Some(Given::Expression(program)) => {
@@ -53,22 +69,27 @@ impl<'a> Elaboration<'a> {
     }
 
     /// Exactly one of `below` and `above`; of the type of what is limited.
-    fn bound(&mut self, fields: &Fields<'a>, ty: Option<Type>) -> (Bound, Option<&'a RawValue>, Input) {
-        let below = fields.get("below").map(|raw| (Bound::Below, raw));
-        let above = fields.get("above").map(|raw| (Bound::Above, raw));
-        match (below, above) {
-            (Some(_), Some(_)) => self.report(two_bounds(fields)),
-            (None, None) if fields.complete => self.report(no_bound(fields)),
-            _ => {}
-        }
-        let Some((bound, raw)) = below.or(above) else {
-            return (Bound::Below, None, stand_in(ty.unwrap_or(Type::ABSOLUTE_TEMPERATURE)));
+    fn bound(&mut self, fields: &Fields<'a>, ty: Option<Type>) -> (Bound, Input) {
+        let bound = match [Bound::Below, Bound::Above].map(|bound| fields.get(bound.field().key()).is_some())
+        {
+            [true, true] => {
+                let message = "has `below` as well as `above`".to_owned();
+                let problem = fields.several("netlist::two_bounds", message, ["below", "above"]);
+                self.report(problem.help("keep one of them; a band is two limits"));
+                Bound::Below
+            }
+            [false, false] => {
+                if fields.complete {
+                    self.report(no_bound(fields));
+                }
+                Bound::Below
+            }
+            [true, false] => Bound::Below,
+            [false, true] => Bound::Above,
         };
-        let place = Place { owner: &fields.owner, key: bound.field().key(), raw };
         // without the type of what is limited nothing can be said of the unit
-        let given = ty.and_then(|ty| self.given(place, Wanted::like(ty)));
-        let input = given.map_or_else(|| stand_in(ty.unwrap_or(Type::ABSOLUTE_TEMPERATURE)), Given::input);
-        (bound, Some(raw), input)
+        let input = ty.and_then(|ty| self.input(fields, bound.field().key(), Wanted::like(ty)));
+        (bound, input.unwrap_or_else(|| stand_in(ty.unwrap_or(Type::ABSOLUTE_TEMPERATURE))))
     }
 
     fn severity(&mut self, fields: &Fields<'a>) -> Severity {
@@ -77,46 +98,25 @@ impl<'a> Elaboration<'a> {
             RawKind::String { text, .. } if text == "error" => Severity::Error,
             RawKind::String { text, .. } if text == "warning" => Severity::Warning,
             RawKind::String { text, .. } => {
-                self.report(unknown_severity(&fields.owner, raw, text));
+                let words = fields.owner.field("severity");
+                let message = format!("{words} must be \"error\" or \"warning\", got \"{text}\"");
+                let problem = Diagnostic::error("netlist::unknown_severity", message);
+                self.report(problem.at(raw.span.clone(), "no such severity").help(
+                    "a broken limit of severity \"error\" ends with exit code 1, one of \"warning\" is printed",
+                ));
                 Severity::Error
             }
             _ => {
-                let words = fields.owner.field("severity");
-                self.report(wrong_shape(&words, raw, "\"error\" or \"warning\"", &sample("severity")));
+                self.report(fields.wrong_shape("severity", raw, "\"error\" or \"warning\""));
                 Severity::Error
             }
         }
     }
 }
 
-fn constant(place: Place<'_>) -> Diagnostic {
-    Diagnostic::error("netlist::constant_limit", format!("{} is a constant", place.words()))
-        .at(place.raw.span.clone(), "never changes")
-        .help("name what the run computes, for example `of = \"steel.T\"`")
-}
-
-fn unknown_severity(owner: &Owner, raw: &RawValue, text: &str) -> Diagnostic {
-    let message = format!("{} must be \"error\" or \"warning\", got \"{text}\"", owner.field("severity"));
-    Diagnostic::error("netlist::unknown_severity", message)
-        .at(raw.span.clone(), "no such severity")
-        .help("a broken limit of severity \"error\" ends with exit code 1, one of \"warning\" is printed")
-}
-
 fn no_bound(fields: &Fields<'_>) -> Diagnostic {
     let message = format!("{} has neither `below` nor `above`", fields.owner.words());
     Diagnostic::error("netlist::no_bound", message)
         .at(fields.place.clone(), "does not say what is to be kept")
-        .help(format!("add `{}` or `{}`", sample("below"), sample("above")))
-}
-
-fn two_bounds(fields: &Fields<'_>) -> Diagnostic {
-    let message = format!("{} has `below` as well as `above`", fields.owner.words());
-    let mut error = Diagnostic::error("netlist::two_bounds", message);
-    if let Some(span) = fields.key("below") {
-        error = error.at(span.clone(), "`below` here");
-    }
-    if let Some(span) = fields.key("above") {
-        error = error.also(span.clone(), "`above` here");
-    }
-    error.help("keep one of them; a band is two limits")
+        .help(format!("add `{}` or `{}`", fields.sample("below"), fields.sample("above")))
 }

@@ -4,21 +4,47 @@ use lptn_data::Diagnostic;
 use lptn_network::{Field, Input, Item, MaterialId, Properties, Size};
 use lptn_units::{Dimension, Quantity, Type, suggest};
 
-use crate::fields::{Fields, Owner, sample};
+use crate::fields::Fields;
+use crate::format::{ABSOLUTE, Role, SectionDeclaration, key};
 use crate::library::{self, Record};
-use crate::place::{Given, Place, Wanted};
+use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawValue};
-use crate::vocabulary::{FLUID, MATERIAL};
+use crate::section::fluid::FLUID;
+use crate::section::keys::{CP, DENSITY, SOURCE_OF};
 use crate::work::{Elaboration, Known, stand_in};
 
+pub(crate) const MATERIAL: SectionDeclaration = SectionDeclaration {
+    name: "material",
+    sentence: "What bodies are made of; each property where it is known.",
+    role: Role::Substance,
+    keys: &[
+        DENSITY,
+        CP,
+        key("k", "W/(m K)", "thermal conductivity, in the same way", "\"46.6 W/(m K)\""),
+        key("solidus", ABSOLUTE, "where it begins to melt; all three or none", "\"55 degC\""),
+        key("liquidus", ABSOLUTE, "where it is molten; `solidus` and above", "\"57 degC\""),
+        key("latent_heat", "J/kg", "taken up evenly from `solidus` to `liquidus`", "\"200 kJ/kg\""),
+        SOURCE_OF,
+    ],
+    example: "{ density = \"7850 kg/m^3\", cp = \"475 J/(kg K)\" }",
+    elsewhere: &[
+        ("c", "the specific heat capacity is `cp`"),
+        ("rho", "the density is `density`"),
+        ("lambda", "the thermal conductivity is `k`"),
+        ("mass", "the mass belongs to the node or capacitor that is made of the material"),
+        ("volume", "the volume belongs to the node or capacitor that is made of the material"),
+    ],
+    ..SectionDeclaration::NEW
+};
+
 /// The properties, by key.
-const PROPERTIES: [(&str, Field); 6] = [
-    ("density", Field::Density),
-    ("cp", Field::SpecificHeat),
-    ("k", Field::Conductivity),
-    ("solidus", Field::Solidus),
-    ("liquidus", Field::Liquidus),
-    ("latent_heat", Field::LatentHeat),
+const PROPERTIES: [Field; 6] = [
+    Field::Density,
+    Field::SpecificHeat,
+    Field::Conductivity,
+    Field::Solidus,
+    Field::Liquidus,
+    Field::LatentHeat,
 ];
 
 impl<'a> Elaboration<'a> {
@@ -29,32 +55,25 @@ impl<'a> Elaboration<'a> {
     }
 
     fn own_material(&mut self, entry: &'a RawEntry) {
-        let owner = Owner::element(MATERIAL.name, &entry.key);
-        let Some(fields) = Fields::of(&MATERIAL, owner, entry, &mut self.problems) else {
-            self.names.hide_material(&entry.key);
+        let Some(fields) = self.fields(&MATERIAL, entry) else {
+            self.names.hide_substance(MATERIAL.name, &entry.key);
             return;
         };
-        let density = self.property(&fields, "density", Wanted::constant(Type::of(Dimension::DENSITY)));
-        let cp = self.property(&fields, "cp", Wanted::own(Type::of(Dimension::SPECIFIC_HEAT)));
-        let k = self.property(&fields, "k", Wanted::own(Type::of(Dimension::CONDUCTIVITY)));
-        let melting = self.melting(&fields);
-        let source = fields.get("source").and_then(|raw| fields.text("source", raw, &mut self.problems));
         // an unknown key may be the property that is missing
-        let known = |property: &Option<Input>| property.is_some() || !fields.complete;
-        let (has_density, has_cp, has_k) = (known(&density), known(&cp), known(&k));
-        let density = density.or_else(|| (!fields.complete).then(|| stand_in(Type::of(Dimension::DENSITY))));
-        let cp = cp.or_else(|| (!fields.complete).then(|| stand_in(Type::of(Dimension::SPECIFIC_HEAT))));
-        let k = k.or_else(|| (!fields.complete).then(|| stand_in(Type::of(Dimension::CONDUCTIVITY))));
-        let properties = Properties { density, cp, k, melting, source: source.map(str::to_owned) };
-        let id = self.builder.material(&entry.key, properties);
-        let item = Item::Material(id);
-        self.map.insert(item, Field::Name, entry.key_span.clone());
-        for (key, field) in PROPERTIES {
-            if let Some(raw) = fields.get(key) {
-                self.map.value(item, field, raw);
-            }
-        }
-        self.known.insert(entry.key.clone(), Known { id, density: has_density, cp: has_cp, k: has_k });
+        let mut property = |key: &str, wanted: Wanted| {
+            let own = self.property(&fields, key, wanted);
+            own.or_else(|| (!fields.complete).then(|| stand_in(wanted.ty.unwrap_or(Type::SCALAR))))
+        };
+        let density = property("density", Wanted::constant(Type::of(Dimension::DENSITY)));
+        let cp = property("cp", Wanted::own(Type::of(Dimension::SPECIFIC_HEAT)));
+        let k = property("k", Wanted::own(Type::of(Dimension::CONDUCTIVITY)));
+        let has = [&density, &cp, &k].map(Option::is_some);
+        let melting = self.melting(&fields);
+        let source = self.word(&fields, "source").map(|(text, _)| text.to_owned());
+        let id = self.builder.material(&entry.key, Properties { density, cp, k, melting, source });
+        self.note(Item::Material(id), &entry.key_span, &fields, &PROPERTIES);
+        let [density, cp, k] = has;
+        self.known.insert(entry.key.clone(), Known { id, density, cp, k });
     }
 
     /// The capacity of a node or capacitor: `C`, or `material` with `mass` or `volume`; `None` where neither is.
@@ -63,13 +82,12 @@ impl<'a> Elaboration<'a> {
         let lump = ["material", "mass", "volume"].into_iter().find(|key| fields.get(key).is_some());
         match (fields.get("C"), lump) {
             (None, None) => None,
-            (Some(raw), None) => {
-                let place = Place { owner: &fields.owner, key: "C", raw };
-                let given = self.given(place, Wanted::own(ty));
-                Some(given.map_or_else(|| stand_in(ty), Given::input))
-            }
+            (Some(_), None) => self.input(fields, "C", Wanted::own(ty)),
             (Some(_), Some(key)) => {
-                self.report(two_capacities(fields, key));
+                let message = format!("has `C` as well as `{key}`");
+                self.report(fields.several("netlist::two_capacities", message, ["C", key]).help(
+                    "keep `C`, or `material` with `mass` or `volume`; more parts of a node are a [capacitor] each",
+                ));
                 Some(stand_in(ty))
             }
             (None, Some(_)) => Some(self.lump(fields).unwrap_or_else(|| stand_in(ty))),
@@ -78,14 +96,8 @@ impl<'a> Elaboration<'a> {
 
     /// Notes where a capacity and what it is made of stand.
     pub(crate) fn map_capacity(&mut self, item: Item, fields: &Fields<'a>) {
-        let places = [
-            (Field::Mass, "mass"),
-            (Field::Volume, "volume"),
-            (Field::Material, "material"),
-            (Field::Capacity, "C"),
-        ];
-        for (field, key) in places {
-            if let Some(raw) = fields.get(key) {
+        for field in [Field::Mass, Field::Volume, Field::Material, Field::Capacity] {
+            if let Some(raw) = fields.get(field.key()) {
                 self.map.value(item, field, raw);
             }
         }
@@ -93,8 +105,7 @@ impl<'a> Elaboration<'a> {
 
     fn lump(&mut self, fields: &Fields<'a>) -> Option<Input> {
         let size = self.size(fields);
-        let raw = fields.require("material", &mut self.problems)?;
-        let name = fields.text("material", raw, &mut self.problems)?;
+        let (name, raw) = self.required_word(fields, "material")?;
         let known = self.known_material(fields, name, raw)?;
         let size = size?;
         let missing = match size {
@@ -112,20 +123,20 @@ impl<'a> Elaboration<'a> {
 
     /// Exactly one of `mass` and `volume`.
     fn size(&mut self, fields: &Fields<'a>) -> Option<Size<Input>> {
-        let (mass, volume) = (fields.get("mass"), fields.get("volume"));
-        if mass.is_some() && volume.is_some() {
-            self.report(two_sizes(fields));
-        } else if mass.is_none() && volume.is_none() {
-            if fields.complete {
-                self.report(no_size(fields));
+        match ["mass", "volume"].map(|key| fields.get(key).is_some()) {
+            [true, true] => {
+                let message = "has `mass` as well as `volume`".to_owned();
+                let problem = fields.several("netlist::two_sizes", message, ["mass", "volume"]);
+                self.report(problem.help("keep one of them; the material's density gives the other"));
             }
-            return None;
+            [false, false] if fields.complete => self.report(no_size(fields)),
+            _ => {}
         }
-        let mut value = |key, raw, dimension| {
-            self.given(Place { owner: &fields.owner, key, raw }, Wanted::constant(Type::of(dimension)))
+        let mut value = |key: &str, dimension| {
+            let place = Place { owner: &fields.owner, key, raw: fields.get(key)? };
+            Some(self.given(place, Wanted::constant(Type::of(dimension))))
         };
-        let mass = mass.map(|raw| value("mass", raw, Dimension::MASS));
-        let volume = volume.map(|raw| value("volume", raw, Dimension::VOLUME));
+        let (mass, volume) = (value("mass", Dimension::MASS), value("volume", Dimension::VOLUME));
         match (mass, volume) {
             (Some(mass), None) => Some(Size::Mass(mass?.input())),
             (None, Some(volume)) => Some(Size::Volume(volume?.input())),
@@ -140,11 +151,11 @@ impl<'a> Elaboration<'a> {
         name: &'a str,
         raw: &RawValue,
     ) -> Option<Known> {
-        self.used_materials.insert(name.to_owned());
+        self.used.insert((MATERIAL.name, name.to_owned()));
         if let Some(known) = self.known.get(name) {
             return Some(*known);
         }
-        if self.names.is_hidden_material(name) {
+        if self.names.is_hidden_substance(MATERIAL.name, name) {
             return None;
         }
         let Some(record) = library::find(name) else {
@@ -173,31 +184,32 @@ impl<'a> Elaboration<'a> {
             format!("{} needs `{property}` of material `{name}`, which has none", fields.owner.words());
         let problem = Diagnostic::error("netlist::no_property", message).at(raw.span.clone(), "");
         let own = self.map.name(Item::Material(id)).filter(|span| *span != raw.span);
-        let problem = match &own {
-            Some(span) => problem.also(span.clone(), format!("`{property}` is missing")),
-            None => problem,
-        };
+        let problem = problem.also(own.clone(), format!("`{property}` is missing"));
         match own {
-            Some(_) => problem.help(format!("add `{}` to the material", sample(property))),
+            Some(_) => problem.help(format!("add `{}` to the material", MATERIAL.sample(property))),
             None if property == "k" => {
-                problem.help(format!("give the conductivity itself, `{}`", sample("k")))
+                problem.help(format!("give the conductivity itself, `{}`", MATERIAL.sample("k")))
             }
             None => problem.help("give the capacity itself, for example `C = \"500 J/K\"`"),
         }
     }
 
-    /// The materials of the file that nothing uses.
-    pub(crate) fn unused_materials(&self) -> Vec<Diagnostic> {
-        let unused = self.elements(MATERIAL.name).iter().filter(|e| !self.used_materials.contains(&e.key));
-        let warning = |entry: &RawEntry| {
-            let message = format!("nothing uses material `{}`", entry.key);
-            Diagnostic::warning("netlist::unused_material", message)
-                .at(entry.key_span.clone(), "")
-                .help("use it or remove it; a misspelt name elsewhere may be the cause")
-        };
+    /// The materials and fluids of the file that nothing uses.
+    pub(crate) fn unused_substances(&self) -> Vec<Diagnostic> {
         // a file of materials is there to be chosen from
         let main = self.raw.top.span.file;
-        unused.filter(|entry| entry.key_span.file == main).map(warning).collect()
+        let named = [(&MATERIAL, "netlist::unused_material"), (&FLUID, "netlist::unused_fluid")];
+        let entries = named.into_iter().flat_map(|(section, code)| {
+            self.elements(section.name).iter().map(move |entry| (section.name, code, entry))
+        });
+        let unused = entries.filter(|(section, _, entry)| {
+            entry.key_span.file == main && !self.used.contains(&(*section, entry.key.clone()))
+        });
+        let help = "use it or remove it; a misspelt name elsewhere may be the cause";
+        let warning = |(section, code, entry): (&str, &'static str, &RawEntry)| {
+            Diagnostic::doubt(code, format!("nothing uses {section} `{}`", entry.key), &entry.key_span, help)
+        };
+        unused.map(warning).collect()
     }
 }
 
@@ -237,31 +249,9 @@ fn unknown(
     }
 }
 
-fn two_capacities(fields: &Fields<'_>, key: &str) -> Diagnostic {
-    let message = format!("{} has `C` as well as `{key}`", fields.owner.words());
-    two(Diagnostic::error("netlist::two_capacities", message), fields, ("C", key))
-        .help("keep `C`, or `material` with `mass` or `volume`; more parts of a node are a [capacitor] each")
-}
-
-fn two_sizes(fields: &Fields<'_>) -> Diagnostic {
-    let message = format!("{} has `mass` as well as `volume`", fields.owner.words());
-    two(Diagnostic::error("netlist::two_sizes", message), fields, ("mass", "volume"))
-        .help("keep one of them; the material's density gives the other")
-}
-
-fn two(mut error: Diagnostic, fields: &Fields<'_>, (first, second): (&str, &str)) -> Diagnostic {
-    if let Some(span) = fields.key(first) {
-        error = error.at(span.clone(), format!("`{first}` here"));
-    }
-    match fields.key(second) {
-        Some(span) => error.also(span.clone(), format!("`{second}` here")),
-        None => error,
-    }
-}
-
 fn no_size(fields: &Fields<'_>) -> Diagnostic {
     let message = format!("{} has a `material` but neither `mass` nor `volume`", fields.owner.words());
     Diagnostic::error("netlist::no_size", message)
         .at(fields.place.clone(), "does not say how much of it there is")
-        .help(format!("add `{}` or `{}`", sample("mass"), sample("volume")))
+        .help(format!("add `{}` or `{}`", fields.sample("mass"), fields.sample("volume")))
 }

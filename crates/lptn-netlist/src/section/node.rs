@@ -4,12 +4,43 @@ use lptn_data::Diagnostic;
 use lptn_network::{Field, Input, Item, NodeId};
 use lptn_units::{Dimension, Type};
 
-use crate::fields::{Fields, Owner, sample, wrong_shape};
-use crate::place::{Given, Place, Wanted};
-use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::fields::Fields;
+use crate::format::{ABSOLUTE, KeyDeclaration, Role, SectionDeclaration, key};
+use crate::place::Wanted;
+use crate::raw::{RawEntry, RawKind};
 use crate::section::default::Initial;
-use crate::vocabulary::NODE;
+use crate::section::keys::{CAPACITY, MASS, MATERIAL_OF, VOLUME};
 use crate::work::{Elaboration, stand_in};
+
+/// Where a body starts.
+pub(super) const START: KeyDeclaration =
+    key("T0", ABSOLUTE, "temperature at the start", "\"25 degC\"").or("`T0` of `[default]`");
+
+pub(crate) const NODE: SectionDeclaration = SectionDeclaration {
+    name: "node",
+    sentence: "A body of one temperature, or a junction that stores nothing.",
+    role: Role::Element,
+    keys: &[
+        START,
+        CAPACITY,
+        MATERIAL_OF,
+        MASS,
+        VOLUME,
+        key("L_char", "m", "volume over surface, to check whether the node is a lump", "\"12 mm\""),
+        key("massless", "`true`, `false`", "whether it is a junction that stores nothing", "true")
+            .or("`false`"),
+    ],
+    example: "{ T0 = \"25 degC\", C = \"500 J/K\" }",
+    elsewhere: &[
+        (
+            "T",
+            "a node's temperature is solved for: `T0` is its start, and a given temperature is a [boundary]",
+        ),
+        ("L", "the characteristic length is `L_char`"),
+        ("P", "heat is put in by a [source]: `name = { into = \"node\", P = \"100 W\" }`"),
+    ],
+    ..SectionDeclaration::NEW
+};
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn nodes(&mut self, default: Option<&Initial<'a>>) {
@@ -19,18 +50,18 @@ impl<'a> Elaboration<'a> {
     }
 
     fn node(&mut self, entry: &'a RawEntry, default: Option<&Initial<'a>>) {
-        let owner = Owner::element(NODE.name, &entry.key);
-        let fields = Fields::of(&NODE, owner, entry, &mut self.problems);
+        let fields = self.fields(&NODE, entry);
         let field = |key| fields.as_ref().and_then(|fields| fields.get(key));
         let (capacity_at, initial_at) = (field("C").or(field("material")), field("T0"));
-        let doubtful = field("massless").is_some_and(|raw| !matches!(raw.kind, RawKind::Boolean(_)));
-        let massless = self.massless(fields.as_ref());
+        let massless = fields.as_ref().map_or(Some(false), |fields| self.massless(fields));
+        let (doubtful, massless) = (massless.is_none(), massless.unwrap_or(false));
         if let (true, None, Some(raw)) = (massless, capacity_at, initial_at) {
-            self.report(follows(&entry.key, raw));
+            let message = format!("`T0` of node `{}` has no effect: the node is massless", entry.key);
+            let help = "leave `T0` out: a massless node takes the temperature that its neighbours give it";
+            self.report(Diagnostic::doubt("netlist::massless_initial", message, &raw.span, help));
         }
         let capacity = fields.as_ref().and_then(|fields| self.capacity(fields));
         let own = fields.as_ref().and_then(|fields| self.initial(fields));
-        let initial_at = initial_at.or(default.map(|(_, raw)| *raw));
         let (initial, in_state) = match self.start_of(entry, massless) {
             Some((input, place)) => (Some(input), place),
             None => (own.or_else(|| default.map(|(input, _)| input.clone())), None),
@@ -43,7 +74,7 @@ impl<'a> Elaboration<'a> {
             self.map_capacity(item, fields);
             self.length(fields, (id, massless));
         }
-        if let Some(raw) = initial_at {
+        if let Some(raw) = initial_at.or(default.map(|(_, raw)| *raw)) {
             self.map.value(item, Field::Initial, raw);
         }
         self.place_in_state(id, in_state);
@@ -55,59 +86,38 @@ impl<'a> Elaboration<'a> {
     /// The characteristic length, for the Biot number.
     fn length(&mut self, fields: &Fields<'a>, (id, massless): (NodeId, bool)) {
         let Some(raw) = fields.get("L_char") else { return };
-        let ty = Type::of(Dimension::LENGTH);
-        let place = Place { owner: &fields.owner, key: "L_char", raw };
-        let given = self.given(place, Wanted::constant(ty));
-        self.builder.length(id, given.map_or_else(|| stand_in(ty), Given::input));
+        let length = self.input_at(fields, "L_char", raw, Wanted::constant(Type::of(Dimension::LENGTH)));
+        self.builder.length(id, length);
         self.map.value(Item::Node(id), Field::CharacteristicLength, raw);
         if massless {
             let message = format!("{} has no effect: the node is massless", fields.owner.field("L_char"));
-            self.report(
-                Diagnostic::warning("netlist::massless_length", message)
-                    .at(raw.span.clone(), "")
-                    .help("leave it out: a junction is no body"),
-            );
+            let help = "leave it out: a junction is no body";
+            self.report(Diagnostic::doubt("netlist::massless_length", message, &raw.span, help));
         }
     }
 
-    fn massless(&mut self, fields: Option<&Fields<'_>>) -> bool {
-        let Some((fields, raw)) = fields.and_then(|f| f.get("massless").map(|raw| (f, raw))) else {
-            return false;
-        };
-        if let RawKind::Boolean(massless) = raw.kind {
-            return massless;
+    /// Whether it is declared massless; `None` if that cannot be read.
+    fn massless(&mut self, fields: &Fields<'_>) -> Option<bool> {
+        match fields.get("massless") {
+            None => Some(false),
+            Some(raw) => {
+                if let RawKind::Boolean(massless) = raw.kind {
+                    return Some(massless);
+                }
+                self.report(fields.wrong_shape("massless", raw, "`true` or `false`"));
+                None
+            }
         }
-        let words = fields.owner.field("massless");
-        self.report(wrong_shape(&words, raw, "`true` or `false`", &sample("massless")));
-        false
     }
 
     pub(crate) fn initial(&mut self, fields: &Fields<'_>) -> Option<Input> {
-        let raw = fields.get("T0")?;
-        let ty = Type::ABSOLUTE_TEMPERATURE;
-        if is_steady(raw) {
-            self.report(steady(fields, raw));
+        let (raw, ty) = (fields.get("T0")?, Type::ABSOLUTE_TEMPERATURE);
+        if matches!(&raw.kind, RawKind::String { text, .. } if text.trim() == "steady") {
+            let message = format!("{} = \"steady\" is not supported yet", fields.owner.field("T0"));
+            let help = "write the temperature at the start: `T0 = \"25 degC\"`";
+            self.refuse("netlist::not_supported_yet", message, &raw.span, help);
             return Some(stand_in(ty));
         }
-        let given = self.given(Place { owner: &fields.owner, key: "T0", raw }, Wanted::constant(ty));
-        Some(given.map_or_else(|| stand_in(ty), |given| given.input()))
+        self.input(fields, "T0", Wanted::constant(ty))
     }
-}
-
-fn follows(name: &str, raw: &RawValue) -> Diagnostic {
-    let message = format!("`T0` of node `{name}` has no effect: the node is massless");
-    Diagnostic::warning("netlist::massless_initial", message)
-        .at(raw.span.clone(), "")
-        .help("leave `T0` out: a massless node takes the temperature that its neighbours give it")
-}
-
-fn is_steady(raw: &RawValue) -> bool {
-    matches!(&raw.kind, RawKind::String { text, .. } if text.trim() == "steady")
-}
-
-fn steady(fields: &Fields<'_>, raw: &RawValue) -> Diagnostic {
-    let message = format!("{} = \"steady\" is not supported yet", fields.owner.field("T0"));
-    Diagnostic::error("netlist::not_supported_yet", message)
-        .at(raw.span.clone(), "")
-        .help("write the temperature at the start: `T0 = \"25 degC\"`")
 }

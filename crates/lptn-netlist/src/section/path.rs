@@ -7,40 +7,80 @@ use lptn_laws::{Field, Formula, Kind};
 use lptn_network::{FluidId, Input, Path};
 use lptn_units::{Quantity, Type};
 
-use crate::fields::{Fields, sample};
+use crate::fields::Fields;
+use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
 use crate::place::{Place, Wanted};
 use crate::raw::{RawKind, RawValue};
 use crate::section::forms::check_forms;
-use crate::vocabulary::Section;
+use crate::section::keys::MATERIAL_OF;
 use crate::work::{Elaboration, stand_in};
 
-/// The sections of paths, in the order in which their columns stand.
-pub(crate) static PATHS: LazyLock<Vec<(Section, Kind)>> =
-    LazyLock::new(|| Kind::ALL.iter().map(|kind| (section(*kind), *kind)).collect());
+/// A kind of path with what follows from its declaration, found once and not for every path.
+pub(crate) struct PathSection {
+    pub(crate) section: SectionDeclaration,
+    pub(crate) kind: Kind,
+    groups: Vec<Group>,
+    /// Its values, each key once.
+    values: Vec<PathValue>,
+}
 
-fn section(kind: Kind) -> Section {
+impl PathSection {
+    /// The keys of its values.
+    pub(super) fn values(&self) -> impl Iterator<Item = &'static str> {
+        self.values.iter().map(|value| value.field.key)
+    }
+}
+
+/// A value of a path.
+pub(crate) struct PathValue {
+    pub(crate) field: &'static Field,
+    /// How many of them a list may have.
+    most: usize,
+    /// The types of which it may be, where its unit chooses the law.
+    types: Vec<(Type, Formula)>,
+}
+
+/// The sections of paths, in the order in which their columns stand.
+pub(crate) static PATHS: LazyLock<Vec<PathSection>> =
+    LazyLock::new(|| Kind::ALL.iter().map(|kind| path_section(*kind)).collect());
+
+fn path_section(kind: Kind) -> PathSection {
     let declared = kind.declaration();
-    Section {
+    let section = SectionDeclaration {
         name: declared.section,
+        sentence: declared.sentence,
+        role: Role::Element,
         keys: keys(kind).leak(),
         later: declared.later,
         example: declared.example,
         elsewhere: declared.elsewhere,
-    }
+    };
+    let value = |field: &'static Field| PathValue { field, most: most(field.key), types: types(field.key) };
+    let values = kind.fields().into_iter().map(value).collect();
+    PathSection { section, kind, groups: groups(kind), values }
 }
 
 /// The ends, then its fields, with `material` before a property, `fluid` before a flow, and the key that chooses a law
 /// behind what all laws take.
-fn keys(kind: Kind) -> Vec<&'static str> {
-    let mut keys = vec!["from", "to"];
-    let mut selector = kind.declaration().selector;
+fn keys(kind: Kind) -> Vec<KeyDeclaration> {
+    let end = "name of a node or boundary";
+    let mut keys = vec![
+        key("from", end, "where heat comes from while it is positive", "\"name of a node or boundary\""),
+        key("to", end, "where it goes", "\"name of another node or boundary\""),
+    ];
+    let first = kind.laws().next().map_or("", |law| law.declaration().name);
+    let mut selector =
+        kind.declaration().selector.map(|name| key(name, "word", "the law", format!("\"{first}\"").leak()));
     for field in kind.fields() {
         let laws = || kind.laws().filter(|law| law.field(field.key).is_some());
         keys.extend(selector.take_if(|_| !laws().eq(kind.laws())));
-        let fluid = laws().any(|law| law.declaration().carries.is_of_fluid()) && !keys.contains(&"fluid");
-        keys.extend(fluid.then_some("fluid"));
-        keys.extend(field.property.then_some("material"));
-        keys.push(field.key);
+        let of_fluid = laws().any(|law| law.declaration().carries.is_of_fluid());
+        if of_fluid && keys.iter().all(|key| key.name != "fluid") {
+            keys.push(key("fluid", "name of a fluid", "what streams", "\"water\""));
+        }
+        keys.extend(field.property.then_some(MATERIAL_OF));
+        let unit = if field.ty.is_scalar() { "number".to_owned() } else { field.ty.usual_unit() };
+        keys.push(key(field.key, unit.leak(), field.meaning, field.example));
     }
     keys
 }
@@ -80,13 +120,14 @@ type Read = (&'static Field, Vec<Input>);
 
 impl<'a> Elaboration<'a> {
     /// The law of a path with its values.
-    pub(crate) fn path(&mut self, fields: &Fields<'a>, kind: Kind) -> Option<Path> {
-        let groups = groups(kind);
-        let law = match kind.declaration().selector {
+    pub(crate) fn path(&mut self, fields: &Fields<'a>, path: &'static PathSection) -> Option<Path> {
+        let (groups, values) = (&path.groups, path.values.iter());
+        let law = match path.kind.declaration().selector {
             Some(selector) => {
-                self.check_property(fields, kind);
-                let law = self.selected(fields, kind, selector);
-                let read = self.read(fields, law.map_or_else(Vec::new, |law| distinct(&[law])));
+                self.check_property(fields, path);
+                let law = self.selected(fields, path, selector);
+                let own = values.filter(|value| law.is_some_and(|law| law.field(value.field.key).is_some()));
+                let read = self.read(fields, own);
                 return self.complete(fields, law?, read, None);
             }
             None => groups.iter().find(|group| group.keys.iter().any(|key| fields.has(key))),
@@ -95,7 +136,7 @@ impl<'a> Elaboration<'a> {
         self.problems.extend(check_forms(fields, &forms));
         let fluid = fields.get("fluid").filter(|_| fields.known("fluid"));
         let fluid = fluid.map(|raw| self.used_fluid(fields, raw));
-        let read = self.read(fields, kind.fields());
+        let read = self.read(fields, values);
         let begun = groups.iter().filter(|group| group.keys.iter().any(|key| fields.get(key).is_some()));
         let one = begun.count() == 1;
         let law = of_values(&law?.laws, &read)?;
@@ -111,53 +152,53 @@ impl<'a> Elaboration<'a> {
     }
 
     /// A property is given, or the material that has it.
-    fn check_property(&mut self, fields: &Fields<'a>, kind: Kind) {
-        if let Some(field) = kind.fields().into_iter().find(|field| field.property) {
-            self.problems.extend(check_forms(fields, &[&["material"], &[field.key]]));
+    fn check_property(&mut self, fields: &Fields<'a>, path: &PathSection) {
+        if let Some(value) = path.values.iter().find(|value| value.field.property) {
+            self.problems.extend(check_forms(fields, &[&["material"], &[value.field.key]]));
         }
     }
 
     /// The law that a word chooses; fields of others mean nothing beside it.
-    fn selected(&mut self, fields: &Fields<'a>, kind: Kind, selector: &str) -> Option<Formula> {
-        let words: Vec<(&str, Formula)> = kind.laws().map(|law| (law.declaration().name, law)).collect();
-        let given = fields.require(selector, &mut self.problems).is_some();
+    fn selected(&mut self, fields: &Fields<'a>, path: &PathSection, selector: &str) -> Option<Formula> {
+        let words: Vec<(&str, Formula)> = path.kind.laws().map(|law| (law.declaration().name, law)).collect();
+        let given = self.require(fields, selector).is_some();
         let law = self.choice(fields, selector, &words).filter(|_| given)?;
         let name = law.declaration().name;
         let own: Vec<&str> =
             law.declaration().fields.iter().filter(|field| !field.property).map(|field| field.key).collect();
-        let others: Vec<&str> =
-            kind.fields().iter().map(|field| field.key).filter(|key| law.field(key).is_none()).collect();
+        let others: Vec<&str> = path.values().filter(|key| law.field(key).is_none()).collect();
         self.refuse_keys(fields, &others, &format!("means nothing for a {name}, which takes {}", list(&own)));
         if let Some(key) = own.iter().find(|key| !fields.has(key)).filter(|_| fields.complete) {
             let message = format!("{} is a {name} without `{key}`", fields.owner.words());
-            let problem = Diagnostic::error("netlist::missing_field", message)
-                .at(fields.place.clone(), format!("`{key}` is missing"));
-            self.report(problem.help(format!("add `{}`", sample(key))));
+            self.report(fields.missing(key, message));
         }
         Some(law)
     }
 
-    /// The values of these fields as far as they are given; stand-ins for those that are wrong.
-    fn read(&mut self, fields: &Fields<'a>, wanted: Vec<&'static Field>) -> Vec<Read> {
-        wanted.into_iter().map(|field| (field, self.values(fields, field))).collect()
+    /// The values as far as they are given; stand-ins for those that are wrong.
+    fn read(&mut self, fields: &Fields<'a>, wanted: impl Iterator<Item = &'static PathValue>) -> Vec<Read> {
+        wanted.map(|value| (value.field, self.values(fields, value))).collect()
     }
 
-    fn values(&mut self, fields: &Fields<'a>, field: &'static Field) -> Vec<Input> {
+    fn values(&mut self, fields: &Fields<'a>, value: &PathValue) -> Vec<Input> {
+        let PathValue { field, most, types } = value;
         let raw = fields.get(field.key).filter(|_| fields.known(field.key));
         if let (None, true) = (raw, field.property) {
             return vec![self.property_of_material(fields).unwrap_or_else(|| stand_in(field.ty))];
         }
-        let Some(raw) = raw else { return self.law(fields, field.key, field.ty).into_iter().collect() };
-        if let (RawKind::Array(items), 2..) = (&raw.kind, most(field.key)) {
-            let one = |raw: &'a RawValue| self.link(fields, field, raw);
-            let values: Vec<Input> = items.iter().map(one).collect();
-            if values.len() == most(field.key) {
+        let Some(raw) = raw else {
+            let area = fields.area.clone().filter(|_| field.key == "area");
+            return area.into_iter().collect();
+        };
+        if let (RawKind::Array(items), 2..) = (&raw.kind, most) {
+            let values: Vec<Input> = items.iter().map(|raw| self.link(fields, field, raw)).collect();
+            if values.len() == *most {
                 return values;
             }
-            self.report(wrong_count(fields, field, raw, values.len()));
+            self.report(wrong_count(fields, (field, *most), raw, values.len()));
             return Vec::new();
         }
-        match types(field.key).as_slice() {
+        match types.as_slice() {
             [_] => vec![self.link(fields, field, raw)],
             types => self.of_types(fields, field.key, raw, types).into_iter().collect(),
         }
@@ -165,9 +206,7 @@ impl<'a> Elaboration<'a> {
 
     /// The value of a field of a path, which may depend on time and temperatures; a stand-in if it is wrong.
     fn link(&mut self, fields: &Fields<'a>, field: &Field, raw: &'a RawValue) -> Input {
-        let place = Place { owner: &fields.owner, key: field.key, raw };
-        let given = self.given(place, Wanted::of_link(field.ty));
-        given.map_or_else(|| stand_in(field.ty), |given| given.input())
+        self.input_at(fields, field.key, raw, Wanted::of_link(field.ty))
     }
 
     /// A value of one of several types: which it is chooses the law.
@@ -195,8 +234,7 @@ impl<'a> Elaboration<'a> {
 
     /// The conductivity of the material.
     fn property_of_material(&mut self, fields: &Fields<'a>) -> Option<Input> {
-        let raw = fields.get("material")?;
-        let name = fields.text("material", raw, &mut self.problems)?;
+        let (name, raw) = self.word(fields, "material")?;
         let known = self.known_material(fields, name, raw)?;
         if !known.k {
             let problem = self.without_property(fields, (name, raw), known.id, "k");
@@ -240,13 +278,6 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-/// The fields of some laws, each key once.
-fn distinct(laws: &[Formula]) -> Vec<&'static Field> {
-    let mut fields: Vec<&'static Field> = laws.iter().flat_map(|law| law.declaration().fields).collect();
-    fields.dedup_by_key(|field| field.key);
-    fields
-}
-
 /// How many values a key may have in a list.
 fn most(key: &str) -> usize {
     let count = |law: &Formula| law.declaration().fields.iter().filter(|field| field.key == key).count();
@@ -285,20 +316,29 @@ fn written(law: Formula) -> String {
     all.join(" with ")
 }
 
-fn wrong_count(fields: &Fields<'_>, field: &Field, raw: &RawValue, count: usize) -> Diagnostic {
+fn wrong_count(
+    fields: &Fields<'_>,
+    (field, most): (&Field, usize),
+    raw: &RawValue,
+    count: usize,
+) -> Diagnostic {
     let message = format!("{} has {count} values", fields.owner.field(field.key));
-    let most = most(field.key);
     let laws = Formula::ALL
         .iter()
         .filter(|law| law.declaration().fields.iter().filter(|own| own.key == field.key).count() == most);
     let of = laws.map(|law| law.declaration().name.replace('_', " ")).next().unwrap_or_default();
     let list = vec![field.example; most].join(", ");
     let count_of_list = if most == 2 { "two".to_owned() } else { most.to_string() };
-    Diagnostic::error("netlist::emissivities", message).at(raw.span.clone(), "").help(format!(
-        "give one for the exchange as a whole, `{}`, or {count_of_list} for {of}, `{} = [{list}]`",
-        sample(field.key),
-        field.key
-    ))
+    Diagnostic::wrong(
+        "netlist::emissivities",
+        message,
+        &raw.span,
+        format!(
+            "give one for the exchange as a whole, `{}`, or {count_of_list} for {of}, `{} = [{list}]`",
+            fields.sample(field.key),
+            field.key
+        ),
+    )
 }
 
 fn without(fields: &Fields<'_>, law: Formula, key: &str) -> Diagnostic {
@@ -309,9 +349,10 @@ fn without(fields: &Fields<'_>, law: Formula, key: &str) -> Diagnostic {
     let meaning = law.field(key).map_or("", |field| field.meaning);
     let others: Vec<String> =
         types(first.key).iter().filter(|(ty, _)| *ty != first.ty).map(|(ty, _)| ty.with_article()).collect();
-    Diagnostic::error("netlist::flow_temperature", message).at(span.clone(), "").help(format!(
-        "give the {meaning}, `{}`, or {}",
-        sample(key),
-        others.join(" or ")
-    ))
+    Diagnostic::wrong(
+        "netlist::flow_temperature",
+        message,
+        span,
+        format!("give the {meaning}, `{}`, or {}", fields.sample(key), others.join(" or ")),
+    )
 }

@@ -1,11 +1,10 @@
 //! Properties of materials and fluids: constant, an expression in `T`, or a table over it.
 
-use lptn_data::Diagnostic;
 use lptn_network::{Input, Melting};
 use lptn_units::{Dimension, Type};
 
-use crate::fields::{Fields, sample, wrong_shape};
-use crate::place::{Given, Place, Wanted};
+use crate::fields::{Fields, wrong_shape};
+use crate::place::{Place, Wanted};
 use crate::raw::RawKind;
 use crate::work::{Elaboration, stand_in};
 
@@ -20,7 +19,10 @@ impl<'a> Elaboration<'a> {
         let place = Place { owner: &fields.owner, key, raw };
         match raw.kind {
             RawKind::Table(_) if wanted == Wanted::constant(ty) => {
-                self.report(constant(place));
+                let message = format!("{} has to be constant", place.words());
+                let help =
+                    format!("give one value, at the temperature of the volume: `{}`", fields.sample(key));
+                self.refuse("netlist::constant_property", message, &raw.span, help);
                 return Some(stand_in(ty));
             }
             RawKind::Table(_) => {
@@ -34,7 +36,7 @@ impl<'a> Elaboration<'a> {
             }
             _ => {}
         }
-        Some(self.given(place, wanted).map_or_else(|| stand_in(ty), Given::input))
+        self.input(fields, key, wanted)
     }
 
     /// How a material melts.
@@ -46,24 +48,12 @@ impl<'a> Elaboration<'a> {
         let missing = MELTING.iter().find(|key| fields.get(key).is_none());
         if let Some(key) = missing.filter(|_| fields.complete) {
             let message = format!("{} melts, but has no `{key}`", fields.owner.words());
-            let problem = Diagnostic::error("netlist::missing_field", message)
-                .at(fields.place.clone(), format!("`{key}` is missing"));
-            self.report(problem.help(format!("add `{}`", sample(key))));
+            self.report(fields.missing(key, message));
         }
-        let mut value = |key: &str, ty: Type| {
-            let raw = fields.get(key)?;
-            let given = self.given(Place { owner: &fields.owner, key, raw }, Wanted::constant(ty));
-            Some(given.map_or_else(|| stand_in(ty), Given::input))
-        };
+        let mut value = |key: &str, ty: Type| self.input(fields, key, Wanted::constant(ty));
         let solidus = value("solidus", Type::ABSOLUTE_TEMPERATURE);
         let liquidus = value("liquidus", Type::ABSOLUTE_TEMPERATURE);
         let heat = value("latent_heat", Type::of(Dimension::SPECIFIC_ENERGY));
         Some(Melting { solidus: solidus?, liquidus: liquidus?, heat: heat? })
     }
-}
-
-fn constant(place: Place<'_>) -> Diagnostic {
-    Diagnostic::error("netlist::constant_property", format!("{} has to be constant", place.words()))
-        .at(place.raw.span.clone(), "")
-        .help(format!("give one value, at the temperature of the volume: `{}`", sample(place.key)))
 }

@@ -4,12 +4,42 @@ use lptn_network::{AfterEnd, Course, Field, Item, Join};
 use lptn_units::{Dimension, Interpolation, Outside, Table1, Type, Unit, parse_quantity};
 
 use crate::fields::Fields;
+use crate::format::{Role, SectionDeclaration, key};
+use crate::names::ValueKind;
 use crate::parameters::Pending;
 use crate::place::{Place, Wanted};
 use crate::points::Axis;
 use crate::raw::RawKind;
-use crate::vocabulary::SIGNAL;
+use crate::section::table::{COLUMN, CSV};
 use crate::work::{Elaboration, stand_in};
+
+pub(crate) const SIGNAL: SectionDeclaration = SectionDeclaration {
+    name: ValueKind::Signal.section(),
+    sentence: "A value that changes with the time of the run: points, or an expression in `t`.",
+    role: Role::Value,
+    keys: &[
+        key("t", "list of times or numbers", "times, rising", "[\"0 s\", \"60 s\"]"),
+        key("v", "list of quantities or numbers", "values", "[\"0 rpm\", \"5000 rpm\"]"),
+        key("t_unit", "unit", "the unit of plain numbers in `t`", "\"s\""),
+        key("v_unit", "unit", "the unit of plain numbers in `v`", "\"rpm\""),
+        CSV,
+        key("time", "name of a column", "with `csv`: the times", "\"t\""),
+        COLUMN,
+        key("interp", "`\"linear\"`, `\"pchip\"`, `\"previous\"`", "what joins the points", "\"linear\"")
+            .or("`\"linear\"`"),
+        key("after_end", "`\"error\"`, `\"hold\"`, `\"repeat\"`", "what follows the last point", "\"hold\"")
+            .or("`\"error\"`"),
+        key("period", "s", "with `\"repeat\"`: from one beginning to the next", "\"60 s\"")
+            .or("as long as the points"),
+    ],
+    example: "{ t = [\"0 s\", \"60 s\"], v = [\"0 rpm\", \"5000 rpm\"] }",
+    elsewhere: &[
+        ("outside", "after its last point a signal has `after_end = \"hold\"` or `\"repeat\"`"),
+        ("x", "the times of a signal are `t`"),
+        ("y", "the values of a signal are `v`"),
+    ],
+    ..SectionDeclaration::NEW
+};
 
 const TIME: Type = Type::of(Dimension::TIME);
 
@@ -29,7 +59,7 @@ const AFTER: [(&str, After); 3] = [("error", After::Error), ("hold", After::Hold
 impl<'a> Elaboration<'a> {
     /// Gives all signals to the builder, each after those it uses.
     pub(crate) fn signals(&mut self) {
-        for pending in self.in_order((SIGNAL.name, "signal"), "netlist::signal_cycle") {
+        for pending in self.in_order(ValueKind::Signal, "netlist::signal_cycle") {
             self.signal(pending);
         }
     }
@@ -106,8 +136,7 @@ impl<'a> Elaboration<'a> {
         let text = match &raw.kind {
             RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => text.as_str(),
             _ => {
-                let sample = crate::fields::sample("period");
-                self.report(crate::fields::wrong_shape(&place.words(), raw, "a quantity", &sample));
+                self.report(fields.wrong_shape("period", raw, "a quantity"));
                 return None;
             }
         };

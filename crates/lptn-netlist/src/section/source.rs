@@ -4,12 +4,30 @@ use lptn_data::{Diagnostic, Span};
 use lptn_network::{End, Field, Input, Item, NodeId};
 use lptn_units::{Dimension, Type, parse_quantity};
 
-use crate::fields::{Fields, Owner};
+use crate::fields::Fields;
+use crate::format::{Role, SectionDeclaration, key};
 use crate::grid_part::GridPart;
 use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
-use crate::vocabulary::SOURCE;
 use crate::work::{Elaboration, stand_in};
+
+pub(crate) const SOURCE: SectionDeclaration = SectionDeclaration {
+    name: "source",
+    sentence: "Heat that goes into a node, into several, or into a grid.",
+    role: Role::Element,
+    keys: &[
+        key(
+            "into",
+            "name, or table of shares",
+            "the node, grid or face that is heated",
+            "\"name of a node\"",
+        ),
+        key("P", "W", "heat flow, may depend on time, signals, controls and temperatures", "\"100 W\""),
+    ],
+    example: "{ into = \"a\", P = \"100 W\" }",
+    elsewhere: &[("node", "the node that is heated is `into`"), ("to", "the node that is heated is `into`")],
+    ..SectionDeclaration::NEW
+};
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn sources(&mut self) {
@@ -19,8 +37,7 @@ impl<'a> Elaboration<'a> {
     }
 
     fn source(&mut self, entry: &'a RawEntry) -> Option<()> {
-        let owner = Owner::element(SOURCE.name, &entry.key);
-        let fields = Fields::of(&SOURCE, owner, entry, &mut self.problems)?;
+        let fields = self.fields(&SOURCE, entry)?;
         let shared = match fields.get("into").map(|raw| (&raw.kind, raw)) {
             Some((RawKind::Table(table), raw)) => Some((table, raw)),
             _ => None,
@@ -32,11 +49,9 @@ impl<'a> Elaboration<'a> {
                 None => Ends::One(self.end(&fields, "into")),
             },
         };
-        let raw = fields.require("P", &mut self.problems);
         let ty = Type::of(Dimension::POWER);
-        let wanted = Wanted::of_source(ty);
-        let given = raw.and_then(|raw| self.given(Place { owner: &fields.owner, key: "P", raw }, wanted));
-        let power = given.map_or_else(|| stand_in(ty), |given| given.input());
+        self.require(&fields, "P");
+        let power = self.input(&fields, "P", Wanted::of_source(ty)).unwrap_or_else(|| stand_in(ty));
         let (item, at) = match ends {
             Ends::One(end) => {
                 let (end, at) = end?;
@@ -44,11 +59,8 @@ impl<'a> Elaboration<'a> {
             }
             Ends::Several(nodes, raw) => (self.shared(&entry.key, &nodes?, power), raw.span.clone()),
         };
-        self.map.insert(item, Field::Name, entry.key_span.clone());
+        self.note(item, &entry.key_span, &fields, &[Field::Power]);
         self.map.insert(item, Field::Into, at);
-        if let Some(raw) = raw {
-            self.map.value(item, Field::Power, raw);
-        }
         Some(())
     }
 
@@ -124,13 +136,19 @@ fn boundary(fields: &Fields<'_>, at: &Span) -> Diagnostic {
 }
 
 fn negative(place: Place<'_>) -> Diagnostic {
-    Diagnostic::error("netlist::share", format!("the share {} is negative", place.words()))
-        .at(place.raw.span.clone(), "")
-        .help("a node from which heat is taken has a source of its own with a negative `P`")
+    Diagnostic::wrong(
+        "netlist::share",
+        format!("the share {} is negative", place.words()),
+        &place.raw.span,
+        "a node from which heat is taken has a source of its own with a negative `P`",
+    )
 }
 
 fn no_number(place: Place<'_>) -> Diagnostic {
-    Diagnostic::error("netlist::share", format!("the share {} must be a number", place.words()))
-        .at(place.raw.span.clone(), "")
-        .help("shares are plain numbers that sum to 1: `into = { sun = 0.5, ring = 0.5 }`")
+    Diagnostic::wrong(
+        "netlist::share",
+        format!("the share {} must be a number", place.words()),
+        &place.raw.span,
+        "shares are plain numbers that sum to 1: `into = { sun = 0.5, ring = 0.5 }`",
+    )
 }

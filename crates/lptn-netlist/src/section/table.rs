@@ -9,11 +9,47 @@ use lptn_units::{
     Unit,
 };
 
-use crate::fields::{Fields, Owner};
+use crate::fields::Fields;
+use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
+use crate::names::ValueKind;
 use crate::points::Axis;
 use crate::raw::{RawEntry, RawKind};
-use crate::vocabulary::TABLE;
 use crate::work::Elaboration;
+
+/// The keys that a table and a signal share.
+pub(super) const CSV: KeyDeclaration =
+    key("csv", "file", "in place of the lists: a CSV file, and the names of its columns", "\"cycle.csv\"");
+pub(super) const COLUMN: KeyDeclaration =
+    key("value", "name of a column", "with `csv`: the values", "\"speed\"");
+
+/// A table of `[table]`, and a property over temperature.
+pub(crate) const TABLE: SectionDeclaration = SectionDeclaration {
+    name: ValueKind::Table.section(),
+    sentence: "A function of one or two numbers, which expressions call by its name.",
+    role: Role::Value,
+    keys: &[
+        key("x", "list", "arguments, rising; a column of `csv`", "[\"0 rpm\", \"5000 rpm\"]"),
+        key("y", "list", "values; of `csv`: a second argument", "[\"0 W\", \"80 W\"]"),
+        key("x_unit", "unit", "the unit of plain numbers in `x`", "\"rpm\""),
+        key("y_unit", "unit", "the unit of plain numbers in `y`", "\"W\""),
+        CSV,
+        COLUMN,
+        key("interp", "`\"linear\"`, `\"pchip\"`", "what joins the points", "\"linear\"").or("`\"linear\"`"),
+        key(
+            "outside",
+            "`\"error\"`, `\"hold\"`",
+            "outside its points: an error, or the value at the nearer end",
+            "\"hold\"",
+        )
+        .or("`\"error\"`"),
+    ],
+    example: "{ x = [\"0 rpm\", \"5000 rpm\"], y = [\"0 W\", \"80 W\"] }",
+    elsewhere: &[
+        ("after_end", "outside its points a table has `outside = \"hold\"`"),
+        ("t", "values over time are a [signal]; the arguments of a table are `x`"),
+    ],
+    ..SectionDeclaration::NEW
+};
 
 const INTERPOLATIONS: [(&str, Interpolation); 2] =
     [("linear", Interpolation::Linear), ("pchip", Interpolation::Pchip)];
@@ -39,8 +75,7 @@ impl<'a> Elaboration<'a> {
     }
 
     fn table(&mut self, entry: &'a RawEntry) -> Option<TableSymbol> {
-        let owner = Owner::element(TABLE.name, &entry.key);
-        let fields = Fields::of(&TABLE, owner, entry, &mut self.problems)?;
+        let fields = self.fields(&TABLE, entry)?;
         let map = fields.get("csv").is_some() && fields.get("y").is_some();
         if map { self.map_of_two(&fields) } else { self.tabulated(&fields, (None, None)) }
     }
@@ -72,8 +107,8 @@ impl<'a> Elaboration<'a> {
         let linear = self.choice(fields, "interp", &INTERPOLATIONS) != Some(Interpolation::Pchip);
         if let (false, Some(raw)) = (linear, fields.get("interp")) {
             let message = format!("{} of two arguments is not supported yet", fields.owner.field("interp"));
-            let problem = Diagnostic::error("netlist::not_supported_yet", message).at(raw.span.clone(), "");
-            self.report(problem.help("a table of two arguments is bilinear: leave `interp` out"));
+            let help = "a table of two arguments is bilinear: leave `interp` out";
+            self.refuse("netlist::not_supported_yet", message, &raw.span, help);
         }
         let file = self.csv_file(fields);
         let names = ["x", "y", "value"].map(|key| self.column_name(fields, key));
@@ -115,7 +150,7 @@ impl<'a> Elaboration<'a> {
     /// A property that is tabulated over the temperature.
     pub(crate) fn property_table(&mut self, fields: &Fields<'a>, key: &str, ty: Type) -> Option<Input> {
         let entry = fields.entry(key)?;
-        let inner = Fields::of(&TABLE, fields.owner.inside(key), entry, &mut self.problems)?;
+        let inner = self.inner(&TABLE, fields.owner.inside(key), entry)?;
         let types = (Some(Type::ABSOLUTE_TEMPERATURE), Some(ty));
         let symbol = self.tabulated(&inner, types)?;
         if let Table::One(table) = &*symbol.table
@@ -123,10 +158,8 @@ impl<'a> Elaboration<'a> {
         {
             let message =
                 format!("{} must be more than zero, got {value} {}", inner.owner.words(), ty.usual_unit());
-            let problem = Diagnostic::error("network::not_positive", message);
-            self.report(
-                problem.at(entry.value.span.clone(), "").help("check the sign, or leave the point out"),
-            );
+            let help = "check the sign, or leave the point out";
+            self.refuse("network::not_positive", message, &entry.value.span, help);
             return None;
         }
         // an error at run time names the table by its key

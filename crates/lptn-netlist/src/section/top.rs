@@ -4,9 +4,10 @@ use lptn_data::{Diagnostic, Span, list};
 use lptn_units::suggest;
 
 use crate::fields::wrong_shape;
+use crate::format::{Format, TOP_KEYS};
+use crate::head::{check_format, misplaced_format, missing_format};
 use crate::raw::{RawEntry, RawKind};
-use crate::vocabulary::{MINIMAL, SECTIONS, SECTIONS_LATER, TOP_KEYS};
-use crate::work::{Elaboration, MISSING_FORMAT};
+use crate::work::Elaboration;
 
 impl Elaboration<'_> {
     pub(crate) fn top_level(&mut self) {
@@ -20,7 +21,7 @@ impl Elaboration<'_> {
             }
         }
         for entry in entries.iter().filter(|entry| entry.key != "format") {
-            if SECTIONS.contains(&entry.key.as_str()) {
+            if self.format.has(&entry.key) {
                 let problem = check_section(entry);
                 self.doubts.sections |= problem.is_some();
                 if problem.is_some() {
@@ -34,7 +35,7 @@ impl Elaboration<'_> {
             } else {
                 self.doubts.sections = true;
                 self.names.hide(entry);
-                self.problems.push(unknown(entry));
+                self.problems.push(unknown(entry, self.format));
             }
         }
     }
@@ -52,54 +53,8 @@ impl Elaboration<'_> {
     }
 }
 
-/// What is wrong with the `format` of an included file, which begins at `start`.
-pub(crate) fn check_head(entries: &[RawEntry], start: Span) -> Option<Diagnostic> {
-    match entries.iter().find(|entry| entry.key == "format") {
-        Some(entry) => check_format(entry),
-        None if entries.is_empty() => Some(missing_format(entries, None).at(start, "belongs here")),
-        None => Some(missing_format(entries, misplaced_format(entries))),
-    }
-}
-
-fn check_format(entry: &RawEntry) -> Option<Diagnostic> {
-    let given = match &entry.value.kind {
-        RawKind::Integer(number) if number == "1" => return None,
-        RawKind::Integer(number) => number.clone(),
-        _ => return Some(wrong_shape("`format`", &entry.value, "the number 1", "format = 1")),
-    };
-    let message = format!("format {given} is not known to this version of lptn");
-    Some(
-        Diagnostic::error("netlist::unsupported_format", message)
-            .at(entry.value.span.clone(), "this version reads format 1")
-            .help("write `format = 1`, or use a newer lptn"),
-    )
-}
-
-/// `format` below a heading, with the section that it then belongs to.
-fn misplaced_format(entries: &[RawEntry]) -> Option<(&str, &RawEntry)> {
-    entries.iter().find_map(|entry| match &entry.value.kind {
-        RawKind::Table(table) => table.get("format").map(|format| (entry.key.as_str(), format)),
-        _ => None,
-    })
-}
-
 fn whole(entry: &RawEntry) -> Span {
     entry.key_span.with(entry.key_span.range.start..entry.value.span.range.end)
-}
-
-fn missing_format(entries: &[RawEntry], inside: Option<(&str, &RawEntry)>) -> Diagnostic {
-    let error = Diagnostic::error(MISSING_FORMAT, "`format = 1` is missing")
-        .help("make `format = 1` the first line, above the first [section]");
-    match (inside, entries.first()) {
-        (Some((section, format)), _) => {
-            error.at(format.key_span.clone(), format!("below `[{section}]` it belongs to that section"))
-        }
-        (None, Some(first)) => {
-            let start = Span::new(first.key_span.file, 0..0);
-            error.at(start, "belongs here")
-        }
-        (None, None) => error,
-    }
 }
 
 fn check_section(entry: &RawEntry) -> Option<Diagnostic> {
@@ -139,13 +94,13 @@ const OTHER_NAMES: [(&str, &str); 16] = [
     ("solver", "run"),
 ];
 
-fn unknown(entry: &RawEntry) -> Diagnostic {
+fn unknown(entry: &RawEntry, format: &Format) -> Diagnostic {
     let (name, place) = (entry.key.as_str(), entry.key_span.clone());
     let is_table = matches!(entry.value.kind, RawKind::Table(_) | RawKind::Array(_));
-    if SECTIONS_LATER.contains(&name) {
+    if format.later.iter().any(|section| section.name == name) {
         return Diagnostic::error("netlist::not_supported_yet", format!("`[{name}]` is not supported yet"))
             .at(place, "")
-            .help(format!("the sections so far are {}", list(&SECTIONS)));
+            .help(format!("the sections so far are {}", list(&format.names())));
     }
     let (code, message) = if is_table {
         ("netlist::unknown_section", format!("there is no section `[{name}]`"))
@@ -153,19 +108,14 @@ fn unknown(entry: &RawEntry) -> Diagnostic {
         ("netlist::unknown_key", format!("there is no key `{name}` at the top of a netlist"))
     };
     let other = OTHER_NAMES.iter().find(|(other, _)| name.eq_ignore_ascii_case(other)).filter(|_| is_table);
-    let known = SECTIONS.iter().chain(&SECTIONS_LATER).chain(&TOP_KEYS).copied();
+    let later = format.later.iter().map(|section| section.name);
+    let known = format.names().into_iter().chain(later).chain(TOP_KEYS);
     let near = other.map(|(_, section)| *section).or_else(|| suggest(name, known));
     let help = match near {
         Some(near) if TOP_KEYS.contains(&near) => format!("did you mean `{near}`?"),
         Some(near) => format!("did you mean `[{near}]`?"),
-        None if is_table => format!("the sections are {}", list(&SECTIONS)),
+        None if is_table => format!("the sections are {}", list(&format.names())),
         None => format!("a parameter belongs below the heading `[param]`; here stand {}", list(&TOP_KEYS)),
     };
     Diagnostic::error(code, message).at(place, "").help(help)
-}
-
-/// A text without anything in it.
-pub(crate) fn empty(text: &str, at: Span) -> Diagnostic {
-    let what = if text.trim().is_empty() { "is empty" } else { "holds nothing but comments" };
-    Diagnostic::error("netlist::empty", format!("the netlist {what}")).at(at, "").help(MINIMAL.trim_end())
 }

@@ -1,15 +1,29 @@
 //! `[template.NAME]`: what a part consists of, before it is used.
 
-use lptn_data::Diagnostic;
+use lptn_data::{Diagnostic, nearest};
 use lptn_network::is_name;
-use lptn_units::{RESERVED, Type, Unit, parse_quantity, suggest};
+use lptn_units::{RESERVED, Type, Unit, parse_quantity};
 
+use super::{TEMPLATE, USE};
 use crate::fields::{Fields, Owner, wrong_shape};
+use crate::format::{Format, SectionDeclaration, key};
+use crate::names::ValueKind;
 use crate::place::Place;
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
-use crate::vocabulary::{NOT_IN_TEMPLATE, OPEN_PARAMETER, PARAM, SECTIONS, TEMPLATE, USE};
 
 const PORT: &str = "port";
+
+/// A parameter of a template without a value of its own: `R = { unit = "K/W" }`.
+const OPEN_PARAMETER: SectionDeclaration = SectionDeclaration {
+    name: "param",
+    keys: &[key("unit", "unit", "the unit of the values that it is set to", "\"K/W\"")],
+    example: "{ unit = \"K/W\" }",
+    elsewhere: &[
+        ("value", "a value of its own stands alone: `m = \"0.2 kg\"`"),
+        ("default", "a value of its own stands alone: `m = \"0.2 kg\"`"),
+    ],
+    ..SectionDeclaration::NEW
+};
 
 /// A template, checked as far as it can be without being used.
 #[derive(Debug)]
@@ -47,7 +61,7 @@ impl<'r> Template<'r> {
     }
 
     /// Reads a template and reports what is wrong with it.
-    pub(super) fn read(entry: &'r RawEntry, problems: &mut Vec<Diagnostic>) -> Self {
+    pub(super) fn read(entry: &'r RawEntry, format: &Format, problems: &mut Vec<Diagnostic>) -> Self {
         let mut template = Self {
             entry,
             parameters: Vec::new(),
@@ -58,7 +72,9 @@ impl<'r> Template<'r> {
         };
         let before = problems.len();
         match &entry.value.kind {
-            RawKind::Table(table) => table.entries.iter().for_each(|part| template.part(part, problems)),
+            RawKind::Table(table) => {
+                table.entries.iter().for_each(|part| template.part(part, format, problems))
+            }
             kind => problems.push(no_table(&format!("template `{}`", entry.key), &entry.value, kind)),
         }
         problems.extend(template.names());
@@ -66,19 +82,19 @@ impl<'r> Template<'r> {
         template
     }
 
-    fn part(&mut self, part: &'r RawEntry, problems: &mut Vec<Diagnostic>) {
+    fn part(&mut self, part: &'r RawEntry, format: &Format, problems: &mut Vec<Diagnostic>) {
         let words = format!("`{}` of template `{}`", part.key, self.name());
         if part.key == PORT {
             return self.ports(part, problems);
         }
-        if NOT_IN_TEMPLATE.contains(&part.key.as_str()) || !SECTIONS.contains(&part.key.as_str()) {
-            return problems.push(unknown_part(self.name(), part));
+        if format.is_outside_templates(&part.key) || !format.has(&part.key) {
+            return problems.push(unknown_part(self.name(), part, format));
         }
         let RawKind::Table(table) = &part.value.kind else {
             return problems.push(no_table(&words, &part.value, &part.value.kind));
         };
         match part.key.as_str() {
-            PARAM => {
+            name if name == ValueKind::Parameter.section() => {
                 for entry in &table.entries {
                     let parameter = self.read_parameter(entry, problems);
                     self.parameters.extend(parameter);
@@ -167,13 +183,13 @@ impl<'r> Template<'r> {
         if !is_name(name) {
             let message = format!("{words} has a name that cannot be used");
             let help = "use letters, digits and `_`, and no digit first";
-            return Some(Diagnostic::error("network::bad_name", message).at(span.clone(), "").help(help));
+            return Some(Diagnostic::wrong("network::bad_name", message, span, help));
         }
         let reserved = RESERVED.contains(&name);
         let message = format!("{words} has a name with a meaning of its own in expressions");
         reserved.then(|| {
             let help = format!("choose another one, for example `{name}_1`");
-            Diagnostic::error("network::reserved_name", message).at(span.clone(), "").help(help)
+            Diagnostic::wrong("network::reserved_name", message, span, help)
         })
     }
 }
@@ -196,26 +212,29 @@ pub(super) fn taken_twice(
 
 fn no_table(words: &str, value: &RawValue, kind: &RawKind) -> Diagnostic {
     let message = format!("{words} must be a table, got {}", kind.with_article());
-    Diagnostic::error("netlist::not_a_table", message)
-        .at(value.span.clone(), "")
-        .help(format!("write it like this: `[template.planet]`, then {}", TEMPLATE.example))
+    Diagnostic::wrong(
+        "netlist::not_a_table",
+        message,
+        &value.span,
+        format!("write it like this: `[template.planet]`, then {}", TEMPLATE.example),
+    )
 }
 
-fn unknown_part(template: &str, part: &RawEntry) -> Diagnostic {
+fn unknown_part(template: &str, part: &RawEntry, format: &Format) -> Diagnostic {
     let key = part.key.as_str();
-    if NOT_IN_TEMPLATE.contains(&key) {
+    if format.is_outside_templates(key) {
         let message = format!("`[{key}]` cannot stand in template `{template}`");
-        return Diagnostic::error("netlist::not_in_template", message).at(part.key_span.clone(), "").help(
+        return Diagnostic::wrong(
+            "netlist::not_in_template",
+            message,
+            &part.key_span,
             format!("a template holds `param`, `port` and elements: move `[{key}]` to the top of the file"),
         );
     }
-    let inside = SECTIONS.iter().filter(|section| !NOT_IN_TEMPLATE.contains(section)).copied();
+    let inside = format.names().into_iter().filter(|section| !format.is_outside_templates(section));
     let inside: Vec<&str> = [PORT].into_iter().chain(inside).collect();
     let problem =
         Diagnostic::error("netlist::unknown_section", format!("template `{template}` cannot hold `{key}`"))
             .at(part.key_span.clone(), "");
-    problem.help(match suggest(key, inside.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("a template holds {}", lptn_data::list(&inside)),
-    })
+    problem.help(nearest(key, inside.iter().copied(), "a template holds"))
 }

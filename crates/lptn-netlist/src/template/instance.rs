@@ -7,8 +7,10 @@ use super::plan::{MOST_INSTANCES, Plan, of_instance, plan};
 use super::structure::{Connection, Inside, Instance, Structure, Used};
 use lptn_data::{CopyId, Diagnostic, Files, Span};
 
+use crate::format::{Format, Role};
+use crate::names::ValueKind;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
-use crate::vocabulary::{ELSEWHERE, PARAM, USE};
+use crate::template::USE;
 
 /// Where instances are made: below this name, in the text of this instance.
 struct Around {
@@ -19,6 +21,7 @@ struct Around {
 /// Puts the elements of instances behind those of the file.
 pub(super) struct Maker<'r, 'w> {
     files: &'w mut Files,
+    format: &'w Format,
     templates: &'r [Template<'r>],
     /// How many instances one of each template makes.
     sizes: &'w [usize],
@@ -33,19 +36,19 @@ pub(super) struct Maker<'r, 'w> {
 
 impl<'r, 'w> Maker<'r, 'w> {
     pub(super) fn new(
-        files: &'w mut Files,
+        (files, format): (&'w mut Files, &'w Format),
         (templates, sizes): (&'r [Template<'r>], &'w [usize]),
         raw: &'w mut RawNetlist,
     ) -> Self {
         let entries = raw.top.entries.iter().enumerate();
         let sections = entries.map(|(position, entry)| (entry.key.clone(), position)).collect();
         let (structure, problems) = (Structure::default(), Vec::new());
-        Self { files, templates, sizes, raw, sections, insides: HashMap::new(), structure, problems }
+        Self { files, format, templates, sizes, raw, sections, insides: HashMap::new(), structure, problems }
     }
 
     /// The uses of the file itself.
     pub(super) fn top(&mut self, uses: &[RawEntry]) {
-        let taken = elements(self.raw);
+        let taken = elements(self.raw, self.format);
         let clashes = uses.iter().filter_map(|entry| {
             let (kind, span) = taken.get(entry.key.as_str())?;
             Some(taken_twice((&entry.key, &entry.key_span), USE.name, (kind, span)))
@@ -161,7 +164,7 @@ impl<'r, 'w> Maker<'r, 'w> {
             }
             let value = value.cloned().unwrap_or_else(|| copied_value(&written.value, copy));
             let key_span = written.key_span.for_copy(copy);
-            self.push((PARAM, &written.key_span), RawEntry { key, key_span, value });
+            self.push((ValueKind::Parameter.section(), &written.key_span), RawEntry { key, key_span, value });
         }
     }
 
@@ -187,8 +190,9 @@ impl<'r, 'w> Maker<'r, 'w> {
 }
 
 /// The elements of the file by name, each with its section.
-fn elements(raw: &RawNetlist) -> HashMap<String, (String, Span)> {
-    let sections = raw.top.entries.iter().filter(|section| !ELSEWHERE.contains(&section.key.as_str()));
+fn elements(raw: &RawNetlist, format: &Format) -> HashMap<String, (String, Span)> {
+    let known = |name: &str| format.role(name).is_none_or(|role| role == Role::Element);
+    let sections = raw.top.entries.iter().filter(|section| known(&section.key));
     let elements = sections.filter_map(|section| match &section.value.kind {
         RawKind::Table(table) => Some((section, table)),
         _ => None,
@@ -222,7 +226,10 @@ fn copied_value(value: &RawValue, copy: CopyId) -> RawValue {
 
 fn too_many(entry: &RawEntry) -> Diagnostic {
     let message = format!("templates make more than {MOST_INSTANCES} instances");
-    Diagnostic::error("netlist::count", message)
-        .at(entry.key_span.clone(), "")
-        .help("counts of templates inside each other multiply: make one of them smaller")
+    Diagnostic::wrong(
+        "netlist::count",
+        message,
+        &entry.key_span,
+        "counts of templates inside each other multiply: make one of them smaller",
+    )
 }

@@ -18,15 +18,58 @@ use std::sync::Arc;
 
 use lptn_data::{Diagnostic, Files, Severity};
 
+use crate::format::{Format, Role, SectionDeclaration, key};
 use crate::include::any_error;
 use crate::raw::{RawEntry, RawKind, RawNetlist};
-use crate::vocabulary::{TEMPLATE, USE};
 use definition::Template;
 use instance::Maker;
 
 pub(crate) use inside::{by_port, in_own_words, outside};
 pub(crate) use structure::Structure;
 pub(crate) use wrong_path::wrong_path;
+
+/// `[template.NAME]`; what it holds is read by itself.
+pub(crate) const TEMPLATE: SectionDeclaration = SectionDeclaration {
+    name: "template",
+    sentence: "A part that is written once: its elements stand below `[template.NAME.node]` and so on.",
+    role: Role::Template,
+    keys: &[
+        key("param", "table", "parameters, with a value or with `{ unit = .. }`", "{ m = \"0.2 kg\" }"),
+        key("port", "list of names", "what it knows of the rest of the network", "[\"in\", \"out\"]"),
+    ],
+    example: "`port = [\"in\", \"out\"]` and elements below `[template.planet.node]`",
+    ..SectionDeclaration::NEW
+};
+
+pub(crate) const USE: SectionDeclaration = SectionDeclaration {
+    name: "use",
+    sentence: "A template in use: once, or several times.",
+    role: Role::Use,
+    keys: &[
+        key("template", "name of a template", "what is used", "\"planet\""),
+        key("count", "whole number", "how many there are; without it there is one, without an index", "3"),
+        key(
+            "connect",
+            "table of names of nodes or boundaries",
+            "what each port leads to",
+            "{ carrier = \"carrier\" }",
+        ),
+        key(
+            "set",
+            "table",
+            "parameters of the template; a list gives each instance its own",
+            "{ ratio = 0.5 }",
+        ),
+    ],
+    example: "{ template = \"planet\", count = 3, connect = { carrier = \"carrier\" } }",
+    elsewhere: &[
+        ("param", "parameters of the template are given in `set`: `set = { ratio = 0.5 }`"),
+        ("port", "what a port leads to stands in `connect`: `connect = { carrier = \"carrier\" }`"),
+        ("ports", "what a port leads to stands in `connect`: `connect = { carrier = \"carrier\" }`"),
+        ("n", "how many there are is `count`"),
+    ],
+    ..SectionDeclaration::NEW
+};
 
 /// A netlist without templates: every instance is written out.
 #[derive(Debug)]
@@ -37,13 +80,13 @@ pub(crate) struct Expanded {
 }
 
 /// Puts elements in the place of every use.
-pub(crate) fn expand(files: &mut Files, mut raw: RawNetlist) -> Expanded {
+pub(crate) fn expand(files: &mut Files, mut raw: RawNetlist, format: &Format) -> Expanded {
     let (main, mut problems) = (raw.top.span.file, Vec::new());
     let (written, uses) = (take(&mut raw, TEMPLATE.name), take(&mut raw, USE.name));
     let mut templates: Vec<Template<'_>> =
-        written.iter().map(|entry| Template::read(entry, &mut problems)).collect();
+        written.iter().map(|entry| Template::read(entry, format, &mut problems)).collect();
     let sizes = nesting::check(&mut templates, &mut problems);
-    let mut maker = Maker::new(files, (&templates, &sizes), &mut raw);
+    let mut maker = Maker::new((files, format), (&templates, &sizes), &mut raw);
     maker.top(&uses);
     let (structure, found, used) = maker.finish();
     problems.extend(found);
@@ -74,11 +117,11 @@ fn is_table(entry: &RawEntry) -> bool {
 fn unused<'t>(templates: &'t [Template<'t>], used: &HashSet<usize>) -> impl Iterator<Item = Diagnostic> {
     let unused = templates.iter().enumerate().filter(|(position, _)| !used.contains(position));
     unused.map(|(_, template)| {
-        Diagnostic::warning(
+        Diagnostic::doubt(
             "netlist::unused_template",
             format!("nothing uses template `{}`", template.name()),
+            &template.entry.key_span,
+            format!("use it, `[use.name]` with `template = \"{}\"`, or remove it", template.name()),
         )
-        .at(template.entry.key_span.clone(), "")
-        .help(format!("use it, `[use.name]` with `template = \"{}\"`, or remove it", template.name()))
     })
 }

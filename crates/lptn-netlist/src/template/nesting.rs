@@ -123,10 +123,10 @@ fn describe(steps: &[(&str, &RawValue)]) -> Diagnostic {
         [(one, _)] => format!("template `{one}` uses itself"),
         _ => format!("templates use each other: {}", chain.join(" -> ")),
     };
-    let mut problem = Diagnostic::error("netlist::template_recursion", message);
-    for (n, ((_, value), next)) in steps.iter().zip(chain.iter().skip(1)).enumerate() {
-        let (span, text) = (value.span.clone(), format!("uses `{next}`"));
-        problem = if n == 0 { problem.at(span, text) } else { problem.also(span, text) };
-    }
-    problem.help("a part cannot be inside itself: take one of the uses out, or give a use a `count`")
+    let next = chain.iter().skip(1);
+    let uses =
+        steps.iter().zip(next).map(|((_, value), next)| (value.span.clone(), format!("uses `{next}`")));
+    Diagnostic::error("netlist::template_recursion", message)
+        .places(uses)
+        .help("a part cannot be inside itself: take one of the uses out, or give a use a `count`")
 }

@@ -7,7 +7,6 @@ use lptn_units::Expression;
 
 use super::structure::Structure;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
-use crate::vocabulary::{LIMIT, SOURCE};
 
 const STAR: &str = "[*]";
 
@@ -17,10 +16,10 @@ pub(super) fn expand(raw: &mut RawNetlist, structure: &Structure) -> Vec<Diagnos
     let mut work = Patterns { structure, problems: Vec::new() };
     for section in &mut raw.top.entries {
         let RawKind::Table(table) = &mut section.value.kind else { continue };
-        if section.key == LIMIT.name {
+        if section.key == "limit" {
             let entries = std::mem::take(&mut table.entries);
             table.entries = entries.into_iter().flat_map(|entry| work.limit(entry)).collect();
-        } else if section.key == SOURCE.name {
+        } else if section.key == "source" {
             table.entries.retain_mut(|entry| work.source(entry));
         }
     }
@@ -189,16 +188,22 @@ fn with_of(entry: &RawEntry, key: String, text: String) -> RawEntry {
 
 fn no_instances(used: &str, at: &Span) -> Diagnostic {
     let message = format!("`{used}[*]` stands for every instance, but `{used}` is no use with a `count`");
-    Diagnostic::error("netlist::pattern", message)
-        .at(at.clone(), "")
-        .help("write the name of a `[use.NAME]` that has a `count` before `[*]`")
+    Diagnostic::wrong(
+        "netlist::pattern",
+        message,
+        at,
+        "write the name of a `[use.NAME]` that has a `count` before `[*]`",
+    )
 }
 
 /// Patterns of one expression that do not go through the same instances.
 fn uneven(names: &[(String, Range<usize>)], value: &RawValue) -> Diagnostic {
     let list: Vec<&str> = names.iter().map(|(name, _)| name.as_str()).collect();
     let message = format!("{} do not stand for the same instances", lptn_data::list(&list));
-    Diagnostic::error("netlist::pattern", message)
-        .at(value.span.clone(), "")
-        .help("every `[*]` takes the same index: use patterns of one count, or write a limit for each")
+    Diagnostic::wrong(
+        "netlist::pattern",
+        message,
+        &value.span,
+        "every `[*]` takes the same index: use patterns of one count, or write a limit for each",
+    )
 }

@@ -1,12 +1,11 @@
 //! `[use.NAME]`: which template, how often, connected to what and with which parameters.
 
-use lptn_data::{Diagnostic, list};
-use lptn_units::suggest;
+use lptn_data::{Diagnostic, list, nearest};
 
+use super::USE;
 use super::definition::{Parameter, Template};
-use crate::fields::{Fields, Owner, sample, wrong_shape};
+use crate::fields::{Fields, Owner, wrong_shape};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
-use crate::vocabulary::USE;
 
 /// So many instances a netlist may have, nested ones included; more are a mistake.
 pub(super) const MOST_INSTANCES: usize = 1_000_000;
@@ -69,7 +68,7 @@ fn set_is_wrong(fields: &Fields<'_>) -> bool {
 fn members<'a>(fields: &Fields<'a>, key: &str, problems: &mut Vec<Diagnostic>) -> Option<&'a RawTable> {
     let raw = fields.get(key)?;
     let RawKind::Table(table) = &raw.kind else {
-        problems.push(wrong_shape(&fields.owner.field(key), raw, "a table", &sample(key)));
+        problems.push(fields.wrong_shape(key, raw, "a table"));
         return None;
     };
     Some(table)
@@ -77,9 +76,7 @@ fn members<'a>(fields: &Fields<'a>, key: &str, problems: &mut Vec<Diagnostic>) -
 
 fn count(fields: &Fields<'_>, raw: &RawValue, problems: &mut Vec<Diagnostic>) -> Option<usize> {
     let words = fields.owner.field("count");
-    let wrong = |message: String, help: &str| {
-        Diagnostic::error("netlist::count", message).at(raw.span.clone(), "").help(help)
-    };
+    let wrong = |message: String, help: &str| Diagnostic::wrong("netlist::count", message, &raw.span, help);
     let number = match &raw.kind {
         RawKind::Integer(number) => number.replace('_', ""),
         RawKind::Float(number) => number.clone(),
@@ -150,7 +147,8 @@ fn connections<'r>(
     let mut found = Vec::new();
     for entry in entries {
         let Some(port) = known.iter().find(|port| **port == entry.key) else {
-            problems.push(unknown_port((template, &known), &owner, entry));
+            let give = format!("port = [\"{}\"]", entry.key);
+            problems.push(unknown((template, entry), ("port", &known), (&owner, "connects"), &give));
             continue;
         };
         let given = values(&owner.field(&entry.key), &entry.value, count, problems);
@@ -184,7 +182,11 @@ fn settings<'r>(
             Some(parameter) => {
                 found.push((parameter, values(&owner.field(&entry.key), &entry.value, count, problems)));
             }
-            None => problems.push(unknown_parameter(template, &owner, entry)),
+            None => {
+                let known: Vec<&str> = template.parameters.iter().map(|p| p.entry.key.as_str()).collect();
+                let give = format!("param = {{ {} = \"..\" }}", entry.key);
+                problems.push(unknown((template, entry), ("parameter", &known), (&owner, "gives"), &give));
+            }
         }
     }
     found
@@ -198,11 +200,10 @@ fn unknown_template(
     let message = format!("no template named `{name}`, which {} refers to", fields.owner.field("template"));
     let problem = Diagnostic::error("netlist::unknown_template", message).at(raw.span.clone(), "");
     let names: Vec<&str> = templates.iter().map(Template::name).collect();
-    match suggest(name, names.iter().copied()) {
-        Some(near) => problem.help(format!("did you mean `{near}`?")),
-        None if names.is_empty() => problem.help(format!("write it, for example {}", example(name))),
-        None => problem.help(format!("the templates are {}", list(&names))),
-    }
+    problem.help(match names.as_slice() {
+        [] => format!("write it, for example {}", example(name)),
+        names => nearest(name, names.iter().copied(), "the templates are"),
+    })
 }
 
 fn example(name: &str) -> String {
@@ -211,23 +212,26 @@ fn example(name: &str) -> String {
     )
 }
 
-fn unknown_port((template, known): (&Template<'_>, &[&str]), owner: &Owner, entry: &RawEntry) -> Diagnostic {
-    let message = format!(
-        "template `{}` has no port `{}`, which {} connects",
-        template.name(),
-        entry.key,
-        owner.words()
-    );
-    let problem = Diagnostic::error("netlist::unknown_port", message)
-        .at(entry.key_span.clone(), "no such port")
-        .also(template.entry.key_span.clone(), "the template");
-    match suggest(&entry.key, known.iter().copied()) {
-        Some(near) => problem.help(format!("did you mean `{near}`?")),
-        None if known.is_empty() => {
-            problem.help(format!("give the template the port: `port = [\"{}\"]`", entry.key))
-        }
-        None => problem.help(format!("its ports are {}", list(known))),
-    }
+/// A port or parameter that a template does not have; `give` is how it could be given one.
+fn unknown(
+    (template, entry): (&Template<'_>, &RawEntry),
+    (what, known): (&str, &[&str]),
+    (owner, does): (&Owner, &str),
+    give: &str,
+) -> Diagnostic {
+    let (name, words) = (&entry.key, owner.words());
+    let message = format!("template `{}` has no {what} `{name}`, which {words} {does}", template.name());
+    let help = match known {
+        [] => format!("give the template the {what}: `{give}`"),
+        known => nearest(name, known.iter().copied(), &format!("its {what}s are")),
+    };
+    Diagnostic::error(
+        if what == "port" { "netlist::unknown_port" } else { "netlist::unknown_parameter" },
+        message,
+    )
+    .at(entry.key_span.clone(), format!("no such {what}"))
+    .also(template.entry.key_span.clone(), "the template")
+    .help(help)
 }
 
 fn missing_port(template: &Template<'_>, fields: &Fields<'_>, missing: &[&str]) -> Diagnostic {
@@ -240,26 +244,6 @@ fn missing_port(template: &Template<'_>, fields: &Fields<'_>, missing: &[&str]) 
         problem = problem.also(value.span.clone(), "a port of the template");
     }
     problem.help(format!("say what it leads to: `connect = {{ {} }}`", lines.join(", ")))
-}
-
-fn unknown_parameter(template: &Template<'_>, owner: &Owner, entry: &RawEntry) -> Diagnostic {
-    let message = format!(
-        "template `{}` has no parameter `{}`, which {} gives",
-        template.name(),
-        entry.key,
-        owner.words()
-    );
-    let problem = Diagnostic::error("netlist::unknown_parameter", message)
-        .at(entry.key_span.clone(), "no such parameter")
-        .also(template.entry.key_span.clone(), "the template");
-    let names: Vec<&str> = template.parameters.iter().map(|p| p.entry.key.as_str()).collect();
-    match suggest(&entry.key, names.iter().copied()) {
-        Some(near) => problem.help(format!("did you mean `{near}`?")),
-        None if names.is_empty() => {
-            problem.help(format!("give the template the parameter: `param = {{ {} = \"..\" }}`", entry.key))
-        }
-        None => problem.help(format!("its parameters are {}", list(&names))),
-    }
 }
 
 fn not_set(fields: &Fields<'_>, parameter: &Parameter<'_>) -> Diagnostic {

@@ -5,6 +5,9 @@ use lptn_integrate::{IntegrateError, Integrator, Step};
 use crate::error::StopReason;
 use crate::heat::Heat;
 
+/// An integrator on the way.
+type Stepping<'a> = dyn Integrator<Heat<'a>> + 'a;
+
 /// Looks inside a step, besides those of the integrator at its ends: what comes and goes between them is found too.
 const LOOKS: u32 = 4;
 
@@ -31,7 +34,7 @@ impl From<StopReason> for Trouble {
 
 /// What has to switch inside a step or at its end, by its position, and when that is; nothing at the end of a step
 /// without an event.
-pub(crate) fn find(integrator: &mut Integrator<Heat<'_>>, step: &Step) -> Result<(Vec<usize>, f64), Trouble> {
+pub(crate) fn find(integrator: &mut Stepping<'_>, step: &Step) -> Result<(Vec<usize>, f64), Trouble> {
     let mut look = Look::new(integrator);
     let mut before = step.from;
     for k in 1..=LOOKS {
@@ -58,12 +61,12 @@ struct Look {
 }
 
 impl Look {
-    fn new(integrator: &Integrator<Heat<'_>>) -> Self {
+    fn new(integrator: &Stepping<'_>) -> Self {
         let count = integrator.system().gates.count();
         Self { state: integrator.state().to_vec(), excess: vec![0.0; count] }
     }
 
-    fn is_due(&mut self, integrator: &mut Integrator<Heat<'_>>, time: f64) -> Result<bool, Trouble> {
+    fn is_due(&mut self, integrator: &mut Stepping<'_>, time: f64) -> Result<bool, Trouble> {
         integrator.interpolate(time, &mut self.state)?;
         integrator.system_mut().excess(time, &self.state, &mut self.excess)?;
         Ok(self.excess.iter().any(|excess| *excess > 0.0))
@@ -72,7 +75,7 @@ impl Look {
     /// The first moment between a time at which nothing is due and one at which something is.
     fn first(
         &mut self,
-        integrator: &mut Integrator<Heat<'_>>,
+        integrator: &mut Stepping<'_>,
         (mut before, mut after): (f64, f64),
     ) -> Result<(Vec<usize>, f64), Trouble> {
         for _ in 0..BISECTIONS {

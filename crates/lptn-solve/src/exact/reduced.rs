@@ -7,8 +7,8 @@
 //! the balances of the others it adds `g_rm G_mm^-1 g_mr` to the conductances between them: sums and products
 //! of numbers that are not negative, so that nothing cancels.
 
-use faer::linalg::solvers::Solve as _;
-use faer::{Mat, Side};
+use faer::Mat;
+use lptn_integrate::dense;
 use lptn_network::{End, Evaluation, Network, NodeId};
 use lptn_units::EvalError;
 
@@ -125,7 +125,7 @@ impl Elements {
             let (row, column) = (massless[i].index(), massless[j].index());
             if i == j { total(row) } else { -self.among[(row, column)] }
         });
-        Some(own.llt(Side::Lower).ok()?.solve(&given))
+        dense::cholesky_solve(own.as_ref(), given.as_ref())
     }
 
     /// Conductances between the states, and what the inputs do to them, with the massless nodes gone.
@@ -139,7 +139,7 @@ impl Elements {
         if !massless.is_empty() {
             let to_massless =
                 Mat::from_fn(n, massless.len(), |i, m| self.among[(states[i].index(), massless[m].index())]);
-            all += to_massless * recovery;
+            all += dense::product(to_massless.as_ref(), recovery.as_ref());
         }
         (all.subcols(0, n).to_owned(), all.subcols(n, self.inputs.ncols()).to_owned())
     }

@@ -1,6 +1,7 @@
 //! Modes of `C dT/dt = -G T`: eigenvalues and vectors of `C^-1/2 G C^-1/2`, island by island.
 
-use faer::{Mat, Side};
+use faer::Mat;
+use lptn_integrate::dense;
 
 use super::ExactError;
 use super::reduced::Reduced;
@@ -79,8 +80,7 @@ impl Part {
 
     fn solve(self) -> Result<Island, ExactError> {
         let n = self.members.len();
-        let eigen = self.scaled().self_adjoint_eigen(Side::Lower).map_err(|_| ExactError::Modes)?;
-        let mut vectors = eigen.U().to_owned();
+        let (_, mut vectors) = dense::symmetric_eigen(self.scaled().as_ref()).ok_or(ExactError::Modes)?;
         self.sharpen(&mut vectors)?;
         if self.is_loose() {
             self.take_out_the_mean(&mut vectors);
@@ -127,8 +127,9 @@ impl Part {
             if count < 2 {
                 return Ok(());
             }
-            let eigen = self.among(&shapes, count).self_adjoint_eigen(Side::Lower);
-            let turned = vectors.subcols(0, count) * eigen.map_err(|_| ExactError::Modes)?.U();
+            let among = self.among(&shapes, count);
+            let (_, turn) = dense::symmetric_eigen(among.as_ref()).ok_or(ExactError::Modes)?;
+            let turned = dense::product(vectors.subcols(0, count), turn.as_ref());
             vectors.subcols_mut(0, count).copy_from(&turned);
         }
     }
@@ -145,10 +146,10 @@ impl Part {
                 let (i, j, g) = links[row];
                 g.sqrt() * (shapes[(i, k)] - shapes[(j, k)])
             });
-            sum += difference.transpose() * &difference;
+            sum += dense::product(difference.transpose(), difference.as_ref());
         }
         let tied = Mat::from_fn(self.ties.len(), count, |i, k| self.ties[i].sqrt() * shapes[(i, k)]);
-        sum += tied.transpose() * &tied;
+        sum += dense::product(tied.transpose(), tied.as_ref());
         sum
     }
 

@@ -9,6 +9,7 @@
 use std::collections::VecDeque;
 
 use faer::Mat;
+use lptn_integrate::dense;
 
 /// Differences that are kept.
 const MOST: usize = 30;
@@ -118,8 +119,8 @@ impl Secants {
         if n == 0 {
             return None;
         }
-        let values = Mat::from_fn(n, n, entry).eigenvalues().ok()?;
-        let largest = values.iter().map(|z| z.re.hypot(z.im)).fold(0.0, f64::max);
+        let sizes = dense::eigenvalue_magnitudes(Mat::from_fn(n, n, entry).as_ref())?;
+        let largest = sizes.into_iter().fold(0.0, f64::max);
         largest.is_finite().then_some(largest)
     }
 

@@ -1,0 +1,21 @@
+//! What runs along with the state: its integrals, and what is read of it before a new start.
+
+use super::Cvodes;
+use crate::memory::Flag;
+use lptn_integrate::OdeSystem;
+
+impl<S: OdeSystem> Cvodes<S> {
+    pub(super) fn read_quadratures(&mut self) -> Result<(), Flag> {
+        match &mut self.quadratures {
+            // Before the first step after a (re)start CVODES has no step to evaluate them in; they are as they were set.
+            Some(quadratures) if self.memory.counters().steps > 0 => self.memory.quadratures(quadratures),
+            _ => Ok(()),
+        }
+    }
+
+    /// Running integrals and sensitivities at the present time, from which CVODES can begin anew.
+    pub(super) fn read_running(&mut self) -> Result<(), Flag> {
+        self.read_quadratures()?;
+        self.read_sensitivities()
+    }
+}

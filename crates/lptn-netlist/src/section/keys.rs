@@ -1,0 +1,28 @@
+//! Keys that several sections have.
+
+use crate::format::{KeyDeclaration, key};
+
+pub(super) const DENSITY: KeyDeclaration =
+    key("density", "kg/m^3", "density; constant: the mass of a volume does not change", "\"7850 kg/m^3\"");
+pub(super) const CP: KeyDeclaration = key(
+    "cp",
+    "J/(kg K)",
+    "specific heat capacity; constant, an expression in `T`, or a table over it",
+    "\"475 J/(kg K)\"",
+);
+pub(super) const SOURCE_OF: KeyDeclaration =
+    key("source", "text", "where the numbers come from", "\"where the numbers come from\"");
+
+/// What a lump is made of.
+pub(super) const CAPACITY: KeyDeclaration =
+    key("C", "J/K", "heat capacity; may depend on the node's own temperature `T`", "\"500 J/K\"");
+pub(super) const MATERIAL_OF: KeyDeclaration = key(
+    "material",
+    "name of a material",
+    "one of the file or of the library (`lptn materials`), in place of the values that it gives",
+    "\"steel_8620\"",
+);
+pub(super) const MASS: KeyDeclaration =
+    key("mass", "kg", "with `material`, or `volume`: the capacity is `mass cp`", "\"1.2 kg\"");
+pub(super) const VOLUME: KeyDeclaration =
+    key("volume", "m^3", "with `material`, or `mass`: the capacity is `volume density cp`", "\"150 cm^3\"");
