@@ -1,6 +1,6 @@
 //! Why a network could not be assembled.
 
-use lptn_network::{BuildErrors, NodeId};
+use lptn_network::NodeId;
 
 lptn_units::errors! {
 /// Why a network could not be assembled.
@@ -13,16 +13,5 @@ pub enum AssemblyError {
              comes, and every pair of them would be linked"
         ),
         help format!("give `{name}` and its likes their capacity, so that they become states");
-}
-}
-
-lptn_units::errors! {
-/// Why there is no system with other values of the parameters.
-#[derive(Clone, Debug)]
-pub enum ChangeError {
-    /// There is no such network.
-    Network => BuildErrors;
-    /// It cannot be assembled.
-    Assembly => AssemblyError;
 }
 }

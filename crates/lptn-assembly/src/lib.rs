@@ -6,6 +6,7 @@
 //!
 //! Units: SI, temperatures in K. Heat is positive into a node.
 
+mod change;
 mod element;
 mod eliminate;
 mod error;
@@ -18,8 +19,9 @@ mod system;
 mod tangent;
 mod workspace;
 
+pub use change::ChangeError;
 pub use element::Form;
-pub use error::{AssemblyError, ChangeError};
+pub use error::AssemblyError;
 pub use pattern::JacobianPattern;
 pub use system::ThermalSystem;
 pub use workspace::Workspace;

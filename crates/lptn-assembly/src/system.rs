@@ -1,10 +1,10 @@
 //! The sparse system `C dT/dt = q(t, T)` of a network.
 
-use lptn_network::{ConductorId, Flow, InputError, Network, NodeId, Parameters, Received, Surface};
+use lptn_network::{ConductorId, Flow, InputError, Network, NodeId, Received, Surface};
 
 use crate::element::{Element, Form};
 use crate::eliminate::{Elimination, Link, TooMany};
-use crate::error::{AssemblyError, ChangeError};
+use crate::error::AssemblyError;
 use crate::pattern::JacobianPattern;
 use crate::radiation::Radiation;
 use crate::workspace::Workspace;
@@ -42,33 +42,6 @@ pub struct ThermalSystem {
 }
 
 impl ThermalSystem {
-    /// The system of the same network with other values of its parameters, for loops over candidates: nothing is read or
-    /// compiled again, and names and expressions are shared.
-    ///
-    /// ```
-    /// # use lptn_assembly::ThermalSystem;
-    /// # fn sweep(system: &ThermalSystem) -> Result<(), Box<dyn std::error::Error>> {
-    /// for text in ["2 mK/W", "20 mK/W"] {
-    ///     let candidate = system.with(&system.network().overrides().with("R_joint", text)?)?;
-    /// }
-    /// # Ok(())
-    /// # }
-    /// ```
-    ///
-    /// # Errors
-    /// [`ChangeError`] if the values make no network, or one that cannot be assembled.
-    pub fn with(&self, parameters: &Parameters) -> Result<Self, ChangeError> {
-        Self::of(&self.network, parameters)
-    }
-
-    /// Assembles a network with other values of its parameters.
-    ///
-    /// # Errors
-    /// As [`ThermalSystem::with`].
-    pub fn of(network: &Network, parameters: &Parameters) -> Result<Self, ChangeError> {
-        Ok(Self::assemble(&network.with(parameters)?)?)
-    }
-
     /// Assembles a network: structure, links, elements and pattern, once.
     ///
     /// # Errors

@@ -38,10 +38,7 @@ pub enum ReduceError {
     /// The modes at the port could not be computed.
     Modes = "reduce::modes", "the time constants at the port cannot be computed", class Class::Numbers;
     /// A run of the network or of its equivalent failed.
-    Run(error: TransientError) = error.code(), error, source error, help error.help(), class match error.code() {
-        "run::integrator" => Class::Numbers,
-        _ => Class::Input,
-    };
+    Run => TransientError;
     /// The equivalent network could not be built; the text says why.
     Equivalent(why: String) = "reduce::equivalent", format!("the equivalent network cannot be built: {why}"), class Class::Numbers;
     /// The window in s of the least-squares definition is not a positive time, or too short to see the port warm.
@@ -57,28 +54,20 @@ impl From<FactorError> for ReduceError {
     }
 }
 
-impl From<TransientError> for ReduceError {
-    fn from(error: TransientError) -> Self {
-        Self::Run(error)
-    }
-}
-
 lptn_units::errors! {
 /// Why a record has no exponential.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FitError {
     /// Fewer than four points, or lists of different length: three numbers are fitted.
     TooFew { points: usize } = "fit::too_few_points",
-        format!("an exponential has three numbers to fit, and the record has {points} points"),
-        help "four samples or more give a curve with an error";
+        format!("an exponential has three numbers to fit, and the record has {points} points");
     /// The times do not ascend, or a value is not finite.
     NotARecord = "fit::not_a_record", "the times of the record do not ascend, or a value is not a number";
     /// The temperature does not change.
-    Flat = "fit::flat", "the temperature of the record does not change",
-        help "name the columns that change: --column NAME";
+    Flat = "fit::flat", "the temperature of the record does not change";
     /// The best exponential is a straight line or a jump: the record does not say what its time constant is. The search
     /// ended at this one, in s.
     NoCurvature { tau: f64 } = "fit::no_curvature",
-        format!("the record shows no time constant: the search ended at {tau:.1e} s"), class Class::Numbers;
+        format!("the record shows no time constant: the search ended at {tau:.1e} s");
 }
 }

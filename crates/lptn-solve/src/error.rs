@@ -24,7 +24,7 @@ pub enum SteadyError {
     /// A source or boundary has no value.
     Input => InputError;
     /// The balances of a nonlinear network were not solved.
-    Unsolved => Unsolved, class Class::Numbers;
+    Unsolved => Unsolved as Class::of_numbers;
     /// The conductances span more than the numbers can hold.
     Factorization(error: FactorError) = "steady::singular",
         format!("the conductances cannot be factorised: {error}"), source error, help MERGE, class Class::Numbers;
@@ -66,13 +66,14 @@ pub enum TransientError {
     /// A source or boundary has no value at the start.
     Input => InputError;
     /// The balances of massless nodes could not be set up.
-    Start => Unsolved, class Class::Numbers;
+    Start => Unsolved as Class::of_numbers;
     /// The integrator could not be set up or read.
     Integrator(error: IntegrateError) = "run::integrator", format!("the integrator failed: {error}"), source error,
         class Class::Numbers;
     /// The run broke off at this time in s; what was computed before is whole.
     Stopped { time: f64, reason: StopReason, partial: Box<Solution> } = reason.code(),
-        format!("stopped at {} s: {reason}", six_digits(*time)), source reason, help reason.help(), class match reason {
+        format!("stopped at {} s: {reason}", six_digits(*time)), source reason, help reason.help(),
+        class match reason {
             StopReason::NothingSwitches => Class::Input,
             _ => Class::Numbers,
         };

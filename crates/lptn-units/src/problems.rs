@@ -54,7 +54,7 @@ impl<P: Problem> Problem for Box<P> {
     }
 }
 
-/// Several problems of one kind, all that were found; never empty. Code, help and class are those of the first.
+/// Several problems of one kind, all that were found; never empty. Code and help are those of the first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problems<P>(pub Vec<P>);
 
@@ -105,6 +105,20 @@ impl<P> IntoIterator for Problems<P> {
     }
 }
 
+impl Class {
+    /// Whoever passes the problem on could not compute what was asked for.
+    #[must_use]
+    pub fn of_numbers(self) -> Self {
+        Self::Numbers
+    }
+
+    /// What is an answer to one question is a failure of another one that needed it.
+    #[must_use]
+    pub fn not_an_answer(self) -> Self {
+        if self == Self::No { Self::Numbers } else { self }
+    }
+}
+
 /// Help as a declaration gives it: words, or none.
 pub trait Help {
     /// The words.
@@ -136,10 +150,11 @@ impl Help for Option<String> {
 }
 
 /// Declares an enum of errors, each told once: its fields, its stable code, its sentence and, where there is one, the help;
-/// its class where it is not that of a wrong input.
-/// The expressions see the fields by reference; a sentence is anything that can be displayed. Where another error is a part
-/// of it, `source` names that. A variant that only passes an error on says which, `Name => ItsError;`: code, sentence, help,
-/// source and class (unless it gives its own) are that error's, and `?` makes one of the other.
+/// its class where it is not that of a wrong input. The expressions see the fields by reference; a sentence is anything that
+/// can be displayed. Where another error is a part of it, `source` names that. A variant that only passes an error on says
+/// which, `Name => ItsError;`: code, sentence, help, source and class are that error's, and `?` makes one of the other;
+/// `Name => ItsError as Class::of_numbers;` makes another class
+/// of its class.
 ///
 /// ```
 /// lptn_units::errors! {
@@ -178,8 +193,8 @@ macro_rules! errors {
             $(
                 $(#[$doc:meta])*
                 $variant:ident $(($($arg:ident: $arg_ty:ty),*))? $({ $($field:ident: $ty:ty),* })?
-                    $(= $code:expr, $says:expr $(, source $source:expr)? $(, help $help:expr)? $(, class $class:expr)?)?
-                    $(=> $inner:ty $(, class $own:expr)?)?;
+                    $(=> $inner:ty $(as $own:path)?)?
+                    $(= $code:expr, $says:expr $(, source $source:expr)? $(, help $help:expr)? $(, class $class:expr)?)?;
             )*
         }
     ) => {
@@ -245,10 +260,34 @@ macro_rules! errors {
             fn class(&self) -> $crate::Class {
                 match self {
                     $(Self::$variant $(($($arg),*))? $({ $($field),* })? $(($crate::bound!(inner $inner)))? =>
-                        { $($crate::class_of!($($class)?))? $($crate::class_or!(inner $inner $(, $own)?))? })*
+                        { $($crate::class_of!($($class)?))? $($crate::class_in!(inner $(, $own)?))? })*
                 }
             }
         }
+    };
+}
+
+/// The class of a declaration; where it has none the input is wrong.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! class_of {
+    () => {
+        $crate::Class::Input
+    };
+    ($class:expr) => {
+        $class
+    };
+}
+
+/// The class of what a variant passes on, or what it makes of that.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! class_in {
+    ($inner:expr) => {
+        $crate::Problem::class($inner)
+    };
+    ($inner:expr, $own:path) => {
+        $own($crate::Problem::class($inner))
     };
 }
 
@@ -270,30 +309,6 @@ macro_rules! source_of {
     };
     ($source:expr) => {
         Some($source)
-    };
-}
-
-/// The class of a variant that passes an error on.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! class_or {
-    ($inner:ident $ty:ty) => {
-        <$ty as $crate::Problem>::class($inner)
-    };
-    ($inner:ident $ty:ty, $class:expr) => {
-        $class
-    };
-}
-
-/// The class of a declaration; where it has none the input is wrong.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! class_of {
-    () => {
-        $crate::Class::Input
-    };
-    ($class:expr) => {
-        $class
     };
 }
 

@@ -15,7 +15,7 @@ mod reduced;
 mod spectrum;
 
 use lptn_network::{InputError, Network, NodeId};
-use lptn_units::{Class, EvalError};
+use lptn_units::{Class, EvalError, Problem};
 
 use crate::events::EventKind;
 use crate::solution::Solution;
@@ -68,7 +68,7 @@ pub enum ExactError {
     /// A source or boundary has no value.
     Input => InputError;
     /// A constant has no value.
-    Value(error: EvalError) = "solve::input", error, source error;
+    Value(error: EvalError) = "solve::input", error, source error, help Problem::help(error);
     /// It is not linear with constant coefficients; the name of the first item that makes it so.
     NotLinear { name: String } = "exact::not_linear",
         format!("`{name}` makes the network more than constant capacities and conductances"), help CONSTANTS;

@@ -36,7 +36,7 @@ pub enum PeriodicError {
         format!("in {cycles} cycles controls and comparisons did not come to switch alike twice in a row"),
         help "the controls have a rhythm of their own: look at `lptn run`, and at means over many cycles", class Class::No;
     /// A cycle could not be integrated.
-    Cycle => TransientError, class Class::Numbers;
+    Cycle => TransientError as Class::of_numbers;
     /// The observer asked for an end, after so many whole cycles; the last difference in K between the start of a cycle and its
     /// end, if there was one.
     Interrupted { cycles: usize, residual: Option<f64> } = "periodic::interrupted",

@@ -51,16 +51,13 @@ lptn_units::errors! {
 #[derive(Debug)]
 pub enum CompareError {
     /// It is not run and has no steady state.
-    Steady(error: SteadyError) = error.code(), error, source error, help error.help(), class match error.class() {
-        Class::No => Class::Numbers,
-        class => class,
-    };
+    Steady => SteadyError as Class::not_an_answer;
     /// Its run failed.
     Run => Box<TransientError>;
     /// A limit, source or boundary has no value.
     Input => InputError;
     /// The balances of its massless nodes have no solution at the start.
-    Start => Unsolved, class Class::Numbers;
+    Start => Unsolved as Class::of_numbers;
     /// Its books do not close: relative residual, and what is allowed.
     Ledger(residual: f64, bound: f64) = "run::ledger",
         format!(

@@ -25,7 +25,8 @@ pub enum SizeError {
     Assembly => AssemblyError;
     /// The network has no steady state for a value inside the range.
     Steady { value: f64, error: SteadyError } = error.code(), format!("there is no steady state at {value}: {error}"),
-        source error, help match error {
+        source error,
+        help match error {
             SteadyError::BelowAbsoluteZero { .. } | SteadyError::Cycles { .. } => Some(LEAVE_OUT.to_owned()),
             error => error.help(),
         }, class match error.class() {

@@ -32,14 +32,14 @@ pub enum UncertaintyError {
         lost.iter().fold("too few samples have a result".to_owned(), |text, lost| format!("{text}; {lost}")),
         help "make the `±` smaller: most of what it allows is not a network that runs", class Class::Numbers;
     /// There is no network a little beside the parameters' values.
-    Network(errors: BuildErrors) = "uncertainty::network", format!("there is no network beside the values: {errors}"),
-        source errors, class Class::Numbers;
+    Network(errors: BuildErrors) = "uncertainty::network",
+        format!("there is no network beside the values: {errors}"), source errors, class Class::Numbers;
     /// The network itself cannot be assembled.
-    Assembly => AssemblyError, class Class::Numbers;
+    Assembly => AssemblyError as Class::of_numbers;
     /// The run itself, with every parameter at its value, fails.
-    Run => Box<TransientError>, class Class::Numbers;
+    Run => Box<TransientError> as Class::of_numbers;
     /// A limit has no value beside the run.
-    Limit => InputError, class Class::Numbers;
+    Limit => InputError as Class::of_numbers;
     /// It was interrupted.
     Interrupted = "uncertainty::interrupted", "the sampling was interrupted", class Class::Interrupted;
 }
