@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use lptn_units::Problem;
 
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::{Diagnostic, Severity, arrange};
 use crate::file::{FileId, Files, Span};
 
 /// The longest netlist in bytes; anything longer is a device or no netlist.
@@ -30,6 +30,14 @@ pub struct Rejected {
 }
 
 impl Rejected {
+    /// With the problems in the order of their places, each said once, as many as are shown; so many more were dropped
+    /// before.
+    pub fn arranged(files: Files, mut diagnostics: Vec<Diagnostic>, dropped: usize) -> Self {
+        arrange(&files, &mut diagnostics);
+        shorten(&mut diagnostics, dropped);
+        Self { files, diagnostics, syntax: false }
+    }
+
     /// With the problems in the order of their places, as many as are shown.
     pub(crate) fn new(files: Files, mut diagnostics: Vec<Diagnostic>) -> Self {
         diagnostics.sort_by_key(|diagnostic| diagnostic.place().map(Span::order));

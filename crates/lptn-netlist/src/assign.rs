@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use lptn_data::{Diagnostic, FileId, Rejected, Span, arrange, on_borders};
+use lptn_data::{Diagnostic, FileId, Rejected, Span, on_borders};
 use lptn_network::{
     BuildError, Course, Field, Item, Material, Network, ParameterError, ParameterId, Parameters, SignalId,
     Value,
@@ -44,11 +44,7 @@ impl Netlist {
                 }
                 Ok(())
             }
-            Err(mut diagnostics) => {
-                arrange(&files, &mut diagnostics);
-                lptn_data::shorten(&mut diagnostics, 0);
-                Err(Rejected { files, diagnostics, syntax: false })
-            }
+            Err(diagnostics) => Err(Rejected::arranged(files, diagnostics, 0)),
         }
     }
 
@@ -75,16 +71,15 @@ impl Netlist {
     }
 
     fn one(&self, text: &str, line: Span, new: &mut Parameters) -> Result<Assignment, Diagnostic> {
-        let Some((name, value)) = text.split_once('=') else {
-            return Err(Diagnostic::error("netlist::bad_assignment", format!("`{text}` is no assignment"))
-                .at(line, "`=` is missing")
-                .help("write NAME=VALUE, for example `omega=5000rpm`"));
+        let bad = |is: &str, label: &str| {
+            Diagnostic::error("netlist::bad_assignment", format!("`{text}` {is}"))
+                .at(line.clone(), label)
+                .help("write NAME=VALUE, for example `omega=5000rpm`")
         };
+        let (name, value) = text.split_once('=').ok_or_else(|| bad("is no assignment", "`=` is missing"))?;
         let written = name.trim();
         if written.is_empty() {
-            return Err(Diagnostic::error("netlist::bad_assignment", format!("`{text}` names no parameter"))
-                .at(line, "a name is missing before `=`")
-                .help("write NAME=VALUE, for example `omega=5000rpm`"));
+            return Err(bad("names no parameter", "a name is missing before `=`"));
         }
         match new.set_text(written, value) {
             Ok(id) => Ok(Assignment { id, name: written.to_owned(), span: line }),

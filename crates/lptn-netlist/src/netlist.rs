@@ -187,8 +187,7 @@ fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netl
     let Expanded { raw, structure, .. } = template::expand(&mut files, raw, section::format());
     let (_, found) = elaborate(&raw, &structure, &CsvFiles::default(), None);
     add_certain(&mut diagnostics, found.problems, (&files, file));
-    shorten(&mut diagnostics, found.dropped);
-    Err(Rejected { files, diagnostics, syntax })
+    Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, found.dropped) })
 }
 
 /// The rest of the way for a text that is TOML.
@@ -201,9 +200,7 @@ fn included(
     let Merged { raw, problems: mut diagnostics, incomplete, syntax } =
         include::merge((&mut files, section::format()), raw, main, loader.as_deref_mut());
     if incomplete {
-        arrange(&files, &mut diagnostics);
-        shorten(&mut diagnostics, 0);
-        return Err(Rejected { files, diagnostics, syntax });
+        return Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, 0) });
     }
     let Expanded { raw, structure, problems } = template::expand(&mut files, raw, section::format());
     diagnostics.extend(problems);
@@ -220,10 +217,7 @@ fn included(
     arrange(&files, &mut diagnostics);
     match done {
         Some(done) => finish(files, (done, state.map(|file| file.state)), diagnostics),
-        None => {
-            shorten(&mut diagnostics, found.dropped);
-            Err(Rejected { files, diagnostics, syntax })
-        }
+        None => Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, found.dropped) }),
     }
 }
 
@@ -243,9 +237,7 @@ fn finish(
     if !problems.is_empty() {
         diagnostics.extend(problems);
         diagnostics.retain(|d| d.severity == Severity::Error);
-        arrange(&files, &mut diagnostics);
-        shorten(&mut diagnostics, 0);
-        return Err(Rejected { files, diagnostics, syntax: false });
+        return Err(Rejected::arranged(files, diagnostics, 0));
     }
     let assigned = network.overrides();
     let inputs = files.ids().collect();

@@ -45,13 +45,8 @@ impl<'a> Elaboration<'a> {
     /// The file that `csv` names.
     pub(crate) fn csv_file(&mut self, fields: &Fields<'a>) -> Option<Arc<CsvFile>> {
         let (_, raw) = self.word(fields, "csv")?;
-        match self.csv.get(raw)? {
-            Ok(file) => Some(file),
-            Err(problem) => {
-                self.report(problem);
-                None
-            }
-        }
+        let file = self.csv.get(raw)?;
+        self.kept(file)
     }
 
     /// The name of a column.
@@ -59,9 +54,8 @@ impl<'a> Elaboration<'a> {
         let raw = fields.get(key);
         if raw.is_none() && fields.complete {
             let message = format!("{} has no `{key}`", fields.owner.words());
-            let problem = Diagnostic::error("netlist::missing_field", message)
-                .at(fields.place.clone(), format!("`{key}` is missing"));
-            self.report(problem.help(format!("name the column: `{key} = \"name of the column\"`")));
+            let help = format!("name the column: `{key} = \"name of the column\"`");
+            self.report(fields.missing(key, message).help(help));
         }
         let raw = raw?;
         match &raw.kind {
@@ -84,13 +78,8 @@ impl<'a> Elaboration<'a> {
     ) -> Option<Points> {
         let (name, raw) = name?;
         let place = Place { owner: &fields.owner, key: axis.column, raw };
-        match file.column(name, axis.ty, &place.asked()) {
-            Ok(points) => Some(points),
-            Err(problems) => {
-                self.problems.extend(problems);
-                None
-            }
-        }
+        let points = file.column(name, axis.ty, &place.asked());
+        points.map_err(|problems| self.problems.extend(problems)).ok()
     }
 
     fn points(&mut self, fields: &Fields<'a>, axis: Axis<'_>) -> Option<Points> {

@@ -151,6 +151,11 @@ impl<'a> Elaboration<'a> {
         }
     }
 
+    /// What was found; a problem is reported.
+    pub(crate) fn kept<T>(&mut self, result: Result<T, Diagnostic>) -> Option<T> {
+        result.map_err(|problem| self.report(problem)).ok()
+    }
+
     /// Reports an error at its place.
     pub(crate) fn refuse(
         &mut self,

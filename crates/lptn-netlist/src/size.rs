@@ -245,14 +245,8 @@ impl<'a> Elaboration<'a> {
 
     fn requirement(&mut self, owner: &Owner, raw: &'a RawValue) -> Option<Requirement> {
         let place = Place { owner, key: "require", raw };
-        let expression = match self.names.text(place, None) {
-            Ok(Text::Expression(expression)) => expression,
-            Ok(Text::Quantity(_)) => return self.no_comparison(place),
-            Err(problem) => {
-                self.report(problem);
-                return None;
-            }
-        };
+        let text = self.names.text(place, None);
+        let Text::Expression(expression) = self.kept(text)? else { return self.no_comparison(place) };
         let Some((left, comparison, right)) = expression.split_comparison() else {
             return self.no_comparison(place);
         };

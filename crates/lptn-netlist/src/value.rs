@@ -15,13 +15,8 @@ impl Elaboration<'_> {
     /// uses, which has been reported.
     pub(crate) fn given(&mut self, place: Place<'_>, wanted: Wanted) -> Option<Given> {
         let kelvin = wanted.derived.then(|| place.kelvin_for(wanted.ty)).flatten();
-        match kelvin.map_or_else(|| self.names.text(place, wanted.ty), Err) {
-            Ok(text) => self.resolve(place, text, wanted),
-            Err(problem) => {
-                self.problems.push(problem);
-                None
-            }
-        }
+        let text = self.kept(kelvin.map_or_else(|| self.names.text(place, wanted.ty), Err))?;
+        self.resolve(place, text, wanted)
     }
 
     /// Resolves the names of a text and checks its type.

@@ -122,26 +122,14 @@ impl<'a> Elaboration<'a> {
     /// The record that a value names. Without columns to read there is nothing to be said of its inside.
     fn fit_file(&mut self, raw: &RawValue, query: &RecordQuery) -> Option<Arc<Record>> {
         let csv: &'a crate::csv_files::CsvFiles = self.csv;
-        let text = match csv.text(raw)? {
-            Ok(text) => text,
-            Err(problem) => {
-                self.report(problem.clone());
-                return None;
-            }
-        };
+        let text = self.kept(csv.text(raw)?.map_err(Diagnostic::clone))?;
         if query.columns.is_empty() {
             return None;
         }
-        match read_text(text, query) {
-            Ok(mut record) => {
-                self.problems.append(&mut record.warnings);
-                Some(Arc::new(record))
-            }
-            Err(problems) => {
-                self.problems.extend(problems);
-                None
-            }
-        }
+        let record = read_text(text, query).map_err(|problems| self.problems.extend(problems));
+        let mut record = record.ok()?;
+        self.problems.append(&mut record.warnings);
+        Some(Arc::new(record))
     }
 
     /// `set = { omega = "1000 rpm" }`.

@@ -73,10 +73,6 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    fn kept<T>(&mut self, result: Result<T, Diagnostic>) -> Option<T> {
-        result.map_err(|problem| self.report(problem)).ok()
-    }
-
     /// The number in a cell; a stand-in if it is wrong.
     pub(crate) fn number(&mut self, rows: &mut Rows<'_>, column: &Column) -> Input {
         let ty = column.unit.ty;

@@ -127,13 +127,7 @@ impl<'a> Elaboration<'a> {
         }
         let [xs, ys] = [&x, &y].map(|axis| knots(&axis.numbers));
         let grid = Grid { fields, file_header: file.header(), axes: [&x, &y], knots: [&xs, &ys] };
-        let values = match grid.fill(&value) {
-            Ok(values) => values,
-            Err(problem) => {
-                self.report(problem);
-                return None;
-            }
-        };
+        let values = self.kept(grid.fill(&value))?;
         match Table2::new(xs, ys, values, outside.filter(|_| linear)?) {
             Ok(table) => {
                 let table = Arc::new(Table::Two(table));
