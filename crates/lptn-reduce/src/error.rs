@@ -60,14 +60,16 @@ lptn_units::errors! {
 pub enum FitError {
     /// Fewer than four points, or lists of different length: three numbers are fitted.
     TooFew { points: usize } = "fit::too_few_points",
-        format!("an exponential has three numbers to fit, and the record has {points} points");
+        format!("an exponential has three numbers to fit, and the record has {points} points"),
+        help "four samples or more give a curve with an error";
     /// The times do not ascend, or a value is not finite.
     NotARecord = "fit::not_a_record", "the times of the record do not ascend, or a value is not a number";
     /// The temperature does not change.
-    Flat = "fit::flat", "the temperature of the record does not change";
+    Flat = "fit::flat", "the temperature of the record does not change",
+        help "name the columns that change: --column NAME";
     /// The best exponential is a straight line or a jump: the record does not say what its time constant is. The search
     /// ended at this one, in s.
     NoCurvature { tau: f64 } = "fit::no_curvature",
-        format!("the record shows no time constant: the search ended at {tau:.1e} s");
+        format!("the record shows no time constant: the search ended at {tau:.1e} s"), class Class::Numbers;
 }
 }
