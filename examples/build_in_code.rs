@@ -1,5 +1,5 @@
-//! A network without a file: a chip on a heat sink that is switched on and off, against its closed form.
-//! `cargo run --release --example build_in_code`
+//! A network without a file: a chip on a heat sink that is switched on and off, against its closed
+//! form. `cargo run --release --example build_in_code`
 #![allow(clippy::print_stdout)]
 
 use lptn::prelude::*;

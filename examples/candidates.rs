@@ -1,5 +1,5 @@
-//! Which joint between steel and aluminium is good enough? One network, many values: nothing is parsed twice.
-//! `cargo run --release --example candidates`
+//! Which joint between steel and aluminium is good enough? One network, many values: nothing is
+//! parsed twice. `cargo run --release --example candidates`
 #![allow(clippy::print_stdout)]
 
 use lptn::prelude::*;

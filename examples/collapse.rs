@@ -1,5 +1,5 @@
-//! When is C_steel + C_aluminium the capacity of the gearbox? The paper's collapse, from lptn's own runs.
-//! `cargo run --release --example collapse`
+//! When is C_steel + C_aluminium the capacity of the gearbox? The paper's collapse, from lptn's own
+//! runs. `cargo run --release --example collapse`
 #![allow(clippy::print_stdout)]
 
 use lptn::network::NodeId;
@@ -9,7 +9,9 @@ use lptn::reduce::{Definition, Options, Reduction, fit_exponential};
 const POWER: f64 = 220.6;
 
 fn main() -> Result<(), lptn::Error> {
-    println!("largest error of a step at the steel node in % of its rise, and the order in R_int/R_amb");
+    println!(
+        "largest error of a step at the steel node in % of its rise, and the order in R_int/R_amb"
+    );
     println!("{:>12}{:>16}{:>16}{:>16}", "R_int/R_amb", "sum", "first_moment", "dominant_pole");
     let mut before: Option<[f64; 3]> = None;
     for decade in -4..=0 {
@@ -20,7 +22,8 @@ fn main() -> Result<(), lptn::Error> {
         let error = |i: usize| pairs[i].step.relative.unwrap_or(0.0);
         let now = [Definition::Sum, Definition::FirstMoment, Definition::DominantPole]
             .map(|d| Definition::ALL.iter().position(|other| *other == d).map_or(0.0, error));
-        let order = |i: usize| before.map_or(String::new(), |b| format!("{:.2}", (now[i] / b[i]).log10()));
+        let order =
+            |i: usize| before.map_or(String::new(), |b| format!("{:.2}", (now[i] / b[i]).log10()));
         let cell = |i: usize| format!("{:.4} ({:>4})", 100.0 * now[i], order(i));
         println!("{ratio:>12}{:>16}{:>16}{:>16}", cell(0), cell(1), cell(2));
         before = Some(now);

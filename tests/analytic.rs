@@ -6,7 +6,8 @@ use lptn::network::{Area, FilmCoefficient, NodeId, Path};
 use lptn::prelude::*;
 use support::{assembled, shipped, transient};
 
-/// `tests/validation` case "gearbox_two_node": the closed form of the two-node network, steel then aluminium.
+/// `tests/validation` case "gearbox_two_node": the closed form of the two-node network, steel then
+/// aluminium.
 const GEARBOX: [(f64, f64, f64); 6] = [
     (5.0, 26.219_503_974_350_72, 25.649_934_038_029_055),
     (60.0, 30.835_742_645_040_536, 29.877_325_028_382_21),
@@ -38,7 +39,8 @@ fn gearbox_file_settles_at_the_temperatures_of_the_paper() {
 fn gearbox_file_heats_up_as_its_closed_form() {
     let (netlist, system) = shipped("gearbox.toml");
     let times: Vec<f64> = GEARBOX.iter().map(|row| row.0).collect();
-    let solution = Transient::until(Time(3600.0)).at(&times).tolerance(1e-5).solve(&system).unwrap();
+    let solution =
+        Transient::until(Time(3600.0)).at(&times).tolerance(1e-5).solve(&system).unwrap();
     let column = |name: &str| solution.temperature(netlist.network.node(name).unwrap()).unwrap();
     let (steel, aluminium) = (column("steel"), column("aluminium"));
     for (row, (_, exact_steel, exact_aluminium)) in GEARBOX.iter().enumerate() {
@@ -83,7 +85,8 @@ fn two_masses_meet_at_their_weighted_mean() {
     assert!(!solution.error_is_bounded());
 }
 
-/// Without a boundary they keep their energy: both come to rest at the mean, weighted by the capacities.
+/// Without a boundary they keep their energy: both come to rest at the mean, weighted by the
+/// capacities.
 #[test]
 fn two_masses_come_to_rest_where_their_energy_leads() {
     let (netlist, system) = shipped("two_masses.toml");
@@ -104,13 +107,12 @@ fn a_heated_island_has_no_steady_state_and_says_so() {
     let system = ThermalSystem::assemble(&b.build().unwrap()).unwrap();
     let error = SteadyState::solve(&system, 0.0).unwrap_err();
     assert_eq!(error.code(), "steady::no_boundary");
-    let text =
-        "no path leads to a boundary from `a` and `c`, where 5 W stay for ever: there is no steady state";
+    let text = "no path leads to a boundary from `a` and `c`, where 5 W stay for ever: there is no steady state";
     assert_eq!(error.to_string(), text);
 }
 
-/// Node equations of the bridge at hot 60 degC, cold 20 degC, solved by Cramer's rule:
-/// left: (1/2 + 1/2 + 1/4) l - 1/2 r = 60/2 + 20/4, right: -1/2 l + (1/4 + 1/2 + 1/2) r = 60/4 + 20/2.
+/// Node equations of the bridge at hot 60 degC, cold 20 degC, solved by Cramer's rule: left: (1/2 +
+/// 1/2 + 1/4) l - 1/2 r = 60/2 + 20/4, right: -1/2 l + (1/4 + 1/2 + 1/2) r = 60/4 + 20/2.
 #[test]
 fn bridge_has_its_exact_temperatures_without_an_integrator() {
     let (netlist, system) = shipped("bridge.toml");
@@ -132,7 +134,8 @@ fn bridge_is_in_balance_to_rounding() {
     let (netlist, system) = shipped("bridge.toml");
     let solution = transient(&netlist).solve(&system).unwrap();
     assert!(solution.ledger().relative_residual().unwrap().abs() < 1e-14);
-    // hot gives what cold takes: the integral of (hot - cold)/R over 600 s, R from the node equations above
+    // hot gives what cold takes: the integral of (hot - cold)/R over 600 s, R from the node
+    // equations above
     let [hot, cold] = solution.ledger().boundaries[..] else { panic!("two boundaries") };
     let left = |h: f64| (1.25 * (h / 2.0 + 5.0) + 0.5 * (h / 4.0 + 10.0)) / (1.25 * 1.25 - 0.25);
     let right = |h: f64| (1.25 * (h / 4.0 + 10.0) + 0.5 * (h / 2.0 + 5.0)) / (1.25 * 1.25 - 0.25);
@@ -162,7 +165,8 @@ fn parallel_paths_add_and_the_halved_load_is_a_restart() {
     assert_eq!((heat[row - 1], heat[row]), (80.0, 40.0));
 }
 
-/// Phasors: each slice of the ladder is one complex balance; after five days the start is forgotten.
+/// Phasors: each slice of the ladder is one complex balance; after five days the start is
+/// forgotten.
 #[test]
 fn wall_swings_as_its_phasors_say() {
     let (netlist, system) = shipped("ladder.toml");
@@ -180,8 +184,8 @@ fn wall_swings_as_its_phasors_say() {
     }
 }
 
-/// Mean temperatures in degC and swings (in phase, in quadrature) of the wall in `ladder.toml`, by elimination
-/// of its five complex balances.
+/// Mean temperatures in degC and swings (in phase, in quadrature) of the wall in `ladder.toml`, by
+/// elimination of its five complex balances.
 fn wall(omega: f64) -> ([f64; 5], [(f64, f64); 5]) {
     let (r, c) = (0.048 / (0.7 * 10.0), 1.5e6 * 0.048 * 10.0);
     let (r_out, r_in) = (1.0 / 250.0 + r / 2.0, 1.0 / 80.0 + r / 2.0);
@@ -201,7 +205,8 @@ fn wall(omega: f64) -> ([f64; 5], [(f64, f64); 5]) {
         };
         for k in 1..5 {
             let factor = mul((up[k - 1], 0.0), inverse(diagonal[k - 1]));
-            diagonal[k] = (diagonal[k].0 - factor.0 * up[k - 1], diagonal[k].1 - factor.1 * up[k - 1]);
+            diagonal[k] =
+                (diagonal[k].0 - factor.0 * up[k - 1], diagonal[k].1 - factor.1 * up[k - 1]);
             let carried = mul(factor, right[k - 1]);
             right[k] = (right[k].0 + carried.0, right[k].1 + carried.1);
         }
@@ -209,7 +214,8 @@ fn wall(omega: f64) -> ([f64; 5], [(f64, f64); 5]) {
         for k in (0..5).rev() {
             let next = if k < 4 { found[k + 1] } else { (0.0, 0.0) };
             let link = if k < 4 { up[k] } else { 0.0 };
-            found[k] = mul((right[k].0 + link * next.0, right[k].1 + link * next.1), inverse(diagonal[k]));
+            found[k] =
+                mul((right[k].0 + link * next.0, right[k].1 + link * next.1), inverse(diagonal[k]));
         }
         found
     };
@@ -237,7 +243,8 @@ fn a_pulse_is_met_exactly_at_both_edges() {
     let node: NodeId = b.node("mass", HeatCapacity(500.0), Temperature::celsius(0.0));
     let air = b.boundary("air", Temperature::celsius(0.0));
     b.resistor("path", node, air, Resistance(0.5));
-    let pulse = b.expression("if(t < 100 [s], 0 [W], if(t < 250 [s], 400 [W], 0 [W]))", None).unwrap();
+    let pulse =
+        b.expression("if(t < 100 [s], 0 [W], if(t < 250 [s], 400 [W], 0 [W]))", None).unwrap();
     b.source("pulse", node, pulse);
     let solution = Transient::until(Time(600.0)).every(Time(50.0)).solve(&assembled(b)).unwrap();
     let peak = 200.0 * (1.0 - (-150.0 / 250.0_f64).exp());
@@ -253,7 +260,8 @@ fn a_pulse_is_met_exactly_at_both_edges() {
     close(solution.ledger().sources[0], 60_000.0, 1e-6);
 }
 
-/// The peak of `T' = (P sin(w t) - G T)/C` lies between the rows: it is found at the steps, not in the table.
+/// The peak of `T' = (P sin(w t) - G T)/C` lies between the rows: it is found at the steps, not in
+/// the table.
 #[test]
 fn a_peak_between_the_rows_is_seen() {
     let mut b = NetworkBuilder::new();
@@ -266,8 +274,9 @@ fn a_peak_between_the_rows_is_seen() {
     run.watch = vec![lptn::solve::Watch { node, level: Some(273.15 + 10.0) }];
     let solution = run.solve(&assembled(b)).unwrap();
     let (w, rate) = (2.0 * std::f64::consts::PI / 200.0, 0.01);
-    let exact =
-        |t: f64| (rate * (w * t).sin() - w * (w * t).cos() + w * (-rate * t).exp()) / (rate * rate + w * w);
+    let exact = |t: f64| {
+        (rate * (w * t).sin() - w * (w * t).cos() + w * (-rate * t).exp()) / (rate * rate + w * w)
+    };
     let fine = |k: u32| f64::from(k) * 1e-3;
     let peak = (0..200_000).map(|k| exact(fine(k))).fold(0.0, f64::max);
     let crossing = (0..200_000).map(fine).find(|t| exact(*t) >= 10.0).unwrap();

@@ -25,7 +25,10 @@ const ORDER: [&str; 15] = [
 
 /// What a crate may not use although it stands before it.
 const FORBIDDEN: [(&str, &[&str]); 8] = [
-    ("lptn-integrate", &["lptn-units", "lptn-laws", "lptn-network", "lptn-netlist", "lptn-assembly"]),
+    (
+        "lptn-integrate",
+        &["lptn-units", "lptn-laws", "lptn-network", "lptn-netlist", "lptn-assembly"],
+    ),
     (
         "lptn-cvodes",
         &["lptn-units", "lptn-laws", "lptn-network", "lptn-data", "lptn-netlist", "lptn-assembly"],
@@ -50,12 +53,14 @@ fn arrows() -> BTreeMap<String, Vec<String>> {
         .output()
         .expect("cargo runs");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).expect("cargo prints JSON");
+    let metadata: serde_json::Value =
+        serde_json::from_slice(&output.stdout).expect("cargo prints JSON");
     let packages = metadata["packages"].as_array().expect("packages");
     let text = |value: &serde_json::Value| value.as_str().expect("a string").to_owned();
     let uses = |package: &serde_json::Value| {
         let list = package["dependencies"].as_array().expect("dependencies");
-        let ours = |d: &&serde_json::Value| d["kind"].is_null() && text(&d["name"]).starts_with("lptn");
+        let ours =
+            |d: &&serde_json::Value| d["kind"].is_null() && text(&d["name"]).starts_with("lptn");
         list.iter().filter(ours).map(|d| text(&d["name"])).collect()
     };
     packages.iter().map(|package| (text(&package["name"]), uses(package))).collect()
@@ -102,7 +107,9 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
 
 fn all_sources() -> Vec<(String, String)> {
     let mut paths = Vec::new();
-    ["crates", "tests", "examples"].iter().for_each(|folder| sources(&root().join(folder), &mut paths));
+    ["crates", "tests", "examples"]
+        .iter()
+        .for_each(|folder| sources(&root().join(folder), &mut paths));
     paths.sort();
     let read = |path: PathBuf| {
         let name = path.strip_prefix(root()).expect("inside the project").display().to_string();
@@ -126,7 +133,14 @@ const CORE: [&str; 9] =
 #[test]
 fn the_core_knows_no_c() {
     let mut command = Command::new(env!("CARGO"));
-    command.args(["tree", "--offline", "--locked", "--no-default-features", "--edges", "normal,build"]);
+    command.args([
+        "tree",
+        "--offline",
+        "--locked",
+        "--no-default-features",
+        "--edges",
+        "normal,build",
+    ]);
     command.args(["--prefix", "none", "--format", "{p}"]).current_dir(root());
     command.args(CORE.iter().flat_map(|name| ["-p".to_owned(), format!("lptn-{name}")]));
     let output = command.output().expect("cargo runs");
@@ -158,14 +172,16 @@ fn the_core_reads_files_in_one_place() {
 fn files_are_short() {
     for (name, text) in all_sources() {
         // tests at the end of a file are not counted
-        let code = text.split("#[cfg(test)]\nmod tests").next().map_or(0, |code| code.lines().count());
+        let code =
+            text.split("#[cfg(test)]\nmod tests").next().map_or(0, |code| code.lines().count());
         assert!(code <= 420, "{name} has {code} lines: is it one idea?");
     }
 }
 
 #[test]
 fn examples_are_short() {
-    for (name, text) in all_sources().into_iter().filter(|(name, _)| name.starts_with("examples/")) {
+    for (name, text) in all_sources().into_iter().filter(|(name, _)| name.starts_with("examples/"))
+    {
         assert!(text.lines().count() <= 60, "{name}");
     }
 }
@@ -179,16 +195,19 @@ fn the_prelude_is_small() {
     assert!((10..=20).contains(&names.len()), "{names:?}");
 }
 
-/// `?` makes an `lptn::Error` of whatever a call returns. Those of the integrator stand inside of others.
+/// `?` makes an `lptn::Error` of whatever a call returns. Those of the integrator stand inside of
+/// others.
 #[test]
 fn every_error_becomes_that_of_the_library() {
     let one = std::fs::read_to_string(root().join("crates/lptn/src/error.rs")).expect("the error");
-    let others = ["crates/lptn/", "crates/lptn-cli/", "crates/lptn-integrate/", "examples/", "tests/"];
+    let others =
+        ["crates/lptn/", "crates/lptn-cli/", "crates/lptn-integrate/", "examples/", "tests/"];
     for (name, text) in
         all_sources().into_iter().filter(|(name, _)| !others.iter().any(|o| name.starts_with(o)))
     {
-        let kinds =
-            text.lines().filter_map(|l| l.strip_prefix("pub enum ").or(l.strip_prefix("pub struct ")));
+        let kinds = text
+            .lines()
+            .filter_map(|l| l.strip_prefix("pub enum ").or(l.strip_prefix("pub struct ")));
         let words = kinds.filter_map(|line| line.split(|c: char| !c.is_alphanumeric()).next());
         for error in words.filter(|word| word.ends_with("Error")) {
             assert!(

@@ -11,8 +11,8 @@ fn read(name: &str) -> Netlist {
     lptn::read(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Peaks of steel in degC after 90 min and the times at which steel passes 100 degC and aluminium 80 degC, from
-/// `scipy.linalg.expm` of the two-node matrix and `scipy.optimize.brentq`.
+/// Peaks of steel in degC after 90 min and the times at which steel passes 100 degC and aluminium
+/// 80 degC, from `scipy.linalg.expm` of the two-node matrix and `scipy.optimize.brentq`.
 const EXPECTED: [(&str, f64, Option<f64>, Option<f64>); 3] = [
     ("bare.toml", 102.798_243_341_668_3, Some(2_502.858_215_563_338), Some(909.529_869_133_898_4)),
     ("finned.toml", 78.158_799_914_242_3, None, None),
@@ -29,13 +29,16 @@ fn candidates_run_as_the_matrix_exponential_says() {
         let solution = support::transient(&netlist).solve(&system).expect("it runs");
         assert!(solution.ledger().closes(), "{name}");
         let steel = netlist.network.node("steel").expect("steel");
-        let last = solution.temperature(steel).and_then(|t| t.last().copied()).expect("a temperature");
+        let last =
+            solution.temperature(steel).and_then(|t| t.last().copied()).expect("a temperature");
         // ten times the tolerance of 1e-5 K
         assert!((last - 273.15 - peak).abs() < 1e-4, "{name}: {last}");
         for (seen, expected) in solution.limits().iter().zip([lubricant, touch]) {
             match (seen.broken_at, expected) {
                 // 1e-4 K at a slope of at least 4 mK/s
-                (Some(found), Some(expected)) => assert!((found - expected).abs() < 0.025, "{name}: {found}"),
+                (Some(found), Some(expected)) => {
+                    assert!((found - expected).abs() < 0.025, "{name}: {found}")
+                }
                 (found, expected) => assert_eq!(found, expected, "{name}"),
             }
         }

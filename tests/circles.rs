@@ -1,17 +1,20 @@
-//! Modules that use each other in circles cannot be read one after the other. Their number may only fall.
+//! Modules that use each other in circles cannot be read one after the other. Their number may only
+//! fall.
 //!
-//! A module and those inside it are one thing to read where it calls them by their bare names: only paths that begin
-//! with `crate` or `super` count.
+//! A module and those inside it are one thing to read where it calls them by their bare names: only
+//! paths that begin with `crate` or `super` count.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// How many modules of a crate stand in circles; a crate that is not named has none. Where fewer do, write the number here.
+/// How many modules of a crate stand in circles; a crate that is not named has none. Where fewer
+/// do, write the number here.
 const IN_CIRCLES: [(&str, usize); 1] = [("lptn-units", 3)];
 
 type Graph = BTreeMap<String, BTreeSet<String>>;
 
-/// The source of every module of a crate by its path, `grid::build`, without comments and unit tests.
+/// The source of every module of a crate by its path, `grid::build`, without comments and unit
+/// tests.
 fn modules(folder: &Path, prefix: &str, found: &mut BTreeMap<String, String>) {
     for entry in std::fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();
@@ -118,8 +121,10 @@ fn circles_of_modules_only_open() {
         let path = entry.expect("an entry").path();
         let name = path.file_name().expect("a name").to_string_lossy().into_owned();
         let graph = graph(&path.join("src"));
-        let circles: Vec<&String> =
-            graph.keys().filter(|module| reached(&graph, module).contains(module.as_str())).collect();
+        let circles: Vec<&String> = graph
+            .keys()
+            .filter(|module| reached(&graph, module).contains(module.as_str()))
+            .collect();
         let known = IN_CIRCLES.iter().find(|(of, _)| *of == name).map_or(0, |(_, count)| *count);
         if circles.len() != known {
             wrong.push(format!("{name} has {} modules in circles: {circles:?}", circles.len()));
@@ -133,8 +138,16 @@ fn circles_of_modules_only_open() {
 fn paths_lead_to_modules() {
     let all: BTreeMap<String, String> =
         ["a", "a::b", "c"].into_iter().map(|name| (name.to_owned(), String::new())).collect();
-    let found = named("use crate::a::{self, b::{Thing as Other, more}}; fn f() { super::c::go() } ");
-    let targets: Vec<Option<String>> = found.iter().map(|path| target(path, "a::b", &all)).collect();
-    assert_eq!(found, ["crate::a::self", "crate::a::b::Thing", "crate::a::b::more", "super::c::go"]);
-    assert_eq!(targets, [Some("a".to_owned()), None, None, None::<String>.or(Some("a".to_owned()))]);
+    let found =
+        named("use crate::a::{self, b::{Thing as Other, more}}; fn f() { super::c::go() } ");
+    let targets: Vec<Option<String>> =
+        found.iter().map(|path| target(path, "a::b", &all)).collect();
+    assert_eq!(
+        found,
+        ["crate::a::self", "crate::a::b::Thing", "crate::a::b::more", "super::c::go"]
+    );
+    assert_eq!(
+        targets,
+        [Some("a".to_owned()), None, None, None::<String>.or(Some("a".to_owned()))]
+    );
 }

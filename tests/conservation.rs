@@ -8,7 +8,8 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use support::assembled;
 
-/// A random network as plain data, so that a test can compute with it on its own and build it in any order.
+/// A random network as plain data, so that a test can compute with it on its own and build it in
+/// any order.
 #[derive(Clone, Debug)]
 struct Plan {
     /// Capacity in J/K and start in degC; no capacity: massless.
@@ -25,7 +26,8 @@ fn decades(low: f64, high: f64) -> impl Strategy<Value = f64> {
     (low..high).prop_map(|x| 10_f64.powf(x))
 }
 
-/// Connected networks of 2 to 9 nodes: each node is tied to an earlier vertex, boundary 0 being the first.
+/// Connected networks of 2 to 9 nodes: each node is tied to an earlier vertex, boundary 0 being the
+/// first.
 fn plan() -> impl Strategy<Value = Plan> {
     let node = (prop::option::weighted(0.75, decades(0.0, 3.0)), 0.0..100.0_f64);
     let nodes = prop::collection::vec(node, 2..10);
@@ -54,7 +56,8 @@ impl Plan {
         self.build_in_order(&(0..self.nodes.len()).collect::<Vec<_>>(), "n").0
     }
 
-    /// Builds with the nodes added in `order` and named after `prefix`; gives the id of each node of the plan.
+    /// Builds with the nodes added in `order` and named after `prefix`; gives the id of each node
+    /// of the plan.
     fn build_in_order(&self, order: &[usize], prefix: &str) -> (ThermalSystem, Vec<NodeId>) {
         let mut b = NetworkBuilder::new();
         let mut ids = vec![None; self.nodes.len()];
@@ -66,7 +69,8 @@ impl Plan {
                 None => b.massless(&name),
             });
         }
-        let ids: Vec<NodeId> = ids.into_iter().map(|id| id.expect("the order names every node")).collect();
+        let ids: Vec<NodeId> =
+            ids.into_iter().map(|id| id.expect("the order names every node")).collect();
         let boundaries: Vec<_> = (0..self.boundaries.len())
             .map(|i| b.boundary(&format!("{prefix}b{i}"), Temperature::celsius(self.boundaries[i])))
             .collect();

@@ -6,7 +6,9 @@ use lptn::prelude::*;
 use support::{StiffLadder, grid};
 
 fn bits(solution: &Solution) -> Vec<u64> {
-    (0..solution.times().len()).flat_map(|row| solution.row(row).iter().map(|t| t.to_bits())).collect()
+    (0..solution.times().len())
+        .flat_map(|row| solution.row(row).iter().map(|t| t.to_bits()))
+        .collect()
 }
 
 fn run(system: &ThermalSystem) -> Vec<u64> {

@@ -1,6 +1,6 @@
-//! Every TOML block of the documentation is a netlist that parses: complete ones as they stand, fragments
-//! (` ```toml fragment`) as additions to a small base. What pages show of commands is kept by
-//! `crates/lptn-cli/tests/documents.rs`.
+//! Every TOML block of the documentation is a netlist that parses: complete ones as they stand,
+//! fragments (` ```toml
+//! fragment`) as additions to a small base. What pages show of commands is kept by `crates/lptn-cli/tests/documents.rs`.
 
 #[path = "support/pages.rs"]
 mod pages;
@@ -32,7 +32,8 @@ fn completed(fragment: &str) -> String {
                 sections.push((heading, String::new()));
             }
             Some(heading) => {
-                let at = sections.iter().position(|(known, _)| *known == heading).expect("just found");
+                let at =
+                    sections.iter().position(|(known, _)| *known == heading).expect("just found");
                 let section = sections.remove(at);
                 sections.push(section); // what follows belongs to it
             }
@@ -67,7 +68,8 @@ fn every_toml_block_parses() {
     assert!(count >= 6, "only {count} blocks were found");
 }
 
-/// The expansion of a netlist is read as the same network, written as the same text, and runs to the same temperatures.
+/// The expansion of a netlist is read as the same network, written as the same text, and runs to
+/// the same temperatures.
 fn expands(netlist: &lptn::netlist::Netlist, place: &Path) {
     if netlist.not_flat().is_some() {
         return;
@@ -77,10 +79,12 @@ fn expands(netlist: &lptn::netlist::Netlist, place: &Path) {
     let again = again.unwrap_or_else(|error| panic!("{}\n{text}\n{error}", place.display()));
     assert_eq!(again.expanded(), text, "{}", place.display());
     let end = |netlist: &lptn::netlist::Netlist| {
-        let system = lptn::prelude::ThermalSystem::assemble(&netlist.network).expect("it assembles");
+        let system =
+            lptn::prelude::ThermalSystem::assemble(&netlist.network).expect("it assembles");
         netlist.run.as_ref()?;
         // a page may show a network that stops its run
-        let solution = support::transient(netlist).solve(&system).map_err(|error| error.to_string());
+        let solution =
+            support::transient(netlist).solve(&system).map_err(|error| error.to_string());
         Some(solution.map(|solution| solution.row(solution.times().len() - 1).to_vec()))
     };
     let (found, expected) = match (end(&again), end(netlist)) {
@@ -89,7 +93,11 @@ fn expands(netlist: &lptn::netlist::Netlist, place: &Path) {
     };
     assert_eq!(found.len(), expected.len(), "{}", place.display());
     for (found, expected) in found.iter().zip(&expected) {
-        assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{}: {found} {expected}", place.display());
+        assert!(
+            (found - expected).abs() <= 1e-9 * expected.abs(),
+            "{}: {found} {expected}",
+            place.display()
+        );
     }
 }
 
@@ -99,7 +107,8 @@ fn every_link_to_a_file_leads_somewhere() {
         let text = std::fs::read_to_string(&page).expect("a page");
         let folder = page.parent().expect("a folder");
         for part in text.split("](").skip(1) {
-            let target = part.split(')').next().unwrap_or_default().split('#').next().unwrap_or_default();
+            let target =
+                part.split(')').next().unwrap_or_default().split('#').next().unwrap_or_default();
             if target.is_empty() || target.contains("://") {
                 continue;
             }

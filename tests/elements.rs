@@ -1,8 +1,9 @@
-//! The example of every page in `docs/elements`: what the page prints, and what the library computes, against closed
-//! forms that stand here.
+//! The example of every page in `docs/elements`: what the page prints, and what the library
+//! computes, against closed forms that stand here.
 //!
-//! A page has one complete netlist (` ```toml`) and one table of results, whose rows begin with a quantity in quotes,
-//! `steady` or a time, and a value with its unit.
+//! A page has one complete netlist
+//! (` ```toml`) and one table of results, whose rows begin with a quantity in quotes, `steady` or a
+//! time, and a value with its unit.
 
 mod support;
 
@@ -41,10 +42,12 @@ fn node() -> Vec<Closed> {
     let block = |t| relaxed(20.0, 90.0, t, 2.5 * 500.0);
     let joint = |t: f64| 90.0 - (90.0 - block(t)) / 2.5;
     // (400 + 2 x) dx/dt = -0.8 x
-    let slug =
-        |t: f64| 20.0 + root(1e-9, 100.0, |x| 400.0 * (x / 100.0_f64).ln() + 2.0 * (x - 100.0) + 0.8 * t);
+    let slug = |t: f64| {
+        20.0 + root(1e-9, 100.0, |x| 400.0 * (x / 100.0_f64).ln() + 2.0 * (x - 100.0) + 0.8 * t)
+    };
     // 200 J/K and 2 W/K: to 55 degC, 20 kJ at 2 W/K x 35 K, then on
-    let (melts, molten) = (100.0 * (70.0_f64 / 35.0).ln(), 100.0 * (70.0_f64 / 35.0).ln() + 20e3 / 70.0);
+    let (melts, molten) =
+        (100.0 * (70.0_f64 / 35.0).ln(), 100.0 * (70.0_f64 / 35.0).ln() + 20e3 / 70.0);
     let buffer = |t: f64| match t {
         t if t < melts => relaxed(20.0, 90.0, t, 100.0),
         t if t < molten => 55.0,
@@ -139,17 +142,21 @@ fn contact() -> Vec<Closed> {
 
 fn radiation() -> Vec<Closed> {
     let sigma = 5.670374419e-8;
-    // the plate: C dT/dt = sigma e A (end^4 - T^4) from T0 = 293.15 K < end; primitive of 1 / (end^4 - T^4)
+    // the plate: C dT/dt = sigma e A (end^4 - T^4) from T0 = 293.15 K < end; primitive of 1 /
+    // (end^4 - T^4)
     let (gr, walls) = (0.8 * 0.05, 293.15_f64);
     let end = (walls.powi(4) + 60.0 / (sigma * gr)).powf(0.25);
-    let primitive =
-        |t: f64| ((end + t) / (end - t)).ln() / (4.0 * end.powi(3)) + (t / end).atan() / (2.0 * end.powi(3));
+    let primitive = |t: f64| {
+        ((end + t) / (end - t)).ln() / (4.0 * end.powi(3)) + (t / end).atan() / (2.0 * end.powi(3))
+    };
     let rate = sigma * gr / 150.0;
-    let plate =
-        |time: f64| root(walls, end * (1.0 - 1e-12), |t| primitive(t) - primitive(walls) - rate * time);
+    let plate = |time: f64| {
+        root(walls, end * (1.0 - 1e-12), |t| primitive(t) - primitive(walls) - rate * time)
+    };
     // the probe sees 0 K: T = T0 (1 + 3 sigma Gr T0^3 t / C)^(-1/3)
-    let probe =
-        |time: f64| 293.15 * (1.0 + 3.0 * sigma * 0.02 * 293.15_f64.powi(3) * time / 100.0).powf(-1.0 / 3.0);
+    let probe = |time: f64| {
+        293.15 * (1.0 + 3.0 * sigma * 0.02 * 293.15_f64.powi(3) * time / 100.0).powf(-1.0 / 3.0)
+    };
     let shield = 1.0 / (1.0 / 0.8 + 1.0 / 0.1 - 1.0);
     let screen = sigma * shield * 0.05 * (363.15_f64.powi(4) - walls.powi(4));
     vec![
@@ -196,9 +203,9 @@ fn table() -> Vec<Closed> {
     // between knots: drag linear, the map bilinear in the middle of a cell
     let drag = 20.0 + 0.5 * (60.0 - 20.0);
     let mesh = 0.25 * (10.0 + 30.0 + 25.0 + 75.0);
-    // pchip through (0, 4), (40, 8), (80, 10): the slopes of the secants are 1/10 and 1/20, that at the middle their
-    // harmonic mean 1/15, that at the end by three points (3 x 1/20 - 1/10) / 2 = 1/40; halfway the cubic is the mean
-    // of the ends and h/8 times the difference of the slopes
+    // pchip through (0, 4), (40, 8), (80, 10): the slopes of the secants are 1/10 and 1/20, that at
+    // the middle their harmonic mean 1/15, that at the end by three points (3 x 1/20 - 1/10) / 2 =
+    // 1/40; halfway the cubic is the mean of the ends and h/8 times the difference of the slopes
     let (middle, end) = (1.0 / 15.0, 1.0 / 40.0);
     let film = 0.5 * (8.0 + 10.0) + 40.0 / 8.0 * (middle - end);
     vec![
@@ -265,7 +272,8 @@ fn pages() -> [(&'static str, Vec<Closed>); 13] {
     ]
 }
 
-/// A row of a page's table: quantity, `steady` or a time, and the value as it is printed, with its unit.
+/// A row of a page's table: quantity, `steady` or a time, and the value as it is printed, with its
+/// unit.
 struct Row {
     quantity: String,
     when: String,
@@ -276,7 +284,8 @@ struct Row {
 /// The text of a page, its netlist and the rows of its results.
 fn page(name: &str) -> (String, String, Vec<Row>) {
     let text = std::fs::read_to_string(folder().join(format!("{name}.md"))).expect("a page");
-    let mut netlists = text.split("\n```toml\n").skip(1).filter_map(|rest| rest.split("\n```").next());
+    let mut netlists =
+        text.split("\n```toml\n").skip(1).filter_map(|rest| rest.split("\n```").next());
     let netlist = netlists.next().unwrap_or_else(|| panic!("{name} has no netlist")).to_owned();
     assert!(netlists.next().is_none(), "{name} has two complete netlists");
     let row = |line: &str| {
@@ -285,7 +294,12 @@ fn page(name: &str) -> (String, String, Vec<Row>) {
         let quantity = cells.get(1)?.strip_prefix('`')?.strip_suffix('`')?;
         let timed = cells[2] == "steady" || parse_quantity(cells[2], None).is_ok();
         let (number, unit) = (number.to_owned(), unit.to_owned());
-        timed.then(|| Row { quantity: quantity.to_owned(), when: cells[2].to_owned(), number, unit })
+        timed.then(|| Row {
+            quantity: quantity.to_owned(),
+            when: cells[2].to_owned(),
+            number,
+            unit,
+        })
     };
     let rows = text.lines().filter_map(row).collect();
     (text, netlist, rows)
@@ -324,9 +338,11 @@ fn every_example_gives_what_its_closed_form_says() {
         assert!(netlist.warnings.is_empty(), "{name}: {:?}", netlist.warnings);
         let system = ThermalSystem::assemble(&netlist.network).expect("it assembles");
         let selection = Selection::all(&netlist.network);
-        let steady = SteadyState::solve(&system, 0.0)
-            .map(|steady| Table::of_steady(&netlist.network, &steady, &selection, &unit).expect("a table"));
-        let run = support::transient(&netlist).tolerance(TOLERANCE).solve(&system).expect("it runs");
+        let steady = SteadyState::solve(&system, 0.0).map(|steady| {
+            Table::of_steady(&netlist.network, &steady, &selection, &unit).expect("a table")
+        });
+        let run =
+            support::transient(&netlist).tolerance(TOLERANCE).solve(&system).expect("it runs");
         assert!(run.ledger().closes(), "{name}: {:?}", run.ledger());
         let table = Table::of_solution(&run, &selection, &unit);
         for (quantity, when, expected) in closed {
@@ -349,13 +365,19 @@ fn every_example_gives_what_its_closed_form_says() {
 fn every_page_prints_its_closed_forms() {
     for (name, closed) in pages() {
         let (_, _, rows) = page(name);
-        let listed: Vec<(&str, &str)> = rows.iter().map(|r| (r.quantity.as_str(), r.when.as_str())).collect();
-        let known: Vec<(&str, &str)> = closed.iter().map(|(quantity, when, _)| (*quantity, *when)).collect();
+        let listed: Vec<(&str, &str)> =
+            rows.iter().map(|r| (r.quantity.as_str(), r.when.as_str())).collect();
+        let known: Vec<(&str, &str)> =
+            closed.iter().map(|(quantity, when, _)| (*quantity, *when)).collect();
         assert_eq!(listed, known, "{name}");
         for (row, (quantity, when, expected)) in rows.iter().zip(closed) {
             let decimals = row.number.split_once('.').map_or(0, |(_, fraction)| fraction.len());
             assert!(matches!(row.unit.as_str(), "degC" | "W"), "{name}: {}", row.unit);
-            assert_eq!(row.number, format!("{expected:.decimals$}"), "{name}: {quantity} at {when}");
+            assert_eq!(
+                row.number,
+                format!("{expected:.decimals$}"),
+                "{name}: {quantity} at {when}"
+            );
         }
     }
 }
@@ -399,7 +421,10 @@ fn the_codes_on_the_pages_are_codes_of_diagnostics() {
             text.split('`').filter(|part| part.contains("::") && !part.contains(' ')).collect();
         assert!(!codes.is_empty(), "{name} names no diagnostic");
         for wanted in codes {
-            assert!(code.contains(&format!("\"{wanted}\"")), "{name}: no diagnostic has the code {wanted}");
+            assert!(
+                code.contains(&format!("\"{wanted}\"")),
+                "{name}: no diagnostic has the code {wanted}"
+            );
         }
     }
 }

@@ -7,7 +7,8 @@ use support::{networks, shipped, transient};
 
 fn files() -> Vec<String> {
     let entries = std::fs::read_dir(networks()).expect("the folder of networks");
-    let names = entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("UTF-8"));
+    let names =
+        entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("UTF-8"));
     let mut names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
     names.sort();
     names
@@ -16,7 +17,8 @@ fn files() -> Vec<String> {
 /// The network as it is read from its expansion; CSV files are looked for beside the original.
 fn expanded(name: &str, text: &str) -> (lptn::netlist::Netlist, ThermalSystem) {
     let path = networks().join(name);
-    let netlist = lptn::netlist::parse_file(&path, text.as_bytes()).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let netlist =
+        lptn::netlist::parse_file(&path, text.as_bytes()).unwrap_or_else(|e| panic!("{name}: {e}"));
     let system = ThermalSystem::assemble(&netlist.network).expect("it assembles");
     (netlist, system)
 }
@@ -45,7 +47,9 @@ fn steady_states_and_runs_are_the_same_to_the_last_digit() {
             panic!("{name}: {error}");
         }
         let steady = |system: &ThermalSystem| {
-            SteadyState::solve(system, 0.0).map(|s| bits(&s.temperatures)).map_err(|error| error.code())
+            SteadyState::solve(system, 0.0)
+                .map(|s| bits(&s.temperatures))
+                .map_err(|error| error.code())
         };
         assert_eq!(steady(&flat), steady(&system), "{name}");
         let run = |netlist: &lptn::netlist::Netlist, system: &ThermalSystem| {

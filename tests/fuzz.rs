@@ -1,5 +1,6 @@
-//! What is fuzzed (`make fuzz`), on a fixed corpus: no panic, no text that cannot be shown, no NaN as a result. The corpus is
-//! what fuzzing found to reach something new, and every netlist of the project.
+//! What is fuzzed (`make fuzz`), on a fixed corpus: no panic, no text that cannot be shown, no NaN
+//! as a result. The corpus is what fuzzing found to reach something new, and every netlist of the
+//! project.
 
 #![allow(clippy::print_stdout, reason = "what was fed last is shown where it fails")]
 
@@ -10,7 +11,8 @@ use std::path::{Path, PathBuf};
 
 fn files(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
-    let entries = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let entries =
+        std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
     files.retain(|path| path.is_file());
     files.sort();
@@ -78,7 +80,8 @@ fn netlists_of_the_project() {
     assert!(feed("netlist", toml.map(read)) > 400);
 }
 
-/// Every block of the documentation, whatever it holds, as a netlist, and every line of one as an expression.
+/// Every block of the documentation, whatever it holds, as a netlist, and every line of one as an
+/// expression.
 #[test]
 fn blocks_of_the_documentation() {
     let pages = ["docs", "docs/elements"].into_iter().flat_map(files);
@@ -86,8 +89,11 @@ fn blocks_of_the_documentation() {
     let mut blocks = Vec::new();
     for path in pages {
         let text = std::fs::read_to_string(&path).expect("a page");
-        let inside =
-            text.split("```").skip(1).step_by(2).map(|block| block.split_once('\n').map_or("", |b| b.1));
+        let inside = text
+            .split("```")
+            .skip(1)
+            .step_by(2)
+            .map(|block| block.split_once('\n').map_or("", |b| b.1));
         blocks.extend(inside.map(|block| (path.display().to_string(), block.as_bytes().to_vec())));
     }
     assert!(feed("netlist", blocks.clone()) > 80);

@@ -47,14 +47,17 @@ fn heat_is_conserved_over_every_face_and_the_whole_is_the_sum_of_its_parts() {
     let table = Table::of_solution(&run, &Selection::all(network), &netlist.temperature_unit);
     for joint in network.joints() {
         let all = column(&table, &format!("{}.Q", joint.name));
-        let parts: Vec<Vec<f64>> = joint.conductors().map(|id| run.conductor_heat(id).unwrap()).collect();
+        let parts: Vec<Vec<f64>> =
+            joint.conductors().map(|id| run.conductor_heat(id).unwrap()).collect();
         assert!(parts.len() > 1);
         for (row, whole) in all.iter().enumerate() {
             close(*whole, parts.iter().map(|part| part[row]).sum(), 1e-12 * whole.abs());
         }
     }
     // what the boundaries take is what the paths to them bring
-    let sum = |names: &[&str], row: usize| names.iter().map(|name| column(&table, name)[row]).sum::<f64>();
+    let sum = |names: &[&str], row: usize| {
+        names.iter().map(|name| column(&table, name)[row]).sum::<f64>()
+    };
     for row in 0..table.rows() {
         close(sum(&["skin.Q", "foot.Q"], row), -sum(&["air.Q"], row), 1e-9);
         close(sum(&["glow.Q"], row), -sum(&["sky.Q"], row), 1e-9);
@@ -66,7 +69,8 @@ fn the_balance_of_a_boundary_counts_a_path_to_a_face_as_one() {
     let (netlist, steady) = settled(PLATE);
     let air = netlist.network.boundary_ids().next().unwrap();
     let balance = steady.balance(&netlist.network, air.into());
-    let names: Vec<_> = balance.terms.iter().map(|term| netlist.network.name_of(term.item)).collect();
+    let names: Vec<_> =
+        balance.terms.iter().map(|term| netlist.network.name_of(term.item)).collect();
     assert_eq!(names, ["foot", "skin"]);
     close(balance.power(), -steady.boundary_heat[0], 1e-9);
     // over a run each is one running integral
@@ -84,7 +88,10 @@ fn a_run_of_a_grid_repeats_to_the_bit() {
     let run = || {
         let (netlist, system) = parsed(PLATE);
         let run = support::transient(&netlist).solve(&system).unwrap();
-        (0..run.times().len()).flat_map(|row| run.row(row).to_vec()).map(f64::to_bits).collect::<Vec<_>>()
+        (0..run.times().len())
+            .flat_map(|row| run.row(row).to_vec())
+            .map(f64::to_bits)
+            .collect::<Vec<_>>()
     };
     assert_eq!(run(), run());
 }
@@ -113,7 +120,8 @@ spot = {{ into = "plate[1,1,1]", P = "3 W" }}
 
 #[test]
 fn every_form_of_a_path_is_shared_by_area() {
-    let (_, film) = plate("[convection]\np = { from = \"plate.z1\", to = \"air\", h = \"10 W/(m^2 K)\" }");
+    let (_, film) =
+        plate("[convection]\np = { from = \"plate.z1\", to = \"air\", h = \"10 W/(m^2 K)\" }");
     let forms = [
         "[convection]\np = { from = \"plate.z1\", to = \"air\", h = \"10 W/(m^2 K)\", area = \"200 cm^2\" }",
         "[convection]\np = { from = \"plate.z1\", to = \"air\", R = \"5 K/W\" }",
@@ -137,8 +145,9 @@ fn radiation_of_a_face_is_that_of_its_area() {
     let (_, grey) = plate(grey);
     // 1 / (1/0.8 + 1/0.5 - 1) of 200 cm^2
     let exchange = 0.02 / (1.0 / 0.8 + 1.0 / 0.5 - 1.0);
-    let (_, area) =
-        plate(&format!("[radiation]\np = {{ from = \"plate.z1\", to = \"air\", Gr = \"{exchange} m^2\" }}"));
+    let (_, area) = plate(&format!(
+        "[radiation]\np = {{ from = \"plate.z1\", to = \"air\", Gr = \"{exchange} m^2\" }}"
+    ));
     assert!(support::distance(&grey.temperatures, &area.temperatures) < 1e-7);
 }
 
@@ -159,7 +168,8 @@ fn the_columns_of_a_grid_are_few_and_the_others_can_be_had() {
     let chosen = |pattern: &str| {
         let selection = Selection::matching(&netlist.network, &[pattern.to_owned()]).unwrap();
         let table =
-            Table::of_steady(&netlist.network, &steady, &selection, &netlist.temperature_unit).unwrap();
+            Table::of_steady(&netlist.network, &steady, &selection, &netlist.temperature_unit)
+                .unwrap();
         table.columns().iter().map(|column| column.name.clone()).collect::<Vec<_>>()
     };
     assert_eq!(chosen("plate[2,*,1].T").len(), 4);
@@ -204,7 +214,8 @@ top = { from = "wall.z1", to = "air", h = "10 W/(m^2 K)", area = "0.2 m^2" }
 
 #[test]
 fn a_grid_that_melts_takes_up_its_latent_heat() {
-    // 1 kg of wax from 50 degC, melting from 55 to 57 degC: 10 K of 2 kJ/(kg K) and 200 kJ/kg are 220 kJ
+    // 1 kg of wax from 50 degC, melting from 55 to 57 degC: 10 K of 2 kJ/(kg K) and 200 kJ/kg are
+    // 220 kJ
     let text = r#"
 format = 1
 [material]

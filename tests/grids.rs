@@ -1,4 +1,5 @@
-//! Grids against closed forms written out here: the slab series, Kirchhoff's transform, walls of two materials.
+//! Grids against closed forms written out here: the slab series, Kirchhoff's transform, walls of
+//! two materials.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -17,16 +18,18 @@ fn temperature(netlist: &Netlist, steady: &SteadyState, node: &str) -> f64 {
 fn heat(netlist: &Netlist, steady: &SteadyState, name: &str) -> f64 {
     match netlist.network.item(name).unwrap() {
         Item::Conductor(id) => steady.conductor_heat[id.index()],
-        Item::Joint(id) => {
-            netlist.network.joints()[id.index()].conductors().map(|c| steady.conductor_heat[c.index()]).sum()
-        }
+        Item::Joint(id) => netlist.network.joints()[id.index()]
+            .conductors()
+            .map(|c| steady.conductor_heat[c.index()])
+            .sum(),
         other => panic!("{name} is {other:?}"),
     }
 }
 
-/// The dimensionless temperature of a slab of half-thickness 1, insulated in its middle (x = 0), that cools by
-/// convection at x = 1: the Fourier series of H. S. Carslaw and J. C. Jaeger, Conduction of Heat in Solids, 2nd edition,
-/// Oxford 1959, section 3.11, with the roots of z tan z = Bi.
+/// The dimensionless temperature of a slab of half-thickness 1, insulated in its middle (x = 0),
+/// that cools by convection at x = 1: the Fourier series of H. S. Carslaw and J. C. Jaeger,
+/// Conduction of Heat in Solids, 2nd edition, Oxford 1959, section 3.11, with the roots of z tan z =
+/// Bi.
 fn slab(x: f64, fourier: f64, biot: f64) -> f64 {
     let pi = std::f64::consts::PI;
     let term = |n: u32| {
@@ -48,14 +51,15 @@ fn slab(x: f64, fourier: f64, biot: f64) -> f64 {
 
 #[test]
 fn the_series_that_grids_are_held_against_is_that_of_the_books() {
-    // F. P. Incropera and D. P. DeWitt, Fundamentals of Heat and Mass Transfer, table 5.1: for Bi = 1 the first root is
-    // 0.8603 and the first coefficient 1.1191
+    // F. P. Incropera and D. P. DeWitt, Fundamentals of Heat and Mass Transfer, table 5.1: for Bi =
+    // 1 the first root is 0.8603 and the first coefficient 1.1191
     let late: f64 = slab(0.0, 5.0, 1.0) * (0.8603_f64 * 0.8603 * 5.0).exp();
     close(late, 1.1191, 2e-3);
     close(slab(0.0, 0.01, 1.0), 1.0, 1e-9);
 }
 
-/// A wall of 0.1 m with k = 2 W/(m K), rho c = 2e6 J/(m^3 K) and h = 20 W/(m^2 K): Bi = 1, and Fo = 1 after 10 000 s.
+/// A wall of 0.1 m with k = 2 W/(m K), rho c = 2e6 J/(m^3 K) and h = 20 W/(m^2 K): Bi = 1, and Fo =
+/// 1 after 10 000 s.
 fn cooling_wall(cells: usize) -> String {
     format!(
         r#"
@@ -78,7 +82,8 @@ skin = {{ from = "wall.x1", to = "air", h = "20 W/(m^2 K)" }}
 /// Errors at the surface and in the middle at Fo = 0.3, as parts of the start's difference.
 fn errors(cells: usize) -> [f64; 2] {
     let (netlist, system) = parsed(&cooling_wall(cells));
-    let run = Transient::until(Time(3000.0)).every(Time(3000.0)).tolerance(1e-9).solve(&system).unwrap();
+    let run =
+        Transient::until(Time(3000.0)).every(Time(3000.0)).tolerance(1e-9).solve(&system).unwrap();
     let columns = ["wall.x1.T".to_owned(), "wall.x0.T".to_owned()];
     let selection = Selection::matching(&netlist.network, &columns).unwrap();
     let table = Table::of_solution(&run, &selection, &netlist.temperature_unit);
@@ -119,11 +124,13 @@ c = {{ from = "brick.z1", to = "air", h = "20 W/(m^2 K)" }}
 "#
     );
     let (netlist, system) = parsed(&text);
-    let run = Transient::until(Time(1000.0)).every(Time(1000.0)).tolerance(1e-8).solve(&system).unwrap();
+    let run =
+        Transient::until(Time(1000.0)).every(Time(1000.0)).tolerance(1e-8).solve(&system).unwrap();
     // the cell in the insulated corner; its middle is half a cell from there
     let corner = netlist.network.node(&format!("brick[1,{cells},1]")).unwrap();
     let at = 0.5 / cells as f64;
-    let product = slab(at, 0.1, 1.0) * slab(at, 0.2 * 0.25, 1.0) * slab(at, 0.5e-6 * 1000.0 / 0.0025, 1.0);
+    let product =
+        slab(at, 0.1, 1.0) * slab(at, 0.2 * 0.25, 1.0) * slab(at, 0.5e-6 * 1000.0 / 0.0025, 1.0);
     (run.temperature(corner).unwrap()[1] - 273.15) / 100.0 - product
 }
 
@@ -169,7 +176,8 @@ glue = { from = "brick.x1", to = "wool.x0", h = "50 W/(m^2 K)" }
         close(heat(&netlist, &steady, name), q, 1e-10 * q);
     }
     let value = |name: &str| {
-        let found = netlist.network.grid_values().find(|value| value.name(&netlist.network) == name);
+        let found =
+            netlist.network.grid_values().find(|value| value.name(&netlist.network) == name);
         netlist.network.grid_value(found.unwrap(), &steady.temperatures) - 273.15
     };
     let places = ["brick.x0.T", "brick.x1.T", "wool.x0.T", "wool.x1.T"];
@@ -225,7 +233,8 @@ fn ladder(cells: usize) -> String {
     }
     text += "[resistor]\n";
     for i in 1..cells {
-        text += &format!("p{i} = {{ from = \"c{i}\", to = \"c{}\", G = \"{whole} W/K\" }}\n", i + 1);
+        text +=
+            &format!("p{i} = {{ from = \"c{i}\", to = \"c{}\", G = \"{whole} W/K\" }}\n", i + 1);
     }
     text += &format!("half = {{ from = \"c{cells}\", to = \"surface\", G = \"{half} W/K\" }}\n");
     text += "[convection]\nskin = { from = \"surface\", to = \"air\", h = \"20 W/(m^2 K)\", area = \"0.35 m^2\" }\n";
@@ -243,7 +252,8 @@ fn a_grid_of_one_axis_is_the_ladder_written_by_hand() {
     let name = |i: usize| (format!("wall[{i}]"), format!("c{i}"));
     let names = (1..=12).map(name).chain([("wall.x1".to_owned(), "surface".to_owned())]);
     for (ours, theirs) in names {
-        let (ours, theirs) = (grid.network.node(&ours).unwrap(), hand.network.node(&theirs).unwrap());
+        let (ours, theirs) =
+            (grid.network.node(&ours).unwrap(), hand.network.node(&theirs).unwrap());
         let (capacity, other) = (grid.network.capacity(ours), hand.network.capacity(theirs));
         close(capacity, other, 1e-15 * other);
         let far = support::distance(&a.temperature(ours).unwrap(), &b.temperature(theirs).unwrap());

@@ -10,7 +10,8 @@ use lptn::prelude::*;
 
 const SIDE: usize = 7;
 
-/// Numbers that are no round ones, one for each element: the fractions of multiples of the golden ratio.
+/// Numbers that are no round ones, one for each element: the fractions of multiples of the golden
+/// ratio.
 fn spread(k: usize) -> f64 {
     (k as f64 * 0.618_033_988_749_895).fract() + 0.05
 }
@@ -44,7 +45,8 @@ fn plate() -> Plate {
 const RUN: &str = "[run]\nstop = \"20 s\"\noutput = { every = \"0.5 s\" }\n";
 
 fn toml() -> Netlist {
-    let (plate, mut text) = (plate(), "format = 1\n[default]\nT0 = \"20 degC\"\n[node]\n".to_owned());
+    let (plate, mut text) =
+        (plate(), "format = 1\n[default]\nT0 = \"20 degC\"\n[node]\n".to_owned());
     for (name, capacity) in &plate.nodes {
         let _ = match capacity {
             Some(c) => writeln!(text, "{name} = {{ C = \"{c} J/K\" }}"),
@@ -59,7 +61,8 @@ fn toml() -> Netlist {
     for (i, (into, power)) in plate.sources.iter().enumerate() {
         let _ = writeln!(text, "s{i} = {{ into = \"{into}\", P = \"{power} W\" }}");
     }
-    parse_with("plate.toml", &(text + RUN), &mut |_| Err(Error::from(ErrorKind::NotFound))).expect("it reads")
+    parse_with("plate.toml", &(text + RUN), &mut |_| Err(Error::from(ErrorKind::NotFound)))
+        .expect("it reads")
 }
 
 fn csv() -> Netlist {
@@ -106,7 +109,8 @@ fn an_import_equals_the_same_network_in_toml_to_the_bit() {
     assert_eq!(bits(&steady_a.temperatures), bits(&steady_b.temperatures));
     assert_eq!(bits(&steady_a.conductor_heat), bits(&steady_b.conductor_heat));
     let run = |system: &ThermalSystem| {
-        let solution = Transient::until(Time(20.0)).every(Time(0.5)).solve(system).expect("it runs");
+        let solution =
+            Transient::until(Time(20.0)).every(Time(0.5)).solve(system).expect("it runs");
         (0..solution.times().len()).flat_map(|row| bits(solution.row(row))).collect::<Vec<u64>>()
     };
     assert_eq!(run(&systems[0]), run(&systems[1]));

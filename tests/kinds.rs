@@ -1,6 +1,6 @@
-//! Property: what follows from the declaration of a kind or a law, for each of them. Their numbers are tested against
-//! closed forms elsewhere (`elements.rs`, `crates/lptn-laws/tests`); here derivatives are compared with differences and
-//! what is written with what is read.
+//! Property: what follows from the declaration of a kind or a law, for each of them. Their numbers
+//! are tested against closed forms elsewhere (`elements.rs`, `crates/lptn-laws/tests`); here
+//! derivatives are compared with differences and what is written with what is read.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::path::{Path, PathBuf};
@@ -111,11 +111,18 @@ fn every_law_is_read_as_it_is_declared() {
 #[test]
 fn every_law_is_the_same_when_it_is_written_and_read_again() {
     for of in all() {
-        for value in [example as fn(&Field) -> String, |field| times(field, "p * (1 + dT / 1000 [K])")] {
+        for value in
+            [example as fn(&Field) -> String, |field| times(field, "p * (1 + dT / 1000 [K])")]
+        {
             let first = read(&netlist(of, value));
             let again = read(&first.expanded());
-            let [a, b] = [&first, &again].map(|netlist| heat(&netlist.network, [350.0, 310.0, 293.15]));
-            assert!((a[0] - b[0]).abs() + (a[1] - b[1]).abs() <= 1e-12 * a[1].abs(), "{}", words(of));
+            let [a, b] =
+                [&first, &again].map(|netlist| heat(&netlist.network, [350.0, 310.0, 293.15]));
+            assert!(
+                (a[0] - b[0]).abs() + (a[1] - b[1]).abs() <= 1e-12 * a[1].abs(),
+                "{}",
+                words(of)
+            );
             assert_eq!(again.expanded(), first.expanded(), "{}", words(of));
         }
     }
@@ -131,12 +138,17 @@ fn heat(network: &Network, temperatures: [f64; 3]) -> [f64; 2] {
             [-q, q]
         }
         Flow::Stream(rate) => [0.0, rate * difference],
-        Flow::Variable => network.exchange(path(network), &mut network.evaluation(), &temperatures).unwrap(),
+        Flow::Variable => {
+            network.exchange(path(network), &mut network.evaluation(), &temperatures).unwrap()
+        }
     }
 }
 
 fn close(found: f64, slope: f64, what: &str) {
-    assert!((found - slope).abs() <= 1e-5 * slope.abs().max(1e-3), "{what}: {found} is not {slope}");
+    assert!(
+        (found - slope).abs() <= 1e-5 * slope.abs().max(1e-3),
+        "{what}: {found} is not {slope}"
+    );
 }
 
 #[test]
@@ -163,7 +175,8 @@ fn every_law_knows_its_sensitivities() {
     let at = [350.0, 310.0, 293.15];
     for of in all() {
         for field in of.1.declaration().fields {
-            let one = |own: &Field| if own.key == field.key { times(own, "p") } else { example(own) };
+            let one =
+                |own: &Field| if own.key == field.key { times(own, "p") } else { example(own) };
             let network = read(&netlist(of, one)).network;
             let p = network.parameter_ids().next().unwrap();
             let mut found = vec![f64::NAN; 3];
@@ -190,7 +203,8 @@ fn every_field_refuses_what_is_out_of_its_range() {
                 Range::Positive | Range::Temperature => "-1",
                 Range::Fraction => "2",
             };
-            let one = |own: &Field| if own.key == field.key { times(own, factor) } else { example(own) };
+            let one =
+                |own: &Field| if own.key == field.key { times(own, factor) } else { example(own) };
             let rejected = lptn::parse("kinds.toml", &netlist(of, one)).unwrap_err();
             let codes: Vec<&str> = rejected.diagnostics.iter().map(|d| d.code).collect();
             let wanted = match field.range {
@@ -245,8 +259,10 @@ fn range(range: Range) -> &'static str {
 
 /// What a page says of keys and laws.
 fn tables(kind: Kind) -> String {
-    let mut lines =
-        vec!["| Key | Meaning | Unit | Range | Default |".to_owned(), "|---|---|---|---|---|".to_owned()];
+    let mut lines = vec![
+        "| Key | Meaning | Unit | Range | Default |".to_owned(),
+        "|---|---|---|---|---|".to_owned(),
+    ];
     let ends = if kind.is_stream() { "" } else { ", or faces of a grid" };
     lines.push(format!("| `from`, `to` | two nodes or boundaries{ends} | | | |"));
     if kind.laws().any(|law| law.declaration().carries.is_of_fluid()) {
@@ -254,7 +270,8 @@ fn tables(kind: Kind) -> String {
         lines.push(format!("| `fluid` | {of} | | | |"));
     }
     if let Some(selector) = kind.declaration().selector {
-        let words: Vec<String> = kind.laws().map(|law| format!("`{}`", law.declaration().name)).collect();
+        let words: Vec<String> =
+            kind.laws().map(|law| format!("`{}`", law.declaration().name)).collect();
         lines.push(format!("| `{selector}` | the law: {} | | | |", words.join(", ")));
     }
     let mut known: Vec<&str> = Vec::new();

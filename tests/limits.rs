@@ -13,8 +13,9 @@ fn solved(text: &str, transient: &Transient) -> lptn::solve::Solution {
     transient.solve(&ThermalSystem::assemble(&netlist.network).unwrap()).unwrap()
 }
 
-/// Validation case "incropera_5_1_thermocouple" (Incropera, Fundamentals of Heat and Mass Transfer, 6th ed.,
-/// Example 5.1): a bead of time constant 1 s in gas of 200 degC is at 199 degC after ln 175 s.
+/// Validation case "incropera_5_1_thermocouple" (Incropera, Fundamentals of Heat and Mass Transfer,
+/// 6th ed., Example 5.1): a bead of time constant 1 s in gas of 200 degC is at 199 degC after ln
+/// 175 s.
 #[test]
 fn thermocouple_reaches_its_level_when_the_textbook_says() {
     let text = "format = 1\n[default]\nT0 = \"25 degC\"\n[node]\nbead = { C = \"0.0006261444181549207 J/K\" }\n\
@@ -38,7 +39,8 @@ fn thermocouple_reaches_its_level_when_the_textbook_says() {
     close(always.worst_at, 0.0, 1e-12);
 }
 
-/// C = 100 J/K, G = 10 W/K: tau = 10 s. A pulse of 100 W for 10 s lifts the node by 10 (1 - 1/e) K, then it cools.
+/// C = 100 J/K, G = 10 W/K: tau = 10 s. A pulse of 100 W for 10 s lifts the node by 10 (1 - 1/e) K,
+/// then it cools.
 #[test]
 fn the_worst_of_a_pulse_is_found_between_two_rows() {
     let text = "format = 1\n[node]\na = { T0 = \"20 degC\", C = \"100 J/K\" }\n[boundary]\nair = { T = \"20 degC\" }\n\
@@ -53,12 +55,14 @@ fn the_worst_of_a_pulse_is_found_between_two_rows() {
     close(rise.broken_at.unwrap(), 10.0 * 2.0_f64.ln(), 1e-6);
 }
 
-/// C dT/dt = P sin(w t) - G T from rest: T = P (G sin wt - wC cos wt + wC exp(-t/tau)) / (G^2 + (wC)^2).
+/// C dT/dt = P sin(w t) - G T from rest: T = P (G sin wt - wC cos wt + wC exp(-t/tau)) / (G^2 +
+/// (wC)^2).
 #[test]
 fn a_short_excursion_inside_a_step_is_seen() {
     let (c, g, p, w) = (100.0_f64, 10.0, 100.0, 0.2);
     let scale = p / (g * g + w * w * c * c);
-    let rise = |t: f64| scale * (g * (w * t).sin() - w * c * (w * t).cos() + w * c * (-t * g / c).exp());
+    let rise =
+        |t: f64| scale * (g * (w * t).sin() - w * c * (w * t).cos() + w * c * (-t * g / c).exp());
     // the first peak, by the zero of the derivative
     let slope = |t: f64| g * (w * t).cos() + w * c * (w * t).sin() - g * (-t * g / c).exp();
     let (mut low, mut high) = (5.0, 15.0);
@@ -106,7 +110,8 @@ fn steady_margins_have_the_sign_of_the_limit() {
                 [limit]\nhot = { of = \"a.T\", below = \"27 degC\" }\nwarm = { of = \"a.T\", above = \"27 degC\" }\n";
     let netlist = lptn::netlist::parse("net.toml", text).unwrap();
     let system = ThermalSystem::assemble(&netlist.network).unwrap();
-    let margins = SteadyState::solve(&system, 0.0).unwrap().limit_margins(&netlist.network, 0.0).unwrap();
+    let margins =
+        SteadyState::solve(&system, 0.0).unwrap().limit_margins(&netlist.network, 0.0).unwrap();
     close(margins[0], -3.0, 1e-9);
     close(margins[1], 3.0, 1e-9);
 }

@@ -36,7 +36,8 @@ fn every_ledger_closes_to_1e_8_of_the_heat_turned_over() {
     for name in files() {
         let (netlist, system) = shipped(&name);
         for tolerance in [1e-5, 1e-6, 1e-7] {
-            let solution = transient(&netlist).tolerance(tolerance).solve(&system).expect("it runs");
+            let solution =
+                transient(&netlist).tolerance(tolerance).solve(&system).expect("it runs");
             let ledger = solution.ledger();
             let residual = ledger.relative_residual().expect("heat is turned over").abs();
             println!("{name} at {tolerance:e} K: {residual:.1e} of {:.3e} J", ledger.turned_over);
@@ -51,8 +52,13 @@ fn at_coarse_tolerances_the_ledger_keeps_its_stated_bound() {
     for name in files() {
         let (netlist, system) = shipped(&name);
         for tolerance in [1e-3, 1e-4] {
-            let solution = transient(&netlist).tolerance(tolerance).solve(&system).expect("it runs");
-            assert!(solution.ledger().closes(), "{name} at {tolerance:e} K: {:?}", solution.ledger());
+            let solution =
+                transient(&netlist).tolerance(tolerance).solve(&system).expect("it runs");
+            assert!(
+                solution.ledger().closes(),
+                "{name} at {tolerance:e} K: {:?}",
+                solution.ledger()
+            );
         }
     }
 }
@@ -74,7 +80,8 @@ fn steady_states_are_in_balance() {
             let rest = if system.is_linear() { 0.0 } else { 1e-12 };
             assert!(steady.imbalance().abs() <= 1e-10 * steady.turned_over() + rest, "{name}");
         });
-        let expected = RESTLESS.into_iter().find(|(restless, _)| *restless == name).map(|(_, code)| code);
+        let expected =
+            RESTLESS.into_iter().find(|(restless, _)| *restless == name).map(|(_, code)| code);
         assert_eq!(said.err().map(|error| error.code()), expected, "{name}");
     }
 }

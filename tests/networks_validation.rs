@@ -1,4 +1,5 @@
-//! Shipped networks that are cases of the validation set too: what they say is compared with the same values.
+//! Shipped networks that are cases of the validation set too: what they say is compared with the
+//! same values.
 
 #![allow(clippy::print_stdout, reason = "the table of results, shown with --nocapture")]
 
@@ -47,13 +48,17 @@ fn shipped_networks_say_what_their_cases_expect() {
         let (netlist, _) = shipped(&format!("{file}.toml"));
         let report = judge_network(case, &netlist.network, names);
         print!("{report}");
-        assert!(report.counts()[0] > 0 || !report.complaints().is_empty(), "{file}: nothing was checked");
+        assert!(
+            report.counts()[0] > 0 || !report.complaints().is_empty(),
+            "{file}: nothing was checked"
+        );
         complaints.extend(report.complaints().iter().map(|text| format!("{file}.toml: {text}")));
     }
     assert!(complaints.is_empty(), "\n{}", complaints.join("\n"));
 }
 
-/// `fuel_cell_fan.toml` asks for the speed of the air; the case for the film coefficient, 10.9 V^0.8 in the book.
+/// `fuel_cell_fan.toml` asks for the speed of the air; the case for the film coefficient, 10.9
+/// V^0.8 in the book.
 #[test]
 fn the_fan_is_sized_as_its_case_expects() {
     let (netlist, _) = shipped("fuel_cell_fan.toml");
@@ -83,10 +88,15 @@ fn the_fan_is_sized_as_its_case_expects() {
 /// The first lines of a shipped network say what it shows, and where its numbers are from.
 #[test]
 fn every_network_of_a_case_says_where_its_numbers_come_from() {
-    for (file, case, _) in PAIRS.into_iter().chain([("fuel_cell_fan", "incropera_1_4_fan_sizing", &[][..])]) {
+    for (file, case, _) in
+        PAIRS.into_iter().chain([("fuel_cell_fan", "incropera_1_4_fan_sizing", &[][..])])
+    {
         let path = support::networks().join(format!("{file}.toml"));
         let text = std::fs::read_to_string(&path).expect("a network");
         let head: String = text.lines().take_while(|line| line.starts_with('#')).collect();
-        assert!(head.contains("Numbers: ") && head.contains(case), "{file}.toml names no source: {head}");
+        assert!(
+            head.contains("Numbers: ") && head.contains(case),
+            "{file}.toml names no source: {head}"
+        );
     }
 }

@@ -1,4 +1,5 @@
-//! What `networks/paper_bed.toml` says of itself: the two rises and the time constant that the paper prints for 7000 rpm.
+//! What `networks/paper_bed.toml` says of itself: the two rises and the time constant that the
+//! paper prints for 7000 rpm.
 
 mod support;
 
@@ -23,8 +24,9 @@ fn fitted(table: &Table, name: &str) -> ExponentialFit {
     fit_exponential(&column(table, "time"), &column(table, name)).expect("a curve")
 }
 
-/// From SciPy 1.17.1: `numpy.linalg.eigh` of the three nodes, then `scipy.optimize.least_squares` of one exponential over
-/// 7501 samples; rise over 25.5 degC in K, time constant in s, mean of the bed over 25.5 degC in K.
+/// From SciPy 1.17.1: `numpy.linalg.eigh` of the three nodes, then `scipy.optimize.least_squares`
+/// of one exponential over 7501 samples; rise over 25.5 degC in K, time constant in s, mean of the
+/// bed over 25.5 degC in K.
 const STEEL: (f64, f64) = (67.186_155, 809.901_19);
 const ALUMINIUM: (f64, f64) = (65.582_849, 813.440_53);
 const BED: f64 = 8.405_449;
@@ -41,7 +43,8 @@ fn the_fits_are_those_of_an_independent_program() {
     close(bed.iter().sum::<f64>() / bed.len() as f64 - START, BED, 1e-5);
 }
 
-/// Figure 6: 92.7 - 25.5 K and 13.5 ± 0.1 min; Figure 7: 0.0084 K/rpm x 7000 rpm over the mean of the bed.
+/// Figure 6: 92.7 - 25.5 K and 13.5 ± 0.1 min; Figure 7: 0.0084 K/rpm x 7000 rpm over the mean of
+/// the bed.
 #[test]
 fn both_rises_of_the_paper_come_out_of_one_record() {
     let table = record();

@@ -22,7 +22,11 @@ fn ledger_of_a_broken_run_holds_what_was_done() {
     assert_eq!(partial.end(), End::Failed(time));
     let ledger = partial.ledger();
     let exact = (300_f64.powf(1.5) - (300.0 - time).powf(1.5)) * 2.0 / 3.0;
-    assert!((ledger.sources[0] - exact).abs() < 1e-3 * exact, "{} J of {exact} J", ledger.sources[0]);
+    assert!(
+        (ledger.sources[0] - exact).abs() < 1e-3 * exact,
+        "{} J of {exact} J",
+        ledger.sources[0]
+    );
     assert!(ledger.relative_residual().unwrap().abs() < 1e-8);
 }
 
@@ -32,7 +36,8 @@ fn watches_of_a_network_without_state_see_peak_and_end() {
     let mut b = NetworkBuilder::new();
     let middle = b.massless("middle");
     let swing = b.expression("20 [degC] + 10 [K] * sin(2 * pi * t / 100 [s])", None).unwrap();
-    let (left, right) = (b.boundary("left", swing), b.boundary("right", Temperature::celsius(20.0)));
+    let (left, right) =
+        (b.boundary("left", swing), b.boundary("right", Temperature::celsius(20.0)));
     b.resistor("a", left, middle, Conductance(1.0));
     b.resistor("b", middle, right, Conductance(1.0));
     let mut run = Transient::until(Time(60.0)).every(Time(10.0));
@@ -71,19 +76,24 @@ fn one_node(capacity: f64, conductance: f64, heat: &str) -> ThermalSystem {
     assembled(b)
 }
 
-/// Steps grew over quiet stretches and jumped over what came after them, and the ledger closed all the same.
+/// Steps grew over quiet stretches and jumped over what came after them, and the ledger closed all
+/// the same.
 #[test]
 fn pulses_of_smooth_inputs_are_not_jumped_over() {
     let day = 86_400.0;
-    // each row: heat, stop, exact heat put in: half waves of a sine carry 2/w, a triangle half its base, a Gauss
-    // curve sqrt(pi) of its width
+    // each row: heat, stop, exact heat put in: half waves of a sine carry 2/w, a triangle half its
+    // base, a Gauss curve sqrt(pi) of its width
     let sun = 200.0 * day / std::f64::consts::PI;
     let cases = [
         ("200 [W] * max(0, sin(2*pi*t/86400 [s]))", 10.0 * day, 10.0 * sun),
         ("200 [W] * max(0, -cos(2*pi*t/86400 [s]))", 10.0 * day, 10.0 * sun),
         ("500 [W] * max(0, sin(2*pi*(t - 6 [h])/24 [h]))", 3.0 * day, 3.0 * 2.5 * sun),
         ("100 [W] * max(0, 1-abs(t-1800 [s])/60 [s])", 3600.0, 6000.0),
-        ("1000 [W] * exp(-((t-1800 [s])/30 [s])^2)", 3600.0, 30_000.0 * std::f64::consts::PI.sqrt()),
+        (
+            "1000 [W] * exp(-((t-1800 [s])/30 [s])^2)",
+            3600.0,
+            30_000.0 * std::f64::consts::PI.sqrt(),
+        ),
         ("400 [W] * max(0,1-abs(t-40000 [s])/600 [s])", day, 240_000.0),
         ("60 [W]*sin(pi*t/10[s])^20", 36_000.0, 60.0 * 36_000.0 * 0.176_197_052_001_953_12),
     ];
@@ -111,10 +121,13 @@ fn rows_at_a_jump_hold_the_values_after_it() {
 /// A conductance of 1e-5 W/K beside one of 1e9 W/K was rounded away on the diagonal of the matrix.
 #[test]
 fn steady_state_keeps_small_conductances_beside_large_ones() {
-    for (large, small, heat) in [(1e6, 1e-3, 1.0), (1e8, 1e-5, 1e-2), (1e9, 1e-4, 1e-1), (1e9, 1e-5, 1e-3)] {
+    for (large, small, heat) in
+        [(1e6, 1e-3, 1.0), (1e8, 1e-5, 1e-2), (1e9, 1e-4, 1e-1), (1e9, 1e-5, 1e-3)]
+    {
         let mut b = NetworkBuilder::new();
         let zero = Temperature(300.0);
-        let (hot, cold) = (b.node("a", HeatCapacity(1.0), zero), b.node("b", HeatCapacity(1.0), zero));
+        let (hot, cold) =
+            (b.node("a", HeatCapacity(1.0), zero), b.node("b", HeatCapacity(1.0), zero));
         let air = b.boundary("air", zero);
         b.resistor("large", hot, cold, Conductance(large));
         b.resistor("small", cold, air, Conductance(small));
@@ -126,7 +139,8 @@ fn steady_state_keeps_small_conductances_beside_large_ones() {
     }
 }
 
-/// Massless nodes behind large conductances opened the books, and a hub of many boundaries had no steady state.
+/// Massless nodes behind large conductances opened the books, and a hub of many boundaries had no
+/// steady state.
 #[test]
 fn massless_nodes_do_not_open_the_books() {
     for large in [1e3, 1e7, 1e9] {
@@ -166,7 +180,8 @@ fn nothing_is_colder_than_absolute_zero() {
     assert_eq!(error.code(), "solve::below_absolute_zero");
 }
 
-/// The peak was that of a parabola through coarse points: at tight tolerances it erred by many of them.
+/// The peak was that of a parabola through coarse points: at tight tolerances it erred by many of
+/// them.
 #[test]
 fn peaks_are_as_accurate_as_rows() {
     let mut b = NetworkBuilder::new();
@@ -187,7 +202,11 @@ fn peaks_are_as_accurate_as_rows() {
         let mut run = Transient::until(Time(600.0)).at(&[]).tolerance(tolerance);
         run.watch = vec![Watch { node: cold, level: None }];
         let seen = run.solve(&system).unwrap().seen()[0];
-        assert!((seen.peak.0 - peak).abs() < 10.0 * tolerance, "{tolerance:e}: {:e} K", seen.peak.0 - peak);
+        assert!(
+            (seen.peak.0 - peak).abs() < 10.0 * tolerance,
+            "{tolerance:e}: {:e} K",
+            seen.peak.0 - peak
+        );
     }
 }
 
@@ -196,7 +215,10 @@ fn peaks_are_as_accurate_as_rows() {
 fn parameters_of_another_network_are_refused() {
     let one = support::shipped("gearbox.toml").0.network;
     let other = support::shipped("gearbox_speed.toml").0.network;
-    assert_eq!(one.with(&other.overrides()).unwrap_err().0[0].code(), "network::foreign_parameters");
+    assert_eq!(
+        one.with(&other.overrides()).unwrap_err().0[0].code(),
+        "network::foreign_parameters"
+    );
 }
 
 /// An id of another builder made an index out of range.
@@ -219,7 +241,8 @@ fn a_run_that_does_not_fit_in_memory_is_refused() {
     assert_eq!(error.code(), "run::settings");
 }
 
-/// The promise of ten tolerances was given to networks that remember a thousand periods of what drives them.
+/// The promise of ten tolerances was given to networks that remember a thousand periods of what
+/// drives them.
 #[test]
 fn a_very_long_memory_makes_no_promise() {
     let heat = "1000 [W] * sin(2 * pi * t / 100 [s])";
@@ -229,15 +252,20 @@ fn a_very_long_memory_makes_no_promise() {
     assert!(run.solve(&one_node(1000.0, 1.0, heat)).unwrap().error_is_bounded());
 }
 
-/// A network of two boundaries and the paths between them was refused as empty; what passes is its answer.
+/// A network of two boundaries and the paths between them was refused as empty; what passes is its
+/// answer.
 #[test]
 fn two_boundaries_and_a_path_are_a_network() {
     let mut b = NetworkBuilder::new();
-    let (hot, cold) = (b.boundary("hot", Temperature(400.0)), b.boundary("cold", Temperature(300.0)));
+    let (hot, cold) =
+        (b.boundary("hot", Temperature(400.0)), b.boundary("cold", Temperature(300.0)));
     b.resistor("path", hot, cold, Conductance(2.0));
     let system = assembled(b);
     let steady = SteadyState::solve(&system, 0.0).unwrap();
-    assert_eq!((steady.conductor_heat.as_slice(), steady.temperatures.len()), ([200.0].as_slice(), 0));
+    assert_eq!(
+        (steady.conductor_heat.as_slice(), steady.temperatures.len()),
+        ([200.0].as_slice(), 0)
+    );
     assert_eq!(steady.boundary_heat, [200.0, -200.0]);
     let run = Transient::until(Time(60.0)).every(Time(10.0)).solve(&system).unwrap();
     assert_eq!(run.boundary_heat(hot), Some(vec![200.0; 7]));
@@ -246,19 +274,23 @@ fn two_boundaries_and_a_path_are_a_network() {
     assert_eq!(nothing.0[0].code(), "network::empty");
 }
 
-/// Without any source a network that is not linear was "unbalanced": what Newton's method left was all its heat.
+/// Without any source a network that is not linear was "unbalanced": what Newton's method left was
+/// all its heat.
 #[test]
 fn networks_that_come_to_rest_have_a_steady_state() {
     for ambient in [0.0, 300.0] {
         let mut b = NetworkBuilder::new();
-        let [bright, still] = ["bright", "still"].map(|n| b.node(n, HeatCapacity(1.0), Temperature(400.0)));
+        let [bright, still] =
+            ["bright", "still"].map(|n| b.node(n, HeatCapacity(1.0), Temperature(400.0)));
         let space = b.boundary("space", Temperature(ambient));
         let area = Path::radiation(Area(0.04));
         b.conductor("glow", ConductorKind::Radiation, (bright.into(), space.into()), area);
-        let film = b.expression_in(Context::Link, "0.35 [W/K] * abs(dT / 1 [K])^0.25", None).unwrap();
+        let film =
+            b.expression_in(Context::Link, "0.35 [W/K] * abs(dT / 1 [K])^0.25", None).unwrap();
         b.resistor("film", still, space, Path::conductance(film));
         let steady = SteadyState::solve(&assembled(b), 0.0).unwrap();
-        // heat that grows with the fourth power is gone within Newton's last digit, 1e-9 K, times that power
+        // heat that grows with the fourth power is gone within Newton's last digit, 1e-9 K, times
+        // that power
         let off = steady.temperatures.iter().map(|t| (t - ambient).abs()).fold(0.0, f64::max);
         assert!(off < 1e-8, "{ambient} K: {:?}", steady.temperatures);
     }
@@ -275,7 +307,10 @@ fn edge_of(conductance: &str) -> (f64, String, u64) {
     );
     let netlist = lptn::parse("edge.toml", &text).expect("it reads");
     let system = ThermalSystem::assemble(&netlist.network).expect("it assembles");
-    let error = Transient::until(Time(3600.0)).every(Time(100.0)).solve(&system).expect_err("it breaks off");
+    let error = Transient::until(Time(3600.0))
+        .every(Time(100.0))
+        .solve(&system)
+        .expect_err("it breaks off");
     assert_eq!(error.code(), "solve::input", "{error}");
     let message = error.to_string();
     let TransientError::Stopped { time, partial, .. } = error else { panic!("{message}") };
@@ -306,7 +341,8 @@ fn a_run_whose_conductance_becomes_negative_stops_there_and_names_it() {
     assert!(steps < 10_000, "{steps} steps");
 }
 
-/// The time constants that `check` prints left out streams: a sump that oil follows in seconds took minutes.
+/// The time constants that `check` prints left out streams: a sump that oil follows in seconds took
+/// minutes.
 #[test]
 fn time_constants_of_nodes_count_the_streams_into_them() {
     let mut b = NetworkBuilder::new();
@@ -319,15 +355,17 @@ fn time_constants_of_nodes_count_the_streams_into_them() {
     b.resistor("foot", tank, cooler, Conductance(10.0));
     let stiffness = lptn::solve::Stiffness::of(&b.build().unwrap()).unwrap();
     assert_eq!((stiffness.slowest.0, stiffness.fastest.0), (sump, tank));
-    assert!((stiffness.slowest.1 - 30.0).abs() < 1e-12 && (stiffness.fastest.1 - 8.0).abs() < 1e-12);
+    assert!(
+        (stiffness.slowest.1 - 30.0).abs() < 1e-12 && (stiffness.fastest.1 - 8.0).abs() < 1e-12
+    );
 }
 
 fn rate(value: f64) -> Path {
     Path::stream(Conductance(value))
 }
 
-/// Two materials with tables of cp shared one curve, the first: the text that calls a table was the same for both. Each
-/// node takes 1 kJ: 2 K at 500 J/K, 1 K at 1000 J/K.
+/// Two materials with tables of cp shared one curve, the first: the text that calls a table was the
+/// same for both. Each node takes 1 kJ: 2 K at 500 J/K, 1 K at 1000 J/K.
 #[test]
 fn tables_of_two_materials_are_two() {
     let (netlist, system) = support::parsed(
@@ -357,8 +395,8 @@ fn a_row_at_the_stop_in_another_unit_is_the_stop() {
     }
 }
 
-/// A product with a coefficient of 0 that stands before a temperature was taken without end, and the stack overflowed.
-/// 5 W over 2 W/K are 2.5 K.
+/// A product with a coefficient of 0 that stands before a temperature was taken without end, and
+/// the stack overflowed. 5 W over 2 W/K are 2.5 K.
 #[test]
 fn a_coefficient_of_zero_is_a_number_like_any_other() {
     let (_, steady) = support::settled(

@@ -13,12 +13,20 @@ fn is_path(section: &SectionDeclaration) -> bool {
 #[test]
 fn every_section_and_key_says_what_it_is() {
     for section in &format().sections {
-        assert!(section.sentence.ends_with('.') && section.sentence.len() > 12, "[{}]", section.name);
+        assert!(
+            section.sentence.ends_with('.') && section.sentence.len() > 12,
+            "[{}]",
+            section.name
+        );
         assert!(!section.example.is_empty(), "[{}]", section.name);
         for key in section.keys {
             let said = !key.takes.is_empty() && key.meaning.len() > 4 && !key.example.is_empty();
             assert!(said, "`{}` of [{}]", key.name, section.name);
-            assert!(section.elsewhere.iter().all(|(other, _)| *other != key.name), "`{}`", key.name);
+            assert!(
+                section.elsewhere.iter().all(|(other, _)| *other != key.name),
+                "`{}`",
+                key.name
+            );
         }
     }
 }
@@ -30,11 +38,16 @@ fn a_key_that_is_misspelt_is_refused_with_what_there_is() {
         _ if section.name == "run" => format!("format = 1\n[run]\n{key} = 1\n"),
         _ => format!("format = 1\n[{}.a]\n{key} = 1\n", section.name),
     };
-    let sections = format().sections.iter().filter(|s| !s.keys.is_empty() && s.role != Role::Template);
+    let sections =
+        format().sections.iter().filter(|s| !s.keys.is_empty() && s.role != Role::Template);
     for section in sections {
         let rejected = lptn::parse("a.toml", &element(section, "qqqqqq")).unwrap_err().to_string();
         for key in section.keys {
-            assert!(rejected.contains(&format!("`{}`", key.name)), "[{}]: {rejected}", section.name);
+            assert!(
+                rejected.contains(&format!("`{}`", key.name)),
+                "[{}]: {rejected}",
+                section.name
+            );
         }
     }
 }
@@ -52,7 +65,8 @@ fn page() -> String {
         } else if !section.keys.is_empty() {
             text += "\n| Key | Takes | Meaning | Default | Example |\n|---|---|---|---|---|\n";
             for key in section.keys {
-                let default = if key.default.is_empty() { "" } else { &format!(" {}", key.default) };
+                let default =
+                    if key.default.is_empty() { "" } else { &format!(" {}", key.default) };
                 text += &format!(
                     "| `{}` | {} | {} |{default} | `{}` |\n",
                     key.name, key.takes, key.meaning, key.example

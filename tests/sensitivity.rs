@@ -39,7 +39,8 @@ fn agrees_by(text: &str, all: &[ParameterId]) {
     for &id in all {
         let value = network.parameter_value(id);
         // a change of an absolute temperature is one in K
-        let step = if network.parameters()[id.index()].ty.absolute { 0.05 } else { CHANGE * value.abs() };
+        let step =
+            if network.parameters()[id.index()].ty.absolute { 0.05 } else { CHANGE * value.abs() };
         let above = run(text, Some((id, value + step)), &[]);
         let below = run(text, Some((id, value - step)), &[]);
         for node in network.node_ids() {
@@ -125,8 +126,7 @@ fn radiation() {
     agrees(&with("Gr = \"0.05 m^2\"", areas));
     let surfaces = "[radiation.path]\nfrom = \"hot\"\nto = \"air\"\nemissivity = \"e\"\narea = \"a\"\nview_factor = \"F\"";
     agrees(&with("e = 0.8\na = \"0.1 m^2\"\nF = 0.9", surfaces));
-    let plates =
-        "[radiation.path]\nfrom = \"hot\"\nto = \"cold\"\nemissivity = [\"e1\", \"e2\"]\narea = \"a\"";
+    let plates = "[radiation.path]\nfrom = \"hot\"\nto = \"cold\"\nemissivity = [\"e1\", \"e2\"]\narea = \"a\"";
     agrees(&with("e1 = 0.8\ne2 = 0.5\na = \"0.3 m^2\"", plates));
 }
 

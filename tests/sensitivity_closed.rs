@@ -1,4 +1,5 @@
-//! Exact sensitivities against the closed form of one node, and where there is nothing to differentiate.
+//! Exact sensitivities against the closed form of one node, and where there is nothing to
+//! differentiate.
 
 #![allow(clippy::unwrap_used, reason = "what fails here fails the test")]
 
@@ -43,7 +44,8 @@ output = { every = \"1 min\" }
     let solution = transient(&netlist).tolerance(1e-7).sensitivities(&ids).solve(&system).unwrap();
     let (p, r, c, start) = (220.6, 0.3046, 2659.0, 4.5);
     let node = netlist.network.node("box").unwrap();
-    let found: Vec<Vec<f64>> = ids.iter().map(|&id| solution.sensitivity(id, node).unwrap()).collect();
+    let found: Vec<Vec<f64>> =
+        ids.iter().map(|&id| solution.sensitivity(id, node).unwrap()).collect();
     for (row, &t) in solution.times().iter().enumerate() {
         let x = t / (r * c);
         let e = (-x).exp();
@@ -57,7 +59,12 @@ output = { every = \"1 min\" }
         let sizes = [p, r, c, 10.0, 10.0];
         for k in 0..5 {
             let error = (found[k][row] - exact[k]).abs() * sizes[k];
-            assert!(error < 1e-6, "parameter {k}, row {row}: {} is not {}", found[k][row], exact[k]);
+            assert!(
+                error < 1e-6,
+                "parameter {k}, row {row}: {} is not {}",
+                found[k][row],
+                exact[k]
+            );
         }
     }
 }

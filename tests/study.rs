@@ -1,4 +1,5 @@
-//! The study of the paper's collapse (`examples/collapse.rs`, `docs/collapse.md`) against closed forms written here.
+//! The study of the paper's collapse (`examples/collapse.rs`, `docs/collapse.md`) against closed
+//! forms written here.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -26,7 +27,8 @@ fn gearbox(internal: f64) -> (ThermalSystem, NodeId, NodeId) {
     (support::assembled(b), steel, aluminium)
 }
 
-/// The two rates of the network: roots of `s^2 - (1/(R_i C_s) + (1/R_i + 1/R_o)/C_a) s + 1/(R_i R_o C_s C_a)`.
+/// The two rates of the network: roots of
+/// `s^2 - (1/(R_i C_s) + (1/R_i + 1/R_o)/C_a) s + 1/(R_i R_o C_s C_a)`.
 fn rates(internal: f64) -> [f64; 2] {
     let sum = 1.0 / (internal * STEEL) + (1.0 / internal + 1.0 / OUTER) / ALUMINIUM;
     let product = 1.0 / (internal * OUTER * STEEL * ALUMINIUM);
@@ -34,8 +36,8 @@ fn rates(internal: f64) -> [f64; 2] {
     [product / fast, fast]
 }
 
-/// Rise of the steel node per watt: `R - a exp(-p t) - b exp(-q t)`, with a + b = R and p a + q b = 1/C_s, since all
-/// heat goes into the steel at first.
+/// Rise of the steel node per watt: `R - a exp(-p t) - b exp(-q t)`, with a + b = R and p a + q b =
+/// 1/C_s, since all heat goes into the steel at first.
 fn steel_rise(internal: f64, t: f64) -> f64 {
     let ([p, q], r) = (rates(internal), internal + OUTER);
     let b = (1.0 / STEEL - p * r) / (q - p);
@@ -46,7 +48,9 @@ fn steel_rise(internal: f64, t: f64) -> f64 {
 fn largest_error(internal: f64, capacity: f64) -> f64 {
     let r = internal + OUTER;
     let error = |t: f64| (steel_rise(internal, t) + r * f64::exp_m1(-t / (r * capacity))).abs() / r;
-    (0..60_000).map(|k| error(1e-4 * 10_f64.powf(f64::from(k) * 8.5 / 60_000.0))).fold(0.0, f64::max)
+    (0..60_000)
+        .map(|k| error(1e-4 * 10_f64.powf(f64::from(k) * 8.5 / 60_000.0)))
+        .fold(0.0, f64::max)
 }
 
 #[test]
@@ -54,7 +58,8 @@ fn errors_of_the_sweep_are_those_of_the_closed_form() {
     for ratio in [1e-4, 1e-3, 1e-2, 0.1, 1.0] {
         let internal = ratio * OUTER;
         let (system, steel, _) = gearbox(internal);
-        let dynamics = Reduction::new(&system, steel, &Options::default()).unwrap().dynamics.unwrap();
+        let dynamics =
+            Reduction::new(&system, steel, &Options::default()).unwrap().dynamics.unwrap();
         // C_eq by hand: sum, sum of C_k R_k^2 over R^2, 1/(p R)
         let r = internal + OUTER;
         let moment = (STEEL * r * r + ALUMINIUM * OUTER * OUTER) / (r * r);
@@ -67,17 +72,22 @@ fn errors_of_the_sweep_are_those_of_the_closed_form() {
             let pair = dynamics.pair(definition);
             assert!((pair.capacity - capacity).abs() < 1e-9 * capacity, "{ratio} {definition:?}");
             let (found, exact) = (pair.step.relative.unwrap(), largest_error(internal, capacity));
-            assert!((found - exact).abs() < 1e-4 * exact, "{ratio} {definition:?}: {found} is not {exact}");
+            assert!(
+                (found - exact).abs() < 1e-4 * exact,
+                "{ratio} {definition:?}: {found} is not {exact}"
+            );
         }
     }
 }
 
-/// Each definition is exact in the limit, and its error goes with the first power of `R_int / R_amb`.
+/// Each definition is exact in the limit, and its error goes with the first power of
+/// `R_int / R_amb`.
 #[test]
 fn every_capacity_converges_with_order_one() {
     let errors = |ratio: f64| {
         let (system, steel, _) = gearbox(ratio * OUTER);
-        let dynamics = Reduction::new(&system, steel, &Options::default()).unwrap().dynamics.unwrap();
+        let dynamics =
+            Reduction::new(&system, steel, &Options::default()).unwrap().dynamics.unwrap();
         [Definition::Sum, Definition::FirstMoment, Definition::DominantPole]
             .map(|definition| dynamics.pair(definition).step.relative.unwrap())
     };
@@ -104,8 +114,9 @@ fn both_nodes_share_their_time_constants() {
 fn fits(internal: f64) -> [f64; 2] {
     let (system, steel, aluminium) = gearbox(internal);
     let run = Transient::until(Time::minutes(25.0)).every(Time(0.2)).solve(&system).unwrap();
-    [steel, aluminium]
-        .map(|node| fit_exponential(run.times(), &run.temperature(node).unwrap()).unwrap().tau / 60.0)
+    [steel, aluminium].map(|node| {
+        fit_exponential(run.times(), &run.temperature(node).unwrap()).unwrap().tau / 60.0
+    })
 }
 
 /// The paper reads 13.5 min at the steel and 17.2 min at the aluminium, with 1.7 K between them.
@@ -117,6 +128,12 @@ fn the_papers_two_time_constants_need_far_more_than_its_1_7_kelvin() {
         let [steel, aluminium] = fits(internal);
         aluminium / steel
     };
-    // 17.2/13.5 is reached between 0.10 and 0.15 K/W, that is with 22 to 33 K between steel and aluminium
-    assert!(apart(0.10) < 17.2 / 13.5 && apart(0.15) > 17.2 / 13.5, "{} {}", apart(0.10), apart(0.15));
+    // 17.2/13.5 is reached between 0.10 and 0.15 K/W, that is with 22 to 33 K between steel and
+    // aluminium
+    assert!(
+        apart(0.10) < 17.2 / 13.5 && apart(0.15) > 17.2 / 13.5,
+        "{} {}",
+        apart(0.10),
+        apart(0.15)
+    );
 }

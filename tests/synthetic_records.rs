@@ -17,14 +17,22 @@ const C_EQ: f64 = 2659.0;
 const RPM: f64 = TAU / 60.0;
 
 fn runs() -> Vec<Run> {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("networks/records/synthetic_gearbox");
+    let folder =
+        PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("networks/records/synthetic_gearbox");
     let file = |(rpm, letter): (u32, &str)| {
         let path = folder.join(format!("{rpm}rpm_{letter}.csv"));
         let bytes = std::fs::read(&path).expect("a shipped record");
-        let (record, _) = read_record(&path, &bytes, &RecordQuery::default()).expect("a sound record");
-        let columns = record.temperatures().map(|column| (column.name.clone(), column.values.clone()));
+        let (record, _) =
+            read_record(&path, &bytes, &RecordQuery::default()).expect("a sound record");
+        let columns =
+            record.temperatures().map(|column| (column.name.clone(), column.values.clone()));
         let name = format!("{rpm}{letter}");
-        Run { name, speed: f64::from(rpm) * RPM, columns: columns.collect(), times: record.time.clone() }
+        Run {
+            name,
+            speed: f64::from(rpm) * RPM,
+            columns: columns.collect(),
+            times: record.time.clone(),
+        }
     };
     (1..8).flat_map(|k| [(1000 * k, "a"), (1000 * k, "b")]).map(file).collect()
 }
@@ -42,7 +50,8 @@ fn study(reference: RunReference, threads: usize) -> RunsStudy {
     RunsStudy::new(&runs(), settings).expect("a study")
 }
 
-/// The truth lies within what the study states of its own errors; the exponent is found, and the other laws lose.
+/// The truth lies within what the study states of its own errors; the exponent is found, and the
+/// other laws lose.
 #[test]
 fn the_study_recovers_the_truth_within_its_own_errors() {
     let study = study(RunReference::Initial, 1);
@@ -50,7 +59,11 @@ fn the_study_recovers_the_truth_within_its_own_errors() {
         let truth = ALPHA * (speed / RPM).powf(5.0 / 3.0);
         let power = fit.power.power;
         let error = power.random.hypot(power.systematic);
-        assert!((power.value - truth).abs() < 3.0 * error, "{name}: {} ± {error}, not {truth}", power.value);
+        assert!(
+            (power.value - truth).abs() < 3.0 * error,
+            "{name}: {} ± {error}, not {truth}",
+            power.value
+        );
     }
     let best = study.laws.best().expect("a law");
     assert_eq!(best.law.to_string(), "omega^(5/3)", "{}", study.laws.verdict());
@@ -62,19 +75,25 @@ fn the_study_recovers_the_truth_within_its_own_errors() {
     assert!(off.abs() < 2.0 * scale * random.hypot(systematic.total()), "off by {off}");
     // 5 % of C is 5 % of alpha, in every run alike; the offset of the sensor drops out
     assert!(
-        (systematic.capacity / alpha.value - 0.05).abs() < 1e-12 && systematic.offset < 1e-12 * alpha.value
+        (systematic.capacity / alpha.value - 0.05).abs() < 1e-12
+            && systematic.offset < 1e-12 * alpha.value
     );
     // seals alone or oiled gears alone are out of the question
     let singles = study.laws.single_powers();
     let behind: Vec<f64> = singles.iter().filter_map(|c| study.laws.behind(c)).collect();
     assert!(behind[0] == 0.0 && behind[1] > 20.0 && behind[2] > 20.0, "{behind:?}");
-    let free =
-        study.laws.candidates.iter().find(|c| matches!(c.law, Law::FreeExponent)).expect("it is standard");
+    let free = study
+        .laws
+        .candidates
+        .iter()
+        .find(|c| matches!(c.law, Law::FreeExponent))
+        .expect("it is standard");
     let n = free.fitted().and_then(|fit| fit.coefficient("n")).expect("an exponent");
     assert!((n.value - 5.0 / 3.0).abs() < 3.0 * n.standard_error.expect("an error"), "{n:?}");
 }
 
-/// The rise goes with omega^(5/3) and the time constant does not change: the paper's linear rise is refuted.
+/// The rise goes with omega^(5/3) and the time constant does not change: the paper's linear rise is
+/// refuted.
 #[test]
 fn exponents_of_rise_and_time_constant_are_those_of_a_linear_network() {
     let study = study(RunReference::Initial, 1);
@@ -85,8 +104,8 @@ fn exponents_of_rise_and_time_constant_are_those_of_a_linear_network() {
     assert!(found.claim(found.rise, 1.0).expect("a test").probability < 1e-6);
 }
 
-/// A bed that warms is no fixed ground: counted from its mean the power comes out too small, and the errors of two
-/// sensors enter.
+/// A bed that warms is no fixed ground: counted from its mean the power comes out too small, and
+/// the errors of two sensors enter.
 #[test]
 fn the_bed_as_a_reference_costs_power_and_certainty() {
     let (initial, bed) =
@@ -114,10 +133,14 @@ fn threads_change_nothing() {
 #[test]
 fn a_file_is_what_the_script_writes() {
     for (name, rpm, run) in [("7000rpm_a.csv", 7000, 0), ("1000rpm_b.csv", 1000, 1)] {
-        let path = format!("{}/networks/records/synthetic_gearbox/{name}", env!("CARGO_MANIFEST_DIR"));
+        let path =
+            format!("{}/networks/records/synthetic_gearbox/{name}", env!("CARGO_MANIFEST_DIR"));
         let shipped = std::fs::read_to_string(path).expect("a shipped record");
         let written = synthetic_records::record(rpm, run).expect("a record");
-        assert!(shipped == written, "{name} is not what `cargo run --example synthetic_records` writes");
+        assert!(
+            shipped == written,
+            "{name} is not what `cargo run --example synthetic_records` writes"
+        );
     }
 }
 

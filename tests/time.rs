@@ -1,4 +1,5 @@
-//! Inputs and results that do something between steps, and runs far from 0: against closed forms written out here.
+//! Inputs and results that do something between steps, and runs far from 0: against closed forms
+//! written out here.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::print_stdout, reason = "the measured figures, shown with --nocapture")]
@@ -28,8 +29,8 @@ fn body(rest: &str) -> String {
     )
 }
 
-/// A pulse of 1 around 5123.4 s with a standard deviation of 21.2 s: a two-hundredth of the run. Its integral is 21.2 s
-/// times the root of 2 pi.
+/// A pulse of 1 around 5123.4 s with a standard deviation of 21.2 s: a two-hundredth of the run.
+/// Its integral is 21.2 s times the root of 2 pi.
 const PULSE: &str = "exp(-0.5 * ((t - 5123.4 [s]) / (21.2 [s]))^2)";
 const AREA: f64 = 21.2 * 2.506_628_274_631_000_7;
 
@@ -40,9 +41,9 @@ fn rise_after(rest: &str) -> f64 {
     solution.row(20)[0] - 293.15
 }
 
-/// A pulse in one expression with a temperature was jumped over whole, books closed. With a rise r over the room and C = 100
-/// J/K: where the pulse p gives `C r' = k p r`, r grows by the factor exp(k int p dt / C); with `C r' = -k p r^2` 1/r grows by
-/// k int p dt / C.
+/// A pulse in one expression with a temperature was jumped over whole, books closed. With a rise r
+/// over the room and C = 100 J/K: where the pulse p gives `C r' = k p r`, r grows by the factor
+/// exp(k int p dt / C); with `C r' = -k p r^2` 1/r grows by k int p dt / C.
 #[test]
 fn a_pulse_beside_a_temperature_is_not_jumped_over() {
     let source = |text: &str| format!("[source]\ns = {{ into = \"a\", P = \"{text}\" }}\n");
@@ -59,7 +60,9 @@ fn a_pulse_beside_a_temperature_is_not_jumped_over() {
     }
     let fallen = 1.0 / (0.1 + 0.05 * AREA / 100.0);
     for text in [
-        format!("[resistor]\\nr = {{ from = \"a\", to = \"room\", G = \"0.05 [W/K^2] * dT * {PULSE}\" }}"),
+        format!(
+            "[resistor]\\nr = {{ from = \"a\", to = \"room\", G = \"0.05 [W/K^2] * dT * {PULSE}\" }}"
+        ),
         format!(
             "[convection]\\nr = {{ from = \"a\", to = \"room\", h = \"{PULSE} * film(dT)\", area = \"1 m^2\" }}\\n\
                  [table]\\nfilm = {{ x = [\"0 K\", \"100 K\"], y = [\"0 W/(m^2 K)\", \"5 W/(m^2 K)\"] }}"
@@ -69,8 +72,8 @@ fn a_pulse_beside_a_temperature_is_not_jumped_over() {
     }
 }
 
-/// Time and temperature inside one function: `C r' = k p r` once more, the pulse written as exp(-(x - y)^2) whose y holds a
-/// temperature that stands still.
+/// Time and temperature inside one function: `C r' = k p r` once more, the pulse written as exp(-(x -
+/// y)^2) whose y holds a temperature that stands still.
 #[test]
 fn a_pulse_whose_place_depends_on_a_temperature_is_not_jumped_over() {
     let text = "[source]\ns = { into = \"a\", P = \"0.5 [W/K] * (T - 20 [degC]) * exp(-0.5 * ((t - 3123.4 [s] \
@@ -78,7 +81,8 @@ fn a_pulse_whose_place_depends_on_a_temperature_is_not_jumped_over() {
     close(rise_after(text), 10.0 * (0.5 * AREA / 100.0).exp(), 1e-4);
 }
 
-/// A pulse of a table of two arguments, one of them the time: a triangle of 60 s and height 1, times r / (10 K).
+/// A pulse of a table of two arguments, one of them the time: a triangle of 60 s and height 1,
+/// times r / (10 K).
 #[test]
 fn a_peak_of_a_table_of_time_and_temperature_is_met() {
     let folder = std::env::temp_dir().join("lptn-table-of-time");
@@ -99,7 +103,8 @@ fn a_peak_of_a_table_of_time_and_temperature_is_met() {
     close(solution.row(20)[0] - 293.15, 10.0 * (0.5_f64 * 30.0 / 100.0).exp(), 1e-4);
 }
 
-/// A threshold that dips under the temperature of a quiet network for 1/140 of the run: 80 - 70 p < 30 where p > 5/7.
+/// A threshold that dips under the temperature of a quiet network for 1/140 of the run: 80 - 70 p <
+/// 30 where p > 5/7.
 #[test]
 fn a_pulse_of_a_threshold_switches() {
     let text = body(&format!(
@@ -114,9 +119,9 @@ fn a_pulse_of_a_threshold_switches() {
     close(off.time, 5123.4 + width(4.9 / 7.0), 1e-3);
 }
 
-/// 200 W on top of a half sine of `base` W in one expression, for pulses from 1/28 to 1/4500 of the run (full width at half
-/// height), onto 1000 J/K with 1 W/K. Long after its middle m a pulse of sd s and height A is worth
-/// `A s (2 pi)^(1/2) / C exp(s^2 / (2 tau^2) - (t - m) / tau)`.
+/// 200 W on top of a half sine of `base` W in one expression, for pulses from 1/28 to 1/4500 of the
+/// run (full width at half height), onto 1000 J/K with 1 W/K. Long after its middle m a pulse of sd
+/// s and height A is worth `A s (2 pi)^(1/2) / C exp(s^2 / (2 tau^2) - (t - m) / tau)`.
 #[test]
 fn a_pulse_on_a_large_slow_input_is_not_jumped_over() {
     let (stop, tau, middle) = (1e4, 1e3, 5123.4);
@@ -134,10 +139,11 @@ fn a_pulse_on_a_large_slow_input_is_not_jumped_over() {
                 let slow = (w * t).sin() / tau - w * (w * t).cos() + w * (-t / tau).exp();
                 let after = (sd * sd / (2.0 * tau * tau) - (t - middle) / tau).exp();
                 let pulse = 200.0 * sd * (2.0 * PI).sqrt() / 1000.0 * after;
-                base / 1000.0 * slow / (1.0 / (tau * tau) + w * w) + if t > 6400.0 { pulse } else { 0.0 }
+                base / 1000.0 * slow / (1.0 / (tau * tau) + w * w)
+                    + if t > 6400.0 { pulse } else { 0.0 }
             };
-            let error =
-                (13..=20).map(|row| (solution.row(row)[0] - 293.15 - exact(500.0 * row as f64)).abs());
+            let error = (13..=20)
+                .map(|row| (solution.row(row)[0] - 293.15 - exact(500.0 * row as f64)).abs());
             let error = error.fold(0.0, f64::max);
             let steps = solution.statistics().steps;
             println!("base {base} W, 1/{part} of the run: error {error:.1e} K in {steps} steps");
@@ -147,7 +153,8 @@ fn a_pulse_on_a_large_slow_input_is_not_jumped_over() {
     }
 }
 
-/// A table whose knot is where a signal stands still was followed in steps of a 38400th of the run: 38415 in place of 345.
+/// A table whose knot is where a signal stands still was followed in steps of a 38400th of the run:
+/// 38415 in place of 345.
 #[test]
 fn a_signal_that_rests_on_a_knot_costs_no_steps() {
     let steps = |speed: u32| {
@@ -186,9 +193,13 @@ fn limits_follow_what_only_they_read() {
          pulse = { of = \"a.T + 9 [K] * exp(-0.5 * ((t - 333.3 [s]) / (1 [s]))^2)\", below = \"38 degC\" }\n\
          kept = { of = \"a.T + 9 [K] * exp(-0.5 * ((t - 333.3 [s]) / (1 [s]))^2)\", below = \"40 degC\" }\n",
     );
-    for run in [Transient::until(Time(1000.0)).at(&[]), Transient::until(Time(1000.0)).every(Time(1.0))] {
+    for run in
+        [Transient::until(Time(1000.0)).at(&[]), Transient::until(Time(1000.0)).every(Time(1.0))]
+    {
         let solution = solved(&text, &run);
-        let [step, compared, kink, saw, pulse, kept] = solution.limits() else { panic!("six limits") };
+        let [step, compared, kink, saw, pulse, kept] = solution.limits() else {
+            panic!("six limits")
+        };
         let is = |limit: &lptn::solve::LimitSeen, margin: f64, worst: f64, broken: f64| {
             close(limit.margin, margin, 1e-6);
             close(limit.worst_at, worst, 1e-3);
@@ -239,7 +250,9 @@ fn windows_follow_what_only_they_read() {
          650 [s]) / (0.5 [s]))^2)\" }\n",
     );
     let system = system(&text);
-    let of = Selection::matching(system.network(), &["allowed".into(), "two".into(), "bump".into()]).unwrap();
+    let of =
+        Selection::matching(system.network(), &["allowed".into(), "two".into(), "bump".into()])
+            .unwrap();
     let window = Window { name: "late".into(), from: 550.0, to: 950.0, of };
     let solution = Transient::until(Time(1000.0)).at(&[]).window(window).solve(&system).unwrap();
     let [allowed, two, bump] = &solution.windows()[0].columns[..] else { panic!("three columns") };
@@ -251,8 +264,9 @@ fn windows_follow_what_only_they_read() {
     close(bump.max.0, 100.0, 1e-6);
 }
 
-/// From 1e17 s on, where doubles are 16 s apart, a body of 100 s was at 12 degC between 20 degC and its 10 W; from 1e12 s on one
-/// of 1 ms was 50 K off. The rise from rest is 10 (1 - exp(-t / tau)) K.
+/// From 1e17 s on, where doubles are 16 s apart, a body of 100 s was at 12 degC between 20 degC and
+/// its 10 W; from 1e12 s on one of 1 ms was 50 K off. The rise from rest is 10 (1 - exp(-t / tau))
+/// K.
 #[test]
 fn a_start_far_from_zero_costs_no_accuracy() {
     for (start, tau, every) in
@@ -274,7 +288,8 @@ fn a_start_far_from_zero_costs_no_accuracy() {
     }
 }
 
-/// Rows that a double cannot tell apart were written with the same time; what depends on the time was read at rounded ones.
+/// Rows that a double cannot tell apart were written with the same time; what depends on the time
+/// was read at rounded ones.
 #[test]
 fn runs_whose_times_cannot_be_told_apart_are_refused() {
     let far = |start: f64, length: f64, every: f64| {
@@ -285,7 +300,8 @@ fn runs_whose_times_cannot_be_told_apart_are_refused() {
     let error = far(1e17, 96.0, 10.0).solve(&still).unwrap_err();
     assert_eq!(error.code(), "run::settings");
     assert!(error.to_string().contains("the same time") && error.help().is_some(), "{error}");
-    let moving = system(&body("[source]\ns = { into = \"a\", P = \"1 [W] * sin(t * 1 [1/s])\" }\n"));
+    let moving =
+        system(&body("[source]\ns = { into = \"a\", P = \"1 [W] * sin(t * 1 [1/s])\" }\n"));
     assert!(far(1.7e9, 8.0, 1.0).solve(&moving).is_ok());
     let error = far(1.7e9, 6.0, 1.0).solve(&moving).unwrap_err();
     assert!(error.code() == "run::settings" && error.to_string().contains("too coarse"), "{error}");
@@ -295,15 +311,17 @@ fn runs_whose_times_cannot_be_told_apart_are_refused() {
 /// A jump that is 8 ms after a row in a run far from 0 was moved onto it.
 #[test]
 fn a_jump_near_a_row_stays_where_it_is_far_from_zero() {
-    let text =
-        body("[source]\ns = { into = \"a\", P = \"if(t < 1700000005.0078125 [s], 0 [W], 100 [W])\" }\n");
+    let text = body(
+        "[source]\ns = { into = \"a\", P = \"if(t < 1700000005.0078125 [s], 0 [W], 100 [W])\" }\n",
+    );
     let run = Transient { start: 1.7e9, stop: 1.7e9 + 10.0, ..Transient::until(Time(1.0)) };
     let solution = solved(&text, &run.every(Time(1.0)));
     close(solution.row(5)[0], 303.15, 1e-9);
     close(solution.row(6)[0], 303.15 + 1.0 - 0.007_812_5, 1e-6);
 }
 
-/// What only results read must not make the integrator begin anew: a saw tooth of 20,000 teeth in a report.
+/// What only results read must not make the integrator begin anew: a saw tooth of 20,000 teeth in a
+/// report.
 #[test]
 fn what_only_results_read_does_not_restart_the_integrator() {
     let rest = "[signal]\nsaw = { t = [\"0 s\", \"0.05 s\"], v = [\"0 K\", \"10 K\"], after_end = \"repeat\" }\n\

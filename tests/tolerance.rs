@@ -15,17 +15,25 @@ const FACTOR: f64 = 10.0;
 fn check(what: &str, error: impl Fn(f64) -> f64) {
     for tolerance in TOLERANCES {
         let error = error(tolerance);
-        println!("{what}: tolerance {tolerance:e} K, error {error:.2e} K ({:.2} x)", error / tolerance);
+        println!(
+            "{what}: tolerance {tolerance:e} K, error {error:.2e} K ({:.2} x)",
+            error / tolerance
+        );
         assert!(error <= FACTOR * tolerance, "{what} at {tolerance:e} K: error {error:e} K");
         // an error of nothing would mean that the comparison is empty
-        assert!(error > 1e-4 * tolerance, "{what} at {tolerance:e} K: error {error:e} K is too good");
+        assert!(
+            error > 1e-4 * tolerance,
+            "{what} at {tolerance:e} K: error {error:e} K is too good"
+        );
     }
 }
 
 fn gearbox_error(idle: usize, tolerance: f64) -> (f64, u64) {
     let (system, steel, aluminium) = gearbox_with_idle(idle);
-    let run =
-        Transient::until(Time(3600.0)).every(Time(2.0)).tolerance(tolerance).record(&[steel, aluminium]);
+    let run = Transient::until(Time(3600.0))
+        .every(Time(2.0))
+        .tolerance(tolerance)
+        .record(&[steel, aluminium]);
     let solution = run.solve(&system).expect("it runs");
     let error = (0..solution.times().len())
         .flat_map(|row| {
@@ -77,7 +85,8 @@ fn grid_errs_by_less_than_ten_tolerances() {
     });
 }
 
-/// CVODE's own norm is a mean over the nodes: idle nodes would dilute the tolerance by the root of their number.
+/// CVODE's own norm is a mean over the nodes: idle nodes would dilute the tolerance by the root of
+/// their number.
 #[test]
 fn idle_nodes_change_neither_steps_nor_error() {
     let (error, steps) = gearbox_error(0, 1e-5);
@@ -123,7 +132,8 @@ fn slow_nodes_under_fast_sines_err_by_less_than_ten_tolerances() {
                 power * (forced + omega * (-rate * t).exp()) / (rate * rate + omega * omega)
             };
             let rows = solution.times().iter().enumerate();
-            rows.map(|(row, &t)| (solution.row(row)[0] - 300.0 - exact(t)).abs()).fold(0.0, f64::max)
+            rows.map(|(row, &t)| (solution.row(row)[0] - 300.0 - exact(t)).abs())
+                .fold(0.0, f64::max)
         });
     }
 }

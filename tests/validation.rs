@@ -1,6 +1,7 @@
-//! The validation set, whose answers nobody computed with lptn: textbooks, standards, closed forms, result files of
-//! other tools, measured records. `tests/validation/README.md` is its format; every `case.json` says where its numbers
-//! come from. `LPTN_VALIDATION_DIR` names another folder of the same format.
+//! The validation set, whose answers nobody computed with lptn: textbooks, standards, closed forms,
+//! result files of other tools, measured records. `tests/validation/README.md` is its format; every
+//! `case.json` says where its numbers come from. `LPTN_VALIDATION_DIR` names another folder of the
+//! same format.
 
 #![allow(clippy::print_stdout, reason = "the table of results, shown with --nocapture")]
 
@@ -13,9 +14,10 @@ use lptn::solve::{available_threads, in_parallel};
 use serde_json::{Value, json};
 use validation::{Report, Waiting, cases, own_folder};
 
-/// Case and quantity of every value that is not computed yet. Nothing else may go unanswered, and nothing that has an
-/// answer may stand here.
-const WAITING: [(&str, &str); 2] = [("freq_two_node", "freq_gain"), ("freq_two_node", "freq_phase")];
+/// Case and quantity of every value that is not computed yet. Nothing else may go unanswered, and
+/// nothing that has an answer may stand here.
+const WAITING: [(&str, &str); 2] =
+    [("freq_two_node", "freq_gain"), ("freq_two_node", "freq_phase")];
 
 /// Judges a case with what the project's list lets wait.
 fn judge(id: &str, case: &Value) -> Report {
@@ -30,12 +32,19 @@ fn reports(folder: &Path) -> Vec<Report> {
     println!("{}", Report::heading());
     reports.iter().for_each(|report| print!("{report}"));
     let sum = |i: usize| reports.iter().map(|report| report.counts()[i]).sum::<usize>();
-    println!("{} cases: {} values right, {} wrong, {} WAITING", names.len(), sum(0), sum(1), sum(2));
+    println!(
+        "{} cases: {} values right, {} wrong, {} WAITING",
+        names.len(),
+        sum(0),
+        sum(1),
+        sum(2)
+    );
     reports
 }
 
 fn complain(reports: &[Report]) {
-    let complaints: Vec<&str> = reports.iter().flat_map(Report::complaints).map(String::as_str).collect();
+    let complaints: Vec<&str> =
+        reports.iter().flat_map(Report::complaints).map(String::as_str).collect();
     assert!(complaints.is_empty(), "\n{}", complaints.join("\n"));
 }
 
@@ -75,8 +84,13 @@ fn moved(mut case: Value) -> Value {
 
 #[test]
 fn a_wrong_value_is_found() {
-    for id in ["bridge_steady", "duty_cycle_one_node", "gearbox_two_node", "incropera_1_2_pipe", "rc_ladder"]
-    {
+    for id in [
+        "bridge_steady",
+        "duty_cycle_one_node",
+        "gearbox_two_node",
+        "incropera_1_2_pipe",
+        "rc_ladder",
+    ] {
         let right = validation::json(&own_folder(), id);
         let wrong = judge(id, &moved(right.clone()));
         let count = right["expected"].as_array().expect("a list").len();
@@ -95,7 +109,9 @@ fn complaint_of(id: &str, change: impl Fn(&mut Value)) -> String {
 fn what_the_format_does_not_know_is_an_error() {
     let said = |change: &dyn Fn(&mut Value)| complaint_of("incropera_1_2_pipe", change);
     assert_eq!(said(&|_| ()), "");
-    assert!(said(&|case| case["format"] = json!("lptn-validation-2")).contains("lptn-validation-2"));
+    assert!(
+        said(&|case| case["format"] = json!("lptn-validation-2")).contains("lptn-validation-2")
+    );
     assert!(said(&|case| case["surprise"] = json!(1)).contains("surprise"));
     assert!(said(&|case| case["requires"] = json!(["magic"])).contains("magic"));
     assert!(said(&|case| case["id"] = json!("other")).contains("other"));
@@ -108,8 +124,9 @@ fn what_the_format_does_not_know_is_an_error() {
     assert!(said(&|case| case["expected"][0]["quantity"] = json!("entropy")).contains("entropy"));
     assert!(said(&|case| case["expected"][0]["colour"] = json!(1)).contains("colour"));
     assert!(said(&|case| case["expected"][0]["tol_abs"] = json!("much")).contains("much"));
-    let untold =
-        |case: &mut Value| drop(case["expected"][0].as_object_mut().expect("a value").remove("tol_abs"));
+    let untold = |case: &mut Value| {
+        drop(case["expected"][0].as_object_mut().expect("a value").remove("tol_abs"))
+    };
     assert!(said(&untold).contains("no tolerance"));
 }
 
@@ -122,17 +139,21 @@ fn a_quantity_may_wait_only_where_the_list_says_so() {
     let unlisted = judge("freq_two_node", &[("freq_two_node", "freq_gain")]);
     assert_eq!(unlisted.counts()[1..], [15, 15], "{:?}", unlisted.complaints());
     let needless = judge("bridge_steady", &[("bridge_steady", "T")]);
-    assert!(needless.complaints()[0].contains("T need not wait any longer"), "{:?}", needless.complaints());
+    assert!(
+        needless.complaints()[0].contains("T need not wait any longer"),
+        "{:?}",
+        needless.complaints()
+    );
     // a case that the list cannot know of
     let case = validation::json(&own_folder(), "freq_two_node");
     let stranger = validation::judge("freq_two_node", &case, Waiting { list: &[], known: &[] });
     assert_eq!(stranger.counts()[1..], [0, 30], "{:?}", stranger.complaints());
 }
 
-/// What the format has and no case of the set uses, with closed forms. A body (100 J/K, 20 K above the surroundings)
-/// cools through a junction that halves its rise, with a time constant of 50 s. The heat of a second junction jumps at
-/// 10 s. In `warm` the capacity grows with temperature, in `coil` the resistance: both need `x + x^2/200 = 10.5` for a
-/// rise of x = 10 K.
+/// What the format has and no case of the set uses, with closed forms. A body (100 J/K, 20 K above
+/// the surroundings) cools through a junction that halves its rise, with a time constant of 50 s.
+/// The heat of a second junction jumps at 10 s. In `warm` the capacity grows with temperature, in
+/// `coil` the resistance: both need `x + x^2/200 = 10.5` for a rise of x = 10 K.
 fn unusual() -> Value {
     let rise = 20.0 / std::f64::consts::E;
     let given = (2000.0 - 100.0 * rise) / 50.0;
@@ -191,7 +212,8 @@ fn the_whole_format_is_understood() {
     assert_eq!(report.counts(), [13, 0, 0], "{report}\n{}", report.complaints().join("\n"));
 }
 
-/// A body with an island beside it that keeps its heat: the mean of the island is a mode that never dies.
+/// A body with an island beside it that keeps its heat: the mean of the island is a mode that never
+/// dies.
 #[test]
 fn modes_that_never_die_may_be_skipped_and_sources_sized() {
     let case = json!({

@@ -1,8 +1,9 @@
 //! Finds out which SUNDIALS is linked, before anything is compiled against a wrong guess.
 //!
-//! sundials-sys tells its dependants nothing about the version it found, and where it finds no headers it quietly
-//! builds its own copy as shared libraries, which a finished program cannot load. Therefore this script looks for the
-//! header itself; `src/version.rs` compares what it found with the bindings when the crate is compiled.
+//! sundials-sys tells its dependants nothing about the version it found, and where it finds no
+//! headers it quietly builds its own copy as shared libraries, which a finished program cannot
+//! load. Therefore this script looks for the header itself; `src/version.rs` compares what it found
+//! with the bindings when the crate is compiled.
 
 use std::env;
 use std::fs;
@@ -20,9 +21,13 @@ fn main() -> ExitCode {
         println!("cargo::rerun-if-env-changed={name}");
     }
     println!("cargo::rustc-check-cfg=cfg(sundials7)");
-    // The copy inside sundials-sys 0.6 is a SUNDIALS 7; an empty version means "compare the major number only".
-    let version =
-        if env::var_os("CARGO_FEATURE_BUNDLED").is_some() { Some(String::new()) } else { system_version() };
+    // The copy inside sundials-sys 0.6 is a SUNDIALS 7; an empty version means "compare the major
+    // number only".
+    let version = if env::var_os("CARGO_FEATURE_BUNDLED").is_some() {
+        Some(String::new())
+    } else {
+        system_version()
+    };
     match version.as_deref().map(|text| (text, major(text))) {
         Some((text, number)) if number >= 6 => {
             println!("cargo::rustc-env=LPTN_SUNDIALS_HEADER={text}");
@@ -38,10 +43,13 @@ fn main() -> ExitCode {
     }
 }
 
-/// The version in the first header on the search path of the C compiler, or nothing if there is none.
+/// The version in the first header on the search path of the C compiler, or nothing if there is
+/// none.
 fn system_version() -> Option<String> {
-    let header =
-        include_directories().into_iter().map(|folder| folder.join(HEADER)).find(|path| path.is_file())?;
+    let header = include_directories()
+        .into_iter()
+        .map(|folder| folder.join(HEADER))
+        .find(|path| path.is_file())?;
     println!("cargo::rerun-if-changed={}", header.display());
     version_in(&header)
 }
@@ -53,7 +61,8 @@ fn include_directories() -> Vec<PathBuf> {
         folders.extend(env::var_os(name).iter().flat_map(env::split_paths));
     }
     folders.push("/usr/local/include".into());
-    if let (Ok(arch), Ok(os)) = (env::var("CARGO_CFG_TARGET_ARCH"), env::var("CARGO_CFG_TARGET_OS")) {
+    if let (Ok(arch), Ok(os)) = (env::var("CARGO_CFG_TARGET_ARCH"), env::var("CARGO_CFG_TARGET_OS"))
+    {
         folders.push(format!("/usr/include/{arch}-{os}-gnu").into());
     }
     folders.push("/usr/include".into());

@@ -1,5 +1,6 @@
-//! What is fuzzed: functions that take any bytes and must neither panic, nor hang, nor take memory without measure, nor
-//! give NaN as if it were a result. `make fuzz` feeds them guided by coverage, `cargo test --test fuzz` replays the corpus.
+//! What is fuzzed: functions that take any bytes and must neither panic, nor hang, nor take memory
+//! without measure, nor give NaN as if it were a result. `make fuzz` feeds them guided by coverage,
+//! `cargo test --test fuzz` replays the corpus.
 
 use std::io;
 use std::path::Path;
@@ -10,7 +11,8 @@ use lptn::netlist::{
 use lptn::prelude::*;
 use lptn::solve::{Control, End};
 use lptn::units::{
-    Dimension, Expression, Scope, Symbol, Type, Unit, UnitError, format_number, parse_quantity, parse_value,
+    Dimension, Expression, Scope, Symbol, Type, Unit, UnitError, format_number, parse_quantity,
+    parse_value,
 };
 
 /// A target by its name.
@@ -60,7 +62,11 @@ fn places(files: &Files, diagnostics: &[lptn::netlist::Diagnostic]) {
     for diagnostic in diagnostics {
         let _ = files.plain(diagnostic);
         let Some(span) = diagnostic.place() else { continue };
-        assert!(files.text(span.file).get(span.range.clone()).is_some(), "{} at {span:?}", diagnostic.code);
+        assert!(
+            files.text(span.file).get(span.range.clone()).is_some(),
+            "{} at {span:?}",
+            diagnostic.code
+        );
     }
 }
 
@@ -78,7 +84,11 @@ fn quantity(bytes: &[u8]) {
             Ok(quantity) => {
                 assert!(!quantity.value.is_nan(), "{text:?} is NaN");
                 let again = format_number(quantity.value).parse::<f64>().expect("a number");
-                assert!(again.to_bits() == quantity.value.to_bits(), "{again} is not {}", quantity.value);
+                assert!(
+                    again.to_bits() == quantity.value.to_bits(),
+                    "{again} is not {}",
+                    quantity.value
+                );
             }
             Err(error) => explained(&error, text),
         }
@@ -163,17 +173,20 @@ fn large(text: &str) -> bool {
     let mut elements: u64 = 1;
     for line in text.lines().filter(|line| line.contains("cells") || line.contains("count")) {
         let line = line.replace('_', "");
-        if line.contains("0x") || line.contains("0b") || line.contains("0o") || line.contains('\\') {
+        if line.contains("0x") || line.contains("0b") || line.contains("0o") || line.contains('\\')
+        {
             return true;
         }
-        for digits in line.split(|c: char| !c.is_ascii_digit()).filter(|digits| !digits.is_empty()) {
+        for digits in line.split(|c: char| !c.is_ascii_digit()).filter(|digits| !digits.is_empty())
+        {
             elements = elements.saturating_mul(digits.parse::<u64>().unwrap_or(u64::MAX).max(1));
         }
     }
     // a list may go over several lines
     let lists = text.matches("cells").count() + text.matches("count").count();
     elements > ELEMENTS
-        || lists > 0 && text.lines().any(|line| line.trim_start().starts_with(|c: char| c.is_ascii_digit()))
+        || lists > 0
+            && text.lines().any(|line| line.trim_start().starts_with(|c: char| c.is_ascii_digit()))
 }
 
 /// What is read can be assembled, settled and run for a while, or says why not; nothing is NaN.
@@ -259,7 +272,8 @@ fn csv(bytes: &[u8]) {
         }
     }
     let path = Path::new("a.csv");
-    let _ = read_record(path, bytes, &RecordQuery::default()).map_err(|problems| rejected(&problems));
+    let _ =
+        read_record(path, bytes, &RecordQuery::default()).map_err(|problems| rejected(&problems));
     let _ = read_sheet(path, bytes).map_err(|problems| rejected(&problems));
 }
 

@@ -1,4 +1,5 @@
-//! Networks with known answers, and exact solutions by code that shares nothing with the library's solvers.
+//! Networks with known answers, and exact solutions by code that shares nothing with the library's
+//! solvers.
 #![allow(dead_code, unreachable_pub, reason = "each test file uses a part")]
 
 use faer::{Mat, Side};
@@ -73,7 +74,8 @@ pub fn gearbox_with_idle(idle: usize) -> (ThermalSystem, NodeId, NodeId) {
     (assembled(b), steel, aluminium)
 }
 
-/// The rise of both gearbox nodes over ambient at `t` by the eigenvectors of the 2 x 2 system, written out.
+/// The rise of both gearbox nodes over ambient at `t` by the eigenvectors of the 2 x 2 system,
+/// written out.
 pub fn gearbox_rise(t: f64) -> [f64; 2] {
     let (c_s, c_a, g_i, g_o, p) = (1235.0, 1424.0, 220.6 / 1.7, 220.6 / 65.5, 220.6);
     let (a, b, d) = (g_i / c_s, -g_i / f64::sqrt(c_s * c_a), (g_i + g_o) / c_a);
@@ -92,7 +94,8 @@ pub fn assembled(builder: NetworkBuilder) -> ThermalSystem {
     ThermalSystem::assemble(&builder.build().expect("a sound network")).expect("it assembles")
 }
 
-/// A symmetric system `C dT/dt = q0 + q1 sin(w t) - G T` in its modes, from matrices that the caller fills.
+/// A symmetric system `C dT/dt = q0 + q1 sin(w t) - G T` in its modes, from matrices that the
+/// caller fills.
 pub struct Modal {
     root: Vec<f64>,
     rates: Vec<f64>,
@@ -104,7 +107,8 @@ impl Modal {
         let root: Vec<f64> = capacity.iter().map(|c| c.sqrt()).collect();
         let n = root.len();
         let scaled = Mat::from_fn(n, n, |i, j| g[(i, j)] / (root[i] * root[j]));
-        let eigen = scaled.self_adjoint_eigen(Side::Lower).expect("a symmetric matrix has real modes");
+        let eigen =
+            scaled.self_adjoint_eigen(Side::Lower).expect("a symmetric matrix has real modes");
         let rates = (0..n).map(|k| eigen.S().column_vector()[k]).collect();
         Self { root, rates, vectors: eigen.U().to_owned() }
     }
@@ -115,12 +119,13 @@ impl Modal {
         let mut temperature = vec![0.0; n];
         for k in 0..n {
             let rate = self.rates[k];
-            let project =
-                |q: &[f64]| -> f64 { (0..n).map(|i| self.vectors[(i, k)] * q[i] / self.root[i]).sum() };
+            let project = |q: &[f64]| -> f64 {
+                (0..n).map(|i| self.vectors[(i, k)] * q[i] / self.root[i]).sum()
+            };
             let decay = (-rate * t).exp();
             let constant = project(q0) * -f64::exp_m1(-rate * t) / rate;
-            let sine =
-                project(q1) * (rate * (w * t).sin() - w * (w * t).cos() + w * decay) / (rate * rate + w * w);
+            let sine = project(q1) * (rate * (w * t).sin() - w * (w * t).cos() + w * decay)
+                / (rate * rate + w * w);
             for (i, temperature) in temperature.iter_mut().enumerate() {
                 *temperature += self.vectors[(i, k)] * (constant + sine) / self.root[i];
             }
@@ -129,8 +134,9 @@ impl Modal {
     }
 }
 
-/// A stiff ladder of `n` nodes: capacities over four decades, conductances over three, a constant and a sine
-/// source at its head, its foot tied to a boundary at 0 degC. Returns the system and its exact rise at times.
+/// A stiff ladder of `n` nodes: capacities over four decades, conductances over three, a constant
+/// and a sine source at its head, its foot tied to a boundary at 0 degC. Returns the system and its
+/// exact rise at times.
 pub struct StiffLadder {
     pub system: ThermalSystem,
     modal: Modal,
@@ -142,7 +148,8 @@ pub const LADDER_OMEGA: f64 = 2.0 * std::f64::consts::PI / 60.0;
 
 impl StiffLadder {
     pub fn new(n: usize) -> Self {
-        let spread = |i: usize, decades: f64| 10_f64.powf(decades * ((i * 7 % n) as f64 / n as f64 - 0.5));
+        let spread =
+            |i: usize, decades: f64| 10_f64.powf(decades * ((i * 7 % n) as f64 / n as f64 - 0.5));
         let capacity: Vec<f64> = (0..n).map(|i| 10.0 * spread(i, 4.0)).collect();
         let conductance: Vec<f64> = (0..n).map(|i| 20.0 * spread(i + 3, 3.0)).collect();
         let zero = Temperature::celsius(0.0);
@@ -160,10 +167,13 @@ impl StiffLadder {
                     g[(i, i + 1)] -= conductance[i];
                     g[(i + 1, i)] -= conductance[i];
                 }
-                None => drop(b.resistor(&format!("r{i}"), nodes[i], foot, Conductance(conductance[i]))),
+                None => {
+                    b.resistor(&format!("r{i}"), nodes[i], foot, Conductance(conductance[i]));
+                }
             }
         }
-        let heat = b.expression("30 [W] + 50 [W] * sin(2 * pi * t / 60 [s])", None).expect("it compiles");
+        let heat =
+            b.expression("30 [W] + 50 [W] * sin(2 * pi * t / 60 [s])", None).expect("it compiles");
         b.source("head", nodes[0], heat);
         let unit = |x: f64| (0..n).map(|i| if i == 0 { x } else { 0.0 }).collect();
         Self {
@@ -179,8 +189,8 @@ impl StiffLadder {
     }
 }
 
-/// An `n` by `n` grid, C = 1 J/K, G = 1 W/K to four neighbours or to the boundary at 0 degC around it, and
-/// `heat` W into the cell (p, q), from 1.
+/// An `n` by `n` grid, C = 1 J/K, G = 1 W/K to four neighbours or to the boundary at 0 degC around
+/// it, and `heat` W into the cell (p, q), from 1.
 pub fn grid(n: usize, heat: f64, (p, q): (usize, usize)) -> ThermalSystem {
     let zero = Temperature::celsius(0.0);
     let mut b = NetworkBuilder::new();
@@ -199,7 +209,8 @@ pub fn grid(n: usize, heat: f64, (p, q): (usize, usize)) -> ThermalSystem {
             if i + 1 < n {
                 b.resistor(&format!("y{i}_{j}"), here, cells[(i + 1) * n + j], one);
             }
-            let outside = [i == 0, i + 1 == n, j == 0, j + 1 == n].into_iter().filter(|&o| o).count();
+            let outside =
+                [i == 0, i + 1 == n, j == 0, j + 1 == n].into_iter().filter(|&o| o).count();
             for side in 0..outside {
                 b.resistor(&format!("e{i}_{j}_{side}"), here, edge, one);
             }
@@ -209,9 +220,15 @@ pub fn grid(n: usize, heat: f64, (p, q): (usize, usize)) -> ThermalSystem {
     assembled(b)
 }
 
-/// The exact rise of cell (x, y) of [`grid`] at `t`: the eigenvectors of the discrete Laplacian are products
-/// of sines, with rates `4 - 2 cos(i pi/(n+1)) - 2 cos(j pi/(n+1))`.
-pub fn grid_rise(n: usize, heat: f64, (p, q): (usize, usize), (x, y): (usize, usize), t: f64) -> f64 {
+/// The exact rise of cell (x, y) of [`grid`] at `t`: the eigenvectors of the discrete Laplacian are
+/// products of sines, with rates `4 - 2 cos(i pi/(n+1)) - 2 cos(j pi/(n+1))`.
+pub fn grid_rise(
+    n: usize,
+    heat: f64,
+    (p, q): (usize, usize),
+    (x, y): (usize, usize),
+    t: f64,
+) -> f64 {
     let angle = std::f64::consts::PI / (n as f64 + 1.0);
     let sine = |i: usize, at: usize| (i as f64 * at as f64 * angle).sin();
     let mut rise = 0.0;

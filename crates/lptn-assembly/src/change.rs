@@ -17,8 +17,8 @@ pub enum ChangeError {
 }
 
 impl ThermalSystem {
-    /// The system of the same network with other values of its parameters, for loops over candidates: nothing is read or
-    /// compiled again, and names and expressions are shared.
+    /// The system of the same network with other values of its parameters, for loops over
+    /// candidates: nothing is read or compiled again, and names and expressions are shared.
     ///
     /// ```
     /// # use lptn_assembly::ThermalSystem;

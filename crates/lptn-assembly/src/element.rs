@@ -1,4 +1,5 @@
-//! Elements that are more than a constant conductance: their heat and its derivatives, with places in the Jacobian.
+//! Elements that are more than a constant conductance: their heat and its derivatives, with places
+//! in the Jacobian.
 
 use lptn_network::{ConductorId, End, Flow, InputError, Network, Received, SourceId};
 
@@ -27,7 +28,8 @@ pub(crate) struct Element {
     /// Shares of a source; empty for a conductor, whose ends each receive their own heat.
     pub(crate) shares: Vec<f64>,
     pub(crate) variables: Vec<u32>,
-    /// Slot of each pair (receiver, variable), receiver by receiver; [`NOWHERE`] if one of them is given.
+    /// Slot of each pair (receiver, variable), receiver by receiver; [`NOWHERE`] if one of them is
+    /// given.
     slots: Vec<usize>,
 }
 
@@ -39,26 +41,36 @@ pub(crate) const NOWHERE: usize = usize::MAX;
 pub enum Form {
     /// The derivatives as they are.
     Exact,
-    /// Symmetric: each conductor with the mean of its two derivatives. Newton's method converges with it more slowly,
-    /// to the same point.
+    /// Symmetric: each conductor with the mean of its two derivatives. Newton's method converges
+    /// with it more slowly, to the same point.
     Symmetric,
 }
 
 impl Element {
-    /// The elements of a network that are neither constant conductances nor radiation of a constant area, in the order
-    /// of conductors, then sources.
+    /// The elements of a network that are neither constant conductances nor radiation of a constant
+    /// area, in the order of conductors, then sources.
     pub(crate) fn all_of(network: &Network) -> Vec<Self> {
         let vertex = |end: End| u32::try_from(network.vertex(end)).expect("ids are 32 bits wide");
-        let conductors = network.conductors().iter().zip(network.conductor_ids()).filter_map(|(c, id)| {
-            let ends = vec![vertex(c.from), vertex(c.to)];
-            let (kind, variables) = match network.flow(id) {
-                Flow::Conductance(_) | Flow::Radiation(_) => return None,
-                Flow::Stream(mcp) => (Kind::Stream(mcp), ends.clone()),
-                Flow::Variable => (Kind::Conductor(id), network.conductor_variables(id).to_vec()),
-            };
-            let conductor = Some(id);
-            Some(Self { kind, conductor, receivers: ends, shares: vec![], variables, slots: vec![] })
-        });
+        let conductors =
+            network.conductors().iter().zip(network.conductor_ids()).filter_map(|(c, id)| {
+                let ends = vec![vertex(c.from), vertex(c.to)];
+                let (kind, variables) = match network.flow(id) {
+                    Flow::Conductance(_) | Flow::Radiation(_) => return None,
+                    Flow::Stream(mcp) => (Kind::Stream(mcp), ends.clone()),
+                    Flow::Variable => {
+                        (Kind::Conductor(id), network.conductor_variables(id).to_vec())
+                    }
+                };
+                let conductor = Some(id);
+                Some(Self {
+                    kind,
+                    conductor,
+                    receivers: ends,
+                    shares: vec![],
+                    variables,
+                    slots: vec![],
+                })
+            });
         let sources = network.sources().iter().zip(network.source_ids()).filter_map(|(s, id)| {
             let variables = network.source_variables(id).to_vec();
             let receivers = s.into.iter().map(|&(node, _)| vertex(End::Node(node))).collect();
@@ -78,8 +90,10 @@ impl Element {
     /// The pairs of unknowns that meet in it; `unknown` is `u32::MAX` for a vertex that is given.
     pub(crate) fn pairs<'a>(&'a self, unknown: &'a [u32]) -> impl Iterator<Item = (u32, u32)> + 'a {
         let known = |v: &u32| unknown[*v as usize];
-        let all =
-            self.receivers.iter().flat_map(move |r| self.variables.iter().map(move |v| (known(r), known(v))));
+        let all = self
+            .receivers
+            .iter()
+            .flat_map(move |r| self.variables.iter().map(move |v| (known(r), known(v))));
         all.filter(|&(r, v)| r != u32::MAX && v != u32::MAX)
     }
 
@@ -95,7 +109,8 @@ impl Element {
         self.slots = slots;
     }
 
-    /// Whether its derivatives have a symmetric form: a conductor between its ends, or one node's own heat.
+    /// Whether its derivatives have a symmetric form: a conductor between its ends, or one node's
+    /// own heat.
     pub(crate) fn is_symmetric(&self, network: &Network) -> bool {
         match self.kind {
             Kind::Stream(_) => false,
@@ -107,13 +122,20 @@ impl Element {
     }
 
     /// The heat that both ends of a conductor receive in W.
-    pub(crate) fn received(&self, network: &Network, work: &mut Workspace) -> Result<Received, InputError> {
+    pub(crate) fn received(
+        &self,
+        network: &Network,
+        work: &mut Workspace,
+    ) -> Result<Received, InputError> {
         let at = |k: usize| work.temperature[self.receivers[k] as usize];
         Ok(match self.kind {
             Kind::Stream(mcp) => {
                 let (from, to) = (at(0), at(1));
                 // adding 0 leaves no negative zero to be printed
-                [lptn_laws::advection_from(mcp, from, to) + 0.0, lptn_laws::advection_to(mcp, from, to) + 0.0]
+                [
+                    lptn_laws::advection_from(mcp, from, to) + 0.0,
+                    lptn_laws::advection_to(mcp, from, to) + 0.0,
+                ]
             }
             Kind::Conductor(id) => network.exchange(id, &mut work.scope, &work.temperature)?,
             Kind::Source(_) => [0.0; 2],
@@ -121,7 +143,11 @@ impl Element {
     }
 
     /// Adds its heat to that of every vertex in W; a source's power is kept.
-    pub(crate) fn add_heat(&self, network: &Network, work: &mut Workspace) -> Result<(), InputError> {
+    pub(crate) fn add_heat(
+        &self,
+        network: &Network,
+        work: &mut Workspace,
+    ) -> Result<(), InputError> {
         if let Kind::Source(id) = self.kind {
             let power = network.source_heat(id, &mut work.scope, &work.temperature)?;
             work.power[id.index()] = power;
@@ -165,8 +191,9 @@ impl Element {
         Ok(())
     }
 
-    /// The conductance in W/K that stands for both derivatives of a conductor: their mean, or the one that is exact where
-    /// the other end is given. Never negative, so that the matrix stays definite.
+    /// The conductance in W/K that stands for both derivatives of a conductor: their mean, or the
+    /// one that is exact where the other end is given. Never negative, so that the matrix stays
+    /// definite.
     fn symmetric_conductance(&self, ends: &[Received]) -> f64 {
         let given = |k: usize| self.slots[3 * k] == NOWHERE; // its place on the diagonal
         let g = match (given(0), given(1)) {

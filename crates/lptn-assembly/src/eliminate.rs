@@ -1,10 +1,11 @@
 //! Exact elimination of linear massless nodes, and their recovery.
 //!
-//! A massless node m with conductances g_i to its neighbours and the heat q put into it has the temperature
-//! `T_m = (q + sum g_i T_i) / sum g`. Putting this into the balances of its neighbours links every pair of
-//! them with `g_i g_j / sum g` and gives each the share `q g_i / sum g` of the heat: the star-mesh
-//! transformation (A. Rosen, J. IEE 62 (1924) 916). Only sums, products and quotients of positive numbers
-//! occur, so nothing cancels and the result is exact to rounding for any spread of conductances.
+//! A massless node m with conductances g_i to its neighbours and the heat q put into it has the
+//! temperature `T_m = (q + sum g_i T_i) / sum g`. Putting this into the balances of its neighbours
+//! links every pair of them with `g_i g_j / sum g` and gives each the share `q g_i / sum g` of the
+//! heat: the star-mesh transformation (A. Rosen, J. IEE 62 (1924) 916). Only sums, products and
+//! quotients of positive numbers occur, so nothing cancels and the result is exact to rounding for
+//! any spread of conductances.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
@@ -22,8 +23,8 @@ pub(crate) struct Link {
 struct Star {
     vertex: u32,
     total: f64,
-    /// The neighbour with the largest weight: temperatures are averaged as differences to it, so that a vertex
-    /// between equal temperatures has that temperature to the last digit.
+    /// The neighbour with the largest weight: temperatures are averaged as differences to it, so
+    /// that a vertex between equal temperatures has that temperature to the last digit.
     nearest: u32,
     weights: Vec<(u32, f64)>,
 }
@@ -44,7 +45,8 @@ pub(crate) struct TooMany {
 const FILL_LIMIT: usize = 20_000_000;
 
 impl Elimination {
-    /// Eliminates the vertices marked in `massless` from `links`; what remains is returned merged and sorted.
+    /// Eliminates the vertices marked in `massless` from `links`; what remains is returned merged
+    /// and sorted.
     pub(crate) fn new(links: Vec<Link>, massless: &[bool]) -> Result<(Self, Vec<Link>), TooMany> {
         let is_massless = |v: u32| massless.get(v as usize).copied().unwrap_or(false);
         let mut graph =
@@ -74,8 +76,8 @@ impl Elimination {
 
     /// Hands the heat put into massless vertices on to those that remain.
     ///
-    /// `heat` holds one entry a vertex; afterwards an eliminated vertex holds the heat it had at its turn,
-    /// which [`Elimination::recover`] needs.
+    /// `heat` holds one entry a vertex; afterwards an eliminated vertex holds the heat it had at
+    /// its turn, which [`Elimination::recover`] needs.
     pub(crate) fn distribute(&self, heat: &mut [f64]) {
         for star in &self.stars {
             let q = heat[star.vertex as usize];
@@ -89,8 +91,10 @@ impl Elimination {
     pub(crate) fn recover(&self, heat: &[f64], temperature: &mut [f64]) {
         for star in self.stars.iter().rev() {
             let near = temperature[star.nearest as usize];
-            let rest: f64 = star.weights.iter().map(|&(v, w)| w * (temperature[v as usize] - near)).sum();
-            temperature[star.vertex as usize] = near + (rest + heat[star.vertex as usize] / star.total);
+            let rest: f64 =
+                star.weights.iter().map(|&(v, w)| w * (temperature[v as usize] - near)).sum();
+            temperature[star.vertex as usize] =
+                near + (rest + heat[star.vertex as usize] / star.total);
         }
     }
 
@@ -167,8 +171,11 @@ mod tests {
     #[test]
     fn a_chain_of_junctions_becomes_its_series_resistance() {
         // 0 -(2)- 1 -(3)- 2 -(6)- 3 with 1 and 2 massless: 1/(1/2 + 1/3 + 1/6) = 1
-        let links =
-            vec![Link { a: 0, b: 1, g: 2.0 }, Link { a: 1, b: 2, g: 3.0 }, Link { a: 2, b: 3, g: 6.0 }];
+        let links = vec![
+            Link { a: 0, b: 1, g: 2.0 },
+            Link { a: 1, b: 2, g: 3.0 },
+            Link { a: 2, b: 3, g: 6.0 },
+        ];
         let (elimination, kept) =
             Elimination::new(links, &[false, true, true, false]).ok().expect("a chain is small");
         assert_eq!(kept.len(), 1);
@@ -182,7 +189,8 @@ mod tests {
     #[test]
     fn heat_into_a_junction_divides_by_conductance() {
         let links = vec![Link { a: 0, b: 1, g: 3.0 }, Link { a: 1, b: 2, g: 1.0 }];
-        let (elimination, _) = Elimination::new(links, &[false, true, false]).ok().expect("a star is small");
+        let (elimination, _) =
+            Elimination::new(links, &[false, true, false]).ok().expect("a star is small");
         let mut heat = [0.0, 8.0, 0.0];
         elimination.distribute(&mut heat);
         assert!((heat[0] - 6.0).abs() < 1e-15 && (heat[2] - 2.0).abs() < 1e-15, "{heat:?}");
@@ -194,7 +202,9 @@ mod tests {
     #[test]
     fn a_hub_of_too_many_neighbours_is_refused() {
         let links = (1..8000).map(|b| Link { a: 0, b, g: 1.0 }).collect();
-        let Err(refused) = Elimination::new(links, &[true]) else { panic!("32 million links were made") };
+        let Err(refused) = Elimination::new(links, &[true]) else {
+            panic!("32 million links were made")
+        };
         assert_eq!((refused.vertex, refused.neighbours), (0, 7999));
     }
 }

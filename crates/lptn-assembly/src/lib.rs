@@ -1,8 +1,9 @@
 //! From a [`Network`](lptn_network::Network) to the sparse system `C dT/dt = q(t, T)`.
 //!
-//! [`ThermalSystem`] is assembled once: capacities, links, the pattern of the Jacobian with its full diagonal.
-//! Massless nodes are eliminated exactly (star-mesh) and recovered in every output, so that the state holds
-//! only nodes with capacity. This crate knows nothing of time stepping and of files.
+//! [`ThermalSystem`] is assembled once: capacities, links, the pattern of the Jacobian with its
+//! full diagonal. Massless nodes are eliminated exactly (star-mesh) and recovered in every output,
+//! so that the state holds only nodes with capacity. This crate knows nothing of time stepping and
+//! of files.
 //!
 //! Units: SI, temperatures in K. Heat is positive into a node.
 
@@ -10,6 +11,7 @@ mod change;
 mod element;
 mod eliminate;
 mod error;
+mod heat;
 mod monotone;
 mod pattern;
 mod radiation;

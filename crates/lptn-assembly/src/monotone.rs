@@ -8,15 +8,17 @@ use crate::system::ThermalSystem;
 const SAME: f64 = 1e-12;
 
 impl ThermalSystem {
-    /// Whether its flow is known to be monotone: with inputs and the positions of controls held, warming one node never
-    /// cools another, and takes from the node itself at least the heat that the others receive. All temperatures that
-    /// balance, of the whole network or of some nodes with the others held, are then the only ones: the negative Jacobian
-    /// is an M-matrix everywhere, hence a P-matrix, and a map whose Jacobian is that on a rectangle takes no value twice
-    /// (D. Gale and H. Nikaido, Math. Annalen 159 (1965) 81, theorem 4).
+    /// Whether its flow is known to be monotone: with inputs and the positions of controls held,
+    /// warming one node never cools another, and takes from the node itself at least the heat that
+    /// the others receive. All temperatures that balance, of the whole network or of some nodes
+    /// with the others held, are then the only ones: the negative Jacobian is an M-matrix
+    /// everywhere, hence a P-matrix, and a map whose Jacobian is that on a rectangle takes no value
+    /// twice (D. Gale and H. Nikaido, Math. Annalen 159 (1965) 81, theorem 4).
     ///
-    /// Known are constant conductances and exchange areas, film coefficients that rise with `|dT|`, heat that falls with
-    /// the temperature of its own node, and constant streams of which no node gives more than it gets. `false` for
-    /// everything else, and where a balance really has several solutions.
+    /// Known are constant conductances and exchange areas, film coefficients that rise with `|dT|`,
+    /// heat that falls with the temperature of its own node, and constant streams of which no node
+    /// gives more than it gets. `false` for everything else, and where a balance really has several
+    /// solutions.
     pub fn is_monotone(&self) -> bool {
         self.is_linear() || elements_are_monotone(self.network())
     }
@@ -31,8 +33,11 @@ fn elements_are_monotone(network: &Network) -> bool {
     let mut conductor = |(conductor, id): (&lptn_network::Conductor, _)| match network.flow(id) {
         Flow::Conductance(_) | Flow::Radiation(_) => true,
         Flow::Stream(rate) => {
-            let (from, to) =
-                if rate < 0.0 { (conductor.to, conductor.from) } else { (conductor.from, conductor.to) };
+            let (from, to) = if rate < 0.0 {
+                (conductor.to, conductor.from)
+            } else {
+                (conductor.from, conductor.to)
+            };
             if let End::Node(node) = from {
                 gets[node.index()].1 += rate.abs();
             }

@@ -2,8 +2,8 @@
 
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
-/// Compressed columns of a structurally symmetric matrix: sorted, without duplicates, with its full diagonal. It never
-/// changes; values are written through slots only.
+/// Compressed columns of a structurally symmetric matrix: sorted, without duplicates, with its full
+/// diagonal. It never changes; values are written through slots only.
 #[derive(Clone, Debug)]
 pub struct JacobianPattern {
     symbolic: SymbolicSparseColMat<usize>,
@@ -12,7 +12,8 @@ pub struct JacobianPattern {
 }
 
 impl JacobianPattern {
-    /// The pattern of `size` unknowns of which these pairs meet; pairs may repeat and come in any order.
+    /// The pattern of `size` unknowns of which these pairs meet; pairs may repeat and come in any
+    /// order.
     pub(crate) fn new(size: usize, mut pairs: Vec<(u32, u32)>) -> Self {
         pairs.iter_mut().for_each(|(a, b)| (*a, *b) = ((*a).min(*b), (*a).max(*b)));
         pairs.retain(|(a, b)| a != b);
@@ -35,8 +36,8 @@ impl JacobianPattern {
             next[column] += 1;
             at
         };
-        // pairs are sorted by (a, b), so each column gets its rows in order: those above the diagonal are the
-        // `a` of earlier pairs, then the diagonal, then the `b` of its own pairs
+        // pairs are sorted by (a, b), so each column gets its rows in order: those above the
+        // diagonal are the `a` of earlier pairs, then the diagonal, then the `b` of its own pairs
         let mut diagonal = vec![0; size];
         let mut k = 0;
         for (column, slot) in diagonal.iter_mut().enumerate() {

@@ -1,4 +1,5 @@
-//! Radiation of constant exchange areas: many of them make up the heat of a hot plate, so they lie flat in memory.
+//! Radiation of constant exchange areas: many of them make up the heat of a hot plate, so they lie
+//! flat in memory.
 
 use lptn_network::{ConductorId, Flow, Network, Received};
 
@@ -57,10 +58,13 @@ impl Radiation {
         self.ends.iter().zip(received).for_each(|(&v, q)| heat[v as usize] += q);
     }
 
-    /// Adds its derivatives to the values of the Jacobian. Towards an end that is given the exact one is symmetric; none
-    /// is negative in the symmetric form, so that the matrix stays definite for an iterate below 0 K.
+    /// Adds its derivatives to the values of the Jacobian. Towards an end that is given the exact
+    /// one is symmetric; none is negative in the symmetric form, so that the matrix stays definite
+    /// for an iterate below 0 K.
     pub(crate) fn add_slopes(&self, temperature: &[f64], form: Form, values: &mut [f64]) {
-        let slope = |v: u32| 4.0 * lptn_laws::STEFAN_BOLTZMANN * self.area * temperature[v as usize].powi(3);
+        let slope = |v: u32| {
+            4.0 * lptn_laws::STEFAN_BOLTZMANN * self.area * temperature[v as usize].powi(3)
+        };
         let [mut from, mut to] = self.ends.map(slope);
         if form == Form::Symmetric {
             if !self.slots.contains(&NOWHERE) {
@@ -85,8 +89,8 @@ mod tests {
 
     const SIGMA: f64 = 5.670_374_419e-8;
 
-    /// Jacobian at 1500 K and 900 K of a node of the first temperature that radiates over 2 m^2, one of the second over
-    /// 1 m^2 to a boundary at 300 K.
+    /// Jacobian at 1500 K and 900 K of a node of the first temperature that radiates over 2 m^2,
+    /// one of the second over 1 m^2 to a boundary at 300 K.
     fn jacobian(form: Form) -> Vec<f64> {
         let mut b = NetworkBuilder::new();
         let [hot, warm] = ["hot", "warm"].map(|n| b.node(n, HeatCapacity(1.0), Temperature(900.0)));

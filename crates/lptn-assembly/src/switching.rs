@@ -8,8 +8,8 @@ use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
 
 impl ThermalSystem {
-    /// How far a control is beyond the threshold at which it leaves its state, in K, from the inputs and temperatures
-    /// last read and recovered; see [`Network::control_excess`].
+    /// How far a control is beyond the threshold at which it leaves its state, in K, from the
+    /// inputs and temperatures last read and recovered; see [`Network::control_excess`].
     ///
     /// # Errors
     /// [`InputError`] if a threshold cannot be had.
@@ -17,12 +17,16 @@ impl ThermalSystem {
         self.network().control_excess(id, &mut work.scope, &work.temperature)
     }
 
-    /// The difference of the two sides of a switch and its slope, from the inputs and temperatures last read and
-    /// recovered; see [`Network::switch_difference`].
+    /// The difference of the two sides of a switch and its slope, from the inputs and temperatures
+    /// last read and recovered; see [`Network::switch_difference`].
     ///
     /// # Errors
     /// [`InputError`] if a side cannot be had.
-    pub fn switch_difference(&self, work: &mut Workspace, id: SwitchId) -> Result<(f64, f64), InputError> {
+    pub fn switch_difference(
+        &self,
+        work: &mut Workspace,
+        id: SwitchId,
+    ) -> Result<(f64, f64), InputError> {
         self.network().switch_difference(id, &mut work.scope, &work.temperature)
     }
 }

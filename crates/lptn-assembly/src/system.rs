@@ -1,6 +1,6 @@
 //! The sparse system `C dT/dt = q(t, T)` of a network.
 
-use lptn_network::{ConductorId, Flow, InputError, Network, NodeId, Received, Surface};
+use lptn_network::{ConductorId, Flow, InputError, Network, NodeId};
 
 use crate::element::{Element, Form};
 use crate::eliminate::{Elimination, Link, TooMany};
@@ -9,36 +9,37 @@ use crate::pattern::JacobianPattern;
 use crate::radiation::Radiation;
 use crate::workspace::Workspace;
 
-/// A network as a system of ordinary differential equations in its nodes with capacity, and of balances without
-/// storage in its massless nodes that cannot be eliminated.
+/// A network as a system of ordinary differential equations in its nodes with capacity, and of
+/// balances without storage in its massless nodes that cannot be eliminated.
 ///
-/// The unknowns are the nodes with capacity (the states), then those massless nodes (the algebraic ones), each in the
-/// network's order. `flow` and `jacobian` read the same links and elements, and the heat of a link leaves one end and
-/// enters the other as one number with two signs.
+/// The unknowns are the nodes with capacity (the states), then those massless nodes (the algebraic
+/// ones), each in the network's order. `flow` and `jacobian` read the same links and elements, and
+/// the heat of a link leaves one end and enters the other as one number with two signs.
 #[derive(Clone, Debug)]
 pub struct ThermalSystem {
-    network: Network,
+    pub(crate) network: Network,
     /// Node of each unknown.
-    unknowns: Vec<NodeId>,
+    pub(crate) unknowns: Vec<NodeId>,
     /// How many of them are states.
-    states: usize,
+    pub(crate) states: usize,
     /// Capacity of each state in J/K at its start, then zeros.
-    mass: Vec<f64>,
-    /// Constant conductances between unknowns, by their numbers, with their two slots in the Jacobian.
-    links: Vec<Link>,
-    link_slots: Vec<[usize; 2]>,
+    pub(crate) mass: Vec<f64>,
+    /// Constant conductances between unknowns, by their numbers, with their two slots in the
+    /// Jacobian.
+    pub(crate) links: Vec<Link>,
+    pub(crate) link_slots: Vec<[usize; 2]>,
     /// Those from an unknown (`a`) to a vertex that is a boundary (`b`).
-    ties: Vec<Link>,
+    pub(crate) ties: Vec<Link>,
     /// Those between two boundaries, by vertex: no unknown feels them, the ledger does.
-    bridges: Vec<Link>,
-    radiation: Vec<Radiation>,
+    pub(crate) bridges: Vec<Link>,
+    pub(crate) radiation: Vec<Radiation>,
     /// Everything else.
-    elements: Vec<Element>,
-    streams: Vec<ConductorId>,
+    pub(crate) elements: Vec<Element>,
+    pub(crate) streams: Vec<ConductorId>,
     /// Whether every element has a symmetric form.
-    symmetric: bool,
-    elimination: Elimination,
-    pattern: JacobianPattern,
+    pub(crate) symmetric: bool,
+    pub(crate) elimination: Elimination,
+    pub(crate) pattern: JacobianPattern,
 }
 
 impl ThermalSystem {
@@ -48,8 +49,8 @@ impl ThermalSystem {
     /// [`AssemblyError`] if a massless node has too many neighbours to be eliminated.
     pub fn assemble(network: &Network) -> Result<Self, AssemblyError> {
         let eliminated = network.linear_massless();
-        let (elimination, kept) =
-            Elimination::new(constant_links(network), &eliminated).map_err(|e| too_many(network, &e))?;
+        let (elimination, kept) = Elimination::new(constant_links(network), &eliminated)
+            .map_err(|e| too_many(network, &e))?;
         let massless = |id: &NodeId| network.nodes()[id.index()].massless;
         let mut unknowns: Vec<NodeId> = network.node_ids().filter(|id| !massless(id)).collect();
         let states = unknowns.len();
@@ -65,7 +66,8 @@ impl ThermalSystem {
         let pattern = JacobianPattern::new(unknowns.len(), pairs);
         radiation.iter_mut().for_each(|r| r.place(&number, &pattern));
         elements.iter_mut().for_each(|element| element.place(&number, &pattern));
-        let link_slots = links.iter().map(|l| [pattern.slot(l.a, l.b), pattern.slot(l.b, l.a)]).collect();
+        let link_slots =
+            links.iter().map(|l| [pattern.slot(l.a, l.b), pattern.slot(l.b, l.a)]).collect();
         let symmetric = elements.iter().all(|element| element.is_symmetric(network));
         let mass = unknowns.iter().map(|&id| network.capacity(id)).collect();
         let stream = |id: &ConductorId| network.conductors()[id.index()].law.is_stream();
@@ -152,7 +154,12 @@ impl ThermalSystem {
     ///
     /// # Errors
     /// [`InputError`] naming the source or boundary whose value cannot be had.
-    pub fn read_inputs(&self, work: &mut Workspace, time: f64, segment: f64) -> Result<(), InputError> {
+    pub fn read_inputs(
+        &self,
+        work: &mut Workspace,
+        time: f64,
+        segment: f64,
+    ) -> Result<(), InputError> {
         if !work.read(&self.network, time, segment)? {
             return Ok(());
         }
@@ -161,15 +168,19 @@ impl ThermalSystem {
             self.network.sources().iter().zip(&work.power).zip(self.network.source_ids())
         {
             if self.network.source_variables(id).is_empty() {
-                source.into.iter().for_each(|(node, share)| work.heat[node.index()] += share * power);
+                source
+                    .into
+                    .iter()
+                    .for_each(|(node, share)| work.heat[node.index()] += share * power);
             }
         }
         self.elimination.distribute(&mut work.heat);
         Ok(())
     }
 
-    /// Takes these heats into the nodes in W and these temperatures of the boundaries in K in place of the
-    /// network's own inputs, until those are read again: the response to a heat that no source puts in.
+    /// Takes these heats into the nodes in W and these temperatures of the boundaries in K in place
+    /// of the network's own inputs, until those are read again: the response to a heat that no
+    /// source puts in.
     pub fn apply(&self, work: &mut Workspace, heat: &[f64], boundaries: &[f64]) {
         work.forget();
         work.heat.fill(0.0);
@@ -178,22 +189,29 @@ impl ThermalSystem {
         work.temperature[self.network.nodes().len()..].copy_from_slice(boundaries);
     }
 
-    /// Writes the heat flow into each unknown in W, from the inputs last read and the temperatures `y` of the unknowns
-    /// in K.
+    /// Writes the heat flow into each unknown in W, from the inputs last read and the temperatures
+    /// `y` of the unknowns in K.
     ///
     /// # Errors
     /// [`InputError`] naming the element whose heat cannot be had; never for a linear system.
-    pub fn flow(&self, work: &mut Workspace, y: &[f64], flow: &mut [f64]) -> Result<(), InputError> {
+    pub fn flow(
+        &self,
+        work: &mut Workspace,
+        y: &[f64],
+        flow: &mut [f64],
+    ) -> Result<(), InputError> {
         self.linear_flow(work, y, flow);
         if !self.is_linear() {
             self.evaluate_elements(work, y)?;
-            flow.iter_mut().zip(&self.unknowns).for_each(|(q, id)| *q += work.element_heat[id.index()]);
+            flow.iter_mut()
+                .zip(&self.unknowns)
+                .for_each(|(q, id)| *q += work.element_heat[id.index()]);
         }
         Ok(())
     }
 
-    /// The part of [`ThermalSystem::flow`] that inputs and constant conductances make up: all of it for a linear
-    /// system.
+    /// The part of [`ThermalSystem::flow`] that inputs and constant conductances make up: all of it
+    /// for a linear system.
     pub fn linear_flow(&self, work: &Workspace, y: &[f64], flow: &mut [f64]) {
         for (q, id) in flow.iter_mut().zip(&self.unknowns) {
             *q = work.heat[id.index()];
@@ -209,7 +227,11 @@ impl ThermalSystem {
         }
     }
 
-    fn evaluate_elements(&self, work: &mut Workspace, y: &[f64]) -> Result<(), InputError> {
+    pub(crate) fn evaluate_elements(
+        &self,
+        work: &mut Workspace,
+        y: &[f64],
+    ) -> Result<(), InputError> {
         self.put(work, y);
         work.element_heat.fill(0.0);
         self.radiation.iter().for_each(|r| r.add_heat(&work.temperature, &mut work.element_heat));
@@ -221,9 +243,11 @@ impl ThermalSystem {
         y.iter().zip(&self.unknowns).for_each(|(t, id)| work.temperature[id.index()] = *t);
     }
 
-    /// Writes the derivative of [`ThermalSystem::flow`] by the unknowns in W/K into the slots of the pattern.
+    /// Writes the derivative of [`ThermalSystem::flow`] by the unknowns in W/K into the slots of
+    /// the pattern.
     ///
-    /// It is constant and symmetric for a linear system; otherwise symmetric if that form is asked for.
+    /// It is constant and symmetric for a linear system; otherwise symmetric if that form is asked
+    /// for.
     ///
     /// # Errors
     /// As [`ThermalSystem::flow`].
@@ -245,7 +269,8 @@ impl ThermalSystem {
         Ok(())
     }
 
-    /// The part of the Jacobian that constant conductances make up, in W/K: all of it for a linear system.
+    /// The part of the Jacobian that constant conductances make up, in W/K: all of it for a linear
+    /// system.
     pub fn jacobian(&self, values: &mut [f64]) {
         values.fill(0.0);
         for (link, slots) in self.links.iter().zip(&self.link_slots) {
@@ -258,7 +283,8 @@ impl ThermalSystem {
         }
     }
 
-    /// Fills the temperatures of all nodes from those of the unknowns, eliminated nodes recovered exactly.
+    /// Fills the temperatures of all nodes from those of the unknowns, eliminated nodes recovered
+    /// exactly.
     pub fn recover(&self, work: &mut Workspace, y: &[f64]) {
         self.put(work, y);
         if !self.elimination.is_empty() {
@@ -286,59 +312,6 @@ impl ThermalSystem {
         &work.power
     }
 
-    /// Writes the heat that each boundary gives to the network in W, from the inputs last read and the
-    /// temperatures `y` of the unknowns in K; and keeps the heat of sources that depend on temperatures.
-    ///
-    /// The sum runs over the same links as [`ThermalSystem::flow`], after the elimination: a boundary next to a
-    /// massless node through a large conductance would otherwise be the difference of two temperatures that
-    /// are equal to the last digit.
-    ///
-    /// # Errors
-    /// As [`ThermalSystem::flow`].
-    pub fn boundary_heat(&self, work: &mut Workspace, y: &[f64], heat: &mut [f64]) -> Result<(), InputError> {
-        self.linear_boundary_heat(work, y, heat);
-        if !self.is_linear() {
-            let nodes = self.network.nodes().len();
-            self.evaluate_elements(work, y)?;
-            heat.iter_mut().zip(&work.element_heat[nodes..]).for_each(|(q, received)| *q -= received);
-        }
-        Ok(())
-    }
-
-    /// The part of [`ThermalSystem::boundary_heat`] that constant conductances carry: all of it for a linear system.
-    pub fn linear_boundary_heat(&self, work: &Workspace, y: &[f64], heat: &mut [f64]) {
-        let nodes = self.network.nodes().len();
-        for (q, share) in heat.iter_mut().zip(&work.heat[nodes..]) {
-            *q = -share; // what massless nodes hand on to it
-        }
-        for tie in &self.ties {
-            let boundary = tie.b as usize;
-            heat[boundary - nodes] += tie.g * (work.temperature[boundary] - y[tie.a as usize]);
-        }
-        for bridge in &self.bridges {
-            let (a, b) = (bridge.a as usize, bridge.b as usize);
-            let q = bridge.g * (work.temperature[a] - work.temperature[b]);
-            heat[a - nodes] += q;
-            heat[b - nodes] -= q;
-        }
-    }
-
-    /// The conductors that are streams.
-    pub fn streams(&self) -> &[ConductorId] {
-        &self.streams
-    }
-
-    /// Writes the heat that each stream brings to its two ends together, in W, after [`ThermalSystem::boundary_heat`].
-    ///
-    /// # Errors
-    /// As [`ThermalSystem::flow`].
-    pub fn stream_heat(&self, work: &mut Workspace, heat: &mut [f64]) -> Result<(), InputError> {
-        for (q, &id) in heat.iter_mut().zip(&self.streams) {
-            *q = self.received(work, id)?.iter().sum();
-        }
-        Ok(())
-    }
-
     /// The sum of all conductances that lead to a boundary, after the elimination, in W/K.
     pub fn boundary_conductance(&self) -> f64 {
         self.ties.iter().chain(&self.bridges).map(|link| link.g).sum()
@@ -347,34 +320,6 @@ impl ThermalSystem {
     /// Temperatures of the unknowns in K among those of all nodes.
     pub fn unknown_temperatures(&self, nodes: &[f64], y: &mut [f64]) {
         y.iter_mut().zip(&self.unknowns).for_each(|(t, id)| *t = nodes[id.index()]);
-    }
-
-    /// The surface that a convection, contact or radiation is, from inputs read and nodes recovered; `None` for any other
-    /// conductor.
-    ///
-    /// # Errors
-    /// As [`ThermalSystem::flow`].
-    pub fn surface(&self, work: &mut Workspace, id: ConductorId) -> Result<Option<Surface>, InputError> {
-        self.network.surface(id, &mut work.scope, &work.temperature)
-    }
-
-    /// The heat that the two ends of a conductor receive in W, from inputs read and nodes recovered: equal and
-    /// opposite but for a stream.
-    ///
-    /// # Errors
-    /// As [`ThermalSystem::flow`].
-    pub fn received(&self, work: &mut Workspace, id: ConductorId) -> Result<Received, InputError> {
-        let conductor = &self.network.conductors()[id.index()];
-        if let Some(conductance) = self.network.conductance(id) {
-            let at = |end| work.temperature[self.network.vertex(end)];
-            let heat = conductance * (at(conductor.from) - at(conductor.to));
-            return Ok([-heat, heat]);
-        }
-        if let Ok(place) = self.radiation.binary_search_by_key(&id, |r| r.conductor) {
-            return Ok(self.radiation[place].received(&work.temperature));
-        }
-        let place = self.elements.partition_point(|e| e.conductor.is_some_and(|c| c < id));
-        self.elements[place].received(&self.network, work)
     }
 }
 
@@ -388,8 +333,9 @@ fn constant_links(network: &Network) -> Vec<Link> {
     network.conductors().iter().zip(network.conductor_ids()).filter_map(link).collect()
 }
 
-/// Links between unknowns, from an unknown to a boundary, between boundaries. `kept` is sorted by vertex and so are
-/// they: the numbers of unknowns only grow with those of nodes within states and within algebraic ones.
+/// Links between unknowns, from an unknown to a boundary, between boundaries. `kept` is sorted by
+/// vertex and so are they: the numbers of unknowns only grow with those of nodes within states and
+/// within algebraic ones.
 fn sorted(kept: Vec<Link>, number: &[u32]) -> (Vec<Link>, Vec<Link>, Vec<Link>) {
     let (mut links, mut ties, mut bridges) = (Vec::new(), Vec::new(), Vec::new());
     for Link { a, b, g } in kept {

@@ -1,4 +1,5 @@
-//! What evaluating a system needs besides the system: one per thread, so that evaluating allocates nothing.
+//! What evaluating a system needs besides the system: one per thread, so that evaluating allocates
+//! nothing.
 
 use lptn_network::{Evaluation, InputError, Network, Positions};
 
@@ -42,16 +43,25 @@ impl Workspace {
     }
 
     /// Reads sources and boundaries at `time` [s] unless that was done; says whether they are new.
-    pub(crate) fn read(&mut self, network: &Network, time: f64, segment: f64) -> Result<bool, InputError> {
+    pub(crate) fn read(
+        &mut self,
+        network: &Network,
+        time: f64,
+        segment: f64,
+    ) -> Result<bool, InputError> {
         let now = (time.to_bits(), segment.to_bits());
-        let known = self.read_at.is_some_and(|(t, s)| !self.varies || (t.to_bits(), s.to_bits()) == now);
+        let known =
+            self.read_at.is_some_and(|(t, s)| !self.varies || (t.to_bits(), s.to_bits()) == now);
         if known {
             return Ok(false);
         }
         self.read_at = None; // an error leaves nothing half read
         self.scope.set_time(time, segment);
         network.source_powers(&mut self.scope, &mut self.power)?;
-        network.boundary_temperatures(&mut self.scope, &mut self.temperature[network.nodes().len()..])?;
+        network.boundary_temperatures(
+            &mut self.scope,
+            &mut self.temperature[network.nodes().len()..],
+        )?;
         self.read_at = Some((time, segment));
         Ok(true)
     }

@@ -1,4 +1,5 @@
-//! Massless nodes: what is left after their elimination, against balances solved in exact rational numbers.
+//! Massless nodes: what is left after their elimination, against balances solved in exact rational
+//! numbers.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 #[path = "common/networks.rs"]
@@ -24,7 +25,8 @@ const BOUNDARIES: [i128; 2] = [290, 350];
 impl Case {
     fn random(random: &mut Random) -> Self {
         let massless: Vec<bool> = (0..7).map(|i| i % 3 != 1).collect(); // states 1 and 4 stand between the others
-        let mut links: Vec<(usize, usize, i128)> = (1..9).map(|v| (random.below(v.min(7)), v, 1)).collect();
+        let mut links: Vec<(usize, usize, i128)> =
+            (1..9).map(|v| (random.below(v.min(7)), v, 1)).collect();
         for _ in 0..9 {
             let (a, b) = (random.below(9), random.below(9));
             if a != b {
@@ -118,7 +120,8 @@ fn what_is_left_is_the_schur_complement() {
     for _ in 0..40 {
         let case = Case::random(&mut random);
         let assembled = case.assembled();
-        let states: Vec<i128> = case.states().iter().map(|_| 250 + random.below(200) as i128).collect();
+        let states: Vec<i128> =
+            case.states().iter().map(|_| 250 + random.below(200) as i128).collect();
         let y: Vec<f64> = states.iter().map(|t| *t as f64).collect();
         let mut work = assembled.workspace();
         assembled.read_inputs(&mut work, 0.0, 0.0).unwrap();
@@ -135,7 +138,9 @@ fn what_is_left_is_the_schur_complement() {
             near(*found, Rational::whole(0) - received[v], 2e4);
         }
         assembled.recover(&mut work, &y);
-        for (found, exact) in assembled.node_temperatures(&work).iter().zip(case.temperatures(&states)) {
+        for (found, exact) in
+            assembled.node_temperatures(&work).iter().zip(case.temperatures(&states))
+        {
             near(*found, exact, 400.0);
         }
         let matrix = dense(&assembled, 0.0, &y, Form::Exact);
@@ -193,7 +198,8 @@ fn the_conductance_of_boundaries_is_what_is_left_of_it() {
         let mut felt = [f64::NAN; 2];
         assembled.flow(&mut work, &[0.0, 0.0], &mut felt).unwrap();
         case.states().into_iter().zip(felt).for_each(|(v, q)| near(q, feel(v), 2e4));
-        // with all boundaries 1 K above the states: ties; with one alone above the other: its ties and its bridges
+        // with all boundaries 1 K above the states: ties; with one alone above the other: its ties
+        // and its bridges
         let unit = |work: &mut lptn_assembly::Workspace, boundaries: [f64; 2]| {
             assembled.apply(work, &[0.0; 7], &boundaries);
             let mut given = [f64::NAN; 2];
@@ -224,11 +230,13 @@ fn a_vertex_between_equal_temperatures_has_that_temperature_to_the_last_digit() 
     assert_eq!(assembled.node_temperatures(&work)[0].to_bits(), f64::to_bits(t));
 }
 
-/// Nine decades between the conductances around a junction: the weights are exact, 1 W/K of 1e9 W/K is not lost.
+/// Nine decades between the conductances around a junction: the weights are exact, 1 W/K of 1e9 W/K
+/// is not lost.
 #[test]
 fn no_spread_of_conductances_costs_digits() {
     let mut b = NetworkBuilder::new();
-    let (left, middle) = (b.node("left", HeatCapacity(1.0), Temperature(300.0)), b.massless("middle"));
+    let (left, middle) =
+        (b.node("left", HeatCapacity(1.0), Temperature(300.0)), b.massless("middle"));
     let air = b.boundary("air", Temperature(0.0));
     b.resistor("weak", left, middle, Conductance(1.0));
     b.resistor("strong", middle, air, Conductance(1e9));
@@ -253,7 +261,8 @@ fn a_hub_that_would_link_millions_of_pairs_is_named() {
         b.resistor(&format!("r{i}"), hub, node, Conductance(1.0));
     }
     let error = ThermalSystem::assemble(&b.build().unwrap()).unwrap_err();
-    let expected = AssemblyError::TooManyNeighbours { node: hub, name: "hub".into(), neighbours: 7000 };
+    let expected =
+        AssemblyError::TooManyNeighbours { node: hub, name: "hub".into(), neighbours: 7000 };
     assert_eq!(error, expected);
     assert_eq!(error.code(), "assembly::too_many_neighbours");
     assert!(error.to_string().contains("`hub` has 7000 neighbours"), "{error}");

@@ -1,4 +1,5 @@
-//! Heat and derivatives of single elements against formulas by hand, both forms of the Jacobian, and tangents.
+//! Heat and derivatives of single elements against formulas by hand, both forms of the Jacobian,
+//! and tangents.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 #[path = "common/networks.rs"]
@@ -102,7 +103,8 @@ fn a_stream_has_the_slopes_of_its_direction() {
 
 type Add = dyn Fn(&mut NetworkBuilder, End, End);
 
-/// The Jacobian of two nodes with one element between `a` and `b`, and an element to a boundary if asked for.
+/// The Jacobian of two nodes with one element between `a` and `b`, and an element to a boundary if
+/// asked for.
 fn forms(add: &Add, ends: [&str; 2], y: &[f64]) -> [Vec<Vec<f64>>; 2] {
     let mut b = NetworkBuilder::new();
     let x = b.node("x", HeatCapacity(1.0), Temperature(300.0));
@@ -121,10 +123,14 @@ fn forms(add: &Add, ends: [&str; 2], y: &[f64]) -> [Vec<Vec<f64>>; 2] {
 }
 
 fn close(found: f64, expected: f64) {
-    assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1.0), "{found} is not {expected}");
+    assert!(
+        (found - expected).abs() <= 1e-12 * expected.abs().max(1.0),
+        "{found} is not {expected}"
+    );
 }
 
-/// q = g T_mean^2 dT with g such that both slopes differ much: between nodes the mean, towards a boundary the exact one.
+/// q = g T_mean^2 dT with g such that both slopes differ much: between nodes the mean, towards a
+/// boundary the exact one.
 #[test]
 fn the_symmetric_form_is_the_mean_of_both_slopes_or_the_exact_one() {
     let add: &Add = &|b, from, to| {
@@ -218,16 +224,16 @@ fn an_element_that_fails_is_named_by_every_question() {
 /// Parameters of every kind of value, around a junction that hands on what it feels.
 fn with_parameters() -> (ThermalSystem, Vec<ParameterId>) {
     let mut b = NetworkBuilder::new();
-    let ids = [("G", "2 W/K"), ("P", "40 W"), ("T_air", "280 K"), ("A", "0.3 m^2"), ("R", "0.5 K/W")].map(
-        |(name, text)| {
-            let quantity = if name == "T_air" {
-                lptn_units::parse_quantity(text, Some(networks::ABSOLUTE)).unwrap().into()
-            } else {
-                quantity(text)
-            };
-            b.parameter(name, quantity)
-        },
-    );
+    let ids =
+        [("G", "2 W/K"), ("P", "40 W"), ("T_air", "280 K"), ("A", "0.3 m^2"), ("R", "0.5 K/W")]
+            .map(|(name, text)| {
+                let quantity = if name == "T_air" {
+                    lptn_units::parse_quantity(text, Some(networks::ABSOLUTE)).unwrap().into()
+                } else {
+                    quantity(text)
+                };
+                b.parameter(name, quantity)
+            });
     let value = |b: &NetworkBuilder, text: &str| b.expression(text, None).unwrap().into();
     let [x, y] = ["x", "y"].map(|n| b.node(n, HeatCapacity(1.0), Temperature(300.0)));
     let joint = b.massless("joint");
@@ -244,7 +250,8 @@ fn with_parameters() -> (ThermalSystem, Vec<ParameterId>) {
     (system(b), ids.to_vec())
 }
 
-/// At held unknowns the flows change with a parameter as the tangent heat says, and so does the junction.
+/// At held unknowns the flows change with a parameter as the tangent heat says, and so does the
+/// junction.
 #[test]
 fn tangents_are_the_derivatives_of_flows_and_of_eliminated_temperatures() {
     let (system, ids) = with_parameters();
@@ -273,7 +280,10 @@ fn tangents_are_the_derivatives_of_flows_and_of_eliminated_temperatures() {
         let ((up, joint_up), (down, joint_down)) = (seen(1.0), seen(-1.0));
         for k in 0..2 {
             let slope = (up[k] - down[k]) / (2.0 * h);
-            assert!((block[k] - slope).abs() <= 1e-6 * slope.abs().max(1e-3), "{id:?} {block:?} {slope}");
+            assert!(
+                (block[k] - slope).abs() <= 1e-6 * slope.abs().max(1e-3),
+                "{id:?} {block:?} {slope}"
+            );
         }
         let mut all = [f64::NAN; 4];
         system.recover_tangent(block, &along, &mut all);

@@ -1,4 +1,5 @@
-//! Tolerance: the Jacobian of every law against central differences of the heat flows, and where it must stay finite.
+//! Tolerance: the Jacobian of every law against central differences of the heat flows, and where it
+//! must stay finite.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 #[path = "common/networks.rs"]
@@ -51,8 +52,10 @@ fn conductor(b: &mut NetworkBuilder, kind: ConductorKind, ends: [End; 2], path: 
 
 fn oil(b: &mut NetworkBuilder) -> lptn_network::FluidId {
     let density = own(b, "900 [kg/m^3] * (1 - 7e-4 [1/K] * (T - 20 [degC]))");
-    let cp =
-        own(b, "1900 [J/(kg K)] + 4 [J/(kg K^2)] * (T - 20 [degC]) + 0.004 [J/(kg K^3)] * (T - 20 [degC])^2");
+    let cp = own(
+        b,
+        "1900 [J/(kg K)] + 4 [J/(kg K^2)] * (T - 20 [degC]) + 0.004 [J/(kg K^3)] * (T - 20 [degC])^2",
+    );
     b.fluid("oil", Some(density), cp, None)
 }
 
@@ -134,8 +137,10 @@ const ELEMENTS: [(&str, Add); 24] = [
     }),
     ("radiation of parallel plates with emissivity(T)", |b, ends| {
         let warm = link(b, "0.5 + 1e-4 [1/K] * (T_from - 20 [degC])");
-        let surfaces =
-            Path::new(Formula::ParallelPlates, [warm, quantity("0.6"), quantity("0.4 m^2"), quantity("0.9")]);
+        let surfaces = Path::new(
+            Formula::ParallelPlates,
+            [warm, quantity("0.6"), quantity("0.4 m^2"), quantity("0.9")],
+        );
         conductor(b, ConductorKind::Radiation, ends, surfaces);
     }),
     ("stream", |b, ends| {
@@ -159,7 +164,8 @@ const ELEMENTS: [(&str, Add); 24] = [
     }),
     ("fluid by volume at a temperature of its own", |b, ends| {
         let fluid = oil(b);
-        let path = Path::of_fluid(Formula::VolumeFlow, fluid, [quantity("1.5 l/min"), link(b, "T_from")]);
+        let path =
+            Path::of_fluid(Formula::VolumeFlow, fluid, [quantity("1.5 l/min"), link(b, "T_from")]);
         conductor(b, ConductorKind::Advection, ends, path);
     }),
     ("source of its own T", |b, ends| {
@@ -202,7 +208,8 @@ fn network(add: Add, to_boundary: bool, massless: bool) -> Option<Network> {
     b.signal_expression("speed", b.expression("2 [m/s^2] * t", None).unwrap());
     let a = b.node("a", HeatCapacity(100.0), start);
     let c = if massless { b.massless("c") } else { b.node("c", HeatCapacity(50.0), start) };
-    let others = ["third", "fourth", "fifth", "sixth"].map(|n| b.node(n, HeatCapacity(20.0), start));
+    let others =
+        ["third", "fourth", "fifth", "sixth"].map(|n| b.node(n, HeatCapacity(20.0), start));
     let room = b.boundary("room", start);
     let ring = [a, others[0], others[1], others[2], others[3]];
     for (i, pair) in ring.windows(2).enumerate() {
@@ -218,7 +225,8 @@ fn network(add: Add, to_boundary: bool, massless: bool) -> Option<Network> {
 fn every_element(mut test: impl FnMut(&str, &ThermalSystem)) {
     for (name, add) in ELEMENTS {
         for (boundary, massless) in [(false, false), (true, false), (false, true)] {
-            let network = network(add, boundary, massless).unwrap_or_else(|| panic!("{name} does not build"));
+            let network =
+                network(add, boundary, massless).unwrap_or_else(|| panic!("{name} does not build"));
             test(name, &ThermalSystem::assemble(&network).unwrap());
         }
     }
@@ -230,7 +238,8 @@ fn every_jacobian_is_that_of_the_heat_flows_at_random_states() {
     every_element(|_, system| {
         for time in [0.3, 2.0] {
             for _ in 0..4 {
-                let y: Vec<f64> = system.unknowns().iter().map(|_| random.between(255.0, 520.0)).collect();
+                let y: Vec<f64> =
+                    system.unknowns().iter().map(|_| random.between(255.0, 520.0)).collect();
                 check(system, time, &y);
             }
         }
@@ -251,7 +260,10 @@ fn every_jacobian_is_finite_at_rest_reversed_and_without_flow() {
                 let matrix = dense(system, time, y, Form::Exact);
                 let heat = flow(system, time, y);
                 let all = matrix.iter().flatten().chain(&heat);
-                assert!(all.clone().all(|v| v.is_finite()), "{name} at {time} s, {y:?}: {matrix:?}");
+                assert!(
+                    all.clone().all(|v| v.is_finite()),
+                    "{name} at {time} s, {y:?}: {matrix:?}"
+                );
             }
         }
     });

@@ -1,4 +1,5 @@
-//! What a system says of itself, and what it reads and keeps: unknowns, inputs, positions, temperatures.
+//! What a system says of itself, and what it reads and keeps: unknowns, inputs, positions,
+//! temperatures.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 #[path = "common/networks.rs"]
@@ -6,8 +7,8 @@ mod networks;
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    Acts, Conductance, Context, HeatCapacity, HeatFlow, NetworkBuilder, Positions, Temperature, Thermostat,
-    Time,
+    Acts, Conductance, Context, HeatCapacity, HeatFlow, NetworkBuilder, Positions, Temperature,
+    Thermostat, Time,
 };
 use networks::{flow, link, power, quantity, radiation, stream, system};
 
@@ -176,7 +177,10 @@ fn positions_that_change_are_read_again() {
         let excess = system.control_excess(&mut work, fan).unwrap();
         let switch = system.network().switch_ids().next().unwrap();
         let (difference, slope) = system.switch_difference(&mut work, switch).unwrap();
-        assert!((difference - 8.0).abs() < 1e-12 && (slope - 1.0).abs() < 1e-12, "{difference} {slope}");
+        assert!(
+            (difference - 8.0).abs() < 1e-12 && (slope - 1.0).abs() < 1e-12,
+            "{difference} {slope}"
+        );
         (flow[0], excess)
     };
     // -58 W to the air; off: 348 K is 2 K short of 350 K, on: 18 K above 330 K
@@ -228,7 +232,10 @@ fn heat_of_boundaries_counts_every_kind_of_path() {
     let found = flow(&mixed, 0.0, &y);
     // through the joint 1 W/K, to the tip 3 W/K, the stream brings 4 W/K (280 K - 290 K)
     let expected = [60.0 - 30.0 - 30.0, 30.0 - 40.0, 30.0 - glow];
-    found.iter().zip(expected).for_each(|(f, e)| assert!((f - e).abs() < 1e-10, "{found:?} {expected:?}"));
+    found
+        .iter()
+        .zip(expected)
+        .for_each(|(f, e)| assert!((f - e).abs() < 1e-10, "{found:?} {expected:?}"));
     let mut linear = [f64::NAN; 3];
     mixed.linear_flow(&work, &y, &mut linear);
     for (f, e) in linear.iter().zip([0.0, 30.0, 30.0]) {
@@ -240,7 +247,8 @@ fn heat_of_boundaries_counts_every_kind_of_path() {
     assert!((mixed.boundary_conductance() - 7.0).abs() < 1e-12);
 }
 
-/// Sources that know temperatures are heat of the elements, not of the inputs: with shares, and kept for the results.
+/// Sources that know temperatures are heat of the elements, not of the inputs: with shares, and
+/// kept for the results.
 #[test]
 fn sources_of_temperatures_share_their_heat() {
     let mut b = NetworkBuilder::new();
@@ -257,14 +265,20 @@ fn sources_of_temperatures_share_their_heat() {
     let found = flow(&system, 0.0, &[310.0, 305.0]);
     // 60 W; 20 W to the air, 10 W from x to y
     let expected = [-20.0 - 10.0 + 15.0 + 2.0, 10.0 + 11.0 + 45.0 + 2.0];
-    found.iter().zip(expected).for_each(|(f, e)| assert!((f - e).abs() < 1e-11, "{found:?} {expected:?}"));
+    found
+        .iter()
+        .zip(expected)
+        .for_each(|(f, e)| assert!((f - e).abs() < 1e-11, "{found:?} {expected:?}"));
     let mut work = system.workspace();
     system.read_inputs(&mut work, 0.0, 0.0).unwrap();
     let mut heat = [f64::NAN];
     system.boundary_heat(&mut work, &[310.0, 305.0], &mut heat).unwrap();
     assert!((heat[0] + 20.0).abs() < 1e-12);
     let powers = system.source_powers(&work);
-    assert!((powers[1] - 60.0).abs() < 1e-11 && powers[0].to_bits() == 11.0_f64.to_bits(), "{powers:?}");
+    assert!(
+        (powers[1] - 60.0).abs() < 1e-11 && powers[0].to_bits() == 11.0_f64.to_bits(),
+        "{powers:?}"
+    );
 }
 
 /// Three boundaries and one node: what goes from one boundary to another past the node.
@@ -272,7 +286,8 @@ fn sources_of_temperatures_share_their_heat() {
 fn bridges_lead_to_every_boundary() {
     let mut b = NetworkBuilder::new();
     let x = b.node("x", HeatCapacity(1.0), Temperature(300.0));
-    let ends = [(280.0, "a"), (250.0, "b"), (310.0, "c")].map(|(t, n)| b.boundary(n, Temperature(t)));
+    let ends =
+        [(280.0, "a"), (250.0, "b"), (310.0, "c")].map(|(t, n)| b.boundary(n, Temperature(t)));
     for (i, (from, to, g)) in [(0, 1, 2.0), (1, 2, 5.0), (2, 0, 0.5)].into_iter().enumerate() {
         b.resistor(&format!("r{i}"), ends[from], ends[to], Conductance(g));
     }
@@ -282,7 +297,10 @@ fn bridges_lead_to_every_boundary() {
     system.read_inputs(&mut work, 0.0, 0.0).unwrap();
     let mut heat = [f64::NAN; 3];
     system.boundary_heat(&mut work, &[300.0], &mut heat).unwrap();
-    let expected = [2.0 * 30.0 - 0.5 * 30.0, -2.0 * 30.0 - 5.0 * 60.0, 5.0 * 60.0 + 0.5 * 30.0 + 3.0 * 10.0];
-    heat.iter().zip(expected).for_each(|(f, e)| assert!((f - e).abs() < 1e-10, "{heat:?} {expected:?}"));
+    let expected =
+        [2.0 * 30.0 - 0.5 * 30.0, -2.0 * 30.0 - 5.0 * 60.0, 5.0 * 60.0 + 0.5 * 30.0 + 3.0 * 10.0];
+    heat.iter()
+        .zip(expected)
+        .for_each(|(f, e)| assert!((f - e).abs() < 1e-10, "{heat:?} {expected:?}"));
     assert!((system.boundary_conductance() - 10.5).abs() < 1e-12);
 }

@@ -2,7 +2,9 @@
 
 use lptn_netlist::{Diagnostic, Files, Netlist, Span};
 use lptn_network::{End, Item, Network};
-use lptn_report::{Format, Text, TextTable, TextTableOf, decimals, duration, fixed, prefix, significant};
+use lptn_report::{
+    Format, Text, TextTable, TextTableOf, decimals, duration, fixed, prefix, significant,
+};
 use lptn_solve::{Balance, Term};
 use lptn_study::Scalar;
 use lptn_units::suggest;
@@ -12,12 +14,16 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 
 /// The node or boundary that the option names.
-pub(crate) fn end(netlist: &Netlist, name: Option<&str>, format: Format) -> Result<Option<End>, Failure> {
+pub(crate) fn end(
+    netlist: &Netlist,
+    name: Option<&str>,
+    format: Format,
+) -> Result<Option<End>, Failure> {
     let Some(name) = name else { return Ok(None) };
     if format == Format::Csv {
         let message = "--balance is shown in the table and in JSON: CSV holds columns only";
-        let problem =
-            Diagnostic::error("balance::csv", message).help("leave out `--format csv`, or write json");
+        let problem = Diagnostic::error("balance::csv", message)
+            .help("leave out `--format csv`, or write json");
         return Err(Failure::new(Exit::Input, problem));
     }
     let network = &netlist.network;
@@ -31,11 +37,14 @@ pub(crate) fn end(netlist: &Netlist, name: Option<&str>, format: Format) -> Resu
 fn unknown(network: &Network, name: &str, found: Option<Item>) -> Failure {
     let mut files = Files::new();
     let file = files.add("--balance", name);
-    let problem =
-        Diagnostic::error("balance::unknown_node", format!("no node or boundary is named `{name}`"))
-            .at(Span::new(file, 0..name.len()), "");
+    let problem = Diagnostic::error(
+        "balance::unknown_node",
+        format!("no node or boundary is named `{name}`"),
+    )
+    .at(Span::new(file, 0..name.len()), "");
     let nodes = network.nodes().iter().map(|node| node.name.as_str());
-    let names: Vec<&str> = nodes.chain(network.boundaries().iter().map(|b| b.name.as_str())).collect();
+    let names: Vec<&str> =
+        nodes.chain(network.boundaries().iter().map(|b| b.name.as_str())).collect();
     const SHOWN: usize = 8;
     let list = |names: &[&str]| {
         names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
@@ -61,7 +70,8 @@ fn unknown(network: &Network, name: &str, found: Option<Item>) -> Failure {
     Failure::at(Exit::Input, files, problem.help(help))
 }
 
-/// A line of the table: a term by its name and what it joins, or the sum of all; power in W, heat in J.
+/// A line of the table: a term by its name and what it joins, or the sum of all; power in W, heat
+/// in J.
 struct Line {
     name: String,
     other: String,
@@ -81,12 +91,17 @@ fn amounts<'a>(
         true => fixed(100.0 * value(line) / turned_over, 1),
         false => "-".into(),
     };
-    let table = table.right(format!("{when} [{letter}{unit}]"), |line| fixed(value(line) / scale, digits));
+    let table =
+        table.right(format!("{when} [{letter}{unit}]"), |line| fixed(value(line) / scale, digits));
     table.right("%", share)
 }
 
 /// The balance as a section; `times` are start and end of the run in s, none for a steady state.
-pub(crate) fn section(text: &mut Text, network: &Network, (balance, times): (&Balance, Option<(f64, f64)>)) {
+pub(crate) fn section(
+    text: &mut Text,
+    network: &Network,
+    (balance, times): (&Balance, Option<(f64, f64)>),
+) {
     let line = |term: &Term| Line {
         name: network.name_of(term.item).into_owned(),
         other: other(network, term),
@@ -102,19 +117,24 @@ pub(crate) fn section(text: &mut Text, network: &Network, (balance, times): (&Ba
     let lines: Vec<Line> = balance.largest_first().iter().map(line).chain([sum]).collect();
     let when = times.map_or("steady".to_owned(), |(_, end)| format!("at {}", duration(end, 4)));
     let table = TextTable::of(&lines)
-        .left(format!("heat into {}", network.name_of(balance.of.into())), |line| line.name.as_str())
+        .left(format!("heat into {}", network.name_of(balance.of.into())), |line| {
+            line.name.as_str()
+        })
         .left("", |line| line.other.as_str())
         .names();
     let mut table = amounts(table, (when, "W", balance.power_turned_over()), |line| line.power);
-    if let (Some((start, end)), Some(_), Some(all)) = (times, balance.stored, balance.heat_turned_over()) {
+    if let (Some((start, end)), Some(_), Some(all)) =
+        (times, balance.stored, balance.heat_turned_over())
+    {
         let over = format!("over {}", duration(end - start, 4));
         table = amounts(table, (over, "J", all), |line| line.heat);
     }
     text.section().table(table);
     text.line("positive: into it; 100 % is all that comes in or all that goes out, the larger");
     text.lines(
-        open(balance)
-            .map(|open| format!("the paths and what is stored differ by {} J", significant(open, 2))),
+        open(balance).map(|open| {
+            format!("the paths and what is stored differ by {} J", significant(open, 2))
+        }),
     );
 }
 
@@ -151,8 +171,8 @@ fn place(network: &Network, term: &Term, end: End) -> String {
     }
 }
 
-/// `{ of, terms: [{ name, other, power, power_share, heat, heat_share }], power, heat, stored, .. }`, in SI, largest
-/// first.
+/// `{ of, terms: [{ name, other, power, power_share, heat, heat_share }], power, heat, stored, .. }`,
+/// in SI, largest first.
 pub(crate) fn json(network: &Network, balance: &Balance) -> Value {
     let scalar = Scalar::new;
     let heat = |value: Option<f64>| value.map(|value| scalar(value, "J"));

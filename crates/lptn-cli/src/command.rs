@@ -16,7 +16,9 @@ use crate::options::{Color, Global};
 /// Prints why a command line cannot be understood, or the help that it asks for.
 pub(crate) fn refuse(error: &clap::Error) -> Exit {
     let verb = match error.get(ContextKind::InvalidSubcommand) {
-        Some(ContextValue::String(verb)) if error.kind() == ErrorKind::InvalidSubcommand => Some(verb),
+        Some(ContextValue::String(verb)) if error.kind() == ErrorKind::InvalidSubcommand => {
+            Some(verb)
+        }
         _ => None,
     };
     let Some(problem) = verb.and_then(|verb| file_as_verb(verb).or_else(|| near_verb(verb))) else {

@@ -45,7 +45,8 @@ impl Console {
         self.write(|out| lptn_report::write(page, format, self.styled_results, out))
     }
 
-    /// The exit code that belongs to an answer. Where that is no, the text says so; beside other formats it is said here.
+    /// The exit code that belongs to an answer. Where that is no, the text says so; beside other
+    /// formats it is said here.
     pub(crate) fn conclude(&self, page: &dyn Page, format: Format) -> Exit {
         let Some(no) = page.no() else { return Exit::Done };
         if format != Format::Table {
@@ -89,8 +90,10 @@ impl Console {
 
     /// Diagnostics as messages.
     pub(crate) fn report(&self, files: &Files, diagnostics: &[Diagnostic]) {
-        let texts: Vec<String> =
-            diagnostics.iter().map(|diagnostic| render(files, diagnostic, self.styled_messages)).collect();
+        let texts: Vec<String> = diagnostics
+            .iter()
+            .map(|diagnostic| render(files, diagnostic, self.styled_messages))
+            .collect();
         if !texts.is_empty() {
             self.message(&texts.join("\n\n"));
         }

@@ -13,14 +13,17 @@ pub(crate) fn render(files: &Files, diagnostic: &Diagnostic, styled: bool) -> St
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
-    let mut group = Group::with_title(level.primary_title(diagnostic.message.as_str()).id(diagnostic.code));
+    let mut group =
+        Group::with_title(level.primary_title(diagnostic.message.as_str()).id(diagnostic.code));
     for file in files_of(diagnostic) {
-        let labels: Vec<&Label> = diagnostic.labels.iter().filter(|label| label.span.file == file).collect();
+        let labels: Vec<&Label> =
+            diagnostic.labels.iter().filter(|label| label.span.file == file).collect();
         if files.text(file).len() < LONG {
             group = group.element(snippet(files, (0, files.text(file)), &labels));
         } else {
             // the renderer looks at every line it is given
-            group = group.elements(labels.iter().map(|label| snippet(files, line(files, label), &[*label])));
+            group = group
+                .elements(labels.iter().map(|label| snippet(files, line(files, label), &[*label])));
         }
     }
     group = group.elements(diagnostic.help.iter().map(|help| Level::HELP.message(help.as_str())));
@@ -62,7 +65,8 @@ fn snippet<'a>(
 ) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
     let annotations = labels.iter().map(|label| {
         let kind = if label.primary { AnnotationKind::Primary } else { AnnotationKind::Context };
-        let range = label.span.range.start.saturating_sub(start)..label.span.range.end.saturating_sub(start);
+        let range = label.span.range.start.saturating_sub(start)
+            ..label.span.range.end.saturating_sub(start);
         kind.span(inside(&range, text)).label(Some(label.text.as_str()).filter(|t| !t.is_empty()))
     });
     let annotations: Vec<_> = annotations.collect();
@@ -112,7 +116,8 @@ fn place(files: &Files, label: &Label) -> Value {
     })
 }
 
-/// How the object of a result begins: the version of its format, the network that it is about, and its warnings.
+/// How the object of a result begins: the version of its format, the network that it is about, and
+/// its warnings.
 pub(crate) fn head(
     json: &mut Json<'_>,
     network: Option<&str>,

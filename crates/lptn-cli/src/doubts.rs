@@ -9,11 +9,17 @@ use lptn_units::Unit;
 use crate::input::Input;
 use crate::limits::Judged;
 
-/// That inputs change with time, what that means for the limits, and which verb looks at every time.
-pub(crate) fn inputs_vary(input: &Input, steady: &SteadyState, limits: &[Judged]) -> Option<Diagnostic> {
+/// That inputs change with time, what that means for the limits, and which verb looks at every
+/// time.
+pub(crate) fn inputs_vary(
+    input: &Input,
+    steady: &SteadyState,
+    limits: &[Judged],
+) -> Option<Diagnostic> {
     let network = &input.netlist.network;
     let quantities = network.limits().iter().flat_map(|limit| [&limit.of, &limit.value]);
-    let quantities: Vec<_> = quantities.chain(network.reports().iter().map(|report| &report.value)).collect();
+    let quantities: Vec<_> =
+        quantities.chain(network.reports().iter().map(|report| &report.value)).collect();
     let mut changing = network.changing_inputs();
     changing.extend(network.changing_inputs_of(&quantities));
     if changing.is_empty() {
@@ -23,13 +29,18 @@ pub(crate) fn inputs_vary(input: &Input, steady: &SteadyState, limits: &[Judged]
         changing.iter().filter_map(|c| Some(network.name_of(c.item()?).into_owned())).collect();
     names.sort_unstable();
     names.dedup();
-    let which = if names.is_empty() { String::new() } else { format!(", {}", list_of_names(&names)) };
-    let judged =
-        if limits.iter().any(Judged::is_open) { ", and no limit is judged that depends on them" } else { "" };
+    let which =
+        if names.is_empty() { String::new() } else { format!(", {}", list_of_names(&names)) };
+    let judged = if limits.iter().any(Judged::is_open) {
+        ", and no limit is judged that depends on them"
+    } else {
+        ""
+    };
     let at = duration(steady.time, 4);
     let instead = instead(input).map_or(String::new(), |verb| format!("; {verb}"));
-    let message =
-        format!("inputs change with time{which}: they are taken as they are at {at}{judged}{instead}");
+    let message = format!(
+        "inputs change with time{which}: they are taken as they are at {at}{judged}{instead}"
+    );
     Some(Diagnostic::warning("steady::inputs_vary", message))
 }
 
@@ -53,7 +64,8 @@ pub(crate) fn adiabatic(network: &Network, steady: &SteadyState) -> Option<Diagn
     (!names.is_empty()).then(|| Diagnostic::warning("steady::energy", message))
 }
 
-/// That the start decides where the network comes to rest, where that is known or cannot be excluded.
+/// That the start decides where the network comes to rest, where that is known or cannot be
+/// excluded.
 pub(crate) fn others(network: &Network, steady: &SteadyState, unit: &Unit) -> Option<Diagnostic> {
     let warn = |code, message: String| Some(Diagnostic::warning(code, message));
     match &steady.others {

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use lptn_assembly::{AssemblyError, ThermalSystem};
 use lptn_netlist::{
-    Diagnostic, Files, MOST_BYTES, Netlist, ReadError, Rejected, Span, parse_bytes, parse_file, similar_file,
+    Diagnostic, Files, MOST_BYTES, Netlist, ReadError, Rejected, Span, parse_bytes, parse_file,
+    similar_file,
 };
 use lptn_network::{InputError, Item, ParameterId};
 use lptn_report::{Json, Text, plain};
@@ -56,7 +57,8 @@ pub(crate) fn read(file: &Path) -> Result<Given, Failure> {
         }
         Err(ReadError::Rejected(rejected)) => return Err(rejected.into()),
     };
-    let stem = file.file_stem().map_or("netlist".into(), |stem| stem.to_string_lossy().into_owned());
+    let stem =
+        file.file_stem().map_or("netlist".into(), |stem| stem.to_string_lossy().into_owned());
     Ok(Given { bytes, name, stem: folder_name(stem) })
 }
 
@@ -179,12 +181,15 @@ impl Studies {
             return Ok(found);
         }
         let problem = match (name, all.is_empty()) {
-            (None, true) => {
-                Diagnostic::error(none, format!("{file} has no [{section}.NAME]: {}", self.question))
-                    .help(format!("add for example:\n\n{}", self.example))
+            (None, true) => Diagnostic::error(
+                none,
+                format!("{file} has no [{section}.NAME]: {}", self.question),
+            )
+            .help(format!("add for example:\n\n{}", self.example)),
+            (None, false) => {
+                Diagnostic::error(several, format!("{file} has several [{section}.NAME]"))
+                    .help(format!("name one of {}", list()))
             }
-            (None, false) => Diagnostic::error(several, format!("{file} has several [{section}.NAME]"))
-                .help(format!("name one of {}", list())),
             (Some(name), empty) => {
                 let problem = Diagnostic::error(none, format!("{file} has no [{section}.{name}]"));
                 if empty {

@@ -37,7 +37,8 @@ impl Judged {
         Self { limit, margin, worst_at: None, broken_at: None }
     }
 
-    /// One that a steady state says nothing about, since it depends on inputs that change with time.
+    /// One that a steady state says nothing about, since it depends on inputs that change with
+    /// time.
     pub(crate) fn open(limit: LimitId) -> Self {
         Self::of_steady(limit, f64::NAN)
     }
@@ -73,7 +74,8 @@ pub(crate) fn section(text: &mut Text, network: &Network, limits: &[Judged], uni
         .names()
         .right("margin", |j| margin(j, of(j), unit));
     if limits.iter().any(|judged| judged.worst_at.is_some()) {
-        table = table.right("least at", |j| j.worst_at.map_or("-".into(), |time| duration(time, 3)));
+        table =
+            table.right("least at", |j| j.worst_at.map_or("-".into(), |time| duration(time, 3)));
     }
     text.section().table(table.left("", |j| verdict(j, of(j))));
 }
@@ -115,20 +117,26 @@ fn number(value: f64, ty: Type, unit: &Unit) -> String {
     }
     if ty == Type::of(Dimension::TEMPERATURE) {
         let kelvin = (unit.scale - 1.0).abs() < 1e-12;
-        return format!("{} {}", significant(value / unit.scale, DIGITS), if kelvin { "K" } else { "degR" });
+        return format!(
+            "{} {}",
+            significant(value / unit.scale, DIGITS),
+            if kelvin { "K" } else { "degR" }
+        );
     }
     format!("{}{}", significant(value, DIGITS), spaced(&ty.dimension.si_unit()))
 }
 
-/// Members by the limit's name: `{ of, below or above, worst, margin, worst_at, broken_at, severity, kept }`, in the
-/// results and in the manifest. `worst` is the value of `of` where the margin is least; where a limit is not judged `worst`,
-/// `margin` and `kept` are null. Nothing without limits.
+/// Members by the limit's name:
+/// `{ of, below or above, worst, margin, worst_at, broken_at, severity, kept }`, in the results and
+/// in the manifest. `worst` is the value of `of` where the margin is least; where a limit is not
+/// judged `worst`, `margin` and `kept` are null. Nothing without limits.
 pub(crate) fn members(network: &Network, limits: &[Judged]) -> Option<Map<String, Value>> {
     let one = |judged: &Judged| {
         let limit = &network.limits()[judged.limit.index()];
         let time = |time: Option<f64>| time.map(|time| Scalar::new(time, "s"));
-        let scalar =
-            |value: f64| (!value.is_nan()).then(|| Scalar::new(value, &limit.ty.dimension.si_unit()));
+        let scalar = |value: f64| {
+            (!value.is_nan()).then(|| Scalar::new(value, &limit.ty.dimension.si_unit()))
+        };
         let bound = bound(network, limit);
         let worst = match limit.bound {
             Bound::Below => bound - judged.margin,
@@ -149,12 +157,14 @@ pub(crate) fn members(network: &Network, limits: &[Judged]) -> Option<Map<String
     (!limits.is_empty()).then(|| limits.iter().map(one).collect())
 }
 
-/// Says which limits are broken and gives the exit code. Those that make it 1 are said last, and with `--quiet` too;
-/// those of severity warning are warnings, which `--quiet` leaves out: the table, JSON and the manifest have them.
+/// Says which limits are broken and gives the exit code. Those that make it 1 are said last, and
+/// with `--quiet` too; those of severity warning are warnings, which `--quiet` leaves out: the
+/// table, JSON and the manifest have them.
 pub(crate) fn conclude(judgement: &Judgement<'_>, console: &Console) -> Exit {
     let Judgement { netlist, limits, .. } = *judgement;
     let severity = |judged: &Judged| netlist.network.limits()[judged.limit.index()].severity;
-    let broken = |wanted: Severity| limits.iter().filter(move |j| j.is_broken() && severity(j) == wanted);
+    let broken =
+        |wanted: Severity| limits.iter().filter(move |j| j.is_broken() && severity(j) == wanted);
     let warnings: Vec<Diagnostic> =
         broken(Severity::Warning).map(|judged| warning(judgement, judged)).collect();
     console.warn(&netlist.files, &warnings);

@@ -12,13 +12,16 @@ use crate::words::count;
 /// So many nodes are warned of one by one, the worst of them.
 const MOST_WARNINGS: usize = 5;
 
-const SOURCE: &str = "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, section 5.2";
+const SOURCE: &str =
+    "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, section 5.2";
 
 /// A warning for each of the worst nodes that are no lumps, and one that counts the others.
 pub(crate) fn warnings(netlist: &Netlist, lumping: &Lumping) -> Vec<Diagnostic> {
     let (thick, slow) = (lumping.too_thick(), lumping.too_slow());
     let mut found: Vec<Diagnostic> = Vec::new();
-    found.extend(thick.iter().take(MOST_WARNINGS).map(|(check, biot)| too_thick(netlist, check, biot)));
+    found.extend(
+        thick.iter().take(MOST_WARNINGS).map(|(check, biot)| too_thick(netlist, check, biot)),
+    );
     found.extend(more("lumping::biot", thick.len(), "Biot numbers above 0.1"));
     let each = slow.iter().take(MOST_WARNINGS);
     found.extend(each.map(|(check, time, stretch)| too_slow(netlist, check, (*time, *stretch))));
@@ -34,8 +37,10 @@ fn more(code: &'static str, all: usize, what: &str) -> Option<Diagnostic> {
 
 fn too_thick(netlist: &Netlist, check: &LumpCheck, biot: &Biot) -> Diagnostic {
     let name = &netlist.network.nodes()[check.node.index()].name;
-    let message =
-        format!("node `{name}` is no lump: its Biot number is {}, above 0.1", significant(biot.number, 3));
+    let message = format!(
+        "node `{name}` is no lump: its Biot number is {}, above 0.1",
+        significant(biot.number, 3)
+    );
     let numbers = format!(
         "Bi = h L_char / k with h = {} W/(m^2 K) at {}, k = {} W/(m K); below 0.1 the error of one temperature is small \
          ({SOURCE})",
@@ -72,10 +77,15 @@ fn at(netlist: &Netlist, check: &LumpCheck, warning: Diagnostic) -> Diagnostic {
 }
 
 /// A few lines below a result: the largest numbers, and what was not checked.
-pub(crate) fn lines(text: &mut Text, network: &Network, (lumping, label, verbose): (&Lumping, &str, bool)) {
+pub(crate) fn lines(
+    text: &mut Text,
+    network: &Network,
+    (lumping, label, verbose): (&Lumping, &str, bool),
+) {
     let name = |id: NodeId| &network.nodes()[id.index()].name;
     let mut pieces = Vec::new();
-    let biots = lumping.checks.iter().filter_map(|check| Some((check.node, check.biot.ok()?.number)));
+    let biots =
+        lumping.checks.iter().filter_map(|check| Some((check.node, check.biot.ok()?.number)));
     let times = lumping.checks.iter().filter_map(|check| Some((check.node, check.diffusion.ok()?)));
     if let Some((node, number)) = biots.max_by(|a, b| a.1.total_cmp(&b.1)) {
         pieces.push(format!("Bi up to {} ({}),", significant(number, 2), name(node)));
@@ -98,8 +108,10 @@ pub(crate) fn lines(text: &mut Text, network: &Network, (lumping, label, verbose
 
 /// How many nodes were not checked, by reason.
 fn not_checked(lumping: &Lumping) -> Vec<String> {
-    let mut reasons: Vec<(String, usize)> = vec![("no L_char".into(), lumping.without_length.len())];
-    let mut found: Vec<NotChecked> = lumping.checks.iter().filter_map(|check| check.biot.err()).collect();
+    let mut reasons: Vec<(String, usize)> =
+        vec![("no L_char".into(), lumping.without_length.len())];
+    let mut found: Vec<NotChecked> =
+        lumping.checks.iter().filter_map(|check| check.biot.err()).collect();
     found.sort_unstable();
     for reason in found {
         let words = told(reason).0.to_owned();
@@ -132,8 +144,9 @@ fn told(reason: NotChecked) -> (&'static str, &'static str) {
 /// Every node.
 fn details(text: &mut Text, network: &Network, lumping: &Lumping) {
     let name = |id: NodeId| network.nodes()[id.index()].name.clone();
-    let of_biot =
-        |part: fn(&Biot) -> f64| move |c: &LumpCheck| c.biot.map_or("-".into(), |b| significant(part(&b), 3));
+    let of_biot = |part: fn(&Biot) -> f64| {
+        move |c: &LumpCheck| c.biot.map_or("-".into(), |b| significant(part(&b), 3))
+    };
     if !lumping.checks.is_empty() {
         let table = TextTable::of(&lumping.checks)
             .left("lump", |c| name(c.node))
@@ -146,7 +159,9 @@ fn details(text: &mut Text, network: &Network, lumping: &Lumping) {
     }
     let unknown = |id: &NodeId| ("no L_char", *id);
     let mut reasons: Vec<(&str, NodeId)> = lumping.without_length.iter().map(unknown).collect();
-    reasons.extend(lumping.checks.iter().filter_map(|check| Some((told(check.biot.err()?).0, check.node))));
+    reasons.extend(
+        lumping.checks.iter().filter_map(|check| Some((told(check.biot.err()?).0, check.node))),
+    );
     // by reason; within one in the order of the file
     reasons.sort_by_key(|(words, _)| *words);
     for group in reasons.chunk_by(|a, b| a.0 == b.0) {
@@ -174,8 +189,9 @@ pub(crate) fn json(network: &Network, lumping: &Lumping) -> Value {
             scalar("diffusion_time", time, "s");
         }
         let reasons = [("biot", check.biot.err()), ("diffusion_time", check.diffusion.err())];
-        let missing =
-            reasons.iter().filter_map(|(key, reason)| Some(((*key).to_owned(), json!(told((*reason)?).1))));
+        let missing = reasons
+            .iter()
+            .filter_map(|(key, reason)| Some(((*key).to_owned(), json!(told((*reason)?).1))));
         let missing: Map<String, Value> = missing.collect();
         if !missing.is_empty() {
             node.insert("not_checked".to_owned(), Value::Object(missing));

@@ -1,8 +1,9 @@
 //! The command `lptn`.
 //!
-//! Each verb is a folder of [`verbs`]. Results go to stdout, everything else to stderr; every failure is a
-//! [`lptn_netlist::Diagnostic`] with a stable code, shown the way rustc shows its own, and ends with one of the
-//! codes of [`exit`]. A fault of the program itself is one of them too: see [`panic_net`].
+//! Each verb is a folder of [`verbs`]. Results go to stdout, everything else to stderr; every
+//! failure is a [`lptn_netlist::Diagnostic`] with a stable code, shown the way rustc shows its own,
+//! and ends with one of the codes of [`exit`]. A fault of the program itself is one of them too:
+//! see [`panic_net`].
 
 mod args;
 mod balance;

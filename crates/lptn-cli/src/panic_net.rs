@@ -9,15 +9,19 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::quoted;
 
-/// Does the work of the command; a panic in it, or in a thread that it waits for, is a failure like others. On the way
-/// up what is half written is dropped: temporary files go, the results of earlier runs stay.
+/// Does the work of the command; a panic in it, or in a thread that it waits for, is a failure like
+/// others. On the way up what is half written is dropped: temporary files go, the results of
+/// earlier runs stay.
 pub(crate) fn caught(work: impl FnOnce() -> Result<Exit, Failure>) -> Result<Exit, Failure> {
     let first: Arc<Mutex<Option<String>>> = Arc::default();
     let noted = Arc::clone(&first);
     let usual = take_hook();
     set_hook(Box::new(move |panic| {
         // the first one is the cause; that a thread has panicked is what follows from it
-        noted.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert_with(|| described(panic));
+        noted
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .get_or_insert_with(|| described(panic));
         if std::env::var_os("RUST_BACKTRACE").is_some() {
             usual(panic);
         }
@@ -26,21 +30,27 @@ pub(crate) fn caught(work: impl FnOnce() -> Result<Exit, Failure>) -> Result<Exi
     drop(take_hook());
     outcome.unwrap_or_else(|_| {
         let what = first.lock().unwrap_or_else(PoisonError::into_inner).take();
-        Err(Failure::new(Exit::Failed, fault(&what.unwrap_or_default(), std::env::args_os().skip(1))))
+        Err(Failure::new(
+            Exit::Failed,
+            fault(&what.unwrap_or_default(), std::env::args_os().skip(1)),
+        ))
     })
 }
 
 fn described(panic: &PanicHookInfo<'_>) -> String {
     let payload = panic.payload();
-    let text =
-        payload.downcast_ref::<String>().map(String::as_str).or(payload.downcast_ref::<&str>().copied());
+    let text = payload
+        .downcast_ref::<String>()
+        .map(String::as_str)
+        .or(payload.downcast_ref::<&str>().copied());
     let what = text.unwrap_or("no reason is given");
     panic.location().map_or_else(|| what.to_owned(), |place| format!("{what}, at {place}"))
 }
 
 /// What is told to the user, with what those who mend it have to know.
 fn fault(what: &str, arguments: impl Iterator<Item = std::ffi::OsString>) -> Diagnostic {
-    let message = format!("lptn has stopped because of a fault of its own, not of your input: {what}");
+    let message =
+        format!("lptn has stopped because of a fault of its own, not of your input: {what}");
     let words: Vec<String> = arguments.map(|word| quoted(&word.to_string_lossy())).collect();
     let (version, os) = (env!("CARGO_PKG_VERSION"), std::env::consts::OS);
     Diagnostic::error("program::fault", message).help(format!(
@@ -76,7 +86,10 @@ mod tests {
         assert_eq!(failure.exit, Exit::Failed);
         assert_eq!(failure.diagnostics[0].code, "program::fault");
         let message = &failure.diagnostics[0].message;
-        assert!(message.contains("row 0 is missing") && message.contains("panic_net.rs"), "{message}");
+        assert!(
+            message.contains("row 0 is missing") && message.contains("panic_net.rs"),
+            "{message}"
+        );
         assert_eq!(place.read(RESULT), "old");
         assert_eq!(place.files(), [RESULT]);
 

@@ -23,7 +23,8 @@ pub(crate) fn of_option(netlist: &Netlist, option: &[String]) -> Result<Selectio
 fn chosen(netlist: &Netlist, patterns: &[String], in_file: bool) -> Result<Selection, Failure> {
     if patterns.is_empty() {
         // a million columns are of no use to anyone
-        let shown = |item: Item| matches!(item, Item::Boundary(_)) || !netlist.source_map.is_imported(item);
+        let shown =
+            |item: Item| matches!(item, Item::Boundary(_)) || !netlist.source_map.is_imported(item);
         return Ok(Selection::of(&netlist.network, shown));
     }
     Selection::matching(&netlist.network, patterns)
@@ -38,8 +39,10 @@ pub(crate) fn hidden(netlist: &Netlist) -> Option<String> {
     let paths = network.conductor_ids().map(Item::Conductor).filter(imported).count();
     let sources = network.source_ids().map(Item::Source).filter(imported).count();
     let counts = [(nodes, "node"), (paths, "path"), (sources, "source")];
-    let words: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, noun)| count(*n, noun)).collect();
-    (!words.is_empty()).then(|| format!("hidden {} imported: columns by --select 'NAME.T'", words.join(", ")))
+    let words: Vec<String> =
+        counts.iter().filter(|(n, _)| *n > 0).map(|(n, noun)| count(*n, noun)).collect();
+    (!words.is_empty())
+        .then(|| format!("hidden {} imported: columns by --select 'NAME.T'", words.join(", ")))
 }
 
 fn no_match(netlist: &Netlist, unmatched: &[String], in_file: bool) -> Failure {
@@ -75,6 +78,10 @@ fn help(pattern: &str, names: &[String]) -> String {
     }
     const SHOWN: usize = 8;
     let some: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
-    let more = if names.len() > SHOWN { format!(" and {} more", names.len() - SHOWN) } else { String::new() };
+    let more = if names.len() > SHOWN {
+        format!(" and {} more", names.len() - SHOWN)
+    } else {
+        String::new()
+    };
     format!("the columns are {}{more}; `*.T` is every temperature", some.join(", "))
 }

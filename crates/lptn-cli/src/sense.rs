@@ -7,7 +7,10 @@ use lptn_solve::{Beyond, SteadyState};
 
 /// What makes no sense of a steady state.
 pub(crate) fn of_steady(netlist: &Netlist, steady: &SteadyState) -> Vec<Diagnostic> {
-    Beyond::of_steady(&netlist.network, steady).iter().map(|beyond| warning(netlist, beyond)).collect()
+    Beyond::of_steady(&netlist.network, steady)
+        .iter()
+        .map(|beyond| warning(netlist, beyond))
+        .collect()
 }
 
 /// A warning that names the node, and the path and the source that probably did it.
@@ -30,7 +33,8 @@ pub(crate) fn warning(netlist: &Netlist, beyond: &Beyond) -> Diagnostic {
         let item = Item::Conductor(id);
         suspects.push(format!("`{}`", name(item)));
         if let Some(span) = place(item) {
-            warning = warning.also(span, format!("{} K between its ends", significant(difference, 4)));
+            warning =
+                warning.also(span, format!("{} K between its ends", significant(difference, 4)));
         }
     }
     if let Some((id, heat)) = beyond.source {

@@ -44,7 +44,8 @@ pub(crate) fn largest<T>(rows: &mut Vec<T>, size: impl Fn(&T) -> f64) -> usize {
     all
 }
 
-/// A section with a table of some of `all` rows, and how to see the others; nothing where there are none.
+/// A section with a table of some of `all` rows, and how to see the others; nothing where there are
+/// none.
 pub(crate) fn some_of(text: &mut Text, table: impl Into<TextTable>, (all, how): (usize, &str)) {
     let table = table.into();
     let shown = table.rows();

@@ -24,8 +24,12 @@ pub(crate) fn proven(
     prove(&text, place, network, span).map(|_| text).map_err(|error| mistake(&error))
 }
 
-/// The netlist with other numbers in the places of some parameters' own, where these are written as numbers.
-pub(crate) fn with_numbers(input: &Input, numbers: &[(ParameterId, String)]) -> Result<String, Failure> {
+/// The netlist with other numbers in the places of some parameters' own, where these are written as
+/// numbers.
+pub(crate) fn with_numbers(
+    input: &Input,
+    numbers: &[(ParameterId, String)],
+) -> Result<String, Failure> {
     let (netlist, place) = (&input.netlist, Path::new(&input.text.name));
     // what was set on the command line is not in the file
     let original = parse_file(place, &input.text.bytes)?;
@@ -33,14 +37,17 @@ pub(crate) fn with_numbers(input: &Input, numbers: &[(ParameterId, String)]) -> 
     let mut written = Vec::with_capacity(numbers.len());
     for (id, number) in numbers {
         let name = &netlist.network.parameters()[id.index()].name;
-        let (Some(place), Ok(value)) = (netlist.written_number(*id), number.parse()) else { continue };
+        let (Some(place), Ok(value)) = (netlist.written_number(*id), number.parse()) else {
+            continue;
+        };
         if let Ok(id) = original.network.parameter(name) {
             parameters.set(id, place.unit.to_si(value));
         }
         written.push((place, number.clone()));
     }
     let text = netlist.text_with_numbers(&written);
-    let network = original.network.with(&parameters).map_err(|errors| mistake(&rejected(&errors)))?;
+    let network =
+        original.network.with(&parameters).map_err(|errors| mistake(&rejected(&errors)))?;
     proven(text, place, &network, original.run.as_ref())
 }
 
@@ -54,7 +61,8 @@ fn mistake(error: &WrittenError) -> Failure {
     Failure::new(Exit::Failed, problem.help(help))
 }
 
-/// Refuses before anything is computed what could not be written afterwards; with the codes of a verb.
+/// Refuses before anything is computed what could not be written afterwards; with the codes of a
+/// verb.
 pub(crate) fn can_be_written(
     input: &Input,
     parameter: ParameterId,
@@ -68,15 +76,19 @@ pub(crate) fn can_be_written(
         let message = format!("{} is protected against writing", input.text.name);
         Diagnostic::error(code, message).help("allow it with `chmod u+w`, or leave `--write` out")
     } else if netlist.written_number(parameter).is_some_and(|written| !netlist.is_own(&written)) {
-        let problem = Diagnostic::error(code, format!("`{name}` stands in a file that is included"));
-        problem.help("other netlists may include it too: change it there, or move the parameter here")
+        let problem =
+            Diagnostic::error(code, format!("`{name}` stands in a file that is included"));
+        problem
+            .help("other netlists may include it too: change it there, or move the parameter here")
     } else if let Some(other) = netlist.written_together(parameter) {
-        let message = format!("`{name}` is written once for several instances, `{other}` among them");
+        let message =
+            format!("`{name}` is written once for several instances, `{other}` among them");
         let problem = Diagnostic::error(shared, message)
             .help("give each its own value, `set = { .. = [.., ..] }`, or make it a parameter of the file");
         problem.at(netlist.source_map.parameter(parameter), "")
     } else if netlist.written_number(parameter).is_none() {
-        let message = format!("`{name}` is not written as a number, so no other can be written in its place");
+        let message =
+            format!("`{name}` is not written as a number, so no other can be written in its place");
         let problem = Diagnostic::error(code, message)
             .help("give it a value of its own, for example `\"5 W/K\"`, or leave `--write` out");
         problem.at(netlist.source_map.parameter(parameter), "")

@@ -16,7 +16,9 @@ fn the_gearbox_looks_as_it_was_reviewed() {
 
 fn mask_residual(line: &str) -> String {
     match (line.find("closes to "), line.find(" of the heat turned over")) {
-        (Some(from), Some(to)) => format!("{}RESIDUAL{}", &line[..from + "closes to ".len()], &line[to..]),
+        (Some(from), Some(to)) => {
+            format!("{}RESIDUAL{}", &line[..from + "closes to ".len()], &line[to..])
+        }
         _ => line.to_owned(),
     }
 }
@@ -72,7 +74,8 @@ fn long_names_are_shortened_before_lines_get_too_long() {
 #[test]
 fn a_large_network_shows_its_hottest_nodes() {
     let mut text =
-        "format = 1\n[boundary]\nair = { T = \"20 degC\" }\n[run]\nstop = \"1 h\"\n[node]\n".to_owned();
+        "format = 1\n[boundary]\nair = { T = \"20 degC\" }\n[run]\nstop = \"1 h\"\n[node]\n"
+            .to_owned();
     for i in 0..100 {
         text += &format!("n{i} = {{ T0 = \"20 degC\", C = \"10 J/K\" }}\n");
     }
@@ -97,7 +100,8 @@ fn a_large_network_shows_its_hottest_nodes() {
 #[test]
 fn quiet_is_quiet() {
     let folder = Folder::with_gearbox();
-    let loud = folder.run(&["run", "gearbox.toml"]).exits(0).says("next   lptn run gearbox.toml --set");
+    let loud =
+        folder.run(&["run", "gearbox.toml"]).exits(0).says("next   lptn run gearbox.toml --set");
     let quiet = folder.run(&["run", "gearbox.toml", "--quiet"]).exits(0);
     assert_eq!((quiet.err.as_str(), &quiet.out), ("", &loud.out));
 }
@@ -125,7 +129,8 @@ fn colours_only_where_they_are_wanted() {
     assert!(!ran.err.contains('\u{1b}'));
     let result = Folder::with_gearbox().run(&["run", "gearbox.toml"]).exits(0);
     assert!(
-        !result.out.contains('\u{1b}') && !result.out.chars().any(|c| ('\u{2500}'..='\u{257f}').contains(&c))
+        !result.out.contains('\u{1b}')
+            && !result.out.chars().any(|c| ('\u{2500}'..='\u{257f}').contains(&c))
     );
 }
 
@@ -189,11 +194,23 @@ fn assert_scalars(value: &Value, units: &[&str]) {
 fn the_json_of_run_has_its_schema() {
     let folder = Folder::with_gearbox();
     let json = folder.run(&["run", "gearbox.toml", "--format", "json"]).exits(0).json();
-    let members =
-        ["format", "network", "warnings", "columns", "rows", "events", "ledger", "lumping", "statistics"];
+    let members = [
+        "format",
+        "network",
+        "warnings",
+        "columns",
+        "rows",
+        "events",
+        "ledger",
+        "lumping",
+        "statistics",
+    ];
     assert_eq!(keys(&json), members);
     assert_eq!((&json["format"], &json["network"]), (&Value::from(1), &Value::from("gearbox")));
-    assert_eq!((&json["warnings"], &json["events"]), (&serde_json::json!([]), &serde_json::json!([])));
+    assert_eq!(
+        (&json["warnings"], &json["events"]),
+        (&serde_json::json!([]), &serde_json::json!([]))
+    );
     assert_eq!(json["columns"][0], serde_json::json!({ "name": "time", "unit": "s" }));
     let names: Vec<&str> =
         json["columns"].as_array().unwrap().iter().map(|c| c["name"].as_str().unwrap()).collect();
@@ -203,12 +220,15 @@ fn the_json_of_run_has_its_schema() {
     assert_scalars(&json["ledger"], &["J", "1"]);
     assert_scalars(&json["statistics"], &["1"]);
     // 220.6 W for 1500 s
-    assert!((json["ledger"]["sources"]["P_disp"]["value"].as_f64().unwrap() - 330_900.0).abs() < 1e-3);
+    assert!(
+        (json["ledger"]["sources"]["P_disp"]["value"].as_f64().unwrap() - 330_900.0).abs() < 1e-3
+    );
 }
 
 #[test]
 fn the_json_of_steady_has_its_schema() {
-    let json = Folder::with_gearbox().run(&["steady", "gearbox.toml", "--format", "json"]).exits(0).json();
+    let json =
+        Folder::with_gearbox().run(&["steady", "gearbox.toml", "--format", "json"]).exits(0).json();
     assert_eq!(keys(&json), ["format", "network", "warnings", "values"]);
     assert_scalars(&json["values"], &["K", "W"]);
 }
@@ -217,7 +237,10 @@ fn the_json_of_steady_has_its_schema() {
 fn the_json_of_check_has_its_schema() {
     let folder = Folder::with("gearbox.toml", &GEARBOX.replace("to = \"bed\"", "to = \"bde\""));
     let json = folder.run(&["check", "gearbox.toml", "--format", "json"]).exits(1).json();
-    assert_eq!(keys(&json), ["format", "network", "ok", "errors", "warnings", "stiffness", "lumping"]);
+    assert_eq!(
+        keys(&json),
+        ["format", "network", "ok", "errors", "warnings", "stiffness", "lumping"]
+    );
     assert_eq!(json["ok"], false);
     let error = &json["errors"][0];
     assert_eq!(keys(error), ["severity", "code", "message", "places", "help", "notes"]);
@@ -226,7 +249,8 @@ fn the_json_of_check_has_its_schema() {
         (&error["code"], &error["places"][0]["line"]),
         (&"netlist::unknown_node".into(), &line.into())
     );
-    let json = Folder::with_gearbox().run(&["check", "gearbox.toml", "--format", "json"]).exits(0).json();
+    let json =
+        Folder::with_gearbox().run(&["check", "gearbox.toml", "--format", "json"]).exits(0).json();
     assert_eq!(json["ok"], true);
 }
 

@@ -8,8 +8,9 @@ use std::fmt::Write as _;
 
 use common::Folder;
 
-/// 60 W into a block that loses them through a surface without capacity, whose film falls between 76 and 97 K and between
-/// 138 and 143 K: the surface has up to three temperatures at which its balance holds.
+/// 60 W into a block that loses them through a surface without capacity, whose film falls between
+/// 76 and 97 K and between 138 and 143 K: the surface has up to three temperatures at which its
+/// balance holds.
 const BOILING: &str = "format = 1\n[table]\nfilm = { x = [0, 76, 97, 138, 143, 3000], y = [1.1, 0.73, 0.5, 1.35, 0.8, 0.65], \
      x_unit = \"K\", y_unit = \"W/(m^2 K)\" }\n[node]\nblock = { C = \"117 J/K\", T0 = \"50 degC\" }\nj = { massless = true }\n\
      [boundary]\nroom = { T = \"50 degC\" }\n[resistor]\ninner = { from = \"block\", to = \"j\", R = \"5.0 K/W\" }\n\
@@ -17,8 +18,8 @@ const BOILING: &str = "format = 1\n[table]\nfilm = { x = [0, 76, 97, 138, 143, 3
      [source]\nheat = { into = \"block\", P = \"60 W\" }\n[run]\nstop = \"3000 s\"\noutput = { every = \"300 s\" }\n\
      tolerance = \"1e-5 K\"\n";
 
-/// Heat that rises and falls in a triangle, through a surface whose film has a gap: between 174 and 209 degC of the block the
-/// surface has two temperatures at which it stays.
+/// Heat that rises and falls in a triangle, through a surface whose film has a gap: between 174 and
+/// 209 degC of the block the surface has two temperatures at which it stays.
 const HYSTERESIS: &str = "format = 1\n[signal]\np = { t = [0, 2000, 4000], v = [0, 50, 0], t_unit = \"s\", v_unit = \"W\", \
      after_end = \"repeat\" }\n[node]\nblock = { C = \"20 J/K\", T0 = \"50 degC\" }\nj = { massless = true }\n\
      [boundary]\nroom = { T = \"50 degC\" }\n[resistor]\ninner = { from = \"block\", to = \"j\", R = \"5 K/W\" }\n\
@@ -68,14 +69,14 @@ fn same_in_every_format(folder: &Folder, rows: &[Vec<f64>]) {
 
 const FINE: [&str; 4] = ["1e-3 K", "1e-4 K", "1e-5 K", "1e-6 K"];
 
-/// Newton's method left the branch of a massless node some time after or before its end: 1.63 K off after 1500 s, and
-/// another number, or none, by the format that was asked for.
+/// Newton's method left the branch of a massless node some time after or before its end: 1.63 K off
+/// after 1500 s, and another number, or none, by the format that was asked for.
 #[test]
 fn a_massless_node_leaps_where_its_solution_ends() {
     let folder = Folder::with("net.toml", BOILING);
-    // SciPy 1.x, the balance solved for the block along the branch, Radau with rtol 1e-12, the other branch from the fold
-    // at 1368.63 s on; with capacities of 1e-3, 1e-4 and 1e-5 J/K in place of the balance Radau gives 452.78619,
-    // 452.78697 and 452.78706 degC after 1500 s
+    // SciPy 1.x, the balance solved for the block along the branch, Radau with rtol 1e-12, the
+    // other branch from the fold at 1368.63 s on; with capacities of 1e-3, 1e-4 and 1e-5 J/K in
+    // place of the balance Radau gives 452.78619, 452.78697 and 452.78706 degC after 1500 s
     let exact = [
         (900.0, 364.085_309, 177.314_299),
         (1200.0, 411.322_998, 185.049_611),
@@ -86,16 +87,17 @@ fn a_massless_node_leaps_where_its_solution_ends() {
     keeps_to(&folder, &exact, &FINE);
 }
 
-/// The fold above is a corner of the table; here dq/dT goes through zero at 80.105 K, between two of its points. Tolerances
-/// below 1e-4 K ended at 819.471 s with `solve::fold`.
+/// The fold above is a corner of the table; here dq/dT goes through zero at 80.105 K, between two
+/// of its points. Tolerances below 1e-4 K ended at 819.471 s with `solve::fold`.
 #[test]
 fn a_massless_node_leaps_at_a_smooth_fold() {
     let folder = Folder::with("net.toml", &BOILING.replace("5.0 K/W", "20.0 K/W"));
     // With d = j - room and s(d) = 0.26 m^2 film(d) d the time along a branch is the integral of
-    // 117 J/K (1 + 20 K/W s'(d)) / (60 W - s(d)) over d: SciPy 1.17, quad to 1e-13, up to 1 + 20 K/W s' = 0 at
-    // 819.4711002 s, the block at 415.4558702 degC, and on from where the block is as hot on the other branch, j at
-    // 148.1463413 degC in place of 130.1053512. Radau with capacities of 1e-3, 1e-4 and 1e-5 J/K gives 447.040468,
-    // 447.043905 and 447.044658 degC after 900 s: as their power 2/3, towards 447.04486.
+    // 117 J/K (1 + 20 K/W s'(d)) / (60 W - s(d)) over d: SciPy 1.17, quad to 1e-13, up to 1 + 20
+    // K/W s' = 0 at 819.4711002 s, the block at 415.4558702 degC, and on from where the block is as
+    // hot on the other branch, j at 148.1463413 degC in place of 130.1053512. Radau with capacities
+    // of 1e-3, 1e-4 and 1e-5 J/K gives 447.040468, 447.043905 and 447.044658 degC after 900 s: as
+    // their power 2/3, towards 447.04486.
     let exact = [
         (600.0, 327.172_240, 101.072_198),
         (900.0, 447.044_867, 150.319_128),
@@ -106,16 +108,18 @@ fn a_massless_node_leaps_at_a_smooth_fold() {
     keeps_to(&folder, &exact, &FINE);
 }
 
-/// The time of a leap moves with the parameters: exact sensitivities went on over it as if nothing had happened, and gave
-/// 6.661 K/W.
+/// The time of a leap moves with the parameters: exact sensitivities went on over it as if nothing
+/// had happened, and gave 6.661 K/W.
 #[test]
 fn sensitivities_over_a_leap_are_differences() {
     let net = BOILING
         .replace("5.0 K/W", "20.0 K/W")
         .replace("P = \"60 W\"", "P = \"Pw\"")
         .replace("3000 s", "900 s");
-    let folder = Folder::with("net.toml", &net.replace("[table]", "[param]\nPw = \"60 W ± 1 W\"\n[table]"));
-    let arguments = ["run", "net.toml", "--no-files", "--uncertainty", "linear", "--format", "json"];
+    let folder =
+        Folder::with("net.toml", &net.replace("[table]", "[param]\nPw = \"60 W ± 1 W\"\n[table]"));
+    let arguments =
+        ["run", "net.toml", "--no-files", "--uncertainty", "linear", "--format", "json"];
     let json = folder.run(&arguments).exits(0).json();
     assert_eq!(json["uncertainty"]["exact"], false, "{json}");
     // as for the fold above, the integrals for 59.99 and 60.01 W
@@ -125,13 +129,14 @@ fn sensitivities_over_a_leap_are_differences() {
     }
 }
 
-/// Up at 123.160 degC and down at 138.738 degC, twice: smooth folds of a surface whose film has a gap, under heat that rises and
-/// falls in a triangle.
+/// Up at 123.160 degC and down at 138.738 degC, twice: smooth folds of a surface whose film has a
+/// gap, under heat that rises and falls in a triangle.
 #[test]
 fn a_massless_node_leaps_up_and_down_again_and_again() {
     let folder = Folder::with("net.toml", HYSTERESIS);
-    // SciPy 1.17, DOP853 with rtol and atol 1e-12 on dt/dx = 20 J/K (1 + 5 K/W s'(d)), dd/dx = P(t) - s(d), which is regular
-    // up to and at a fold: leaps at 892.349488, 3853.600147, 4890.481551 and 7853.600146 s
+    // SciPy 1.17, DOP853 with rtol and atol 1e-12 on dt/dx = 20 J/K (1 + 5 K/W s'(d)), dd/dx = P(t) -
+    // s(d), which is regular up to and at a fold: leaps at 892.349488, 3853.600147, 4890.481551 and
+    // 7853.600146 s
     let exact = [
         (500.0, 123.767_766, 82.072_942),
         (1000.0, 248.825_348, 151.788_396),
@@ -147,23 +152,30 @@ fn a_massless_node_leaps_up_and_down_again_and_again() {
     keeps_to(&folder, &exact, &FINE);
 }
 
-/// `state.json` says where a massless node stands, but a restart looked for it from the mean of all starts: from 850 s on it
-/// stood at 145.5 degC in place of 115.3.
+/// `state.json` says where a massless node stands, but a restart looked for it from the mean of all
+/// starts: from 850 s on it stood at 145.5 degC in place of 115.3.
 #[test]
 fn a_restart_goes_on_upon_the_same_branch() {
-    let part = |run: &str| HYSTERESIS.replace("stop = \"8000 s\"\noutput = { every = \"500 s\" }", run);
+    let part =
+        |run: &str| HYSTERESIS.replace("stop = \"8000 s\"\noutput = { every = \"500 s\" }", run);
     let rows = |folder: &Folder| {
         let arguments = ["run", "net.toml", "--no-files", "--format", "csv", "--select", "*.T"];
         common::csv(&folder.run(&arguments).exits(0).out).1
     };
     // on the way up on the lower branch, and on the way down on the upper one
     for (at, stop) in [(850, 1150), (3700, 4000)] {
-        let folder =
-            Folder::with("net.toml", &part(&format!("stop = \"{stop} s\"\noutput = {{ every = \"25 s\" }}")));
+        let folder = Folder::with(
+            "net.toml",
+            &part(&format!("stop = \"{stop} s\"\noutput = {{ every = \"25 s\" }}")),
+        );
         let whole = rows(&folder);
-        folder.write("net.toml", &part(&format!("stop = \"{at} s\"\noutput = {{ every = \"25 s\" }}")));
+        folder.write(
+            "net.toml",
+            &part(&format!("stop = \"{at} s\"\noutput = {{ every = \"25 s\" }}")),
+        );
         folder.run(&["run", "net.toml"]).exits(0);
-        let again = format!("start = \"{at} s\"\nstop = \"{stop} s\"\noutput = {{ every = \"25 s\" }}\n");
+        let again =
+            format!("start = \"{at} s\"\nstop = \"{stop} s\"\noutput = {{ every = \"25 s\" }}\n");
         folder.write("net.toml", &part(&format!("{again}initial = \"out/net/state.json\"")));
         let then = rows(&folder);
         assert_eq!(then.len(), 13);
@@ -171,13 +183,19 @@ fn a_restart_goes_on_upon_the_same_branch() {
             for place in [1, 2] {
                 let expected = column(&whole, row[0], place);
                 let off = (row[place] - expected).abs();
-                assert!(off <= 1e-4, "{} in place of {expected} at {} s from {at} s", row[place], row[0]);
+                assert!(
+                    off <= 1e-4,
+                    "{} in place of {expected} at {} s from {at} s",
+                    row[place],
+                    row[0]
+                );
             }
         }
     }
 }
 
-/// A steady state was one of several, not the one that the network comes to: 25.7 degC in place of 79.0.
+/// A steady state was one of several, not the one that the network comes to: 25.7 degC in place of
+/// 79.0.
 #[test]
 fn of_several_steady_states_the_one_that_the_start_leads_to_is_given() {
     let two = |start: &str| {
@@ -188,8 +206,11 @@ fn of_several_steady_states_the_one_that_the_start_leads_to_is_given() {
              [run]\nstop = \"1 h\"\n"
         )
     };
-    // T - 20 = 40 (1 + tanh((T - 60)/2)): rests near 20 and near 100 degC, and nowhere else; 60 degC is between them
-    for (start, end) in [("59 degC", 20.0), ("61 degC", 100.0), ("0 degC", 20.0), ("300 degC", 100.0)] {
+    // T - 20 = 40 (1 + tanh((T - 60)/2)): rests near 20 and near 100 degC, and nowhere else; 60
+    // degC is between them
+    for (start, end) in
+        [("59 degC", 20.0), ("61 degC", 100.0), ("0 degC", 20.0), ("300 degC", 100.0)]
+    {
         let folder = Folder::with("net.toml", &two(start));
         let json = folder.run(&["steady", "net.toml", "--format", "json"]).exits(0).json();
         let found = json["values"]["a.T"]["value"].as_f64().unwrap() - 273.15;
@@ -218,10 +239,17 @@ fn every_verb_tells_in_the_same_words_that_there_are_several_steady_states() {
     let steady = folder.run(&["steady", "net.toml", "--format", "json"]).exits(0).json();
     assert_eq!(warnings(&steady), [words]);
     let run = folder.run(&["run", "net.toml", "--no-files"]).exits(0);
-    assert!(run.out.split_whitespace().collect::<Vec<_>>().join(" ").contains(words), "{}", run.out);
+    assert!(
+        run.out.split_whitespace().collect::<Vec<_>>().join(" ").contains(words),
+        "{}",
+        run.out
+    );
     let both = ["compare", "net.toml", "still.toml", "--sort", "given"];
     let compared = folder.run(&[&both[..], &["--format", "json"]].concat()).exits(0).json();
-    assert_eq!(warnings(&compared), ["net.toml", "still.toml"].map(|file| format!("{file}: {words}")));
+    assert_eq!(
+        warnings(&compared),
+        ["net.toml", "still.toml"].map(|file| format!("{file}: {words}"))
+    );
     folder.run(&both).exits(0).says(&format!("net.toml: {words}"));
 }
 
@@ -248,16 +276,22 @@ fn switching(random: &mut Random) -> (usize, String) {
     let (mut nodes, mut paths, mut sources) = (String::new(), String::new(), String::new());
     for i in 0..count {
         let c = 10.0_f64.powf(between(random, 0.0, 3.0));
-        writeln!(nodes, "n{i} = {{ C = \"{c} J/K\", T0 = \"{} degC\" }}", between(random, 0.0, 150.0))
-            .unwrap();
+        writeln!(
+            nodes,
+            "n{i} = {{ C = \"{c} J/K\", T0 = \"{} degC\" }}",
+            between(random, 0.0, 150.0)
+        )
+        .unwrap();
         let r = 10.0_f64.powf(between(random, -0.5, 0.3));
         writeln!(paths, "r{i} = {{ from = \"n{i}\", to = \"b\", R = \"{r} K/W\" }}").unwrap();
         if i > 0 {
             let r = 10.0_f64.powf(between(random, -0.5, 1.5));
-            writeln!(paths, "q{i} = {{ from = \"n{i}\", to = \"n{}\", R = \"{r} K/W\" }}", i - 1).unwrap();
+            writeln!(paths, "q{i} = {{ from = \"n{i}\", to = \"n{}\", R = \"{r} K/W\" }}", i - 1)
+                .unwrap();
         }
         let (power, at) = (between(random, 20.0, 200.0), between(random, 30.0, 120.0));
-        let width = between(random, 1.0, 10.0) * if random.next().is_multiple_of(3) { -1.0 } else { 1.0 };
+        let width =
+            between(random, 1.0, 10.0) * if random.next().is_multiple_of(3) { -1.0 } else { 1.0 };
         let heat = format!("{power} [W] * 0.5 * (1 + tanh((n{i}.T - {at} [degC]) / {width} [K]))");
         writeln!(sources, "s{i} = {{ into = \"n{i}\", P = \"{heat}\" }}").unwrap();
     }
@@ -268,8 +302,8 @@ fn switching(random: &mut Random) -> (usize, String) {
     (count, text)
 }
 
-/// A run of 1e6 s, thousands of times the longest time constant, is the other way to the same answer. Of 150 networks like
-/// these 5 had another steady state than the end of their run.
+/// A run of 1e6 s, thousands of times the longest time constant, is the other way to the same
+/// answer. Of 150 networks like these 5 had another steady state than the end of their run.
 #[test]
 fn steady_states_are_where_runs_end() {
     let mut random = Random(11);
@@ -292,7 +326,10 @@ fn steady_states_are_where_runs_end() {
         for i in 0..count {
             let steady = json["values"][format!("n{i}.T")]["value"].as_f64().unwrap();
             let ended = rows.last().unwrap()[1 + i];
-            assert!((steady - ended).abs() < 1e-3, "case {case}: n{i} {steady} K, {ended} K\n{text}");
+            assert!(
+                (steady - ended).abs() < 1e-3,
+                "case {case}: n{i} {steady} K, {ended} K\n{text}"
+            );
         }
     }
 }

@@ -37,13 +37,17 @@ fn near(found: f64, expected: f64, tolerance: f64) {
 fn rows(text: &str) -> Vec<Vec<(String, String)>> {
     let mut reader = ::csv::Reader::from_reader(text.as_bytes());
     let headers: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
-    let row = |row: ::csv::StringRecord| headers.iter().cloned().zip(row.iter().map(str::to_owned)).collect();
+    let row = |row: ::csv::StringRecord| {
+        headers.iter().cloned().zip(row.iter().map(str::to_owned)).collect()
+    };
     reader.records().map(|record| row(record.unwrap())).collect()
 }
 
 fn number(row: &[(String, String)], name: &str) -> f64 {
-    let cell =
-        row.iter().find(|(header, _)| header == name).unwrap_or_else(|| panic!("no {name} in {row:?}"));
+    let cell = row
+        .iter()
+        .find(|(header, _)| header == name)
+        .unwrap_or_else(|| panic!("no {name} in {row:?}"));
     cell.1.parse().unwrap()
 }
 
@@ -104,7 +108,10 @@ fn json_has_the_columns_and_rows_of_the_csv() {
                 serde_json::Value::String(text) => assert_eq!(cell, text),
                 serde_json::Value::Null => assert_eq!(cell, "NaN"),
                 value => {
-                    assert_eq!(cell.parse::<f64>().unwrap().to_bits(), value.as_f64().unwrap().to_bits())
+                    assert_eq!(
+                        cell.parse::<f64>().unwrap().to_bits(),
+                        value.as_f64().unwrap().to_bits()
+                    )
                 }
             }
         }
@@ -120,8 +127,9 @@ fn the_number_of_threads_changes_no_byte() {
     }
     folder.write("broken.toml", "format = 1\n[nod]\n");
     for format in ["table", "csv", "json"] {
-        let of =
-            |threads: &str| folder.run(&["compare", ".", "--format", format, "--threads", threads]).exits(2);
+        let of = |threads: &str| {
+            folder.run(&["compare", ".", "--format", format, "--threads", threads]).exits(2)
+        };
         let (one, four) = (of("1"), of("4"));
         assert_eq!(one.out, four.out);
         assert_eq!(one.err, four.err);
@@ -149,8 +157,15 @@ fn a_broken_candidate_is_named_and_stops_no_other() {
 #[test]
 fn a_warning_changes_no_exit_code() {
     let folder = three();
-    folder.write("a.toml", &candidate("0.6", &LIMIT.replace("degC\" }", "degC\", severity = \"warning\" }")));
-    folder.run(&["compare", "."]).exits(0).prints("warning").says("all candidates keep their limits");
+    folder.write(
+        "a.toml",
+        &candidate("0.6", &LIMIT.replace("degC\" }", "degC\", severity = \"warning\" }")),
+    );
+    folder
+        .run(&["compare", "."])
+        .exits(0)
+        .prints("warning")
+        .says("all candidates keep their limits");
 }
 
 #[test]
@@ -174,7 +189,10 @@ fn every_order_has_its_name() {
     for key in ["margin", "peak", "steady", "time", "capacity", "given"] {
         folder.run(&["compare", ".", "--sort", key]).exits(1);
     }
-    folder.run(&["compare", ".", "--sort", "beauty"]).exits(2).says("possible values: margin, peak");
+    folder
+        .run(&["compare", ".", "--sort", "beauty"])
+        .exits(2)
+        .says("possible values: margin, peak");
 }
 
 #[test]
@@ -194,15 +212,21 @@ fn set_reaches_every_candidate_that_has_the_parameter() {
     let folder = three();
     folder.write(
         "c.toml",
-        &candidate("0.48", LIMIT).replace("[param]\nP = \"100 W\"\n", "").replace("\"P\"", "\"100 W\""),
+        &candidate("0.48", LIMIT)
+            .replace("[param]\nP = \"100 W\"\n", "")
+            .replace("\"P\"", "\"100 W\""),
     );
     let ran = folder.run(&["compare", ".", "--set", "P=50 W", "--format", "csv"]).exits(0);
-    let (headers, all) = (rows(&ran.out), [("./b.toml", 40.0), ("./a.toml", 50.0), ("./c.toml", 68.0)]);
+    let (headers, all) =
+        (rows(&ran.out), [("./b.toml", 40.0), ("./a.toml", 50.0), ("./c.toml", 68.0)]);
     for (row, (file, steady)) in headers.iter().zip(all) {
         assert_eq!(row[0].1, file);
         near(number(row, "steady [degC]"), steady, 1e-9);
     }
-    folder.run(&["compare", ".", "--set", "Q=50 W"]).exits(2).says("no candidate has a parameter `Q`");
+    folder
+        .run(&["compare", ".", "--set", "Q=50 W"])
+        .exits(2)
+        .says("no candidate has a parameter `Q`");
     folder.run(&["compare", ".", "--set", "P=50 K"]).exits(2).says("units::dimension");
 }
 
@@ -217,7 +241,8 @@ fn twenty_candidates_fit_the_terminal() {
     let folder = Folder::empty();
     for i in 0..20 {
         let boundaries = "gearbox_side_plate_upper = { T = \"20 degC\" }\nbed";
-        let text = candidate(&format!("0.{}", 20 + i), LIMIT).replace("\nbed", &format!("\n{boundaries}"));
+        let text =
+            candidate(&format!("0.{}", 20 + i), LIMIT).replace("\nbed", &format!("\n{boundaries}"));
         folder.write(&format!("candidate_with_a_long_name_number_{i}.toml"), &text);
     }
     let ran = folder.run(&["compare", "."]).exits(0);
@@ -229,8 +254,8 @@ fn the_mass_is_shown_where_every_material_is_known() {
     let folder = three();
     let without = folder.run(&["compare", ".", "--format", "csv"]).out;
     assert!(!without.contains("mass"));
-    let steel =
-        candidate("0.4", LIMIT).replace("C = \"2000 J/K\"", "material = \"steel_8620\", mass = \"4 kg\"");
+    let steel = candidate("0.4", LIMIT)
+        .replace("C = \"2000 J/K\"", "material = \"steel_8620\", mass = \"4 kg\"");
     folder.write("b.toml", &steel);
     let ran = folder.run(&["compare", ".", "--format", "csv"]).exits(1);
     let all = rows(&ran.out);

@@ -1,17 +1,22 @@
-//! Every command that README and docs show is run, and what they show of its output is what it prints.
+//! Every command that README and docs show is run, and what they show of its output is what it
+//! prints.
 //!
-//! A block ` ```console ` holds commands, each after `$ `, and their output. The commands of a page run one after the
-//! other through `sh` in a temporary folder of its own that holds a copy of `networks/` and `docs/records/`, and the
-//! blocks of the page that have a file name: ` ```toml motor.toml `, ` ```csv points.csv `.
+//! A block ` ```console ` holds commands, each after `$
+//! `, and their output. The commands of a page run one after the other through `sh` in a temporary folder of its own that holds a copy of `networks/` and `docs/records/`, and the blocks of the page that have a file name: ` ```toml motor.toml `,
+//! ` ```csv points.csv `.
 //!
-//! - A block that shows any output shows all of it, stdout and stderr as a terminal would; a line `..` stands for
-//!   lines that are left out, `[..]` for a part of a line. A block that shows none only has to run.
-//! - A command has to end with 0, or with the number that a comment behind it says: `# exit code 1`.
+//! - A block that shows any output shows all of it, stdout and stderr as a terminal would; a line
+//!   `..` stands for lines that are left out, `[..]` for a part of a line. A block that shows none
+//!   only has to run.
+//! - A command has to end with 0, or with the number that a comment behind it says:
+//!   `# exit code 1`.
 //! - What differs between machines is not compared: [`normal`] lists it.
-//! - ` ```console by-hand ` is not run: it builds, installs or measures, and every command in it is one of [`BY_HAND`].
+//! - ` ```console by-hand
+//!   ` is not run: it builds, installs or measures, and every command in it is one of [`BY_HAND`].
 //!
-//! `LPTN_BLESS=1 cargo test -p lptn-cli --test documents` writes what the commands print into the pages; what it writes
-//! has to be read as one who learns from it would. A block with `..` is not written: shorten it by hand.
+//! `LPTN_BLESS=1 cargo test -p lptn-cli --test documents` writes what the commands print into the
+//! pages; what it writes has to be read as one who learns from it would. A block with `..` is not
+//! written: shorten it by hand.
 
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
@@ -61,7 +66,9 @@ fn steps(lines: &[String], block: &Block) -> Vec<Step> {
                 step.output = number + 1..number + 1;
             }
             (None, Some(step)) => step.output.end = number + 1,
-            (None, None) => panic!("line {}: a block begins with a command: `$ lptn ..`", number + 1),
+            (None, None) => {
+                panic!("line {}: a block begins with a command: `$ lptn ..`", number + 1)
+            }
             (Some(command), _) => {
                 steps.push(Step { command: command.to_owned(), output: number + 1..number + 1 });
             }
@@ -78,8 +85,8 @@ fn expected_code(command: &str) -> i32 {
     said.and_then(|code| digits(code).parse().ok()).unwrap_or(0)
 }
 
-/// What may differ from machine to machine, each in a word: residuals of rounding (below 1e-12), hashes of files,
-/// how long the computer took (`solved in 130 ms`).
+/// What may differ from machine to machine, each in a word: residuals of rounding (below 1e-12),
+/// hashes of files, how long the computer took (`solved in 130 ms`).
 fn normal(line: &str) -> String {
     let mut words: Vec<String> = line.trim_end().split(' ').map(str::to_owned).collect();
     for i in 1..words.len().saturating_sub(2) {
@@ -89,7 +96,8 @@ fn normal(line: &str) -> String {
     }
     for word in &mut words {
         let bare = word.trim_matches([',', ';', ')', '(']).to_owned();
-        let rounding = bare.contains("e-") && bare.parse::<f64>().is_ok_and(|number| number.abs() < 1e-12);
+        let rounding =
+            bare.contains("e-") && bare.parse::<f64>().is_ok_and(|number| number.abs() < 1e-12);
         let hash = bare.len() == 64 && bare.chars().all(|c| c.is_ascii_hexdigit());
         if rounding || hash {
             *word = word.replace(&bare, if hash { "<hash>" } else { "<rounding>" });
@@ -142,7 +150,8 @@ impl Page {
         let name = path.strip_prefix(root()).unwrap().display().to_string();
         let folder = Folder::empty();
         std::fs::create_dir(folder.path().join("bin")).unwrap();
-        std::os::unix::fs::symlink(env!("CARGO_BIN_EXE_lptn"), folder.path().join("bin/lptn")).unwrap();
+        std::os::unix::fs::symlink(env!("CARGO_BIN_EXE_lptn"), folder.path().join("bin/lptn"))
+            .unwrap();
         for copied in ["networks", "docs/records"] {
             let to = folder.path().join(copied);
             std::fs::create_dir_all(to.parent().unwrap()).unwrap();
@@ -169,7 +178,9 @@ impl Page {
                 ("console" | "sh" | "bash" | "shell", _) => {
                     self.complain(block.lines.start, "commands stand in a block `console`");
                 }
-                ("text", _) if self.lines[block.lines.clone()].iter().any(|line| is_command(line)) => {
+                ("text", _)
+                    if self.lines[block.lines.clone()].iter().any(|line| is_command(line)) =>
+                {
                     self.complain(block.lines.start, "commands stand in a block `console`");
                 }
                 _ => {}

@@ -1,5 +1,6 @@
-//! Controls and comparisons from the netlist to the command line. Switching times have closed forms: between two switches
-//! one node of capacity C joined to places at given temperatures is an exponential.
+//! Controls and comparisons from the netlist to the command line. Switching times have closed
+//! forms: between two switches one node of capacity C joined to places at given temperatures is an
+//! exponential.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -52,7 +53,12 @@ fn assert_switches(found: &[(f64, String, u8)], expected: &[(f64, &str, u8)], to
     let told = format!("{found:?}, not {expected:?}");
     assert_eq!(found.len(), expected.len(), "{told}");
     for (found, expected) in found.iter().zip(expected) {
-        assert!((found.0 - expected.0).abs() <= tolerance, "{} differs from {}: {told}", found.0, expected.0);
+        assert!(
+            (found.0 - expected.0).abs() <= tolerance,
+            "{} differs from {}: {told}",
+            found.0,
+            expected.0
+        );
         assert_eq!((found.1.as_str(), found.2), (expected.1, expected.2), "{told}");
     }
 }
@@ -72,7 +78,8 @@ impl Exact<'_> {
     }
 }
 
-/// The switches up to `stop` of one node whose steady temperature in degC and time constant in s follow from the states.
+/// The switches up to `stop` of one node whose steady temperature in degC and time constant in s
+/// follow from the states.
 fn exact(
     controls: &[Exact<'_>],
     (mut states, mut at): (Vec<bool>, f64),
@@ -119,7 +126,8 @@ fn switching_times_are_those_of_the_closed_form_at_every_tolerance() {
     for (tolerance, seconds) in
         [("1e-3 K", 1.0), ("1e-4 K", 0.1), ("1e-5 K", 1e-2), ("1e-6 K", 1e-3), ("1e-7 K", 1e-4)]
     {
-        // an error of one switch moves all that follow: 93 of them, each a few tolerances at 0.2 K/s
+        // an error of one switch moves all that follow: 93 of them, each a few tolerances at 0.2
+        // K/s
         assert_switches(&switches(THERMOSTAT, &["--tolerance", tolerance]), &expected, seconds);
     }
 }
@@ -142,11 +150,15 @@ fn json_and_csv_and_the_manifest_tell_of_the_same_events() {
     for (event, row) in list.iter().zip(&rows) {
         assert!((event["time"]["value"].as_f64().unwrap() - row.time).abs() < 1e-9);
         assert_eq!(event["time"]["unit"], "s");
-        assert_eq!((event["kind"].as_str(), event["name"].as_str()), (Some("control"), Some("heater")));
+        assert_eq!(
+            (event["kind"].as_str(), event["name"].as_str()),
+            (Some("control"), Some("heater"))
+        );
         assert_eq!(event["before"], serde_json::json!({ "value": row.before, "unit": "1" }));
         assert_eq!(event["after"], serde_json::json!({ "value": row.after, "unit": "1" }));
     }
-    let manifest: serde_json::Value = serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
+    let manifest: serde_json::Value =
+        serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
     assert_eq!(manifest["statistics"]["events"], serde_json::json!({ "value": 93, "unit": "1" }));
     assert_eq!(json["statistics"]["events"]["value"], 93);
     let hashed = manifest["results"].as_array().unwrap().iter();
@@ -190,7 +202,11 @@ fn the_table_counts_starts_and_says_how_long_it_is_on() {
     let words: Vec<&str> = line.split_whitespace().collect();
     let duty = format!("{:.1}", 100.0 * on / 2000.0);
     assert_eq!(words, ["heater", "46", "47", &format!("{period:.2}"), "s", &duty, "%", "off"]);
-    assert!(ran.out.contains("events: heater off at 2.481 min, heater on at 2.815 min,"), "{}", ran.out);
+    assert!(
+        ran.out.contains("events: heater off at 2.481 min, heater on at 2.815 min,"),
+        "{}",
+        ran.out
+    );
     assert!(ran.out.contains("and 87 more"), "{}", ran.out);
     assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
 }
@@ -198,7 +214,8 @@ fn the_table_counts_starts_and_says_how_long_it_is_on() {
 #[test]
 fn a_control_is_a_column_of_zero_and_one() {
     let folder = Folder::with("net.toml", THERMOSTAT);
-    let ran = folder.run(&["run", "net.toml", "--format", "csv", "--select", "heater", "--select", "body.T"]);
+    let ran = folder
+        .run(&["run", "net.toml", "--format", "csv", "--select", "heater", "--select", "body.T"]);
     let (headers, rows) = csv(&ran.exits(0).out);
     assert_eq!(headers, ["time [s]", "body.T [degC]", "heater [-]"]);
     let expected = heater(2000.0);
@@ -266,7 +283,8 @@ fn a_control_switches_a_stream() {
     let thresholds = |_: &[bool]| (70.0, 60.0);
     let control = Exact { name: "pump", cooling: true, thresholds: &thresholds };
     // 240 W = 3 (T - 20) + 9 (T - 30)
-    let network = |on: &[bool]| if on[0] { ((240.0 + 60.0 + 270.0) / 12.0, 50.0) } else { (100.0, 200.0) };
+    let network =
+        |on: &[bool]| if on[0] { ((240.0 + 60.0 + 270.0) / 12.0, 50.0) } else { (100.0, 200.0) };
     let expected = exact(&[control], (vec![false], 20.0), &network, 1000.0);
     assert!(expected.len() > 8);
     assert_switches(&switches(&text, &["--tolerance", "1e-7 K"]), &expected, 1e-4);
@@ -289,22 +307,27 @@ fn a_control_switches_a_boundary() {
 
 /// The heater with thresholds and start that parameters give.
 fn adjustable() -> String {
-    let text = THERMOSTAT.replace("\"58 degC\"", "\"T_on\"").replace("\"62 degC\"", "\"T_on + band\"");
+    let text =
+        THERMOSTAT.replace("\"58 degC\"", "\"T_on\"").replace("\"62 degC\"", "\"T_on + band\"");
     text.replace("[node]", "[param]\nT_on = \"58 degC\"\nband = \"4 K\"\nT_0 = \"20 degC\"\n[node]")
         .replace("T0 = \"20 degC\"", "T0 = \"T_0\"")
 }
 
 #[test]
 fn thresholds_can_be_set() {
-    let found =
-        switches(&adjustable(), &["--set", "T_on=38degC", "--set", "band=2K", "--tolerance", "1e-7 K"]);
+    let found = switches(
+        &adjustable(),
+        &["--set", "T_on=38degC", "--set", "band=2K", "--tolerance", "1e-7 K"],
+    );
     let thresholds = |_: &[bool]| (38.0, 40.0);
     let control = Exact { name: "heater", cooling: false, thresholds: &thresholds };
     let network = |on: &[bool]| (if on[0] { 100.0 } else { 20.0 }, 200.0);
     assert_switches(&found, &exact(&[control], (vec![true], 20.0), &network, 2000.0), 1e-4);
     let folder = Folder::with("net.toml", &adjustable());
-    let ran =
-        folder.run(&["run", "net.toml", "--set", "band=-1K"]).exits(2).says("network::thresholds_crossed");
+    let ran = folder
+        .run(&["run", "net.toml", "--set", "band=-1K"])
+        .exits(2)
+        .says("network::thresholds_crossed");
     ran.says(
         "`on_below` and `off_above` of control `heater` are crossed over: on at 58 degC, off at 57 degC",
     );
@@ -332,8 +355,10 @@ fn the_mean_of_a_control_over_a_window_is_its_duty() {
     let folder = Folder::with("net.toml", &format!("{THERMOSTAT}{window}"));
     let json = folder.run(&["run", "net.toml", "--no-files", "--format", "json"]).exits(0).json();
     let expected = heater(2000.0);
-    let state = |time: f64| expected.iter().rev().find(|e| e.0 <= time).map_or(1.0, |e| f64::from(e.2));
-    let inside = expected.iter().map(|event| event.0).filter(|time| (1000.0..2000.0).contains(time));
+    let state =
+        |time: f64| expected.iter().rev().find(|e| e.0 <= time).map_or(1.0, |e| f64::from(e.2));
+    let inside =
+        expected.iter().map(|event| event.0).filter(|time| (1000.0..2000.0).contains(time));
     let times: Vec<f64> = [1000.0].into_iter().chain(inside).chain([2000.0]).collect();
     let on: f64 = times.windows(2).map(|pair| (pair[1] - pair[0]) * state(pair[0])).sum();
     let mean = json["windows"]["last"]["columns"]["heater"]["mean"]["value"].as_f64().unwrap();

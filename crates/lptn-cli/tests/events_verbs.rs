@@ -41,12 +41,19 @@ fn a_comparison_that_chatters_ends_with_3_and_keeps_what_was_before() {
     for (row, after) in rows.iter().zip([0, 1].iter().cycle()) {
         let fields: Vec<&str> = row.split(',').collect();
         assert!((fields[0].parse::<f64>().unwrap() - reached).abs() < 1e-2, "{row}");
-        assert_eq!(fields[1..], ["comparison", "element.P", &(1 - after).to_string(), &after.to_string()]);
+        assert_eq!(
+            fields[1..],
+            ["comparison", "element.P", &(1 - after).to_string(), &after.to_string()]
+        );
     }
-    let manifest: serde_json::Value = serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
+    let manifest: serde_json::Value =
+        serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
     assert_eq!(manifest["end"]["status"], "failed");
     let (_, rows) = common::csv(&folder.read("out/net/result.csv"));
-    assert!(rows.last().unwrap()[0] <= reached && rows.len() == 19, "rows every 5 s up to {reached} s");
+    assert!(
+        rows.last().unwrap()[0] <= reached && rows.len() == 19,
+        "rows every 5 s up to {reached} s"
+    );
 }
 
 #[test]
@@ -71,7 +78,8 @@ fn an_interrupted_run_keeps_its_events_whole() {
     let events = folder.read("out/net/events.csv");
     assert!(events.starts_with("time [s],kind,name,before,after\n") && events.ends_with('\n'));
     assert!(events.lines().all(|line| line.split(',').count() == 5));
-    let manifest: serde_json::Value = serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
+    let manifest: serde_json::Value =
+        serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
     let count = manifest["statistics"]["events"]["value"].as_u64().unwrap();
     assert_eq!(count, events.lines().skip(1).count() as u64);
     assert_eq!(manifest["end"]["status"], "interrupted");
@@ -99,9 +107,16 @@ fn modes_say_that_heat_is_switched_and_refuse_paths_that_switch() {
 fn reduce_says_how_the_controls_stand_and_compares_no_run() {
     let folder = Folder::with("net.toml", THERMOSTAT);
     let ran = folder.run(&["reduce", "net.toml", "--port", "body"]).exits(0);
-    let ran = ran.prints("Q_N             240 W").prints("T_ref and Q_N are those with `heater` on");
-    assert!(!ran.out.contains("run [K]") && !ran.err.contains("--write"), "{}\n{}", ran.out, ran.err);
-    let json = folder.run(&["reduce", "net.toml", "--port", "body", "--format", "json"]).exits(0).json();
+    let ran =
+        ran.prints("Q_N             240 W").prints("T_ref and Q_N are those with `heater` on");
+    assert!(
+        !ran.out.contains("run [K]") && !ran.err.contains("--write"),
+        "{}\n{}",
+        ran.out,
+        ran.err
+    );
+    let json =
+        folder.run(&["reduce", "net.toml", "--port", "body", "--format", "json"]).exits(0).json();
     assert!((json["C_eq"]["sum"]["value"].as_f64().unwrap() - 600.0).abs() < 1e-9);
     assert!(json["errors"]["sum"]["run"].is_null());
     assert!(json["notes"][0].as_str().unwrap().contains("`heater` on"));
@@ -141,7 +156,11 @@ const FAN: &str = "format = 1\n[param]\nG_fan = \"1.5 W/K\"\n[node]\nbody = { T0
 fn steady_says_which_controls_are_on_or_that_it_cycles() {
     let folder = Folder::with("fan.toml", FAN);
     let ran = folder.run(&["steady", "fan.toml"]).exits(0).prints("60.0");
-    assert!(ran.out.lines().any(|line| line.split_whitespace().eq(["fan", "[-]", "1"])), "{}", ran.out);
+    assert!(
+        ran.out.lines().any(|line| line.split_whitespace().eq(["fan", "[-]", "1"])),
+        "{}",
+        ran.out
+    );
     let json = folder.run(&["steady", "fan.toml", "--format", "json"]).exits(0).json();
     assert_eq!(json["values"]["fan"], serde_json::json!({ "value": 1.0, "unit": "1" }));
     // 100 W over 6 W/K is 36.7 degC with the fan, 120 degC without
@@ -177,9 +196,13 @@ fn check_warns_of_a_control_that_nothing_uses_and_of_a_narrow_dead_band() {
 fn a_control_that_undoes_itself_at_once_is_named() {
     // heat into a node without capacity moves what is felt at the very moment of the switch
     let tip = THERMOSTAT.replace("[boundary]", "tip = { massless = true }\n\n[boundary]");
-    let tip =
-        tip.replace("[control]", "wire = { from = \"tip\", to = \"body\", G = \"2 W/K\" }\n\n[control]");
-    let tip = tip.replace("sense = \"body\"", "sense = \"tip\"").replace("into = \"body\"", "into = \"tip\"");
+    let tip = tip.replace(
+        "[control]",
+        "wire = { from = \"tip\", to = \"body\", G = \"2 W/K\" }\n\n[control]",
+    );
+    let tip = tip
+        .replace("sense = \"body\"", "sense = \"tip\"")
+        .replace("into = \"body\"", "into = \"tip\"");
     let folder = Folder::with("net.toml", &tip);
     let ran = folder.run(&["run", "net.toml"]).exits(3).says("run::restless").says("`min_dwell`");
     ran.says("`heater` switches back and forth at this very moment").prints("heater");

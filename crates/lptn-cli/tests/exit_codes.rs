@@ -19,7 +19,10 @@ fn what_works_ends_with_0() {
     for verb in ["run", "steady", "check"] {
         folder.run(&[verb, "gearbox.toml"]).exits(0);
     }
-    folder.run(&["check", "gearbox.toml"]).exits(0).prints("ok: gearbox.toml has 2 nodes, 2 boundaries");
+    folder
+        .run(&["check", "gearbox.toml"])
+        .exits(0)
+        .prints("ok: gearbox.toml has 2 nodes, 2 boundaries");
     folder.run(&["units"]).exits(0).prints("thermal resistance");
     folder.run(&["units", "3 L/min"]).exits(0).prints("5e-5 m^3/s");
     folder.run(&["--version"]).exits(0).prints("lptn ").prints("SUNDIALS ");
@@ -41,7 +44,11 @@ fn check_ends_with_1_where_it_finds_errors_and_says_so_last() {
 #[test]
 fn wrong_netlists_end_with_2_for_other_verbs() {
     let folder = with("to = \"bed\"", "to = \"bde\"");
-    folder.run(&["run", "gearbox.toml"]).exits(2).says("netlist::unknown_node").says("did you mean `bed`?");
+    folder
+        .run(&["run", "gearbox.toml"])
+        .exits(2)
+        .says("netlist::unknown_node")
+        .says("did you mean `bed`?");
     folder.run(&["steady", "gearbox.toml"]).exits(2).says("netlist::unknown_node");
     assert_eq!(folder.files(), ["gearbox.toml"]);
 }
@@ -86,7 +93,8 @@ fn usage_ends_with_2() {
 #[test]
 fn wrong_options_are_shown_with_carets() {
     let folder = Folder::with_gearbox();
-    let run = |option: &str, value: &str| folder.run(&["run", "gearbox.toml", option, value]).exits(2);
+    let run =
+        |option: &str, value: &str| folder.run(&["run", "gearbox.toml", option, value]).exits(2);
     run("--set", "P_700=300W").says("netlist::unknown_parameter").says("did you mean `P_7000`?");
     run("--set", "P_7000=300K").says("units::dimension").says("^");
     run("--set", "P_7000").says("netlist::bad_assignment");
@@ -103,7 +111,11 @@ fn wrong_options_are_shown_with_carets() {
 #[test]
 fn a_pattern_of_the_file_that_matches_nothing_is_shown_there() {
     let folder = with("[run]", "[run]\nselect = [\"iron.T\"]");
-    folder.run(&["run", "gearbox.toml"]).exits(2).says("select::no_match").says("select = [\"iron.T\"]");
+    folder
+        .run(&["run", "gearbox.toml"])
+        .exits(2)
+        .says("select::no_match")
+        .says("select = [\"iron.T\"]");
     folder.run(&["check", "gearbox.toml"]).exits(1).prints("select::no_match");
 }
 
@@ -119,13 +131,22 @@ fn without_a_boundary_the_energy_at_the_start_leads_to_rest() {
     let folder = Folder::with("two.toml", TWO_MASSES);
     let steady = folder.run(&["steady", "two.toml"]).exits(0).prints("`hot` and `cold`");
     assert!(!steady.out.contains("NaN"), "{}", steady.out);
-    let ran = folder.run(&["run", "two.toml"]).exits(0).prints("error not bounded by the tolerance");
+    let ran =
+        folder.run(&["run", "two.toml"]).exits(0).prints("error not bounded by the tolerance");
     let hot = ran.out.lines().find(|line| line.starts_with("hot")).unwrap();
     // both end at the mean, which is where they come to rest
-    assert_eq!(hot.split_whitespace().collect::<Vec<_>>()[1..6], ["100.0", "50.0", "100.0", "0", "s"]);
-    let heated = TWO_MASSES.replace("[run]", "[source]\nheater = { into = \"hot\", P = \"1 W\" }\n\n[run]");
+    assert_eq!(
+        hot.split_whitespace().collect::<Vec<_>>()[1..6],
+        ["100.0", "50.0", "100.0", "0", "s"]
+    );
+    let heated =
+        TWO_MASSES.replace("[run]", "[source]\nheater = { into = \"hot\", P = \"1 W\" }\n\n[run]");
     let folder = Folder::with("heated.toml", &heated);
-    folder.run(&["steady", "heated.toml"]).exits(2).says("steady::no_boundary").says("1 W stay for ever");
+    folder
+        .run(&["steady", "heated.toml"])
+        .exits(2)
+        .says("steady::no_boundary")
+        .says("1 W stay for ever");
 }
 
 #[test]

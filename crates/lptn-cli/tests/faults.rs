@@ -1,5 +1,5 @@
-//! Faults from outside: a process that is killed, a full disk, a folder that cannot be written, two processes at once.
-//! What is there afterwards are the old results or the new ones, whole.
+//! Faults from outside: a process that is killed, a full disk, a folder that cannot be written, two
+//! processes at once. What is there afterwards are the old results or the new ones, whole.
 
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
@@ -52,7 +52,8 @@ impl Results {
     /// What lies in the folder, whose manifest is that of its files.
     fn of(mut files: BTreeMap<String, Vec<u8>>) -> Self {
         let hashes = hashes(&files.remove(MANIFEST).unwrap());
-        let hash = |bytes: &[u8]| Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        let hash =
+            |bytes: &[u8]| Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
         let found: BTreeMap<String, String> =
             files.iter().map(|(name, bytes)| (name.clone(), hash(bytes))).collect();
         assert!(hashes == found, "a manifest of other results: {hashes:?} beside {found:?}");
@@ -72,7 +73,8 @@ impl Chance {
     }
 }
 
-/// Kills a run in the middle of its computing or of its writing: after a while, or when a file appears.
+/// Kills a run in the middle of its computing or of its writing: after a while, or when a file
+/// appears.
 fn kill(mut child: Child, out: &Path, when: &Moment) {
     let begun = Instant::now();
     while child.try_wait().unwrap().is_none() {
@@ -94,8 +96,9 @@ enum Moment {
     Sees(&'static str),
 }
 
-/// After every kill each file is that of one of the two runs, whole; unless the record of a commit says that one is
-/// under way they are all of the same run. Nothing is left over when the next run has ended.
+/// After every kill each file is that of one of the two runs, whole; unless the record of a commit
+/// says that one is under way they are all of the same run. Nothing is left over when the next run
+/// has ended.
 #[test]
 fn a_run_that_is_killed_leaves_old_or_new_results() {
     let folder = Folder::with(
@@ -104,8 +107,9 @@ fn a_run_that_is_killed_leaves_old_or_new_results() {
     );
     folder.write("new.toml", &block("20 W", ""));
     let out = folder.path().join("out");
-    let run =
-        |deck: &str| folder.command(&["run", deck, "-q", "-o", "out"]).stdout(Stdio::null()).spawn().unwrap();
+    let run = |deck: &str| {
+        folder.command(&["run", deck, "-q", "-o", "out"]).stdout(Stdio::null()).spawn().unwrap()
+    };
     let decks = ["new.toml", "old.toml"];
     let begun = Instant::now();
     let known = decks.map(|deck| {
@@ -137,7 +141,10 @@ fn a_run_that_is_killed_leaves_old_or_new_results() {
         under_way += usize::from(recorded);
         left.retain(|name, _| !name.starts_with('.'));
         for (name, bytes) in left.iter().filter(|(name, _)| *name != MANIFEST) {
-            assert!(known.iter().any(|run| run.files.get(name) == Some(bytes)), "{round}: half a {name}");
+            assert!(
+                known.iter().any(|run| run.files.get(name) == Some(bytes)),
+                "{round}: half a {name}"
+            );
         }
         assert!(left.contains_key("state.json"), "{round}: the state is lost");
         let manifest = hashes(&left[MANIFEST]);
@@ -152,7 +159,8 @@ fn a_run_that_is_killed_leaves_old_or_new_results() {
     assert!(Results::of(contents(&out)) == known[0], "something is left over");
 }
 
-/// The limit on the size of files plays a disk that is full: the error is the same but for its words.
+/// The limit on the size of files plays a disk that is full: the error is the same but for its
+/// words.
 #[test]
 fn a_disk_that_fills_up_in_the_second_run_leaves_the_results_of_the_first() {
     let folder = Folder::with("block.toml", &block("10 W", ""));
@@ -173,26 +181,33 @@ fn a_disk_that_fills_up_in_the_second_run_leaves_the_results_of_the_first() {
     folder.run(&["run", "block.toml", "-q"]).exits(0);
 }
 
-/// Runs a script in a name space where it may mount what it likes; `None` where the system does not allow that, which
-/// the continuous integration does.
+/// Runs a script in a name space where it may mount what it likes; `None` where the system does not
+/// allow that, which the continuous integration does.
 fn mounting(folder: &Folder, script: &str) -> Option<String> {
-    let able = Command::new("unshare").args(["-rm", "mount", "-t", "tmpfs", "tmpfs", "/mnt"]).output();
+    let able =
+        Command::new("unshare").args(["-rm", "mount", "-t", "tmpfs", "tmpfs", "/mnt"]).output();
     if !able.is_ok_and(|able| able.status.success()) {
         assert!(std::env::var_os("LPTN_REQUIRE_ORACLES").is_none(), "name spaces are required");
         return None;
     }
     let script = format!("set -e; {script}");
     let mut command = Command::new("unshare");
-    command.args(["-rm", "sh", "-c", &script, env!("CARGO_BIN_EXE_lptn")]).current_dir(folder.path());
+    command
+        .args(["-rm", "sh", "-c", &script, env!("CARGO_BIN_EXE_lptn")])
+        .current_dir(folder.path());
     Some(Ran::of(command.output().unwrap()).exits(0).out)
 }
 
-/// A disk of 200 kB in memory: the first run fits, the second one does not, the third one goes on from the first.
+/// A disk of 200 kB in memory: the first run fits, the second one does not, the third one goes on
+/// from the first.
 #[test]
 fn a_full_disk_does_not_break_a_chain_of_runs() {
     let folder = Folder::with("large.toml", &block("20 W", "initial = \"out/state.json\"\n"));
     folder.write("first.toml", &block("10 W", "").replace("0.2 s", "10 s"));
-    folder.write("third.toml", &block("10 W", "initial = \"out/state.json\"\n").replace("0.2 s", "10 s"));
+    folder.write(
+        "third.toml",
+        &block("10 W", "initial = \"out/state.json\"\n").replace("0.2 s", "10 s"),
+    );
     let script = "mkdir disk; mount -t tmpfs -o size=200k tmpfs disk; cp *.toml disk; cd disk; \
                   \"$0\" run first.toml -q -o out > /dev/null; cp -r out ../before; \
                   \"$0\" run large.toml -q -o out > /dev/null || echo \"exit $?\"; diff -r out ../before && echo same; \
@@ -222,20 +237,28 @@ fn a_folder_is_written_by_one_process_at_a_time() {
     let folder = Folder::with("long.toml", &endless());
     folder.write("block.toml", &block("10 W", ""));
     let out = folder.path().join("out");
-    let mut first =
-        folder.command(&["run", "long.toml", "-q", "-o", "out"]).stdout(Stdio::null()).spawn().unwrap();
+    let mut first = folder
+        .command(&["run", "long.toml", "-q", "-o", "out"])
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
     while std::fs::read_to_string(out.join(".lptn.lock")).map_or(true, |text| text.is_empty()) {
         std::thread::yield_now();
     }
-    let second = folder.run(&["run", "block.toml", "-q", "-o", "out"]).exits(2).says("output::in_use");
+    let second =
+        folder.run(&["run", "block.toml", "-q", "-o", "out"]).exits(2).says("output::in_use");
     assert!(second.err.contains(&format!("process {}", first.id())), "{}", second.err);
     first.kill().unwrap();
     first.wait().unwrap();
     folder.run(&["run", "block.toml", "-q", "-o", "out"]).exits(0);
-    assert!(Results::of(contents(&out)).files.len() == 3, "nothing is left over, not even the lock");
+    assert!(
+        Results::of(contents(&out)).files.len() == 3,
+        "nothing is left over, not even the lock"
+    );
 }
 
-/// Of four that begin at once each gets the folder or is told that it does not; what is there in the end is of one.
+/// Of four that begin at once each gets the folder or is told that it does not; what is there in
+/// the end is of one.
 #[test]
 fn of_several_at_once_the_results_are_of_one() {
     let folder = Folder::with("a.toml", &block("10 W", ""));

@@ -55,8 +55,12 @@ fn stdout_and_file_hold_the_same_csv_and_it_reads_back() {
     let json = folder.run(&["run", "gearbox.toml", "--no-files", "--format", "json"]).exits(0).out;
     let lines = json.lines().skip_while(|line| !line.contains("\"rows\"")).skip(1);
     for (row, line) in rows.iter().zip(lines) {
-        let values: Vec<f64> =
-            line.trim().trim_matches(|c| "[],".contains(c)).split(", ").map(|v| v.parse().unwrap()).collect();
+        let values: Vec<f64> = line
+            .trim()
+            .trim_matches(|c| "[],".contains(c))
+            .split(", ")
+            .map(|v| v.parse().unwrap())
+            .collect();
         assert_eq!(*row, values);
     }
 }
@@ -74,13 +78,18 @@ fn the_manifest_names_what_made_the_result() {
     assert_eq!(manifest["arguments"][0], "run");
     assert_eq!(manifest["parameters"]["T_amb"]["set"], "30degC");
     assert!((manifest["parameters"]["T_amb"]["value"].as_f64().unwrap() - 303.15).abs() < 1e-9);
-    assert_eq!(manifest["parameters"]["P_7000"], serde_json::json!({ "value": 220.6, "unit": "W" }));
+    assert_eq!(
+        manifest["parameters"]["P_7000"],
+        serde_json::json!({ "value": 220.6, "unit": "W" })
+    );
     assert!((manifest["tolerance"]["value"].as_f64().unwrap() - 1e-3).abs() < 1e-15);
     assert_eq!(manifest["stop"]["value"], 1500.0);
     assert_eq!(manifest["end"]["status"], "reached");
     assert_eq!(manifest["ledger"]["closes"], true);
     assert!(manifest["statistics"]["steps"]["value"].as_u64().unwrap() > 0);
-    assert!(["6", "7"].iter().any(|v| manifest["sundials"]["version"].as_str().unwrap().starts_with(v)));
+    assert!(
+        ["6", "7"].iter().any(|v| manifest["sundials"]["version"].as_str().unwrap().starts_with(v))
+    );
     assert!(["system", "bundled"].contains(&manifest["sundials"]["linkage"].as_str().unwrap()));
     assert!(manifest["environment"]["written"].as_str().unwrap().ends_with('Z'));
 }
@@ -104,7 +113,10 @@ fn a_folder_that_cannot_be_written_is_said_before_the_run() {
     let folder = Folder::with_gearbox();
     folder.write("out", "a file where the folder should be");
     folder.run(&["run", "gearbox.toml"]).exits(2).says("output::cannot_create").says("--no-files");
-    folder.run(&["run", "gearbox.toml", "-o", "gearbox.toml/sub"]).exits(2).says("output::cannot_create");
+    folder
+        .run(&["run", "gearbox.toml", "-o", "gearbox.toml/sub"])
+        .exits(2)
+        .says("output::cannot_create");
     assert_eq!(folder.files(), ["gearbox.toml", "out"]);
 }
 

@@ -1,4 +1,5 @@
-//! `lptn fit law`: numbers are those of `crates/lptn-study/tests/law.rs`, which has them from SciPy and closed forms.
+//! `lptn fit law`: numbers are those of `crates/lptn-study/tests/law.rs`, which has them from SciPy
+//! and closed forms.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
 mod common;
@@ -31,7 +32,14 @@ fn plain() -> String {
 }
 
 fn paper(extra: &[&str]) -> Ran {
-    let laws = ["--dT", "0.0084 ± 0.0011 K/rpm", "--t_RC", "18.6 ± 3.8 min", "--P", "87 ± 15 uW/rpm^(5/3)"];
+    let laws = [
+        "--dT",
+        "0.0084 ± 0.0011 K/rpm",
+        "--t_RC",
+        "18.6 ± 3.8 min",
+        "--P",
+        "87 ± 15 uW/rpm^(5/3)",
+    ];
     let mut arguments = vec!["fit", "law"];
     arguments.extend(laws);
     arguments.extend(["--capacity", "2659 J/K", "--over", "1000 rpm to 7000 rpm"]);
@@ -51,7 +59,8 @@ fn points_choose_their_law() {
     let ran = Folder::with("points.csv", &plain()).run(&["fit", "law", "points.csv"]).exits(0);
     fits_a_terminal(&ran.out);
     let ran = ran.prints("omega^(5/3) is best: the next, omega^n, is 3.2 AICc behind");
-    let ran = ran.prints("14 points at 1000 .. 7000 rpm, unweighted").prints("87.19 ± 0.27 uW/rpm^(5/3)");
+    let ran =
+        ran.prints("14 points at 1000 .. 7000 rpm, unweighted").prints("87.19 ± 0.27 uW/rpm^(5/3)");
     let ran = ran.prints("n = 1.672 ± 0.014").prints("negative");
     assert!(!ran.out.contains("agree?"), "{}", ran.out);
 }
@@ -66,7 +75,8 @@ fn weights_come_from_the_column_of_errors() {
     assert_eq!(best["law"], "omega^(5/3)");
     assert!((best["chi_squared"].as_f64().unwrap() - 17.643455106910523).abs() < 1e-8);
     assert_eq!(best["rmse"]["unit"], "W");
-    let unweighted = folder.run(&["fit", "law", "points.csv", "--unweighted", "--format", "json"]).json();
+    let unweighted =
+        folder.run(&["fit", "law", "points.csv", "--unweighted", "--format", "json"]).json();
     assert_eq!(unweighted["weighted"], false);
     let rmse = unweighted["laws"][0]["rmse"]["value"].as_f64().unwrap();
     assert!((rmse - 1.3795021574440414).abs() < 1e-9);
@@ -78,24 +88,38 @@ fn rise_and_time_constant_are_compared_with_the_power() {
     let folder = Folder::with("points.csv", POINTS);
     let ran = folder.run(&["fit", "law", "points.csv", "--capacity", "2659 J/K"]).exits(1);
     fits_a_terminal(&ran.out);
-    let ran =
-        ran.prints("Do dT, t_RC and P agree?").prints("refuted").prints("contradiction: dT and t_RC imply");
+    let ran = ran
+        .prints("Do dT, t_RC and P agree?")
+        .prints("refuted")
+        .prints("contradiction: dT and t_RC imply");
     let last = ran.out.lines().last().unwrap();
     assert!(last.contains("7000 rpm"), "{last}");
-    let json = folder.run(&["fit", "law", "points.csv", "--format", "json"]).exits(1).says("contradiction");
+    let json = folder
+        .run(&["fit", "law", "points.csv", "--format", "json"])
+        .exits(1)
+        .says("contradiction");
     let found = &json.json()["consistency"];
-    assert!((found["exponents"]["test"]["probability"].as_f64().unwrap() - 0.02712706774086985).abs() < 1e-6);
+    assert!(
+        (found["exponents"]["test"]["probability"].as_f64().unwrap() - 0.02712706774086985).abs()
+            < 1e-6
+    );
     assert_eq!(found["agrees"], false);
     assert!(found["level"].is_null());
 }
 
-/// 20, 70 and 140 W against 8.7, 70.2 and 222.9 W; 43 and 11.7 min: 2659 J/K x 0.0084 K/rpm n / 18.6 min, against
-/// 87 uW/rpm^(5/3) n^(5/3).
+/// 20, 70 and 140 W against 8.7, 70.2 and 222.9 W; 43 and 11.7 min: 2659 J/K x 0.0084 K/rpm n /
+/// 18.6 min, against 87 uW/rpm^(5/3) n^(5/3).
 #[test]
 fn the_papers_fits_contradict_each_other() {
     let ran = paper(&[]).exits(1);
     fits_a_terminal(&ran.out);
-    let ran = ran.prints("20.0").prints("140.1").prints("8.7").prints("222.9").prints("42.8").prints("11.7");
+    let ran = ran
+        .prints("20.0")
+        .prints("140.1")
+        .prints("8.7")
+        .prints("222.9")
+        .prints("42.8")
+        .prints("11.7");
     let flat = ran.out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
         flat.ends_with(
@@ -107,7 +131,10 @@ fn the_papers_fits_contradict_each_other() {
     let json = paper(&["--format", "json"]).exits(1).says("contradiction").json();
     let found = &json["consistency"];
     assert!((found["exponents"]["P_implied"]["value"].as_f64().unwrap() - 1.0).abs() < 1e-12);
-    assert!((found["at"][2]["P"]["value"].as_f64().unwrap() - 87e-6 * 7000_f64.powf(5.0 / 3.0)).abs() < 1e-9);
+    assert!(
+        (found["at"][2]["P"]["value"].as_f64().unwrap() - 87e-6 * 7000_f64.powf(5.0 / 3.0)).abs()
+            < 1e-9
+    );
     let csv = paper(&["--format", "csv"]).exits(1);
     assert!(
         csv.out.starts_with("omega [rpm],dT [K],t_RC [s],P_implied [W],P [W],t_RC_needed [s]\n"),
@@ -118,7 +145,14 @@ fn the_papers_fits_contradict_each_other() {
 
 #[test]
 fn laws_that_agree_exit_with_0() {
-    let laws = ["--dT", "26.499 uK/rpm^(5/3)", "--t_RC", "809.9 s", "--P", "87 [uW/rpm^(5/3)] * omega^(5/3)"];
+    let laws = [
+        "--dT",
+        "26.499 uK/rpm^(5/3)",
+        "--t_RC",
+        "809.9 s",
+        "--P",
+        "87 [uW/rpm^(5/3)] * omega^(5/3)",
+    ];
     let mut arguments = vec!["fit", "law"];
     arguments.extend(laws);
     arguments.extend(["--capacity", "2659 J/K ± 5 %", "--over", "1000 rpm to 7000 rpm"]);
@@ -133,7 +167,17 @@ fn a_users_law_stands_among_the_others() {
     fits_a_terminal(&ran.out);
     ran.prints("b = 7366 ± 450 rpm").prints("4.12");
     let start = ["--start", "b = 7000 rpm"];
-    let ran = folder.run(&["fit", "law", "points.csv", "--law", law, start[0], start[1], "--format", "csv"]);
+    let ran = folder.run(&[
+        "fit",
+        "law",
+        "points.csv",
+        "--law",
+        law,
+        start[0],
+        start[1],
+        "--format",
+        "csv",
+    ]);
     assert!(ran.exits(0).out.contains("a * omega * exp(omega / b),b,rad/s,"));
 }
 
@@ -142,12 +186,17 @@ fn a_users_law_stands_among_the_others() {
 fn a_law_that_cannot_be_fitted_exits_with_3() {
     let folder = Folder::with("points.csv", &plain());
     let law = ["--law", "a * ln(omega / b)", "--start", "a = 1 W", "--start", "b = -1 rpm"];
-    let ran =
-        folder.run(&[&["fit", "law", "points.csv"][..], &law].concat()).exits(3).says("failed: `a * ln");
+    let ran = folder
+        .run(&[&["fit", "law", "points.csv"][..], &law].concat())
+        .exits(3)
+        .says("failed: `a * ln");
     assert!(!ran.out.contains("b = "), "{}", ran.out);
     // two coefficients that only their product tells of
     let law = ["--law", "a * b * omega", "--start", "a = 20 mW/rpm"];
-    folder.run(&[&["fit", "law", "points.csv"][..], &law].concat()).exits(3).says("do not determine");
+    folder
+        .run(&[&["fit", "law", "points.csv"][..], &law].concat())
+        .exits(3)
+        .says("do not determine");
 }
 
 #[test]
@@ -162,15 +211,42 @@ fn mistakes_are_shown_where_they_stand() {
     law("a * b * omega", &[]).says("fit::law_open_unit").says("--start \"a = 20 mW/rpm\"");
     law("a * omega", &["--start", "alpha = 20 mW/rpm"]).says("fit::law_start");
     law("a * omega", &["--start", "a"]).says("write for example");
-    folder.run(&["fit", "law", "points.csv", "--speed", "omgea"]).exits(2).says("did you mean `omega`?");
+    folder
+        .run(&["fit", "law", "points.csv", "--speed", "omgea"])
+        .exits(2)
+        .says("did you mean `omega`?");
     folder.run(&["fit", "law", "points.csv", "--power", "omega"]).exits(2).says("record::unit");
-    folder.run(&["fit", "law", "points.csv", "--capacity", "0 J/K"]).exits(2).says("fit::law_capacity");
+    folder
+        .run(&["fit", "law", "points.csv", "--capacity", "0 J/K"])
+        .exits(2)
+        .says("fit::law_capacity");
     folder.run(&["fit", "law", "no.csv"]).exits(2).says("cannot read");
     folder.run(&["fit", "law"]).exits(2);
-    let paper =
-        ["fit", "law", "--dT", "0.0084 W/rpm", "--t_RC", "1 min", "--P", "1 W", "--over", "1 rpm to 2 rpm"];
+    let paper = [
+        "fit",
+        "law",
+        "--dT",
+        "0.0084 W/rpm",
+        "--t_RC",
+        "1 min",
+        "--P",
+        "1 W",
+        "--over",
+        "1 rpm to 2 rpm",
+    ];
     folder.run(&paper).exits(2).says("fit::law_dimension");
-    let paper = ["fit", "law", "--dT", "0.0084 K/rpm", "--t_RC", "1 min", "--P", "1 W", "--over", "7000 rpm"];
+    let paper = [
+        "fit",
+        "law",
+        "--dT",
+        "0.0084 K/rpm",
+        "--t_RC",
+        "1 min",
+        "--P",
+        "1 W",
+        "--over",
+        "7000 rpm",
+    ];
     folder.run(&paper).exits(2).says("fit::law_range");
 }
 

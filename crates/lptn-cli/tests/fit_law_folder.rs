@@ -5,9 +5,11 @@ mod common;
 
 use common::Folder;
 
-const SHIPPED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/records/synthetic_gearbox");
+const SHIPPED: &str =
+    concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/records/synthetic_gearbox");
 
-/// A record of one exponential with rise 20 K x (rpm / 1000)^2 and t_RC 100 s, and a ripple that no fit can follow.
+/// A record of one exponential with rise 20 K x (rpm / 1000)^2 and t_RC 100 s, and a ripple that no
+/// fit can follow.
 fn record(comment: &str, rpm: f64) -> String {
     let mut text = format!("{comment}t [s],ring [degC],bed [degC]\n");
     for i in 0..400 {
@@ -60,7 +62,8 @@ fn records_become_points_and_files() {
         "laws.csv",
         "manifest.json",
     ];
-    let written: Vec<String> = folder.files().into_iter().filter(|name| name.starts_with("out/")).collect();
+    let written: Vec<String> =
+        folder.files().into_iter().filter(|name| name.starts_with("out/")).collect();
     assert_eq!(written, names.map(|name| format!("out/records/{name}")));
     let manifest: serde_json::Value =
         serde_json::from_str(&folder.read("out/records/manifest.json")).unwrap();
@@ -68,7 +71,10 @@ fn records_become_points_and_files() {
     assert_eq!(manifest["results"].as_array().unwrap().len(), 4);
     let power = folder.read("out/records/figure_9_power.csv");
     let head = power.lines().next().unwrap();
-    assert!(head.starts_with("run,omega [rpm],dT [K],t_RC [min],P [W],P_sd [W],P_systematic [W],"), "{head}");
+    assert!(
+        head.starts_with("run,omega [rpm],dT [K],t_RC [min],P [W],P_sd [W],P_systematic [W],"),
+        "{head}"
+    );
     assert_eq!(power.lines().count(), 8);
     // P = C dT / t_RC = 1000 J/K x 20 K x 1 / 100 s at 1000 rpm, and 2 % of C are 2 % of P
     let first: Vec<&str> = power.lines().nth(1).unwrap().split(',').collect();
@@ -128,10 +134,14 @@ fn what_is_missing_is_said() {
     sheet.run(&RUN).exits(2).says("fit::law_runs");
 }
 
-/// The shipped records: the truth is stated in their README, and the study is judged in `tests/synthetic_records.rs`.
+/// The shipped records: the truth is stated in their README, and the study is judged in
+/// `tests/synthetic_records.rs`.
 #[test]
 fn the_shipped_records_choose_their_law() {
-    let ran = Folder::empty().run(&["fit", "law", SHIPPED, "--capacity", "2659 J/K ± 5 %", "--no-files"]);
+    let ran =
+        Folder::empty().run(&["fit", "law", SHIPPED, "--capacity", "2659 J/K ± 5 %", "--no-files"]);
     let ran = ran.exits(0).says("column `mill_bed` is left out");
-    ran.prints("omega^(5/3) is best").prints("proportional to the speed").prints("systematic: capacity 4.3");
+    ran.prints("omega^(5/3) is best")
+        .prints("proportional to the speed")
+        .prints("systematic: capacity 4.3");
 }

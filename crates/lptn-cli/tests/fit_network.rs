@@ -51,7 +51,10 @@ fn what_a_record_cannot_tell_is_said_in_words() {
     assert!(text.contains(told), "{text}");
     assert!(run.out.lines().all(|line| line.chars().count() <= 80), "{}", run.out);
     let json = folder.run(&["fit", "network", "body.toml", "--format", "json"]).exits(1).json();
-    assert_eq!((&json["identifiable"], &json["rank"]), (&serde_json::json!(false), &serde_json::json!(2)));
+    assert_eq!(
+        (&json["identifiable"], &json["rank"]),
+        (&serde_json::json!(false), &serde_json::json!(2))
+    );
     let determined = &json["unidentified"][0]["determined"];
     assert_eq!(determined[0]["combination"], "P R");
     near(&determined[0]["value"]["value"], 67.2, 1e-6);
@@ -64,12 +67,14 @@ fn what_a_record_cannot_tell_is_said_in_words() {
     assert_eq!(folder.read("body.toml"), before);
 }
 
-/// Analytic: with C known, `R = 810 s / C` and `P = 67.2 K / R`; the relative error of C goes on to both.
+/// Analytic: with C known, `R = 810 s / C` and `P = 67.2 K / R`; the relative error of C goes on to
+/// both.
 #[test]
 fn a_prior_makes_all_known_and_write_keeps_the_rest_of_the_file() {
     let own = "P = \"200 W\"  # not split\nR = '0.3 K/W'\nC = \"2.6 kJ/K ± 5 %\"  # weighed";
     let folder = folder(own, "sigma = \"0.1 K\"\nvary = [\"P\", \"R\", \"C\"]");
-    let json = folder.run(&["fit", "network", "body.toml", "heating", "--format", "json"]).exits(0).json();
+    let json =
+        folder.run(&["fit", "network", "body.toml", "heating", "--format", "json"]).exits(0).json();
     let parameter = |name: &str| &json["parameters"][name];
     near(&parameter("C")["value"], 2600.0, 1e-6);
     near(&parameter("R")["value"], 810.0 / 2600.0, 1e-6);
@@ -128,11 +133,14 @@ fn of_two_conductances_side_by_side_the_sum_is_known() {
 /// The mean of two nodes is a temperature that can be fitted; a heat flow is none.
 #[test]
 fn columns_measure_temperatures() {
+    let text = netlist(OWN, "vary = [\"P\", \"R\"]")
+        .replace("ring = \"body.T\"", "ring = \"mean(body.T, twin.T)\"");
     let text =
-        netlist(OWN, "vary = [\"P\", \"R\"]").replace("ring = \"body.T\"", "ring = \"mean(body.T, twin.T)\"");
-    let text = text.replace("[boundary]", "twin = { C = \"1 J/K\", T0 = \"25.5 degC\" }\n\n[boundary]");
-    let text =
-        text.replace("[source]", "link = { from = \"twin\", to = \"body\", R = \"1e-5 K/W\" }\n\n[source]");
+        text.replace("[boundary]", "twin = { C = \"1 J/K\", T0 = \"25.5 degC\" }\n\n[boundary]");
+    let text = text.replace(
+        "[source]",
+        "link = { from = \"twin\", to = \"body\", R = \"1e-5 K/W\" }\n\n[source]",
+    );
     let folder = Folder::with("body.toml", &text);
     folder.write("record.csv", &record(67.2, 810.0));
     let json = folder.run(&["fit", "network", "body.toml", "--format", "json"]).exits(0).json();
@@ -145,7 +153,8 @@ fn columns_measure_temperatures() {
     assert!(run.err.contains("fit::observed"), "{}", run.err);
 }
 
-/// An offset in a column that starts at 0 was read as if it were not there, and then sought without any effect.
+/// An offset in a column that starts at 0 was read as if it were not there, and then sought without
+/// any effect.
 #[test]
 fn regression_a_parameter_in_a_column_does_not_vanish_when_it_is_zero() {
     let own = format!("{OWN}\no1 = \"0 K\"\nshare = 0.5");
@@ -161,10 +170,15 @@ fn regression_a_parameter_in_a_column_does_not_vanish_when_it_is_zero() {
         "max(body.T, body.T)",
     ];
     for column in columns {
-        let text = netlist(&own, "vary = [\"P\", \"R\"]").replace("\"body.T\"", &format!("\"{column}\""));
+        let text =
+            netlist(&own, "vary = [\"P\", \"R\"]").replace("\"body.T\"", &format!("\"{column}\""));
         folder.write("body.toml", &text);
         let run = folder.run(&["fit", "network", "body.toml"]).exits(2);
-        assert!(run.err.contains("fit::observed") && run.err.contains("ring ="), "{column}: {}", run.err);
+        assert!(
+            run.err.contains("fit::observed") && run.err.contains("ring ="),
+            "{column}: {}",
+            run.err
+        );
         assert!(run.err.contains("mean(steel.T, bed.T)"), "{column}: {}", run.err);
     }
 }
@@ -196,24 +210,34 @@ fn where_no_values_are_left_over_it_is_said() {
     );
     folder.write("body.toml", &netlist(OWN, "vary = [\"R\", \"C\"]"));
     let without = said(folder.run(&["fit", "network", "body.toml"]).exits(0).out);
-    assert!(without.trim_end().ends_with("no values are left over to tell errors from"), "{without}");
+    assert!(
+        without.trim_end().ends_with("no values are left over to tell errors from"),
+        "{without}"
+    );
 }
 
-/// Regression: a parameter that no column depends on was said to be as before, and priors took no part in the verdict.
+/// Regression: a parameter that no column depends on was said to be as before, and priors took no
+/// part in the verdict.
 #[test]
 fn a_verdict_claims_no_more_than_is_so() {
     let other = "idle = \"3 W\"\n".to_owned() + OWN;
     let text = netlist(&other, "vary = [\"R\", \"idle\"]")
         .replace("[boundary]", "other = { C = \"1 J/K\", T0 = \"25.5 degC\" }\n\n[boundary]")
         .replace("[source]", "wire = { from = \"other\", to = \"air\", R = \"1 K/W\" }\n\n[source]")
-        .replace("[fit.heating]", "elsewhere = { into = \"other\", P = \"idle\" }\n\n[fit.heating]");
+        .replace(
+            "[fit.heating]",
+            "elsewhere = { into = \"other\", P = \"idle\" }\n\n[fit.heating]",
+        );
     let folder = folder(&other, "");
     folder.write("body.toml", &text);
     let text = folder.run(&["fit", "network", "body.toml"]).exits(1).out;
     assert!(text.contains("no column depends on `idle`") && !text.contains("as before"), "{text}");
     folder.write(
         "body.toml",
-        &netlist(&OWN.replace("J/K\"", "J/K ± 5 %\""), "sigma = \"0.1 K\"\nvary = [\"P\", \"R\", \"C\"]"),
+        &netlist(
+            &OWN.replace("J/K\"", "J/K ± 5 %\""),
+            "sigma = \"0.1 K\"\nvary = [\"P\", \"R\", \"C\"]",
+        ),
     );
     let text = folder.run(&["fit", "network", "body.toml"]).exits(0).out;
     assert!(
@@ -222,7 +246,8 @@ fn a_verdict_claims_no_more_than_is_so() {
     );
 }
 
-/// Regression: a model that misses a record by many sigma, and a value far from its prior, passed without a word.
+/// Regression: a model that misses a record by many sigma, and a value far from its prior, passed
+/// without a word.
 #[test]
 fn a_misfit_and_a_contradicted_prior_are_warned_of() {
     let folder = folder(OWN, "sigma = \"0.01 K\"\nvary = [\"R\"]");
@@ -231,13 +256,18 @@ fn a_misfit_and_a_contradicted_prior_are_warned_of() {
     let own = OWN.replace("0.3 K/W", "0.2 K/W ± 1 %");
     folder.write("body.toml", &netlist(&own, "sigma = \"0.01 K\"\nvary = [\"R\", \"P\"]"));
     let err = folder.run(&["fit", "network", "body.toml"]).exits(0).err;
-    assert!(err.contains("fit::prior") && err.contains("`R`") && err.contains("from the 0.2 known"), "{err}");
+    assert!(
+        err.contains("fit::prior") && err.contains("`R`") && err.contains("from the 0.2 known"),
+        "{err}"
+    );
 }
 
 #[test]
 fn what_is_wrong_with_the_question() {
     let folder = folder(OWN, "vary = [\"R\"]");
-    let said = |args: &[&str], exit: i32| folder.run(&[&["fit", "network"], args].concat()).exits(exit).err;
+    let said = |args: &[&str], exit: i32| {
+        folder.run(&[&["fit", "network"], args].concat()).exits(exit).err
+    };
     assert!(said(&["body.toml", "heatin"], 2).contains("did you mean `heating`?"));
     folder.write("none.toml", netlist(OWN, "").split("[fit").next().unwrap());
     assert!(said(&["none.toml"], 2).contains("fit::no_study"));
@@ -245,8 +275,10 @@ fn what_is_wrong_with_the_question() {
     folder.write("late.toml", &late);
     let late = said(&["late.toml"], 2);
     assert!(late.contains("fit::record_times") && late.contains("set `start` in [run]"), "{late}");
-    let written =
-        netlist("P = \"200 W\"\nR0 = \"0.3 K/W\"\nR = \"R0 * 1\"\nC = \"2600 J/K\"", "vary = [\"R\"]");
+    let written = netlist(
+        "P = \"200 W\"\nR0 = \"0.3 K/W\"\nR = \"R0 * 1\"\nC = \"2600 J/K\"",
+        "vary = [\"R\"]",
+    );
     folder.write("expression.toml", &written);
     assert!(said(&["expression.toml", "--write"], 2).contains("fit::write"));
     let csv = folder.run(&["fit", "network", "body.toml", "--format", "csv"]).exits(0);

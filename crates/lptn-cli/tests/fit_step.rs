@@ -9,7 +9,8 @@ const T_I: f64 = 25.5;
 const T_F: f64 = 92.7;
 const T_RC: f64 = 810.0;
 
-/// A record of the exact curve and of a bed that warms by 0.2 K, `decimals` as a logger prints them.
+/// A record of the exact curve and of a bed that warms by 0.2 K, `decimals` as a logger prints
+/// them.
 fn record(length: f64, decimals: usize) -> String {
     let rows = (0..).map(|i| 5.0 * f64::from(i)).take_while(|t| *t <= length).map(|t| {
         let ring = T_F + (T_I - T_F) * (-t / T_RC).exp();
@@ -32,8 +33,10 @@ fn near(value: &serde_json::Value, expected: f64, unit: &str, relative: f64) {
 
 #[test]
 fn analytic_an_exact_exponential_is_found() {
-    let json =
-        exact().run(&["fit", "step", "record.csv", "--column", "ring", "--format", "json"]).exits(0).json();
+    let json = exact()
+        .run(&["fit", "step", "record.csv", "--column", "ring", "--format", "json"])
+        .exits(0)
+        .json();
     let ring = &json["columns"]["ring"];
     near(&ring["T_i"], T_I + 273.15, "K", 1e-9);
     near(&ring["T_f"], T_F + 273.15, "K", 1e-9);
@@ -49,11 +52,13 @@ fn analytic_an_exact_exponential_is_found() {
     assert!((ring["time_constants"].as_f64().unwrap() - 1500.0 / T_RC).abs() < 1e-6);
 }
 
-/// Equations 8 and 11 with the paper's numbers: 810 s / 2659 J/K = 0.3046 K/W, 67.2 K / 0.3046 K/W = 220.6 W.
+/// Equations 8 and 11 with the paper's numbers: 810 s / 2659 J/K = 0.3046 K/W, 67.2 K / 0.3046 K/W =
+/// 220.6 W.
 #[test]
 fn analytic_the_papers_arithmetic() {
     let run = |more: &[&str]| {
-        let verb = ["fit", "step", "record.csv", "--column", "ring", "--format", "json", "--capacity"];
+        let verb =
+            ["fit", "step", "record.csv", "--column", "ring", "--format", "json", "--capacity"];
         exact().run(&[&verb[..], more].concat()).exits(0).json()["columns"]["ring"].clone()
     };
     let ring = run(&["2659 J/K"]);
@@ -66,8 +71,8 @@ fn analytic_the_papers_arithmetic() {
     let ring = run(&["2659 J/K ± 5 %"]);
     let systematic = ring["P_disp"]["systematic_error"].as_f64().unwrap();
     assert!((systematic / (0.05 * 220.6) - 1.0).abs() < 1e-3, "{systematic}");
-    // the offset of a sensor drops out of a difference to itself, and not out of one to another temperature: a limit of
-    // 3 K is a standard deviation of 3 K / sqrt(3)
+    // the offset of a sensor drops out of a difference to itself, and not out of one to another
+    // temperature: a limit of 3 K is a standard deviation of 3 K / sqrt(3)
     let ring = run(&["2659 J/K", "--sensor", "3 K"]);
     assert_eq!(ring["dT"]["systematic_error"], 0.0);
     let ring = run(&["2659 J/K", "--sensor", "3 K", "--reference", "25.5 degC"]);
@@ -78,11 +83,13 @@ fn analytic_the_papers_arithmetic() {
 #[test]
 fn analytic_the_reference_is_what_is_said() {
     let rise = |reference: &str| {
-        let verb = ["fit", "step", "record.csv", "--column", "ring", "--format", "json", "--reference"];
+        let verb =
+            ["fit", "step", "record.csv", "--column", "ring", "--format", "json", "--reference"];
         let json = exact().run(&[&verb[..], &[reference]].concat()).exits(0).json();
         (json["reference"].clone(), json["columns"]["ring"]["dT"]["value"].as_f64().unwrap())
     };
-    let close = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+    let close =
+        |found: f64, expected: f64| assert!((found - expected).abs() < 1e-6, "{found} {expected}");
     let (name, found) = rise("initial");
     close(found, T_F - T_I);
     assert_eq!(name, "initial");
@@ -102,7 +109,8 @@ fn the_table_fits_and_says_what_it_is_made_of() {
     let ran = folder.run(&[&["fit", "step", "record.csv"][..], &options].concat()).exits(0);
     assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
     let ran = ran.prints("record.csv: 301 rows from 0 s to 1500 s").prints("the mean of `bed`");
-    let ran = ran.prints("R_eq [K/W]").prints("P_disp [W]").prints("± random").prints("± systematic");
+    let ran =
+        ran.prints("R_eq [K/W]").prints("P_disp [W]").prints("± random").prints("± systematic");
     let ran = ran.prints("C = 2659 ± 133 J/K").prints("--model FILE --port NODE");
     // the column that dT is counted from is not fitted
     assert!(!ran.out.lines().any(|line| line.starts_with("bed")), "{}", ran.out);
@@ -112,13 +120,15 @@ fn the_table_fits_and_says_what_it_is_made_of() {
 fn a_short_record_is_said_to_be_extrapolated() {
     // 1.3 time constants: what is left of the rise is exp(-1.3)
     let folder = Folder::with("record.csv", &record(1.3 * T_RC, 12));
-    let ran = folder.run(&["fit", "step", "record.csv", "--column", "ring", "--format", "json"]).exits(0);
+    let ran =
+        folder.run(&["fit", "step", "record.csv", "--column", "ring", "--format", "json"]).exits(0);
     let ran = ran.says("fit::short").says("1.3 time constants long");
     let left = &ran.json()["columns"]["ring"]["extrapolated"];
     let last = 5.0 * (1.3_f64 * T_RC / 5.0).floor();
     near(left, 67.2 * (-last / T_RC).exp(), "K", 1e-6);
     let folder = Folder::with("record.csv", &record(4.0 * T_RC, 12));
-    let ran = folder.run(&["fit", "step", "record.csv", "--column", "ring", "--format", "json"]).exits(0);
+    let ran =
+        folder.run(&["fit", "step", "record.csv", "--column", "ring", "--format", "json"]).exits(0);
     assert_eq!(ran.json()["columns"]["ring"]["extrapolated"], serde_json::Value::Null);
     assert!(!ran.err.contains("fit::short"), "{}", ran.err);
 }
@@ -172,7 +182,9 @@ fn wrong_input_ends_with_2() {
     step(&[]);
     folder.run(&["fit"]).exits(2);
     step(&["recrod.csv"]).says("input::cannot_read").says("did you mean record.csv?");
-    step(&["record.csv", "--column", "rnig"]).says("record::no_column").says("did you mean `ring`?");
+    step(&["record.csv", "--column", "rnig"])
+        .says("record::no_column")
+        .says("did you mean `ring`?");
     step(&["record.csv", "--reference", "bde"]).says("fit::reference").says("did you mean `bed`?");
     step(&["record.csv", "--column", "ring", "--reference", "bde"]).says("did you mean `bed`?");
     step(&["record.csv", "--reference", "20 W"]).says("units::");
@@ -195,9 +207,14 @@ fn what_has_no_time_constant_ends_with_3_and_prints_no_number() {
     let folder = exact();
     // a straight line bends nowhere
     let rows = |i: i32| {
-        format!("{i},{},{}\n", 25.0 + 0.5 * f64::from(i), T_F + (T_I - T_F) * (-f64::from(i) / 10.0).exp())
+        format!(
+            "{i},{},{}\n",
+            25.0 + 0.5 * f64::from(i),
+            T_F + (T_I - T_F) * (-f64::from(i) / 10.0).exp()
+        )
     };
-    let text = "t [s],line [degC],ring [degC]\n".to_owned() + &(0..40).map(rows).collect::<String>();
+    let text =
+        "t [s],line [degC],ring [degC]\n".to_owned() + &(0..40).map(rows).collect::<String>();
     folder.write("line.csv", &text);
     let ran = folder.run(&["fit", "step", "line.csv", "--column", "line"]).exits(3);
     assert!(ran.out.is_empty() && ran.err.contains("fit::"), "{}{}", ran.out, ran.err);
@@ -219,7 +236,8 @@ fn analytic_the_bias_of_a_model_stands_apart() {
     folder.write("gearbox.toml", GEARBOX);
     let run = |file: &str, port: &str| {
         let verb = ["fit", "step", "record.csv", "--column", "ring", "--format", "json"];
-        let json = folder.run(&[&verb[..], &["--model", file, "--port", port]].concat()).exits(0).json();
+        let json =
+            folder.run(&[&verb[..], &["--model", file, "--port", port]].concat()).exits(0).json();
         json["model"].clone()
     };
     let model = run("one.toml", "block");
@@ -227,12 +245,14 @@ fn analytic_the_bias_of_a_model_stands_apart() {
     near(&model["t_RC"]["fitted"], 2659.0 * 0.3, "s", 1e-5);
     near(&model["T_f"]["fitted"], 25.5 + 66.0 + 273.15, "K", 1e-5);
     assert!(model["P"]["bias"]["value"].as_f64().unwrap().abs() < 0.01, "{model}");
-    // C_sum R_eq = 2659 J/K (1.7 K + 65.5 K) / 220.6 W = 810.0 s; one exponential through its steel finds less
+    // C_sum R_eq = 2659 J/K (1.7 K + 65.5 K) / 220.6 W = 810.0 s; one exponential through its steel
+    // finds less
     let model = run("gearbox.toml", "steel");
     near(&model["t_RC"]["network"], 2659.0 * 67.2 / 220.6, "s", 1e-9);
     let bias = model["t_RC"]["bias"]["value"].as_f64().unwrap();
     assert!((-25.0..-10.0).contains(&bias), "{bias}");
-    let verb = ["fit", "step", "record.csv", "--column", "ring", "--model", "gearbox.toml", "--port"];
+    let verb =
+        ["fit", "step", "record.csv", "--column", "ring", "--model", "gearbox.toml", "--port"];
     let ran = folder.run(&[&verb[..], &["steel"]].concat()).exits(0);
     ran.prints("bias of the method on gearbox.toml at `steel`").prints("one exponential");
     folder.run(&[&verb[..], &["stele"]].concat()).exits(2).says("did you mean `steel`?");
@@ -243,7 +263,8 @@ fn analytic_the_bias_of_a_model_stands_apart() {
 fn gaps_and_a_sensor_at_its_end_are_said() {
     let text = record(1500.0, 2).replace("\n100,", "\n100,,30.0\n101,");
     let folder = Folder::with("record.csv", &text);
-    let ran = folder.run(&["fit", "step", "record.csv", "--column", "ring", "--format", "json"]).exits(0);
+    let ran =
+        folder.run(&["fit", "step", "record.csv", "--column", "ring", "--format", "json"]).exits(0);
     let ran = ran.says("record::gaps");
     assert_eq!(ran.json()["columns"]["ring"]["gaps"], 1);
     // an instrument that goes no further than 80 degC
@@ -257,21 +278,24 @@ fn gaps_and_a_sensor_at_its_end_are_said() {
         })
         .collect();
     folder.write("saturated.csv", &text);
-    let ran = folder.run(&["fit", "step", "saturated.csv", "--column", "ring"]).says("record::saturated");
+    let ran =
+        folder.run(&["fit", "step", "saturated.csv", "--column", "ring"]).says("record::saturated");
     assert_eq!(ran.code, Some(2), "{}", ran.err);
     ran.says("fit::saturated");
     // before it gets there all is well
     folder.run(&["fit", "step", "saturated.csv", "--column", "ring", "--to", "20 min"]).exits(0);
 }
 
-/// scipy.optimize.curve_fit (1.x, Levenberg-Marquardt of MINPACK) on the same rows: T_i 25.39027054 degC,
-/// T_f 92.718064 degC, t_RC 809.78630586 s, and rms 0.10615620 K.
+/// scipy.optimize.curve_fit (1.x, Levenberg-Marquardt of MINPACK) on the same rows: T_i 25.39027054
+/// degC, T_f 92.718064 degC, t_RC 809.78630586 s, and rms 0.10615620 K.
 #[test]
 fn reference_the_fit_is_that_of_scipy() {
     let text = include_str!("../../../docs/records/synthetic_ring.csv");
     let folder = Folder::with("record.csv", text);
-    let json =
-        folder.run(&["fit", "step", "record.csv", "--column", "ring", "--format", "json"]).exits(0).json();
+    let json = folder
+        .run(&["fit", "step", "record.csv", "--column", "ring", "--format", "json"])
+        .exits(0)
+        .json();
     let ring = &json["columns"]["ring"];
     near(&ring["T_i"], 25.390_270_54 + 273.15, "K", 1e-8);
     near(&ring["T_f"], 92.718_064 + 273.15, "K", 1e-8);
@@ -288,11 +312,13 @@ fn reference_the_fit_is_that_of_scipy() {
 #[test]
 fn a_record_from_stdin_is_fitted() {
     let folder = Folder::empty();
-    let ran = folder.run_with(&["fit", "step", "-", "--column", "ring"], &record(1500.0, 2)).exits(0);
+    let ran =
+        folder.run_with(&["fit", "step", "-", "--column", "ring"], &record(1500.0, 2)).exits(0);
     ran.prints("<stdin>: 301 rows");
 }
 
-/// Regression: a jump between two samples was printed as measured, and so was a bump that leads nowhere.
+/// Regression: a jump between two samples was printed as measured, and so was a bump that leads
+/// nowhere.
 #[test]
 fn regression_a_record_that_tells_no_time_constant_ends_with_3() {
     let text = |curve: &dyn Fn(f64) -> f64| {
@@ -303,7 +329,8 @@ fn regression_a_record_that_tells_no_time_constant_ends_with_3() {
     let folder = Folder::empty();
     // the second sample is 0.2 K short of 80 degC: a time constant of 5 s / ln(60 / 0.2)
     let jump = |t: f64| {
-        80.0 - 60.0 * f64::from(u8::from(t < 2.0)) - 0.2 * f64::from(u8::from((2.0..8.0).contains(&t)))
+        80.0 - 60.0 * f64::from(u8::from(t < 2.0))
+            - 0.2 * f64::from(u8::from((2.0..8.0).contains(&t)))
             + noise(t) / 10.0
     };
     folder.write("jump.csv", &text(&jump));
@@ -331,14 +358,19 @@ fn regression_a_record_that_cools_has_no_dissipation() {
     let rows = rows.map(|t| format!("{t},{:.2}\n", 20.0 + 60.0 * (-t / 300.0).exp()));
     let text = "t [s],a [degC]\n".to_owned() + &rows.collect::<String>();
     let folder = Folder::with("cool.csv", &text);
-    let run = |more: &[&str]| folder.run(&[&["fit", "step", "cool.csv"][..], more].concat()).exits(0);
-    run(&["--capacity", "2659 J/K"]).says("fit::cooling").says("the record cools").says("is no dissipation");
+    let run =
+        |more: &[&str]| folder.run(&[&["fit", "step", "cool.csv"][..], more].concat()).exits(0);
+    run(&["--capacity", "2659 J/K"])
+        .says("fit::cooling")
+        .says("the record cools")
+        .says("is no dissipation");
     // without a capacity there is no power, and above 10 degC it is one
     for more in [&[][..], &["--capacity", "2659 J/K", "--reference", "10 degC"]] {
         let ran = run(more);
         assert!(!ran.err.contains("fit::cooling"), "{}", ran.err);
     }
-    let heated = ["fit", "step", "record.csv", "--column", "ring", "--capacity", "2659 J/K", "--reference"];
+    let heated =
+        ["fit", "step", "record.csv", "--column", "ring", "--capacity", "2659 J/K", "--reference"];
     let ran = exact().run(&[&heated[..], &["100 degC"]].concat()).exits(0);
     ran.says("fit::cooling").says("T_f is below the reference");
 }
@@ -357,9 +389,19 @@ fn regression_the_table_of_an_exact_record_fits() {
             _ => format!("{line}\n"),
         })
         .collect();
-    for text in [record(1500.0, 12), record(1500.0, 8), record(1500.0, 5), record(1500.0, 2), kelvin] {
+    for text in
+        [record(1500.0, 12), record(1500.0, 8), record(1500.0, 5), record(1500.0, 2), kelvin]
+    {
         let folder = Folder::with("record.csv", &text);
-        let ran = folder.run(&["fit", "step", "record.csv", "--column", "ring", "--capacity", "2659 J/K"]);
+        let ran = folder.run(&[
+            "fit",
+            "step",
+            "record.csv",
+            "--column",
+            "ring",
+            "--capacity",
+            "2659 J/K",
+        ]);
         let ran = ran.exits(0).prints("length/t_RC").prints("n_eff/n");
         assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
         let ran = ran.says("1.85 time constants long").says("measure for 3 time constants");
@@ -367,18 +409,30 @@ fn regression_the_table_of_an_exact_record_fits() {
     }
 }
 
-/// Regression: with --from the heat was that of what is left of the step, and the bias that of the network's start.
-/// SciPy's fit of the closed form of the gearbox from 900 s on: t_RC 793.9526 s, which is 16.0 s too little, T_f exact.
+/// Regression: with --from the heat was that of what is left of the step, and the bias that of the
+/// network's start. SciPy's fit of the closed form of the gearbox from 900 s on: t_RC 793.9526 s,
+/// which is 16.0 s too little, T_f exact.
 #[test]
 fn regression_a_record_that_is_cut_is_told() {
-    let folder = Folder::with("record.csv", include_str!("../../../docs/records/synthetic_ring.csv"));
+    let folder =
+        Folder::with("record.csv", include_str!("../../../docs/records/synthetic_ring.csv"));
     folder.write("gearbox.toml", GEARBOX);
-    let verb =
-        ["fit", "step", "record.csv", "--column", "ring", "--capacity", "2659 J/K", "--format", "json"];
+    let verb = [
+        "fit",
+        "step",
+        "record.csv",
+        "--column",
+        "ring",
+        "--capacity",
+        "2659 J/K",
+        "--format",
+        "json",
+    ];
     let run = |more: &[&str]| folder.run(&[&verb[..], more].concat()).exits(0);
     let model = ["--model", "gearbox.toml", "--port", "steel"];
-    let ran =
-        run(&[&["--from", "900 s"][..], &model].concat()).says("fit::cut").says("--reference \"25.5 degC\"");
+    let ran = run(&[&["--from", "900 s"][..], &model].concat())
+        .says("fit::cut")
+        .says("--reference \"25.5 degC\"");
     let json = ran.says("P_disp is not the heat").json();
     let bias = |name: &str| json["model"][name]["bias"]["value"].as_f64().unwrap();
     assert!((bias("t_RC") + 16.042).abs() < 0.01, "{}", bias("t_RC"));

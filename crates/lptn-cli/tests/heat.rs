@@ -14,7 +14,8 @@ fn wax(solidus: &str, liquidus: &str) -> String {
     )
 }
 
-/// Its temperature at a time in s, in degC: 40 K exp(-t / 200 s) over the room, a stand of 20 kJ at the melting point.
+/// Its temperature at a time in s, in degC: 40 K exp(-t / 200 s) over the room, a stand of 20 kJ at
+/// the melting point.
 fn wax_at(time: f64, melting: f64) -> f64 {
     let (tau, rise) = (200.0, melting - 20.0);
     let begin = tau * (40.0 / rise).ln();
@@ -30,13 +31,14 @@ fn wax_at(time: f64, melting: f64) -> f64 {
 
 fn run(text: &str, column: &str) -> Vec<(f64, f64)> {
     let folder = Folder::with("x.toml", text);
-    let ran = folder.run(&["run", "x.toml", "--no-files", "--format", "csv", "--select", column, "-q"]);
+    let ran =
+        folder.run(&["run", "x.toml", "--no-files", "--format", "csv", "--select", column, "-q"]);
     let (_, rows) = csv(&ran.exits(0).out);
     rows.into_iter().map(|row| (row[0], row[1])).collect()
 }
 
-/// The same temperature in two units differs by the rounding of one of them: the whole latent heat was lost, or the file
-/// was refused as liquidus below solidus.
+/// The same temperature in two units differs by the rounding of one of them: the whole latent heat
+/// was lost, or the file was refused as liquidus below solidus.
 #[test]
 fn melting_at_one_temperature_may_be_written_in_two_units() {
     for (solidus, liquidus, melting) in [
@@ -47,7 +49,10 @@ fn melting_at_one_temperature_may_be_written_in_two_units() {
     ] {
         for (time, found) in run(&wax(solidus, liquidus), "w.T") {
             let right = wax_at(time, melting);
-            assert!((found - right).abs() < 1e-4, "{solidus} {liquidus} at {time} s: {found}, not {right}");
+            assert!(
+                (found - right).abs() < 1e-4,
+                "{solidus} {liquidus} at {time} s: {found}, not {right}"
+            );
         }
     }
 }
@@ -73,12 +78,14 @@ fn a_liquidus_below_the_solidus_is_refused() {
 /// The effective capacity of a change of phase: a Gaussian of 200 kJ/kg.
 fn peak(at: f64, width: f64) -> String {
     let height = 2e5 / (width * (2.0 * std::f64::consts::PI).sqrt());
-    format!("2000 [J/(kg K)] + {height:?} [J/(kg K)] * exp(-0.5 * ((T - {at} [degC]) / {width} [K])^2)")
+    format!(
+        "2000 [J/(kg K)] + {height:?} [J/(kg K)] * exp(-0.5 * ((T - {at} [degC]) / {width} [K])^2)"
+    )
 }
 
-/// The peak was lost where it fell between the points at which the capacity was looked at: 84 degC after 500 s. The
-/// numbers are those of SciPy 1.16, t(T) = integral of m cp R / (90 degC - T) dT by `quad` with the peak as a break, inverted
-/// by `brentq`.
+/// The peak was lost where it fell between the points at which the capacity was looked at: 84 degC
+/// after 500 s. The numbers are those of SciPy 1.16, t(T) = integral of m cp R / (90 degC - T) dT
+/// by `quad` with the peak as a break, inverted by `brentq`.
 #[test]
 fn a_narrow_peak_of_a_capacity_is_not_lost() {
     let cases = [
@@ -101,8 +108,9 @@ fn a_narrow_peak_of_a_capacity_is_not_lost() {
     }
 }
 
-/// A stream whose specific heat has a peak: 0.01 kg/s from 90 degC that leave at 40 degC give 0.01 (2000 * 50 + 200000) W
-/// = 3 kW, which 20/3000 K/W take to 20 degC. Without the peak it would be 35.8 degC.
+/// A stream whose specific heat has a peak: 0.01 kg/s from 90 degC that leave at 40 degC give 0.01
+/// (2000 * 50 + 200000) W = 3 kW, which 20/3000 K/W take to 20 degC. Without the peak it would be
+/// 35.8 degC.
 #[test]
 fn a_narrow_peak_of_the_specific_heat_of_a_stream_is_not_lost() {
     for width in [0.3, 0.05, 0.001] {
@@ -115,7 +123,8 @@ fn a_narrow_peak_of_the_specific_heat_of_a_stream_is_not_lost() {
             peak(61.3137, width)
         );
         let folder = Folder::with("x.toml", &text);
-        let ran = folder.run(&["steady", "x.toml", "--format", "csv", "--select", "a.T", "-q"]).exits(0);
+        let ran =
+            folder.run(&["steady", "x.toml", "--format", "csv", "--select", "a.T", "-q"]).exits(0);
         let found = csv(&ran.out).1[0][0];
         assert!((found - 40.0).abs() < 1e-6, "{width}: {found}");
     }
@@ -126,7 +135,10 @@ fn a_narrow_peak_of_the_specific_heat_of_a_stream_is_not_lost() {
 fn a_capacity_that_changes_too_quickly_is_refused() {
     let text = wax("50 degC", "50 degC")
         .replace("2 kJ/(kg K)\"", "2 [kJ/(kg K)] * (1.1 + sin(kelvin(T) / 1e-9 [K]))\"");
-    Folder::with("x.toml", &text).run(&["check", "x.toml"]).exits(1).prints("network::capacity_too_quick");
+    Folder::with("x.toml", &text)
+        .run(&["check", "x.toml"])
+        .exits(1)
+        .prints("network::capacity_too_quick");
 }
 
 /// A block that 150 W heat, with a resistance and the temperature of the room as parameters.
@@ -147,8 +159,11 @@ fn kelvin_set_for_an_absolute_temperature_is_refused_as_in_the_file() {
     block(&["run", "x.toml", "--no-files", "--set", "T_room=25K"])
         .exits(2)
         .says("units::absolute_wanted")
-        .says("`--set \"T_room=25 degC\"`, or `--set \"T_room=absolute(25 [K])\"` if kelvin is meant");
-    let ran = block(&["steady", "x.toml", "--format", "csv", "--set", "T_room=absolute(300 [K])"]).exits(0);
+        .says(
+            "`--set \"T_room=25 degC\"`, or `--set \"T_room=absolute(25 [K])\"` if kelvin is meant",
+        );
+    let ran = block(&["steady", "x.toml", "--format", "csv", "--set", "T_room=absolute(300 [K])"])
+        .exits(0);
     assert!(ran.out.contains("26.85"), "{}", ran.out);
     block(&["steady", "x.toml", "--set", "T_room=300 K"]).exits(2);
     block(&["steady", "x.toml", "--set", "T_room=80 degF"]).exits(0);
@@ -204,7 +219,10 @@ fn a_result_beyond_sense_names_the_node_the_path_and_the_source() {
         let json = ran.json();
         let found = json["warnings"].as_array().unwrap();
         let beyond = found.iter().find(|w| w["code"] == "run::beyond_sense").unwrap();
-        assert!(beyond["message"].as_str().unwrap().starts_with("node `block` comes to "), "{beyond}");
+        assert!(
+            beyond["message"].as_str().unwrap().starts_with("node `block` comes to "),
+            "{beyond}"
+        );
         assert!(beyond["help"].as_str().unwrap().ends_with("`skin` and `P`"), "{beyond}");
         assert!(found.iter().any(|w| w["code"] == "network::decades_apart"), "{}", ran.out);
     }
@@ -218,7 +236,11 @@ fn a_result_beyond_sense_names_the_node_the_path_and_the_source() {
 fn resistances_nine_decades_apart_are_named() {
     let text = BLOCK.replace("\"0.3 K/W\"", "\"8 MK/W\"");
     let ran = Folder::with("x.toml", &text).run(&["check", "x.toml"]).exits(0);
-    assert!(ran.out.contains("resistor `skin`, 8e6 K/W, and resistor `web`, 0.007 K/W"), "{}", ran.out);
+    assert!(
+        ran.out.contains("resistor `skin`, 8e6 K/W, and resistor `web`, 0.007 K/W"),
+        "{}",
+        ran.out
+    );
     let ran = block(&["check", "x.toml"]).exits(0);
     assert!(!ran.out.contains("decades"), "{}", ran.out);
 }
@@ -226,9 +248,13 @@ fn resistances_nine_decades_apart_are_named() {
 /// The check of materials saw literals only.
 #[test]
 fn an_implausible_property_is_seen_through_parameters() {
-    let ran =
-        Folder::with("x.toml", &BLOCK.replace("475 J/(kg K)", "0.475 J/(kg K)")).run(&["check", "x.toml"]);
-    assert!(ran.out.contains("`cp` of material `steel` is 0.475 J/(kg K) at 25 degC"), "{}", ran.out);
+    let ran = Folder::with("x.toml", &BLOCK.replace("475 J/(kg K)", "0.475 J/(kg K)"))
+        .run(&["check", "x.toml"]);
+    assert!(
+        ran.out.contains("`cp` of material `steel` is 0.475 J/(kg K) at 25 degC"),
+        "{}",
+        ran.out
+    );
     assert!(ran.out.contains("did you mean 0.475 J/(g K)?"), "{}", ran.out);
     block(&["steady", "x.toml", "--set", "c=0.475 J/(kg K)"]).says("netlist::implausible_property");
     let ran = block(&["check", "x.toml"]).exits(0);
@@ -247,10 +273,18 @@ fn networks_that_make_sense_are_left_alone() {
             continue;
         }
         let path = path.display().to_string();
-        for arguments in [vec!["check", &path], vec!["run", &path, "--no-files"], vec!["steady", &path]] {
+        for arguments in
+            [vec!["check", &path], vec!["run", &path, "--no-files"], vec!["steady", &path]]
+        {
             let ran = folder.run(&arguments);
-            for code in ["run::beyond_sense", "network::decades_apart", "netlist::cold", "implausible"] {
-                assert!(!ran.err.contains(code) && !ran.out.contains(code), "{arguments:?}: {}", ran.err);
+            for code in
+                ["run::beyond_sense", "network::decades_apart", "netlist::cold", "implausible"]
+            {
+                assert!(
+                    !ran.err.contains(code) && !ran.out.contains(code),
+                    "{arguments:?}: {}",
+                    ran.err
+                );
             }
             seen += 1;
         }

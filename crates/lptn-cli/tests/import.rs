@@ -9,7 +9,8 @@ const NETLIST: &str = "format = 1\n[import]\nnodes = \"n.csv\"\nconductors = \"c
                        [resistor]\nskin = { from = \"housing\", to = \"air\", R = \"0.5 K/W\" }\n\
                        [run]\nstop = \"1 h\"\n";
 
-/// A chain of 40 nodes whose first is heated with 10 W and whose last leads to the housing; 1 W/K each.
+/// A chain of 40 nodes whose first is heated with 10 W and whose last leads to the housing; 1 W/K
+/// each.
 fn chain() -> Folder {
     let folder = Folder::with("net.toml", NETLIST);
     let nodes: String = (1..=40).map(|i| format!("n{i},5,20\n")).collect();
@@ -28,8 +29,16 @@ fn imported_elements_have_columns_where_they_are_selected() {
     assert_eq!(headers, ["housing.T [degC]", "air.T [degC]", "skin.Q [W]", "air.Q [W]"]);
     assert!((rows[0][0] - 25.0).abs() < 1e-9);
     ran.says("hidden 40 nodes, 40 paths, 1 source imported: columns by --select 'NAME.T'");
-    let chosen = ["--select", "n1.T", "--select", "import.conductor[40].Q", "--select", "import.source[1].P"];
-    let ran = folder.run(&[&["steady", "net.toml", "--format", "csv"], &chosen[..]].concat()).exits(0);
+    let chosen = [
+        "--select",
+        "n1.T",
+        "--select",
+        "import.conductor[40].Q",
+        "--select",
+        "import.source[1].P",
+    ];
+    let ran =
+        folder.run(&[&["steady", "net.toml", "--format", "csv"], &chosen[..]].concat()).exits(0);
     let (headers, rows) = csv(&ran.out);
     assert_eq!(headers, ["n1.T [degC]", "import.conductor[40].Q [W]", "import.source[1].P [W]"]);
     // 10 W over 40 paths of 1 W/K and 0.5 K/W to 20 degC
@@ -60,7 +69,8 @@ fn tables_show_the_hottest_of_all() {
 fn the_manifest_lists_the_files() {
     let folder = chain();
     folder.run(&["run", "net.toml"]).exits(0);
-    let manifest: serde_json::Value = serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
+    let manifest: serde_json::Value =
+        serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
     let inputs = manifest["inputs"].as_array().unwrap();
     let names: Vec<&str> = inputs.iter().map(|input| input["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["net.toml", "n.csv", "c.csv", "s.csv"]);
@@ -71,7 +81,10 @@ fn wrong_cells_are_shown_with_their_lines() {
     let folder = chain();
     folder.write("c.csv", "from,to,G [W/K]\nn1,n2,1\nn2,nn3,1\nn1,air,-1\n");
     let ran = folder.run(&["check", "net.toml"]).exits(1);
-    ran.prints("c.csv:3:4").prints("no node or boundary named `nn3`").prints("n2,nn3,1").prints("not ok");
+    ran.prints("c.csv:3:4")
+        .prints("no node or boundary named `nn3`")
+        .prints("n2,nn3,1")
+        .prints("not ok");
     // a long file is shown by its lines, which are counted all the same
     let rows = "n1,n2,1\n".repeat(40_000);
     folder.write("c.csv", &format!("from,to,G [W/K]\n{rows}n1,air,-1\n"));

@@ -34,7 +34,8 @@ fn a_run_keeps_its_rows() {
 
 #[test]
 fn a_comparison_prints_what_is_finished_and_names_the_rest() {
-    let ran = interrupted(&two(), &["compare", "slow.toml", "gearbox.toml", "--threads", "2"]).exits(130);
+    let ran =
+        interrupted(&two(), &["compare", "slow.toml", "gearbox.toml", "--threads", "2"]).exits(130);
     let lines: Vec<&str> = ran.out.lines().skip(3).take(2).collect();
     assert!(lines[0].starts_with("gearbox ") && !lines[0].contains("not finished"), "{}", ran.out);
     assert!(lines[1].starts_with("slow ") && lines[1].ends_with("not finished"), "{}", ran.out);
@@ -45,10 +46,20 @@ fn a_comparison_prints_what_is_finished_and_names_the_rest() {
 fn candidates_that_were_not_begun_are_missing_too() {
     let folder = two();
     folder.write("third.toml", GEARBOX);
-    let line = ["compare", "gearbox.toml", "slow.toml", "third.toml", "--threads", "1", "--format", "json"];
+    let line = [
+        "compare",
+        "gearbox.toml",
+        "slow.toml",
+        "third.toml",
+        "--threads",
+        "1",
+        "--format",
+        "json",
+    ];
     let ran = interrupted(&folder, &line).exits(130).says("interrupted: not finished: slow, third");
     let json = ran.json();
-    let status: Vec<&str> = json["rows"].as_array().unwrap().iter().map(|r| r[2].as_str().unwrap()).collect();
+    let status: Vec<&str> =
+        json["rows"].as_array().unwrap().iter().map(|r| r[2].as_str().unwrap()).collect();
     assert_eq!(status, ["none", "run::interrupted", "run::interrupted"]);
     assert_eq!(json["errors"].as_array().map(Vec::len), Some(2));
 }
@@ -59,7 +70,8 @@ fn long_fit() -> Folder {
     let fit = "[fit.heating]\ndata = \"record.csv\"\ncolumn = { ring = \"steel.T\" }\n\
                vary = { bed_share = { from = 0.1, to = 0.9 }, T_amb = { from = \"0 degC\", to = \"50 degC\" } }\n";
     let folder = Folder::with("gearbox.toml", &format!("{text}\n{fit}"));
-    let rows: String = (0..150).map(|i| format!("{},{}\n", 10 * i, 25.0 + 0.4 * f64::from(i))).collect();
+    let rows: String =
+        (0..150).map(|i| format!("{},{}\n", 10 * i, 25.0 + 0.4 * f64::from(i))).collect();
     folder.write("record.csv", &format!("t [s],ring [degC]\n{rows}"));
     folder
 }
@@ -69,7 +81,8 @@ fn long_fit() -> Folder {
 fn a_fit_of_a_network_shows_the_best_values_so_far() {
     let line = ["fit", "network", "gearbox.toml", "--starts", "200"];
     let ran = interrupted(&long_fit(), &line).exits(130).says("interrupted in search ");
-    let ran = ran.says("these values are not a result").says("lptn fit network gearbox.toml --set ");
+    let ran =
+        ran.says("these values are not a result").says("lptn fit network gearbox.toml --set ");
     assert!(ran.out.starts_with("parameter  best so far  unit"), "{}", ran.out);
     assert!(ran.out.contains("bed_share") && ran.out.contains("T_amb"), "{}", ran.out);
     let json = interrupted(&long_fit(), &[&line[..], &["--format", "json"]].concat()).exits(130);
@@ -85,7 +98,8 @@ fn a_verification_says_that_there_is_none() {
 
 /// Whether `script` of util-linux can play a terminal here.
 fn terminal() -> bool {
-    let probe = Command::new("script").args(["-qec", "true", "/dev/null"]).stdin(Stdio::null()).output();
+    let probe =
+        Command::new("script").args(["-qec", "true", "/dev/null"]).stdin(Stdio::null()).output();
     let opens = probe.is_ok_and(|output| output.status.success());
     assert!(opens || std::env::var_os("LPTN_REQUIRE_ORACLES").is_none(), "{SKIPPED}");
     opens
@@ -94,7 +108,8 @@ fn terminal() -> bool {
 const SKIPPED: &str =
     "SKIPPED: `script` is missing or opens no terminal; apt-get install bsdutils, mount /dev/pts";
 
-/// What a terminal gets until `awaited` stands on it, Ctrl-C is pressed there and the program has ended.
+/// What a terminal gets until `awaited` stands on it, Ctrl-C is pressed there and the program has
+/// ended.
 fn on_terminal(folder: &Folder, arguments: &str, awaited: &str) -> String {
     let line = format!("'{}' {arguments}", env!("CARGO_BIN_EXE_lptn"));
     let mut command = Command::new("script");

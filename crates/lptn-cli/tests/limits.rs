@@ -40,8 +40,9 @@ fn json_has_each_limit_with_its_margin() {
     let json = folder.run(&["run", "net.toml", "--no-files", "--format", "json"]).exits(1).json();
     let hot = &json["limits"]["hot"];
     assert_eq!((hot["kept"].as_bool(), hot["margin"]["unit"].as_str()), (Some(false), Some("K")));
-    let near =
-        |value: &serde_json::Value, exact: f64| (value["value"].as_f64().unwrap() - exact).abs() < 1e-3;
+    let near = |value: &serde_json::Value, exact: f64| {
+        (value["value"].as_f64().unwrap() - exact).abs() < 1e-3
+    };
     assert!(near(&hot["margin"], -10.0) && near(&hot["broken_at"], 50.0 * 5.0_f64.ln()), "{hot}");
     let json = folder.run(&["steady", "net.toml", "--format", "json"]).exits(1).json();
     assert!(near(&json["limits"]["warm"]["margin"], -5.0), "{json}");
@@ -51,15 +52,31 @@ fn json_has_each_limit_with_its_margin() {
 /// The values of the closed form above; `cold` is nearest to being broken at the start.
 #[test]
 fn the_manifest_says_what_became_of_every_limit() {
-    let folder = Folder::with("net.toml", &format!("{NET}cold = {{ of = \"a.T\", above = \"10 degC\" }}\n"));
+    let folder =
+        Folder::with("net.toml", &format!("{NET}cold = {{ of = \"a.T\", above = \"10 degC\" }}\n"));
     let json = folder.run(&["run", "net.toml", "--format", "json"]).exits(1).json();
-    let manifest: serde_json::Value = serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
+    let manifest: serde_json::Value =
+        serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
     let limits = &manifest["limits"];
     assert_eq!(limits, &json["limits"]);
     assert_eq!(limits.as_object().unwrap().keys().collect::<Vec<_>>(), ["hot", "warm", "cold"]);
     let expected = [
-        ("hot", "a.T", "below", "error", [333.15, 343.15, -10.0, 1000.0], Some(50.0 * 5.0_f64.ln())),
-        ("warm", "a.T - air.T", "below", "warning", [45.0, 50.0, -5.0, 1000.0], Some(50.0 * 10.0_f64.ln())),
+        (
+            "hot",
+            "a.T",
+            "below",
+            "error",
+            [333.15, 343.15, -10.0, 1000.0],
+            Some(50.0 * 5.0_f64.ln()),
+        ),
+        (
+            "warm",
+            "a.T - air.T",
+            "below",
+            "warning",
+            [45.0, 50.0, -5.0, 1000.0],
+            Some(50.0 * 10.0_f64.ln()),
+        ),
         ("cold", "a.T", "above", "error", [283.15, 293.15, 10.0, 0.0], None),
     ];
     for (name, of, side, severity, numbers, broken_at) in expected {
@@ -69,7 +86,8 @@ fn the_manifest_says_what_became_of_every_limit() {
         for ((key, unit), exact) in
             [(side, "K"), ("worst", "K"), ("margin", "K"), ("worst_at", "s")].iter().zip(numbers)
         {
-            let found = limit[key]["value"].as_f64().unwrap_or_else(|| panic!("no {key} in {limit}"));
+            let found =
+                limit[key]["value"].as_f64().unwrap_or_else(|| panic!("no {key} in {limit}"));
             assert!(
                 (found - exact).abs() < 1e-3 && limit[key]["unit"] == *unit,
                 "{name} {key} {found} {exact}"
@@ -77,7 +95,10 @@ fn the_manifest_says_what_became_of_every_limit() {
         }
         let broken = limit["broken_at"]["value"].as_f64();
         assert_eq!(broken.is_some(), broken_at.is_some(), "{limit}");
-        assert!(broken.zip(broken_at).is_none_or(|(found, exact)| (found - exact).abs() < 1e-3), "{limit}");
+        assert!(
+            broken.zip(broken_at).is_none_or(|(found, exact)| (found - exact).abs() < 1e-3),
+            "{limit}"
+        );
     }
 }
 
@@ -90,11 +111,15 @@ fn quiet_still_says_why_the_exit_code_is_1() {
         ("compare", "limit broken: net breaks hot"),
     ] {
         for format in ["table", "csv", "json"] {
-            let ran = folder.run(&[verb, "net.toml", "--no-files", "--quiet", "--format", format]).exits(1);
+            let ran = folder
+                .run(&[verb, "net.toml", "--no-files", "--quiet", "--format", format])
+                .exits(1);
             assert_eq!(ran.err.trim_end(), last, "{verb} {format}");
         }
         // a broken limit of severity warning is a warning
-        let ran = folder.run(&[verb, "net.toml", "--no-files", "--quiet", "--set", "T_max=80degC"]).exits(0);
+        let ran = folder
+            .run(&[verb, "net.toml", "--no-files", "--quiet", "--set", "T_max=80degC"])
+            .exits(0);
         assert_eq!(ran.err, "", "{verb}");
     }
 }
@@ -104,11 +129,13 @@ fn the_manifest_lists_every_file() {
     let folder = Folder::with("net.toml", &format!("include = [\"more.toml\"]\n{NET}"));
     folder.write("more.toml", "format = 1\n[source]\nq = { into = \"a\", P = \"1 W\" }\n");
     folder.run(&["run", "net.toml"]).exits(1);
-    let manifest: serde_json::Value = serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
+    let manifest: serde_json::Value =
+        serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
     assert_eq!(manifest["inputs"][0]["name"], "net.toml");
     assert_eq!(manifest["inputs"][1]["name"], "more.toml");
     assert_ne!(manifest["inputs"][0]["sha256"], manifest["inputs"][1]["sha256"]);
-    let ran = folder.run_with(&["check", "-"], &format!("include = [\"more.toml\"]\n{NET}")).exits(1);
+    let ran =
+        folder.run_with(&["check", "-"], &format!("include = [\"more.toml\"]\n{NET}")).exits(1);
     ran.prints("netlist::include_without_folder");
 }
 
@@ -122,7 +149,11 @@ fn materials_are_listed_with_their_sources() {
     assert_eq!(json["materials"]["aluminium_6061"]["cp"]["value"], 896.0);
     assert_eq!(json["fluids"]["air"]["T"]["unit"], "K");
     let csv = folder.run(&["materials", "--format", "csv"]).exits(0).out;
-    assert!(csv.starts_with("name,kind,density [kg/m^3],cp [J/(kg K)],k [W/(m K)],T [K],title,source\n"));
+    assert!(
+        csv.starts_with(
+            "name,kind,density [kg/m^3],cp [J/(kg K)],k [W/(m K)],T [K],title,source\n"
+        )
+    );
     folder.run(&["materials", "steel_8260"]).exits(2).says("did you mean `steel_8620`?");
 }
 
@@ -134,9 +165,11 @@ fn check_names_the_stiffness_and_the_specific_heat_of_the_paper() {
     let ran = folder.run(&["check", "net.toml"]).exits(0).prints("did you mean 0.475 J/(g K)?");
     // C / G = 0.475 x 0.5 s
     ran.prints("stiffness: C / sum of G is 237 ms (a)").prints("1 warning");
-    let two = NET
-        .replace("[source]", "[node.b]\nT0 = \"20 degC\"\nC = \"1 J/K\"\n[source]")
-        .replace("[source]", "[convection]\ns = { from = \"a\", to = \"b\", R = \"0.5 K/W\" }\n[source]");
+    let two =
+        NET.replace("[source]", "[node.b]\nT0 = \"20 degC\"\nC = \"1 J/K\"\n[source]").replace(
+            "[source]",
+            "[convection]\ns = { from = \"a\", to = \"b\", R = \"0.5 K/W\" }\n[source]",
+        );
     folder.write("two.toml", &two);
     // a: 100 / (2 + 2) s, b: 1 / 2 s
     folder

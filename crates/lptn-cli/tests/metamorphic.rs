@@ -1,9 +1,11 @@
-//! What a network means does not depend on how it is written: random networks of every kind of element, each also
-//! renamed, reordered, in other units, split, and so on, have to give the same within ten times the tolerance.
+//! What a network means does not depend on how it is written: random networks of every kind of
+//! element, each also renamed, reordered, in other units, split, and so on, have to give the same
+//! within ten times the tolerance.
 //!
-//! Each of 300 networks is asked for every second relation. `LPTN_METAMORPHIC=5000 cargo test -p lptn-cli --test
-//! metamorphic` takes so many networks, and all relations; `LPTN_METAMORPHIC_FROM=17` begins at that seed, so that one
-//! network alone can be looked at.
+//! Each of 300 networks is asked for every second relation.
+//! `LPTN_METAMORPHIC=5000 cargo test -p lptn-cli --test metamorphic` takes so many networks, and
+//! all relations; `LPTN_METAMORPHIC_FROM=17` begins at that seed, so that one network alone can be
+//! looked at.
 
 #![allow(clippy::print_stdout, reason = "how many networks a relation changes")]
 
@@ -59,7 +61,8 @@ fn dice(seed: u64, name: &str) -> Random {
     Random::new(name.bytes().fold(seed, |sum, byte| sum.wrapping_mul(31).wrapping_add(byte.into())))
 }
 
-/// Nothing where there is nothing to change; else that it gives the same, or the difference and the texts that show it.
+/// Nothing where there is nothing to change; else that it gives the same, or the difference and the
+/// texts that show it.
 type Verdict = Option<Result<(), (String, Texts)>>;
 
 type Check<'a> = &'a (dyn Fn(&Case) -> Verdict + Sync);
@@ -105,11 +108,15 @@ impl Asked {
     /// At least so many percent had something to change.
     fn at_least(&self, percent: usize) {
         let Self { tried, changed } = self;
-        assert!(changed * 100 >= percent * tried, "only {changed} of {tried} have something to change");
+        assert!(
+            changed * 100 >= percent * tried,
+            "only {changed} of {tried} have something to change"
+        );
     }
 }
 
-/// Asks one network in `every`, which is no multiple of 3, for every third is linear; shows the smallest of at most three that differ.
+/// Asks one network in `every`, which is no multiple of 3, for every third is linear; shows the
+/// smallest of at most three that differ.
 fn hold(name: &str, every: u64, check: Check<'_>) -> Asked {
     let every = if std::env::var_os("LPTN_METAMORPHIC").is_some() { 1 } else { every };
     let first = name.len() as u64;
@@ -131,7 +138,8 @@ fn hold(name: &str, every: u64, check: Check<'_>) -> Asked {
     Asked { tried: tried.len(), changed }
 }
 
-/// Every second network, related as the test is called; `least` percent of them have something to change.
+/// Every second network, related as the test is called; `least` percent of them have something to
+/// change.
 fn holds(name: &str, least: usize) {
     let relation = RELATIONS.iter().find(|(known, _)| *known == name).expect("a relation").1;
     hold(name, 2, &|case| related(case, name, relation)).at_least(least);
@@ -213,7 +221,8 @@ fn expansions_are_the_same() {
     asked.at_least(60);
 }
 
-/// A network that is the result of one relation has to obey the others: templates in other units and so on.
+/// A network that is the result of one relation has to obey the others: templates in other units
+/// and so on.
 #[test]
 fn relations_hold_one_after_the_other() {
     let first: [Relation; 3] = [templated, included, reordered];
@@ -244,7 +253,10 @@ fn linear_networks_superpose() {
         let mut half = Results { columns: other.columns.clone(), ..mean.clone() };
         for (name, values) in &mut half.columns {
             // twice the mean, less the one, is the other
-            values.iter_mut().zip(&mean.columns[name]).for_each(|(other, mean)| *other = 2.0 * mean - *other);
+            values
+                .iter_mut()
+                .zip(&mean.columns[name])
+                .for_each(|(other, mean)| *other = 2.0 * mean - *other);
         }
         half.columns.retain(|name, _| name.ends_with(".T"));
         let only = |results: &Results| {
@@ -255,18 +267,27 @@ fn linear_networks_superpose() {
                 ..Results::default()
             }
         };
-        let own = Case { seed: case.seed, net: case.net.clone(), results: only(&case.results), growth: 3.0 };
+        let own = Case {
+            seed: case.seed,
+            net: case.net.clone(),
+            results: only(&case.results),
+            growth: 3.0,
+        };
         Some(same(&own, &Variant::of(&case.net), &half).map_err(|difference| (difference, texts)))
     });
     asked.at_least(25);
 }
 
-/// A run with a hundredth of the tolerance differs by the error of the run, where the network bounds it.
+/// A run with a hundredth of the tolerance differs by the error of the run, where the network
+/// bounds it.
 #[test]
 fn a_tighter_tolerance_changes_no_more_than_is_promised() {
     hold("with a tighter tolerance", 4, &|case| {
         let mut variant = Variant::of(&case.net);
-        let tight = random::model::constant(0.01 * random::model::TOLERANCE, random::units::Kind::Difference);
+        let tight = random::model::constant(
+            0.01 * random::model::TOLERANCE,
+            random::units::Kind::Difference,
+        );
         *variant.net.run().get_mut("tolerance")? = tight;
         let texts = variant.net.texts();
         let outcome = results(&texts).and_then(|found| same(case, &variant, &found));
@@ -278,7 +299,8 @@ fn a_tighter_tolerance_changes_no_more_than_is_promised() {
 #[test]
 fn runs_repeat_to_the_last_digit() {
     hold("again", 4, &|case| {
-        let (texts, variant) = (case.net.texts(), Variant { exact: true, ..Variant::of(&case.net) });
+        let (texts, variant) =
+            (case.net.texts(), Variant { exact: true, ..Variant::of(&case.net) });
         let outcome = results(&texts).and_then(|found| same(case, &variant, &found));
         Some(outcome.map_err(|difference| (difference, texts)))
     });
@@ -287,7 +309,9 @@ fn runs_repeat_to_the_last_digit() {
 /// CSV, JSON and the table of the program show the numbers of the library, all columns or some.
 #[test]
 fn all_formats_show_the_same_numbers() {
-    hold("in all formats", 11, &|case| Some(program::formats(case).map_err(|words| (words, Texts::new()))));
+    hold("in all formats", 11, &|case| {
+        Some(program::formats(case).map_err(|words| (words, Texts::new())))
+    });
 }
 
 /// A run in two parts, the second from the `state.json` of the first, ends where the whole does.
@@ -310,7 +334,10 @@ fn the_networks_hold_every_kind_of_element() {
     let fails = left_out.iter().filter(|(_, why)| matches!(why, LeftOut::Fails(_))).count();
     let boundless = left_out.len() - fails;
     assert!(fails * 100 <= 5 * asked, "{fails} of {asked} fail: {left_out:#?}");
-    assert!(boundless * 100 <= 8 * asked, "{boundless} of {asked} have no useful bound: {left_out:#?}");
+    assert!(
+        boundless * 100 <= 8 * asked,
+        "{boundless} of {asked} have no useful bound: {left_out:#?}"
+    );
     if *asked >= 300 {
         let few: Vec<_> = ELEMENTS
             .iter()

@@ -1,4 +1,5 @@
-//! The numbers that the program prints, against the closed form of the gearbox: validation case `gearbox_two_node`.
+//! The numbers that the program prints, against the closed form of the gearbox: validation case
+//! `gearbox_two_node`.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -14,9 +15,12 @@ fn an_hour() -> Folder {
 fn assert_closed_form(rows: &[Vec<f64>], tolerance: f64) {
     let mut checked = 0;
     for (column, node) in [(1, "steel"), (2, "alum")] {
-        for expected in gearbox_case("T", node).iter().filter(|expected| expected["t"].is_number()) {
-            let (time, exact) = (expected["t"].as_f64().unwrap(), expected["value"].as_f64().unwrap());
-            let row = rows.iter().find(|row| (row[0] - time).abs() < 1e-9).expect("a row at each time");
+        for expected in gearbox_case("T", node).iter().filter(|expected| expected["t"].is_number())
+        {
+            let (time, exact) =
+                (expected["t"].as_f64().unwrap(), expected["value"].as_f64().unwrap());
+            let row =
+                rows.iter().find(|row| (row[0] - time).abs() < 1e-9).expect("a row at each time");
             assert!(
                 (row[column] - exact).abs() < tolerance,
                 "{node} at {time} s: {} for {exact}",
@@ -52,7 +56,8 @@ fn a_finer_tolerance_is_finer() {
 fn temperatures_in_other_units_are_the_same_temperatures() {
     let folder = an_hour();
     let in_unit = |unit| {
-        let arguments = ["run", "gearbox.toml", "--no-files", "--format", "csv", "--temperature-unit", unit];
+        let arguments =
+            ["run", "gearbox.toml", "--no-files", "--format", "csv", "--temperature-unit", unit];
         csv(&folder.run(&arguments).exits(0).out)
     };
     let (headers, kelvin) = in_unit("K");
@@ -62,7 +67,8 @@ fn temperatures_in_other_units_are_the_same_temperatures() {
     for (k, f) in kelvin.iter().zip(&fahrenheit) {
         assert!((k[1] * 1.8 - 459.67 - f[1]).abs() < 1e-9);
     }
-    let celsius = kelvin.iter().map(|row| vec![row[0], row[1] - 273.15, row[2] - 273.15]).collect::<Vec<_>>();
+    let celsius =
+        kelvin.iter().map(|row| vec![row[0], row[1] - 273.15, row[2] - 273.15]).collect::<Vec<_>>();
     assert_closed_form(&celsius, 1e-4);
 }
 
@@ -70,7 +76,8 @@ fn temperatures_in_other_units_are_the_same_temperatures() {
 fn the_steady_state_is_that_of_the_paper() {
     let folder = Folder::with_gearbox();
     let values =
-        folder.run(&["steady", "gearbox.toml", "--format", "json"]).exits(0).json()["values"].clone();
+        folder.run(&["steady", "gearbox.toml", "--format", "json"]).exits(0).json()["values"]
+            .clone();
     let check = |name: &str, unit: &str, expected: f64| {
         assert_eq!(values[name]["unit"], unit, "{name}");
         let value = values[name]["value"].as_f64().unwrap();
@@ -130,7 +137,8 @@ fn the_selection_of_a_run_does_not_narrow_the_steady_state() {
     let folder = Folder::with("gearbox.toml", &text);
     let (headers, _) = csv(&folder.run(&["run", "gearbox.toml", "--format", "csv"]).exits(0).out);
     assert_eq!(headers, ["time [s]", "steel.T [degC]"]);
-    let (headers, _) = csv(&folder.run(&["steady", "gearbox.toml", "--format", "csv"]).exits(0).out);
+    let (headers, _) =
+        csv(&folder.run(&["steady", "gearbox.toml", "--format", "csv"]).exits(0).out);
     assert_eq!(headers.len(), 10);
     let arguments = ["steady", "gearbox.toml", "--format", "csv", "--select", "*.P"];
     assert_eq!(csv(&folder.run(&arguments).exits(0).out).0, ["P_disp.P [W]"]);
@@ -138,7 +146,8 @@ fn the_selection_of_a_run_does_not_narrow_the_steady_state() {
 
 #[test]
 fn a_network_without_state_shows_its_highest_row() {
-    // a junction halfway between 0 degC and 100 degC + 50 K sin(2 pi t / 60 s): 50 degC, and 75 degC at 15 s
+    // a junction halfway between 0 degC and 100 degC + 50 K sin(2 pi t / 60 s): 50 degC, and 75
+    // degC at 15 s
     let text = "format = 1\n[node]\nmiddle = { massless = true }\n[boundary]\ncold = { T = \"0 degC\" }\n\
                 hot = { T = \"100 [degC] + 50 [K] * sin(2 * pi * t / 60 [s])\" }\n[resistor]\n\
                 a = { from = \"hot\", to = \"middle\", R = \"1 K/W\" }\n\

@@ -24,7 +24,8 @@ fn a_report_is_a_column_everywhere() {
         assert!((row[share] - row[at("internal.Q [W]")] / 220.6).abs() < 1e-12);
     }
     folder.run(&["run", "g.toml", "--no-files"]).exits(0).prints("rise [K]").prints("share [-]");
-    let json = folder.run(&["run", "g.toml", "--format", "json", "--no-files", "--select", "rise"]).json();
+    let json =
+        folder.run(&["run", "g.toml", "--format", "json", "--no-files", "--select", "rise"]).json();
     assert_eq!(json["columns"][1], serde_json::json!({ "name": "rise", "unit": "K" }));
     let steady = folder.run(&["steady", "g.toml", "--format", "json"]).exits(0).json();
     // 67.2 K over the ambient: the paper
@@ -40,13 +41,19 @@ fn a_window_stands_in_the_table_in_json_and_in_a_file() {
     let files = ["events.csv", "manifest.json", "result.csv", "state.json", "windows.csv"];
     assert_eq!(folder.files()[1..], files.map(|name| format!("out/g/{name}")));
     let file = folder.read("out/g/windows.csv");
-    assert!(file.starts_with("window,column,unit,from [s],to [s],mean,min,min_at [s],max,max_at [s]\n"));
+    assert!(
+        file.starts_with("window,column,unit,from [s],to [s],mean,min,min_at [s],max,max_at [s]\n")
+    );
     assert!(file.contains("\nclimb,rise,K,600,1200,"), "{file}");
     let json = folder.run(&["run", "g.toml", "--format", "json", "--no-files"]).json();
     let steel = &json["windows"]["climb"]["columns"]["steel.T"];
-    let (mean, min) = (steel["mean"]["value"].as_f64().unwrap(), steel["min"]["value"].as_f64().unwrap());
+    let (mean, min) =
+        (steel["mean"]["value"].as_f64().unwrap(), steel["min"]["value"].as_f64().unwrap());
     assert!(min < mean && mean < steel["max"]["value"].as_f64().unwrap());
-    assert_eq!((steel["min_at"]["value"].as_f64(), steel["mean"]["unit"].as_str()), (Some(600.0), Some("K")));
+    assert_eq!(
+        (steel["min_at"]["value"].as_f64(), steel["mean"]["unit"].as_str()),
+        (Some(600.0), Some("K"))
+    );
     // a later run without windows leaves no old file behind
     folder.write("g.toml", GEARBOX);
     folder.run(&["run", "g.toml"]).exits(0);
@@ -59,7 +66,9 @@ fn the_balance_of_a_node_closes() {
     let ran = folder.run(&["run", "g.toml", "--no-files", "--balance", "steel"]).exits(0);
     let ran = ran.prints("heat into steel").prints("to aluminium").prints("= stored");
     assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
-    let json = folder.run(&["run", "g.toml", "--no-files", "--balance", "steel", "--format", "json"]).json();
+    let json = folder
+        .run(&["run", "g.toml", "--no-files", "--balance", "steel", "--format", "json"])
+        .json();
     let balance = &json["balance"];
     let value = |of: &serde_json::Value| of["value"].as_f64().unwrap();
     assert_eq!(balance["terms"][0]["name"], "P_disp");
@@ -67,10 +76,14 @@ fn the_balance_of_a_node_closes() {
     // 220.6 W for 25 min
     assert!((value(&balance["terms"][0]["heat"]) - 330_900.0).abs() < 1e-3);
     assert!((value(&balance["heat"]) - value(&balance["stored"])).abs() < 1e-3);
-    let steady = folder.run(&["steady", "g.toml", "--balance", "bed", "--format", "json"]).exits(0).json();
+    let steady =
+        folder.run(&["steady", "g.toml", "--balance", "bed", "--format", "json"]).exits(0).json();
     let bed = value(&steady["values"]["bed.Q"]);
     assert!((value(&steady["balance"]["power"]) + bed).abs() < 1e-9);
-    folder.run(&["steady", "g.toml", "--balance", "aluminium"]).exits(0).prints("heat into aluminium");
+    folder
+        .run(&["steady", "g.toml", "--balance", "aluminium"])
+        .exits(0)
+        .prints("heat into aluminium");
 }
 
 #[test]
@@ -80,12 +93,16 @@ fn a_balance_of_nothing_is_refused_with_the_name_that_is_near() {
     run("stel").says("balance::unknown_node").says("did you mean `steel`?");
     run("internal").says("a path between `steel` and `aluminium`");
     run("P_disp").says("a source into `steel`");
-    folder.run(&["steady", "g.toml", "--balance", "steel", "--format", "csv"]).exits(2).says("balance::csv");
+    folder
+        .run(&["steady", "g.toml", "--balance", "steel", "--format", "csv"])
+        .exits(2)
+        .says("balance::csv");
 }
 
 #[test]
 fn a_limit_may_be_on_a_heat_flow() {
-    let text = format!("{GEARBOX}\n[limit]\nbed_heat = {{ of = \"mill_bed.Q\", below = \"100 W\" }}\n");
+    let text =
+        format!("{GEARBOX}\n[limit]\nbed_heat = {{ of = \"mill_bed.Q\", below = \"100 W\" }}\n");
     let folder = Folder::with("g.toml", &text);
     folder.run(&["run", "g.toml", "--no-files"]).exits(1).says("mill_bed.Q below 100 W");
     folder.run(&["steady", "g.toml"]).exits(1).says("by 54.42 W");

@@ -6,7 +6,8 @@ mod common;
 
 use common::{Folder, csv};
 
-const MAP: &str = "speed [rpm],torque [N m],loss [W]\n1000,10,10\n1000,20,30\n2000,10,25\n2000,20,75\n";
+const MAP: &str =
+    "speed [rpm],torque [N m],loss [W]\n1000,10,10\n1000,20,30\n2000,10,25\n2000,20,75\n";
 
 fn motor(last: &str) -> Folder {
     let text = format!(
@@ -35,7 +36,8 @@ fn regression_columns_of_signals_have_their_own_units() {
         let column = headers.iter().position(|name| name == header);
         rows[1][column.unwrap_or_else(|| panic!("no {header} in {headers:?}"))]
     };
-    let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+    let near =
+        |found: f64, expected: f64| assert!((found - expected).abs() < 1e-9, "{found} {expected}");
     near(middle("n [rpm]"), 1500.0);
     near(middle("torque [N m]"), 15.0);
     near(middle("duty [-]"), 0.75);
@@ -64,9 +66,13 @@ fn regression_a_table_is_left_in_its_own_unit() {
 fn the_expansion_keeps_the_units_of_points() {
     let folder = motor("2000 rpm");
     let flat = folder.run(&["check", "motor.toml", "--expand"]).exits(0);
-    let flat = flat.prints("v = [1000, 2000], v_unit = \"rpm\"").prints("v = [10, 20], v_unit = \"N m\"").out;
+    let flat = flat
+        .prints("v = [1000, 2000], v_unit = \"rpm\"")
+        .prints("v = [10, 20], v_unit = \"N m\"")
+        .out;
     folder.write("flat.toml", &flat);
-    let results = |file: &str| folder.run(&["run", file, "--format", "csv", "--no-files"]).exits(0).out;
+    let results =
+        |file: &str| folder.run(&["run", file, "--format", "csv", "--no-files"]).exits(0).out;
     assert_eq!(results("flat.toml"), results("motor.toml"));
     let one = folder.run(&["reduce", "motor.toml", "--port", "core", "--format", "toml"]).exits(0);
     one.prints("v = [1000, 2000], v_unit = \"rpm\"");

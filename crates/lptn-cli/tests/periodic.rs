@@ -16,7 +16,8 @@ fn number(json: &Value) -> f64 {
 /// x(0) = X (1 - exp(-a/tau)) exp(-(p - a)/tau) / (1 - exp(-p/tau)).
 fn start_of_duty() -> f64 {
     let (on, period, tau, rise) = (180.0_f64, 600.0, 0.3046 * 2659.0, 220.0 * 0.3046);
-    25.0 + rise * (1.0 - (-on / tau).exp()) * (-(period - on) / tau).exp() / (1.0 - (-period / tau).exp())
+    25.0 + rise * (1.0 - (-on / tau).exp()) * (-(period - on) / tau).exp()
+        / (1.0 - (-period / tau).exp())
 }
 
 #[test]
@@ -38,7 +39,8 @@ fn a_duty_cycle_settles_at_its_closed_form() {
     assert!((number(&search["time_constant"]) - 0.3046 * 2659.0).abs() < 1e-6);
     assert!(number(&search["residual"]) < 1e-4);
 
-    let csv = folder.run(&[&args[..], &["--format", "csv", "--select", "*.T"]].concat()).exits(0).out;
+    let csv =
+        folder.run(&[&args[..], &["--format", "csv", "--select", "*.T"]].concat()).exits(0).out;
     let mut lines = csv.lines();
     assert_eq!(lines.next(), Some("name,unit,start,mean,min,min_at [s],max,max_at [s],swing"));
     let row: Vec<&str> = lines.next().expect("a row").split(',').collect();
@@ -57,11 +59,17 @@ fn a_cycle_with_radiation_is_shown_and_written() {
     let files = files.map(|name| format!("settled/{name}"));
     assert_eq!(folder.files(), [&["gun.toml".to_owned()][..], &files].concat());
     let result = folder.read("settled/result.csv");
-    let rows: Vec<Vec<f64>> =
-        result.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect();
+    let rows: Vec<Vec<f64>> = result
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').map(|x| x.parse().unwrap()).collect())
+        .collect();
     assert_eq!(rows.len(), 301, "the usual number of rows, as every 5 s are too few");
     let (first, last) = (&rows[0], &rows[rows.len() - 1]);
-    assert!(first[1..4].iter().zip(&last[1..4]).all(|(a, b)| (a - b).abs() < 1e-4), "{first:?} {last:?}");
+    assert!(
+        first[1..4].iter().zip(&last[1..4]).all(|(a, b)| (a - b).abs() < 1e-4),
+        "{first:?} {last:?}"
+    );
 }
 
 #[test]
@@ -73,17 +81,21 @@ fn what_is_no_cycle_is_refused() {
         ran.err
     };
     let text = refused(DUTY, &["--period", "7 min"], "periodic::not_periodic", 2);
-    assert!(text.contains("losses") && text.contains("220 W") && text.contains("--period"), "{text}");
+    assert!(
+        text.contains("losses") && text.contains("220 W") && text.contains("--period"),
+        "{text}"
+    );
     refused(DUTY, &["--period", "-1 s"], "periodic::period", 2);
     refused(DUTY, &["--period", "5 K"], "units::dimension", 2);
-    let constant = DUTY.replace("P = \"duty\"", "P = \"220 W\"").replace("[signal]\nduty", "[signal]\nidle");
+    let constant =
+        DUTY.replace("P = \"duty\"", "P = \"220 W\"").replace("[signal]\nduty", "[signal]\nidle");
     refused(&constant, &[], "periodic::no_period", 2);
     let sine = DUTY.replace("P = \"duty\"", "P = \"220 [W] * sin(2 * pi * t / 600 [s])^2\"");
     refused(&sine, &[], "periodic::no_period", 2);
-    let other =
-        "other = { t = [\"0 s\", \"1 s\"], v = [1, 2], after_end = \"repeat\", period = \"31.4159265 s\" }";
-    let two =
-        DUTY.replace("[node]", &format!("{other}\n\n[node]")).replace("P = \"duty\"", "P = \"duty * other\"");
+    let other = "other = { t = [\"0 s\", \"1 s\"], v = [1, 2], after_end = \"repeat\", period = \"31.4159265 s\" }";
+    let two = DUTY
+        .replace("[node]", &format!("{other}\n\n[node]"))
+        .replace("P = \"duty\"", "P = \"duty * other\"");
     let text = refused(&two, &[], "periodic::no_common_period", 2);
     assert!(text.contains("`other`") && text.contains("`duty`"), "{text}");
     let closed = DUTY.replace("from = \"body\", to = \"amb\"", "from = \"body\", to = \"lid\"");

@@ -23,7 +23,10 @@ const DEFINITIONS: [&str; 4] = ["sum", "first_moment", "dominant_pole", "least_s
 #[test]
 fn json_holds_what_the_design_promises() {
     let folder = Folder::with_gearbox();
-    let json = folder.run(&["reduce", "gearbox.toml", "--port", "steel", "--format", "json"]).exits(0).json();
+    let json = folder
+        .run(&["reduce", "gearbox.toml", "--port", "steel", "--format", "json"])
+        .exits(0)
+        .json();
     assert_eq!(
         (&json["format"], &json["network"], &json["port"]),
         (&1.into(), &"gearbox".into(), &"steel".into())
@@ -33,7 +36,11 @@ fn json_holds_what_the_design_promises() {
     near(number(&json, &["Q_N"]), 220.6, 1e-14);
     near(number(&json, &["boundary_weights", "bed"]), 0.7, 1e-12);
     near(number(&json, &["C_eq", "sum"]), 2659.0, 1e-12);
-    near(number(&json, &["C_eq", "first_moment"]), 1235.0 + 1424.0 * (65.5_f64 / 67.2).powi(2), 1e-12);
+    near(
+        number(&json, &["C_eq", "first_moment"]),
+        1235.0 + 1424.0 * (65.5_f64 / 67.2).powi(2),
+        1e-12,
+    );
     let tau = gearbox_values("time_constant", "")[0];
     near(number(&json, &["C_eq", "dominant_pole"]), tau * 220.6 / 67.2, 1e-9);
     for definition in DEFINITIONS {
@@ -49,7 +56,8 @@ fn json_holds_what_the_design_promises() {
         );
     }
     // the port's rise in 25 min, validation/gearbox_two_node
-    let end = gearbox_case("T", "steel").into_iter().find(|expected| expected["t"] == 1500.0).unwrap();
+    let end =
+        gearbox_case("T", "steel").into_iter().find(|expected| expected["t"] == 1500.0).unwrap();
     near(number(&json, &["rise"]), end["value"].as_f64().unwrap() - 25.5, 1e-6);
     assert_eq!(json["recommended"], "least_squares");
 }
@@ -58,7 +66,9 @@ fn json_holds_what_the_design_promises() {
 fn rows(text: &str) -> Vec<std::collections::BTreeMap<String, String>> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let headers: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
-    let row = |row: csv::StringRecord| headers.iter().cloned().zip(row.iter().map(str::to_owned)).collect();
+    let row = |row: csv::StringRecord| {
+        headers.iter().cloned().zip(row.iter().map(str::to_owned)).collect()
+    };
     reader.records().map(|record| row(record.unwrap())).collect()
 }
 
@@ -66,8 +76,9 @@ fn rows(text: &str) -> Vec<std::collections::BTreeMap<String, String>> {
 #[test]
 fn csv_has_a_row_a_definition() {
     let folder = Folder::with_gearbox();
-    let reduce =
-        |format| folder.run(&["reduce", "gearbox.toml", "--port", "steel", "--format", format]).exits(0);
+    let reduce = |format| {
+        folder.run(&["reduce", "gearbox.toml", "--port", "steel", "--format", format]).exits(0)
+    };
     let ran = reduce("csv");
     let header = "definition,recommended,R_eq [K/W],C_eq [J/K],tau [s],step.max [K],step.relative [-],step.time [s],\
                   run.max [K],run.relative [-],run.time [s]";
@@ -75,7 +86,8 @@ fn csv_has_a_row_a_definition() {
     let (rows, json) = (rows(&ran.out), reduce("json").json());
     assert_eq!(rows.iter().map(|row| row["definition"].as_str()).collect::<Vec<_>>(), DEFINITIONS);
     for row in &rows {
-        let (definition, cell) = (row["definition"].as_str(), |name: &str| row[name].parse::<f64>().unwrap());
+        let (definition, cell) =
+            (row["definition"].as_str(), |name: &str| row[name].parse::<f64>().unwrap());
         near(cell("R_eq [K/W]"), 67.2 / 220.6, 1e-12);
         near(cell("tau [s]"), 67.2 / 220.6 * cell("C_eq [J/K]"), 1e-12);
         near(cell("C_eq [J/K]"), number(&json, &["C_eq", definition]), 1e-15);
@@ -96,17 +108,28 @@ fn the_written_network_runs_and_reduces_to_itself() {
     let folder = Folder::with_gearbox();
     for definition in DEFINITIONS {
         let file = format!("{definition}.toml");
-        let arguments =
-            ["reduce", "gearbox.toml", "--port", "steel", "--definition", definition, "--format", "json"];
-        let first = folder.run(&[&arguments[..], &["--write", &file]].concat()).exits(0).says("wrote");
+        let arguments = [
+            "reduce",
+            "gearbox.toml",
+            "--port",
+            "steel",
+            "--definition",
+            definition,
+            "--format",
+            "json",
+        ];
+        let first =
+            folder.run(&[&arguments[..], &["--write", &file]].concat()).exits(0).says("wrote");
         folder.run(&["check", &file]).exits(0).prints("0 warnings");
         folder.run(&["run", &file, "--no-files"]).exits(0);
-        let again = folder.run(&["reduce", &file, "--port", "steel", "--format", "json"]).exits(0).json();
+        let again =
+            folder.run(&["reduce", &file, "--port", "steel", "--format", "json"]).exits(0).json();
         near(number(&again, &["R_eq"]), number(&first.json(), &["R_eq"]), 1e-15);
         let written = number(&first.json(), &["C_eq", definition]);
         DEFINITIONS.iter().for_each(|other| near(number(&again, &["C_eq", other]), written, 1e-12));
     }
-    let text = folder.run(&["reduce", "gearbox.toml", "--port", "steel", "--format", "toml"]).exits(0).out;
+    let text =
+        folder.run(&["reduce", "gearbox.toml", "--port", "steel", "--format", "toml"]).exits(0).out;
     assert_eq!(text, folder.read("least_squares.toml"));
     folder
         .run(&["reduce", "gearbox.toml", "--port", "steel", "--write", "sum.toml"])
@@ -139,7 +162,8 @@ stop = "1 h"
 #[test]
 fn inputs_that_change_are_written_as_they_are() {
     let folder = Folder::with("duty.toml", DUTY);
-    let write = ["reduce", "duty.toml", "--port", "winding", "--definition", "sum", "--write", "one.toml"];
+    let write =
+        ["reduce", "duty.toml", "--port", "winding", "--definition", "sum", "--write", "one.toml"];
     let ran = folder.run(&write).exits(0).prints("the inputs change with time");
     assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
     let text = folder.read("one.toml");
@@ -147,8 +171,13 @@ fn inputs_that_change_are_written_as_they_are() {
         text.contains(r#"copper = { into = "winding", P = "if(t < 10 [min], P_high, 5 [W])" }"#),
         "{text}"
     );
-    assert!(text.contains("T_out + 5 [K] * sin(2 * pi * t / 1 [h])") && !text.contains("unused"), "{text}");
-    let json = |file| folder.run(&["reduce", file, "--port", "winding", "--format", "json"]).exits(0).json();
+    assert!(
+        text.contains("T_out + 5 [K] * sin(2 * pi * t / 1 [h])") && !text.contains("unused"),
+        "{text}"
+    );
+    let json = |file| {
+        folder.run(&["reduce", file, "--port", "winding", "--format", "json"]).exits(0).json()
+    };
     let (first, again) = (json("duty.toml"), json("one.toml"));
     for key in ["R_eq", "T_ref", "Q_N"] {
         near(number(&again, &[key]), number(&first, &[key]), 1e-14);
@@ -160,7 +189,9 @@ fn inputs_that_change_are_written_as_they_are() {
 #[test]
 fn too_large_an_error_ends_with_1_and_says_so_last() {
     let folder = Folder::with_gearbox();
-    let reduce = |more: &[&str]| folder.run(&[&["reduce", "gearbox.toml", "--port", "steel"], more].concat());
+    let reduce = |more: &[&str]| {
+        folder.run(&[&["reduce", "gearbox.toml", "--port", "steel"], more].concat())
+    };
     reduce(&["--max-error", "2%"]).exits(0);
     reduce(&["--max-error", "0.5K"]).exits(0);
     let ran = reduce(&["--max-error", "0.5 K", "--definition", "sum"]).exits(1);
@@ -174,8 +205,8 @@ fn too_large_an_error_ends_with_1_and_says_so_last() {
     reduce(&["--window", "2 K"]).exits(2).says("--window");
 }
 
-/// The seed's fit reads 1.4 % too much heat from the steel: validation/gearbox_two_node fit_* at the steel node,
-/// there with 751 points, here with the 301 of the file.
+/// The seed's fit reads 1.4 % too much heat from the steel: validation/gearbox_two_node fit_* at
+/// the steel node, there with 751 points, here with the 301 of the file.
 #[test]
 fn the_bias_of_the_method_is_printed() {
     let folder = Folder::with_gearbox();
@@ -186,8 +217,11 @@ fn the_bias_of_the_method_is_printed() {
     near(number(bias, &["P_inferred"]), expected, 2e-3);
     near(number(bias, &["P_true"]), 220.6, 1e-9);
     near(number(bias, &["relative"]), expected / 220.6 - 1.0, 0.1);
-    let ran =
-        folder.run(&arguments[..5]).exits(0).prints("one exponential").prints("bias of the method: +1.4");
+    let ran = folder
+        .run(&arguments[..5])
+        .exits(0)
+        .prints("one exponential")
+        .prints("bias of the method: +1.4");
     assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
 }
 
@@ -195,10 +229,14 @@ fn the_bias_of_the_method_is_printed() {
 fn wrong_ports_end_with_2_and_help() {
     let folder = Folder::with_gearbox();
     let at = |port| folder.run(&["reduce", "gearbox.toml", "--port", port]).exits(2);
-    at("stel").says("error[reduce::unknown_port]: no node is named `stel`").says("did you mean `steel`?");
+    at("stel")
+        .says("error[reduce::unknown_port]: no node is named `stel`")
+        .says("did you mean `steel`?");
     at("bed").says("error[reduce::boundary_port]: `bed` is a boundary").says("bed = { T");
     at("internal").says("reduce::unknown_port");
-    let loose = DUTY.replace("to = \"air\"", "to = \"winding\"").replace("to = \"base\"", "to = \"winding\"");
+    let loose = DUTY
+        .replace("to = \"air\"", "to = \"winding\"")
+        .replace("to = \"base\"", "to = \"winding\"");
     folder.write("loose.toml", &loose);
     let ran = folder.run(&["reduce", "loose.toml", "--port", "winding"]).exits(2);
     ran.says("error[reduce::no_ground]: no path leads to a boundary from `winding` and `housing`");
@@ -207,12 +245,16 @@ fn wrong_ports_end_with_2_and_help() {
 /// The island of `stone` has no boundary; its 5000 J/K are in no C_eq.
 #[test]
 fn nodes_apart_from_the_port_are_noted() {
-    let apart = DUTY.replace("[boundary]", "stone = { C = \"5000 J/K\", T0 = \"20 degC\" }\n[boundary]");
+    let apart =
+        DUTY.replace("[boundary]", "stone = { C = \"5000 J/K\", T0 = \"20 degC\" }\n[boundary]");
     let folder = Folder::with("apart.toml", &apart);
     let ran = folder.run(&["reduce", "apart.toml", "--port", "winding"]).exits(0);
     let ran = ran.prints("C_eq is that of the 2 nodes that heat from the port reaches; 1 apart");
     assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
-    let json = folder.run(&["reduce", "apart.toml", "--port", "winding", "--format", "json"]).exits(0).json();
+    let json = folder
+        .run(&["reduce", "apart.toml", "--port", "winding", "--format", "json"])
+        .exits(0)
+        .json();
     near(number(&json, &["C_eq", "sum"]), 950.0, 1e-14);
     folder.run(&["reduce", "apart.toml", "--port", "stone"]).exits(2).says("boundary from `stone`");
 }
@@ -221,17 +263,22 @@ fn nodes_apart_from_the_port_are_noted() {
 fn without_run_or_capacity_it_says_what_is_missing() {
     let without_run = DUTY.split("[run]").next().unwrap_or_default();
     let folder = Folder::with("duty.toml", without_run);
-    let reduce = |more: &[&str]| folder.run(&[&["reduce", "duty.toml", "--port", "winding"], more].concat());
+    let reduce =
+        |more: &[&str]| folder.run(&[&["reduce", "duty.toml", "--port", "winding"], more].concat());
     let json = reduce(&["--format", "json"]).exits(0).json();
     assert!(json["errors"]["sum"]["run"].is_null() && json["rise"].is_null());
     assert_eq!(json["recommended_by"], "step");
     reduce(&[]).exits(0).prints("without [run] no run is compared");
-    let csv = rows(&reduce(&["--format", "csv"]).exits(0).says("without [run] no run is compared").out);
+    let csv =
+        rows(&reduce(&["--format", "csv"]).exits(0).says("without [run] no run is compared").out);
     assert!(csv.len() == 4 && csv.iter().all(|row| row["run.max [K]"] == "NaN"), "{csv:?}");
     reduce(&["--bias"]).exits(2).says("run::no_run");
     reduce(&["--max-error", "1K"]).exits(2).says("run::no_run");
     let massless = DUTY.replace("C = \"50 J/K\", T0 = \"20 degC\"", "massless = true");
-    folder.write("massless.toml", &massless.replace("C = \"900 J/K\", T0 = \"20 degC\"", "massless = true"));
+    folder.write(
+        "massless.toml",
+        &massless.replace("C = \"900 J/K\", T0 = \"20 degC\"", "massless = true"),
+    );
     let arguments = ["reduce", "massless.toml", "--port", "winding", "--max-error", "1K"];
     let ran = folder.run(&arguments).exits(0).prints("the port sees no capacity");
     assert!(!ran.out.contains("C_eq"), "{}", ran.out);

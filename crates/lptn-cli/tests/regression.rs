@@ -7,7 +7,8 @@ use common::{Folder, GEARBOX};
 const OVEN: &str = "format = 1\n[node]\nwinding = { C = \"150 J/K\", T0 = \"20 degC\" }\n\
     [source]\nloss = { into = \"winding\", P = \"60 W\" }\n[run]\nstop = \"10 min\"\n";
 
-/// A file named `...toml` has the stem `..`: its results were written over files of the present folder.
+/// A file named `...toml` has the stem `..`: its results were written over files of the present
+/// folder.
 #[test]
 fn results_stay_inside_the_output_folder() {
     let folder = Folder::with("...toml", GEARBOX);
@@ -41,7 +42,8 @@ fn json_holds_the_warnings_of_the_table() {
 fn temperature_units_are_scales() {
     let folder = Folder::with_gearbox();
     folder.run(&["steady", "gearbox.toml", "--temperature-unit", "mK"]).exits(2);
-    let ran = folder.run(&["steady", "gearbox.toml", "--temperature-unit", "\u{b0}C", "--format", "csv"]);
+    let ran =
+        folder.run(&["steady", "gearbox.toml", "--temperature-unit", "\u{b0}C", "--format", "csv"]);
     assert!(ran.exits(0).out.starts_with("steel.T [degC]"));
 }
 
@@ -79,7 +81,8 @@ fn a_steady_state_at_rest_is_shown_as_zeros() {
     assert!(ran.out.contains("Q [W]") && !ran.out.contains("00000"), "{}", ran.out);
 }
 
-/// A run at rest showed nine decimals, the noise of the integrator. A cell that 10 W keep 10 K over the air.
+/// A run at rest showed nine decimals, the noise of the integrator. A cell that 10 W keep 10 K over
+/// the air.
 #[test]
 fn a_run_at_rest_shows_no_noise() {
     let text = "format = 1\n[node]\ncell = { C = \"100 J/K\", T0 = \"30 degC\" }\n[boundary]\n\
@@ -89,7 +92,8 @@ fn a_run_at_rest_shows_no_noise() {
     folder.run(&["run", "cell.toml"]).exits(0).prints("cell       30.0  30.0  30.0");
 }
 
-/// Streams that hand on to each other what they carry were listed one by one: only their sum is heat of the network.
+/// Streams that hand on to each other what they carry were listed one by one: only their sum is
+/// heat of the network.
 #[test]
 fn the_heat_of_streams_is_one_sum() {
     let text = "format = 1\n[node]\nsump = { C = \"100 J/K\", T0 = \"20 degC\" }\n[boundary]\n\
@@ -107,7 +111,9 @@ fn a_report_without_a_value_is_a_warning() {
     let text = GEARBOX.replace("[run]\n", "[run]\nreport = { odd = \"sqrt(600 - t / 1 [s])\" }\n");
     let folder = Folder::with("gearbox.toml", &text);
     let ran = folder.run(&["run", "gearbox.toml", "--format", "json"]).exits(0);
-    ran.says("run::report_without_value").says("has no value at 605 s").says("sqrt(600 - t / 1 [s])");
+    ran.says("run::report_without_value")
+        .says("has no value at 605 s")
+        .says("sqrt(600 - t / 1 [s])");
     folder.run(&["run", "gearbox.toml"]).exits(0).says("run::report_without_value");
 }
 
@@ -123,16 +129,32 @@ fn a_network_without_nodes_is_compared_by_what_it_has() {
     folder.write("still.toml", PIPE);
     folder.write("gearbox.toml", GEARBOX);
     for sort in ["margin", "peak", "steady", "time", "capacity", "given"] {
-        let arguments =
-            ["compare", "pipe.toml", "still.toml", "gearbox.toml", "--format", "json", "--sort", sort];
+        let arguments = [
+            "compare",
+            "pipe.toml",
+            "still.toml",
+            "gearbox.toml",
+            "--format",
+            "json",
+            "--sort",
+            sort,
+        ];
         let json = folder.run(&arguments).exits(0).json();
-        let names: Vec<&str> =
-            json["columns"].as_array().unwrap().iter().map(|c| c["name"].as_str().unwrap()).collect();
+        let names: Vec<&str> = json["columns"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|c| c["name"].as_str().unwrap())
+            .collect();
         let rows = json["rows"].as_array().unwrap();
-        let at = |row: usize, name: &str| &rows[row][names.iter().position(|own| *own == name).unwrap()];
+        let at =
+            |row: usize, name: &str| &rows[row][names.iter().position(|own| *own == name).unwrap()];
         assert_eq!(rows.len(), 3);
         for row in (0..3).filter(|&row| at(row, "file") != "gearbox.toml") {
-            assert_eq!((at(row, "hottest").as_str(), at(row, "status").as_str()), (Some(""), Some("kept")));
+            assert_eq!(
+                (at(row, "hottest").as_str(), at(row, "status").as_str()),
+                (Some(""), Some("kept"))
+            );
             assert!(at(row, "peak").is_null() && at(row, "steady").is_null());
             // 175 K through 0.5 K/W are 350 W
             assert!((at(row, "loss.margin").as_f64().unwrap() - 50.0).abs() < 1e-9);
@@ -153,13 +175,15 @@ fn undefined(conductance: &str, at: f64) -> String {
     )
 }
 
-/// A table that is left at the start, a division by 0 and a root of less than 0 there were panics while results were
-/// written: half a CSV, half a JSON.
+/// A table that is left at the start, a division by 0 and a root of less than 0 there were panics
+/// while results were written: half a CSV, half a JSON.
 #[test]
 fn a_run_that_fails_at_its_first_instant_has_no_rows() {
-    for (conductance, at) in
-        [("film(T_from)", 90.0), ("1 [W/K] / (dT / 1 [K])", 20.0), ("1 [W/K] * (dT / 1 [K])^0.5", 10.0)]
-    {
+    for (conductance, at) in [
+        ("film(T_from)", 90.0),
+        ("1 [W/K] / (dT / 1 [K])", 20.0),
+        ("1 [W/K] * (dT / 1 [K])^0.5", 10.0),
+    ] {
         let folder = Folder::with("first.toml", &undefined(conductance, at));
         for columns in [&[][..], &["--select", "block.T"], &["--select", "*.Q"]] {
             let run = |more: &[&str]| {
@@ -168,9 +192,15 @@ fn a_run_that_fails_at_its_first_instant_has_no_rows() {
             };
             run(&["--no-files"]);
             let (headers, rows) = common::csv(&run(&["--no-files", "--format", "csv"]).out);
-            assert!(headers[0] == "time [s]" && headers.len() > 1 && rows.is_empty(), "{headers:?} {rows:?}");
+            assert!(
+                headers[0] == "time [s]" && headers.len() > 1 && rows.is_empty(),
+                "{headers:?} {rows:?}"
+            );
             let json = run(&["--no-files", "--format", "json"]).json();
-            assert_eq!((&json["rows"], &json["end"]["status"]), (&serde_json::json!([]), &"failed".into()));
+            assert_eq!(
+                (&json["rows"], &json["end"]["status"]),
+                (&serde_json::json!([]), &"failed".into())
+            );
             run(&["-o", "out"]);
             assert!(common::csv(&folder.read("out/result.csv")).1.is_empty());
             let manifest: serde_json::Value =
@@ -180,8 +210,9 @@ fn a_run_that_fails_at_its_first_instant_has_no_rows() {
     }
 }
 
-/// An extreme that lasts until the end of a window was said to be first there at the end. Air that jumps from 20 to 30 degC
-/// at 60 s and back at 80 s in the second file; a core of 100 J/K behind 1 K/W, a skin without capacity halfway to the air.
+/// An extreme that lasts until the end of a window was said to be first there at the end. Air that
+/// jumps from 20 to 30 degC at 60 s and back at 80 s in the second file; a core of 100 J/K behind 1
+/// K/W, a skin without capacity halfway to the air.
 #[test]
 fn an_extreme_that_lasts_is_where_it_begins() {
     let text = |air: &str| {
@@ -194,8 +225,12 @@ fn an_extreme_that_lasts_is_where_it_begins() {
         )
     };
     let folder = Folder::with("up.toml", &text("if(t < 60 [s], 20 [degC], 30 [degC])"));
-    folder.write("both.toml", &text("if(t < 60 [s], 20 [degC], if(t < 80 [s], 30 [degC], 20 [degC]))"));
-    // value in K or W and time of the least and of the largest value. The core: 10 K (1 - exp(-t/100 s)), then back
+    folder.write(
+        "both.toml",
+        &text("if(t < 60 [s], 20 [degC], if(t < 80 [s], 30 [degC], 20 [degC]))"),
+    );
+    // value in K or W and time of the least and of the largest value. The core: 10 K (1 -
+    // exp(-t/100 s)), then back
     let rise = |time: f64| 293.15 - 10.0 * f64::exp_m1(-time / 100.0);
     let up = [
         ("air.T", (293.15, 10.0), (303.15, 60.0)),
@@ -204,7 +239,8 @@ fn an_extreme_that_lasts_is_where_it_begins() {
         ("core.T", (293.15, 10.0), (rise(40.0), 100.0)),
         ("foot.Q", (-10.0, 60.0), (0.0, 10.0)),
     ];
-    let both = [("air.T", (293.15, 10.0), (303.15, 60.0)), ("core.T", (293.15, 10.0), (rise(20.0), 80.0))];
+    let both =
+        [("air.T", (293.15, 10.0), (303.15, 60.0)), ("core.T", (293.15, 10.0), (rise(20.0), 80.0))];
     for (file, expected) in [("up.toml", &up[..]), ("both.toml", &both)] {
         let json = folder.run(&["run", file, "--no-files", "--format", "json"]).exits(0).json();
         for (name, min, max) in expected {
@@ -217,14 +253,16 @@ fn an_extreme_that_lasts_is_where_it_begins() {
         }
     }
     // the peak of a comparison, of a part that nothing delays
-    let only = text("if(t < 60 [s], 20 [degC], 30 [degC])").replace("C = \"100 J/K\"", "C = \"1e9 J/K\"");
+    let only =
+        text("if(t < 60 [s], 20 [degC], 30 [degC])").replace("C = \"100 J/K\"", "C = \"1e9 J/K\"");
     folder.write("skin.toml", &only);
     let ran = folder.run(&["compare", "skin.toml", "--format", "csv"]).exits(0);
     assert!(ran.out.contains(",skin,,NaN,25,60,"), "{}", ran.out);
 }
 
-/// A signal from a file took twenty times the memory of the file: every cell was held with its place. 1.5 million rows of 20 MB,
-/// which took 460 MB; the place of a row is still known where something is wrong with it.
+/// A signal from a file took twenty times the memory of the file: every cell was held with its
+/// place. 1.5 million rows of 20 MB, which took 460 MB; the place of a row is still known where
+/// something is wrong with it.
 #[cfg(unix)]
 #[test]
 fn a_long_signal_takes_little_more_memory_than_its_numbers() {

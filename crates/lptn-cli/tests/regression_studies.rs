@@ -16,7 +16,9 @@ fn block(power: &str, more: &str) -> String {
 }
 
 fn sized(vary: &str) -> String {
-    format!("[size.x]\nminimise = \"p\"\nvary = {{ p = {vary} }}\nrequire = [\"a.T <= 40 [degC]\"]\n")
+    format!(
+        "[size.x]\nminimise = \"p\"\nvary = {{ p = {vary} }}\nrequire = [\"a.T <= 40 [degC]\"]\n"
+    )
 }
 
 fn warns(json: &serde_json::Value, code: &str) -> bool {
@@ -27,14 +29,17 @@ fn warns(json: &serde_json::Value, code: &str) -> bool {
 const CYCLE: &str = "[signal]\nload = { t = [0, 60, 120], v = [0, 100, 0], t_unit = \"s\", v_unit = \"W\", \
      after_end = \"repeat\" }\n";
 
-/// Sizing took the load at the start of its cycle, 0 W, and found that no cooling at all keeps 40 degC; the run reaches 90.
+/// Sizing took the load at the start of its cycle, 0 W, and found that no cooling at all keeps 40
+/// degC; the run reaches 90.
 #[test]
 fn sizing_refuses_inputs_that_change_with_time_and_says_what_to_write() {
     let study = sized("{ from = \"1 W/K\", to = \"10 W/K\" }");
     let folder = Folder::with("a.toml", &block("load", &(CYCLE.to_owned() + &study)));
-    let ran = folder.run(&["size", "a.toml"]).exits(2).says("error[size::inputs_change]: size `x`: ");
+    let ran =
+        folder.run(&["size", "a.toml"]).exits(2).says("error[size::inputs_change]: size `x`: ");
     // the line of the signal, and what can be pasted
-    let line = 1 + folder.read("a.toml").lines().position(|line| line.starts_with("load =")).unwrap();
+    let line =
+        1 + folder.read("a.toml").lines().position(|line| line.starts_with("load =")).unwrap();
     assert!(ran.err.contains(&format!("a.toml:{line}:")), "{}", ran.err);
     let joined = ran.err.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(joined.contains("`load = \"100 W\"`"), "{joined}");
@@ -53,7 +58,8 @@ fn sizing_refuses_inputs_that_change_with_time_and_says_what_to_write() {
 #[test]
 fn sizing_takes_inputs_that_do_not_matter_as_they_are() {
     let study = sized("{ from = \"1 W/K\", to = \"10 W/K\" }");
-    // another block behind the boundary, a signal of one value, a signal that nothing uses, a constant expression
+    // another block behind the boundary, a signal of one value, a signal that nothing uses, a
+    // constant expression
     let other = "one = { t = [0, 1], v = [50, 50], t_unit = \"s\", v_unit = \"W\", after_end = \"hold\" }\nhalf = \"one * 2\"\n\
          [node.b]\nC = \"100 J/K\"\nT0 = \"20 degC\"\n[resistor.rb]\nfrom = \"b\"\nto = \"amb\"\nR = \"1 K/W\"\n\
          [source.sb]\ninto = \"b\"\nP = \"load\"\n";
@@ -66,7 +72,8 @@ fn sizing_takes_inputs_that_do_not_matter_as_they_are() {
     folder.run(&["size", "b.toml"]).exits(2).says("size::inputs_change").says("`load`");
 }
 
-/// A steady state of a load that repeats itself judged its limits at the start of the cycle and called them kept.
+/// A steady state of a load that repeats itself judged its limits at the start of the cycle and
+/// called them kept.
 #[test]
 fn a_steady_state_of_changing_inputs_judges_no_limit_and_names_the_cycle() {
     let limits = "[limit]\nhot = { of = \"a.T\", below = \"40 degC\" }\nair = { of = \"amb.T\", below = \"30 degC\" }\n";
@@ -77,14 +84,18 @@ fn a_steady_state_of_changing_inputs_judges_no_limit_and_names_the_cycle() {
         joined.contains("inputs change with time, `load`: they are taken as they are at 0 s"),
         "{joined}"
     );
-    assert!(joined.contains("`lptn steady --periodic a.toml` looks at the whole cycle"), "{joined}");
+    assert!(
+        joined.contains("`lptn steady --periodic a.toml` looks at the whole cycle"),
+        "{joined}"
+    );
     let json = folder.run(&["steady", "a.toml", "--format", "json"]).exits(0).json();
     let null = serde_json::Value::Null;
     assert_eq!((&json["limits"]["hot"]["kept"], &json["limits"]["hot"]["margin"]), (&null, &null));
     // what no changing input reaches is judged
     assert_eq!(json["limits"]["air"]["kept"], true);
     assert!(warns(&json, "steady::inputs_vary"), "{json}");
-    // so is everything where a signal matters to nothing; where it matters to the limit alone it is not
+    // so is everything where a signal matters to nothing; where it matters to the limit alone it is
+    // not
     folder.write("b.toml", &block("1 W", &(CYCLE.to_owned() + limits)));
     let json = folder.run(&["steady", "b.toml", "--format", "json"]).exits(0).json();
     assert_eq!(json["limits"]["hot"]["kept"], true);
@@ -102,8 +113,13 @@ fn comparing_steady_states_of_changing_inputs_judges_no_limit() {
     let limit = "[limit]\nhot = { of = \"a.T\", below = \"25 degC\" }\n";
     let power = "if(t < 10 [s], 1 [W], 100 [W])";
     let folder = Folder::with("a.toml", &block(power, limit));
-    let ran = folder.run(&["compare", "a.toml"]).exits(0).says("warning[steady::inputs_vary]: a.toml: ");
-    assert!(ran.out.contains("not judged") && ran.err.contains("limits are not judged"), "{}", ran.out);
+    let ran =
+        folder.run(&["compare", "a.toml"]).exits(0).says("warning[steady::inputs_vary]: a.toml: ");
+    assert!(
+        ran.out.contains("not judged") && ran.err.contains("limits are not judged"),
+        "{}",
+        ran.out
+    );
     let json = folder.run(&["compare", "a.toml", "--format", "json"]).exits(0).json();
     assert!(warns(&json, "steady::inputs_vary"), "{json}");
     // a run looks at every time
@@ -111,22 +127,31 @@ fn comparing_steady_states_of_changing_inputs_judges_no_limit() {
     assert!(!folder.run(&["compare", "b.toml"]).exits(1).err.contains("inputs_vary"));
 }
 
-/// Limits of one name in two candidates, one of a temperature and one of a heat: both margins stood in a column of K.
+/// Limits of one name in two candidates, one of a temperature and one of a heat: both margins stood
+/// in a column of K.
 #[test]
 fn a_margin_stands_in_a_column_of_its_own_unit() {
-    let folder =
-        Folder::with("a.toml", &block("50 W", "[limit]\nhot = { of = \"a.T\", below = \"100 degC\" }"));
+    let folder = Folder::with(
+        "a.toml",
+        &block("50 W", "[limit]\nhot = { of = \"a.T\", below = \"100 degC\" }"),
+    );
     let heat = "[limit]\nhot = { of = \"(a.T - amb.T) * p\", below = \"60 W\" }";
     folder.write("b.toml", &block("50 W", heat));
     let ran = folder.run(&["compare", "a.toml", "b.toml", "--format", "csv"]).exits(0);
     let mut reader = ::csv::Reader::from_reader(ran.out.as_bytes());
     let headers: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
-    let place = |name: &str| headers.iter().position(|h| h == name).unwrap_or_else(|| panic!("{headers:?}"));
+    let place = |name: &str| {
+        headers.iter().position(|h| h == name).unwrap_or_else(|| panic!("{headers:?}"))
+    };
     let rows: Vec<::csv::StringRecord> = reader.records().map(Result::unwrap).collect();
     let number = |row: usize, name: &str| rows[row][place(name)].parse::<f64>().unwrap();
     // T = 20 degC + 50 W / (1 W/K)
-    assert!((number(0, "hot.margin [K]") - 30.0).abs() < 1e-9 && number(0, "hot.margin [W]").is_nan());
-    assert!((number(1, "hot.margin [W]") - 10.0).abs() < 1e-9 && number(1, "hot.margin [K]").is_nan());
+    assert!(
+        (number(0, "hot.margin [K]") - 30.0).abs() < 1e-9 && number(0, "hot.margin [W]").is_nan()
+    );
+    assert!(
+        (number(1, "hot.margin [W]") - 10.0).abs() < 1e-9 && number(1, "hot.margin [K]").is_nan()
+    );
 }
 
 /// `include = ["/dev/zero"]` was read until the memory was full.
@@ -150,7 +175,8 @@ fn with_mode(mode: u32) -> Folder {
     use std::os::unix::fs::PermissionsExt as _;
     let text = block("50 W", &sized("{ from = \"1 W/K\", to = \"10 W/K\" }"));
     let folder = Folder::with("a.toml", &text);
-    std::fs::set_permissions(folder.path().join("a.toml"), std::fs::Permissions::from_mode(mode)).unwrap();
+    std::fs::set_permissions(folder.path().join("a.toml"), std::fs::Permissions::from_mode(mode))
+        .unwrap();
     folder
 }
 
@@ -220,7 +246,15 @@ fn a_cooling_without_a_netlist_cannot_be_written() {
 /// A negative power was taken for an option.
 #[test]
 fn a_negative_power_is_named() {
-    let ran = Folder::empty().run(&["size", "--power", "-5 W", "--limit", "10 degC", "--ambient", "35 degC"]);
+    let ran = Folder::empty().run(&[
+        "size",
+        "--power",
+        "-5 W",
+        "--limit",
+        "10 degC",
+        "--ambient",
+        "35 degC",
+    ]);
     ran.exits(2).says("the power has to be more than 0 W, got -5 W");
 }
 
@@ -242,7 +276,8 @@ fn long_names_keep_tables_within_80_columns() {
         [source]\ns = { into = \"NODE\", P = \"50 W\" }\n[limit]\nLIMIT = { of = \"NODE.T\", below = \"100 degC\" }\n\
         [size.SIZE]\nminimise = \"p\"\nvary = { p = { from = \"0.1 W/K\", to = \"10 W/K\" } }\n\
         require = [\"NODE.T <= 90 [degC]\"]\n[run]\nstop = \"10 min\"\n";
-    let text = text.replace("NODE", &long("n")).replace("LIMIT", &long("l")).replace("SIZE", &long("z"));
+    let text =
+        text.replace("NODE", &long("n")).replace("LIMIT", &long("l")).replace("SIZE", &long("z"));
     let folder = Folder::with("a.toml", &text);
     for verb in [
         &["steady", "a.toml"][..],
@@ -267,8 +302,17 @@ fn a_block_without_rows_is_left_out() {
 /// A coolant too warm for the limit made the table so wide that its labels were cut.
 #[test]
 fn a_coolant_that_gets_too_warm_leaves_the_labels_whole() {
-    let cooling =
-        ["size", "--power", "223 W", "--limit", "110 degC", "--ambient", "35 degC", "--rise", "200 K"];
+    let cooling = [
+        "size",
+        "--power",
+        "223 W",
+        "--limit",
+        "110 degC",
+        "--ambient",
+        "35 degC",
+        "--rise",
+        "200 K",
+    ];
     Folder::empty()
         .run(&cooling)
         .exits(0)
@@ -276,8 +320,8 @@ fn a_coolant_that_gets_too_warm_leaves_the_labels_whole() {
         .prints("gear oil, 200 K warmer  ");
 }
 
-/// A window in which all is lost in rounding ended with "`C` of `a` must be finite, got NaN", or with null in JSON. The
-/// port warms alone there: its own capacity is nearest.
+/// A window in which all is lost in rounding ended with "`C` of `a` must be finite, got NaN", or
+/// with null in JSON. The port warms alone there: its own capacity is nearest.
 #[test]
 fn a_window_lost_in_rounding_sees_the_port_alone() {
     let folder = Folder::with("a.toml", &block("50 W", ""));
@@ -288,23 +332,32 @@ fn a_window_lost_in_rounding_sees_the_port_alone() {
     assert!((capacity("least_squares") / capacity("sum") - 1.0).abs() < 1e-9, "{}", ran.out);
 }
 
-/// What to do when the netlist cannot be written was the help of another verb: `-o DIR`, which `size` does not know.
+/// What to do when the netlist cannot be written was the help of another verb: `-o DIR`, which
+/// `size` does not know.
 #[cfg(target_os = "linux")]
 #[test]
 fn the_help_for_a_netlist_that_cannot_be_written_is_of_this_verb() {
     // the temporary name beside it is longer than the 255 bytes of a name
     let name = format!("{}.toml", "a".repeat(248));
-    let folder = Folder::with(&name, &block("50 W", &sized("{ from = \"1 W/K\", to = \"10 W/K\" }")));
-    let ran =
-        folder.run(&["size", &name, "--write"]).exits(3).says("error[output::cannot_write]: cannot write");
-    assert!(ran.err.contains("the netlist is as it was") && !ran.err.contains("--no-files"), "{}", ran.err);
+    let folder =
+        Folder::with(&name, &block("50 W", &sized("{ from = \"1 W/K\", to = \"10 W/K\" }")));
+    let ran = folder
+        .run(&["size", &name, "--write"])
+        .exits(3)
+        .says("error[output::cannot_write]: cannot write");
+    assert!(
+        ran.err.contains("the netlist is as it was") && !ran.err.contains("--no-files"),
+        "{}",
+        ran.err
+    );
     assert_eq!(folder.files(), [name]);
 }
 
 /// A study or a port that does not exist came without a way on where no name is near.
 #[test]
 fn an_unknown_study_or_port_comes_with_the_names_there_are() {
-    let folder = Folder::with("a.toml", &block("50 W", &sized("{ from = \"1 W/K\", to = \"10 W/K\" }")));
+    let folder =
+        Folder::with("a.toml", &block("50 W", &sized("{ from = \"1 W/K\", to = \"10 W/K\" }")));
     folder.run(&["size", "a.toml", "cooling"]).exits(2).says("help: name one of `x`");
     folder
         .run(&["reduce", "a.toml", "--port", "winding"])
@@ -312,8 +365,8 @@ fn an_unknown_study_or_port_comes_with_the_names_there_are() {
         .says("help: name a node, for example `a`");
 }
 
-/// A cooling sized to the limit approached it from below, and `run` called it broken by 2e-6 K, the error of the run,
-/// where `steady` and `size` kept it.
+/// A cooling sized to the limit approached it from below, and `run` called it broken by 2e-6 K, the
+/// error of the run, where `steady` and `size` kept it.
 #[test]
 fn a_limit_that_is_reached_and_not_passed_is_kept_by_every_verb() {
     let more = "[limit]\nhot = { of = \"a.T\", below = \"LIMIT\" }\n[run]\nstop = \"10 h\"";
@@ -336,7 +389,8 @@ fn a_limit_that_is_reached_and_not_passed_is_kept_by_every_verb() {
     folder.run(&["run", "a.toml", "--no-files"]).exits(1);
 }
 
-/// 20 degC + 33 W x (1.3 + 0.1) K/W is 66.2 degC, but not in binary: the limit was broken by 5.7e-14 K.
+/// 20 degC + 33 W x (1.3 + 0.1) K/W is 66.2 degC, but not in binary: the limit was broken by
+/// 5.7e-14 K.
 #[test]
 fn rounding_breaks_no_limit() {
     let text = "format = 1\n[node]\na = { massless = true }\nb = { massless = true }\n[boundary]\namb = { T = \"20 degC\" }\n\

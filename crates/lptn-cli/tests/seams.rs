@@ -1,4 +1,5 @@
-//! Regression: one test for each fault found where templates, grids, imports, states and controls meet.
+//! Regression: one test for each fault found where templates, grids, imports, states and controls
+//! meet.
 
 mod common;
 
@@ -21,18 +22,21 @@ fn close(a: &[f64], b: &[f64], allowed: f64) {
     assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() <= allowed), "{a:?} {b:?}");
 }
 
-/// Two plates with a fan each. Paths of a template could not end at faces of its grids, nor sources heat them; where
-/// the file had a grid of the same name outside, they took that one without a word.
+/// Two plates with a fan each. Paths of a template could not end at faces of its grids, nor sources
+/// heat them; where the file had a grid of the same name outside, they took that one without a
+/// word.
 #[test]
 fn grids_of_templates_have_faces() {
     let paths = "joint = { from = \"HUB\", to = \"GRID.x0\", h = \"800 W/(m^2 K)\" }";
-    let film = "film = { from = \"GRID.x1\", to = \"air\", h = \"(20 + 180 * FAN) * 1 [W/(m^2 K)]\" }";
+    let film =
+        "film = { from = \"GRID.x1\", to = \"air\", h = \"(20 + 180 * FAN) * 1 [W/(m^2 K)]\" }";
     let heat = "heat = { into = \"GRID\", P = \"5 W\" }\nface = { into = { \"GRID.y0\" = 0.75, \"GRID.y1\" = 0.25 }, P = \"4 W\" }";
     let fan = "FAN = { sense = \"HUB\", on_above = \"30 degC\", off_below = \"25 degC\" }";
     let around = "[boundary]\nair = { T = \"20 degC\" }\n[node]\nhub = { C = \"50 J/K\", T0 = \"20 degC\" }\n\
                   [source]\ndrive = { into = \"hub\", P = \"40 W\" }\n";
     let run = "[run]\nstop = \"10 min\"\n";
-    let inside = |text: &str| text.replace("GRID", "plate").replace("HUB", "left").replace("FAN", "fan");
+    let inside =
+        |text: &str| text.replace("GRID", "plate").replace("HUB", "left").replace("FAN", "fan");
     let template = format!(
         "format = 1\n{around}[grid.plate]\n{PLATE}[convection]\nother = {{ from = \"plate.x1\", to = \"air\", \
          h = \"1 W/(m^2 K)\" }}\n[template.slab]\nport = [\"left\", \"air\"]\n[template.slab.grid.plate]\n{PLATE}\
@@ -78,7 +82,10 @@ fn templates_do_not_reach_faces_outside() {
          [template.skin.convection]\nfilm = {{ from = \"plate.x1\", to = \"amb\", h = \"5 W/(m^2 K)\" }}\n\
          [use.s]\ntemplate = \"skin\"\nconnect = {{ amb = \"air\" }}\n[run]\nstop = \"1 s\"\n"
     );
-    Folder::with("skin.toml", &text).run(&["run", "skin.toml"]).exits(2).says("template `skin` has no");
+    Folder::with("skin.toml", &text)
+        .run(&["run", "skin.toml"])
+        .exits(2)
+        .says("template `skin` has no");
 }
 
 /// `run` ended with exit code 2 and not a word, `check` with "0 errors".
@@ -94,7 +101,8 @@ fn a_control_at_a_face_without_paths_says_so() {
     folder.run(&["run", "plate.toml"]).exits(2).says("nothing is attached to face `plate.x1`");
 }
 
-/// Imported nodes began at their `T0` in place of the state, without a word; a network with a grid could not go on.
+/// Imported nodes began at their `T0` in place of the state, without a word; a network with a grid
+/// could not go on.
 #[test]
 fn imported_nodes_and_grids_go_on_from_a_state() {
     let text = |run: &str| {
@@ -118,12 +126,14 @@ fn imported_nodes_and_grids_go_on_from_a_state() {
     let lacking = text("stop = \"15 min\"\ninitial = \"out/first/state.json\"");
     folder.write(
         "third.toml",
-        &lacking.replace("[resistor]", "[resistor]\nc = { from = \"n3\", to = \"n1\", R = \"1 K/W\" }"),
+        &lacking
+            .replace("[resistor]", "[resistor]\nc = { from = \"n3\", to = \"n1\", R = \"1 K/W\" }"),
     );
     folder.run(&["run", "third.toml"]).exits(2).says("netlist::state_missing_node").says("`n3`");
 }
 
-/// What was written of a grid could not be read again; nameless rows of an import neither; `L_char` was left out.
+/// What was written of a grid could not be read again; nameless rows of an import neither; `L_char`
+/// was left out.
 #[test]
 fn expansions_are_the_same_network_or_refused() {
     let grid = format!(
@@ -144,7 +154,8 @@ fn expansions_are_the_same_network_or_refused() {
     folder.run(&["check", "import.toml", "--expand"]).exits(0).prints("L_char = \"0.002 m\"");
 }
 
-/// The end of a rod was taken for a node: its area had to be given, and a wrong one was not noticed.
+/// The end of a rod was taken for a node: its area had to be given, and a wrong one was not
+/// noticed.
 #[test]
 fn the_end_of_a_rod_is_a_face() {
     let rod = |area: &str| {
@@ -156,11 +167,11 @@ fn the_end_of_a_rod_is_a_face() {
         )
     };
     let folder = Folder::with("rod.toml", &rod(""));
-    let ran = folder.run(&["steady", "rod.toml", "--format", "csv", "--select", "rod.x1.T"]).exits(0);
+    let ran =
+        folder.run(&["steady", "rod.toml", "--format", "csv", "--select", "rod.x1.T"]).exits(0);
     // the face is 0.1 m by 10 mm: 20 W / (100 W/(m^2 K) * 0.001 m^2) = 200 K above the air
     close(&csv(&ran.out).1[0], &[220.0], 1e-6);
-    let control =
-        "[control]\nfan = { sense = \"rod.x1\", on_above = \"40 degC\", off_below = \"30 degC\" }\n[run]";
+    let control = "[control]\nfan = { sense = \"rod.x1\", on_above = \"40 degC\", off_below = \"30 degC\" }\n[run]";
     folder.write(
         "control.toml",
         &rod("").replace("[run]", control).replace("100 W/(m^2 K)", "100 [W/(m^2 K)] * fan"),

@@ -4,7 +4,8 @@ mod common;
 
 use common::Folder;
 
-const COOLING: [&str; 7] = ["size", "--power", "223 W", "--limit", "110 degC", "--ambient", "35 degC"];
+const COOLING: [&str; 7] =
+    ["size", "--power", "223 W", "--limit", "110 degC", "--ambient", "35 degC"];
 
 /// T = 20 degC + P/G.
 const FAN: &str = "\
@@ -49,13 +50,19 @@ fn a_cooling_follows_from_power_and_temperatures() {
     assert_eq!(json["feasible"], true);
     // P / (cp rise) with cp of air as in Cengel, table A-15: 1007 J/(kg K) at 25 and at 35 degC
     near(&json["values"]["air_flow"], 223.0 / (1007.0 * 10.0), "kg/s", 2e-3);
-    // ideal gas of 287.05 J/(kg K) at 35 degC and 101325 Pa: 1.1455 kg/m^3; Cengel, table A-15, has 1.145
+    // ideal gas of 287.05 J/(kg K) at 35 degC and 101325 Pa: 1.1455 kg/m^3; Cengel, table A-15, has
+    // 1.145
     near(&json["values"]["air_volume_flow"], 223.0 / (1007.0 * 10.0) / 1.1455, "m^3/s", 2e-3);
-    // unused engine oil near 60 degC, Incropera table A.5: 2035 J/(kg K) at 330 K; a gear oil is like it
+    // unused engine oil near 60 degC, Incropera table A.5: 2035 J/(kg K) at 330 K; a gear oil is
+    // like it
     near(&json["values"]["oil_flow"], 223.0 / (2035.0 * 10.0), "kg/s", 0.02);
-    let twice = folder.run(&[&COOLING[..], &["--rise", "20 K", "--format", "json"]].concat()).exits(0).json();
+    let twice = folder
+        .run(&[&COOLING[..], &["--rise", "20 K", "--format", "json"]].concat())
+        .exits(0)
+        .json();
     let ratio = |name: &str| {
-        json["values"][name]["value"].as_f64().unwrap() / twice["values"][name]["value"].as_f64().unwrap()
+        json["values"][name]["value"].as_f64().unwrap()
+            / twice["values"][name]["value"].as_f64().unwrap()
     };
     assert!((ratio("air_flow") - 2.0).abs() < 2e-3 && (ratio("oil_flow") - 2.0).abs() < 0.05);
     folder.run(&COOLING).exits(0).prints("R_max = 0.33632 K/W").prints("h A = 2.9733 W/K");
@@ -69,7 +76,8 @@ fn a_limit_below_the_surroundings_is_infeasible_and_says_by_how_much() {
     };
     let run = |limit: &str, more: &[&str]| {
         let arguments = with(limit);
-        let arguments: Vec<&str> = arguments.iter().map(String::as_str).chain(more.iter().copied()).collect();
+        let arguments: Vec<&str> =
+            arguments.iter().map(String::as_str).chain(more.iter().copied()).collect();
         folder.run(&arguments).exits(1)
     };
     let ran = run("20 degC", &[]);
@@ -90,7 +98,10 @@ fn a_limit_below_the_surroundings_is_infeasible_and_says_by_how_much() {
 #[test]
 fn a_coolant_does_not_leave_warmer_than_the_limit() {
     let folder = Folder::empty();
-    let json = folder.run(&[&COOLING[..], &["--rise", "76 K", "--format", "json"]].concat()).exits(0).json();
+    let json = folder
+        .run(&[&COOLING[..], &["--rise", "76 K", "--format", "json"]].concat())
+        .exits(0)
+        .json();
     assert_eq!(json["values"]["air_flow"]["value"], serde_json::Value::Null);
     folder
         .run(&[&COOLING[..], &["--rise", "76 K"]].concat())
@@ -113,11 +124,16 @@ fn wrong_questions_end_with_2() {
         .run(&["size", "--power", "1 K", "--limit", "80 degC", "--ambient", "20 degC"])
         .exits(2)
         .says("units::");
-    folder.run(&["size", "fan.toml", "fna"]).exits(2).says("size::no_study").says("did you mean `fan`?");
+    folder
+        .run(&["size", "fan.toml", "fna"])
+        .exits(2)
+        .says("size::no_study")
+        .says("did you mean `fan`?");
     folder.run(&["size", "missing.toml"]).exits(2).says("cannot read");
     let none = FAN.split("[size").next().unwrap();
     Folder::with("fan.toml", none).run(&["size", "fan.toml"]).exits(2).says("has no [size.NAME]");
-    let second = FAN.to_owned() + &FAN[FAN.find("[size").unwrap()..].replace("size.fan", "size.other");
+    let second =
+        FAN.to_owned() + &FAN[FAN.find("[size").unwrap()..].replace("size.fan", "size.other");
     let folder = Folder::with("fan.toml", &second);
     folder.run(&["size", "fan.toml"]).exits(2).says("name one of `fan`, `other`");
     folder.run(&["size", "fan.toml", "other"]).exits(0);
@@ -126,16 +142,23 @@ fn wrong_questions_end_with_2() {
 #[test]
 fn a_parameter_is_sized_in_the_unit_of_the_file() {
     let folder = Folder::with("fan.toml", FAN);
-    let ran =
-        folder.run(&["size", "fan.toml"]).exits(0).prints("binds").prints("0.55 K of margin for 1 % more G");
+    let ran = folder
+        .run(&["size", "fan.toml"])
+        .exits(0)
+        .prints("binds")
+        .prints("0.55 K of margin for 1 % more G");
     assert_eq!(ran.out.lines().last(), Some("G = 1.81819 W/K keeps every requirement"));
     assert!(ran.out.lines().all(|line| line.chars().count() <= 80));
     let json = folder.run(&["size", "fan.toml", "--format", "json"]).exits(0).json();
     near(&json["values"]["G"], 100.0 / 55.0, "W/K", 1e-9);
     near(&json["sensitivity"], 0.55, "K", 1e-6);
-    assert_eq!((&json["binding"], &json["feasible"]), (&"block.T <= 75 [degC]".into(), &true.into()));
+    assert_eq!(
+        (&json["binding"], &json["feasible"]),
+        (&"block.T <= 75 [degC]".into(), &true.into())
+    );
     assert_eq!(folder.read("fan.toml"), FAN);
-    let json = folder.run(&["size", "fan.toml", "--set", "P=50 W", "--format", "json"]).exits(0).json();
+    let json =
+        folder.run(&["size", "fan.toml", "--set", "P=50 W", "--format", "json"]).exits(0).json();
     near(&json["values"]["G"], 50.0 / 55.0, "W/K", 1e-9);
 }
 
@@ -191,7 +214,8 @@ fn a_number_of_an_included_file_is_not_written() {
     let folder = Folder::with("own.toml", "format = 1\n[param]\nG = \"3 W/K\"\n");
     folder.write(
         "fan.toml",
-        &FAN.replace("format = 1", "format = 1\ninclude = [\"own.toml\"]").replace("G = '3 W/K'", "#"),
+        &FAN.replace("format = 1", "format = 1\ninclude = [\"own.toml\"]")
+            .replace("G = '3 W/K'", "#"),
     );
     folder.run(&["size", "fan.toml"]).exits(0).prints("G = 1.81819 W/K");
     folder.run(&["size", "fan.toml", "--write"]).exits(2).says("stands in a file that is included");

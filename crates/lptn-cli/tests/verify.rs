@@ -10,7 +10,8 @@ use serde_json::Value;
 const MASSLESS: &str = "format = 1\n[node]\nj = { massless = true }\n[boundary]\na = { T = \"20 degC\" }\n\
                         [resistor]\nr = { from = \"j\", to = \"a\", R = \"1 K/W\" }\n[run]\nstop = \"1 s\"\n";
 
-/// A pulse of one second after a long rest: the steps of an integrator have grown long and go past it.
+/// A pulse of one second after a long rest: the steps of an integrator have grown long and go past
+/// it.
 const PULSE: &str = "format = 1\n[node]\nbody = { C = \"100 J/K\", T0 = \"20 degC\" }\n\
     [boundary]\nair = { T = \"20 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", R = \"1 K/W\" }\n\
     [source]\npulse = { into = \"body\", P = \"1 [kW] * exp(-((t - 700 [s]) / 1 [s])^2)\" }\n\
@@ -25,8 +26,9 @@ fn row_of(nodes: usize) -> String {
     );
     (0..nodes).for_each(|i| text += &format!("n{i} = {{ C = \"1 J/K\" }}\n"));
     text += "[resistor]\nr0 = { from = \"air\", to = \"n0\", R = \"1 K/W\" }\n";
-    (1..nodes)
-        .for_each(|i| text += &format!("r{i} = {{ from = \"n{}\", to = \"n{i}\", R = \"1 K/W\" }}\n", i - 1));
+    (1..nodes).for_each(|i| {
+        text += &format!("r{i} = {{ from = \"n{}\", to = \"n{i}\", R = \"1 K/W\" }}\n", i - 1)
+    });
     text + "[run]\nstop = \"10 s\"\noutput = { every = \"5 s\" }\n"
 }
 
@@ -71,8 +73,14 @@ fn a_short_pulse_is_met() {
 
 #[test]
 fn rates_over_fourteen_decades_are_verified_as_far_as_they_can_be() {
-    let ladder =
-        [("1e3", "1e3"), ("1e-6", "1"), ("100", "100"), ("1e-3", "0.01"), ("10", "10"), ("1", "0.5")];
+    let ladder = [
+        ("1e3", "1e3"),
+        ("1e-6", "1"),
+        ("100", "100"),
+        ("1e-3", "0.01"),
+        ("10", "10"),
+        ("1", "0.5"),
+    ];
     let mut nodes = String::from("format = 1\n[boundary]\nn6 = { T = \"0 degC\" }\n[node]\n");
     let mut paths = String::from("[source]\ns = { into = \"n0\", P = \"50 W\" }\n[resistor]\n");
     for (i, (c, g)) in ladder.iter().enumerate() {
@@ -81,9 +89,15 @@ fn rates_over_fourteen_decades_are_verified_as_far_as_they_can_be() {
     }
     let text = nodes + &paths + "[run]\nstop = \"1e6 s\"\n";
     let folder = Folder::with("stiff.toml", &text);
-    folder.run(&["verify", "stiff.toml", "--tolerance", "1e-9K"]).exits(0).prints("exact solution, 6 modes");
+    folder
+        .run(&["verify", "stiff.toml", "--tolerance", "1e-9K"])
+        .exits(0)
+        .prints("exact solution, 6 modes");
     // over more, and hotter, what rounding leaves is more than a tenth of what is allowed
-    let text = text.replace("50 W", "500 W").replace("1e-6 J/K", "1e-3 J/K").replace("1e3 W/K", "1e17 W/K");
+    let text = text
+        .replace("50 W", "500 W")
+        .replace("1e-6 J/K", "1e-3 J/K")
+        .replace("1e3 W/K", "1e17 W/K");
     let folder = Folder::with("stiffer.toml", &text);
     let ran = folder.run(&["verify", "stiffer.toml", "--tolerance", "1e-9K"]).exits(0);
     ran.prints("no independent solution: time constants differ").prints("consistent, not verified");
@@ -99,7 +113,8 @@ fn modes_are_listed_slowest_first() {
 
 #[test]
 fn modes_as_json_follow_the_schema() {
-    let json = Folder::with_gearbox().run(&["modes", "gearbox.toml", "--format", "json"]).exits(0).json();
+    let json =
+        Folder::with_gearbox().run(&["modes", "gearbox.toml", "--format", "json"]).exits(0).json();
     assert_eq!((&json["format"], &json["network"]), (&Value::from(1), &Value::from("gearbox")));
     assert!(json["warnings"].as_array().is_some_and(Vec::is_empty));
     let modes = json["modes"].as_array().unwrap();
@@ -109,7 +124,9 @@ fn modes_as_json_follow_the_schema() {
         assert_eq!(mode["tau"]["unit"], "s");
         let parts = mode["participation"].as_object().unwrap();
         assert!((parts.values().map(scalar).sum::<f64>() - 1.0).abs() < 1e-14);
-        assert!(mode["shape"].as_object().unwrap().values().any(|x| (scalar(x) - 1.0).abs() < 1e-15));
+        assert!(
+            mode["shape"].as_object().unwrap().values().any(|x| (scalar(x) - 1.0).abs() < 1e-15)
+        );
     }
     assert_eq!(modes.len(), 2);
 }
@@ -119,9 +136,15 @@ fn what_lasts_for_ever_is_null_and_noted() {
     let folder = Folder::with("two.toml", TWO_MASSES);
     let json = folder.run(&["modes", "two.toml", "--format", "json"]).exits(0).json();
     assert!(json["modes"][0]["tau"]["value"].is_null());
-    assert!(json["notes"][0].as_str().unwrap().contains("no path leads from its nodes to a boundary"));
+    assert!(
+        json["notes"][0].as_str().unwrap().contains("no path leads from its nodes to a boundary")
+    );
     assert!((scalar(&json["modes"][1]["tau"]) - 0.75).abs() < 1e-15);
-    folder.run(&["modes", "two.toml"]).exits(0).prints("for ever").prints("note: 1 mode lasts for ever");
+    folder
+        .run(&["modes", "two.toml"])
+        .exits(0)
+        .prints("for ever")
+        .prints("note: 1 mode lasts for ever");
 }
 
 #[test]
@@ -129,7 +152,8 @@ fn count_keeps_the_slowest() {
     let folder = Folder::with_gearbox();
     let ran = folder.run(&["modes", "gearbox.toml", "--count", "1"]).exits(0);
     ran.prints("note: the 1 slowest of 2 modes; --count N shows others");
-    let (headers, rows) = csv(&folder.run(&["modes", "gearbox.toml", "--count", "1", "--format", "csv"]).out);
+    let (headers, rows) =
+        csv(&folder.run(&["modes", "gearbox.toml", "--count", "1", "--format", "csv"]).out);
     assert_eq!(headers[..3], ["tau [s]", "steel.shape [-]", "steel.participation [-]"]);
     assert_eq!(rows.len(), 1);
     folder.run(&["modes", "gearbox.toml", "--count", "0"]).exits(2);
@@ -147,8 +171,12 @@ fn a_network_without_capacity_has_no_modes_and_says_so() {
 fn large_networks_have_no_modes_and_no_independent_solution() {
     let folder = Folder::with("row.toml", &row_of(2001));
     folder.run(&["modes", "row.toml"]).exits(2).says("modes::too_large").says("at most 2000");
-    let ran = folder.run(&["verify", "row.toml"]).exits(0).prints("no independent solution: 2001 nodes");
-    assert!(ran.out.ends_with("consistent, not verified: two tolerances agree within what is allowed\n"));
+    let ran =
+        folder.run(&["verify", "row.toml"]).exits(0).prints("no independent solution: 2001 nodes");
+    assert!(
+        ran.out
+            .ends_with("consistent, not verified: two tolerances agree within what is allowed\n")
+    );
     let json = folder.run(&["verify", "row.toml", "--format", "json"]).exits(0).json();
     assert_eq!(
         (&json["reference"]["independent"], &json["passes"]),
@@ -159,7 +187,8 @@ fn large_networks_have_no_modes_and_no_independent_solution() {
 #[test]
 fn rows_have_the_same_columns_in_csv_and_json() {
     let folder = Folder::with_gearbox();
-    let (headers, rows) = csv(&folder.run(&["verify", "gearbox.toml", "--format", "csv"]).exits(0).out);
+    let (headers, rows) =
+        csv(&folder.run(&["verify", "gearbox.toml", "--format", "csv"]).exits(0).out);
     let json = folder.run(&["verify", "gearbox.toml", "--format", "json"]).exits(0).json();
     let columns = json["columns"].as_array().unwrap().iter();
     let named: Vec<String> = columns
@@ -194,7 +223,8 @@ fn rows_have_the_same_columns_in_csv_and_json() {
 #[test]
 fn tolerances_can_be_chosen() {
     let folder = Folder::with_gearbox();
-    for (tolerance, allowed) in [("1e-3K", 1e-2), ("1e-4K", 1e-3), ("1e-6K", 5e-5), ("1e-7K", 5e-6)] {
+    for (tolerance, allowed) in [("1e-3K", 1e-2), ("1e-4K", 1e-3), ("1e-6K", 5e-5), ("1e-7K", 5e-6)]
+    {
         let arguments = ["verify", "gearbox.toml", "--tolerance", tolerance, "--format", "csv"];
         let (_, rows) = csv(&folder.run(&arguments).exits(0).out);
         assert!((rows[0][2] / allowed - 1.0).abs() < 1e-6, "{tolerance}: {rows:?}");
@@ -205,7 +235,10 @@ fn tolerances_can_be_chosen() {
 #[test]
 fn a_network_without_a_run_is_not_verified() {
     let text = GEARBOX.split("[run]").next().unwrap();
-    Folder::with("gearbox.toml", text).run(&["verify", "gearbox.toml"]).exits(2).says("run::no_run");
+    Folder::with("gearbox.toml", text)
+        .run(&["verify", "gearbox.toml"])
+        .exits(2)
+        .says("run::no_run");
 }
 
 #[test]

@@ -110,7 +110,8 @@ fn a_changing_capacity_and_inputs_over_time_go_on_where_they_were() {
     let second = "start = \"10 min\"\nstop = \"25 min\"\ninitial = \"out/first/state.json\"";
     let (folder, whole, parts) = whole_and_parts(IRON, second);
     same(&whole, &parts);
-    let names = state(&folder, "first")["temperatures"]["values"].as_object().unwrap().keys().count();
+    let names =
+        state(&folder, "first")["temperatures"]["values"].as_object().unwrap().keys().count();
     assert_eq!(names, 3, "the junction is there too");
 }
 
@@ -126,7 +127,11 @@ fn wax_goes_on_melting_where_it_was() {
     assert!((melted - 18.0 / 40.0).abs() < 1e-6, "{melted}");
     let melts_elsewhere = folder.read("second.toml").replace("55 degC", "56 degC");
     folder.write("elsewhere.toml", &melts_elsewhere);
-    folder.run(&["run", "elsewhere.toml"]).exits(2).says("network::not_melting").says("state.json:");
+    folder
+        .run(&["run", "elsewhere.toml"])
+        .exits(2)
+        .says("network::not_melting")
+        .says("state.json:");
 }
 
 #[test]
@@ -137,8 +142,16 @@ fn the_state_takes_the_place_of_every_start() {
     let warm = GEARBOX.replace("T0 = \"T_amb\"", "temperature_unit = \"K\"");
     let warm = with_stop(&warm, "stop = \"1 s\"\ninitial = \"out/first/state.json\"");
     folder.write("warm.toml", &warm);
-    let out =
-        folder.run(&["run", "warm.toml", "--set", "T_amb=40degC", "--format", "csv", "--select", "steel.T"]);
+    let out = folder.run(&[
+        "run",
+        "warm.toml",
+        "--set",
+        "T_amb=40degC",
+        "--format",
+        "csv",
+        "--select",
+        "steel.T",
+    ]);
     let row = csv(&out.exits(0).out).1.remove(0);
     let steel = state(&folder, "first")["temperatures"]["values"]["steel"].clone();
     assert_eq!(row[1].to_string(), steel.to_string());
@@ -159,7 +172,10 @@ fn times_that_do_not_follow_are_said() {
     let folder = Folder::with("first.toml", &with_stop(IRON, "stop = \"10 min\""));
     last(&folder, "first.toml");
     let run = |name: &str, settings: &str| {
-        folder.write(name, &with_stop(IRON, &format!("{settings}\ninitial = \"out/first/state.json\"")));
+        folder.write(
+            name,
+            &with_stop(IRON, &format!("{settings}\ninitial = \"out/first/state.json\"")),
+        );
         folder.run(&["run", name, "--no-files"]).exits(0).err
     };
     assert!(run("a.toml", "stop = \"1 min\"").contains("netlist::initial_time"));
@@ -204,7 +220,10 @@ fn heater_in_parts(dwell: &str, parting: &str) -> Folder {
     let folder = Folder::with("whole.toml", &with("stop = \"400 s\""));
     folder.write("first.toml", &with(&format!("stop = \"{parting}\"")));
     let initial = "initial = \"out/first/state.json\"";
-    folder.write("second.toml", &with(&format!("start = \"{parting}\"\nstop = \"400 s\"\n{initial}")));
+    folder.write(
+        "second.toml",
+        &with(&format!("start = \"{parting}\"\nstop = \"400 s\"\n{initial}")),
+    );
     for name in ["whole", "first", "second"] {
         folder.run(&["run", &format!("{name}.toml")]).exits(0);
     }
@@ -223,23 +242,28 @@ fn switches(folder: &Folder, name: &str) -> Vec<(f64, u8)> {
 
 #[test]
 fn a_thermostat_in_two_parts_switches_when_the_whole_does() {
-    // 42 K to 38 K down, and the same up; a dwell of 30 s is longer than each, so that it alone decides
+    // 42 K to 38 K down, and the same up; a dwell of 30 s is longer than each, so that it alone
+    // decides
     let band = 200.0 * (42.0_f64 / 38.0).ln();
     let cases = [
-        ("", "160 s", band),                       // off amid its dead band, though `start` says on
-        ("", "170 s", band),                       // just on
+        ("", "160 s", band), // off amid its dead band, though `start` says on
+        ("", "170 s", band), // just on
         (", min_dwell = \"30 s\"", "170 s", 30.0), // too cold, and kept off for 9 s more
     ];
     for (dwell, parting, every) in cases {
         let folder = heater_in_parts(dwell, parting);
         let count = ((400.0 - first_off()) / every).floor() as u32 + 1;
-        let expected: Vec<(f64, u8)> =
-            (0..count).map(|i| (first_off() + f64::from(i) * every, u8::from(i % 2 == 1))).collect();
+        let expected: Vec<(f64, u8)> = (0..count)
+            .map(|i| (first_off() + f64::from(i) * every, u8::from(i % 2 == 1)))
+            .collect();
         let parts = [switches(&folder, "first"), switches(&folder, "second")].concat();
         for found in [switches(&folder, "whole"), parts] {
             assert_eq!(found.len(), expected.len(), "{parting}: {found:?}, not {expected:?}");
             for (found, expected) in found.iter().zip(&expected) {
-                assert!((found.0 - expected.0).abs() <= 1e-3, "{parting}: {found:?}, not {expected:?}");
+                assert!(
+                    (found.0 - expected.0).abs() <= 1e-3,
+                    "{parting}: {found:?}, not {expected:?}"
+                );
                 assert_eq!(found.1, expected.1, "{parting}: at {} s", found.0);
             }
         }
@@ -256,12 +280,19 @@ fn the_state_says_how_every_control_stands_and_for_how_long() {
     // one that never switched was held for no known time
     folder.write("early.toml", &HEATER.replace("2000 s", "100 s"));
     folder.run(&["run", "early.toml"]).exits(0);
-    assert_eq!(state(&folder, "early")["controls"], serde_json::json!({ "heater": { "on": true } }));
+    assert_eq!(
+        state(&folder, "early")["controls"],
+        serde_json::json!({ "heater": { "on": true } })
+    );
     // the dwell counts from the switch, wherever `t` begins
-    let again = folder.read("second.toml").replace("start = \"170 s\"\nstop = \"400 s\"", "stop = \"20 s\"");
+    let again = folder
+        .read("second.toml")
+        .replace("start = \"170 s\"\nstop = \"400 s\"", "stop = \"20 s\"");
     folder.write("again.toml", &again);
     folder.run(&["run", "again.toml"]).exits(0);
-    let [(on, 1)] = switches(&folder, "again")[..] else { panic!("{:?}", switches(&folder, "again")) };
+    let [(on, 1)] = switches(&folder, "again")[..] else {
+        panic!("{:?}", switches(&folder, "again"))
+    };
     assert!((on - (first_off() + 30.0 - 170.0)).abs() < 1e-3, "{on}");
 }
 

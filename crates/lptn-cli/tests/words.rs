@@ -11,8 +11,9 @@ const BODY: &str = "format = 1\n[param]\nR = \"0.3 ± 0.001 K/W\"\n[node]\nbody 
 /// `check` warned of a node without a way out, `run` and `steady` did not.
 #[test]
 fn every_verb_warns_of_what_hangs_together_with_nothing() {
-    let text =
-        format!("{BODY}\n[node.loose]\nC = \"10 J/K\"\nT0 = \"20 degC\"\n[boundary.sky]\nT = \"5 degC\"\n");
+    let text = format!(
+        "{BODY}\n[node.loose]\nC = \"10 J/K\"\nT0 = \"20 degC\"\n[boundary.sky]\nT = \"5 degC\"\n"
+    );
     let folder = Folder::with("net.toml", &text);
     let nodes = "no path leads to a boundary from `loose`";
     let boundary = "nothing touches boundary `sky`";
@@ -57,12 +58,15 @@ fn a_column_that_is_not_described_is_told_once_with_its_worst_record() {
             let value = 50.0 - 30.0 * f64::exp(-t / 30.0) + noise * f64::from(i % 3 - 1);
             format!("{t},{value}\n")
         });
-        folder
-            .write(&format!("runs/{name}.csv"), &format!("t [s],ring [degC]\n{}", rows.collect::<String>()));
+        folder.write(
+            &format!("runs/{name}.csv"),
+            &format!("t [s],ring [degC]\n{}", rows.collect::<String>()),
+        );
     }
     let ran = folder.run(&["fit", "network", "net.toml"]).exits(0);
     assert_eq!(ran.err.matches("fit::misfit").count(), 1, "{}", ran.err);
-    let ran = ran.says("does not describe column `ring` in 3 records").says("most in runs/bad_3.csv");
+    let ran =
+        ran.says("does not describe column `ring` in 3 records").says("most in runs/bad_3.csv");
     // the table names records by what differs
     for part in ["ring (mild_1)", "ring (mild_2)", "ring (bad_3)"] {
         assert!(ran.out.contains(part), "no {part} in\n{}", ran.out);
@@ -85,8 +89,7 @@ fn help_is_a_verb_and_a_file_is_none() {
 /// A path in other letters of case, or with backslashes, was only said not to be there.
 #[test]
 fn a_path_that_leads_nowhere_is_told_the_one_that_was_meant() {
-    let signal =
-        "[signal]\npower = { csv = 'PATH', time = \"t\", value = \"power\", after_end = \"hold\" }\n";
+    let signal = "[signal]\npower = { csv = 'PATH', time = \"t\", value = \"power\", after_end = \"hold\" }\n";
     let text = format!("{}{signal}", BODY.replace("\"100 W\"", "\"power\""));
     let folder = Folder::empty();
     std::fs::create_dir(folder.path().join("data")).unwrap();

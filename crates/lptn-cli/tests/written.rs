@@ -1,4 +1,5 @@
-//! Netlists that lptn writes are the networks that they were written for. Expected temperatures are closed forms.
+//! Netlists that lptn writes are the networks that they were written for. Expected temperatures are
+//! closed forms.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -9,9 +10,12 @@ use common::{Folder, csv};
 /// The last row of a run, under this header.
 #[track_caller]
 fn last(folder: &Folder, file: &str, header: &str) -> f64 {
-    let ran = folder.run(&["run", file, "--no-files", "--format", "csv", "--tolerance", "1e-7K"]).exits(0);
+    let ran = folder
+        .run(&["run", file, "--no-files", "--format", "csv", "--tolerance", "1e-7K"])
+        .exits(0);
     let (headers, rows) = csv(&ran.out);
-    let column = headers.iter().position(|name| name == header).unwrap_or_else(|| panic!("{headers:?}"));
+    let column =
+        headers.iter().position(|name| name == header).unwrap_or_else(|| panic!("{headers:?}"));
     rows.last().unwrap()[column]
 }
 
@@ -40,7 +44,11 @@ fn regression_a_reduced_network_keeps_the_name_of_a_node_in_a_template() {
         set = { R = \"1 K/W\" }\n";
     let folder = Folder::with("whole.toml", &format!("{part}{RUN}"));
     folder.run(&["reduce", "whole.toml", "--port", "part.core", "--write", "one.toml"]).exits(0);
-    assert!(folder.read("one.toml").contains("\"part.core\" = { C = "), "{}", folder.read("one.toml"));
+    assert!(
+        folder.read("one.toml").contains("\"part.core\" = { C = "),
+        "{}",
+        folder.read("one.toml")
+    );
     near(last(&folder, "one.toml", "part.core.T [degC]"), 20.0 + 40.0 * f64::exp(-120.0 / TAU));
     let again = ["reduce", "one.toml", "--port", "part.core", "--format", "toml"];
     folder.run(&again).exits(0).prints("\"part.core\"");
@@ -64,10 +72,11 @@ fn regression_a_reduced_network_keeps_temperatures_that_change() {
     near(last(&other, "one.toml", "core.T [degC]"), last(&folder, "one.toml", "core.T [degC]"));
 }
 
-const MAP: &str = "speed [rpm],torque [N m],loss [W]\n1000,10,10\n1000,20,30\n2000,10,25\n2000,20,75\n";
+const MAP: &str =
+    "speed [rpm],torque [N m],loss [W]\n1000,10,10\n1000,20,30\n2000,10,25\n2000,20,75\n";
 
-/// A table of two arguments became a comment, and the source that calls it an error; its file is named from where the
-/// new netlist stands.
+/// A table of two arguments became a comment, and the source that calls it an error; its file is
+/// named from where the new netlist stands.
 #[test]
 fn regression_a_reduced_network_keeps_tables_of_two_arguments() {
     let map = "[table]\nmap = { csv = \"map.csv\", x = \"speed\", y = \"torque\", value = \"loss\" }\n[signal]\n\
@@ -83,7 +92,8 @@ fn regression_a_reduced_network_keeps_tables_of_two_arguments() {
         near(last(&folder, file, "core.T [degC]"), expected);
     }
     assert!(folder.read("reduced/here/one.toml").contains("csv = \"../../map.csv\""));
-    let printed = folder.run(&["reduce", "whole.toml", "--port", "core", "--format", "toml"]).exits(0).out;
+    let printed =
+        folder.run(&["reduce", "whole.toml", "--port", "core", "--format", "toml"]).exits(0).out;
     folder.write("printed.toml", &printed);
     near(last(&folder, "printed.toml", "core.T [degC]"), expected);
 }
@@ -91,8 +101,11 @@ fn regression_a_reduced_network_keeps_tables_of_two_arguments() {
 /// A map of a file that is included from another folder is named from the netlist.
 #[test]
 fn regression_an_expansion_names_files_from_where_it_stands() {
-    let whole =
-        block("", "20 degC").replacen("format = 1\n", "format = 1\ninclude = [\"parts/map.toml\"]\n", 1);
+    let whole = block("", "20 degC").replacen(
+        "format = 1\n",
+        "format = 1\ninclude = [\"parts/map.toml\"]\n",
+        1,
+    );
     let folder = Folder::with("whole.toml", &(whole + RUN));
     std::fs::create_dir(folder.path().join("parts")).unwrap();
     folder.write(
@@ -101,7 +114,8 @@ fn regression_an_expansion_names_files_from_where_it_stands() {
          [source]\nq = { into = \"core\", P = \"map(1500 [rpm], 15 [N m])\" }\n",
     );
     folder.write("parts/map.csv", MAP);
-    let flat = folder.run(&["check", "whole.toml", "--expand"]).exits(0).prints("parts/map.csv").out;
+    let flat =
+        folder.run(&["check", "whole.toml", "--expand"]).exits(0).prints("parts/map.csv").out;
     folder.write("flat.toml", &flat);
     assert_eq!(folder.run(&["check", "flat.toml", "--expand"]).exits(0).out, flat);
 }

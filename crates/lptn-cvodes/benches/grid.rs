@@ -1,5 +1,5 @@
-//! What closing the books costs: plates of cells, 200 outputs, for several settings of Newton's method.
-//! Run with `cargo bench -p lptn-cvodes`; it prints tables for Markdown.
+//! What closing the books costs: plates of cells, 200 outputs, for several settings of Newton's
+//! method. Run with `cargo bench -p lptn-cvodes`; it prints tables for Markdown.
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "a program that is run by hand")]
 
 #[path = "../tests/common/mod.rs"]
@@ -14,7 +14,8 @@ use lptn_cvodes::{Cvodes, linked};
 use lptn_integrate::{Integrator, OdeSystem, Options, Statistics};
 use radiation::Radiating;
 
-/// A system, where it starts, how long it runs, and the factor from its quadratures to the heat that went in.
+/// A system, where it starts, how long it runs, and the factor from its quadratures to the heat
+/// that went in.
 struct Case<S> {
     name: &'static str,
     system: fn() -> S,
@@ -53,16 +54,24 @@ fn run<S: OdeSystem>(case: &Case<S>, options: &Options) -> Outcome {
                 .sum();
             let time = integrator.time();
             let booked = integrator.quadratures().unwrap();
-            books = books.max((stored - (case.heat_in)(booked)).abs() / (case.turnover)(time, booked));
+            books =
+                books.max((stored - (case.heat_in)(booked)).abs() / (case.turnover)(time, booked));
         }
     }
-    Outcome { samples, books, statistics: integrator.statistics(), seconds: begin.elapsed().as_secs_f64() }
+    Outcome {
+        samples,
+        books,
+        statistics: integrator.statistics(),
+        seconds: begin.elapsed().as_secs_f64(),
+    }
 }
 
 fn table<S: OdeSystem>(case: &Case<S>) {
     let reference = run(case, &Options { tolerance: 1e-8, ..Options::default() }).samples;
     println!("\n{}\n", case.name);
-    println!("| tolerance | Newton | steps | factorisations | solves | flows | s | error | books |");
+    println!(
+        "| tolerance | Newton | steps | factorisations | solves | flows | s | error | books |"
+    );
     println!("|---|---|---|---|---|---|---|---|---|");
     for tolerance in [1e-3, 1e-5] {
         for newton_coefficient in [Some(1e-1), Some(1e-2), Some(1e-3), Some(1e-4), None] {
@@ -74,7 +83,8 @@ fn table<S: OdeSystem>(case: &Case<S>) {
 fn row<S: OdeSystem>(case: &Case<S>, options: &Options, reference: &[f64]) {
     let outcome = run(case, options);
     let seconds = (0..2).map(|_| run(case, options).seconds).fold(outcome.seconds, f64::min);
-    let error = outcome.samples.iter().zip(reference).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let error =
+        outcome.samples.iter().zip(reference).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let s = outcome.statistics;
     println!(
         "| {:e} | {} | {} | {} | {} | {} | {:.4} | {:.1e} | {:.1e} |",
@@ -115,6 +125,8 @@ fn main() {
         turnover: |_, q| q[0] + q[2],
     };
     table(&radiating("60 by 60 cells with radiation", || Radiating::plate(60, 60, 20_000.0, 5e-9)));
-    table(&radiating("200 cells in a row with radiation", || Radiating::plate(1, 200, 2_000.0, 5e-9)));
+    table(&radiating("200 cells in a row with radiation", || {
+        Radiating::plate(1, 200, 2_000.0, 5e-9)
+    }));
     table(&radiating("6 cells with radiation", || Radiating::plate(2, 3, 500.0, 5e-9)));
 }

@@ -18,11 +18,12 @@ pub(crate) const DONE: c_int = 0;
 const SMALLER_STEP: c_int = 1;
 const GIVE_UP: c_int = -1;
 
-/// Slopes below this count as this, so that a state whose `T` stands still divides nothing by zero. It is far below all
-/// that matters next to another term, and far above what would overflow.
+/// Slopes below this count as this, so that a state whose `T` stands still divides nothing by zero.
+/// It is far below all that matters next to another term, and far above what would overflow.
 const FLAT: f64 = 1e-30;
 
-/// Everything the callbacks work on. Reached through one raw pointer only, see the crate documentation.
+/// Everything the callbacks work on. Reached through one raw pointer only, see the crate
+/// documentation.
 pub(crate) struct Shared<S> {
     pub(crate) system: S,
     /// What CVODES' time is counted from.
@@ -33,12 +34,13 @@ pub(crate) struct Shared<S> {
     pub(crate) jacobian_is_current: bool,
     /// The Newton matrix in the slots of the pattern.
     pub(crate) matrix: Vec<f64>,
-    /// [`OdeSystem::slope`] that belongs to `jacobian`, no smaller than [`FLAT`]; empty if there is none.
+    /// [`OdeSystem::slope`] that belongs to `jacobian`, no smaller than [`FLAT`]; empty if there is
+    /// none.
     pub(crate) slopes: Vec<f64>,
     /// States and algebraic unknowns during a solve; empty if there are none of the latter.
     pub(crate) work: Vec<f64>,
-    /// The sensitivities that go into a call of [`OdeSystem::sensitivity_flow`] and their flows that come out of it, the
-    /// blocks one behind the other; empty if there are none.
+    /// The sensitivities that go into a call of [`OdeSystem::sensitivity_flow`] and their flows
+    /// that come out of it, the blocks one behind the other; empty if there are none.
     pub(crate) sensitivities: Vec<f64>,
     pub(crate) sensitivity_flows: Vec<f64>,
     pub(crate) factors: Box<dyn Factorization>,
@@ -90,7 +92,8 @@ impl Failure {
         match cause {
             Cause::Panic(message) => IntegrateError::Panic { callback, time, message },
             Cause::NotFinite(index) => IntegrateError::NotFinite { callback, time, index },
-            // The state was accepted before the roots were looked for: there is no smaller step to try.
+            // The state was accepted before the roots were looked for: there is no smaller step to
+            // try.
             Cause::Retry(Retry::SmallerStep) if callback != Callback::Roots => {
                 IntegrateError::Refused { callback, time }
             }
@@ -102,8 +105,11 @@ impl Failure {
     fn code(&self) -> c_int {
         match self.cause {
             Cause::Panic(_) | Cause::Retry(Retry::Stop) => GIVE_UP,
-            // A matrix that is not positive definite becomes so as gamma shrinks, and a flow that overflows may not.
-            Cause::NotFinite(_) | Cause::Retry(Retry::SmallerStep) | Cause::Linear(_) => SMALLER_STEP,
+            // A matrix that is not positive definite becomes so as gamma shrinks, and a flow that
+            // overflows may not.
+            Cause::NotFinite(_) | Cause::Retry(Retry::SmallerStep) | Cause::Linear(_) => {
+                SMALLER_STEP
+            }
         }
     }
 }
@@ -122,13 +128,15 @@ impl<S: OdeSystem> Shared<S> {
         time: f64,
         work: impl FnOnce(&mut Self) -> Result<(), Cause>,
     ) -> c_int {
-        // What a panic may leave half done is the system, which no callback enters again, and arrays that are written
-        // before they are read.
+        // What a panic may leave half done is the system, which no callback enters again, and
+        // arrays that are written before they are read.
         let outcome = catch_unwind(AssertUnwindSafe(|| work(self)));
         let cause = match outcome {
             Ok(Ok(())) => {
-                self.overcome =
-                    self.failure.take_if(|failure| failure.callback == callback).or(self.overcome.take());
+                self.overcome = self
+                    .failure
+                    .take_if(|failure| failure.callback == callback)
+                    .or(self.overcome.take());
                 return DONE;
             }
             Ok(Err(cause)) => cause,
@@ -147,8 +155,9 @@ impl<S: OdeSystem> Shared<S> {
         expect_finite(out)
     }
 
-    /// The weights of the error test: the tolerance is one of `T`, where a state is carried as another variable. Where
-    /// `T` moves less than the state, it is one of the state: what is carried must not get lost either.
+    /// The weights of the error test: the tolerance is one of `T`, where a state is carried as
+    /// another variable. Where `T` moves less than the state, it is one of the state: what is
+    /// carried must not get lost either.
     fn weights(&self, out: &mut [f64]) {
         out.fill(1.0 / self.absolute);
         if let Some(slopes) = self.system.slope() {
@@ -182,21 +191,23 @@ impl<S: OdeSystem> Shared<S> {
 
     /// Forms the Newton matrix; says whether the Jacobian was asked for anew.
     ///
-    /// CVODE asks for the solution `x` of `(M - gamma J) x = r` with `r = M b`, where `J` is the derivative of
-    /// `f(t, y, z(t, y))`. With `0 = g(t, y, z)` and subscripts for derivatives, a change `x` of the states changes the
-    /// unknowns by `w` with `g_y x + g_z w = 0`, so that `J x = f_y x + f_z w`. Both together, the second line times
-    /// `-gamma`:
+    /// CVODE asks for the solution `x` of `(M - gamma J) x = r` with `r = M b`, where `J` is the
+    /// derivative of `f(t, y, z(t, y))`. With `0 = g(t, y, z)` and subscripts for derivatives, a
+    /// change `x` of the states changes the unknowns by `w` with `g_y x + g_z w = 0`, so that
+    /// `J x = f_y x + f_z w`. Both together, the second line times `-gamma`:
     ///
     /// ```text
     /// M x - gamma (f_y x + f_z w) = r
     ///     - gamma (g_y x + g_z w) = 0
     /// ```
     ///
-    /// This is `(diag(M, 0) - gamma K) [x, w] = [r, 0]` with `K` the derivatives of `[f, g]` by `[y, z]`: eliminating `w`
-    /// gives back `M - gamma J` exactly. The matrix is symmetric if `K` is, and positive definite if `-K` is.
+    /// This is `(diag(M, 0) - gamma K) [x, w] = [r, 0]` with `K` the derivatives of `[f, g]` by
+    /// `[y, z]`: eliminating `w` gives back `M - gamma J` exactly. The matrix is symmetric if `K`
+    /// is, and positive definite if `-K` is.
     ///
-    /// Where `K` is written by `T(y)` with the slopes `S = diag(dT/dy)`, it stands for `K S`. With `u = S x` the equation
-    /// `(M - gamma K S) x = r` becomes `(M / S - gamma K) u = r`, symmetric again, and `x = u / S`.
+    /// Where `K` is written by `T(y)` with the slopes `S = diag(dT/dy)`, it stands for `K S`. With
+    /// `u = S x` the equation `(M - gamma K S) x = r` becomes `(M / S - gamma K) u = r`, symmetric
+    /// again, and `x = u / S`.
     pub(crate) fn form_matrix(
         &mut self,
         (t, y): (f64, &[f64]),
@@ -218,7 +229,9 @@ impl<S: OdeSystem> Shared<S> {
         if self.slopes.is_empty() {
             diagonal.for_each(|(&slot, mass)| self.matrix[slot] += mass);
         } else {
-            diagonal.zip(&self.slopes).for_each(|((&slot, mass), slope)| self.matrix[slot] += mass / slope);
+            diagonal
+                .zip(&self.slopes)
+                .for_each(|((&slot, mass), slope)| self.matrix[slot] += mass / slope);
         }
         Ok(renew)
     }
@@ -233,7 +246,8 @@ impl<S: OdeSystem> Shared<S> {
         Ok(())
     }
 
-    /// From now on with these factors, which must be for any values, and with the system's exact Jacobian.
+    /// From now on with these factors, which must be for any values, and with the system's exact
+    /// Jacobian.
     pub(crate) fn leave_symmetry(&mut self, factors: Box<dyn Factorization>) {
         self.factors = factors;
         self.jacobian_is_current = false;
@@ -282,8 +296,8 @@ pub(crate) unsafe extern "C" fn derivative<S: OdeSystem>(
     out: N_Vector,
     data: *mut c_void,
 ) -> c_int {
-    // SAFETY: `data` is the `Shared<S>` given to CVodeSetUserData, to which no reference exists while CVODES runs; the
-    // vectors are ours and different, one to be read, one to be written.
+    // SAFETY: `data` is the `Shared<S>` given to CVodeSetUserData, to which no reference exists
+    // while CVODES runs; the vectors are ours and different, one to be read, one to be written.
     let (shared, y, out) = unsafe { (&mut *data.cast::<Shared<S>>(), values(y), values_mut(out)) };
     let t = shared.origin + t;
     shared.guard(Callback::Flow, t, |shared| shared.derivative(t, y, out))
@@ -316,7 +330,8 @@ pub(crate) unsafe extern "C" fn sensitivities<S: OdeSystem>(
     _work2: N_Vector,
 ) -> c_int {
     let count = usize::try_from(count).unwrap_or(0);
-    // SAFETY: as in `derivative`; `s` and `out` are arrays of CVODES with `count` of our vectors each.
+    // SAFETY: as in `derivative`; `s` and `out` are arrays of CVODES with `count` of our vectors
+    // each.
     let (shared, y, s, out) = unsafe {
         let shared = &mut *data.cast::<Shared<S>>();
         (shared, values(y), slice::from_raw_parts(s, count), slice::from_raw_parts(out, count))
@@ -339,7 +354,8 @@ pub(crate) unsafe extern "C" fn roots<S: OdeSystem>(
     out: *mut realtype,
     data: *mut c_void,
 ) -> c_int {
-    // SAFETY: as in `derivative`; `out` is an array of CVODES with one value per function, not initialised.
+    // SAFETY: as in `derivative`; `out` is an array of CVODES with one value per function, not
+    // initialised.
     let (shared, y, out) = unsafe {
         let shared = &mut *data.cast::<Shared<S>>();
         out.write_bytes(0, shared.root_count);

@@ -43,11 +43,12 @@ impl Context {
         ptr::from_ref::<LastMessage>(&self.message).cast_mut().cast()
     }
 
-    /// In version 7 the handler belongs to the context; the logger, which prints warnings, is taken away.
+    /// In version 7 the handler belongs to the context; the logger, which prints warnings, is taken
+    /// away.
     #[cfg(sundials7)]
     fn silence(&self) {
-        // SAFETY: the context is alive, and the data outlives it: `drop` frees the context before the box. Without a
-        // logger, messages to it return an error that CVODES does not look at.
+        // SAFETY: the context is alive, and the data outlives it: `drop` frees the context before
+        // the box. Without a logger, messages to it return an error that CVODES does not look at.
         unsafe {
             sys::SUNContext_ClearErrHandlers(self.raw);
             sys::SUNContext_PushErrHandler(self.raw, Some(keep_message), self.handler_data());
@@ -73,7 +74,8 @@ impl Context {
 
 impl Drop for Context {
     fn drop(&mut self) {
-        // SAFETY: made by SUNContext_Create; every object made with it is dropped earlier (field order of the owner).
+        // SAFETY: made by SUNContext_Create; every object made with it is dropped earlier (field
+        // order of the owner).
         unsafe { sys::SUNContext_Free(&raw mut self.raw) };
     }
 }

@@ -36,8 +36,8 @@ pub struct Cvodes<S: OdeSystem> {
     sensitivities: Sensitivities,
     context: Context,
     shared: SharedBox<S>,
-    /// What CVODES counts its time from. It begins at 0: a step may be shorter than what a double tells of a time far
-    /// from 0.
+    /// What CVODES counts its time from. It begins at 0: a step may be shorter than what a double
+    /// tells of a time far from 0.
     origin: f64,
     /// In CVODES' time.
     time: f64,
@@ -65,7 +65,8 @@ impl<S: OdeSystem> Cvodes<S> {
     /// Takes the system at time `t0` in the state `y0` (one value per component, units of y).
     ///
     /// # Errors
-    /// Lengths that do not match, options out of range, a state or a mass that is not usable, no memory.
+    /// Lengths that do not match, options out of range, a state or a mass that is not usable, no
+    /// memory.
     pub fn new(system: S, t0: f64, y0: &[f64], options: &Options) -> Result<Self, IntegrateError> {
         start::check_options(t0, options)?;
         start::check_system(&system, y0)?;
@@ -149,10 +150,11 @@ impl<S: OdeSystem> Cvodes<S> {
     fn advance(&mut self) -> Result<Reached, Flag> {
         self.shared.get_mut().failure = None;
         self.leave_rest()?;
-        // Version 6 cannot forget a stop time; the largest double serves as none. It is set for every step because
-        // CVODES forgets it when it is reached and keeps it at a restart.
+        // Version 6 cannot forget a stop time; the largest double serves as none. It is set for
+        // every step because CVODES forgets it when it is reached and keeps it at a restart.
         let stop = self.held_stop().min(f64::MAX);
-        let towards = if self.stop.is_finite() { self.stop } else { self.time + self.time.abs().max(1.0) };
+        let towards =
+            if self.stop.is_finite() { self.stop } else { self.time + self.time.abs().max(1.0) };
         self.memory.set_stop(stop)?;
         self.memory.set_max_step(if self.longest.is_finite() { self.longest } else { 0.0 })?;
         let reached = self.take_step(towards);
@@ -205,7 +207,8 @@ impl<S: OdeSystem> Cvodes<S> {
         self.begin_anew().map_err(|flag| self.unexpected(flag))
     }
 
-    /// Restarts CVODES from the present state with the running integrals and the sensitivities read last.
+    /// Restarts CVODES from the present state with the running integrals and the sensitivities read
+    /// last.
     fn begin_anew(&mut self) -> Result<(), Flag> {
         let now = self.memory.counters();
         self.before = sum(&self.before, &now);
@@ -248,7 +251,10 @@ impl<S: OdeSystem> Integrator<S> for Cvodes<S> {
         }
         let so_far = self.statistics();
         if so_far.steps >= self.max_steps {
-            return Err(IntegrateError::TooManySteps { time: self.shown.time, steps: so_far.steps });
+            return Err(IntegrateError::TooManySteps {
+                time: self.shown.time,
+                steps: so_far.steps,
+            });
         }
         if self.symmetry.stalls(&so_far) {
             self.leave_symmetry();
@@ -329,13 +335,18 @@ impl<S: OdeSystem> Integrator<S> for Cvodes<S> {
         let is_new = self.memory.counters().steps == 0;
         self.read_quadratures().map_err(|flag| self.unexpected(flag))?;
         self.sensitivities.vectors.set(s);
-        if is_new { self.begin_anew().map_err(|flag| self.unexpected(flag)) } else { self.restart_here() }
+        if is_new {
+            self.begin_anew().map_err(|flag| self.unexpected(flag))
+        } else {
+            self.restart_here()
+        }
     }
 
     fn interpolate_sensitivities(&mut self, t: f64, s: &mut [f64]) -> Result<(), IntegrateError> {
         start::expect_length("sensitivities", self.sensitivities.blocks.len(), s.len())?;
         let t = self.within(t)?;
-        let read = if t < self.time { self.read_sensitivities_at(t) } else { self.read_sensitivities() };
+        let read =
+            if t < self.time { self.read_sensitivities_at(t) } else { self.read_sensitivities() };
         read.map_err(|flag| self.unexpected(flag))?;
         self.sensitivities.vectors.copy_to(s);
         Ok(())

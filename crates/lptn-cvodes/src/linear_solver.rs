@@ -1,8 +1,8 @@
 //! The SUNLinearSolver and the token SUNMatrix through which CVODES reaches the factorisation.
 //!
-//! CVODES keeps its own rules for when to set up and how to rescale with a stale gamma; it hands over gamma and whether
-//! the Jacobian may be reused. The matrix is a token with nothing but a type: without one CVODES would not accept the
-//! function that forms the Newton matrix.
+//! CVODES keeps its own rules for when to set up and how to rescale with a stale gamma; it hands
+//! over gamma and whether the Jacobian may be reused. The matrix is a token with nothing but a
+//! type: without one CVODES would not accept the function that forms the Newton matrix.
 
 use std::ffi::{c_int, c_void};
 
@@ -56,7 +56,8 @@ impl SolverHandles {
 
 impl Drop for SolverHandles {
     fn drop(&mut self) {
-        // SAFETY: made by the matching functions, freed once, both accept null. The contents belong to the integrator.
+        // SAFETY: made by the matching functions, freed once, both accept null. The contents belong
+        // to the integrator.
         unsafe {
             if !self.solver.is_null() {
                 (*self.solver).content = std::ptr::null_mut();
@@ -96,21 +97,23 @@ pub(crate) unsafe extern "C" fn form_matrix<S: OdeSystem>(
     _work2: N_Vector,
     _work3: N_Vector,
 ) -> c_int {
-    // SAFETY: `data` is the `Shared<S>` given to CVodeSetUserData, to which no reference exists while CVODES runs; `y`
-    // is ours, only read; the flag is a place to write to.
+    // SAFETY: `data` is the `Shared<S>` given to CVodeSetUserData, to which no reference exists
+    // while CVODES runs; `y` is ours, only read; the flag is a place to write to.
     let (shared, y, current) =
         unsafe { (&mut *data.cast::<Shared<S>>(), values(y), &mut *jacobian_is_current) };
     let t = shared.origin + t;
     shared.guard(Callback::Jacobian, t, |shared| {
         let renewed = shared.form_matrix((t, y), gamma, jacobian_ok != 0)?;
-        // A constant Jacobian is as good as new: CVODES must not ask for another because Newton is slow.
+        // A constant Jacobian is as good as new: CVODES must not ask for another because Newton is
+        // slow.
         *current = c_int::from(renewed || shared.jacobian_is_current);
         Ok(())
     })
 }
 
 unsafe extern "C" fn factorize<S: OdeSystem>(solver: SUNLinearSolver, _matrix: SUNMatrix) -> c_int {
-    // SAFETY: `content` is the `Shared<S>` given to `SolverHandles::new`, to which no reference exists now.
+    // SAFETY: `content` is the `Shared<S>` given to `SolverHandles::new`, to which no reference
+    // exists now.
     let shared = unsafe { &mut *(*solver).content.cast::<Shared<S>>() };
     let time = shared.time;
     shared.guard(Callback::LinearSolver, time, Shared::factorize)
@@ -126,7 +129,8 @@ unsafe extern "C" fn solve<S: OdeSystem>(
     // SAFETY: `content` as in `factorize`.
     let shared = unsafe { &mut *(*solver).content.cast::<Shared<S>>() };
     let time = shared.time;
-    // SAFETY: two different vectors of ours: CVODES solves from its residual into a vector of its linear solver.
+    // SAFETY: two different vectors of ours: CVODES solves from its residual into a vector of its
+    // linear solver.
     let (b, x) = unsafe { (values(b), values_mut(x)) };
     shared.guard(Callback::LinearSolver, time, |shared| shared.solve(b, x))
 }

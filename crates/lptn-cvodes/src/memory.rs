@@ -9,15 +9,16 @@ use crate::{callback, linear_solver};
 use crate::{callback::Shared, linear_solver::SolverHandles, vector::Vector, vectors::Vectors};
 use lptn_integrate::{IntegrateError, OdeSystem};
 
-/// An owned CVODES object. Its methods ask for what must be alive for the call; the owner keeps it alive until the
-/// object is dropped.
+/// An owned CVODES object. Its methods ask for what must be alive for the call; the owner keeps it
+/// alive until the object is dropped.
 pub(crate) struct Memory {
     raw: *mut c_void,
 }
 
-/// State and sensitivities are corrected together. The other way, sensitivities after a state that has passed its error
-/// test (`CV_STAGGERED`), evaluates the flow once more per step and saves nothing where it matters. Measured with 4
-/// parameters to a tolerance of 1e-5 (steps, flows, solves, CPU):
+/// State and sensitivities are corrected together. The other way, sensitivities after a state that
+/// has passed its error test (`CV_STAGGERED`), evaluates the flow once more per step and saves
+/// nothing where it matters. Measured with 4 parameters to a tolerance of 1e-5 (steps, flows,
+/// solves, CPU):
 ///
 /// | network | together | staggered |
 /// |---|---|---|
@@ -25,7 +26,8 @@ pub(crate) struct Memory {
 /// | 100 nodes in a row | 275, 313, 1550, 16 ms | 279, 585, 1546, 15 ms |
 /// | 1000 nodes in a row | 365, 408, 2025, 120 ms | 370, 773, 2027, 153 ms |
 ///
-/// Staggered, a flow that fails behind the error test also leaves the history in the middle of the step.
+/// Staggered, a flow that fails behind the error test also leaves the history in the middle of the
+/// step.
 const STRATEGY: c_int = sys::CV_SIMULTANEOUS;
 
 /// Absolute tolerance of the running integrals.
@@ -84,9 +86,15 @@ impl Memory {
     ) -> Result<(), Flag> {
         // SAFETY: the object is alive; `shared` stays alive and in place until after it is freed.
         unsafe {
-            check("CVodeInit", sys::CVodeInit(self.raw, Some(callback::derivative::<S>), t0, y0.raw()))?;
+            check(
+                "CVodeInit",
+                sys::CVodeInit(self.raw, Some(callback::derivative::<S>), t0, y0.raw()),
+            )?;
             // The relative tolerance is zero: it would depend on the zero of the scale.
-            check("CVodeWFtolerances", sys::CVodeWFtolerances(self.raw, Some(callback::weights::<S>)))?;
+            check(
+                "CVodeWFtolerances",
+                sys::CVodeWFtolerances(self.raw, Some(callback::weights::<S>)),
+            )?;
             check("CVodeSetUserData", sys::CVodeSetUserData(self.raw, shared.cast()))?;
             // Counted by the integrator; one call here is one step.
             check("CVodeSetMaxNumSteps", sys::CVodeSetMaxNumSteps(self.raw, -1))?;
@@ -107,18 +115,27 @@ impl Memory {
     pub(crate) fn start_quadratures<S: OdeSystem>(&self, q0: &Vector) -> Result<(), Flag> {
         // SAFETY: the object is alive and copies the vector.
         unsafe {
-            check("CVodeQuadInit", sys::CVodeQuadInit(self.raw, Some(callback::integrands::<S>), q0.raw()))?;
-            // They take part in the error test with a tolerance that nothing exceeds. Left out of it altogether, CVODES
-            // raises the order of their formula with the correction of the wrong step (cvChooseEta saves it only if
-            // they are in the test), and the books are off by an amount that grows with the tolerance: 4.5e-8 of the heat
-            // on a plate at 1e-5, instead of 1e-13.
+            check(
+                "CVodeQuadInit",
+                sys::CVodeQuadInit(self.raw, Some(callback::integrands::<S>), q0.raw()),
+            )?;
+            // They take part in the error test with a tolerance that nothing exceeds. Left out of
+            // it altogether, CVODES raises the order of their formula with the correction of the
+            // wrong step (cvChooseEta saves it only if they are in the test), and the books are off
+            // by an amount that grows with the tolerance: 4.5e-8 of the heat on a plate at 1e-5,
+            // instead of 1e-13.
             check("CVodeQuadSStolerances", sys::CVodeQuadSStolerances(self.raw, 0.0, BOUNDLESS))?;
             check("CVodeSetQuadErrCon", sys::CVodeSetQuadErrCon(self.raw, 1))
         }
     }
 
-    /// Sensitivities from `s0` on, as accurate as `scales` (one each, or none) ask for. They take part in the error test.
-    pub(crate) fn start_sensitivities<S: OdeSystem>(&self, s0: &Vectors, scales: &[f64]) -> Result<(), Flag> {
+    /// Sensitivities from `s0` on, as accurate as `scales` (one each, or none) ask for. They take
+    /// part in the error test.
+    pub(crate) fn start_sensitivities<S: OdeSystem>(
+        &self,
+        s0: &Vectors,
+        scales: &[f64],
+    ) -> Result<(), Flag> {
         let mut scales = scales.to_vec();
         scales.resize(s0.len(), 1.0);
         let Ok(count) = c_int::try_from(s0.len()) else {
@@ -130,9 +147,11 @@ impl Memory {
             let flag = sys::CVodeSensInit(self.raw, count, STRATEGY, callback, s0.raw());
             check("CVodeSensInit", flag)?;
             check("CVodeSensEEtolerances", sys::CVodeSensEEtolerances(self.raw))?;
-            // Without this the scales are not there; the parameters themselves serve difference quotients only.
+            // Without this the scales are not there; the parameters themselves serve difference
+            // quotients only.
             let none = std::ptr::null_mut();
-            let flag = sys::CVodeSetSensParams(self.raw, none, scales.as_mut_ptr(), std::ptr::null_mut());
+            let flag =
+                sys::CVodeSetSensParams(self.raw, none, scales.as_mut_ptr(), std::ptr::null_mut());
             check("CVodeSetSensParams", flag)?;
             check("CVodeSetSensErrCon", sys::CVodeSetSensErrCon(self.raw, 1))
         }
@@ -156,14 +175,17 @@ impl Memory {
         check("CVodeGetSensDky", unsafe { sys::CVodeGetSensDky(self.raw, t, 0, s.raw()) })
     }
 
-    /// Looks for the roots of `count` functions, all of them taken for active: CVODES leaves a function that was exactly
-    /// zero at a start out of the search, and forgets to take it up again at a restart. Only another number of functions
-    /// makes it forget.
+    /// Looks for the roots of `count` functions, all of them taken for active: CVODES leaves a
+    /// function that was exactly zero at a start out of the search, and forgets to take it up again
+    /// at a restart. Only another number of functions makes it forget.
     pub(crate) fn start_roots<S: OdeSystem>(&self, count: c_int) -> Result<(), Flag> {
         // SAFETY: the object is alive.
         unsafe {
             check("CVodeRootInit", sys::CVodeRootInit(self.raw, 0, None))?;
-            check("CVodeRootInit", sys::CVodeRootInit(self.raw, count, Some(callback::roots::<S>)))?;
+            check(
+                "CVodeRootInit",
+                sys::CVodeRootInit(self.raw, count, Some(callback::roots::<S>)),
+            )?;
             check("CVodeSetNoInactiveRootWarn", sys::CVodeSetNoInactiveRootWarn(self.raw))
         }
     }
@@ -173,7 +195,9 @@ impl Memory {
     /// `directions` must be as long as the number of functions.
     pub(crate) fn root_directions(&self, directions: &mut [c_int]) -> Result<(), Flag> {
         // SAFETY: the object is alive and writes one value per function.
-        check("CVodeGetRootInfo", unsafe { sys::CVodeGetRootInfo(self.raw, directions.as_mut_ptr()) })
+        check("CVodeGetRootInfo", unsafe {
+            sys::CVodeGetRootInfo(self.raw, directions.as_mut_ptr())
+        })
     }
 
     /// The end of the last internal step, which lies behind the present time after a root.
@@ -184,7 +208,12 @@ impl Memory {
         Ok(t)
     }
 
-    pub(crate) fn restart(&self, t: f64, y: &Vector, quadratures: Option<&Vector>) -> Result<(), Flag> {
+    pub(crate) fn restart(
+        &self,
+        t: f64,
+        y: &Vector,
+        quadratures: Option<&Vector>,
+    ) -> Result<(), Flag> {
         // SAFETY: the object is alive and copies the vectors.
         unsafe {
             check("CVodeReInit", sys::CVodeReInit(self.raw, t, y.raw()))?;
@@ -197,7 +226,9 @@ impl Memory {
 
     pub(crate) fn set_newton_coefficient(&self, coefficient: f64) -> Result<(), Flag> {
         // SAFETY: the object is alive.
-        check("CVodeSetNonlinConvCoef", unsafe { sys::CVodeSetNonlinConvCoef(self.raw, coefficient) })
+        check("CVodeSetNonlinConvCoef", unsafe {
+            sys::CVodeSetNonlinConvCoef(self.raw, coefficient)
+        })
     }
 
     /// A new Newton matrix for every step and every change of gamma, with a new Jacobian.
@@ -210,11 +241,13 @@ impl Memory {
         }
     }
 
-    /// New factors at every change of gamma, so that no solve uses stale ones. It costs nothing: CVODES changes the step
-    /// by half at least, and its own threshold for new factors is 0.3.
+    /// New factors at every change of gamma, so that no solve uses stale ones. It costs nothing:
+    /// CVODES changes the step by half at least, and its own threshold for new factors is 0.3.
     pub(crate) fn always_match_gamma(&self) -> Result<(), Flag> {
         // SAFETY: the object is alive.
-        check("CVodeSetDeltaGammaMaxLSetup", unsafe { sys::CVodeSetDeltaGammaMaxLSetup(self.raw, 0.0) })
+        check("CVodeSetDeltaGammaMaxLSetup", unsafe {
+            sys::CVodeSetDeltaGammaMaxLSetup(self.raw, 0.0)
+        })
     }
 
     pub(crate) fn set_initial_step(&self, step: f64) -> Result<(), Flag> {
@@ -240,8 +273,8 @@ impl Memory {
 
     /// One internal step, or the part of it up to the next root; `t` becomes the time reached.
     pub(crate) fn step(&self, towards: f64, y: &mut Vector, t: &mut f64) -> Result<Reached, Flag> {
-        // SAFETY: the object and all that its callbacks reach are alive; `y` is its output and not one of its own
-        // vectors.
+        // SAFETY: the object and all that its callbacks reach are alive; `y` is its output and not
+        // one of its own vectors.
         let flag = unsafe { sys::CVode(self.raw, towards, y.raw(), t, sys::CV_ONE_STEP) };
         check("CVode", flag)?;
         Ok(match flag {
@@ -278,7 +311,8 @@ impl Memory {
         let mut long = [0 as c_long; 5];
         let (mut order, mut last_step, mut current_step) = (0, 0.0, 0.0);
         let [steps, errors, iterations, failures, _] = &mut long;
-        // SAFETY: the object is alive and writes to the places given. A flag can only mean "no memory object".
+        // SAFETY: the object is alive and writes to the places given. A flag can only mean "no
+        // memory object".
         unsafe {
             sys::CVodeGetNumSteps(self.raw, steps);
             sys::CVodeGetNumErrTestFails(self.raw, errors);
@@ -305,7 +339,8 @@ impl Memory {
 
 impl Drop for Memory {
     fn drop(&mut self) {
-        // SAFETY: made by CVodeCreate, freed once, before everything it refers to (field order of the owner).
+        // SAFETY: made by CVodeCreate, freed once, before everything it refers to (field order of
+        // the owner).
         unsafe { sys::CVodeFree(&raw mut self.raw) };
     }
 }

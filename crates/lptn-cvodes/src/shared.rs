@@ -17,8 +17,8 @@ impl<S> SharedBox<S> {
     }
 
     pub(crate) fn get(&self) -> &Shared<S> {
-        // SAFETY: allocated by `new`; callbacks run only inside methods that borrow the integrator for writing and that
-        // hold no reference from here meanwhile.
+        // SAFETY: allocated by `new`; callbacks run only inside methods that borrow the integrator
+        // for writing and that hold no reference from here meanwhile.
         unsafe { self.0.as_ref() }
     }
 
@@ -31,14 +31,16 @@ impl<S> SharedBox<S> {
     pub(crate) fn into_inner(self) -> Shared<S> {
         let pointer = self.0;
         std::mem::forget(self);
-        // SAFETY: allocated by `new` with `Box`, and the owner was forgotten, so nobody frees it again.
+        // SAFETY: allocated by `new` with `Box`, and the owner was forgotten, so nobody frees it
+        // again.
         *unsafe { Box::from_raw(pointer.as_ptr()) }
     }
 }
 
 impl<S> Drop for SharedBox<S> {
     fn drop(&mut self) {
-        // SAFETY: allocated by `new` with `Box`, freed once; CVODES, which has the pointer too, is gone by then.
+        // SAFETY: allocated by `new` with `Box`, freed once; CVODES, which has the pointer too, is
+        // gone by then.
         drop(unsafe { Box::from_raw(self.0.as_ptr()) });
     }
 }

@@ -1,16 +1,16 @@
-//! What an integration needs before its first step: checked arguments, the data of the callbacks, and the setting of
-//! Newton's method.
+//! What an integration needs before its first step: checked arguments, the data of the callbacks,
+//! and the setting of Newton's method.
 
 use crate::callback::{Counts, Shared};
 use lptn_integrate::{FactorError, IntegrateError, OdeSystem, Options, kernels, linear};
 
-/// Stopping test of Newton's method for a constant Jacobian: CVODES' own. With factors that match gamma the first
-/// iteration is exact whatever the test, so the books close to rounding, and a sharper test only buys iterations that
-/// change nothing.
+/// Stopping test of Newton's method for a constant Jacobian: CVODES' own. With factors that match
+/// gamma the first iteration is exact whatever the test, so the books close to rounding, and a
+/// sharper test only buys iterations that change nothing.
 const NEWTON_LINEAR: f64 = 1e-1;
 
-/// The same for a Jacobian that depends on the state. Measured by `benches/grid.rs` (60 by 60 cells with radiation,
-/// tolerance 1e-5; books relative to the heat turned over):
+/// The same for a Jacobian that depends on the state. Measured by `benches/grid.rs` (60 by 60 cells
+/// with radiation, tolerance 1e-5; books relative to the heat turned over):
 ///
 /// | coefficient | steps | factorisations | solves | s | books |
 /// |---|---|---|---|---|---|
@@ -20,8 +20,9 @@ const NEWTON_LINEAR: f64 = 1e-1;
 /// | 1e-4 | 1753 | 161 | 4399 | 0.88 | 9.9e-13 |
 /// | 1e-6 | 3415 | 2961 | 14180 | 6.56 | 1.6e-12 |
 ///
-/// CVODES' 1e-1 is worst in everything but the books: what Newton leaves over passes for local error and costs steps.
-/// Below 1e-4 convergence failures begin. 1e-3 costs up to a quarter more than 1e-2 on other networks.
+/// CVODES' 1e-1 is worst in everything but the books: what Newton leaves over passes for local
+/// error and costs steps. Below 1e-4 convergence failures begin. 1e-3 costs up to a quarter more
+/// than 1e-2 on other networks.
 const NEWTON_NONLINEAR: f64 = 1e-2;
 
 /// The coefficient asked for, or the one that suits the system.
@@ -78,14 +79,20 @@ pub(crate) fn check_options(t0: f64, options: &Options) -> Result<(), IntegrateE
         ("newton_coefficient", options.newton_coefficient),
     ];
     let usable = |value: f64| value > 0.0 && value.is_finite();
-    match positive.into_iter().find_map(|(option, value)| Some((option, value.filter(|&v| !usable(v))?))) {
+    match positive
+        .into_iter()
+        .find_map(|(option, value)| Some((option, value.filter(|&v| !usable(v))?)))
+    {
         Some((option, value)) => Err(IntegrateError::InvalidOption { option, value }),
         None => Ok(()),
     }
 }
 
 /// One positive scale per parameter, or none at all.
-pub(crate) fn check_scales(system: &impl OdeSystem, options: &Options) -> Result<(), IntegrateError> {
+pub(crate) fn check_scales(
+    system: &impl OdeSystem,
+    options: &Options,
+) -> Result<(), IntegrateError> {
     let scales = &options.sensitivity_scales;
     if !scales.is_empty() {
         expect_length("sensitivity_scales", system.sensitivity_count(), scales.len())?;
@@ -120,7 +127,9 @@ fn check_mass(mass: &[f64], size: usize) -> Result<(), IntegrateError> {
         return Err(IntegrateError::InvalidMass { index, value: mass[index] });
     }
     match algebraic.iter().position(|&mass| mass.abs() > 0.0 || mass.is_nan()) {
-        Some(index) => Err(IntegrateError::AlgebraicMass { row: size + index, value: algebraic[index] }),
+        Some(index) => {
+            Err(IntegrateError::AlgebraicMass { row: size + index, value: algebraic[index] })
+        }
         None => Ok(()),
     }
 }
@@ -130,6 +139,14 @@ pub(crate) fn check_state(y: &[f64]) -> Result<(), IntegrateError> {
         .map_or(Ok(()), |index| Err(IntegrateError::InvalidState { index, value: y[index] }))
 }
 
-pub(crate) fn expect_length(what: &'static str, expected: usize, found: usize) -> Result<(), IntegrateError> {
-    if expected == found { Ok(()) } else { Err(IntegrateError::WrongLength { what, expected, found }) }
+pub(crate) fn expect_length(
+    what: &'static str,
+    expected: usize,
+    found: usize,
+) -> Result<(), IntegrateError> {
+    if expected == found {
+        Ok(())
+    } else {
+        Err(IntegrateError::WrongLength { what, expected, found })
+    }
 }

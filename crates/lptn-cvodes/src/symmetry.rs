@@ -13,9 +13,10 @@ pub(crate) const SYMMETRIC_ATTEMPTS: c_int = 3;
 /// CVODES' own number of attempts at one step.
 pub(crate) const ATTEMPTS: c_int = 10;
 
-/// Steps over which failures are counted. A matrix that makes Newton's method diverge above some step size is no failure
-/// of any one step: the step shrinks by four, succeeds, grows, fails. That is one failure in three steps (measured on a
-/// stream with the Jacobian 0); radiating plates with symmetrised Jacobians stay below one in ten.
+/// Steps over which failures are counted. A matrix that makes Newton's method diverge above some
+/// step size is no failure of any one step: the step shrinks by four, succeeds, grows, fails. That
+/// is one failure in three steps (measured on a stream with the Jacobian 0); radiating plates with
+/// symmetrised Jacobians stay below one in ten.
 const WINDOW: u64 = 60;
 
 /// Failures in a window that give the symmetric values up.
@@ -51,8 +52,9 @@ impl Symmetry {
         self.switched = Some(time);
     }
 
-    /// Whether CVODES gave up a step for a reason that better Newton iterates may remove. All of these are counted
-    /// together, so that each must be forgiven here or would end the integration sooner than without a switch.
+    /// Whether CVODES gave up a step for a reason that better Newton iterates may remove. All of
+    /// these are counted together, so that each must be forgiven here or would end the integration
+    /// sooner than without a switch.
     pub(crate) fn is_to_blame(&self, flag: &Flag) -> bool {
         let reasons = [
             sys::CV_CONV_FAILURE,

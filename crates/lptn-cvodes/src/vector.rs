@@ -1,9 +1,10 @@
 //! The `N_Vector` of this crate: a Rust allocation behind SUNDIALS' table of operations.
 //!
-//! Two reasons for it: Debian compiles SUNDIALS without optimisation, so its own vector loops are 8 to 60 times slower,
-//! and `nvwrmsnorm` here is the weighted maximum, see the crate documentation. Not implemented: the wrapping of foreign
-//! arrays (only difference quotients use it), printing, parallel reductions, and the operations on arrays of vectors,
-//! for which SUNDIALS falls back to the ones here.
+//! Two reasons for it: Debian compiles SUNDIALS without optimisation, so its own vector loops are 8
+//! to 60 times slower, and `nvwrmsnorm` here is the weighted maximum, see the crate documentation.
+//! Not implemented: the wrapping of foreign arrays (only difference quotients use it), printing,
+//! parallel reductions, and the operations on arrays of vectors, for which SUNDIALS falls back to
+//! the ones here.
 
 use std::ffi::c_int;
 use std::slice;
@@ -14,7 +15,8 @@ use sys::{N_Vector, realtype, sunindextype};
 use crate::context::Context;
 use lptn_integrate::{IntegrateError, kernels};
 
-/// Length of the pieces in which several vectors are combined: small enough to stay in the first-level cache.
+/// Length of the pieces in which several vectors are combined: small enough to stay in the
+/// first-level cache.
 const BLOCK: usize = 512;
 
 /// An owned vector.
@@ -81,7 +83,8 @@ unsafe fn create(context: sys::SUNContext, length: usize) -> N_Vector {
         return std::ptr::null_mut();
     }
     data.resize(length, 0.0);
-    // SAFETY: the context is alive; the result is null or a vector with an empty table of operations.
+    // SAFETY: the context is alive; the result is null or a vector with an empty table of
+    // operations.
     unsafe {
         let v = sys::N_VNewEmpty(context);
         if !v.is_null() {
@@ -124,8 +127,9 @@ fn fill_table(ops: &mut sys::_generic_N_Vector_Ops) {
     ops.nvdotprodmulti = Some(dot_multi);
 }
 
-// The functions below are called by SUNDIALS only, with vectors made by `create` of equal lengths. "In place" means
-// that two arguments are the same vector; SUNDIALS never hands over two that overlap in another way.
+// The functions below are called by SUNDIALS only, with vectors made by `create` of equal lengths.
+// "In place" means that two arguments are the same vector; SUNDIALS never hands over two that
+// overlap in another way.
 
 unsafe extern "C" fn kind(_: N_Vector) -> sys::N_Vector_ID {
     sys::N_Vector_ID_SUNDIALS_NVEC_CUSTOM
@@ -167,7 +171,8 @@ unsafe extern "C" fn length(v: N_Vector) -> sunindextype {
 }
 
 unsafe extern "C" fn linear_sum(a: realtype, x: N_Vector, b: realtype, y: N_Vector, z: N_Vector) {
-    // SAFETY: the in-place cases are told apart before any slice is made, so the mutable one is the only one of `z`.
+    // SAFETY: the in-place cases are told apart before any slice is made, so the mutable one is the
+    // only one of `z`.
     unsafe {
         match (z == x, z == y) {
             (true, true) => kernels::map_in_place(values_mut(z), |z| a * z + b * z),
@@ -287,7 +292,8 @@ unsafe extern "C" fn compare(c: realtype, x: N_Vector, z: N_Vector) {
 }
 
 unsafe extern "C" fn inverse_tested(x: N_Vector, z: N_Vector) -> sys_boolean {
-    // SAFETY: the shared slice is gone before the mutable one is made. Zero components are left as they are.
+    // SAFETY: the shared slice is gone before the mutable one is made. Zero components are left as
+    // they are.
     unsafe {
         let all = values(x).iter().all(|x| x.abs() > 0.0);
         unary(x, z, |x| if x.abs() > 0.0 { x.recip() } else { x });
@@ -309,13 +315,18 @@ unsafe extern "C" fn min_quotient(x: N_Vector, y: N_Vector) -> realtype {
 #[allow(non_camel_case_types)]
 type sys_boolean = c_int;
 
-/// `z = sum c[i] x[i]`; `z` may be one of the `x`. Block by block into a buffer, so that `z` is written only after the
-/// same block of every `x` was read.
-unsafe extern "C" fn linear_combination(n: c_int, c: *mut realtype, x: *mut N_Vector, z: N_Vector) -> c_int {
+/// `z = sum c[i] x[i]`; `z` may be one of the `x`. Block by block into a buffer, so that `z` is
+/// written only after the same block of every `x` was read.
+unsafe extern "C" fn linear_combination(
+    n: c_int,
+    c: *mut realtype,
+    x: *mut N_Vector,
+    z: N_Vector,
+) -> c_int {
     let n = usize::try_from(n).unwrap_or(0);
     let mut buffer = [0.0; BLOCK];
-    // SAFETY: SUNDIALS passes `n` coefficients and `n` vectors. The shared slice of each block ends before the mutable
-    // one begins.
+    // SAFETY: SUNDIALS passes `n` coefficients and `n` vectors. The shared slice of each block ends
+    // before the mutable one begins.
     unsafe {
         let (c, x) = (slice::from_raw_parts(c, n), slice::from_raw_parts(x, n));
         let length = values(z).len();
@@ -341,7 +352,8 @@ unsafe extern "C" fn scale_add_multi(
     z: *mut N_Vector,
 ) -> c_int {
     let n = usize::try_from(n).unwrap_or(0);
-    // SAFETY: SUNDIALS passes arrays of `n` entries; `linear_sum` sorts out which vectors are the same.
+    // SAFETY: SUNDIALS passes arrays of `n` entries; `linear_sum` sorts out which vectors are the
+    // same.
     unsafe {
         let a = slice::from_raw_parts(a, n);
         let (y, z) = (slice::from_raw_parts(y, n), slice::from_raw_parts(z, n));
@@ -352,7 +364,12 @@ unsafe extern "C" fn scale_add_multi(
     0
 }
 
-unsafe extern "C" fn dot_multi(n: c_int, x: N_Vector, y: *mut N_Vector, results: *mut realtype) -> c_int {
+unsafe extern "C" fn dot_multi(
+    n: c_int,
+    x: N_Vector,
+    y: *mut N_Vector,
+    results: *mut realtype,
+) -> c_int {
     let n = usize::try_from(n).unwrap_or(0);
     // SAFETY: SUNDIALS passes arrays of `n` entries, the second one to be written.
     unsafe {

@@ -19,7 +19,8 @@ fn is(v: &Vector, f: impl Fn(f64) -> f64) -> bool {
 #[test]
 fn sums_and_products_in_place_and_not() {
     let context = Context::new().unwrap();
-    let (x, y, z) = (vector(&context, |i| i), vector(&context, |i| i + 1.0), vector(&context, |_| 0.0));
+    let (x, y, z) =
+        (vector(&context, |i| i), vector(&context, |i| i + 1.0), vector(&context, |_| 0.0));
     // SAFETY: vectors of this crate, alive, and no slice of them is held.
     unsafe {
         sys::N_VLinearSum(2.0, x.raw(), 3.0, y.raw(), z.raw());
@@ -51,7 +52,8 @@ fn sums_and_products_in_place_and_not() {
 #[test]
 fn fused_operations_with_the_result_among_the_operands() {
     let context = Context::new().unwrap();
-    let (x, y, z) = (vector(&context, |i| i), vector(&context, |i| 2.0 * i), vector(&context, |_| 1.0));
+    let (x, y, z) =
+        (vector(&context, |i| i), vector(&context, |i| 2.0 * i), vector(&context, |_| 1.0));
     let mut c = [10.0, 100.0, 1000.0];
     let mut all = [z.raw(), x.raw(), y.raw()];
     // SAFETY: as above; the arrays have as many entries as stated.
@@ -60,7 +62,13 @@ fn fused_operations_with_the_result_among_the_operands() {
         assert!(is(&z, |i| 10.0 + 2100.0 * i));
         let mut targets = [y.raw(), z.raw()];
         assert_eq!(
-            sys::N_VScaleAddMulti(2, c.as_mut_ptr(), x.raw(), targets.as_mut_ptr(), targets.as_mut_ptr()),
+            sys::N_VScaleAddMulti(
+                2,
+                c.as_mut_ptr(),
+                x.raw(),
+                targets.as_mut_ptr(),
+                targets.as_mut_ptr()
+            ),
             0
         );
         assert!(is(&y, |i| 12.0 * i) && is(&z, |i| 10.0 + 2200.0 * i));

@@ -15,8 +15,13 @@ pub(crate) struct Vectors {
 }
 
 impl Vectors {
-    pub(crate) fn new(context: &Context, count: usize, length: usize) -> Result<Self, IntegrateError> {
-        let owned = (0..count).map(|_| Vector::new(context, length)).collect::<Result<Vec<_>, _>>()?;
+    pub(crate) fn new(
+        context: &Context,
+        count: usize,
+        length: usize,
+    ) -> Result<Self, IntegrateError> {
+        let owned =
+            (0..count).map(|_| Vector::new(context, length)).collect::<Result<Vec<_>, _>>()?;
         let raw = owned.iter().map(Vector::raw).collect();
         Ok(Self { owned, raw })
     }

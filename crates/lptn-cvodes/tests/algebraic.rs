@@ -1,4 +1,5 @@
-//! Algebraic unknowns, states carried as another variable, and the way out of a bad symmetric Jacobian.
+//! Algebraic unknowns, states carried as another variable, and the way out of a bad symmetric
+//! Jacobian.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
 #[path = "common/algebraic.rs"]
@@ -7,8 +8,8 @@ mod algebraic;
 use algebraic::{Melting, Stream, Surfaces};
 use lptn_cvodes::Cvodes;
 use lptn_integrate::{
-    FactorError, IntegrateError, Integrator, LinearSolver, LinearSolverKind, OdeSystem, Options, Pattern,
-    Retry,
+    FactorError, IntegrateError, Integrator, LinearSolver, LinearSolverKind, OdeSystem, Options,
+    Pattern, Retry,
 };
 
 /// Stefan-Boltzmann-like factor, surroundings, conductance between surfaces.
@@ -29,23 +30,26 @@ fn assert_near(y: &[f64], expected: &[f64], allowed: f64) {
     }
 }
 
-/// Analytic. With `e = s (z^4 - a^4)` the balance is `y = z + e(z)` and `y' = -e`, so that `t` is the integral of
-/// `(1 + e') / e` over `z`: inverted in Python (scipy 1.17.1: `quad`, `brentq`), and confirmed to 1e-11 by
-/// `solve_ivp` with DOP853 at rtol 1e-12.
+/// Analytic. With `e = s (z^4 - a^4)` the balance is `y = z + e(z)` and `y' = -e`, so that `t` is
+/// the integral of `(1 + e') / e` over `z`: inverted in Python (scipy 1.17.1: `quad`, `brentq`),
+/// and confirmed to 1e-11 by `solve_ivp` with DOP853 at rtol 1e-12.
 #[test]
 fn a_radiating_skin_follows_its_closed_form() {
     for tolerance in [1e-3, 1e-4, 1e-5] {
         let system = Surfaces::new(1, SURFACE, true);
         let mut integrator =
             Cvodes::new(system, 0.0, &[1000.0], &options(tolerance, LinearSolver::Auto)).unwrap();
-        for (t, y) in [(0.5, 815.600_867_826_83), (2.0, 530.107_395_710_599), (5.0, 359.937_629_452_359)] {
+        for (t, y) in
+            [(0.5, 815.600_867_826_83), (2.0, 530.107_395_710_599), (5.0, 359.937_629_452_359)]
+        {
             run_to(&mut integrator, t);
             assert_near(integrator.state(), &[y], 10.0 * tolerance);
         }
     }
 }
 
-/// Tolerance. The numbers are `solve_ivp`'s (scipy 1.17.1) with DOP853 at rtol 1e-11; Radau at 1e-9 agrees to 3e-10.
+/// Tolerance. The numbers are `solve_ivp`'s (scipy 1.17.1) with DOP853 at rtol 1e-11; Radau at 1e-9
+/// agrees to 3e-10.
 #[test]
 fn coupled_surfaces_agree_with_another_program_by_every_solver() {
     let expected = [518.756_915_845_6, 415.379_864_661_1, 324.552_706_845_6];
@@ -66,7 +70,8 @@ fn coupled_surfaces_agree_with_another_program_by_every_solver() {
     }
 }
 
-/// Property. The Jacobian is exact, so Cholesky and LU are the same Newton method: the same steps, the same state.
+/// Property. The Jacobian is exact, so Cholesky and LU are the same Newton method: the same steps,
+/// the same state.
 #[test]
 fn cholesky_and_lu_agree_on_extended_matrices() {
     for n in [4, 40] {
@@ -98,7 +103,8 @@ fn books_close_with_algebraic_unknowns() {
     }
 }
 
-/// Analytic. The body warms to 0 as an exponential, melts at constant power and warms on as an exponential.
+/// Analytic. The body warms to 0 as an exponential, melts at constant power and warms on as an
+/// exponential.
 #[test]
 fn melting_follows_its_closed_form() {
     let (latent, hot, k, y0) = (80.0, 100.0_f64, 0.5, -50.0);
@@ -128,7 +134,8 @@ fn melting_follows_its_closed_form() {
 fn a_melting_row_keeps_its_books() {
     for n in [5, 45] {
         let system = Melting::new(n, (80.0, 100.0, 20.0), true);
-        let mut integrator = Cvodes::new(system, 0.0, &vec![-50.0; n], &Options::default()).unwrap();
+        let mut integrator =
+            Cvodes::new(system, 0.0, &vec![-50.0; n], &Options::default()).unwrap();
         run_to(&mut integrator, 10.0);
         let gained: f64 = integrator.state().iter().map(|y| y + 50.0).sum();
         let booked = integrator.quadratures().unwrap()[0];
@@ -140,8 +147,9 @@ fn a_melting_row_keeps_its_books() {
 }
 
 /// Analytic. A row of equal cells answers `sin t`, once its start is forgotten, with the gain
-/// `(1 + 1 / k^2)^(-i / 2)` and the lag `i atan(1 / k)` at the `i`-th cell. `hold` is 0: Newton diverges; -1: the
-/// matrix is not positive definite. The first step is long enough that three reductions by four do not help.
+/// `(1 + 1 / k^2)^(-i / 2)` and the lag `i atan(1 / k)` at the `i`-th cell. `hold` is 0: Newton
+/// diverges; -1: the matrix is not positive definite. The first step is long enough that three
+/// reductions by four do not help.
 #[test]
 fn a_bad_symmetric_jacobian_is_left_for_lu() {
     let k = 1e6_f64;
@@ -168,8 +176,8 @@ fn a_bad_symmetric_jacobian_is_left_for_lu() {
     }
 }
 
-/// Analytic. No step fails three times, but the wrong Jacobian lets Newton converge for steps below `1 / k` only: 10 328
-/// steps to 0.5 before such a stall was recognised.
+/// Analytic. No step fails three times, but the wrong Jacobian lets Newton converge for steps below
+/// `1 / k` only: 10 328 steps to 0.5 before such a stall was recognised.
 #[test]
 fn a_crawl_under_a_bad_symmetric_jacobian_is_left_too() {
     let k = 1e4_f64;
@@ -185,7 +193,8 @@ fn a_crawl_under_a_bad_symmetric_jacobian_is_left_too() {
     assert!((stored - q[0] + q[1]).abs() < 1e-9 * q[0], "{:e}", stored - q[0] + q[1]);
 }
 
-/// Property. In the middle of a run the running integrals go on, and time and state stay those of the last good step.
+/// Property. In the middle of a run the running integrals go on, and time and state stay those of
+/// the last good step.
 #[test]
 fn leaving_symmetry_in_the_middle_keeps_the_books() {
     let inlet = |t: f64| if t > 1.0 { 100.0 } else { 0.0 };
@@ -255,7 +264,10 @@ fn what_new_and_step_refuse_of_algebraic_rows() {
 
     let error = start(&[1.0, 0.0], &[1.0; 2]).unwrap().step().unwrap_err();
     let singular = FactorError::Singular { index: 1 };
-    assert!(matches!(error, IntegrateError::Linear { cause, .. } if cause == singular), "{error:?}");
+    assert!(
+        matches!(error, IntegrateError::Linear { cause, .. } if cause == singular),
+        "{error:?}"
+    );
     let error = start(&[1.0, 0.0], &[f64::NAN, 1.0]).unwrap().step().unwrap_err();
     assert!(matches!(error, IntegrateError::NotFinite { index: 0, .. }), "{error:?}");
 }

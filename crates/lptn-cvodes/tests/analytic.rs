@@ -1,4 +1,5 @@
-//! Solutions known in closed form, and the promise that the error stays below ten times the tolerance.
+//! Solutions known in closed form, and the promise that the error stays below ten times the
+//! tolerance.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
 mod common;
@@ -6,7 +7,9 @@ mod common;
 use common::{Linear, equal_times, largest_error, sample};
 use faer::Side;
 use lptn_cvodes::Cvodes;
-use lptn_integrate::{Integrator, LinearSolver, LinearSolverKind, OdeSystem, Options, Pattern, Retry};
+use lptn_integrate::{
+    Integrator, LinearSolver, LinearSolverKind, OdeSystem, Options, Pattern, Retry,
+};
 
 const TOLERANCES: [f64; 3] = [1e-3, 1e-4, 1e-5];
 
@@ -15,7 +18,12 @@ fn none() -> common::Source {
 }
 
 /// Checks the promise at all tolerances.
-fn keeps_its_promise(make: impl Fn() -> Linear, y0: &[f64], times: &[f64], exact: impl Fn(f64) -> Vec<f64>) {
+fn keeps_its_promise(
+    make: impl Fn() -> Linear,
+    y0: &[f64],
+    times: &[f64],
+    exact: impl Fn(f64) -> Vec<f64>,
+) {
     for tolerance in TOLERANCES {
         let error = largest_error(make(), y0, (times, tolerance), &exact);
         assert!(error <= 10.0 * tolerance, "error {error:e} at tolerance {tolerance:e}");
@@ -32,7 +40,9 @@ fn scalar_decay() {
 fn two_by_two_with_time_constants_a_million_apart() {
     // Eigenvectors (1, 1) and (1, -1) with the eigenvalues -1 and -(1 + 2 g).
     let g = 1e6;
-    let make = || Linear::network(vec![1.0; 2], &[(0, Some(1), g), (0, None, 1.0), (1, None, 1.0)], none());
+    let make = || {
+        Linear::network(vec![1.0; 2], &[(0, Some(1), g), (0, None, 1.0), (1, None, 1.0)], none())
+    };
     keeps_its_promise(make, &[100.0, 40.0], &equal_times(5.0, 60), |t| {
         let (slow, fast) = (70.0 * (-t).exp(), 30.0 * (-(1.0 + 2.0 * g) * t).exp());
         vec![slow + fast, slow - fast]
@@ -58,14 +68,15 @@ impl Modes {
         Self { rates, vectors: eigen.U().to_owned(), mass: system.mass.clone() }
     }
 
-    /// The state at `t` from rest at zero, with the source `amplitude sin(w t)` on the last component.
+    /// The state at `t` from rest at zero, with the source `amplitude sin(w t)` on the last
+    /// component.
     fn driven(&self, t: f64, amplitude: f64, w: f64) -> Vec<f64> {
         let n = self.mass.len();
         let mut y = vec![0.0; n];
         for (k, &rate) in self.rates.iter().enumerate() {
             let drive = amplitude * self.vectors[(n - 1, k)] / self.mass[n - 1].sqrt();
-            let response =
-                (rate * (w * t).sin() - w * (w * t).cos() + w * (-rate * t).exp()) / (rate * rate + w * w);
+            let response = (rate * (w * t).sin() - w * (w * t).cos() + w * (-rate * t).exp())
+                / (rate * rate + w * w);
             for (i, y) in y.iter_mut().enumerate() {
                 *y += drive * response * self.vectors[(i, k)] / self.mass[i].sqrt();
             }
@@ -145,8 +156,8 @@ fn automatic_choice() {
     assert_eq!(kind(31, false), LinearSolverKind::SparseLu);
 }
 
-/// Robertson's reaction, the standard test of stiff codes. The components are scaled by a million, since the
-/// tolerance is absolute and the second component is of the order of 1e-5.
+/// Robertson's reaction, the standard test of stiff codes. The components are scaled by a million,
+/// since the tolerance is absolute and the second component is of the order of 1e-5.
 struct Robertson {
     pattern: Pattern,
     mass: [f64; 3],

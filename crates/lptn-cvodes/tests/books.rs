@@ -58,7 +58,11 @@ fn books_close_over_restarts() {
     }
     let stored = integrator.system().total_heat(integrator.state()) - before;
     let booked = integrator.quadratures().unwrap()[0];
-    assert!((stored - booked - added).abs() < 1e-11 * 300.0 * 70.0, "{:e}", stored - booked - added);
+    assert!(
+        (stored - booked - added).abs() < 1e-11 * 300.0 * 70.0,
+        "{:e}",
+        stored - booked - added
+    );
     assert_eq!(integrator.statistics().restarts, 10);
 }
 

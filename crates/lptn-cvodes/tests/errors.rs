@@ -8,7 +8,8 @@ use std::rc::Rc;
 use common::{Linear, plate};
 use lptn_cvodes::Cvodes;
 use lptn_integrate::{
-    Callback, FactorError, IntegrateError, Integrator, LinearSolver, OdeSystem, Options, Pattern, Retry,
+    Callback, FactorError, IntegrateError, Integrator, LinearSolver, OdeSystem, Options, Pattern,
+    Retry,
 };
 
 /// What goes wrong, from time 1 on.
@@ -77,8 +78,12 @@ impl OdeSystem for Faulty {
 /// The error, and whether the system was dropped afterwards.
 fn failure(place: Callback, fault: Fault) -> IntegrateError {
     let alive = Rc::new(());
-    let system =
-        Faulty { pattern: Pattern::new(2, std::iter::empty()), fault, place, alive: Rc::clone(&alive) };
+    let system = Faulty {
+        pattern: Pattern::new(2, std::iter::empty()),
+        fault,
+        place,
+        alive: Rc::clone(&alive),
+    };
     let mut integrator = Cvodes::new(system, 0.0, &[100.0, 50.0], &Options::default()).unwrap();
     integrator.set_stop(10.0);
     let error = loop {
@@ -140,8 +145,12 @@ fn refusing_and_stopping_are_told_apart() {
 fn dropping_in_the_middle_frees_the_system() {
     let alive = Rc::new(());
     let pattern = Pattern::new(2, std::iter::empty());
-    let system =
-        Faulty { pattern, fault: Fault::Stop, place: Callback::LinearSolver, alive: Rc::clone(&alive) };
+    let system = Faulty {
+        pattern,
+        fault: Fault::Stop,
+        place: Callback::LinearSolver,
+        alive: Rc::clone(&alive),
+    };
     let mut integrator = Cvodes::new(system, 0.0, &[1.0, 2.0], &Options::default()).unwrap();
     integrator.step().unwrap();
     drop(integrator);
@@ -150,7 +159,8 @@ fn dropping_in_the_middle_frees_the_system() {
 
 #[test]
 fn a_passing_nan_costs_a_smaller_step_only() {
-    // The flow is not finite above 11; the solution stays at or below 10, only a first step that is too long looks there.
+    // The flow is not finite above 11; the solution stays at or below 10, only a first step that is
+    // too long looks there.
     struct Touchy(Pattern);
     impl OdeSystem for Touchy {
         fn size(&self) -> usize {
@@ -180,12 +190,15 @@ fn a_passing_nan_costs_a_smaller_step_only() {
     integrator.set_stop(5.0);
     while !integrator.step().unwrap().at_stop {}
     assert!((integrator.state()[0] - 10.0).abs() < 1e-4);
-    assert!(integrator.statistics().newton_failures + integrator.statistics().error_test_failures > 0);
+    assert!(
+        integrator.statistics().newton_failures + integrator.statistics().error_test_failures > 0
+    );
 }
 
 #[test]
 fn a_start_close_to_where_no_flow_can_be_had() {
-    // CVODES guesses its first step from the flow ahead, and left the state that it looked at last in the output.
+    // CVODES guesses its first step from the flow ahead, and left the state that it looked at last
+    // in the output.
     struct Walled(Pattern, f64);
     impl OdeSystem for Walled {
         fn size(&self) -> usize {
@@ -214,7 +227,10 @@ fn a_start_close_to_where_no_flow_can_be_had() {
         let mut integrator = Cvodes::new(system, 0.0, &[0.0], &Options::default()).unwrap();
         integrator.set_stop(1e6);
         let error = (0..1000).find_map(|_| integrator.step().err()).unwrap();
-        assert!(matches!(error, IntegrateError::Refused { callback: Callback::Flow, .. }), "{error:?}");
+        assert!(
+            matches!(error, IntegrateError::Refused { callback: Callback::Flow, .. }),
+            "{error:?}"
+        );
         let time = integrator.time();
         assert!(time > 0.05 * gap, "no step at all from {gap} in front");
         assert!((integrator.state()[0] - time).abs() <= 1e-12 * gap, "{:?}", integrator.state());
@@ -241,7 +257,10 @@ fn a_matrix_that_is_not_positive_definite() {
         integrator.set_stop(10.0);
         let error = integrator.step().unwrap_err();
         let expected = FactorError::NotPositiveDefinite { index: 1 };
-        assert!(matches!(error, IntegrateError::Linear { cause, .. } if cause == expected), "{error:?}");
+        assert!(
+            matches!(error, IntegrateError::Linear { cause, .. } if cause == expected),
+            "{error:?}"
+        );
     }
 }
 
@@ -295,7 +314,10 @@ fn a_jump_that_no_step_passes() {
     let mut integrator = Cvodes::new(system, 0.0, &[1.0], &Options::default()).unwrap();
     integrator.set_stop(10.0);
     let error = (0..10_000).find_map(|_| integrator.step().err()).unwrap();
-    assert!(matches!(error, IntegrateError::Stalled { time, index: 0, .. } if time < 1.0), "{error:?}");
+    assert!(
+        matches!(error, IntegrateError::Stalled { time, index: 0, .. } if time < 1.0),
+        "{error:?}"
+    );
 }
 
 #[test]
@@ -316,12 +338,21 @@ fn what_new_refuses() {
         Cvodes::new(system, 0.0, y0, options).map(|_| ()).unwrap_err()
     };
     let good = Options::default();
-    assert!(matches!(start(plate(2, 1.0), &[0.0; 3], &good), IntegrateError::WrongLength { what: "y0", .. }));
+    assert!(matches!(
+        start(plate(2, 1.0), &[0.0; 3], &good),
+        IntegrateError::WrongLength { what: "y0", .. }
+    ));
     let nan = [0.0, f64::NAN, 0.0, 0.0];
-    assert!(matches!(start(plate(2, 1.0), &nan, &good), IntegrateError::InvalidState { index: 1, .. }));
+    assert!(matches!(
+        start(plate(2, 1.0), &nan, &good),
+        IntegrateError::InvalidState { index: 1, .. }
+    ));
     let mut massless = plate(2, 1.0);
     massless.mass[3] = 0.0;
-    assert!(matches!(start(massless, &[0.0; 4], &good), IntegrateError::InvalidMass { index: 3, .. }));
+    assert!(matches!(
+        start(massless, &[0.0; 4], &good),
+        IntegrateError::InvalidMass { index: 3, .. }
+    ));
     for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let options = Options { tolerance, ..Options::default() };
         let error = start(plate(2, 1.0), &[0.0; 4], &options);
@@ -343,7 +374,10 @@ fn restart_refuses_bad_states() {
     let mut integrator = Cvodes::new(plate(2, 1.0), 0.0, &[0.0; 4], &Options::default()).unwrap();
     assert!(matches!(integrator.restart(Some(&[0.0; 3])), Err(IntegrateError::WrongLength { .. })));
     let bad = [0.0, 0.0, f64::INFINITY, 0.0];
-    assert!(matches!(integrator.restart(Some(&bad)), Err(IntegrateError::InvalidState { index: 2, .. })));
+    assert!(matches!(
+        integrator.restart(Some(&bad)),
+        Err(IntegrateError::InvalidState { index: 2, .. })
+    ));
     integrator.restart(Some(&[1.0; 4])).unwrap();
     assert!((integrator.state()[0] - 1.0).abs() <= 0.0);
 }

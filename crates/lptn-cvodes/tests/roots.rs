@@ -23,7 +23,11 @@ fn a_decay_crosses_levels_at_the_times_of_the_closed_form() {
         for (i, crossed) in levels.iter().enumerate() {
             let step = next_root(&mut integrator);
             let exact = 2.0 * (80.0_f64 / crossed).ln();
-            assert!((step.to - exact).abs() < allowed, "{crossed} at {tolerance:e}: {}", step.to - exact);
+            assert!(
+                (step.to - exact).abs() < allowed,
+                "{crossed} at {tolerance:e}: {}",
+                step.to - exact
+            );
             assert!(step.roots && (integrator.time() - step.to).abs() <= 0.0);
             assert!((integrator.state()[0] - crossed).abs() < 1e-12);
             let expected: Vec<_> = (0..levels.len()).map(|k| -i32::from(k == i)).collect();
@@ -34,7 +38,8 @@ fn a_decay_crosses_levels_at_the_times_of_the_closed_form() {
     }
 }
 
-/// Going on costs no step and changes no result: the roots are cut out of the steps that are taken anyway.
+/// Going on costs no step and changes no result: the roots are cut out of the steps that are taken
+/// anyway.
 #[test]
 fn going_on_without_a_restart_takes_the_rest_of_the_same_step() {
     let mut plain = started(node(|_| 0.0, vec![]), 80.0, 1e-7);
@@ -66,8 +71,9 @@ fn going_on_without_a_restart_takes_the_rest_of_the_same_step() {
     assert_eq!(cut.statistics().restarts, 0);
 }
 
-/// Heater of 100 W with hysteresis between 40 and 60 K, time constant 2 s, from 0 K:
-/// heating from a to b takes `2 ln((100 - a) / (100 - b))`, cooling from b to a takes `2 ln(b / a)`; here both `2 ln 1.5`.
+/// Heater of 100 W with hysteresis between 40 and 60 K, time constant 2 s, from 0 K: heating from a
+/// to b takes `2 ln((100 - a) / (100 - b))`, cooling from b to a takes `2 ln(b / a)`; here both
+/// `2 ln 1.5`.
 #[test]
 fn a_thermostat_switches_at_the_times_of_the_closed_form() {
     let run = |tolerance: f64| {
@@ -100,8 +106,12 @@ fn a_thermostat_switches_at_the_times_of_the_closed_form() {
 /// `T = 80 exp(-t/2)` and the time: all three functions are zero at `t = 2 ln 2`.
 #[test]
 fn several_roots_at_once() {
-    let functions: Vec<Root> =
-        vec![level(40.0), Box::new(|_, y| 40.0 - y), Box::new(|_, y| (y - 40.0).powi(3)), level(-1.0)];
+    let functions: Vec<Root> = vec![
+        level(40.0),
+        Box::new(|_, y| 40.0 - y),
+        Box::new(|_, y| (y - 40.0).powi(3)),
+        level(-1.0),
+    ];
     let mut integrator = started(node(|_| 0.0, functions), 80.0, 1e-9);
     let step = next_root(&mut integrator);
     assert!((step.to - 2.0 * 2.0_f64.ln()).abs() < 1e-6);
@@ -134,7 +144,8 @@ fn a_root_at_the_start_is_not_reported() {
     assert!(next_root(&mut integrator).at_stop);
 }
 
-/// A function that was exactly zero at a start takes part again after the next one, in the very first step.
+/// A function that was exactly zero at a start takes part again after the next one, in the very
+/// first step.
 #[test]
 fn a_function_that_was_idle_is_taken_up_at_a_restart() {
     let mut integrator = started(node(|_| 0.0, vec![Box::new(|_, _| 0.0)]), 80.0, 1e-3);
@@ -146,7 +157,8 @@ fn a_function_that_was_idle_is_taken_up_at_a_restart() {
     assert!(integrator.step().unwrap().roots);
 }
 
-/// A function of time alone has its root at the stop time itself, by rounding a little before or behind it.
+/// A function of time alone has its root at the stop time itself, by rounding a little before or
+/// behind it.
 #[test]
 fn a_root_at_the_stop_time() {
     for stop in [1.0, 0.1, 1e-3, PI, 17.3] {
@@ -205,7 +217,8 @@ fn a_start_within_rounding_of_the_stop() {
 /// A function that does not cross zero but stays there is noticed at the end of the step, once.
 #[test]
 fn a_function_that_rests_at_zero_is_met_once() {
-    let mut integrator = started(node(|_| 0.0, vec![Box::new(|_, y| (y - 40.0).max(0.0))]), 80.0, 1e-7);
+    let mut integrator =
+        started(node(|_| 0.0, vec![Box::new(|_, y| (y - 40.0).max(0.0))]), 80.0, 1e-7);
     let step = next_root(&mut integrator);
     let exact = 2.0 * 2.0_f64.ln();
     assert!(step.roots && step.from < exact && step.to >= exact);
@@ -227,7 +240,9 @@ fn rewinding_goes_back_with_state_and_books() {
         }
         integrator.interpolate(t, &mut y).unwrap();
         integrator.rewind(t).unwrap();
-        assert!((integrator.time() - t).abs() <= 0.0 && (integrator.state()[0] - y[0]).abs() <= 0.0);
+        assert!(
+            (integrator.time() - t).abs() <= 0.0 && (integrator.state()[0] - y[0]).abs() <= 0.0
+        );
         assert!(off(&mut integrator, 80.0).abs() < 1e-10);
         assert!(matches!(integrator.rewind(t - 1e-9), Err(IntegrateError::OutsideLastStep { .. })));
     }
@@ -258,7 +273,8 @@ fn rewinding_from_a_root_and_to_the_ends() {
     assert!(off(&mut integrator, 80.0).abs() < 1e-10);
 }
 
-/// Two crossings inside one step are not seen as roots, but the caller finds them by interpolation and goes back.
+/// Two crossings inside one step are not seen as roots, but the caller finds them by interpolation
+/// and goes back.
 #[test]
 fn a_crossing_that_comes_and_goes_inside_a_step() {
     // T = 80 exp(-t/2) with a function that is negative from 3 to 3.01 only.
@@ -278,8 +294,8 @@ fn a_crossing_that_comes_and_goes_inside_a_step() {
     assert_eq!(integrator.root_directions(), [1]);
 }
 
-/// The third of three cells swings as `a sin(t - p)` with `a = (1 + 1/k^2)^-1.5` and `p = 3 atan(1/k)`; the symmetric
-/// matrices are given up on the way.
+/// The third of three cells swings as `a sin(t - p)` with `a = (1 + 1/k^2)^-1.5` and
+/// `p = 3 atan(1/k)`; the symmetric matrices are given up on the way.
 #[test]
 fn roots_are_found_before_and_after_the_switch_to_lu() {
     let k = 1e4_f64;

@@ -9,7 +9,9 @@ mod sensitive;
 
 use common::equal_times;
 use lptn_cvodes::Cvodes;
-use lptn_integrate::{IntegrateError, Integrator, LinearSolver, LinearSolverKind, OdeSystem, Options, Retry};
+use lptn_integrate::{
+    IntegrateError, Integrator, LinearSolver, LinearSolverKind, OdeSystem, Options, Retry,
+};
 use sensitive::{Body, Quadratic, Row, Skins};
 
 /// Error of values against exact ones, in units of the tolerance over the scale of each block.
@@ -17,7 +19,9 @@ fn in_tolerances(found: &[f64], exact: &[f64], scales: &[f64], tolerance: f64) -
     assert_eq!(found.len(), exact.len());
     let length = found.len() / scales.len();
     let pairs = found.iter().zip(exact).enumerate();
-    pairs.fold(0.0, |most: f64, (i, (a, b))| most.max((a - b).abs() * scales[i / length] / tolerance))
+    pairs.fold(0.0, |most: f64, (i, (a, b))| {
+        most.max((a - b).abs() * scales[i / length] / tolerance)
+    })
 }
 
 fn options(tolerance: f64, scales: &[f64]) -> Options {
@@ -55,7 +59,8 @@ fn a_step_response_by_its_parameters() {
             }
             integrator.interpolate_sensitivities(t, &mut s).unwrap();
             let (_, exact) = integrator.system().exact(20.0, t);
-            worst = worst.max(in_tolerances(&s, &exact, &[BODY.0, BODY.1, BODY.2, 10.0], tolerance));
+            worst =
+                worst.max(in_tolerances(&s, &exact, &[BODY.0, BODY.1, BODY.2, 10.0], tolerance));
         }
         assert!(worst < 10.0, "{worst} tolerances at {tolerance:e}");
         assert_eq!(integrator.statistics().restarts, 0);
@@ -65,8 +70,8 @@ fn a_step_response_by_its_parameters() {
     }
 }
 
-/// Analytic: the derivative of the matrix exponential is a block of the exponential of a larger matrix (C. Van Loan, IEEE
-/// Trans. Autom. Control 23 (1978) 395).
+/// Analytic: the derivative of the matrix exponential is a block of the exponential of a larger
+/// matrix (C. Van Loan, IEEE Trans. Autom. Control 23 (1978) 395).
 #[test]
 fn two_nodes_agree_with_the_derivative_of_the_matrix_exponential() {
     let (g, out, power, c) = (130.0, 3.4, 220.0, 1300.0);
@@ -75,7 +80,8 @@ fn two_nodes_agree_with_the_derivative_of_the_matrix_exponential() {
     for tolerance in [1e-4, 1e-6] {
         for symmetric in [true, false] {
             let system = Row::new(2, (g, out, power, c), symmetric);
-            let mut integrator = Cvodes::new(system, 0.0, &y0, &options(tolerance, &scales)).unwrap();
+            let mut integrator =
+                Cvodes::new(system, 0.0, &y0, &options(tolerance, &scales)).unwrap();
             run_to(&mut integrator, t);
             let found = integrator.sensitivities().unwrap();
             let expected: Vec<f64> = (0..4).flat_map(exact).collect();
@@ -97,14 +103,16 @@ fn a_quadratic_decay_by_its_rate_and_its_start() {
             run_to(&mut integrator, t);
             let spread = 1.0 + k * y0 * t;
             let exact = [-y0 * y0 * t / (spread * spread), 1.0 / (spread * spread)];
-            let off = in_tolerances(integrator.sensitivities().unwrap(), &exact, &scales, tolerance);
+            let off =
+                in_tolerances(integrator.sensitivities().unwrap(), &exact, &scales, tolerance);
             assert!(off < 10.0, "{off} tolerances at {tolerance:e} and {t}");
         }
     }
 }
 
-/// Analytic, by all four direct solvers. With `0 = y - z - a z^4` and `y' = -a z^4`, the time from `z0` down to `z` is
-/// `(z^-3 - z0^-3) / (3 a) - 4 ln(z / z0)`; differentiated by `a` with `z0(a)`, and `y = z + a z^4`.
+/// Analytic, by all four direct solvers. With `0 = y - z - a z^4` and `y' = -a z^4`, the time from
+/// `z0` down to `z` is `(z^-3 - z0^-3) / (3 a) - 4 ln(z / z0)`; differentiated by `a` with `z0(a)`,
+/// and `y = z + a z^4`.
 #[test]
 fn radiating_skins_by_their_emissivity_with_algebraic_unknowns() {
     let (a, y0, t, tolerance) = (5e-9, 900.0, 3.0, 1e-6);
@@ -143,8 +151,8 @@ fn radiating_skins_by_their_emissivity_with_algebraic_unknowns() {
     }
 }
 
-/// Analytic: a power that jumps at a time which is the parameter. Behind it `T` moves with `(P1 - P2) / C` times what is
-/// left of it.
+/// Analytic: a power that jumps at a time which is the parameter. Behind it `T` moves with
+/// `(P1 - P2) / C` times what is left of it.
 #[test]
 fn a_jump_whose_time_is_a_parameter_makes_the_sensitivity_jump() {
     let (r, c, first, second, jump) = (0.3, 2700.0, 200.0, 50.0, 500.0);
@@ -174,7 +182,8 @@ fn a_jump_whose_time_is_a_parameter_makes_the_sensitivity_jump() {
     assert!(in_tolerances(found, &expected, &[1.0; 3], tolerance) < 10.0, "{found:?} {expected:?}");
 }
 
-/// Analytic. In the middle of a run, new sensitivities are a new start, which is counted; the books go on.
+/// Analytic. In the middle of a run, new sensitivities are a new start, which is counted; the books
+/// go on.
 #[test]
 fn new_sensitivities_between_steps_begin_anew() {
     let mut integrator = body(20.0, 1e-6);
@@ -229,7 +238,8 @@ fn roots_and_a_rewind_leave_the_sensitivities_right() {
     assert_eq!(met, 3);
 }
 
-/// Analytic: a stop time inside the internal step that a root interrupted makes CVODES begin anew at the root.
+/// Analytic: a stop time inside the internal step that a root interrupted makes CVODES begin anew
+/// at the root.
 #[test]
 fn a_stop_inside_an_interrupted_step_keeps_the_sensitivities() {
     let scales = [BODY.0, BODY.1, BODY.2, 10.0];
@@ -247,8 +257,8 @@ fn a_stop_inside_an_interrupted_step_keeps_the_sensitivities() {
     }
 }
 
-/// Property: the largest component rules, so that idle nodes change neither steps nor values; a mean over all of them
-/// would.
+/// Property: the largest component rules, so that idle nodes change neither steps nor values; a
+/// mean over all of them would.
 #[test]
 fn idle_nodes_do_not_dilute_the_error_of_sensitivities() {
     let run = |idle: usize| {
@@ -259,7 +269,10 @@ fn idle_nodes_do_not_dilute_the_error_of_sensitivities() {
         let mut integrator = Cvodes::new(system, 0.0, &y0, &options).unwrap();
         run_to(&mut integrator, 1000.0);
         let s = integrator.sensitivities().unwrap().to_vec();
-        (integrator.statistics().steps, s.chunks_exact(2 + idle).map(|block| block[0]).collect::<Vec<_>>())
+        (
+            integrator.statistics().steps,
+            s.chunks_exact(2 + idle).map(|block| block[0]).collect::<Vec<_>>(),
+        )
     };
     let ((alone, values), (among, same)) = (run(0), run(5000));
     assert_eq!(alone, among);
@@ -296,7 +309,8 @@ fn books_close_beside_sensitivities() {
         let mut system = Row::new(n, (130.0, 3.4, 220.0, 13.0), true);
         system.books = true;
         let mut integrator =
-            Cvodes::new(system, 0.0, &vec![0.0; n], &options(1e-5, &[130.0, 3.4, 220.0, 13.0])).unwrap();
+            Cvodes::new(system, 0.0, &vec![0.0; n], &options(1e-5, &[130.0, 3.4, 220.0, 13.0]))
+                .unwrap();
         run_to(&mut integrator, 300.0);
         let stored: f64 = integrator.state().iter().map(|y| 13.0 * y).sum();
         let q = integrator.quadratures().unwrap()[0];
@@ -304,8 +318,8 @@ fn books_close_beside_sensitivities() {
     }
 }
 
-/// A stream into one cell at `k`, held to be symmetric with the Jacobian 0: see `common/algebraic.rs`. Its parameter is
-/// the size of the inlet.
+/// A stream into one cell at `k`, held to be symmetric with the Jacobian 0: see
+/// `common/algebraic.rs`. Its parameter is the size of the inlet.
 struct Held {
     rate: f64,
     left: bool,
@@ -339,18 +353,28 @@ impl OdeSystem for Held {
     fn sensitivity_count(&self) -> usize {
         1
     }
-    fn sensitivity_flow(&mut self, t: f64, _y: &[f64], s: &[f64], g: &mut [f64]) -> Result<(), Retry> {
+    fn sensitivity_flow(
+        &mut self,
+        t: f64,
+        _y: &[f64],
+        s: &[f64],
+        g: &mut [f64],
+    ) -> Result<(), Retry> {
         g[0] = self.rate * (t.sin() - s[0]);
         Ok(())
     }
 }
 
-/// Analytic: the state is 2 times its derivative, and `y = 2 k (k sin t - cos t + e^(-k t)) / (1 + k^2)`.
+/// Analytic: the state is 2 times its derivative, and
+/// `y = 2 k (k sin t - cos t + e^(-k t)) / (1 + k^2)`.
 #[test]
 fn leaving_symmetry_keeps_the_sensitivities() {
     for k in [1e4_f64, 1e6] {
-        let system =
-            Held { rate: k, left: false, pattern: lptn_integrate::Pattern::new(1, std::iter::empty()) };
+        let system = Held {
+            rate: k,
+            left: false,
+            pattern: lptn_integrate::Pattern::new(1, std::iter::empty()),
+        };
         let mut integrator = Cvodes::new(system, 0.0, &[0.0], &options(1e-6, &[2.0])).unwrap();
         run_to(&mut integrator, 3.0);
         assert!(integrator.statistics().switched_to_lu.is_some());
@@ -367,7 +391,8 @@ fn statistics_count_calls_and_no_sensitivities_are_no_blocks() {
     let statistics = integrator.statistics();
     assert!(statistics.sensitivity_evaluations >= statistics.steps);
     assert!(statistics.linear_solves >= 5 * statistics.steps);
-    let mut plain = Cvodes::new(common::plate(3, 1.0), 0.0, &[0.0; 9], &Options::default()).unwrap();
+    let mut plain =
+        Cvodes::new(common::plate(3, 1.0), 0.0, &[0.0; 9], &Options::default()).unwrap();
     run_to(&mut plain, 10.0);
     assert_eq!(plain.statistics().sensitivity_evaluations, 0);
     assert!(plain.sensitivities().unwrap().is_empty());

@@ -11,7 +11,8 @@ use sensitive::{Body, Fault};
 fn started(fault: Option<(f64, Fault)>) -> Cvodes<Body> {
     let mut system = Body::new(0.3, 2700.0, 200.0);
     system.fault = fault;
-    let options = Options { sensitivity_scales: vec![0.3, 2700.0, 200.0, 10.0], ..Options::default() };
+    let options =
+        Options { sensitivity_scales: vec![0.3, 2700.0, 200.0, 10.0], ..Options::default() };
     let mut integrator = Cvodes::new(system, 0.0, &[20.0], &options).unwrap();
     integrator.set_sensitivities(&[0.0, 0.0, 0.0, 1.0]).unwrap();
     integrator.set_stop(1000.0);
@@ -52,8 +53,8 @@ fn every_fault_is_reported_with_its_callback_and_time() {
     }
 }
 
-/// Analytic: in the first step, and later. State, sensitivities and books are those of the last good step, and the rest of
-/// the run is right.
+/// Analytic: in the first step, and later. State, sensitivities and books are those of the last
+/// good step, and the rest of the run is right.
 #[test]
 fn a_run_goes_on_when_the_fault_is_gone() {
     for from in [0.0, 1e-3, 100.0] {
@@ -70,7 +71,10 @@ fn a_run_goes_on_when_the_fault_is_gone() {
                 let found = integrator.sensitivities().unwrap();
                 let scales = [0.3, 2700.0, 200.0, 10.0];
                 let close = |i: usize| (found[i] - exact[i]).abs() * scales[i] < 1e-4;
-                assert!((0..4).all(close), "{fault:?} from {from}, again {again}: {found:?} {exact:?}");
+                assert!(
+                    (0..4).all(close),
+                    "{fault:?} from {from}, again {again}: {found:?} {exact:?}"
+                );
             }
             let stored = 2700.0 * (integrator.state()[0] - 20.0);
             let q = integrator.quadratures().unwrap();
@@ -92,11 +96,17 @@ fn what_is_refused_of_sensitivities() {
     ));
     for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = start(vec![1.0, wrong, 1.0, 1.0]).map(|_| ()).unwrap_err();
-        assert!(matches!(error, IntegrateError::InvalidOption { option: "sensitivity_scales", .. }));
+        assert!(matches!(
+            error,
+            IntegrateError::InvalidOption { option: "sensitivity_scales", .. }
+        ));
     }
     let mut integrator = start(Vec::new()).unwrap();
     let error = integrator.set_sensitivities(&[0.0; 3]).unwrap_err();
-    assert!(matches!(error, IntegrateError::WrongLength { what: "sensitivities", expected: 4, found: 3 }));
+    assert!(matches!(
+        error,
+        IntegrateError::WrongLength { what: "sensitivities", expected: 4, found: 3 }
+    ));
     let error = integrator.set_sensitivities(&[0.0, 0.0, f64::NAN, 0.0]).unwrap_err();
     assert!(matches!(error, IntegrateError::InvalidState { index: 2, .. }));
     let error = integrator.interpolate_sensitivities(0.0, &mut [0.0; 3]).unwrap_err();

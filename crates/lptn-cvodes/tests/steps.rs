@@ -71,10 +71,16 @@ fn interpolates_inside_the_last_step_only() {
             assert!((y[0] - exact(t)).abs() < 1e-4);
         }
         for t in [step.from - 1e-3, step.to + 1e-3, f64::NAN] {
-            assert!(matches!(integrator.interpolate(t, &mut y), Err(IntegrateError::OutsideLastStep { .. })));
+            assert!(matches!(
+                integrator.interpolate(t, &mut y),
+                Err(IntegrateError::OutsideLastStep { .. })
+            ));
         }
     }
-    assert!(matches!(integrator.interpolate(0.0, &mut [0.0; 2]), Err(IntegrateError::WrongLength { .. })));
+    assert!(matches!(
+        integrator.interpolate(0.0, &mut [0.0; 2]),
+        Err(IntegrateError::WrongLength { .. })
+    ));
     integrator.restart(None).unwrap();
     let now = integrator.time();
     assert!(integrator.interpolate(now, &mut y).is_ok());
@@ -94,7 +100,8 @@ fn idle_components_change_nothing() {
         let options = Options { linear_solver: LinearSolver::Cholesky, ..Options::default() };
         let mut integrator = Cvodes::new(ladder(()).with_idle(idle), 0.0, &y0, &options).unwrap();
         let mut seen = Vec::new();
-        sample(&mut integrator, &equal_times(50.0, 20), |_, y| seen.extend_from_slice(&y[..3])).unwrap();
+        sample(&mut integrator, &equal_times(50.0, 20), |_, y| seen.extend_from_slice(&y[..3]))
+            .unwrap();
         (integrator.statistics().steps, seen)
     };
     let (steps, alone) = run(0);
@@ -181,7 +188,8 @@ fn the_system_comes_back() {
 
 #[test]
 fn options_are_obeyed() {
-    let options = Options { initial_step: Some(1e-3), max_step_size: Some(0.5), ..Options::default() };
+    let options =
+        Options { initial_step: Some(1e-3), max_step_size: Some(0.5), ..Options::default() };
     let mut integrator = Cvodes::new(plate(3, 1.0), 0.0, &[0.0; 9], &options).unwrap();
     integrator.set_stop(20.0);
     let first = integrator.step().unwrap();
@@ -199,7 +207,8 @@ fn the_version_is_that_of_the_headers() {
     assert!(linked.version.starts_with(['6', '7']));
 }
 
-/// Steps of a cell with a time constant of 1 us, far from 0 where doubles are 0.016 s apart, are those from 0.
+/// Steps of a cell with a time constant of 1 us, far from 0 where doubles are 0.016 s apart, are
+/// those from 0.
 #[test]
 fn a_start_far_from_zero_changes_no_step() {
     let run = |start: f64| {

@@ -35,8 +35,8 @@ pub struct Points {
 pub enum Places {
     /// Each item of a list.
     Items(Vec<Span>),
-    /// The rows of a file, one for each number, and the position of the column: a file may have millions, and the places
-    /// of two of them are asked for, where something is wrong.
+    /// The rows of a file, one for each number, and the position of the column: a file may have
+    /// millions, and the places of two of them are asked for, where something is wrong.
     Column(Arc<CsvFile>, usize),
 }
 
@@ -51,15 +51,16 @@ impl Points {
     }
 }
 
-/// One CSV file: a header, and rows of cells. The rows stand in the text alone and are read again for every column: held as
-/// cells they would take twenty times the memory of the file.
+/// One CSV file: a header, and rows of cells. The rows stand in the text alone and are read again
+/// for every column: held as cells they would take twenty times the memory of the file.
 #[derive(Debug)]
 pub struct CsvFile {
     head: Head,
     text: Arc<str>,
 }
 
-/// So many rows of a column are looked at for what is wrong with them; of millions the rest are like those.
+/// So many rows of a column are looked at for what is wrong with them; of millions the rest are
+/// like those.
 const MOST_WRONG: usize = 20 * MOST_PROBLEMS;
 
 impl CsvFile {
@@ -121,7 +122,8 @@ impl CsvFile {
         })
     }
 
-    /// The numbers of the column that `ask` names, in SI units; of type `wanted` where that is known.
+    /// The numbers of the column that `ask` names, in SI units; of type `wanted` where that is
+    /// known.
     ///
     /// # Errors
     /// That there is no such column, that its unit is another, or every cell without a number.
@@ -132,8 +134,10 @@ impl CsvFile {
         ask: &Asked,
     ) -> Result<Points, Vec<Diagnostic>> {
         let head = &self.head;
-        let Column { index, unit } = head.numbers(name, wanted, ask).map_err(|problem| vec![problem])?;
-        let mut numbers = Vec::with_capacity(self.text.bytes().filter(|&byte| byte == b'\n').count());
+        let Column { index, unit } =
+            head.numbers(name, wanted, ask).map_err(|problem| vec![problem])?;
+        let mut numbers =
+            Vec::with_capacity(self.text.bytes().filter(|&byte| byte == b'\n').count());
         let mut problems = Vec::new();
         self.visit(|cells| {
             match value(cells.get(index).unwrap_or_default().trim(), &unit) {
@@ -142,7 +146,8 @@ impl CsvFile {
             }
             (problems.len() >= MOST_WRONG).then_some(())
         });
-        let (whole, places) = (head.columns[index].place.clone(), Places::Column(Arc::clone(self), index));
+        let (whole, places) =
+            (head.columns[index].place.clone(), Places::Column(Arc::clone(self), index));
         let points = Points { numbers, ty: unit.ty, places, whole, unit: Some(unit) };
         if problems.is_empty() { Ok(points) } else { Err(problems) }
     }
@@ -160,8 +165,7 @@ mod tests {
 
     #[test]
     fn cells_are_found_where_they_stand() {
-        let text =
-            "\u{feff}# cycle\r\n\r\nt [s], speed [rpm]\r\n\r\n0, 10\r\n# more\r\n 1 ,20\r\n\"2\",30\n3,40";
+        let text = "\u{feff}# cycle\r\n\r\nt [s], speed [rpm]\r\n\r\n0, 10\r\n# more\r\n 1 ,20\r\n\"2\",30\n3,40";
         let mut files = Files::new();
         let text = CsvText::of(&mut files, "a.csv".to_owned(), text.as_bytes()).unwrap();
         let file = CsvFile::open(&text, &Span::new(text.file, 0..0)).unwrap();

@@ -47,7 +47,14 @@ impl Diagnostic {
     /// An error without a place.
     pub fn error(code: &'static str, message: impl Into<String>) -> Self {
         let message = message.into();
-        Self { code, severity: Severity::Error, message, labels: Vec::new(), help: None, notes: Vec::new() }
+        Self {
+            code,
+            severity: Severity::Error,
+            message,
+            labels: Vec::new(),
+            help: None,
+            notes: Vec::new(),
+        }
     }
 
     /// A warning without a place.
@@ -56,12 +63,22 @@ impl Diagnostic {
     }
 
     /// An error at its place, with what to do about it.
-    pub fn wrong(code: &'static str, message: impl Into<String>, at: &Span, help: impl Help) -> Self {
+    pub fn wrong(
+        code: &'static str,
+        message: impl Into<String>,
+        at: &Span,
+        help: impl Help,
+    ) -> Self {
         Self::error(code, message).at(at.clone(), "").help(help)
     }
 
     /// A warning at its place, with what to do about it.
-    pub fn doubt(code: &'static str, message: impl Into<String>, at: &Span, help: impl Help) -> Self {
+    pub fn doubt(
+        code: &'static str,
+        message: impl Into<String>,
+        at: &Span,
+        help: impl Help,
+    ) -> Self {
         Self { severity: Severity::Warning, ..Self::wrong(code, message, at, help) }
     }
 
@@ -135,7 +152,8 @@ impl fmt::Display for Diagnostic {
 }
 
 impl Files {
-    /// Adds for which instance of a template, and of so many others, the place is read, and where that is made.
+    /// Adds for which instance of a template, and of so many others, the place is read, and where
+    /// that is made.
     fn with_copies(&self, mut diagnostic: Diagnostic, others: usize) -> Diagnostic {
         let mut copy = diagnostic.place().and_then(|place| self.copy(place.copy));
         if copy.is_none() || diagnostic.labels.iter().any(|label| label.text.ends_with(USED)) {
@@ -182,8 +200,8 @@ impl Files {
 /// How the place is called where an instance is made.
 const USED: &str = ", used here";
 
-/// Sorts by place, and drops what says the same of the same place; what is wrong in a template is said once, and
-/// of which instance.
+/// Sorts by place, and drops what says the same of the same place; what is wrong in a template is
+/// said once, and of which instance.
 pub fn arrange(files: &Files, diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.sort_by_key(|d| d.place().map(Span::order));
     diagnostics.dedup_by(|b, a| a.code == b.code && a.place().is_some() && a.place() == b.place());
@@ -209,5 +227,6 @@ fn once_for_all_copies(files: &Files, diagnostics: &mut Vec<Diagnostic>) {
             None => kept.push((diagnostic, 0)),
         }
     }
-    diagnostics.extend(kept.into_iter().map(|(diagnostic, others)| files.with_copies(diagnostic, others)));
+    diagnostics
+        .extend(kept.into_iter().map(|(diagnostic, others)| files.with_copies(diagnostic, others)));
 }

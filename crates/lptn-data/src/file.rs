@@ -55,7 +55,9 @@ impl Span {
 
     /// Whether it lies inside another place.
     pub fn is_inside(&self, other: &Self) -> bool {
-        self.file == other.file && other.range.start <= self.range.start && self.range.end <= other.range.end
+        self.file == other.file
+            && other.range.start <= self.range.start
+            && self.range.end <= other.range.end
     }
 
     /// What sorts places in the order a reader meets them.
@@ -88,8 +90,9 @@ struct File {
 
 impl File {
     fn lines(&self) -> &[usize] {
-        let count =
-            || std::iter::once(0).chain(self.text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+        let count = || {
+            std::iter::once(0).chain(self.text.match_indices('\n').map(|(at, _)| at + 1)).collect()
+        };
         self.lines.get_or_init(count)
     }
 }

@@ -1,5 +1,6 @@
-//! How a CSV file was saved: what its first lines say when that was done otherwise than with one header, commas and
-//! decimal points. Records, sheets of points, signals, tables and imports are told the same.
+//! How a CSV file was saved: what its first lines say when that was done otherwise than with one
+//! header, commas and decimal points. Records, sheets of points, signals, tables and imports are
+//! told the same.
 
 use lptn_units::Unit;
 
@@ -12,14 +13,15 @@ use crate::text::CsvText;
 /// Titles of loggers are not longer than this, in lines.
 const LONGEST_TITLE: usize = 30;
 
-/// What the header says of how the file was saved: with another separator, without names, below a title. `example` is
-/// a header as it could be.
+/// What the header says of how the file was saved: with another separator, without names, below a
+/// title. `example` is a header as it could be.
 fn check(head: &Head, text: &CsvText, (codes, example): (&Codes, &str)) -> Option<Diagnostic> {
     if head.columns.iter().all(|header| header.written.replace(',', ".").parse::<f64>().is_ok()) {
         let problem = Diagnostic::error(codes.no_header, "the first line holds numbers, not names")
             .at(head.place.clone(), "the header belongs above this line");
         return Some(
-            problem.help(format!("begin with the names of the columns and their units: `{example}`")),
+            problem
+                .help(format!("begin with the names of the columns and their units: `{example}`")),
         );
     }
     if let Some(problem) = foreign(head, &text.name, codes) {
@@ -48,7 +50,8 @@ fn foreign(head: &Head, name: &str, codes: &Codes) -> Option<Diagnostic> {
     } else {
         return None;
     };
-    let problem = Diagnostic::error(codes.no_header, format!("{name} is not a CSV file: it looks like {is}"));
+    let problem =
+        Diagnostic::error(codes.no_header, format!("{name} is not a CSV file: it looks like {is}"));
     Some(problem.at(head.place.clone(), "taken for the header").help(help))
 }
 
@@ -62,8 +65,8 @@ fn separator(head: &Head, name: &str, (rows, codes): (&[Row], &Codes)) -> Option
     let typed = name.chars().all(|c| c.is_alphanumeric() || "/._-".contains(c));
     let name = if typed { name } else { "record.csv" };
     let message = format!("the columns are separated by {words}, not by commas");
-    let problem =
-        Diagnostic::error(codes.separator, message).at(one.place.clone(), "one column, as it stands");
+    let problem = Diagnostic::error(codes.separator, message)
+        .at(one.place.clone(), "one column, as it stands");
     Some(match decimal {
         true => problem.help(format!(
             "save it with commas between the columns and decimal points, or change both:\n\
@@ -82,10 +85,12 @@ fn title(head: &Head, rows: &[Row], codes: &Codes) -> Option<Diagnostic> {
         return None;
     }
     let below = rows.iter().find(|row| names_columns(row, head.file()))?;
-    let problem =
-        Diagnostic::error(codes.no_header, "the first line is not the header: another one names the columns")
-            .at(head.place.clone(), "taken for the header")
-            .also(below.whole(head.file()), "the header");
+    let problem = Diagnostic::error(
+        codes.no_header,
+        "the first line is not the header: another one names the columns",
+    )
+    .at(head.place.clone(), "taken for the header")
+    .also(below.whole(head.file()), "the header");
     Some(problem.help("put `#` before the lines above the header, or remove them"))
 }
 
@@ -106,9 +111,8 @@ pub(crate) fn header(
     let Some(first) = first else {
         let problem = Diagnostic::error(codes.empty, format!("{} has no header", text.name))
             .at(Span::new(text.file, 0..0), "the header belongs here");
-        return Err(
-            problem.help(format!("begin it with the names of the columns and their units: `{example}`"))
-        );
+        return Err(problem
+            .help(format!("begin it with the names of the columns and their units: `{example}`")));
     };
     let head = Head::new(text.file, &row(first, &text.text), codes);
     match check(&head, text, (codes, example)) {

@@ -1,5 +1,5 @@
-//! The header of a CSV file and the cells below it: columns by name, numbers with their units, places, and what is
-//! wrong with them.
+//! The header of a CSV file and the cells below it: columns by name, numbers with their units,
+//! places, and what is wrong with them.
 
 use lptn_units::{Dimension, Type, Unit, suggest};
 
@@ -160,12 +160,17 @@ impl Head {
     }
 
     /// The column of numbers of this name and type.
-    pub(crate) fn numbers(&self, name: &str, ty: Option<Type>, ask: &Asked) -> Result<Column, Diagnostic> {
+    pub(crate) fn numbers(
+        &self,
+        name: &str,
+        ty: Option<Type>,
+        ask: &Asked,
+    ) -> Result<Column, Diagnostic> {
         self.column(self.find(name, ask)?, ty, ask)
     }
 
-    /// A column with its unit, which is of type `wanted` where that is known. In a record `K` alone is a point on the
-    /// scale: a sensor measures no difference.
+    /// A column with its unit, which is of type `wanted` where that is known. In a record `K` alone
+    /// is a point on the scale: a sensor measures no difference.
     pub(crate) fn column(
         &self,
         index: usize,
@@ -184,12 +189,17 @@ impl Head {
         })?;
         let kelvin = self.codes.of_record && unit.ty == Type::of(Dimension::TEMPERATURE);
         let ty = if kelvin && wanted.is_none() { Type::ABSOLUTE_TEMPERATURE } else { unit.ty };
-        let unit =
-            fit(Unit { ty, ..unit }, wanted).map_err(|types| at(self.other_unit(header, types, ask)))?;
+        let unit = fit(Unit { ty, ..unit }, wanted)
+            .map_err(|types| at(self.other_unit(header, types, ask)))?;
         Ok(Column { index, unit })
     }
 
-    fn other_unit(&self, header: &Header, (wanted, found): (Type, Type), ask: &Asked) -> Diagnostic {
+    fn other_unit(
+        &self,
+        header: &Header,
+        (wanted, found): (Type, Type),
+        ask: &Asked,
+    ) -> Diagnostic {
         let (name, due) = (&header.name, wanted.with_article());
         let (is, help) = match header.unit {
             None => ("has no unit".to_owned(), "give the column its unit in the header"),
@@ -220,7 +230,9 @@ impl Head {
             return problem.help(format!("name it without the unit: `{}`", header.name));
         }
         let names = || self.columns.iter().map(|header| header.name.as_str());
-        if let Some((bare, unit)) = names().filter_map(other_brackets).find(|(bare, _)| *bare == name) {
+        if let Some((bare, unit)) =
+            names().filter_map(other_brackets).find(|(bare, _)| *bare == name)
+        {
             return problem.help(format!("write its unit in square brackets: `{bare} [{unit}]`"));
         }
         let near = suggest(name, names());
@@ -236,11 +248,13 @@ impl Head {
         ask.also(problem).help(format!("rename one of them, for example `{name}_2`"))
     }
 
-    /// Why a row has a value behind the last column: with a decimal comma every number falls into two.
+    /// Why a row has a value behind the last column: with a decimal comma every number falls into
+    /// two.
     pub(crate) fn extra(&self, row: &Row, ask: &Asked) -> Option<Diagnostic> {
         let columns = self.columns.len();
         let index = (columns..row.cells.len()).find(|&i| !row.cell(i).is_empty())?;
-        let message = format!("this row has {} values, the header names {columns} columns", row.cells.len());
+        let message =
+            format!("this row has {} values, the header names {columns} columns", row.cells.len());
         let problem = Diagnostic::error(self.codes.extra_value, message)
             .at(row.place(self.file, index), "belongs to no column")
             .also(self.place.clone(), "the header");
@@ -254,17 +268,25 @@ impl Head {
         let problem = Diagnostic::error(self.codes.short_row, message)
             .at(row.whole(self.file), "")
             .also(self.place.clone(), "the header");
-        ask.also(problem).help(format!("what is left out is an empty cell between commas: `{example}`"))
+        ask.also(problem)
+            .help(format!("what is left out is an empty cell between commas: `{example}`"))
     }
 
     /// A cell that holds no number.
-    pub(crate) fn no_number(&self, row: &Row, (index, wrong): (usize, Wrong), ask: &Asked) -> Diagnostic {
+    pub(crate) fn no_number(
+        &self,
+        row: &Row,
+        (index, wrong): (usize, Wrong),
+        ask: &Asked,
+    ) -> Diagnostic {
         let (header, cell, codes) = (&self.columns[index], row.cell(index), self.codes);
         let (name, unit) = (&header.name, header.unit.as_deref().unwrap_or_default());
         let holds = |what: &str| format!("column `{name}` holds `{cell}`, which is {what}");
         let digits = cell.chars().any(|c| c.is_ascii_digit());
         let (code, message) = match wrong {
-            Wrong::Missing => (codes.missing_value, format!("column `{name}` has no value in this row")),
+            Wrong::Missing => {
+                (codes.missing_value, format!("column `{name}` has no value in this row"))
+            }
             Wrong::NotFinite => (codes.not_finite, holds("no finite number")),
             Wrong::Text => (codes.not_a_number, holds("no number")),
             Wrong::Cold => (
@@ -275,7 +297,8 @@ impl Head {
         let help = match wrong {
             Wrong::Missing => "fill it in, or leave the row out".to_owned(),
             Wrong::Cold if codes.of_record => {
-                "0 K is -273.15 degC; leave the cell empty where the sensor had no contact".to_owned()
+                "0 K is -273.15 degC; leave the cell empty where the sensor had no contact"
+                    .to_owned()
             }
             Wrong::Cold => "0 K is -273.15 degC".to_owned(),
             Wrong::Text if digits || !codes.of_record => text_help(name, cell),
@@ -294,7 +317,11 @@ fn no_unit(header: &Header, wanted: Option<Type>) -> Diagnostic {
     }
     let unit = wanted.unwrap_or(Type::ABSOLUTE_TEMPERATURE).usual_unit();
     let help = format!("give it in the header: `{name} [{unit}]`");
-    problem.help(if wanted.is_some() { help } else { format!("{help}; a plain number is `{name} [-]`") })
+    problem.help(if wanted.is_some() {
+        help
+    } else {
+        format!("{help}; a plain number is `{name} [-]`")
+    })
 }
 
 /// Why a cell holds no number.
@@ -326,7 +353,8 @@ pub(crate) fn value(cell: &str, unit: &Unit) -> Result<f64, Wrong> {
     if unit.ty.absolute && value < 0.0 { Err(Wrong::Cold) } else { Ok(value) }
 }
 
-/// What to do about a row with more values than the header has columns: with a decimal comma every number is two.
+/// What to do about a row with more values than the header has columns: with a decimal comma every
+/// number is two.
 fn extra_help(row: &Row) -> &'static str {
     let whole = |i: usize| {
         let cell = row.cell(i).trim_start_matches(['+', '-']);
@@ -339,8 +367,8 @@ fn extra_help(row: &Row) -> &'static str {
     }
 }
 
-/// A unit where a type is due: `K` alone is absolute where an absolute temperature is. What is due and what was
-/// found, where they differ.
+/// A unit where a type is due: `K` alone is absolute where an absolute temperature is. What is due
+/// and what was found, where they differ.
 ///
 /// # Errors
 /// Both types, what is due first.

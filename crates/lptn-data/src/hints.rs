@@ -5,7 +5,8 @@ use lptn_units::Unit;
 /// What the problems of a file are called.
 #[derive(Debug)]
 pub(crate) struct Codes {
-    /// Whether it holds what was measured: gaps are meant, units have to be given; a command line names it.
+    /// Whether it holds what was measured: gaps are meant, units have to be given; a command line
+    /// names it.
     pub(crate) of_record: bool,
     pub(crate) empty: &'static str,
     pub(crate) separator: &'static str,
@@ -75,7 +76,8 @@ pub(crate) fn text_help(name: &str, cell: &str) -> String {
     if cell.contains(';') {
         return "the columns are separated by `;` in this row: write commas".to_owned();
     }
-    let number: String = cell.chars().take_while(|c| c.is_ascii_digit() || "+-.".contains(*c)).collect();
+    let number: String =
+        cell.chars().take_while(|c| c.is_ascii_digit() || "+-.".contains(*c)).collect();
     let unit = cell.get(number.len()..).unwrap_or_default().trim();
     if !number.is_empty() && number.parse::<f64>().is_ok() && Unit::parse(unit).is_ok() {
         return format!("write the unit once, in the header: `{name} [{unit}]`");
@@ -87,5 +89,7 @@ pub(crate) fn text_help(name: &str, cell: &str) -> String {
 fn is_moment(cell: &str) -> bool {
     let digits = cell.starts_with(|c: char| c.is_ascii_digit());
     let twice = |c: char| cell.matches(c).count() == 2;
-    digits && (cell.contains(':') || twice('-') || twice('/') || twice('.')) && cell.parse::<f64>().is_err()
+    digits
+        && (cell.contains(':') || twice('-') || twice('/') || twice('.'))
+        && cell.parse::<f64>().is_err()
 }

@@ -1,11 +1,13 @@
-//! What is read and what is said about it: texts with places ([`Files`], [`Span`]), the one [`Diagnostic`], and the one
-//! reader of CSV files. Headers carry units, `speed [rpm]`; what is wrong is named by its line.
+//! What is read and what is said about it: texts with places ([`Files`], [`Span`]), the one
+//! [`Diagnostic`], and the one reader of CSV files. Headers carry units, `speed [rpm]`; what is
+//! wrong is named by its line.
 //!
-//! A file is read in four ways, by the same header , numbers and checks of its form: as columns over
-//! time ([`read_record`]), as points without an order ([`read_sheet`]), one column after the other ([`CsvFile`]), or
-//! row by row without being held ([`Rows`]).
+//! A file is read in four ways, by the same header , numbers and checks of its form: as columns
+//! over time ([`read_record`]), as points without an order ([`read_sheet`]), one column after the
+//! other ([`CsvFile`]), or row by row without being held ([`Rows`]).
 //!
-//! Diagnostics stand here and not in a crate below: they point into texts, and nothing below this crate has one.
+//! Diagnostics stand here and not in a crate below: they point into texts, and nothing below this
+//! crate has one.
 
 mod csv_file;
 mod diagnostic;
@@ -27,7 +29,8 @@ pub use limits::{
     MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS, ReadError, Rejected, read_bytes, read_named, shorten,
 };
 pub use record::{
-    DataSheet, Record, RecordColumn, RecordName, RecordQuery, Saturation, read_record, read_sheet, read_text,
+    DataSheet, Record, RecordColumn, RecordName, RecordQuery, Saturation, read_record, read_sheet,
+    read_text,
 };
 pub use rows::{Marks, Rows};
 pub use text::CsvText;

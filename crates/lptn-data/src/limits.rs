@@ -30,8 +30,8 @@ pub struct Rejected {
 }
 
 impl Rejected {
-    /// With the problems in the order of their places, each said once, as many as are shown; so many more were dropped
-    /// before.
+    /// With the problems in the order of their places, each said once, as many as are shown; so
+    /// many more were dropped before.
     pub fn arranged(files: Files, mut diagnostics: Vec<Diagnostic>, dropped: usize) -> Self {
         arrange(&files, &mut diagnostics);
         shorten(&mut diagnostics, dropped);
@@ -79,11 +79,12 @@ pub enum ReadError {
 }
 }
 
-/// The bytes of a file, which need not be text, up to [`MOST_BYTES`]; an input without an end is not read on.
+/// The bytes of a file, which need not be text, up to [`MOST_BYTES`]; an input without an end is
+/// not read on.
 ///
 /// # Errors
-/// [`ReadError::Io`] if the file cannot be read; [`ReadError::Rejected`] with `netlist::too_long` if it is longer,
-/// or with `netlist::not_a_file` if it is a device.
+/// [`ReadError::Io`] if the file cannot be read; [`ReadError::Rejected`] with `netlist::too_long`
+/// if it is longer, or with `netlist::not_a_file` if it is a device.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     let name = path.display().to_string();
     let failed = |error| ReadError::Io { path: path.to_owned(), error };
@@ -98,12 +99,16 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
         None => {
             let message = format!("{name} is longer than {} MB", MOST_BYTES / 1_000_000);
             let error = Diagnostic::error("netlist::too_long", message);
-            Err(refused(&name, error.help("a netlist of a million elements takes less: is this one?")))
+            Err(refused(
+                &name,
+                error.help("a netlist of a million elements takes less: is this one?"),
+            ))
         }
     }
 }
 
-/// The bytes of a file that a netlist names: up to [`MOST_CSV_BYTES`], for it may be a CSV file of a network.
+/// The bytes of a file that a netlist names: up to [`MOST_CSV_BYTES`], for it may be a CSV file of
+/// a network.
 ///
 /// # Errors
 /// That of the system; [`io::ErrorKind::FileTooLarge`] if the file is longer.
@@ -145,14 +150,15 @@ fn refused(name: &str, error: Diagnostic) -> ReadError {
     ReadError::Rejected(Rejected { files, diagnostics: vec![error], syntax: false })
 }
 
-/// Keeps the first problems of each file, errors before warnings, and counts the others, with those errors that were
-/// dropped before.
+/// Keeps the first problems of each file, errors before warnings, and counts the others, with those
+/// errors that were dropped before.
 pub fn shorten(diagnostics: &mut Vec<Diagnostic>, dropped: usize) {
     if diagnostics.len() <= MOST_PROBLEMS && dropped == 0 {
         return;
     }
     let all = diagnostics.len();
-    let mut kept: std::collections::BTreeMap<Option<FileId>, usize> = std::collections::BTreeMap::new();
+    let mut kept: std::collections::BTreeMap<Option<FileId>, usize> =
+        std::collections::BTreeMap::new();
     let mut keep = vec![false; all];
     for severity in [Severity::Error, Severity::Warning] {
         for (diagnostic, keep) in diagnostics.iter().zip(&mut keep) {
@@ -168,8 +174,11 @@ pub fn shorten(diagnostics: &mut Vec<Diagnostic>, dropped: usize) {
     diagnostics.retain(|_| keep.next().unwrap_or(false));
     let left = all - diagnostics.len() + dropped;
     if left > 0 {
-        let message =
-            if left == 1 { "and one more problem".into() } else { format!("and {left} more problems") };
+        let message = if left == 1 {
+            "and one more problem".into()
+        } else {
+            format!("and {left} more problems")
+        };
         let more = match errors_before + dropped > errors(diagnostics) {
             true => Diagnostic::error("netlist::more", message),
             false => Diagnostic::warning("netlist::more", message),

@@ -43,7 +43,18 @@ impl<'s> Rows<'s> {
         let head = header(text, found.then(|| record.clone()), (hints::NETLIST, example));
         let head = head.map_err(|problem| asked.also(problem))?;
         let (marks, skipped) = (Vec::new(), Vec::new());
-        Ok(Self { head, asked, sound: true, problems: 0, text, reader, record, rows: 0, marks, skipped })
+        Ok(Self {
+            head,
+            asked,
+            sound: true,
+            problems: 0,
+            text,
+            reader,
+            record,
+            rows: 0,
+            marks,
+            skipped,
+        })
     }
 
     /// Goes to the next row; false at the end.
@@ -141,7 +152,8 @@ impl<'s> Rows<'s> {
 
     /// A problem for every column that is not one of these.
     pub fn unknown_columns(&self, known: &[&str]) -> Vec<Diagnostic> {
-        let unknown = self.head.columns.iter().filter(|column| !known.contains(&column.name.as_str()));
+        let unknown =
+            self.head.columns.iter().filter(|column| !known.contains(&column.name.as_str()));
         let told = unknown.map(|column| {
             let message = format!("{} have no column `{}`", self.asked.words, column.name);
             let problem = Diagnostic::error("netlist::csv_unknown_column", message);
@@ -167,7 +179,8 @@ impl<'s> Rows<'s> {
     /// A cell that has to hold a name and is empty.
     pub fn no_name(&self, index: usize) -> Diagnostic {
         let message = format!("column `{}` has no name in this row", self.head.columns[index].name);
-        let problem = Diagnostic::error(hints::NETLIST.missing_value, message).at(self.place(index), "");
+        let problem =
+            Diagnostic::error(hints::NETLIST.missing_value, message).at(self.place(index), "");
         self.asked.also(problem).help("fill it in, or remove the row")
     }
 

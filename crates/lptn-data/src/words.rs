@@ -17,7 +17,8 @@ pub fn list(names: &[&str]) -> String {
     }
 }
 
-/// What was probably meant by `wrong`: the nearest of the names, else `all`, "its names are", with all of them.
+/// What was probably meant by `wrong`: the nearest of the names, else `all`, "its names are", with
+/// all of them.
 pub fn nearest<'n>(wrong: &str, names: impl IntoIterator<Item = &'n str>, all: &str) -> String {
     let names: Vec<&str> = names.into_iter().collect();
     match suggest(wrong, names.iter().copied()) {

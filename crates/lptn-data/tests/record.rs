@@ -1,12 +1,15 @@
-//! Diagnostics of measured records: every file of `tests/record` is read, or refused, with exactly the words beside it,
-//! in `.txt`. A comment `# asks: ring, t = time` in a file says which columns are asked for. `LPTN_BLESS=1` writes the
-//! words anew; what it writes has to be read as one would who made the mistake.
+//! Diagnostics of measured records: every file of `tests/record` is read, or refused, with exactly
+//! the words beside it, in `.txt`. A comment `# asks: ring, t = time` in a file says which columns
+//! are asked for. `LPTN_BLESS=1` writes the words anew; what it writes has to be read as one would
+//! who made the mistake.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::path::{Path, PathBuf};
 
-use lptn_data::{Diagnostic, Files, Record, RecordName, RecordQuery, Rejected, Severity, read_record};
+use lptn_data::{
+    Diagnostic, Files, Record, RecordName, RecordQuery, Rejected, Severity, read_record,
+};
 use lptn_units::Type;
 
 fn folder() -> PathBuf {
@@ -15,7 +18,8 @@ fn folder() -> PathBuf {
 
 fn cases() -> Vec<PathBuf> {
     let files = std::fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path());
-    let mut cases: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|e| e == "csv")).collect();
+    let mut cases: Vec<PathBuf> =
+        files.filter(|path| path.extension().is_some_and(|e| e == "csv")).collect();
     cases.sort();
     cases
 }
@@ -44,7 +48,10 @@ fn read(path: &Path) -> Result<(Record, Files), Rejected> {
 
 fn told(files: &Files, diagnostics: &[Diagnostic]) -> String {
     let told = |diagnostic: &Diagnostic| {
-        let marks = diagnostic.labels.iter().map(|label| format!("\n    marks {:?}", files.at(&label.span)));
+        let marks = diagnostic
+            .labels
+            .iter()
+            .map(|label| format!("\n    marks {:?}", files.at(&label.span)));
         format!("{}{}\n", files.plain(diagnostic), marks.collect::<String>())
     };
     diagnostics.iter().map(told).collect::<Vec<_>>().join("\n")
@@ -57,8 +64,12 @@ fn seen(record: &Record) -> String {
         let texts: Vec<String> = few.iter().map(|value| format!("{value}")).collect();
         format!("{}{}", texts.join(" "), if values.len() > 8 { " .." } else { "" })
     };
-    let mut text =
-        format!("{} rows\n{} [s]: {}\n", record.time.len(), record.time_name, numbers(&record.time));
+    let mut text = format!(
+        "{} rows\n{} [s]: {}\n",
+        record.time.len(),
+        record.time_name,
+        numbers(&record.time)
+    );
     for column in &record.columns {
         text += &format!("{} ({}): {}\n", column.name, column.unit.ty, numbers(&column.values));
     }
@@ -81,7 +92,9 @@ fn diagnostics_of_records_are_as_reviewed() {
         let expected = path.with_extension("txt");
         if std::env::var_os("LPTN_BLESS").is_some() {
             std::fs::write(&expected, &found).unwrap();
-        } else if std::fs::read_to_string(&expected).unwrap_or_default().replace("\r\n", "\n") != found {
+        } else if std::fs::read_to_string(&expected).unwrap_or_default().replace("\r\n", "\n")
+            != found
+        {
             differences.push(format!("{}:\n{found}", path.file_name().unwrap().display()));
         }
     }
@@ -138,8 +151,8 @@ fn exponential(t: f64) -> f64 {
     92.7 - 67.2 * (-t / 810.0).exp()
 }
 
-/// No body that warms by one exponential is taken for a sensor at its end, however coarse the logger and however long
-/// the record; a sensor that stops at any place of the climb is found.
+/// No body that warms by one exponential is taken for a sensor at its end, however coarse the
+/// logger and however long the record; a sensor that stops at any place of the climb is found.
 #[test]
 fn property_saturation_is_told_from_settling() {
     for decimals in [0, 1, 2] {
@@ -163,7 +176,8 @@ fn property_saturation_is_told_from_settling() {
     }
 }
 
-/// What lies outside the window is not looked at: neither its gaps nor what stands in place of numbers.
+/// What lies outside the window is not looked at: neither its gaps nor what stands in place of
+/// numbers.
 #[test]
 fn property_a_window_leaves_out_what_is_outside() {
     let text = "t [s],ring [degC]\n0,OL\n1,25\n2,26\n3,\n";

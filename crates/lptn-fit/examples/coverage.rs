@@ -1,5 +1,5 @@
-//! How often the 95 % intervals of `fit step` hold the truth, over kinds of noise, steps of the logger and lengths:
-//! `cargo run --release -p lptn-study --example coverage 1000`.
+//! How often the 95 % intervals of `fit step` hold the truth, over kinds of noise, steps of the
+//! logger and lengths: `cargo run --release -p lptn-study --example coverage 1000`.
 
 #![allow(clippy::print_stdout)]
 
@@ -20,9 +20,14 @@ fn main() {
     cases.push(Truth { rho: 0.99, step: 0.5, ..paper });
     cases.push(with_tau(300.0, Truth { rho: 0.99, step: 0.5, ..paper }));
     cases.push(with_tau(300.0, Truth { deviation: 0.02, step: 0.5, ..paper }));
-    cases.extend([(1500, 1.0), (300, 5.0)].map(|(samples, spacing)| Truth { samples, spacing, ..paper }));
+    cases.extend([(1500, 1.0), (300, 5.0)].map(|(samples, spacing)| Truth {
+        samples,
+        spacing,
+        ..paper
+    }));
     cases.push(Truth { samples: 50, spacing: 30.0, rho: 0.5, ..paper });
-    let head = "samples  L/t_RC    rho   sd [K]  step [K] |   T_i   T_f  t_RC [%] | coarse  second [%]";
+    let head =
+        "samples  L/t_RC    rho   sd [K]  step [K] |   T_i   T_f  t_RC [%] | coarse  second [%]";
     println!("{head}");
     for truth in cases {
         let fits = truth.fits(count);

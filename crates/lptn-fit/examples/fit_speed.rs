@@ -1,4 +1,5 @@
-//! How long a fit of 4 parameters to 2 columns of 7500 values takes: the gearbox for 25 min at 5 Hz.
+//! How long a fit of 4 parameters to 2 columns of 7500 values takes: the gearbox for 25 min at 5
+//! Hz.
 //!
 //! `cargo run --release -p lptn-study --example fit_speed`, under `time` for the CPU.
 #![allow(clippy::print_stdout, reason = "an example")]
@@ -33,13 +34,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // another curve than the network's own, rounded to 0.1 K as by a logger
     let column = |node: &str, lag: f64| -> Result<Measured, Box<dyn std::error::Error>> {
         let rise = |t: f64| 66.0 * (1.0 - f64::exp(-t / 790.0)) + lag * (1.0 - f64::exp(-t / 25.0));
-        let shown = |t: &f64| (10.0 * (25.5 + rise(*t) + 0.3 * (0.11 * t).sin())).round() / 10.0 + 273.15;
+        let shown =
+            |t: &f64| (10.0 * (25.5 + rise(*t) + 0.3 * (0.11 * t).sin())).round() / 10.0 + 273.15;
         let of = vec![(network.node(node)?, 1.0)];
-        Ok(Measured { name: node.into(), of, sigma: Some(0.1), values: times.iter().map(shown).collect() })
+        Ok(Measured {
+            name: node.into(),
+            of,
+            sigma: Some(0.1),
+            values: times.iter().map(shown).collect(),
+        })
     };
-    let varied = |(name, from, to): (&str, f64, f64)| -> Result<Varied, Box<dyn std::error::Error>> {
-        Ok(Varied { parameter: network.parameter(name)?, bounds: (from, to), prior: None })
-    };
+    let varied =
+        |(name, from, to): (&str, f64, f64)| -> Result<Varied, Box<dyn std::error::Error>> {
+            Ok(Varied { parameter: network.parameter(name)?, bounds: (from, to), prior: None })
+        };
     let ranges = [("R", 1e-3, 0.1), ("G", 1.0, 10.0), ("Cs", 50.0, 5000.0), ("Ca", 300.0, 5000.0)];
     let task = NetworkFitTask {
         network,
@@ -56,7 +64,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let fit = fit_network(&task)?;
     for ((name, _, _), parameter) in ranges.iter().zip(&fit.parameters) {
-        println!("{name:3} {:12.6} ± {:.3e}", parameter.value, parameter.standard_error.unwrap_or(f64::NAN));
+        println!(
+            "{name:3} {:12.6} ± {:.3e}",
+            parameter.value,
+            parameter.standard_error.unwrap_or(f64::NAN)
+        );
     }
     println!(
         "{} values, rms {:.4} K, {} evaluations, {:?}",

@@ -13,20 +13,22 @@ pub struct Covariance {
 }
 
 impl Covariance {
-    /// `(J^T J)^-1` of some `parameters`, from the singular values of their columns scaled to length 1. `jacobian` holds
-    /// the derivatives of `rows` residuals, one parameter after the other. `None` where the smallest singular value is
-    /// below `1e-12` of the largest: then some combination of the parameters is not determined.
+    /// `(J^T J)^-1` of some `parameters`, from the singular values of their columns scaled to
+    /// length 1. `jacobian` holds the derivatives of `rows` residuals, one parameter after the
+    /// other. `None` where the smallest singular value is below `1e-12` of the largest: then some
+    /// combination of the parameters is not determined.
     pub fn inverse(jacobian: &[f64], rows: usize, parameters: &[usize]) -> Option<Self> {
         let n = parameters.len();
         let inverse = pseudo_inverse(jacobian, rows, parameters)?;
-        let product =
-            |i: usize, j: usize| (0..inverse.ncols()).map(|k| inverse[(i, k)] * inverse[(j, k)]).sum();
+        let product = |i: usize, j: usize| {
+            (0..inverse.ncols()).map(|k| inverse[(i, k)] * inverse[(j, k)]).sum()
+        };
         let values = (0..n * n).map(|at| product(at / n, at % n)).collect();
         Some(Self { parameters: parameters.to_vec(), values })
     }
 
-    /// `(J^T J)^-1 M (J^T J)^-1` where this is `(J^T J)^-1`: the covariance of least squares when that of the
-    /// residuals is `Omega` and `M = J^T Omega J` (row by row).
+    /// `(J^T J)^-1 M (J^T J)^-1` where this is `(J^T J)^-1`: the covariance of least squares when
+    /// that of the residuals is `Omega` and `M = J^T Omega J` (row by row).
     #[must_use]
     pub fn sandwich(&self, middle: &[f64]) -> Self {
         let n = self.parameters.len();
@@ -34,21 +36,28 @@ impl Covariance {
         let half = dense::product(bread, MatRef::from_row_major_slice(middle, n, n));
         let whole = dense::product(half.as_ref(), bread);
         // rounding leaves the two halves unequal
-        let values = (0..n * n).map(|at| 0.5 * (whole[(at / n, at % n)] + whole[(at % n, at / n)])).collect();
+        let values = (0..n * n)
+            .map(|at| 0.5 * (whole[(at / n, at % n)] + whole[(at % n, at / n)]))
+            .collect();
         Self { parameters: self.parameters.clone(), values }
     }
 
     /// All entries times a factor, for example the variance of one residual.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
-        Self { parameters: self.parameters.clone(), values: self.values.iter().map(|v| v * factor).collect() }
+        Self {
+            parameters: self.parameters.clone(),
+            values: self.values.iter().map(|v| v * factor).collect(),
+        }
     }
 
-    /// With standard errors that are nowhere below those of `other`, of the same parameters; correlations stay.
+    /// With standard errors that are nowhere below those of `other`, of the same parameters;
+    /// correlations stay.
     pub(crate) fn at_least(&self, other: &Self) -> Self {
         let n = self.parameters.len();
         let factor = |i: usize| (other.values[i * n + i] / self.values[i * n + i]).max(1.0).sqrt();
-        let values = (0..n * n).map(|at| self.values[at] * factor(at / n) * factor(at % n)).collect();
+        let values =
+            (0..n * n).map(|at| self.values[at] * factor(at / n) * factor(at % n)).collect();
         Self { parameters: self.parameters.clone(), values }
     }
 
@@ -85,12 +94,14 @@ fn pseudo_inverse(jacobian: &[f64], rows: usize, parameters: &[usize]) -> Option
         return None;
     }
     let column = |j: usize| &jacobian[parameters[j] * rows..][..rows];
-    let norms: Vec<f64> = (0..n).map(|j| column(j).iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
+    let norms: Vec<f64> =
+        (0..n).map(|j| column(j).iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
     if norms.iter().any(|norm| !(norm.is_normal() && norm.is_finite())) {
         return None;
     }
     let scaled = Mat::from_fn(rows, n, |i, j| column(j)[i] / norms[j]);
-    let dense::Singular { values, v, .. } = dense::singular(dense::triangle(scaled.as_ref()).as_ref())?;
+    let dense::Singular { values, v, .. } =
+        dense::singular(dense::triangle(scaled.as_ref()).as_ref())?;
     let determined = values.iter().all(|value| *value > 1e-12 * values[0]);
     determined.then(|| Mat::from_fn(n, n, |i, k| v[(i, k)] / (values[k] * norms[i])))
 }

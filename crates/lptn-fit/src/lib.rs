@@ -1,8 +1,9 @@
 //! Parameters from measurements, with what the measurements can and cannot tell.
 //!
-//! [`least_squares`] finds the parameters of any model that are nearest to data; [`Covariance`] and [`Spectrum`] say how
-//! well the data determine them. [`noise`] gives standard errors where residuals depend on those before them.
-//! [`step`] is the seed paper's fit of one exponential, [`network`] the fit of any network's parameters.
+//! [`least_squares`] finds the parameters of any model that are nearest to data; [`Covariance`] and
+//! [`Spectrum`] say how well the data determine them. [`noise`] gives standard errors where
+//! residuals depend on those before them. [`step`] is the seed paper's fit of one exponential,
+//! [`network`] the fit of any network's parameters.
 
 pub mod law;
 pub mod least_squares;

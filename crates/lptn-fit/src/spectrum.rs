@@ -3,8 +3,9 @@
 use faer::{Mat, MatRef};
 use lptn_integrate::dense;
 
-/// The singular values of a scaled Jacobian. Moving the scaled parameters by 1 along `directions[k]` changes the residuals
-/// by `values[k]` (root of the sum of squares), so a standard error along it is `1 / values[k]`.
+/// The singular values of a scaled Jacobian. Moving the scaled parameters by 1 along
+/// `directions[k]` changes the residuals by `values[k]` (root of the sum of squares), so a standard
+/// error along it is `1 / values[k]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
     /// The singular values, largest first.
@@ -18,8 +19,9 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// Of the derivatives `jacobian`, one parameter after the other, with parameter j in units of `scales[j]`: its own
-    /// value makes the directions those of logarithms, in which a product of parameters is a sum.
+    /// Of the derivatives `jacobian`, one parameter after the other, with parameter j in units of
+    /// `scales[j]`: its own value makes the directions those of logarithms, in which a product of
+    /// parameters is a sum.
     ///
     /// `None` if a derivative is not finite or the decomposition fails.
     pub fn new(jacobian: &[f64], scales: &[f64], threshold: f64) -> Option<Self> {
@@ -31,7 +33,12 @@ impl Spectrum {
             return None;
         }
         let upper = dense::triangle(MatRef::from_column_major_slice(&scaled, rows, n));
-        let square = Mat::from_fn(n, n, |i, j| if i < upper.nrows() && i <= j { upper[(i, j)] } else { 0.0 });
+        let square =
+            Mat::from_fn(
+                n,
+                n,
+                |i, j| if i < upper.nrows() && i <= j { upper[(i, j)] } else { 0.0 },
+            );
         let dense::Singular { values, v, .. } = dense::singular(square.as_ref())?;
         let least = threshold * values.first().copied().unwrap_or(0.0);
         let rank = values.iter().filter(|value| **value > least).count();

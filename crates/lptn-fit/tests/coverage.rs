@@ -5,7 +5,8 @@ mod records;
 
 use records::{Truth, coverage};
 
-/// 2000 records with noise that a plain AR(1) correction covers in 87 %, and independent samples in 35 %.
+/// 2000 records with noise that a plain AR(1) correction covers in 87 %, and independent samples in
+/// 35 %.
 #[test]
 fn intervals_hold_the_truth_in_95_of_100_records() {
     let fits = Truth::PAPER.fits(2000);
@@ -19,8 +20,8 @@ fn intervals_hold_the_truth_in_95_of_100_records() {
     assert!(fits.iter().all(|fit| !fit.coarse && fit.extrapolates()));
 }
 
-/// Other noise, steps and lengths, with 150 records each: 95 % less four standard deviations of the binomial distribution
-/// are 87.9 %. The example `coverage` has more of both.
+/// Other noise, steps and lengths, with 150 records each: 95 % less four standard deviations of the
+/// binomial distribution are 87.9 %. The example `coverage` has more of both.
 #[test]
 fn intervals_are_not_tuned_to_one_point() {
     let paper = Truth::PAPER;
@@ -35,15 +36,16 @@ fn intervals_are_not_tuned_to_one_point() {
     }
 }
 
-/// A logger's step of five deviations of slow noise: intervals hold the truth in some 87 of 100 records only, and every
-/// record says that its residuals are little more than rounding.
+/// A logger's step of five deviations of slow noise: intervals hold the truth in some 87 of 100
+/// records only, and every record says that its residuals are little more than rounding.
 #[test]
 fn a_coarse_record_says_so() {
     let truth = Truth { rho: 0.99, step: 0.5, ..Truth::PAPER };
     assert!(truth.fits(20).iter().all(|fit| fit.coarse));
 }
 
-/// A second exponential of 2 K and one minute is found in 30 records of 30, and its intervals hold the truth.
+/// A second exponential of 2 K and one minute is found in 30 records of 30, and its intervals hold
+/// the truth.
 #[test]
 fn a_second_exponential_is_offered_where_there_is_one() {
     let truth = Truth { second: (-2.0, 60.0), ..Truth::PAPER };

@@ -1,40 +1,45 @@
-//! Parameters of networks from records: against SciPy on the same problems, and what records cannot tell.
+//! Parameters of networks from records: against SciPy on the same problems, and what records cannot
+//! tell.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_fit::least_squares::Side;
-use lptn_fit::network::{Kind, Measured, MeasuredRun, NetworkFitError, NetworkFitTask, Varied, fit_network};
+use lptn_fit::network::{
+    Kind, Measured, MeasuredRun, NetworkFitError, NetworkFitTask, Varied, fit_network,
+};
 use lptn_netlist::{Netlist, parse};
 use lptn_network::Time;
 use lptn_solve::{Gradient, Transient};
 
 const CELSIUS: f64 = 273.15;
 
-/// A body of 2659 J/K at 25.5 degC, heated by `P` and cooled by `G` to 25.5 degC, every 50 s for 1500 s, with a slow
-/// disturbance, rounded to 0.01 K.
+/// A body of 2659 J/K at 25.5 degC, heated by `P` and cooled by `G` to 25.5 degC, every 50 s for
+/// 1500 s, with a slow disturbance, rounded to 0.01 K.
 const HEATED: [f64; 31] = [
-    25.5, 29.12, 33.3, 37.26, 40.21, 42.95, 46.29, 49.48, 51.7, 53.74, 56.43, 59.02, 60.68, 62.18, 64.36,
-    66.48, 67.7, 68.77, 70.55, 72.3, 73.18, 73.92, 75.38, 76.85, 77.47, 77.94, 79.15, 80.4, 80.82, 81.08,
-    82.1,
+    25.5, 29.12, 33.3, 37.26, 40.21, 42.95, 46.29, 49.48, 51.7, 53.74, 56.43, 59.02, 60.68, 62.18,
+    64.36, 66.48, 67.7, 68.77, 70.55, 72.3, 73.18, 73.92, 75.38, 76.85, 77.47, 77.94, 79.15, 80.4,
+    80.82, 81.08, 82.1,
 ];
 
 /// The same body, heated by 100 W.
 const WARMED: [f64; 31] = [
-    25.8, 27.57, 29.12, 30.55, 31.96, 33.41, 34.92, 36.4, 37.76, 38.92, 39.86, 40.65, 41.39, 42.17, 43.04,
-    43.98, 44.92, 45.74, 46.38, 46.85, 47.2, 47.55, 47.99, 48.54, 49.17, 49.79, 50.29, 50.62, 50.8, 50.91,
-    51.06,
+    25.8, 27.57, 29.12, 30.55, 31.96, 33.41, 34.92, 36.4, 37.76, 38.92, 39.86, 40.65, 41.39, 42.17,
+    43.04, 43.98, 44.92, 45.74, 46.38, 46.85, 47.2, 47.55, 47.99, 48.54, 49.17, 49.79, 50.29,
+    50.62, 50.8, 50.91, 51.06,
 ];
 
-/// 50 J/K at 20 degC, heated by `P`, that radiates from the area `A` and loses 0.05 W/K, to 20 degC, every 50 s.
+/// 50 J/K at 20 degC, heated by `P`, that radiates from the area `A` and loses 0.05 W/K, to 20
+/// degC, every 50 s.
 const GLOWING: [f64; 41] = [
-    20.0, 56.13, 85.96, 109.41, 126.45, 138.0, 145.96, 151.95, 156.37, 158.97, 160.1, 160.84, 161.92, 162.96,
-    163.24, 162.86, 162.69, 163.19, 163.78, 163.71, 163.14, 162.92, 163.4, 163.9, 163.72, 163.13, 162.97,
-    163.48, 163.93, 163.67, 163.08, 163.0, 163.55, 163.94, 163.61, 163.04, 163.04, 163.61, 163.94, 163.55,
-    163.0,
+    20.0, 56.13, 85.96, 109.41, 126.45, 138.0, 145.96, 151.95, 156.37, 158.97, 160.1, 160.84,
+    161.92, 162.96, 163.24, 162.86, 162.69, 163.19, 163.78, 163.71, 163.14, 162.92, 163.4, 163.9,
+    163.72, 163.13, 162.97, 163.48, 163.93, 163.67, 163.08, 163.0, 163.55, 163.94, 163.61, 163.04,
+    163.04, 163.61, 163.94, 163.55, 163.0,
 ];
 
 fn network(text: &str) -> Netlist {
-    parse("fit.toml", &format!("format = 1\n{text}")).unwrap_or_else(|rejected| panic!("{rejected}"))
+    parse("fit.toml", &format!("format = 1\n{text}"))
+        .unwrap_or_else(|rejected| panic!("{rejected}"))
 }
 
 /// `param` has to give `G`, `C` and `P`.
@@ -84,12 +89,14 @@ fn near(found: f64, expected: f64, relative: f64) {
     assert!((found - expected).abs() <= relative * expected.abs(), "{found:?} is not {expected:?}");
 }
 
-/// Reference: SciPy 1.17.1, `least_squares` (trf) with the analytic Jacobian of the closed form, all tolerances 1e-15.
+/// Reference: SciPy 1.17.1, `least_squares` (trf) with the analytic Jacobian of the closed form,
+/// all tolerances 1e-15.
 #[test]
 fn a_heated_body_gives_the_parameters_that_scipy_finds() {
     let netlist = body("G = \"3 W/K\"\nC = \"2659 J/K\"\nP = \"200 W\"");
     let free = vec![varied(&netlist, "G", FREE), varied(&netlist, "P", FREE)];
-    let fit = fit_network(&task(&netlist, free, vec![record(&netlist, ("body", &HEATED), &[])])).unwrap();
+    let fit =
+        fit_network(&task(&netlist, free, vec![record(&netlist, ("body", &HEATED), &[])])).unwrap();
     assert!(fit.not_converged.is_none() && fit.identifiability.as_ref().unwrap().is_whole());
     assert_eq!(fit.gradient, Gradient::Exact);
     near(fit.parameters[0].value, 3.290_761_676_329_814, 1e-6);
@@ -99,12 +106,14 @@ fn a_heated_body_gives_the_parameters_that_scipy_finds() {
     assert_eq!(fit.parameters[0].start.to_bits(), 3_f64.to_bits());
 }
 
-/// Reference: on the bound G = 3.2 W/K the model is linear in P, whose least squares are a quotient of sums (Python).
+/// Reference: on the bound G = 3.2 W/K the model is linear in P, whose least squares are a quotient
+/// of sums (Python).
 #[test]
 fn a_minimum_on_a_bound_is_said_and_has_no_standard_error() {
     let netlist = body("G = \"3 W/K\"\nC = \"2659 J/K\"\nP = \"200 W\"");
     let bounded = vec![varied(&netlist, "G", (1.0, 3.2)), varied(&netlist, "P", (100.0, 400.0))];
-    let fit = fit_network(&task(&netlist, bounded, vec![record(&netlist, ("body", &HEATED), &[])])).unwrap();
+    let fit = fit_network(&task(&netlist, bounded, vec![record(&netlist, ("body", &HEATED), &[])]))
+        .unwrap();
     assert!(fit.not_converged.is_none());
     assert_eq!(fit.parameters[0].on_bound, Some(Side::Upper));
     assert_eq!(
@@ -132,8 +141,8 @@ fn a_prior_is_one_more_residual() {
     assert_eq!(fit.samples(), 31);
 }
 
-/// Reference: SciPy with 3-point differences of the closed form. Two records share G and C; each sets its power. A gap
-/// in a record that is no value is no residual.
+/// Reference: SciPy with 3-point differences of the closed form. Two records share G and C; each
+/// sets its power. A gap in a record that is no value is no residual.
 #[test]
 fn records_share_parameters_and_set_their_own() {
     let netlist = body("G = \"3 W/K\"\nC = \"2500 J/K\"\nP = \"1 W\"");
@@ -148,7 +157,10 @@ fn records_share_parameters_and_set_their_own() {
     near(fit.parameters[0].value, 3.285_237_246_437_724_4, 1e-6);
     near(fit.parameters[1].value, 2_651.462_843_046_625_5, 1e-6);
     near(fit.rms, 0.264_084_133_469_066_45, 1e-6);
-    assert_eq!(fit.columns.iter().map(|c| (c.run, c.samples)).collect::<Vec<_>>(), [(0, 31), (1, 31)]);
+    assert_eq!(
+        fit.columns.iter().map(|c| (c.run, c.samples)).collect::<Vec<_>>(),
+        [(0, 31), (1, 31)]
+    );
     let mut gaps = runs();
     for run in &mut gaps {
         run.times.insert(3, 120.0);
@@ -159,7 +171,8 @@ fn records_share_parameters_and_set_their_own() {
     near(with_gaps.parameters[1].value, fit.parameters[1].value, 1e-6);
 }
 
-/// Reference: SciPy `least_squares` over `solve_ivp` (DOP853, 1e-12) with its variational equations as Jacobian.
+/// Reference: SciPy `least_squares` over `solve_ivp` (DOP853, 1e-12) with its variational equations
+/// as Jacobian.
 #[test]
 fn a_radiating_body_gives_the_parameters_that_scipy_finds() {
     let netlist = network(
@@ -168,7 +181,8 @@ fn a_radiating_body_gives_the_parameters_that_scipy_finds() {
          wire = { from = \"body\", to = \"room\", G = \"0.05 W/K\" }\n[source]\nheat = { into = \"body\", P = \"P\" }",
     );
     let both = vec![varied(&netlist, "P", (5.0, 200.0)), varied(&netlist, "A", (0.001, 0.5))];
-    let fit = fit_network(&task(&netlist, both, vec![record(&netlist, ("body", &GLOWING), &[])])).unwrap();
+    let fit = fit_network(&task(&netlist, both, vec![record(&netlist, ("body", &GLOWING), &[])]))
+        .unwrap();
     near(fit.parameters[0].value, 39.992_650_719_653_916, 1e-6);
     near(fit.parameters[1].value, 0.019_995_541_377_703_287, 1e-6);
     near(fit.rms, 0.351_973_572_854_230_75, 1e-6);
@@ -183,16 +197,21 @@ fn power_resistance_and_capacity_are_not_to_be_had_from_temperatures_alone() {
          [boundary]\nair = { T = \"25.5 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", R = \"R\" }\n\
          [source]\nheat = { into = \"body\", P = \"P\" }",
     );
-    let curve: Vec<f64> = every_50_s(60).iter().map(|t| 25.5 + 67.2 * (1.0 - f64::exp(-t / 810.0))).collect();
+    let curve: Vec<f64> =
+        every_50_s(60).iter().map(|t| 25.5 + 67.2 * (1.0 - f64::exp(-t / 810.0))).collect();
     let all = || ["P", "R", "C"].map(|name| varied(&netlist, name, FREE)).to_vec();
-    let fit = fit_network(&task(&netlist, all(), vec![record(&netlist, ("body", &curve), &[])])).unwrap();
+    let fit =
+        fit_network(&task(&netlist, all(), vec![record(&netlist, ("body", &curve), &[])])).unwrap();
     let known = fit.identifiability.as_ref().unwrap();
     assert_eq!((known.rank, known.is_whole()), (2, false));
     let group = &known.unseparated[0];
     assert_eq!((group.parameters.as_slice(), group.missing), ([0, 1, 2].as_slice(), 1));
     let determined = group.determined.as_ref().unwrap();
     let terms: Vec<_> = determined.iter().map(|c| (c.kind, c.terms.clone())).collect();
-    assert_eq!(terms, [(Kind::Product, vec![(0, 1), (1, 1)]), (Kind::Product, vec![(1, 1), (2, 1)])]);
+    assert_eq!(
+        terms,
+        [(Kind::Product, vec![(0, 1), (1, 1)]), (Kind::Product, vec![(1, 1), (2, 1)])]
+    );
     near(determined[0].value, 67.2, 1e-6);
     near(determined[1].value, 810.0, 1e-6);
     assert!(fit.parameters.iter().all(|p| p.standard_error.is_none()));
@@ -200,7 +219,8 @@ fn power_resistance_and_capacity_are_not_to_be_had_from_temperatures_alone() {
     let mut with_prior = all();
     with_prior[2].prior = Some(130.0);
     let fit =
-        fit_network(&task(&netlist, with_prior, vec![record(&netlist, ("body", &curve), &[])])).unwrap();
+        fit_network(&task(&netlist, with_prior, vec![record(&netlist, ("body", &curve), &[])]))
+            .unwrap();
     assert!(fit.identifiability.as_ref().unwrap().is_whole());
     near(fit.parameters[2].value, 2600.0, 1e-6);
     near(fit.parameters[1].value, 810.0 / 2600.0, 1e-6);
@@ -210,7 +230,8 @@ fn power_resistance_and_capacity_are_not_to_be_had_from_temperatures_alone() {
     near(fit.correlation(0, 2).unwrap(), 1.0, 1e-3);
 }
 
-/// Analytic: of two paths side by side the sum is felt. A third parameter is as well known as without them.
+/// Analytic: of two paths side by side the sum is felt. A third parameter is as well known as
+/// without them.
 #[test]
 fn of_parallel_conductances_only_the_sum_is_determined() {
     for own in ["1.5 W/K", "2 W/K"] {
@@ -222,7 +243,8 @@ fn of_parallel_conductances_only_the_sum_is_determined() {
              [source]\nheat = {{ into = \"body\", P = \"P\" }}\nelsewhere = {{ into = \"other\", P = \"idle\" }}"
         ));
         let all = ["G1", "P", "G2", "idle"].map(|name| varied(&netlist, name, FREE)).to_vec();
-        let fit = fit_network(&task(&netlist, all, vec![record(&netlist, ("body", &HEATED), &[])])).unwrap();
+        let fit = fit_network(&task(&netlist, all, vec![record(&netlist, ("body", &HEATED), &[])]))
+            .unwrap();
         let known = fit.identifiability.as_ref().unwrap();
         assert_eq!((known.unfelt.as_slice(), known.rank), ([3].as_slice(), 2));
         assert_eq!(known.unseparated.len(), 1);
@@ -238,12 +260,13 @@ fn of_parallel_conductances_only_the_sum_is_determined() {
     }
 }
 
-/// Property: a slow disturbance that is sampled ten times as often tells hardly more, though independent errors would shrink
-/// by the root of 10.
+/// Property: a slow disturbance that is sampled ten times as often tells hardly more, though
+/// independent errors would shrink by the root of 10.
 #[test]
 fn values_that_follow_each_other_are_not_counted_as_independent() {
     let netlist = body("G = \"3 W/K\"\nC = \"2659 J/K\"\nP = \"220.6 W\"");
-    let slow = |t: f64| f64::sin(0.031 * t) + f64::sin(0.0473 * t + 1.0) + f64::sin(0.0617 * t + 2.0);
+    let slow =
+        |t: f64| f64::sin(0.031 * t) + f64::sin(0.0473 * t + 1.0) + f64::sin(0.0617 * t + 2.0);
     let fitted = |step: f64, count: u32| {
         let times: Vec<f64> = (0..count).map(|k| step * f64::from(k)).collect();
         let curve = |t: &f64| 25.5 + 67.2 * (1.0 - f64::exp(-t / 810.0)) + 0.2 * slow(*t);
@@ -269,14 +292,16 @@ fn warmed((own, param): (&str, &str), resistance: &str) -> Netlist {
     ))
 }
 
-/// Regression: the residuals of as many values as parameters vanish, and with them the standard errors did. Reference:
-/// SciPy (`fsolve`, and the inverse of the 2 by 2 normal matrix of the closed form for 0.1 K).
+/// Regression: the residuals of as many values as parameters vanish, and with them the standard
+/// errors did. Reference: SciPy (`fsolve`, and the inverse of the 2 by 2 normal matrix of the
+/// closed form for 0.1 K).
 #[test]
 fn as_many_values_as_parameters_have_the_errors_that_sigma_says() {
     let netlist = warmed(("R = \"0.4 K/W\"", "C = \"900 J/K\"\nP = \"100 W\""), "R");
     let fitted = |times: &[f64], values: &[f64], sigma| {
         let both = vec![varied(&netlist, "R", (0.01, 10.0)), varied(&netlist, "C", (10.0, 1e5))];
-        let mut run = MeasuredRun { times: times.to_vec(), ..record(&netlist, ("body", values), &[]) };
+        let mut run =
+            MeasuredRun { times: times.to_vec(), ..record(&netlist, ("body", values), &[]) };
         run.columns[0].sigma = sigma;
         fit_network(&task(&netlist, both, vec![run])).unwrap()
     };
@@ -300,16 +325,22 @@ fn as_many_values_as_parameters_have_the_errors_that_sigma_says() {
     }
 }
 
-/// Regression: from these values the second resistance drifts to 0, of which a logarithm tells nothing: all three were
-/// said to be determined. Analytic: the record holds the difference.
+/// Regression: from these values the second resistance drifts to 0, of which a logarithm tells
+/// nothing: all three were said to be determined. Analytic: the record holds the difference.
 #[test]
 fn a_parameter_that_drifted_to_nothing_is_still_seen_to_be_undetermined() {
-    let netlist = warmed(("R = \"0.4 K/W\"\nR2 = \"0.1 K/W\"", "C = \"900 J/K\"\nP = \"100 W\""), "R - R2");
-    let curve: Vec<f64> = every_50_s(60).iter().map(|t| 20.0 + 50.0 * (1.0 - f64::exp(-t / 500.0))).collect();
+    let netlist =
+        warmed(("R = \"0.4 K/W\"\nR2 = \"0.1 K/W\"", "C = \"900 J/K\"\nP = \"100 W\""), "R - R2");
+    let curve: Vec<f64> =
+        every_50_s(60).iter().map(|t| 20.0 + 50.0 * (1.0 - f64::exp(-t / 500.0))).collect();
     let all = ["R", "R2", "C"].map(|name| varied(&netlist, name, FREE)).to_vec();
-    let fit = fit_network(&task(&netlist, all, vec![record(&netlist, ("body", &curve), &[])])).unwrap();
+    let fit =
+        fit_network(&task(&netlist, all, vec![record(&netlist, ("body", &curve), &[])])).unwrap();
     let known = fit.identifiability.as_ref().unwrap();
-    assert_eq!((known.rank, known.unfelt.as_slice(), known.unseparated.len()), (2, [].as_slice(), 1));
+    assert_eq!(
+        (known.rank, known.unfelt.as_slice(), known.unseparated.len()),
+        (2, [].as_slice(), 1)
+    );
     let determined = known.unseparated[0].determined.as_ref().unwrap();
     assert_eq!(
         (determined[0].kind, determined[0].terms.as_slice()),
@@ -336,7 +367,8 @@ fn threads_change_nothing() {
     assert_eq!(one.starts, many.starts);
 }
 
-/// Reference: as `a_heated_body..`: a thermostat far from its thresholds refuses exact derivatives and changes nothing.
+/// Reference: as `a_heated_body..`: a thermostat far from its thresholds refuses exact derivatives
+/// and changes nothing.
 #[test]
 fn where_derivatives_are_refused_differences_do() {
     let netlist = network(
@@ -346,7 +378,8 @@ fn where_derivatives_are_refused_differences_do() {
          heat = { into = \"body\", P = \"P * (1 - fan)\" }",
     );
     let free = vec![varied(&netlist, "G", FREE), varied(&netlist, "P", FREE)];
-    let fit = fit_network(&task(&netlist, free, vec![record(&netlist, ("body", &HEATED), &[])])).unwrap();
+    let fit =
+        fit_network(&task(&netlist, free, vec![record(&netlist, ("body", &HEATED), &[])])).unwrap();
     assert!(fit.not_converged.is_none());
     assert!(matches!(fit.gradient, Gradient::Differences(_)));
     near(fit.parameters[0].value, 3.290_761_676_329_814, 1e-5);
@@ -379,6 +412,7 @@ fn what_a_fit_refuses() {
     let broken = netlist.network.clone();
     let mut parameters = broken.overrides();
     parameters.set_text("C", "-3 J/K").unwrap();
-    let error = fit_network(&task(&netlist, one(), vec![MeasuredRun { parameters, ..run() }])).unwrap_err();
+    let error =
+        fit_network(&task(&netlist, one(), vec![MeasuredRun { parameters, ..run() }])).unwrap_err();
     assert!(matches!(error, NetworkFitError::Start { .. }), "{error:?}");
 }

@@ -1,17 +1,19 @@
-//! Laws of power over speed, against NumPy 2.4 and SciPy 1.17 on the same points (`linalg.lstsq`, `curve_fit`,
-//! `stats.linregress`, leaving out by brute force), and against closed forms.
+//! Laws of power over speed, against NumPy 2.4 and SciPy 1.17 on the same points (`linalg.lstsq`,
+//! `curve_fit`, `stats.linregress`, leaving out by brute force), and against closed forms.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
 use std::f64::consts::TAU;
 
-use lptn_fit::law::{ALIKE, Candidate, Fitted, Law, LawError, LawStudy, Outcome, Points, WrittenLaw};
+use lptn_fit::law::{
+    ALIKE, Candidate, Fitted, Law, LawError, LawStudy, Outcome, Points, WrittenLaw,
+};
 use lptn_units::{Dimension, parse_quantity};
 
 const RPM: f64 = TAU / 60.0;
 
 const SPEEDS: [f64; 14] = [
-    1000.0, 1000.0, 2000.0, 2000.0, 3000.0, 3000.0, 4000.0, 4000.0, 5000.0, 5000.0, 6000.0, 6000.0, 7000.0,
-    7000.0,
+    1000.0, 1000.0, 2000.0, 2000.0, 3000.0, 3000.0, 4000.0, 4000.0, 5000.0, 5000.0, 6000.0, 6000.0,
+    7000.0, 7000.0,
 ];
 
 /// Close to 87 uW/rpm^(5/3).
@@ -46,7 +48,11 @@ fn sums_of_powers_are_those_of_numpy() {
     let study = LawStudy::new(points(), Law::standard());
     let single = fit(&study, "omega^(5/3)");
     near(single.coefficients[0].value * RPM.powf(5.0 / 3.0), 8.718965528610733e-5, 1e-10);
-    near(single.coefficients[0].standard_error.unwrap() * RPM.powf(5.0 / 3.0), 2.692005309552697e-7, 1e-9);
+    near(
+        single.coefficients[0].standard_error.unwrap() * RPM.powf(5.0 / 3.0),
+        2.692005309552697e-7,
+        1e-9,
+    );
     near(single.rmse, 1.3795021574440414, 1e-10);
     near(single.leave_one_out.unwrap(), 1.5696545662144378, 1e-9);
     near(single.aicc.unwrap(), 14.099144091873455, 1e-9);
@@ -79,7 +85,11 @@ fn standard_errors_weight_and_never_shrink() {
     let study = LawStudy::new(points, Law::standard());
     let single = fit(&study, "omega^(5/3)");
     near(single.coefficients[0].value * RPM.powf(5.0 / 3.0), 8.703230736635238e-5, 1e-10);
-    near(single.coefficients[0].standard_error.unwrap() * RPM.powf(5.0 / 3.0), 4.311392225701061e-7, 1e-9);
+    near(
+        single.coefficients[0].standard_error.unwrap() * RPM.powf(5.0 / 3.0),
+        4.311392225701061e-7,
+        1e-9,
+    );
     near(single.squares, 17.643455106910523, 1e-9);
     near(single.rmse, 1.397511323999774, 1e-10);
     near(single.leave_one_out.unwrap(), 1.5319394624093707, 1e-9);
@@ -89,12 +99,18 @@ fn standard_errors_weight_and_never_shrink() {
     let expected = 17.643455106910523 / (17.301154435154366 / 11.0) + 4.0 + 12.0 / 11.0;
     near(single.aicc.unwrap(), expected, 1e-8);
     // errors ten times as large leave no dispersion, and the standard errors are those given
-    let wide = Points::new(speeds(), POWERS.to_vec(), Some(ERRORS.map(|e| 10.0 * e).to_vec())).unwrap();
+    let wide =
+        Points::new(speeds(), POWERS.to_vec(), Some(ERRORS.map(|e| 10.0 * e).to_vec())).unwrap();
     let study = LawStudy::new(wide, Law::standard());
     near(study.dispersion, 1.0, 0.0);
     let single = fit(&study, "omega^(5/3)");
-    let alone: f64 = SPEEDS.iter().zip(ERRORS).map(|(n, e)| n.powf(10.0 / 3.0) / (100.0 * e * e)).sum();
-    near(single.coefficients[0].standard_error.unwrap() * RPM.powf(5.0 / 3.0), alone.sqrt().recip(), 1e-9);
+    let alone: f64 =
+        SPEEDS.iter().zip(ERRORS).map(|(n, e)| n.powf(10.0 / 3.0) / (100.0 * e * e)).sum();
+    near(
+        single.coefficients[0].standard_error.unwrap() * RPM.powf(5.0 / 3.0),
+        alone.sqrt().recip(),
+        1e-9,
+    );
     near(single.aicc.unwrap(), 0.17643455106910523 + 2.0 + 4.0 / 12.0, 1e-8);
 }
 
@@ -126,7 +142,8 @@ fn laws_that_points_cannot_tell_apart_are_said() {
     // three speeds near each other, where all powers look alike
     let rpm = [3000.0, 3050.0, 3100.0, 3000.0, 3050.0, 3100.0, 3025.0, 3075.0];
     let wave = [1.0, -1.0, 0.5, -0.5, 0.8, -0.9, 0.2, -0.1];
-    let power = rpm.iter().zip(wave).map(|(n, w)| 87e-6 * f64::powf(*n, 5.0 / 3.0) + 3.0 * w).collect();
+    let power =
+        rpm.iter().zip(wave).map(|(n, w)| 87e-6 * f64::powf(*n, 5.0 / 3.0) + 3.0 * w).collect();
     let points = Points::new(rpm.iter().map(|n| n * RPM).collect(), power, None).unwrap();
     let study = LawStudy::new(points, Law::standard());
     let rivals: Vec<String> = study.rivals().iter().map(|c| c.law.to_string()).collect();
@@ -170,8 +187,10 @@ fn points_without_noise_give_their_law_back() {
 }
 
 fn written(text: &str, starts: &[(&str, &str)]) -> Result<WrittenLaw, LawError> {
-    let starts: Vec<_> =
-        starts.iter().map(|(name, text)| ((*name).to_owned(), parse_quantity(text, None).unwrap())).collect();
+    let starts: Vec<_> = starts
+        .iter()
+        .map(|(name, text)| ((*name).to_owned(), parse_quantity(text, None).unwrap()))
+        .collect();
     WrittenLaw::new(text, &points(), &starts)
 }
 
@@ -198,7 +217,8 @@ fn written_laws_that_are_not_linear_are_those_of_scipy() {
     near(fit.coefficient("b").unwrap().value / RPM, 7366.396440433265, 1e-6);
     near(fit.coefficient("b").unwrap().standard_error.unwrap() / RPM, 445.069048249554, 1e-4);
     near(fit.rmse, 4.119715350957898, 1e-8);
-    let pade = fit_written("a * omega / (1 + omega / b)", &[("a", "20 mW/rpm"), ("b", "-20000 rpm")]);
+    let pade =
+        fit_written("a * omega / (1 + omega / b)", &[("a", "20 mW/rpm"), ("b", "-20000 rpm")]);
     let fit = pade.fitted().unwrap();
     near(fit.coefficient("b").unwrap().value / RPM, -13095.12881544125, 1e-6);
     near(fit.rmse, 5.795480749275263, 1e-8);
@@ -206,7 +226,8 @@ fn written_laws_that_are_not_linear_are_those_of_scipy() {
     assert!(pade.eligible());
 }
 
-/// The points grow, so that `exp(-omega / b)` wants a negative b, and from a positive start the search runs off to b = infinity.
+/// The points grow, so that `exp(-omega / b)` wants a negative b, and from a positive start the
+/// search runs off to b = infinity.
 #[test]
 fn regression_a_search_that_runs_off_to_infinity_has_no_coefficients() {
     let lost = fit_written("a * omega * exp(-omega / b)", &[]);
@@ -224,7 +245,11 @@ fn a_constant_part_is_no_coefficient() {
         product += x * (p - 0.5);
         square += x * x;
     }
-    near(found.fitted().unwrap().coefficients[0].value * RPM.powf(5.0 / 3.0), product / square, 1e-12);
+    near(
+        found.fitted().unwrap().coefficients[0].value * RPM.powf(5.0 / 3.0),
+        product / square,
+        1e-12,
+    );
 }
 
 #[test]

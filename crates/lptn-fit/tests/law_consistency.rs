@@ -1,5 +1,5 @@
-//! Whether laws of rise, time constant and power agree: against closed forms of the seed paper's numbers, and against SciPy
-//! 1.17 (`stats.linregress`, `curve_fit`, the jackknife written out).
+//! Whether laws of rise, time constant and power agree: against closed forms of the seed paper's
+//! numbers, and against SciPy 1.17 (`stats.linregress`, `curve_fit`, the jackknife written out).
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
 use std::f64::consts::TAU;
@@ -10,8 +10,8 @@ use lptn_fit::step::Capacity;
 const RPM: f64 = TAU / 60.0;
 
 const SPEEDS: [f64; 14] = [
-    1000.0, 1000.0, 2000.0, 2000.0, 3000.0, 3000.0, 4000.0, 4000.0, 5000.0, 5000.0, 6000.0, 6000.0, 7000.0,
-    7000.0,
+    1000.0, 1000.0, 2000.0, 2000.0, 3000.0, 3000.0, 4000.0, 4000.0, 5000.0, 5000.0, 6000.0, 6000.0,
+    7000.0, 7000.0,
 ];
 
 /// Close to 87 uW/rpm^(5/3).
@@ -134,7 +134,8 @@ fn laws_of_the_wrong_kind_are_refused() {
     assert_eq!(error.code(), "fit::law_range");
 }
 
-const RISES: [f64; 14] = [2.7, 2.4, 7.9, 8.5, 16.2, 16.0, 26.9, 26.2, 38.7, 38.0, 51.6, 52.9, 67.9, 66.5];
+const RISES: [f64; 14] =
+    [2.7, 2.4, 7.9, 8.5, 16.2, 16.0, 26.9, 26.2, 38.7, 38.0, 51.6, 52.9, 67.9, 66.5];
 
 const MINUTES: [f64; 14] =
     [13.1, 13.8, 13.6, 13.2, 13.4, 13.9, 13.3, 13.5, 13.6, 13.1, 13.4, 13.7, 13.2, 13.6];
@@ -164,15 +165,17 @@ fn points_are_compared_by_their_exponents() {
 const RISE_EXPONENT: (f64, f64) = (1.6817313258757811, 0.011853417026877288);
 const POWER_EXPONENT: (f64, f64) = (1.669575585199757, 0.012876702894795103);
 
-/// SciPy 1.17: `optimize.curve_fit` of the logarithms with `sigma` the relative errors and `absolute_sigma`; chi^2 is
-/// 1.4 times the degrees of freedom, so that errors are larger by the root of that.
+/// SciPy 1.17: `optimize.curve_fit` of the logarithms with `sigma` the relative errors and
+/// `absolute_sigma`; chi^2 is 1.4 times the degrees of freedom, so that errors are larger by the
+/// root of that.
 #[test]
 fn known_errors_weight_the_exponents() {
     let (speed, tau) = (speeds(), MINUTES.map(|t| 60.0 * t));
     let of_rise = RISES.map(|rise| 0.1 + 0.01 * rise);
     let of_tau = tau.map(|tau| 0.03 * tau);
     let errors = Some([&of_rise[..], &of_tau[..], &ERRORS[..]]);
-    let measured = Measured { speed: &speed, rise: &RISES, time_constant: &tau, power: &POWERS, errors };
+    let measured =
+        Measured { speed: &speed, rise: &RISES, time_constant: &tau, power: &POWERS, errors };
     let found = Consistency::of_points(&measured, Some(C_EQ)).unwrap();
     near(found.rise.value, RISE_EXPONENT.0, 1e-6);
     near(found.rise.standard_error.unwrap(), RISE_EXPONENT.1, 1e-6);
@@ -184,7 +187,8 @@ fn known_errors_weight_the_exponents() {
 fn a_power_that_was_computed_from_the_others_tells_nothing() {
     let (speed, tau) = (speeds(), MINUTES.map(|t| 60.0 * t));
     let power: Vec<f64> = RISES.iter().zip(tau).map(|(rise, tau)| 2659.0 * rise / tau).collect();
-    let measured = Measured { speed: &speed, rise: &RISES, time_constant: &tau, power: &power, errors: None };
+    let measured =
+        Measured { speed: &speed, rise: &RISES, time_constant: &tau, power: &power, errors: None };
     let found = Consistency::of_points(&measured, Some(C_EQ)).unwrap();
     assert!(found.derived && found.agrees() && found.exponents.is_none());
     near(found.level.unwrap().ratio, 1.0, 1e-9);

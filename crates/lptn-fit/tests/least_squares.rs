@@ -3,7 +3,8 @@
 
 use lptn_fit::Spectrum;
 use lptn_fit::least_squares::{
-    Estimate, Evaluated, LeastSquaresError, Outcome, Prior, Residuals, Settings, Side, Stop, minimise,
+    Estimate, Evaluated, LeastSquaresError, Outcome, Prior, Residuals, Settings, Side, Stop,
+    minimise,
 };
 use lptn_units::{Dual, Scalar};
 
@@ -62,7 +63,8 @@ fn meyer(x: f64, b: &[Number]) -> Number {
     b[0] * (b[1] / (number(x) + b[2])).exp()
 }
 
-/// A data set of the NIST Statistical Reference Datasets (nonlinear regression), in the file as published at
+/// A data set of the NIST Statistical Reference Datasets (nonlinear regression), in the file as
+/// published at
 /// <https://www.itl.nist.gov/div898/strd/nls/nls_main.shtml>.
 struct Certified {
     starts: [Vec<f64>; 2],
@@ -74,8 +76,9 @@ struct Certified {
 
 impl Certified {
     fn read(text: &str) -> Self {
-        let numbers =
-            |line: &str| line.split_whitespace().filter_map(|w| w.parse().ok()).collect::<Vec<f64>>();
+        let numbers = |line: &str| {
+            line.split_whitespace().filter_map(|w| w.parse().ok()).collect::<Vec<f64>>()
+        };
         let named = |line: &&str| line.trim_start().starts_with('b') && line.contains(" = ");
         let rows: Vec<Vec<f64>> = text.lines().filter(named).map(numbers).collect();
         let column = |k: usize| rows.iter().map(|row| row[k]).collect::<Vec<f64>>();
@@ -109,7 +112,8 @@ macro_rules! certified {
         fn $name() {
             let set = Certified::read(include_str!(concat!("nist/", $file, ".dat")));
             for (k, start) in set.starts.iter().enumerate() {
-                let mut curve = Curve { model: $model, points: &set.points, parameters: set.values.len() };
+                let mut curve =
+                    Curve { model: $model, points: &set.points, parameters: set.values.len() };
                 let found = minimise(&mut curve, start, &Settings::default()).unwrap();
                 let what = format!("{} from start {} after {}", $file, k + 1, found.evaluations);
                 assert!(
@@ -164,11 +168,17 @@ fn bounded(bounds: [(f64, f64); 3], start: [f64; 3]) -> Estimate {
 
 const NONE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
-/// SciPy 1.17.1, `scipy.optimize.least_squares` (method lm; with bounds trf, then lm of the parameters that are free).
+/// SciPy 1.17.1, `scipy.optimize.least_squares` (method lm; with bounds trf, then lm of the
+/// parameters that are free).
 #[test]
 fn bounds_as_scipy_has_them() {
     let cases = [
-        ([NONE; 3], [1.0, 5.0, 1.0], [2.048_168_480_5, 8.050_891_240_26, 0.444_520_443_29], [None; 3]),
+        (
+            [NONE; 3],
+            [1.0, 5.0, 1.0],
+            [2.048_168_480_5, 8.050_891_240_26, 0.444_520_443_29],
+            [None; 3],
+        ),
         (
             [(2.3, f64::INFINITY), NONE, NONE],
             [3.0, 5.0, 1.0],
@@ -200,7 +210,12 @@ fn bounds_as_scipy_has_them() {
 fn a_bound_lets_go() {
     for start in [[2.0, 5.0, 0.4], [-7.0, 99.0, 0.4], [3.0, 20.0, 0.01]] {
         let found = bounded([(2.0, 3.0), (5.0, 20.0), (0.01, 3.0)], start);
-        agrees("inside", &found.parameters, &[2.048_168_480_5, 8.050_891_240_26, 0.444_520_443_29], 1e-8);
+        agrees(
+            "inside",
+            &found.parameters,
+            &[2.048_168_480_5, 8.050_891_240_26, 0.444_520_443_29],
+            1e-8,
+        );
         assert_eq!(found.on_bound, [None; 3]);
     }
 }
@@ -247,7 +262,8 @@ fn a_prior_is_one_more_measurement() {
 #[test]
 fn what_cannot_be_separated_is_seen() {
     let points = [(1.0, 6.0), (2.0, 12.1), (3.0, 17.8)];
-    let mut product = Curve { model: |x, b| b[0] * b[1] * number(x), points: &points, parameters: 2 };
+    let mut product =
+        Curve { model: |x, b| b[0] * b[1] * number(x), points: &points, parameters: 2 };
     let found = minimise(&mut product, &[1.0, 1.0], &Settings::default()).unwrap();
     assert!(found.outcome.converged());
     assert_eq!(found.covariance(), None);
@@ -257,7 +273,8 @@ fn what_cannot_be_separated_is_seen() {
     agrees("unseen", &[unseen[0] / unseen[1]], &[-1.0], 1e-10);
 
     let priors = vec![Prior { parameter: 0, value: 4.0, sigma: 0.1 }];
-    let known = minimise(&mut product, &[1.0, 1.0], &Settings { priors, ..Settings::default() }).unwrap();
+    let known =
+        minimise(&mut product, &[1.0, 1.0], &Settings { priors, ..Settings::default() }).unwrap();
     let slope = (6.0 + 24.2 + 53.4) / 14.0;
     agrees("known", &known.parameters, &[4.0, slope / 4.0], 1e-9);
     assert!(known.covariance().is_some());
@@ -313,11 +330,13 @@ fn a_search_that_gets_nowhere_says_so() {
 #[test]
 fn bad_settings_are_refused() {
     let mut curve = Curve { model: decay, points: &DECAY, parameters: 3 };
-    let mut code = |start: &[f64], settings: Settings| match minimise(&mut curve, start, &settings) {
+    let mut code = |start: &[f64], settings: Settings| match minimise(&mut curve, start, &settings)
+    {
         Err(error) => error.code(),
         Ok(found) => panic!("{found:?}"),
     };
-    let with_bounds = |bounds: &[(f64, f64)]| Settings { bounds: bounds.to_vec(), ..Settings::default() };
+    let with_bounds =
+        |bounds: &[(f64, f64)]| Settings { bounds: bounds.to_vec(), ..Settings::default() };
     let with_prior = |parameter, sigma| Settings {
         priors: vec![Prior { parameter, value: 1.0, sigma }],
         ..Settings::default()

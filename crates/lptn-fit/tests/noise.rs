@@ -7,19 +7,21 @@ use lptn_fit::noise::{Noise, resolution, student_95};
 
 /// 60 samples, 2 s apart with a gap of 22 s before the 36th: noise around a straight line.
 const SAMPLES: [f64; 60] = [
-    7.04, 4.12, 5.20, 4.67, 4.57, 4.68, 3.27, 4.03, 3.76, 7.10, 6.24, 5.72, 5.51, 5.05, 4.48, 4.70, 5.45,
-    5.27, 6.25, 5.80, 5.89, 7.15, 6.99, 6.21, 6.11, 6.58, 7.93, 6.88, 6.54, 7.32, 6.13, 6.11, 6.96, 7.12,
-    6.91, 7.48, 4.92, 6.83, 5.92, 5.06, 6.16, 6.96, 6.53, 5.93, 6.52, 6.69, 8.03, 8.21, 8.01, 8.72, 8.01,
-    7.16, 7.92, 8.21, 7.77, 7.15, 7.65, 5.62, 7.24, 7.70,
+    7.04, 4.12, 5.20, 4.67, 4.57, 4.68, 3.27, 4.03, 3.76, 7.10, 6.24, 5.72, 5.51, 5.05, 4.48, 4.70,
+    5.45, 5.27, 6.25, 5.80, 5.89, 7.15, 6.99, 6.21, 6.11, 6.58, 7.93, 6.88, 6.54, 7.32, 6.13, 6.11,
+    6.96, 7.12, 6.91, 7.48, 4.92, 6.83, 5.92, 5.06, 6.16, 6.96, 6.53, 5.93, 6.52, 6.69, 8.03, 8.21,
+    8.01, 8.72, 8.01, 7.16, 7.92, 8.21, 7.77, 7.15, 7.65, 5.62, 7.24, 7.70,
 ];
 
 /// Times, what the straight line of least squares misses, and its derivatives.
 fn line() -> (Vec<f64>, Vec<f64>, Vec<f64>) {
-    let times: Vec<f64> = (0..60).map(|i| f64::from(2 * i + if i >= 35 { 20 } else { 0 })).collect();
+    let times: Vec<f64> =
+        (0..60).map(|i| f64::from(2 * i + if i >= 35 { 20 } else { 0 })).collect();
     let (t, v) = (times.iter().sum::<f64>() / 60.0, SAMPLES.iter().sum::<f64>() / 60.0);
     let square: f64 = times.iter().map(|x| (x - t) * (x - t)).sum();
     let product: f64 = times.iter().zip(SAMPLES).map(|(x, y)| (x - t) * (y - v)).sum();
-    let residuals = times.iter().zip(SAMPLES).map(|(x, y)| v + product / square * (x - t) - y).collect();
+    let residuals =
+        times.iter().zip(SAMPLES).map(|(x, y)| v + product / square * (x - t) - y).collect();
     let jacobian = std::iter::repeat_n(1.0, 60).chain(times.iter().copied()).collect();
     (times, residuals, jacobian)
 }
@@ -29,9 +31,9 @@ fn near(found: f64, expected: f64, relative: f64) {
     assert!((found / expected - 1.0).abs() < relative, "{found} is not {expected}");
 }
 
-/// NumPy 2.4.6 and SciPy 1.17.1: the restricted likelihood with dense Cholesky factors, minimised by Nelder-Mead to 1e-9;
-/// then the sandwich with the dense covariance. Here the likelihood is maximised to 1e-3 of its logarithm, which moves
-/// its flat maximum by some per cent.
+/// NumPy 2.4.6 and SciPy 1.17.1: the restricted likelihood with dense Cholesky factors, minimised
+/// by Nelder-Mead to 1e-9; then the sandwich with the dense covariance. Here the likelihood is
+/// maximised to 1e-3 of its logarithm, which moves its flat maximum by some per cent.
 #[test]
 fn noise_is_that_of_a_dense_likelihood() {
     let (times, residuals, jacobian) = line();
@@ -100,7 +102,9 @@ fn quantiles_are_those_of_scipy() {
 fn the_step_of_a_logger_is_found() {
     let rounded = |step: f64| -> Vec<f64> {
         (0..500)
-            .map(|i| (60.0 * (1.0 - f64::from(-i).exp2().powf(0.01)) / step).round() * step + 273.15)
+            .map(|i| {
+                (60.0 * (1.0 - f64::from(-i).exp2().powf(0.01)) / step).round() * step + 273.15
+            })
             .collect()
     };
     for step in [0.01, 0.1, 0.25, 0.5, 1.0 / 1.8] {

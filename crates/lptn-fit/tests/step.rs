@@ -121,7 +121,10 @@ fn the_mean_of_a_column_is_the_reference() {
     near(power.rise.value, 63.2, 1e-7);
     let empty = vec![f64::NAN; t.len()];
     let column = Reference::Column { name: "empty".into(), times: &t, temperatures: &empty };
-    assert_eq!(Power::new(&fit, C_EQ, &column, Sensor::default()).unwrap_err().code(), "fit::no_reference");
+    assert_eq!(
+        Power::new(&fit, C_EQ, &column, Sensor::default()).unwrap_err().code(),
+        "fit::no_reference"
+    );
     let none = Capacity { value: 0.0, deviation: 0.0 };
     assert_eq!(
         Power::new(&fit, none, &Reference::Initial, Sensor::default()).unwrap_err().code(),
@@ -129,8 +132,9 @@ fn the_mean_of_a_column_is_the_reference() {
     );
 }
 
-/// The shipped gearbox at 5 Hz for 25 minutes. The expected fit is SciPy's (`least_squares`, method lm) of the closed
-/// form of the two nodes (eigenvectors by NumPy); C_sum R_eq = 2659 J/K x 67.2 K / 220.6 W = 810 s.
+/// The shipped gearbox at 5 Hz for 25 minutes. The expected fit is SciPy's (`least_squares`, method
+/// lm) of the closed form of the two nodes (eigenvectors by NumPy); C_sum R_eq = 2659 J/K x 67.2 K
+/// / 220.6 W = 810 s.
 #[test]
 fn the_method_is_biased_on_the_gearbox() {
     let text = include_str!("../../../networks/gearbox.toml");
@@ -154,8 +158,9 @@ fn the_method_is_biased_on_the_gearbox() {
     near(bias.rms, 0.019_202_63, 1e-5);
 }
 
-/// Regression: the times of a record that is cut were moved to the start of the run. From 900 s on the fast mode of the
-/// gearbox (5.07 s) is gone, and the slow one is 793.952 560 57 s (eigenvalues by NumPy, fit by SciPy's `curve_fit`).
+/// Regression: the times of a record that is cut were moved to the start of the run. From 900 s on
+/// the fast mode of the gearbox (5.07 s) is gone, and the slow one is 793.952 560 57 s (eigenvalues
+/// by NumPy, fit by SciPy's `curve_fit`).
 #[test]
 fn regression_a_record_that_is_cut_is_compared_with_the_same_part_of_the_run() {
     let text = include_str!("../../../networks/gearbox.toml");
@@ -231,8 +236,8 @@ fn white(count: u32) -> Vec<f64> {
 #[test]
 fn regression_what_tells_no_time_constant_has_none() {
     let t = times(301, 5.0);
-    // ± 3.2 % of 810 s at 0.1 K of noise on 67.2 K by the covariance of independent samples, so 32 times as much noise is
-    // no time constant any more
+    // ± 3.2 % of 810 s at 0.1 K of noise on 67.2 K by the covariance of independent samples, so 32
+    // times as much noise is no time constant any more
     let noisy = |size: f64| -> Vec<f64> {
         curve(&t, [25.5, 92.7, 810.0]).iter().zip(white(301)).map(|(v, w)| v + size * w).collect()
     };
@@ -249,7 +254,9 @@ fn regression_what_tells_no_time_constant_has_none() {
     }
     let jump = zigzag(&curve(&t, [20.0, 80.0, 0.8]), 0.05);
     let error = refused(&t, &jump);
-    let StepError::Undetermined { tau, lack: Lack::Spacing { spacing } } = error else { panic!("{error}") };
+    let StepError::Undetermined { tau, lack: Lack::Spacing { spacing } } = error else {
+        panic!("{error}")
+    };
     assert!(tau < 2.0 && (spacing - 5.0).abs() < 1e-12);
     assert!(error.to_string().contains("shorter than the distance of the samples"), "{error}");
     assert_eq!(error.code(), "fit::undetermined");

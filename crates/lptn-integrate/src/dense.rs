@@ -1,11 +1,11 @@
-//! What is asked of dense matrices, by faer. Each is compiled here once: faer is generic, and a crate
-//! that calls it compiles its decompositions anew, ten seconds of them.
+//! What is asked of dense matrices, by faer. Each is compiled here once: faer is generic, and a
+//! crate that calls it compiles its decompositions anew, ten seconds of them.
 
 use faer::linalg::solvers::{Solve as _, SolveLstsq as _};
 use faer::{Mat, MatRef, Side};
 
-/// Eigenvalues of a symmetric matrix, ascending, and its orthonormal eigenvectors in the columns that
-/// go with them; the lower triangle is read. `None` where they are not found.
+/// Eigenvalues of a symmetric matrix, ascending, and its orthonormal eigenvectors in the columns
+/// that go with them; the lower triangle is read. `None` where they are not found.
 #[must_use]
 pub fn symmetric_eigen(a: MatRef<'_, f64>) -> Option<(Vec<f64>, Mat<f64>)> {
     let eigen = a.self_adjoint_eigen(Side::Lower).ok()?;

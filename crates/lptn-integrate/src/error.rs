@@ -19,8 +19,8 @@ pub enum Callback {
     LinearSolver,
 }
 
-/// A matrix could not be factorised or solved with. Indices are rows of the matrix as given; those of algebraic
-/// unknowns follow those of the states.
+/// A matrix could not be factorised or solved with. Indices are rows of the matrix as given; those
+/// of algebraic unknowns follow those of the states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FactorError {
     /// Elimination found a pivot that is not positive.
@@ -128,7 +128,8 @@ pub enum IntegrateError {
         /// Component with the largest estimated error.
         index: usize,
     },
-    /// Steps have become so small that the time no longer moves, as at a jump or a singularity of `f`.
+    /// Steps have become so small that the time no longer moves, as at a jump or a singularity of
+    /// `f`.
     Stalled {
         /// Time reached.
         time: f64,
@@ -159,7 +160,8 @@ pub enum IntegrateError {
         callback: Callback,
         /// Time of the call.
         time: f64,
-        /// First component that is not finite (for the Jacobian: slot; for sensitivities: in all blocks together).
+        /// First component that is not finite (for the Jacobian: slot; for sensitivities: in all
+        /// blocks together).
         index: usize,
     },
     /// A callback asked for smaller steps until none was left.
@@ -169,8 +171,8 @@ pub enum IntegrateError {
         /// Time of the last call.
         time: f64,
     },
-    /// A callback returned [`crate::Retry::Stop`], or [`crate::OdeSystem::roots`] failed, for which there is no smaller
-    /// step to try.
+    /// A callback returned [`crate::Retry::Stop`], or [`crate::OdeSystem::roots`] failed, for which
+    /// there is no smaller step to try.
     Stopped {
         /// Which callback.
         callback: Callback,
@@ -228,7 +230,9 @@ impl fmt::Display for FactorError {
             Self::Singular { index } => write!(f, "matrix is singular at row {index}"),
             Self::NotSymmetric => f.write_str("Cholesky needs a symmetric matrix"),
             Self::NotFactorized => f.write_str("no factors to solve with"),
-            Self::WrongLength { expected, found } => write!(f, "{found} values where {expected} are needed"),
+            Self::WrongLength { expected, found } => {
+                write!(f, "{found} values where {expected} are needed")
+            }
             Self::OutOfMemory => f.write_str("out of memory"),
         }
     }
@@ -240,7 +244,11 @@ struct Short(f64);
 impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(x) = self;
-        if *x == 0.0 || (1e-3..1e6).contains(&x.abs()) { write!(f, "{x}") } else { write!(f, "{x:e}") }
+        if *x == 0.0 || (1e-3..1e6).contains(&x.abs()) {
+            write!(f, "{x}")
+        } else {
+            write!(f, "{x:e}")
+        }
     }
 }
 
@@ -263,7 +271,12 @@ impl fmt::Display for IntegrateError {
                 write!(f, "mass {} of algebraic row {row} is not 0", Short(*value))
             }
             Self::StopBehind { time, stop } => {
-                write!(f, "stop time {} lies before the present time {}", Short(*stop), Short(*time))
+                write!(
+                    f,
+                    "stop time {} lies before the present time {}",
+                    Short(*stop),
+                    Short(*time)
+                )
             }
             Self::OutsideLastStep { time, from, to } => {
                 write!(

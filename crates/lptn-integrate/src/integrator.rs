@@ -20,9 +20,10 @@ pub struct Step {
 /// Steps may be shorter than the distance of two doubles at a time far from 0; the flow is then
 /// asked for at times that are rounded.
 ///
-/// The running integrals obey the same formula as the state, so a balance such as `sum of M (y1 -
-/// y0) = integral of the total flow` holds up to what Newton's method leaves over. The defaults keep
-/// that small; see [`Options::newton_coefficient`](crate::Options::newton_coefficient).
+/// The running integrals obey the same formula as the state, so a balance such as
+/// `sum of M (y1 - y0) = integral of the total flow` holds up to what Newton's method leaves over.
+/// The defaults keep that small; see
+/// [`Options::newton_coefficient`](crate::Options::newton_coefficient).
 pub trait Integrator<S: OdeSystem> {
     /// Present time.
     fn time(&self) -> f64;
@@ -48,14 +49,14 @@ pub trait Integrator<S: OdeSystem> {
     /// Takes one step of the size that the error allows. At the stop time it does nothing, says so,
     /// and returns a step of no length.
     ///
-    /// If the Jacobian is symmetric but not constant, and Newton's method fails three times in a row
-    /// (the matrix not being positive definite is one way to fail) or in a quarter of 60 steps, the
-    /// symmetric values are given up for the rest of the run: see [`OdeSystem::leave_symmetry`] and
-    /// [`Statistics::switched_to_lu`]. The running integrals go on.
+    /// If the Jacobian is symmetric but not constant, and Newton's method fails three times in a
+    /// row (the matrix not being positive definite is one way to fail) or in a quarter of 60 steps,
+    /// the symmetric values are given up for the rest of the run: see [`OdeSystem::leave_symmetry`]
+    /// and [`Statistics::switched_to_lu`]. The running integrals go on.
     ///
     /// # Errors
-    /// See [`IntegrateError`]; [`time`](Self::time) and [`state`](Self::state) are then those of the
-    /// last good step.
+    /// See [`IntegrateError`]; [`time`](Self::time) and [`state`](Self::state) are then those of
+    /// the last good step.
     fn step(&mut self) -> Result<Step, IntegrateError>;
 
     /// Writes the state at a time inside the last step, ends included, to `y` (one value per
@@ -101,8 +102,8 @@ pub trait Integrator<S: OdeSystem> {
     /// They begin at 0.
     ///
     /// Their error against those of the exact solution stays below ten times the tolerance over
-    /// [`Options::sensitivity_scales`](crate::Options::sensitivity_scales), by the same rule as that
-    /// of the state.
+    /// [`Options::sensitivity_scales`](crate::Options::sensitivity_scales), by the same rule as
+    /// that of the state.
     ///
     /// # Errors
     /// [`IntegrateError::Sundials`] only.

@@ -1,7 +1,8 @@
 //! Vector operations as plain loops over slices, written so that the compiler vectorises them.
 //!
-//! Reductions keep eight partial results: a single one would have to be summed in order, which forbids vector
-//! instructions. Slices given to one kernel have the same length; the shorter one would govern.
+//! Reductions keep eight partial results: a single one would have to be summed in order, which
+//! forbids vector instructions. Slices given to one kernel have the same length; the shorter one
+//! would govern.
 
 const LANES: usize = 8;
 
@@ -57,9 +58,9 @@ pub fn dot(x: &[f64], y: &[f64]) -> f64 {
 
 /// Largest `|x[i] w[i]|`, 0 for no components, infinity if any of them is not a number.
 ///
-/// The maximum instruction drops a NaN, so a sum of `0 * a` watches for it: it is zero for finite numbers and NaN
-/// otherwise. The answer is infinity rather than NaN because CVODE's tests are comparisons, all of which are false for
-/// NaN, some of them meaning "converged".
+/// The maximum instruction drops a NaN, so a sum of `0 * a` watches for it: it is zero for finite
+/// numbers and NaN otherwise. The answer is infinity rather than NaN because CVODE's tests are
+/// comparisons, all of which are false for NaN, some of them meaning "converged".
 pub fn weighted_max(x: &[f64], w: &[f64]) -> f64 {
     let mut largest = [0.0_f64; LANES];
     let mut watch = [0.0_f64; LANES];
@@ -86,13 +87,15 @@ pub fn weighted_max(x: &[f64], w: &[f64]) -> f64 {
 
 /// [`weighted_max`] over the components with a positive mask.
 pub fn weighted_max_masked(x: &[f64], w: &[f64], mask: &[f64]) -> f64 {
-    let chosen = x.iter().zip(w).zip(mask).filter(|(_, mask)| **mask > 0.0).map(|((x, w), _)| (x * w).abs());
+    let chosen =
+        x.iter().zip(w).zip(mask).filter(|(_, mask)| **mask > 0.0).map(|((x, w), _)| (x * w).abs());
     chosen.fold(0.0, |largest, a| if a.is_nan() { f64::INFINITY } else { f64::max(largest, a) })
 }
 
 /// Largest `|x[i]|`, infinity if any of them is not a number.
 pub fn max_norm(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |largest, x| if x.is_nan() { f64::INFINITY } else { f64::max(largest, x.abs()) })
+    x.iter()
+        .fold(0.0, |largest, x| if x.is_nan() { f64::INFINITY } else { f64::max(largest, x.abs()) })
 }
 
 /// Smallest `x[i]`.
@@ -128,8 +131,8 @@ pub fn first_not_finite(x: &[f64]) -> Option<usize> {
     if suspicious { x.iter().position(|x| !x.is_finite()) } else { None }
 }
 
-/// CVODE's constraint test: 2 means positive, 1 not negative, -1 not positive, -2 negative. Writes 1 into `mask` where
-/// a constraint is broken, else 0, and says whether all hold.
+/// CVODE's constraint test: 2 means positive, 1 not negative, -1 not positive, -2 negative. Writes
+/// 1 into `mask` where a constraint is broken, else 0, and says whether all hold.
 pub fn constraints_hold(constraint: &[f64], x: &[f64], mask: &mut [f64]) -> bool {
     let mut all = true;
     for ((mask, &c), &x) in mask.iter_mut().zip(constraint).zip(x) {
@@ -154,7 +157,9 @@ mod tests {
     fn numbers(n: usize, seed: u64) -> Vec<f64> {
         let mut state = seed;
         let mut next = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
             f64::from((state >> 40) as u32) / f64::from(1 << 23) - 1.0
         };
         (0..n).map(|_| next()).collect()
@@ -166,7 +171,8 @@ mod tests {
             let (x, w, mask) = (numbers(n, 1), numbers(n, 2), numbers(n, 3));
             let plain = x.iter().zip(&w).map(|(x, w)| (x * w).abs()).fold(0.0, f64::max);
             assert!((weighted_max(&x, &w) - plain).abs() <= 0.0);
-            let masked = (0..n).filter(|&i| mask[i] > 0.0).map(|i| (x[i] * w[i]).abs()).fold(0.0, f64::max);
+            let masked =
+                (0..n).filter(|&i| mask[i] > 0.0).map(|i| (x[i] * w[i]).abs()).fold(0.0, f64::max);
             assert!((weighted_max_masked(&x, &w, &mask) - masked).abs() <= 0.0);
             assert!((max_norm(&x) - x.iter().map(|x| x.abs()).fold(0.0, f64::max)).abs() <= 0.0);
             let sum: f64 = x.iter().zip(&w).map(|(x, w)| x * w).sum();

@@ -5,24 +5,26 @@ use crate::linear::LinearSolver;
 /// Settings of an [`crate::Integrator`]; take [`Options::default`] and change what is needed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// Absolute tolerance in units of y, positive; there is no relative one, because `y` may have an arbitrary zero.
-    /// CVODE works with a third of it. For stable systems the error of every component stays below ten times the
-    /// tolerance (a rule from measurement, not a bound).
+    /// Absolute tolerance in units of y, positive; there is no relative one, because `y` may have
+    /// an arbitrary zero. CVODE works with a third of it. For stable systems the error of every
+    /// component stays below ten times the tolerance (a rule from measurement, not a bound).
     pub tolerance: f64,
     /// Largest number of steps over the life of the integrator, restarts included.
     pub max_steps: usize,
-    /// Size of the first step after the start and after every restart, positive, in units of t. `None`: estimated.
+    /// Size of the first step after the start and after every restart, positive, in units of t.
+    /// `None`: estimated.
     pub initial_step: Option<f64>,
     /// Largest step, positive, in units of t. `None`: no limit.
     pub max_step_size: Option<f64>,
     /// The linear solver.
     pub linear_solver: LinearSolver,
-    /// Newton's method stops when its estimated error is below this fraction of the local tolerance; positive.
-    /// `None`: a choice by linear solver that closes the books, see [`crate::Integrator`].
+    /// Newton's method stops when its estimated error is below this fraction of the local
+    /// tolerance; positive. `None`: a choice by linear solver that closes the books, see
+    /// [`crate::Integrator`].
     pub newton_coefficient: Option<f64>,
-    /// What size each parameter of [`crate::OdeSystem::sensitivity_flow`] is of, positive, in units of `p_i`: the error
-    /// allowed in `s_i` is the tolerance over this, so that `s_i` times the scale, a change of y, is as accurate as y.
-    /// As many as there are parameters; empty: all 1.
+    /// What size each parameter of [`crate::OdeSystem::sensitivity_flow`] is of, positive, in units
+    /// of `p_i`: the error allowed in `s_i` is the tolerance over this, so that `s_i` times the
+    /// scale, a change of y, is as accurate as y. As many as there are parameters; empty: all 1.
     pub sensitivity_scales: Vec<f64>,
 }
 

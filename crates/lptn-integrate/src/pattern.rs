@@ -2,8 +2,9 @@
 
 use faer::sparse::SymbolicSparseColMatRef;
 
-/// Structurally symmetric pattern in compressed columns: rows ascending within a column, no duplicates, the whole
-/// diagonal present. A *slot* is a position in the array of values that goes with the pattern.
+/// Structurally symmetric pattern in compressed columns: rows ascending within a column, no
+/// duplicates, the whole diagonal present. A *slot* is a position in the array of values that goes
+/// with the pattern.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pattern {
     column_pointers: Vec<usize>,
@@ -12,8 +13,9 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// The pattern of an `n` by `n` matrix with nonzeros at the given `(row, column)` pairs, at their mirror images
-    /// and on the diagonal. Pairs may repeat and come in any order without changing the result.
+    /// The pattern of an `n` by `n` matrix with nonzeros at the given `(row, column)` pairs, at
+    /// their mirror images and on the diagonal. Pairs may repeat and come in any order without
+    /// changing the result.
     ///
     /// # Panics
     /// If an index is not below `n`: that is a mistake of the calling program, never of its input.
@@ -21,12 +23,18 @@ impl Pattern {
     pub fn new(n: usize, edges: impl Iterator<Item = (usize, usize)>) -> Self {
         let mut rows_of: Vec<Vec<usize>> = (0..n).map(|i| vec![i]).collect();
         for (row, column) in edges {
-            assert!(row < n && column < n, "entry ({row}, {column}) is outside a matrix of size {n}");
+            assert!(
+                row < n && column < n,
+                "entry ({row}, {column}) is outside a matrix of size {n}"
+            );
             rows_of[column].push(row);
             rows_of[row].push(column);
         }
-        let mut pattern =
-            Self { column_pointers: vec![0], row_indices: Vec::new(), diagonal: Vec::with_capacity(n) };
+        let mut pattern = Self {
+            column_pointers: vec![0],
+            row_indices: Vec::new(),
+            diagonal: Vec::with_capacity(n),
+        };
         for (column, mut rows) in rows_of.into_iter().enumerate() {
             rows.sort_unstable();
             rows.dedup();
@@ -38,8 +46,8 @@ impl Pattern {
         pattern
     }
 
-    /// The pattern of a symbolic matrix that somebody else made: square, structurally symmetric, rows ascending
-    /// and without duplicates (faer keeps these two), the whole diagonal present.
+    /// The pattern of a symbolic matrix that somebody else made: square, structurally symmetric,
+    /// rows ascending and without duplicates (faer keeps these two), the whole diagonal present.
     ///
     /// # Panics
     /// If the diagonal is not whole: that is a mistake of the calling program, never of its input.
@@ -74,7 +82,8 @@ impl Pattern {
         self.row_indices.is_empty()
     }
 
-    /// `size() + 1` ascending slots: column `j` occupies `column_pointers()[j]..column_pointers()[j + 1]`.
+    /// `size() + 1` ascending slots: column `j` occupies
+    /// `column_pointers()[j]..column_pointers()[j + 1]`.
     #[must_use]
     pub fn column_pointers(&self) -> &[usize] {
         &self.column_pointers
@@ -92,7 +101,8 @@ impl Pattern {
         self.column_pointers[column]..self.column_pointers[column + 1]
     }
 
-    /// The slot of an entry, or `None` where the matrix is zero by structure or the indices are out of range.
+    /// The slot of an entry, or `None` where the matrix is zero by structure or the indices are out
+    /// of range.
     #[must_use]
     pub fn slot(&self, row: usize, column: usize) -> Option<usize> {
         if column >= self.size() {
@@ -114,7 +124,8 @@ impl Pattern {
         &self.diagonal
     }
 
-    /// Writes `y = A x` for the matrix `A` with these values. `values` has a value per slot, `x` and `y` one per row.
+    /// Writes `y = A x` for the matrix `A` with these values. `values` has a value per slot, `x`
+    /// and `y` one per row.
     pub fn multiply(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
         y.fill(0.0);
         for (column, &factor) in x.iter().enumerate() {

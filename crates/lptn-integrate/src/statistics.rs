@@ -27,7 +27,8 @@ pub struct Statistics {
     pub newton_failures: u64,
     /// Calls of [`crate::Integrator::restart`] and [`crate::Integrator::rewind`].
     pub restarts: u64,
-    /// Time at which symmetric Newton matrices were given up for LU, in units of t; see [`crate::Integrator::step`].
+    /// Time at which symmetric Newton matrices were given up for LU, in units of t; see
+    /// [`crate::Integrator::step`].
     pub switched_to_lu: Option<f64>,
     /// Order of the last step, 1 to 5; 0 before the first.
     pub last_order: u32,

@@ -27,7 +27,8 @@ fn solvers(pattern: &Pattern) -> Vec<Box<dyn Factorization>> {
 fn numbers(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed;
     move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
@@ -58,7 +59,10 @@ fn pattern_is_closed_sorted_and_whole() {
     assert_eq!(pattern.row_indices(), [0, 2, 1, 3, 0, 2, 1, 3]);
     assert_eq!(pattern.diagonal(), [0, 2, 5, 7]);
     assert_eq!((pattern.size(), pattern.len()), (4, 8));
-    assert_eq!((pattern.slot(2, 0), pattern.slot(0, 2), pattern.slot(0, 1)), (Some(1), Some(4), None));
+    assert_eq!(
+        (pattern.slot(2, 0), pattern.slot(0, 2), pattern.slot(0, 1)),
+        (Some(1), Some(4), None)
+    );
     assert_eq!((pattern.slot(9, 0), pattern.slot(0, 9)), (None, None));
     assert_eq!(pattern, Pattern::new(4, [(1, 3), (0, 2)].into_iter()));
     assert!(Pattern::new(0, std::iter::empty()).is_empty());
@@ -67,7 +71,8 @@ fn pattern_is_closed_sorted_and_whole() {
 #[test]
 fn solved_by_hand() {
     // 4 x + y = 9, x + 3 y = 5, z / 2 = 4.
-    let (pattern, values) = matrix(3, &[(0, 0, 4.0), (0, 1, 1.0), (1, 0, 1.0), (1, 1, 3.0), (2, 2, 0.5)]);
+    let (pattern, values) =
+        matrix(3, &[(0, 0, 4.0), (0, 1, 1.0), (1, 0, 1.0), (1, 1, 3.0), (2, 2, 0.5)]);
     for mut solver in solvers(&pattern) {
         solver.factorize(&values).unwrap();
         let mut b = [9.0, 5.0, 4.0];
@@ -99,7 +104,8 @@ fn all_solvers_agree() {
             let mut b = vec![0.0; n];
             pattern.multiply(&values, &exact, &mut b);
             let solvers = solvers(&pattern).into_iter().filter(|s| {
-                !upwind || matches!(s.kind(), LinearSolverKind::DenseLu | LinearSolverKind::SparseLu)
+                !upwind
+                    || matches!(s.kind(), LinearSolverKind::DenseLu | LinearSolverKind::SparseLu)
             });
             for mut solver in solvers {
                 assert_eq!(solver.size(), n);
@@ -109,9 +115,11 @@ fn all_solvers_agree() {
                     solver.factorize(&values).unwrap();
                     solver.check(&pattern, &values).unwrap();
                     let mut x = vec![0.0; n];
-                    let left = solve_refined(solver.as_mut(), (&pattern, &values), &b, &mut x, 1).unwrap();
+                    let left =
+                        solve_refined(solver.as_mut(), (&pattern, &values), &b, &mut x, 1).unwrap();
                     assert!(left < 1e-9, "{:?}, {n}: residual {left:e}", solver.kind());
-                    let error = x.iter().zip(&exact).map(|(x, e)| (x - e).abs()).fold(0.0, f64::max);
+                    let error =
+                        x.iter().zip(&exact).map(|(x, e)| (x - e).abs()).fold(0.0, f64::max);
                     assert!(error < 1e-8, "{:?}, {n}: error {error:e}", solver.kind());
                 }
             }
@@ -155,24 +163,35 @@ fn a_negative_pivot_is_reported_by_its_row() {
     for n in [3, 40, 400] {
         for bad in [0, n / 2, n - 1] {
             // No links: the row is that of the entry in any order of elimination.
-            let entries: Vec<_> = (0..n).map(|i| (i, i, if i == bad { -1.0 } else { 1.0 })).collect();
+            let entries: Vec<_> =
+                (0..n).map(|i| (i, i, if i == bad { -1.0 } else { 1.0 })).collect();
             let (pattern, values) = matrix(n, &entries);
             let mut solver = SparseCholesky::new(&pattern).unwrap();
-            assert_eq!(solver.factorize(&values), Err(FactorError::NotPositiveDefinite { index: bad }));
+            assert_eq!(
+                solver.factorize(&values),
+                Err(FactorError::NotPositiveDefinite { index: bad })
+            );
             assert_eq!(solver.solve_in_place(&mut vec![1.0; n]), Err(FactorError::NotFactorized));
             let mut solver = Dense::new(&pattern, true);
-            assert_eq!(solver.factorize(&values), Err(FactorError::NotPositiveDefinite { index: bad }));
+            assert_eq!(
+                solver.factorize(&values),
+                Err(FactorError::NotPositiveDefinite { index: bad })
+            );
         }
     }
 }
 
 #[test]
 fn a_negative_pivot_in_a_supernode_is_reported_by_its_row() {
-    // Dense enough that faer takes its supernodal code; every row but one is dominated by its diagonal.
+    // Dense enough that faer takes its supernodal code; every row but one is dominated by its
+    // diagonal.
     let n = 300;
     for bad in [0, 123, n - 1] {
-        let mut entries: Vec<_> = (0..n).map(|i| (i, i, if i == bad { -1e6 } else { 1e6 })).collect();
-        entries.extend((0..n).flat_map(|i| (0..n).filter(move |&j| i != j).map(move |j| (i, j, -1.0))));
+        let mut entries: Vec<_> =
+            (0..n).map(|i| (i, i, if i == bad { -1e6 } else { 1e6 })).collect();
+        entries.extend(
+            (0..n).flat_map(|i| (0..n).filter(move |&j| i != j).map(move |j| (i, j, -1.0))),
+        );
         let (pattern, values) = matrix(n, &entries);
         let mut solver = SparseCholesky::new(&pattern).unwrap();
         assert_eq!(solver.factorize(&values), Err(FactorError::NotPositiveDefinite { index: bad }));
@@ -187,10 +206,16 @@ fn misuse_is_an_error() {
         let wrong = FactorError::WrongLength { expected: values.len(), found: 3 };
         assert_eq!(solver.factorize(&values[..3]), Err(wrong));
         solver.factorize(&values).unwrap();
-        assert!(matches!(solver.solve_in_place(&mut [1.0; 5]), Err(FactorError::WrongLength { .. })));
+        assert!(matches!(
+            solver.solve_in_place(&mut [1.0; 5]),
+            Err(FactorError::WrongLength { .. })
+        ));
         assert!(solver.solve_in_place(&mut [1.0, f64::NAN, 0.0, 0.0]).is_err());
     }
-    assert!(matches!(linear::new(&pattern, false, LinearSolver::Cholesky), Err(FactorError::NotSymmetric)));
+    assert!(matches!(
+        linear::new(&pattern, false, LinearSolver::Cholesky),
+        Err(FactorError::NotSymmetric)
+    ));
 }
 
 /// `M + G` of a cube of `n` cells along each axis, links of 1 between neighbours, masses of `mass`.
@@ -282,7 +307,8 @@ fn values_decide_between_cholesky_and_lu() {
     let mut skew = values.clone();
     skew[pattern.slot(1, 0).unwrap()] = -0.5;
     let negative: Vec<f64> = values.iter().map(|v| -v).collect();
-    let kinds = [LinearSolverKind::SparseCholesky, LinearSolverKind::SparseLu, LinearSolverKind::SparseLu];
+    let kinds =
+        [LinearSolverKind::SparseCholesky, LinearSolverKind::SparseLu, LinearSolverKind::SparseLu];
     for (values, kind) in [values, skew, negative].into_iter().zip(kinds) {
         let mut b = vec![0.0; pattern.size()];
         pattern.multiply(&values, &exact, &mut b);

@@ -1,12 +1,15 @@
-//! Heat carried by a stream, one-way: the end it flows into receives, the end it leaves does not notice.
+//! Heat carried by a stream, one-way: the end it flows into receives, the end it leaves does not
+//! notice.
 //!
-//! At zero flow both ends take the side of a flow that begins `from` -> `to`, so that together they have one
-//! derivative, that of mcp (T_from - T_to).
+//! At zero flow both ends take the side of a flow that begins `from` -> `to`, so that together they
+//! have one derivative, that of mcp (T_from - T_to).
 
 use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
-use crate::declare::{Carries, Confidence, Extent, Field, Form, KindDeclaration, Law, LawDeclaration, Range};
+use crate::declare::{
+    Carries, Confidence, Extent, Field, Form, KindDeclaration, Law, LawDeclaration, Range,
+};
 
 /// `[advection]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
@@ -18,7 +21,10 @@ pub(crate) const Advection: KindDeclaration = KindDeclaration {
     elsewhere: &[
         ("G", "the capacity rate of a stream is `mcp`"),
         ("m", "the mass flow is `flow`, with its `fluid`"),
-        ("cp", "the specific heat belongs to the [fluid]; or give `mcp`, mass flow times specific heat"),
+        (
+            "cp",
+            "the specific heat belongs to the [fluid]; or give `mcp`, mass flow times specific heat",
+        ),
     ],
     later: &[],
     surface: None,
@@ -119,9 +125,9 @@ impl Law for VolumeFlow {
 /// * `mcp`: heat capacity rate in W/K, of either sign; positive from `from` to `to`
 /// * `t_from`, `t_to`: temperatures in K, or in any one unit with the size of a kelvin
 ///
-/// Positive heats `to`. The stream leaves `to` at the temperature of `to` (a well-mixed cell). Source: energy
-/// equation of a well-mixed open system with constant cp: Incropera et al., Fundamentals of Heat and Mass
-/// Transfer, 6th edition, equation 1.11e.
+/// Positive heats `to`. The stream leaves `to` at the temperature of `to` (a well-mixed cell).
+/// Source: energy equation of a well-mixed open system with constant cp: Incropera et al.,
+/// Fundamentals of Heat and Mass Transfer, 6th edition, equation 1.11e.
 ///
 /// ```
 /// use lptn_laws::{advection_from, advection_to};
@@ -134,7 +140,8 @@ pub fn advection_to<S: Scalar>(mcp: S, t_from: S, t_to: S) -> S {
     forward(mcp) * (t_from - t_to)
 }
 
-/// Heat that `from` receives from a stream that flows backwards: q = max(-mcp, 0) (T_to - T_from), in W.
+/// Heat that `from` receives from a stream that flows backwards: q = max(-mcp, 0) (T_to - T_from),
+/// in W.
 ///
 /// Symbols, range and source as in [`advection_to`]; positive heats `from`.
 pub fn advection_from<S: Scalar>(mcp: S, t_from: S, t_to: S) -> S {
@@ -144,17 +151,19 @@ pub fn advection_from<S: Scalar>(mcp: S, t_from: S, t_to: S) -> S {
 /// Heat that `to` receives from a stream, by enthalpies: q = max(m, 0) (h_from - h_to), in W.
 ///
 /// * `flow`: m, mass flow in kg/s, of either sign; positive from `from` to `to`
-/// * `h_from`, `h_to`: specific enthalpies of the fluid in J/kg at the temperatures of the two ends, from one
-///   zero
+/// * `h_from`, `h_to`: specific enthalpies of the fluid in J/kg at the temperatures of the two
+///   ends, from one zero
 ///
-/// Positive heats `to`. For fluids whose cp depends on temperature this closes the balance of a loop exactly,
-/// which mcp at any mean temperature does not. Source: steady-flow energy equation without work, kinetic and
-/// potential energy: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 1.11d.
+/// Positive heats `to`. For fluids whose cp depends on temperature this closes the balance of a
+/// loop exactly, which mcp at any mean temperature does not. Source: steady-flow energy equation
+/// without work, kinetic and potential energy: Incropera et al., Fundamentals of Heat and Mass
+/// Transfer, 6th edition, equation 1.11d.
 pub fn stream_to<S: Scalar>(flow: S, h_from: S, h_to: S) -> S {
     forward(flow) * (h_from - h_to)
 }
 
-/// Heat that `from` receives from a stream that flows backwards: q = max(-m, 0) (h_to - h_from), in W.
+/// Heat that `from` receives from a stream that flows backwards: q = max(-m, 0) (h_to - h_from), in
+/// W.
 ///
 /// Symbols, range and source as in [`stream_to`]; positive heats `from`.
 pub fn stream_from<S: Scalar>(flow: S, h_from: S, h_to: S) -> S {

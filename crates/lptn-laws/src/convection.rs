@@ -15,7 +15,10 @@ pub(crate) const Convection: KindDeclaration = KindDeclaration {
     selector: None,
     example: "{ from = \"a\", to = \"air\", h = \"10 W/(m^2 K)\", area = \"0.2 m^2\" }",
     elsewhere: &[
-        ("G", "a convection takes `R`, or `h` and `area`; a path given by `G` belongs in [resistor]"),
+        (
+            "G",
+            "a convection takes `R`, or `h` and `area`; a path given by `G` belongs in [resistor]",
+        ),
         ("A", "the area is `area`"),
         ("alpha", "the film coefficient is `h`"),
         ("htc", "the film coefficient is `h`"),
@@ -46,7 +49,12 @@ impl Law for Film {
             },
             Field {
                 hints: Hints::CONDUCTS,
-                ..Field::new("area", Type::of(Dimension::AREA), "area of the surface", "\"0.2 m^2\"")
+                ..Field::new(
+                    "area",
+                    Type::of(Dimension::AREA),
+                    "area of the surface",
+                    "\"0.2 m^2\"",
+                )
             },
         ],
         carries: Carries::Conductance,
@@ -71,7 +79,8 @@ impl Law for Film {
 /// * `h`: film coefficient in W/(m^2 K), at least 0
 /// * `area`: A of the wetted surface in m^2, above 0
 ///
-/// Source: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations 1.3a and 3.9.
+/// Source: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations 1.3a
+/// and 3.9.
 pub fn film<S: Scalar>(h: S, area: S) -> S {
     h * area
 }

@@ -1,5 +1,5 @@
-//! How a kind of path and a law are declared: everything that netlists, checks, documents and analyses know of them
-//! follows from here.
+//! How a kind of path and a law are declared: everything that netlists, checks, documents and
+//! analyses know of them follows from here.
 
 use lptn_units::{Scalar, Type};
 
@@ -12,11 +12,13 @@ pub trait Law {
 
     /// Its value in SI units, of what [`LawDeclaration::carries`] says.
     ///
-    /// * `values`: one for each of its [fields](LawDeclaration::fields), in their order, in SI units
-    /// * `ends`: temperatures of `from` and `to` in K, which only laws with [`LawDeclaration::reads_ends`] read
+    /// * `values`: one for each of its [fields](LawDeclaration::fields), in their order, in SI
+    ///   units
+    /// * `ends`: temperatures of `from` and `to` in K, which only laws with
+    ///   [`LawDeclaration::reads_ends`] read
     ///
-    /// A formula checks nothing: who calls it refuses what is outside the ranges of the fields. Inside them, value and
-    /// derivatives are finite.
+    /// A formula checks nothing: who calls it refuses what is outside the ranges of the fields.
+    /// Inside them, value and derivatives are finite.
     fn value<S: Scalar>(values: &[S], ends: [S; 2]) -> S;
 }
 
@@ -35,9 +37,11 @@ pub struct LawDeclaration {
     pub fields: &'static [Field],
     /// What the value of its formula means.
     pub carries: Carries,
-    /// Whether its value depends on the temperatures of the ends even where all fields are constant.
+    /// Whether its value depends on the temperatures of the ends even where all fields are
+    /// constant.
     pub reads_ends: bool,
-    /// How its value follows from its fields, as far as it can be told whether heat rises with temperature.
+    /// How its value follows from its fields, as far as it can be told whether heat rises with
+    /// temperature.
     pub form: Form,
     /// Two keys of lengths of which the first has to be shorter.
     pub ordered: Option<[&'static str; 2]>,
@@ -66,7 +70,8 @@ pub enum Carries {
     CapacityRate,
     /// A mass flow in kg/s of a fluid.
     MassFlow,
-    /// A volume flow in m^3/s of a fluid, measured at the temperature that the field of this key gives.
+    /// A volume flow in m^3/s of a fluid, measured at the temperature that the field of this key
+    /// gives.
     VolumeFlow(&'static str),
 }
 
@@ -130,25 +135,36 @@ pub struct Field {
     pub example: &'static str,
     /// What to do about a number outside its range.
     pub hints: Hints,
-    /// Whether it is a property of a body: `material` may be named in its place, and its expression may read `T`, the mean
-    /// temperature of the ends.
+    /// Whether it is a property of a body: `material` may be named in its place, and its expression
+    /// may read `T`, the mean temperature of the ends.
     pub property: bool,
 }
 
 impl Field {
     /// A value above 0.
-    pub const fn new(key: &'static str, ty: Type, meaning: &'static str, example: &'static str) -> Self {
+    pub const fn new(
+        key: &'static str,
+        ty: Type,
+        meaning: &'static str,
+        example: &'static str,
+    ) -> Self {
         let (range, hints) = (Range::Positive, Hints::SIGN);
         Self { key, ty, range, default: None, meaning, example, hints, property: false }
     }
 
     /// A length or an area of a body.
-    pub const fn measure(key: &'static str, ty: Type, meaning: &'static str, example: &'static str) -> Self {
+    pub const fn measure(
+        key: &'static str,
+        ty: Type,
+        meaning: &'static str,
+        example: &'static str,
+    ) -> Self {
         Self { hints: Hints::MEASURE, ..Self::new(key, ty, meaning, example) }
     }
 }
 
-/// Which numbers a field may be. During a run, where it may depend on time and temperatures, 0 is allowed as well.
+/// Which numbers a field may be. During a run, where it may depend on time and temperatures, 0 is
+/// allowed as well.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Range {
     /// Any.
@@ -180,7 +196,8 @@ impl Hints {
         infinite: "something is divided by zero, or a number is too large",
     };
     /// Of what carries the more heat the larger it is.
-    pub const CONDUCTS: Self = Self { zero: "leave the path out if no heat flows through it", ..Self::SIGN };
+    pub const CONDUCTS: Self =
+        Self { zero: "leave the path out if no heat flows through it", ..Self::SIGN };
     /// Of what carries the less heat the larger it is.
     pub const RESISTS: Self = Self {
         zero: "two places without resistance between them are one node: make them one",
@@ -220,7 +237,8 @@ pub struct KindDeclaration {
     pub surface: Option<Surface>,
 }
 
-/// A surface through which a body gives off heat. What convects also radiates: their areas are the same skin.
+/// A surface through which a body gives off heat. What convects also radiates: their areas are the
+/// same skin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Surface {
     /// It convects.

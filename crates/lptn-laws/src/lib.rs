@@ -1,15 +1,16 @@
-//! Published formulas of heat transfer, one function each, and the declarations of the laws and kinds of paths that
-//! follow from them ([`Formula`], [`Kind`]): fields with quantity, range, default and example, forms, validity, source.
-//! Netlist keys, checks, help, documents, expansion and the tests of derivatives are read from there.
+//! Published formulas of heat transfer, one function each, and the declarations of the laws and
+//! kinds of paths that follow from them ([`Formula`], [`Kind`]): fields with quantity, range,
+//! default and example, forms, validity, source. Netlist keys, checks, help, documents, expansion
+//! and the tests of derivatives are read from there.
 //!
 //! Every law is generic over [`Scalar`](lptn_units::Scalar): on `f64` it gives the value, on
-//! [`Dual`](lptn_units::Dual) the derivatives with it, from the same lines. All quantities are in SI units,
-//! absolute temperatures in K. A function checks nothing: its valid range is in its description, and who calls
-//! it refuses what is outside, with the name of the element. Inside the range, value and derivatives are finite,
-//! at `dT = 0`, at zero flow and at reversal too.
+//! [`Dual`](lptn_units::Dual) the derivatives with it, from the same lines. All quantities are in
+//! SI units, absolute temperatures in K. A function checks nothing: its valid range is in its
+//! description, and who calls it refuses what is outside, with the name of the element. Inside the
+//! range, value and derivatives are finite, at `dT = 0`, at zero flow and at reversal too.
 //!
-//! Links are written as q = G dT wherever a conductance exists, so that heat never is the small difference of
-//! two large numbers.
+//! Links are written as q = G dT wherever a conductance exists, so that heat never is the small
+//! difference of two large numbers.
 //!
 //! ```
 //! use lptn_laws::{effective_emissivity_parallel_plates, radiation_conductance, radiation_exchange_area};
@@ -40,11 +41,13 @@ pub use advection::{advection_from, advection_to, stream_from, stream_to};
 pub use conduction::{cylinder, rod, slab, sphere};
 pub use convection::film;
 pub use declare::{
-    Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration, Range, Surface,
+    Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration, Range,
+    Surface,
 };
 pub use list::{Formula, Kind};
 pub use lump::{biot, diffusion_time};
 pub use phase::melting_capacity;
 pub use radiation::{
-    STEFAN_BOLTZMANN, effective_emissivity_parallel_plates, radiation_conductance, radiation_exchange_area,
+    STEFAN_BOLTZMANN, effective_emissivity_parallel_plates, radiation_conductance,
+    radiation_exchange_area,
 };

@@ -1,5 +1,5 @@
-//! The one list of kinds and laws. A new one is its file and its word here; everything else follows from what the file
-//! declares.
+//! The one list of kinds and laws. A new one is its file and its word here; everything else follows
+//! from what the file declares.
 
 use lptn_units::Scalar;
 
@@ -7,7 +7,8 @@ use crate::declare::{KindDeclaration, Law, LawDeclaration};
 
 macro_rules! declare {
     ($($module:ident: $($kind:ident)? { $($law:ident),* };)*) => {
-        /// A kind of path: the section of the netlist that it stands in, in the order in which their columns stand.
+        /// A kind of path: the section of the netlist that it stands in, in the order in which
+        /// their columns stand.
         #[allow(missing_docs, reason = "its declaration says what it is")]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Kind { $($($kind,)?)* }

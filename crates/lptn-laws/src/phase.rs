@@ -2,14 +2,17 @@
 
 use lptn_units::Scalar;
 
-/// Capacity that a melt adds between solidus and liquidus: C = L / (T_liquidus - T_solidus), in J/K, or J/(kg K).
+/// Capacity that a melt adds between solidus and liquidus: C = L / (T_liquidus - T_solidus), in
+/// J/K, or J/(kg K).
 ///
 /// * `latent_heat`: L in J, or J/kg, at least 0
-/// * `solidus`, `liquidus`: temperatures in K, solidus < liquidus; a pure substance takes up L at one temperature
+/// * `solidus`, `liquidus`: temperatures in K, solidus < liquidus; a pure substance takes up L at
+///   one temperature
 ///
-/// The melted fraction is linear between the two, so that the latent heat is taken up evenly. Source: V. R. Voller,
-/// C. R. Swaminathan, B. G. Thomas, Fixed grid techniques for phase change problems: a review, International Journal for
-/// Numerical Methods in Engineering 30 (1990) 875-898.
+/// The melted fraction is linear between the two, so that the latent heat is taken up evenly.
+/// Source: V. R. Voller, C. R. Swaminathan, B. G. Thomas, Fixed grid techniques for phase change
+/// problems: a review, International Journal for Numerical Methods in Engineering 30 (1990)
+/// 875-898.
 ///
 /// ```
 /// // wax: 200 kJ/kg between 55 and 57 degC

@@ -4,7 +4,8 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 use crate::declare::{
-    Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration, Range, Surface,
+    Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration, Range,
+    Surface,
 };
 
 /// `[radiation]`, as netlists declare it.
@@ -37,7 +38,12 @@ const SEEN: Field = Field {
 const VIEW_FACTOR: Field = Field {
     range: Range::Fraction,
     default: Some(1.0),
-    ..Field::new("view_factor", Type::SCALAR, "view factor from the area to the other surface", "0.9")
+    ..Field::new(
+        "view_factor",
+        Type::SCALAR,
+        "view factor from the area to the other surface",
+        "0.9",
+    )
 };
 
 /// An exchange area.
@@ -118,8 +124,9 @@ impl Law for ParallelPlates {
 
 /// The Stefan-Boltzmann constant in W/(m^2 K^4).
 ///
-/// Exact since the SI of 2019: 2 pi^5 k^4 / (15 h^3 c^2), of which CODATA 2018 and 2022 print 5.670374419...e-8.
-/// The digits printed are kept here, as other programs do; the next would change it by 3e-11.
+/// Exact since the SI of 2019: 2 pi^5 k^4 / (15 h^3 c^2), of which CODATA 2018 and 2022 print
+/// 5.670374419...e-8. The digits printed are kept here, as other programs do; the next would change
+/// it by 3e-11.
 pub const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 
 /// Conductance of radiation: G = sigma gr (Ta^2 + Tb^2) (Ta + Tb), in W/K.
@@ -127,25 +134,28 @@ pub const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 /// * `gr`: exchange area in m^2, at least 0 ([`radiation_exchange_area`])
 /// * `t_from`, `t_to`: absolute temperatures in K, at least 0
 ///
-/// The heat is q = G (T_from - T_to) = sigma gr (T_from^4 - T_to^4), positive from `from` to `to`. In this form
-/// nothing cancels where the temperatures are close, and at dT = 0 the derivative is 4 sigma gr T^3.
+/// The heat is q = G (T_from - T_to) = sigma gr (T_from^4 - T_to^4), positive from `from` to `to`.
+/// In this form nothing cancels where the temperatures are close, and at dT = 0 the derivative is 4
+/// sigma gr T^3.
 ///
-/// Source: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations 1.8 and 1.9.
+/// Source: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations 1.8 and
+/// 1.9.
 pub fn radiation_conductance<S: Scalar>(gr: S, t_from: S, t_to: S) -> S {
     S::from_f64(STEFAN_BOLTZMANN) * gr * (t_from * t_from + t_to * t_to) * (t_from + t_to)
 }
 
 /// Exchange area of two surfaces: Gr = e A F, in m^2.
 ///
-/// * `emissivity`: effective emissivity of the pair, 0 to 1 ([`effective_emissivity_parallel_plates`]; the emissivity
-///   of a small body in a large room)
+/// * `emissivity`: effective emissivity of the pair, 0 to 1
+///   ([`effective_emissivity_parallel_plates`]; the emissivity of a small body in a large room)
 /// * `area`: A of the surface that `view_factor` and `emissivity` refer to, in m^2, above 0
-/// * `view_factor`: F from that area to the other surface, 0 to 1. It is 1 where the effective emissivity already
-///   holds the geometry
+/// * `view_factor`: F from that area to the other surface, 0 to 1. It is 1 where the effective
+///   emissivity already holds the geometry
 ///
-/// With e = 1 the exchange of black surfaces; with F = 1 that of a two-surface enclosure; with both below 1 an
-/// approximation, as the reflected part is taken to leave. Source: Incropera et al., Fundamentals of Heat and
-/// Mass Transfer, 6th edition, equations 13.17 (black) and 13.18 (enclosure).
+/// With e = 1 the exchange of black surfaces; with F = 1 that of a two-surface enclosure; with both
+/// below 1 an approximation, as the reflected part is taken to leave. Source: Incropera et al.,
+/// Fundamentals of Heat and Mass Transfer, 6th edition, equations 13.17 (black) and 13.18
+/// (enclosure).
 pub fn radiation_exchange_area<S: Scalar>(emissivity: S, area: S, view_factor: S) -> S {
     emissivity * area * view_factor
 }
@@ -154,9 +164,9 @@ pub fn radiation_exchange_area<S: Scalar>(emissivity: S, area: S, view_factor: S
 ///
 /// * `e1`, `e2`: emissivities, 0 to 1, one of them above 0
 ///
-/// Evaluated as e1 e2 / (e2 + e1 (1 - e2)), which also takes a perfect mirror. The gap is small against the
-/// plates. Source: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 13.19 (table
-/// 13.3).
+/// Evaluated as e1 e2 / (e2 + e1 (1 - e2)), which also takes a perfect mirror. The gap is small
+/// against the plates. Source: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th
+/// edition, equation 13.19 (table 13.3).
 ///
 /// ```
 /// assert!((lptn_laws::effective_emissivity_parallel_plates(0.5, 0.5) - 1.0 / 3.0).abs() < 1e-15);

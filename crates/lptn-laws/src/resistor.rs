@@ -3,7 +3,9 @@
 use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
-use crate::declare::{Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration};
+use crate::declare::{
+    Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration,
+};
 
 /// `[resistor]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]

@@ -1,5 +1,5 @@
-//! Property: every law of the crate, its derivatives by dual numbers against central differences at random
-//! states, and value and derivatives finite where laws usually break.
+//! Property: every law of the crate, its derivatives by dual numbers against central differences at
+//! random states, and value and derivatives finite where laws usually break.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -40,7 +40,8 @@ fn derivatives_agree_with_central_differences() {
     for law in laws() {
         for regime in law.regimes {
             for _ in 0..200 {
-                let inputs: Vec<_> = regime.iter().map(|&range| random(&mut state, range)).collect();
+                let inputs: Vec<_> =
+                    regime.iter().map(|&range| random(&mut state, range)).collect();
                 let found = dual(&law, &inputs);
                 let same = (found.value - (law.value)(&inputs)).abs() <= 1e-14 * found.value.abs();
                 assert!(same, "{} has two values at {inputs:?}", law.name);
@@ -77,13 +78,17 @@ fn declared_laws_have_their_derivatives() {
     let mut state = 1;
     for law in Formula::ALL {
         let fields = law.declaration().fields;
-        let number =
-            |field: &Field| parse_quantity(field.example.trim_matches('"'), Some(field.ty)).unwrap().value;
+        let number = |field: &Field| {
+            parse_quantity(field.example.trim_matches('"'), Some(field.ty)).unwrap().value
+        };
         for _ in 0..100 {
-            let inputs: Vec<f64> =
-                fields.iter().map(|field| number(field) * random(&mut state, (0.95, 1.05))).collect();
+            let inputs: Vec<f64> = fields
+                .iter()
+                .map(|field| number(field) * random(&mut state, (0.95, 1.05)))
+                .collect();
             let ends = [random(&mut state, KELVIN), random(&mut state, KELVIN)];
-            let duals: Vec<Dual<5>> = inputs.iter().enumerate().map(|(i, x)| Dual::variable(*x, i)).collect();
+            let duals: Vec<Dual<5>> =
+                inputs.iter().enumerate().map(|(i, x)| Dual::variable(*x, i)).collect();
             let found = law.value(&duals, ends.map(Dual::constant));
             for (i, x) in inputs.iter().enumerate() {
                 let at = |factor: f64| {

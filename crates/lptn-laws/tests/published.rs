@@ -1,5 +1,6 @@
-//! Reference: numbers printed in textbooks. The digits of Incropera's and Holman's examples are also found in
-//! the transcripts of FOSSEE (Python-Textbook-Companions, commit 206d035; Scilab-TBC-Uploads, commit b1f5c3f).
+//! Reference: numbers printed in textbooks. The digits of Incropera's and Holman's examples are
+//! also found in the transcripts of FOSSEE (Python-Textbook-Companions, commit 206d035;
+//! Scilab-TBC-Uploads, commit b1f5c3f).
 
 use std::f64::consts::PI;
 
@@ -13,7 +14,10 @@ const ROUNDED_SIGMA: f64 = 6.7e-5;
 
 #[track_caller]
 fn near(found: f64, printed: f64, tolerance: f64) {
-    assert!((found - printed).abs() <= tolerance, "{found}, printed {printed} (tolerance {tolerance})");
+    assert!(
+        (found - printed).abs() <= tolerance,
+        "{found}, printed {printed} (tolerance {tolerance})"
+    );
 }
 
 fn series(conductances: &[f64]) -> f64 {
@@ -30,7 +34,8 @@ fn slab_of_fireclay() {
     near(slab(1.7, 0.5 * 1.2, 0.15) * 250.0, 1700.0, 1e-9);
 }
 
-/// Incropera, 6th edition, example 1.2: bare steam pipe in a room, 998 W/m; 998.38 W in the transcript.
+/// Incropera, 6th edition, example 1.2: bare steam pipe in a room, 998 W/m; 998.38 W in the
+/// transcript.
 #[test]
 fn pipe_by_convection_and_radiation() {
     let area = PI * 0.07;
@@ -39,15 +44,17 @@ fn pipe_by_convection_and_radiation() {
     near(film(15.0, area) * 175.0 + radiated, 998.38, 0.005 + ROUNDED_SIGMA * radiated);
 }
 
-/// Incropera, 6th edition, example 3.2: a chip of 1e4 W/m^2 is at 75.3 degC; 75.31 in the transcript.
+/// Incropera, 6th edition, example 3.2: a chip of 1e4 W/m^2 is at 75.3 degC; 75.31 in the
+/// transcript.
 #[test]
 fn chip_on_epoxy_and_aluminium() {
     let below = series(&[film(1.0 / 0.9e-4, 1.0), slab(239.0, 1.0, 0.008), film(100.0, 1.0)]);
     near(25.0 + 1e4 / (film(100.0, 1.0) + below), 75.31, 0.005);
 }
 
-/// Incropera, 6th edition, example 5.1: a bead of 0.706 mm with a time constant of 1 s at 400 W/(m^2 K); its Biot
-/// number is far below 0.1. The time constant over the diffusion time is the Biot number: h L / k.
+/// Incropera, 6th edition, example 5.1: a bead of 0.706 mm with a time constant of 1 s at 400
+/// W/(m^2 K); its Biot number is far below 0.1. The time constant over the diffusion time is the
+/// Biot number: h L / k.
 #[test]
 fn thermocouple_is_a_lump() {
     let (diameter, h, k, rho, cp) = (7.06e-4, 400.0, 20.0, 8500.0, 400.0);
@@ -58,8 +65,9 @@ fn thermocouple_is_a_lump() {
     near(diffusion_time(length, k, rho, cp) / tau, biot(h, length, k), 1e-15);
 }
 
-/// Incropera, 6th edition, example 5.4: pipeline wall of 40 mm steel, k = 63.9 W/(m K), in hot oil of 500 W/(m^2 K): Bi =
-/// 0.313, no lump; after 8 min its Fourier number is 5.64 (alpha = 18.8e-6 m^2/s).
+/// Incropera, 6th edition, example 5.4: pipeline wall of 40 mm steel, k = 63.9 W/(m K), in hot oil
+/// of 500 W/(m^2 K): Bi = 0.313, no lump; after 8 min its Fourier number is 5.64 (alpha = 18.8e-6
+/// m^2/s).
 #[test]
 fn pipeline_is_no_lump() {
     near(biot(500.0, 0.04, 63.9), 0.313, 5e-4);
@@ -67,8 +75,8 @@ fn pipeline_is_no_lump() {
     near(480.0 / diffusion_time(0.04, 63.9, 7832.0, 434.0), 5.64, 5e-3);
 }
 
-/// Incropera, 6th edition, example 3.3: the conductivity of a carbon nanotube between two heated islands on
-/// beams; 3111.86 W/(m K) in the transcript.
+/// Incropera, 6th edition, example 3.3: the conductivity of a carbon nanotube between two heated
+/// islands on beams; 3111.86 W/(m K) in the transcript.
 #[test]
 fn rod_of_carbon() {
     let (t_sensing, t_room, power) = (308.4, 300.0, 11.3e-6);
@@ -86,8 +94,8 @@ fn wall_of_a_cylinder() {
     near(1.0 / cylinder(20.0, 0.9, 1.0, 10.0), 8.384323e-5, 5e-12);
 }
 
-/// Incropera, 6th edition, example 3.6: liquid nitrogen of 77 K in a sphere with evacuated silica powder, air of
-/// 300 K with 20 W/(m^2 K): 13.06 W.
+/// Incropera, 6th edition, example 3.6: liquid nitrogen of 77 K in a sphere with evacuated silica
+/// powder, air of 300 K with 20 W/(m^2 K): 13.06 W.
 #[test]
 fn sphere_of_nitrogen() {
     let powder = sphere(0.0017, 0.25, 0.275);
@@ -97,17 +105,20 @@ fn sphere_of_nitrogen() {
     near(series(&[powder, air]) * (300.0 - 77.0), 13.06, 0.005);
 }
 
-/// Holman, Heat Transfer, example 8-10: plates of 0.3 and 0.8 exchange 0.279 of black ones, 0.01902 with a shield
-/// of 0.04 between them.
+/// Holman, Heat Transfer, example 8-10: plates of 0.3 and 0.8 exchange 0.279 of black ones, 0.01902
+/// with a shield of 0.04 between them.
 #[test]
 fn parallel_plates_with_a_shield() {
     near(effective_emissivity_parallel_plates(0.3, 0.8), 0.279, 5e-4);
-    let halves =
-        [effective_emissivity_parallel_plates(0.3, 0.04), effective_emissivity_parallel_plates(0.04, 0.8)];
+    let halves = [
+        effective_emissivity_parallel_plates(0.3, 0.04),
+        effective_emissivity_parallel_plates(0.04, 0.8),
+    ];
     near(series(&halves), 0.01902, 5e-6);
 }
 
-/// Schoolbook: 336 J/g melt 10 g of ice (Careers360, school questions): 3360 J, here taken up over 2 K.
+/// Schoolbook: 336 J/g melt 10 g of ice (Careers360, school questions): 3360 J, here taken up over
+/// 2 K.
 #[test]
 fn ice_to_water() {
     near(melting_capacity(3360.0, 272.15, 274.15) * 2.0, 3360.0, 1e-9);

@@ -1,5 +1,6 @@
-//! Writes a plate of SIDE x SIDE cells as CSV files with the netlist that imports them: SIDE^2 nodes, 3 SIDE^2
-//! conductors, SIDE sources. `cargo run --release -p lptn-netlist --example import_grid -- 1000 big`
+//! Writes a plate of SIDE x SIDE cells as CSV files with the netlist that imports them: SIDE^2
+//! nodes, 3 SIDE^2 conductors, SIDE sources.
+//! `cargo run --release -p lptn-netlist --example import_grid -- 1000 big`
 #![allow(clippy::print_stdout)]
 
 use std::fs::{File, create_dir_all};
@@ -41,7 +42,8 @@ fn main() -> io::Result<()> {
 
 fn nodes(mut out: impl Write, side: usize) -> io::Result<()> {
     writeln!(out, "name,C [J/K],T0 [degC]")?;
-    (0..side * side).try_for_each(|k| writeln!(out, "n{},{:.3},20", k + 1, 0.5 + (k % 97) as f64 * 1e-3))?;
+    (0..side * side)
+        .try_for_each(|k| writeln!(out, "n{},{:.3},20", k + 1, 0.5 + (k % 97) as f64 * 1e-3))?;
     out.flush()
 }
 
@@ -68,7 +70,8 @@ fn conductors(mut out: impl Write, side: usize) -> io::Result<()> {
 
 fn sources(mut out: impl Write, side: usize) -> io::Result<()> {
     writeln!(out, "into,P [W]")?;
-    (0..side)
-        .try_for_each(|i| writeln!(out, "n{},{:.2}", i * (side + 1) + 1, 0.5 + (i % 11) as f64 * 0.05))?;
+    (0..side).try_for_each(|i| {
+        writeln!(out, "n{},{:.2}", i * (side + 1) + 1, 0.5 + (i % 11) as f64 * 0.05)
+    })?;
     out.flush()
 }

@@ -1,11 +1,13 @@
-//! What hangs together with nothing: nodes that no path leads from to a boundary, boundaries that nothing touches.
+//! What hangs together with nothing: nodes that no path leads from to a boundary, boundaries that
+//! nothing touches.
 
 use lptn_data::Diagnostic;
 use lptn_network::{End, Item, Network, list_of, list_of_names};
 
 use crate::source_map::SourceMap;
 
-/// The warnings. A boundary that an expression or a control reads is not idle; `is_read` knows those of expressions.
+/// The warnings. A boundary that an expression or a control reads is not idle; `is_read` knows
+/// those of expressions.
 pub(crate) fn warnings(
     network: &Network,
     map: &SourceMap,
@@ -18,7 +20,8 @@ pub(crate) fn warnings(
 fn ungrounded(network: &Network, map: &SourceMap) -> Option<Diagnostic> {
     let nodes: Vec<_> = network.ungrounded().into_iter().flatten().collect();
     let first = *nodes.first()?;
-    let names: Vec<String> = nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
+    let names: Vec<String> =
+        nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
     let message = format!("no path leads to a boundary from {}", list_of_names(&names));
     let warning = Diagnostic::warning("network::no_boundary", message).help(
         "add a path if heat is to get out; without one the energy at the start decides the steady state",
@@ -40,7 +43,8 @@ fn idle(network: &Network, map: &SourceMap, is_read: &dyn Fn(&str) -> bool) -> O
         .filter(|id| !touched[id.index()] && !is_read(&network.boundaries()[id.index()].name))
         .collect();
     let first = *idle.first()?;
-    let names: Vec<String> = idle.iter().map(|id| network.boundaries()[id.index()].name.clone()).collect();
+    let names: Vec<String> =
+        idle.iter().map(|id| network.boundaries()[id.index()].name.clone()).collect();
     let noun = if names.len() == 1 { "boundary" } else { "boundaries" };
     let message = format!("nothing touches {noun} {}", list_of(&names, "boundaries"));
     let warning = Diagnostic::warning("network::idle_boundary", message)

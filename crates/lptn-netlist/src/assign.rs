@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use lptn_data::{Diagnostic, FileId, Rejected, Span, on_borders};
 use lptn_network::{
-    BuildError, Course, Field, Item, Material, Network, ParameterError, ParameterId, Parameters, SignalId,
-    Value,
+    BuildError, Course, Field, Item, Material, Network, ParameterError, ParameterId, Parameters,
+    SignalId, Value,
 };
 use lptn_units::{Expression, UnitErrorKind};
 
@@ -25,17 +25,18 @@ struct Assignment {
 }
 
 impl Netlist {
-    /// Gives parameters other values, written as `omega=5000rpm`. What was set before stays set. On an error
-    /// nothing is changed.
+    /// Gives parameters other values, written as `omega=5000rpm`. What was set before stays set. On
+    /// an error nothing is changed.
     ///
     /// # Errors
-    /// [`Rejected`] with every problem: a text that is no assignment, an unknown parameter, a wrong unit, or what
-    /// the new values break in the network or in `[run]`.
+    /// [`Rejected`] with every problem: a text that is no assignment, an unknown parameter, a wrong
+    /// unit, or what the new values break in the network or in `[run]`.
     pub fn set(&mut self, assignments: &[String]) -> Result<(), Rejected> {
         let mut files = self.files.clone();
         let file = files.add(FILE, assignments.join("\n"));
         let mut new = self.assigned.clone();
-        let result = self.assign(assignments, file, &mut new).and_then(|done| self.evaluate(&new, &done));
+        let result =
+            self.assign(assignments, file, &mut new).and_then(|done| self.evaluate(&new, &done));
         match result {
             Ok((network, run)) => {
                 (self.network, self.run, self.files, self.assigned) = (network, run, files, new);
@@ -76,7 +77,8 @@ impl Netlist {
                 .at(line.clone(), label)
                 .help("write NAME=VALUE, for example `omega=5000rpm`")
         };
-        let (name, value) = text.split_once('=').ok_or_else(|| bad("is no assignment", "`=` is missing"))?;
+        let (name, value) =
+            text.split_once('=').ok_or_else(|| bad("is no assignment", "`=` is missing"))?;
         let written = name.trim();
         if written.is_empty() {
             return Err(bad("names no parameter", "a name is missing before `=`"));
@@ -87,7 +89,12 @@ impl Netlist {
         }
     }
 
-    fn refused(&self, error: &ParameterError, (name, value): (&str, &str), line: Span) -> Diagnostic {
+    fn refused(
+        &self,
+        error: &ParameterError,
+        (name, value): (&str, &str),
+        line: Span,
+    ) -> Diagnostic {
         let start = line.range.start;
         match error {
             ParameterError::Unknown(unknown) => {
@@ -96,11 +103,13 @@ impl Netlist {
                     return wrong_path(("--set", &unknown.name), place, wrong);
                 }
                 let message = format!("there is no parameter `{}`", unknown.name);
-                let problem = Diagnostic::error("netlist::unknown_parameter", message).at(place, "");
+                let problem =
+                    Diagnostic::error("netlist::unknown_parameter", message).at(place, "");
                 if let Some(id) = self.signal(&unknown.name) {
                     let problem = problem.also(self.source_map.name(Item::Signal(id)), "a signal");
-                    return problem
-                        .help("a signal changes with time: scale it with a parameter, and set that");
+                    return problem.help(
+                        "a signal changes with time: scale it with a parameter, and set that",
+                    );
                 }
                 self.suggest_parameter(problem, unknown.suggestion.as_deref())
             }
@@ -123,8 +132,9 @@ impl Netlist {
                     }
                 }
                 if self.is_expression(value) {
-                    return problem
-                        .help("`--set` takes a number or a quantity, not an expression: `omega=5000rpm`");
+                    return problem.help(
+                        "`--set` takes a number or a quantity, not an expression: `omega=5000rpm`",
+                    );
                 }
                 problem.help(error.help())
             }
@@ -136,7 +146,8 @@ impl Netlist {
         self.network.signal_ids().find(|id| signals[id.index()].name == name)
     }
 
-    /// Whether the text is an expression of parameters, which a netlist may hold but an assignment may not.
+    /// Whether the text is an expression of parameters, which a netlist may hold but an assignment
+    /// may not.
     fn is_expression(&self, text: &str) -> bool {
         let is_parameter = |name: &str| self.network.parameter(name).is_ok();
         Expression::parse(text).is_ok_and(|e| e.names().iter().any(|(name, _)| is_parameter(name)))
@@ -150,7 +161,8 @@ impl Netlist {
                 Err(_) => problem,
             };
         }
-        let names: Vec<&str> = self.network.parameters().iter().map(|p| p.name.as_str()).take(12).collect();
+        let names: Vec<&str> =
+            self.network.parameters().iter().map(|p| p.name.as_str()).take(12).collect();
         match names.as_slice() {
             [] => problem.help("this netlist has no parameters: give it a section [param]"),
             names => problem.help(format!("its parameters are {}", lptn_data::list(names))),
@@ -166,10 +178,9 @@ impl Netlist {
         new: &Parameters,
         done: &[Assignment],
     ) -> Result<(Network, Option<crate::RunSettings>), Vec<Diagnostic>> {
-        let network = self
-            .network
-            .with(new)
-            .map_err(|errors| errors.0.iter().map(|error| self.blame(error, done)).collect::<Vec<_>>())?;
+        let network = self.network.with(new).map_err(|errors| {
+            errors.0.iter().map(|error| self.blame(error, done)).collect::<Vec<_>>()
+        })?;
         let run = self.plan.as_ref().map(|plan| plan.settings(&network)).transpose();
         let run = run.map_err(|problems| {
             problems.into_iter().map(|p| name_changed(p, done.iter())).collect::<Vec<_>>()
@@ -195,11 +206,16 @@ impl Netlist {
         let mut found = HashSet::new();
         let mut open: Vec<ParameterId> = match item {
             Item::Parameter(id) => vec![id],
-            _ => self.values(item, field).into_iter().flat_map(|value| self.parameters_of(value)).collect(),
+            _ => self
+                .values(item, field)
+                .into_iter()
+                .flat_map(|value| self.parameters_of(value))
+                .collect(),
         };
         while let Some(id) = open.pop() {
             if found.insert(id) {
-                let value = self.network.parameters().get(id.index()).map(|parameter| &parameter.value);
+                let value =
+                    self.network.parameters().get(id.index()).map(|parameter| &parameter.value);
                 open.extend(value.into_iter().flat_map(|value| self.parameters_of(value)));
             }
         }
@@ -213,9 +229,11 @@ impl Netlist {
         while let Some(&slot) = slots.get(next) {
             next += 1;
             let read = |id: &SignalId| (0..2).any(|k| network.signal_slot(*id) + k == slot);
-            let signal = network.signal_ids().find(read).and_then(|id| network.signals().get(id.index()));
+            let signal =
+                network.signal_ids().find(read).and_then(|id| network.signals().get(id.index()));
             if let Some(Course::Expression(value)) = signal.map(|signal| &signal.course) {
-                let more: Vec<u32> = value.slots().into_iter().filter(|s| !slots.contains(s)).collect();
+                let more: Vec<u32> =
+                    value.slots().into_iter().filter(|s| !slots.contains(s)).collect();
                 slots.extend(more);
             }
         }
@@ -237,7 +255,11 @@ impl Netlist {
             Item::Material(id) => material_values(&network.materials()[id.index()], field),
             Item::Fluid(id) => {
                 let fluid = &network.fluids()[id.index()];
-                if field == Field::Density { fluid.density.iter().collect() } else { vec![&fluid.cp] }
+                if field == Field::Density {
+                    fluid.density.iter().collect()
+                } else {
+                    vec![&fluid.cp]
+                }
             }
             Item::Boundary(id) => vec![&network.boundaries()[id.index()].temperature],
             Item::Control(id) => {
@@ -287,8 +309,13 @@ fn material_values(material: &Material, field: Field) -> Vec<&Value> {
     value.into_iter().collect()
 }
 
-fn name_changed<'a>(problem: Diagnostic, changed: impl Iterator<Item = &'a Assignment>) -> Diagnostic {
-    changed.fold(problem, |problem, a| problem.also(a.span.clone(), format!("`{}` is set here", a.name)))
+fn name_changed<'a>(
+    problem: Diagnostic,
+    changed: impl Iterator<Item = &'a Assignment>,
+) -> Diagnostic {
+    changed.fold(problem, |problem, a| {
+        problem.also(a.span.clone(), format!("`{}` is set here", a.name))
+    })
 }
 
 fn twice(this: &Assignment, first: &Assignment) -> Diagnostic {

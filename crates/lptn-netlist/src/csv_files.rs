@@ -26,13 +26,14 @@ const CSV: &str = "csv";
 #[derive(Debug, Default)]
 pub(crate) struct CsvFiles {
     files: HashMap<Span, Result<Arc<CsvFile>, Diagnostic>>,
-    /// Those of `[import]`, which are too long to be held as cells, and of `[fit]`, which are read by column.
+    /// Those of `[import]`, which are too long to be held as cells, and of `[fit]`, which are read
+    /// by column.
     texts: HashMap<Span, Result<CsvText, Diagnostic>>,
 }
 
 impl CsvFiles {
-    /// Reads every file of tables, signals and properties that the netlist names, and those of `[import]` and `[fit]`,
-    /// which are given, through the loader that reads what it includes.
+    /// Reads every file of tables, signals and properties that the netlist names, and those of
+    /// `[import]` and `[fit]`, which are given, through the loader that reads what it includes.
     pub(crate) fn read<'r>(
         files: &mut Files,
         (raw, format): (&RawNetlist, &Format),
@@ -70,7 +71,8 @@ impl CsvFiles {
         self.texts.get(&value.span).map(Result::as_ref)
     }
 
-    /// The file that a value names; `None` if none was read for it, because the netlist is broken elsewhere.
+    /// The file that a value names; `None` if none was read for it, because the netlist is broken
+    /// elsewhere.
     pub(crate) fn get(&self, value: &RawValue) -> Option<Result<Arc<CsvFile>, Diagnostic>> {
         self.files.get(&value.span).cloned()
     }

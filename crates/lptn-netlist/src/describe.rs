@@ -1,7 +1,7 @@
 //! What the network's builder found, said about the file.
 
-use lptn_data::Diagnostic;
-use lptn_network::{BuildError, BuildErrorKind as Kind, Field, Item, Say};
+use lptn_data::{Diagnostic, Span};
+use lptn_network::{BuildError, BuildErrorKind as Kind, Field, GridFace, Item, Say};
 
 use crate::format::MINIMAL;
 use crate::source_map::SourceMap;
@@ -19,7 +19,9 @@ pub(crate) fn describe(error: &BuildError, map: &SourceMap) -> Diagnostic {
 fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagnostic {
     match &error.kind {
         Kind::DuplicateName { .. } => match map.duplicate(&error.kind) {
-            Some((first, second)) => diagnostic.at(second, "named again").also(first, "first named here"),
+            Some((first, second)) => {
+                diagnostic.at(second, "named again").also(first, "first named here")
+            }
             None => diagnostic,
         },
         Kind::NameInside { item, whole } => {
@@ -46,7 +48,9 @@ fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagno
             let capacity = capacity
                 .or_else(|| map.get(item, Field::Material))
                 .or_else(|| map.capacitor_of(*node).cloned());
-            diagnostic.at(map.name(item), "declared massless").also(capacity, "given a capacity here")
+            diagnostic
+                .at(map.name(item), "declared massless")
+                .also(capacity, "given a capacity here")
         }
         Kind::SelfLink { conductor } => {
             let item = Item::Conductor(*conductor);
@@ -56,12 +60,15 @@ fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagno
         Kind::FaceArea { item, face, .. } => {
             let area = Field::of_law("area").and_then(|area| map.get(*item, area));
             let size = map.get(Item::Grid(face.grid), Field::Size);
-            diagnostic.at(area, "not the area of the face").also(size, "which is as large as this says")
+            diagnostic
+                .at(area, "not the area of the face")
+                .also(size, "which is as large as this says")
         }
         Kind::FaceCells { item, faces, .. } | Kind::FaceSides { item, faces, .. } => {
-            let field = if matches!(error.kind, Kind::FaceCells { .. }) { Field::Cells } else { Field::Size };
-            let [a, b] = faces.map(|face| map.get(Item::Grid(face.grid), field));
-            diagnostic.at(map.get(*item, Field::To), "").also(a, "from this grid").also(b, "to this grid")
+            let cells = matches!(error.kind, Kind::FaceCells { .. });
+            let [a, b] = faces.map(|face| grid_size(map, face, cells));
+            let here = diagnostic.at(map.get(*item, Field::To), "");
+            here.also(a, "from this grid").also(b, "to this grid")
         }
         kind => match error.place() {
             Some((item, field)) => diagnostic.at(map.nearest(item, field), label(kind)),
@@ -83,7 +90,9 @@ fn label(kind: &Kind) -> &'static str {
 fn imported(error: &BuildError, map: &SourceMap) -> Option<String> {
     error.place().filter(|(item, _)| map.is_imported(*item))?;
     Some(match &error.kind {
-        Kind::NotPositive { field: Field::Capacity, value, .. } if value.abs() < f64::MIN_POSITIVE => {
+        Kind::NotPositive { field: Field::Capacity, value, .. }
+            if value.abs() < f64::MIN_POSITIVE =>
+        {
             "leave the cell empty for a node that stores nothing".to_owned()
         }
         Kind::NoInitialTemperature { .. } => {
@@ -91,4 +100,9 @@ fn imported(error: &BuildError, map: &SourceMap) -> Option<String> {
         }
         _ => return None,
     })
+}
+
+/// Where the number of cells of a grid stands, or its size.
+fn grid_size(map: &SourceMap, face: GridFace, cells: bool) -> Option<Span> {
+    map.get(Item::Grid(face.grid), if cells { Field::Cells } else { Field::Size })
 }

@@ -1,4 +1,5 @@
-//! The same key or heading twice: TOML forbids it, and the parser does not say where the first one stands.
+//! The same key or heading twice: TOML forbids it, and the parser does not say where the first one
+//! stands.
 
 use lptn_data::{Diagnostic, Span};
 
@@ -17,7 +18,8 @@ pub(crate) fn explain(text: &str, second: &Span, top: &RawTable) -> Diagnostic {
 }
 
 fn key(name: &str, second: &Span, first: Option<Span>) -> Diagnostic {
-    let error = Diagnostic::error(CODE, format!("`{name}` is given twice")).at(second.clone(), "given again");
+    let error = Diagnostic::error(CODE, format!("`{name}` is given twice"))
+        .at(second.clone(), "given again");
     let error = error.also(first, "first given here");
     error.help("remove one of the two, or give one another name")
 }
@@ -44,7 +46,8 @@ type Range = std::ops::Range<usize>;
 /// `node . steel` and `node."steel"` are the same heading.
 fn normal(path: &str) -> String {
     let path = path.trim_matches(['[', ']', ' ', '\t']);
-    let parts: Vec<&str> = path.split('.').map(|part| part.trim().trim_matches(['"', '\''])).collect();
+    let parts: Vec<&str> =
+        path.split('.').map(|part| part.trim().trim_matches(['"', '\''])).collect();
     parts.join(".")
 }
 
@@ -78,8 +81,9 @@ fn first_key(name: &str, second: &Span, table: &RawTable) -> Option<Span> {
         let ends = table.entries.iter().map(|e| e.key_span.range.start).any(|start| start < at);
         ends && (table.span.range.contains(&at) || is_heading(table))
     });
-    let deepest =
-        around.filter_map(|(_, table)| first_key(name, second, table)).max_by_key(|s| s.range.start);
+    let deepest = around
+        .filter_map(|(_, table)| first_key(name, second, table))
+        .max_by_key(|s| s.range.start);
     let name = name.trim_matches(['"', '\'']);
     let own = || table.get(name).map(|entry| entry.key_span.clone()).filter(|s| s.range.start < at);
     deepest.or_else(own)

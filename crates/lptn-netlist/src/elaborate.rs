@@ -1,4 +1,5 @@
-//! [`RawNetlist`] to network: every element is read by itself, so that all problems are found at once.
+//! [`RawNetlist`] to network: every element is read by itself, so that all problems are found at
+//! once.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -111,14 +112,16 @@ impl<'a> Elaboration<'a> {
             Ok(network) => Some(network),
             Err(errors) => {
                 let mut new = errors.0.iter().filter(|error| !doubts.cover(error));
-                self.problems.extend(new.by_ref().take(MOST_DESCRIBED).map(|error| describe(error, map)));
+                self.problems
+                    .extend(new.by_ref().take(MOST_DESCRIBED).map(|error| describe(error, map)));
                 self.dropped += new.count();
                 None
             }
         };
         if let Some(format) = &self.doubts.format {
-            self.problems
-                .retain(|p| p.code == MISSING_FORMAT || !p.place().is_some_and(|at| at.is_inside(format)));
+            self.problems.retain(|p| {
+                p.code == MISSING_FORMAT || !p.place().is_some_and(|at| at.is_inside(format))
+            });
         }
         if self.problems.iter().any(|problem| problem.severity == Severity::Error) {
             // what is odd may follow from what is wrong
@@ -135,8 +138,15 @@ impl<'a> Elaboration<'a> {
         }
         let temperature_unit = default.temperature_unit;
         let (map, structure) = (self.map, self.names.structure);
-        let done =
-            network.map(|network| Elaborated { network, run, sizes, fits, map, temperature_unit, structure });
+        let done = network.map(|network| Elaborated {
+            network,
+            run,
+            sizes,
+            fits,
+            map,
+            temperature_unit,
+            structure,
+        });
         (done, Found { problems: self.problems, dropped: self.dropped })
     }
 }

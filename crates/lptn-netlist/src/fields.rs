@@ -123,7 +123,11 @@ impl<'a> Fields<'a> {
     }
 
     /// The value of a key that has to be there.
-    pub(crate) fn require(&self, key: &str, problems: &mut Vec<Diagnostic>) -> Option<&'a RawValue> {
+    pub(crate) fn require(
+        &self,
+        key: &str,
+        problems: &mut Vec<Diagnostic>,
+    ) -> Option<&'a RawValue> {
         let value = self.get(key);
         if value.is_none() && self.complete {
             let message = format!("{} has no `{key}`", self.owner.words());
@@ -168,7 +172,8 @@ impl<'a> Fields<'a> {
         keys: impl IntoIterator<Item = &'k str>,
     ) -> Diagnostic {
         let places = keys.into_iter();
-        let places = places.filter_map(|key| Some((self.key(key)?.clone(), format!("`{key}` here"))));
+        let places =
+            places.filter_map(|key| Some((self.key(key)?.clone(), format!("`{key}` here"))));
         Diagnostic::error(code, format!("{} {message}", self.owner.words())).places(places)
     }
 
@@ -191,7 +196,8 @@ fn not_a_table(section: &SectionDeclaration, owner: &Owner, entry: &RawEntry) ->
     let message = format!("{} must be a table of fields, got {got}", owner.words());
     let error = Diagnostic::error("netlist::not_a_table", message).at(entry.value.span.clone(), "");
     if matches!(entry.value.kind, RawKind::Array(_)) {
-        return error.help("write the heading with single brackets: each element has a name of its own");
+        return error
+            .help("write the heading with single brackets: each element has a name of its own");
     }
     error.help(format!("write it like this: `{} = {}`", entry.key, section.example))
 }

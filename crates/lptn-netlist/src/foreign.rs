@@ -1,5 +1,5 @@
-//! Files of other kinds that are given in the place of a netlist. They are named once: what is wrong with each of their
-//! lines as TOML helps nobody.
+//! Files of other kinds that are given in the place of a netlist. They are named once: what is
+//! wrong with each of their lines as TOML helps nobody.
 
 use lptn_data::{Diagnostic, FileId, Span};
 
@@ -16,7 +16,8 @@ const MANY: usize = 8;
 
 const NEW: &str = "a netlist is a TOML file; `lptn new NAME` writes one to start from";
 
-/// What a text is that is not TOML, if it is plainly something else; so many of its lines are broken.
+/// What a text is that is not TOML, if it is plainly something else; so many of its lines are
+/// broken.
 pub(crate) fn recognise(
     (name, format): (&str, &Format),
     (file, text): (FileId, &str),
@@ -88,5 +89,6 @@ fn is_spice(lines: &[&str]) -> bool {
         let named = line.starts_with(|c: char| "RCVILrcvil".contains(c));
         named && words.len() >= 4 && !line.contains(['=', ',', ';', ':'])
     };
-    lines.iter().any(is_control) || lines.iter().filter(|line| element(line)).count() * 2 > lines.len()
+    lines.iter().any(is_control)
+        || lines.iter().filter(|line| element(line)).count() * 2 > lines.len()
 }

@@ -1,5 +1,6 @@
-//! How a section is declared: its keys with what each takes and means, its examples, and what belongs elsewhere. Help,
-//! suggestions, what a template or an included file may hold, and the page of all keys follow from it.
+//! How a section is declared: its keys with what each takes and means, its examples, and what
+//! belongs elsewhere. Help, suggestions, what a template or an included file may hold, and the page
+//! of all keys follow from it.
 
 use lptn_data::nearest;
 
@@ -90,7 +91,8 @@ pub struct KeyDeclaration {
     pub takes: &'static str,
     /// What it means, in a few words.
     pub meaning: &'static str,
-    /// What holds where it is left out; empty where it has to be there, or where nothing is meant without it.
+    /// What holds where it is left out; empty where it has to be there, or where nothing is meant
+    /// without it.
     pub default: &'static str,
     /// Its right side, as an example.
     pub example: &'static str,

@@ -44,7 +44,8 @@ impl Names {
 
     /// Whether the whole face is one node of the name of the face.
     fn is_one_node(&self, at: GridFace) -> bool {
-        let indices = |grid: &KnownGrid| at.face.along().into_iter().any(|axis| axis < grid.cells.len());
+        let indices =
+            |grid: &KnownGrid| at.face.along().into_iter().any(|axis| axis < grid.cells.len());
         self.is_attached(at) && self.grid_of(at).is_some_and(|grid| !indices(grid))
     }
 
@@ -77,8 +78,9 @@ impl Names {
             }
             GridPart::Surface(face) if !self.is_attached(face) => {
                 let face = face.face.name();
-                unknown(format!("nothing is attached to face `{grid}.{face}`"))
-                    .help(format!("the mean over its cells is `{grid}.{face}.T`, in limits and reports"))
+                unknown(format!("nothing is attached to face `{grid}.{face}`")).help(format!(
+                    "the mean over its cells is `{grid}.{face}.T`, in limits and reports"
+                ))
             }
             _ if !wanted.names_nodes() => return None,
             GridPart::Whole(_) => {
@@ -87,7 +89,8 @@ impl Names {
                     "a grid has {values}, and of each face such as `{grid}.x1` the mean `{grid}.x1.T`"
                 ))
             }
-            _ => unknown(format!("`{base}` has a temperature only")).help(format!("write `{base}.T`")),
+            _ => unknown(format!("`{base}` has a temperature only"))
+                .help(format!("write `{base}.T`")),
         })
     }
 }

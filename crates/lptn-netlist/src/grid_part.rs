@@ -62,14 +62,16 @@ impl KnownGrid {
 }
 
 fn faces(name: &str) -> String {
-    let all: Vec<String> = Face::ALL.into_iter().map(|face| format!("`{name}.{}`", face.name())).collect();
+    let all: Vec<String> =
+        Face::ALL.into_iter().map(|face| format!("`{name}.{}`", face.name())).collect();
     format!("its faces are {}", all.join(", "))
 }
 
 /// Why these are no indices of cells: the reason and what to write.
 fn bad_index((name, what): (&str, &str), text: &str, counts: &[usize]) -> Option<(String, String)> {
     let inner = text.strip_prefix('[').and_then(|t| t.strip_suffix(']')).unwrap_or(text);
-    let indices: Vec<Option<usize>> = inner.split(',').map(|index| index.trim().parse().ok()).collect();
+    let indices: Vec<Option<usize>> =
+        inner.split(',').map(|index| index.trim().parse().ok()).collect();
     let ranges: Vec<String> = counts.iter().map(|count| format!("1..{count}")).collect();
     let help = match counts {
         [] => format!("this face is one cell: `{name}`"),
@@ -79,7 +81,8 @@ fn bad_index((name, what): (&str, &str), text: &str, counts: &[usize]) -> Option
         let plural = if counts.len() == 1 { "index" } else { "indices" };
         return Some((format!("`{name}{text}`: {what} have {} {plural}", counts.len()), help));
     }
-    let outside = indices.iter().zip(counts).position(|(i, n)| i.is_none_or(|i| i < 1 || i > *n))?;
+    let outside =
+        indices.iter().zip(counts).position(|(i, n)| i.is_none_or(|i| i < 1 || i > *n))?;
     let given = inner.split(',').nth(outside).unwrap_or("").trim();
     Some((format!("`{name}{text}`: index {given} is not in 1..{}", counts[outside]), help))
 }

@@ -1,5 +1,5 @@
-//! What a line that is no TOML was probably meant to be: habits of other notations, which the parser reports
-//! somewhere behind their cause.
+//! What a line that is no TOML was probably meant to be: habits of other notations, which the
+//! parser reports somewhere behind their cause.
 
 use lptn_data::{Diagnostic, FileId, Span};
 use lptn_units::parse_quantity;
@@ -59,11 +59,16 @@ struct Value<'a> {
 
 impl<'a> Value<'a> {
     fn after(line: &'a str, equals: usize) -> Self {
-        let (before, after) = (line.get(..equals).unwrap_or(""), line.get(equals + 1..).unwrap_or(""));
+        let (before, after) =
+            (line.get(..equals).unwrap_or(""), line.get(equals + 1..).unwrap_or(""));
         let key = before.trim_end().rsplit(|c: char| !c.is_ascii_alphanumeric() && c != '_').next();
         let start = line.len() - after.trim_start().len();
         let rest = line.get(start..).unwrap_or("");
-        Self { key: key.unwrap_or(""), start, text: rest.get(..length(rest)).unwrap_or("").trim_end() }
+        Self {
+            key: key.unwrap_or(""),
+            start,
+            text: rest.get(..length(rest)).unwrap_or("").trim_end(),
+        }
     }
 
     fn explain(&self, message: &str, format: &Format) -> Option<Diagnostic> {
@@ -87,10 +92,12 @@ impl<'a> Value<'a> {
         let example = format.example(self.key).unwrap_or_default().trim_matches('"');
         let unit = example.split_once(' ').map_or("", |(_, unit)| unit);
         let number = self.text.trim_end_matches(|c: char| !c.is_ascii_digit());
-        let quantity = if number == self.text { format!("{number} {unit}") } else { self.text.to_owned() };
+        let quantity =
+            if number == self.text { format!("{number} {unit}") } else { self.text.to_owned() };
         let error = parse_quantity(quantity.trim(), None).err()?;
         let (code, help) = (error.code(), error.help()?);
-        (code == "units::decimal_comma").then(|| Diagnostic::error(code, error.to_string()).help(help))
+        (code == "units::decimal_comma")
+            .then(|| Diagnostic::error(code, error.to_string()).help(help))
     }
 
     /// `T0 = T_room` and `C = 150 [J/K]`, where the parser tells of something else.
@@ -100,20 +107,22 @@ impl<'a> Value<'a> {
             return None;
         }
         let plain = self.text.replace(['[', ']'], "");
-        let text = if parse_quantity(&plain, None).is_ok() { plain } else { self.text.replace('"', "") };
+        let text =
+            if parse_quantity(&plain, None).is_ok() { plain } else { self.text.replace('"', "") };
         let error = Diagnostic::error("netlist::unquoted", "text without quotes");
         Some(error.help(format!("write \"{text}\"")))
     }
 }
 
-/// A value without quotes ends at a comma outside brackets that is not inside a number, at a brace or a comment.
+/// A value without quotes ends at a comma outside brackets that is not inside a number, at a brace
+/// or a comment.
 fn length(rest: &str) -> usize {
     let (mut depth, mut at) = (0_usize, 0);
     while let Some(letter) = rest.get(at..).and_then(|rest| rest.chars().next()) {
         let tail = rest.get(at..).unwrap_or("");
         let next_is_digit = tail.chars().nth(1).is_some_and(|c| c.is_ascii_digit());
-        let in_number =
-            next_is_digit && rest.get(..at).is_some_and(|t| t.ends_with(|c: char| c.is_ascii_digit()));
+        let in_number = next_is_digit
+            && rest.get(..at).is_some_and(|t| t.ends_with(|c: char| c.is_ascii_digit()));
         match letter {
             '"' | '\'' if depth > 0 => {
                 at += string_length(tail);
@@ -134,7 +143,10 @@ fn length(rest: &str) -> usize {
 fn is_toml(text: &str) -> bool {
     let digits = text.replace('_', "");
     let date = text.contains([':', '-']) && text.starts_with(|c: char| c.is_ascii_digit());
-    matches!(text, "true" | "false") || digits.parse::<f64>().is_ok() || digits.starts_with("0x") || date
+    matches!(text, "true" | "false")
+        || digits.parse::<f64>().is_ok()
+        || digits.starts_with("0x")
+        || date
 }
 
 #[cfg(test)]

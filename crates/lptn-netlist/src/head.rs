@@ -39,13 +39,15 @@ pub(crate) fn misplaced_format(entries: &[RawEntry]) -> Option<(&str, &RawEntry)
     })
 }
 
-pub(crate) fn missing_format(entries: &[RawEntry], inside: Option<(&str, &RawEntry)>) -> Diagnostic {
+pub(crate) fn missing_format(
+    entries: &[RawEntry],
+    inside: Option<(&str, &RawEntry)>,
+) -> Diagnostic {
     let error = Diagnostic::error(MISSING_FORMAT, "`format = 1` is missing")
         .help("make `format = 1` the first line, above the first [section]");
     match (inside, entries.first()) {
-        (Some((section, format)), _) => {
-            error.at(format.key_span.clone(), format!("below `[{section}]` it belongs to that section"))
-        }
+        (Some((section, format)), _) => error
+            .at(format.key_span.clone(), format!("below `[{section}]` it belongs to that section")),
         (None, Some(first)) => {
             let start = Span::new(first.key_span.file, 0..0);
             error.at(start, "belongs here")
@@ -57,5 +59,7 @@ pub(crate) fn missing_format(entries: &[RawEntry], inside: Option<(&str, &RawEnt
 /// A text without anything in it.
 pub(crate) fn empty(text: &str, at: Span) -> Diagnostic {
     let what = if text.trim().is_empty() { "is empty" } else { "holds nothing but comments" };
-    Diagnostic::error("netlist::empty", format!("the netlist {what}")).at(at, "").help(MINIMAL.trim_end())
+    Diagnostic::error("netlist::empty", format!("the netlist {what}"))
+        .at(at, "")
+        .help(MINIMAL.trim_end())
 }

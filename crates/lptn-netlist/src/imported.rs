@@ -37,8 +37,8 @@ pub(crate) struct Places {
 }
 
 impl Places {
-    /// The place of a field; that of an automatic name is the row. `None` if the item is not one of these or has no
-    /// such cell.
+    /// The place of a field; that of an automatic name is the row. `None` if the item is not one of
+    /// these or has no such cell.
     pub(crate) fn get(&self, item: Item, field: Field) -> Option<Span> {
         let element = self.element(item)?;
         let column = self.columns.iter().find(|(of, _)| *of == field).map(|(_, column)| *column);

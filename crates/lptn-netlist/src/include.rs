@@ -54,8 +54,14 @@ pub(crate) fn merge(
     }
     let span = merged.raw.top.span.clone();
     let own = std::mem::take(&mut merged.raw.top.entries);
-    let mut work =
-        Work { files, format, loader, stack: vec![(normal(path), file)], done: HashSet::new(), merged };
+    let mut work = Work {
+        files,
+        format,
+        loader,
+        stack: vec![(normal(path), file)],
+        done: HashSet::new(),
+        merged,
+    };
     let (entries, includes) = split(own);
     work.includes(&includes, path);
     work.append(entries);
@@ -110,10 +116,12 @@ impl Work<'_, '_> {
             Err(problem) => return self.unread(problem),
         };
         if bytes.len() as u64 > MOST_BYTES {
-            let error = io::Error::other(format!("it is longer than {} MB", MOST_BYTES / 1_000_000));
+            let error =
+                io::Error::other(format!("it is longer than {} MB", MOST_BYTES / 1_000_000));
             return self.unread(INCLUDED.unreadable(&path, value, &error));
         }
-        let Some(text) = std::str::from_utf8(&bytes).ok().filter(|text| !text.contains('\0')) else {
+        let Some(text) = std::str::from_utf8(&bytes).ok().filter(|text| !text.contains('\0'))
+        else {
             return self.unread(not_text(&path, value));
         };
         let file = self.files.add(path.display().to_string(), text);
@@ -134,12 +142,15 @@ impl Work<'_, '_> {
         self.includes(&includes, path);
         self.stack.pop();
         self.done.insert(key);
-        let (refused, entries): (Vec<_>, Vec<_>) =
-            entries.into_iter().partition(|entry| self.format.role(&entry.key) == Some(Role::Study));
+        let (refused, entries): (Vec<_>, Vec<_>) = entries
+            .into_iter()
+            .partition(|entry| self.format.role(&entry.key) == Some(Role::Study));
         self.merged.problems.extend(refused.iter().map(study));
         // title and format are the file's own
         let own = ["format", "title", "description"];
-        self.append(entries.into_iter().filter(|entry| !own.contains(&entry.key.as_str())).collect());
+        self.append(
+            entries.into_iter().filter(|entry| !own.contains(&entry.key.as_str())).collect(),
+        );
     }
 
     /// Adds the entries of a file behind those that are there.
@@ -229,7 +240,9 @@ fn normal(path: &Path) -> PathBuf {
     for component in path.components() {
         match component {
             Component::CurDir => {}
-            Component::ParentDir if matches!(normal.components().next_back(), Some(Component::Normal(_))) => {
+            Component::ParentDir
+                if matches!(normal.components().next_back(), Some(Component::Normal(_))) =>
+            {
                 normal.pop();
             }
             other => normal.push(other),
@@ -254,7 +267,12 @@ fn study(entry: &RawEntry) -> Diagnostic {
 
 fn too_deep(value: &RawValue) -> Diagnostic {
     let message = format!("files are included more than {DEEPEST} deep");
-    Diagnostic::wrong("netlist::include_depth", message, &value.span, "include the innermost file directly")
+    Diagnostic::wrong(
+        "netlist::include_depth",
+        message,
+        &value.span,
+        "include the innermost file directly",
+    )
 }
 
 fn not_text(path: &Path, value: &RawValue) -> Diagnostic {

@@ -56,7 +56,12 @@ impl<'a> JsonValue<'a> {
     /// Its members with their names, if it is an object.
     pub(crate) fn members(self) -> Option<Vec<(Cow<'a, str>, JsonValue<'a>)>> {
         let Members(members) = serde_json::from_str(self.raw.get()).ok()?;
-        Some(members.into_iter().map(|(name, raw)| (name, JsonValue { raw, json: self.json })).collect())
+        Some(
+            members
+                .into_iter()
+                .map(|(name, raw)| (name, JsonValue { raw, json: self.json }))
+                .collect(),
+        )
     }
 
     /// Its number, read to the last digit.

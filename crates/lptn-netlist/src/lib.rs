@@ -1,8 +1,10 @@
-//! Netlists: TOML text to a [`Network`](lptn_network::Network), with every problem named by its place.
+//! Netlists: TOML text to a [`Network`](lptn_network::Network), with every problem named by its
+//! place.
 //!
-//! [`parse`] reads the text into a [`RawNetlist`] (what is written, where), and that into a [`Netlist`] (what it
-//! means). Nothing stops at the first problem: a [`Rejected`] netlist lists them all, each a [`Diagnostic`] with a
-//! stable code, the places in the [`Files`] and, where possible, the text to paste.
+//! [`parse`] reads the text into a [`RawNetlist`] (what is written, where), and that into a
+//! [`Netlist`] (what it means). Nothing stops at the first problem: a [`Rejected`] netlist lists
+//! them all, each a [`Diagnostic`] with a stable code, the places in the [`Files`] and, where
+//! possible, the text to paste.
 //!
 //! ```
 //! let text = r#"
@@ -84,9 +86,9 @@ pub use format::{Format, KeyDeclaration, Role, SectionDeclaration};
 pub use include::Loader;
 pub use initial::InitialState;
 pub use lptn_data::{
-    DataSheet, Diagnostic, FileId, Files, Label, MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS, ReadError,
-    Record, RecordColumn, RecordName, RecordQuery, Rejected, Saturation, Severity, Span, read_bytes,
-    read_record, read_sheet,
+    DataSheet, Diagnostic, FileId, Files, Label, MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS,
+    ReadError, Record, RecordColumn, RecordName, RecordQuery, Rejected, Saturation, Severity, Span,
+    read_bytes, read_record, read_sheet,
 };
 pub use lptn_network::{RunSettings, WindowSettings};
 pub use near_file::similar_file;

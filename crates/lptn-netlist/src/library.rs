@@ -1,7 +1,7 @@
 //! The materials and fluids that ship inside, each number with its source.
 //!
-//! The text is compiled in and read when it is first asked for: a netlist that names no material of the library
-//! does not pay for it.
+//! The text is compiled in and read when it is first asked for: a netlist that names no material of
+//! the library does not pay for it.
 
 use std::sync::LazyLock;
 
@@ -94,10 +94,16 @@ mod tests {
     fn every_line_of_the_library_is_read() {
         let all = || materials().iter().chain(fluids());
         assert_eq!(TEXT.matches("\nsource =").count(), all().count());
-        assert_eq!(TEXT.matches("\ndensity =").count(), all().filter(|r| r.density.is_some()).count());
+        assert_eq!(
+            TEXT.matches("\ndensity =").count(),
+            all().filter(|r| r.density.is_some()).count()
+        );
         assert_eq!(TEXT.matches("\ncp =").count(), all().filter(|r| r.cp.is_some()).count());
         assert_eq!(TEXT.matches("\nk =").count(), all().filter(|r| r.k.is_some()).count());
-        assert_eq!(TEXT.matches("\nT =").count(), all().filter(|r| r.temperature.is_some()).count());
+        assert_eq!(
+            TEXT.matches("\nT =").count(),
+            all().filter(|r| r.temperature.is_some()).count()
+        );
         assert!(fluids().iter().all(|r| r.temperature.is_some()));
     }
 
@@ -109,7 +115,8 @@ mod tests {
         assert_eq!(find("air").map(|r| (r.cp, r.temperature)), Some((Some(1006.0), Some(298.15))));
     }
 
-    /// The heat capacity of a volume of a dense solid lies between 1 and 5 MJ/(m^3 K), of plastics as well.
+    /// The heat capacity of a volume of a dense solid lies between 1 and 5 MJ/(m^3 K), of plastics
+    /// as well.
     #[test]
     fn no_number_is_a_power_of_ten_off() {
         for record in materials() {

@@ -45,7 +45,8 @@ impl ValueKind {
     }
 }
 
-/// Parameters, signals, controls and tables, and the other names of the file that someone may mistake for one.
+/// Parameters, signals, controls and tables, and the other names of the file that someone may
+/// mistake for one.
 #[derive(Debug, Default)]
 pub(crate) struct Names {
     /// What names mean inside templates.
@@ -92,7 +93,9 @@ impl Names {
                 if names.values.contains_key(&entry.key) {
                     names.fail(&entry.key); // taken twice: what is meant cannot be told
                 } else {
-                    names.values.insert(entry.key.clone(), (kind, entry.key_span.clone(), position));
+                    names
+                        .values
+                        .insert(entry.key.clone(), (kind, entry.key_span.clone(), position));
                 }
             }
         }
@@ -136,7 +139,8 @@ impl Names {
     /// Notes elements that stand inside another one, below `[node.winding]`.
     fn hide_inner(&mut self, element: &RawEntry) {
         if let RawKind::Table(table) = &element.value.kind {
-            let inner = table.entries.iter().filter(|field| matches!(field.value.kind, RawKind::Table(_)));
+            let inner =
+                table.entries.iter().filter(|field| matches!(field.value.kind, RawKind::Table(_)));
             self.hidden.extend(inner.map(|field| field.key.clone()).filter(|key| key != "into"));
         }
     }
@@ -144,7 +148,9 @@ impl Names {
     /// Notes the names in a section that cannot be read.
     pub(crate) fn hide(&mut self, section: &RawEntry) {
         match &section.value.kind {
-            RawKind::Table(table) => self.hidden.extend(table.entries.iter().map(|entry| entry.key.clone())),
+            RawKind::Table(table) => {
+                self.hidden.extend(table.entries.iter().map(|entry| entry.key.clone()))
+            }
             RawKind::Array(list) => {
                 // `[[node]]` with its name among its fields
                 let fields = list.iter().filter_map(|item| match &item.kind {
@@ -167,7 +173,9 @@ impl Names {
     }
 
     pub(crate) fn is_hidden(&self, name: &str) -> bool {
-        let inside = || name.match_indices(['.', '[']).any(|(at, _)| self.hidden_grids.contains(&name[..at]));
+        let inside = || {
+            name.match_indices(['.', '[']).any(|(at, _)| self.hidden_grids.contains(&name[..at]))
+        };
         self.all_hidden
             || self.hidden.contains(name)
             || (!self.hidden_grids.is_empty() && inside())
@@ -217,15 +225,16 @@ impl Names {
         self.elements.get(name).copied()
     }
 
-    /// Whether a similar name may still be looked for among so many: not once a file has shown to be full of unknown
-    /// names.
+    /// Whether a similar name may still be looked for among so many: not once a file has shown to
+    /// be full of unknown names.
     pub(crate) fn may_search(&mut self, names: usize) -> bool {
         self.searches += 1;
         self.looks += names;
         self.searches <= MOST_SEARCHES && self.looks <= MOST_LOOKS.max(names)
     }
 
-    /// Whether an expression reads the temperature or the heat of the node or boundary of this name.
+    /// Whether an expression reads the temperature or the heat of the node or boundary of this
+    /// name.
     pub(crate) fn reads(&self, name: &str) -> bool {
         self.read.contains(name)
     }

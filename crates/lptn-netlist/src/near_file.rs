@@ -1,4 +1,5 @@
-//! Files that a netlist names: how they are read, and which was probably meant by a path that leads nowhere.
+//! Files that a netlist names: how they are read, and which was probably meant by a path that leads
+//! nowhere.
 
 use std::io::{self, Error, ErrorKind};
 use std::path::{Component, Path, PathBuf};
@@ -8,13 +9,15 @@ use lptn_units::suggest;
 
 use crate::raw::{RawKind, RawValue};
 
-/// The file that is nearest to a path that leads nowhere: with `/` in place of `\`, in other letters of case, with the
-/// ending that was left out, or, in the same folder and with the same ending, of a similar name.
+/// The file that is nearest to a path that leads nowhere: with `/` in place of `\`, in other
+/// letters of case, with the ending that was left out, or, in the same folder and with the same
+/// ending, of a similar name.
 pub fn similar_file(path: &Path) -> Option<PathBuf> {
     let turned = PathBuf::from(path.to_str()?.replace('\\', "/"));
     let endings = [turned.clone(), turned.with_extension("toml")];
     let bare = turned.extension().is_none();
-    let mut known = endings.iter().take(if bare { 2 } else { 1 }).filter_map(|path| in_any_case(path));
+    let mut known =
+        endings.iter().take(if bare { 2 } else { 1 }).filter_map(|path| in_any_case(path));
     known.find(|found| found != path).or_else(|| of_similar_name(&turned))
 }
 
@@ -27,7 +30,9 @@ fn in_any_case(path: &Path) -> Option<PathBuf> {
             Component::Normal(name) if !there.exists() => {
                 let name = name.to_str()?;
                 found.join(
-                    names(&found)?.into_iter().find(|other| other.to_lowercase() == name.to_lowercase())?,
+                    names(&found)?
+                        .into_iter()
+                        .find(|other| other.to_lowercase() == name.to_lowercase())?,
                 )
             }
             _ => there,
@@ -37,18 +42,25 @@ fn in_any_case(path: &Path) -> Option<PathBuf> {
 }
 
 fn of_similar_name(path: &Path) -> Option<PathBuf> {
-    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
-    let ending = if ["csv", "json"].contains(&ending.as_str()) { ending } else { "toml".to_owned() };
+    let ending =
+        path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
+    let ending =
+        if ["csv", "json"].contains(&ending.as_str()) { ending } else { "toml".to_owned() };
     let folder = path.parent().unwrap_or(Path::new(""));
     let files = names(folder)?.into_iter().map(PathBuf::from).filter(|name| {
-        name.extension().and_then(|other| other.to_str()).is_some_and(|other| other.to_lowercase() == ending)
+        name.extension()
+            .and_then(|other| other.to_str())
+            .is_some_and(|other| other.to_lowercase() == ending)
     });
     let files: Vec<PathBuf> = files.collect();
     // the ending, which all of them share, makes no two names alike
     let mut stems = files.iter().filter_map(|file| file.file_stem()?.to_str());
     let wanted = path.file_stem()?.to_str()?;
     let near = suggest(wanted, &mut stems)?;
-    files.iter().find(|file| file.file_stem().is_some_and(|stem| stem == near)).map(|file| folder.join(file))
+    files
+        .iter()
+        .find(|file| file.file_stem().is_some_and(|stem| stem == near))
+        .map(|file| folder.join(file))
 }
 
 /// What stands in a folder, in the order of the alphabet.
@@ -61,8 +73,8 @@ fn names(folder: &Path) -> Option<Vec<String>> {
     Some(names)
 }
 
-/// What to write in place of a value that names a file, by a path relative to that of the netlist, which could not be
-/// read.
+/// What to write in place of a value that names a file, by a path relative to that of the netlist,
+/// which could not be read.
 fn help(value: &RawValue, path: &Path, error: &Error) -> String {
     let RawKind::String { text: written, .. } = &value.kind else { return String::new() };
     if written.contains(char::is_control) {
@@ -71,7 +83,9 @@ fn help(value: &RawValue, path: &Path, error: &Error) -> String {
     let near = if error.kind() == ErrorKind::NotFound { similar_file(path) } else { None };
     let folder = path.to_str().and_then(|path| path.strip_suffix(written.as_str())).unwrap_or("");
     match near {
-        Some(near) => format!("did you mean \"{}\"?", near.strip_prefix(folder).unwrap_or(&near).display()),
+        Some(near) => {
+            format!("did you mean \"{}\"?", near.strip_prefix(folder).unwrap_or(&near).display())
+        }
         None => "paths are relative to the file that names it".to_owned(),
     }
 }
@@ -97,7 +111,8 @@ impl NamedFile {
         loader: Option<&mut (impl FnMut(&Path) -> io::Result<Vec<u8>> + ?Sized)>,
     ) -> Result<Vec<u8>, Diagnostic> {
         let Some(loader) = loader else {
-            let message = format!("this netlist is not read from a file, so it cannot {}", self.does);
+            let message =
+                format!("this netlist is not read from a file, so it cannot {}", self.does);
             let help = "save it, and give the name of the file";
             return Err(Diagnostic::wrong(self.without_folder, message, &value.span, help));
         };

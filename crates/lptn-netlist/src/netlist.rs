@@ -6,7 +6,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use lptn_data::{
-    Diagnostic, FileId, Files, ReadError, Rejected, Severity, Span, arrange, read_bytes, read_named, shorten,
+    Diagnostic, FileId, Files, ReadError, Rejected, Severity, Span, arrange, read_bytes,
+    read_named, shorten,
 };
 use lptn_network::{Network, Parameters, RunSettings};
 use lptn_units::Unit;
@@ -45,7 +46,8 @@ pub struct Netlist {
     pub source_map: SourceMap,
     /// The texts that places refer to.
     pub files: Files,
-    /// What is probably not meant as it is written, or as it comes out with the parameters that were set.
+    /// What is probably not meant as it is written, or as it comes out with the parameters that
+    /// were set.
     pub warnings: Vec<Diagnostic>,
     /// Those of them that follow from the text alone.
     pub(crate) written: Vec<Diagnostic>,
@@ -62,7 +64,8 @@ pub struct Netlist {
 }
 
 impl Netlist {
-    /// The files it was read from, its own first, then those it includes and its CSV files: name and text.
+    /// The files it was read from, its own first, then those it includes and its CSV files: name
+    /// and text.
     pub fn inputs(&self) -> impl Iterator<Item = (&str, &str)> {
         self.inputs.iter().map(|&id| (self.files.name(id), self.files.text(id)))
     }
@@ -76,7 +79,9 @@ impl Netlist {
         all.extend(plausible::materials(network, map));
         all.extend(plausible::neighbours(network, map));
         all.extend(
-            self.initial.iter().flat_map(|state| initial::warnings(state, self.plan.as_ref(), network)),
+            self.initial
+                .iter()
+                .flat_map(|state| initial::warnings(state, self.plan.as_ref(), network)),
         );
         let tolerance = self.run.iter().map(|run| run.tolerance);
         all.extend(tolerance.flat_map(|tolerance| section::narrow(network, map, tolerance)));
@@ -85,7 +90,8 @@ impl Netlist {
         self.warnings = all;
     }
 
-    /// Why a path such as `planet[9].gear` leads nowhere, and what to write, if its index is to blame.
+    /// Why a path such as `planet[9].gear` leads nowhere, and what to write, if its index is to
+    /// blame.
     pub fn no_instance(&self, path: &str) -> Option<(String, String)> {
         self.structure.wrong_path(path).map(|wrong| (wrong.why, wrong.help))
     }
@@ -101,8 +107,8 @@ impl Netlist {
     }
 }
 
-/// Reads the text of a file, without a look at what it means. The tree holds what could be read, whatever is wrong
-/// elsewhere.
+/// Reads the text of a file, without a look at what it means. The tree holds what could be read,
+/// whatever is wrong elsewhere.
 pub fn parse_raw(files: &Files, file: FileId) -> (RawNetlist, Vec<Diagnostic>) {
     syntax::read(files, file, section::format())
 }
@@ -110,13 +116,14 @@ pub fn parse_raw(files: &Files, file: FileId) -> (RawNetlist, Vec<Diagnostic>) {
 /// Reads a netlist from a file.
 ///
 /// # Errors
-/// [`ReadError`] if the file cannot be read, is longer than [`MOST_BYTES`](crate::MOST_BYTES), or its content cannot
-/// be used.
+/// [`ReadError`] if the file cannot be read, is longer than [`MOST_BYTES`](crate::MOST_BYTES), or
+/// its content cannot be used.
 pub fn read(path: &Path) -> Result<Netlist, ReadError> {
     parse_file(path, &read_bytes(path)?).map_err(ReadError::Rejected)
 }
 
-/// Reads a netlist from the bytes of a file that was read; what it includes, and its CSV files, are looked for beside it.
+/// Reads a netlist from the bytes of a file that was read; what it includes, and its CSV files, are
+/// looked for beside it.
 ///
 /// # Errors
 /// [`Rejected`] with every problem.
@@ -124,7 +131,8 @@ pub fn parse_file(path: &Path, bytes: &[u8]) -> Result<Netlist, Rejected> {
     decode(&path.display().to_string(), bytes, Some(&mut read_named))
 }
 
-/// Reads a netlist from bytes that may not be text; `name` is what diagnostics call it. It cannot name other files.
+/// Reads a netlist from bytes that may not be text; `name` is what diagnostics call it. It cannot
+/// name other files.
 ///
 /// # Errors
 /// [`Rejected`] with every problem.
@@ -157,7 +165,8 @@ pub fn parse(name: &str, text: &str) -> Result<Netlist, Rejected> {
     whole(name, text, None)
 }
 
-/// Reads a netlist from text; `loader` reads what it includes and its CSV files, by paths relative to that of `name`.
+/// Reads a netlist from text; `loader` reads what it includes and its CSV files, by paths relative
+/// to that of `name`.
 ///
 /// # Errors
 /// [`Rejected`] with every problem.
@@ -202,10 +211,12 @@ fn included(
     if incomplete {
         return Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, 0) });
     }
-    let Expanded { raw, structure, problems } = template::expand(&mut files, raw, section::format());
+    let Expanded { raw, structure, problems } =
+        template::expand(&mut files, raw, section::format());
     diagnostics.extend(problems);
     let initial = raw.section(RUN.name).and_then(|run| run.get("initial"));
-    let state = initial.map(|named| StateFile::read(&mut files, &named.value, loader.as_deref_mut()));
+    let state =
+        initial.map(|named| StateFile::read(&mut files, &named.value, loader.as_deref_mut()));
     let long = import::files(&raw).chain(fit::files(&raw));
     let csv = CsvFiles::read(&mut files, (&raw, section::format()), long, loader);
     let (done, mut found) = elaborate(&raw, &structure, &csv, state.as_ref());
@@ -228,7 +239,8 @@ fn finish(
 ) -> Result<Netlist, Rejected> {
     let Elaborated { network, run: plan, sizes, fits, map, temperature_unit, structure } = done;
     let run = plan.as_ref().map(|plan| plan.settings(&network)).transpose();
-    let mut problems: Vec<Diagnostic> = sizes.iter().filter_map(|size| size.check(&network)).collect();
+    let mut problems: Vec<Diagnostic> =
+        sizes.iter().filter_map(|size| size.check(&network)).collect();
     problems.extend(fits.iter().flat_map(|fit| fit.check(&network)));
     let run = run.unwrap_or_else(|more| {
         problems.extend(more);
@@ -266,8 +278,11 @@ fn add_certain(all: &mut Vec<Diagnostic>, found: Vec<Diagnostic>, (files, file):
     let line = |d: &Diagnostic| d.place().map(|span| files.line_column(span).0);
     let broken: HashSet<Option<usize>> = all.iter().map(line).collect();
     // behind something that was not closed, the parser reads one thing as another
-    let end =
-        all.iter().filter(|d| d.code == NOT_CLOSED).filter_map(Diagnostic::place).map(|s| s.range.start);
+    let end = all
+        .iter()
+        .filter(|d| d.code == NOT_CLOSED)
+        .filter_map(Diagnostic::place)
+        .map(|s| s.range.start);
     let end = end.min().unwrap_or(usize::MAX);
     let certain = found.into_iter().filter(|d| {
         d.severity == Severity::Error

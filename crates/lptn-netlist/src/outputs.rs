@@ -13,7 +13,10 @@ use crate::work::Elaboration;
 /// `climb = { from = .., to = .. }` in `window` of `[run]`.
 const WINDOW: SectionDeclaration = SectionDeclaration {
     name: "window",
-    keys: &[key("from", "s", "when it begins", "\"10 min\""), key("to", "s", "when it ends", "\"20 min\"")],
+    keys: &[
+        key("from", "s", "when it begins", "\"10 min\""),
+        key("to", "s", "when it ends", "\"20 min\""),
+    ],
     example: "{ from = \"10 min\", to = \"20 min\" }",
     ..SectionDeclaration::NEW
 };
@@ -39,12 +42,19 @@ impl<'a> Elaboration<'a> {
         let place = Place { owner: &owner, key: "", raw: &entry.value };
         if entry.key == "time" {
             let message = "`time` is the column of the time";
-            self.refuse("netlist::report_name", message, &entry.key_span, "give the report another name");
+            self.refuse(
+                "netlist::report_name",
+                message,
+                &entry.key_span,
+                "give the report another name",
+            );
             return None;
         }
         let input = self.given(place, Wanted::of_results())?.input();
         let text = match &entry.value.kind {
-            RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => text.trim(),
+            RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => {
+                text.trim()
+            }
             _ => "",
         };
         let item = Item::Report(self.builder.report(&entry.key, input, text));
@@ -55,8 +65,11 @@ impl<'a> Elaboration<'a> {
 
     /// `window = { climb = { from = "10 min", to = "20 min" } }`.
     pub(crate) fn windows(&mut self, fields: &Fields<'a>) -> Vec<WindowPlan> {
-        let windows =
-            self.members(fields, "window").iter().map(|entry| self.window(entry)).collect::<Vec<_>>();
+        let windows = self
+            .members(fields, "window")
+            .iter()
+            .map(|entry| self.window(entry))
+            .collect::<Vec<_>>();
         windows.into_iter().flatten().collect()
     }
 
@@ -86,7 +99,8 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-const HELP: &str = "write it like this: `window = { climb = { from = \"10 min\", to = \"20 min\" } }`";
+const HELP: &str =
+    "write it like this: `window = { climb = { from = \"10 min\", to = \"20 min\" } }`";
 
 impl WindowPlan {
     /// Its name.
@@ -110,11 +124,12 @@ impl WindowPlan {
         let problem = |message| Diagnostic::error("netlist::run_window", message);
         if to <= from {
             let message = format!("window `{name}` ends at {to} s, but begins at {from} s");
-            let error =
-                problem(message).at(at(&self.to.span), "ends here").also(at(&self.from.span), "begins here");
-            return Err(
-                error.help("`to` has to be after `from`: swap the two if they are the wrong way round")
-            );
+            let error = problem(message)
+                .at(at(&self.to.span), "ends here")
+                .also(at(&self.from.span), "begins here");
+            return Err(error.help(
+                "`to` has to be after `from`: swap the two if they are the wrong way round",
+            ));
         }
         if from < start || to > stop {
             let (end, time) = if from < start { (&self.from, from) } else { (&self.to, to) };

@@ -40,8 +40,8 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// The entries of a section so that each comes after those it uses; cycles are reported, and their members left
-    /// without text.
+    /// The entries of a section so that each comes after those it uses; cycles are reported, and
+    /// their members left without text.
     pub(crate) fn in_order(&mut self, kind: ValueKind, code: &'static str) -> Vec<Pending<'a>> {
         let entries = self.elements(kind.section());
         let positions: HashMap<&str, usize> =
@@ -50,7 +50,8 @@ impl<'a> Elaboration<'a> {
             entries.iter().map(|entry| Some(self.pending(kind, entry, &positions))).collect();
         let (order, cycles) = order(&pending);
         for cycle in &cycles {
-            let members: Vec<&Pending<'_>> = cycle.iter().filter_map(|&i| pending[i].as_ref()).collect();
+            let members: Vec<&Pending<'_>> =
+                cycle.iter().filter_map(|&i| pending[i].as_ref()).collect();
             self.problems.push(describe_cycle(kind.word(), code, &members));
             for &member in cycle {
                 if let Some(pending) = &mut pending[member] {
@@ -85,7 +86,10 @@ impl<'a> Elaboration<'a> {
         let mut uses = Vec::new();
         if let Some(Text::Expression(expression)) = &text {
             uses.extend(
-                expression.names().iter().filter_map(|(name, _)| positions.get(name.as_str()).copied()),
+                expression
+                    .names()
+                    .iter()
+                    .filter_map(|(name, _)| positions.get(name.as_str()).copied()),
             );
         }
         Pending { entry, owner, text, uses }
@@ -106,7 +110,8 @@ impl<'a> Elaboration<'a> {
         }
         // the name is checked even if the value is wrong
         let stand_in = || Quantity { value: 1.0, deviation: None, ty: Type::SCALAR }.into();
-        let id = self.builder.parameter(&entry.key, given.map_or_else(stand_in, |given| given.input()));
+        let id =
+            self.builder.parameter(&entry.key, given.map_or_else(stand_in, |given| given.input()));
         self.map.insert(Item::Parameter(id), Field::Name, entry.key_span.clone());
         self.map.value(Item::Parameter(id), Field::Value, &entry.value);
     }
@@ -122,7 +127,8 @@ fn of_type(problem: Diagnostic, wanted: Option<&(Type, Span)>) -> Diagnostic {
     }
 }
 
-/// Positions so that each parameter comes after those it uses, otherwise in file order; and the cycles.
+/// Positions so that each parameter comes after those it uses, otherwise in file order; and the
+/// cycles.
 fn order(pending: &[Option<Pending<'_>>]) -> (Vec<usize>, Vec<Vec<usize>>) {
     let mut state = vec![State::New; pending.len()];
     let (mut order, mut cycles) = (Vec::with_capacity(pending.len()), Vec::new());
@@ -174,6 +180,7 @@ fn describe_cycle(kind: &str, code: &'static str, cycle: &[&Pending<'_>]) -> Dia
         _ => format!("{kind}s are defined by each other: {}", chain.join(" -> ")),
     };
     let members = cycle.iter().zip(chain.iter().skip(1));
-    let uses = members.map(|(member, next)| (member.entry.value.span.clone(), format!("uses {next}")));
+    let uses =
+        members.map(|(member, next)| (member.entry.value.span.clone(), format!("uses {next}")));
     Diagnostic::error(code, message).places(uses).help("give one of them a value of its own")
 }

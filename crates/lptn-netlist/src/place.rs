@@ -61,7 +61,8 @@ pub(crate) struct Wanted {
     pub(crate) time: bool,
     /// Whether it may depend on controls.
     pub(crate) controls: bool,
-    /// Whether its type is its own, or follows from what something else is: `300 K` is a difference then.
+    /// Whether its type is its own, or follows from what something else is: `300 K` is a difference
+    /// then.
     pub(crate) derived: bool,
 }
 
@@ -156,7 +157,8 @@ impl Place<'_> {
         Asked { words: self.words(), span: Some(self.raw.span.clone()) }
     }
 
-    /// What is wrong with a whole string in kelvin for an absolute temperature where `K` is a difference.
+    /// What is wrong with a whole string in kelvin for an absolute temperature where `K` is a
+    /// difference.
     pub(crate) fn kelvin_for(&self, ty: Option<Type>) -> Option<Diagnostic> {
         let RawKind::String { text, .. } = &self.raw.kind else { return None };
         let error = ty.filter(|ty| ty.absolute).and_then(|_| kelvin_alone(text))?;
@@ -206,7 +208,9 @@ impl Place<'_> {
             UnitErrorKind::NotFinite { text } if text.starts_with("inf") && self.key == "R" => {
                 Some("leave the path out if no heat flows through it".into())
             }
-            UnitErrorKind::OutOfRange { .. } => Some("numbers reach from about 1e-307 to 1e308".into()),
+            UnitErrorKind::OutOfRange { .. } => {
+                Some("numbers reach from about 1e-307 to 1e308".into())
+            }
             _ => error.help(),
         }
     }

@@ -1,6 +1,6 @@
-//! Values that nothing real has: nearly always a unit that is a thousand times too large or too small, or one of
-//! another scale. They are looked at as they come out, not as they are written, so that parameters, expressions and
-//! tables are seen too.
+//! Values that nothing real has: nearly always a unit that is a thousand times too large or too
+//! small, or one of another scale. They are looked at as they come out, not as they are written, so
+//! that parameters, expressions and tables are seen too.
 
 use lptn_data::Diagnostic;
 use lptn_network::{
@@ -19,7 +19,8 @@ const DECADES: f64 = 1e9;
 /// Where a property is looked at if no node has a start, in K.
 const ROOM: f64 = 298.15;
 
-/// A property, with the range that covers solids from foams to metals with a factor to spare, in SI units.
+/// A property, with the range that covers solids from foams to metals with a factor to spare, in SI
+/// units.
 struct Range {
     key: &'static str,
     unit: &'static str,
@@ -30,9 +31,10 @@ struct Range {
     solids: &'static str,
 }
 
-/// The limits are those of real solids near room temperature, with a factor to spare: uranium 116 and lithium 3582
-/// J/(kg K), osmium 22587 kg/m^3 (CRC Handbook of Chemistry and Physics, as the package mendeleev 1 has it); silica
-/// aerogels 3 kg/m^3 and about 0.015 W/(m K); natural diamond of type IIa 24 to 25 W/(cm K) (Proc. SPIE 2428 (1995) 610).
+/// The limits are those of real solids near room temperature, with a factor to spare: uranium 116
+/// and lithium 3582 J/(kg K), osmium 22587 kg/m^3 (CRC Handbook of Chemistry and Physics, as the
+/// package mendeleev 1 has it); silica aerogels 3 kg/m^3 and about 0.015 W/(m K); natural diamond
+/// of type IIa 24 to 25 W/(cm K) (Proc. SPIE 2428 (1995) 610).
 const RANGES: [Range; 3] = [
     Range {
         key: "cp",
@@ -60,8 +62,8 @@ const RANGES: [Range; 3] = [
     },
 ];
 
-/// A warning for each property of a material or grid of the file that no solid has at the temperatures from which nodes
-/// start.
+/// A warning for each property of a material or grid of the file that no solid has at the
+/// temperatures from which nodes start.
 pub(crate) fn materials(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
     let starts = || network.node_ids().map(|id| network.initial(id)).filter(|t| t.is_finite());
     let least = starts().fold(f64::INFINITY, f64::min);
@@ -145,14 +147,18 @@ pub(crate) fn neighbours(network: &Network, map: &SourceMap) -> Vec<Diagnostic> 
             *most = if this.0 > most.0 { this } else { *most };
         }
     }
-    let mut pairs: Vec<[(f64, ConductorId); 2]> =
-        extremes.into_iter().flatten().filter(|[least, most]| most.0 >= DECADES * least.0).collect();
+    let mut pairs: Vec<[(f64, ConductorId); 2]> = extremes
+        .into_iter()
+        .flatten()
+        .filter(|[least, most]| most.0 >= DECADES * least.0)
+        .collect();
     pairs.sort_by_key(|[least, most]| (least.1, most.1));
     pairs.dedup_by_key(|[least, most]| (least.1, most.1));
     let mut warnings: Vec<Diagnostic> =
         pairs.iter().take(MOST_PAIRS).map(|pair| apart((network, map), pair)).collect();
     if let Some(more) = pairs.len().checked_sub(MOST_PAIRS).filter(|more| *more > 0) {
-        let message = format!("{more} more pairs of resistances that meet in a node are nine decades apart");
+        let message =
+            format!("{more} more pairs of resistances that meet in a node are nine decades apart");
         warnings.push(Diagnostic::warning("network::decades_apart", message));
     }
     warnings

@@ -23,7 +23,11 @@ pub(crate) struct Axis<'k> {
 
 impl<'a> Elaboration<'a> {
     /// The points of a curve, from lists or from a CSV file.
-    pub(crate) fn curve(&mut self, fields: &Fields<'a>, axes: [Axis<'_>; 2]) -> Option<[Points; 2]> {
+    pub(crate) fn curve(
+        &mut self,
+        fields: &Fields<'a>,
+        axes: [Axis<'_>; 2],
+    ) -> Option<[Points; 2]> {
         let [x, y] = axes;
         if fields.get("csv").is_none() {
             self.refuse_keys(fields, &["time", "value"], "names a column, but there is no `csv`");
@@ -37,8 +41,8 @@ impl<'a> Elaboration<'a> {
         let file = self.csv_file(fields);
         let names = [x, y].map(|axis| self.column_name(fields, axis.column));
         let file = file?;
-        let [x, y] =
-            [(x, names[0]), (y, names[1])].map(|(axis, name)| self.column(fields, &file, axis, name));
+        let [x, y] = [(x, names[0]), (y, names[1])]
+            .map(|(axis, name)| self.column(fields, &file, axis, name));
         Some([x?, y?])
     }
 
@@ -50,7 +54,11 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The name of a column.
-    pub(crate) fn column_name(&mut self, fields: &Fields<'a>, key: &str) -> Option<(&'a str, &'a RawValue)> {
+    pub(crate) fn column_name(
+        &mut self,
+        fields: &Fields<'a>,
+        key: &str,
+    ) -> Option<(&'a str, &'a RawValue)> {
         let raw = fields.get(key);
         if raw.is_none() && fields.complete {
             let message = format!("{} has no `{key}`", fields.owner.words());
@@ -62,7 +70,12 @@ impl<'a> Elaboration<'a> {
             RawKind::String { text, .. } => Some((text, raw)),
             _ => {
                 let example = format!("{key} = \"name of the column\"");
-                self.report(wrong_shape(&fields.owner.field(key), raw, "the name of a column", &example));
+                self.report(wrong_shape(
+                    &fields.owner.field(key),
+                    raw,
+                    "the name of a column",
+                    &example,
+                ));
                 None
             }
         }
@@ -128,7 +141,9 @@ impl<'a> Elaboration<'a> {
         let problem = match (&item.kind, unit) {
             (RawKind::Integer(number) | RawKind::Float(number), Some(unit)) => {
                 match parse_quantity(number, Some(Type::SCALAR)) {
-                    Ok(quantity) if unit.ty.absolute && unit.to_si(quantity.value) < 0.0 => cold(place),
+                    Ok(quantity) if unit.ty.absolute && unit.to_si(quantity.value) < 0.0 => {
+                        cold(place)
+                    }
                     Ok(quantity) => return Some((unit.to_si(quantity.value), unit.ty)),
                     Err(error) => place.unit_error(&error),
                 }
@@ -190,7 +205,8 @@ impl<'a> Elaboration<'a> {
         None
     }
 
-    /// What is wrong with the points of a curve, at its place; `arguments` is what has to rise, in words.
+    /// What is wrong with the points of a curve, at its place; `arguments` is what has to rise, in
+    /// words.
     pub(crate) fn report_points(
         &mut self,
         fields: &Fields<'a>,
@@ -211,7 +227,8 @@ impl<'a> Elaboration<'a> {
                 .help("a value that never changes is a parameter"),
             TableError::LengthsDiffer => {
                 let (n, m) = (x.numbers.len(), y.numbers.len());
-                at_list(format!("{words} has {n} arguments but {m} values")).help("give one value for each")
+                at_list(format!("{words} has {n} arguments but {m} values"))
+                    .help("give one value for each")
             }
             other => at_list(format!("{words}: {other}")).help(other.help()),
         };
@@ -229,7 +246,8 @@ fn first_unit(items: &[RawValue]) -> Option<Unit> {
 
 fn rising(words: &str, arguments: &str, x: &Points, index: usize) -> Diagnostic {
     let repeated = x.numbers[index] >= x.numbers[index - 1];
-    let says = if repeated { "the same stands twice" } else { "this one is below the one before it" };
+    let says =
+        if repeated { "the same stands twice" } else { "this one is below the one before it" };
     Diagnostic::error(
         TableError::NotIncreasing { index }.code(),
         format!("{arguments} of {words} must rise, but {says}"),
@@ -272,13 +290,15 @@ fn mixed(place: Place<'_>, axis: Axis<'_>, (first, found): (Option<Type>, Type))
             "give every value its unit in quotes, or none: `{}` then gives the unit of all",
             axis.unit
         )),
-        false => problem
-            .help("a list holds values of one kind; `min` and `h` may stand in one list, `W` and `J` not"),
+        false => problem.help(
+            "a list holds values of one kind; `min` and `h` may stand in one list, `W` and `J` not",
+        ),
     }
 }
 
 fn two_units(place: Place<'_>, axis: Axis<'_>) -> Diagnostic {
-    let message = format!("{} holds a string, but `{}` is for plain numbers", place.words(), axis.unit);
+    let message =
+        format!("{} holds a string, but `{}` is for plain numbers", place.words(), axis.unit);
     Diagnostic::wrong(
         "netlist::two_units",
         message,

@@ -2,8 +2,8 @@
 
 use lptn_data::{Span, on_borders};
 
-/// The sections and keys of one file, in file order. Strings are untouched, numbers are the text that stands
-/// in the file.
+/// The sections and keys of one file, in file order. Strings are untouched, numbers are the text
+/// that stands in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawNetlist {
     /// The top level; sections are entries whose value is a table.
@@ -68,8 +68,8 @@ pub enum RawKind {
     String {
         /// Its content.
         text: String,
-        /// The byte of the file at which the content begins; `None` if escapes make the content differ from
-        /// the text of the file.
+        /// The byte of the file at which the content begins; `None` if escapes make the content
+        /// differ from the text of the file.
         start: Option<usize>,
     },
     /// An integer, as decimal text.
@@ -104,7 +104,9 @@ impl RawKind {
 impl RawValue {
     /// The place of some bytes of the string's content; the whole value where they cannot be told.
     pub(crate) fn part(&self, range: &std::ops::Range<usize>) -> Span {
-        let RawKind::String { text, start: Some(start) } = &self.kind else { return self.span.clone() };
+        let RawKind::String { text, start: Some(start) } = &self.kind else {
+            return self.span.clone();
+        };
         if range.start >= text.len() {
             // a problem at the end of the text is shown at the closing quote
             let end = start + text.len();

@@ -1,5 +1,5 @@
-//! Readings that many sections share. Each reports by itself what is wrong, so that a section says only what is special
-//! about it.
+//! Readings that many sections share. Each reports by itself what is wrong, so that a section says
+//! only what is special about it.
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Field, Input, Item};
@@ -32,8 +32,14 @@ impl<'a> Elaboration<'a> {
         Fields::of(section, owner, entry, &mut self.problems)
     }
 
-    /// The value of a key as the builder takes it: a stand-in if it is wrong, nothing if it is not there.
-    pub(crate) fn input(&mut self, fields: &Fields<'_>, key: &str, wanted: Wanted) -> Option<Input> {
+    /// The value of a key as the builder takes it: a stand-in if it is wrong, nothing if it is not
+    /// there.
+    pub(crate) fn input(
+        &mut self,
+        fields: &Fields<'_>,
+        key: &str,
+        wanted: Wanted,
+    ) -> Option<Input> {
         Some(self.input_at(fields, key, fields.get(key)?, wanted))
     }
 
@@ -49,8 +55,8 @@ impl<'a> Elaboration<'a> {
         given.map_or_else(|| stand_in(wanted.ty.unwrap_or(Type::SCALAR)), Given::input)
     }
 
-    /// The value of a table's key that is named like a field of something else, as `from` of a range: what is said of it
-    /// names the table.
+    /// The value of a table's key that is named like a field of something else, as `from` of a
+    /// range: what is said of it names the table.
     pub(crate) fn given_inside(
         &mut self,
         owner: &Owner,
@@ -66,7 +72,11 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The text of a key that holds a name, if it is there.
-    pub(crate) fn word(&mut self, fields: &Fields<'a>, key: &str) -> Option<(&'a str, &'a RawValue)> {
+    pub(crate) fn word(
+        &mut self,
+        fields: &Fields<'a>,
+        key: &str,
+    ) -> Option<(&'a str, &'a RawValue)> {
         let raw = fields.get(key)?;
         Some((fields.text(key, raw, &mut self.problems)?, raw))
     }
@@ -82,7 +92,11 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The items of a key that takes a list of `what`.
-    pub(crate) fn list(&mut self, fields: &Fields<'a>, (key, what): (&str, &str)) -> Option<&'a [RawValue]> {
+    pub(crate) fn list(
+        &mut self,
+        fields: &Fields<'a>,
+        (key, what): (&str, &str),
+    ) -> Option<&'a [RawValue]> {
         match fields.get(key)? {
             RawValue { kind: RawKind::Array(list), .. } => Some(list),
             raw => {
@@ -174,11 +188,14 @@ impl<'a> Elaboration<'a> {
             return true;
         }
         let message = format!("{words} has to name a parameter, got `{name}`");
-        let names = self.elements(ValueKind::Parameter.section()).iter().map(|entry| entry.key.as_str());
+        let names =
+            self.elements(ValueKind::Parameter.section()).iter().map(|entry| entry.key.as_str());
         let help = match suggest(name, names) {
             Some(near) => format!("did you mean `{near}`?"),
             None => match self.names.value_kind(name) {
-                Some(kind) => format!("`{name}` is a {}; only the values of [param] are found", kind.word()),
+                Some(kind) => {
+                    format!("`{name}` is a {}; only the values of [param] are found", kind.word())
+                }
                 None => "give the value a name in [param] and use it in the element".to_owned(),
             },
         };

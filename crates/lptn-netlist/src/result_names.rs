@@ -9,7 +9,8 @@ use crate::names::{Names, base};
 use crate::place::Place;
 
 impl Names {
-    /// A heat flow: `NAME.Q` of a path or boundary, `NAME.Q_from` or `NAME.Q_to` of a stream, `NAME.P` of a source.
+    /// A heat flow: `NAME.Q` of a path or boundary, `NAME.Q_from` or `NAME.Q_to` of a stream,
+    /// `NAME.P` of a source.
     pub(crate) fn is_heat(&self, name: &str) -> bool {
         let Some((base, ending)) = name.rsplit_once('.') else { return false };
         self.kind_of(base).is_some_and(|kind| heats(kind).contains(&ending))
@@ -21,8 +22,12 @@ impl Names {
         let dotted = base.len() < name.len();
         let kind = self.kind_of(base);
         let message = match kind {
-            Some(kind) if dotted => format!("{words} uses `{name}`, which {kind} `{base}` does not have"),
-            None if dotted && name.ends_with(".T") => format!("{words}: no node or boundary named `{base}`"),
+            Some(kind) if dotted => {
+                format!("{words} uses `{name}`, which {kind} `{base}` does not have")
+            }
+            None if dotted && name.ends_with(".T") => {
+                format!("{words}: no node or boundary named `{base}`")
+            }
             None if dotted => format!("{words}: no element named `{base}`"),
             _ => format!("{words} uses `{name}`, which is no parameter"),
         };
@@ -49,7 +54,8 @@ impl Names {
         }
     }
 
-    /// The most similar parameter, temperature or heat flow; of equally similar ones the first in the alphabet.
+    /// The most similar parameter, temperature or heat flow; of equally similar ones the first in
+    /// the alphabet.
     fn similar_result(&mut self, name: &str) -> Option<String> {
         if !self.may_search(self.elements.len()) {
             return None;

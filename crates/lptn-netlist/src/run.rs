@@ -33,7 +33,12 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
         )
         .or("300 rows"),
         key("select", "list of patterns", "which columns are written", "[\"*.T\"]").or("all"),
-        key("report", "table of expressions of results", "further columns", "{ rise = \"steel.T - air.T\" }"),
+        key(
+            "report",
+            "table of expressions of results",
+            "further columns",
+            "{ rise = \"steel.T - air.T\" }",
+        ),
         key(
             "window",
             "table",
@@ -109,8 +114,8 @@ impl<'a> Elaboration<'a> {
     /// The signals with points that something uses.
     fn used_signals(&self) -> Vec<(String, Span)> {
         let entries = self.elements(SIGNAL.name).iter();
-        let used =
-            entries.filter(|entry| self.names.is_used(&entry.key) && !self.names.has_failed(&entry.key));
+        let used = entries
+            .filter(|entry| self.names.is_used(&entry.key) && !self.names.has_failed(&entry.key));
         used.map(|entry| (entry.key.clone(), entry.key_span.clone())).collect()
     }
 
@@ -119,7 +124,8 @@ impl<'a> Elaboration<'a> {
     }
 
     fn integrator(&mut self, fields: &Fields<'a>) {
-        if let Some((_, raw)) = self.word(fields, "integrator").filter(|(text, _)| *text != "auto") {
+        if let Some((_, raw)) = self.word(fields, "integrator").filter(|(text, _)| *text != "auto")
+        {
             let message = "a choice of `integrator` in [run] is not supported yet";
             let help = "write `integrator = \"auto\"` or leave it out";
             self.refuse("netlist::not_supported_yet", message, &raw.span, help);
@@ -185,12 +191,14 @@ impl RunPlan {
         if check.problems.is_empty() && stop <= start {
             check.problems.push(ends_early(self, start, stop));
         } else if check.problems.is_empty() {
-            let short = self.signals.iter().filter_map(|signal| self.short(network, signal, (start, stop)));
+            let short =
+                self.signals.iter().filter_map(|signal| self.short(network, signal, (start, stop)));
             check.problems.extend(short);
         }
         let tolerance = self.tolerance.as_ref().map_or(USUAL_TOLERANCE, |t| check.positive(t));
         let output = check.output(self.output.as_ref(), (start, stop));
-        let windows = self.windows.iter().filter_map(|plan| check.window(plan, (start, stop))).collect();
+        let windows =
+            self.windows.iter().filter_map(|plan| check.window(plan, (start, stop))).collect();
         if check.problems.is_empty() {
             let (select, held) = (self.select.clone(), self.held.clone());
             Ok(RunSettings { start, stop, output, select, windows, tolerance, held })
@@ -217,12 +225,14 @@ impl RunPlan {
         let (first, last) = course.span();
         // rounding does not count, as when it is read
         let margin = 1e-9 * (last - first).max(first.abs().max(last.abs()) * 1e-3);
-        let problem =
-            |message: String| Diagnostic::error("netlist::signal_too_short", message).at(span.clone(), "");
+        let problem = |message: String| {
+            Diagnostic::error("netlist::signal_too_short", message).at(span.clone(), "")
+        };
         if start < first - margin {
             let message = format!("signal `{name}` begins at {first} s, but the run at {start} s");
             let start = self.start.as_ref().unwrap_or(&self.stop).span.clone();
-            let help = format!("give it a point there, or begin the run later: `start = \"{first} s\"`");
+            let help =
+                format!("give it a point there, or begin the run later: `start = \"{first} s\"`");
             return Some(problem(message).also(start, "the run").help(help));
         }
         if stop > last + margin && course.after() == AfterEnd::Error {
@@ -237,12 +247,15 @@ impl RunPlan {
 
 fn ends_early(plan: &RunPlan, start: f64, stop: f64) -> Diagnostic {
     let message = format!("the run ends at {stop} s, but begins at {start} s");
-    let error = Diagnostic::error("netlist::run_stop", message).at(plan.stop.span.clone(), "ends here");
+    let error =
+        Diagnostic::error("netlist::run_stop", message).at(plan.stop.span.clone(), "ends here");
     let error = match &plan.start {
         Some(start) => error.also(start.span.clone(), "begins here"),
         None => error,
     };
-    error.help("`stop` has to be after `start`, which is 0 s unless said otherwise: `stop = \"25 min\"`")
+    error.help(
+        "`stop` has to be after `start`, which is 0 s unless said otherwise: `stop = \"25 min\"`",
+    )
 }
 
 /// Evaluates settings and collects what is wrong with them.
@@ -268,7 +281,8 @@ impl Check {
     fn positive(&mut self, setting: &Setting) -> f64 {
         let value = self.number(setting);
         if value <= 0.0 {
-            let message = format!("{} must be more than zero, got {value} {}", setting.words, setting.unit);
+            let message =
+                format!("{} must be more than zero, got {value} {}", setting.words, setting.unit);
             let error = Diagnostic::error("netlist::run_not_positive", message);
             self.problems.push(error.at(setting.span.clone(), "").help(&setting.help));
         }
@@ -314,9 +328,13 @@ impl Check {
                 None
             };
             if let Some(says) = says {
-                let error = Diagnostic::error("netlist::run_output", says).at(setting.span.clone(), "");
-                self.problems
-                    .push(error.help("list each time once, in order, for example `at = [\"0 s\", \"5 s\"]`"));
+                let error =
+                    Diagnostic::error("netlist::run_output", says).at(setting.span.clone(), "");
+                self.problems.push(
+                    error.help(
+                        "list each time once, in order, for example `at = [\"0 s\", \"5 s\"]`",
+                    ),
+                );
             }
             times.push(time);
         }
@@ -330,7 +348,8 @@ fn same(a: f64, b: f64) -> bool {
 }
 
 fn too_many(setting: &Setting, rows: f64) -> Diagnostic {
-    let message = format!("{} makes {rows:.0} rows, more than {:.0}", setting.words, OutputTimes::MOST_ROWS);
+    let message =
+        format!("{} makes {rows:.0} rows, more than {:.0}", setting.words, OutputTimes::MOST_ROWS);
     Diagnostic::wrong(
         "netlist::too_many_rows",
         message,

@@ -32,8 +32,10 @@ impl Scales {
         // absolute zero is meant: it stands for a sky that gives nothing back
         if let Some(number) = plain.filter(|_| quantity.value > 0.0 && quantity.value < COLD) {
             let celsius = format_number(((quantity.value - ZERO_CELSIUS) * 1e6).round() / 1e6);
-            let message = format!("{} is {} K, {celsius} degC", place.words(), format_number(quantity.value));
-            let key = if place.key.is_empty() { String::new() } else { format!("{} = ", place.key) };
+            let message =
+                format!("{} is {} K, {celsius} degC", place.words(), format_number(quantity.value));
+            let key =
+                if place.key.is_empty() { String::new() } else { format!("{} = ", place.key) };
             let warning = Diagnostic::warning("netlist::cold", message)
                 .at(place.raw.span.clone(), "other temperatures of the netlist are in degC")
                 .help(format!("did you mean `{key}\"{number} degC\"`?"));

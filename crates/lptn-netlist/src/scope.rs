@@ -37,7 +37,12 @@ impl Names {
                 } else {
                     place.owner.sample(place.key)
                 };
-                Err(wrong_shape(&place.words(), place.raw, "a quantity or an expression in quotes", &sample))
+                Err(wrong_shape(
+                    &place.words(),
+                    place.raw,
+                    "a quantity or an expression in quotes",
+                    &sample,
+                ))
             }
         }
     }
@@ -50,10 +55,13 @@ impl Names {
         wanted: Wanted,
     ) -> Vec<Diagnostic> {
         let names = expression.names().into_iter();
-        let problems = names.filter_map(|(name, range)| self.check_name(place, (name, range), wanted));
-        let problems: Vec<Diagnostic> = problems.collect();
         let problems =
-            problems.into_iter().map(|problem| in_own_words(&self.structure, place, problem)).collect();
+            names.filter_map(|(name, range)| self.check_name(place, (name, range), wanted));
+        let problems: Vec<Diagnostic> = problems.collect();
+        let problems = problems
+            .into_iter()
+            .map(|problem| in_own_words(&self.structure, place, problem))
+            .collect();
         let calls = expression.calls().into_iter().map(|(name, _)| name);
         self.used.extend(calls.filter(|name| self.values.contains_key(name)));
         problems
@@ -70,20 +78,29 @@ impl Names {
             self.used.insert(name.clone());
             return match kind {
                 ValueKind::Signal if !wanted.time => Some(depends_on_time(place, &name, at())),
-                ValueKind::Control if !wanted.controls => Some(control_not_here(place, &name, at())),
+                ValueKind::Control if !wanted.controls => {
+                    Some(control_not_here(place, &name, at()))
+                }
                 _ => None,
             };
         }
         let result = wanted.context == Context::Result;
-        let known = (wanted.names_nodes() && self.is_temperature(&name)) || (result && self.is_heat(&name));
+        let known =
+            (wanted.names_nodes() && self.is_temperature(&name)) || (result && self.is_heat(&name));
         if known {
             self.read.insert(base(&name).to_owned());
         }
         let template = self.structure.template_at(&place.raw.span);
-        if let (true, Some(template)) = (known && !self.structure.belongs(&place.raw.span, &name), template) {
+        if let (true, Some(template)) =
+            (known && !self.structure.belongs(&place.raw.span, &name), template)
+        {
             return Some(outside(place, &name, template).at(at(), "not in the template"));
         }
-        if known || self.is_of_grid(&name, wanted) || wanted.is_local(&name) || self.is_hidden(base(&name)) {
+        if known
+            || self.is_of_grid(&name, wanted)
+            || wanted.is_local(&name)
+            || self.is_hidden(base(&name))
+        {
             return None; // what hides it has been reported
         }
         if name == "t" {
@@ -96,13 +113,19 @@ impl Names {
         if let Some(wrong) = self.structure.wrong_path(&name) {
             return Some(wrong_path((&place.words(), &name), at, wrong));
         }
-        Some(match LOCAL.contains(&name.as_str()) || (name.ends_with(".T") && !wanted.names_nodes()) {
-            true => not_here(place, &name, wanted, at),
-            false if wanted.context == Context::Result || (wanted.names_nodes() && name.ends_with(".T")) => {
-                self.unknown_result(place, &name, at)
-            }
-            false => self.unknown((place, wanted), &name, at),
-        })
+        Some(
+            match LOCAL.contains(&name.as_str()) || (name.ends_with(".T") && !wanted.names_nodes())
+            {
+                true => not_here(place, &name, wanted, at),
+                false
+                    if wanted.context == Context::Result
+                        || (wanted.names_nodes() && name.ends_with(".T")) =>
+                {
+                    self.unknown_result(place, &name, at)
+                }
+                false => self.unknown((place, wanted), &name, at),
+            },
+        )
     }
 
     /// `NAME.T` of a node or boundary.
@@ -111,7 +134,12 @@ impl Names {
         matches!(kind, Some("node" | "boundary"))
     }
 
-    fn unknown(&mut self, (place, wanted): (Place<'_>, Wanted), name: &str, at: Span) -> Diagnostic {
+    fn unknown(
+        &mut self,
+        (place, wanted): (Place<'_>, Wanted),
+        name: &str,
+        at: Span,
+    ) -> Diagnostic {
         let words = place.words();
         if name.contains(['.', '[']) {
             let message = format!("{words} uses `{name}`, which is no parameter");
@@ -148,8 +176,10 @@ impl Names {
                 error.help(format!("its temperature is `{name}.T`"))
             }
             Some(kind) => error.help(format!("`{name}` is a {kind}; expressions use parameters")),
-            None => error
-                .help(format!("add it to [param], for example `{}`", place.owner.sample_as(place.key, name))),
+            None => error.help(format!(
+                "add it to [param], for example `{}`",
+                place.owner.sample_as(place.key, name)
+            )),
         }
     }
 }

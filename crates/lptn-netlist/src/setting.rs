@@ -27,9 +27,10 @@ impl Setting {
     pub(crate) fn written(&self) -> String {
         match &self.value {
             Value::Constant(number) => format!("\"{} {}\"", format_number(*number), self.unit),
-            other => {
-                other.programs().first().map_or_else(String::new, |program| string(program.text().trim()))
-            }
+            other => other
+                .programs()
+                .first()
+                .map_or_else(String::new, |program| string(program.text().trim())),
         }
     }
 }

@@ -18,8 +18,18 @@ pub(crate) const SIZE: SectionDeclaration = SectionDeclaration {
     keys: &[
         key("minimise", "parameter", "whose least value is sought", "\"name of a parameter\""),
         key("maximise", "parameter", "whose largest value is sought", "\"name of a parameter\""),
-        key("vary", "table", "its range, `from` and `to`", "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }"),
-        key("require", "list of comparisons of results", "what has to be kept", "[\"steel.T <= 80 [degC]\"]"),
+        key(
+            "vary",
+            "table",
+            "its range, `from` and `to`",
+            "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
+        ),
+        key(
+            "require",
+            "list of comparisons of results",
+            "what has to be kept",
+            "[\"steel.T <= 80 [degC]\"]",
+        ),
         key("over", "`\"steady\"`", "the results in which it has to be kept", "\"steady\"")
             .or("`\"steady\"`"),
     ],
@@ -71,8 +81,9 @@ pub struct Requirement {
 }
 
 impl Requirement {
-    /// How far it is from being broken where `scope` stands: positive while it is kept, in SI units, a difference
-    /// in K for temperatures. `scope` needs the temperatures, see [`Evaluation::set_temperatures`].
+    /// How far it is from being broken where `scope` stands: positive while it is kept, in SI
+    /// units, a difference in K for temperatures. `scope` needs the temperatures, see
+    /// [`Evaluation::set_temperatures`].
     ///
     /// # Errors
     /// What the evaluation of a side reports.
@@ -105,7 +116,8 @@ pub struct SizeStudy {
 }
 
 impl SizeStudy {
-    /// The least and the largest value the parameter may take, in SI units, for the parameters of `network`.
+    /// The least and the largest value the parameter may take, in SI units, for the parameters of
+    /// `network`.
     ///
     /// # Errors
     /// What the evaluation of an end reports.
@@ -117,7 +129,10 @@ impl SizeStudy {
     /// Its fields as they are written.
     pub(crate) fn written(&self, network: &Network) -> TomlFields {
         let mut fields = TomlFields::default();
-        fields.word(if self.goal == Goal::Minimise { "minimise" } else { "maximise" }, &self.parameter);
+        fields.word(
+            if self.goal == Goal::Minimise { "minimise" } else { "maximise" },
+            &self.parameter,
+        );
         if let Ok(id) = network.parameter(&self.parameter) {
             let ty = network.parameters()[id.index()].ty;
             let [from, to] = [&self.from, &self.to].map(|end| like(end, ty));
@@ -133,20 +148,29 @@ impl SizeStudy {
         let error = match self.range(network) {
             Ok((from, to)) if from < to => return None,
             Ok(_) => {
-                let message = format!("`vary` of size `{}`: `from` has to be less than `to`", self.name);
+                let message =
+                    format!("`vary` of size `{}`: `from` has to be less than `to`", self.name);
                 let help = "write the least value as `from` and the largest as `to`; \
                             `minimise` or `maximise` says which of them is the better end";
                 Diagnostic::error("netlist::size_range", message).help(help)
             }
-            Err(error) => Diagnostic::error(error.code(), format!("`vary` of size `{}`: {error}", self.name)),
+            Err(error) => {
+                Diagnostic::error(error.code(), format!("`vary` of size `{}`: {error}", self.name))
+            }
         };
         Some(error.at(self.range_span.clone(), ""))
     }
 }
 
 impl<'a> Elaboration<'a> {
-    /// An end of the range of a parameter of this type: `None` if it is not there, `Some(None)` if it is wrong.
-    pub(crate) fn range_end(&mut self, range: &Fields<'a>, key: &str, ty: Type) -> Option<Option<Value>> {
+    /// An end of the range of a parameter of this type: `None` if it is not there, `Some(None)` if
+    /// it is wrong.
+    pub(crate) fn range_end(
+        &mut self,
+        range: &Fields<'a>,
+        key: &str,
+        ty: Type,
+    ) -> Option<Option<Value>> {
         let given = self.given_inside(&range.owner, (key, range.get(key)?), Wanted::like(ty));
         Some(given.map(Given::value))
     }
@@ -175,7 +199,8 @@ impl<'a> Elaboration<'a> {
     }
 
     fn over(&mut self, fields: &Fields<'a>) {
-        let Some((text, raw)) = self.word(fields, "over").filter(|(text, _)| *text != "steady") else {
+        let Some((text, raw)) = self.word(fields, "over").filter(|(text, _)| *text != "steady")
+        else {
             return;
         };
         let words = fields.owner.field("over");
@@ -246,7 +271,9 @@ impl<'a> Elaboration<'a> {
     fn requirement(&mut self, owner: &Owner, raw: &'a RawValue) -> Option<Requirement> {
         let place = Place { owner, key: "require", raw };
         let text = self.names.text(place, None);
-        let Text::Expression(expression) = self.kept(text)? else { return self.no_comparison(place) };
+        let Text::Expression(expression) = self.kept(text)? else {
+            return self.no_comparison(place);
+        };
         let Some((left, comparison, right)) = expression.split_comparison() else {
             return self.no_comparison(place);
         };
@@ -262,7 +289,12 @@ impl<'a> Elaboration<'a> {
     }
 
     /// Both sides, of one type.
-    fn sides(&mut self, place: Place<'_>, left: Expression, right: Expression) -> Option<(Given, Given)> {
+    fn sides(
+        &mut self,
+        place: Place<'_>,
+        left: Expression,
+        right: Expression,
+    ) -> Option<(Given, Given)> {
         let left = self.resolve(place, Text::Expression(left), Wanted::of_results());
         let ty = left.as_ref().map(Given::ty);
         let wanted = Wanted { ty, ..Wanted::of_results() };
@@ -279,8 +311,11 @@ impl<'a> Elaboration<'a> {
 }
 
 fn one_goal(fields: &Fields<'_>, both: bool) -> Diagnostic {
-    let has =
-        if both { "has both `minimise` and `maximise`" } else { "says neither `minimise` nor `maximise`" };
+    let has = if both {
+        "has both `minimise` and `maximise`"
+    } else {
+        "says neither `minimise` nor `maximise`"
+    };
     Diagnostic::wrong(
         "netlist::size_goal",
         format!("{} {has}", fields.owner.words()),
@@ -290,12 +325,16 @@ fn one_goal(fields: &Fields<'_>, both: bool) -> Diagnostic {
 }
 
 fn one_parameter(fields: &Fields<'_>, raw: &RawValue, parameter: &str) -> Diagnostic {
-    let message =
-        format!("{} has to give the range of `{parameter}` and of nothing else", fields.owner.field("vary"));
+    let message = format!(
+        "{} has to give the range of `{parameter}` and of nothing else",
+        fields.owner.field("vary")
+    );
     Diagnostic::wrong(
         "netlist::size_vary",
         message,
         &raw.span,
-        format!("write it like this: `vary = {{ {parameter} = {{ from = \"..\", to = \"..\" }} }}`"),
+        format!(
+            "write it like this: `vary = {{ {parameter} = {{ from = \"..\", to = \"..\" }} }}`"
+        ),
     )
 }

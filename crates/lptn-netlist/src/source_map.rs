@@ -37,10 +37,10 @@ pub struct SourceMap {
 }
 
 impl SourceMap {
-    /// The place of a field's value, quotes included; for [`Field::Name`] the place of the key that names the
-    /// item. A node without a `T0` of its own has the place of the default, a part of a grid or of a path to a face that
-    /// of the whole. An imported element has the places of its cells; one without a name in the file has its row for a
-    /// name.
+    /// The place of a field's value, quotes included; for [`Field::Name`] the place of the key that
+    /// names the item. A node without a `T0` of its own has the place of the default, a part of a
+    /// grid or of a path to a face that of the whole. An imported element has the places of its
+    /// cells; one without a name in the file has its row for a name.
     pub fn get(&self, item: Item, field: Field) -> Option<Span> {
         let of_whole = || self.spans.get(&(self.whole(item)?, field));
         let written = self.spans.get(&(item, field)).or_else(of_whole).cloned();
@@ -82,11 +82,12 @@ impl SourceMap {
         self.get(Item::Parameter(id), Field::Value)
     }
 
-    /// The places of values that carry `±` although they are no parameters: nothing varies them. In the order of the files,
-    /// each text once.
+    /// The places of values that carry `±` although they are no parameters: nothing varies them. In
+    /// the order of the files, each text once.
     pub fn deviations_elsewhere(&self, files: &Files) -> Vec<Span> {
-        let no_parameter =
-            |(item, field): &(Item, Field)| !matches!(item, Item::Parameter(_)) && *field != Field::Name;
+        let no_parameter = |(item, field): &(Item, Field)| {
+            !matches!(item, Item::Parameter(_)) && *field != Field::Name
+        };
         let carries = |span: &Span| files.at(span).contains('±') || files.at(span).contains("+-");
         let found = self.spans.iter().filter(|(place, span)| no_parameter(place) && carries(span));
         let mut spans: Vec<Span> = found.map(|(_, span)| span.clone()).collect();

@@ -1,4 +1,5 @@
-//! The state of a network at one time, as the file `state.json` holds it: what a run can start from.
+//! The state of a network at one time, as the file `state.json` holds it: what a run can start
+//! from.
 
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -99,7 +100,10 @@ fn number<'a>((name, number): &(&'a str, f64)) -> (&'a str, serde_json::Value) {
     (name, serde_json::Value::from(*number))
 }
 
-fn object<'a>(out: &mut dyn Write, members: impl Iterator<Item = (&'a str, impl Display)>) -> io::Result<()> {
+fn object<'a>(
+    out: &mut dyn Write,
+    members: impl Iterator<Item = (&'a str, impl Display)>,
+) -> io::Result<()> {
     let mut begun = false;
     for (name, value) in members {
         let separator = if begun { "," } else { "{" };

@@ -60,7 +60,9 @@ impl Reader<'_> {
         let span = Span::new(self.file, value.span());
         let kind = match value.get_ref() {
             DeValue::String(text) => self.string(text, &span),
-            DeValue::Integer(integer) => RawKind::Integer(decimal(integer.as_str(), integer.radix())),
+            DeValue::Integer(integer) => {
+                RawKind::Integer(decimal(integer.as_str(), integer.radix()))
+            }
             DeValue::Float(float) => RawKind::Float(float.as_str().to_owned()),
             DeValue::Boolean(truth) => RawKind::Boolean(*truth),
             DeValue::Datetime(_) => RawKind::Datetime,
@@ -82,19 +84,23 @@ impl Reader<'_> {
     }
 }
 
-/// The byte at which the content of a written string begins, if the content stands there letter by letter.
+/// The byte at which the content of a written string begins, if the content stands there letter by
+/// letter.
 fn content_start(written: &str, content: &str) -> Option<usize> {
     let quotes = ["\"\"\"\r\n", "'''\r\n", "\"\"\"\n", "'''\n", "\"\"\"", "'''", "\"", "'"];
-    let opening = quotes.iter().find(|quote| written.starts_with(**quote)).map_or(0, |quote| quote.len());
+    let opening =
+        quotes.iter().find(|quote| written.starts_with(**quote)).map_or(0, |quote| quote.len());
     written.get(opening..)?.starts_with(content).then_some(opening)
 }
 
-/// A TOML integer may be hexadecimal, octal or binary; one that does not fit is given to the reader of numbers
-/// as it stands.
+/// A TOML integer may be hexadecimal, octal or binary; one that does not fit is given to the reader
+/// of numbers as it stands.
 fn decimal(digits: &str, radix: u32) -> String {
     match radix {
         10 => digits.to_owned(),
-        _ => i64::from_str_radix(digits, radix).map_or_else(|_| digits.to_owned(), |n| n.to_string()),
+        _ => {
+            i64::from_str_radix(digits, radix).map_or_else(|_| digits.to_owned(), |n| n.to_string())
+        }
     }
 }
 

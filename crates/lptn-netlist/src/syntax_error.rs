@@ -17,10 +17,12 @@ const SYNTAX: &str = "netlist::syntax";
 /// Something opened and not closed: what follows is not read as it was meant.
 pub(crate) const NOT_CLOSED: &str = "netlist::not_closed";
 
-/// Broken lines are explained up to here, further ones only counted: a file with more is probably no netlist.
+/// Broken lines are explained up to here, further ones only counted: a file with more is probably
+/// no netlist.
 const MOST_ERRORS: usize = 200;
 
-/// Explains the parser's errors, one for each line: after the first the parser has lost its place in the line.
+/// Explains the parser's errors, one for each line: after the first the parser has lost its place
+/// in the line.
 pub(crate) fn explain(
     errors: &[Error],
     (file, format): (FileId, &Format),
@@ -33,8 +35,11 @@ pub(crate) fn explain(
     let breaks: Vec<usize> = text.match_indices('\n').map(|(at, _)| at).collect();
     let places: Vec<(usize, &str, Place<'_>)> =
         errors.iter().map(|e| locate(e, file, (text, &breaks))).collect();
-    let strings: HashSet<usize> =
-        places.iter().filter(|(_, message, _)| is_string(message)).map(|(line, ..)| *line).collect();
+    let strings: HashSet<usize> = places
+        .iter()
+        .filter(|(_, message, _)| is_string(message))
+        .map(|(line, ..)| *line)
+        .collect();
     for (line, message, place) in places {
         // an inline table that is not closed makes trouble on every line up to the end
         let follows = unclosed && is_inside_table(message);
@@ -137,7 +142,10 @@ fn one(message: &str, place: &Place<'_>, top: &RawTable) -> Diagnostic {
         string_open(place)
     } else if let Some(found) = name_in_two(place).or_else(|| odd_letter(message, place)) {
         found
-    } else if says("key with no value") || says("missing assignment") || says("missing value for key") {
+    } else if says("key with no value")
+        || says("missing assignment")
+        || says("missing value for key")
+    {
         error("key without a value")
             .at(here(), "`=` and a value are missing here")
             .help("an entry is `name = value`, a heading `[name]`; a comment begins with `#`")
@@ -154,9 +162,11 @@ fn one(message: &str, place: &Place<'_>, top: &RawTable) -> Diagnostic {
     } else if says("unexpected leading zero") {
         error("number with a zero in front").at(here(), "remove this zero")
     } else if says("missing escaped value") {
-        let path =
-            [".csv", ".toml", ".json"].iter().any(|ending| place.line().1.to_lowercase().contains(ending));
-        error("backslash that begins no escape").at(here(), "after this backslash").help(match path {
+        let path = [".csv", ".toml", ".json"]
+            .iter()
+            .any(|ending| place.line().1.to_lowercase().contains(ending));
+        error("backslash that begins no escape").at(here(), "after this backslash").help(match path
+        {
             true => "write the path with `/`: \"records/bench.csv\"",
             false => "write two backslashes, or put the string in single quotes: 'a\\b'",
         })
@@ -186,7 +196,11 @@ fn odd_letter(message: &str, place: &Place<'_>) -> Option<Diagnostic> {
         return None;
     }
     let help = "names are made of the letters a to z and A to Z, digits and `_`: `gehaeuse`, `T_1`";
-    Some(Diagnostic::error(SYNTAX, "name with a letter that cannot be used").at(place.span(), "").help(help))
+    Some(
+        Diagnostic::error(SYNTAX, "name with a letter that cannot be used")
+            .at(place.span(), "")
+            .help(help),
+    )
 }
 
 /// The newcomer's first mistake: a quantity without quotes.
@@ -214,7 +228,8 @@ fn string_open(place: &Place<'_>) -> Diagnostic {
     if before.trim_end().ends_with('=') {
         return value_missing(place); // the parser takes what follows for the rest of a string
     }
-    let start = place.range.start - before.len() + before.rfind(['"', '\'']).unwrap_or(before.len());
+    let start =
+        place.range.start - before.len() + before.rfind(['"', '\'']).unwrap_or(before.len());
     let span = Span::new(place.file, start..place.range.start.max(start));
     Diagnostic::error(NOT_CLOSED, "string without its closing quote")
         .at(span, "this is not closed on its line")

@@ -47,7 +47,8 @@ pub(crate) fn value(value: &Value, ty: Type) -> String {
         Value::Expression(program) => string(program.text().trim()),
         Value::Product(factors) => {
             // lumps are written by what they are made of; nothing else is a product
-            let factors: Vec<String> = factors.iter().map(|f| self::value(f, Type::SCALAR)).collect();
+            let factors: Vec<String> =
+                factors.iter().map(|f| self::value(f, Type::SCALAR)).collect();
             factors.join(" * ")
         }
     }
@@ -66,7 +67,8 @@ pub(crate) fn point(kelvin: f64) -> String {
     format!("\"absolute({} [K])\"", format_number(kelvin))
 }
 
-/// A point on the temperature scale in degC, with the fewest digits that give back the same number in K.
+/// A point on the temperature scale in degC, with the fewest digits that give back the same number
+/// in K.
 pub(crate) fn celsius(kelvin: f64) -> String {
     let celsius = kelvin - ZERO_CELSIUS;
     let exact = |text: &String| {
@@ -80,7 +82,8 @@ pub(crate) fn celsius(kelvin: f64) -> String {
 /// A list of numbers in the unit that people gave them in, if that gives back the same numbers.
 pub(crate) fn list_in(numbers: &[f64], ty: Type, unit: Option<&Unit>) -> (String, Option<String>) {
     let own = |unit: &&Unit| !ty.absolute && unit.text != "1";
-    let written = |unit: &Unit| numbers.iter().map(|&si| exact(si, unit)).collect::<Option<Vec<String>>>();
+    let written =
+        |unit: &Unit| numbers.iter().map(|&si| exact(si, unit)).collect::<Option<Vec<String>>>();
     match unit.filter(own).and_then(|unit| Some((written(unit)?, unit))) {
         Some((written, unit)) => (format!("[{}]", written.join(", ")), Some(unit.text.clone())),
         None => list(numbers, ty),
@@ -95,8 +98,8 @@ fn exact(si: f64, unit: &Unit) -> Option<String> {
     found.map(format_number)
 }
 
-/// A list of numbers, and their unit where they have one; points on the temperature scale in degC, as `K` would be
-/// a difference.
+/// A list of numbers, and their unit where they have one; points on the temperature scale in degC,
+/// as `K` would be a difference.
 pub(crate) fn list(numbers: &[f64], ty: Type) -> (String, Option<String>) {
     let written: Vec<String> =
         numbers.iter().map(|&x| if ty.absolute { celsius(x) } else { format_number(x) }).collect();

@@ -11,8 +11,8 @@ use crate::value_help::parameter_help;
 use crate::work::Elaboration;
 
 impl Elaboration<'_> {
-    /// The value of a field; `None` if something is wrong with it, which is then reported, or with a parameter it
-    /// uses, which has been reported.
+    /// The value of a field; `None` if something is wrong with it, which is then reported, or with
+    /// a parameter it uses, which has been reported.
     pub(crate) fn given(&mut self, place: Place<'_>, wanted: Wanted) -> Option<Given> {
         let kelvin = wanted.derived.then(|| place.kelvin_for(wanted.ty)).flatten();
         let text = self.kept(kelvin.map_or_else(|| self.names.text(place, wanted.ty), Err))?;
@@ -20,7 +20,12 @@ impl Elaboration<'_> {
     }
 
     /// Resolves the names of a text and checks its type.
-    pub(crate) fn resolve(&mut self, place: Place<'_>, text: Text, wanted: Wanted) -> Option<Given> {
+    pub(crate) fn resolve(
+        &mut self,
+        place: Place<'_>,
+        text: Text,
+        wanted: Wanted,
+    ) -> Option<Given> {
         let expression = match text {
             Text::Quantity(quantity) => {
                 self.scales.note(place, &quantity);
@@ -50,7 +55,8 @@ impl Elaboration<'_> {
             Err(errors) => {
                 let names = (self.raw, &self.names);
                 let scope = self.builder.scope(wanted.context);
-                let turning = |name: &str| scope.symbol(name).is_some_and(|symbol| symbol.ty == FREQUENCY);
+                let turning =
+                    |name: &str| scope.symbol(name).is_some_and(|symbol| symbol.ty == FREQUENCY);
                 let explain = |error| {
                     let told = with_parameter(names, (place, wanted), &expression, error);
                     if left_over_radians(error) {
@@ -81,7 +87,8 @@ impl Elaboration<'_> {
 
 /// `if(t == 5 [s], ..)`.
 fn moment(place: Place<'_>, at: Span) -> Diagnostic {
-    let message = format!("{} compares the time by equality, which lasts for no time", place.words());
+    let message =
+        format!("{} compares the time by equality, which lasts for no time", place.words());
     Diagnostic::warning("netlist::moment", message)
         .at(at, "never acts")
         .help("use `<` or `>=`; a pulse is `if(t < 5 [s], a, if(t < 6 [s], b, a))`")
@@ -101,8 +108,8 @@ fn left_over_radians(error: &UnitError) -> bool {
 /// Parameters of parameters are followed so far.
 const DEEPEST: usize = 8;
 
-/// The lines of the frequencies that may have been meant as speeds are shown as well, those of parameters that
-/// parameters are made of too.
+/// The lines of the frequencies that may have been meant as speeds are shown as well, those of
+/// parameters that parameters are made of too.
 fn with_frequencies(
     (raw, all): (&RawNetlist, &Names),
     expression: &Expression,
@@ -111,8 +118,10 @@ fn with_frequencies(
 ) -> Diagnostic {
     let mut names: Vec<String> = expression.names().into_iter().map(|(name, _)| name).collect();
     for _ in 0..DEEPEST {
-        let lines: Vec<(String, &RawEntry)> =
-            names.into_iter().filter_map(|name| all.line(raw, &name).map(|line| (name, line))).collect();
+        let lines: Vec<(String, &RawEntry)> = names
+            .into_iter()
+            .filter_map(|name| all.line(raw, &name).map(|line| (name, line)))
+            .collect();
         let found = lines.iter().filter(|(name, _)| is_frequency(name)).map(|(_, entry)| *entry);
         let found: Vec<&RawEntry> = found.collect();
         if !found.is_empty() {
@@ -129,7 +138,8 @@ fn with_frequencies(
     told
 }
 
-/// A mistake in an expression of one parameter or signal may be that of the parameter: its line is shown as well.
+/// A mistake in an expression of one parameter or signal may be that of the parameter: its line is
+/// shown as well.
 fn with_parameter(
     (raw, all): (&RawNetlist, &Names),
     (place, wanted): (Place<'_>, Wanted),

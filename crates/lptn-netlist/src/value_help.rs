@@ -4,7 +4,8 @@ use lptn_units::{Dimension, Type, parse_quantity};
 
 use crate::raw::{RawEntry, RawKind};
 
-/// The line of a parameter that is a bare number, or kelvin where a point on the temperature scale is due.
+/// The line of a parameter that is a bare number, or kelvin where a point on the temperature scale
+/// is due.
 pub(crate) fn parameter_help(entry: &RawEntry, ty: Type) -> Option<String> {
     let text = match &entry.value.kind {
         RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => text.trim(),
@@ -25,10 +26,16 @@ pub(crate) fn parameter_help(entry: &RawEntry, ty: Type) -> Option<String> {
     None
 }
 
-/// What to write for a number of kelvin that is meant as an absolute temperature, as `line` writes it `where_to`.
-pub(crate) fn celsius_or_kelvin(text: &str, line: impl Fn(&str) -> String, where_to: &str) -> Option<String> {
+/// What to write for a number of kelvin that is meant as an absolute temperature, as `line` writes
+/// it `where_to`.
+pub(crate) fn celsius_or_kelvin(
+    text: &str,
+    line: impl Fn(&str) -> String,
+    where_to: &str,
+) -> Option<String> {
     let number = text.trim().strip_suffix('K')?.trim_end().trim_end_matches('*').trim_end();
     let ends_in_digit = number.ends_with(|c: char| c.is_ascii_digit() || c == '.');
-    let (celsius, kelvin) = (line(&format!("{number} degC")), line(&format!("absolute({number} [K])")));
+    let (celsius, kelvin) =
+        (line(&format!("{number} degC")), line(&format!("absolute({number} [K])")));
     ends_in_digit.then(|| format!("write {celsius}{where_to}, or {kelvin} if kelvin is meant"))
 }

@@ -3,7 +3,9 @@
 use std::collections::{HashMap, HashSet};
 
 use lptn_data::{Diagnostic, Span};
-use lptn_network::{BuildError, BuildErrorKind, FluidId, Input, Item, MaterialId, Naming, NetworkBuilder};
+use lptn_network::{
+    BuildError, BuildErrorKind, FluidId, Input, Item, MaterialId, Naming, NetworkBuilder,
+};
 use lptn_units::{Quantity, Type};
 
 use crate::csv_files::CsvFiles;
@@ -68,9 +70,13 @@ impl Doubts {
         let item = error.place().is_some_and(|(item, _)| self.items.contains(&item));
         match error.kind {
             K::NoCapacity { .. } => item || self.parts,
-            K::NoInitialTemperature { .. } | K::MasslessWithCapacity { .. } | K::NoThermostat { .. } => item,
+            K::NoInitialTemperature { .. }
+            | K::MasslessWithCapacity { .. }
+            | K::NoThermostat { .. } => item,
             K::FloatingIsland { ref nodes, .. } => {
-                self.paths || self.parts || nodes.iter().any(|&n| self.items.contains(&Item::Node(n)))
+                self.paths
+                    || self.parts
+                    || nodes.iter().any(|&n| self.items.contains(&Item::Node(n)))
             }
             K::Empty => self.sections,
             _ => false,

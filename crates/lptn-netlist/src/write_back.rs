@@ -19,8 +19,8 @@ pub struct WrittenNumber {
 }
 
 impl Netlist {
-    /// Where and in which unit the file writes a parameter's number; `None` if its value is an expression or a
-    /// string with escapes.
+    /// Where and in which unit the file writes a parameter's number; `None` if its value is an
+    /// expression or a string with escapes.
     pub fn written_number(&self, id: ParameterId) -> Option<WrittenNumber> {
         let (item, field) = (Item::Parameter(id), Field::Value);
         let span = self.source_map.get(item, field)?;
@@ -34,14 +34,18 @@ impl Netlist {
         Some(WrittenNumber { unit: written.unit, file: span.file, place })
     }
 
-    /// Another parameter whose value is written at the same place: that of another instance of a template.
+    /// Another parameter whose value is written at the same place: that of another instance of a
+    /// template.
     pub fn written_together(&self, id: ParameterId) -> Option<String> {
         let place = self.source_map.parameter(id)?;
         let others = self.network.parameter_ids().filter(|other| *other != id);
         let same = |other: &ParameterId| {
             self.source_map.parameter(*other).is_some_and(|there| there.is_same_text(&place))
         };
-        others.into_iter().find(same).map(|other| self.network.name_of(Item::Parameter(other)).into_owned())
+        others
+            .into_iter()
+            .find(same)
+            .map(|other| self.network.name_of(Item::Parameter(other)).into_owned())
     }
 
     /// Whether a number stands in the netlist's own file and not in one that it includes.
@@ -49,17 +53,20 @@ impl Netlist {
         self.inputs.first() == Some(&written.file)
     }
 
-    /// The text of the file with `number` in the place of the one written there: comments, order, unit and
-    /// standard deviation stay. A number in place of another cannot change what a string or a comment is, so the
-    /// text is cut at the number's own place rather than parsed and printed again.
+    /// The text of the file with `number` in the place of the one written there: comments, order,
+    /// unit and standard deviation stay. A number in place of another cannot change what a string
+    /// or a comment is, so the text is cut at the number's own place rather than parsed and printed
+    /// again.
     pub fn text_with_number(&self, written: &WrittenNumber, number: &str) -> String {
         self.text_with_numbers(&[(written.clone(), number.to_owned())])
     }
 
-    /// The same for several numbers of one file, each at a place of its own. The text of the first one's file.
+    /// The same for several numbers of one file, each at a place of its own. The text of the first
+    /// one's file.
     pub fn text_with_numbers(&self, numbers: &[(WrittenNumber, String)]) -> String {
         let Some((first, _)) = numbers.first() else { return String::new() };
-        let mut numbers: Vec<_> = numbers.iter().filter(|(written, _)| written.file == first.file).collect();
+        let mut numbers: Vec<_> =
+            numbers.iter().filter(|(written, _)| written.file == first.file).collect();
         numbers.sort_by_key(|(written, _)| written.place.start);
         let text = self.files.text(first.file);
         let (mut whole, mut end) = (String::with_capacity(text.len()), 0);

@@ -1,5 +1,5 @@
-//! Every file of `tests/bad` is refused with exactly the words beside it, in `.txt`. `LPTN_BLESS=1` writes them
-//! anew; what it writes has to be read as the newcomer would who made the mistake.
+//! Every file of `tests/bad` is refused with exactly the words beside it, in `.txt`. `LPTN_BLESS=1`
+//! writes them anew; what it writes has to be read as the newcomer would who made the mistake.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -61,7 +61,9 @@ fn messages_are_as_reviewed() {
         let expected = path.with_extension("txt");
         if std::env::var_os("LPTN_BLESS").is_some() {
             std::fs::write(&expected, &found).unwrap();
-        } else if std::fs::read_to_string(&expected).unwrap_or_default().replace("\r\n", "\n") != found {
+        } else if std::fs::read_to_string(&expected).unwrap_or_default().replace("\r\n", "\n")
+            != found
+        {
             differences.push(format!("{}:\n{found}", path.file_name().unwrap().display()));
         }
     }

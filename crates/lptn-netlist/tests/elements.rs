@@ -1,4 +1,5 @@
-//! Elements and inputs in time of netlists that are right: numbers by hand, in any order of the text.
+//! Elements and inputs in time of netlists that are right: numbers by hand, in any order of the
+//! text.
 
 #![allow(
     clippy::unwrap_used,
@@ -29,7 +30,10 @@ fn read(text: &str) -> Netlist {
 }
 
 fn close(found: f64, expected: f64) {
-    assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1e-9), "{found} is not {expected}");
+    assert!(
+        (found - expected).abs() <= 1e-12 * expected.abs().max(1e-9),
+        "{found} is not {expected}"
+    );
 }
 
 /// Heat received by the two ends of a path that is no constant, at these temperatures in degC.
@@ -64,7 +68,8 @@ fn value(netlist: &Netlist, name: &str, time: f64) -> f64 {
     let id = network.signal_ids().find(|id| network.signals()[id.index()].name == name).unwrap();
     let (slot, ty) = (network.signal_slot(id), network.signals()[id.index()].ty);
     let symbol = lptn_units::Symbol { slot, ty, in_comparison: None };
-    let program = lptn_units::Expression::parse(name).unwrap().compile(&Only(symbol), None).unwrap();
+    let program =
+        lptn_units::Expression::parse(name).unwrap().compile(&Only(symbol), None).unwrap();
     let mut at = network.evaluation();
     at.set_time(time, time);
     lptn_network::Value::Expression(program.into()).at(&mut at).unwrap()
@@ -76,7 +81,9 @@ fn nothing_is_odd_but_its_streams() {
     let warnings: Vec<String> = netlist.warnings.iter().map(|w| netlist.files.plain(w)).collect();
     assert_eq!(warnings.len(), 3, "{}", warnings.join("\n"));
     assert!(netlist.warnings.iter().all(|w| w.code == "network::unbalanced_streams"));
-    assert!(warnings[0].contains("streams bring 88.8 W/K into node `sump` and take 40.2 W/K out of it"));
+    assert!(
+        warnings[0].contains("streams bring 88.8 W/K into node `sump` and take 40.2 W/K out of it")
+    );
     assert_eq!(netlist.network.conductors().len(), 14);
     assert_eq!(netlist.network.fluids().len(), 2);
     assert_eq!(netlist.network.materials().len(), 3, "cast, wax and the copper of the library");
@@ -87,7 +94,8 @@ fn signals_go_through_their_points() {
     let netlist = read(ELEMENTS);
     let rpm = std::f64::consts::TAU / 60.0;
     // 1000 rpm at 50 s, and again 100 s later
-    for (time, speed) in [(0.0, 0.0), (25.0, 500.0), (50.0, 1000.0), (75.0, 500.0), (125.0, 500.0)] {
+    for (time, speed) in [(0.0, 0.0), (25.0, 500.0), (50.0, 1000.0), (75.0, 500.0), (125.0, 500.0)]
+    {
         close(value(&netlist, "speed", time), speed * rpm);
     }
     for (time, torque) in [(0.0, 0.0), (59.0, 0.0), (60.0, 10.0), (1000.0, 10.0)] {
@@ -95,7 +103,8 @@ fn signals_go_through_their_points() {
     }
     close(value(&netlist, "T_room", 50.0), 298.15);
     close(value(&netlist, "T_room", 200.0), 303.15);
-    // the map is bilinear: at 500 rpm half of 0 and 3 W, at 10 N m half of 5 and 9 W; the sine is 1 at 10 s
+    // the map is bilinear: at 500 rpm half of 0 and 3 W, at 10 N m half of 5 and 9 W; the sine is 1
+    // at 10 s
     close(value(&netlist, "power", 10.0), 0.2 * 3.0 + 1.0);
     close(value(&netlist, "power", 125.0), 7.0 + (std::f64::consts::TAU * 125.0 / 40.0).sin());
 }
@@ -173,7 +182,8 @@ fn sources_are_shared_and_depend_on_temperatures() {
     let (steel, ring) = (network.node("steel").unwrap(), network.node("ring").unwrap());
     assert_eq!(into, &[(steel, 0.7), (ring, 0.3)]);
     let temperatures: Vec<f64> = WARM.iter().chain(&[20.0, 40.0]).map(|t| t + 273.15).collect();
-    let heat = network.source_heat(source("P_copper"), &mut network.evaluation(), &temperatures).unwrap();
+    let heat =
+        network.source_heat(source("P_copper"), &mut network.evaluation(), &temperatures).unwrap();
     close(heat, 40.0 * (1.0 + 0.004 * 60.0) + 0.1 * -20.0);
 }
 
@@ -251,8 +261,10 @@ fn the_order_of_the_text_changes_no_bit() {
         let mut sections = sections.clone();
         sections.rotate_left(turn);
         sections.iter_mut().for_each(|(_, lines)| lines.reverse());
-        let sections: Vec<String> =
-            sections.iter().map(|(heading, lines)| format!("{heading}\n{}", lines.join("\n"))).collect();
+        let sections: Vec<String> = sections
+            .iter()
+            .map(|(heading, lines)| format!("{heading}\n{}", lines.join("\n")))
+            .collect();
         let found = numbers(&read(&format!("{head}{}\n", sections.join("\n\n"))));
         assert_eq!(found, expected, "turned by {turn}");
     }
@@ -261,7 +273,8 @@ fn the_order_of_the_text_changes_no_bit() {
 #[test]
 fn csv_files_are_inputs_like_those_that_are_included() {
     let netlist = read(ELEMENTS);
-    let inputs: Vec<(&str, usize)> = netlist.inputs().map(|(name, text)| (name, text.len())).collect();
+    let inputs: Vec<(&str, usize)> =
+        netlist.inputs().map(|(name, text)| (name, text.len())).collect();
     let names: Vec<&str> = inputs.iter().map(|(name, _)| *name).collect();
     assert_eq!(names, ["elements.toml", "map.csv", "film.csv", "cycle.csv"]);
     assert_eq!(inputs[2].1, include_bytes!("good/film.csv").len());
@@ -326,8 +339,14 @@ fn assignments_that_break_an_element_are_named() {
         rejected.diagnostics.iter().map(of).collect()
     };
     let of = |code: &str, label: &str| vec![(code.to_owned(), vec![label.to_owned()])];
-    assert_eq!(refused(&["spare=-1", "m=2kg/s"]), of("network::not_positive", "`spare` is set here"));
-    assert_eq!(refused(&["eps=1.5", "m=2kg/s"]), of("network::not_a_fraction", "`eps` is set here"));
+    assert_eq!(
+        refused(&["spare=-1", "m=2kg/s"]),
+        of("network::not_positive", "`spare` is set here")
+    );
+    assert_eq!(
+        refused(&["eps=1.5", "m=2kg/s"]),
+        of("network::not_a_fraction", "`eps` is set here")
+    );
     netlist.set(&["m=-2kg/s".into(), "d=1mm".into()]).unwrap();
     let Item::Conductor(s) = netlist.network.item("s").unwrap() else { panic!() };
     assert_eq!(netlist.network.flow(s), Flow::Stream(-2.0 * 4181.0));
@@ -337,7 +356,10 @@ fn assignments_that_break_an_element_are_named() {
 fn a_signal_is_no_parameter_to_set() {
     let rejected = read(ELEMENTS).set(&["speed=5rpm".into()]).unwrap_err();
     let text = rejected.to_string();
-    assert!(text.contains("there is no parameter `speed`") && text.contains(": a signal"), "{text}");
+    assert!(
+        text.contains("there is no parameter `speed`") && text.contains(": a signal"),
+        "{text}"
+    );
 }
 
 #[test]

@@ -1,5 +1,6 @@
-//! Flat netlists: each file of `tests/expand` is written as the `.expanded.toml` beside it, and what is written is the
-//! same network. `LPTN_BLESS=1` writes them anew; what it writes has to be read.
+//! Flat netlists: each file of `tests/expand` is written as the `.expanded.toml` beside it, and
+//! what is written is the same network. `LPTN_BLESS=1` writes them anew; what it writes has to be
+//! read.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -46,7 +47,9 @@ fn expansions_are_as_reviewed() {
         let expected = path.with_extension("expanded.toml");
         if std::env::var_os("LPTN_BLESS").is_some() {
             std::fs::write(&expected, &found).unwrap();
-        } else if std::fs::read_to_string(&expected).unwrap_or_default().replace("\r\n", "\n") != found {
+        } else if std::fs::read_to_string(&expected).unwrap_or_default().replace("\r\n", "\n")
+            != found
+        {
             differences.push(format!("{}:\n{found}", path.display()));
         }
     }
@@ -91,7 +94,12 @@ fn an_expansion_is_the_same_network_and_its_own_expansion() {
         let sizes = |netlist: &Netlist| {
             let text = |size: &lptn_netlist::SizeStudy| {
                 let texts: Vec<String> = size.requirements.iter().map(|r| r.text.clone()).collect();
-                (size.name.clone(), size.parameter.clone(), texts, size.range(&netlist.network).unwrap())
+                (
+                    size.name.clone(),
+                    size.parameter.clone(),
+                    texts,
+                    size.range(&netlist.network).unwrap(),
+                )
             };
             netlist.sizes.iter().map(text).collect::<Vec<_>>()
         };
@@ -101,9 +109,13 @@ fn an_expansion_is_the_same_network_and_its_own_expansion() {
                 let columns: Vec<_> =
                     fit.observed.iter().map(|o| (o.column.clone(), o.text.clone())).collect();
                 let plan = fit.plan(&netlist.network, &netlist.overrides()).unwrap();
-                let varied: Vec<_> =
-                    plan.varied.iter().map(|v| (*v, netlist.network.parameter_value(v.parameter))).collect();
-                let records: Vec<_> = fit.records.iter().map(|record| record.record.time.clone()).collect();
+                let varied: Vec<_> = plan
+                    .varied
+                    .iter()
+                    .map(|v| (*v, netlist.network.parameter_value(v.parameter)))
+                    .collect();
+                let records: Vec<_> =
+                    fit.records.iter().map(|record| record.record.time.clone()).collect();
                 (fit.name.clone(), columns, varied, plan.sigmas, records)
             };
             netlist.fits.iter().map(text).collect::<Vec<_>>()

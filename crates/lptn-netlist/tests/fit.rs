@@ -20,7 +20,10 @@ fn parse(text: &str) -> Netlist {
 }
 
 fn near(found: f64, expected: f64) {
-    assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1.0), "{found} is not {expected}");
+    assert!(
+        (found - expected).abs() <= 1e-12 * expected.abs().max(1.0),
+        "{found} is not {expected}"
+    );
 }
 
 /// rad/s in one rpm.
@@ -43,7 +46,10 @@ fn analytic_bounds_priors_and_deviations_are_in_si() {
     assert_eq!((a.prior, c.prior), (None, None));
     near(network.parameter_value(r.parameter), 0.3);
     near(r.bounds.0, 0.1);
-    assert_eq!((r.bounds.1, c.bounds.0, c.bounds.1), (f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY));
+    assert_eq!(
+        (r.bounds.1, c.bounds.0, c.bounds.1),
+        (f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY)
+    );
     near(r.prior.unwrap(), 0.05);
     let sigmas: Vec<f64> = plan.sigmas.iter().map(|sigma| sigma.unwrap()).collect();
     assert_eq!(sigmas, [0.2, 5.0, 0.2]);
@@ -57,7 +63,8 @@ fn analytic_records_are_read_by_name_in_their_own_units() {
     assert_eq!((first.csv.as_str(), second.csv.as_str()), ("block_1000.csv", "block_2000.csv"));
     assert_eq!(second.record.time, [0.0, 60.0, 120.0]);
     for record in [first, second] {
-        let names: Vec<&str> = record.record.columns.iter().map(|column| column.name.as_str()).collect();
+        let names: Vec<&str> =
+            record.record.columns.iter().map(|column| column.name.as_str()).collect();
         assert_eq!(names, ["ring", "heat", "rise"]);
     }
     // 78.8 degF is 26 degC; a rise in K is a difference where a difference is observed

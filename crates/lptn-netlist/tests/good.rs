@@ -83,8 +83,9 @@ fn sections_and_parameters_may_stand_in_any_order() {
         close(conductance(&other, name), conductance(&netlist, name));
     }
     assert_eq!(other.run, netlist.run);
-    let capacities =
-        |n: &Netlist| -> Vec<f64> { n.network.node_ids().map(|id| n.network.capacity(id)).collect() };
+    let capacities = |n: &Netlist| -> Vec<f64> {
+        n.network.node_ids().map(|id| n.network.capacity(id)).collect()
+    };
     assert_eq!(capacities(&other), capacities(&netlist));
 }
 
@@ -98,7 +99,8 @@ fn both_forms_of_a_table_are_the_same() {
                   resistor.ab = { from = 'a', to = 'b', R = '2 K/W' }\nrun.stop = '1 s'\nrun.output.every = '0.5 s'\n";
     let of = |text| {
         let netlist = good(text);
-        let capacity: Vec<f64> = netlist.network.node_ids().map(|id| netlist.network.capacity(id)).collect();
+        let capacity: Vec<f64> =
+            netlist.network.node_ids().map(|id| netlist.network.capacity(id)).collect();
         (capacity, conductance(&netlist, "ab"), netlist.run)
     };
     assert_eq!(of(inline), of(headings));
@@ -114,7 +116,10 @@ fn places_are_those_of_the_text() {
     assert_eq!(at(steel, Field::Initial), "\"T_amb\"");
     let internal = netlist.network.item("internal").unwrap();
     assert_eq!(at(internal, Field::of_law("R").unwrap()), "\"1.7 [K] / P_7000\"");
-    assert_eq!((at(internal, Field::From), at(internal, Field::To)), ("\"steel\"", "\"aluminium\""));
+    assert_eq!(
+        (at(internal, Field::From), at(internal, Field::To)),
+        ("\"steel\"", "\"aluminium\"")
+    );
     let share = netlist.network.parameter("bed_share").unwrap();
     assert_eq!(netlist.files.at(&netlist.source_map.parameter(share).unwrap()), "0.7");
     let span = netlist.source_map.name(internal).unwrap();
@@ -127,7 +132,8 @@ fn no_part_is_without_a_place() {
     let netlist = good(GEARBOX);
     let network = &netlist.network;
     let map = &netlist.source_map;
-    let items = network.node_ids().map(Item::Node).chain(network.boundary_ids().map(Item::Boundary));
+    let items =
+        network.node_ids().map(Item::Node).chain(network.boundary_ids().map(Item::Boundary));
     let items = items.chain(network.capacitor_ids().map(Item::Capacitor));
     let items = items.chain(network.conductor_ids().map(Item::Conductor));
     let items = items.chain(network.source_ids().map(Item::Source));
@@ -141,8 +147,7 @@ fn no_part_is_without_a_place() {
     network.source_ids().for_each(|id| has(Item::Source(id), Field::Into));
 }
 
-const BLOCK: &str =
-    "format = 1\n[node]\nblock = { T0 = '300 K', C = '0.5 kJ/K' }\n[boundary]\nair = { T = '20 degC' }\n";
+const BLOCK: &str = "format = 1\n[node]\nblock = { T0 = '300 K', C = '0.5 kJ/K' }\n[boundary]\nair = { T = '20 degC' }\n";
 
 #[test]
 fn every_form_of_a_path_and_parallel_paths() {
@@ -181,7 +186,8 @@ fn inputs_may_depend_on_time() {
 #[test]
 fn deviations_stay_with_their_parameters() {
     let netlist = good(&format!("{BLOCK}[param]\na = '87 ± 15 W'\nb = '100 W +- 5 %'\n"));
-    let deviations: Vec<Option<f64>> = netlist.network.parameters().iter().map(|p| p.deviation).collect();
+    let deviations: Vec<Option<f64>> =
+        netlist.network.parameters().iter().map(|p| p.deviation).collect();
     assert_eq!(deviations, [Some(15.0), Some(5.0)]);
     let warnings: Vec<&str> = netlist.warnings.iter().map(|w| w.code).collect();
     assert_eq!(warnings[..2], ["network::no_boundary", "network::idle_boundary"]);
@@ -245,7 +251,10 @@ fn limits_name_temperatures_parameters_and_time() {
     let limits = network.limits();
     assert_eq!((limits[0].name.as_str(), limits[0].text.as_str()), ("hot", "steel.T"));
     assert_eq!((limits[0].bound, limits[1].bound), (Bound::Below, Bound::Above));
-    assert_eq!((limits[0].severity, limits[1].severity), (LimitSeverity::Error, LimitSeverity::Warning));
+    assert_eq!(
+        (limits[0].severity, limits[1].severity),
+        (LimitSeverity::Error, LimitSeverity::Warning)
+    );
     let mut scope = network.evaluation();
     scope.set_temperatures(&[350.0], &[298.15]);
     let margins: Vec<f64> =

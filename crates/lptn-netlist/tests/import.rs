@@ -15,7 +15,9 @@ const MAIN: &str = "format = 1\n[import]\nnodes = \"n.csv\"\nboundaries = \"b.cs
 fn read(main: &str, files: &[(&str, &str)]) -> Result<Netlist, Rejected> {
     parse_with("net/main.toml", main, &mut |path: &Path| {
         let found = files.iter().find(|(name, _)| Path::new("net").join(name) == path);
-        found.map(|(_, text)| text.as_bytes().to_vec()).ok_or_else(|| Error::from(ErrorKind::NotFound))
+        found
+            .map(|(_, text)| text.as_bytes().to_vec())
+            .ok_or_else(|| Error::from(ErrorKind::NotFound))
     })
 }
 
@@ -41,11 +43,15 @@ fn the_elements_of_the_files_are_those_of_the_network() {
     assert_eq!(capacities, [500.0, 0.0, 0.5]);
     assert!(network.nodes()[1].massless && !network.nodes()[2].massless);
     assert_eq!(network.initial(network.node("n1").unwrap()).to_bits(), 298.15_f64.to_bits());
-    let paths: Vec<_> = network.conductor_ids().map(|id| network.name_of(Item::Conductor(id))).collect();
+    let paths: Vec<_> =
+        network.conductor_ids().map(|id| network.name_of(Item::Conductor(id))).collect();
     assert_eq!(paths, ["import.conductor[1]", "skin", "import.conductor[3]"]);
-    let conductances: Vec<_> = network.conductor_ids().map(|id| network.conductance(id).unwrap()).collect();
+    let conductances: Vec<_> =
+        network.conductor_ids().map(|id| network.conductance(id).unwrap()).collect();
     assert_eq!(conductances, [2.0, 0.5, 0.25]);
-    assert!(network.item("import.conductor[2]").is_err() && network.item("import.conductor[3]").is_ok());
+    assert!(
+        network.item("import.conductor[2]").is_err() && network.item("import.conductor[3]").is_ok()
+    );
     let source = network.source_ids().next().unwrap();
     assert_eq!(network.name_of(Item::Source(source)), "import.source[1]");
     assert_eq!(
@@ -54,7 +60,8 @@ fn the_elements_of_the_files_are_those_of_the_network() {
     );
 }
 
-/// Units of the header, other orders of columns, a byte order mark, quotes, blanks, comments, line ends of Windows.
+/// Units of the header, other orders of columns, a byte order mark, quotes, blanks, comments, line
+/// ends of Windows.
 #[test]
 fn files_of_other_programs_are_read() {
     let nodes = "\u{feff}# from a mesher\r\nT0 [K],\"name\", C [kJ/K]\r\n\r\n298.15, n1 ,0.5\r\n,n2,\r\n303.15,\"wall[1,2]\",0.0005";
@@ -65,8 +72,10 @@ fn files_of_other_programs_are_read() {
         assert!((netlist.network.capacity(id) - plain.network.capacity(id)).abs() < 1e-12);
         assert_eq!(netlist.network.initial(id).to_bits(), plain.network.initial(id).to_bits());
     }
-    let netlist =
-        read(MAIN, &with("c.csv", "R [K/mW],to,from\n5e-4,n2,n1\n2e-3,air,n2\n4e-3,n1,\"wall[1,2]\"\n"));
+    let netlist = read(
+        MAIN,
+        &with("c.csv", "R [K/mW],to,from\n5e-4,n2,n1\n2e-3,air,n2\n4e-3,n1,\"wall[1,2]\"\n"),
+    );
     let netlist = netlist.unwrap();
     for (id, expected) in netlist.network.conductor_ids().zip([2.0, 0.5, 0.25]) {
         assert!((netlist.network.conductance(id).unwrap() - expected).abs() < 1e-12);
@@ -127,7 +136,8 @@ fn a_bad_row_does_not_move_the_places_of_others() {
             format!("n{i},{},20\n", if i == 555 { -1 } else { 1 })
         };
     }
-    let rejected = read("format = 1\n[import]\nnodes = \"n.csv\"\n", &[("n.csv", &nodes)]).unwrap_err();
+    let rejected =
+        read("format = 1\n[import]\nnodes = \"n.csv\"\n", &[("n.csv", &nodes)]).unwrap_err();
     let negative = rejected.diagnostics.iter().find(|d| d.code == "network::not_positive").unwrap();
     assert!(negative.message.contains("`n555`"));
     assert_eq!(rejected.files.line_column(negative.place().unwrap()), (556, 6));
@@ -138,14 +148,22 @@ fn a_bad_row_does_not_move_the_places_of_others() {
 fn a_file_full_of_mistakes_is_cut_short() {
     let rows: String = (1..=130).map(|i| format!("n{i},much,20\n")).collect();
     let nodes = format!("name,C [J/K],T0 [degC]\n{rows}");
-    let rejected = read("format = 1\n[import]\nnodes = \"n.csv\"\n", &[("n.csv", &nodes)]).unwrap_err();
+    let rejected =
+        read("format = 1\n[import]\nnodes = \"n.csv\"\n", &[("n.csv", &nodes)]).unwrap_err();
     assert_eq!(rejected.diagnostics.len(), 51);
-    assert!(rejected.to_string().ends_with("error[netlist::more]: and 80 more problems"), "{rejected}");
+    assert!(
+        rejected.to_string().ends_with("error[netlist::more]: and 80 more problems"),
+        "{rejected}"
+    );
     // of those that only the whole network shows
     let rows: String = (1..=1300).map(|i| format!("n{i},-1,20\n")).collect();
     let nodes = format!("name,C [J/K],T0 [degC]\n{rows}");
-    let rejected = read("format = 1\n[import]\nnodes = \"n.csv\"\n", &[("n.csv", &nodes)]).unwrap_err();
-    assert!(rejected.to_string().ends_with("error[netlist::more]: and 1250 more problems"), "{rejected}");
+    let rejected =
+        read("format = 1\n[import]\nnodes = \"n.csv\"\n", &[("n.csv", &nodes)]).unwrap_err();
+    assert!(
+        rejected.to_string().ends_with("error[netlist::more]: and 1250 more problems"),
+        "{rejected}"
+    );
 }
 
 #[test]
@@ -158,17 +176,29 @@ fn paths_are_relative_to_the_file_that_names_them() {
     ];
     assert_eq!(read(main, &files).unwrap().network.nodes().len(), 1);
     let rejected = parse("<stdin>", MAIN).unwrap_err();
-    assert!(rejected.diagnostics.iter().all(|d| d.code == "netlist::csv_without_folder"), "{rejected}");
+    assert!(
+        rejected.diagnostics.iter().all(|d| d.code == "netlist::csv_without_folder"),
+        "{rejected}"
+    );
     assert_eq!(rejected.diagnostics.len(), 4);
 }
 
 #[test]
 fn the_start_of_default_is_that_of_empty_cells() {
     let main = format!("{MAIN}[default]\nT0 = \"40 degC\"\n");
+    let netlist = read(
+        &main,
+        &with("n.csv", "name,C [J/K],T0 [degC]\nn1,500,\nn2,,\n\"wall[1,2]\",0.5,30\n"),
+    )
+    .unwrap();
+    let starts: Vec<f64> =
+        netlist.network.node_ids().map(|id| netlist.network.initial(id)).collect();
+    assert!(
+        (starts[0] - 313.15).abs() < 1e-12
+            && starts[1].is_nan()
+            && (starts[2] - 303.15).abs() < 1e-12
+    );
     let netlist =
-        read(&main, &with("n.csv", "name,C [J/K],T0 [degC]\nn1,500,\nn2,,\n\"wall[1,2]\",0.5,30\n")).unwrap();
-    let starts: Vec<f64> = netlist.network.node_ids().map(|id| netlist.network.initial(id)).collect();
-    assert!((starts[0] - 313.15).abs() < 1e-12 && starts[1].is_nan() && (starts[2] - 303.15).abs() < 1e-12);
-    let netlist = read(&main, &with("n.csv", "name,C [J/K]\nn1,500\nn2,\n\"wall[1,2]\",0.5\n")).unwrap();
+        read(&main, &with("n.csv", "name,C [J/K]\nn1,500\nn2,\n\"wall[1,2]\",0.5\n")).unwrap();
     assert!((netlist.network.initial(netlist.network.node("n1").unwrap()) - 313.15).abs() < 1e-12);
 }

@@ -11,7 +11,8 @@ struct Folder(PathBuf);
 
 impl Folder {
     fn new(name: &str, files: &[(&str, &str)]) -> Self {
-        let folder = std::env::temp_dir().join(format!("lptn-include-{}-{name}", std::process::id()));
+        let folder =
+            std::env::temp_dir().join(format!("lptn-include-{}-{name}", std::process::id()));
         for (file, text) in files {
             let path = folder.join(file);
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -81,7 +82,10 @@ fn paths_are_relative_to_the_file_that_includes_and_a_file_counts_once() {
                 "net.toml",
                 "include = [\"parts/one.toml\", \"ambient.toml\"]\nformat = 1\n[node]\na = { T0 = \"25 degC\", C = \"1 J/K\" }\n",
             ),
-            ("parts/one.toml", "include = [\"../ambient.toml\", \"./../parts/two.toml\"]\nformat = 1\n"),
+            (
+                "parts/one.toml",
+                "include = [\"../ambient.toml\", \"./../parts/two.toml\"]\nformat = 1\n",
+            ),
             ("parts/two.toml", "format = 1\n[source]\np = { into = \"a\", P = \"1 W\" }\n"),
             ("ambient.toml", AMBIENT),
         ],
@@ -109,7 +113,10 @@ fn a_name_in_two_files_names_both_places() {
     let (text, rejected) = folder.refused("net.toml");
     assert_eq!(rejected.diagnostics.len(), 2, "{text}");
     assert!(text.contains("error[netlist::duplicate_key]: `air` is given in two files\n --> net.toml:9:1: given again\n ::: ambient.toml:3:1: first given here"), "{text}");
-    assert!(text.contains("error[network::duplicate_name]: the name `cast` is taken twice"), "{text}");
+    assert!(
+        text.contains("error[network::duplicate_name]: the name `cast` is taken twice"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -123,19 +130,27 @@ fn circles_and_depth_are_refused() {
         ],
     );
     let (text, _) = folder.refused("a.toml");
-    assert!(text.starts_with("error[netlist::include_cycle]: files include each other: "), "{text}");
+    assert!(
+        text.starts_with("error[netlist::include_cycle]: files include each other: "),
+        "{text}"
+    );
     assert!(text.contains("\n --> b.toml:1:12\n"), "{text}");
     let (text, _) = folder.refused("self.toml");
     assert!(text.contains("includes itself"), "{text}");
     let chain = |n: usize| -> Vec<(String, String)> {
         let link = |i: usize| {
-            if i < n { format!("include = [\"{}.toml\"]\nformat = 1\n", i + 1) } else { AMBIENT.into() }
+            if i < n {
+                format!("include = [\"{}.toml\"]\nformat = 1\n", i + 1)
+            } else {
+                AMBIENT.into()
+            }
         };
         (0..=n).map(|i| (format!("{i}.toml"), link(i))).collect()
     };
     let folder = |n: usize| {
         let files = chain(n);
-        let files: Vec<(&str, &str)> = files.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
+        let files: Vec<(&str, &str)> =
+            files.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
         Folder::new(&format!("depth{n}"), &files)
     };
     let (text, _) = folder(9).refused("0.toml");
@@ -153,7 +168,9 @@ fn circles_and_depth_are_refused() {
 #[test]
 fn what_cannot_be_included_is_named() {
     let net = |include: &str| {
-        format!("include = {include}\nformat = 1\n[node]\na = {{ T0 = \"25 degC\", C = \"1 J/K\" }}\n")
+        format!(
+            "include = {include}\nformat = 1\n[node]\na = {{ T0 = \"25 degC\", C = \"1 J/K\" }}\n"
+        )
     };
     let folder = Folder::new(
         "wrong",
@@ -188,8 +205,14 @@ fn what_cannot_be_included_is_named() {
         "numbers.toml",
         "error[netlist::wrong_shape]: `include` must be a list of file names, got a number\n --> numbers.toml:1:12",
     );
-    says("bare_net.toml", "error[netlist::missing_format]: `format = 1` is missing\n --> bare.toml:1:1");
-    says("empty_net.toml", "error[netlist::missing_format]: `format = 1` is missing\n --> empty.toml:1:1");
+    says(
+        "bare_net.toml",
+        "error[netlist::missing_format]: `format = 1` is missing\n --> bare.toml:1:1",
+    );
+    says(
+        "empty_net.toml",
+        "error[netlist::missing_format]: `format = 1` is missing\n --> empty.toml:1:1",
+    );
     says(
         "run_net.toml",
         "error[netlist::study_in_include]: `[run]` cannot stand in a file that is included\n --> run.toml:2:2",

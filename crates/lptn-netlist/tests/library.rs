@@ -1,4 +1,5 @@
-//! Reference: the library against numbers typed from other sources than its own text, each named here.
+//! Reference: the library against numbers typed from other sources than its own text, each named
+//! here.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -20,22 +21,26 @@ fn holds(name: &str, [density, cp, k]: [f64; 3]) {
     assert_eq!([found.density, found.cp, found.k], [Some(density), Some(cp), Some(k)], "{name}");
 }
 
-/// Steels and aluminium as data sheets of suppliers print them, which is where most designs take them from.
+/// Steels and aluminium as data sheets of suppliers print them, which is where most designs take
+/// them from.
 #[test]
 fn gearbox_metals_are_those_of_their_data_sheets() {
-    // matmake.com, SAE/AISI 8620: 7850, 470, 46.6; qinghesteels.com, 8620: 0.284 lb/in^3, 0.114 Btu/(lb degF),
-    // 323 Btu in/(h ft^2 degF)
+    // matmake.com, SAE/AISI 8620: 7850, 470, 46.6; qinghesteels.com, 8620: 0.284 lb/in^3, 0.114
+    // Btu/(lb degF), 323 Btu in/(h ft^2 degF)
     let steel = record("steel_8620");
     near(steel.density.unwrap(), 0.284 * 27_679.9, 2e-3);
     near(steel.k.unwrap(), 323.0 * 0.144_228, 1e-3);
     assert!((470.0..=0.114 * 4186.8).contains(&steel.cp.unwrap()));
-    // hunker.com, physical properties of 4140: 473 J/(kg K), 42.7 W/(m K); makeitfrom.com: 7800, 470, 43
+    // hunker.com, physical properties of 4140: 473 J/(kg K), 42.7 W/(m K); makeitfrom.com: 7800,
+    // 470, 43
     let steel = record("steel_4140");
     assert_eq!((steel.density, steel.cp), (Some(7850.0), Some(473.0)));
     near(steel.k.unwrap(), 42.7, 3e-3);
-    // glemco.com, 6061-T6 (Aluminum Association, typical): 2.7 g/cc, 167 W/m-K at 77 degF; mfgproto.com: 0.896 J/g-degC
+    // glemco.com, 6061-T6 (Aluminum Association, typical): 2.7 g/cc, 167 W/m-K at 77 degF;
+    // mfgproto.com: 0.896 J/g-degC
     holds("aluminium_6061", [2700.0, 896.0, 167.0]);
-    // matweb.com, Aluminum A356.0-T6, sand cast: 2.67 g/cc, 151 W/m-K; makeitfrom.com, A356.0: 900 J/kg-K
+    // matweb.com, Aluminum A356.0-T6, sand cast: 2.67 g/cc, 151 W/m-K; makeitfrom.com, A356.0: 900
+    // J/kg-K
     holds("aluminium_a356", [2670.0, 900.0, 151.0]);
     // Incropera et al., 7th ed., Table A.1, p. 983, copper, pure: 8933, 385, 401
     holds("copper", [8933.0, 385.0, 401.0]);
@@ -44,14 +49,15 @@ fn gearbox_metals_are_those_of_their_data_sheets() {
 /// After the informative annexes of EN 1561 and EN 1563.
 #[test]
 fn cast_irons_are_those_of_the_foundry() {
-    // CASTFAST GmbH, Werkstoffeigenschaften GJL (2025): 7.20 g/cm^3, 460 J/(kg K) at 20 to 200 degC,
-    // 48.5 to 44.5 W/(m K) over 100 to 500 degC
+    // CASTFAST GmbH, Werkstoffeigenschaften GJL (2025): 7.20 g/cm^3, 460 J/(kg K) at 20 to 200
+    // degC, 48.5 to 44.5 W/(m K) over 100 to 500 degC
     holds("cast_iron_grey", [7200.0, 460.0, 48.5]);
     // AixLib, EngineMaterial_SpheroidalGraphiteIron.mo: lambda=36.2, rhoEngWall=7100, c=515
     holds("cast_iron_nodular", [7100.0, 515.0, 36.2]);
 }
 
-/// Table A.1 of Incropera et al. prints the diffusivity too: three digits typed wrongly would not give it.
+/// Table A.1 of Incropera et al. prints the diffusivity too: three digits typed wrongly would not
+/// give it.
 #[test]
 fn metals_of_incropera_have_the_diffusivity_printed_beside_them() {
     // name, diffusivity in mm^2/s, half of its last digit
@@ -74,16 +80,26 @@ fn metals_of_incropera_have_the_diffusivity_printed_beside_them() {
     }
 }
 
-/// Neumann and Kopp: near room temperature the heat capacity of an alloy is close to the sum over its elements. The
-/// 960 J/(kg K) that are printed for 7075 and A356 in many places are 9 to 11 % above it.
+/// Neumann and Kopp: near room temperature the heat capacity of an alloy is close to the sum over
+/// its elements. The 960 J/(kg K) that are printed for 7075 and A356 in many places are 9 to 11 %
+/// above it.
 #[test]
 fn aluminium_alloys_have_the_heat_capacity_of_their_elements() {
-    // J/(kg K) at 25 degC, CRC Handbook of Chemistry and Physics, as the Python package mendeleev 1 has them
+    // J/(kg K) at 25 degC, CRC Handbook of Chemistry and Physics, as the Python package mendeleev 1
+    // has them
     let (al, si, zn, mg, cu) = (897.0, 712.0, 388.0, 1023.0, 385.0);
     let rest = |alloying: f64| (1.0 - alloying) * al;
-    near(record("aluminium_7075").cp.unwrap(), rest(0.097) + 0.056 * zn + 0.025 * mg + 0.016 * cu, 0.02);
+    near(
+        record("aluminium_7075").cp.unwrap(),
+        rest(0.097) + 0.056 * zn + 0.025 * mg + 0.016 * cu,
+        0.02,
+    );
     near(record("aluminium_a356").cp.unwrap(), rest(0.0735) + 0.07 * si + 0.0035 * mg, 0.025);
-    near(record("aluminium_6061").cp.unwrap(), rest(0.0188) + 0.006 * si + 0.01 * mg + 0.0028 * cu, 0.02);
+    near(
+        record("aluminium_6061").cp.unwrap(),
+        rest(0.0188) + 0.006 * si + 0.01 * mg + 0.0028 * cu,
+        0.02,
+    );
 }
 
 #[test]
@@ -104,7 +120,8 @@ fn gear_oil_agrees_with_the_correlation_for_petroleum_oils_and_with_engine_oil()
     near(oil.temperature.unwrap(), 333.15, 1e-12);
     // Cragoe, NBS Misc. Publ. 97: (0.388 + 0.00045 t/degF) / sqrt(specific gravity) Btu/(lb degF)
     near(oil.cp.unwrap(), (0.388 + 0.000_45 * 140.0) / 0.89_f64.sqrt() * 4186.8, 0.01);
-    // unused engine oil, Incropera et al., table A.5: 865.8, 2035, 0.141 at 330 K and 859.9, 2076, 0.139 at 340 K
+    // unused engine oil, Incropera et al., table A.5: 865.8, 2035, 0.141 at 330 K and 859.9, 2076,
+    // 0.139 at 340 K
     let between = |cold: f64, hot: f64| cold + (hot - cold) * 0.315;
     near(oil.density.unwrap(), between(865.8, 859.9), 0.01);
     near(oil.cp.unwrap(), between(2035.0, 2076.0), 0.02);

@@ -81,30 +81,42 @@ fn places_are_known() {
 #[test]
 fn a_property_a_thousand_times_off_is_a_warning_with_the_unit_that_was_meant() {
     let warnings = |text: &str| {
-        let text =
-            format!("[material]\nm = {{ {text} }}\n[node]\na = {{ material = \"m\", mass = \"1 kg\" }}\n");
+        let text = format!(
+            "[material]\nm = {{ {text} }}\n[node]\na = {{ material = \"m\", mass = \"1 kg\" }}\n"
+        );
         good(&text).warnings
     };
     let helps = |text: &str| warnings(text)[0].help.clone().unwrap();
     assert_eq!(helps("cp = \"0.475 J/(kg K)\""), "did you mean 0.475 J/(g K)?");
     assert_eq!(helps("cp = \"475 J/(g K)\""), "did you mean 475 J/(kg K)?");
-    assert_eq!(helps("cp = \"475 J/(kg K)\", density = \"7850 g/cm^3\""), "did you mean 7850 kg/m^3?");
-    assert_eq!(helps("cp = \"475 J/(kg K)\", density = \"0.9 kg/m^3\""), "did you mean 0.9 g/cm^3?");
+    assert_eq!(
+        helps("cp = \"475 J/(kg K)\", density = \"7850 g/cm^3\""),
+        "did you mean 7850 kg/m^3?"
+    );
+    assert_eq!(
+        helps("cp = \"475 J/(kg K)\", density = \"0.9 kg/m^3\""),
+        "did you mean 0.9 g/cm^3?"
+    );
     assert_eq!(helps("cp = \"475 J/(kg K)\", k = \"46600 W/(m K)\""), "did you mean 46.6 W/(m K)?");
-    assert!(warnings("cp = \"475 J/(kg K)\", density = \"7.85 g/cm^3\", k = \"0.03 W/(m K)\"").is_empty());
+    assert!(
+        warnings("cp = \"475 J/(kg K)\", density = \"7.85 g/cm^3\", k = \"0.03 W/(m K)\"")
+            .is_empty()
+    );
     assert_eq!(warnings("cp = \"475 J/(g K)\"")[0].code, "netlist::implausible_property");
 }
 
 #[test]
 fn a_material_that_nothing_uses_is_a_warning() {
-    let netlist = good("[material]\nm = { cp = \"475 J/(kg K)\" }\n[node]\na = { C = \"1 J/K\" }\n");
+    let netlist =
+        good("[material]\nm = { cp = \"475 J/(kg K)\" }\n[node]\na = { C = \"1 J/K\" }\n");
     assert_eq!(netlist.warnings[0].code, "netlist::unused_material");
 }
 
 #[test]
 fn every_solid_of_the_library_can_be_used() {
     for record in library::materials() {
-        let text = format!("[node]\na = {{ material = \"{}\", volume = \"1 m^3\" }}\n", record.name);
+        let text =
+            format!("[node]\na = {{ material = \"{}\", volume = \"1 m^3\" }}\n", record.name);
         let netlist = good(&text);
         close(netlist.network.capacity(a(&netlist)), record.density.unwrap() * record.cp.unwrap());
         assert!(netlist.warnings.is_empty());

@@ -1,4 +1,5 @@
-//! Whatever the bytes: no panic, no network that breaks its promises, and time in proportion to the length.
+//! Whatever the bytes: no panic, no network that breaks its promises, and time in proportion to the
+//! length.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -79,7 +80,11 @@ fn complete(rejected: &Rejected) -> Result<(), TestCaseError> {
     for diagnostic in &rejected.diagnostics {
         for label in &diagnostic.labels {
             let text = rejected.files.text(label.span.file);
-            prop_assert!(text.get(label.span.range.clone()).is_some(), "{diagnostic}: {:?}", label.span);
+            prop_assert!(
+                text.get(label.span.range.clone()).is_some(),
+                "{diagnostic}: {:?}",
+                label.span
+            );
         }
     }
     prop_assert!(!rejected.to_string().is_empty());
@@ -153,8 +158,8 @@ fn piece() -> impl Strategy<Value = String> {
 /// Pieces that mean something in a CSV file.
 fn csv_piece() -> impl Strategy<Value = String> {
     let known = prop::sample::select(vec![
-        "", ",", ";", "\"", "\n", "\r\n", "\r", "#", "nan", "-0", "1e999", "-300", "[degC]", "[", "]", "x",
-        "\u{feff}", " ", "\n\n", "é",
+        "", ",", ";", "\"", "\n", "\r\n", "\r", "#", "nan", "-0", "1e999", "-300", "[degC]", "[",
+        "]", "x", "\u{feff}", " ", "\n\n", "é",
     ]);
     prop_oneof![4 => known.prop_map(str::to_owned), 1 => "\\PC{0,3}".prop_map(|text| text)]
 }

@@ -63,7 +63,9 @@ fn values_and_what_depends_on_them_change() {
     assert!((power(&netlist) - 100.0).abs() < 1e-9);
     set(&mut netlist, &["omega=5000rpm", "share = 0.5"]).unwrap();
     assert!((power(&netlist) - 500.0).abs() < 1e-9);
-    let Item::Conductor(cooling) = netlist.network.item("cooling").unwrap() else { panic!("a conductor") };
+    let Item::Conductor(cooling) = netlist.network.item("cooling").unwrap() else {
+        panic!("a conductor")
+    };
     assert!((netlist.network.conductance(cooling).unwrap() - 4.0).abs() < 1e-12);
 }
 
@@ -131,14 +133,20 @@ fn the_run_is_checked_again() {
 #[test]
 fn the_same_parameter_twice_is_an_error() {
     let found = refused(&["share=0.5", "share=0.6"]);
-    assert!(found.starts_with("error[netlist::assigned_twice]: parameter `share` is set twice"), "{found}");
+    assert!(
+        found.starts_with("error[netlist::assigned_twice]: parameter `share` is set twice"),
+        "{found}"
+    );
 }
 
 #[test]
 fn expressions_are_for_netlists() {
     for text in ["tau=2*tau", "T_amb=T_amb"] {
         let found = refused(&[text]);
-        assert!(found.contains("`--set` takes a number or a quantity, not an expression"), "{found}");
+        assert!(
+            found.contains("`--set` takes a number or a quantity, not an expression"),
+            "{found}"
+        );
     }
     let found = refused(&["omega=5 rpmm"]);
     assert!(found.contains("did you mean \"5 rpm\"?"), "{found}");

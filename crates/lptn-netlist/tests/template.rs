@@ -147,7 +147,9 @@ set = { R_pin = "2 * R_fit", m = "0.4 kg" }
         netlist.network.parameter_value(id)
     };
     assert_eq!((value("moon.m"), value("moon.R_pin"), value("moon.P")), (0.4, 0.5, 40.0));
-    let Item::Conductor(mesh) = netlist.network.item("moon.mesh").unwrap() else { panic!("a conductor") };
+    let Item::Conductor(mesh) = netlist.network.item("moon.mesh").unwrap() else {
+        panic!("a conductor")
+    };
     let to = netlist.network.conductors()[mesh.index()].to;
     assert_eq!(netlist.network.name_of(to.into()), "air");
     assert_eq!(netlist.network.limits()[0].text, "moon.gear.T - air.T");
@@ -205,21 +207,23 @@ set = { C_gear = ["80 J/K", "100 J/K"] }
     let name = |end: lptn_network::End| network.name_of(end.into()).into_owned();
     let ends: Vec<(String, String)> =
         network.conductors()[1..].iter().map(|c| (name(c.from), name(c.to))).collect();
-    assert_eq!(
-        ends.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect::<Vec<_>>(),
-        [
-            ("planet[1].pin[1].body", "planet[1].gear"),
-            ("planet[1].pin[1].body", "carrier"),
-            ("planet[1].pin[2].body", "planet[1].pin[1].body"),
-            ("planet[1].pin[2].body", "carrier"),
-            ("planet[2].pin[1].body", "planet[2].gear"),
-            ("planet[2].pin[1].body", "planet[1].pin[2].body"),
-            ("planet[2].pin[2].body", "planet[2].pin[1].body"),
-            ("planet[2].pin[2].body", "planet[1].pin[2].body"),
-        ]
-    );
+    let ends: Vec<_> = ends.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
+    let expected = [
+        ("planet[1].pin[1].body", "planet[1].gear"),
+        ("planet[1].pin[1].body", "carrier"),
+        ("planet[1].pin[2].body", "planet[1].pin[1].body"),
+        ("planet[1].pin[2].body", "carrier"),
+        ("planet[2].pin[1].body", "planet[2].gear"),
+        ("planet[2].pin[1].body", "planet[1].pin[2].body"),
+        ("planet[2].pin[2].body", "planet[2].pin[1].body"),
+        ("planet[2].pin[2].body", "planet[1].pin[2].body"),
+    ];
+    assert_eq!(ends, expected);
     let capacity = |name: &str| network.capacity(network.node(name).unwrap());
-    assert_eq!((capacity("planet[1].pin[2].body"), capacity("planet[2].pin[1].body")), (20.0, 25.0));
+    assert_eq!(
+        (capacity("planet[1].pin[2].body"), capacity("planet[2].pin[1].body")),
+        (20.0, 25.0)
+    );
 }
 
 /// A limit of all is a limit of each; the heat of a source into all is shared equally.
@@ -254,11 +258,19 @@ mixed = { into = { "planet[*].pin" = 0.6, ring = 0.4 }, P = "30 W" }
             .collect::<Vec<_>>()
     };
     let third = 1.0 / 3.0;
-    assert_eq!(shares(0), [("planet[1].gear", third), ("planet[2].gear", third), ("planet[3].gear", third)]);
+    assert_eq!(
+        shares(0),
+        [("planet[1].gear", third), ("planet[2].gear", third), ("planet[3].gear", third)]
+    );
     let fifth = 0.6 / 3.0;
     assert_eq!(
         shares(1),
-        [("planet[1].pin", fifth), ("planet[2].pin", fifth), ("planet[3].pin", fifth), ("ring", 0.4)]
+        [
+            ("planet[1].pin", fifth),
+            ("planet[2].pin", fifth),
+            ("planet[3].pin", fifth),
+            ("ring", 0.4)
+        ]
     );
 }
 
@@ -310,7 +322,8 @@ set = { R_pin = "0.1 K/W" }
     );
     let mut netlist = good(&text);
     netlist.set(&["planet[2].m=0.42kg".to_owned()]).unwrap();
-    let value = |name: &str| netlist.network.parameter_value(netlist.network.parameter(name).unwrap());
+    let value =
+        |name: &str| netlist.network.parameter_value(netlist.network.parameter(name).unwrap());
     assert_eq!((value("planet[1].P"), value("planet[2].P")), (21.0, 42.0));
     let wrong = netlist.clone().set(&["planet[2].m=3K".to_owned()]).unwrap_err();
     assert_eq!(wrong.diagnostics[0].code, "units::dimension");
@@ -352,7 +365,10 @@ set = { R_pin = "0.1 K/W" }
 fn a_template_that_nothing_uses_is_a_warning() {
     let netlist = good(&format!("{HEAD}{PLANET}"));
     let codes: Vec<&str> = netlist.warnings.iter().map(|warning| warning.code).collect();
-    assert_eq!(codes, ["netlist::unused_parameter", "network::no_boundary", "netlist::unused_template"]);
+    assert_eq!(
+        codes,
+        ["netlist::unused_parameter", "network::no_boundary", "netlist::unused_template"]
+    );
     assert!(netlist.warnings.iter().all(|warning| warning.severity == Severity::Warning));
 }
 

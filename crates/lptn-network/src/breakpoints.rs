@@ -28,11 +28,12 @@ pub(crate) struct Watched<'a> {
 }
 
 impl Network {
-    /// The times inside `(start, stop)` in s at which an input of the heat flows may bend or jump, ascending: points of
-    /// signals, changes of comparisons, kinks of `abs`, `min` and `max`, knots of tables.
+    /// The times inside `(start, stop)` in s at which an input of the heat flows may bend or jump,
+    /// ascending: points of signals, changes of comparisons, kinks of `abs`, `min` and `max`, knots
+    /// of tables.
     ///
-    /// A comparison goes straight between points of signals (the builder refuses others), so its two sides meet at
-    /// most once there. Kinks of curves are looked for in small steps.
+    /// A comparison goes straight between points of signals (the builder refuses others), so its
+    /// two sides meet at most once there. Kinks of curves are looked for in small steps.
     ///
     /// What has no value at some time is left to the run, which says so.
     ///
@@ -42,8 +43,9 @@ impl Network {
         self.times_of(&self.parts.driving(), (start, stop))
     }
 
-    /// The same for results: limits, reports and signals, which are evaluated over time too but change no heat flow. A
-    /// result at one of these times is to be read inside the stretch on its right.
+    /// The same for results: limits, reports and signals, which are evaluated over time too but
+    /// change no heat flow. A result at one of these times is to be read inside the stretch on its
+    /// right.
     ///
     /// # Errors
     /// As [`Network::breakpoints`].
@@ -55,8 +57,8 @@ impl Network {
         self.times_of(&self.parts.results(items), (start, stop))
     }
 
-    /// Everything that is evaluated over time beside the inputs of the heat flows: limits, reports, and signals that
-    /// drive nothing.
+    /// Everything that is evaluated over time beside the inputs of the heat flows: limits, reports,
+    /// and signals that drive nothing.
     pub fn results(&self) -> Vec<Item> {
         let driving = self.parts.driving().signals;
         let idle = self.signal_ids().filter(|id| !driving[id.index()]);
@@ -108,7 +110,9 @@ impl Network {
             for call in program.table_calls() {
                 let axes = (0..call.table.dimension()).map(|axis| call.table.knots(axis));
                 let pairs = call.arguments.iter().zip(axes);
-                differences.extend(pairs.map(|(argument, knots)| Difference::new(argument, knots.to_vec())));
+                differences.extend(
+                    pairs.map(|(argument, knots)| Difference::new(argument, knots.to_vec())),
+                );
             }
         }
         let parts = &self.parts;
@@ -153,7 +157,8 @@ fn crossings(
         value.map_err(InputProblem::from)
     };
     let looks = if difference.degree == Degree::Nonlinear { LOOKS } else { 1 };
-    let place = |k: u32| if k == looks { to } else { from + (to - from) * f64::from(k) / f64::from(looks) };
+    let place =
+        |k: u32| if k == looks { to } else { from + (to - from) * f64::from(k) / f64::from(looks) };
     let mut left = (from, at(from)?);
     for k in 1..=looks {
         let right = (place(k), at(place(k))?);
@@ -196,8 +201,8 @@ fn tidy(times: &mut Vec<f64>, start: f64, stop: f64) {
     times.dedup_by(|a, b| (*a - *b).abs() <= margin);
 }
 
-/// Times of a run from `start` to `stop` that are closer than this are one, all in s: rounding, and what no step could be
-/// taken between.
+/// Times of a run from `start` to `stop` that are closer than this are one, all in s: rounding, and
+/// what no step could be taken between.
 pub fn same_time(start: f64, stop: f64) -> f64 {
     (1e-12 * (stop - start)).max(64.0 * f64::EPSILON * start.abs().max(stop.abs()))
 }
@@ -224,7 +229,11 @@ impl Parts {
     }
 
     /// With the signals that are read, by other signals too.
-    pub(crate) fn watched<'a>(&'a self, mut values: Vec<&'a Value>, signals: &[SignalId]) -> Watched<'a> {
+    pub(crate) fn watched<'a>(
+        &'a self,
+        mut values: Vec<&'a Value>,
+        signals: &[SignalId],
+    ) -> Watched<'a> {
         let mut used = vec![false; self.layout.signals().len()];
         values.iter().for_each(|value| self.mark_signals(value, &mut used));
         signals.iter().for_each(|id| used[id.index()] = true);
@@ -243,7 +252,10 @@ impl Parts {
         let mut factors = value.programs().into_iter().map(|program| self.course_of(program));
         let first = factors.next().unwrap_or(Degree::Constant);
         // a product of two that vary is not a straight line
-        factors.fold(first, |a, b| if a.min(b) > Degree::Constant { Degree::Nonlinear } else { a.max(b) })
+        factors.fold(
+            first,
+            |a, b| if a.min(b) > Degree::Constant { Degree::Nonlinear } else { a.max(b) },
+        )
     }
 
     pub(crate) fn course_of(&self, program: &Program) -> Degree {
@@ -252,7 +264,9 @@ impl Parts {
         for slot in program.slots() {
             let own = match self.layout.holds(slot) {
                 Holds::Time => Degree::Affine,
-                Holds::Signal(id) if self.layout.signals()[id.index()].course.is_straight() => Degree::Affine,
+                Holds::Signal(id) if self.layout.signals()[id.index()].course.is_straight() => {
+                    Degree::Affine
+                }
                 Holds::Signal(_) => Degree::Nonlinear,
                 _ => continue,
             };
@@ -263,7 +277,8 @@ impl Parts {
         if varying > 1 { Degree::Nonlinear } else { worst }
     }
 
-    /// Why a comparison cannot be used: it compares a temperature, or its change is not known beforehand.
+    /// Why a comparison cannot be used: it compares a temperature, or its change is not known
+    /// beforehand.
     pub(crate) fn comparison_problem(
         &self,
         (comparison, relation): (&Program, Comparison),
@@ -275,7 +290,8 @@ impl Parts {
             // an event, unless it cannot be followed
             let followed = matches!(item, Item::Source(_) | Item::Conductor(_));
             let equality = matches!(relation, Comparison::Equal | Comparison::NotEqual);
-            return (!followed || equality).then_some(BuildErrorKind::ComparesTemperature { item, field });
+            return (!followed || equality)
+                .then_some(BuildErrorKind::ComparesTemperature { item, field });
         }
         let single = comparison.slots().into_iter().filter(|&s| match self.layout.holds(s) {
             Holds::Signal(id) => self.layout.signals()[id.index()].course.is_monotone(),
@@ -286,7 +302,8 @@ impl Parts {
             // one curve that goes one way between its points
             (Degree::Nonlinear, 1) => {
                 let affine = |s: &u32| comparison.degree_in(*s) <= Degree::Affine;
-                let varying = |s: &u32| matches!(self.layout.holds(*s), Holds::Time | Holds::Signal(_));
+                let varying =
+                    |s: &u32| matches!(self.layout.holds(*s), Holds::Time | Holds::Signal(_));
                 comparison.slots().iter().filter(|s| varying(s)).all(affine)
             }
             _ => false,

@@ -28,8 +28,9 @@ impl Changing {
 }
 
 impl Network {
-    /// The inputs that change with time and that a temperature or heat flow depends on, each once: a signal that nothing
-    /// uses does not count, nor does one with the same value at all its points.
+    /// The inputs that change with time and that a temperature or heat flow depends on, each once:
+    /// a signal that nothing uses does not count, nor does one with the same value at all its
+    /// points.
     pub fn changing_inputs(&self) -> Vec<Changing> {
         let mut walk = Walk::new(&self.parts);
         if walk.can_change(&[]) {
@@ -38,8 +39,8 @@ impl Network {
         walk.found()
     }
 
-    /// The inputs that change with time and that one of these values of the results depends on, each once. What happens
-    /// beyond a boundary does not reach a node.
+    /// The inputs that change with time and that one of these values of the results depends on,
+    /// each once. What happens beyond a boundary does not reach a node.
     pub fn changing_inputs_of(&self, values: &[&Value]) -> Vec<Changing> {
         let mut walk = Walk::new(&self.parts);
         if walk.can_change(values) {
@@ -71,7 +72,13 @@ enum Element {
 
 impl<'a> Walk<'a> {
     fn new(parts: &'a Parts) -> Self {
-        Self { parts, around: Vec::new(), seen: BTreeSet::new(), waiting: Vec::new(), found: BTreeSet::new() }
+        Self {
+            parts,
+            around: Vec::new(),
+            seen: BTreeSet::new(),
+            waiting: Vec::new(),
+            found: BTreeSet::new(),
+        }
     }
 
     /// Whether anything changes at all; nearly always nothing does, and no path has to be followed.
@@ -113,7 +120,8 @@ impl<'a> Walk<'a> {
         match element {
             Element::Vertex(vertex) => self.vertex(vertex as usize),
             Element::Conductor(i) => {
-                let (item, conductor) = (Item::Conductor(ConductorId::from_len(i)), &parts.conductors[i]);
+                let (item, conductor) =
+                    (Item::Conductor(ConductorId::from_len(i)), &parts.conductors[i]);
                 for (field, value) in conductor.law.parts() {
                     self.take(Some((item, field)), value);
                 }
@@ -129,7 +137,10 @@ impl<'a> Walk<'a> {
                 for (_, field, value) in parts.thresholds().filter(|(of, _, _)| *of == item) {
                     self.take(Some((item, field)), value);
                 }
-                parts.controls[i].thermostat.iter().for_each(|thermostat| self.go_to(thermostat.sense));
+                parts.controls[i]
+                    .thermostat
+                    .iter()
+                    .for_each(|thermostat| self.go_to(thermostat.sense));
             }
             Element::Switch(i) => {
                 let switch = &parts.switches[i];
@@ -144,7 +155,9 @@ impl<'a> Walk<'a> {
             if self.around.is_empty() {
                 self.around = around(self.parts);
             }
-            std::mem::take(&mut self.around[vertex]).into_iter().for_each(|element| self.go(element));
+            std::mem::take(&mut self.around[vertex])
+                .into_iter()
+                .for_each(|element| self.go(element));
             return;
         };
         let item = Item::Boundary(BoundaryId::from_len(boundary));
@@ -188,8 +201,11 @@ impl<'a> Walk<'a> {
             HeatOf::Source(id) => self.go(Element::Source(id.index())),
             HeatOf::Boundary(id) => {
                 let touches = |end: End| end == End::Boundary(id);
-                let own =
-                    parts.conductors.iter().enumerate().filter(|(_, c)| touches(c.from) || touches(c.to));
+                let own = parts
+                    .conductors
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, c)| touches(c.from) || touches(c.to));
                 own.for_each(|(i, _)| self.go(Element::Conductor(i)));
             }
             HeatOf::Joint(id) => {
@@ -220,7 +236,8 @@ fn around(parts: &Parts) -> Vec<Vec<Element>> {
 impl Parts {
     /// Whether a signal is anything but one value for ever.
     fn signal_changes(&self, id: SignalId) -> bool {
-        let differ = |values: &[f64]| values.windows(2).any(|pair| pair[0].to_bits() != pair[1].to_bits());
+        let differ =
+            |values: &[f64]| values.windows(2).any(|pair| pair[0].to_bits() != pair[1].to_bits());
         match &self.layout.signals()[id.index()].course {
             Course::Curve { points, .. } => differ(points.values()),
             Course::Steps { values, .. } => differ(values),

@@ -1,11 +1,13 @@
-//! Checks of a network's structure: nodes that can be solved for, islands that are tied to something.
+//! Checks of a network's structure: nodes that can be solved for, islands that are tied to
+//! something.
 
 use crate::error::{BuildError, BuildErrorKind};
 use crate::id::{End, NodeId};
 use crate::parts::Parts;
 
 pub(crate) fn structure(parts: &Parts, errors: &mut Vec<BuildError>) {
-    // two boundaries with a path between them are a network: nothing is sought but the heat that passes
+    // two boundaries with a path between them are a network: nothing is sought but the heat that
+    // passes
     if parts.nodes.is_empty() && parts.conductors.is_empty() {
         errors.push(BuildError { kind: BuildErrorKind::Empty, name: String::new() });
     }
@@ -29,7 +31,9 @@ fn nodes(parts: &Parts, stores: &[bool], errors: &mut Vec<BuildError>) {
         let kind = match (stores[i], node.massless) {
             (false, false) => BuildErrorKind::NoCapacity { node: id },
             (true, true) => BuildErrorKind::MasslessWithCapacity { node: id },
-            (true, false) if node.initial.is_none() => BuildErrorKind::NoInitialTemperature { node: id },
+            (true, false) if node.initial.is_none() => {
+                BuildErrorKind::NoInitialTemperature { node: id }
+            }
             _ => continue,
         };
         errors.push(BuildError { kind, name: node.name.clone() });
@@ -90,7 +94,9 @@ impl Islands {
     /// The nodes that have a path straight to a boundary.
     pub(crate) fn grounded<'a>(&self, parts: &'a Parts) -> impl Iterator<Item = usize> + use<'a> {
         parts.conductors.iter().filter_map(|c| match (c.from, c.to) {
-            (End::Node(node), End::Boundary(_)) | (End::Boundary(_), End::Node(node)) => Some(node.index()),
+            (End::Node(node), End::Boundary(_)) | (End::Boundary(_), End::Node(node)) => {
+                Some(node.index())
+            }
             _ => None,
         })
     }

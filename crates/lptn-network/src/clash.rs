@@ -1,8 +1,10 @@
-//! Names that are taken by what stands inside something else: `plate.z1` is a face of the grid `plate`, `steel.T` the
-//! temperature of a node.
+//! Names that are taken by what stands inside something else: `plate.z1` is a face of the grid
+//! `plate`, `steel.T` the temperature of a node.
 
 use crate::error::{BuildError, BuildErrorKind};
-use crate::id::{BoundaryId, CapacitorId, ConductorId, GridId, Item, JointId, LimitId, NodeId, SourceId};
+use crate::id::{
+    BoundaryId, CapacitorId, ConductorId, GridId, Item, JointId, LimitId, NodeId, SourceId,
+};
 use crate::parts::Parts;
 use crate::parts::grid::{Face, GridFace};
 use crate::parts::grid_value::GridValue;

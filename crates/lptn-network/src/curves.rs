@@ -1,4 +1,5 @@
-//! Values that curve over time, to be looked at before a run: an integrator has to see what they do.
+//! Values that curve over time, to be looked at before a run: an integrator has to see what they
+//! do.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -14,15 +15,15 @@ use crate::parts::layout::Holds;
 use crate::slot;
 use crate::value::Value;
 
-/// Temperatures over those of the start, in K, at which a value is looked at whose course over time the temperatures
-/// themselves change.
+/// Temperatures over those of the start, in K, at which a value is looked at whose course over time
+/// the temperatures themselves change.
 const RISES: [f64; 4] = [0.0, 10.0, 100.0, -30.0];
 
 /// The start in K of a node that has none.
 const USUAL: f64 = 300.0;
 
-/// A value that is not a straight line in time between [`Network::breakpoints`], or a part of one that reads no
-/// temperature.
+/// A value that is not a straight line in time between [`Network::breakpoints`], or a part of one
+/// that reads no temperature.
 #[derive(Clone, Debug)]
 pub struct Curve {
     value: Value,
@@ -40,11 +41,14 @@ struct Held {
 }
 
 impl Network {
-    /// The curves among the inputs of the heat flows. Of a value that reads temperatures as well these are the largest
-    /// parts that read none; where time and temperature go into a function together, also the whole at some temperatures.
+    /// The curves among the inputs of the heat flows. Of a value that reads temperatures as well
+    /// these are the largest parts that read none; where time and temperature go into a function
+    /// together, also the whole at some temperatures.
     pub fn curves(&self) -> Vec<Curve> {
         let mut found = Found::default();
-        for (item, _, value) in self.inputs().filter(|(item, _, _)| !matches!(item, Item::Signal(_))) {
+        for (item, _, value) in
+            self.inputs().filter(|(item, _, _)| !matches!(item, Item::Signal(_)))
+        {
             if found.is_new(value) && self.parts.look_for_curves(value, &mut found.curves) {
                 self.hold(item, value, &mut found.curves);
             }
@@ -66,8 +70,14 @@ impl Network {
         found.distinct()
     }
 
-    /// The value of a curve at `time` in s, comparisons as they stand at `inside` in s; `None` where it has none.
-    pub fn curve_at(&self, curve: &Curve, scope: &mut Evaluation, (time, inside): (f64, f64)) -> Option<f64> {
+    /// The value of a curve at `time` in s, comparisons as they stand at `inside` in s; `None`
+    /// where it has none.
+    pub fn curve_at(
+        &self,
+        curve: &Curve,
+        scope: &mut Evaluation,
+        (time, inside): (f64, f64),
+    ) -> Option<f64> {
         scope.set_time(time, inside);
         if let Some(held) = &curve.held {
             self.place_held(held, scope);
@@ -80,7 +90,10 @@ impl Network {
             let [from, to] = [from, to].map(|end| self.held_temperature(end, held.rise, scope));
             let mean = 0.5 * (from + to);
             let slots = [slot::FROM, slot::TO, slot::MEAN, slot::DIFFERENCE];
-            slots.into_iter().zip([from, to, mean, from - to]).for_each(|(slot, t)| scope.set(slot, t));
+            slots
+                .into_iter()
+                .zip([from, to, mean, from - to])
+                .for_each(|(slot, t)| scope.set(slot, t));
             // of a source both ends are its node
             scope.set(slot::OWN, mean);
         }
@@ -93,8 +106,12 @@ impl Network {
     fn held_temperature(&self, end: End, rise: f64, scope: &mut Evaluation) -> f64 {
         match end {
             // a massless node need not have a start
-            End::Node(id) => Some(self.initial(id)).filter(|t| t.is_finite()).unwrap_or(USUAL) + rise,
-            End::Boundary(id) => self.boundaries()[id.index()].temperature.at(scope).unwrap_or(f64::NAN),
+            End::Node(id) => {
+                Some(self.initial(id)).filter(|t| t.is_finite()).unwrap_or(USUAL) + rise
+            }
+            End::Boundary(id) => {
+                self.boundaries()[id.index()].temperature.at(scope).unwrap_or(f64::NAN)
+            }
         }
     }
 
@@ -110,10 +127,11 @@ impl Network {
             }
             _ => None,
         };
-        let named = value.slots().into_iter().filter_map(|slot| match self.parts.layout.holds(slot) {
-            Holds::Temperature(end) => Some((slot, end)),
-            _ => None,
-        });
+        let named =
+            value.slots().into_iter().filter_map(|slot| match self.parts.layout.holds(slot) {
+                Holds::Temperature(end) => Some((slot, end)),
+                _ => None,
+            });
         let named: Vec<(u32, End)> = named.collect();
         let held = RISES.map(|rise| Held { rise, ends, named: named.clone() });
         curves.extend(held.map(|held| Curve { value: value.clone(), held: Some(held) }));
@@ -150,8 +168,8 @@ impl Found {
 }
 
 impl Parts {
-    /// Adds the curves of a value. Whether it has to be looked at as a whole too: time and temperatures go into one
-    /// function.
+    /// Adds the curves of a value. Whether it has to be looked at as a whole too: time and
+    /// temperatures go into one function.
     fn look_for_curves(&self, value: &Value, curves: &mut Vec<Curve>) -> bool {
         let is_foreign = |slot: u32| self.slot_kind(slot) == SlotKind::Foreign;
         if !value.slots().into_iter().any(is_foreign) {
@@ -164,17 +182,24 @@ impl Parts {
         for program in value.programs() {
             let split = program.split(&|slot| self.slot_kind(slot));
             entangled |= split.entangled;
-            let curved =
-                split.parts.into_iter().filter(|part: &Program| self.course_of(part) == Degree::Nonlinear);
-            curves.extend(curved.map(|part| Curve { value: Value::Expression(part.into()), held: None }));
+            let curved = split
+                .parts
+                .into_iter()
+                .filter(|part: &Program| self.course_of(part) == Degree::Nonlinear);
+            curves.extend(
+                curved.map(|part| Curve { value: Value::Expression(part.into()), held: None }),
+            );
         }
         // a factor that switches has no value before the run
-        let positions = |slot: u32| matches!(self.layout.holds(slot), Holds::Control(_) | Holds::Switch(_));
+        let positions =
+            |slot: u32| matches!(self.layout.holds(slot), Holds::Control(_) | Holds::Switch(_));
         entangled && !value.slots().into_iter().any(positions)
     }
 
     fn curves_of_signals(&self, watched: &Watched<'_>, found: &mut Found) {
-        for (signal, _) in self.layout.signals().iter().zip(&watched.signals).filter(|(_, used)| **used) {
+        for (signal, _) in
+            self.layout.signals().iter().zip(&watched.signals).filter(|(_, used)| **used)
+        {
             if let crate::Course::Expression(value) = &signal.course
                 && found.is_new(value)
             {

@@ -119,21 +119,25 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     DependsOnTime { item: Item, field: Field } = "network::depends_on_time", at Some((*item, *field)),
         says format!("{} has to be constant, but depends on the time `t`", say.field(*item, *field)),
         help text("sources, boundaries and the values of conductors may depend on `t`; a parameter that should is a [signal]");
-    /// A field that has to be known before any result depends on the temperature of a node or boundary.
+    /// A field that has to be known before any result depends on the temperature of a node or
+    /// boundary.
     DependsOnResult { item: Item, field: Field } = "network::depends_on_result", at Some((*item, *field)),
         says format!("{} cannot depend on the temperature of a node or boundary", say.field(*item, *field)),
         help text("sources, conductors and limits may depend on temperatures; a capacity and a property of a material may \
                    depend on their own `T`");
-    /// A comparison whose sides are not linear in `t`: the time at which it changes is not known beforehand.
+    /// A comparison whose sides are not linear in `t`: the time at which it changes is not known
+    /// beforehand.
     ComparisonNotLinear { item: Item, field: Field } = "network::comparison_not_linear", at Some((*item, *field)),
         says format!("{} compares something that is not linear in the time `t`", say.field(*item, *field)),
         help text("compare `t` itself, for example `if(t < 300 [s], 0 [W], 100 [W])`");
-    /// A comparison of a temperature where its change cannot be followed: in a property, or for equality.
+    /// A comparison of a temperature where its change cannot be followed: in a property, or for
+    /// equality.
     ComparesTemperature { item: Item, field: Field } = "network::compares_temperature", at Some((*item, *field)),
         says format!("{} compares temperatures, or what switches, where the change cannot be followed", say.field(*item, *field)),
         help text("sources and paths may compare temperatures, with `<` or `>`; elsewhere write a smooth change, for \
                    example `0.5 * (1 + tanh((T - 80 [degC]) / 1 [K]))`, or a [table]");
-    /// The threshold at which a control switches on lies beyond that at which it switches off, or both are one.
+    /// The threshold at which a control switches on lies beyond that at which it switches off, or
+    /// both are one.
     ThresholdsCrossed { control: ControlId, fields: [Field; 2], on: f64, off: f64 } = "network::thresholds_crossed",
         at Some((Item::Control(*control), fields[0])),
         says crossed(&say.item(Item::Control(*control)), *fields, (*on, *off)),
@@ -173,7 +177,8 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             say.item(*item), format_short(*liquidus), format_short(*solidus)
         ),
         help text("exchange `solidus` and `liquidus`");
-    /// A node of which a part is said to be molten at its start, but that does not melt at just that temperature.
+    /// A node of which a part is said to be molten at its start, but that does not melt at just
+    /// that temperature.
     NotMelting { node: NodeId, temperature: f64 } = "network::not_melting", at Some((Item::Node(*node), Field::Initial)),
         says format!("`{}` is to start partly molten, but does not melt at just {temperature} K", say.name),
         help text("give the material the solidus and liquidus of the run that wrote the state, or leave the share out");
@@ -209,7 +214,8 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             say.item(Item::Signal(*signal)), format_short(*period), format_short(*span)
         ),
         help Some(format!("write `period = \"{span} s\"` or more"));
-    /// Points of a signal that are not as many times as values, one at least, finite, the times rising.
+    /// Points of a signal that are not as many times as values, one at least, finite, the times
+    /// rising.
     SignalPoints { signal: SignalId } = "network::signal_points", at Some((Item::Signal(*signal), Field::Value)),
         says format!("the points of `{}` are not rising times with one finite value each", say.name), help None;
     /// An expression that could not be evaluated.
@@ -242,7 +248,8 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     NoInitialTemperature { node: NodeId } = "network::no_initial_temperature", at Some((Item::Node(*node), Field::Name)),
         says format!("{} has no temperature at the start", say.item(Item::Node(*node))),
         help text("add `T0 = \"25 degC\"` to the node, or to [default] for every node");
-    /// Nodes that together reach neither a capacity nor a boundary: their temperatures are not determined.
+    /// Nodes that together reach neither a capacity nor a boundary: their temperatures are not
+    /// determined.
     FloatingIsland { nodes: Vec<NodeId>, names: Vec<String> } = "network::floating_island",
         at nodes.first().map(|node| (Item::Node(*node), Field::Name)),
         says format!(

@@ -67,9 +67,11 @@ impl<'a> Say<'a> {
 /// What to do where a name is taken twice.
 pub(crate) fn unused_name(first: Item, name: &str) -> String {
     let kinds = match first {
-        Item::Parameter(_) | Item::Signal(_) | Item::Control(_) | Item::Table(_) | Item::Report(_) => {
-            "parameters, signals, controls, tables and reports"
-        }
+        Item::Parameter(_)
+        | Item::Signal(_)
+        | Item::Control(_)
+        | Item::Table(_)
+        | Item::Report(_) => "parameters, signals, controls, tables and reports",
         _ => "nodes and elements",
     };
     format!("rename one of them, for example `{name}_2`; {kinds} share one set of names")
@@ -91,10 +93,15 @@ pub(crate) fn crossed(words: &str, fields: [Field; 2], (on, off): (f64, f64)) ->
     let [on_key, off_key] = fields.map(Field::key);
     let celsius = |kelvin: f64| format_short(kelvin - ZERO_CELSIUS);
     if off.total_cmp(&on).is_eq() {
-        return format!("`{on_key}` and `{off_key}` of {words} are one temperature, {} degC", celsius(on));
+        return format!(
+            "`{on_key}` and `{off_key}` of {words} are one temperature, {} degC",
+            celsius(on)
+        );
     }
     let (on, off) = (celsius(on), celsius(off));
-    format!("`{on_key}` and `{off_key}` of {words} are crossed over: on at {on} degC, off at {off} degC")
+    format!(
+        "`{on_key}` and `{off_key}` of {words} are crossed over: on at {on} degC, off at {off} degC"
+    )
 }
 
 pub(crate) fn in_unit(value: f64, field: Field) -> String {
@@ -123,9 +130,11 @@ pub(crate) fn not_positive(field: Field, value: f64) -> &'static str {
         Field::Law(law) => law.hints.negative,
         Field::Capacity if zero => "a node that stores nothing is `{ massless = true }`",
         Field::Capacity => "check the sign: heat that is stored makes a body warmer",
-        Field::Mass | Field::Volume | Field::Density | Field::SpecificHeat | Field::Conductivity => {
-            "a body has a mass, a volume and properties of more than zero"
-        }
+        Field::Mass
+        | Field::Volume
+        | Field::Density
+        | Field::SpecificHeat
+        | Field::Conductivity => "a body has a mass, a volume and properties of more than zero",
         Field::Size | Field::CharacteristicLength => "a body has measures of more than zero",
         Field::LatentHeat => "melting takes up heat: give it as a positive number",
         _ => "check the sign: heat flows from the warm to the cold end, whichever is named first",
@@ -149,7 +158,11 @@ pub(crate) fn evaluation(error: &EvalError) -> Option<String> {
 pub(crate) fn usable(name: &str) -> String {
     let letters = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
     let name: String = letters.collect();
-    if name.starts_with(|c: char| c.is_ascii_digit()) || name.is_empty() { format!("_{name}") } else { name }
+    if name.starts_with(|c: char| c.is_ascii_digit()) || name.is_empty() {
+        format!("_{name}")
+    } else {
+        name
+    }
 }
 
 /// "1 x 2": counts or lengths along the axes.

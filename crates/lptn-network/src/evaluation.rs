@@ -16,8 +16,8 @@ pub(crate) const PASS: usize = 4;
 /// A number with its derivatives by up to [`PASS`] temperatures.
 pub(crate) type Slope = Dual<PASS>;
 
-/// The numbers that expressions read: time, parameters, signals and temperatures. One per thread; reused, so that
-/// evaluating allocates nothing.
+/// The numbers that expressions read: time, parameters, signals and temperatures. One per thread;
+/// reused, so that evaluating allocates nothing.
 #[derive(Clone, Debug)]
 pub struct Evaluation {
     layout: Arc<Layout>,
@@ -54,8 +54,8 @@ impl Evaluation {
         self.set(slot, value);
     }
 
-    /// Sets the temperature of every node and boundary in K, in the order of their ids, for expressions of
-    /// results.
+    /// Sets the temperature of every node and boundary in K, in the order of their ids, for
+    /// expressions of results.
     pub fn set_temperatures(&mut self, nodes: &[f64], boundaries: &[f64]) {
         for (slot, &value) in self.layout.temperatures().zip(nodes.iter().chain(boundaries)) {
             self.slots[slot as usize] = value;
@@ -65,7 +65,8 @@ impl Evaluation {
         }
     }
 
-    /// Sets the heat flows that expressions of results name, in W, in the order of [`crate::Network::named_heats`].
+    /// Sets the heat flows that expressions of results name, in W, in the order of
+    /// [`crate::Network::named_heats`].
     pub fn set_heats(&mut self, heats: &[f64]) {
         for ((_, slot), &value) in self.layout.heats().iter().zip(heats) {
             self.slots[*slot as usize] = value;
@@ -77,7 +78,8 @@ impl Evaluation {
         self.slots[self.layout.signal(id) as usize]
     }
 
-    /// Moves to `time` in s; comparisons of `t` and of signals keep the truth they have at `segment` in s.
+    /// Moves to `time` in s; comparisons of `t` and of signals keep the truth they have at
+    /// `segment` in s.
     pub fn set_time(&mut self, time: f64, segment: f64) {
         self.set(slot::TIME, time);
         self.set(slot::SEGMENT, segment);
@@ -87,10 +89,12 @@ impl Evaluation {
             let id = SignalId::from_len(i);
             let now = layout.signal(id);
             for (at, slot) in [(segment, now + 1), (time, now)] {
-                let value = signal.at(at, segment, &self.slots, &mut self.stack).unwrap_or_else(|problem| {
-                    self.failure.get_or_insert((id, problem));
-                    f64::NAN
-                });
+                let value = signal.at(at, segment, &self.slots, &mut self.stack).unwrap_or_else(
+                    |problem| {
+                        self.failure.get_or_insert((id, problem));
+                        f64::NAN
+                    },
+                );
                 self.set(slot, value);
             }
         }
@@ -128,7 +132,12 @@ impl Evaluation {
     }
 
     /// A program's value at `time` in s.
-    pub(crate) fn evaluate(&mut self, program: &Program, time: f64, segment: f64) -> Result<f64, EvalError> {
+    pub(crate) fn evaluate(
+        &mut self,
+        program: &Program,
+        time: f64,
+        segment: f64,
+    ) -> Result<f64, EvalError> {
         self.set_time(time, segment);
         program.eval(&self.slots, &mut self.stack)
     }
@@ -138,7 +147,8 @@ impl Value {
     /// The value where `scope` stands, in SI units.
     ///
     /// # Errors
-    /// What the expression's evaluation reports, such as a negative base under a non-integer exponent.
+    /// What the expression's evaluation reports, such as a negative base under a non-integer
+    /// exponent.
     pub fn at(&self, scope: &mut Evaluation) -> Result<f64, EvalError> {
         let (slots, stack) = scope.plain();
         self.on(slots, stack)

@@ -76,8 +76,7 @@ pub enum InputProblem {
 
 const INPUT: &str = "solve::input";
 
-const FURTHER: &str =
-    "let the table or expression reach further, or keep the end values of a table with `outside = \"hold\"`";
+const FURTHER: &str = "let the table or expression reach further, or keep the end values of a table with `outside = \"hold\"`";
 
 impl From<EvalError> for InputProblem {
     fn from(error: EvalError) -> Self {

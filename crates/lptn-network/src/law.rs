@@ -1,4 +1,5 @@
-//! How conductors carry heat: a law with its values, and its conductance on numbers or dual numbers.
+//! How conductors carry heat: a law with its values, and its conductance on numbers or dual
+//! numbers.
 
 use lptn_laws::{Carries, Formula, Range};
 use lptn_units::{Dimension, EvalError, Scalar, Type};
@@ -9,8 +10,8 @@ use crate::input_error::InputProblem;
 use crate::slot;
 use crate::value::{Input, Value};
 
-/// How a conductor carries heat: a law with one value for each of its fields. Heat flow is positive from `from` to `to`;
-/// that of a stream goes one way only.
+/// How a conductor carries heat: a law with one value for each of its fields. Heat flow is positive
+/// from `from` to `to`; that of a stream goes one way only.
 ///
 /// A builder takes a law of [`Input`]s, a network holds one of [`Value`]s in SI units.
 #[derive(Clone, Debug)]
@@ -99,7 +100,9 @@ impl<V> Law<V> {
             Values::One([value]) => Values::One([f(Field::law(formula, 0), value)]),
             Values::Several(values) => {
                 let others = values.into_iter().enumerate();
-                Values::Several(Box::new(others.map(|(i, value)| f(Field::law(formula, i), value)).collect()))
+                Values::Several(Box::new(
+                    others.map(|(i, value)| f(Field::law(formula, i), value)).collect(),
+                ))
             }
         };
         Law { formula, fluid, values }
@@ -163,14 +166,16 @@ impl Law {
     /// Whether it is the same law with the same values; `false` where that is not looked at.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         let (own, others) = (self.values(), other.values());
-        let comparable = !self.is_stream() && self.formula == other.formula && own.len() == others.len();
+        let comparable =
+            !self.is_stream() && self.formula == other.formula && own.len() == others.len();
         comparable && own.iter().zip(others).all(|(a, b)| a.is_same(b))
     }
 
     /// The conductance in W/K where `scope` stands; 0 for a stream.
     ///
     /// # Errors
-    /// What the evaluation of an expression reports; a value that its field cannot have counts as no number.
+    /// What the evaluation of an expression reports; a value that its field cannot have counts as
+    /// no number.
     pub fn conductance_at(&self, scope: &mut Evaluation) -> Result<f64, EvalError> {
         let (slots, stack) = scope.plain();
         At { slots, stack }.conductance(self).map_err(|(_, problem)| match problem {
@@ -186,11 +191,17 @@ fn impossible(field: &lptn_laws::Field, value: f64) -> Option<InputProblem> {
     const RESISTANCE: Type = Type::of(Dimension::RESISTANCE);
     match field.range {
         Range::Finite => None,
-        Range::Fraction => (!(0.0..=1.0).contains(&value)).then_some(InputProblem::NotAFraction(value)),
+        Range::Fraction => {
+            (!(0.0..=1.0).contains(&value)).then_some(InputProblem::NotAFraction(value))
+        }
         _ if value >= 0.0 || value.is_nan() => None,
         Range::Temperature => Some(InputProblem::BelowAbsoluteZero(value)),
-        Range::Positive if field.ty == CONDUCTANCE => Some(InputProblem::NegativeConductance(value)),
-        Range::Positive if field.ty == RESISTANCE => Some(InputProblem::NegativeConductance(value.recip())),
+        Range::Positive if field.ty == CONDUCTANCE => {
+            Some(InputProblem::NegativeConductance(value))
+        }
+        Range::Positive if field.ty == RESISTANCE => {
+            Some(InputProblem::NegativeConductance(value.recip()))
+        }
         Range::Positive => Some(InputProblem::Negative(value)),
     }
 }
@@ -247,8 +258,8 @@ pub enum Flow {
     Conductance(f64),
     /// `q = sigma Gr (T_from^4 - T_to^4)` with this constant exchange area in m^2.
     Radiation(f64),
-    /// A stream of this constant capacity rate in W/K: `to` receives `mcp (T_from - T_to)`; for a negative one `from`
-    /// receives `-mcp (T_to - T_from)`.
+    /// A stream of this constant capacity rate in W/K: `to` receives `mcp (T_from - T_to)`; for a
+    /// negative one `from` receives `-mcp (T_to - T_from)`.
     Stream(f64),
     /// Anything else: [`Network::exchange`](crate::Network::exchange).
     Variable,

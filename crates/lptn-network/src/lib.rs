@@ -1,10 +1,12 @@
-//! Thermal networks: nodes, boundaries, conductors and sources, with the invariants that make them solvable.
+//! Thermal networks: nodes, boundaries, conductors and sources, with the invariants that make them
+//! solvable.
 //!
 //! A [`Network`] is built by a [`NetworkBuilder`], from Rust or from a netlist, and never changes;
-//! [`Network::with`] gives the same structure with other parameters. This crate knows nothing of TOML, of
-//! matrices or of solvers.
+//! [`Network::with`] gives the same structure with other parameters. This crate knows nothing of
+//! TOML, of matrices or of solvers.
 //!
-//! Units: SI inside, temperatures in K. Sign: heat is positive from `from` to `to`, and into a node.
+//! Units: SI inside, temperatures in K. Sign: heat is positive from `from` to `to`, and into a
+//! node.
 
 mod breakpoints;
 mod builder;
@@ -47,8 +49,9 @@ pub use error::{BuildError, BuildErrorKind, BuildErrors};
 pub use error_words::{Naming, Say};
 pub use evaluation::Evaluation;
 pub use id::{
-    BoundaryId, CapacitorId, ConductorId, ControlId, End, Field, FluidId, GridId, Item, JointId, LawField,
-    LimitId, MaterialId, NodeId, ParameterId, ReportId, SignalId, SourceId, SwitchId, TableId,
+    BoundaryId, CapacitorId, ConductorId, ControlId, End, Field, FluidId, GridId, Item, JointId,
+    LawField, LimitId, MaterialId, NodeId, ParameterId, ReportId, SignalId, SourceId, SwitchId,
+    TableId,
 };
 pub use input_error::{InputError, InputProblem};
 pub use law::{Flow, Law, Received};
@@ -73,6 +76,7 @@ pub use scope::{Context, NetworkScope};
 pub use stream::Passing;
 pub use tangent::{NoTangents, Tangents};
 pub use typed::{
-    Area, Conductance, FilmCoefficient, HeatCapacity, HeatFlow, Resistance, Temperature, Time, ZERO_CELSIUS,
+    Area, Conductance, FilmCoefficient, HeatCapacity, HeatFlow, Resistance, Temperature, Time,
+    ZERO_CELSIUS,
 };
 pub use value::{Input, Lump, Size, Value};

@@ -2,7 +2,8 @@
 
 use crate::id::Item;
 
-/// Items by the hash of their name; the names themselves stand in the items. Nothing depends on the order of its slots.
+/// Items by the hash of their name; the names themselves stand in the items. Nothing depends on the
+/// order of its slots.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NameIndex {
     /// As many as a power of two, at most two thirds of them taken.
@@ -48,7 +49,8 @@ impl NameIndex {
     }
 }
 
-/// The upper half of a product of words of 8 bytes, into which every bit goes. Names made to collide would only cost time.
+/// The upper half of a product of words of 8 bytes, into which every bit goes. Names made to
+/// collide would only cost time.
 fn hash(name: &str) -> u32 {
     // 2^64 over the golden ratio (D. E. Knuth, The Art of Computer Programming 3, section 6.4)
     const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
@@ -77,8 +79,9 @@ mod tests {
         for (i, name) in names.iter().enumerate() {
             index.insert(name, Item::Node(NodeId::from_len(i)));
         }
-        let find =
-            |name: &str| index.find(name, |item| matches!(item, Item::Node(id) if names[id.index()] == name));
+        let find = |name: &str| {
+            index.find(name, |item| matches!(item, Item::Node(id) if names[id.index()] == name))
+        };
         for (i, name) in names.iter().enumerate() {
             assert_eq!(find(name), Some(Item::Node(NodeId::from_len(i))));
         }

@@ -48,8 +48,8 @@ pub fn is_name(text: &str) -> bool {
     text.starts_with(|c: char| word(c) && !c.is_ascii_digit()) && text.chars().all(word)
 }
 
-/// Whether it is a name, or the name of what stands inside others: `planet[2].gear`, `wall[1,1,3]`. Indices are
-/// whole numbers from 1, written without spaces and without zeros before them.
+/// Whether it is a name, or the name of what stands inside others: `planet[2].gear`, `wall[1,1,3]`.
+/// Indices are whole numbers from 1, written without spaces and without zeros before them.
 pub fn is_path(text: &str) -> bool {
     text.split('.').all(|part| match part.split_once('[') {
         None => is_name(part),
@@ -58,7 +58,8 @@ pub fn is_path(text: &str) -> bool {
                 i.starts_with(|c: char| c.is_ascii_digit() && c != '0')
                     && i.chars().all(|c| c.is_ascii_digit())
             };
-            is_name(name) && indices.strip_suffix(']').is_some_and(|list| list.split(',').all(index))
+            is_name(name)
+                && indices.strip_suffix(']').is_some_and(|list| list.split(',').all(index))
         }
     })
 }
@@ -85,12 +86,14 @@ mod tests {
 
     #[test]
     fn names_and_paths_are_told_from_other_texts() {
-        for path in ["steel", "_a1", "planet.gear", "planet[2].gear", "wall[1,20,3]", "a[1].b[2,3].c"] {
+        for path in
+            ["steel", "_a1", "planet.gear", "planet[2].gear", "wall[1,20,3]", "a[1].b[2,3].c"]
+        {
             assert!(is_path(path), "{path}");
         }
         for other in [
-            "", ".", "a.", ".a", "1a", "a[0]", "a[01]", "a[]", "a[1", "a[1,]", "a[*]", "a[1]b", "a b",
-            "a[ 1]", "[1]",
+            "", ".", "a.", ".a", "1a", "a[0]", "a[01]", "a[]", "a[1", "a[1,]", "a[*]", "a[1]b",
+            "a b", "a[ 1]", "[1]",
         ] {
             assert!(!is_path(other), "{other}");
         }

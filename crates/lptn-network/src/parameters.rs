@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use lptn_units::{Expression, Quantity, Scope, Symbol, Type, UnitError, kelvin_alone, parse_quantity};
+use lptn_units::{
+    Expression, Quantity, Scope, Symbol, Type, UnitError, kelvin_alone, parse_quantity,
+};
 
 use crate::id::ParameterId;
 use crate::names::UnknownName;
@@ -50,12 +52,14 @@ impl Parameters {
         self.deviations[id.index()]
     }
 
-    /// Sets a parameter by name to a written quantity, such as `"5000 rpm"`, whose unit is checked as in a netlist: `"300 K"`
-    /// is a difference. An expression without names will do, `"absolute(300 [K])"`. A `±` in the text takes the place of
-    /// the parameter's own, see [`Parameters::deviation`].
+    /// Sets a parameter by name to a written quantity, such as `"5000 rpm"`, whose unit is checked
+    /// as in a netlist: `"300 K"` is a difference. An expression without names will do,
+    /// `"absolute(300 [K])"`. A `±` in the text takes the place of the parameter's own, see
+    /// [`Parameters::deviation`].
     ///
     /// # Errors
-    /// [`ParameterError`] for an unknown name, a unit of another type or a number that cannot be read.
+    /// [`ParameterError`] for an unknown name, a unit of another type or a number that cannot be
+    /// read.
     pub fn set_text(&mut self, name: &str, text: &str) -> Result<ParameterId, ParameterError> {
         let Some(&id) = self.parts.parameter_names.get(name) else {
             let names: Vec<&str> = self.parts.parameters.iter().map(|p| p.name.as_str()).collect();

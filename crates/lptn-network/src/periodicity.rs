@@ -46,7 +46,8 @@ const MOST_PERIODS: u32 = 1000;
 /// How far multiples of two periods may be apart, relative.
 const SAME_PERIOD: f64 = 1e-9;
 
-/// Values that differ by this part of the largest are the same: times are rounded when a period is added.
+/// Values that differ by this part of the largest are the same: times are rounded when a period is
+/// added.
 const SAME_VALUE: f64 = 1e-9;
 
 /// Looks at the inputs in a period, at least.
@@ -59,8 +60,8 @@ const LEAST_LOOKS: usize = 5;
 const ENDS: [(f64, f64); 3] = [(310.0, 300.0), (350.0, 290.0), (280.0, 400.0)];
 
 impl Network {
-    /// The least time in s after which every repeated signal that is used begins anew; `None` if none is repeated. An
-    /// expression in `t` may repeat itself too, which this does not know.
+    /// The least time in s after which every repeated signal that is used begins anew; `None` if
+    /// none is repeated. An expression in `t` may repeat itself too, which this does not know.
     ///
     /// # Errors
     /// [`NoCommonPeriod`] for periods that are not small multiples of a common one.
@@ -89,20 +90,24 @@ impl Network {
         })
     }
 
-    /// Looks whether every input has the same values in `start..start + period` and one period later, times in s. Values
-    /// that depend on temperatures are compared at a few of them.
+    /// Looks whether every input has the same values in `start..start + period` and one period
+    /// later, times in s. Values that depend on temperatures are compared at a few of them.
     ///
     /// # Errors
     /// The first input that has not. The inner error is that of [`Network::breakpoints`].
-    pub fn check_period(&self, start: f64, period: f64) -> Result<Result<(), NotPeriodic>, InputError> {
+    pub fn check_period(
+        &self,
+        start: f64,
+        period: f64,
+    ) -> Result<Result<(), NotPeriodic>, InputError> {
         let times = self.look_times(start, period)?;
         let mut scope = self.evaluation();
         let (nodes, boundaries) =
             (vec![ENDS[0].0; self.nodes().len()], vec![ENDS[0].1; self.boundaries().len()]);
         scope.set_temperatures(&nodes, &boundaries);
-        let items = self
-            .inputs()
-            .filter(|(item, _, value)| self.depends_on_time(value) && !matches!(item, Item::Signal(_)));
+        let items = self.inputs().filter(|(item, _, value)| {
+            self.depends_on_time(value) && !matches!(item, Item::Signal(_))
+        });
         for (item, field, value) in items {
             if let Some(found) = self.differs((item, field, value), &mut scope, (&times, period)) {
                 return Ok(Err(found));
@@ -111,8 +116,8 @@ impl Network {
         Ok(Ok(()))
     }
 
-    /// Times inside the stretches between breakpoints of the first period and of the one after it, each with the middle
-    /// of its stretch.
+    /// Times inside the stretches between breakpoints of the first period and of the one after it,
+    /// each with the middle of its stretch.
     fn look_times(&self, start: f64, period: f64) -> Result<Vec<(f64, f64)>, InputError> {
         let later = |t: f64| if t > start + period { t - period } else { t };
         let mut ends = self.breakpoints(start, start + 2.0 * period)?;
@@ -125,7 +130,8 @@ impl Network {
             let (from, length) = (pair[0], pair[1] - pair[0]);
             let middle = from + 0.5 * length;
             // the golden section: no two looks are a simple part of the stretch apart
-            let place = move |k: usize| from + length * (0.618_033_988_749_895 * (k as f64 + 0.3)).fract();
+            let place =
+                move |k: usize| from + length * (0.618_033_988_749_895 * (k as f64 + 0.3)).fract();
             (0..count).map(move |k| (place(k), middle)).collect::<Vec<_>>()
         };
         Ok(ends.windows(2).flat_map(stretch).collect())
@@ -157,13 +163,17 @@ impl Network {
     }
 }
 
-/// A value at a time, for each of [`ENDS`] where it depends on temperatures; `None` where it has none.
+/// A value at a time, for each of [`ENDS`] where it depends on temperatures; `None` where it has
+/// none.
 fn at_ends(value: &Value, scope: &mut Evaluation, (time, segment): (f64, f64)) -> Vec<Option<f64>> {
     scope.set_time(time, segment);
     let one = |(from, to): (f64, f64)| {
         let mean = 0.5 * (from + to);
         let slots = [slot::FROM, slot::TO, slot::MEAN, slot::DIFFERENCE, slot::OWN];
-        slots.into_iter().zip([from, to, mean, from - to, mean]).for_each(|(slot, t)| scope.set(slot, t));
+        slots
+            .into_iter()
+            .zip([from, to, mean, from - to, mean])
+            .for_each(|(slot, t)| scope.set(slot, t));
         let found: Result<f64, EvalError> = value.at(scope);
         found.ok().filter(|x| x.is_finite())
     };
@@ -195,9 +205,13 @@ mod tests {
 
     #[test]
     fn periods_have_a_common_multiple_or_none() {
-        let is = |a: f64, b: f64, c: f64| common_multiple(a, b).is_some_and(|m| (m - c).abs() < 1e-9 * c);
+        let is = |a: f64, b: f64, c: f64| {
+            common_multiple(a, b).is_some_and(|m| (m - c).abs() < 1e-9 * c)
+        };
         assert!(is(60.0, 60.0, 60.0) && is(60.0, 90.0, 180.0) && is(90.0, 60.0, 180.0));
-        assert!(is(0.1, 0.3, 0.3) && is(86_400.0, 600.0, 86_400.0) && is(600.0, 86_400.0, 86_400.0));
+        assert!(
+            is(0.1, 0.3, 0.3) && is(86_400.0, 600.0, 86_400.0) && is(600.0, 86_400.0, 86_400.0)
+        );
         assert_eq!(common_multiple(1.0, std::f64::consts::PI), None);
         assert_eq!(common_multiple(60.0, 60.001), None);
     }

@@ -1,4 +1,5 @@
-//! Positions: which controls are on and which comparisons of temperatures hold, fixed between two events.
+//! Positions: which controls are on and which comparisons of temperatures hold, fixed between two
+//! events.
 
 use std::sync::Arc;
 
@@ -16,7 +17,8 @@ pub struct Positions {
 }
 
 impl Network {
-    /// The positions before anything is known of temperatures: controls as their `start` says, no comparison holds.
+    /// The positions before anything is known of temperatures: controls as their `start` says, no
+    /// comparison holds.
     pub fn initial_positions(&self) -> Positions {
         let start = |id: ControlId| self.thermostat(id).is_some_and(|thermostat| thermostat.start);
         Positions {
@@ -48,8 +50,8 @@ impl Evaluation {
     pub fn positions(&self) -> Positions {
         let layout = self.layout();
         let controls = (0..layout.control_count()).map(|i| self.is_on(ControlId::from_len(i)));
-        let switches =
-            (0..layout.switch_count()).map(|i| self.slot(layout.switch(SwitchId::from_len(i))) != 0.0);
+        let switches = (0..layout.switch_count())
+            .map(|i| self.slot(layout.switch(SwitchId::from_len(i))) != 0.0);
         Positions { controls: controls.collect(), switches: switches.collect() }
     }
 

@@ -10,9 +10,10 @@ use crate::slot;
 use crate::value::Value;
 
 impl Network {
-    /// Whether the heat that a conductor carries is known to rise with the temperature of its first end and to fall with
-    /// that of its second, whatever the temperatures: so does that of radiation, and of a film coefficient that rises with
-    /// the magnitude of `dT`. `false` where that is not known, and for a stream.
+    /// Whether the heat that a conductor carries is known to rise with the temperature of its first
+    /// end and to fall with that of its second, whatever the temperatures: so does that of
+    /// radiation, and of a film coefficient that rises with the magnitude of `dT`. `false` where
+    /// that is not known, and for a stream.
     pub fn heat_rises(&self, id: ConductorId) -> bool {
         let conductor = &self.conductors()[id.index()];
         let depends = self.parts.dependence(id);

@@ -17,8 +17,8 @@ pub struct RunSettings {
     pub windows: Vec<WindowSettings>,
     /// Tolerance in K.
     pub tolerance: f64,
-    /// For each control by id how long it has been as it stands at the start, in s, from 0: `None` if it never
-    /// switched. Empty for a run that starts from no state.
+    /// For each control by id how long it has been as it stands at the start, in s, from 0: `None`
+    /// if it never switched. Empty for a run that starts from no state.
     pub held: Vec<Option<f64>>,
 }
 
@@ -40,7 +40,8 @@ pub struct Varied {
     pub parameter: ParameterId,
     /// The least and the greatest value it may take; infinite where there is none.
     pub bounds: (f64, f64),
-    /// One standard deviation of what is known of it beforehand, which is its own value; `None` if nothing is.
+    /// One standard deviation of what is known of it beforehand, which is its own value; `None` if
+    /// nothing is.
     pub prior: Option<f64>,
 }
 

@@ -1,10 +1,10 @@
-//! Slots that every expression of a network shares. Those of parameters, signals, nodes and boundaries follow in
-//! the order in which these were added.
+//! Slots that every expression of a network shares. Those of parameters, signals, nodes and
+//! boundaries follow in the order in which these were added.
 
 /// The run's time `t` in s.
 pub const TIME: u32 = 0;
-/// The time that comparisons see: a point inside the present segment. The truth of a comparison of `t`
-/// thus never changes while a step is being computed; the segments end where it does change.
+/// The time that comparisons see: a point inside the present segment. The truth of a comparison of
+/// `t` thus never changes while a step is being computed; the segments end where it does change.
 pub const SEGMENT: u32 = 1;
 /// `T_from` of a conductor in K.
 pub const FROM: u32 = 2;

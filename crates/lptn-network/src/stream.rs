@@ -27,8 +27,8 @@ impl Passing {
 }
 
 impl Network {
-    /// What passes each node that a stream touches, at `time` in s and with everything at 25 degC, so that one flow of
-    /// one fluid has one capacity rate.
+    /// What passes each node that a stream touches, at `time` in s and with everything at 25 degC,
+    /// so that one flow of one fluid has one capacity rate.
     ///
     /// # Errors
     /// [`InputError`] if a flow has no value.
@@ -45,8 +45,11 @@ impl Network {
                 continue;
             }
             let rate = self.rate(id, &mut scope, &temperatures, &mut slopes)?;
-            let (up, down) =
-                if rate < 0.0 { (conductor.to, conductor.from) } else { (conductor.from, conductor.to) };
+            let (up, down) = if rate < 0.0 {
+                (conductor.to, conductor.from)
+            } else {
+                (conductor.from, conductor.to)
+            };
             if let End::Node(node) = up {
                 passing[node.index()].outflow += rate.abs();
             }

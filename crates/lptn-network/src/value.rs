@@ -24,20 +24,21 @@ impl Value {
         match self {
             Self::Constant(value) => Ok(S::from_f64(*value)),
             Self::Expression(program) => program.eval(slots, stack),
-            Self::Product(factors) => {
-                factors.iter().try_fold(S::from_f64(1.0), |product, f| Ok(product * f.on(slots, stack)?))
-            }
+            Self::Product(factors) => factors
+                .iter()
+                .try_fold(S::from_f64(1.0), |product, f| Ok(product * f.on(slots, stack)?)),
         }
     }
 
-    /// Bounds on the value while the temperature that is its own runs through an interval, in SI units.
+    /// Bounds on the value while the temperature that is its own runs through an interval, in SI
+    /// units.
     pub(crate) fn enclose(&self, over: [f64; 2], slots: &[f64]) -> Taylor {
         match self {
             Self::Constant(value) => Taylor::constant(*value),
             Self::Expression(program) => program.enclose(slot::OWN, over, slots),
-            Self::Product(factors) => {
-                factors.iter().fold(Taylor::constant(1.0), |product, f| product * f.enclose(over, slots))
-            }
+            Self::Product(factors) => factors
+                .iter()
+                .fold(Taylor::constant(1.0), |product, f| product * f.enclose(over, slots)),
         }
     }
 
@@ -62,7 +63,8 @@ impl Value {
 
     /// The slots an expression reads, sorted, each once; none for a constant.
     pub fn slots(&self) -> Vec<u32> {
-        let mut slots: Vec<u32> = self.programs().into_iter().flat_map(|program| program.slots()).collect();
+        let mut slots: Vec<u32> =
+            self.programs().into_iter().flat_map(|program| program.slots()).collect();
         slots.sort_unstable();
         slots.dedup();
         slots

@@ -5,12 +5,16 @@ mod common;
 
 use common::{celsius, codes, cooled, every, link, own, quantity, thermostat, time};
 use lptn_network::{
-    Acts, AfterEnd, Bound, ConductorKind, Course, Formula, Melting, NetworkBuilder, Path, Properties,
-    Severity, Size, Temperature, Thermostat, Time,
+    Acts, AfterEnd, Bound, ConductorKind, Course, Formula, Melting, NetworkBuilder, Path,
+    Properties, Severity, Size, Temperature, Thermostat, Time,
 };
 use lptn_units::{Dimension, Interpolation, Outside, Table1, Type};
 
-fn conduct(b: &mut NetworkBuilder, (a, air): (lptn_network::NodeId, lptn_network::BoundaryId), path: Path) {
+fn conduct(
+    b: &mut NetworkBuilder,
+    (a, air): (lptn_network::NodeId, lptn_network::BoundaryId),
+    path: Path,
+) {
     b.conductor("x", ConductorKind::Advection, (a.into(), air.into()), path);
 }
 
@@ -77,7 +81,11 @@ fn substances() {
         }),
         ("not_finite", |b, a, air| {
             let fluid = b.fluid("water", None, quantity("4e3 J/(kg K)"), None);
-            let path = Path::of_fluid(Formula::VolumeFlow, fluid, [quantity("1 m^3/s"), celsius("20 degC")]);
+            let path = Path::of_fluid(
+                Formula::VolumeFlow,
+                fluid,
+                [quantity("1 m^3/s"), celsius("20 degC")],
+            );
             conduct(b, (a, air), path);
         }),
         ("fluid_unknown", |b, a, air| {
@@ -139,7 +147,8 @@ fn signals() {
     }
     let repeated = |period: f64| {
         let points =
-            Table1::new(vec![2.0, 8.0], vec![1.0, 2.0], Interpolation::Linear, Outside::Error).unwrap();
+            Table1::new(vec![2.0, 8.0], vec![1.0, 2.0], Interpolation::Linear, Outside::Error)
+                .unwrap();
         with(Course::Curve { points, after: AfterEnd::Repeat(period) })
     };
     assert_eq!(repeated(6.0), [""; 0]);
@@ -163,7 +172,12 @@ fn limits_are_constants_of_the_same_type() {
         }),
         ("below_absolute_zero", |b, _, _| {
             let of = b.post_expression("a.T", None).unwrap();
-            b.limit("x", (of.into(), "a.T"), (Bound::Below, Temperature(-3.0).into()), Severity::Error);
+            b.limit(
+                "x",
+                (of.into(), "a.T"),
+                (Bound::Below, Temperature(-3.0).into()),
+                Severity::Error,
+            );
         }),
     ]);
 }

@@ -1,12 +1,13 @@
-//! Capacities: sums of parts, lumps of materials, heat contents against integrals by hand, and bodies.
+//! Capacities: sums of parts, lumps of materials, heat contents against integrals by hand, and
+//! bodies.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod common;
 
 use common::{all_near, cooled, near, own, quantity, time};
 use lptn_network::{
-    Enthalpy, Field, HeatCapacity, Item, MaterialId, Melting, NetworkBuilder, NoMaterial, Properties, Size,
-    Temperature,
+    Enthalpy, Field, HeatCapacity, Item, MaterialId, Melting, NetworkBuilder, NoMaterial,
+    Properties, Size, Temperature,
 };
 use lptn_units::{Dimension, Interpolation, Outside, Table, Table1, TableSymbol, Type};
 
@@ -61,8 +62,10 @@ fn parts_of_two_materials_have_none_in_common() {
     let mut b = NetworkBuilder::new();
     let first = steel(&mut b);
     let density = Some(quantity("1 kg/m^3"));
-    let second =
-        b.material("gas", Properties { density, cp: Some(quantity("1 J/(kg K)")), ..Properties::default() });
+    let second = b.material(
+        "gas",
+        Properties { density, cp: Some(quantity("1 J/(kg K)")), ..Properties::default() },
+    );
     let x = b.node_of_parts("x", Temperature(300.0));
     for (name, material) in [("one", first), ("two", second)] {
         let lump = b.lump(material, Size::Mass(quantity("1 kg"))).unwrap();
@@ -76,11 +79,19 @@ fn parts_of_two_materials_have_none_in_common() {
 }
 
 fn near_to(found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance * expected.abs().max(1.0), "{found} is not {expected}");
+    assert!(
+        (found - expected).abs() <= tolerance * expected.abs().max(1.0),
+        "{found} is not {expected}"
+    );
 }
 
 /// Heat content, capacity and temperature agree with an integral by hand.
-fn agrees(curve: &Enthalpy, range: (f64, f64), heat: impl Fn(f64) -> f64, capacity: impl Fn(f64) -> f64) {
+fn agrees(
+    curve: &Enthalpy,
+    range: (f64, f64),
+    heat: impl Fn(f64) -> f64,
+    capacity: impl Fn(f64) -> f64,
+) {
     for k in 0..=20 {
         let t = range.0 + (range.1 - range.0) * f64::from(k) / 20.0;
         near_to(curve.heat(t).unwrap(), heat(t), 1e-9);
@@ -125,7 +136,12 @@ fn an_exponential_capacity_and_one_of_two_parts() {
     b.capacitor("more", y, HeatCapacity(5.0));
     let network = b.build().unwrap();
     let exp = |t: f64| ((t - 300.0) / 150.0).exp();
-    agrees(network.enthalpy(x).unwrap(), (260.0, 600.0), |t| 3000.0 * (exp(t) - 1.0), |t| 20.0 * exp(t));
+    agrees(
+        network.enthalpy(x).unwrap(),
+        (260.0, 600.0),
+        |t| 3000.0 * (exp(t) - 1.0),
+        |t| 20.0 * exp(t),
+    );
     let heat = |t: f64| 3000.0 * (exp(t) - exp(330.0)) + 5.0 * (t - 330.0);
     agrees(network.enthalpy(y).unwrap(), (260.0, 600.0), heat, |t| 20.0 * exp(t) + 5.0);
     near(network.capacity(y), 20.0 * exp(330.0) + 5.0);
@@ -134,8 +150,12 @@ fn an_exponential_capacity_and_one_of_two_parts() {
 #[test]
 fn a_capacity_of_a_table_bends_at_its_points() {
     let mut b = NetworkBuilder::new();
-    let points =
-        Table1::new(vec![280.0, 320.0, 400.0], vec![10.0, 30.0, 14.0], Interpolation::Linear, Outside::Hold);
+    let points = Table1::new(
+        vec![280.0, 320.0, 400.0],
+        vec![10.0, 30.0, 14.0],
+        Interpolation::Linear,
+        Outside::Hold,
+    );
     let table = Table::One(points.unwrap()).into();
     b.table(
         "c",

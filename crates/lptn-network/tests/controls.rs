@@ -1,12 +1,13 @@
-//! Controls and comparisons of temperatures: where they stand, how far they are from switching, and what reads them.
+//! Controls and comparisons of temperatures: where they stand, how far they are from switching, and
+//! what reads them.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod common;
 
 use common::{cooled, expression, link, near, power, time};
 use lptn_network::{
-    Acts, ConductorKind, Context, End, Field, Input, InputProblem, Item, NetworkBuilder, Path, Positions,
-    Temperature, Thermostat, Time,
+    Acts, ConductorKind, Context, End, Field, Input, InputProblem, Item, NetworkBuilder, Path,
+    Positions, Temperature, Thermostat, Time,
 };
 
 fn thermostat(sense: End, acts: Acts, on: Input, off: Input) -> Thermostat<Input> {
@@ -25,7 +26,10 @@ fn excess_is_positive_beyond_the_threshold_that_counts() {
     b.thermostat(heater, thermostat(a.into(), Acts::Heating, kelvin(300.0), kelvin(305.0)));
     b.thermostat(
         out,
-        Thermostat { start: false, ..thermostat(air.into(), Acts::Cooling, kelvin(299.0), kelvin(280.0)) },
+        Thermostat {
+            start: false,
+            ..thermostat(air.into(), Acts::Cooling, kelvin(299.0), kelvin(280.0))
+        },
     );
     let network = b.build().unwrap();
     assert!(network.has_events());
@@ -99,10 +103,12 @@ fn the_name_of_a_control_is_0_or_1() {
 #[test]
 fn comparisons_of_temperatures_are_held() {
     let (mut b, a, air) = cooled();
-    let p = power(&b, "if(T > absolute(310 [K]), if(air.T < absolute(280 [K]), 3 [W], 5 [W]), 4 [W])");
+    let p =
+        power(&b, "if(T > absolute(310 [K]), if(air.T < absolute(280 [K]), 3 [W], 5 [W]), 4 [W])");
     let source = b.source("p", a, p);
     let g = link(&b, "if(2 * dT >= 15 [K] - 1 [K/s] * t, 5 [W/K], 1 [W/K])");
-    let path = b.conductor("g", ConductorKind::Resistor, (a.into(), air.into()), Path::conductance(g));
+    let path =
+        b.conductor("g", ConductorKind::Resistor, (a.into(), air.into()), Path::conductance(g));
     let network = b.build().unwrap();
     assert_eq!((network.switches().len(), network.switch_ids().len()), (3, 3));
     let items: Vec<Item> = network.switches().iter().map(|switch| switch.item).collect();
@@ -111,9 +117,13 @@ fn comparisons_of_temperatures_are_held() {
     let mut scope = network.evaluation();
     scope.set_time(2.0, 2.0);
     let at = [304.0, 290.0];
-    let found: Vec<(f64, f64)> =
-        network.switch_ids().map(|id| network.switch_difference(id, &mut scope, &at).unwrap()).collect();
-    for ((difference, slope), (d, s)) in found.into_iter().zip([(-6.0, 1.0), (10.0, 1.0), (15.0, 4.0)]) {
+    let found: Vec<(f64, f64)> = network
+        .switch_ids()
+        .map(|id| network.switch_difference(id, &mut scope, &at).unwrap())
+        .collect();
+    for ((difference, slope), (d, s)) in
+        found.into_iter().zip([(-6.0, 1.0), (10.0, 1.0), (15.0, 4.0)])
+    {
         near(difference, d);
         near(slope, s);
     }

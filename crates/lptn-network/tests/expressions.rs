@@ -5,12 +5,16 @@ mod common;
 
 use common::{celsius, cooled, near, quantity, time};
 use lptn_network::{
-    Block, ConductorKind, Context, Face, GridFace, GridValue, InputProblem, NetworkBuilder, Path, Substance,
+    Block, ConductorKind, Context, Face, GridFace, GridValue, InputProblem, NetworkBuilder, Path,
+    Substance,
 };
-use lptn_units::{Dimension, Expression, Interpolation, Outside, Scope, Table, Table1, TableSymbol, Type};
+use lptn_units::{
+    Dimension, Expression, Interpolation, Outside, Scope, Table, Table1, TableSymbol, Type,
+};
 
 fn ramp() -> TableSymbol {
-    let table = Table1::new(vec![0.0, 10.0], vec![1.0, 5.0], Interpolation::Linear, Outside::Error).unwrap();
+    let table = Table1::new(vec![0.0, 10.0], vec![1.0, 5.0], Interpolation::Linear, Outside::Error)
+        .unwrap();
     let arguments = vec![Type::of(Dimension::TIME)];
     TableSymbol {
         table: Table::One(table).into(),
@@ -26,7 +30,11 @@ fn tables_are_called_by_their_names() {
     let id = b.table("ramp", ramp());
     let scope = b.scope(Context::Time);
     assert_eq!(scope.table_names(), ["ramp"]);
-    assert!(scope.table("ramp").is_some() && scope.table("a").is_none() && scope.table("other").is_none());
+    assert!(
+        scope.table("ramp").is_some()
+            && scope.table("a").is_none()
+            && scope.table("other").is_none()
+    );
     let p = time(&b, "ramp(t) + 1 [W]");
     b.source("p", a, p);
     let network = b.build().unwrap();
@@ -49,13 +57,21 @@ fn values_of_grids_have_names_in_results() {
         size: ["0.6 m", "0.4 m", "0.2 m"].map(quantity),
         cells: cells.to_vec(),
         conductivity: ["1 W/(m K)", "1 W/(m K)", "1 W/(m K)"].map(quantity),
-        substance: Substance::Properties { density: quantity("1 kg/m^3"), cp: quantity("1 J/(kg K)") },
+        substance: Substance::Properties {
+            density: quantity("1 kg/m^3"),
+            cp: quantity("1 J/(kg K)"),
+        },
         initial: Some(celsius("20 degC")),
     };
     let (wall, other) = (b.grid("wall", block(&[2, 2])), b.grid("other", block(&[2])));
     let air = b.boundary("air", celsius("10 degC"));
     let film = Path::film(quantity("5 W/(m^2 K)"), quantity("0.08 m^2"));
-    b.connect("film", ConductorKind::Convection, (GridFace { grid: wall, face: Face::X1 }, air), film);
+    b.connect(
+        "film",
+        ConductorKind::Convection,
+        (GridFace { grid: wall, face: Face::X1 }, air),
+        film,
+    );
     let mut report = |name: &str, text: &str| {
         let value = b.post_expression(text, None).unwrap_or_else(|e| panic!("{text}: {e:?}"));
         b.report(name, value.into(), text)
@@ -116,6 +132,9 @@ fn every_problem_that_can_be_mended_has_a_help() {
         (InputProblem::OutsideFluid { temperature: 500.0, range }, ""),
         (InputProblem::OutsideCapacity { range }, ""),
     ] {
-        assert!(problem.help().is_some_and(|help| !help.is_empty() && help.contains(word)), "{problem:?}");
+        assert!(
+            problem.help().is_some_and(|help| !help.is_empty() && help.contains(word)),
+            "{problem:?}"
+        );
     }
 }

@@ -1,12 +1,13 @@
-//! Grids: names, places, conductances and capacities of cells, surfaces of faces, what is joined to them and how.
+//! Grids: names, places, conductances and capacities of cells, surfaces of faces, what is joined to
+//! them and how.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod common;
 
 use common::{celsius, codes, near, quantity};
 use lptn_network::{
-    Block, Conductance, ConductorKind, End, Face, Flow, Formula, GridFace, GridId, GridValue, HeatFlow, Item,
-    Network, NetworkBuilder, Path, Properties, Size, Substance, Temperature,
+    Block, Conductance, ConductorKind, End, Face, Flow, Formula, GridFace, GridId, GridValue,
+    HeatFlow, Item, Network, NetworkBuilder, Path, Properties, Size, Substance, Temperature,
 };
 
 /// 0.6 m x 0.4 m x 0.2 m, 8e6 J/(m^3 K) / 2, conductivity by axis.
@@ -15,7 +16,10 @@ fn block(cells: &[usize]) -> Block {
         size: ["0.6 m", "0.4 m", "0.2 m"].map(quantity),
         cells: cells.to_vec(),
         conductivity: ["10 W/(m K)", "20 W/(m K)", "30 W/(m K)"].map(quantity),
-        substance: Substance::Properties { density: quantity("8000 kg/m^3"), cp: quantity("500 J/(kg K)") },
+        substance: Substance::Properties {
+            density: quantity("8000 kg/m^3"),
+            cp: quantity("500 J/(kg K)"),
+        },
         initial: Some(celsius("20 degC")),
     }
 }
@@ -48,7 +52,8 @@ fn cells_share_the_block() {
     near(total, 0.6 * 0.4 * 0.2 * 4e6);
     near(network.capacity(grid.cell(&[2, 1, 2]).unwrap()), 0.6 * 0.4 * 0.2 * 4e6 / 12.0);
     assert!(network.node_ids().all(|id| (network.initial(id) - 293.15).abs() < 1e-12));
-    // k A / L of one cell: along x 0.2 m x 0.1 m over 0.2 m, along y 0.2 x 0.1 over 0.2, along z 0.2 x 0.2 over 0.1
+    // k A / L of one cell: along x 0.2 m x 0.1 m over 0.2 m, along y 0.2 x 0.1 over 0.2, along z
+    // 0.2 x 0.2 over 0.1
     near(conductance(&network, "wall.x[1,1,1]"), 10.0 * 0.2 * 0.1 / 0.2);
     near(conductance(&network, "wall.y[3,1,2]"), 20.0 * 0.2 * 0.1 / 0.2);
     near(conductance(&network, "wall.z[2,2,1]"), 30.0 * 0.2 * 0.2 / 0.1);
@@ -97,15 +102,16 @@ fn faces() {
     assert_eq!(grid.face_name(Face::Z1), "wall.z1");
 }
 
-/// Half a cell lies between the cells of a face and its surface; what is attached is shared by area.
+/// Half a cell lies between the cells of a face and its surface; what is attached is shared by
+/// area.
 #[test]
 fn a_film_on_a_face() {
     let (mut b, grid) = wall(&[3, 2]);
     let air = b.boundary("air", Temperature(290.0));
     let at = GridFace { grid, face: Face::X1 };
     let area = b.face_area(at).unwrap();
-    let item =
-        b.connect("film", ConductorKind::Convection, (at, air), Path::film(quantity("5 W/(m^2 K)"), area));
+    let film = Path::film(quantity("5 W/(m^2 K)"), area);
+    let item = b.connect("film", ConductorKind::Convection, (at, air), film);
     let Item::Joint(id) = item else { panic!("{item:?}") };
     let network = b.build().unwrap();
     assert_eq!(network.nodes().len(), 6 + 2);
@@ -142,7 +148,8 @@ fn a_film_on_a_face() {
     assert_eq!(network.grids()[0].surfaces(Face::X0).len(), 0);
     assert_eq!(network.place_name(surfaces[1]), "wall.x1");
     assert_eq!(network.place_name(network.grids()[0].cell(&[1, 1]).unwrap()), "wall");
-    // values: over cells, over the surface, over the cells behind a face that nothing is attached to
+    // values: over cells, over the surface, over the cells behind a face that nothing is attached
+    // to
     let temperatures: Vec<f64> = (0..8).map(|i| 300.0 + f64::from(i * i)).collect();
     let value = |value| network.grid_value(value, &temperatures);
     near(value(GridValue::Mean(grid)), 300.0 + 55.0 / 6.0);
@@ -150,7 +157,10 @@ fn a_film_on_a_face() {
     near(value(GridValue::Max(grid)), 325.0);
     near(value(GridValue::Face(at)), 300.0 + (36.0 + 49.0) / 2.0);
     near(value(GridValue::Face(GridFace { grid, face: Face::X0 })), 300.5);
-    near(value(GridValue::Face(GridFace { grid, face: Face::Y1 })), 300.0 + (1.0 + 9.0 + 25.0) / 3.0);
+    near(
+        value(GridValue::Face(GridFace { grid, face: Face::Y1 })),
+        300.0 + (1.0 + 9.0 + 25.0) / 3.0,
+    );
     let shown: Vec<String> = network.grid_values().map(|value| value.name(&network)).collect();
     assert_eq!(shown, ["wall.mean", "wall.min", "wall.max", "wall.x1.T"]);
     assert_eq!(network.idle_grid_values().count(), 5);
@@ -197,7 +207,12 @@ fn every_law_is_shared_between_the_cells_of_a_face() {
     ] {
         let (mut b, grid) = wall(&[3, 4]);
         let air = b.boundary("air", Temperature(290.0));
-        b.connect("p", ConductorKind::Radiation, (air, GridFace { grid, face: Face::X0 }), exchange);
+        b.connect(
+            "p",
+            ConductorKind::Radiation,
+            (air, GridFace { grid, face: Face::X0 }),
+            exchange,
+        );
         let network = b.build().unwrap();
         for id in network.joints()[0].conductors() {
             assert!(matches!(network.flow(id), Flow::Radiation(gr) if (gr - 0.01).abs() < 1e-15));
@@ -209,7 +224,8 @@ fn every_law_is_shared_between_the_cells_of_a_face() {
 fn two_faces_are_joined_cell_by_cell() {
     let (mut b, left) = wall(&[2, 3]);
     let right = b.grid("other", block(&[4, 3]));
-    let (from, to) = (GridFace { grid: left, face: Face::X1 }, GridFace { grid: right, face: Face::X0 });
+    let (from, to) =
+        (GridFace { grid: left, face: Face::X1 }, GridFace { grid: right, face: Face::X0 });
     b.connect(
         "glue",
         ConductorKind::Contact,
@@ -237,7 +253,11 @@ fn a_path_to_the_end_of_a_rod_is_an_ordinary_conductor() {
     assert_eq!(ends(&network, "tip"), ["wall.x1", "air"]);
     assert_eq!(network.shared_joints().count(), 0);
     let shown: Vec<String> = network.grid_values().map(|value| value.name(&network)).collect();
-    assert_eq!(shown, ["wall.mean", "wall.min", "wall.max"], "a single node is named as its face is");
+    assert_eq!(
+        shown,
+        ["wall.mean", "wall.min", "wall.max"],
+        "a single node is named as its face is"
+    );
 }
 
 #[test]
@@ -260,7 +280,11 @@ fn a_grid_of_a_material() {
         let density = density.then(|| quantity("1000 kg/m^3"));
         b.material(
             "m",
-            Properties { density, cp: cp.then(|| quantity("2000 J/(kg K)")), ..Properties::default() },
+            Properties {
+                density,
+                cp: cp.then(|| quantity("2000 J/(kg K)")),
+                ..Properties::default()
+            },
         )
     };
     let with = |density: bool, cp: bool| {
@@ -326,7 +350,12 @@ fn wrong_grids_and_joints_are_refused_once_for_the_whole() {
     let joined = |other: Block| {
         refused(&move |b, grid| {
             let other = b.grid("other", other.clone());
-            b.connect("glue", ConductorKind::Resistor, (side(grid), side(other)), Conductance(1.0).into());
+            b.connect(
+                "glue",
+                ConductorKind::Resistor,
+                (side(grid), side(other)),
+                Conductance(1.0).into(),
+            );
         })
     };
     assert_eq!(joined(block(&[7, 4])), [""; 0]);
@@ -344,18 +373,24 @@ fn wrong_values_of_a_block_are_refused_once() {
         b.grid("wall", change(block(&[3, 4])));
         codes(b)
     };
-    let flat =
-        |text: &'static str| move |b: Block| Block { size: ["0.6 m", text, "0.2 m"].map(quantity), ..b };
+    let flat = |text: &'static str| {
+        move |b: Block| Block { size: ["0.6 m", text, "0.2 m"].map(quantity), ..b }
+    };
     assert_eq!(one(&flat("0 m")), ["network::not_positive"]);
-    let k = one(&|b| Block { conductivity: ["1 W/(m K)", "-1 W/(m K)", "1 W/(m K)"].map(quantity), ..b });
+    let k = one(&|b| Block {
+        conductivity: ["1 W/(m K)", "-1 W/(m K)", "1 W/(m K)"].map(quantity),
+        ..b
+    });
     assert_eq!(k, ["network::not_positive"]);
     assert_eq!(
         one(&|b| Block { initial: Some(Temperature(-4.0).into()), ..b }),
         ["network::below_absolute_zero"]
     );
     assert_eq!(one(&|b| Block { initial: None, ..b }), ["network::no_initial_temperature"]);
-    let substance =
-        |density: &str, cp: &str| Substance::Properties { density: quantity(density), cp: quantity(cp) };
+    let substance = |density: &str, cp: &str| Substance::Properties {
+        density: quantity(density),
+        cp: quantity(cp),
+    };
     let of = |density: &'static str, cp: &'static str| {
         one(&move |b| Block { substance: substance(density, cp), ..b })
     };

@@ -1,4 +1,5 @@
-//! Laws: the heat of every path by formulas written out here, its derivatives, its surface, and values out of range.
+//! Laws: the heat of every path by formulas written out here, its derivatives, its surface, and
+//! values out of range.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod common;
@@ -40,14 +41,21 @@ fn body(of: impl FnOnce(lptn_network::Input) -> Path) -> f64 {
 
 #[test]
 fn constant_conductances() {
-    near(conductance(constant(ConductorKind::Resistor, |_| Path::resistance(quantity("0.25 K/W")))), 4.0);
-    near(conductance(constant(ConductorKind::Resistor, |_| Path::conductance(quantity("3 W/K")))), 3.0);
+    near(
+        conductance(constant(ConductorKind::Resistor, |_| Path::resistance(quantity("0.25 K/W")))),
+        4.0,
+    );
+    near(
+        conductance(constant(ConductorKind::Resistor, |_| Path::conductance(quantity("3 W/K")))),
+        3.0,
+    );
     let film = |_: &mut NetworkBuilder| Path::film(quantity("8 W/(m^2 K)"), quantity("0.5 m^2"));
     near(conductance(constant(ConductorKind::Convection, film)), 4.0);
     let (area, thickness) = (quantity("0.2 m^2"), quantity("30 mm"));
     near(body(|k| Path::new(Formula::Slab, [k, area, thickness])), 15.0 * 0.2 / 0.03);
     let (inner, outer) = (quantity("10 mm"), quantity("30 mm"));
-    let cylinder = |k| Path::new(Formula::Cylinder, [k, inner.clone(), outer.clone(), quantity("0.4 m")]);
+    let cylinder =
+        |k| Path::new(Formula::Cylinder, [k, inner.clone(), outer.clone(), quantity("0.4 m")]);
     near(body(cylinder), 2.0 * PI * 15.0 * 0.4 / 3.0_f64.ln());
     near(
         body(|k| Path::new(Formula::Sphere, [k, inner, outer])),
@@ -65,7 +73,9 @@ fn exchange_areas() {
         area
     };
     near(area(Path::radiation(quantity("0.3 m^2"))), 0.3);
-    let of = |law, values: &[&str]| Path::new(law, values.iter().copied().map(quantity).collect::<Vec<_>>());
+    let of = |law, values: &[&str]| {
+        Path::new(law, values.iter().copied().map(quantity).collect::<Vec<_>>())
+    };
     near(area(of(Formula::GreySurfaces, &["0.9", "0.5 m^2", "0.8"])), 0.9 * 0.5 * 0.8);
     let plates = of(Formula::ParallelPlates, &["0.5", "0.25", "0.5 m^2", "0.8"]);
     near(area(plates), 0.4 / (1.0 / 0.5 + 1.0 / 0.25 - 1.0));
@@ -126,7 +136,9 @@ const T: [f64; 4] = [350.0, 310.0, 330.0, 290.0];
 
 #[test]
 fn conductances_of_temperatures() {
-    let of = |text: &'static str| path(ConductorKind::Resistor, move |b| Path::conductance(link(b, text)));
+    let of = |text: &'static str| {
+        path(ConductorKind::Resistor, move |b| Path::conductance(link(b, text)))
+    };
     for (text, g, variables) in [
         ("1 [W/K] * kelvin(T_from) / 100 [K]", 3.5, vec![0, 1]),
         ("1 [W/K] * kelvin(T_to) / 100 [K]", 3.1, vec![0, 1]),
@@ -219,7 +231,10 @@ fn fluids_carry_their_heat_content() {
     slopes_agree(&network, id, T);
     let (network, id) = of("-3 kg/s");
     let found = received(&network, id, T);
-    assert!(found[1].abs() < 1e-12 && (found[0] / (-3.0 * content) - 1.0).abs() < 1e-9, "{found:?}");
+    assert!(
+        found[1].abs() < 1e-12 && (found[0] / (-3.0 * content) - 1.0).abs() < 1e-9,
+        "{found:?}"
+    );
 }
 
 #[test]
@@ -249,8 +264,9 @@ fn surfaces_give_off_heat_and_other_paths_have_none() {
     near(glow.conductance, 0.3 * SIGMA * (350.0_f64.powi(2) + 310.0_f64.powi(2)) * 660.0);
     assert_eq!(glow.area, None);
     assert_eq!(of(ConductorKind::Resistor, &|_| Path::conductance(quantity("3 W/K"))), None);
-    let (network, id) =
-        path(ConductorKind::Convection, |b| Path::conductance(link(b, "1 [W/K^2] * (T_to - T_from)")));
+    let (network, id) = path(ConductorKind::Convection, |b| {
+        Path::conductance(link(b, "1 [W/K^2] * (T_to - T_from)"))
+    });
     let error = network.surface(id, &mut network.evaluation(), &T).unwrap_err();
     assert!(
         matches!(error.problem, InputProblem::NegativeConductance(g) if (g + 40.0).abs() < 1e-12),
@@ -300,11 +316,17 @@ fn values_that_their_field_cannot_have_are_named() {
     assert!(network.exchange(id, &mut network.evaluation(), &T).is_ok(), "1 is a fraction");
     let (network, id) = path(Radiation, emissive("(dT - 40 [K]) / 40 [K]"));
     all_near(&received(&network, id, T), &[0.0, 0.0]);
-    let (_, problem) = fails(Resistor, |b| Path::conductance(link(b, "1 [W/K] / ((dT - 40 [K]) / 1 [K])")));
-    assert!(matches!(problem, InputProblem::NotFinite(_) | InputProblem::Evaluation(_)), "{problem:?}");
-    let (field, problem) = fails(Advection, |b| Path::stream(link(b, "1 [W/K] * exp(dT * 1000 [1/K])")));
+    let (_, problem) =
+        fails(Resistor, |b| Path::conductance(link(b, "1 [W/K] / ((dT - 40 [K]) / 1 [K])")));
     assert!(
-        field.key() == "mcp" && matches!(problem, InputProblem::NotFinite(_) | InputProblem::Evaluation(_))
+        matches!(problem, InputProblem::NotFinite(_) | InputProblem::Evaluation(_)),
+        "{problem:?}"
+    );
+    let (field, problem) =
+        fails(Advection, |b| Path::stream(link(b, "1 [W/K] * exp(dT * 1000 [1/K])")));
+    assert!(
+        field.key() == "mcp"
+            && matches!(problem, InputProblem::NotFinite(_) | InputProblem::Evaluation(_))
     );
     let (field, problem) = fails(Advection, |b| {
         let fluid = b.fluid("oil", None, quantity("2000 J/(kg K)"), None);
@@ -363,8 +385,12 @@ fn inputs_that_fail_during_a_run_are_named() {
     assert_eq!((error.name.as_str(), error.field), ("ends", Field::Power));
     let error = network.source_heat(root, &mut scope, &[280.0, 290.0, 1.0]).unwrap_err();
     assert_eq!(error.name, "root");
-    let error = network.source_slopes(root, &mut scope, &[280.0, 290.0, 1.0], &mut Vec::new()).unwrap_err();
+    let error =
+        network.source_slopes(root, &mut scope, &[280.0, 290.0, 1.0], &mut Vec::new()).unwrap_err();
     assert_eq!(error.name, "root");
     scope.set_time(10.0, 10.0);
-    assert!(network.boundary_temperatures(&mut scope, &mut [0.0; 2]).is_ok(), "0 K is a temperature");
+    assert!(
+        network.boundary_temperatures(&mut scope, &mut [0.0; 2]).is_ok(),
+        "0 K is a temperature"
+    );
 }

@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_network::{
-    Bound, BuildErrorKind, Conductance, HeatCapacity, InputProblem, Network, NetworkBuilder, Severity,
-    Temperature,
+    Bound, BuildErrorKind, Conductance, HeatCapacity, InputProblem, Network, NetworkBuilder,
+    Severity, Temperature,
 };
 use lptn_units::{Dimension, Expression, Type, parse_quantity};
 
@@ -19,10 +19,20 @@ fn network() -> Network {
     builder.resistor("cool", b, air, Conductance(1.0));
     let of = builder.post_expression("max(a.T, b.T)", None).unwrap();
     let value = builder.expression("T_max - 10 [K]", Some(Type::ABSOLUTE_TEMPERATURE)).unwrap();
-    builder.limit("hot", (of.into(), "max(a.T, b.T)"), (Bound::Below, value.into()), Severity::Error);
+    builder.limit(
+        "hot",
+        (of.into(), "max(a.T, b.T)"),
+        (Bound::Below, value.into()),
+        Severity::Error,
+    );
     let of = builder.post_expression("a.T - air.T", None).unwrap();
     let value = parse_quantity("5 K", Some(Type::of(Dimension::TEMPERATURE))).unwrap();
-    builder.limit("rise", (of.into(), "a.T - air.T"), (Bound::Above, value.into()), Severity::Warning);
+    builder.limit(
+        "rise",
+        (of.into(), "a.T - air.T"),
+        (Bound::Above, value.into()),
+        Severity::Warning,
+    );
     builder.build().unwrap()
 }
 
@@ -41,7 +51,10 @@ fn margins_are_positive_while_a_limit_is_kept() {
     scope.set_temperatures(&[292.0, 380.0], &[290.0]);
     let margins: Vec<f64> =
         network.limit_ids().map(|id| network.limit_margin(id, &mut scope).unwrap()).collect();
-    assert!((margins[0] - (373.15 - 380.0)).abs() < 1e-12 && (margins[1] + 3.0).abs() < 1e-12, "{margins:?}");
+    assert!(
+        (margins[0] - (373.15 - 380.0)).abs() < 1e-12 && (margins[1] + 3.0).abs() < 1e-12,
+        "{margins:?}"
+    );
     assert_eq!(network.limits()[0].text, "max(a.T, b.T)");
     assert_eq!(network.limits()[0].margin_type(), Type::of(Dimension::TEMPERATURE));
 }
@@ -93,6 +106,9 @@ fn wrong_limits_are_refused() {
     builder.node("late", HeatCapacity(1.0), Temperature(300.0));
     let errors = builder.build().unwrap_err().0;
     let codes: Vec<&str> = errors.iter().map(|e| e.code()).collect();
-    assert_eq!(codes, ["network::wrong_type", "network::duplicate_name", "network::depends_on_result"]);
+    assert_eq!(
+        codes,
+        ["network::wrong_type", "network::duplicate_name", "network::depends_on_result"]
+    );
     assert!(matches!(errors[2].kind, BuildErrorKind::DependsOnResult { .. }));
 }

@@ -1,12 +1,13 @@
-//! Names and ids: what is found by which name, what is suggested, numbers for names, what results can be asked for.
+//! Names and ids: what is found by which name, what is suggested, numbers for names, what results
+//! can be asked for.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod common;
 
 use common::{cooled, near, quantity, time};
 use lptn_network::{
-    Conductance, ConductorKind, End, HeatCapacity, HeatFlow, HeatOf, Item, NetworkBuilder, ParameterError,
-    Path, Temperature, Time, list_of, list_of_names,
+    Conductance, ConductorKind, End, HeatCapacity, HeatFlow, HeatOf, Item, NetworkBuilder,
+    ParameterError, Path, Temperature, Time, list_of, list_of_names,
 };
 use lptn_units::{Dimension, Expression, Type, parse_quantity};
 
@@ -57,7 +58,8 @@ fn items_nodes_and_parameters_by_name() {
     assert!(network.node("air").is_err() && network.node("scale").is_err());
     assert_eq!(network.parameter("scale"), Ok(scale));
     assert_eq!(network.parameter("scala").unwrap_err().suggestion.as_deref(), Some("scale"));
-    let counts = (network.node_ids().len(), network.boundary_ids().len(), network.conductor_ids().len());
+    let counts =
+        (network.node_ids().len(), network.boundary_ids().len(), network.conductor_ids().len());
     assert_eq!(counts, (2, 1, 2));
     assert_eq!(
         (network.source_ids().len(), network.parameter_ids().len(), network.table_ids().len()),
@@ -89,7 +91,8 @@ fn conductors_and_sources_without_names_are_called_by_their_numbers() {
     let path = || Path::conductance(Conductance(2.0));
     let ids: Vec<_> =
         [4, 5, 9].map(|n| b.numbered_conductor(n, ConductorKind::Resistor, ends, path())).to_vec();
-    let sources: Vec<_> = [2, 3].map(|n| b.numbered_source(n, a.into(), HeatFlow(1.0).into())).to_vec();
+    let sources: Vec<_> =
+        [2, 3].map(|n| b.numbered_source(n, a.into(), HeatFlow(1.0).into())).to_vec();
     let named = b.resistor("named", a, air, Conductance(1.0));
     let network = b.build().unwrap();
     let conductor = |n: u32| network.item(&format!("import.conductor[{n}]"));
@@ -99,7 +102,10 @@ fn conductors_and_sources_without_names_are_called_by_their_numbers() {
     for nowhere in [1, 3, 6, 7, 10] {
         assert!(conductor(nowhere).is_err(), "{nowhere}");
     }
-    assert!(network.item("import.conductor[04]").is_err() && network.item("import.conductor[+4]").is_err());
+    assert!(
+        network.item("import.conductor[04]").is_err()
+            && network.item("import.conductor[+4]").is_err()
+    );
     assert_eq!(network.item("import.source[3]"), Ok(Item::Source(sources[1])));
     assert!(network.item("import.source[4]").is_err() && network.item("import.node[3]").is_err());
     assert_eq!(network.item("named"), Ok(Item::Conductor(named)));
@@ -111,7 +117,8 @@ fn conductors_and_sources_without_names_are_called_by_their_numbers() {
 #[test]
 fn sets_of_nodes_that_reach_no_boundary() {
     let (mut b, a, _) = cooled();
-    let [w, x, y, z] = ["w", "x", "y", "z"].map(|n| b.node(n, HeatCapacity(1.0), Temperature(300.0)));
+    let [w, x, y, z] =
+        ["w", "x", "y", "z"].map(|n| b.node(n, HeatCapacity(1.0), Temperature(300.0)));
     b.resistor("zx", z, x, Conductance(1.0));
     b.resistor("aw", a, w, Conductance(1.0));
     assert_eq!(b.build().unwrap().ungrounded(), [vec![x, z], vec![y]]);
@@ -203,7 +210,9 @@ fn parameters_are_set_by_name_id_and_text() {
     assert_eq!(errors[0].code(), "network::not_positive");
     other.set(r, f64::NAN);
     assert_eq!(network.with(&other).unwrap_err().0[0].code(), "network::not_finite");
-    let ParameterError::Unknown(unknown) = other.set_text("r", "1 K/W").unwrap_err() else { panic!() };
+    let ParameterError::Unknown(unknown) = other.set_text("r", "1 K/W").unwrap_err() else {
+        panic!()
+    };
     assert_eq!((unknown.name.as_str(), unknown.suggestion.as_deref()), ("r", Some("R")));
     let error = other.set_text("R", "1 W/K").unwrap_err();
     assert!(matches!(&error, ParameterError::Unit { name, .. } if name == "R"));

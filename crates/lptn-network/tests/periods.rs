@@ -5,7 +5,8 @@ mod common;
 
 use common::{cooled, link, near, time};
 use lptn_network::{
-    AfterEnd, Conductance, Course, Field, HeatCapacity, Item, Network, NetworkBuilder, Path, Temperature,
+    AfterEnd, Conductance, Course, Field, HeatCapacity, Item, Network, NetworkBuilder, Path,
+    Temperature,
 };
 use lptn_units::{Dimension, Type};
 
@@ -34,8 +35,15 @@ fn with(texts: &[&str], periods: &[f64]) -> Network {
 fn the_period_of_all_signals_that_are_used() {
     assert_eq!(with(&["s0"], &[60.0]).repeat_period(), Ok(Some(60.0)));
     near(with(&["s0", "s1"], &[60.0, 90.0]).repeat_period().unwrap().unwrap(), 180.0);
-    near(with(&["s0 + s1 * s2 / 1 [W]"], &[60.0, 90.0, 50.0]).repeat_period().unwrap().unwrap(), 900.0);
-    assert_eq!(with(&["s0"], &[60.0, 90.0]).repeat_period(), Ok(Some(60.0)), "nothing uses the other");
+    near(
+        with(&["s0 + s1 * s2 / 1 [W]"], &[60.0, 90.0, 50.0]).repeat_period().unwrap().unwrap(),
+        900.0,
+    );
+    assert_eq!(
+        with(&["s0"], &[60.0, 90.0]).repeat_period(),
+        Ok(Some(60.0)),
+        "nothing uses the other"
+    );
     assert_eq!(with(&["1 [W]"], &[60.0]).repeat_period(), Ok(None));
     // in a comparison too
     assert_eq!(with(&["if(s0 > 2 [W], 1 [W], 2 [W])"], &[60.0]).repeat_period(), Ok(Some(60.0)));
@@ -47,7 +55,8 @@ fn the_period_of_all_signals_that_are_used() {
 
 #[test]
 fn inputs_that_repeat_themselves_and_others() {
-    let checked = |text: &str, period: f64| with(&[text], &[60.0]).check_period(3.0, period).unwrap();
+    let checked =
+        |text: &str, period: f64| with(&[text], &[60.0]).check_period(3.0, period).unwrap();
     assert_eq!(checked("s0", 60.0), Ok(()));
     assert_eq!(checked("s0", 120.0), Ok(()));
     assert_eq!(checked("7 [W] * sin(2 * pi * t / 60 [s])", 60.0), Ok(()));
@@ -57,7 +66,10 @@ fn inputs_that_repeat_themselves_and_others() {
     assert!(checked("s0 + 1e-6 [W/s] * t", 60.0).is_err());
     assert_eq!(checked("s0 + 1e-13 [W/s] * t", 60.0), Ok(()), "rounding");
     let found = checked("5 [W] + 1 [W/s] * t", 60.0).unwrap_err();
-    assert_eq!((found.name.as_str(), found.field, found.unit.as_deref()), ("p0", Field::Power, Some("W")));
+    assert_eq!(
+        (found.name.as_str(), found.field, found.unit.as_deref()),
+        ("p0", Field::Power, Some("W"))
+    );
     assert!(matches!(found.item, Item::Source(_)));
     near(found.period, 60.0);
     assert!(found.time >= 3.0 && found.time <= 63.0);
@@ -65,8 +77,8 @@ fn inputs_that_repeat_themselves_and_others() {
     near(found.values[1].unwrap(), 65.0 + found.time);
 }
 
-/// A difference that lasts a millisecond, in the first period or in the one after it, is looked at: each stretch
-/// between two breakpoints is.
+/// A difference that lasts a millisecond, in the first period or in the one after it, is looked at:
+/// each stretch between two breakpoints is.
 #[test]
 fn a_short_difference_is_seen() {
     let checked = |text: &str| with(&[text], &[60.0]).check_period(3.0, 60.0).unwrap();
@@ -103,7 +115,11 @@ fn fields_have_their_units_and_values_of_temperatures_are_compared_too() {
         let air = b.boundary("air", Temperature(290.0));
         b.resistor("r", a, air, Conductance(1.0));
         add(&mut b, a, air);
-        b.build().unwrap().check_period(0.0, 60.0).unwrap().map_err(|found| (found.name, found.unit))
+        b.build()
+            .unwrap()
+            .check_period(0.0, 60.0)
+            .unwrap()
+            .map_err(|found| (found.name, found.unit))
     };
     let unit = |name: &str, unit: &str| Err((name.to_owned(), Some(unit.to_owned())));
     assert_eq!(of(&|_, _, _| {}), Ok(()));

@@ -1,4 +1,5 @@
-//! Signals over time: what they are between, at, before and after their points, and where a run has to stop for them.
+//! Signals over time: what they are between, at, before and after their points, and where a run has
+//! to stop for them.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod common;
@@ -10,7 +11,8 @@ use lptn_units::{Degree, Dimension, Interpolation, Outside, Table1, Type};
 const POWER: Type = Type::of(Dimension::POWER);
 
 fn curve(times: &[f64], values: &[f64], interpolation: Interpolation, after: AfterEnd) -> Course {
-    let points = Table1::new(times.to_vec(), values.to_vec(), interpolation, Outside::Error).unwrap();
+    let points =
+        Table1::new(times.to_vec(), values.to_vec(), interpolation, Outside::Error).unwrap();
     Course::Curve { points, after }
 }
 
@@ -47,9 +49,14 @@ fn seen(network: &Network, times: &[f64]) -> Vec<f64> {
 fn straight_lines() {
     let (network, id) =
         network(curve(&[1.0, 3.0, 7.0], &[10.0, 20.0, 0.0], Interpolation::Linear, AfterEnd::Hold));
-    all_near(&seen(&network, &[1.0, 2.0, 3.0, 4.0, 7.0, 9.0, 1e6]), &[10.0, 15.0, 20.0, 15.0, 0.0, 0.0, 0.0]);
+    all_near(
+        &seen(&network, &[1.0, 2.0, 3.0, 4.0, 7.0, 9.0, 1e6]),
+        &[10.0, 15.0, 20.0, 15.0, 0.0, 0.0, 0.0],
+    );
     let before = value(&network, 0.5, 0.5).unwrap_err();
-    assert!(matches!(before, InputProblem::BeforeSignal { time, first } if (time, first) == (0.5, 1.0)));
+    assert!(
+        matches!(before, InputProblem::BeforeSignal { time, first } if (time, first) == (0.5, 1.0))
+    );
     assert!(value(&network, 1.0 - 1e-10, 1.0).is_ok(), "rounding does not carry it past its end");
     all_near(&network.breakpoints(0.0 + 1.0, 10.0).unwrap(), &[3.0, 7.0]);
     all_near(&network.breakpoints(3.5, 7.0).unwrap(), &[]);
@@ -61,8 +68,8 @@ fn straight_lines() {
     assert_eq!(network.curves().len(), 0);
 }
 
-/// Rounding may carry a time past an end: by 1e-9 of the length of the signal, or by 1e-12 of its times where these are
-/// large, and no further.
+/// Rounding may carry a time past an end: by 1e-9 of the length of the signal, or by 1e-12 of its
+/// times where these are large, and no further.
 #[test]
 fn a_time_may_be_past_an_end_by_rounding_only() {
     for (first, last, margin) in
@@ -73,18 +80,27 @@ fn a_time_may_be_past_an_end_by_rounding_only() {
         let at = |time: f64| value(&network, time, time);
         near(at(first - 0.5 * margin).unwrap(), 10.0);
         near(at(last + 0.5 * margin).unwrap(), 20.0);
-        assert!(matches!(at(first - 2.0 * margin), Err(InputProblem::BeforeSignal { .. })), "{first} {last}");
-        assert!(matches!(at(last + 2.0 * margin), Err(InputProblem::AfterSignal { .. })), "{first} {last}");
+        assert!(
+            matches!(at(first - 2.0 * margin), Err(InputProblem::BeforeSignal { .. })),
+            "{first} {last}"
+        );
+        assert!(
+            matches!(at(last + 2.0 * margin), Err(InputProblem::AfterSignal { .. })),
+            "{first} {last}"
+        );
     }
 }
 
 #[test]
 fn the_end_of_a_signal_that_says_no_more_is_an_error() {
-    let (network, _) = network(curve(&[1.0, 3.0], &[10.0, 20.0], Interpolation::Linear, AfterEnd::Error));
+    let (network, _) =
+        network(curve(&[1.0, 3.0], &[10.0, 20.0], Interpolation::Linear, AfterEnd::Error));
     near(value(&network, 3.0, 3.0).unwrap(), 20.0);
     near(value(&network, 3.0 + 1e-10, 3.0).unwrap(), 20.0);
     let after = value(&network, 3.5, 3.5).unwrap_err();
-    assert!(matches!(after, InputProblem::AfterSignal { time, last } if (time, last) == (3.5, 3.0)));
+    assert!(
+        matches!(after, InputProblem::AfterSignal { time, last } if (time, last) == (3.5, 3.0))
+    );
 }
 
 #[test]
@@ -98,9 +114,14 @@ fn steps_hold_the_value_of_the_point_before_where_the_segment_lies() {
 
 #[test]
 fn a_monotone_cubic_has_no_breakpoints_inside_and_is_curved() {
-    let (network, _) =
-        network(curve(&[0.0, 1.0, 2.0, 4.0], &[0.0, 1.0, 1.0, 3.0], Interpolation::Pchip, AfterEnd::Hold));
-    // flat between 1 s and 2 s, and slope 0 there: 3 x^2 - 2 x^3 of each interval with slope 0 at one end
+    let (network, _) = network(curve(
+        &[0.0, 1.0, 2.0, 4.0],
+        &[0.0, 1.0, 1.0, 3.0],
+        Interpolation::Pchip,
+        AfterEnd::Hold,
+    ));
+    // flat between 1 s and 2 s, and slope 0 there: 3 x^2 - 2 x^3 of each interval with slope 0 at
+    // one end
     near(value(&network, 1.5, 1.5).unwrap(), 1.0);
     assert_eq!(network.curves().len(), 1);
     all_near(&network.breakpoints(0.0, 10.0).unwrap(), &[4.0]);
@@ -108,17 +129,27 @@ fn a_monotone_cubic_has_no_breakpoints_inside_and_is_curved() {
 
 #[test]
 fn repeated_signals_begin_anew() {
-    let (network, _) =
-        network(curve(&[1.0, 3.0, 5.0], &[0.0, 2.0, 1.0], Interpolation::Linear, AfterEnd::Repeat(6.0)));
+    let (network, _) = network(curve(
+        &[1.0, 3.0, 5.0],
+        &[0.0, 2.0, 1.0],
+        Interpolation::Linear,
+        AfterEnd::Repeat(6.0),
+    ));
     // 5 s to 7 s: the last value is held until it begins anew
-    all_near(&seen(&network, &[2.0, 4.0, 6.0, 8.0, 10.0, 12.0, 14.0]), &[1.0, 1.5, 1.0, 1.0, 1.5, 1.0, 1.0]);
+    all_near(
+        &seen(&network, &[2.0, 4.0, 6.0, 8.0, 10.0, 12.0, 14.0]),
+        &[1.0, 1.5, 1.0, 1.0, 1.5, 1.0, 1.0],
+    );
     near(value(&network, 7.0, 6.5).unwrap(), 1.0);
     near(value(&network, 7.0, 7.5).unwrap(), 0.0);
     all_near(&network.breakpoints(1.0, 15.0).unwrap(), &[3.0, 5.0, 7.0, 9.0, 11.0, 13.0]);
     all_near(&network.breakpoints(8.0, 12.0).unwrap(), &[9.0, 11.0]);
     assert_eq!(network.repeat_period(), Ok(Some(6.0)));
     let error = network.breakpoints(1.0, 1e8).unwrap_err();
-    assert!(matches!(error.problem, InputProblem::TooManyPoints(n) if n > 4.9e7 && n < 5.1e7), "{error}");
+    assert!(
+        matches!(error.problem, InputProblem::TooManyPoints(n) if n > 4.9e7 && n < 5.1e7),
+        "{error}"
+    );
 }
 
 #[test]
@@ -153,18 +184,28 @@ fn breakpoints_of_expressions() {
     };
     let none = |_: &mut NetworkBuilder| {};
     all_near(&of("if(t < 30 [s], 1 [W], 2 [W])", none), &[30.0]);
-    all_near(&of("if(3 * t - 20 [s] > t, 1 [W], if(t > 60 [s], 2 [W], 3 [W]))", none), &[10.0, 60.0]);
+    all_near(
+        &of("if(3 * t - 20 [s] > t, 1 [W], if(t > 60 [s], 2 [W], 3 [W]))", none),
+        &[10.0, 60.0],
+    );
     all_near(&of("abs(t - 25 [s]) * 1 [W/s]", none), &[25.0]);
     all_near(&of("min(t, 40 [s]) * 1 [W/s] + max(2 * t, 20 [s]) * 1 [W/s]", none), &[10.0, 40.0]);
     all_near(&of("5 [W] * sin(t / 1 [s])", none), &[]);
     all_near(&of("if(t < 100 [s], 1 [W], 2 [W])", none), &[]);
     all_near(&of("if(t < 0 [s], 1 [W], 2 [W])", none), &[]);
     let table: fn(&mut NetworkBuilder) = |b| {
-        let table =
-            Table1::new(vec![-10.0, 5.0, 300.0], vec![1.0, 2.0, 0.0], Interpolation::Linear, Outside::Error);
+        let table = Table1::new(
+            vec![-10.0, 5.0, 300.0],
+            vec![1.0, 2.0, 0.0],
+            Interpolation::Linear,
+            Outside::Error,
+        );
         let table = lptn_units::Table::One(table.unwrap()).into();
         let arguments = vec![Type::of(Dimension::TIME)];
-        b.table("of_time", lptn_units::TableSymbol { table, arguments, ty: POWER, units: Vec::new() });
+        b.table(
+            "of_time",
+            lptn_units::TableSymbol { table, arguments, ty: POWER, units: Vec::new() },
+        );
     };
     all_near(&of("of_time(2 * t)", table), &[2.5]);
     // 40 W + 20 W sin(2 pi t / 60 s) > 50 W from t = 5 s to 25 s, in every period
@@ -178,7 +219,10 @@ fn breakpoints_of_expressions() {
     b.source("p", a, p);
     let found = b.build().unwrap().breakpoints(0.0, 100.0).unwrap();
     assert_eq!(found.len(), 4, "{found:?}");
-    found.iter().zip([5.0, 25.0, 65.0, 85.0]).for_each(|(f, e)| assert!((f - e).abs() < 1e-6, "{found:?}"));
+    found
+        .iter()
+        .zip([5.0, 25.0, 65.0, 85.0])
+        .for_each(|(f, e)| assert!((f - e).abs() < 1e-6, "{found:?}"));
 }
 
 #[test]
@@ -210,12 +254,19 @@ fn courses_between_breakpoints() {
     assert_eq!(network.curves().len(), 3);
 }
 
-/// Where a comparison or a kink meets a curve: a monotone one may be compared, others may only bend a value.
+/// Where a comparison or a kink meets a curve: a monotone one may be compared, others may only bend
+/// a value.
 #[test]
 fn comparisons_of_curves() {
     let (mut b, a, _) = cooled();
-    // 16 W (3 u^2 - 2 u^3) over 0 s to 10 s, flat at both ends: 2.5 W at a quarter of the way, 13.5 W at three
-    let rise = curve(&[-5.0, 0.0, 10.0, 15.0], &[0.0, 0.0, 16.0, 16.0], Interpolation::Pchip, AfterEnd::Hold);
+    // 16 W (3 u^2 - 2 u^3) over 0 s to 10 s, flat at both ends: 2.5 W at a quarter of the way, 13.5
+    // W at three
+    let rise = curve(
+        &[-5.0, 0.0, 10.0, 15.0],
+        &[0.0, 0.0, 16.0, 16.0],
+        Interpolation::Pchip,
+        AfterEnd::Hold,
+    );
     b.signal("rise", POWER, rise);
     let p = time(&b, "if(rise > 2.5 [W], 1 [W], 2 [W])");
     b.source("p", a, p);

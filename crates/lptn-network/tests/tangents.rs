@@ -1,12 +1,13 @@
-//! Tangents: derivatives of heat flows and heat contents by parameters against central differences, and what has none.
+//! Tangents: derivatives of heat flows and heat contents by parameters against central differences,
+//! and what has none.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod common;
 
 use common::{celsius, cooled, link, own, power, quantity, time};
 use lptn_network::{
-    Acts, Conductance, ConductorKind, Formula, HeatCapacity, Item, Melting, Network, NetworkBuilder,
-    NoTangents, NodeId, ParameterId, Path, Properties, Size, Temperature,
+    Acts, Conductance, ConductorKind, Formula, HeatCapacity, Item, Melting, Network,
+    NetworkBuilder, NoTangents, NodeId, ParameterId, Path, Properties, Size, Temperature,
 };
 
 /// Heat into every vertex in W.
@@ -24,13 +25,16 @@ fn heat(network: &Network, at: f64, nodes: &[f64]) -> Vec<f64> {
         let received = match network.flow(id) {
             lptn_network::Flow::Conductance(g) => [-g * difference, g * difference],
             lptn_network::Flow::Radiation(gr) => {
-                let q =
-                    5.670_374_419e-8 * gr * (temperatures[ends[0]].powi(4) - temperatures[ends[1]].powi(4));
+                let q = 5.670_374_419e-8
+                    * gr
+                    * (temperatures[ends[0]].powi(4) - temperatures[ends[1]].powi(4));
                 [-q, q]
             }
             lptn_network::Flow::Stream(rate) if rate > 0.0 => [0.0, rate * difference],
             lptn_network::Flow::Stream(rate) => [rate * difference, 0.0],
-            lptn_network::Flow::Variable => network.exchange(id, &mut scope, &temperatures).unwrap(),
+            lptn_network::Flow::Variable => {
+                network.exchange(id, &mut scope, &temperatures).unwrap()
+            }
         };
         ends.into_iter().zip(received).for_each(|(vertex, q)| out[vertex] += q);
     }
@@ -54,7 +58,8 @@ fn moved(network: &Network, id: ParameterId, by: f64) -> Network {
     network.with(&other).unwrap()
 }
 
-/// Compares the derivatives of all heats and heat contents with differences, for all parameters together.
+/// Compares the derivatives of all heats and heat contents with differences, for all parameters
+/// together.
 fn agrees(network: &Network, ids: &[ParameterId], at: f64, nodes: &[f64]) {
     let mut tangents = network.tangents(ids).unwrap();
     assert_eq!(tangents.parameters(), ids);
@@ -76,7 +81,10 @@ fn agrees(network: &Network, ids: &[ParameterId], at: f64, nodes: &[f64]) {
         for v in 0..vertices {
             let slope = (a[v] - b[v]) / (2.0 * h);
             let found = found[k * vertices + v];
-            assert!((found - slope).abs() <= 1e-6 * slope.abs().max(1e-2), "{name} {v}: {found} {slope}");
+            assert!(
+                (found - slope).abs() <= 1e-6 * slope.abs().max(1e-2),
+                "{name} {v}: {found} {slope}"
+            );
         }
         for (v, &t) in nodes.iter().enumerate() {
             let slope = (content(&up, v, t) - content(&down, v, t)) / (2.0 * h);
@@ -178,7 +186,12 @@ fn streams_of_fluids() {
     let mut b = NetworkBuilder::new();
     let ids = parameters(
         &mut b,
-        &[("flow", "0.02 kg/s"), ("cp", "2000 J/(kg K)"), ("rho", "900 kg/m^3"), ("T_air", "15 degC")],
+        &[
+            ("flow", "0.02 kg/s"),
+            ("cp", "2000 J/(kg K)"),
+            ("rho", "900 kg/m^3"),
+            ("T_air", "15 degC"),
+        ],
     );
     let [x, y, z] = three(&mut b);
     let t = time(&b, "T_air");
@@ -244,14 +257,20 @@ fn what_has_no_tangents() {
     let network = b.build().unwrap();
     let refusal = network.tangents(&ids[..1]).unwrap_err();
     assert_eq!(refusal, NoTangents::Events { item: Item::Control(fan) });
-    assert_eq!(refusal.describe(&network), "`fan` switches, at times that move with the parameters");
+    assert_eq!(
+        refusal.describe(&network),
+        "`fan` switches, at times that move with the parameters"
+    );
     // a jump that moves
     let (mut b, a, _) = cooled();
     let ids = parameters(&mut b, &[("P", "5 W"), ("t_on", "20 s")]);
     let p = time(&b, "if(t < t_on, 0 [W], P)");
     let jump = b.source("jump", a, p);
     let network = b.build().unwrap();
-    assert_eq!(network.tangents(&ids).unwrap_err(), NoTangents::MovingJump { item: Item::Source(jump) });
+    assert_eq!(
+        network.tangents(&ids).unwrap_err(),
+        NoTangents::MovingJump { item: Item::Source(jump) }
+    );
     assert!(network.tangents(&ids).unwrap_err().describe(&network).starts_with("`jump` jumps"));
     agrees(&network, &ids[..1], 30.0, &[300.0]);
     // melting that changes
@@ -268,7 +287,9 @@ fn what_has_no_tangents() {
     let node = b.node("x", lump, Temperature(300.0));
     let network = b.build().unwrap();
     assert_eq!(network.tangents(&ids[..1]).unwrap_err(), NoTangents::Melting { node });
-    assert!(network.tangents(&ids[..1]).unwrap_err().describe(&network).starts_with("how `x` melts"));
+    assert!(
+        network.tangents(&ids[..1]).unwrap_err().describe(&network).starts_with("how `x` melts")
+    );
     agrees(&network, &ids[1..], 0.0, &[310.0]);
     // a fluid whose heat content changes
     let mut b = NetworkBuilder::new();

@@ -8,11 +8,12 @@ use crate::error::{FitError, ReduceError};
 use crate::fit::{ExponentialFit, fit_exponential};
 use crate::norton::NortonEquivalent;
 
-/// The heat that one exponential through the port's record implies, against the heat that was put in.
+/// The heat that one exponential through the port's record implies, against the heat that was put
+/// in.
 ///
-/// The method (seed paper, equations 8 to 11): fit `T_i + (T_f - T_i)(1 - exp(-t / t_RC))` to the record of one
-/// thermocouple, take `C_eq` as the sum of the capacities, and conclude `R_eq = t_RC / C_eq` and
-/// `P = (T_f - T_i) / R_eq`.
+/// The method (seed paper, equations 8 to 11): fit `T_i + (T_f - T_i)(1 - exp(-t / t_RC))` to the
+/// record of one thermocouple, take `C_eq` as the sum of the capacities, and conclude
+/// `R_eq = t_RC / C_eq` and `P = (T_f - T_i) / R_eq`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bias {
     /// The exponential; its temperatures are in K, its time 0 is the start of the run.
@@ -32,7 +33,8 @@ pub struct Bias {
 }
 
 impl Bias {
-    /// Runs the network as `run` says, with a row where it has one, and fits the record of the port.
+    /// Runs the network as `run` says, with a row where it has one, and fits the record of the
+    /// port.
     ///
     /// # Errors
     /// [`ReduceError`] if the run fails; inside, [`FitError`] if the record has no exponential.
@@ -47,7 +49,8 @@ impl Bias {
         let temperatures = solution.temperature(port).unwrap_or_default();
         let capacity = norton.capacity_sum(system.network());
         let length = run.stop - run.start;
-        let felt = solution.ledger().sources.iter().zip(&norton.source_weights).filter(|(_, w)| **w > 0.0);
+        let felt =
+            solution.ledger().sources.iter().zip(&norton.source_weights).filter(|(_, w)| **w > 0.0);
         let heat = felt.map(|(energy, _)| energy).sum::<f64>() / length;
         Ok(fit_exponential(&times, &temperatures).map(|fit| {
             let resistance = fit.tau / capacity;

@@ -5,10 +5,11 @@ use crate::deviation::Deviation;
 /// What the capacity of the one-node equivalent is to be equal in. `R_eq` is the same for all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Definition {
-    /// The heat stored when all nodes are equally warm: the sum of the capacities that heat from the port reaches.
+    /// The heat stored when all nodes are equally warm: the sum of the capacities that heat from
+    /// the port reaches.
     Sum,
-    /// The first moment of the impulse response, `m1 / R_eq^2` with `m1 = sum of C_k R_pk^2`: the area between
-    /// the step response and its final value.
+    /// The first moment of the impulse response, `m1 / R_eq^2` with `m1 = sum of C_k R_pk^2`: the
+    /// area between the step response and its final value.
     FirstMoment,
     /// The slowest time constant that the port sees, `tau_1 / R_eq`.
     DominantPole,
@@ -18,7 +19,8 @@ pub enum Definition {
 
 impl Definition {
     /// All of them, the simplest first.
-    pub const ALL: [Self; 4] = [Self::Sum, Self::FirstMoment, Self::DominantPole, Self::LeastSquares];
+    pub const ALL: [Self; 4] =
+        [Self::Sum, Self::FirstMoment, Self::DominantPole, Self::LeastSquares];
 
     /// The name in results and on the command line.
     pub fn key(self) -> &'static str {
@@ -40,7 +42,8 @@ pub struct Pair {
     pub capacity: f64,
     /// Largest error for a step of 1 W at the port; the rise is `R_eq` times 1 W.
     pub step: Deviation,
-    /// Largest error for the network's own sources, boundaries and run; `None` where no run was given.
+    /// Largest error for the network's own sources, boundaries and run; `None` where no run was
+    /// given.
     pub run: Option<Deviation>,
 }
 
@@ -53,8 +56,8 @@ pub struct Recommended {
     pub by_run: bool,
 }
 
-/// The pair with the smallest error; of pairs that differ by less than the noise of the run or of the step, both
-/// in K, the simplest.
+/// The pair with the smallest error; of pairs that differ by less than the noise of the run or of
+/// the step, both in K, the simplest.
 pub(crate) fn recommended(pairs: &[Pair; 4], (of_run, of_step): (f64, f64)) -> Recommended {
     let by_run = pairs.iter().all(|pair| pair.run.is_some_and(|run| run.relative.is_some()));
     let error = |pair: &Pair| match pair.run {
@@ -77,7 +80,8 @@ mod tests {
 
     /// Pairs with these errors in K of the step and of the run; no run where it is not finite.
     fn pairs(of_step: [f64; 4], of_run: [f64; 4]) -> [Pair; 4] {
-        let deviation = |kelvin: f64| Deviation { kelvin, relative: Some(kelvin / 50.0), time: 1.0 };
+        let deviation =
+            |kelvin: f64| Deviation { kelvin, relative: Some(kelvin / 50.0), time: 1.0 };
         [0, 1, 2, 3].map(|k| Pair {
             definition: Definition::ALL[k],
             capacity: 1.0,
@@ -109,8 +113,9 @@ mod tests {
 
     #[test]
     fn within_the_noise_the_simplest_is_taken() {
-        let definition =
-            |errors: [f64; 4], noise| recommended(&pairs(NO_RUN.map(|_| 9.0), errors), noise).definition;
+        let definition = |errors: [f64; 4], noise| {
+            recommended(&pairs(NO_RUN.map(|_| 9.0), errors), noise).definition
+        };
         assert_eq!(definition([1.0, 0.9, 0.9, 0.8], (0.3, 0.0)), Definition::Sum);
         assert_eq!(definition([1.0, 0.9, 0.9, 0.8], (0.15, 0.0)), Definition::LeastSquares);
         assert_eq!(definition([1.0, 0.5, 0.5, 0.5], (0.0, 9.0)), Definition::FirstMoment);

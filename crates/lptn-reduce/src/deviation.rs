@@ -25,14 +25,16 @@ impl Deviation {
     }
 }
 
-/// For a step of 1 W at the port and all times after it. Looked for on a grid of 200 points a decade from a
-/// thousandth of the shortest to 50 of the longest time constant, and at 0, then refined.
+/// For a step of 1 W at the port and all times after it. Looked for on a grid of 200 points a
+/// decade from a thousandth of the shortest to 50 of the longest time constant, and at 0, then
+/// refined.
 pub(crate) fn of_step(step: &StepResponse, capacity: f64) -> Deviation {
     const PER_DECADE: f64 = 200.0;
     let tau = step.resistance * capacity;
     // without capacity all of the rise comes at once
-    let model =
-        |time: f64| if tau > 0.0 { -step.resistance * f64::exp_m1(-time / tau) } else { step.resistance };
+    let model = |time: f64| {
+        if tau > 0.0 { -step.resistance * f64::exp_m1(-time / tau) } else { step.resistance }
+    };
     let error = |time: f64| (step.value(time) - model(time)).abs();
     let (least, most) = step.span();
     let from = (1e-3 * if tau > 0.0 { least.min(tau) } else { least }).log10();
@@ -70,7 +72,11 @@ pub(crate) struct Record {
 
 impl Record {
     /// Runs `system` and keeps `node`.
-    pub(crate) fn of(system: &ThermalSystem, node: NodeId, run: &Dense) -> Result<Self, TransientError> {
+    pub(crate) fn of(
+        system: &ThermalSystem,
+        node: NodeId,
+        run: &Dense,
+    ) -> Result<Self, TransientError> {
         let solution = run.transient.clone().record(&[node]).solve(system)?;
         let temperatures = solution.temperature(node).unwrap_or_default();
         Ok(Self { times: solution.times().to_vec(), temperatures, breaks: run.breaks.clone() })
@@ -90,7 +96,8 @@ impl Record {
         Deviation { kelvin, relative: (rise > 0.0).then(|| kelvin / rise), time }
     }
 
-    /// The largest of these sizes, one a row, and its time; between rows by a parabola through three of them.
+    /// The largest of these sizes, one a row, and its time; between rows by a parabola through
+    /// three of them.
     fn largest(&self, sizes: impl Iterator<Item = f64>) -> (f64, f64) {
         let points: Vec<(f64, f64)> = self.times.iter().copied().zip(sizes).collect();
         let start = (0.0, self.times.first().copied().unwrap_or(0.0));
@@ -100,8 +107,9 @@ impl Record {
         all.fold(start, |best, next| if next.0 > best.0 { next } else { best })
     }
 
-    /// Whether a parabola may go through rows at these times: a jump or kink on the way has none, and rows that lie
-    /// much closer on one side than on the other give its slope as noise over their distance.
+    /// Whether a parabola may go through rows at these times: a jump or kink on the way has none,
+    /// and rows that lie much closer on one side than on the other give its slope as noise over
+    /// their distance.
     fn is_smooth(&self, [a, b, c]: [f64; 3]) -> bool {
         const MOST_UNEVEN: f64 = 10.0;
         let passed = |time: f64| self.breaks.partition_point(|&at| at <= time);
@@ -118,9 +126,9 @@ pub(crate) struct Dense {
 }
 
 impl Dense {
-    /// The rows of `run`, and between two known discontinuities 1000 at equal distances, 100 a decade after the
-    /// first over eight decades, since errors are largest soon after a jump, and one just before the second, where
-    /// a massless port is about to leap.
+    /// The rows of `run`, and between two known discontinuities 1000 at equal distances, 100 a
+    /// decade after the first over eight decades, since errors are largest soon after a jump, and
+    /// one just before the second, where a massless port is about to leap.
     pub(crate) fn new(
         system: &ThermalSystem,
         run: &Transient,
@@ -138,10 +146,13 @@ impl Dense {
             from = to;
         }
         times.sort_unstable_by(f64::total_cmp);
-        let near = |next: f64, first: f64| next - first <= 1e-12 * (stop - start) && !breaks.contains(&next);
+        let near = |next: f64, first: f64| {
+            next - first <= 1e-12 * (stop - start) && !breaks.contains(&next)
+        };
         times.dedup_by(|next, first| *next <= *first || near(*next, *first));
         times.retain(|time| (start..=stop).contains(time));
-        let transient = Transient { output: OutputTimes::At(times), watch: Vec::new(), ..run.clone() };
+        let transient =
+            Transient { output: OutputTimes::At(times), watch: Vec::new(), ..run.clone() };
         Ok(Self { transient: transient.tolerance(tolerance), breaks })
     }
 }
@@ -151,7 +162,8 @@ mod tests {
     use super::*;
     use crate::step::Term;
 
-    /// `exp(-t) - exp(-q t)` is largest at `t = ln q / (q - 1)`, and is `q^(-1/(q-1)) - q^(-q/(q-1))` there.
+    /// `exp(-t) - exp(-q t)` is largest at `t = ln q / (q - 1)`, and is
+    /// `q^(-1/(q-1)) - q^(-q/(q-1))` there.
     #[test]
     fn the_error_of_one_exponential_for_another() {
         let term = Term { tau: 1.0, resistance: 2.0, error: 0.0 };
@@ -185,7 +197,8 @@ mod tests {
 
     /// Of a parabola with its top, 4, at 1.3.
     fn parabola(times: &[f64], breaks: &[f64]) -> Deviation {
-        let of = |temperatures| Record { times: times.to_vec(), temperatures, breaks: breaks.to_vec() };
+        let of =
+            |temperatures| Record { times: times.to_vec(), temperatures, breaks: breaks.to_vec() };
         let other = of(vec![0.0; times.len()]);
         of(times.iter().map(|t| 4.0 - (t - 1.3) * (t - 1.3)).collect()).deviation(&other)
     }
@@ -193,7 +206,10 @@ mod tests {
     #[test]
     fn between_rows_the_error_is_that_of_a_parabola() {
         let found = parabola(&[0.0, 1.0, 2.0], &[]);
-        assert!((found.kelvin - 4.0).abs() < 1e-14 && (found.time - 1.3).abs() < 1e-14, "{found:?}");
+        assert!(
+            (found.kelvin - 4.0).abs() < 1e-14 && (found.time - 1.3).abs() < 1e-14,
+            "{found:?}"
+        );
         // from 2.31 to 3.91 at 1, 4 between: the rise is that of the top as well
         assert!((found.relative.unwrap() - 4.0 / 1.69).abs() < 1e-14, "{found:?}");
     }

@@ -15,17 +15,20 @@ pub enum ReduceError {
     /// The port is a boundary: its temperature is given, whatever heat goes in.
     BoundaryPort { name: String } = "reduce::boundary_port", format!("`{name}` is a boundary and cannot be a port"),
         help "choose a node: a boundary keeps its temperature whatever heat it gets";
-    /// No path leads from the port and the nodes joined to it to a boundary: heat put in there is never given away.
+    /// No path leads from the port and the nodes joined to it to a boundary: heat put in there is
+    /// never given away.
     NoGround { names: Vec<String> } = "reduce::no_ground",
         format!("no path leads to a boundary from {}", list_of_names(names)),
         help "add a path to a boundary: without one, a constant heat never leads to a rise that stays";
-    /// The network is not linear with constant coefficients; the name of the first item that makes it so.
+    /// The network is not linear with constant coefficients; the name of the first item that makes
+    /// it so.
     NotLinear { name: String } = "reduce::not_linear",
         format!("`{name}` is more than a constant: only linear networks have one equivalent resistance"),
         help format!(
             "put a constant conductance, capacity or heat in place of `{name}`, as it is in steady state: `lptn steady`"
         );
-    /// Sources or boundaries switch by themselves, which one node without the places that are felt cannot follow.
+    /// Sources or boundaries switch by themselves, which one node without the places that are felt
+    /// cannot follow.
     Switches { name: String } = "reduce::switches",
         format!("`{name}` switches during a run, which an equivalent of one node cannot follow"),
         help format!("write 0 or 1 in place of `{name}`, and reduce what is then there");
@@ -41,7 +44,8 @@ pub enum ReduceError {
     Run => TransientError;
     /// The equivalent network could not be built; the text says why.
     Equivalent(why: String) = "reduce::equivalent", format!("the equivalent network cannot be built: {why}"), class Class::Numbers;
-    /// The window in s of the least-squares definition is not a positive time, or too short to see the port warm.
+    /// The window in s of the least-squares definition is not a positive time, or too short to see
+    /// the port warm.
     Window(window: f64) = "reduce::window",
         format!("the window must be a time in which the port warms, got {window} s"),
         help "write for example --window \"25 min\"";
@@ -67,8 +71,8 @@ pub enum FitError {
     /// The temperature does not change.
     Flat = "fit::flat", "the temperature of the record does not change",
         help "name the columns that change: --column NAME";
-    /// The best exponential is a straight line or a jump: the record does not say what its time constant is. The search
-    /// ended at this one, in s.
+    /// The best exponential is a straight line or a jump: the record does not say what its time
+    /// constant is. The search ended at this one, in s.
     NoCurvature { tau: f64 } = "fit::no_curvature",
         format!("the record shows no time constant: the search ended at {tau:.1e} s"), class Class::Numbers;
 }

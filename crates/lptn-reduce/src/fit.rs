@@ -19,9 +19,10 @@ pub struct ExponentialFit {
 
 /// Fits `T_i`, `T_f` and `tau` to temperatures at ascending times in s, counted from time 0.
 ///
-/// By variable projection (G. H. Golub and V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413): for a given `tau` the
-/// other two are linear; `tau` is sought on a grid over all scales of the record and then by Gauss-Newton steps
-/// in its logarithm, without the term of the derivative that vanishes with the residual (L. Kaufman, BIT 15 (1975) 49).
+/// By variable projection (G. H. Golub and V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413): for a
+/// given `tau` the other two are linear; `tau` is sought on a grid over all scales of the record
+/// and then by Gauss-Newton steps in its logarithm, without the term of the derivative that
+/// vanishes with the residual (L. Kaufman, BIT 15 (1975) 49).
 ///
 /// # Errors
 /// [`FitError`], in particular where the record does not bend.
@@ -38,7 +39,8 @@ pub fn fit_exponential(times: &[f64], temperatures: &[f64]) -> Result<Exponentia
 
 struct Record<'a> {
     times: &'a [f64],
-    /// The first time. Shapes begin there: far behind time 0 nothing but rounding would be left of them.
+    /// The first time. Shapes begin there: far behind time 0 nothing but rounding would be left of
+    /// them.
     first: f64,
     temperatures: &'a [f64],
 }
@@ -94,11 +96,11 @@ impl<'a> Record<'a> {
         (log_tau, best)
     }
 
-    /// The logarithm of the best time constant of a grid, from a tenth of the shortest distance of two points to
-    /// a thousand times the length.
+    /// The logarithm of the best time constant of a grid, from a tenth of the shortest distance of
+    /// two points to a thousand times the length.
     ///
-    /// A long record is looked at through the means of its stretches first, which show all but time constants that are
-    /// as short as these.
+    /// A long record is looked at through the means of its stretches first, which show all but time
+    /// constants that are as short as these.
     fn search(&self) -> Result<f64, FitError> {
         if self.times.len() >= 2 * FEW {
             let (times, temperatures) = (means(self.times), means(self.temperatures));
@@ -114,7 +116,8 @@ impl<'a> Record<'a> {
 
     /// The best of so many time constants, and whether it is inside.
     fn grid(&self, count: i32) -> Result<f64, FitError> {
-        let shortest = self.times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+        let shortest =
+            self.times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
         let from = (0.1 * shortest).ln();
         let to = (1e3 * (self.times[self.times.len() - 1] - self.times[0])).ln();
         let at = |k: i32| from + (to - from) * f64::from(k) / f64::from(count);
@@ -129,15 +132,16 @@ impl<'a> Record<'a> {
 
     fn project(&self, log_tau: f64) -> Projected {
         let tau = log_tau.exp();
-        let shape: Vec<f64> = self.times.iter().map(|t| -f64::exp_m1((self.first - t) / tau)).collect();
+        let shape: Vec<f64> =
+            self.times.iter().map(|t| -f64::exp_m1((self.first - t) / tau)).collect();
         let (initial, rise) = line(&shape, self.temperatures);
         let misses = self.temperatures.iter().zip(&shape).map(|(t, s)| t - initial - rise * s);
         let squares = misses.map(|m| m * m).sum();
         Projected { initial, rise, shape, squares }
     }
 
-    /// The Gauss-Newton step of the logarithm: what is missed against the part of the derivative that offset and
-    /// factor cannot follow.
+    /// The Gauss-Newton step of the logarithm: what is missed against the part of the derivative
+    /// that offset and factor cannot follow.
     fn step(&self, log_tau: f64, at: &Projected) -> f64 {
         let tau = log_tau.exp();
         let slope = |(t, s): (&f64, &f64)| -at.rise * ((t - self.first) / tau) * (1.0 - s);
@@ -179,8 +183,8 @@ fn means(values: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// The means of equal stretches of an exponential are one with the same time constant, so that the search through
-    /// them ends there, and no point of a grid does.
+    /// The means of equal stretches of an exponential are one with the same time constant, so that
+    /// the search through them ends there, and no point of a grid does.
     #[test]
     fn a_long_record_is_searched_through_its_means() {
         for tau in [80.0_f64, 900.0, 31_000.0] {

@@ -23,9 +23,10 @@ const MOST: usize = 300;
 /// Coupling relative to the largest eigenvalue below which nothing new is excited.
 const EXHAUSTED: f64 = 1e-14;
 
-/// Lanczos iteration with full reorthogonalisation (C. Lanczos, J. Res. NBS 45 (1950) 255; G. H. Golub and
-/// G. Meurant, Matrices, Moments and Quadrature (2010), chapter 4: values and weights are the Gauss quadrature
-/// of the start vector's measure). Ends when `enough` says so of the modes found, or when there are no more.
+/// Lanczos iteration with full reorthogonalisation (C. Lanczos, J. Res. NBS 45 (1950) 255; G. H.
+/// Golub and G. Meurant, Matrices, Moments and Quadrature (2010), chapter 4: values and weights are
+/// the Gauss quadrature of the start vector's measure). Ends when `enough` says so of the modes
+/// found, or when there are no more.
 pub(crate) fn modes(
     start: &[f64],
     apply: &mut Operator<'_>,
@@ -42,7 +43,8 @@ pub(crate) fn modes(
         diagonal.push(dot(&basis[last], &next));
         let coupling = orthogonalise(&mut next, &basis);
         largest = largest.max(diagonal[last].abs()).max(coupling);
-        let done = coupling <= EXHAUSTED * largest || basis.len() == start.len() || basis.len() == MOST;
+        let done =
+            coupling <= EXHAUSTED * largest || basis.len() == start.len() || basis.len() == MOST;
         if done || basis.len() >= check {
             check += check / 4;
             let found = ritz(&diagonal, &beside, coupling, length)?;
@@ -55,9 +57,9 @@ pub(crate) fn modes(
     }
 }
 
-/// Takes the parts along `basis` off a vector and gives the length that is left. A second time where much was taken
-/// off, so that rounding of the first does not stay ("twice is enough": B. N. Parlett, The Symmetric Eigenvalue
-/// Problem (1998), section 6.9).
+/// Takes the parts along `basis` off a vector and gives the length that is left. A second time
+/// where much was taken off, so that rounding of the first does not stay ("twice is enough": B. N.
+/// Parlett, The Symmetric Eigenvalue Problem (1998), section 6.9).
 fn orthogonalise(next: &mut [f64], basis: &[Vec<f64>]) -> f64 {
     let before = norm(next);
     for _ in 0..2 {
@@ -73,7 +75,12 @@ fn orthogonalise(next: &mut [f64], basis: &[Vec<f64>]) -> f64 {
 }
 
 /// Eigenvalues of the tridiagonal matrix, largest first.
-fn ritz(diagonal: &[f64], beside: &[f64], coupling: f64, length: f64) -> Result<Vec<Mode>, ReduceError> {
+fn ritz(
+    diagonal: &[f64],
+    beside: &[f64],
+    coupling: f64,
+    length: f64,
+) -> Result<Vec<Mode>, ReduceError> {
     let n = diagonal.len();
     let entry = |i: usize, j: usize| match i.abs_diff(j) {
         0 => diagonal[i],
@@ -81,7 +88,8 @@ fn ritz(diagonal: &[f64], beside: &[f64], coupling: f64, length: f64) -> Result<
         _ => 0.0,
     };
     let tridiagonal = Mat::from_fn(n, n, entry);
-    let (values, vectors) = dense::symmetric_eigen(tridiagonal.as_ref()).ok_or(ReduceError::Modes)?;
+    let (values, vectors) =
+        dense::symmetric_eigen(tridiagonal.as_ref()).ok_or(ReduceError::Modes)?;
     let mode = |k: usize| Mode {
         value: values[k],
         weight: (length * vectors[(0, k)]).powi(2),
@@ -108,7 +116,8 @@ fn scaled(a: &[f64], factor: f64) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// A unit vector hidden under parts 1e8 times as long: the first pass leaves rounding of these, the second does not.
+    /// A unit vector hidden under parts 1e8 times as long: the first pass leaves rounding of these,
+    /// the second does not.
     #[test]
     fn a_vector_deep_within_the_basis_becomes_orthogonal_to_it() {
         let (c, s) = (0.6, 0.8);
@@ -123,7 +132,8 @@ mod tests {
         }
     }
 
-    /// A diagonal operator has its entries for eigenvalues, and the squares of the start vector for weights.
+    /// A diagonal operator has its entries for eigenvalues, and the squares of the start vector for
+    /// weights.
     #[test]
     fn modes_of_a_diagonal_operator_are_its_entries() {
         let entries = [3.0, 0.5, 7.0, 1.0, 0.01, 2.0];
@@ -132,7 +142,10 @@ mod tests {
         let found = modes(&start, &mut apply, &|_| false).unwrap();
         let expected = [(7.0, 0.25), (3.0, 1.0), (1.0, 2.25), (0.5, 4.0), (0.01, 9.0)];
         for (mode, (value, weight)) in found.iter().zip(expected) {
-            assert!((mode.value - value).abs() < 1e-13 && (mode.weight - weight).abs() < 1e-11, "{mode:?}");
+            assert!(
+                (mode.value - value).abs() < 1e-13 && (mode.weight - weight).abs() < 1e-11,
+                "{mode:?}"
+            );
             assert!(mode.error < 1e-13, "{mode:?}");
         }
         // 2 is not excited

@@ -1,11 +1,12 @@
 //! A network seen from one node: its Norton equivalent, and what it costs to believe it.
 //!
-//! At a *port* (a node) a linear network is `q = Q_N - (T - T_ref) / R_eq` in steady state, exactly:
-//! [`NortonEquivalent`]. Over time it is not one resistance and one capacity but a sum of exponentials,
-//! [`StepResponse`]; the capacity `C_eq` of the nearest one-node network depends on what "nearest" means, so
-//! [`Reduction`] gives it by four [`Definition`]s, each with the largest [`Deviation`] it leads to, measured for
-//! a unit step of heat and for the network's own inputs. [`fit_exponential`] and [`Bias`] are the method of the
-//! seed paper, which takes heat from one exponential.
+//! At a *port* (a node) a linear network is `q = Q_N - (T - T_ref) / R_eq` in steady state,
+//! exactly: [`NortonEquivalent`]. Over time it is not one resistance and one capacity but a sum of
+//! exponentials, [`StepResponse`]; the capacity `C_eq` of the nearest one-node network depends on
+//! what "nearest" means, so [`Reduction`] gives it by four [`Definition`]s, each with the largest
+//! [`Deviation`] it leads to, measured for a unit step of heat and for the network's own inputs.
+//! [`fit_exponential`] and [`Bias`] are the method of the seed paper, which takes heat from one
+//! exponential.
 //!
 //! Units: SI, temperatures in K, resistances in K/W, capacities in J/K, heat positive into a node.
 

@@ -6,21 +6,22 @@ use lptn_network::{End, InputError, Item, Network, NodeId};
 use crate::error::ReduceError;
 use crate::rises::Rises;
 
-/// The Norton equivalent of a linear network at a port: `q = Q_N - (T - T_ref) / R_eq`, where q is the heat that
-/// the network gives out of the port in W when something outside holds the port at T.
+/// The Norton equivalent of a linear network at a port: `q = Q_N - (T - T_ref) / R_eq`, where q is
+/// the heat that the network gives out of the port in W when something outside holds the port at T.
 ///
-/// `R_eq = (G^-1)_pp` is the rise of the port for 1 W into it. By reciprocity (G is symmetric) the response
-/// `R_pk` of node k to heat at the port is that of the port to heat at k, so one solution gives the weights of
-/// all sources, `R_pk / R_pp`, and of all boundaries: the share of the 1 W that each takes. Source: L. O. Chua,
-/// C. A. Desoer, E. S. Kuh, Linear and Nonlinear Circuits (1987), chapters 5 and 13.
+/// `R_eq = (G^-1)_pp` is the rise of the port for 1 W into it. By reciprocity (G is symmetric) the
+/// response `R_pk` of node k to heat at the port is that of the port to heat at k, so one solution
+/// gives the weights of all sources, `R_pk / R_pp`, and of all boundaries: the share of the 1 W
+/// that each takes. Source: L. O. Chua, C. A. Desoer, E. S. Kuh, Linear and Nonlinear Circuits
+/// (1987), chapters 5 and 13.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NortonEquivalent {
     /// The node seen from outside.
     pub port: NodeId,
     /// `R_eq` in K/W, positive.
     pub resistance: f64,
-    /// `R_pk` in K/W: rise of every node for 1 W into the port, between 0 and `R_eq`; 0 for nodes that only a
-    /// boundary connects with the port.
+    /// `R_pk` in K/W: rise of every node for 1 W into the port, between 0 and `R_eq`; 0 for nodes
+    /// that only a boundary connects with the port.
     pub response: Vec<f64>,
     /// Weight of every boundary in `T_ref`: not negative, sum 1.
     pub boundary_weights: Vec<f64>,
@@ -52,7 +53,11 @@ pub fn port(network: &Network, name: &str) -> Result<NodeId, ReduceError> {
 ///
 /// # Errors
 /// [`ReduceError::NoGround`] and [`ReduceError::Factorization`].
-pub fn transfer_resistance(system: &ThermalSystem, from: NodeId, to: NodeId) -> Result<f64, ReduceError> {
+pub fn transfer_resistance(
+    system: &ThermalSystem,
+    from: NodeId,
+    to: NodeId,
+) -> Result<f64, ReduceError> {
     Ok(NortonEquivalent::new(system, from)?.response[to.index()])
 }
 
@@ -62,7 +67,8 @@ impl NortonEquivalent {
     /// The resistance is right to 1e-12 for conductances that spread over three decades (tested).
     ///
     /// # Errors
-    /// [`ReduceError::NoGround`] if no path leads from the port to a boundary, [`ReduceError::Factorization`].
+    /// [`ReduceError::NoGround`] if no path leads from the port to a boundary,
+    /// [`ReduceError::Factorization`].
     pub fn new(system: &ThermalSystem, port: NodeId) -> Result<Self, ReduceError> {
         grounded(system.network(), port)?;
         Self::with(system, port, &mut Rises::new(system)?)
@@ -82,7 +88,8 @@ impl NortonEquivalent {
             rise.iter().zip(&reached).map(|(&r, &is)| if is { r } else { 0.0 }).collect();
         let resistance = response[port.index()];
         let weight = |source: &lptn_network::Source| {
-            source.into.iter().map(|(node, share)| share * response[node.index()]).sum::<f64>() / resistance
+            source.into.iter().map(|(node, share)| share * response[node.index()]).sum::<f64>()
+                / resistance
         };
         let source_weights = network.sources().iter().map(weight).collect();
         let boundary_weights = rises.boundary_heat().iter().map(|w| w.max(0.0)).collect();
@@ -93,7 +100,11 @@ impl NortonEquivalent {
     pub fn reference(&self, boundaries: &[f64]) -> f64 {
         // as differences: a network at one temperature has exactly that as its reference
         let base = boundaries.first().copied().unwrap_or(f64::NAN);
-        base + boundaries.iter().zip(&self.boundary_weights).map(|(t, w)| w * (t - base)).sum::<f64>()
+        base + boundaries
+            .iter()
+            .zip(&self.boundary_weights)
+            .map(|(t, w)| w * (t - base))
+            .sum::<f64>()
     }
 
     /// `Q_N` in W from the heat of all sources in W.
@@ -119,8 +130,9 @@ impl NortonEquivalent {
         self.reached(network).map(|(_, capacity)| capacity).sum()
     }
 
-    /// `m1 = sum of C_k R_pk^2` in K s/W: the first moment of the impulse response at the port (W. C. Elmore,
-    /// J. Appl. Phys. 19 (1948) 55; for a driving point of an RC network the sum over squares).
+    /// `m1 = sum of C_k R_pk^2` in K s/W: the first moment of the impulse response at the port (W.
+    /// C. Elmore, J. Appl. Phys. 19 (1948) 55; for a driving point of an RC network the sum over
+    /// squares).
     pub fn first_moment(&self, network: &Network) -> f64 {
         self.reached(network).map(|(r, capacity)| capacity * r * r).sum()
     }
@@ -134,7 +146,8 @@ impl NortonEquivalent {
     }
 }
 
-/// The port must lead to a boundary. Nodes that no path over nodes joins to it need not: it does not feel them.
+/// The port must lead to a boundary. Nodes that no path over nodes joins to it need not: it does
+/// not feel them.
 pub(crate) fn grounded(network: &Network, port: NodeId) -> Result<(), ReduceError> {
     let Some(loose) = network.ungrounded().into_iter().find(|island| island.contains(&port)) else {
         return Ok(());

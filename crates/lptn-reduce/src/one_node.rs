@@ -2,7 +2,8 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    Course, HeatCapacity, HeatFlow, Input, Network, NetworkBuilder, NodeId, Resistance, Temperature, Value,
+    Course, HeatCapacity, HeatFlow, Input, Network, NetworkBuilder, NodeId, Resistance,
+    Temperature, Value,
 };
 use lptn_units::{Dimension, Problem, Problems, Quantity, Type, format_number};
 
@@ -22,9 +23,10 @@ pub(crate) struct OneNode<'a> {
 impl OneNode<'_> {
     /// The network with this capacity in J/K, or none. Its node is the port's namesake.
     ///
-    /// Constant inputs become one boundary `T_ref` behind `R_eq` and one source `Q_N`. Where an input changes
-    /// with time, every boundary stays, behind `R_eq` over its weight, and every source, times its weight:
-    /// expressions stay as they are written, and the whole is the same equivalent at every moment.
+    /// Constant inputs become one boundary `T_ref` behind `R_eq` and one source `Q_N`. Where an
+    /// input changes with time, every boundary stays, behind `R_eq` over its weight, and every
+    /// source, times its weight: expressions stay as they are written, and the whole is the same
+    /// equivalent at every moment.
     pub(crate) fn network(&self, capacity: Option<f64>) -> Result<Network, ReduceError> {
         let from = self.system.network();
         let mut builder = NetworkBuilder::new();
@@ -45,19 +47,24 @@ impl OneNode<'_> {
         builder.build().map_err(|errors| ReduceError::Equivalent(first(&errors)))
     }
 
-    /// The parameters that the inputs use, as the constants they come to; with signals and tables all of them.
+    /// The parameters that the inputs use, as the constants they come to; with signals and tables
+    /// all of them.
     fn parameters(&self, builder: &mut NetworkBuilder) -> Result<(), ReduceError> {
         let network = self.system.network();
         let boundaries = network.boundaries().iter().map(|b| &b.temperature);
         let sources = network.sources().iter().map(|s| &s.power);
         let values = boundaries.zip(&self.norton.boundary_weights);
-        let values = values.chain(sources.zip(&self.norton.source_weights)).filter(|(_, w)| **w > 0.0);
+        let values =
+            values.chain(sources.zip(&self.norton.source_weights)).filter(|(_, w)| **w > 0.0);
         let used: Vec<u32> = values.flat_map(|(value, _)| value.slots()).collect();
         let all = !network.signals().is_empty();
         for (parameter, id) in network.parameters().iter().zip(network.parameter_ids()) {
             if all || used.contains(&network.parameter_slot(id)) {
                 let value = network.parameter_value(id);
-                builder.parameter(&parameter.name, Quantity { value, deviation: None, ty: parameter.ty });
+                builder.parameter(
+                    &parameter.name,
+                    Quantity { value, deviation: None, ty: parameter.ty },
+                );
             }
         }
         for (name, table) in network.tables() {
@@ -123,10 +130,17 @@ impl OneNode<'_> {
 }
 
 /// `weight` times a value, which has no absolute type unless the weight is 1.
-fn input(builder: &NetworkBuilder, value: &Value, ty: Type, weight: f64) -> Result<Input, ReduceError> {
+fn input(
+    builder: &NetworkBuilder,
+    value: &Value,
+    ty: Type,
+    weight: f64,
+) -> Result<Input, ReduceError> {
     let factor = format_number(weight);
     match value {
-        Value::Constant(value) => Ok(Quantity { value: weight * value, deviation: None, ty }.into()),
+        Value::Constant(value) => {
+            Ok(Quantity { value: weight * value, deviation: None, ty }.into())
+        }
         Value::Product(_) => {
             Err(ReduceError::Equivalent("a product is no input: this is a bug in lptn".into()))
         }

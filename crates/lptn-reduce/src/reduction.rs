@@ -13,8 +13,8 @@ use crate::one_node::OneNode;
 use crate::rises::Rises;
 use crate::step::StepResponse;
 
-/// The largest tolerance in K of the runs that are compared; a run with a tighter one keeps a hundredth of that.
-/// The errors they give are right to about ten times as much.
+/// The largest tolerance in K of the runs that are compared; a run with a tighter one keeps a
+/// hundredth of that. The errors they give are right to about ten times as much.
 pub const TOLERANCE: f64 = 1e-7;
 
 /// What a reduction needs to know besides the network.
@@ -22,7 +22,8 @@ pub const TOLERANCE: f64 = 1e-7;
 pub struct Options {
     /// The run to compare over; `None` leaves the second error out.
     pub run: Option<Transient>,
-    /// Length in s of the window of [`Definition::LeastSquares`], from the step on; else that of the run.
+    /// Length in s of the window of [`Definition::LeastSquares`], from the step on; else that of
+    /// the run.
     pub window: Option<f64>,
 }
 
@@ -86,9 +87,13 @@ impl Reduction {
     /// Reduces `system` at `port` and measures what the result is worth.
     ///
     /// # Errors
-    /// [`ReduceError`], in particular for a port without a path to a boundary, and for a run of a network that switches;
-    /// without a run its inputs are those of [`Network::initial_positions`].
-    pub fn new(system: &ThermalSystem, port: NodeId, options: &Options) -> Result<Self, ReduceError> {
+    /// [`ReduceError`], in particular for a port without a path to a boundary, and for a run of a
+    /// network that switches; without a run its inputs are those of [`Network::initial_positions`].
+    pub fn new(
+        system: &ThermalSystem,
+        port: NodeId,
+        options: &Options,
+    ) -> Result<Self, ReduceError> {
         if let Some(window) = options.window.filter(|w| !(w.is_finite() && *w > 0.0)) {
             return Err(ReduceError::Window(window));
         }
@@ -109,11 +114,12 @@ impl Reduction {
         Ok(reduction)
     }
 
-    /// The one-node network with the capacity of `pair` (a massless one without, or with a capacity of 0), started as the whole one is; its
-    /// node has the name of the port.
+    /// The one-node network with the capacity of `pair` (a massless one without, or with a capacity
+    /// of 0), started as the whole one is; its node has the name of the port.
     ///
     /// # Errors
-    /// [`ReduceError::Equivalent`] if an input cannot be expressed in it, [`ReduceError::Switches`].
+    /// [`ReduceError::Equivalent`] if an input cannot be expressed in it,
+    /// [`ReduceError::Switches`].
     pub fn network(
         &self,
         system: &ThermalSystem,
@@ -152,7 +158,8 @@ impl Reduction {
         if !capacities[3].is_finite() {
             return Err(ReduceError::Window(window.length()));
         }
-        let run = options.run.as_ref().map(|run| self.compare(system, run, capacities)).transpose()?;
+        let run =
+            options.run.as_ref().map(|run| self.compare(system, run, capacities)).transpose()?;
         let mut k = 0;
         let pairs = Definition::ALL.map(|definition| {
             let (capacity, run) = (capacities[k], run.as_ref().map(|run| run.deviations[k]));

@@ -17,10 +17,17 @@ impl<'a> Rises<'a> {
     /// Factorises the conductances; heat may go in only where a path leads to a boundary.
     pub(crate) fn new(system: &'a ThermalSystem) -> Result<Self, ReduceError> {
         if let Some(item) = system.network().first_nonlinear() {
-            return Err(ReduceError::NotLinear { name: system.network().name_of(item).into_owned() });
+            return Err(ReduceError::NotLinear {
+                name: system.network().name_of(item).into_owned(),
+            });
         }
         let still = vec![0.0; system.network().boundaries().len()];
-        Ok(Self { system, work: system.workspace(), conductances: Conductances::new(system)?, still })
+        Ok(Self {
+            system,
+            work: system.workspace(),
+            conductances: Conductances::new(system)?,
+            still,
+        })
     }
 
     /// Rise of every node in K for these heats into the nodes in W.

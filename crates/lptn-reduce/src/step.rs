@@ -21,10 +21,10 @@ pub struct Term {
 /// Rise of the port in K for 1 W into it from time 0 on: `R_eq - sum of r_i exp(-t / tau_i)`.
 ///
 /// The terms are the modes of `C dT/dt = -G T` that heat at the port excites: eigenvalues of
-/// `C^1/2 G^-1 C^1/2` found by Lanczos iteration from `C^1/2 G^-1 e_p`, so that the slowest come first and modes
-/// that the port does not see never appear. For small networks they are all there is; for large ones the
-/// iteration ends when the curve is known to 1e-9 of `R_eq`, or after 300 vectors, and
-/// [`StepResponse::residual`] says what is left.
+/// `C^1/2 G^-1 C^1/2` found by Lanczos iteration from `C^1/2 G^-1 e_p`, so that the slowest come
+/// first and modes that the port does not see never appear. For small networks they are all there
+/// is; for large ones the iteration ends when the curve is known to 1e-9 of `R_eq`, or after 300
+/// vectors, and [`StepResponse::residual`] says what is left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepResponse {
     /// `R_eq` in K/W.
@@ -33,8 +33,9 @@ pub struct StepResponse {
     pub direct: f64,
     /// The terms, slowest first.
     pub terms: Vec<Term>,
-    /// By how much the terms miss the rise at time 0 in K/W: the part of the fastest modes that is not resolved. The
-    /// curve is least exact there, so this is the size of its largest error (an estimate, not a bound).
+    /// By how much the terms miss the rise at time 0 in K/W: the part of the fastest modes that is
+    /// not resolved. The curve is least exact there, so this is the size of its largest error (an
+    /// estimate, not a bound).
     pub residual: f64,
 }
 
@@ -52,7 +53,10 @@ impl StepResponse {
     ///
     /// # Errors
     /// [`ReduceError::Factorization`], [`ReduceError::Modes`].
-    pub fn new(system: &ThermalSystem, norton: &NortonEquivalent) -> Result<Option<Self>, ReduceError> {
+    pub fn new(
+        system: &ThermalSystem,
+        norton: &NortonEquivalent,
+    ) -> Result<Option<Self>, ReduceError> {
         Self::with(system, norton, &mut Rises::new(system)?)
     }
 
@@ -90,13 +94,19 @@ impl StepResponse {
         if time <= 0.0 {
             return self.direct;
         }
-        self.resistance - self.terms.iter().map(|t| t.resistance * (-time / t.tau).exp()).sum::<f64>()
+        self.resistance
+            - self.terms.iter().map(|t| t.resistance * (-time / t.tau).exp()).sum::<f64>()
     }
 
-    /// The slowest time constant that the port sees: the slowest mode that has at least 1e-9 of `R_eq`.
+    /// The slowest time constant that the port sees: the slowest mode that has at least 1e-9 of
+    /// `R_eq`.
     pub fn slowest(&self) -> Term {
         let seen = self.terms.iter().find(|term| term.resistance >= VISIBLE * self.resistance);
-        seen.or(self.terms.first()).copied().unwrap_or(Term { tau: f64::NAN, resistance: 0.0, error: 0.0 })
+        seen.or(self.terms.first()).copied().unwrap_or(Term {
+            tau: f64::NAN,
+            resistance: 0.0,
+            error: 0.0,
+        })
     }
 
     /// Shortest and longest time constant in s.
@@ -106,8 +116,8 @@ impl StepResponse {
     }
 }
 
-/// Modes as terms: the weight in the measure of `C^1/2 G^-1 e_p` is `tau r`. Values within rounding of zero are no
-/// time constants.
+/// Modes as terms: the weight in the measure of `C^1/2 G^-1 e_p` is `tau r`. Values within rounding
+/// of zero are no time constants.
 fn terms(modes: &[Mode]) -> Vec<Term> {
     let least = 1e-15 * modes.first().map_or(0.0, |mode| mode.value);
     let real = modes.iter().filter(|mode| mode.value > least && mode.weight > 0.0);
@@ -134,13 +144,17 @@ mod tests {
     use super::*;
 
     fn of_terms(terms: &[(f64, f64)]) -> StepResponse {
-        let terms = terms.iter().map(|&(tau, resistance)| Term { tau, resistance, error: 0.0 }).collect();
+        let terms =
+            terms.iter().map(|&(tau, resistance)| Term { tau, resistance, error: 0.0 }).collect();
         StepResponse { resistance: 0.5, direct: 0.0, terms, residual: 0.0 }
     }
 
     #[test]
     fn the_slowest_time_constant_is_one_that_the_port_sees() {
-        assert!((of_terms(&[(100.0, 1e-12), (10.0, 0.3), (1.0, 0.2)]).slowest().tau - 10.0).abs() < 1e-15);
+        assert!(
+            (of_terms(&[(100.0, 1e-12), (10.0, 0.3), (1.0, 0.2)]).slowest().tau - 10.0).abs()
+                < 1e-15
+        );
         assert!((of_terms(&[(100.0, 0.5e-9), (10.0, 0.5)]).slowest().tau - 100.0).abs() < 1e-15);
         // none that it sees: the slowest there is
         assert!((of_terms(&[(100.0, 1e-12), (10.0, 1e-12)]).slowest().tau - 100.0).abs() < 1e-15);
@@ -152,12 +166,15 @@ mod tests {
         assert_eq!(of_terms(&[(100.0, 0.1), (0.02, 0.2), (3.0, 0.2)]).span(), (0.02, 100.0));
     }
 
-    /// Eigenvalues are not negative and have a weight: what rounding leaves in place of that is no time constant.
+    /// Eigenvalues are not negative and have a weight: what rounding leaves in place of that is no
+    /// time constant.
     #[test]
     fn what_rounding_leaves_is_no_term() {
         let mode = |value, weight| Mode { value, weight, error: 0.25 };
-        let modes = [mode(4.0, 2.0), mode(3.0, 0.0), mode(1.0, 0.5), mode(3e-15, 1.0), mode(-1e-16, 1.0)];
-        let found: Vec<(f64, f64)> = terms(&modes).iter().map(|term| (term.tau, term.resistance)).collect();
+        let modes =
+            [mode(4.0, 2.0), mode(3.0, 0.0), mode(1.0, 0.5), mode(3e-15, 1.0), mode(-1e-16, 1.0)];
+        let found: Vec<(f64, f64)> =
+            terms(&modes).iter().map(|term| (term.tau, term.resistance)).collect();
         assert_eq!(found, [(4.0, 0.5), (1.0, 0.5)]);
     }
 }

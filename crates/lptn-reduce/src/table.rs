@@ -7,9 +7,10 @@ use crate::deviation::Deviation;
 use crate::reduction::Reduction;
 
 impl Reduction {
-    /// One row a pair: `definition` and `recommended` (`yes` or `no`); `R_eq`, `C_eq`, `tau` (their product, the time
-    /// constant of the one-node network), and of both errors `max`, `relative` (to the rise, -) and `time`. What does
-    /// not exist is NaN; a port that sees no capacity has one row without a definition.
+    /// One row a pair: `definition` and `recommended` (`yes` or `no`); `R_eq`, `C_eq`, `tau` (their
+    /// product, the time constant of the one-node network), and of both errors `max`, `relative`
+    /// (to the rise, -) and `time`. What does not exist is NaN; a port that sees no capacity has
+    /// one row without a definition.
     pub fn table(&self) -> Table {
         let pairs: Vec<Option<&Pair>> = match &self.dynamics {
             Some(dynamics) => dynamics.pairs.iter().map(Some).collect(),
@@ -20,7 +21,9 @@ impl Reduction {
         table.label("definition", |pair| pair.map_or("", |pair| pair.definition.key()).to_owned());
         let is_recommended =
             |pair: &Option<&Pair>| pair.is_some_and(|pair| recommended == Some(pair.definition));
-        table.label("recommended", |pair| if is_recommended(pair) { "yes" } else { "no" }.to_owned());
+        table.label("recommended", |pair| {
+            if is_recommended(pair) { "yes" } else { "no" }.to_owned()
+        });
         let r = self.norton.resistance;
         table.column("R_eq", "K/W", |_| r);
         let mut column = |name: &str, unit: &str, value: &dyn Fn(&Pair) -> Option<f64>| {

@@ -3,7 +3,9 @@
 mod common;
 
 use common::{assembled, chain, near};
-use lptn_network::{Conductance, HeatCapacity, HeatFlow, NetworkBuilder, NodeId, Temperature, Time};
+use lptn_network::{
+    Conductance, HeatCapacity, HeatFlow, NetworkBuilder, NodeId, Temperature, Time,
+};
 use lptn_reduce::{NortonEquivalent, Options, ReduceError, Reduction, StepResponse, port};
 use lptn_solve::Transient;
 
@@ -36,7 +38,8 @@ fn resistance_is_right_to_1e_12_over_three_decades() {
     }
 }
 
-/// A weak path to ground behind strong ones: rounding on the diagonal alone would cost five digits here.
+/// A weak path to ground behind strong ones: rounding on the diagonal alone would cost five digits
+/// here.
 #[test]
 fn a_weak_ground_is_seen_through_strong_paths() {
     for (strong, tolerance) in [(1e3, 1e-12), (1e6, 1e-12), (1e9, 1e-10)] {
@@ -51,8 +54,8 @@ fn a_weak_ground_is_seen_through_strong_paths() {
 /// A mesh: paths between nodes, 7 for the boundary, with conductances in W/K.
 type Mesh = [(usize, usize, f64); 14];
 
-/// Meshes with conductances from 1 W/K to 9e2, 6e5, 2e8 and 9e11 W/K; the resistance at node 0 by Gauss elimination
-/// in fractions (Python), and the condition number of G (numpy).
+/// Meshes with conductances from 1 W/K to 9e2, 6e5, 2e8 and 9e11 W/K; the resistance at node 0 by
+/// Gauss elimination in fractions (Python), and the condition number of G (numpy).
 #[rustfmt::skip]
 const MESHES: [(Mesh, f64, f64); 4] = [
     (
@@ -90,16 +93,19 @@ const MESHES: [(Mesh, f64, f64); 4] = [
     ),
 ];
 
-/// To 1e-12 up to a spread of 10^3, to 100 eps cond(G) beyond; refinement by links does better: 1e-14 throughout.
+/// To 1e-12 up to a spread of 10^3, to 100 eps cond(G) beyond; refinement by links does better:
+/// 1e-14 throughout.
 #[test]
 fn the_resistance_of_a_mesh_is_that_of_exact_fractions() {
     let zero = Temperature::celsius(0.0);
     for (mesh, expected, condition) in MESHES {
         let mut b = NetworkBuilder::new();
-        let nodes: Vec<NodeId> = (0..7).map(|i| b.node(&format!("n{i}"), HeatCapacity(1.0), zero)).collect();
+        let nodes: Vec<NodeId> =
+            (0..7).map(|i| b.node(&format!("n{i}"), HeatCapacity(1.0), zero)).collect();
         let ground = b.boundary("ground", zero);
         for (k, &(from, to, g)) in mesh.iter().enumerate() {
-            let end = nodes.get(from).map_or_else(|| ground.into(), |&n| lptn_network::End::Node(n));
+            let end =
+                nodes.get(from).map_or_else(|| ground.into(), |&n| lptn_network::End::Node(n));
             b.resistor(&format!("g{k}"), end, nodes[to], Conductance(g));
         }
         let resistance = NortonEquivalent::new(&assembled(b), nodes[0]).unwrap().resistance;
@@ -119,7 +125,11 @@ fn junctions_can_be_ports() {
     let mut nodes: Vec<NodeId> = Vec::new();
     for i in 0..n {
         let name = format!("n{i}");
-        nodes.push(if i % 2 == 0 { b.massless(&name) } else { b.node(&name, HeatCapacity(10.0), zero) });
+        nodes.push(if i % 2 == 0 {
+            b.massless(&name)
+        } else {
+            b.node(&name, HeatCapacity(10.0), zero)
+        });
         let name = format!("g{i}");
         match i {
             0 => b.resistor(&name, end, nodes[0], Conductance(conductance[0])),
@@ -129,7 +139,8 @@ fn junctions_can_be_ports() {
     b.source("heat", nodes[n - 1], HeatFlow(3.0));
     let system = assembled(b);
     let run = Transient::until(Time(60.0));
-    let reduction = Reduction::new(&system, nodes[n - 1], &Options { run: Some(run), window: None }).unwrap();
+    let reduction =
+        Reduction::new(&system, nodes[n - 1], &Options { run: Some(run), window: None }).unwrap();
     let exact = exact_sum(conductance.iter().map(|g| 1.0 / g));
     near(reduction.norton.resistance, exact, 1e-12);
     let dynamics = reduction.dynamics.unwrap();
@@ -148,11 +159,13 @@ fn junctions_can_be_ports() {
     }
 }
 
-/// Heat between two boundaries: the weights are the divider's, and a port on it has no capacity behind it.
+/// Heat between two boundaries: the weights are the divider's, and a port on it has no capacity
+/// behind it.
 #[test]
 fn boundary_weights_are_those_of_a_divider() {
     let mut b = NetworkBuilder::new();
-    let (hot, cold) = (b.boundary("hot", Temperature(400.0)), b.boundary("cold", Temperature(300.0)));
+    let (hot, cold) =
+        (b.boundary("hot", Temperature(400.0)), b.boundary("cold", Temperature(300.0)));
     let j = b.massless("j");
     b.resistor("a", hot, j, Conductance(3.0));
     b.resistor("b", j, cold, Conductance(1.0));
@@ -165,7 +178,8 @@ fn boundary_weights_are_those_of_a_divider() {
     assert!(reduction.dynamics.is_none());
 }
 
-/// A uniform chain of 400 cells: rates `(4 G/C) sin^2((2k-1) pi / (4n+2))` (discrete sine transform).
+/// A uniform chain of 400 cells: rates `(4 G/C) sin^2((2k-1) pi / (4n+2))` (discrete sine
+/// transform).
 #[test]
 fn the_slowest_time_constant_of_a_long_chain() {
     let n = 400;
@@ -173,7 +187,8 @@ fn the_slowest_time_constant_of_a_long_chain() {
     let norton = NortonEquivalent::new(&system, nodes[n - 1]).unwrap();
     let step = StepResponse::new(&system, &norton).unwrap().unwrap();
     let rate = |k: f64| {
-        4.0 * 5.0 / 2.0 * ((2.0 * k - 1.0) * std::f64::consts::PI / (4.0 * n as f64 + 2.0)).sin().powi(2)
+        4.0 * 5.0 / 2.0
+            * ((2.0 * k - 1.0) * std::f64::consts::PI / (4.0 * n as f64 + 2.0)).sin().powi(2)
     };
     for k in 1..8 {
         near(step.terms[k - 1].tau, 1.0 / rate(k as f64), 1e-11);
@@ -195,7 +210,8 @@ fn a_mode_that_the_port_does_not_see_is_not_its_time_constant() {
         let node = b.node(name, HeatCapacity(1000.0), zero);
         b.resistor(&format!("to_{name}"), middle, node, Conductance(1e-3));
     }
-    // odd mode: 1000 J/K over 1e-3 W/K = 1e6 s; even: 2000 J/K over its 1/(1 + 1/2e-3) W/K = 1.002e6 s and fast
+    // odd mode: 1000 J/K over 1e-3 W/K = 1e6 s; even: 2000 J/K over its 1/(1 + 1/2e-3) W/K =
+    // 1.002e6 s and fast
     let system = assembled(b);
     let norton = NortonEquivalent::new(&system, middle).unwrap();
     let step = StepResponse::new(&system, &norton).unwrap().unwrap();
@@ -203,8 +219,8 @@ fn a_mode_that_the_port_does_not_see_is_not_its_time_constant() {
     assert!(step.terms.iter().all(|term| (term.tau - 1e6).abs() > 100.0));
 }
 
-/// A port of a millionth of a joule per kelvin: time constants nine decades apart. To first order in c the fast one
-/// is c R_int with all of R_int.
+/// A port of a millionth of a joule per kelvin: time constants nine decades apart. To first order
+/// in c the fast one is c R_int with all of R_int.
 #[test]
 fn time_constants_may_lie_far_apart() {
     let (system, [port, _]) = common::two_nodes([1e-6, 1e3], 0.1, 0.3, 1.0);
@@ -224,14 +240,16 @@ fn the_step_response_of_a_grid_is_what_the_integrator_finds() {
     let zero = Temperature::celsius(0.0);
     let mut b = NetworkBuilder::new();
     let edge = b.boundary("edge", zero);
-    let cells: Vec<NodeId> =
-        (0..n * n).map(|k| b.node(&format!("c{k}"), HeatCapacity(1.0 + (k % 3) as f64), zero)).collect();
+    let cells: Vec<NodeId> = (0..n * n)
+        .map(|k| b.node(&format!("c{k}"), HeatCapacity(1.0 + (k % 3) as f64), zero))
+        .collect();
     let g = spread(2 * n * n, 2.0);
     for k in 0..n * n {
         if k % n + 1 < n {
             b.resistor(&format!("x{k}"), cells[k], cells[k + 1], Conductance(g[k]));
         }
-        let below = cells.get(k + n).map_or_else(|| edge.into(), |&cell| lptn_network::End::Node(cell));
+        let below =
+            cells.get(k + n).map_or_else(|| edge.into(), |&cell| lptn_network::End::Node(cell));
         b.resistor(&format!("y{k}"), cells[k], below, Conductance(g[n * n + k]));
     }
     let port = cells[7 * n + 5];
@@ -240,9 +258,14 @@ fn the_step_response_of_a_grid_is_what_the_integrator_finds() {
     let norton = NortonEquivalent::new(&system, port).unwrap();
     let step = StepResponse::new(&system, &norton).unwrap().unwrap();
     assert!(step.terms.len() < n * n / 2, "{}", step.terms.len());
-    let solution = Transient::until(Time(3000.0)).tolerance(1e-9).record(&[port]).solve(&system).unwrap();
+    let solution =
+        Transient::until(Time(3000.0)).tolerance(1e-9).record(&[port]).solve(&system).unwrap();
     for (&time, t) in solution.times().iter().zip(solution.temperature(port).unwrap()) {
-        assert!((t - 273.15 - step.value(time)).abs() < 2e-8, "{time} {}", t - 273.15 - step.value(time));
+        assert!(
+            (t - 273.15 - step.value(time)).abs() < 2e-8,
+            "{time} {}",
+            t - 273.15 - step.value(time)
+        );
     }
 }
 
@@ -251,7 +274,10 @@ fn wrong_ports_are_named() {
     let (system, _) = chain(&[1.0, 1.0], &[1.0, 1.0]);
     let network = system.network();
     let error = port(network, "m1").unwrap_err();
-    assert_eq!((error.code(), error.help().as_deref()), ("reduce::unknown_port", Some("did you mean `n1`?")));
+    assert_eq!(
+        (error.code(), error.help().as_deref()),
+        ("reduce::unknown_port", Some("did you mean `n1`?"))
+    );
     assert_eq!(port(network, "g1").unwrap_err().code(), "reduce::unknown_port");
     assert_eq!(port(network, "end").unwrap_err().code(), "reduce::boundary_port");
     let mut b = NetworkBuilder::new();

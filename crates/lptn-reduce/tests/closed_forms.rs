@@ -8,11 +8,12 @@ use lptn_network::{HeatCapacity, HeatFlow, NetworkBuilder, NodeId, Resistance, T
 use lptn_reduce::{Definition, Options, ReduceError, Reduction, Window};
 use lptn_solve::Transient;
 
-/// Printed values: capacity, half of its last digit, error in %, half of its last digit. Source: the numbers that
-/// the reduction was asked to reach, found with numpy and scipy.
+/// Printed values: capacity, half of its last digit, error in %, half of its last digit. Source:
+/// the numbers that the reduction was asked to reach, found with numpy and scipy.
 type Printed = [[f64; 4]; 4];
 
-/// The step response `R - r_1 exp(-t/tau_1) - r_2 exp(-t/tau_2)` at node s of C_s -R_int- C_a -R_amb- ground.
+/// The step response `R - r_1 exp(-t/tau_1) - r_2 exp(-t/tau_2)` at node s of C_s -R_int- C_a
+/// -R_amb- ground.
 struct Exact {
     resistance: f64,
     tau: [f64; 2],
@@ -39,7 +40,9 @@ impl Exact {
     }
 
     fn step(&self, t: f64) -> f64 {
-        self.resistance - self.r[0] * (-t / self.tau[0]).exp() - self.r[1] * (-t / self.tau[1]).exp()
+        self.resistance
+            - self.r[0] * (-t / self.tau[0]).exp()
+            - self.r[1] * (-t / self.tau[1]).exp()
     }
 
     /// The largest error of `C_eq = capacity` by brute force: size over `R_eq`, and when.
@@ -47,7 +50,9 @@ impl Exact {
         let tau = self.resistance * capacity;
         let times = (0..400_000).map(|k| 1e-2 * 10_f64.powf(f64::from(k) / 66_000.0));
         let error = |t: f64| (self.step(t) / self.resistance + f64::exp_m1(-t / tau)).abs();
-        times.map(|t| (error(t), t)).fold((0.0, 0.0), |best, next| if next.0 > best.0 { next } else { best })
+        times
+            .map(|t| (error(t), t))
+            .fold((0.0, 0.0), |best, next| if next.0 > best.0 { next } else { best })
     }
 
     /// Least squares by Simpson's rule and a ternary search: nothing of the library's closed forms.
@@ -84,7 +89,10 @@ impl Exact {
 fn check(r_int: f64, r_amb: f64, printed_tau: [f64; 2], printed: Printed) {
     let c = [1000.0, 1659.0];
     let exact = Exact::new(c, r_int, r_amb);
-    assert!((exact.tau[0] - printed_tau[0]).abs() < 5e-3 && (exact.tau[1] - printed_tau[1]).abs() < 5e-3);
+    assert!(
+        (exact.tau[0] - printed_tau[0]).abs() < 5e-3
+            && (exact.tau[1] - printed_tau[1]).abs() < 5e-3
+    );
     let (system, [steel, _]) = two_nodes(c, r_int, r_amb, 220.6);
     let run = Transient::until(Time(1500.0));
     let options = Options { run: Some(run), window: None };
@@ -96,16 +104,22 @@ fn check(r_int: f64, r_amb: f64, printed_tau: [f64; 2], printed: Printed) {
     near(dynamics.step.terms[1].tau, exact.tau[1], 1e-10);
     near(dynamics.step.terms[1].resistance, exact.r[1], 1e-8);
     assert_eq!(dynamics.window, Window::Run(1500.0));
-    for ((pair, capacity), printed) in dynamics.pairs.iter().zip(exact.capacities(1500.0)).zip(printed) {
+    for ((pair, capacity), printed) in
+        dynamics.pairs.iter().zip(exact.capacities(1500.0)).zip(printed)
+    {
         let tight = if pair.definition == Definition::LeastSquares { 1e-6 } else { 1e-11 };
         near(pair.capacity, capacity, tight);
         let [printed_capacity, its_half_digit, printed_error, half_digit] = printed;
         assert!((pair.capacity - printed_capacity).abs() <= its_half_digit, "{pair:?}");
         let (error, time) = exact.error(pair.capacity);
         near(pair.step.relative.unwrap(), error, 1e-7);
-        assert!((pair.step.relative.unwrap() * 100.0 - printed_error).abs() <= half_digit, "{pair:?}");
+        assert!(
+            (pair.step.relative.unwrap() * 100.0 - printed_error).abs() <= half_digit,
+            "{pair:?}"
+        );
         near(pair.step.time, time, 1e-3);
-        // the run is a step of 220.6 W from rest, cut off at 1500 s: the same error times 220.6 W, in K
+        // the run is a step of 220.6 W from rest, cut off at 1500 s: the same error times 220.6 W,
+        // in K
         let run = pair.run.unwrap();
         near(run.kelvin, error * (r_int + r_amb) * 220.6, 1e-4);
         near(run.relative.unwrap(), error * (r_int + r_amb) / exact.step(1500.0), 1e-4);
@@ -114,7 +128,8 @@ fn check(r_int: f64, r_amb: f64, printed_tau: [f64; 2], printed: Printed) {
 
 #[test]
 fn nearly_one_node() {
-    let tau_1_over_r = Exact::new([1000.0, 1659.0], 1.7 / 220.6, 65.5 / 220.6).tau[0] / (67.2 / 220.6);
+    let tau_1_over_r =
+        Exact::new([1000.0, 1659.0], 1.7 / 220.6, 65.5 / 220.6).tau[0] / (67.2 / 220.6);
     let printed = [
         [2659.0, 1e-9, 1.25, 0.005],
         [2576.12, 0.005, 0.91, 0.005],
@@ -144,7 +159,10 @@ fn the_pair_with_the_smallest_error_is_recommended() {
         let by_run = options.run.is_some();
         let reduction = Reduction::new(&system, steel, &options).unwrap();
         let recommended = reduction.dynamics.unwrap().recommended;
-        assert_eq!((recommended.definition, recommended.by_run), (Definition::LeastSquares, by_run));
+        assert_eq!(
+            (recommended.definition, recommended.by_run),
+            (Definition::LeastSquares, by_run)
+        );
     }
 }
 
@@ -161,15 +179,17 @@ fn one_node_is_its_own_equivalent_by_all_definitions() {
     assert_eq!(dynamics.recommended.definition, Definition::Sum);
 }
 
-/// A pulse into a light port: temperatures have a kink where it ends, and a parabola through rows on both sides of
-/// it would promise an error that is nowhere. By superposition the error is that of the step, less the same later.
+/// A pulse into a light port: temperatures have a kink where it ends, and a parabola through rows
+/// on both sides of it would promise an error that is nowhere. By superposition the error is that
+/// of the step, less the same later.
 #[test]
 fn the_error_of_a_pulse_is_not_that_of_a_parabola_over_its_end() {
     let (c, r_int, r_amb, ambient) = ([1.0, 1000.0], 0.1, 0.3, Temperature::celsius(25.5));
     let exact = Exact::new(c, r_int, r_amb);
     let mut b = NetworkBuilder::new();
     let pulse = b.expression("if(t < 300 [s], 100 [W], 0 [W])", None).unwrap();
-    let [port, wall] = [("port", c[0]), ("wall", c[1])].map(|(n, c)| b.node(n, HeatCapacity(c), ambient));
+    let [port, wall] =
+        [("port", c[0]), ("wall", c[1])].map(|(n, c)| b.node(n, HeatCapacity(c), ambient));
     let air = b.boundary("air", ambient);
     b.resistor("inner", port, wall, Resistance(r_int));
     b.resistor("outer", wall, air, Resistance(r_amb));
@@ -178,8 +198,9 @@ fn the_error_of_a_pulse_is_not_that_of_a_parabola_over_its_end() {
     let dynamics = Reduction::new(&assembled(b), port, &options).unwrap().dynamics.unwrap();
     for pair in &dynamics.pairs {
         let tau = exact.resistance * pair.capacity;
-        let miss =
-            |t: f64| if t > 0.0 { exact.step(t) + exact.resistance * (-t / tau).exp_m1() } else { 0.0 };
+        let miss = |t: f64| {
+            if t > 0.0 { exact.step(t) + exact.resistance * (-t / tau).exp_m1() } else { 0.0 }
+        };
         let error = |t: f64| 100.0 * (miss(t) - miss(t - 300.0)).abs();
         let after = (0..200_000).map(|k| 1e-4 * 10_f64.powf(f64::from(k) / 30_000.0));
         let times = after.flat_map(|t| [t.min(600.0), 300.0 + t.min(300.0)]).chain([300.0]);
@@ -190,9 +211,9 @@ fn the_error_of_a_pulse_is_not_that_of_a_parabola_over_its_end() {
     near(dynamics.rise.unwrap(), 100.0 * exact.step(300.0), 1e-6);
 }
 
-/// A ramp into a massless port that ends at once: the error is largest just before the end, where the port leaps.
-/// Port and node behind it: `s R_int + s R_amb (t - tau (1 - exp(-t/tau)))` at a slope of s, the same without R_int
-/// for the one-node network.
+/// A ramp into a massless port that ends at once: the error is largest just before the end, where
+/// the port leaps. Port and node behind it: `s R_int + s R_amb (t - tau (1 - exp(-t/tau)))` at a
+/// slope of s, the same without R_int for the one-node network.
 #[test]
 fn the_error_of_a_leaping_port_is_largest_just_before_it_leaps() {
     let (c, r_int, r_amb, slope, zero) = (1000.0, 0.5, 0.5, 2.0, Temperature::celsius(0.0));
@@ -218,7 +239,8 @@ fn the_error_of_a_leaping_port_is_largest_just_before_it_leaps() {
     }
 }
 
-/// Nine tenths of the rise come at once: of all capacities none at all is nearest, and its error is the last tenth.
+/// Nine tenths of the rise come at once: of all capacities none at all is nearest, and its error is
+/// the last tenth.
 #[test]
 fn a_massless_port_may_be_best_without_capacity() {
     let zero = Temperature::celsius(0.0);
@@ -236,7 +258,8 @@ fn a_massless_port_may_be_best_without_capacity() {
     assert!(pair.capacity.abs() < f64::MIN_POSITIVE);
     near(pair.step.kelvin, 0.1, 1e-9);
     near(pair.run.unwrap().kelvin, 5.0, 1e-6);
-    let by_step = Reduction::new(&system, port, &Options { run: None, window: Some(1000.0) }).unwrap();
+    let by_step =
+        Reduction::new(&system, port, &Options { run: None, window: Some(1000.0) }).unwrap();
     assert_eq!(by_step.dynamics.unwrap().recommended.definition, Definition::LeastSquares);
     let one = reduction.network(&system, 0.0, Some(pair)).unwrap();
     assert!(one.nodes()[0].massless);
@@ -244,8 +267,9 @@ fn a_massless_port_may_be_best_without_capacity() {
     near(dynamics.pair(Definition::Sum).step.kelvin, 0.9, 1e-9);
 }
 
-/// Regression: any node without a path to a boundary was a `reduce::no_ground`, however far from the port. The
-/// numbers are those of the two nodes alone; 3 loose nodes are solved by dense, 43 by sparse factors.
+/// Regression: any node without a path to a boundary was a `reduce::no_ground`, however far from
+/// the port. The numbers are those of the two nodes alone; 3 loose nodes are solved by dense, 43 by
+/// sparse factors.
 #[test]
 fn islands_without_ground_do_not_matter_to_a_port_that_has_one() {
     for loose in [3_usize, 43] {
@@ -278,7 +302,11 @@ fn islands_without_ground_do_not_matter_to_a_port_that_has_one() {
         for (pair, capacity) in dynamics.pairs.iter().zip(exact.capacities(1500.0)) {
             let tight = if pair.definition == Definition::LeastSquares { 1e-6 } else { 1e-11 };
             near(pair.capacity, capacity, tight);
-            near(pair.run.unwrap().kelvin, exact.error(pair.capacity).0 * (r_int + r_amb) * 220.6, 1e-4);
+            near(
+                pair.run.unwrap().kelvin,
+                exact.error(pair.capacity).0 * (r_int + r_amb) * 220.6,
+                1e-4,
+            );
         }
         for port in [chain[0], junction, alone] {
             let error = Reduction::new(&system, port, &options).unwrap_err();
@@ -291,12 +319,17 @@ fn islands_without_ground_do_not_matter_to_a_port_that_has_one() {
     }
 }
 
-/// As asked for, else as long as the run, else five of the slowest time constants: 2659 J/K over 3.25 W/K.
+/// As asked for, else as long as the run, else five of the slowest time constants: 2659 J/K over
+/// 3.25 W/K.
 #[test]
 fn the_window_is_that_of_the_question() {
     let (system, nodes) = common::chain(&[2659.0], &[3.25]);
     let window = |run: Option<Transient>, window: Option<f64>| {
-        Reduction::new(&system, nodes[0], &Options { run, window }).unwrap().dynamics.unwrap().window
+        Reduction::new(&system, nodes[0], &Options { run, window })
+            .unwrap()
+            .dynamics
+            .unwrap()
+            .window
     };
     let mut late = Transient::until(Time(1500.0));
     late.start = 400.0;
@@ -310,8 +343,8 @@ fn the_window_is_that_of_the_question() {
 fn a_window_must_be_a_time() {
     let (system, nodes) = common::chain(&[1.0], &[1.0]);
     for window in [0.0, -1.0, f64::NAN] {
-        let error =
-            Reduction::new(&system, nodes[0], &Options { run: None, window: Some(window) }).unwrap_err();
+        let error = Reduction::new(&system, nodes[0], &Options { run: None, window: Some(window) })
+            .unwrap_err();
         assert_eq!(error.code(), "reduce::window");
     }
 }

@@ -1,12 +1,13 @@
-//! The fit of one exponential: that it is the best one, wherever the record lies, and what it says where there is none.
+//! The fit of one exponential: that it is the best one, wherever the record lies, and what it says
+//! where there is none.
 
 mod common;
 
 use common::near;
 use lptn_reduce::{ExponentialFit, FitError, fit_exponential};
 
-/// Where the sum of the squares is least the misses have no part along any of its three derivatives: 1, `exp(-t/tau)`
-/// and `t exp(-t/tau)`.
+/// Where the sum of the squares is least the misses have no part along any of its three
+/// derivatives: 1, `exp(-t/tau)` and `t exp(-t/tau)`.
 #[track_caller]
 fn is_the_best(fit: &ExponentialFit, times: &[f64], record: &[f64]) {
     let falls = |t: f64| (-t / fit.tau).exp();
@@ -39,22 +40,26 @@ fn no_other_exponential_misses_less() {
     }
 }
 
-/// In a long record a time constant may be shorter than the stretches whose means are looked at first, and far
-/// shorter than the time at which the record begins.
+/// In a long record a time constant may be shorter than the stretches whose means are looked at
+/// first, and far shorter than the time at which the record begins.
 #[test]
 fn a_time_constant_may_be_as_short_as_the_distance_of_two_points() {
-    for (first, count, tau) in [(0.0, 4000, 3.0), (100.0, 4000, 20.0), (1000.0, 200, 50.0), (30.0, 60, 1.2)] {
+    for (first, count, tau) in
+        [(0.0, 4000, 3.0), (100.0, 4000, 20.0), (1000.0, 200, 50.0), (30.0, 60, 1.2)]
+    {
         let times: Vec<f64> = (0..count).map(|k| first + f64::from(k)).collect();
         // as large at the first point as if time began there
-        let record: Vec<f64> = times.iter().map(|t| 92.7 - 67.2 * (-(t - first) / tau).exp()).collect();
+        let record: Vec<f64> =
+            times.iter().map(|t| 92.7 - 67.2 * (-(t - first) / tau).exp()).collect();
         let fit = fit_exponential(&times, &record).unwrap();
         near(fit.tau, tau, 1e-7);
         near(fit.settled, 92.7, 1e-9);
     }
 }
 
-/// Regression: of a record that begins 25 time constants after time 0 only rounding was looked at, and 0.33 s was found
-/// for 1.2 s. At time 0 the curve is `e^25` times as far from where it settles as at the first point.
+/// Regression: of a record that begins 25 time constants after time 0 only rounding was looked at,
+/// and 0.33 s was found for 1.2 s. At time 0 the curve is `e^25` times as far from where it settles
+/// as at the first point.
 #[test]
 fn a_record_may_begin_long_after_time_0() {
     let times: Vec<f64> = (0..60).map(|k| 30.0 + f64::from(k)).collect();
@@ -67,8 +72,8 @@ fn a_record_may_begin_long_after_time_0() {
     assert_eq!(fit_exponential(&late, &record).unwrap_err().code(), "fit::no_curvature");
 }
 
-/// A straight line looks like the slowest exponential, a jump like the fastest: a thousand times the length of the
-/// record, and a tenth of the shortest distance of two points.
+/// A straight line looks like the slowest exponential, a jump like the fastest: a thousand times
+/// the length of the record, and a tenth of the shortest distance of two points.
 #[test]
 fn a_record_without_a_bend_says_where_the_search_ended() {
     let times: Vec<f64> = (0..300).map(|k| 100.0 + 2.0 * f64::from(k)).collect();
@@ -84,12 +89,14 @@ fn a_record_without_a_bend_says_where_the_search_ended() {
     near(tau, 0.2, 1e-12);
 }
 
-/// Of a change that is only the rounding of an absolute temperature nothing is concluded, of one just above it is.
+/// Of a change that is only the rounding of an absolute temperature nothing is concluded, of one
+/// just above it is.
 #[test]
 fn a_change_within_rounding_is_none() {
     let times: Vec<f64> = (0..100).map(f64::from).collect();
-    let rise =
-        |size: f64| -> Vec<f64> { times.iter().map(|t| 300.0 - size * (-t / 20.0).exp_m1()).collect() };
+    let rise = |size: f64| -> Vec<f64> {
+        times.iter().map(|t| 300.0 - size * (-t / 20.0).exp_m1()).collect()
+    };
     assert_eq!(fit_exponential(&times, &rise(2e-10)), Err(FitError::Flat));
     near(fit_exponential(&times, &rise(2e-7)).unwrap().tau, 20.0, 1e-3);
 }

@@ -29,8 +29,9 @@ fn reduced_again_it_is_the_same() {
     }
 }
 
-/// Sources and boundaries that change: at a port in the middle of a chain whose other nodes are nearly massless
-/// the equivalent is nearly exact, so that its run has to be that of the whole network.
+/// Sources and boundaries that change: at a port in the middle of a chain whose other nodes are
+/// nearly massless the equivalent is nearly exact, so that its run has to be that of the whole
+/// network.
 #[test]
 fn inputs_that_change_with_time_are_kept() {
     let mut b = NetworkBuilder::new();
@@ -59,7 +60,10 @@ fn inputs_that_change_with_time_are_kept() {
     assert!(pair.run.unwrap().kelvin < 1e-4, "{pair:?}");
     assert!(reduction.dynamics.as_ref().unwrap().rise.unwrap() > 5.0);
     let network = reduction.network(&system, 0.0, Some(pair)).unwrap();
-    assert_eq!((network.boundaries().len(), network.sources().len(), network.nodes().len()), (2, 2, 1));
+    assert_eq!(
+        (network.boundaries().len(), network.sources().len(), network.nodes().len()),
+        (2, 2, 1)
+    );
     assert!(network.has_time_dependent_inputs());
     let one = ThermalSystem::assemble(&network).unwrap();
     let again = Reduction::new(&one, network.node("middle").unwrap(), &options(1000.0)).unwrap();
@@ -67,7 +71,8 @@ fn inputs_that_change_with_time_are_kept() {
     near(again.inputs.heat, reduction.inputs.heat, 1e-14);
 }
 
-/// A source halfway along a slow bar: the one-node network feels its heat at once, the bar does not.
+/// A source halfway along a slow bar: the one-node network feels its heat at once, the bar does
+/// not.
 #[test]
 fn the_error_of_a_run_is_that_of_its_own_sources() {
     let (c, g) = (100.0, 2.0);
@@ -82,11 +87,14 @@ fn the_error_of_a_run_is_that_of_its_own_sources() {
     let system = assembled(b);
     let reduction = Reduction::new(&system, near_end, &options(2000.0)).unwrap();
     near(reduction.inputs.heat, 10.0, 1e-13);
-    // rates (g/c)(3 -+ sqrt 5)/2 of the matrix [[2, -1], [-1, 1]] g/c; the port's rise is 5 K (1 - sum of w e^-lt)
+    // rates (g/c)(3 -+ sqrt 5)/2 of the matrix [[2, -1], [-1, 1]] g/c; the port's rise is 5 K (1 -
+    // sum of w e^-lt)
     let root = 5_f64.sqrt();
     let rates = [0.5 * (3.0 - root), 0.5 * (3.0 + root)].map(|x| x * g / c);
     let weight = rates[1] / (rates[1] - rates[0]); // w1 + w2 = 1, and no slope at 0: w1 l1 + w2 l2 = 0
-    let rise = |t: f64| 5.0 * (1.0 - weight * (-rates[0] * t).exp() - (1.0 - weight) * (-rates[1] * t).exp());
+    let rise = |t: f64| {
+        5.0 * (1.0 - weight * (-rates[0] * t).exp() - (1.0 - weight) * (-rates[1] * t).exp())
+    };
     for pair in &reduction.dynamics.unwrap().pairs {
         let tau = 0.5 * pair.capacity;
         let error = |t: f64| (rise(t) + 5.0 * f64::exp_m1(-t / tau)).abs();
@@ -95,8 +103,8 @@ fn the_error_of_a_run_is_that_of_its_own_sources() {
     }
 }
 
-/// A node that only a boundary joins to the port is not felt: neither its source nor the boundary behind it, nor the
-/// parameters and names that only these use, are in the one-node network.
+/// A node that only a boundary joins to the port is not felt: neither its source nor the boundary
+/// behind it, nor the parameters and names that only these use, are in the one-node network.
 #[test]
 fn what_the_port_does_not_feel_is_left_out() {
     let mut b = NetworkBuilder::new();
@@ -115,20 +123,23 @@ fn what_the_port_does_not_feel_is_left_out() {
     let system = assembled(b);
     let reduction = Reduction::new(&system, port, &Options::default()).unwrap();
     let network = reduction.network(&system, 0.0, None).unwrap();
-    let names: Vec<&str> = network.boundaries().iter().map(|boundary| boundary.name.as_str()).collect();
+    let names: Vec<&str> =
+        network.boundaries().iter().map(|boundary| boundary.name.as_str()).collect();
     assert_eq!(names, ["bed"]);
     assert_eq!((network.sources().len(), network.parameters().len()), (1, 1));
     assert_eq!(network.parameters()[0].name, "P_port");
     assert!(network.nodes()[0].massless, "no pair, no capacity");
 }
 
-/// A massless port starts where the inputs put it that act just after the start: of 40 W until 100 s, 5 W until 150 s
-/// and 7 W from then on, the 5 W at 100 s.
+/// A massless port starts where the inputs put it that act just after the start: of 40 W until 100
+/// s, 5 W until 150 s and 7 W from then on, the 5 W at 100 s.
 #[test]
 fn a_massless_port_starts_with_what_acts_after_the_start() {
     let mut b = NetworkBuilder::new();
-    let heat = b.expression("if(t <= 100 [s], 40 [W], if(t < 150 [s], 5 [W], 7 [W]))", None).unwrap();
-    let (port, wall) = (b.massless("port"), b.node("wall", HeatCapacity(500.0), Temperature(300.0)));
+    let heat =
+        b.expression("if(t <= 100 [s], 40 [W], if(t < 150 [s], 5 [W], 7 [W]))", None).unwrap();
+    let (port, wall) =
+        (b.massless("port"), b.node("wall", HeatCapacity(500.0), Temperature(300.0)));
     let air = b.boundary("air", Temperature(290.0));
     b.resistor("inner", port, wall, Conductance(2.0));
     b.resistor("outer", wall, air, Conductance(1.0));
@@ -137,18 +148,21 @@ fn a_massless_port_starts_with_what_acts_after_the_start() {
     for (start, heat) in [(0.0, 40.0), (100.0, 5.0), (200.0, 7.0)] {
         let mut run = Transient::until(Time(1000.0));
         run.start = start;
-        let reduction = Reduction::new(&system, port, &Options { run: Some(run), window: None }).unwrap();
+        let reduction =
+            Reduction::new(&system, port, &Options { run: Some(run), window: None }).unwrap();
         near(reduction.initial, 300.0 + heat / 2.0, 1e-14);
     }
 }
 
-/// The runs that are compared keep a hundredth of a tight tolerance, and never more than the one documented.
+/// The runs that are compared keep a hundredth of a tight tolerance, and never more than the one
+/// documented.
 #[test]
 fn the_tolerance_of_the_comparison_follows_that_of_the_run() {
     let (system, [steel, _]) = common::two_nodes([1000.0, 1659.0], 0.1, 0.3, 220.6);
     for (asked, kept) in [(1e-3, lptn_reduce::TOLERANCE), (1e-6, 1e-8)] {
         let run = Transient::until(Time(100.0)).tolerance(asked);
-        let reduction = Reduction::new(&system, steel, &Options { run: Some(run), window: None }).unwrap();
+        let reduction =
+            Reduction::new(&system, steel, &Options { run: Some(run), window: None }).unwrap();
         near(reduction.dynamics.unwrap().tolerance.unwrap(), kept, 1e-12);
     }
 }

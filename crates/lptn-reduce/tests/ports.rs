@@ -1,5 +1,5 @@
-//! Ports of networks with closed forms, and the fit of one exponential. The cases of `tests/validation` are checked
-//! there.
+//! Ports of networks with closed forms, and the fit of one exponential. The cases of
+//! `tests/validation` are checked there.
 
 mod common;
 
@@ -8,7 +8,8 @@ use lptn_network::{Conductance, HeatCapacity, HeatFlow, NetworkBuilder, Temperat
 use lptn_reduce::{Bias, Options, Reduction, fit_exponential, transfer_resistance};
 use lptn_solve::{SteadyState, Transient};
 
-/// What the seed paper's method concludes from its fit, in the paper's own words: P = (T_f - T_i) C_eq / t_RC.
+/// What the seed paper's method concludes from its fit, in the paper's own words: P = (T_f - T_i)
+/// C_eq / t_RC.
 #[test]
 fn the_bias_follows_from_the_fit() {
     let (system, nodes) = two_nodes([1235.0, 1424.0], 1.7 / 220.6, 65.5 / 220.6, 220.6);
@@ -27,8 +28,8 @@ fn the_bias_follows_from_the_fit() {
     }
 }
 
-/// One node is one exponential, so that what the method infers is what was put in: from 400 s to 1000 s, and of the
-/// heat that the port feels, not of that behind the boundary.
+/// One node is one exponential, so that what the method infers is what was put in: from 400 s to
+/// 1000 s, and of the heat that the port feels, not of that behind the boundary.
 #[test]
 fn the_bias_of_one_node_is_none() {
     let mut b = NetworkBuilder::new();
@@ -68,7 +69,8 @@ fn where_no_heat_is_put_in_there_is_no_bias() {
 #[test]
 fn a_bridge_of_junctions_has_no_dynamics() {
     let mut b = NetworkBuilder::new();
-    let (a, d) = (b.boundary("a", Temperature::celsius(100.0)), b.boundary("d", Temperature::celsius(0.0)));
+    let (a, d) =
+        (b.boundary("a", Temperature::celsius(100.0)), b.boundary("d", Temperature::celsius(0.0)));
     let (n, c) = (b.massless("b"), b.massless("c"));
     b.resistor("ab", a, n, Conductance(3.0));
     b.resistor("ac", a, c, Conductance(2.0));
@@ -80,13 +82,15 @@ fn a_bridge_of_junctions_has_no_dynamics() {
     assert!(reduction.dynamics.is_none());
 }
 
-/// All modes of a uniform chain, found from its end: `1 / tau_k = 4 G / C sin^2((2k - 1) pi / (4n + 2))`, the discrete
-/// sine transform with one end held and one free.
+/// All modes of a uniform chain, found from its end:
+/// `1 / tau_k = 4 G / C sin^2((2k - 1) pi / (4n + 2))`, the discrete sine transform with one end
+/// held and one free.
 #[test]
 fn the_end_of_a_chain_sees_every_mode() {
     let n = 8;
     let (system, nodes) = chain(&vec![50.0; n], &vec![4.0; n]);
-    let step = Reduction::new(&system, nodes[n - 1], &Options::default()).unwrap().dynamics.unwrap().step;
+    let step =
+        Reduction::new(&system, nodes[n - 1], &Options::default()).unwrap().dynamics.unwrap().step;
     assert_eq!(step.terms.len(), n);
     assert!(step.residual < 1e-10, "{step:?}");
     for (k, term) in (1..).zip(&step.terms) {
@@ -101,7 +105,8 @@ fn nodes_that_a_boundary_joins_do_not_see_each_other() {
     let mut b = NetworkBuilder::new();
     let zero = Temperature::celsius(0.0);
     let bed = b.boundary("bed", zero);
-    let nodes: Vec<_> = (0..7).map(|i| b.node(&format!("n{i}"), HeatCapacity(2659.0), zero)).collect();
+    let nodes: Vec<_> =
+        (0..7).map(|i| b.node(&format!("n{i}"), HeatCapacity(2659.0), zero)).collect();
     for (i, &node) in nodes.iter().enumerate() {
         b.resistor(&format!("e{i}"), node, bed, Conductance(3.25));
         b.source(&format!("q{i}"), node, HeatFlow(20.0 + 30.0 * i as f64));
@@ -125,7 +130,8 @@ fn the_port_gives_the_steady_state_of_every_network() {
     let (system, nodes) = chain(&[1.0, 3.0, 2.0, 5.0], &[0.1, 7.0, 0.3, 40.0]);
     let mut b = NetworkBuilder::new();
     let t = Temperature(300.0);
-    let (hot, cold) = (b.boundary("hot", Temperature(350.0)), b.boundary("cold", Temperature(290.0)));
+    let (hot, cold) =
+        (b.boundary("hot", Temperature(350.0)), b.boundary("cold", Temperature(290.0)));
     let (x, y) = (b.node("x", HeatCapacity(3.0), t), b.node("y", HeatCapacity(4.0), t));
     let j = b.massless("j");
     b.resistor("a", hot, x, Conductance(0.2));
@@ -141,7 +147,8 @@ fn the_port_gives_the_steady_state_of_every_network() {
         for port in ports {
             let reduction = Reduction::new(&system, port, &Options::default()).unwrap();
             let norton = &reduction.norton;
-            let port_temperature = reduction.inputs.reference + norton.resistance * reduction.inputs.heat;
+            let port_temperature =
+                reduction.inputs.reference + norton.resistance * reduction.inputs.heat;
             assert!((port_temperature - steady.temperatures[port.index()]).abs() < 1e-10);
             near(norton.boundary_weights.iter().sum::<f64>(), 1.0, 1e-13);
         }
@@ -151,11 +158,15 @@ fn the_port_gives_the_steady_state_of_every_network() {
 #[test]
 fn a_fit_finds_one_exponential_again_and_says_where_there_is_none() {
     let times: Vec<f64> = (0..200).map(|k| 5.0 * f64::from(k)).collect();
-    let curve = |tau: f64| -> Vec<f64> { times.iter().map(|t| 92.7 - 67.2 * (-t / tau).exp()).collect() };
+    let curve =
+        |tau: f64| -> Vec<f64> { times.iter().map(|t| 92.7 - 67.2 * (-t / tau).exp()).collect() };
     for tau in [3.0, 80.0, 810.0, 2e4] {
         let fit = fit_exponential(&times, &curve(tau)).unwrap();
         near(fit.tau, tau, 1e-7);
-        assert!((fit.initial - 25.5).abs() < 1e-6 && (fit.settled / 92.7 - 1.0).abs() < 1e-6, "{fit:?}");
+        assert!(
+            (fit.initial - 25.5).abs() < 1e-6 && (fit.settled / 92.7 - 1.0).abs() < 1e-6,
+            "{fit:?}"
+        );
         assert!(fit.rms < 1e-9);
     }
     let code = |times: &[f64], values: &[f64]| fit_exponential(times, values).unwrap_err().code();
@@ -172,7 +183,8 @@ fn the_table_has_a_row_a_pair() {
     let options = Options { run: Some(Transient::until(Time(1500.0))), window: None };
     let reduction = Reduction::new(&system, nodes[0], &options).unwrap();
     let table = reduction.table();
-    let labels: Vec<&[String]> = table.labels().iter().map(|label| label.cells.as_slice()).collect();
+    let labels: Vec<&[String]> =
+        table.labels().iter().map(|label| label.cells.as_slice()).collect();
     assert_eq!(labels[0], ["sum", "first_moment", "dominant_pole", "least_squares"]);
     assert_eq!(labels[1], ["no", "no", "no", "yes"]);
     let column = |name: &str| {

@@ -6,7 +6,8 @@ mod common;
 use common::{assembled, chain};
 use lptn_integrate::FactorError;
 use lptn_network::{
-    Acts, Conductance, Context, HeatCapacity, NetworkBuilder, Temperature, Thermostat, Time, UnknownName,
+    Acts, Conductance, Context, HeatCapacity, NetworkBuilder, Temperature, Thermostat, Time,
+    UnknownName,
 };
 use lptn_reduce::{NortonEquivalent, Options, ReduceError, Reduction, port};
 use lptn_solve::Transient;
@@ -40,7 +41,9 @@ fn a_network_that_switches_has_no_run_of_one_node() {
     let run = Some(Transient::until(Time(10.0)));
     let error = Reduction::new(&system, node, &Options { run, window: None }).unwrap_err();
     assert_eq!(error.code(), "reduce::switches");
-    assert!(error.to_string().contains("`fan`") && error.help().unwrap().contains("in place of `fan`"));
+    assert!(
+        error.to_string().contains("`fan`") && error.help().unwrap().contains("in place of `fan`")
+    );
     // as it stands at the start it is linear: the fan is off, 7 W flow
     let still = Reduction::new(&system, node, &Options::default()).unwrap();
     assert!((still.inputs.heat - 7.0).abs() < 1e-14);
@@ -84,12 +87,17 @@ fn helps_can_be_followed() {
     let value = window.split('"').nth(1).unwrap();
     assert!(parse_quantity(value, Some(Type::of(Dimension::TIME))).is_ok(), "{value}");
     assert!(help(port(network, "end").unwrap_err()).contains("choose a node"));
-    assert!(help(ReduceError::NoGround { names: vec!["x".into()] }).contains("add a path to a boundary"));
+    assert!(
+        help(ReduceError::NoGround { names: vec!["x".into()] })
+            .contains("add a path to a boundary")
+    );
     assert!(help(FactorError::NotSymmetric.into()).contains("merging"));
     let nothing_near = UnknownName { name: "elsewhere".into(), suggestion: None };
-    for error in
-        [ReduceError::UnknownPort(nothing_near), ReduceError::Modes, ReduceError::Equivalent("x".into())]
-    {
+    for error in [
+        ReduceError::UnknownPort(nothing_near),
+        ReduceError::Modes,
+        ReduceError::Equivalent("x".into()),
+    ] {
         assert_eq!(error.help(), None, "{error}");
     }
 }

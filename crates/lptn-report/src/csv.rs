@@ -15,8 +15,8 @@ pub(crate) fn write(rows: &Rows<'_>, out: &mut dyn io::Write) -> io::Result<()> 
     }
 }
 
-/// Writes a table as CSV: one header, `time [s]`, `steel.T [degC]` and so on, columns of words without a unit first, then
-/// one line a row. Every number reads back as the same `f64`.
+/// Writes a table as CSV: one header, `time [s]`, `steel.T [degC]` and so on, columns of words
+/// without a unit first, then one line a row. Every number reads back as the same `f64`.
 ///
 /// # Errors
 /// What `out` reports.

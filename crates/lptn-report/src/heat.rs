@@ -17,8 +17,8 @@ const MOST_TERMS: usize = 5;
 /// Where the heat came from and where it went, in pieces that belong on one line each:
 /// `in 330.9 kJ`, `= stored 147.8`, `+ bed 128.2`, `+ air 54.9 kJ`.
 ///
-/// Every term is positive: what a boundary gave stands on the left, what a node lost too. `turned_over` is the
-/// heat that moved at all; terms that vanish beside it are left out.
+/// Every term is positive: what a boundary gave stands on the left, what a node lost too.
+/// `turned_over` is the heat that moved at all; terms that vanish beside it are left out.
 pub fn balance(flows: &[Flow], stored: f64, turned_over: f64) -> Vec<String> {
     let floor = 1e-9 * turned_over;
     let mut left: Vec<(&str, f64)> = terms(flows.iter().map(|f| (f.name.as_str(), f.heat)), floor);
@@ -80,7 +80,8 @@ mod tests {
     use super::{Flow, balance};
 
     fn line(flows: &[(&str, f64)], stored: f64) -> String {
-        let flows: Vec<Flow> = flows.iter().map(|&(name, heat)| Flow { name: name.into(), heat }).collect();
+        let flows: Vec<Flow> =
+            flows.iter().map(|&(name, heat)| Flow { name: name.into(), heat }).collect();
         let turned_over = flows.iter().map(|f| f.heat.abs()).sum::<f64>() + stored.abs();
         balance(&flows, stored, turned_over).join(" ")
     }
@@ -99,7 +100,10 @@ mod tests {
 
     #[test]
     fn a_cooling_network_gives_what_was_stored() {
-        assert_eq!(line(&[("air", -2.0)], -2.0), "in 2.000 J from what was stored 2.000 = air 2.000 J");
+        assert_eq!(
+            line(&[("air", -2.0)], -2.0),
+            "in 2.000 J from what was stored 2.000 = air 2.000 J"
+        );
     }
 
     #[test]
@@ -110,7 +114,8 @@ mod tests {
 
     #[test]
     fn small_terms_are_summed_up() {
-        let mut flows: Vec<(String, f64)> = (0..8).map(|i| (format!("b{i}"), -f64::from(8 - i))).collect();
+        let mut flows: Vec<(String, f64)> =
+            (0..8).map(|i| (format!("b{i}"), -f64::from(8 - i))).collect();
         flows.push(("P".into(), 36.0));
         let flows: Vec<(&str, f64)> = flows.iter().map(|(n, h)| (n.as_str(), *h)).collect();
         assert_eq!(
@@ -121,6 +126,9 @@ mod tests {
 
     #[test]
     fn noise_beside_large_heat_is_left_out() {
-        assert_eq!(line(&[("P", 1e6), ("air", -1e6), ("far", -1e-6)], 0.0), "in 1.000 MJ = air 1.000 MJ");
+        assert_eq!(
+            line(&[("P", 1e6), ("air", -1e6), ("far", -1e-6)], 0.0),
+            "in 1.000 MJ = air 1.000 MJ"
+        );
     }
 }

@@ -43,15 +43,16 @@ impl<W: Write> JsonWriter<W> {
         value.map_or(Ok(()), |value| self.member(name, &value))
     }
 
-    /// Writes a table as `columns`, each with name and unit, and `rows` of plain numbers; columns of words come first and
-    /// have `null` for a unit.
+    /// Writes a table as `columns`, each with name and unit, and `rows` of plain numbers; columns
+    /// of words come first and have `null` for a unit.
     ///
     /// # Errors
     /// What the stream reports.
     pub fn table(&mut self, table: &Table) -> io::Result<()> {
         self.key("columns")?;
         let labels = table.labels().iter().map(|label| (label.name.as_str(), None));
-        let numbers = table.columns().iter().map(|column| (column.name.as_str(), Some(column.unit.as_str())));
+        let numbers =
+            table.columns().iter().map(|column| (column.name.as_str(), Some(column.unit.as_str())));
         self.lines(labels.chain(numbers), |out, (name, unit)| {
             let (name, unit) = (Value::from(name), Value::from(unit));
             write!(out, "{{ \"name\": {name}, \"unit\": {unit} }}")

@@ -32,7 +32,8 @@ pub struct Column {
     pub align: Align,
     /// Whether the column may be left out where the table is too wide.
     pub optional: bool,
-    /// Whether its texts may be shortened in the middle where the table is too wide: never so for numbers.
+    /// Whether its texts may be shortened in the middle where the table is too wide: never so for
+    /// numbers.
     pub names: bool,
 }
 
@@ -49,7 +50,8 @@ impl Column {
         self
     }
 
-    /// The same column with texts that may be shortened in the middle, as those of the first column always may.
+    /// The same column with texts that may be shortened in the middle, as those of the first column
+    /// always may.
     #[must_use]
     pub fn names(mut self) -> Self {
         self.names = true;
@@ -58,7 +60,8 @@ impl Column {
 
     fn shorten(&mut self, room: usize) {
         self.title = shortened(&self.title, room);
-        let short = |names: &[String]| names.iter().map(|name| shortened(name, room)).collect::<Vec<_>>();
+        let short =
+            |names: &[String]| names.iter().map(|name| shortened(name, room)).collect::<Vec<_>>();
         let kept = |names: &[String]| names.iter().collect::<BTreeSet<_>>().len();
         let shorter = short(&self.cells);
         // names that differ in their middle only would be one name
@@ -87,13 +90,21 @@ pub struct TextTableOf<'a, T> {
 impl<'a, T> TextTableOf<'a, T> {
     /// Adds a column of words.
     #[must_use]
-    pub fn left<S: Into<String>>(self, title: impl Into<String>, cell: impl FnMut(&'a T) -> S) -> Self {
+    pub fn left<S: Into<String>>(
+        self,
+        title: impl Into<String>,
+        cell: impl FnMut(&'a T) -> S,
+    ) -> Self {
         self.with(title, Align::Left, cell)
     }
 
     /// Adds a column of numbers.
     #[must_use]
-    pub fn right<S: Into<String>>(self, title: impl Into<String>, cell: impl FnMut(&'a T) -> S) -> Self {
+    pub fn right<S: Into<String>>(
+        self,
+        title: impl Into<String>,
+        cell: impl FnMut(&'a T) -> S,
+    ) -> Self {
         self.with(title, Align::Right, cell)
     }
 
@@ -144,8 +155,9 @@ impl TextTable {
         Self { columns }
     }
 
-    /// The lines of the table, the heading first, unless no column has one. Where they would be longer than `width`, optional columns are
-    /// left out from the right, and then long names shortened in the middle, the longest first.
+    /// The lines of the table, the heading first, unless no column has one. Where they would be
+    /// longer than `width`, optional columns are left out from the right, and then long names
+    /// shortened in the middle, the longest first.
     pub fn lines(mut self, width: usize) -> Vec<String> {
         while self.width() > width {
             let Some(last) = self.columns.iter().rposition(|column| column.optional) else { break };
@@ -166,7 +178,8 @@ impl TextTable {
         }
         let mut excess = self.width().saturating_sub(width);
         let names = || self.columns.iter().enumerate().filter(|(_, column)| column.names);
-        let mut rooms: Vec<(usize, usize)> = names().map(|(i, column)| (i, column.width())).collect();
+        let mut rooms: Vec<(usize, usize)> =
+            names().map(|(i, column)| (i, column.width())).collect();
         while let Some((_, room)) = rooms.iter_mut().rev().max_by_key(|(_, room)| *room) {
             if excess == 0 || *room <= LEAST_NAME {
                 break;
@@ -189,13 +202,19 @@ impl TextTable {
     }
 
     fn line<'a>(&'a self, text: impl Fn(&'a Column) -> &'a String) -> String {
-        let cells: Vec<String> = self.columns.iter().map(|c| padded(text(c), c.width(), c.align)).collect();
+        let cells: Vec<String> =
+            self.columns.iter().map(|c| padded(text(c), c.width(), c.align)).collect();
         cells.join(GAP).trim_end().to_owned()
     }
 }
 
-/// As many tables as it takes to show every column, each behind the first one and with as many as still fit.
-pub fn stacked(first: &Column, columns: Vec<Column>, fits: impl Fn(&TextTable) -> bool) -> Vec<TextTable> {
+/// As many tables as it takes to show every column, each behind the first one and with as many as
+/// still fit.
+pub fn stacked(
+    first: &Column,
+    columns: Vec<Column>,
+    fits: impl Fn(&TextTable) -> bool,
+) -> Vec<TextTable> {
     let mut tables: Vec<TextTable> = Vec::new();
     for column in columns {
         let wider = tables.last().cloned().map(|mut table| {
@@ -231,8 +250,9 @@ pub fn shortened(name: &str, room: usize) -> String {
     format!("{start}..{end}")
 }
 
-/// The part of each name in which the names differ, from one border of words to another: `1000rpm` and `7000rpm` of
-/// `runs/1000rpm.csv` and `runs/7000rpm.csv`. The names themselves where a part would be empty, or all are the same.
+/// The part of each name in which the names differ, from one border of words to another: `1000rpm`
+/// and `7000rpm` of `runs/1000rpm.csv` and `runs/7000rpm.csv`. The names themselves where a part
+/// would be empty, or all are the same.
 pub fn differing(names: &[String]) -> Vec<String> {
     let Some(first) = names.first() else { return Vec::new() };
     let is_border = |c: char| !c.is_alphanumeric();
@@ -240,21 +260,24 @@ pub fn differing(names: &[String]) -> Vec<String> {
         names.iter().all(|name| match end {
             false => name.get(..length) == first.get(..length),
             true => {
-                name.len() >= length && name.get(name.len() - length..) == first.get(first.len() - length..)
+                name.len() >= length
+                    && name.get(name.len() - length..) == first.get(first.len() - length..)
             }
         })
     };
     let borders = || first.char_indices().filter(|(_, c)| is_border(*c));
-    let head = borders().map(|(at, c)| at + c.len_utf8()).filter(|&length| same(length, false)).max();
+    let head =
+        borders().map(|(at, c)| at + c.len_utf8()).filter(|&length| same(length, false)).max();
     let tail = borders().map(|(at, _)| first.len() - at).filter(|&length| same(length, true)).max();
     let (head, tail) = (head.unwrap_or(0), tail.unwrap_or(0));
     let part = |name: &String| Some(name.get(head..name.len().checked_sub(tail)?)?.to_owned());
-    let parts: Option<Vec<String>> = names.iter().map(|name| part(name).filter(|p| !p.is_empty())).collect();
+    let parts: Option<Vec<String>> =
+        names.iter().map(|name| part(name).filter(|p| !p.is_empty())).collect();
     parts.unwrap_or_else(|| names.to_vec())
 }
 
-/// Pieces of a sentence behind a label, wrapped between pieces where they would be longer than `width`; further
-/// lines stand under the first piece.
+/// Pieces of a sentence behind a label, wrapped between pieces where they would be longer than
+/// `width`; further lines stand under the first piece.
 pub fn labelled(label: &str, pieces: &[String], width: usize) -> Vec<String> {
     let indent = " ".repeat(label.width());
     let mut lines = vec![label.to_owned()];
@@ -350,7 +373,10 @@ mod tests {
     fn sentences_wrap_between_pieces() {
         let pieces = texts(&["in 1 kJ", "= stored 0.5", "+ air 0.5 kJ"]);
         assert_eq!(labelled("heat  ", &pieces, 80), ["heat  in 1 kJ = stored 0.5 + air 0.5 kJ"]);
-        assert_eq!(labelled("heat  ", &pieces, 26), ["heat  in 1 kJ = stored 0.5", "      + air 0.5 kJ"]);
+        assert_eq!(
+            labelled("heat  ", &pieces, 26),
+            ["heat  in 1 kJ = stored 0.5", "      + air 0.5 kJ"]
+        );
         assert_eq!(labelled("heat", &[], 26), ["heat"]);
     }
 

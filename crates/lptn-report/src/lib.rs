@@ -1,8 +1,10 @@
 //! What a result looks like: terminal tables with sparklines, CSV, JSON.
 //!
-//! A command's answer is a [`Page`]: it gives a [`Text`] for reading, rows and an object for programs, and a format is one
-//! file that writes what it asks a page for. Nothing here solves anything, prints anything or knows where the text goes. In files every number is the shortest text that reads back as the same `f64`; in tables
-//! for reading, numbers are rounded and say their unit.
+//! A command's answer is a [`Page`]: it gives a [`Text`] for reading, rows and an object for
+//! programs, and a format is one file that writes what it asks a page for. Nothing here solves
+//! anything, prints anything or knows where the text goes. In files every number is the shortest
+//! text that reads back as the same `f64`; in tables for reading, numbers are rounded and say their
+//! unit.
 
 mod csv;
 mod format;

@@ -22,7 +22,8 @@ impl Shortest {
 /// From here on digits before the point mean nothing to a reader.
 const HUGE: f64 = 1e12;
 
-/// `value` with `decimals` digits after the point, never `-0.0`; with an exponent where that would be long.
+/// `value` with `decimals` digits after the point, never `-0.0`; with an exponent where that would
+/// be long.
 pub fn fixed(value: f64, decimals: usize) -> String {
     if value.abs() >= HUGE {
         return significant(value, 4);
@@ -45,8 +46,8 @@ pub fn decimals(span: f64, digits: i32, least: usize) -> usize {
     usize::try_from(digits - 1 - exponent).unwrap_or(0).clamp(least, 9.max(least))
 }
 
-/// `value` rounded to `digits` significant digits, without trailing zeros; with an exponent below 1e-3 and from
-/// 1e6 on.
+/// `value` rounded to `digits` significant digits, without trailing zeros; with an exponent below
+/// 1e-3 and from 1e6 on.
 pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return Shortest::new().text(value).to_owned();
@@ -69,7 +70,8 @@ pub fn prefix(largest: f64) -> (f64, &'static str) {
     if size > 0.0 && size.is_finite() { found.unwrap_or((1e-6, "u")) } else { (1.0, "") }
 }
 
-/// A time in the unit that suits it, `25 min`, `39.5 min`, `2.5 h`, with up to `digits` significant digits.
+/// A time in the unit that suits it, `25 min`, `39.5 min`, `2.5 h`, with up to `digits` significant
+/// digits.
 pub fn duration(seconds: f64, digits: usize) -> String {
     const UNITS: [(f64, f64, &str); 6] = [
         (172_800.0, 86_400.0, "d"),
@@ -94,7 +96,9 @@ mod tests {
     #[test]
     fn exact_numbers_read_well() {
         let mut writer = Shortest::new();
-        for (value, text) in [(92.7, "92.7"), (300.0, "300"), (1e-7, "1e-7"), (-0.5, "-0.5"), (0.0, "0")] {
+        for (value, text) in
+            [(92.7, "92.7"), (300.0, "300"), (1e-7, "1e-7"), (-0.5, "-0.5"), (0.0, "0")]
+        {
             assert_eq!(writer.text(value), text);
         }
         assert_eq!(writer.text(f64::NAN), "NaN");
@@ -103,7 +107,9 @@ mod tests {
     #[test]
     fn exact_numbers_read_back() {
         let mut writer = Shortest::new();
-        for value in [0.1 + 0.2, f64::MIN_POSITIVE, 5e-324, f64::MAX, -1.0 / 3.0, 92.699_999_999_999_99] {
+        for value in
+            [0.1 + 0.2, f64::MIN_POSITIVE, 5e-324, f64::MAX, -1.0 / 3.0, 92.699_999_999_999_99]
+        {
             let back: f64 = writer.text(value).parse().unwrap();
             assert_eq!(back.to_bits(), value.to_bits());
         }

@@ -8,7 +8,8 @@ use lptn_solve::Table;
 use crate::json::Json;
 use crate::text::Text;
 
-/// What a command has to say, for readers and for programs. Each format asks only for what it writes.
+/// What a command has to say, for readers and for programs. Each format asks only for what it
+/// writes.
 pub trait Page {
     /// For reading: title, tables, notes, verdict.
     fn text(&self) -> Text;
@@ -24,7 +25,8 @@ pub trait Page {
     /// What the stream reports.
     fn json(&self, json: &mut Json<'_>) -> io::Result<()>;
 
-    /// Why the answer is no, where the question has one: the text ends with it, and other formats have it said beside them.
+    /// Why the answer is no, where the question has one: the text ends with it, and other formats
+    /// have it said beside them.
     fn no(&self) -> Option<String> {
         None
     }

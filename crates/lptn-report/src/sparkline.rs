@@ -2,13 +2,16 @@
 
 const LEVELS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
-/// `width` characters for a curve over time, from its lowest to its highest value; the first and the last stand
-/// for the ends. A curve that varies by less than `least` is drawn as flat. A curve without a number in it is
-/// blank.
+/// `width` characters for a curve over time, from its lowest to its highest value; the first and
+/// the last stand for the ends. A curve that varies by less than `least` is drawn as flat. A curve
+/// without a number in it is blank.
 pub fn sparkline(times: &[f64], values: &[f64], width: usize, least: f64) -> String {
-    let (Some(&first), Some(&last)) = (times.first(), times.last()) else { return " ".repeat(width) };
+    let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
+        return " ".repeat(width);
+    };
     let finite = || values.iter().copied().filter(|v| v.is_finite());
-    let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
+    let (low, high) =
+        (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
     let span = (high - low).max(least);
     let cell = |i: usize| {
         let share = if width > 1 { i as f64 / (width - 1) as f64 } else { 1.0 };

@@ -69,7 +69,8 @@ impl Text {
         self.add(Block::Table(table.into()))
     }
 
-    /// Adds a sentence behind a label, such as `note: `, wrapped between words; further lines stand under its first word.
+    /// Adds a sentence behind a label, such as `note: `, wrapped between words; further lines stand
+    /// under its first word.
     pub fn sentence(&mut self, label: &str, text: &str) -> &mut Self {
         self.labelled(label, words(text))
     }
@@ -112,7 +113,10 @@ pub(crate) fn write(text: &Text, styled: bool, out: &mut dyn Write) -> io::Resul
         if i > 0 {
             writeln!(out)?;
         }
-        section.iter().flat_map(|block| lines(block, styled)).try_for_each(|line| writeln!(out, "{line}"))?;
+        section
+            .iter()
+            .flat_map(|block| lines(block, styled))
+            .try_for_each(|line| writeln!(out, "{line}"))?;
     }
     Ok(())
 }
@@ -141,9 +145,11 @@ mod tests {
     fn sections_stand_apart_and_empty_ones_vanish() {
         let mut text = Text::titled("motor");
         text.line("2 nodes").section().section().notes(["hot", "cold"]);
-        let table = TextTable::of(&[92.7, 25.0]).left("", |_| "steel").right("T", |t: &f64| t.to_string());
+        let table =
+            TextTable::of(&[92.7, 25.0]).left("", |_| "steel").right("T", |t: &f64| t.to_string());
         text.section().table(table).section();
-        let shown = "motor\n2 nodes\n\nnote: hot\nnote: cold\n\n          T\nsteel  92.7\nsteel    25\n";
+        let shown =
+            "motor\n2 nodes\n\nnote: hot\nnote: cold\n\n          T\nsteel  92.7\nsteel    25\n";
         assert_eq!(written(&text, false), shown);
         assert!(written(&text, true).starts_with("\u{1b}[1mmotor\u{1b}[0m\n2 nodes\n"));
         assert_eq!(written(&Text::new(), false), "");

@@ -1,9 +1,11 @@
-//! A plate of 50 x 50 cells that radiates to the sky and between far cells, under 300 sources that step and ramp.
+//! A plate of 50 x 50 cells that radiates to the sky and between far cells, under 300 sources that
+//! step and ramp.
 //!
 //! `cargo run --release -p lptn-solve --example radiation_grid [TOLERANCE [IN OUT]]`
 //!
-//! The tolerance is in K. `IN` is a network in the binary form of the benchmark generator, in place of the plate made
-//! here; the temperatures of its probes in degC are then written to `OUT`, row by row, as little-endian doubles.
+//! The tolerance is in K. `IN` is a network in the binary form of the benchmark generator, in place
+//! of the plate made here; the temperatures of its probes in degC are then written to `OUT`, row by
+//! row, as little-endian doubles.
 #![allow(clippy::print_stdout, clippy::many_single_char_names)]
 
 use std::error::Error;
@@ -11,8 +13,8 @@ use std::time::Instant;
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    AfterEnd, Area, Conductance, ConductorKind, Course, End, HeatCapacity, Network, NetworkBuilder, NodeId,
-    Path, Temperature, Time, ZERO_CELSIUS,
+    AfterEnd, Area, Conductance, ConductorKind, Course, End, HeatCapacity, Network, NetworkBuilder,
+    NodeId, Path, Temperature, Time, ZERO_CELSIUS,
 };
 use lptn_solve::{Solution, Transient};
 use lptn_units::{Dimension, Interpolation, Outside, Table1, Type};
@@ -38,14 +40,19 @@ fn main() -> Outcome<()> {
     let solution = run.clone().tolerance(tolerance).solve(&system)?;
     let seconds = begin.elapsed().as_secs_f64() - assembled;
     let found = temperatures(&solution, &probes, plate.rows.len());
-    let (s, balance) = (solution.statistics(), solution.ledger().relative_residual().unwrap_or(0.0));
+    let (s, balance) =
+        (solution.statistics(), solution.ledger().relative_residual().unwrap_or(0.0));
     println!("assembly {assembled:.3} s, run {seconds:.3} s");
     println!("{} steps, {} factorizations, {} solves", s.steps, s.factorizations, s.linear_solves);
     println!("balance {balance:.1e} of the heat turned over");
     if let Some(file) = arguments.get(2) {
         std::fs::write(file, found.iter().flat_map(|t| t.to_le_bytes()).collect::<Vec<u8>>())?;
     } else {
-        let exact = temperatures(&run.tolerance(1e-3 * tolerance).solve(&system)?, &probes, plate.rows.len());
+        let exact = temperatures(
+            &run.tolerance(1e-3 * tolerance).solve(&system)?,
+            &probes,
+            plate.rows.len(),
+        );
         let error = found.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let hottest = exact.iter().copied().fold(0.0, f64::max);
         println!(
@@ -71,8 +78,9 @@ fn network(plate: &Plate) -> Outcome<(Network, Vec<NodeId>)> {
         cells.map(|(i, (c, t))| b.node(&format!("n{i}"), HeatCapacity(*c), kelvin(t))).collect();
     let given = plate.given.iter().enumerate();
     let given: Vec<_> = given.map(|(i, t)| b.boundary(&format!("b{i}"), kelvin(t))).collect();
-    let end =
-        |i: usize| cells.get(i).map_or_else(|| End::Boundary(given[i - cells.len()]), |&n| End::Node(n));
+    let end = |i: usize| {
+        cells.get(i).map_or_else(|| End::Boundary(given[i - cells.len()]), |&n| End::Node(n))
+    };
     for (k, &(i, j, g)) in plate.links.iter().enumerate() {
         b.resistor(&format!("r{k}"), end(i), end(j), Conductance(g));
     }

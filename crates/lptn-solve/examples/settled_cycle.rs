@@ -2,16 +2,16 @@
 //!
 //! `cargo run --release -p lptn-solve --example settled_cycle [TOLERANCE]`
 //!
-//! Winding, core and housing with radiation, free convection and a capacity that grows with temperature; the slowest time
-//! constant is ten cycles. The tolerance is in K.
+//! Winding, core and housing with radiation, free convection and a capacity that grows with
+//! temperature; the slowest time constant is ten cycles. The tolerance is in K.
 #![allow(clippy::print_stdout)]
 
 use std::error::Error;
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    AfterEnd, Conductance, ConductorKind, Context, Course, HeatCapacity, NetworkBuilder, Path, Temperature,
-    Time,
+    AfterEnd, Conductance, ConductorKind, Context, Course, HeatCapacity, NetworkBuilder, Path,
+    Temperature, Time,
 };
 use lptn_solve::{Periodic, Transient};
 use lptn_units::{Dimension, Type, parse_quantity};
@@ -37,7 +37,11 @@ fn main() -> Outcome<()> {
     let (steps, all) = (found.steps, waited.statistics().steps);
     println!("found:  {} cycles, {steps} steps, {search:.3} s CPU", found.cycles);
     println!("waited: 200 cycles, {all} steps, {waiting:.3} s CPU");
-    println!("ratio:  {:.3} of the steps, {:.3} of the CPU", steps as f64 / all as f64, search / waiting);
+    println!(
+        "ratio:  {:.3} of the steps, {:.3} of the CPU",
+        steps as f64 / all as f64,
+        search / waiting
+    );
     println!("states: differ by {:.1e} K", found.state.distance(waited.last_state()));
     Ok(())
 }
@@ -45,14 +49,18 @@ fn main() -> Outcome<()> {
 fn motor() -> Outcome<ThermalSystem> {
     let quantity = |text| parse_quantity(text, None).map_err(|error| format!("{error:?}"));
     let mut b = NetworkBuilder::new();
-    let course =
-        Course::Steps { times: vec![0.0, 190.0], values: vec![150.0, 0.0], after: AfterEnd::Repeat(PERIOD) };
+    let course = Course::Steps {
+        times: vec![0.0, 190.0],
+        values: vec![150.0, 0.0],
+        after: AfterEnd::Repeat(PERIOD),
+    };
     b.signal("duty", Type::of(Dimension::POWER), course);
     let in_context = |b: &NetworkBuilder, context, text| {
         b.expression_in(context, text, None).map_err(|error| format!("{text}: {error:?}"))
     };
     let winding = b.node("winding", HeatCapacity(300.0), Temperature(300.0));
-    let capacity = in_context(&b, Context::Own, "2500 [J/K] * (1 + (T - absolute(300 [K])) / 1000 [K])")?;
+    let capacity =
+        in_context(&b, Context::Own, "2500 [J/K] * (1 + (T - absolute(300 [K])) / 1000 [K])")?;
     let core = b.node("core", capacity, Temperature(300.0));
     let housing = b.node("housing", HeatCapacity(1500.0), Temperature(300.0));
     let air = b.boundary("air", Temperature(300.0));

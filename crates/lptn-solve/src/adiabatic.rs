@@ -1,4 +1,5 @@
-//! Nodes that no path leads from to a boundary: they keep their energy, which tells where they come to rest.
+//! Nodes that no path leads from to a boundary: they keep their energy, which tells where they come
+//! to rest.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{End, Flow, Network, NodeId};
@@ -7,7 +8,8 @@ use crate::error::SteadyError;
 use crate::newton::{Newton, NewtonError};
 use crate::unsolved::Unsolved;
 
-/// Rounds of bringing the energy of every island to what it was at the start; a linear network takes two.
+/// Rounds of bringing the energy of every island to what it was at the start; a linear network
+/// takes two.
 const ROUNDS: usize = 250;
 
 /// Rounds after which the interval that holds the solution is halved each time.
@@ -27,8 +29,8 @@ pub(crate) struct Island {
 }
 
 impl Island {
-    /// The islands of a system that neither a source that depends on temperatures nor a stream reaches, but for constant
-    /// streams that go round and round.
+    /// The islands of a system that neither a source that depends on temperatures nor a stream
+    /// reaches, but for constant streams that go round and round.
     pub(crate) fn all_of(system: &ThermalSystem) -> Vec<Self> {
         let exchanges = exchanges(system.network());
         let keeps = |nodes: &Vec<NodeId>| !nodes.iter().any(|&id| exchanges[id.index()]);
@@ -67,8 +69,8 @@ impl Island {
         system.states().iter().copied().enumerate().filter(inside).collect()
     }
 
-    /// The energy over that at the start in J, and the capacity in J/K; infinite with the sign of the side on which a
-    /// node leaves the temperatures for which its capacity is known.
+    /// The energy over that at the start in J, and the capacity in J/K; infinite with the sign of
+    /// the side on which a node leaves the temperatures for which its capacity is known.
     fn energy(&self, system: &ThermalSystem, temperatures: &[f64]) -> (f64, f64) {
         let network = system.network();
         let stored = self.states(system).into_iter().map(|(i, id)| {
@@ -89,7 +91,8 @@ impl Island {
     fn outside(&self, system: &ThermalSystem, temperatures: &[f64]) -> Option<NewtonError> {
         let network = system.network();
         self.states(system).into_iter().find_map(|(i, id)| {
-            let curve = network.enthalpy(id).filter(|curve| curve.heat(temperatures[i]).is_none())?;
+            let curve =
+                network.enthalpy(id).filter(|curve| curve.heat(temperatures[i]).is_none())?;
             Some(NewtonError::Input(crate::unfold::outside(system, i, curve)))
         })
     }

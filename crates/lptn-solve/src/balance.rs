@@ -25,14 +25,19 @@ pub struct Balance {
     pub of: End,
     /// Everything that reaches it, in the order of the network: conductors, then sources.
     pub terms: Vec<Term>,
-    /// What it stores, in J, from its own temperature and capacity; for a boundary what it takes. It differs from the
-    /// sum of the terms by what the ledger leaves open. `None` in steady state.
+    /// What it stores, in J, from its own temperature and capacity; for a boundary what it takes.
+    /// It differs from the sum of the terms by what the ledger leaves open. `None` in steady state.
     pub stored: Option<f64>,
 }
 
 impl Balance {
     /// The balance of a node or boundary where its paths receive this and sources give this, in W.
-    pub(crate) fn of_flows(network: &Network, of: End, received: &[Received], source_heat: &[f64]) -> Self {
+    pub(crate) fn of_flows(
+        network: &Network,
+        of: End,
+        received: &[Received],
+        source_heat: &[f64],
+    ) -> Self {
         let terms = Books::new(network, Some(of)).kinds.into_iter().map(|kind| {
             let power = match kind {
                 Kind::Conductor(id, side) => received[id.index()][side],
@@ -57,8 +62,8 @@ impl Balance {
         self.terms.iter().map(|term| term.heat).sum()
     }
 
-    /// The terms with the largest path first: by heat over the run, in steady state by heat flow; of equal ones in the
-    /// order of the network.
+    /// The terms with the largest path first: by heat over the run, in steady state by heat flow;
+    /// of equal ones in the order of the network.
     pub fn largest_first(&self) -> Vec<Term> {
         let size = |term: &Term| term.heat.unwrap_or(term.power).abs();
         let mut terms = self.terms.clone();
@@ -186,7 +191,9 @@ impl Kind {
             Self::Conductor(id, side) => system.received(work, id)?[side],
             Self::Joint(id, side) => {
                 let parts = system.network().joints()[id.index()].conductors();
-                parts.map(|part| Ok(system.received(work, part)?[side])).sum::<Result<f64, InputError>>()?
+                parts
+                    .map(|part| Ok(system.received(work, part)?[side]))
+                    .sum::<Result<f64, InputError>>()?
             }
             Self::Source(id, share) => share * system.source_powers(work)[id.index()],
         })

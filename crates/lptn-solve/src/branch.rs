@@ -1,10 +1,11 @@
-//! Balances of massless nodes that have more than one solution: one is followed while it lasts, and left only where it
-//! ends.
+//! Balances of massless nodes that have more than one solution: one is followed while it lasts, and
+//! left only where it ends.
 //!
-//! A massless node is the limit of one with a small capacity: `c dz/ds = g(y, z)` with c towards 0. A solution of `g = 0`
-//! at which that rests lasts until its Jacobian becomes singular (a fold), where it meets one at which nothing rests.
-//! Beyond, z moves in no time to where `c dz/ds = g` leads from there (the reduction of singularly perturbed systems, A. N.
-//! Tikhonov, Mat. Sb. 31 (1952) 575). Newton's method alone knows nothing of this: it falls to any other solution, sooner
+//! A massless node is the limit of one with a small capacity: `c dz/ds = g(y, z)` with c towards 0.
+//! A solution of `g = 0` at which that rests lasts until its Jacobian becomes singular (a fold),
+//! where it meets one at which nothing rests. Beyond, z moves in no time to where `c dz/ds = g`
+//! leads from there (the reduction of singularly perturbed systems, A. N. Tikhonov, Mat. Sb. 31
+//! (1952) 575). Newton's method alone knows nothing of this: it falls to any other solution, sooner
 //! or later than the fold.
 
 use lptn_assembly::Workspace;
@@ -28,9 +29,10 @@ const LONGER: f64 = 1.5;
 const SHORTEST: f64 = 1e-12;
 
 impl Newton<'_> {
-    /// Refuses a solution between which and `start` there are temperatures at which nothing rests: it lies on another
-    /// branch. What moves moves on a straight line here, so that for one massless node this is all there is to tell, but
-    /// for a fold that fits between two of the places.
+    /// Refuses a solution between which and `start` there are temperatures at which nothing rests:
+    /// it lies on another branch. What moves moves on a straight line here, so that for one
+    /// massless node this is all there is to tell, but for a fold that fits between two of the
+    /// places.
     ///
     /// # Errors
     /// [`NewtonError::Fold`]; that a value or the factorisation fails.
@@ -55,12 +57,16 @@ impl Newton<'_> {
         self.factorize(work, end, 0.0)
     }
 
-    /// Goes to where the free unknowns come to rest from `temperatures` while nothing else moves: the same solution where
-    /// it still is, another one where that has ended.
+    /// Goes to where the free unknowns come to rest from `temperatures` while nothing else moves:
+    /// the same solution where it still is, another one where that has ended.
     ///
     /// # Errors
     /// [`NewtonError`] if that is nowhere.
-    pub(crate) fn leap(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> Result<(), NewtonError> {
+    pub(crate) fn leap(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &mut [f64],
+    ) -> Result<(), NewtonError> {
         match self.follow(work, temperatures) {
             Err(NewtonError::Fold { .. }) => self.come_to_rest(work, temperatures),
             other => other,
@@ -68,7 +74,11 @@ impl Newton<'_> {
     }
 
     /// Follows `c dz/ds = g` by linearly implicit steps so short that none passes a place of rest.
-    fn come_to_rest(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> Result<(), NewtonError> {
+    fn come_to_rest(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &mut [f64],
+    ) -> Result<(), NewtonError> {
         let capacity = self.small_capacities(work, temperatures)?;
         let mut step = 0.01;
         for _ in 0..STRIDES {
@@ -76,7 +86,9 @@ impl Newton<'_> {
                 temperatures.copy_from_slice(&rest);
                 return self.factorize(work, temperatures, 0.0);
             }
-            let Some(stride) = self.stride(work, temperatures, (&capacity, &mut step))? else { break };
+            let Some(stride) = self.stride(work, temperatures, (&capacity, &mut step))? else {
+                break;
+            };
             if largest(&stride) <= 0.0 {
                 break; // nothing moves it
             }
@@ -86,7 +98,8 @@ impl Newton<'_> {
         Err(NewtonError::Stalled { unknown: self.free[0], change: STRIDE })
     }
 
-    /// One step, shortened until it is one that the differential equation would take; `None` if there is none.
+    /// One step, shortened until it is one that the differential equation would take; `None` if
+    /// there is none.
     fn stride(
         &mut self,
         work: &mut Workspace,
@@ -126,8 +139,8 @@ impl Newton<'_> {
         (far <= 2.0 * STRIDE && self.stays(work, temperatures, &rest).is_ok()).then_some(rest)
     }
 
-    /// What stands for the capacities: for each free unknown all the heat flows that its temperature changes, in W/K, so
-    /// that their time constants are much alike.
+    /// What stands for the capacities: for each free unknown all the heat flows that its
+    /// temperature changes, in W/K, so that their time constants are much alike.
     fn small_capacities(
         &mut self,
         work: &mut Workspace,

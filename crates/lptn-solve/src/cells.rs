@@ -13,8 +13,8 @@ const HALVINGS: usize = 7;
 /// Parts of a step that the values are looked at in.
 const PARTS: usize = 16;
 
-/// The share of what bends within steps that may be something else than the values at their ends foretell. Of a sine that
-/// leaves at least six steps in a period.
+/// The share of what bends within steps that may be something else than the values at their ends
+/// foretell. Of a sine that leaves at least six steps in a period.
 const MISSED: f64 = 0.2;
 
 /// Steps on both sides that are judged together: a bend has its size from its neighbours.
@@ -37,16 +37,23 @@ pub(crate) struct Stretch {
     pub(crate) step: f64,
 }
 
-/// Looks at curves over the segments of a run and gives stretches that cover it, ascending. No step is longer than `gap`
-/// or a three-hundredth of the run, and where a curve does something between the ends of its steps that the values there
-/// do not foretell, they are halved, up to seven times. All in s.
-pub(crate) fn stretches(network: &Network, curves: &[Curve], segments: &[Segment], gap: f64) -> Vec<Stretch> {
+/// Looks at curves over the segments of a run and gives stretches that cover it, ascending. No step
+/// is longer than `gap` or a three-hundredth of the run, and where a curve does something between
+/// the ends of its steps that the values there do not foretell, they are halved, up to seven times.
+/// All in s.
+pub(crate) fn stretches(
+    network: &Network,
+    curves: &[Curve],
+    segments: &[Segment],
+    gap: f64,
+) -> Vec<Stretch> {
     let span = segments[segments.len() - 1].to - segments[0].from;
     let coarse = span / COARSE;
     // not finer than what is looked for: rows may be many
     let first = coarse.min(gap).max(coarse / f64::from(1_u32 << HALVINGS));
     let mut scope = network.evaluation();
-    let mut open: Vec<Look<'_>> = curves.iter().map(|curve| Look { network, curve, rounding: 0.0 }).collect();
+    let mut open: Vec<Look<'_>> =
+        curves.iter().map(|curve| Look { network, curve, rounding: 0.0 }).collect();
     for look in &mut open {
         look.rounding = ROUNDING * look.largest(segments, first, &mut scope);
     }
@@ -56,7 +63,8 @@ pub(crate) fn stretches(network: &Network, curves: &[Curve], segments: &[Segment
         let count = (length / first).ceil().max(LEAST);
         let cells = Cells { segment, step: length / count };
         let mut finer = Vec::new();
-        // a segment that is as short as what is looked for is left to the steps with which the integrator begins
+        // a segment that is as short as what is looked for is left to the steps with which the
+        // integrator begins
         let looks = if length > coarse / PARTS as f64 { &open[..] } else { &[] };
         for look in looks {
             let ranges = cells.whole(count);
@@ -103,7 +111,11 @@ impl Cells {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of steps, at least 0")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a count of steps, at least 0"
+)]
 fn whole_number(x: f64) -> usize {
     x.round() as usize
 }
@@ -144,8 +156,8 @@ impl Look<'_> {
         scope: &mut Evaluation,
     ) {
         let (first, last) = (from.saturating_sub(AROUND), (to + AROUND).min(cells.count()));
-        let samples =
-            (first * PARTS..=last * PARTS).map(|k| self.at(cells.place(k as f64), cells.segment, scope));
+        let samples = (first * PARTS..=last * PARTS)
+            .map(|k| self.at(cells.place(k as f64), cells.segment, scope));
         let bends = bends(&samples.collect::<Vec<f64>>());
         let unseen = |cell: &usize| {
             let around = cell.saturating_sub(AROUND).max(first)..(cell + AROUND + 1).min(last);
@@ -165,8 +177,8 @@ impl Look<'_> {
     }
 }
 
-/// For each step of [`PARTS`] samples how far they are from the cubic through the ends of steps, and from the chord. Where
-/// a sample is no number, nothing is known.
+/// For each step of [`PARTS`] samples how far they are from the cubic through the ends of steps,
+/// and from the chord. Where a sample is no number, nothing is known.
 fn bends(samples: &[f64]) -> Vec<(f64, f64)> {
     let count = samples.len() / PARTS;
     let end = |cell: usize| samples[cell * PARTS];
@@ -202,7 +214,9 @@ fn flatten(whole: Stretch, mut finer: Vec<Stretch>, gap: f64, out: &mut Vec<Stre
     for (pair, step) in ends.windows(2).zip(steps) {
         let step = step.min(gap);
         match out.last_mut() {
-            Some(last) if last.to >= pair[0] && last.step.to_bits() == step.to_bits() => last.to = pair[1],
+            Some(last) if last.to >= pair[0] && last.step.to_bits() == step.to_bits() => {
+                last.to = pair[1]
+            }
             _ => out.push(Stretch { from: pair[0], to: pair[1], step }),
         }
     }
@@ -215,7 +229,9 @@ mod tests {
     /// What the cubic misses over what bends, for all steps of samples of a function of the steps.
     fn share(count: usize, of: impl Fn(f64) -> f64) -> f64 {
         let samples: Vec<f64> = (0..=count * PARTS).map(|k| of(k as f64 / PARTS as f64)).collect();
-        let sum = bends(&samples).into_iter().fold((0.0, 0.0), |sum, bend| (sum.0 + bend.0, sum.1 + bend.1));
+        let sum = bends(&samples)
+            .into_iter()
+            .fold((0.0, 0.0), |sum, bend| (sum.0 + bend.0, sum.1 + bend.1));
         sum.0 / sum.1
     }
 

@@ -6,7 +6,8 @@ use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::linear::{self, Factorization, LinearSolver};
 use lptn_integrate::{FactorError, Pattern};
 
-/// `G` of `C dT/dt = q - G T`, factorised once for many inputs. Steady states and Norton equivalents come from it.
+/// `G` of `C dT/dt = q - G T`, factorised once for many inputs. Steady states and Norton
+/// equivalents come from it.
 pub struct Conductances<'a> {
     system: &'a ThermalSystem,
     /// `None` for a system without states.
@@ -15,7 +16,9 @@ pub struct Conductances<'a> {
 
 impl fmt::Debug for Conductances<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Conductances").field("states", &self.system.states().len()).finish_non_exhaustive()
+        f.debug_struct("Conductances")
+            .field("states", &self.system.states().len())
+            .finish_non_exhaustive()
     }
 }
 
@@ -25,8 +28,8 @@ impl<'a> Conductances<'a> {
 
     /// Factorises the conductances of a system.
     ///
-    /// Nodes without a path to a boundary have no temperature that heat leads to. They are kept apart from the others,
-    /// and nothing may be asked about them but to stay where they are.
+    /// Nodes without a path to a boundary have no temperature that heat leads to. They are kept
+    /// apart from the others, and nothing may be asked about them but to stay where they are.
     ///
     /// # Errors
     /// [`FactorError`] where the conductances span more than the numbers hold.
@@ -35,13 +38,14 @@ impl<'a> Conductances<'a> {
         Ok(Self { system, factors })
     }
 
-    /// Temperature of each state in K, in the order of [`ThermalSystem::states`], at which the inputs in `work`
-    /// balance: sought from `start` in K everywhere, so that a network at rest there stays so to the last digit.
+    /// Temperature of each state in K, in the order of [`ThermalSystem::states`], at which the
+    /// inputs in `work` balance: sought from `start` in K everywhere, so that a network at rest
+    /// there stays so to the last digit.
     ///
-    /// It is refined at most `refinements` times. What is left over is taken from the links, where a heat flow
-    /// leaves one node as the number that enters the other, not from the matrix, whose diagonal has rounded a
-    /// small conductance beside a large one away (a path to ground that is not there): the total balance is then
-    /// exact, and the refinement restores what was rounded.
+    /// It is refined at most `refinements` times. What is left over is taken from the links, where
+    /// a heat flow leaves one node as the number that enters the other, not from the matrix, whose
+    /// diagonal has rounded a small conductance beside a large one away (a path to ground that is
+    /// not there): the total balance is then exact, and the refinement restores what was rounded.
     ///
     /// # Errors
     /// [`FactorError`] where the solution is not finite.
@@ -82,8 +86,8 @@ fn factorized(system: &ThermalSystem) -> Result<Box<dyn Factorization>, FactorEr
     Ok(factors)
 }
 
-/// Makes the blocks of islands without a boundary regular, by twice their diagonal: no other block sees it, and where
-/// no heat goes in the solution is zero all the same.
+/// Makes the blocks of islands without a boundary regular, by twice their diagonal: no other block
+/// sees it, and where no heat goes in the solution is zero all the same.
 fn tie_down(system: &ThermalSystem, pattern: &Pattern, values: &mut [f64]) {
     for loose in system.network().ungrounded().into_iter().flatten() {
         if let Ok(state) = system.states().binary_search(&loose) {

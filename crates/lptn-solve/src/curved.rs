@@ -1,8 +1,8 @@
 //! How long a step may be where inputs curve.
 //!
-//! The integrator sees an input only at the ends of its steps: a pulse between two of them would be missed without
-//! a trace, and the books would close all the same. So the inputs are looked at before the run, and no step is
-//! longer than what resolves them where it is.
+//! The integrator sees an input only at the ends of its steps: a pulse between two of them would be
+//! missed without a trace, and the books would close all the same. So the inputs are looked at
+//! before the run, and no step is longer than what resolves them where it is.
 
 use lptn_assembly::{Form, ThermalSystem};
 
@@ -23,8 +23,8 @@ pub(crate) struct Curved {
 /// Steps within the network's memory over which errors still add up to a few tolerances.
 const REMEMBERED: f64 = 10.0;
 
-/// Steps within the memory beyond which nothing is promised of the error: with up to 1000 it stays within ten tolerances,
-/// with 8000 it was once found to be 67 of them, however small the share.
+/// Steps within the memory beyond which nothing is promised of the error: with up to 1000 it stays
+/// within ten tolerances, with 8000 it was once found to be 67 of them, however small the share.
 pub(crate) const MOST_REMEMBERED: f64 = 1000.0;
 
 /// The smallest share of the tolerance.
@@ -33,10 +33,12 @@ const LEAST_SHARE: f64 = 1e-3;
 impl Curved {
     /// `None` if no input is curved.
     ///
-    /// A pulse shorter than a part of the first steps can still be missed: write it with `if(t < ..)`, which is met exactly.
+    /// A pulse shorter than a part of the first steps can still be missed: write it with
+    /// `if(t < ..)`, which is met exactly.
     ///
-    /// The share falls with the number of steps that the network remembers: curved inputs excite it in every
-    /// one of them, and the errors of the steps add up over its memory (`tests/tolerance.rs` measures it).
+    /// The share falls with the number of steps that the network remembers: curved inputs excite it
+    /// in every one of them, and the errors of the steps add up over its memory
+    /// (`tests/tolerance.rs` measures it).
     pub(crate) fn of(system: &ThermalSystem, segments: &[Segment], rows: &[f64]) -> Option<Self> {
         let network = system.network();
         let curves = network.curves();
@@ -49,7 +51,8 @@ impl Curved {
         Some(Self { stretches, share, remembered })
     }
 
-    /// The longest step from `time` on, in s: one that leads into a stretch of shorter steps ends soon behind its beginning.
+    /// The longest step from `time` on, in s: one that leads into a stretch of shorter steps ends
+    /// soon behind its beginning.
     pub(crate) fn longest(&self, time: f64) -> f64 {
         let here = self.stretches.partition_point(|s| s.to <= time).min(self.stretches.len() - 1);
         let mut longest = self.stretches[here].step;
@@ -90,8 +93,9 @@ fn most_steps(stretches: &[Stretch], memory: f64) -> f64 {
     inside.map(|from| up_to(from + memory) - up_to(from)).fold(0.0, f64::max)
 }
 
-/// How long a network remembers, in s: all capacity over all conductance that leads out. The slowest time constant
-/// is not shorter, for it is the inverse of the least Rayleigh quotient, and this is the quotient of a uniform rise.
+/// How long a network remembers, in s: all capacity over all conductance that leads out. The
+/// slowest time constant is not shorter, for it is the inverse of the least Rayleigh quotient, and
+/// this is the quotient of a uniform rise.
 fn memory(system: &ThermalSystem, time: f64) -> f64 {
     let mut values = vec![0.0; system.pattern().entries()];
     let mut work = system.workspace();
@@ -120,10 +124,21 @@ mod tests {
     #[test]
     fn steps_shrink_before_a_stretch_of_short_ones() {
         let curved = Curved { stretches: stretches(), share: 1.0, remembered: 0.0 };
-        let expected =
-            [(0.0, 5.0), (7.0, 3.5), (9.75, 0.75), (10.0, 0.5), (11.9, 0.5), (12.0, 5.0), (20.0, 5.0)];
+        let expected = [
+            (0.0, 5.0),
+            (7.0, 3.5),
+            (9.75, 0.75),
+            (10.0, 0.5),
+            (11.9, 0.5),
+            (12.0, 5.0),
+            (20.0, 5.0),
+        ];
         for (time, longest) in expected {
-            assert!((curved.longest(time) - longest).abs() < 1e-12, "{} at {time}", curved.longest(time));
+            assert!(
+                (curved.longest(time) - longest).abs() < 1e-12,
+                "{} at {time}",
+                curved.longest(time)
+            );
         }
     }
 

@@ -12,8 +12,8 @@ lptn_units::errors! {
 /// Why there is no steady state.
 #[derive(Clone, Debug)]
 pub enum SteadyError {
-    /// Some nodes reach no boundary and are heated or cooled for ever: one set of connected ones after the other, and the heat
-    /// in W that they keep receiving.
+    /// Some nodes reach no boundary and are heated or cooled for ever: one set of connected ones
+    /// after the other, and the heat in W that they keep receiving.
     NoBoundary { nodes: Vec<NodeId>, names: Vec<String>, heat: f64 } = "steady::no_boundary",
         format!(
             "no path leads to a boundary from {}, where {} W stay for ever: there is no steady state",
@@ -28,19 +28,20 @@ pub enum SteadyError {
     /// The conductances span more than the numbers can hold.
     Factorization(error: FactorError) = "steady::singular",
         format!("the conductances cannot be factorised: {error}"), source error, help MERGE, class Class::Numbers;
-    /// More heat is taken out than there is: a linear network goes below 0 K, a real one does not. The first such node and its
-    /// temperature in K.
+    /// More heat is taken out than there is: a linear network goes below 0 K, a real one does not.
+    /// The first such node and its temperature in K.
     BelowAbsoluteZero { name: String, temperature: f64 } = "solve::below_absolute_zero", cold(name, *temperature),
         help COLD, class Class::Numbers;
-    /// Whatever the positions of controls and comparisons, in their steady state something has to switch: its names, and how
-    /// many positions were tried.
+    /// Whatever the positions of controls and comparisons, in their steady state something has to
+    /// switch: its names, and how many positions were tried.
     Cycles { names: Vec<String>, tried: usize } = "steady::cycles",
         format!(
             "no steady state, it cycles: in each of the {tried} positions that were tried something has to switch, among it {}",
             list_of(names, "things")
         ),
         help "run the network over time, `lptn run`: it shows how often it switches, and the means", class Class::No;
-    /// The solution does not balance: heat in and heat out differ by `residual` of the heat turned over.
+    /// The solution does not balance: heat in and heat out differ by `residual` of the heat turned
+    /// over.
     Unbalanced { residual: f64 } = "steady::unbalanced",
         format!("heat in and heat out differ by {residual:.1e} of the heat turned over"), help MERGE, class Class::Numbers;
 }
@@ -91,8 +92,9 @@ pub enum StopReason {
     /// A node fell below 0 K: the first such node and its temperature in K.
     BelowAbsoluteZero { name: String, temperature: f64 } = "solve::below_absolute_zero", cold(name, *temperature),
         help COLD;
-    /// A comparison of temperatures changes again and again between two rows: with either truth the temperatures go to where
-    /// it is the other one. The element and field it stands in, in words and as they are.
+    /// A comparison of temperatures changes again and again between two rows: with either truth the
+    /// temperatures go to where it is the other one. The element and field it stands in, in words
+    /// and as they are.
     Chatter { name: String, changes: usize, place: (Item, Field) } = "run::chatter",
         format!(
             "a comparison in `{name}` changed {changes} times between two rows: the temperatures stay where it neither holds \
@@ -100,7 +102,8 @@ pub enum StopReason {
         ),
         help "give it a dead band: a [control] with `on_above` and `off_below`, or `on_below` and `off_above`, whose name is 0 \
               or 1 in expressions; or a gradual change, `0.5 * (1 + tanh((T - 80 [degC]) / 1 [K]))`";
-    /// What switches back and forth at one moment, without time going on: controls by name, comparisons by element and field.
+    /// What switches back and forth at one moment, without time going on: controls by name,
+    /// comparisons by element and field.
     Restless { names: Vec<String> } = "run::restless",
         match names.as_slice() {
             [one] => format!("`{one}` switches back and forth at this very moment"),
@@ -127,10 +130,11 @@ impl TransientError {
     /// The value that failed, if that is the reason.
     pub fn input(&self) -> Option<&InputError> {
         match self {
-            Self::Input(error) | Self::Stopped { reason: StopReason::Input(error), .. } => Some(error),
-            Self::Start(unsolved) | Self::Stopped { reason: StopReason::Unsolved(unsolved), .. } => {
-                unsolved.input()
+            Self::Input(error) | Self::Stopped { reason: StopReason::Input(error), .. } => {
+                Some(error)
             }
+            Self::Start(unsolved)
+            | Self::Stopped { reason: StopReason::Unsolved(unsolved), .. } => unsolved.input(),
             _ => None,
         }
     }

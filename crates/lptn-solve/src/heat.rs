@@ -1,4 +1,5 @@
-//! A thermal system as the integrator sees it: `M y' = f` with M the capacities and f the heat flows.
+//! A thermal system as the integrator sees it: `M y' = f` with M the capacities and f the heat
+//! flows.
 
 use lptn_assembly::{Form, ThermalSystem, Workspace};
 use lptn_integrate::{OdeSystem, Pattern, Retry};
@@ -39,7 +40,11 @@ pub(crate) struct Heat<'a> {
 }
 
 impl<'a> Heat<'a> {
-    pub(crate) fn new(system: &'a ThermalSystem, segment: f64, books: Books) -> Result<Self, NewtonError> {
+    pub(crate) fn new(
+        system: &'a ThermalSystem,
+        segment: f64,
+        books: Books,
+    ) -> Result<Self, NewtonError> {
         let pattern = Pattern::from_symbolic(system.pattern().symbolic());
         let form = if system.is_symmetric() { Form::Symmetric } else { Form::Exact };
         let flow = vec![0.0; system.unknowns().len()];
@@ -63,7 +68,8 @@ impl<'a> Heat<'a> {
         })
     }
 
-    /// Reads the inputs and takes the state; what fails may be the guess of a step that is too long.
+    /// Reads the inputs and takes the state; what fails may be the guess of a step that is too
+    /// long.
     fn place(&mut self, time: f64, y: &[f64]) -> Result<(), Retry> {
         let (at, segment) = self.held.unwrap_or((time, self.segment));
         let inputs = self.system.read_inputs(&mut self.work, at, segment);
@@ -99,8 +105,8 @@ impl<'a> Heat<'a> {
         self.unfold.is_guarded()
     }
 
-    /// The temperatures of the massless nodes that are solved for, in K, at a state that was reached. They have to be ones
-    /// at which the nodes stay.
+    /// The temperatures of the massless nodes that are solved for, in K, at a state that was
+    /// reached. They have to be ones at which the nodes stay.
     pub(crate) fn branch(&mut self, time: f64, y: &[f64]) -> Result<Vec<f64>, StopReason> {
         self.arrive(time, y)?;
         let now = self.unfold.algebraic().to_vec();
@@ -140,8 +146,8 @@ impl<'a> Heat<'a> {
         Ok((self.unfold.last(), &mut self.work))
     }
 
-    /// Lets massless nodes leap as they do at `beyond`, and brings them back to `here`; both are a time and a state.
-    /// Whether they are on another branch then; if not, nothing has changed.
+    /// Lets massless nodes leap as they do at `beyond`, and brings them back to `here`; both are a
+    /// time and a state. Whether they are on another branch then; if not, nothing has changed.
     pub(crate) fn leap(&mut self, beyond: (f64, &[f64]), here: (f64, &[f64])) -> bool {
         let before = self.unfold.algebraic().to_vec();
         self.unfold.may_leap();
@@ -166,18 +172,32 @@ impl<'a> Heat<'a> {
         self.recover(time, y).map_err(|_| match self.failure.take() {
             Some(NewtonError::Input(input)) => StopReason::Input(input),
             Some(other) => StopReason::Unsolved(Unsolved::new(self.system, other)),
-            None => StopReason::Unsolved(Unsolved::new(self.system, NewtonError::Singular { unknown: 0 })),
+            None => StopReason::Unsolved(Unsolved::new(
+                self.system,
+                NewtonError::Singular { unknown: 0 },
+            )),
         })
     }
 
-    /// Writes how far everything that switches is beyond the point where it does; see [`Gates::excess`].
-    pub(crate) fn excess(&mut self, time: f64, y: &[f64], out: &mut [f64]) -> Result<(), StopReason> {
+    /// Writes how far everything that switches is beyond the point where it does; see
+    /// [`Gates::excess`].
+    pub(crate) fn excess(
+        &mut self,
+        time: f64,
+        y: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), StopReason> {
         self.arrive(time, y)?;
         self.gates.excess(self.system, &mut self.work, out).map_err(StopReason::Input)
     }
 
     /// Sets how far the sides of comparisons have to be apart; see [`Gates::set_margins`].
-    pub(crate) fn set_margins(&mut self, time: f64, y: &[f64], tolerance: f64) -> Result<(), StopReason> {
+    pub(crate) fn set_margins(
+        &mut self,
+        time: f64,
+        y: &[f64],
+        tolerance: f64,
+    ) -> Result<(), StopReason> {
         self.arrive(time, y)?;
         self.gates.set_margins(self.system, &mut self.work, tolerance).map_err(StopReason::Input)
     }
@@ -195,8 +215,8 @@ impl<'a> Heat<'a> {
         Ok(holds)
     }
 
-    /// Begins to follow sensitivities; gives what is carried of them where every node starts from `y`, of which
-    /// `own_start` says whether it is the start of the network itself.
+    /// Begins to follow sensitivities; gives what is carried of them where every node starts from
+    /// `y`, of which `own_start` says whether it is the start of the network itself.
     pub(crate) fn follow(
         &mut self,
         mut tangent: Tangent<'a>,
@@ -271,7 +291,13 @@ impl OdeSystem for Heat<'_> {
         self.tangent.as_ref().map_or(0, |tangent| tangent.parameters().len())
     }
 
-    fn sensitivity_flow(&mut self, time: f64, y: &[f64], s: &[f64], g: &mut [f64]) -> Result<(), Retry> {
+    fn sensitivity_flow(
+        &mut self,
+        time: f64,
+        y: &[f64],
+        s: &[f64],
+        g: &mut [f64],
+    ) -> Result<(), Retry> {
         self.recover(time, y)?;
         let Self { tangent, work, unfold, .. } = self;
         let Some(tangent) = tangent else { return Ok(()) };

@@ -16,14 +16,21 @@ pub struct Ledger {
     pub streams: Vec<f64>,
     /// Heat that each node stored: the integral of its capacity over its rise.
     pub stored: Vec<f64>,
-    /// Integral of the absolute heat of every source, boundary and stream, plus the absolute heat stored by each node.
+    /// Integral of the absolute heat of every source, boundary and stream, plus the absolute heat
+    /// stored by each node.
     pub turned_over: f64,
-    /// What may remain of the heat turned over: `1e-8 + 10 tolerance C_max / turned_over` summed over the nodes.
+    /// What may remain of the heat turned over: `1e-8 + 10 tolerance C_max / turned_over` summed
+    /// over the nodes.
     pub bound: f64,
 }
 
 impl Ledger {
-    pub(crate) fn new(system: &ThermalSystem, integrals: &[f64], stored: Vec<f64>, tolerance: f64) -> Self {
+    pub(crate) fn new(
+        system: &ThermalSystem,
+        integrals: &[f64],
+        stored: Vec<f64>,
+        tolerance: f64,
+    ) -> Self {
         let network = system.network();
         let (sources, rest) = integrals.split_at(network.sources().len());
         let (boundaries, rest) = rest.split_at(network.boundaries().len());
@@ -35,7 +42,8 @@ impl Ledger {
         Self { sources, boundaries, streams, stored, turned_over, bound }
     }
 
-    /// Sources plus boundaries plus streams less stored heat, in J: zero but for rounding and what Newton's method left.
+    /// Sources plus boundaries plus streams less stored heat, in J: zero but for rounding and what
+    /// Newton's method left.
     pub fn residual(&self) -> f64 {
         let sum = |q: &[f64]| q.iter().sum::<f64>();
         sum(&self.sources) + sum(&self.boundaries) + sum(&self.streams) - sum(&self.stored)
@@ -58,8 +66,8 @@ pub(crate) fn integrals(system: &ThermalSystem) -> usize {
     network.sources().len() + network.boundaries().len() + system.streams().len() + 1
 }
 
-/// The integrands at the inputs of `work` and the temperatures `y` of the unknowns: sources, boundaries, streams, sum
-/// of absolute values, in W.
+/// The integrands at the inputs of `work` and the temperatures `y` of the unknowns: sources,
+/// boundaries, streams, sum of absolute values, in W.
 pub(crate) fn integrands(
     system: &ThermalSystem,
     work: &mut Workspace,

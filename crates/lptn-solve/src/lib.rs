@@ -1,8 +1,9 @@
 //! Analyses of an assembled network: steady state, transient, energy ledger.
 //!
-//! [`SteadyState::solve`] solves `G T = q` directly; [`Transient`] integrates `C dT/dt = q(t, T)` from one known
-//! discontinuity to the next and gives a [`Solution`] with its [`Ledger`]. This crate knows nothing of TOML
-//! and of pointers, and of C only the name of the integrator that steps its runs (`stepper.rs`).
+//! [`SteadyState::solve`] solves `G T = q` directly; [`Transient`] integrates `C dT/dt = q(t, T)`
+//! from one known discontinuity to the next and gives a [`Solution`] with its [`Ledger`]. This
+//! crate knows nothing of TOML and of pointers, and of C only the name of the integrator that steps
+//! its runs (`stepper.rs`).
 //!
 //! Units: SI, temperatures in K, heat positive into a node and from `from` to `to`.
 
@@ -75,7 +76,9 @@ pub use parallel::{available_threads, in_parallel};
 pub use periodic::{Method, Periodic, PeriodicError};
 pub use selection::{Record, Selection};
 pub use sense::Beyond;
-pub use sensitive_run::{Gradient, SensitiveError, SensitiveRun, sensitive_run, sensitive_run_observed};
+pub use sensitive_run::{
+    Gradient, SensitiveError, SensitiveRun, sensitive_run, sensitive_run_observed,
+};
 pub use settings::{Control, Progress, Transient};
 pub use settings_error::SettingsError;
 pub use solution::{End, Solution, SolutionError, Unbounded};
@@ -85,7 +88,9 @@ pub use stiffness::Stiffness;
 pub use summary::{NodeSummary, Summary};
 pub use table::{Column, Label, Table, TableOf};
 pub use unsolved::Unsolved;
-pub use verification::{Comparison, LEAST_TOLERANCE, NoReference, Reference, Verification, allowed_error};
+pub use verification::{
+    Comparison, LEAST_TOLERANCE, NoReference, Reference, Verification, allowed_error,
+};
 
 pub use watch::{Seen, Watch, first_there, top};
 pub use window::{ColumnSeen, Window, WindowSeen};

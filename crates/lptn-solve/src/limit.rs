@@ -13,8 +13,9 @@ use crate::watch::top;
 pub struct LimitSeen {
     /// The limit.
     pub limit: LimitId,
-    /// Its least margin in SI units, positive if it was kept all the time; see [`Network::limit_margin`]. Zero where a
-    /// temperature passes it by less than ten times the tolerance, which is the error of a run.
+    /// Its least margin in SI units, positive if it was kept all the time; see
+    /// [`Network::limit_margin`]. Zero where a temperature passes it by less than ten times the
+    /// tolerance, which is the error of a run.
     pub margin: f64,
     /// When that was, in s.
     pub worst_at: f64,
@@ -22,8 +23,9 @@ pub struct LimitSeen {
     pub broken_at: Option<f64>,
 }
 
-/// A temperature that passes its limit by less than this, in K, does so by rounding: a temperature of 300 K has steps
-/// of 6e-14 K, and the refined steady state of a network is good to a few hundred of them.
+/// A temperature that passes its limit by less than this, in K, does so by rounding: a temperature
+/// of 300 K has steps of 6e-14 K, and the refined steady state of a network is good to a few
+/// hundred of them.
 const ROUNDING: f64 = 1e-9;
 
 /// A time in s with a margin.
@@ -43,7 +45,8 @@ pub(crate) struct LimitWatch<'a> {
 impl<'a> LimitWatch<'a> {
     pub(crate) fn new(system: &'a ThermalSystem) -> Self {
         let network = system.network();
-        let nothing = |limit| LimitSeen { limit, margin: f64::INFINITY, worst_at: f64::NAN, broken_at: None };
+        let nothing =
+            |limit| LimitSeen { limit, margin: f64::INFINITY, worst_at: f64::NAN, broken_at: None };
         Self {
             network,
             reading: Reading::new(system),
@@ -73,7 +76,11 @@ impl<'a> LimitWatch<'a> {
     }
 
     /// Adds a point for each limit; `at` is the time and a time inside the segment.
-    pub(crate) fn sample(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
+    pub(crate) fn sample(
+        &mut self,
+        work: &mut Workspace,
+        at: (f64, f64),
+    ) -> Result<(), InputError> {
         if self.is_empty() {
             return Ok(());
         }
@@ -134,8 +141,9 @@ impl<'a> LimitWatch<'a> {
         points.drain(..points.len().saturating_sub(1));
     }
 
-    /// What was seen. A worst that the tolerance in K cannot tell from the start or from the end is there, and a limit
-    /// that it cannot tell from being reached and not passed is not broken; a start that breaks it is exact.
+    /// What was seen. A worst that the tolerance in K cannot tell from the start or from the end is
+    /// there, and a limit that it cannot tell from being reached and not passed is not broken; a
+    /// start that breaks it is exact.
     pub(crate) fn into_seen(mut self, tolerance: f64) -> Vec<LimitSeen> {
         let ends = self.first.iter().zip(&self.points);
         for (seen, (first, points)) in self.seen.iter_mut().zip(ends) {
@@ -145,7 +153,11 @@ impl<'a> LimitWatch<'a> {
                 seen.worst_at = time;
             }
             let exact = first.is_some_and(|(_, margin)| margin < -ROUNDING);
-            if temperature && !exact && seen.margin < 0.0 && seen.margin >= -ROUNDING.max(10.0 * tolerance) {
+            if temperature
+                && !exact
+                && seen.margin < 0.0
+                && seen.margin >= -ROUNDING.max(10.0 * tolerance)
+            {
                 (seen.margin, seen.broken_at) = (0.0, None);
             }
         }
@@ -153,8 +165,9 @@ impl<'a> LimitWatch<'a> {
     }
 }
 
-/// The margin of each limit in SI units where the nodes have these temperatures in K, with inputs as they are at `time` in
-/// s and everything that switches as it stands at the start; see [`Network::limit_margin`].
+/// The margin of each limit in SI units where the nodes have these temperatures in K, with inputs
+/// as they are at `time` in s and everything that switches as it stands at the start; see
+/// [`Network::limit_margin`].
 ///
 /// # Errors
 /// [`InputError`] if an input or a limit has no value.
@@ -184,7 +197,8 @@ fn is_temperature(network: &Network, id: LimitId) -> bool {
     network.limits()[id.index()].ty.dimension == Dimension::TEMPERATURE
 }
 
-/// The margin of each limit in SI units where `scope` stands, zero where a temperature passes it by rounding only.
+/// The margin of each limit in SI units where `scope` stands, zero where a temperature passes it by
+/// rounding only.
 pub(crate) fn margins(network: &Network, scope: &mut Evaluation) -> Result<Vec<f64>, InputError> {
     let margin = |id: LimitId| {
         let margin = network.limit_margin(id, scope)?;

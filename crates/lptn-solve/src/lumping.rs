@@ -1,14 +1,17 @@
-//! Whether nodes are lumps: Biot number and diffusion time of every node that has a characteristic length.
+//! Whether nodes are lumps: Biot number and diffusion time of every node that has a characteristic
+//! length.
 //!
-//! The film coefficient of a node is the heat that all its surfaces give off for 1 K, over their area: h = sum of G / A. A
-//! surface that convects radiates too, so the larger of the two areas counts, and that of contacts beside it.
+//! The film coefficient of a node is the heat that all its surfaces give off for 1 K, over their
+//! area: h = sum of G / A. A surface that convects radiates too, so the larger of the two areas
+//! counts, and that of contacts beside it.
 
 use std::collections::BTreeMap;
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_laws::{Surface, biot, diffusion_time};
 use lptn_network::{
-    ConductorId, ConductorKind, End, Evaluation, Field, InputError, MaterialId, Network, NoMaterial, NodeId,
+    ConductorId, ConductorKind, End, Evaluation, Field, InputError, MaterialId, Network,
+    NoMaterial, NodeId,
 };
 
 use crate::newton::NewtonError;
@@ -81,7 +84,8 @@ pub struct Lumping {
     pub checks: Vec<LumpCheck>,
     /// The other nodes with a capacity, ascending: nothing is known of them.
     pub without_length: Vec<NodeId>,
-    /// The shortest part of the run in which no source and no boundary jumps; `None` where no run is known.
+    /// The shortest part of the run in which no source and no boundary jumps; `None` where no run
+    /// is known.
     pub shortest: Option<Stretch>,
 }
 
@@ -89,15 +93,21 @@ impl Lumping {
     /// A Biot number above this is no lump's: Incropera et al., 6th edition, equation 5.10.
     pub const MOST_BIOT: f64 = 0.1;
 
-    /// The largest part of the shortest stretch that a diffusion time may be: within it the temperature of the lump is
-    /// not that of the body's surface or middle, so more would reach into every result.
+    /// The largest part of the shortest stretch that a diffusion time may be: within it the
+    /// temperature of the lump is not that of the body's surface or middle, so more would reach
+    /// into every result.
     pub const MOST_PART: f64 = 0.1;
 
     /// With the temperatures at the start, in s, of a run until `stop` if one is known.
     ///
     /// # Errors
-    /// [`Unsolved`] if a value cannot be had at the start, or the balances of massless nodes have no solution there.
-    pub fn at_start(system: &ThermalSystem, start: f64, stop: Option<f64>) -> Result<Self, Unsolved> {
+    /// [`Unsolved`] if a value cannot be had at the start, or the balances of massless nodes have
+    /// no solution there.
+    pub fn at_start(
+        system: &ThermalSystem,
+        start: f64,
+        stop: Option<f64>,
+    ) -> Result<Self, Unsolved> {
         let mut checker = Checker::new(system);
         if !checker.bodies.is_empty() {
             let unsolved = |error| Unsolved::new(system, error);
@@ -143,11 +153,13 @@ impl Lumping {
         found
     }
 
-    /// The checks with a diffusion time that is not small against the shortest stretch, the longest first.
+    /// The checks with a diffusion time that is not small against the shortest stretch, the longest
+    /// first.
     pub fn too_slow(&self) -> Vec<(&LumpCheck, f64, Stretch)> {
         let Some(stretch) = self.shortest else { return Vec::new() };
         let most = Self::MOST_PART * (stretch.to - stretch.from);
-        let checks = self.checks.iter().filter_map(|check| Some((check, check.diffusion.ok()?, stretch)));
+        let checks =
+            self.checks.iter().filter_map(|check| Some((check, check.diffusion.ok()?, stretch)));
         let mut found: Vec<_> = checks.filter(|(_, time, _)| *time > most).collect();
         found.sort_by(|a, b| b.1.total_cmp(&a.1));
         found
@@ -278,7 +290,11 @@ fn diffusion(
     }
 }
 
-fn keep_larger<T>(known: &mut Result<T, NotChecked>, new: Result<T, NotChecked>, size: impl Fn(&T) -> f64) {
+fn keep_larger<T>(
+    known: &mut Result<T, NotChecked>,
+    new: Result<T, NotChecked>,
+    size: impl Fn(&T) -> f64,
+) {
     let larger = match (&*known, &new) {
         (Ok(known), Ok(new)) => size(new) > size(known),
         (Err(_), _) => true,

@@ -5,20 +5,21 @@ use lptn_network::{Network, NodeId};
 use crate::exact::{ExactError, Island, Reduced, islands};
 use crate::table::Table;
 
-/// One way in which a network forgets: a pattern of temperatures that keeps its shape and dies away as
-/// `exp(-t / tau)`.
+/// One way in which a network forgets: a pattern of temperatures that keeps its shape and dies away
+/// as `exp(-t / tau)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
     /// 1/tau in 1/s, not negative; exactly 0 where heat cannot leave.
     pub rate: f64,
-    /// Temperature of every node relative to the largest, which is 1; massless nodes follow their neighbours.
+    /// Temperature of every node relative to the largest, which is 1; massless nodes follow their
+    /// neighbours.
     pub shape: Vec<f64>,
-    /// The part of every node, from 0 to 1: `C x^2` over its sum, x the shape. Over the nodes of a mode it sums
-    /// to 1, and over all modes of a node with capacity too; massless nodes have none.
+    /// The part of every node, from 0 to 1: `C x^2` over its sum, x the shape. Over the nodes of a
+    /// mode it sums to 1, and over all modes of a node with capacity too; massless nodes have none.
     ///
-    /// This is the participation factor of Pérez-Arriaga, Verghese and Schweppe (Selective modal analysis, part
-    /// I, IEEE Trans. PAS-101 (1982) 3117): the product of an entry of the right eigenvector, x, and of the
-    /// left one, C x here.
+    /// This is the participation factor of Pérez-Arriaga, Verghese and Schweppe (Selective modal
+    /// analysis, part I, IEEE Trans. PAS-101 (1982) 3117): the product of an entry of the right
+    /// eigenvector, x, and of the left one, C x here.
     pub participation: Vec<f64>,
 }
 
@@ -39,7 +40,8 @@ pub struct Modes {
 const EQUAL: f64 = 1e-9;
 
 impl Modes {
-    /// Eigenvalues and vectors of `C^-1/2 G C^-1/2`, massless nodes eliminated. Inputs play no part.
+    /// Eigenvalues and vectors of `C^-1/2 G C^-1/2`, massless nodes eliminated. Inputs play no
+    /// part.
     ///
     /// # Errors
     /// [`ExactError::TooLarge`] for more than 2000 nodes; [`ExactError`] if the numbers fail.
@@ -89,7 +91,8 @@ impl View<'_> {
         for (row, &state) in island.members.iter().enumerate() {
             let x = island.shapes[(row, k)];
             of_states[state] = x;
-            participation[self.reduced.states[state].index()] = self.reduced.capacity[state] * x * x;
+            participation[self.reduced.states[state].index()] =
+                self.reduced.capacity[state] * x * x;
         }
         Some(Mode { rate, shape: normalised(self.shape(&of_states)), participation })
     }
@@ -99,7 +102,10 @@ impl View<'_> {
         let mut put = |id: NodeId, x: f64| shape[id.index()] = x;
         self.reduced.states.iter().zip(of_states).for_each(|(&id, &x)| put(id, x));
         for (m, &id) in self.reduced.massless.iter().enumerate() {
-            put(id, of_states.iter().enumerate().map(|(j, x)| self.reduced.recovery[(m, j)] * x).sum());
+            put(
+                id,
+                of_states.iter().enumerate().map(|(j, x)| self.reduced.recovery[(m, j)] * x).sum(),
+            );
         }
         shape
     }

@@ -1,10 +1,11 @@
 //! Wrong systems that the ledger must find: it is worth nothing if it closes whatever happens.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_cvodes::Cvodes;
 use lptn_integrate::{Integrator, OdeSystem, Options, Pattern, Retry};
 use lptn_network::{
-    Conductance, ConductorKind, Context, HeatCapacity, HeatFlow, Melting, NetworkBuilder, Path, Properties,
-    Size, Temperature,
+    Conductance, ConductorKind, Context, HeatCapacity, HeatFlow, Melting, NetworkBuilder, Path,
+    Properties, Size, Temperature,
 };
 
 use crate::heat::Heat;
@@ -87,7 +88,10 @@ fn ledger(wrong: Wrong) -> Ledger {
     b.resistor("skin", outer, air, Conductance(OUTER));
     b.source("heater", inner, HeatFlow(POWER));
     let system = ThermalSystem::assemble(&b.build().unwrap()).unwrap();
-    let mutant = Mutant { heat: Heat::new(&system, 500.0, crate::balance::Books::default()).unwrap(), wrong };
+    let mutant = Mutant {
+        heat: Heat::new(&system, 500.0, crate::balance::Books::default()).unwrap(),
+        wrong,
+    };
     let options = Options { tolerance: 1e-5, ..Options::default() };
     let mut run = Cvodes::new(mutant, 0.0, &system.initial(), &options).unwrap();
     run.set_stop(1000.0);
@@ -133,7 +137,8 @@ const SIGMA: f64 = 5.670_374_419e-8;
 const GLOW: f64 = 0.05;
 const RATE: f64 = 3.0;
 
-/// `wax` melts and radiates to `block`, whose capacity grows; a stream leads from the block to the wax.
+/// `wax` melts and radiates to `block`, whose capacity grows; a stream leads from the block to the
+/// wax.
 fn bent_network() -> ThermalSystem {
     let mut b = NetworkBuilder::new();
     let quantity = |text: &str| lptn_units::parse_quantity(text, None).unwrap();
@@ -153,7 +158,8 @@ fn bent_network() -> ThermalSystem {
     b.conductor("glow", ConductorKind::Radiation, ends, gr);
     let rate = Path::stream(quantity("3 W/K"));
     b.conductor("flow", ConductorKind::Advection, ends, rate);
-    let power = b.expression_in(Context::Source, "0.5 [W/K] * (absolute(700 [K]) - T)", None).unwrap();
+    let power =
+        b.expression_in(Context::Source, "0.5 [W/K] * (absolute(700 [K]) - T)", None).unwrap();
     b.source("heater", block, power);
     let room = b.boundary("room", Temperature(AMBIENT));
     b.resistor("skin", wax, room, Conductance(OUTER));
@@ -169,7 +175,8 @@ struct BentMutant<'a> {
 /// Temperatures of the wax and of the block from what is carried.
 fn unfolded(system: &ThermalSystem, y: &[f64]) -> [f64; 2] {
     [0, 1].map(|i| {
-        let (curve, start) = (system.network().enthalpy(system.states()[i]).unwrap(), system.initial()[i]);
+        let (curve, start) =
+            (system.network().enthalpy(system.states()[i]).unwrap(), system.initial()[i]);
         curve.temperature(system.capacity()[i] * (y[i] - start)).unwrap().temperature
     })
 }
@@ -231,7 +238,8 @@ fn bent_ledger(wrong: Bent) -> Ledger {
         run.step().unwrap();
     }
     let capacity = system.capacity().to_vec();
-    let mut stored: Vec<f64> = (0..2).map(|i| capacity[i] * (run.state()[i] - system.initial()[i])).collect();
+    let mut stored: Vec<f64> =
+        (0..2).map(|i| capacity[i] * (run.state()[i] - system.initial()[i])).collect();
     let [wax, block] = unfolded(&system, run.state());
     assert!(wax > 336.0 || wrong == Bent::Radiation, "the wax has to melt: {wax} K");
     match wrong {

@@ -1,9 +1,11 @@
-//! Newton's method for the balances of some unknowns, the others held: steady states and massless nodes.
+//! Newton's method for the balances of some unknowns, the others held: steady states and massless
+//! nodes.
 //!
-//! Steps are damped until the simplified correction shrinks (the natural monotonicity test; P. Deuflhard, Newton
-//! Methods for Nonlinear Problems, Springer 2004, section 3.3). Where that stalls, the balances are followed over a
-//! pseudo-time whose steps grow as the heat that is left over shrinks (switched evolution relaxation; C. T. Kelley and
-//! D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508), which ends where a network that stores heat in every node would.
+//! Steps are damped until the simplified correction shrinks (the natural monotonicity test; P.
+//! Deuflhard, Newton Methods for Nonlinear Problems, Springer 2004, section 3.3). Where that
+//! stalls, the balances are followed over a pseudo-time whose steps grow as the heat that is left
+//! over shrinks (switched evolution relaxation; C. T. Kelley and D. E. Keyes, SIAM J. Numer. Anal.
+//! 35 (1998) 508), which ends where a network that stores heat in every node would.
 
 use lptn_assembly::{Form, ThermalSystem, Workspace};
 use lptn_integrate::linear::{self, Factorization};
@@ -62,7 +64,8 @@ const LEAST_SHARE: f64 = 1.0 / 1024.0;
 /// Steps of pseudo-time.
 const PSEUDO_STEPS: usize = 3000;
 
-/// Iterations with the same factors, as long as each correction is at most this part of the one before.
+/// Iterations with the same factors, as long as each correction is at most this part of the one
+/// before.
 const REUSED: usize = 6;
 const CONTRACTION: f64 = 0.25;
 
@@ -102,10 +105,22 @@ impl<'a> Newton<'a> {
         let factors = linear::for_exact(&pattern).map_err(NewtonError::Factorization)?;
         let (values, whole) = (vec![0.0; pattern.len()], vec![0.0; whole.len()]);
         let flow = vec![0.0; system.unknowns().len()];
-        Ok(Self { system, free, pattern, slots, factors, ready: false, guarded: false, whole, values, flow })
+        Ok(Self {
+            system,
+            free,
+            pattern,
+            slots,
+            factors,
+            ready: false,
+            guarded: false,
+            whole,
+            values,
+            flow,
+        })
     }
 
-    /// Moves the free ones of `temperatures` (all unknowns, in K) from the solution of a moment ago to that of now.
+    /// Moves the free ones of `temperatures` (all unknowns, in K) from the solution of a moment ago
+    /// to that of now.
     pub(crate) fn follow(
         &mut self,
         work: &mut Workspace,
@@ -120,7 +135,8 @@ impl<'a> Newton<'a> {
         if self.guarded {
             solved = match solved {
                 Ok(()) => self.stays(work, &start, temperatures),
-                // at the end of a branch there is no solution nearby, and none may have been found elsewhere
+                // at the end of a branch there is no solution nearby, and none may have been found
+                // elsewhere
                 Err(NewtonError::Stalled { unknown, .. }) => Err(NewtonError::Fold { unknown }),
                 other => other,
             };
@@ -131,7 +147,8 @@ impl<'a> Newton<'a> {
         solved
     }
 
-    /// Corrections with the factors at hand; whether they led to the solution. `None`: a value failed.
+    /// Corrections with the factors at hand; whether they led to the solution. `None`: a value
+    /// failed.
     fn contract(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> Option<bool> {
         let mut last = f64::INFINITY;
         for _ in 0..REUSED {
@@ -161,7 +178,8 @@ impl<'a> Newton<'a> {
             Err(NewtonError::Factorization(error)) => Err(NewtonError::Factorization(error)),
             Err(first) => {
                 temperatures.copy_from_slice(&start);
-                // what stopped Newton's method at the start says more than how the pseudo-time ended
+                // what stopped Newton's method at the start says more than how the pseudo-time
+                // ended
                 self.pseudo_time(work, temperatures).map_err(|later| match (first, later) {
                     (NewtonError::Stalled { .. }, later) => later,
                     (first, _) => first,
@@ -193,7 +211,8 @@ impl<'a> Newton<'a> {
         Err(NewtonError::Stalled { unknown: self.free[state.0], change: state.1 })
     }
 
-    /// Takes the largest share of a correction after which the next one, with the same factors, is smaller.
+    /// Takes the largest share of a correction after which the next one, with the same factors, is
+    /// smaller.
     fn damp(&mut self, work: &mut Workspace, temperatures: &mut [f64], correction: &[f64]) -> bool {
         let before = temperatures.to_vec();
         let size = largest(correction);
@@ -212,8 +231,8 @@ impl<'a> Newton<'a> {
         false
     }
 
-    /// The share of a correction that leaves every temperature between a fifth and five times what it is: a straight
-    /// line to a fourth power overshoots by far.
+    /// The share of a correction that leaves every temperature between a fifth and five times what
+    /// it is: a straight line to a fourth power overshoots by far.
     fn careful_share(&self, temperatures: &[f64], correction: &[f64]) -> f64 {
         let free = self.free.iter().map(|&i| temperatures[i].abs().max(1.0)).zip(correction);
         free.fold(1.0, |share: f64, (t, dt)| {
@@ -242,12 +261,15 @@ impl<'a> Newton<'a> {
         Ok(())
     }
 
-    /// What the last digits of the temperatures make of the corrections in K, with the factors and the Jacobian at hand:
-    /// a network that hangs on a small conductance feels the rounding of its large ones.
+    /// What the last digits of the temperatures make of the corrections in K, with the factors and
+    /// the Jacobian at hand: a network that hangs on a small conductance feels the rounding of its
+    /// large ones.
     fn rounding(&mut self, temperatures: &[f64]) -> Result<f64, NewtonError> {
         let diagonal = self.pattern.diagonal();
-        let heats =
-            diagonal.iter().zip(&self.free).map(|(&slot, &i)| self.values[slot].abs() * temperatures[i]);
+        let heats = diagonal
+            .iter()
+            .zip(&self.free)
+            .map(|(&slot, &i)| self.values[slot].abs() * temperatures[i]);
         let mut moved: Vec<f64> = heats.map(|heat| 2.0 * f64::EPSILON * heat.abs()).collect();
         self.factors.solve_in_place(&mut moved).map_err(NewtonError::Factorization)?;
         Ok(largest(&moved).min(MOST_ROUNDING))
@@ -262,7 +284,11 @@ impl<'a> Newton<'a> {
         self.pseudo_time(work, temperatures)
     }
 
-    fn pseudo_time(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> Result<(), NewtonError> {
+    fn pseudo_time(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &mut [f64],
+    ) -> Result<(), NewtonError> {
         let (mut step, mut left) = (0.01, f64::INFINITY);
         let mut change = (0, f64::INFINITY);
         for _ in 0..PSEUDO_STEPS {

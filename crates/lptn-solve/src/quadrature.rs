@@ -12,17 +12,20 @@ pub(crate) const GAUSS: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
 
-/// So many points of every interval are looked at: its ends and the nodes of the Gauss rule between them.
+/// So many points of every interval are looked at: its ends and the nodes of the Gauss rule between
+/// them.
 pub(crate) const POINTS: usize = 7;
 
 /// Where they are on (-1, 1).
-const NODES: [f64; POINTS] = [-1.0, GAUSS[0].0, GAUSS[1].0, GAUSS[2].0, GAUSS[3].0, GAUSS[4].0, 1.0];
+const NODES: [f64; POINTS] =
+    [-1.0, GAUSS[0].0, GAUSS[1].0, GAUSS[2].0, GAUSS[3].0, GAUSS[4].0, 1.0];
 
 /// The Gauss rule on these points.
 const RULE: [f64; POINTS] = [0.0, GAUSS[0].1, GAUSS[1].1, GAUSS[2].1, GAUSS[3].1, GAUSS[4].1, 0.0];
 
-/// The rule of order 6 that interpolates at the ends, the middle and the two nodes beside it. The temperature inside a
-/// step is a polynomial of degree 5 at most, which both integrate exactly; what both agree on is smooth.
+/// The rule of order 6 that interpolates at the ends, the middle and the two nodes beside it. The
+/// temperature inside a step is a polynomial of degree 5 at most, which both integrate exactly;
+/// what both agree on is smooth.
 const OTHER_RULE: [f64; POINTS] = {
     let square = NODES[2] * NODES[2];
     let beside = 2.0 / 15.0 / (square * (1.0 - square));
@@ -44,15 +47,16 @@ const BARYCENTRIC: [f64; POINTS] = {
     weights
 };
 
-/// The two rules agree to this share of the integral of the absolute value, or the interval is halved.
+/// The two rules agree to this share of the integral of the absolute value, or the interval is
+/// halved.
 const AGREEMENT: f64 = 1e-10;
 
-/// Nor is it halved for less than this share of the largest integral among the curves of the same kind: the difference of
-/// two temperatures that are nearly equal is rounding.
+/// Nor is it halved for less than this share of the largest integral among the curves of the same
+/// kind: the difference of two temperatures that are nearly equal is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Intervals that may be halved in one step: a kink of an expression is met by halving, and what is nothing but rounding
-/// is not followed for ever.
+/// Intervals that may be halved in one step: a kink of an expression is met by halving, and what is
+/// nothing but rounding is not followed for ever.
 const HALVINGS: usize = 40;
 
 /// Curves over an interval: the values of all at each of its points, in the order of time.
@@ -64,10 +68,15 @@ pub(crate) struct Interval {
 }
 
 impl Interval {
-    fn new((from, to): (f64, f64), ends: [Vec<f64>; 2], at: &mut At<'_>) -> Result<Self, StopReason> {
+    fn new(
+        (from, to): (f64, f64),
+        ends: [Vec<f64>; 2],
+        at: &mut At<'_>,
+    ) -> Result<Self, StopReason> {
         let [first, last] = ends;
         let time = |node: usize| from + 0.5 * (NODES[node] + 1.0) * (to - from);
-        let values = [first, at(time(1))?, at(time(2))?, at(time(3))?, at(time(4))?, at(time(5))?, last];
+        let values =
+            [first, at(time(1))?, at(time(2))?, at(time(3))?, at(time(4))?, at(time(5))?, last];
         Ok(Self { from, to, values })
     }
 
@@ -102,14 +111,19 @@ impl Interval {
         Ok([left, Self::new((middle, self.to), [centre, last], at)?])
     }
 
-    /// For each curve its integral, how far the other rule is off, and the integral of its absolute value.
+    /// For each curve its integral, how far the other rule is off, and the integral of its absolute
+    /// value.
     fn integrals(&self) -> Vec<[f64; 3]> {
         let mut sums = vec![[0.0; 3]; self.values[0].len()];
         let half = 0.5 * (self.to - self.from);
         for ((values, weight), other) in self.values.iter().zip(RULE).zip(OTHER_RULE) {
             let (weight, apart) = (half * weight, half * (weight - other));
             for (sum, value) in sums.iter_mut().zip(values) {
-                *sum = [sum[0] + weight * value, sum[1] + apart * value, sum[2] + weight * value.abs()];
+                *sum = [
+                    sum[0] + weight * value,
+                    sum[1] + apart * value,
+                    sum[2] + weight * value.abs(),
+                ];
             }
         }
         sums
@@ -126,8 +140,9 @@ pub(crate) struct Quadrature {
     pub(crate) integral: Vec<f64>,
     /// For each curve its kind, counted from 0: curves of one quantity.
     kinds: Vec<usize>,
-    /// How many intervals of the next step may be halved. Rounding that is taken for a kink is so in every step: each
-    /// that ends without agreement leaves the next one half as many, and one that agrees gives them back.
+    /// How many intervals of the next step may be halved. Rounding that is taken for a kink is so
+    /// in every step: each that ends without agreement leaves the next one half as many, and one
+    /// that agrees gives them back.
     halvings: usize,
     last: Option<(f64, Vec<f64>)>,
 }
@@ -137,13 +152,14 @@ impl Quadrature {
         Self { integral: vec![0.0; kinds.len()], kinds, halvings: HALVINGS, last: None }
     }
 
-    /// The curves may jump here: what they were at the end of the last step says nothing of the next.
+    /// The curves may jump here: what they were at the end of the last step says nothing of the
+    /// next.
     pub(crate) fn jump(&mut self) {
         self.last = None;
     }
 
-    /// Adds the integrals over a step. Each interval is handed over in the order of time, with whether its points tell
-    /// what the curves are between them.
+    /// Adds the integrals over a step. Each interval is handed over in the order of time, with
+    /// whether its points tell what the curves are between them.
     pub(crate) fn step(
         &mut self,
         (from, to): (f64, f64),
@@ -168,7 +184,10 @@ impl Quadrature {
                 continue;
             }
             settled &= agrees;
-            self.integral.iter_mut().zip(&integrals).for_each(|(sum, integral)| *sum += integral[0]);
+            self.integral
+                .iter_mut()
+                .zip(&integrals)
+                .for_each(|(sum, integral)| *sum += integral[0]);
             look(&interval, agrees);
         }
         self.halvings = if settled { HALVINGS } else { self.halvings / 2 };

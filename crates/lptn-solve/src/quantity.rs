@@ -1,6 +1,8 @@
 //! What can be a column of the results.
 
-use lptn_network::{BoundaryId, ControlId, GridValue, HeatOf, Item, Network, NodeId, ReportId, SignalId};
+use lptn_network::{
+    BoundaryId, ControlId, GridValue, HeatOf, Item, Network, NodeId, ReportId, SignalId,
+};
 use lptn_units::{Dimension, Type, Unit};
 
 /// One quantity of a network that can be a column.
@@ -17,8 +19,8 @@ pub(crate) enum Quantity {
 }
 
 impl Quantity {
-    /// All of a network but what is inside grids: temperatures of nodes, grids and boundaries, heat flows of paths,
-    /// sources and boundaries, signals, controls, reports.
+    /// All of a network but what is inside grids: temperatures of nodes, grids and boundaries, heat
+    /// flows of paths, sources and boundaries, signals, controls, reports.
     pub(crate) fn all(network: &Network) -> impl Iterator<Item = Self> {
         let nodes = network.outer_nodes().map(Self::Node);
         let paths = network.outer_conductors().flat_map(|id| network.heats_of(id));
@@ -34,11 +36,12 @@ impl Quantity {
             .chain(network.report_ids().map(Self::Report))
     }
 
-    /// What is inside grids: temperatures of cells and surfaces, heat flows of their paths, faces that nothing is
-    /// attached to. There may be hundreds of thousands.
+    /// What is inside grids: temperatures of cells and surfaces, heat flows of their paths, faces
+    /// that nothing is attached to. There may be hundreds of thousands.
     pub(crate) fn inner(network: &Network) -> impl Iterator<Item = Self> {
         let nodes = network.node_ids().filter(|id| network.whole(Item::Node(*id)).is_some());
-        let paths = network.conductor_ids().filter(|id| network.whole(Item::Conductor(*id)).is_some());
+        let paths =
+            network.conductor_ids().filter(|id| network.whole(Item::Conductor(*id)).is_some());
         let paths = paths.flat_map(|id| network.heats_of(id)).map(Self::Heat);
         nodes.map(Self::Node).chain(network.idle_grid_values().map(Self::Grid)).chain(paths)
     }
@@ -67,7 +70,9 @@ impl Quantity {
         let item = network.item(name.rsplit_once('.')?.0).ok()?;
         let all = match item {
             Item::Node(id) => vec![Self::Node(id)],
-            Item::Boundary(id) => vec![Self::BoundaryTemperature(id), Self::Heat(HeatOf::Boundary(id))],
+            Item::Boundary(id) => {
+                vec![Self::BoundaryTemperature(id), Self::Heat(HeatOf::Boundary(id))]
+            }
             Item::Conductor(id) => network.heats_of(id).into_iter().map(Self::Heat).collect(),
             Item::Source(id) => vec![Self::Heat(HeatOf::Source(id))],
             _ => Vec::new(),
@@ -102,7 +107,9 @@ impl Quantity {
 
     pub(crate) fn ty(self, network: &Network) -> Type {
         match self {
-            Self::Node(_) | Self::Grid(_) | Self::BoundaryTemperature(_) => Type::ABSOLUTE_TEMPERATURE,
+            Self::Node(_) | Self::Grid(_) | Self::BoundaryTemperature(_) => {
+                Type::ABSOLUTE_TEMPERATURE
+            }
             Self::Heat(_) => Type::of(Dimension::POWER),
             Self::Signal(id) => network.signals()[id.index()].ty,
             Self::Control(_) => Type::SCALAR,
@@ -116,7 +123,8 @@ impl Quantity {
     }
 }
 
-/// How a quantity is shown: in a unit of its own, as a signal that is given in one, else by its type.
+/// How a quantity is shown: in a unit of its own, as a signal that is given in one, else by its
+/// type.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Shown {
     ty: Type,

@@ -27,8 +27,8 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// Goes where the workspace is; `at` is the time and a time inside the segment, in s. Where a temperature is not
-    /// known (NaN), what follows from it is NaN.
+    /// Goes where the workspace is; `at` is the time and a time inside the segment, in s. Where a
+    /// temperature is not known (NaN), what follows from it is NaN.
     pub(crate) fn place(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
         let Self { system, scope, unknowns, boundary_heat, named } = self;
         let network = system.network();
@@ -54,13 +54,19 @@ impl<'a> Reading<'a> {
     }
 
     /// One quantity in SI units.
-    pub(crate) fn value(&mut self, work: &mut Workspace, quantity: Quantity) -> Result<f64, InputError> {
+    pub(crate) fn value(
+        &mut self,
+        work: &mut Workspace,
+        quantity: Quantity,
+    ) -> Result<f64, InputError> {
         match quantity {
             Quantity::Node(id) => Ok(self.system.node_temperatures(work)[id.index()]),
             Quantity::Grid(value) => {
                 Ok(self.system.network().grid_value(value, self.system.node_temperatures(work)))
             }
-            Quantity::BoundaryTemperature(id) => Ok(self.system.boundary_temperatures(work)[id.index()]),
+            Quantity::BoundaryTemperature(id) => {
+                Ok(self.system.boundary_temperatures(work)[id.index()])
+            }
             Quantity::Heat(heat) => heat_of(self.system, &self.boundary_heat, work, heat),
             Quantity::Signal(id) => Ok(self.scope.signal(id)),
             Quantity::Control(id) => Ok(self.scope.control(id)),
@@ -80,7 +86,8 @@ fn heat_of(
         HeatOf::ReceivedFrom(id) => Ok(system.received(work, id)?[0]),
         HeatOf::Source(id) => {
             let needs = system.network().source_variables(id);
-            let known = needs.is_empty() || !system.node_temperatures(work).iter().any(|t| t.is_nan());
+            let known =
+                needs.is_empty() || !system.node_temperatures(work).iter().any(|t| t.is_nan());
             Ok(if known { system.source_powers(work)[id.index()] } else { f64::NAN })
         }
         HeatOf::Boundary(id) => Ok(boundary_heat[id.index()]),

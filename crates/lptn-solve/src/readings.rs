@@ -1,5 +1,5 @@
-//! Where in time results are read: limits, reports, windows and signals may bend and jump at times that the heat flows
-//! do not know of, and the integrator need not stop there.
+//! Where in time results are read: limits, reports, windows and signals may bend and jump at times
+//! that the heat flows do not know of, and the integrator need not stop there.
 
 use lptn_network::{Curve, InputError, Item, Network, same_time};
 
@@ -9,8 +9,8 @@ use crate::quantity::Quantity;
 use crate::times::{Segment, segments, snap};
 use crate::window::Window;
 
-/// The times at which anything that is evaluated over a run may bend or jump, and those at which looks between the rows
-/// have to begin anew.
+/// The times at which anything that is evaluated over a run may bend or jump, and those at which
+/// looks between the rows have to begin anew.
 #[derive(Clone, Debug)]
 pub(crate) struct Readings {
     /// Start, breakpoints of inputs and results, stop; ascending.
@@ -49,7 +49,8 @@ impl Readings {
         Ok(Self { ends, limits, windows })
     }
 
-    /// A time inside the stretch in which a result at `time` is read: the one that begins there, at the stop the last.
+    /// A time inside the stretch in which a result at `time` is read: the one that begins there, at
+    /// the stop the last.
     pub(crate) fn inside(&self, time: f64) -> f64 {
         let after = self.ends.partition_point(|&end| end <= time).clamp(1, self.ends.len() - 1);
         0.5 * (self.ends[after - 1] + self.ends[after])
@@ -78,7 +79,8 @@ pub(crate) fn pieces(ends: &[f64], (from, to): (f64, f64)) -> Vec<((f64, f64), b
 
 /// Two ascending lists as one; of times that differ by rounding only that of the first.
 fn merged(main: Vec<f64>, more: Vec<f64>, rounding: f64) -> Vec<f64> {
-    let known = |time: &f64| nearest(&main, *time).is_some_and(|near| (near - time).abs() <= rounding);
+    let known =
+        |time: &f64| nearest(&main, *time).is_some_and(|near| (near - time).abs() <= rounding);
     let new: Vec<f64> = more.into_iter().filter(|time| !known(time)).collect();
     let mut all = [main, new].concat();
     all.sort_by(f64::total_cmp);
@@ -112,20 +114,27 @@ struct Around<'a> {
 
 impl Around<'_> {
     fn breakpoints(&self, items: &[Item]) -> Result<Vec<f64>, InputError> {
-        let mut times =
-            if items.is_empty() { Vec::new() } else { self.network.result_breakpoints(items, self.span)? };
+        let mut times = if items.is_empty() {
+            Vec::new()
+        } else {
+            self.network.result_breakpoints(items, self.span)?
+        };
         snap(&mut times, self.rows, self.span);
         times.dedup();
         Ok(times)
     }
 
-    /// The times at which looks at these items have to begin anew: where they may bend or jump, and between the looks
-    /// that their curves ask for.
+    /// The times at which looks at these items have to begin anew: where they may bend or jump, and
+    /// between the looks that their curves ask for.
     fn looks(&self, items: &[Item]) -> Result<Vec<f64>, InputError> {
         let own = self.breakpoints(items)?.into_iter();
         let own: Vec<f64> = own.filter_map(|time| nearest(self.known, time)).collect();
         let curves = if items.is_empty() { Vec::new() } else { self.network.result_curves(items) };
-        Ok(if curves.is_empty() { own } else { merged(own.clone(), self.curved(&curves, &own), 0.0) })
+        Ok(if curves.is_empty() {
+            own
+        } else {
+            merged(own.clone(), self.curved(&curves, &own), 0.0)
+        })
     }
 
     fn curved(&self, curves: &[Curve], breakpoints: &[f64]) -> Vec<f64> {
@@ -140,7 +149,10 @@ impl Around<'_> {
 fn parts(stretch: &Stretch) -> impl Iterator<Item = f64> + use<> {
     let Stretch { from, to, step } = *stretch;
     let count = ((to - from) / step - 1e-6).ceil().max(1.0);
-    (0..).map(f64::from).take_while(move |k| *k < count).map(move |k| from + (to - from) * (k / count))
+    (0..)
+        .map(f64::from)
+        .take_while(move |k| *k < count)
+        .map(move |k| from + (to - from) * (k / count))
 }
 
 #[cfg(test)]

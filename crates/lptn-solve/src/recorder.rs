@@ -66,8 +66,8 @@ pub(crate) struct Recorder<'a> {
     tolerance: f64,
     /// How many steps under curved inputs the network remembers.
     pub(crate) remembered: f64,
-    /// Where the massless nodes of several solutions stood when the present step began, in K: every row of the step is
-    /// found from there, whatever else is looked at.
+    /// Where the massless nodes of several solutions stood when the present step began, in K: every
+    /// row of the step is found from there, whatever else is looked at.
     branch: Vec<f64>,
     /// And where they stand when it ends.
     branch_ahead: Vec<f64>,
@@ -94,7 +94,8 @@ impl<'a> Recorder<'a> {
         let size = rows.len().checked_mul(recorded.len()).filter(|&size| size <= MOST_VALUES);
         let size = size.ok_or(TransientError::Settings(too_much.clone()))?;
         temperatures.try_reserve_exact(size).map_err(|_| TransientError::Settings(too_much))?;
-        let unfold = Unfold::new(system).map_err(|e| TransientError::Start(Unsolved::new(system, e)))?;
+        let unfold =
+            Unfold::new(system).map_err(|e| TransientError::Start(Unsolved::new(system, e)))?;
         let windows = settings.windows.iter().cloned().map(|window| Tracked::new(window, network));
         Ok(Self {
             system,
@@ -140,10 +141,14 @@ impl<'a> Recorder<'a> {
 
     pub(crate) fn state_name(&self, state: usize) -> String {
         let network = self.system.network();
-        self.system.states().get(state).map_or(String::new(), |id| network.nodes()[id.index()].name.clone())
+        self.system
+            .states()
+            .get(state)
+            .map_or(String::new(), |id| network.nodes()[id.index()].name.clone())
     }
 
-    /// Enters the next segment: from here on inputs are read as they are inside it, in these positions.
+    /// Enters the next segment: from here on inputs are read as they are inside it, in these
+    /// positions.
     pub(crate) fn enter(&mut self, segment: Segment, positions: Option<&Positions>) {
         self.segment = segment;
         self.windows.iter_mut().for_each(Tracked::jump);
@@ -193,7 +198,8 @@ impl<'a> Recorder<'a> {
         self.place(from)?;
         let nodes = self.system.node_temperatures(&self.work);
         if self.seen.is_empty() {
-            self.seen = self.watch.iter().map(|&w| Seen::new(w, from, nodes[w.node.index()])).collect();
+            self.seen =
+                self.watch.iter().map(|&w| Seen::new(w, from, nodes[w.node.index()])).collect();
         } else {
             self.seen.iter_mut().for_each(|seen| seen.jump(from, nodes[seen.watch.node.index()]));
         }
@@ -205,17 +211,20 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
-    /// A row is whole: its heat can be had as its temperatures can. Before the first step nothing else has looked at
-    /// that, and a row lies between two looks of the integrator. A linear system always has its heat.
+    /// A row is whole: its heat can be had as its temperatures can. Before the first step nothing
+    /// else has looked at that, and a row lies between two looks of the integrator. A linear system
+    /// always has its heat.
     fn check_heat(&mut self) -> Result<(), StopReason> {
         if self.system.is_linear() {
             return Ok(());
         }
-        self.reading.place(&mut self.work, (self.rows[self.next], self.inside)).map_err(StopReason::Input)
+        self.reading
+            .place(&mut self.work, (self.rows[self.next], self.inside))
+            .map_err(StopReason::Input)
     }
 
-    /// Writes the rows inside the step from `from` to `to`; one at the end of the segment is left to the next
-    /// segment, whose inputs hold there.
+    /// Writes the rows inside the step from `from` to `to`; one at the end of the segment is left
+    /// to the next segment, whose inputs hold there.
     pub(crate) fn step(
         &mut self,
         integrator: &mut dyn Integrator<Heat<'a>>,
@@ -287,7 +296,8 @@ impl<'a> Recorder<'a> {
     }
 
     fn place_at(&mut self, time: f64, state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
-        state_at(time, &mut self.state).map_err(|error| StopReason::Integrator { error, node: None })?;
+        state_at(time, &mut self.state)
+            .map_err(|error| StopReason::Integrator { error, node: None })?;
         self.place(time)
     }
 

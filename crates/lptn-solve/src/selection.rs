@@ -13,7 +13,8 @@ pub enum Record {
     Nodes(Vec<NodeId>),
 }
 
-/// The columns of a table, chosen by patterns over their names: `*` stands for any characters, `?` for one.
+/// The columns of a table, chosen by patterns over their names: `*` stands for any characters, `?`
+/// for one.
 #[derive(Clone, Debug)]
 pub struct Selection {
     quantities: Vec<Quantity>,
@@ -45,7 +46,9 @@ impl Selection {
         let mut chosen = |quantity: &Quantity, asked: &dyn Fn(&str) -> bool| {
             let name = quantity.name(network);
             let mut any = false;
-            for (pattern, found) in patterns.iter().zip(&mut found).filter(|(pattern, _)| asked(pattern)) {
+            for (pattern, found) in
+                patterns.iter().zip(&mut found).filter(|(pattern, _)| asked(pattern))
+            {
                 let fits = matches(pattern, &name);
                 (*found, any) = (*found || fits, any || fits);
             }
@@ -55,7 +58,8 @@ impl Selection {
             Quantity::all(network).filter(|quantity| chosen(quantity, &|_| true)).collect();
         let reaching = |p: &str| p.contains('[') || !p.contains(['*', '?']);
         if patterns.iter().any(|pattern| reaching(pattern)) {
-            quantities.extend(Quantity::inner(network).filter(|quantity| chosen(quantity, &reaching)));
+            quantities
+                .extend(Quantity::inner(network).filter(|quantity| chosen(quantity, &reaching)));
         }
         let unmatched = patterns.iter().zip(found).filter(|(_, found)| !found);
         let unmatched: Vec<String> = unmatched.map(|(pattern, _)| pattern.clone()).collect();
@@ -77,7 +81,9 @@ impl Selection {
 
     /// The nodes whose temperature is selected, in the order of the network.
     pub fn nodes(&self) -> impl Iterator<Item = NodeId> + '_ {
-        self.quantities.iter().filter_map(|q| if let Quantity::Node(id) = q { Some(*id) } else { None })
+        self.quantities
+            .iter()
+            .filter_map(|q| if let Quantity::Node(id) = q { Some(*id) } else { None })
     }
 
     pub(crate) fn quantities(&self) -> &[Quantity] {
@@ -98,8 +104,8 @@ fn named(network: &Network, patterns: &[String]) -> Option<Vec<Quantity>> {
     patterns.iter().map(|pattern| Quantity::named(network, pattern)).collect()
 }
 
-/// Whether `name` has the form of `pattern`. Greedy with one place to go back to, so linear but for the
-/// product of the two lengths.
+/// Whether `name` has the form of `pattern`. Greedy with one place to go back to, so linear but for
+/// the product of the two lengths.
 fn matches(pattern: &str, name: &str) -> bool {
     let (pattern, name) = (pattern.as_bytes(), name.as_bytes());
     let (mut p, mut n, mut star) = (0, 0, None);

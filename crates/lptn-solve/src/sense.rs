@@ -6,8 +6,8 @@ use crate::solution::Solution;
 use crate::steady::SteadyState;
 use crate::times::just_after;
 
-/// Nothing is solid above this temperature in K, 4000 degC: tungsten melts at 3422 degC, tantalum hafnium carbide at about
-/// 3900 degC.
+/// Nothing is solid above this temperature in K, 4000 degC: tungsten melts at 3422 degC, tantalum
+/// hafnium carbide at about 3900 degC.
 const HOTTEST: f64 = 4273.15;
 
 /// Below this temperature in K, -100 degC, a node is only brought by something that is as cold.
@@ -22,9 +22,11 @@ pub struct Beyond {
     pub temperature: f64,
     /// When, in s; `None` in steady state.
     pub time: Option<f64>,
-    /// The path of the network with the largest difference between its ends, in K: what keeps the heat in.
+    /// The path of the network with the largest difference between its ends, in K: what keeps the
+    /// heat in.
     pub path: Option<(ConductorId, f64)>,
-    /// The source that gives it the most heat in W, whatever the sign; of any if none heats the node.
+    /// The source that gives it the most heat in W, whatever the sign; of any if none heats the
+    /// node.
     pub source: Option<(SourceId, f64)>,
 }
 
@@ -32,8 +34,8 @@ pub struct Beyond {
 type Place = (NodeId, f64, Option<f64>);
 
 impl Beyond {
-    /// What a run shows, if anything: the hottest node where it is hotter than 4000 degC, or the coldest where it is colder
-    /// than -100 degC although neither a start nor a boundary is.
+    /// What a run shows, if anything: the hottest node where it is hotter than 4000 degC, or the
+    /// coldest where it is colder than -100 degC although neither a start nor a boundary is.
     pub fn of_run(solution: &Solution) -> Option<Self> {
         let network = solution.network();
         let last = solution.last();
@@ -41,14 +43,17 @@ impl Beyond {
             let nodes = solution.recorded().iter().zip(solution.row(row));
             nodes.map(move |(&node, &temperature)| (node, temperature, Some(time)))
         });
-        let peaks = solution.seen().iter().map(|seen| (seen.watch.node, seen.peak.0, Some(seen.peak.1)));
-        let ends = network.node_ids().zip(&last.temperatures).map(|(id, &t)| (id, t, Some(last.time)));
+        let peaks =
+            solution.seen().iter().map(|seen| (seen.watch.node, seen.peak.0, Some(seen.peak.1)));
+        let ends =
+            network.node_ids().zip(&last.temperatures).map(|(id, &t)| (id, t, Some(last.time)));
         let mut scope = network.evaluation();
         scope.set_time(last.time, just_after(last.time));
         let mut boundaries = vec![f64::NAN; network.boundaries().len()];
         network.boundary_temperatures(&mut scope, &mut boundaries).ok()?;
         let ids = network.boundary_ids();
-        let colder = ids.flat_map(|id| solution.boundary_temperature(id)).chain(boundaries.iter().copied());
+        let colder =
+            ids.flat_map(|id| solution.boundary_temperature(id)).chain(boundaries.iter().copied());
         let place = odd(network, rows.chain(peaks).chain(ends), colder)?;
         let temperatures: Vec<f64> = last.temperatures.iter().chain(&boundaries).copied().collect();
         let heat = |id: SourceId| network.source_heat(id, &mut scope, &temperatures).ok();
@@ -61,7 +66,8 @@ impl Beyond {
         let nodes = network.node_ids().zip(&steady.temperatures).map(|(id, &t)| (id, t, None));
         let boundaries = &steady.boundary_temperatures;
         let place = odd(network, nodes, boundaries.iter().copied())?;
-        let temperatures: Vec<f64> = steady.temperatures.iter().chain(boundaries).copied().collect();
+        let temperatures: Vec<f64> =
+            steady.temperatures.iter().chain(boundaries).copied().collect();
         let sources: Vec<Option<f64>> = steady.source_heat.iter().map(|heat| Some(*heat)).collect();
         Some(Self::beside(network, place, (&temperatures, &sources)))
     }
@@ -73,10 +79,13 @@ impl Beyond {
     ) -> Self {
         let at = |end: End| temperatures[network.vertex(end)];
         let paths = network.conductor_ids().zip(network.conductors());
-        let paths = paths.map(|(id, conductor)| (id, (at(conductor.from) - at(conductor.to)).abs()));
+        let paths =
+            paths.map(|(id, conductor)| (id, (at(conductor.from) - at(conductor.to)).abs()));
         let largest = |a: &(SourceId, f64), b: &(SourceId, f64)| a.1.abs().total_cmp(&b.1.abs());
-        let sources = || network.source_ids().zip(heat).filter_map(|(id, heat)| Some((id, (*heat)?)));
-        let heats = |id: SourceId| network.sources()[id.index()].into.iter().any(|(into, _)| *into == node);
+        let sources =
+            || network.source_ids().zip(heat).filter_map(|(id, heat)| Some((id, (*heat)?)));
+        let heats =
+            |id: SourceId| network.sources()[id.index()].into.iter().any(|(into, _)| *into == node);
         let source = sources().filter(|(id, _)| heats(*id)).max_by(largest);
         Self {
             node,
@@ -88,8 +97,8 @@ impl Beyond {
     }
 }
 
-/// The hottest or the coldest, where nothing real is as hot, or nothing else that cold. `others` are the temperatures of
-/// boundaries in K.
+/// The hottest or the coldest, where nothing real is as hot, or nothing else that cold. `others`
+/// are the temperatures of boundaries in K.
 fn odd(
     network: &Network,
     places: impl Iterator<Item = Place>,

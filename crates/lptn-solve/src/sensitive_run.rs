@@ -8,8 +8,8 @@ use crate::settings::{Control, Progress, Transient};
 use crate::settings_error::SettingsError;
 use crate::solution::{End, Solution};
 
-/// By which part of itself a parameter is changed for a difference of runs. With the tolerances of fits (1e-7 K) the
-/// difference of two runs and the curvature between them leave about four digits.
+/// By which part of itself a parameter is changed for a difference of runs. With the tolerances of
+/// fits (1e-7 K) the difference of two runs and the curvature between them leave about four digits.
 const CHANGE: f64 = 1e-3;
 
 /// The change in K of a parameter that is an absolute temperature.
@@ -31,7 +31,8 @@ pub struct SensitiveRun {
     pub solution: Solution,
     /// How the sensitivities were had.
     pub gradient: Gradient,
-    /// For each parameter the solutions below and above with the distance of the two, where they are differences.
+    /// For each parameter the solutions below and above with the distance of the two, where they
+    /// are differences.
     differences: Vec<(ParameterId, [Solution; 2], f64)>,
 }
 
@@ -48,8 +49,8 @@ pub enum SensitiveError {
 }
 }
 
-/// Runs a network and follows its sensitivities by `parameters`: exactly, or by differences where a network has no exact
-/// ones.
+/// Runs a network and follows its sensitivities by `parameters`: exactly, or by differences where a
+/// network has no exact ones.
 ///
 /// # Errors
 /// [`SensitiveError`] if one of the runs fails.
@@ -93,9 +94,11 @@ pub fn sensitive_run_observed(
             let differences = parameters.iter().map(one).collect::<Result<_, SensitiveError>>()?;
             Ok(SensitiveRun { solution, gradient: Gradient::Differences(why), differences })
         }
-        outcome => {
-            Ok(SensitiveRun { solution: outcome?, gradient: Gradient::Exact, differences: Vec::new() })
-        }
+        outcome => Ok(SensitiveRun {
+            solution: outcome?,
+            gradient: Gradient::Exact,
+            differences: Vec::new(),
+        }),
     }
 }
 
@@ -110,21 +113,24 @@ fn step(network: &Network, id: ParameterId) -> f64 {
 }
 
 impl SensitiveRun {
-    /// How the temperature of a node changes with a parameter over the rows, in K per SI unit of the parameter; `None`
-    /// for a node that was not recorded or another parameter.
+    /// How the temperature of a node changes with a parameter over the rows, in K per SI unit of
+    /// the parameter; `None` for a node that was not recorded or another parameter.
     pub fn sensitivity(&self, parameter: ParameterId, node: NodeId) -> Option<Vec<f64>> {
         if self.gradient == Gradient::Exact {
             return self.solution.sensitivity(parameter, node);
         }
-        let (_, solutions, distance) = self.differences.iter().find(|(id, _, _)| *id == parameter)?;
+        let (_, solutions, distance) =
+            self.differences.iter().find(|(id, _, _)| *id == parameter)?;
         let [below, above] = solutions.each_ref().map(|solution| solution.temperature(node));
         Some(below?.iter().zip(above?).map(|(below, above)| (above - below) / distance).collect())
     }
 
-    /// How the highest temperature of a watched node changes with a parameter, in K per SI unit of the parameter, as a
-    /// difference of runs; `None` where the gradient is exact, or the node was not watched.
+    /// How the highest temperature of a watched node changes with a parameter, in K per SI unit of
+    /// the parameter, as a difference of runs; `None` where the gradient is exact, or the node was
+    /// not watched.
     pub fn peak(&self, parameter: ParameterId, node: NodeId) -> Option<f64> {
-        let (_, solutions, distance) = self.differences.iter().find(|(id, _, _)| *id == parameter)?;
+        let (_, solutions, distance) =
+            self.differences.iter().find(|(id, _, _)| *id == parameter)?;
         let peak = |solution: &Solution| {
             solution.seen().iter().find(|seen| seen.watch.node == node).map(|seen| seen.peak.0)
         };
@@ -132,11 +138,14 @@ impl SensitiveRun {
         Some((above? - below?) / distance)
     }
 
-    /// How the least margin of a limit changes with a parameter, in SI units of its quantity per SI unit of the parameter,
-    /// as a difference of runs; `None` where the gradient is exact: it is one of temperatures.
+    /// How the least margin of a limit changes with a parameter, in SI units of its quantity per SI
+    /// unit of the parameter, as a difference of runs; `None` where the gradient is exact: it is
+    /// one of temperatures.
     pub fn margin(&self, parameter: ParameterId, limit: LimitId) -> Option<f64> {
-        let (_, solutions, distance) = self.differences.iter().find(|(id, _, _)| *id == parameter)?;
-        let [below, above] = solutions.each_ref().map(|solution| solution.limits()[limit.index()].margin);
+        let (_, solutions, distance) =
+            self.differences.iter().find(|(id, _, _)| *id == parameter)?;
+        let [below, above] =
+            solutions.each_ref().map(|solution| solution.limits()[limit.index()].margin);
         Some((above - below) / distance)
     }
 }

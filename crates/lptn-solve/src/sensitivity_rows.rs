@@ -11,7 +11,11 @@ pub(crate) struct SensitivityRows {
 
 impl SensitivityRows {
     /// Those of one of `width` recorded nodes over the rows.
-    pub(crate) fn of(&self, parameter: ParameterId, (column, width): (usize, usize)) -> Option<Vec<f64>> {
+    pub(crate) fn of(
+        &self,
+        parameter: ParameterId,
+        (column, width): (usize, usize),
+    ) -> Option<Vec<f64>> {
         let place = self.parameters.iter().position(|own| *own == parameter)?;
         let rows = self.values.chunks_exact(width * self.parameters.len());
         Some(rows.map(|row| row[place * width + column]).collect())

@@ -20,8 +20,8 @@ pub struct Transient {
     pub stop: f64,
     /// When a row is written.
     pub output: OutputTimes,
-    /// Tolerance in K. For networks whose nodes all lead to a boundary the error stays below ten times this,
-    /// from 1e-3 to 1e-5 K (measured in the tests).
+    /// Tolerance in K. For networks whose nodes all lead to a boundary the error stays below ten
+    /// times this, from 1e-3 to 1e-5 K (measured in the tests).
     pub tolerance: f64,
     /// What is kept.
     pub record: Record,
@@ -31,10 +31,12 @@ pub struct Transient {
     pub windows: Vec<Window>,
     /// The node or boundary whose heat balance is kept.
     pub balance: Option<End>,
-    /// Where the controls stand at the start, in the order of their ids; as the network says unless given. A control
-    /// that has to stay as it is does so from when it switched last, which may be before the start.
+    /// Where the controls stand at the start, in the order of their ids; as the network says unless
+    /// given. A control that has to stay as it is does so from when it switched last, which may be
+    /// before the start.
     pub controls: Vec<ControlState>,
-    /// The parameters by which temperatures are differentiated, each once: see [`crate::Solution::sensitivity`].
+    /// The parameters by which temperatures are differentiated, each once: see
+    /// [`crate::Solution::sensitivity`].
     pub sensitivities: Vec<ParameterId>,
     /// The linear solver; chosen by size unless said.
     pub linear_solver: LinearSolver,
@@ -78,10 +80,11 @@ impl Transient {
         }
     }
 
-    /// The run that `settings` describe: its times, rows and tolerance, and where the controls stand at its start. What
-    /// is recorded, watched and averaged is left to the caller.
+    /// The run that `settings` describe: its times, rows and tolerance, and where the controls
+    /// stand at its start. What is recorded, watched and averaged is left to the caller.
     pub fn of(network: &Network, settings: &RunSettings) -> Self {
-        let since = |held: &Option<f64>| held.map_or(f64::NEG_INFINITY, |held| settings.start - held);
+        let since =
+            |held: &Option<f64>| held.map_or(f64::NEG_INFINITY, |held| settings.start - held);
         // none for a run that starts from no state: it begins as the network says
         let stands = network.initial_positions().controls.into_iter().zip(&settings.held);
         Self {
@@ -171,9 +174,16 @@ impl Transient {
         Ok(())
     }
 
-    /// The options of the integrator, with what curved inputs ask for; `switches`: something does, or leaps.
-    pub(crate) fn options(&self, network: &Network, switches: bool, curved: Option<&Curved>) -> Options {
-        let switching = if switches { SWITCHING.max(FINEST / self.tolerance).min(1.0) } else { 1.0 };
+    /// The options of the integrator, with what curved inputs ask for; `switches`: something does,
+    /// or leaps.
+    pub(crate) fn options(
+        &self,
+        network: &Network,
+        switches: bool,
+        curved: Option<&Curved>,
+    ) -> Options {
+        let switching =
+            if switches { SWITCHING.max(FINEST / self.tolerance).min(1.0) } else { 1.0 };
         Options {
             sensitivity_scales: self.sensitivities.iter().map(|&id| scale(network, id)).collect(),
             tolerance: self.tolerance * curved.map_or(1.0, |c| c.share).min(switching),
@@ -183,9 +193,10 @@ impl Transient {
     }
 }
 
-/// The share of the tolerance that the integrator gets where something switches. An error of a temperature moves the next
-/// switch by itself over the slope there, and all that follows by what that changes; no later step makes up for it. With a
-/// sensor far from its heater each switch was measured to add nine tolerances: a hundred are to add less than ten.
+/// The share of the tolerance that the integrator gets where something switches. An error of a
+/// temperature moves the next switch by itself over the slope there, and all that follows by what
+/// that changes; no later step makes up for it. With a sensor far from its heater each switch was
+/// measured to add nine tolerances: a hundred are to add less than ten.
 const SWITCHING: f64 = 0.01;
 
 /// In K: nothing is tightened below, where rounding decides.
@@ -194,8 +205,8 @@ const FINEST: f64 = 1e-8;
 /// The change of a temperature in K whose effect is to be as accurate as the temperatures are.
 const USUAL_CHANGE: f64 = 10.0;
 
-/// The change of a parameter, in its SI unit, whose effect is to be as accurate as the temperatures are: all of it, or
-/// what `±` says of one that is zero.
+/// The change of a parameter, in its SI unit, whose effect is to be as accurate as the temperatures
+/// are: all of it, or what `±` says of one that is zero.
 fn scale(network: &Network, id: ParameterId) -> f64 {
     let parameter = &network.parameters()[id.index()];
     let size = match parameter.ty.absolute {

@@ -3,8 +3,8 @@
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::Statistics;
 use lptn_network::{
-    BoundaryId, ConductorId, ControlId, HeatOf, Network, NodeId, ParameterId, Positions, Received, ReportId,
-    SignalId, SourceId,
+    BoundaryId, ConductorId, ControlId, HeatOf, Network, NodeId, ParameterId, Positions, Received,
+    ReportId, SignalId, SourceId,
 };
 
 use crate::balance::Balance;
@@ -104,11 +104,14 @@ impl Solution {
     /// Temperature of a node over the rows in K.
     ///
     /// # Errors
-    /// [`SolutionError::NotRecorded`] if the run did not keep it: see [`Transient::record`](crate::Transient::record).
+    /// [`SolutionError::NotRecorded`] if the run did not keep it: see
+    /// [`Transient::record`](crate::Transient::record).
     pub fn series(&self, node: NodeId) -> Result<Vec<f64>, SolutionError> {
         self.temperature(node).ok_or_else(|| {
             let known = self.network().nodes().get(node.index());
-            SolutionError::NotRecorded { name: known.map_or(String::new(), |node| node.name.clone()) }
+            SolutionError::NotRecorded {
+                name: known.map_or(String::new(), |node| node.name.clone()),
+            }
         })
     }
 
@@ -120,32 +123,34 @@ impl Solution {
         Ok(self.series(node)?.last().copied().unwrap_or(f64::NAN)) // there is a row at the start at least
     }
 
-    /// How the temperature of a node changes with a parameter, over the rows in K per SI unit of the parameter, all other
-    /// parameters that were asked for held; `None` if it was not recorded or not among [`crate::Transient::sensitivities`].
+    /// How the temperature of a node changes with a parameter, over the rows in K per SI unit of
+    /// the parameter, all other parameters that were asked for held; `None` if it was not recorded
+    /// or not among [`crate::Transient::sensitivities`].
     ///
-    /// Its error against the exact derivative obeys the tolerance over the size of the parameter, as that of the
-    /// temperature obeys the tolerance.
+    /// Its error against the exact derivative obeys the tolerance over the size of the parameter,
+    /// as that of the temperature obeys the tolerance.
     pub fn sensitivity(&self, parameter: ParameterId, node: NodeId) -> Option<Vec<f64>> {
         let column = self.recorded.binary_search(&node).ok()?;
         self.sensitivities.of(parameter, (column, self.recorded.len()))
     }
 
-    /// Heat flow of a conductor over the rows in W, positive from `from` to `to`, what `to` receives; `None` unless
-    /// every node was recorded.
+    /// Heat flow of a conductor over the rows in W, positive from `from` to `to`, what `to`
+    /// receives; `None` unless every node was recorded.
     pub fn conductor_heat(&self, id: ConductorId) -> Option<Vec<f64>> {
         let received = self.received(id)?;
         Some(received.into_iter().map(|[_, to]| to).collect())
     }
 
-    /// Heat that the two ends of a conductor receive over the rows in W: equal and opposite but for a stream; `None`
-    /// unless every node was recorded.
+    /// Heat that the two ends of a conductor receive over the rows in W: equal and opposite but for
+    /// a stream; `None` unless every node was recorded.
     pub fn received(&self, id: ConductorId) -> Option<Vec<Received>> {
         let mut heat = Vec::with_capacity(self.times.len());
         self.is_whole().then(|| self.replay(|at| heat.push(at.received(id))))?;
         Some(heat)
     }
 
-    /// Heat that a boundary gives to the network over the rows in W; `None` unless every node was recorded.
+    /// Heat that a boundary gives to the network over the rows in W; `None` unless every node was
+    /// recorded.
     pub fn boundary_heat(&self, id: BoundaryId) -> Option<Vec<f64>> {
         self.is_whole().then(|| self.values(Quantity::Heat(HeatOf::Boundary(id))))
     }
@@ -155,7 +160,8 @@ impl Solution {
         self.values(Quantity::BoundaryTemperature(id))
     }
 
-    /// Heat of a source over the rows in W; of one that depends on temperatures NaN unless every node was recorded.
+    /// Heat of a source over the rows in W; of one that depends on temperatures NaN unless every
+    /// node was recorded.
     pub fn source_heat(&self, id: SourceId) -> Vec<f64> {
         self.values(Quantity::Heat(HeatOf::Source(id)))
     }
@@ -181,8 +187,9 @@ impl Solution {
         self.recorded.len() == self.network().nodes().len()
     }
 
-    /// Visits every row in order. Inputs and heat could be read there during the run, so they can be again; a row at
-    /// which that should fail has no values (NaN), for columns have to be of one length.
+    /// Visits every row in order. Inputs and heat could be read there during the run, so they can
+    /// be again; a row at which that should fail has no values (NaN), for columns have to be of one
+    /// length.
     pub(crate) fn replay(&self, mut visit: impl FnMut(&mut Replay<'_>)) {
         let (work, reading) = (self.system.workspace(), Reading::new(&self.system));
         let mut at = Replay { system: &self.system, work, reading, known: true };
@@ -211,8 +218,8 @@ impl Solution {
         &self.limits
     }
 
-    /// What happened at times that were not known beforehand, in the order of time: controls that switched,
-    /// comparisons of temperatures that changed, limits that were broken.
+    /// What happened at times that were not known beforehand, in the order of time: controls that
+    /// switched, comparisons of temperatures that changed, limits that were broken.
     pub fn events(&self) -> &[Event] {
         &self.events
     }
@@ -282,7 +289,8 @@ impl Solution {
         if steps > MOST_REMEMBERED {
             return Some(Unbounded::LongMemory { steps });
         }
-        let count = self.events.iter().filter(|event| !matches!(event.kind, EventKind::Limit(_))).count();
+        let count =
+            self.events.iter().filter(|event| !matches!(event.kind, EventKind::Limit(_))).count();
         (count > FEW_SWITCHES).then_some(Unbounded::Switches { count })
     }
 }
@@ -297,15 +305,17 @@ pub enum Unbounded {
         /// How many.
         steps: f64,
     },
-    /// What switches decides by itself when it does: an error in the time of one switch is not forgotten but moves all
-    /// that follow. There were more of them than the tolerance is tightened for.
+    /// What switches decides by itself when it does: an error in the time of one switch is not
+    /// forgotten but moves all that follow. There were more of them than the tolerance is tightened
+    /// for.
     Switches {
         /// How many there were.
         count: usize,
     },
 }
 
-/// So many switches add less than the ten tolerances that are promised, with the share that the integrator gets of them.
+/// So many switches add less than the ten tolerances that are promised, with the share that the
+/// integrator gets of them.
 const FEW_SWITCHES: usize = 100;
 
 /// The system at one row of a solution. What follows from a node that was not recorded is NaN.
@@ -320,7 +330,8 @@ pub(crate) struct Replay<'a> {
 impl Replay<'_> {
     /// One quantity in SI units. What could be evaluated in the run can be here.
     pub(crate) fn value(&mut self, quantity: Quantity) -> f64 {
-        let value = if self.known { self.reading.value(&mut self.work, quantity).ok() } else { None };
+        let value =
+            if self.known { self.reading.value(&mut self.work, quantity).ok() } else { None };
         value.unwrap_or(f64::NAN)
     }
 

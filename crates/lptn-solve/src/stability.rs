@@ -1,12 +1,13 @@
 //! Whether a steady state stays where it is.
 //!
-//! Let `A = -J` on the unknowns solved for. Where warming one of them never cools another directly (off the diagonal
-//! `A` has no positive entry), the state is stable exactly if `A` is an M-matrix: if some positive `x` has a positive
-//! `A x` (A. Berman and R. J. Plemmons, Nonnegative Matrices in the Mathematical Sciences, SIAM 1994, chapter 6, theorem
-//! 2.3, conditions I27 and G20), whatever the capacities are. The same test on `A` with the magnitudes of these entries is
-//! sufficient for any other network (H-matrices, the same, exercise 5.13). Where that leaves it open, small disturbances
-//! are followed with the capacities, in steps of the trapezoidal rule of many lengths: it enlarges what grows and nothing
-//! else, whatever the length.
+//! Let `A = -J` on the unknowns solved for. Where warming one of them never cools another directly
+//! (off the diagonal `A` has no positive entry), the state is stable exactly if `A` is an M-matrix:
+//! if some positive `x` has a positive `A x` (A. Berman and R. J. Plemmons, Nonnegative Matrices in
+//! the Mathematical Sciences, SIAM 1994, chapter 6, theorem 2.3, conditions I27 and G20), whatever
+//! the capacities are. The same test on `A` with the magnitudes of these entries is sufficient for
+//! any other network (H-matrices, the same, exercise 5.13). Where that leaves it open, small
+//! disturbances are followed with the capacities, in steps of the trapezoidal rule of many lengths:
+//! it enlarges what grows and nothing else, whatever the length.
 
 use lptn_assembly::Workspace;
 
@@ -25,8 +26,8 @@ const GROWTH: f64 = 1.5;
 const LENGTHS: usize = 60;
 
 impl Newton<'_> {
-    /// The unknown that a small disturbance moves most, if the state at `temperatures` (all unknowns, in K) is not
-    /// stable.
+    /// The unknown that a small disturbance moves most, if the state at `temperatures` (all
+    /// unknowns, in K) is not stable.
     pub(crate) fn unstable(
         &mut self,
         work: &mut Workspace,
@@ -50,7 +51,8 @@ impl Newton<'_> {
         }
     }
 
-    /// The place that shows that the values are no M-matrix; `None` if they are one. `new`: they are not factorised yet.
+    /// The place that shows that the values are no M-matrix; `None` if they are one. `new`: they
+    /// are not factorised yet.
     pub(crate) fn runs_away(&mut self, new: bool) -> Option<usize> {
         let diagonal = self.pattern.diagonal();
         if let Some(place) = diagonal.iter().position(|&slot| self.values[slot] <= 0.0) {
@@ -70,7 +72,8 @@ impl Newton<'_> {
         let mass: Vec<f64> = self.free.iter().map(|&i| self.system.mass()[i]).collect();
         let slots = self.pattern.diagonal().iter().zip(&mass).filter(|(_, mass)| **mass > 0.0);
         let rates = slots.map(|(&slot, mass)| exact[slot].abs() / mass).filter(|rate| *rate > 0.0);
-        let (slow, fast) = rates.fold((f64::INFINITY, 0.0_f64), |(a, b), rate| (a.min(rate), b.max(rate)));
+        let (slow, fast) =
+            rates.fold((f64::INFINITY, 0.0_f64), |(a, b), rate| (a.min(rate), b.max(rate)));
         let mut step = 0.1 / fast;
         for _ in 0..LENGTHS {
             if step.is_nan() || step * slow >= 1e4 {

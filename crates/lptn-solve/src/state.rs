@@ -9,13 +9,15 @@ use crate::unfold::carried;
 ///
 /// For every node with capacity it holds what an integrator carries, in K, in the order of
 /// [`ThermalSystem::states`]: the temperature of a node with a constant capacity; for one whose capacity depends on its
-/// temperature `T0 + H / C0` with H the heat content over that at the start of the network in J, T0 the temperature and
-/// C0 the capacity there, since a node that melts at one temperature is not told by that temperature. The state at the end
-/// of a run also knows which of several solutions each massless node has.
+/// temperature `T0 + H / C0` with H the heat content over that at the start of the network in J, T0
+/// the temperature and C0 the capacity there, since a node that melts at one temperature is not
+/// told by that temperature. The state at the end of a run also knows which of several solutions
+/// each massless node has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
     carried: Vec<f64>,
-    /// Temperatures in K of the massless nodes that may have several solutions; empty where they are not known, or do not.
+    /// Temperatures in K of the massless nodes that may have several solutions; empty where they
+    /// are not known, or do not.
     stood: Vec<f64>,
 }
 
@@ -25,8 +27,9 @@ impl State {
         Self::of_carried(system.initial())
     }
 
-    /// The state in which every node has the temperature given for it in K, in the order of the network's nodes; those
-    /// of massless nodes are not looked at. A node that melts at one temperature has that as a solid.
+    /// The state in which every node has the temperature given for it in K, in the order of the
+    /// network's nodes; those of massless nodes are not looked at. A node that melts at one
+    /// temperature has that as a solid.
     ///
     /// # Errors
     /// [`InputError`] for a temperature outside the range for which a capacity is known.
@@ -35,7 +38,8 @@ impl State {
             let temperature = nodes.get(id.index()).copied().unwrap_or(f64::NAN);
             carried(system, i, temperature)
         };
-        let carried: Result<Vec<f64>, InputError> = system.states().iter().enumerate().map(one).collect();
+        let carried: Result<Vec<f64>, InputError> =
+            system.states().iter().enumerate().map(one).collect();
         Ok(Self::of_carried(carried?))
     }
 
@@ -58,7 +62,8 @@ impl State {
         &self.stood
     }
 
-    /// Temperature in K of one of the states; `None` where its heat content is one that it cannot have.
+    /// Temperature in K of one of the states; `None` where its heat content is one that it cannot
+    /// have.
     pub fn temperature(&self, system: &ThermalSystem, state: usize) -> Option<f64> {
         let id = *system.states().get(state)?;
         let carried = *self.carried.get(state)?;

@@ -30,7 +30,9 @@ pub(crate) fn solve(
     let solution = recorder.into_solution(closed, (Statistics::default(), Vec::new()), end);
     match outcome {
         None => Ok(solution),
-        Some((time, reason)) => Err(TransientError::Stopped { time, reason, partial: Box::new(solution) }),
+        Some((time, reason)) => {
+            Err(TransientError::Stopped { time, reason, partial: Box::new(solution) })
+        }
     }
 }
 

@@ -37,7 +37,8 @@ pub struct SteadyState {
     pub time: f64,
     /// Which controls are on and which comparisons hold.
     pub positions: Positions,
-    /// The nodes that no path leads from to a boundary: their temperatures follow from the energy at their start.
+    /// The nodes that no path leads from to a boundary: their temperatures follow from the energy
+    /// at their start.
     pub adiabatic: Vec<NodeId>,
     /// What is known of other steady states with the same inputs.
     pub others: Others,
@@ -49,7 +50,8 @@ pub enum Others {
     /// There is none, or none was met: this is where the network comes to from its start.
     #[default]
     None,
-    /// There is at least this one, temperatures of the nodes in K; from its start the network does not come there.
+    /// There is at least this one, temperatures of the nodes in K; from its start the network does
+    /// not come there.
     At(Vec<f64>),
     /// There may be others, and the network could not be followed from its start to this one.
     NotKnown,
@@ -82,8 +84,9 @@ impl SteadyState {
         Balance::of_flows(network, of, &self.received, &self.source_heat)
     }
 
-    /// The margin of each limit in SI units, positive while it is kept, zero where a temperature passes it by rounding
-    /// only; `t` in the limits is `time` in s, that of the steady state's inputs.
+    /// The margin of each limit in SI units, positive while it is kept, zero where a temperature
+    /// passes it by rounding only; `t` in the limits is `time` in s, that of the steady state's
+    /// inputs.
     ///
     /// # Errors
     /// [`InputError`] if a limit cannot be evaluated.
@@ -93,14 +96,16 @@ impl SteadyState {
         limit::margins(network, &mut scope)
     }
 
-    /// Solves `G T = q` with the inputs as they are at `time` in s. Where something switches, a state is sought in
-    /// which nothing has to, from the positions at the start on.
+    /// Solves `G T = q` with the inputs as they are at `time` in s. Where something switches, a
+    /// state is sought in which nothing has to, from the positions at the start on.
     ///
-    /// Unless the form of the network tells that there is one steady state at most, the network is followed from its start,
-    /// and the state is the one that it comes to: see [`SteadyState::others`].
+    /// Unless the form of the network tells that there is one steady state at most, the network is
+    /// followed from its start, and the state is the one that it comes to: see
+    /// [`SteadyState::others`].
     ///
     /// # Errors
-    /// [`SteadyError`], in particular for nodes without a path to a boundary, and for networks that cycle.
+    /// [`SteadyError`], in particular for nodes without a path to a boundary, and for networks that
+    /// cycle.
     pub fn solve(system: &ThermalSystem, time: f64) -> Result<Self, SteadyError> {
         let switches = system.network().has_events();
         let found = match switches {
@@ -109,7 +114,9 @@ impl SteadyState {
         };
         let decided = matches!(
             found,
-            Err(SteadyError::NoBoundary { .. } | SteadyError::Input(_) | SteadyError::Cycles { .. })
+            Err(SteadyError::NoBoundary { .. }
+                | SteadyError::Input(_)
+                | SteadyError::Cycles { .. })
         );
         let unique = !switches && system.is_monotone();
         if decided || unique || system.states().is_empty() {
@@ -119,7 +126,9 @@ impl SteadyState {
             (Ok(found), None) => Ok(Self { others: Others::NotKnown, ..found }),
             (Err(error), None) => Err(error),
             (Ok(found), Some(reached)) if found.is_near(&reached) => Ok(found),
-            (Ok(found), Some(reached)) => Ok(Self { others: Others::At(found.temperatures), ..reached }),
+            (Ok(found), Some(reached)) => {
+                Ok(Self { others: Others::At(found.temperatures), ..reached })
+            }
             (Err(_), Some(reached)) => Ok(reached),
         }
     }
@@ -127,10 +136,12 @@ impl SteadyState {
     /// The steady state that the network comes to from its start, if it could be followed there.
     fn reached(system: &ThermalSystem, time: f64) -> Option<Self> {
         let rest = rest(system, time)?;
-        let steady = Self::from_start(system, time, &rest.positions, Some(&rest.temperatures)).ok()?;
+        let steady =
+            Self::from_start(system, time, &rest.positions, Some(&rest.temperatures)).ok()?;
         let mut unknowns = vec![0.0; rest.temperatures.len()];
         system.unknown_temperatures(&steady.temperatures, &mut unknowns);
-        let moved = unknowns.iter().zip(&rest.temperatures).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let moved =
+            unknowns.iter().zip(&rest.temperatures).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         (moved <= MOVED).then_some(steady)
     }
 
@@ -152,7 +163,8 @@ impl SteadyState {
         Self::from_start(system, time, positions, None)
     }
 
-    /// The same, sought from these temperatures of the unknowns in K in place of those at the start.
+    /// The same, sought from these temperatures of the unknowns in K in place of those at the
+    /// start.
     fn from_start(
         system: &ThermalSystem,
         time: f64,
@@ -178,7 +190,9 @@ impl SteadyState {
         steady.adiabatic = islands.into_iter().flat_map(|island| island.nodes).collect();
         let rest = rounding(system, &steady) + unsettled(system, &mut work, &unknowns)?;
         if steady.imbalance().abs() > BALANCE * steady.turned_over() + rest {
-            return Err(SteadyError::Unbalanced { residual: steady.imbalance() / steady.turned_over() });
+            return Err(SteadyError::Unbalanced {
+                residual: steady.imbalance() / steady.turned_over(),
+            });
         }
         check_absolute(network, &steady.temperatures)?;
         Ok(steady)
@@ -266,16 +280,20 @@ impl SteadyState {
     }
 }
 
-/// What the last digit of the temperatures does to the balance in W: a network at one temperature carries heat of
-/// this size and nothing else.
+/// What the last digit of the temperatures does to the balance in W: a network at one temperature
+/// carries heat of this size and nothing else.
 fn rounding(system: &ThermalSystem, steady: &SteadyState) -> f64 {
     let all = steady.temperatures.iter().chain(&steady.boundary_temperatures);
     4.0 * f64::EPSILON * system.boundary_conductance() * all.copied().fold(0.0, f64::max)
 }
 
-/// The heat in W that the last corrections of Newton's method leave in the balances: where nothing heats a network that
-/// is not linear, it is all the heat there is.
-fn unsettled(system: &ThermalSystem, work: &mut Workspace, unknowns: &[f64]) -> Result<f64, InputError> {
+/// The heat in W that the last corrections of Newton's method leave in the balances: where nothing
+/// heats a network that is not linear, it is all the heat there is.
+fn unsettled(
+    system: &ThermalSystem,
+    work: &mut Workspace,
+    unknowns: &[f64],
+) -> Result<f64, InputError> {
     if system.is_linear() {
         return Ok(0.0);
     }
@@ -297,7 +315,8 @@ fn check_absolute(network: &Network, temperatures: &[f64]) -> Result<(), SteadyE
     }
 }
 
-/// Temperatures of all unknowns of a network that is not linear or that keeps energy, from those at the start.
+/// Temperatures of all unknowns of a network that is not linear or that keeps energy, from those at
+/// the start.
 fn balanced(
     system: &ThermalSystem,
     work: &mut Workspace,
@@ -316,7 +335,8 @@ fn balanced(
     Ok(temperatures)
 }
 
-/// Newton's method may find a state at which nothing stays; then the network is followed from its start.
+/// Newton's method may find a state at which nothing stays; then the network is followed from its
+/// start.
 fn stable(
     newton: &mut Newton<'_>,
     work: &mut Workspace,

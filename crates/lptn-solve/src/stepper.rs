@@ -21,6 +21,10 @@ pub(crate) fn stepper<'a>(
 
 /// There is none.
 #[cfg(not(feature = "cvodes"))]
-pub(crate) fn stepper<'a>(_: Heat<'a>, _: (f64, &[f64]), _: &Options) -> Result<Stepper<'a>, TransientError> {
+pub(crate) fn stepper<'a>(
+    _: Heat<'a>,
+    _: (f64, &[f64]),
+    _: &Options,
+) -> Result<Stepper<'a>, TransientError> {
     Err(TransientError::Settings(crate::settings_error::SettingsError::NoIntegrator))
 }

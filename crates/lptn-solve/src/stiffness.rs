@@ -2,7 +2,8 @@
 
 use lptn_network::{End, Flow, Network, NodeId};
 
-/// The nodes that follow their surroundings fastest and slowest, each with its own time constant C / sum of G in s.
+/// The nodes that follow their surroundings fastest and slowest, each with its own time constant C
+/// / sum of G in s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stiffness {
     /// The node with the smallest time constant.
@@ -12,11 +13,12 @@ pub struct Stiffness {
 }
 
 impl Stiffness {
-    /// Of the nodes with a capacity and a path or stream of constant conductance; `None` without any.
+    /// Of the nodes with a capacity and a path or stream of constant conductance; `None` without
+    /// any.
     ///
-    /// These are the time constants that each node would have if its neighbours kept their temperatures, the
-    /// diagonal of the system, and not those of the network (its modes); but their ratio says what an explicit
-    /// method would suffer from.
+    /// These are the time constants that each node would have if its neighbours kept their
+    /// temperatures, the diagonal of the system, and not those of the network (its modes); but
+    /// their ratio says what an explicit method would suffer from.
     pub fn of(network: &Network) -> Option<Self> {
         let mut conductance = vec![0.0; network.nodes().len()];
         for (id, conductor) in network.conductor_ids().zip(network.conductors()) {
@@ -34,7 +36,8 @@ impl Stiffness {
         }
         let constant = |id: NodeId| (id, network.capacity(id) / conductance[id.index()]);
         let stores = |id: &NodeId| network.capacity(*id) > 0.0 && conductance[id.index()] > 0.0;
-        let constants: Vec<(NodeId, f64)> = network.node_ids().filter(stores).map(constant).collect();
+        let constants: Vec<(NodeId, f64)> =
+            network.node_ids().filter(stores).map(constant).collect();
         let by_time = |a: &&(NodeId, f64), b: &&(NodeId, f64)| a.1.total_cmp(&b.1);
         let fastest = *constants.iter().min_by(by_time)?;
         Some(Self { fastest, slowest: *constants.iter().max_by(by_time)? })

@@ -30,13 +30,14 @@ pub struct NodeSummary {
     pub peak: (f64, f64),
     /// Temperature in steady state, where inputs are constant and there is one.
     pub steady: Option<f64>,
-    /// Time from the start to 95 % of the way from start to steady state; `None` if that is not known or was
-    /// not reached.
+    /// Time from the start to 95 % of the way from start to steady state; `None` if that is not
+    /// known or was not reached.
     pub time_to_95: Option<f64>,
 }
 
 impl NodeSummary {
-    /// The share of the way from start to steady state that the record covers; `None` where there is no way.
+    /// The share of the way from start to steady state that the record covers; `None` where there
+    /// is no way.
     pub fn reached(&self) -> Option<f64> {
         let rise = self.steady? - self.start;
         (rise.abs() > LEAST_RISE).then(|| (self.end - self.start) / rise)
@@ -54,7 +55,8 @@ impl Summary {
     /// The watches that a summary of `nodes` needs, to be put into [`crate::Transient::watch`].
     ///
     /// # Errors
-    /// [`Unsolved`] if a value cannot be had at the start, or the balances of massless nodes have no solution there.
+    /// [`Unsolved`] if a value cannot be had at the start, or the balances of massless nodes have
+    /// no solution there.
     pub fn watches(
         system: &ThermalSystem,
         start: f64,

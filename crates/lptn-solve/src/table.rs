@@ -43,8 +43,8 @@ pub struct Table {
     columns: Vec<Column>,
 }
 
-/// A table under way, with one row for each item of a list. A column is told how to read one item, and so is as long as all
-/// others.
+/// A table under way, with one row for each item of a list. A column is told how to read one item,
+/// and so is as long as all others.
 #[derive(Debug)]
 pub struct TableOf<'a, T> {
     items: &'a [T],
@@ -54,7 +54,9 @@ pub struct TableOf<'a, T> {
 impl<'a, T> TableOf<'a, T> {
     /// A column of words.
     pub fn label(&mut self, name: impl Into<String>, cell: impl FnMut(&'a T) -> String) {
-        self.table.labels.push(Label { name: name.into(), cells: self.items.iter().map(cell).collect() });
+        self.table
+            .labels
+            .push(Label { name: name.into(), cells: self.items.iter().map(cell).collect() });
     }
 
     /// A column of numbers.
@@ -101,14 +103,16 @@ impl Table {
         self.columns.iter().map(move |column| column.values[row])
     }
 
-    /// The time and the selected columns of a run, temperatures in `unit`. A column of something that was not
-    /// recorded holds no numbers (NaN): see [`Selection::record`].
+    /// The time and the selected columns of a run, temperatures in `unit`. A column of something
+    /// that was not recorded holds no numbers (NaN): see [`Selection::record`].
     pub fn of_solution(solution: &Solution, selection: &Selection, unit: &Unit) -> Self {
         let network = solution.network();
-        let time = Column { name: "time".into(), unit: "s".into(), values: solution.times().to_vec() };
+        let time =
+            Column { name: "time".into(), unit: "s".into(), values: solution.times().to_vec() };
         let mut columns = vec![time];
         columns.extend(selection.quantities().iter().map(|&q| empty(q, network, unit)));
-        let shown: Vec<Shown> = selection.quantities().iter().map(|&q| Shown::of(q, network)).collect();
+        let shown: Vec<Shown> =
+            selection.quantities().iter().map(|&q| Shown::of(q, network)).collect();
         solution.replay(|at| {
             let columns = columns[1..].iter_mut().zip(&shown);
             for ((column, shown), &quantity) in columns.zip(selection.quantities()) {
@@ -135,7 +139,8 @@ impl Table {
             column.values = vec![Shown::of(quantity, network).value(value, unit)];
             Ok(column)
         };
-        let columns: Result<Vec<Column>, InputError> = selection.quantities().iter().map(column).collect();
+        let columns: Result<Vec<Column>, InputError> =
+            selection.quantities().iter().map(column).collect();
         Ok(Self { labels: Vec::new(), columns: columns? })
     }
 }
@@ -149,7 +154,8 @@ fn empty(quantity: Quantity, network: &Network, temperature: &Unit) -> Column {
 mod tests {
     use super::Table;
 
-    /// A list of columns was cut to the shortest without a word; now every column has a value for every item.
+    /// A list of columns was cut to the shortest without a word; now every column has a value for
+    /// every item.
     #[test]
     fn columns_are_as_long_as_the_list_they_are_of() {
         let mut table = Table::of(&[1.0, 2.0, 3.0]);

@@ -1,10 +1,12 @@
 //! Sensitivities: how temperatures change with parameters, along with the temperatures themselves.
 //!
-//! What is carried for a node is `s = (dH/dp) / C0` in K per SI unit of the parameter, H its heat content over its start
-//! and C0 its capacity there: then `C0 ds/dt = dq/dp` whatever depends on the parameter, and `s = 0` at the start. The
-//! temperature follows from `dH/dp = C dT/dp + (change of H at held T)`. Heat flows change by their derivatives at held
-//! temperatures, which the network takes from its own laws on dual numbers, and by the exact Jacobian times `dT/dp`
-//! (forward sensitivity analysis; A. C. Hindmarsh and R. Serban, User Documentation for CVODES, section 2.6).
+//! What is carried for a node is `s = (dH/dp) / C0` in K per SI unit of the parameter, H its heat
+//! content over its start and C0 its capacity there: then `C0 ds/dt = dq/dp` whatever depends on
+//! the parameter, and `s = 0` at the start. The temperature follows from
+//! `dH/dp = C dT/dp + (change of H at held T)`. Heat flows change by their derivatives at held
+//! temperatures, which the network takes from its own laws on dual numbers, and by the exact
+//! Jacobian times `dT/dp` (forward sensitivity analysis; A. C. Hindmarsh and R. Serban, User
+//! Documentation for CVODES, section 2.6).
 
 use lptn_assembly::{Form, ThermalSystem, Workspace};
 use lptn_integrate::Pattern;
@@ -39,10 +41,14 @@ impl<'a> Tangent<'a> {
     ///
     /// # Errors
     /// [`SettingsError::Sensitivity`] where the network has no derivatives by them.
-    pub(crate) fn new(system: &'a ThermalSystem, parameters: &[ParameterId]) -> Result<Self, TransientError> {
+    pub(crate) fn new(
+        system: &'a ThermalSystem,
+        parameters: &[ParameterId],
+    ) -> Result<Self, TransientError> {
         let network = system.network();
         let tangents = network.tangents(parameters);
-        let tangents = tangents.map_err(|e| TransientError::Settings(SettingsError::Sensitivity(e)))?;
+        let tangents =
+            tangents.map_err(|e| TransientError::Settings(SettingsError::Sensitivity(e)))?;
         let (states, all) = (system.states().len(), system.unknowns().len());
         let failed = |error| TransientError::Start(Unsolved::new(system, error));
         let algebraic = (states < all).then(|| Newton::new(system, (states..all).collect()));
@@ -67,13 +73,16 @@ impl<'a> Tangent<'a> {
         self.tangents.parameters()
     }
 
-    /// What is carried at the start, where every node has the temperature that `work` holds: nothing if that is the
-    /// start of the network, whose temperatures may depend on the parameters; else those temperatures do not.
+    /// What is carried at the start, where every node has the temperature that `work` holds:
+    /// nothing if that is the start of the network, whose temperatures may depend on the
+    /// parameters; else those temperatures do not.
     pub(crate) fn carried_at(&mut self, work: &Workspace, out: &mut [f64]) {
         self.take_contents(work);
         let system = self.system;
         let (states, nodes) = (system.states(), system.network().nodes().len());
-        for (block, contents) in out.chunks_mut(states.len().max(1)).zip(self.contents.chunks(nodes.max(1))) {
+        for (block, contents) in
+            out.chunks_mut(states.len().max(1)).zip(self.contents.chunks(nodes.max(1)))
+        {
             for ((s, id), capacity) in block.iter_mut().zip(states).zip(system.capacity()) {
                 *s = contents[id.index()] / capacity;
             }
@@ -85,7 +94,8 @@ impl<'a> Tangent<'a> {
         self.tangents.contents(self.system.network(), temperatures, &mut self.contents);
     }
 
-    /// Writes `C0 ds/dt` in W per SI unit of each parameter, from inputs read and nodes recovered in `work`.
+    /// Writes `C0 ds/dt` in W per SI unit of each parameter, from inputs read and nodes recovered
+    /// in `work`.
     pub(crate) fn flow(
         &mut self,
         work: &mut Workspace,
@@ -100,7 +110,11 @@ impl<'a> Tangent<'a> {
         let states = self.system.states();
         let (all, vertices) = (self.system.unknowns().len(), self.vertices());
         for (k, block) in out.chunks_mut(states.len().max(1)).enumerate() {
-            self.pattern.multiply(&self.jacobian, &self.unknowns[k * all..(k + 1) * all], &mut self.product);
+            self.pattern.multiply(
+                &self.jacobian,
+                &self.unknowns[k * all..(k + 1) * all],
+                &mut self.product,
+            );
             let heat = &self.heat[k * vertices..(k + 1) * vertices];
             for ((q, id), product) in block.iter_mut().zip(states).zip(&self.product) {
                 *q = heat[id.index()] + product;
@@ -109,8 +123,8 @@ impl<'a> Tangent<'a> {
         Ok(())
     }
 
-    /// Takes what is carried, from inputs read and nodes recovered in `work`; [`Tangent::vertices_of`] then gives the
-    /// sensitivities of all nodes.
+    /// Takes what is carried, from inputs read and nodes recovered in `work`;
+    /// [`Tangent::vertices_of`] then gives the sensitivities of all nodes.
     pub(crate) fn recover(
         &mut self,
         work: &mut Workspace,
@@ -128,7 +142,8 @@ impl<'a> Tangent<'a> {
         Ok(())
     }
 
-    /// Sensitivities of all vertices by the parameter of number `k`, in K per SI unit: those of nodes.
+    /// Sensitivities of all vertices by the parameter of number `k`, in K per SI unit: those of
+    /// nodes.
     pub(crate) fn vertices_of(&self, k: usize, out: &mut Vec<f64>) {
         let (all, vertices) = (self.system.unknowns().len(), self.vertices());
         out.resize(vertices, 0.0);
@@ -145,8 +160,10 @@ impl<'a> Tangent<'a> {
         self.take_contents(work);
         let system = self.system;
         let (states, nodes) = (system.states(), system.network().nodes().len());
-        let blocks =
-            self.unknowns.chunks_mut(system.unknowns().len().max(1)).zip(carried.chunks(states.len().max(1)));
+        let blocks = self
+            .unknowns
+            .chunks_mut(system.unknowns().len().max(1))
+            .zip(carried.chunks(states.len().max(1)));
         for ((block, carried), contents) in blocks.zip(self.contents.chunks(nodes.max(1))) {
             for (i, id) in states.iter().enumerate() {
                 let held = contents[id.index()] / system.capacity()[i];
@@ -156,10 +173,16 @@ impl<'a> Tangent<'a> {
     }
 
     fn take_heat(&mut self, work: &Workspace) -> Result<(), NewtonError> {
-        self.system.tangent_heat(&mut self.tangents, work, &mut self.heat).map_err(NewtonError::Input)
+        self.system
+            .tangent_heat(&mut self.tangents, work, &mut self.heat)
+            .map_err(NewtonError::Input)
     }
 
-    fn take_jacobian(&mut self, work: &mut Workspace, unfold: &Unfold<'_>) -> Result<(), NewtonError> {
+    fn take_jacobian(
+        &mut self,
+        work: &mut Workspace,
+        unfold: &Unfold<'_>,
+    ) -> Result<(), NewtonError> {
         if self.system.is_linear() && !self.jacobian.is_empty() {
             return Ok(());
         }
@@ -168,8 +191,13 @@ impl<'a> Tangent<'a> {
         taken.map_err(NewtonError::Input)
     }
 
-    /// Sensitivities of the massless nodes that were not eliminated: their balances hold whatever the parameters are.
-    fn solve_algebraic(&mut self, work: &mut Workspace, unfold: &Unfold<'_>) -> Result<(), NewtonError> {
+    /// Sensitivities of the massless nodes that were not eliminated: their balances hold whatever
+    /// the parameters are.
+    fn solve_algebraic(
+        &mut self,
+        work: &mut Workspace,
+        unfold: &Unfold<'_>,
+    ) -> Result<(), NewtonError> {
         let Some(newton) = &mut self.algebraic else { return Ok(()) };
         newton.factorize(work, unfold.last(), 0.0)?;
         let system = self.system;

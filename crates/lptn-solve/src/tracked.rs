@@ -10,7 +10,8 @@ use crate::selection::Selection;
 use crate::watch::{LASTS, REFINEMENTS, first_there, is_same, top};
 use crate::window::{ColumnSeen, Window, WindowSeen};
 
-/// An extreme that differs from the value at an end of the window by less than this share of it is there.
+/// An extreme that differs from the value at an end of the window by less than this share of it is
+/// there.
 const SAME: f64 = 1e-9;
 
 /// A window with what was seen so far.
@@ -26,7 +27,8 @@ pub(crate) struct Tracked {
 }
 
 /// Writes the value of every column of a window at a time inside the present step.
-pub(crate) type Columns<'a> = dyn FnMut(f64, &Selection, &mut Vec<f64>) -> Result<(), StopReason> + 'a;
+pub(crate) type Columns<'a> =
+    dyn FnMut(f64, &Selection, &mut Vec<f64>) -> Result<(), StopReason> + 'a;
 
 impl Tracked {
     pub(crate) fn new(window: Window, network: &Network) -> Self {
@@ -142,8 +144,8 @@ struct Curve<'a> {
 }
 
 impl Curve<'_> {
-    /// Takes in the largest value (`sign` 1) or the least (-1) of the points; where they tell the curve also the top of
-    /// parabolas through it and its neighbours.
+    /// Takes in the largest value (`sign` 1) or the least (-1) of the points; where they tell the
+    /// curve also the top of parabolas through it and its neighbours.
     fn extreme(&self, sign: f64, value: f64, best: &mut (f64, f64)) {
         let same = |other: &f64| (other - value).abs() <= LASTS * value.abs();
         let Some(at) = self.values.iter().position(same) else { return };
@@ -178,7 +180,8 @@ impl Curve<'_> {
     }
 }
 
-/// Takes a value that is larger (`sign` 1) or less (-1) by more than rounding: an extreme that lasts is where it begins.
+/// Takes a value that is larger (`sign` 1) or less (-1) by more than rounding: an extreme that
+/// lasts is where it begins.
 fn better(sign: f64, best: &mut (f64, f64), (value, time): (f64, f64)) {
     if sign * value > sign * best.0 + LASTS * value.abs() {
         *best = (value, time);

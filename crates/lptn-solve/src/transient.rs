@@ -36,7 +36,8 @@ impl Transient {
         self.solve_observed(system, &mut |_| Control::Continue)
     }
 
-    /// Runs to the stop and calls `observer` after every step of the integrator; it may interrupt the run.
+    /// Runs to the stop and calls `observer` after every step of the integrator; it may interrupt
+    /// the run.
     ///
     /// # Errors
     /// As [`Transient::solve`].
@@ -67,7 +68,9 @@ impl Transient {
                 return Ok(solution);
             }
             if !self.sensitivities.is_empty() {
-                return Err(TransientError::Settings(SettingsError::Sensitivity(NoTangents::Leaps)));
+                return Err(TransientError::Settings(SettingsError::Sensitivity(
+                    NoTangents::Leaps,
+                )));
             }
             care = Care::Leaps;
         }
@@ -85,16 +88,18 @@ impl Transient {
         if network.reads_time() || !self.windows.is_empty() {
             check_resolution(self.start, self.stop).map_err(TransientError::Settings)?;
         }
-        let mut breakpoints = network.breakpoints(self.start, self.stop).map_err(TransientError::Input)?;
+        let mut breakpoints =
+            network.breakpoints(self.start, self.stop).map_err(TransientError::Input)?;
         snap(&mut breakpoints, &rows, (self.start, self.stop));
         breakpoints.dedup();
         let segments = segments(self.start, self.stop, &breakpoints);
         let curved = Curved::of(system, &segments, &rows);
-        let readings =
-            Readings::new(network, &segments, &rows, &self.windows).map_err(TransientError::Input)?;
+        let readings = Readings::new(network, &segments, &rows, &self.windows)
+            .map_err(TransientError::Input)?;
         let recorder = Recorder::new(system, (rows, readings), self)?;
         if system.states().is_empty() {
-            return stateless::solve(recorder, &segments, &Books::new(network, self.balance)).map(Some);
+            return stateless::solve(recorder, &segments, &Books::new(network, self.balance))
+                .map(Some);
         }
         Run::new(recorder, (segments[0], curved), (self, care), from)?.through(&segments, observer)
     }
@@ -112,9 +117,10 @@ const FOLD_PATIENCE: usize = 400;
 /// How well the times have to be known at which massless nodes leap.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Care {
-    /// Nothing is known to leap: at the sight of a fold the run ends, to be done again with care. Errors in front of it
-    /// are made already: as with a switch, they move the leap and all that follows, and where heat changes as the root of
-    /// the time that is left all steps err to one side.
+    /// Nothing is known to leap: at the sight of a fold the run ends, to be done again with care.
+    /// Errors in front of it are made already: as with a switch, they move the leap and all that
+    /// follows, and where heat changes as the root of the time that is left all steps err to one
+    /// side.
     Untried,
     /// As well as those of switches.
     Leaps,
@@ -171,7 +177,8 @@ impl<'a> Run<'a> {
         if !settings.sensitivities.is_empty() {
             let tangent = Tangent::new(system, &settings.sensitivities)?;
             let own_start = *from == State::initial(system);
-            carried = heat.follow(tangent, (settings.start, &initial, own_start)).map_err(unsolved)?;
+            carried =
+                heat.follow(tangent, (settings.start, &initial, own_start)).map_err(unsolved)?;
         }
         recorder.remembered = curved.as_ref().map_or(0.0, |c| c.remembered);
         let switching = system
@@ -237,7 +244,9 @@ impl<'a> Run<'a> {
         while self.integrator.time() < segment.to {
             self.step(segment)?;
             let (start, stop) = self.recorder.span();
-            if observer(Progress { start, time: self.integrator.time(), stop }) == Control::Interrupt {
+            if observer(Progress { start, time: self.integrator.time(), stop })
+                == Control::Interrupt
+            {
                 return Err(Break::Interrupted);
             }
         }
@@ -266,7 +275,8 @@ impl<'a> Run<'a> {
 
     /// One step, or the part of it up to an event.
     fn step(&mut self, segment: Segment) -> Result<(), Break> {
-        let armed = self.switching.as_ref().map_or(f64::INFINITY, |s| s.next_armed(self.integrator.time()));
+        let armed =
+            self.switching.as_ref().map_or(f64::INFINITY, |s| s.next_armed(self.integrator.time()));
         self.integrator.set_stop(segment.to.min(armed));
         if let Some(curved) = &self.curved {
             self.integrator.set_longest_step(curved.longest(self.integrator.time()));
@@ -330,7 +340,8 @@ impl<'a> Run<'a> {
         switched.map_err(Break::Failed).map(|()| changed)
     }
 
-    /// Breaks off a run that only creeps up to where its heat can be had no longer, with ever smaller steps.
+    /// Breaks off a run that only creeps up to where its heat can be had no longer, with ever
+    /// smaller steps.
     fn check_crawl(&mut self, step: f64) -> Result<(), Break> {
         let (start, stop) = self.recorder.span();
         let refused = self.integrator.system_mut().refused.take();
@@ -362,7 +373,9 @@ impl<'a> Run<'a> {
         if let Some(failure) = self.integrator.system_mut().failure.take() {
             return Break::Failed(self.reason(failure));
         }
-        if let IntegrateError::Linear { cause: FactorError::Singular { index: unknown }, .. } = error {
+        if let IntegrateError::Linear { cause: FactorError::Singular { index: unknown }, .. } =
+            error
+        {
             return Break::Failed(self.reason(NewtonError::Singular { unknown }));
         }
         let node = error.component().map(|state| self.recorder.state_name(state));

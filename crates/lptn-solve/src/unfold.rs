@@ -1,8 +1,9 @@
 //! From what the integrator carries to temperatures.
 //!
-//! A node with a constant capacity is carried by its temperature. One whose capacity depends on its temperature is
-//! carried by its heat content H over its capacity at the start, `y = T0 + H / C0` in K, so that heat is never lost to
-//! the approximation of a changing capacity. Algebraic unknowns are solved for.
+//! A node with a constant capacity is carried by its temperature. One whose capacity depends on its
+//! temperature is carried by its heat content H over its capacity at the start, `y = T0 + H / C0`
+//! in K, so that heat is never lost to the approximation of a changing capacity. Algebraic unknowns
+//! are solved for.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{Enthalpy, Field, InputError, InputProblem, Item};
@@ -19,7 +20,8 @@ pub(crate) struct Unfold<'a> {
     temperatures: Vec<f64>,
     /// Derivative of the temperature of every unknown by what is carried for it.
     slopes: Vec<f64>,
-    /// Whether the algebraic unknowns may leap to another solution at the next look, because what they depend on has.
+    /// Whether the algebraic unknowns may leap to another solution at the next look, because what
+    /// they depend on has.
     leaps: bool,
 }
 
@@ -44,10 +46,19 @@ impl<'a> Unfold<'a> {
         let mean = guess(system);
         // where a solution is the only one, it is found as well from anywhere
         let guarded = algebraic.as_ref().is_some_and(|newton| newton.guarded);
-        let stood = |id: &lptn_network::NodeId| network.nodes()[id.index()].stood.filter(|_| guarded);
-        temperatures.extend(system.unknowns()[states.len()..].iter().map(|id| stood(id).unwrap_or(mean)));
+        let stood =
+            |id: &lptn_network::NodeId| network.nodes()[id.index()].stood.filter(|_| guarded);
+        temperatures
+            .extend(system.unknowns()[states.len()..].iter().map(|id| stood(id).unwrap_or(mean)));
         let contents = contents.collect();
-        Ok(Self { system, contents, algebraic, temperatures, slopes: vec![1.0; count], leaps: true })
+        Ok(Self {
+            system,
+            contents,
+            algebraic,
+            temperatures,
+            slopes: vec![1.0; count],
+            leaps: true,
+        })
     }
 
     /// Whether what is carried is not the temperature somewhere.
@@ -90,7 +101,8 @@ impl<'a> Unfold<'a> {
         Ok(&self.temperatures)
     }
 
-    /// Whether algebraic unknowns may have several solutions, so that it matters which one is followed.
+    /// Whether algebraic unknowns may have several solutions, so that it matters which one is
+    /// followed.
     pub(crate) fn is_guarded(&self) -> bool {
         self.algebraic.as_ref().is_some_and(|newton| newton.guarded)
     }
@@ -118,7 +130,8 @@ impl<'a> Unfold<'a> {
         self.leaps = false;
     }
 
-    /// Refuses the solution last found if it is not on one branch with these temperatures of the algebraic unknowns.
+    /// Refuses the solution last found if it is not on one branch with these temperatures of the
+    /// algebraic unknowns.
     pub(crate) fn stays(&mut self, work: &mut Workspace, from: &[f64]) -> Result<(), NewtonError> {
         let Some(newton) = &mut self.algebraic else { return Ok(()) };
         let mut start = self.temperatures.clone();
@@ -127,7 +140,8 @@ impl<'a> Unfold<'a> {
     }
 }
 
-/// A first guess for algebraic unknowns in K: the mean of the starts of all states, or of the boundaries.
+/// A first guess for algebraic unknowns in K: the mean of the starts of all states, or of the
+/// boundaries.
 fn guess(system: &ThermalSystem) -> f64 {
     let initial = system.initial();
     let mean = initial.iter().sum::<f64>() / initial.len() as f64;
@@ -135,7 +149,11 @@ fn guess(system: &ThermalSystem) -> f64 {
 }
 
 /// What is carried in K for one of the states at a temperature in K.
-pub(crate) fn carried(system: &ThermalSystem, state: usize, temperature: f64) -> Result<f64, InputError> {
+pub(crate) fn carried(
+    system: &ThermalSystem,
+    state: usize,
+    temperature: f64,
+) -> Result<f64, InputError> {
     let network = system.network();
     let id = system.states()[state];
     let Some(curve) = network.enthalpy(id) else { return Ok(temperature) };

@@ -13,7 +13,8 @@ lptn_units::errors! {
 pub enum Unsolved {
     /// A value of an element fails.
     Input => Box<InputError>;
-    /// Nothing determines the temperature of the node: all heat flows that reach it are zero whatever it is.
+    /// Nothing determines the temperature of the node: all heat flows that reach it are zero
+    /// whatever it is.
     Undetermined { node: String } = "solve::undetermined",
         format!(
             "nothing determines the temperature of `{node}` and of the nodes it exchanges heat with: no heat that leaves \
@@ -25,12 +26,13 @@ pub enum Unsolved {
     /// The numbers could not be factorised.
     Factorization(error: FactorError) = "solve::singular", format!("the balances cannot be factorised: {error}"),
         source error;
-    /// Heat in and out are equal at the temperatures found, but the least disturbance leads away from them.
+    /// Heat in and out are equal at the temperatures found, but the least disturbance leads away
+    /// from them.
     Unstable { node: String } = "solve::unstable",
         format!("the only steady state that was found is unstable: from the least disturbance on `{node}` runs away"),
         help GROWS;
-    /// Heat in and out were equal at temperatures that end here: they are equal elsewhere only, and without a capacity
-    /// nothing says how the node gets there.
+    /// Heat in and out were equal at temperatures that end here: they are equal elsewhere only, and
+    /// without a capacity nothing says how the node gets there.
     Fold { node: String } = "solve::fold",
         format!(
             "the balance of the massless node `{node}` has more than one solution, and the one that it had so far ends \
@@ -39,7 +41,8 @@ pub enum Unsolved {
         help format!(
             "give `{node}` a small capacity in place of `massless = true`, such as `C = \"1 mJ/K\"`, and a `T0`"
         );
-    /// No temperatures were found at which heat in and heat out are equal: by how much the node still moved, in K.
+    /// No temperatures were found at which heat in and heat out are equal: by how much the node
+    /// still moved, in K.
     NotFound { node: String, change: f64 } = "solve::not_found",
         format!(
             "no temperatures were found at which heat in and out are equal: `{node}` still moved by {} K",
@@ -63,7 +66,9 @@ impl Unsolved {
             NewtonError::Unstable { unknown } => Self::Unstable { node: name(unknown) },
             NewtonError::Fold { unknown } => Self::Fold { node: name(unknown) },
             NewtonError::Factorization(error) => Self::Factorization(error),
-            NewtonError::Stalled { unknown, change } => Self::NotFound { node: name(unknown), change },
+            NewtonError::Stalled { unknown, change } => {
+                Self::NotFound { node: name(unknown), change }
+            }
         }
     }
 

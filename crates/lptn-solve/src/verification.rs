@@ -65,14 +65,15 @@ pub struct Comparison {
     pub reference_error: f64,
 }
 
-/// No run is asked for less than this, in K: temperatures near 300 K have a last digit of 6e-14 K, and the
-/// integrator needs room above it.
+/// No run is asked for less than this, in K: temperatures near 300 K have a last digit of 6e-14 K,
+/// and the integrator needs room above it.
 pub const LEAST_TOLERANCE: f64 = 1e-10;
 
 /// Part of the allowed error that a reference may have itself and still judge a run.
 const MOST_OWN_ERROR: f64 = 0.1;
 
-/// What the error of a run may be, in K: ten times its tolerance down to 1e-5 K, fifty times below that.
+/// What the error of a run may be, in K: ten times its tolerance down to 1e-5 K, fifty times below
+/// that.
 pub fn allowed_error(tolerance: f64) -> f64 {
     let coarse = tolerance >= 1e-5 * (1.0 - 1e-9);
     tolerance * if coarse { 10.0 } else { 50.0 }
@@ -86,8 +87,9 @@ impl Comparison {
 }
 
 impl Verification {
-    /// Runs `system` as `settings` say, at their tolerance and at a hundredth of it, and compares every node at
-    /// every row with the exact solution; where there is none, the two runs with each other.
+    /// Runs `system` as `settings` say, at their tolerance and at a hundredth of it, and compares
+    /// every node at every row with the exact solution; where there is none, the two runs with each
+    /// other.
     ///
     /// # Errors
     /// What a run reports.
@@ -96,8 +98,8 @@ impl Verification {
         Ok(Self::of_runs(system, settings, &runs))
     }
 
-    /// The same; `observer` is called after every step of a run with its tolerance in K and may interrupt it. Then
-    /// there is nothing to judge, and the result is `None`.
+    /// The same; `observer` is called after every step of a run with its tolerance in K and may
+    /// interrupt it. Then there is nothing to judge, and the result is `None`.
     ///
     /// # Errors
     /// What a run reports.
@@ -119,7 +121,8 @@ impl Verification {
         }
     }
 
-    /// Compares runs with an exact solution at the same times; runs of other times or nodes are left out.
+    /// Compares runs with an exact solution at the same times; runs of other times or nodes are
+    /// left out.
     pub fn against_exact(exact: &ExactSolution, runs: &[&Solution]) -> Self {
         let own = exact.own_error();
         let compare = |run: &&Solution| Some(Comparison::new(run, exact.difference(run)?, own));
@@ -135,7 +138,8 @@ impl Verification {
 
     fn against_each_other(reason: NoReference, runs: &[&Solution]) -> Self {
         let (&coarse, &fine) = (&runs[0], &runs[runs.len() - 1]);
-        let difference = (runs.len() > 1).then(|| Difference::largest(coarse, |row| fine.row(row))).flatten();
+        let difference =
+            (runs.len() > 1).then(|| Difference::largest(coarse, |row| fine.row(row))).flatten();
         Self {
             reference: Reference::FinerRun { tolerance: fine.tolerance(), reason },
             comparisons: difference.map(|d| Comparison::new(coarse, d, 0.0)).into_iter().collect(),
@@ -147,8 +151,8 @@ impl Verification {
         !self.comparisons.is_empty() && self.comparisons.iter().all(Comparison::passes)
     }
 
-    /// One row a run: `tolerance`, `difference` (the largest), `allowed`, `time` (of the largest difference),
-    /// and `NAME.difference` of every node.
+    /// One row a run: `tolerance`, `difference` (the largest), `allowed`, `time` (of the largest
+    /// difference), and `NAME.difference` of every node.
     pub fn table(&self, network: &Network) -> Table {
         let mut table = Table::of(&self.comparisons);
         table.column("tolerance", "K", |c| c.tolerance);
@@ -169,15 +173,16 @@ impl Comparison {
     }
 }
 
-/// A run at the tolerance of `settings` and one at a hundredth of it, if there is room for it; the last one may be
-/// interrupted.
+/// A run at the tolerance of `settings` and one at a hundredth of it, if there is room for it; the
+/// last one may be interrupted.
 fn runs(
     system: &ThermalSystem,
     settings: &Transient,
     observer: &mut dyn FnMut(f64, Progress) -> Control,
 ) -> Result<Vec<Solution>, TransientError> {
     let mut run = |tolerance: f64| {
-        let settings = Transient { tolerance, record: Record::All, watch: Vec::new(), ..settings.clone() };
+        let settings =
+            Transient { tolerance, record: Record::All, watch: Vec::new(), ..settings.clone() };
         settings.solve_observed(system, &mut |progress| observer(tolerance, progress))
     };
     let fine = (0.01 * settings.tolerance).max(LEAST_TOLERANCE);

@@ -30,14 +30,14 @@ pub(crate) const SAMPLES: u32 = 8;
 /// How often the top of a curve is approached by another parabola.
 pub(crate) const REFINEMENTS: usize = 4;
 
-/// Values that differ by less than this share are one and the same but for rounding: an extreme that lasts, in a node that
-/// nothing delays, has it over and over.
+/// Values that differ by less than this share are one and the same but for rounding: an extreme
+/// that lasts, in a node that nothing delays, has it over and over.
 pub(crate) const LASTS: f64 = 16.0 * f64::EPSILON;
 
-/// When an extreme (value, time) was first there, of a curve that begins and ends with these values at these times. An
-/// extreme that differs from the first value by no more than `margin` cannot be told from it, and is there. One that
-/// differs from the last value by no more than that is there, unless it is the last value to rounding: then it has lasted
-/// until the end and was there before.
+/// When an extreme (value, time) was first there, of a curve that begins and ends with these values
+/// at these times. An extreme that differs from the first value by no more than `margin` cannot be
+/// told from it, and is there. One that differs from the last value by no more than that is there,
+/// unless it is the last value to rounding: then it has lasted until the end and was there before.
 pub fn first_there((value, time): (f64, f64), [first, last]: [(f64, f64); 2], margin: f64) -> f64 {
     let apart = |end: f64| (end - value).abs();
     if apart(first.0) <= margin {
@@ -75,7 +75,8 @@ impl Seen {
         self.last
     }
 
-    /// Takes in the temperatures at successive points of a step, the first being where the curve stands.
+    /// Takes in the temperatures at successive points of a step, the first being where the curve
+    /// stands.
     pub(crate) fn look(&mut self, points: &[(f64, f64)]) {
         for &point in points {
             self.peak_at(point);
@@ -95,7 +96,8 @@ impl Seen {
     pub(crate) fn promising(&self, points: &[(f64, f64)]) -> Option<f64> {
         let tops = points.windows(3).filter_map(|p| top([p[0], p[1], p[2]]));
         let (height, time) = tops.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let known = points.iter().any(|p| is_same(p.0, time, (points[0].0, points[points.len() - 1].0)));
+        let known =
+            points.iter().any(|p| is_same(p.0, time, (points[0].0, points[points.len() - 1].0)));
         (height > self.peak.0 && !known).then_some(time)
     }
 
@@ -116,13 +118,14 @@ impl Seen {
     }
 }
 
-/// Whether two times between these ends are one: far from 0 those of a short step are all near each other.
+/// Whether two times between these ends are one: far from 0 those of a short step are all near each
+/// other.
 pub(crate) fn is_same(a: f64, b: f64, (from, to): (f64, f64)) -> bool {
     (a - b).abs() <= (1e-12 * b.abs()).min(1e-9 * (to - from))
 }
 
-/// The top (value, time) of the parabola through three points (time, value) of ascending time, if it has one
-/// between them.
+/// The top (value, time) of the parabola through three points (time, value) of ascending time, if
+/// it has one between them.
 pub fn top([(t0, y0), (t1, y1), (t2, y2)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
     let (left, right) = ((y1 - y0) / (t1 - t0), (y2 - y1) / (t2 - t1));
     let curvature = (right - left) / (t2 - t0);

@@ -35,8 +35,8 @@ pub struct ColumnSeen {
 }
 
 impl ColumnSeen {
-    /// The unit that its values are shown in: `temperature` for points on the scale, that of a signal which has one,
-    /// else SI; `1` for a number.
+    /// The unit that its values are shown in: `temperature` for points on the scale, that of a
+    /// signal which has one, else SI; `1` for a number.
     pub fn unit(&self, temperature: &Unit) -> String {
         self.shown.unit(temperature)
     }

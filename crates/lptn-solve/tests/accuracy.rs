@@ -1,16 +1,17 @@
-//! Tolerance: the global error of nonlinear networks stays within ten tolerances of closed forms and of other programs.
+//! Tolerance: the global error of nonlinear networks stays within ten tolerances of closed forms
+//! and of other programs.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 #[path = "common/elements.rs"]
 mod elements;
 
 use elements::{
-    ABSOLUTE, SIGMA, error, holds, last, link, of, own, power, quantity, radiation, run, stream, system,
-    table,
+    ABSOLUTE, SIGMA, error, holds, last, link, of, own, power, quantity, radiation, run, stream,
+    system, table,
 };
 use lptn_network::{
-    AfterEnd, Conductance, Course, End, HeatCapacity, HeatFlow, Melting, NetworkBuilder, NodeId, Path,
-    Properties, Size, Temperature,
+    AfterEnd, Conductance, Course, End, HeatCapacity, HeatFlow, Melting, NetworkBuilder, NodeId,
+    Path, Properties, Size, Temperature,
 };
 use lptn_solve::Transient;
 use lptn_units::{Dimension, Interpolation, Outside, Table1};
@@ -59,8 +60,8 @@ fn a_capacity_linear_in_temperature_follows_its_heat_content() {
 
 #[test]
 fn a_capacity_that_falls_a_hundredfold_keeps_the_tolerance() {
-    // C = 1000 exp(-x / 20) into G = 1 at x_room = 200 is stiff towards the end; dx / dt = (200 - x) / C. Here heat alone:
-    // H = 20000 (1 - exp(-x / 20)) = 100 t
+    // C = 1000 exp(-x / 20) into G = 1 at x_room = 200 is stiff towards the end; dx / dt = (200 -
+    // x) / C. Here heat alone: H = 20000 (1 - exp(-x / 20)) = 100 t
     let mut b = NetworkBuilder::new();
     let capacity = own(&b, "1000 [J/K] * exp(-(T - absolute(300 [K])) / 20 [K])");
     let block = b.node("block", capacity, Temperature(300.0));
@@ -72,8 +73,8 @@ fn a_capacity_that_falls_a_hundredfold_keeps_the_tolerance() {
 
 #[test]
 fn a_small_capacity_at_the_end_still_settles_within_the_tolerance() {
-    // C = 1000 exp(-x / 20), cooled by 1 W/K to x = 100 from x = 0: t = integral of C / (100 - x), which has no closed
-    // form, but where it comes to rest it has
+    // C = 1000 exp(-x / 20), cooled by 1 W/K to x = 100 from x = 0: t = integral of C / (100 - x),
+    // which has no closed form, but where it comes to rest it has
     let mut b = NetworkBuilder::new();
     let capacity = own(&b, "1000 [J/K] * exp(-(T - absolute(300 [K])) / 20 [K])");
     let block = b.node("block", capacity, Temperature(300.0));
@@ -94,7 +95,8 @@ fn a_capacity_table_with_corners_follows_its_heat_content() {
     let capacity = own(&b, "heat(T)");
     let block = b.node("block", capacity, Temperature(300.0));
     b.source("heater", block, HeatFlow(100.0));
-    let content = Table1::new(x.to_vec(), y.to_vec(), Interpolation::Linear, Outside::Error).unwrap();
+    let content =
+        Table1::new(x.to_vec(), y.to_vec(), Interpolation::Linear, Outside::Error).unwrap();
     let exact = |t: f64| root(299.0, 500.0, |at| content.integral(300.0, at).unwrap() - 100.0 * t);
     holds(&system(b), block, 900.0, exact);
 }
@@ -127,7 +129,8 @@ fn melting_at_one_temperature_holds_it_until_all_is_molten() {
 
 #[test]
 fn melting_at_one_temperature_under_cooling_takes_the_time_it_should() {
-    // 1 W/K to 350 K: x = 50 (1 - exp(-t / 20)) up to 30; then 20 W melt 2000 J in 100 s; then 20 K decay
+    // 1 W/K to 350 K: x = 50 (1 - exp(-t / 20)) up to 30; then 20 W melt 2000 J in 100 s; then 20 K
+    // decay
     let mut b = NetworkBuilder::new();
     let node = wax(&mut b, 330.0);
     let room = b.boundary("room", Temperature(350.0));
@@ -164,7 +167,11 @@ fn freezing_gives_back_what_melting_took() {
     let system = system(b);
     for tolerance in [1e-3, 1e-5, 1e-7] {
         let solution = run(&system, 600.0, tolerance);
-        assert!((last(&solution, node) - 300.0).abs() < 10.0 * tolerance, "{}", last(&solution, node));
+        assert!(
+            (last(&solution, node) - 300.0).abs() < 10.0 * tolerance,
+            "{}",
+            last(&solution, node)
+        );
         assert!(solution.ledger().stored[0].abs() < 20.0 * 10.0 * tolerance);
     }
 }
@@ -195,8 +202,8 @@ fn a_chain_of_stirred_cells_passes_a_step_on() {
 
 #[test]
 fn a_massless_skin_that_radiates_agrees_with_another_program() {
-    // SciPy 1.17.1, solve_ivp(method="Radau", rtol=1e-12, atol=1e-11) on the body alone, the skin by brentq with
-    // xtol = 1e-13: time, body, skin
+    // SciPy 1.17.1, solve_ivp(method="Radau", rtol=1e-12, atol=1e-11) on the body alone, the skin
+    // by brentq with xtol = 1e-13: time, body, skin
     let reference = [
         (100.0, 576.625_577_296_652_4, 465.949_912_735_311_9),
         (300.0, 536.684_773_972_521_3, 446.731_014_764_760_07),
@@ -219,8 +226,14 @@ fn a_massless_skin_that_radiates_agrees_with_another_program() {
             .unwrap();
         for (row, (time, of_body, of_skin)) in reference.iter().enumerate() {
             let found = solution.row(row + 1);
-            assert!((found[0] - of_body).abs() <= 10.0 * tolerance, "{time} {found:?} at {tolerance}");
-            assert!((found[1] - of_skin).abs() <= 10.0 * tolerance, "{time} {found:?} at {tolerance}");
+            assert!(
+                (found[0] - of_body).abs() <= 10.0 * tolerance,
+                "{time} {found:?} at {tolerance}"
+            );
+            assert!(
+                (found[1] - of_skin).abs() <= 10.0 * tolerance,
+                "{time} {found:?} at {tolerance}"
+            );
         }
     }
 }
@@ -242,8 +255,10 @@ fn curve(t: &[f64], v: &[f64], interp: Interpolation, after: AfterEnd) -> Course
 
 #[test]
 fn a_repeated_line_heats_by_its_area() {
-    // 0 at 0 s, 100 at 2 s, 40 at 5 s, period 7 s (40 held for 2 s, then back to 0): 100 + 210 + 80 J a period
-    let course = curve(&[0.0, 2.0, 5.0], &[0.0, 100.0, 40.0], Interpolation::Linear, AfterEnd::Repeat(7.0));
+    // 0 at 0 s, 100 at 2 s, 40 at 5 s, period 7 s (40 held for 2 s, then back to 0): 100 + 210 + 80
+    // J a period
+    let course =
+        curve(&[0.0, 2.0, 5.0], &[0.0, 100.0, 40.0], Interpolation::Linear, AfterEnd::Repeat(7.0));
     let (system, node) = heated(course);
     let heat = |t: f64| match t {
         t if t < 2.0 => 25.0 * t * t,
@@ -269,8 +284,10 @@ fn repeated_steps_jump_where_they_say() {
     let solution = run(&system, 30.0, 1e-5);
     assert!(error(&solution, node, exact) < 1e-9);
     // rows at a jump hold the heat after it
-    let rows =
-        solution.times().iter().zip(solution.source_heat(system.network().source_ids().next().unwrap()));
+    let rows = solution
+        .times()
+        .iter()
+        .zip(solution.source_heat(system.network().source_ids().next().unwrap()));
     for (t, p) in rows {
         let phase = t - 4.0 * (t / 4.0 * (1.0 + 1e-13)).floor();
         let expected = if phase < 1.0 - 1e-9 {
@@ -287,9 +304,13 @@ fn repeated_steps_jump_where_they_say() {
 #[test]
 fn a_repeated_cubic_jumps_back_at_the_end_of_its_period() {
     // regression: only straight signals had stop times. The area of a pchip is that of the table
-    let points =
-        Table1::new(vec![0.0, 1.0, 3.0], vec![0.0, 10.0, 200.0], Interpolation::Pchip, Outside::Error)
-            .unwrap();
+    let points = Table1::new(
+        vec![0.0, 1.0, 3.0],
+        vec![0.0, 10.0, 200.0],
+        Interpolation::Pchip,
+        Outside::Error,
+    )
+    .unwrap();
     let whole = points.integral(0.0, 3.0).unwrap();
     let course = Course::Curve { points: points.clone(), after: AfterEnd::Repeat(3.0) };
     let (system, node) = heated(course);
@@ -317,18 +338,30 @@ fn kinks_of_time_are_stop_times() {
         b.source("heater", node, p);
         let found = b.build().unwrap().breakpoints(0.0, 8.0).unwrap();
         assert_eq!(found.len(), expected.len(), "{text}: {found:?}");
-        assert!(found.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-9), "{text}: {found:?}");
+        assert!(
+            found.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-9),
+            "{text}: {found:?}"
+        );
     }
 }
 
 #[test]
 fn a_loss_table_of_a_speed_that_ramps_is_stopped_at_its_knots() {
-    // speed 0 to 100 rad/s in 10 s; loss 0, 20, 100 W at 0, 40, 100 rad/s: knots pass at 4 s; 40 + 360 J in all
+    // speed 0 to 100 rad/s in 10 s; loss 0, 20, 100 W at 0, 40, 100 rad/s: knots pass at 4 s; 40 +
+    // 360 J in all
     let mut b = NetworkBuilder::new();
     let speed = of(Dimension::ANGULAR_VELOCITY);
-    b.signal("speed", speed, curve(&[0.0, 10.0], &[0.0, 100.0], Interpolation::Linear, AfterEnd::Hold));
-    let symbol =
-        table(&[0.0, 40.0, 100.0], &[0.0, 20.0, 100.0], Interpolation::Linear, (speed, of(Dimension::POWER)));
+    b.signal(
+        "speed",
+        speed,
+        curve(&[0.0, 10.0], &[0.0, 100.0], Interpolation::Linear, AfterEnd::Hold),
+    );
+    let symbol = table(
+        &[0.0, 40.0, 100.0],
+        &[0.0, 20.0, 100.0],
+        Interpolation::Linear,
+        (speed, of(Dimension::POWER)),
+    );
     b.table("loss", symbol);
     let node = b.node("node", HeatCapacity(100.0), Temperature(300.0));
     let p = power(&b, "loss(speed)");
@@ -345,8 +378,9 @@ fn a_loss_table_of_a_speed_that_ramps_is_stopped_at_its_knots() {
 
 #[test]
 fn a_capacity_that_falls_a_thousandfold_still_holds_the_tolerance() {
-    // regression: the tolerance was that of the heat content over the capacity at the start. From 306 K on C = 1 J/K, and
-    // what is left of the start is forgotten: x = 50 + 20 / sqrt(2) sin(t - pi / 4)
+    // regression: the tolerance was that of the heat content over the capacity at the start. From
+    // 306 K on C = 1 J/K, and what is left of the start is forgotten: x = 50 + 20 / sqrt(2) sin(t -
+    // pi / 4)
     let mut b = NetworkBuilder::new();
     let (x, y) = ([250.0, 305.0, 306.0, 500.0], [1000.0, 1000.0, 1.0, 1.0]);
     b.table("heat", table(&x, &y, Interpolation::Linear, (ABSOLUTE, of(Dimension::CAPACITY))));
@@ -362,20 +396,25 @@ fn a_capacity_that_falls_a_thousandfold_still_holds_the_tolerance() {
         let rows = solution.times().iter().zip(solution.temperature(block).unwrap());
         for (t, found) in rows.filter(|(t, _)| **t > 200.0) {
             let exact = 350.0 + 20.0 / 2.0_f64.sqrt() * (t - std::f64::consts::FRAC_PI_4).sin();
-            assert!((found - exact).abs() <= 10.0 * tolerance, "{t}: {found} {exact} at {tolerance}");
+            assert!(
+                (found - exact).abs() <= 10.0 * tolerance,
+                "{t}: {found} {exact} at {tolerance}"
+            );
         }
     }
 }
 
 #[test]
 fn cooling_with_a_capacity_that_falls_follows_its_integral() {
-    // C = 1000 exp(-x / 20), 1 W/K to x = 100: t = integral from 0 to x of C / (100 - s), by Simpson's rule. It does not
-    // forget: a difference between two courses grows with their speed, so that of the first steps does too
+    // C = 1000 exp(-x / 20), 1 W/K to x = 100: t = integral from 0 to x of C / (100 - s), by
+    // Simpson's rule. It does not forget: a difference between two courses grows with their speed,
+    // so that of the first steps does too
     let capacity = |x: f64| 1000.0 * (-x / 20.0).exp();
     let time = |x: f64| {
         let (n, f) = (4000, |s: f64| capacity(s) / (100.0 - s));
         let h = x / f64::from(n);
-        let inner: f64 = (1..n).map(|k| (if k % 2 == 1 { 4.0 } else { 2.0 }) * f(f64::from(k) * h)).sum();
+        let inner: f64 =
+            (1..n).map(|k| (if k % 2 == 1 { 4.0 } else { 2.0 }) * f(f64::from(k) * h)).sum();
         h / 3.0 * (f(0.0) + inner + f(x))
     };
     let mut b = NetworkBuilder::new();

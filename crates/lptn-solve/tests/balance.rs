@@ -1,4 +1,5 @@
-//! Conservation and property: heat balances on random networks of every element, at every state and over every run.
+//! Conservation and property: heat balances on random networks of every element, at every state and
+//! over every run.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 #[path = "common/elements.rs"]
@@ -7,8 +8,8 @@ mod elements;
 use elements::{Random, link, of, own, power, quantity, radiation, stream, system, table};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    AfterEnd, Conductance, ConductorKind, Course, End, Formula, HeatCapacity, Melting, NetworkBuilder,
-    NodeId, Path, Properties, Size, Temperature, Time,
+    AfterEnd, Conductance, ConductorKind, Course, End, Formula, HeatCapacity, Melting,
+    NetworkBuilder, NodeId, Path, Properties, Size, Temperature, Time,
 };
 use lptn_solve::{SteadyState, Transient};
 use lptn_units::{Dimension, Interpolation, Outside, Table1};
@@ -90,8 +91,11 @@ impl Build {
             let name = self.name();
             let flow = quantity(&format!("{rate} kg/s"));
             let rate = quantity(&format!("{} W/K", 2000.0 * rate));
-            let path =
-                if constant { Path::stream(rate) } else { Path::of_fluid(Formula::MassFlow, fluid, [flow]) };
+            let path = if constant {
+                Path::stream(rate)
+            } else {
+                Path::of_fluid(Formula::MassFlow, fluid, [flow])
+            };
             self.b.conductor(&name, ConductorKind::Advection, (pair[0], pair[1]), path);
         }
     }
@@ -109,18 +113,28 @@ impl Build {
 }
 
 fn network(seed: u64, size: usize, grounded: bool) -> ThermalSystem {
-    let mut build =
-        Build { b: NetworkBuilder::new(), random: Random(seed * 7919 + 13), nodes: vec![], count: 0 };
+    let mut build = Build {
+        b: NetworkBuilder::new(),
+        random: Random(seed * 7919 + 13),
+        nodes: vec![],
+        count: 0,
+    };
     let melting = Melting {
         solidus: Temperature(330.0).into(),
         liquidus: Temperature(if seed.is_multiple_of(2) { 330.0 } else { 334.0 }).into(),
         heat: quantity("200 kJ/kg"),
     };
     let cp = Some(quantity("2000 J/(kg K)"));
-    let wax = build.b.material("wax", Properties { cp, melting: Some(melting), ..Properties::default() });
+    let wax =
+        build.b.material("wax", Properties { cp, melting: Some(melting), ..Properties::default() });
     let course = Course::Curve {
-        points: Table1::new(vec![0.0, 3.0, 8.0], vec![0.0, 40.0, 5.0], Interpolation::Linear, Outside::Error)
-            .unwrap(),
+        points: Table1::new(
+            vec![0.0, 3.0, 8.0],
+            vec![0.0, 40.0, 5.0],
+            Interpolation::Linear,
+            Outside::Error,
+        )
+        .unwrap(),
         after: AfterEnd::Repeat(20.0),
     };
     build.b.signal("drive", of(Dimension::POWER), course);
@@ -137,7 +151,8 @@ fn network(seed: u64, size: usize, grounded: bool) -> ThermalSystem {
     }
     if grounded {
         let room: End = build.b.boundary("room", Temperature(300.0)).into();
-        let warm = build.b.expression("310 [K] * 1 + 0 [degC] + 5 [K] * sin(t / 11 [s]) - 290 [K]", None);
+        let warm =
+            build.b.expression("310 [K] * 1 + 0 [degC] + 5 [K] * sin(t / 11 [s]) - 290 [K]", None);
         let warm: End = build.b.boundary("warm", warm.unwrap()).into();
         build.path(build.nodes[0].into(), room);
         build.path(build.nodes[size - 1].into(), warm);
@@ -179,8 +194,13 @@ fn books_of_random_networks_close() {
         for tolerance in [1e-3, 1e-5, 1e-7] {
             let run = Transient::until(Time(60.0)).tolerance(tolerance).solve(&system);
             let run = run.unwrap_or_else(|e| panic!("{seed} at {tolerance}: {e}"));
-            let (ledger, relative) = (run.ledger(), run.ledger().relative_residual().unwrap_or(0.0));
-            assert!(ledger.closes(), "{seed} at {tolerance}: {relative:e} above {:e}", ledger.bound);
+            let (ledger, relative) =
+                (run.ledger(), run.ledger().relative_residual().unwrap_or(0.0));
+            assert!(
+                ledger.closes(),
+                "{seed} at {tolerance}: {relative:e} above {:e}",
+                ledger.bound
+            );
             worst = worst.max(relative.abs() / ledger.bound);
         }
     }
@@ -195,7 +215,8 @@ fn random_runs_agree_with_finer_ones() {
             continue;
         }
         let system = network(seed, 10, true);
-        let run = |tolerance| Transient::until(Time(60.0)).tolerance(tolerance).solve(&system).unwrap();
+        let run =
+            |tolerance| Transient::until(Time(60.0)).tolerance(tolerance).solve(&system).unwrap();
         let fine = run(1e-8);
         for tolerance in [1e-3, 1e-5] {
             let coarse = run(tolerance);
@@ -203,7 +224,11 @@ fn random_runs_agree_with_finer_ones() {
                 for (a, b) in coarse.row(row).iter().zip(fine.row(row)) {
                     let part = (a - b).abs() / tolerance;
                     worst = worst.max(part);
-                    assert!(part <= 10.0, "{seed} at {tolerance}: {a} {b} at {} s", fine.times()[row]);
+                    assert!(
+                        part <= 10.0,
+                        "{seed} at {tolerance}: {a} {b} at {} s",
+                        fine.times()[row]
+                    );
                 }
             }
         }
@@ -248,7 +273,10 @@ fn cool_downs_and_islands_close_at_every_tolerance() {
         let ledger = found.ledger();
         // the island keeps its energy
         let kept = ledger.stored[d.index()] + ledger.stored[e.index()];
-        assert!(kept.abs() <= 10.0 * tolerance * 49.0 + 1e-8 * ledger.turned_over, "{kept} at {tolerance}");
+        assert!(
+            kept.abs() <= 10.0 * tolerance * 49.0 + 1e-8 * ledger.turned_over,
+            "{kept} at {tolerance}"
+        );
     }
 }
 

@@ -3,8 +3,8 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    Conductance, ConductorKind, Context, End, HeatCapacity, HeatFlow, Input, Network, NetworkBuilder, NodeId,
-    Path, Temperature, Time,
+    Conductance, ConductorKind, Context, End, HeatCapacity, HeatFlow, Input, Network,
+    NetworkBuilder, NodeId, Path, Temperature, Time,
 };
 use lptn_solve::{Solution, SteadyState, Transient};
 use lptn_units::parse_quantity;
@@ -47,7 +47,10 @@ fn a_node_that_radiates_to_absolute_zero_cools_as_the_cube_root() {
         let solution = run(&system, 3600.0, tolerance);
         for (t, found) in solution.times().iter().zip(solution.temperature(ball).unwrap()) {
             let exact = (1e-9 + 3.0 * SIGMA * 0.05 * t / 500.0).powf(-1.0 / 3.0);
-            assert!((found - exact).abs() < 10.0 * tolerance, "{t}: {found} {exact} at {tolerance}");
+            assert!(
+                (found - exact).abs() < 10.0 * tolerance,
+                "{t}: {found} {exact} at {tolerance}"
+            );
         }
     }
 }
@@ -71,8 +74,8 @@ fn a_massless_shield_halves_radiation() {
 
 #[test]
 fn a_massless_junction_with_radiation_follows_a_node_over_time() {
-    // body -(2 W/K)- skin -(radiation)- 300 K; reference: SciPy 1.17 Radau, rtol 1e-12, on the body alone with the
-    // skin from a root to 1e-13
+    // body -(2 W/K)- skin -(radiation)- 300 K; reference: SciPy 1.17 Radau, rtol 1e-12, on the body
+    // alone with the skin from a root to 1e-13
     let mut b = NetworkBuilder::new();
     let body = b.node("body", HeatCapacity(1000.0), Temperature(600.0));
     let skin = b.massless("skin");
@@ -95,7 +98,8 @@ fn a_massless_junction_with_radiation_follows_a_node_over_time() {
 fn a_stream_warms_cell_by_cell() {
     // each cell: mcp (T_in - T) + G (T_wall - T) = 0
     let mut b = NetworkBuilder::new();
-    let (inlet, wall) = (b.boundary("inlet", Temperature(290.0)), b.boundary("wall", Temperature(350.0)));
+    let (inlet, wall) =
+        (b.boundary("inlet", Temperature(290.0)), b.boundary("wall", Temperature(350.0)));
     let mut upstream: End = inlet.into();
     let mut cells = Vec::new();
     for i in 0..5 {
@@ -150,7 +154,10 @@ fn an_island_comes_to_rest_where_its_energy_leads() {
     b.conductor("glow", ConductorKind::Radiation, (a.into(), c.into()), gr("0.01 m^2"));
     let system = system(b);
     let steady = SteadyState::solve(&system, 0.0).unwrap();
-    assert!((steady.temperatures[0] - 325.0).abs() < 1e-9 && (steady.temperatures[1] - 325.0).abs() < 1e-9);
+    assert!(
+        (steady.temperatures[0] - 325.0).abs() < 1e-9
+            && (steady.temperatures[1] - 325.0).abs() < 1e-9
+    );
     assert_eq!(steady.adiabatic, [a, c]);
 }
 

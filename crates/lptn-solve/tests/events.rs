@@ -1,7 +1,8 @@
 //! Events against closed forms: thermostats, comparisons of temperatures, limits.
 //!
-//! One node with capacity C joined to an ambient at Ta by G and heated by P obeys `T = Te + (T0 - Te) exp(-t/tau)` with
-//! `tau = C/G` and `Te = Ta + P/G`: it takes `tau ln((Te - T1)/(Te - T2))` from T1 to T2.
+//! One node with capacity C joined to an ambient at Ta by G and heated by P obeys
+//! `T = Te + (T0 - Te) exp(-t/tau)` with `tau = C/G` and `Te = Ta + P/G`: it takes
+//! `tau ln((Te - T1)/(Te - T2))` from T1 to T2.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -45,7 +46,8 @@ impl Heater {
         b.resistor("skin", body, air, Conductance(3.0));
         let power = b.expression_in(Context::Source, "240 [W] * heater", None).unwrap();
         b.source("element", body, power);
-        let threshold = |text: &str| Input::from(b.expression_in(Context::Control, text, None).unwrap());
+        let threshold =
+            |text: &str| Input::from(b.expression_in(Context::Control, text, None).unwrap());
         let (on, off) = (threshold(self.on_below), threshold(self.off_above));
         let min_dwell = Time(self.dwell).into();
         let sense = body.into();
@@ -81,7 +83,8 @@ fn assert_times(found: &[(f64, u8)], expected: &[(f64, u8)], tolerance: f64) {
     }
 }
 
-/// The switches of a heater between two temperatures above the ambient, which begins on at `t`, up to `stop`.
+/// The switches of a heater between two temperatures above the ambient, which begins on at `t`, up
+/// to `stop`.
 fn cycle((mut t, from): (f64, f64), (low, high): (f64, f64), stop: f64) -> Vec<(f64, u8)> {
     let mut expected = Vec::new();
     let (mut at, mut on) = (from, true);
@@ -103,18 +106,24 @@ fn thermostat_switches_at_the_times_of_the_closed_form() {
         let solution = Heater::usual().run(2000.0, tolerance);
         let expected = cycle((0.0, 0.0), (38.0, 42.0), 2000.0);
         assert!(expected.len() > 80);
-        // a shift of one switch shifts the next ones: said, not hidden, where there are more than a hundred
+        // a shift of one switch shifts the next ones: said, not hidden, where there are more than a
+        // hundred
         let said = (expected.len() > 100).then_some(Unbounded::Switches { count: expected.len() });
         assert_eq!(solution.why_unbounded(), said);
         // ten tolerances at the slope of 0.2 K/s at the switches; rounding decides at 1e-7 K
         assert_times(&switched(&solution), &expected, (50.0 * tolerance).max(1e-4));
-        assert!(solution.ledger().relative_residual().unwrap().abs() < 1e-8, "{:?}", solution.ledger());
+        assert!(
+            solution.ledger().relative_residual().unwrap().abs() < 1e-8,
+            "{:?}",
+            solution.ledger()
+        );
     }
 }
 
-/// A heater of 60 W on a block of 200 J/K with 0.5 W/K to 20 degC, felt by a sensor of 40 J/K behind 0.2 W/K: on below
-/// 60 degC, off above 62 degC. An error of the sensor moves the block by far more, switch after switch. Numbers of the
-/// closed form (two exponentials between the switches, each switch by bisection) with 50 digits of mpmath 1.3.
+/// A heater of 60 W on a block of 200 J/K with 0.5 W/K to 20 degC, felt by a sensor of 40 J/K
+/// behind 0.2 W/K: on below 60 degC, off above 62 degC. An error of the sensor moves the block by
+/// far more, switch after switch. Numbers of the closed form (two exponentials between the
+/// switches, each switch by bisection) with 50 digits of mpmath 1.3.
 #[test]
 fn a_hundred_switches_of_a_remote_sensor_stay_within_ten_tolerances() {
     let mut b = NetworkBuilder::new();
@@ -127,11 +136,15 @@ fn a_hundred_switches_of_a_remote_sensor_stay_within_ten_tolerances() {
     b.resistor("stem", block, sensor, Conductance(0.2));
     let power = b.expression_in(Context::Source, "60 [W] * heater", None).unwrap();
     b.source("element", block, power);
-    let threshold = |text: &str| Input::from(b.expression_in(Context::Control, text, None).unwrap());
+    let threshold =
+        |text: &str| Input::from(b.expression_in(Context::Control, text, None).unwrap());
     let (on, off) = (threshold("60 [degC]"), threshold("62 [degC]"));
     let min_dwell = Time(0.0).into();
     let sense = sensor.into();
-    b.thermostat(heater, Thermostat { sense, acts: Acts::Heating, on, off, start: true, min_dwell });
+    b.thermostat(
+        heater,
+        Thermostat { sense, acts: Acts::Heating, on, off, start: true, min_dwell },
+    );
     let network = b.build().unwrap();
     // time in s, switches until then, block and sensor in degC
     let exact = [
@@ -145,7 +158,10 @@ fn a_hundred_switches_of_a_remote_sensor_stay_within_ten_tolerances() {
             for (node, celsius) in [(block, hot), (sensor, felt)] {
                 let found = *solution.temperature(node).unwrap().last().unwrap();
                 let error = (found - 273.15 - celsius).abs();
-                assert!(error <= 10.0 * tolerance, "{error} K after {count} switches at {tolerance} K");
+                assert!(
+                    error <= 10.0 * tolerance,
+                    "{error} K after {count} switches at {tolerance} K"
+                );
             }
         }
     }
@@ -206,7 +222,11 @@ fn thresholds_that_jump_switch_at_the_jump_and_those_that_move_where_they_meet()
         assert_times(&found[before.len()..][..1], &[(300.0, 1)], 1e-9);
     }
     // 42 K less 0.02 K/s: 80 (1 - exp(-t/200)) = 42 - 0.02 t, solved here by bisection
-    let moves = Heater { off_above: "62 [degC] - 0.02 [K/s] * t", on_below: "20 [degC]", ..Heater::usual() };
+    let moves = Heater {
+        off_above: "62 [degC] - 0.02 [K/s] * t",
+        on_below: "20 [degC]",
+        ..Heater::usual()
+    };
     let (mut low, mut high) = (100.0_f64, 200.0);
     for _ in 0..60 {
         let t = 0.5 * (low + high);
@@ -228,7 +248,8 @@ fn heated_by(power: &str, start: f64) -> Network {
 
 #[test]
 fn comparison_of_a_temperature_changes_where_it_is_reached() {
-    for power in ["if(T < 50 [degC], 240 [W], 120 [W])", "if(50 [degC] > body.T, 240 [W], 120 [W])"] {
+    for power in ["if(T < 50 [degC], 240 [W], 120 [W])", "if(50 [degC] > body.T, 240 [W], 120 [W])"]
+    {
         let solution = run(&heated_by(power, 0.0), 600.0, 1e-7).unwrap();
         let at = takes(0.0, 30.0, true);
         assert_times(&switched(&solution), &[(at, 0)], 1e-4);
@@ -247,7 +268,8 @@ fn peak_between_two_steps_is_noticed() {
     let body = b.node("body", HeatCapacity(600.0), Temperature(AMBIENT));
     let air = b.boundary("air", Temperature(AMBIENT));
     b.resistor("skin", body, air, Conductance(3.0));
-    let swing = b.expression_in(Context::Source, "240 [W] * sin(t / 200 [s] * 1 [rad])", None).unwrap();
+    let swing =
+        b.expression_in(Context::Source, "240 [W] * sin(t / 200 [s] * 1 [rad])", None).unwrap();
     b.source("element", body, swing);
     let level = AMBIENT + highest() - 1e-5;
     let watch = format!("if(T > absolute({level} [K]), 1e-9 [W], 0 [W])");
@@ -262,8 +284,8 @@ fn peak_between_two_steps_is_noticed() {
     );
 }
 
-/// The highest temperature above the ambient under 240 W sin(t/tau): 40 (sin x - cos x + exp(-x)), x = t/tau, whose
-/// slope cos x + sin x - exp(-x) is zero there.
+/// The highest temperature above the ambient under 240 W sin(t/tau): 40 (sin x - cos x + exp(-x)),
+/// x = t/tau, whose slope cos x + sin x - exp(-x) is zero there.
 fn highest() -> f64 {
     let (mut low, mut high) = (1.0_f64, 3.0_f64);
     for _ in 0..60 {
@@ -279,7 +301,8 @@ fn chatter_is_reported_with_its_cause() {
     let error = run(&network, 600.0, 1e-5).unwrap_err();
     assert_eq!(error.code(), "run::chatter");
     assert!(error.help().unwrap().contains("[control]"));
-    let TransientError::Stopped { time, reason: StopReason::Chatter { name, .. }, partial } = error else {
+    let TransientError::Stopped { time, reason: StopReason::Chatter { name, .. }, partial } = error
+    else {
         panic!("stopped");
     };
     assert_eq!(name, "element.P");
@@ -302,14 +325,18 @@ fn control_that_feels_a_massless_node_needs_a_dwell() {
         let at = |k: f64| Temperature(AMBIENT + k).into();
         let (on, off, min_dwell) = (at(20.0), at(22.0), Time(dwell).into());
         let sense = End::Node(skin);
-        b.thermostat(heater, Thermostat { sense, acts: Acts::Heating, on, off, start: true, min_dwell });
+        b.thermostat(
+            heater,
+            Thermostat { sense, acts: Acts::Heating, on, off, start: true, min_dwell },
+        );
         b.build().unwrap()
     };
     // 240 W lift the skin by 40 K at once: beyond both thresholds
     let error = run(&build(0.0), 100.0, 1e-5).unwrap_err();
     assert_eq!(error.code(), "run::restless");
     let solution = run(&build(10.0), 100.0, 1e-5).unwrap();
-    let expected: Vec<(f64, u8)> = (0..10).map(|k| (10.0 * f64::from(k), u8::from(k % 2 == 1))).collect();
+    let expected: Vec<(f64, u8)> =
+        (0..10).map(|k| (10.0 * f64::from(k), u8::from(k % 2 == 1))).collect();
     assert_times(&switched(&solution)[..10], &expected, 1e-9);
 }
 
@@ -355,8 +382,11 @@ fn run_that_goes_on_with_the_controls_of_another_switches_as_one_that_was_not_pa
     let reached = *first.temperature(body).unwrap().last().unwrap() - AMBIENT;
     let network = Heater { start_at: reached, start_on: true, ..whole }.network();
     let system = ThermalSystem::assemble(&network).unwrap();
-    let second =
-        Transient { start: 170.0, controls: first.controls().to_vec(), ..Transient::until(Time(400.0)) };
+    let second = Transient {
+        start: 170.0,
+        controls: first.controls().to_vec(),
+        ..Transient::until(Time(400.0))
+    };
     let second = Transient { output: lptn_network::OutputTimes::Every(1.0), ..second };
     let second = switched(&second.tolerance(1e-8).solve(&system).unwrap());
     let parts: Vec<(f64, u8)> = switched(&first).into_iter().chain(second).collect();
@@ -368,8 +398,9 @@ fn comparison_that_changes_often_over_a_long_run_with_two_rows_is_no_chatter() {
     // 60 swings of an ambient by 20 K drive the node to and fro
     let mut b = NetworkBuilder::new();
     let body = b.node("body", HeatCapacity(600.0), Temperature(AMBIENT));
-    let air =
-        b.expression_in(Context::Time, "20 [degC] + 20 [K] * sin(t / 100 [s] * 1 [rad])", None).unwrap();
+    let air = b
+        .expression_in(Context::Time, "20 [degC] + 20 [K] * sin(t / 100 [s] * 1 [rad])", None)
+        .unwrap();
     let air = b.boundary("air", air);
     b.resistor("skin", body, air, Conductance(30.0));
     let power = b.expression_in(Context::Source, "if(T > 22 [degC], 0 [W], 1 [W])", None).unwrap();

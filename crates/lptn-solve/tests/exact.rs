@@ -10,8 +10,12 @@ mod common;
 
 use common::{ZERO, gearbox, nafems_t3, one_node, rc_ladder, stiff, two_masses};
 use lptn_assembly::ThermalSystem;
-use lptn_network::{Conductance, End, HeatCapacity, HeatFlow, Network, NetworkBuilder, Temperature, Time};
-use lptn_solve::{ExactError, ExactSolution, NoReference, Reference, Transient, Verification, allowed_error};
+use lptn_network::{
+    Conductance, End, HeatCapacity, HeatFlow, Network, NetworkBuilder, Temperature, Time,
+};
+use lptn_solve::{
+    ExactError, ExactSolution, NoReference, Reference, Transient, Verification, allowed_error,
+};
 
 /// Compares with rows of (time [s], node, temperature [degC]).
 #[track_caller]
@@ -22,7 +26,10 @@ fn agrees(network: &Network, expected: &[(f64, &str, f64)], tolerance: f64) -> E
     for &(time, node, value) in expected {
         let row = times.iter().position(|t| t.to_bits() == time.to_bits()).unwrap();
         let found = exact.row(row)[network.node(node).unwrap().index()] - ZERO;
-        assert!((found - value).abs() <= tolerance, "{node} at {time} s: {found}, expected {value}");
+        assert!(
+            (found - value).abs() <= tolerance,
+            "{node} at {time} s: {found}, expected {value}"
+        );
     }
     exact
 }
@@ -62,8 +69,10 @@ fn the_ladder_is_that_of_the_validation_case() {
 #[test]
 fn two_masses_without_a_boundary_keep_their_mean() {
     // validation/msl_two_masses: 323.15 K + 50 K exp(-t / 0.75 s), the last two of its values
-    let expected =
-        [(0.5, "mass1", 348.820_855_951_629_6 - ZERO), (1.0, "mass1", 336.329_856_905_786_3 - ZERO)];
+    let expected = [
+        (0.5, "mass1", 348.820_855_951_629_6 - ZERO),
+        (1.0, "mass1", 336.329_856_905_786_3 - ZERO),
+    ];
     agrees(&two_masses(), &expected, 2e-13);
     let late = ExactSolution::solve(&two_masses(), 0.0, &[1e9]).unwrap();
     assert!(late.row(0).iter().all(|t| (t - 323.15).abs() < 1e-13), "{:?}", late.row(0));
@@ -87,7 +96,8 @@ fn heat_into_an_island_adds_up_for_ever() {
 
 #[test]
 fn the_bar_with_a_sine_at_its_end_meets_nafems() {
-    // validation/nafems_t3: 36.60 degC published; the others by series, tolerance = error of the grid
+    // validation/nafems_t3: 36.60 degC published; the others by series, tolerance = error of the
+    // grid
     let expected = [
         (16.0, "n50", 0.169_926_047_539_538_44),
         (16.0, "n80", 14.864_632_264_847_99),
@@ -173,17 +183,19 @@ fn inputs_with_kinks_are_integrated_too() {
     // the half wave max(0, sin wt): a sine over its first half period, then decay
     let w = std::f64::consts::TAU / 100.0;
     let r: f64 = 4.0 / 100.0;
-    let sine =
-        |t: f64| 25.0 * (r * (w * t).sin() - w * (w * t).cos() + w * (-r * t).exp()) * r / (r * r + w * w);
-    let expected = [(30.0, "node", 20.0 + sine(30.0)), (90.0, "node", 20.0 + sine(50.0) * (-r * 40.0).exp())];
+    let sine = |t: f64| {
+        25.0 * (r * (w * t).sin() - w * (w * t).cos() + w * (-r * t).exp()) * r / (r * r + w * w)
+    };
+    let expected =
+        [(30.0, "node", 20.0 + sine(30.0)), (90.0, "node", 20.0 + sine(50.0) * (-r * 40.0).exp())];
     let heat = "100 [W] * max(0, sin(2 * pi * t / 100 [s]))";
     agrees(&one_node(100.0, "20 [degC]", heat), &expected, 1e-10);
 }
 
 #[test]
 fn massless_nodes_take_the_mean_of_their_neighbours() {
-    // node - 2 W/K - joint - 6 W/K - air at 0 degC, 4 W into the joint: 1.5 W/K in series, of the 4 W a
-    // quarter goes to the node, which settles at 4 W / 6 W/K; T_joint = (2 T + 4) / 8
+    // node - 2 W/K - joint - 6 W/K - air at 0 degC, 4 W into the joint: 1.5 W/K in series, of the 4
+    // W a quarter goes to the node, which settles at 4 W / 6 W/K; T_joint = (2 T + 4) / 8
     let zero = Temperature::celsius(0.0);
     let mut b = NetworkBuilder::new();
     let joint = b.massless("joint");
@@ -226,7 +238,10 @@ fn rates_over_fourteen_decades_keep_their_digits() {
         let row = exact.times().iter().position(|x| x.to_bits() == f64::to_bits(t)).unwrap();
         let found = exact.row(row)[network.node(node).unwrap().index()] - ZERO;
         println!("{t} {node}: {:e} (own {:e})", found - value, exact.own_error());
-        assert!((found - value).abs() <= exact.own_error(), "{node} at {t} s: {found}, expected {value}");
+        assert!(
+            (found - value).abs() <= exact.own_error(),
+            "{node} at {t} s: {found}, expected {value}"
+        );
     }
     assert!(exact.own_error() < 1e-6, "{:e}", exact.own_error());
 }
@@ -235,7 +250,10 @@ fn rates_over_fourteen_decades_keep_their_digits() {
 fn what_cannot_be_solved_is_refused() {
     let network = gearbox();
     for times in [&[][..], &[2.0, 1.0], &[-1.0, 1.0], &[0.0]] {
-        assert!(matches!(ExactSolution::solve(&network, 0.0, times), Err(ExactError::Times)), "{times:?}");
+        assert!(
+            matches!(ExactSolution::solve(&network, 0.0, times), Err(ExactError::Times)),
+            "{times:?}"
+        );
     }
     let failing = one_node(1.0, "20 [degC]", "1 [W] * sqrt(1 - t / 1 [s])");
     let error = ExactSolution::solve(&failing, 0.0, &[2.0]).unwrap_err();
@@ -261,7 +279,8 @@ fn random(seed: u64) -> Network {
     // the generator of Knuth's MMIX (The Art of Computer Programming 2, 3.3.4, table 1, line 26)
     let mut state = seed;
     let mut next = move |below: f64| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         below * (state >> 11) as f64 / (1_u64 << 53) as f64
     };
     let mut b = NetworkBuilder::new();
@@ -275,7 +294,8 @@ fn random(seed: u64) -> Network {
         ends.push(b.massless(&format!("m{i}")).into());
     }
     for i in 0..next(3.0) as usize {
-        let ramp = b.expression(&format!("{i} [degC] + if(t < 30 [s], 0.2 [K/s], 0.1 [K/s]) * t"), None);
+        let ramp =
+            b.expression(&format!("{i} [degC] + if(t < 30 [s], 0.2 [K/s], 0.1 [K/s]) * t"), None);
         ends.push(b.boundary(&format!("b{i}"), ramp.unwrap()).into());
     }
     for i in 1..ends.len() {
@@ -310,7 +330,9 @@ fn random_networks_are_solved_alike_by_two_codes() {
         ratio = f64::max(ratio, fine.difference.largest / fine.tolerance);
         assert!(fine.passes(), "seed {seed}: {:e} K", fine.difference.largest);
     }
-    println!("own error up to {own:.1e} K, runs at 1e-7 K off by up to {ratio:.1} times their tolerance");
+    println!(
+        "own error up to {own:.1e} K, runs at 1e-7 K off by up to {ratio:.1} times their tolerance"
+    );
     assert!(massless > 100 && own < 1e-7, "{massless} {own:e}");
 }
 
@@ -318,7 +340,8 @@ fn random_networks_are_solved_alike_by_two_codes() {
 fn a_large_network_is_compared_with_itself() {
     let system = ThermalSystem::assemble(&row_of(2001)).unwrap();
     let found = Verification::of(&system, &Transient::until(Time(20.0)).every(Time(5.0))).unwrap();
-    let Reference::FinerRun { reason: NoReference::Unsolved(reason), tolerance } = &found.reference else {
+    let Reference::FinerRun { reason: NoReference::Unsolved(reason), tolerance } = &found.reference
+    else {
         panic!("{found:?}")
     };
     assert_eq!(reason.code(), "modes::too_large");
@@ -380,7 +403,8 @@ fn a_run_of_another_network_is_not_verified() {
 #[test]
 fn a_run_of_other_rows_is_not_compared() {
     let network = gearbox();
-    let run = Transient::until(Time(10.0)).solve(&ThermalSystem::assemble(&network).unwrap()).unwrap();
+    let run =
+        Transient::until(Time(10.0)).solve(&ThermalSystem::assemble(&network).unwrap()).unwrap();
     let exact = ExactSolution::solve(&network, 0.0, &[0.0, 10.0]).unwrap();
     assert!(exact.difference(&run).is_none());
     let found = Verification::against_exact(&exact, &[&run]);

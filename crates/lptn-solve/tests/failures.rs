@@ -7,19 +7,25 @@ mod elements;
 use elements::{ABSOLUTE, link, of, own, power, quantity, radiation, stream, system, table};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    AfterEnd, BuildErrorKind, Conductance, ConductorKind, Course, Formula, HeatCapacity, NetworkBuilder,
-    NodeId, Path, Temperature, Time,
+    AfterEnd, BuildErrorKind, Conductance, ConductorKind, Course, Formula, HeatCapacity,
+    NetworkBuilder, NodeId, Path, Temperature, Time,
 };
 use lptn_solve::{End, Solution, Transient, TransientError};
 use lptn_units::{Dimension, Interpolation, Outside, Table1};
 
 /// A run that has to break off: the time, the message, what was computed before.
 fn broken(system: &ThermalSystem, stop: f64) -> (f64, String, &'static str, Solution) {
-    let error = Transient::until(Time(stop)).solve(system).map(|s| s.end()).expect_err("it has to break off");
+    let error = Transient::until(Time(stop))
+        .solve(system)
+        .map(|s| s.end())
+        .expect_err("it has to break off");
     let (code, message) = (error.code(), error.to_string());
     match error {
         TransientError::Stopped { time, partial, .. } => {
-            assert!(partial.times().len() > 1 && partial.times().iter().all(|t| *t <= time), "{time}");
+            assert!(
+                partial.times().len() > 1 && partial.times().iter().all(|t| *t <= time),
+                "{time}"
+            );
             assert!(matches!(partial.end(), End::Failed(at) if (at - time).abs() <= 0.0));
             for row in 0..partial.times().len() {
                 assert!(partial.row(row).iter().all(|t| t.is_finite()), "row {row}");
@@ -57,11 +63,14 @@ fn the_end_of_a_table_over_temperature() {
 
 #[test]
 fn the_end_of_a_signal() {
-    for text in ["load", "max(0 [W], load)", "if(load > 5 [W], 10 [W], 20 [W])", "10 [W] + 0 * load"] {
+    for text in
+        ["load", "max(0 [W], load)", "if(load > 5 [W], 10 [W], 20 [W])", "10 [W] + 0 * load"]
+    {
         // regression: max(0, nothing) was 0, and nothing > 5 was false
         let mut b = NetworkBuilder::new();
         let points =
-            Table1::new(vec![0.0, 10.0], vec![1.0, 9.0], Interpolation::Linear, Outside::Error).unwrap();
+            Table1::new(vec![0.0, 10.0], vec![1.0, 9.0], Interpolation::Linear, Outside::Error)
+                .unwrap();
         b.signal("load", of(Dimension::POWER), Course::Curve { points, after: AfterEnd::Error });
         let node = b.node("node", HeatCapacity(100.0), Temperature(300.0));
         let p = power(&b, text);
@@ -75,7 +84,9 @@ fn the_end_of_a_signal() {
 #[test]
 fn a_signal_that_is_not_read_may_end() {
     let mut b = NetworkBuilder::new();
-    let points = Table1::new(vec![0.0, 10.0], vec![1.0, 9.0], Interpolation::Linear, Outside::Error).unwrap();
+    let points =
+        Table1::new(vec![0.0, 10.0], vec![1.0, 9.0], Interpolation::Linear, Outside::Error)
+            .unwrap();
     b.signal("load", of(Dimension::POWER), Course::Curve { points, after: AfterEnd::Error });
     let node = b.node("node", HeatCapacity(100.0), Temperature(300.0));
     let p = power(&b, "if(t < 8 [s], load, 3 [W])");
@@ -87,7 +98,8 @@ fn a_signal_that_is_not_read_may_end() {
 fn an_error_is_not_put_down_to_a_signal_that_has_nothing_to_do_with_it() {
     // regression: any signal that had ended was blamed for what failed afterwards
     let mut b = NetworkBuilder::new();
-    let points = Table1::new(vec![0.0, 5.0], vec![1.0, 9.0], Interpolation::Linear, Outside::Error).unwrap();
+    let points =
+        Table1::new(vec![0.0, 5.0], vec![1.0, 9.0], Interpolation::Linear, Outside::Error).unwrap();
     b.signal("load", of(Dimension::POWER), Course::Curve { points, after: AfterEnd::Error });
     let node = b.node("node", HeatCapacity(100.0), Temperature(300.0));
     let p = power(&b, "if(t < 4 [s], load, 3 [W])");
@@ -103,7 +115,9 @@ fn an_error_is_not_put_down_to_a_signal_that_has_nothing_to_do_with_it() {
 fn a_repeated_signal_has_no_past() {
     // regression: it was repeated backwards
     let mut b = NetworkBuilder::new();
-    let points = Table1::new(vec![5.0, 10.0], vec![1.0, 9.0], Interpolation::Linear, Outside::Error).unwrap();
+    let points =
+        Table1::new(vec![5.0, 10.0], vec![1.0, 9.0], Interpolation::Linear, Outside::Error)
+            .unwrap();
     b.signal("load", of(Dimension::POWER), Course::Curve { points, after: AfterEnd::Repeat(6.0) });
     let node = b.node("node", HeatCapacity(100.0), Temperature(300.0));
     let p = power(&b, "load");
@@ -115,7 +129,9 @@ fn a_repeated_signal_has_no_past() {
 #[test]
 fn a_signal_that_repeats_beyond_reason_is_refused_at_once() {
     let mut b = NetworkBuilder::new();
-    let points = Table1::new(vec![0.0, 1e-9], vec![1.0, 9.0], Interpolation::Linear, Outside::Error).unwrap();
+    let points =
+        Table1::new(vec![0.0, 1e-9], vec![1.0, 9.0], Interpolation::Linear, Outside::Error)
+            .unwrap();
     b.signal("load", of(Dimension::POWER), Course::Curve { points, after: AfterEnd::Repeat(1e-9) });
     let node = b.node("node", HeatCapacity(100.0), Temperature(300.0));
     let p = power(&b, "load");
@@ -134,9 +150,16 @@ fn points_that_are_none_are_refused_by_the_builder() {
     ] {
         let mut b = NetworkBuilder::new();
         b.node("node", HeatCapacity(100.0), Temperature(300.0));
-        b.signal("load", of(Dimension::POWER), Course::Steps { times, values, after: AfterEnd::Hold });
+        b.signal(
+            "load",
+            of(Dimension::POWER),
+            Course::Steps { times, values, after: AfterEnd::Hold },
+        );
         let errors = b.build().map(|_| ()).unwrap_err();
-        assert!(errors.0.iter().any(|e| matches!(e.kind, BuildErrorKind::SignalPoints { .. })), "{errors}");
+        assert!(
+            errors.0.iter().any(|e| matches!(e.kind, BuildErrorKind::SignalPoints { .. })),
+            "{errors}"
+        );
     }
 }
 
@@ -173,7 +196,8 @@ fn an_emissivity_that_passes_1() {
     let (mut b, node) = ramp();
     let room = b.boundary("room", Temperature(300.0));
     let emissivity = link(&b, "0.99 + 1e-3 [1/K] * (T_from - absolute(300 [K]))");
-    let surfaces = Path::new(Formula::GreySurfaces, [emissivity, quantity("1 mm^2"), quantity("1")]);
+    let surfaces =
+        Path::new(Formula::GreySurfaces, [emissivity, quantity("1 mm^2"), quantity("1")]);
     b.conductor("glow", ConductorKind::Radiation, (node.into(), room.into()), surfaces);
     let (time, message, _, _) = broken(&system(b), 60.0);
     assert!((time - 10.0).abs() < 1e-2, "{time}");
@@ -186,7 +210,8 @@ fn a_massless_node_that_is_stranded_when_the_flow_stops() {
         [("3 [W/K] * max(0, 1 - t / 10 [s])", 10.0), ("if(t < 10 [s], 3 [W/K], 0 [W/K])", 10.0)]
     {
         let mut b = NetworkBuilder::new();
-        let (inlet, room) = (b.boundary("inlet", Temperature(350.0)), b.boundary("room", Temperature(300.0)));
+        let (inlet, room) =
+            (b.boundary("inlet", Temperature(350.0)), b.boundary("room", Temperature(300.0)));
         let cell = b.massless("cell");
         let tank = b.node("tank", HeatCapacity(100.0), Temperature(300.0));
         let rate = link(&b, text);
@@ -195,7 +220,10 @@ fn a_massless_node_that_is_stranded_when_the_flow_stops() {
         b.resistor("wall", tank, room, Conductance(0.1));
         let (time, message, code, _) = broken(&system(b), 30.0);
         assert!((time - stop).abs() < 1e-3, "{text}: {time}");
-        assert!(message.contains("`cell`") && code == "solve::undetermined", "{text}: {code} {message}");
+        assert!(
+            message.contains("`cell`") && code == "solve::undetermined",
+            "{text}: {code} {message}"
+        );
     }
 }
 
@@ -213,7 +241,8 @@ fn a_heat_that_runs_away() {
 
 #[test]
 fn a_massless_node_without_a_solution() {
-    // the junction takes in 1 W/K (T_body - T) and makes 5 W exp(..): from some temperature of the body on there is no rest
+    // the junction takes in 1 W/K (T_body - T) and makes 5 W exp(..): from some temperature of the
+    // body on there is no rest
     let mut b = NetworkBuilder::new();
     let body = b.node("body", HeatCapacity(100.0), Temperature(300.0));
     let tip = b.massless("tip");
@@ -250,8 +279,9 @@ fn a_thousand_nodes_of_one_capacity_have_it_each_at_its_own_start() {
 fn ten_thousand_radiating_nodes_run_and_their_books_close() {
     let mut b = NetworkBuilder::new();
     let side = 100;
-    let nodes: Vec<NodeId> =
-        (0..side * side).map(|i| b.node(&format!("n{i}"), HeatCapacity(10.0), Temperature(300.0))).collect();
+    let nodes: Vec<NodeId> = (0..side * side)
+        .map(|i| b.node(&format!("n{i}"), HeatCapacity(10.0), Temperature(300.0)))
+        .collect();
     let space = b.boundary("space", Temperature(4.0));
     for y in 0..side {
         for x in 0..side {

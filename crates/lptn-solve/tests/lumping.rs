@@ -3,8 +3,8 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    ConductorKind, Context, End, Formula, HeatCapacity, HeatFlow, Input, NetworkBuilder, NodeId, Path,
-    Properties, Resistance, Size, Temperature, Time,
+    ConductorKind, Context, End, Formula, HeatCapacity, HeatFlow, Input, NetworkBuilder, NodeId,
+    Path, Properties, Resistance, Size, Temperature, Time,
 };
 use lptn_solve::{Lumping, NotChecked, Record, Solution, Transient};
 use lptn_units::parse_quantity;
@@ -89,8 +89,10 @@ fn surfaces_share_a_skin_or_lie_side_by_side() {
     // two faces of air, which radiate; and a foot on the ground
     b.convection("front", node, air, film("10 W/(m^2 K)", "0.03 m^2"));
     b.convection("back", air, node, film("20 W/(m^2 K)", "0.02 m^2"));
-    let exchange =
-        Path::new(Formula::GreySurfaces, [Input::number(0.8), quantity("0.1 m^2"), Input::number(0.4)]);
+    let exchange = Path::new(
+        Formula::GreySurfaces,
+        [Input::number(0.8), quantity("0.1 m^2"), Input::number(0.4)],
+    );
     let ends = |to| (End::Node(node), End::Boundary(to));
     b.conductor("glow", ConductorKind::Radiation, ends(wall), exchange);
     b.conductor("foot", ConductorKind::Contact, ends(wall), film("500 W/(m^2 K)", "0.01 m^2"));
@@ -166,7 +168,8 @@ fn the_shortest_stretch_lies_between_jumps_not_between_kinks() {
     let air = b.boundary("air", kelvin(25.0));
     b.convection("skin", node, air, film("10 W/(m^2 K)", "0.05 m^2"));
     // a ramp up to 100 s, then pulses of 30 s
-    let text = "if(t < 300 [s], 10 [W] * min(t, 100 [s]) / 100 [s], if(t < 330 [s], 50 [W], 0 [W]))";
+    let text =
+        "if(t < 300 [s], 10 [W] * min(t, 100 [s]) / 100 [s], if(t < 330 [s], 50 [W], 0 [W]))";
     let heat = b.expression(text, None).unwrap();
     b.source("heat", node, heat);
     let network = b.build().unwrap();

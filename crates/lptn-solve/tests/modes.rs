@@ -1,6 +1,10 @@
 //! Time constants and shapes against closed forms.
 
-#![allow(clippy::unwrap_used, clippy::float_cmp, reason = "helpers of tests; numbers that are exact")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    reason = "helpers of tests; numbers that are exact"
+)]
 
 mod common;
 
@@ -21,7 +25,8 @@ fn has(network: &Network, expected: &[f64], tolerance: f64) -> Modes {
 
 #[test]
 fn two_nodes_have_the_rates_of_the_characteristic_equation() {
-    // r^2 - (g/C_s + (g + h)/C_a) r + g h / (C_s C_a) = 0 for the conductances g within and h to the outside
+    // r^2 - (g/C_s + (g + h)/C_a) r + g h / (C_s C_a) = 0 for the conductances g within and h to
+    // the outside
     let (g, h, c) = (220.6 / 1.7, 220.6 / 65.5, [1235.0, 1424.0]);
     let (sum, product) = (g / c[0] + (g + h) / c[1], g * h / (c[0] * c[1]));
     let fast = 0.5 * (sum + f64::sqrt(sum * sum - 4.0 * product));
@@ -52,13 +57,17 @@ fn the_gearbox_of_the_issue_has_its_time_constants() {
 
 #[test]
 fn the_ladder_has_the_modes_of_the_sine_transform() {
-    // one end held, one free: 1/tau_k = 4 G/C sin^2((2k - 1) pi/34), node i at sin((2k - 1) i pi/17); C 50 J/K, G 4 W/K
+    // one end held, one free: 1/tau_k = 4 G/C sin^2((2k - 1) pi/34), node i at sin((2k - 1) i
+    // pi/17); C 50 J/K, G 4 W/K
     let angle = |k: i32| f64::from(2 * k - 1) * std::f64::consts::PI / 17.0;
     let tau: Vec<f64> = (1..=8).map(|k| 50.0 / (16.0 * (0.5 * angle(k)).sin().powi(2))).collect();
     let modes = has(&rc_ladder(), &tau, 2e-14);
     for (k, mode) in (1..).zip(modes.modes()) {
         let exact = |i: f64| (i * angle(k)).sin();
-        assert!((mode.shape[2] / mode.shape[7] - exact(3.0) / exact(8.0)).abs() < 1e-12, "mode {k}");
+        assert!(
+            (mode.shape[2] / mode.shape[7] - exact(3.0) / exact(8.0)).abs() < 1e-12,
+            "mode {k}"
+        );
     }
 }
 
@@ -89,8 +98,10 @@ fn rates_over_fourteen_decades_keep_their_digits() {
 fn network_of(capacity: &[f64], links: &[(usize, usize, f64)], ties: &[(usize, f64)]) -> Network {
     let start = Temperature::celsius(0.0);
     let mut b = NetworkBuilder::new();
-    let nodes: Vec<_> =
-        (0..).zip(capacity).map(|(i, &c)| b.node(&format!("n{i}"), HeatCapacity(c), start)).collect();
+    let nodes: Vec<_> = (0..)
+        .zip(capacity)
+        .map(|(i, &c)| b.node(&format!("n{i}"), HeatCapacity(c), start))
+        .collect();
     for (k, &(i, j, g)) in links.iter().enumerate() {
         b.resistor(&format!("g{k}"), nodes[i], nodes[j], Conductance(g));
     }
@@ -110,9 +121,9 @@ fn takes_part(modes: &Modes, mode: usize, expected: &[f64]) {
     }
 }
 
-/// A dense solver mixes modes whose rates differ by less than rounding of the fastest: here 1e18 times as fast. Two
-/// nodes that are one at these times make a 2 x 2 problem: `[[2, -1], [-1, 1]]` with capacities 1 and 2, rates
-/// `(5 -+ sqrt 17) / 4`; what is left out is 1e-18 of it.
+/// A dense solver mixes modes whose rates differ by less than rounding of the fastest: here 1e18
+/// times as fast. Two nodes that are one at these times make a 2 x 2 problem: `[[2, -1], [-1, 1]]`
+/// with capacities 1 and 2, rates `(5 -+ sqrt 17) / 4`; what is left out is 1e-18 of it.
 #[test]
 fn slow_modes_are_not_mixed_by_rounding_of_fast_ones() {
     let links = [(0, 1, 1e-12), (1, 2, 1e6)];
@@ -177,7 +188,9 @@ fn participation_sums_to_one_over_nodes_and_over_modes() {
         for mode in modes.modes() {
             assert!((mode.participation.iter().sum::<f64>() - 1.0).abs() < 1e-13);
             let largest = mode.shape.iter().fold(f64::MIN, |a, b| a.max(*b));
-            assert!((largest - 1.0).abs() < 1e-8 && mode.shape.iter().all(|x| x.abs() < 1.0 + 1e-8));
+            assert!(
+                (largest - 1.0).abs() < 1e-8 && mode.shape.iter().all(|x| x.abs() < 1.0 + 1e-8)
+            );
         }
         for i in 0..network.nodes().len() {
             let over_modes: f64 = modes.modes().iter().map(|mode| mode.participation[i]).sum();
@@ -188,7 +201,8 @@ fn participation_sums_to_one_over_nodes_and_over_modes() {
 
 #[test]
 fn massless_nodes_follow_and_take_no_part() {
-    // a node, a joint in the middle of 2 and 6 W/K, a boundary: tau = C / 1.5 W/K, the joint at a quarter
+    // a node, a joint in the middle of 2 and 6 W/K, a boundary: tau = C / 1.5 W/K, the joint at a
+    // quarter
     let start = Temperature::celsius(0.0);
     let mut b = NetworkBuilder::new();
     let node = b.node("node", HeatCapacity(3.0), start);
@@ -204,7 +218,8 @@ fn massless_nodes_follow_and_take_no_part() {
 
 #[test]
 fn equal_islands_keep_to_themselves() {
-    // two equal nodes that nothing joins: any mixture of them would be a mode; each is one by itself here
+    // two equal nodes that nothing joins: any mixture of them would be a mode; each is one by
+    // itself here
     let start = Temperature::celsius(0.0);
     let mut b = NetworkBuilder::new();
     let air = b.boundary("air", start);

@@ -1,4 +1,5 @@
-//! Analytic: means and extremes over windows, reports and balances, against closed forms of two nodes.
+//! Analytic: means and extremes over windows, reports and balances, against closed forms of two
+//! nodes.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_assembly::ThermalSystem;
@@ -43,8 +44,8 @@ fn windowed(system: &ThermalSystem, stop: f64, (from, to): (f64, f64), tolerance
     Transient::until(Time(stop)).tolerance(tolerance).window(window).solve(system).unwrap()
 }
 
-/// Rates, weights and steady rises of the two nodes over the ambient: x_i(t) = s_i + sum_k a_ik exp(r_k t), from the
-/// characteristic equation of the 2 x 2 matrix.
+/// Rates, weights and steady rises of the two nodes over the ambient: x_i(t) = s_i + sum_k a_ik
+/// exp(r_k t), from the characteristic equation of the 2 x 2 matrix.
 fn modes() -> ([f64; 2], [[f64; 2]; 2], [f64; 2]) {
     let (a, b, c, d) = (-G / C[0], G / C[0], G / C[1], -(G + G_OUT) / C[1]);
     let (half, det) = (0.5 * (a + d), a * d - b * c);
@@ -110,7 +111,10 @@ fn a_sine_has_its_mean_and_its_top_between_the_rows() {
     let solution = windowed(&system, 600.0, (0.0, 300.0), 1e-6);
     let heater = column(&solution.windows()[0], "heater.P");
     assert!((heater.mean - 200.0 / std::f64::consts::PI).abs() < 1e-7, "{}", heater.mean);
-    assert!((heater.max.0 - 100.0).abs() < 1e-6 && (heater.max.1 - 150.0).abs() < 0.1, "{heater:?}");
+    assert!(
+        (heater.max.0 - 100.0).abs() < 1e-6 && (heater.max.1 - 150.0).abs() < 0.1,
+        "{heater:?}"
+    );
 }
 
 #[test]
@@ -141,21 +145,25 @@ fn a_network_without_state_has_windows_and_a_balance_too() {
     b.source("heater", joint, power);
     let system = system(b);
     let of = Selection::all(system.network());
-    let run = Transient::until(Time(30.0)).window(Window { name: "w".into(), from: 5.0, to: 20.0, of });
+    let run =
+        Transient::until(Time(30.0)).window(Window { name: "w".into(), from: 5.0, to: 20.0, of });
     let solution = run.balance(joint).solve(&system).unwrap();
     let mean = (20.0_f64.powi(3) - 5.0_f64.powi(3)) / 3.0 / 15.0;
     assert!((column(&solution.windows()[0], "heater.P").mean - mean).abs() < 1e-10);
     assert!((column(&solution.windows()[0], "joint.T").mean - 300.0 - mean / 2.0).abs() < 1e-9);
     let balance = solution.balance().unwrap();
     assert!((balance.heat_turned_over().unwrap() - 9000.0).abs() < 1e-8);
-    assert!(balance.heat().unwrap().abs() < 1e-8 && (balance.power_turned_over() - 900.0).abs() < 1e-9);
+    assert!(
+        balance.heat().unwrap().abs() < 1e-8 && (balance.power_turned_over() - 900.0).abs() < 1e-9
+    );
 }
 
 #[test]
 fn the_balance_of_steel_is_that_of_the_exponentials() {
     let system = system(gearbox());
     let steel = system.network().node("steel").unwrap();
-    let solution = Transient::until(Time(1500.0)).tolerance(1e-7).balance(steel).solve(&system).unwrap();
+    let solution =
+        Transient::until(Time(1500.0)).tolerance(1e-7).balance(steel).solve(&system).unwrap();
     let balance = solution.balance().unwrap();
     let terms = balance.largest_first();
     let names: Vec<_> = terms.iter().map(|term| system.network().name_of(term.item)).collect();

@@ -9,8 +9,8 @@ use std::f64::consts::TAU;
 use elements::{link, of, own, power, quantity, radiation, stream, system};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    AfterEnd, Conductance, Course, HeatCapacity, Melting, NetworkBuilder, NodeId, Path, Properties, Size,
-    Temperature, Time,
+    AfterEnd, Conductance, Course, HeatCapacity, Melting, NetworkBuilder, NodeId, Path, Properties,
+    Size, Temperature, Time,
 };
 use lptn_solve::{Control, Method, Periodic, PeriodicError, Selection, State, Transient, Window};
 use lptn_units::Dimension;
@@ -23,8 +23,11 @@ fn cycle(period: f64, tolerance: f64) -> Transient {
 
 /// Heat that is on for a part of every period.
 fn duty(b: &mut NetworkBuilder, node: NodeId, heat: f64, (on, period): (f64, f64)) {
-    let course =
-        Course::Steps { times: vec![0.0, on], values: vec![heat, 0.0], after: AfterEnd::Repeat(period) };
+    let course = Course::Steps {
+        times: vec![0.0, on],
+        values: vec![heat, 0.0],
+        after: AfterEnd::Repeat(period),
+    };
     b.signal("duty", of(Dimension::POWER), course);
     let load = power(b, "duty");
     b.source("load", node, load);
@@ -45,7 +48,8 @@ fn one_node() -> (ThermalSystem, NodeId) {
     (system(b), node)
 }
 
-/// x(0) = X (1 - exp(-a/tau)) exp(-(p - a)/tau) / (1 - exp(-p/tau)) with X = P / G, on for a of every p.
+/// x(0) = X (1 - exp(-a/tau)) exp(-(p - a)/tau) / (1 - exp(-p/tau)) with X = P / G, on for a of
+/// every p.
 fn square_wave() -> f64 {
     let (on, period, tau) = (300.0_f64, 1000.0, 2000.0);
     200.0 * (1.0 - (-on / tau).exp()) * (-(period - on) / tau).exp() / (1.0 - (-period / tau).exp())
@@ -54,7 +58,12 @@ fn square_wave() -> f64 {
 #[test]
 fn a_square_wave_on_one_node_has_its_closed_form() {
     let (system, node) = one_node();
-    let window = Window { name: "cycle".into(), from: 0.0, to: 1000.0, of: Selection::all(system.network()) };
+    let window = Window {
+        name: "cycle".into(),
+        from: 0.0,
+        to: 1000.0,
+        of: Selection::all(system.network()),
+    };
     for tolerance in [1e-3, 1e-5, 1e-7] {
         let settings = cycle(1000.0, tolerance).window(window.clone());
         let found = Periodic::find(&system, &settings).unwrap();
@@ -92,15 +101,16 @@ fn a_sine_on_one_node_has_its_closed_form() {
     assert_eq!(found.method, Method::Modes);
 }
 
-/// A stream warms two cells one after the other, C y' = m (y_before - y); the inlet swings as a sine. With
-/// H = 1 / (1 + i w tau) the cells swing by H and H^2 times the inlet.
+/// A stream warms two cells one after the other, C y' = m (y_before - y); the inlet swings as a
+/// sine. With H = 1 / (1 + i w tau) the cells swing by H and H^2 times the inlet.
 #[test]
 fn a_stream_under_a_sine_has_its_closed_form() {
     let (period, tau) = (1000.0, 2500.0);
     let mut b = NetworkBuilder::new();
     let first = b.node("first", HeatCapacity(2500.0), Temperature(AMBIENT));
     let second = b.node("second", HeatCapacity(2500.0), Temperature(AMBIENT));
-    let inlet = b.expression("absolute(330 [K]) + 20 [K] * sin(2 * pi * t / 1000 [s])", None).unwrap();
+    let inlet =
+        b.expression("absolute(330 [K]) + 20 [K] * sin(2 * pi * t / 1000 [s])", None).unwrap();
     let inlet = b.boundary("inlet", inlet);
     let outlet = b.boundary("outlet", Temperature(AMBIENT));
     stream(&mut b, "in", (inlet, first), quantity("1 W/K"));
@@ -118,14 +128,18 @@ fn a_stream_under_a_sine_has_its_closed_form() {
         assert!(off.abs() < 1e-6, "{off:e}");
     }
     // the chain of equal cells is defective: its one multiplier is exp(-p/tau)
-    assert!((found.multiplier.unwrap() - (-period / tau).exp()).abs() < 0.05, "{:?}", found.multiplier);
+    assert!(
+        (found.multiplier.unwrap() - (-period / tau).exp()).abs() < 0.05,
+        "{:?}",
+        found.multiplier
+    );
 }
 
 /// Of the motor, in s.
 const PERIOD: f64 = 560.0;
 
-/// Winding, core and housing of a motor on duty: radiation and natural convection from the housing, a core whose
-/// capacity grows with its temperature. The slowest time constant is about ten cycles.
+/// Winding, core and housing of a motor on duty: radiation and natural convection from the housing,
+/// a core whose capacity grows with its temperature. The slowest time constant is about ten cycles.
 fn motor() -> (ThermalSystem, [NodeId; 3]) {
     let mut b = NetworkBuilder::new();
     let winding = b.node("winding", HeatCapacity(300.0), Temperature(AMBIENT));
@@ -155,13 +169,15 @@ fn a_nonlinear_cycle_comes_to_the_state_that_waiting_comes_to() {
     let settings = cycle(PERIOD, 1e-8);
     let found = Periodic::find(&system, &settings).unwrap();
     let stop = 200.0 * PERIOD;
-    let waited = Transient { stop, ..settings }.at(&[40.0 * PERIOD, 60.0 * PERIOD]).solve(&system).unwrap();
+    let waited =
+        Transient { stop, ..settings }.at(&[40.0 * PERIOD, 60.0 * PERIOD]).solve(&system).unwrap();
     for node in nodes {
         let of = |state| temperature(&system, state, node);
         let off = of(&found.state) - of(waited.last_state());
         assert!(off.abs() < 1e-6, "{off:e}");
     }
-    // scipy 1.17.1: newton_krylov on a cycle of solve_ivp (Radau, rtol 1e-11, atol 1e-9) comes to these in 16 cycles
+    // scipy 1.17.1: newton_krylov on a cycle of solve_ivp (Radau, rtol 1e-11, atol 1e-9) comes to
+    // these in 16 cycles
     for (node, kelvin) in nodes.into_iter().zip([385.896_158_8, 383.681_515_7, 375.107_371_4]) {
         let off = temperature(&system, &found.state, node) - kelvin;
         assert!(off.abs() < 1e-6, "{off:e}");
@@ -188,8 +204,9 @@ fn a_nonlinear_cycle_comes_to_the_state_that_waiting_comes_to() {
 #[test]
 fn many_slow_modes_are_found_together() {
     let mut b = NetworkBuilder::new();
-    let cells: Vec<NodeId> =
-        (0..40).map(|i| b.node(&format!("cell_{i}"), HeatCapacity(50.0), Temperature(AMBIENT))).collect();
+    let cells: Vec<NodeId> = (0..40)
+        .map(|i| b.node(&format!("cell_{i}"), HeatCapacity(50.0), Temperature(AMBIENT)))
+        .collect();
     let air = b.boundary("air", Temperature(AMBIENT));
     for (i, pair) in cells.windows(2).enumerate() {
         b.resistor(&format!("rod_{i}"), pair[0], pair[1], Conductance(4.0));
@@ -207,8 +224,8 @@ fn many_slow_modes_are_found_together() {
     assert!(20 * found.steps < waited.statistics().steps);
 }
 
-/// Regression. A wall that hardly forgets anything while it is cold and much when it glows, behind a coil that follows at
-/// once: long steps throw the coil far off, and did so again and again.
+/// Regression. A wall that hardly forgets anything while it is cold and much when it glows, behind
+/// a coil that follows at once: long steps throw the coil far off, and did so again and again.
 #[test]
 fn a_furnace_that_starts_cold_is_found() {
     let mut b = NetworkBuilder::new();
@@ -278,7 +295,9 @@ fn what_leads_nowhere_keeps_its_energy_or_is_refused() {
 
     let (system, nodes) = adiabatic("3 [W] + 50 [W] * sin(2 * pi * t / 100 [s])");
     let error = Periodic::find(&system, &cycle(100.0, 1e-5)).unwrap_err();
-    let PeriodicError::NoBalance { nodes: found, heat, names } = &error else { panic!("{error:?}") };
+    let PeriodicError::NoBalance { nodes: found, heat, names } = &error else {
+        panic!("{error:?}")
+    };
     assert_eq!((found.as_slice(), names.len()), (nodes.as_slice(), 2));
     assert!((heat - 300.0).abs() < 1e-3, "{heat}");
     assert_eq!(error.code(), "periodic::no_balance");
@@ -289,7 +308,8 @@ fn what_leads_nowhere_keeps_its_energy_or_is_refused() {
 fn inputs_that_do_not_repeat_are_refused() {
     let refused = |text: &str, after: AfterEnd, period: f64| {
         let mut b = NetworkBuilder::new();
-        let course = Course::Steps { times: vec![0.0, 30.0, 100.0], values: vec![9.0, 0.0, 9.0], after };
+        let course =
+            Course::Steps { times: vec![0.0, 30.0, 100.0], values: vec![9.0, 0.0, 9.0], after };
         b.signal("duty", of(Dimension::POWER), course);
         let node = b.node("node", HeatCapacity(100.0), Temperature(AMBIENT));
         let air = b.boundary("air", Temperature(AMBIENT));
@@ -326,7 +346,9 @@ fn inputs_that_do_not_repeat_are_refused() {
         let found = refused(text, after, period).unwrap_or_else(|| panic!("{text}"));
         let [now, then] = found.values.map(Option::unwrap);
         assert!(
-            (now - then).abs() > 1e-7 && found.name == "load" && found.period.to_bits() == period.to_bits()
+            (now - then).abs() > 1e-7
+                && found.name == "load"
+                && found.period.to_bits() == period.to_bits()
         );
         assert!((0.0..=period).contains(&found.time), "{found:?}");
     }
@@ -334,7 +356,10 @@ fn inputs_that_do_not_repeat_are_refused() {
     assert_eq!(ends.values[1], None);
     let error = PeriodicError::NotPeriodic(ends);
     assert_eq!(error.code(), "periodic::not_periodic");
-    assert!(error.help().unwrap().contains("after_end") && error.to_string().contains("nothing"), "{error}");
+    assert!(
+        error.help().unwrap().contains("after_end") && error.to_string().contains("nothing"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -356,7 +381,8 @@ fn an_observer_may_interrupt_the_search() {
 fn a_network_without_state_needs_no_search() {
     let mut b = NetworkBuilder::new();
     let shield = b.massless("shield");
-    let (hot, cold) = (b.boundary("hot", Temperature(400.0)), b.boundary("cold", Temperature(AMBIENT)));
+    let (hot, cold) =
+        (b.boundary("hot", Temperature(400.0)), b.boundary("cold", Temperature(AMBIENT)));
     b.resistor("in", hot, shield, Conductance(1.0));
     b.resistor("out", shield, cold, Conductance(3.0));
     let system = system(b);

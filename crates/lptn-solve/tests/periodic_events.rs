@@ -13,7 +13,8 @@ use lptn_units::{Dimension, Type};
 const AMBIENT: f64 = 293.15;
 const PERIOD: f64 = 600.0;
 
-/// A gearbox of two nodes under a load of 250 s in 600 s, with a fan that goes on above and off below a temperature.
+/// A gearbox of two nodes under a load of 250 s in 600 s, with a fan that goes on above and off
+/// below a temperature.
 fn network((on, off): (f64, f64), dwell: f64) -> Network {
     let mut b = NetworkBuilder::new();
     let fan = b.control("fan");
@@ -41,7 +42,8 @@ fn wait(system: &ThermalSystem, cycles: usize, tolerance: f64) -> (State, Vec<Co
     let mut settings = Transient::until(Time(PERIOD)).at(&[]).tolerance(tolerance);
     let mut steps = 0;
     for _ in 0..cycles {
-        let solution = settings.solve_from(system, &state, &mut |_| lptn_solve::Control::Continue).unwrap();
+        let solution =
+            settings.solve_from(system, &state, &mut |_| lptn_solve::Control::Continue).unwrap();
         steps += solution.statistics().steps;
         state = solution.last_state().clone();
         let back = |c: &ControlState| ControlState { since: c.since - PERIOD, ..*c };
@@ -55,12 +57,18 @@ fn the_cycle_of_a_fan_is_that_of_200_waited_cycles() {
     for (thresholds, dwell) in [((32.0, 28.0), 0.0), ((32.0, 28.0), 250.0)] {
         let network = network(thresholds, dwell);
         let system = ThermalSystem::assemble(&network).unwrap();
-        let found = Periodic::find(&system, &Transient::until(Time(PERIOD)).tolerance(1e-8)).unwrap();
+        let found =
+            Periodic::find(&system, &Transient::until(Time(PERIOD)).tolerance(1e-8)).unwrap();
         let (waited, controls, steps) = wait(&system, 200, 1e-8);
         assert!(found.state.distance(&waited) < 1e-6, "{} K", found.state.distance(&waited));
         assert_eq!(found.solution.controls()[0].on, controls[0].on);
         assert!(found.solution.events().len() >= 2, "{:?}", found.solution.events());
-        assert!(found.steps * 10 <= steps, "{} of {steps} steps, {} cycles", found.steps, found.cycles);
+        assert!(
+            found.steps * 10 <= steps,
+            "{} of {steps} steps, {} cycles",
+            found.steps,
+            found.cycles
+        );
     }
 }
 
@@ -69,7 +77,8 @@ fn controls_with_a_rhythm_of_their_own_are_no_cycle() {
     // a fan that goes on and off every 100 s or so, whatever the load
     let network = network((12.0, 11.0), 0.0);
     let system = ThermalSystem::assemble(&network).unwrap();
-    let error = Periodic::find(&system, &Transient::until(Time(PERIOD)).tolerance(1e-5)).unwrap_err();
+    let error =
+        Periodic::find(&system, &Transient::until(Time(PERIOD)).tolerance(1e-5)).unwrap_err();
     assert!(["periodic::switches", "periodic::not_found"].contains(&error.code()), "{error}");
 }
 
@@ -78,6 +87,7 @@ fn dwell_times_that_do_not_fit_into_a_cycle_are_no_cycle() {
     // on and off take 350 s each at least, the load comes every 600 s
     let network = network((32.0, 28.0), 350.0);
     let system = ThermalSystem::assemble(&network).unwrap();
-    let error = Periodic::find(&system, &Transient::until(Time(PERIOD)).tolerance(1e-4)).unwrap_err();
+    let error =
+        Periodic::find(&system, &Transient::until(Time(PERIOD)).tolerance(1e-4)).unwrap_err();
     assert_eq!(error.code(), "periodic::switches");
 }

@@ -1,4 +1,5 @@
-//! Analytic and diagnostics: steady states of nonlinear networks, from anywhere, and the answer where there is none.
+//! Analytic and diagnostics: steady states of nonlinear networks, from anywhere, and the answer
+//! where there is none.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 #[path = "common/elements.rs"]
@@ -7,8 +8,8 @@ mod elements;
 use elements::{Random, SIGMA, link, own, power, quantity, radiation, stream, system};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    Conductance, End, Formula, HeatCapacity, HeatFlow, Melting, NetworkBuilder, NodeId, Path, Properties,
-    Size, Temperature,
+    Conductance, End, Formula, HeatCapacity, HeatFlow, Melting, NetworkBuilder, NodeId, Path,
+    Properties, Size, Temperature,
 };
 use lptn_solve::{SteadyError, SteadyState};
 
@@ -105,7 +106,8 @@ fn a_network_on_a_small_conductance_is_solved_to_its_rounding() {
 
 #[test]
 fn thermal_runaway_is_no_steady_state() {
-    // P = 10 exp((T - 300) / 20): at G = 1 W/K the most that could be carried off is at exp = 2, 20 W < 10 + ..
+    // P = 10 exp((T - 300) / 20): at G = 1 W/K the most that could be carried off is at exp = 2, 20
+    // W < 10 + ..
     let mut b = NetworkBuilder::new();
     let cell = b.node("cell", HeatCapacity(100.0), Temperature(300.0));
     let room = b.boundary("room", Temperature(300.0));
@@ -114,7 +116,10 @@ fn thermal_runaway_is_no_steady_state() {
     b.source("reaction", cell, p);
     let error = refused(&system(b));
     assert!(error.code().starts_with("solve::"), "{} {error}", error.code());
-    assert!(error.to_string().contains("cell") || error.to_string().contains("reaction"), "{error}");
+    assert!(
+        error.to_string().contains("cell") || error.to_string().contains("reaction"),
+        "{error}"
+    );
 }
 
 /// Two steady states: x = 2 exp(x / 10) has a stable root near 2.59 and an unstable one near 25.4.
@@ -156,8 +161,9 @@ fn an_unstable_steady_state_is_never_reported() {
 
 #[test]
 fn an_unstable_loop_of_nodes_that_act_on_each_other_is_found_out() {
-    // each heats the other by more than both lose: stable alone, unstable together; warming cools nothing here, and in
-    // the second network one is cooled where the other warms, which is a slow growing oscillation with a delay of three
+    // each heats the other by more than both lose: stable alone, unstable together; warming cools
+    // nothing here, and in the second network one is cooled where the other warms, which is a slow
+    // growing oscillation with a delay of three
     for (first, stable) in [("1.5 [W/K]", false), ("0.5 [W/K]", true)] {
         let mut b = NetworkBuilder::new();
         let ids = ["a", "c"].map(|n| b.node(n, HeatCapacity(10.0), Temperature(301.0)));
@@ -170,7 +176,8 @@ fn an_unstable_loop_of_nodes_that_act_on_each_other_is_found_out() {
         }
         assert_eq!(SteadyState::solve(&system(b), 0.0).is_ok(), stable, "{first}");
     }
-    // x_i' = -x_i - g x_(i-1) in a ring of three: unstable for g > 2 (the secant condition, 1 / cos^3(pi / 3) = 8 for the product)
+    // x_i' = -x_i - g x_(i-1) in a ring of three: unstable for g > 2 (the secant condition, 1 /
+    // cos^3(pi / 3) = 8 for the product)
     for (gain, stable) in [("2.2 [W/K]", false), ("1.8 [W/K]", true)] {
         let mut b = NetworkBuilder::new();
         let names = ["a", "c", "d"];
@@ -238,14 +245,18 @@ fn a_loop_with_a_cooler_is_balanced() {
     b.convection("cooler", cold, room, Conductance(4.0));
     b.source("heater", hot, HeatFlow(100.0));
     let found = steady(&system(b));
-    assert!((found.temperatures[0] - 330.0).abs() < 1e-9 && (found.temperatures[1] - 325.0).abs() < 1e-9);
+    assert!(
+        (found.temperatures[0] - 330.0).abs() < 1e-9
+            && (found.temperatures[1] - 325.0).abs() < 1e-9
+    );
     assert!((found.boundary_heat[0] + 100.0).abs() < 1e-8, "{:?}", found.boundary_heat);
 }
 
 #[test]
 fn counterflow_cells_have_the_effectiveness_of_their_number() {
-    // N cells a side, equal capacity rates m, UA / N a cell pair: between outlets the balance of a pair gives a constant
-    // difference d, and the hot side falls by a d / (1 + a) .. each cell, with a = UA / (N m)
+    // N cells a side, equal capacity rates m, UA / N a cell pair: between outlets the balance of a
+    // pair gives a constant difference d, and the hot side falls by a d / (1 + a) .. each cell,
+    // with a = UA / (N m)
     let (n, m, ua) = (20_u32, 10.0, 40.0);
     let mut b = NetworkBuilder::new();
     let (hot_in, cold_in) =
@@ -260,23 +271,33 @@ fn counterflow_cells_have_the_effectiveness_of_their_number() {
         stream(&mut b, &format!("cs{i}"), (from, cold[i]), quantity("10 W/K"));
         b.convection(&format!("wall{i}"), hot[i], cold[i], Conductance(g));
     }
-    // every pair exchanges q = g d with the same d: hot[i] = 400 - (i + 1) q / m, cold[i] = 300 + (n - i) q / m
+    // every pair exchanges q = g d with the same d: hot[i] = 400 - (i + 1) q / m, cold[i] = 300 +
+    // (n - i) q / m
     let a = g / m;
     let d = 100.0 / (1.0 + a * f64::from(n + 1));
     let found = steady(&system(b)).temperatures;
     for i in 0..n as usize {
         let exact = 400.0 - (i as f64 + 1.0) * a * d;
-        assert!((found[hot[i].index()] - exact).abs() < 1e-9, "{i}: {} {exact}", found[hot[i].index()]);
+        assert!(
+            (found[hot[i].index()] - exact).abs() < 1e-9,
+            "{i}: {} {exact}",
+            found[hot[i].index()]
+        );
         let exact = 300.0 + (f64::from(n) - i as f64) * a * d;
-        assert!((found[cold[i].index()] - exact).abs() < 1e-9, "{i}: {} {exact}", found[cold[i].index()]);
+        assert!(
+            (found[cold[i].index()] - exact).abs() < 1e-9,
+            "{i}: {} {exact}",
+            found[cold[i].index()]
+        );
     }
 }
 
 #[test]
 fn two_islands_keep_an_energy_each() {
     let mut b = NetworkBuilder::new();
-    let node =
-        |b: &mut NetworkBuilder, name: &str, c: f64, t: f64| b.node(name, HeatCapacity(c), Temperature(t));
+    let node = |b: &mut NetworkBuilder, name: &str, c: f64, t: f64| {
+        b.node(name, HeatCapacity(c), Temperature(t))
+    };
     let (a, c) = (node(&mut b, "a", 100.0, 900.0), node(&mut b, "c", 300.0, 100.0));
     let (d, e) = (node(&mut b, "d", 10.0, 500.0), node(&mut b, "e", 10.0, 700.0));
     let f = node(&mut b, "f", 1.0, 50.0);
@@ -320,13 +341,15 @@ fn an_island_with_a_source_that_ends_by_itself_rests() {
 
 #[test]
 fn an_island_whose_capacity_grows_manyfold_rests_where_its_energy_leads() {
-    // regression: the capacity at the start led away from it. C_a = 10 exp((T - 300) / 50): H_a = 500 (exp(..) - 1)
+    // regression: the capacity at the start led away from it. C_a = 10 exp((T - 300) / 50): H_a =
+    // 500 (exp(..) - 1)
     let mut b = NetworkBuilder::new();
     let capacity = own(&b, "10 [J/K] * exp((T - absolute(300 [K])) / 50 [K])");
     let a = b.node("a", capacity, Temperature(300.0));
     let c = b.node("c", HeatCapacity(100.0), Temperature(900.0));
     b.resistor("ac", a, c, Conductance(1.0));
-    let end = root(300.0, 900.0, |t| 500.0 * (((t - 300.0) / 50.0).exp() - 1.0) + 100.0 * (t - 900.0));
+    let end =
+        root(300.0, 900.0, |t| 500.0 * (((t - 300.0) / 50.0).exp() - 1.0) + 100.0 * (t - 900.0));
     let found = steady(&system(b)).temperatures;
     assert!(found.iter().all(|t| (t - end).abs() < 1e-7), "{found:?} {end}");
 }
@@ -343,7 +366,8 @@ fn wax(b: &mut NetworkBuilder, liquidus: f64) -> lptn_network::MaterialId {
 
 #[test]
 fn an_island_that_melts_in_part_rests_at_the_melting_point() {
-    // 1 kg of wax from 300 K with 1000 J/K of iron at 450 K: 60 kJ to 330 K, 60 kJ of the 200 kJ melt, iron at 330 K
+    // 1 kg of wax from 300 K with 1000 J/K of iron at 450 K: 60 kJ to 330 K, 60 kJ of the 200 kJ
+    // melt, iron at 330 K
     for (liquidus, exact) in [(330.0, 330.0), (340.0, f64::NAN)] {
         let mut b = NetworkBuilder::new();
         let wax = wax(&mut b, liquidus);
@@ -360,10 +384,11 @@ fn an_island_that_melts_in_part_rests_at_the_melting_point() {
 
 #[test]
 fn conductivity_of_temperature_in_a_wall_of_cells() {
-    // Kirchhoff: the integral of k = 10 (1 + (T - 300) / 200) is linear across the wall. A cell takes k at the mean of its
-    // ends, which for k linear in T is its mean exactly
+    // Kirchhoff: the integral of k = 10 (1 + (T - 300) / 200) is linear across the wall. A cell
+    // takes k at the mean of its ends, which for k linear in T is its mean exactly
     let mut b = NetworkBuilder::new();
-    let (hot, cold) = (b.boundary("hot", Temperature(600.0)), b.boundary("cold", Temperature(300.0)));
+    let (hot, cold) =
+        (b.boundary("hot", Temperature(600.0)), b.boundary("cold", Temperature(300.0)));
     let nodes: Vec<NodeId> = (0..9).map(|i| b.massless(&format!("n{i}"))).collect();
     let mut ends: Vec<End> = vec![hot.into()];
     ends.extend(nodes.iter().map(|n| End::from(*n)));
@@ -387,8 +412,9 @@ fn conductivity_of_temperature_in_a_wall_of_cells() {
 fn ten_thousand_radiating_nodes_give_all_heat_to_space() {
     let mut b = NetworkBuilder::new();
     let side = 100;
-    let nodes: Vec<NodeId> =
-        (0..side * side).map(|i| b.node(&format!("n{i}"), HeatCapacity(10.0), Temperature(300.0))).collect();
+    let nodes: Vec<NodeId> = (0..side * side)
+        .map(|i| b.node(&format!("n{i}"), HeatCapacity(10.0), Temperature(300.0)))
+        .collect();
     let space = b.boundary("space", Temperature(4.0));
     for y in 0..side {
         for x in 0..side {

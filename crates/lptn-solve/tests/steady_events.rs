@@ -1,4 +1,5 @@
-//! Steady states of networks that switch: every temperature from the closed form of one node, P/G above the ambient.
+//! Steady states of networks that switch: every temperature from the closed form of one node, P/G
+//! above the ambient.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -46,7 +47,11 @@ fn with_fan(thresholds: (f64, f64), start: bool) -> Result<SteadyState, SteadyEr
 }
 
 /// The same from so many K above the ambient.
-fn with_fan_from(from: f64, thresholds: (f64, f64), start: bool) -> Result<SteadyState, SteadyError> {
+fn with_fan_from(
+    from: f64,
+    thresholds: (f64, f64),
+    start: bool,
+) -> Result<SteadyState, SteadyError> {
     let mut b = NetworkBuilder::new();
     let fan = b.control("fan");
     let body = b.node("body", HeatCapacity(600.0), Temperature(AMBIENT + from));
@@ -107,7 +112,8 @@ fn comparisons_of_temperatures_agree_too() {
 
 #[test]
 fn positions_that_the_start_does_not_lead_to_are_found() {
-    // each heater is on while the other one's node is cold: from both off, both go on, and off again
+    // each heater is on while the other one's node is cold: from both off, both go on, and off
+    // again
     let mut b = NetworkBuilder::new();
     let controls = ["first", "second"].map(|name| b.control(name));
     let nodes = ["a", "b"].map(|name| node(&mut b, name));
@@ -140,6 +146,9 @@ fn of_many_controls_at_most_64_positions_are_tried() {
         thermostat(&mut b, fan, (body, Acts::Cooling), (40.0, 35.0), false);
     }
     let error = solve(b).unwrap_err();
-    assert!(matches!(&error, SteadyError::Cycles { tried: 64, names } if names.len() == 7), "{error}");
+    assert!(
+        matches!(&error, SteadyError::Cycles { tried: 64, names } if names.len() == 7),
+        "{error}"
+    );
     assert!(error.to_string().ends_with("`fan0`, `fan1` and 5 more things"), "{error}");
 }

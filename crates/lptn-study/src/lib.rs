@@ -1,13 +1,14 @@
 //! Studies of networks, and records of what was computed from what.
 //!
-//! [`Candidate`] is one design of a comparison, [`compare_table`] puts several side by side. [`size`](fn@size) finds the
-//! value of a parameter that keeps what is required, [`CoolingTask`] what a cooling has to do when nothing but a power
-//! and two temperatures are known.
+//! [`Candidate`] is one design of a comparison, [`compare_table`] puts several side by side.
+//! [`size`](fn@size) finds the value of a parameter that keeps what is required, [`CoolingTask`]
+//! what a cooling has to do when nothing but a power and two temperatures are known.
 //!
-//! A [`Manifest`] lies beside the results of a run and names everything that made them: the hash of every input,
-//! the parameters as they were resolved, versions, tolerance, counters of the solver, the energy ledger and the
-//! hash of every result. What changes from run to run, time and host, stands apart in [`Environment`]; the rest is
-//! the same to the last byte whenever the same inputs are run by the same program.
+//! A [`Manifest`] lies beside the results of a run and names everything that made them: the hash of
+//! every input, the parameters as they were resolved, versions, tolerance, counters of the solver,
+//! the energy ledger and the hash of every result. What changes from run to run, time and host,
+//! stands apart in [`Environment`]; the rest is the same to the last byte whenever the same inputs
+//! are run by the same program.
 
 mod compare;
 mod digest;
@@ -17,7 +18,9 @@ mod record;
 mod size;
 pub mod uncertainty;
 
-pub use compare::{Candidate, CompareError, CompareRow, LimitResult, Peak, SortKey, compare_table, order};
+pub use compare::{
+    Candidate, CompareError, CompareRow, LimitResult, Peak, SortKey, compare_table, order,
+};
 pub use digest::{Hashing, sha256};
 pub use manifest::{Environment, FileHash, Manifest, ParameterRecord, RunEnd, Sundials};
 pub use moment::utc;

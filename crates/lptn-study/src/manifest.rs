@@ -33,11 +33,12 @@ pub struct Manifest {
     pub statistics: StatisticsRecord,
     /// Where the heat went; `null` for a run that broke off.
     pub ledger: LedgerRecord,
-    /// What became of every limit, in the order of the netlist: `of`, `below` or `above`, `worst` (the value with the
-    /// least `margin`), `worst_at`, `broken_at`, `severity`, `kept`. Up to the time in `end`.
+    /// What became of every limit, in the order of the netlist: `of`, `below` or `above`, `worst`
+    /// (the value with the least `margin`), `worst_at`, `broken_at`, `severity`, `kept`. Up to the
+    /// time in `end`.
     pub limits: Map<String, Value>,
-    /// How the uncertainty of the results was found: method, seed, samples, parameters with their standard deviations; only
-    /// where it was asked for.
+    /// How the uncertainty of the results was found: method, seed, samples, parameters with their
+    /// standard deviations; only where it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<Value>,
     /// Every file that was written, this one apart.

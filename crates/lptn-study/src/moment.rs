@@ -11,8 +11,8 @@ pub fn utc(moment: SystemTime) -> String {
     format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
 }
 
-/// Year, month and day of a day counted from 1970-01-01. Years begin in March here, so that the leap day is the
-/// last of a year; eras of 400 years have 146097 days.
+/// Year, month and day of a day counted from 1970-01-01. Years begin in March here, so that the
+/// leap day is the last of a year; eras of 400 years have 146097 days.
 fn date(days: u64) -> (u64, u64, u64) {
     let days = days + 719_468; // from 0000-03-01
     let (era, day) = (days / 146_097, days % 146_097);

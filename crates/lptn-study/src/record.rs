@@ -74,7 +74,10 @@ impl LedgerRecord {
 }
 
 fn by_name<'a>(names: impl Iterator<Item = Cow<'a, str>>, heat: &[f64]) -> Map<String, Value> {
-    names.zip(heat).map(|(name, &heat)| (name.into_owned(), Scalar::new(heat, "J").json())).collect()
+    names
+        .zip(heat)
+        .map(|(name, &heat)| (name.into_owned(), Scalar::new(heat, "J").json()))
+        .collect()
 }
 
 /// The integrator's counters by name, whole numbers with the unit `1`.

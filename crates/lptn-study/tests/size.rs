@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_netlist::{Netlist, parse};
-use lptn_study::{Coolant, CoolingTask, SizeError, SizeTask, Sizing, Verdict, requirement_margins, size};
+use lptn_study::{
+    Coolant, CoolingTask, SizeError, SizeTask, Sizing, Verdict, requirement_margins, size,
+};
 
 /// 100 W into `inner`, over `R_in` into `outer`, over `G` into air of 20 degC.
 fn chain(param: &str, study: &str) -> Netlist {
@@ -46,8 +48,7 @@ fn near(found: f64, expected: f64, relative: f64) {
 
 #[test]
 fn one_node_has_the_closed_form() {
-    let study =
-        "minimise = \"x\"\nvary = { x = { from = 0.1, to = 50 } }\nrequire = [\"block.T <= 75 [degC]\"]";
+    let study = "minimise = \"x\"\nvary = { x = { from = 0.1, to = 50 } }\nrequire = [\"block.T <= 75 [degC]\"]";
     let sizing = solve(&one_node("G = \"x * 1 [W/K]\"", "100 W", study)).unwrap();
     assert_eq!(sizing.verdict, Verdict::Bound);
     near(sizing.trial.value, 100.0 / 55.0, 1e-12);
@@ -95,7 +96,8 @@ fn what_is_kept_already_takes_the_best_end() {
     near(sizing.margin(), 30.0, 1e-12);
     assert_eq!(sizing.breaks_again, None);
     // seen from the other end the answer is the border again
-    let sizing = solve(&chain("", &study.replace("minimise", "maximise").replace("<=", ">="))).unwrap();
+    let sizing =
+        solve(&chain("", &study.replace("minimise", "maximise").replace("<=", ">="))).unwrap();
     assert_eq!(sizing.verdict, Verdict::Infeasible);
 }
 
@@ -157,8 +159,7 @@ fn what_was_set_before_stays_set() {
 
 #[test]
 fn a_range_without_network_is_an_error_that_says_where() {
-    let study =
-        "minimise = \"x\"\nvary = { x = { from = -1, to = 5 } }\nrequire = [\"block.T <= 75 [degC]\"]";
+    let study = "minimise = \"x\"\nvary = { x = { from = -1, to = 5 } }\nrequire = [\"block.T <= 75 [degC]\"]";
     let error = solve(&one_node("G = \"x * 1 [W/K]\"", "100 W", study)).unwrap_err();
     assert_eq!(error.code(), "size::network");
     assert!(matches!(error, SizeError::Network { value, .. } if value < 0.0), "{error}");
@@ -169,7 +170,8 @@ fn margins_are_those_of_the_network_as_it_is() {
     let study = "minimise = \"G\"\nvary = { G = { from = \"1 W/K\", to = \"9 W/K\" } }\n\
                  require = [\"inner.T <= 80 [degC]\", \"inner.T - outer.T < 6 [K]\"]";
     let netlist = chain("", study);
-    let margins = requirement_margins(&netlist.network, &netlist.sizes[0].requirements, 0.0).unwrap();
+    let margins =
+        requirement_margins(&netlist.network, &netlist.sizes[0].requirements, 0.0).unwrap();
     // G = 3 W/K, R_in = 0.05 K/W
     near(margins[0], 80.0 - (20.0 + 100.0 / 3.0 + 5.0), 1e-12);
     near(margins[1], 1.0, 1e-10);

@@ -38,7 +38,8 @@ fn one_node(more: &str) -> Netlist {
     parsed(&format!("{}{more}", ONE_NODE.replace("C = \"1 kJ/K\"", "C = \"C\"")), PARAMETERS)
 }
 
-/// T = T_amb + P R (1 - e^-x) with x = t / (R C), differentiated by R, C, P and T_amb, times one standard deviation each.
+/// T = T_amb + P R (1 - e^-x) with x = t / (R C), differentiated by R, C, P and T_amb, times one
+/// standard deviation each.
 fn slopes(t: f64) -> [f64; 4] {
     let (r, c, p) = (0.5, 1000.0, 200.0);
     let x = t / (r * c);
@@ -59,7 +60,8 @@ fn analytic_every_sensitivity_of_one_node_is_its_closed_form() {
     assert!((end.ranking.iter().map(|part| part.share.value).sum::<f64>() - 1.0).abs() < 1e-12);
     let bands = &found.bands[0];
     for (row, time) in found.times.iter().enumerate() {
-        let (deviation, value) = (variance(*time).sqrt(), 293.15 - 100.0 * f64::exp_m1(-time / 500.0));
+        let (deviation, value) =
+            (variance(*time).sqrt(), 293.15 - 100.0 * f64::exp_m1(-time / 500.0));
         near(bands.deviation[row], deviation, 1e-6);
         assert!((bands.value[row] - value).abs() < 1e-5);
         assert!((bands.high[row] - value - 1.959_963_985 * deviation).abs() < 1e-5);
@@ -67,10 +69,12 @@ fn analytic_every_sensitivity_of_one_node_is_its_closed_form() {
     }
 }
 
-/// The peak is where the heat ends, at 500 s, between the rows, which are 300 s apart; its slope is that of this time.
+/// The peak is where the heat ends, at 500 s, between the rows, which are 300 s apart; its slope is
+/// that of this time.
 #[test]
 fn analytic_a_maximum_between_the_rows_has_the_slope_of_its_time() {
-    let text = ONE_NODE.replace("P = \"P\"", "P = \"if(t < 500 [s], P, 0 [W])\"").replace("20 s", "300 s");
+    let text =
+        ONE_NODE.replace("P = \"P\"", "P = \"if(t < 500 [s], P, 0 [W])\"").replace("20 s", "300 s");
     let netlist = parsed(&text, "P = \"200 ± 20 W\"\nT_amb = \"20 degC\"");
     let found = linear(&netlist);
     let rise = 0.5 * -f64::exp_m1(-1.0);
@@ -82,7 +86,8 @@ fn analytic_a_maximum_between_the_rows_has_the_slope_of_its_time() {
     assert_eq!(found.times, [0.0, 300.0, 600.0, 900.0, 1000.0]);
 }
 
-/// A margin changes with its own limit and with heat flows too: Q = P (1 - e^-x) leaves over the skin.
+/// A margin changes with its own limit and with heat flows too: Q = P (1 - e^-x) leaves over the
+/// skin.
 #[test]
 fn analytic_margins_follow_temperatures_limits_and_heat() {
     let more = "[limit]\nhot = { of = \"block.T - air.T\", below = \"0.45 [K/W] * P\" }\n\
@@ -99,19 +104,25 @@ fn analytic_margins_follow_temperatures_limits_and_heat() {
     let [by_r, by_c, by_p, _] = slopes(1000.0);
     all_near(&effects(margin("hot")), &[-by_r, -by_c, 0.45 * 20.0 - by_p, 0.0]);
     let (x, decay) = (2.0, f64::exp(-2.0));
-    let flow =
-        [200.0 * x * decay / 0.5 * 0.02, 200.0 * x * decay / 1000.0 * 50.0, -(1.0 - decay) * 20.0, 0.0];
+    let flow = [
+        200.0 * x * decay / 0.5 * 0.02,
+        200.0 * x * decay / 1000.0 * 50.0,
+        -(1.0 - decay) * 20.0,
+        0.0,
+    ];
     all_near(&effects(margin("flow")), &flow);
     // margin of 180 - 200 (1 - e^-2) W over its deviation: `scipy.special.ndtr`
-    let (value, deviation) = (180.0 - 200.0 * (1.0 - decay), flow.iter().map(|e| e * e).sum::<f64>().sqrt());
+    let (value, deviation) =
+        (180.0 - 200.0 * (1.0 - decay), flow.iter().map(|e| e * e).sum::<f64>().sqrt());
     near(margin("flow").value, value, 1e-5);
     near(margin("flow").deviation.value, deviation, 1e-6);
     let probability = 0.344_324_578;
     assert!((margin("flow").below_zero.value - probability).abs() < 1e-5, "{:?}", margin("flow"));
 }
 
-/// What is linear in its parameters has the same bands by both methods; what radiates has not: 46.24 K by a straight line
-/// where NumPy samples 50.40 K, and 465.4 where 452.8 K is the lower end (see uncertainty_sobol.rs).
+/// What is linear in its parameters has the same bands by both methods; what radiates has not:
+/// 46.24 K by a straight line where NumPy samples 50.40 K, and 465.4 where 452.8 K is the lower end
+/// (see uncertainty_sobol.rs).
 #[test]
 fn both_methods_agree_where_lines_are_straight_and_say_where_not() {
     let netlist = parsed(ONE_NODE, "P = \"200 ± 20 W\"\nT_amb = \"20 ± 2 degC\"");
@@ -126,14 +137,17 @@ fn both_methods_agree_where_lines_are_straight_and_say_where_not() {
     assert!(found.iter().any(|d| matches!(d.of, AnswerOf::Margin(_))), "{found:?}");
 }
 
-/// A thermostat moves its events with the parameters: there is no exact derivative, and the method says so.
+/// A thermostat moves its events with the parameters: there is no exact derivative, and the method
+/// says so.
 #[test]
 fn without_exact_sensitivities_there_are_differences_of_runs() {
     let text = ONE_NODE.replace("P = \"P\"", "P = \"P * heater\"")
         + "[control]\nheater = { sense = \"block\", on_below = \"90 degC\", off_above = \"200 degC\", start = \"on\" }\n\
            [limit]\nhot = { of = \"block.T\", below = \"120 degC\" }\n";
     let found = linear(&parsed(&text, "P = \"200 ± 20 W\"\nT_amb = \"20 degC\""));
-    let Method::Linear { differences: Some(why) } = &found.method else { panic!("{:?}", found.method) };
+    let Method::Linear { differences: Some(why) } = &found.method else {
+        panic!("{:?}", found.method)
+    };
     assert!(!why.is_empty());
     for (of, sign) in [(0, 1.0), (1, 1.0), (2, -1.0)] {
         near(found.answers[of].ranking[0].effect, sign * RISE * 20.0, 1e-4);
@@ -148,12 +162,15 @@ fn certain_networks_have_a_code_for_an_answer() {
     assert!(error.help().unwrap().contains("±"));
 }
 
-/// A maximum where the heat is switched off: T = T_amb + P R (1 - exp(-t_off / R C)) by P and t_off, whose slope at a fixed
-/// time is another one on each side.
+/// A maximum where the heat is switched off: T = T_amb + P R (1 - exp(-t_off / R C)) by P and
+/// t_off, whose slope at a fixed time is another one on each side.
 #[test]
 fn regression_a_maximum_at_a_jump_moves_with_the_jump() {
     let switched = ONE_NODE.replace("P = \"P\"", "P = \"if(t < t_off, P, 0 [W])\"");
-    let found = linear(&parsed(&switched, "P = \"100 ± 10 W\"\nt_off = \"500 ± 50 s\"\nT_amb = \"20 degC\""));
+    let found = linear(&parsed(
+        &switched,
+        "P = \"100 ± 10 W\"\nt_off = \"500 ± 50 s\"\nT_amb = \"20 degC\"",
+    ));
     let peak = answer(&found, |of| matches!(of, AnswerOf::Max(_)));
     let decay = f64::exp(-1.0);
     let expected = [0.5 * (1.0 - decay) * 10.0, 100.0 / 1000.0 * decay * 50.0];

@@ -19,7 +19,8 @@ fn part(answer: &Answer, input: usize) -> lptn_study::uncertainty::Contribution 
     *answer.ranking.iter().find(|part| part.input == input).unwrap()
 }
 
-/// T(t) = T_amb + P R (1 - exp(-t / R C)) is linear in P and T_amb: their normal distributions pass through.
+/// T(t) = T_amb + P R (1 - exp(-t / R C)) is linear in P and T_amb: their normal distributions pass
+/// through.
 #[test]
 fn analytic_a_result_linear_in_its_parameters_is_normal() {
     let netlist = parsed(ONE_NODE, "P = \"200 ± 20 W\"\nT_amb = \"20 ± 2 degC\"");
@@ -47,10 +48,12 @@ fn analytic_a_result_linear_in_its_parameters_is_normal() {
     near(bands.high[row] - bands.low[row], 2.0 * 1.959_964 * f64::hypot(rise * 20.0, 2.0), 2e-2);
 }
 
-/// Var(a b) = ma^2 sb^2 + mb^2 sa^2 + sa^2 sb^2: of independent factors, the last term belongs to both together.
+/// Var(a b) = ma^2 sb^2 + mb^2 sa^2 + sa^2 sb^2: of independent factors, the last term belongs to
+/// both together.
 #[test]
 fn analytic_the_variance_of_a_product_has_a_share_of_both_together() {
-    let netlist = parsed(ONE_NODE, "a = \"2 ± 1\"\nb = \"100 ± 30 W\"\nP = \"a * b\"\nT_amb = \"20 degC\"");
+    let netlist =
+        parsed(ONE_NODE, "a = \"2 ± 1\"\nb = \"100 ± 30 W\"\nP = \"a * b\"\nT_amb = \"20 degC\"");
     let found = sobol(&netlist, MANY);
     let (a, b, both) = (100.0 * 100.0, 2.0 * 2.0 * 30.0 * 30.0, 30.0 * 30.0);
     let variance = a + b + both;
@@ -64,9 +67,10 @@ fn analytic_the_variance_of_a_product_has_a_share_of_both_together() {
     assert_eq!(answer.ranking[0].input, 0, "a matters most: {:?}", answer.ranking);
 }
 
-/// A node that radiates 100 ± 30 W over Gr = 0.02 ± 0.004 m^2 towards 293.15 K, settled: T^4 = T_s^4 + P / (sigma Gr).
-/// NumPy 2.4.6, 2e7 draws of `default_rng(20261121)`, sigma = 5.670374419e-8: standard deviation, quantiles of 2.5, 50 and
-/// 97.5 %, share above 600 K, then first-order and total index of P and of Gr by pick and freeze.
+/// A node that radiates 100 ± 30 W over Gr = 0.02 ± 0.004 m^2 towards 293.15 K, settled: T^4 =
+/// T_s^4 + P / (sigma Gr). NumPy 2.4.6, 2e7 draws of `default_rng(20261121)`, sigma =
+/// 5.670374419e-8: standard deviation, quantiles of 2.5, 50 and 97.5 %, share above 600 K, then
+/// first-order and total index of P and of Gr by pick and freeze.
 #[test]
 fn reference_a_radiating_node_is_as_a_plain_monte_carlo_run_says() {
     const DEVIATION: f64 = 50.403;
@@ -76,7 +80,9 @@ fn reference_a_radiating_node_is_as_a_plain_monte_carlo_run_says() {
     let found = sobol(&parsed(RADIATING, "P = \"100 ± 30 W\"\nGr = \"0.02 ± 0.004 m^2\""), MANY);
     let answer = end(&found);
     within(answer.deviation, DEVIATION, 4.0);
-    for (found, expected) in [answer.low, answer.median.unwrap(), answer.high].into_iter().zip(QUANTILES) {
+    for (found, expected) in
+        [answer.low, answer.median.unwrap(), answer.high].into_iter().zip(QUANTILES)
+    {
         within(found, expected, 4.0);
         assert!((found.value - expected).abs() < 0.06 * DEVIATION, "{found:?} is not {expected}");
     }
@@ -103,7 +109,8 @@ fn determinism_threads_change_nothing_and_seeds_do() {
     assert_ne!(first, text(1, 2));
 }
 
-/// A resistance of 0.5 ± 0.25 K/W is negative with 2.275 %, and refused there: `scipy.stats.norm.cdf(-2)`.
+/// A resistance of 0.5 ± 0.25 K/W is negative with 2.275 %, and refused there:
+/// `scipy.stats.norm.cdf(-2)`.
 #[test]
 fn what_the_network_refuses_is_counted_and_named() {
     let netlist = parsed(ONE_NODE, "R = \"0.5 ± 0.25 K/W\"\nP = \"200 W\"\nT_amb = \"20 degC\"");
@@ -112,12 +119,14 @@ fn what_the_network_refuses_is_counted_and_named() {
     assert_eq!(*samples, 1024);
     let [lost] = lost.as_slice() else { panic!("{lost:?}") };
     assert!(lost.refused && lost.message.contains("skin"), "{lost}");
-    // of two base runs each; mixed runs are made where both have a result, and take R from one of them
+    // of two base runs each; mixed runs are made where both have a result, and take R from one of
+    // them
     near(lost.count as f64, 0.02275 * 2048.0, 0.1);
     assert!(found.bands[0].low.iter().all(|low| low.is_finite()));
 }
 
-/// A node that is cooled by more than there is falls below 0 K, and the run breaks off: P < -586.3 W with 2.275 %.
+/// A node that is cooled by more than there is falls below 0 K, and the run breaks off: P < -586.3
+/// W with 2.275 %.
 #[test]
 fn a_run_that_fails_is_counted_and_named() {
     let netlist = parsed(ONE_NODE, "P = \"0 ± 339.2 W\"\nT_amb = \"20 degC\"");

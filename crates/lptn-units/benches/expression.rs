@@ -38,9 +38,12 @@ fn law(c: &mut Criterion) {
     assert!((program.eval(&POINT, &mut stack).unwrap() / native(POINT) - 1.0).abs() < 1e-14);
     c.bench_function("native", |b| b.iter(|| native(black_box(POINT))));
     c.bench_function("compiled", |b| b.iter(|| program.eval(black_box(&POINT), &mut stack)));
-    let duals = [Dual::<2>::constant(POINT[0]), Dual::variable(POINT[1], 0), Dual::variable(POINT[2], 1)];
+    let duals =
+        [Dual::<2>::constant(POINT[0]), Dual::variable(POINT[1], 0), Dual::variable(POINT[2], 1)];
     let mut stack = Vec::with_capacity(program.stack_size());
-    c.bench_function("compiled, two derivatives", |b| b.iter(|| program.eval(black_box(&duals), &mut stack)));
+    c.bench_function("compiled, two derivatives", |b| {
+        b.iter(|| program.eval(black_box(&duals), &mut stack))
+    });
 }
 
 criterion_group!(benches, law);

@@ -8,14 +8,18 @@ use crate::repair;
 use crate::unit_parser::is_name_start;
 use crate::unit_table;
 
-/// `20 W/K + 60 W/K * fan` as `20 [W/K] + 60 [W/K] * fan`, and the place of the first unit; `None` if no number
-/// is followed by a unit, or brackets do not make it an expression.
-pub(crate) fn bracketed(text: &str, is_parameter: &dyn Fn(&str) -> bool) -> Option<(String, Range<usize>)> {
+/// `20 W/K + 60 W/K * fan` as `20 [W/K] + 60 [W/K] * fan`, and the place of the first unit; `None`
+/// if no number is followed by a unit, or brackets do not make it an expression.
+pub(crate) fn bracketed(
+    text: &str,
+    is_parameter: &dyn Fn(&str) -> bool,
+) -> Option<(String, Range<usize>)> {
     let mut result = String::new();
     let mut first = None;
     let mut at = 0;
     while let Some(c) = text.get(at..).and_then(|rest| rest.chars().next()) {
-        let in_name = text.get(..at).is_some_and(|t| t.ends_with(|c: char| c.is_alphanumeric() || c == '_'));
+        let in_name =
+            text.get(..at).is_some_and(|t| t.ends_with(|c: char| c.is_alphanumeric() || c == '_'));
         let number = if in_name { None } else { number::scan(text, at, false).ok()? };
         let Some(number) = number else {
             result.push(c);
@@ -28,8 +32,11 @@ pub(crate) fn bracketed(text: &str, is_parameter: &dyn Fn(&str) -> bool) -> Opti
         at = number.span.end;
         if end > start {
             let unit = repair::unit(text.get(start..end)?)?;
-            let unit =
-                if is_added_to_temperature(text, number.span.start) { difference(&unit) } else { &unit };
+            let unit = if is_added_to_temperature(text, number.span.start) {
+                difference(&unit)
+            } else {
+                &unit
+            };
             result.push_str(&format!(" [{unit}]"));
             first.get_or_insert(start..end);
             at = end;
@@ -57,11 +64,13 @@ impl Scope for Nothing {
     }
 }
 
-/// Whether the number at this byte is added to a name that is one of a temperature by its looks: `T_amb + 5 degC`.
+/// Whether the number at this byte is added to a name that is one of a temperature by its looks:
+/// `T_amb + 5 degC`.
 fn is_added_to_temperature(text: &str, number: usize) -> bool {
     let before = text.get(..number).unwrap_or_default().trim_end();
     let Some(before) = before.strip_suffix('+') else { return false };
-    let name = before.trim_end().rsplit(|c: char| !(c.is_alphanumeric() || "_.[]".contains(c))).next();
+    let name =
+        before.trim_end().rsplit(|c: char| !(c.is_alphanumeric() || "_.[]".contains(c))).next();
     name.is_some_and(|name| name == "T" || name.starts_with("T_") || name.ends_with(".T"))
 }
 
@@ -110,7 +119,8 @@ fn factor_end(text: &str, at: usize, is_parameter: &dyn Fn(&str) -> bool) -> Opt
 }
 
 fn name_length(rest: &str, is_parameter: &dyn Fn(&str) -> bool) -> Option<usize> {
-    let length = rest.find(|c: char| !is_name_start(c) && !c.is_ascii_digit()).unwrap_or(rest.len());
+    let length =
+        rest.find(|c: char| !is_name_start(c) && !c.is_ascii_digit()).unwrap_or(rest.len());
     let name = rest.get(..length)?;
     let is_call = rest.get(length..)?.starts_with('(');
     if !name.starts_with(is_name_start) || is_call || is_parameter(name) {
@@ -127,7 +137,9 @@ fn exponent_length(tail: &str) -> usize {
     };
     let length = match body.find(')') {
         Some(close) if body.starts_with('(') => close + 1,
-        _ => body.find(|c: char| !c.is_ascii_digit() && !matches!(c, '-' | '.')).unwrap_or(body.len()),
+        _ => body
+            .find(|c: char| !c.is_ascii_digit() && !matches!(c, '-' | '.'))
+            .unwrap_or(body.len()),
     };
     1 + length
 }

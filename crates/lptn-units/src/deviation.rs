@@ -27,7 +27,8 @@ pub(crate) enum Measure {
     Own(f64, Dimension),
     /// Nothing stands behind it, but the value has a unit: `5 kW ± 1`.
     Missing,
-    /// A part of the value, `20 W ± 5 %`; before the unit, `20 ± 5 % W`, it can be read in two ways.
+    /// A part of the value, `20 W ± 5 %`; before the unit, `20 ± 5 % W`, it can be read in two
+    /// ways.
     Percent { leading: bool },
 }
 
@@ -50,9 +51,12 @@ pub(crate) fn leading(text: &str, at: usize) -> Result<(Option<Deviation>, usize
     let after = skip_space(text, number.span.end);
     let unit = text.get(after..).unwrap_or_default().strip_prefix('%').map(str::trim);
     // `%` and `%/K` are units; `% W` is not one that anybody writes
-    let is_apart = |rest: &str| !rest.is_empty() && !rest.starts_with(|c| c == '/' || c == '^' || raised(c));
+    let is_apart =
+        |rest: &str| !rest.is_empty() && !rest.starts_with(|c| c == '/' || c == '^' || raised(c));
     Ok(match unit.filter(|rest| is_apart(rest)) {
-        Some(_) => (Some(Deviation { number, measure: Measure::Percent { leading: true } }), after + 1),
+        Some(_) => {
+            (Some(Deviation { number, measure: Measure::Percent { leading: true } }), after + 1)
+        }
         None => {
             let end = number.span.end;
             (Some(Deviation { number, measure: Measure::Shared }), end)
@@ -72,7 +76,8 @@ pub(crate) fn trailing(text: &str, at: usize) -> Result<Deviation, UnitError> {
         return Ok(Deviation { number, measure: Measure::Percent { leading: false } });
     }
     let own = unit_at(text, rest)?;
-    let measure = own.map_or(Measure::Missing, |(unit, _)| Measure::Own(unit.scale, unit.dimension));
+    let measure =
+        own.map_or(Measure::Missing, |(unit, _)| Measure::Own(unit.scale, unit.dimension));
     Ok(Deviation { number, measure })
 }
 
@@ -104,21 +109,36 @@ impl Reading<'_> {
             }
             Measure::Percent { leading: true } => UnitErrorKind::PercentDeviation {
                 points: format!("{} {}", plain(x / 100.0, y / 100.0), self.unit_text()),
-                part: format!("{} {} ± {} %", self.number_text(), self.unit_text(), self.text_of(deviation)),
+                part: format!(
+                    "{} {} ± {} %",
+                    self.number_text(),
+                    self.unit_text(),
+                    self.text_of(deviation)
+                ),
             },
-            Measure::Percent { leading: false } if self.is_percent() => UnitErrorKind::PercentDeviation {
-                points: percent(x, y),
-                part: percent(x, (x * y / 100.0).abs()),
-            },
+            Measure::Percent { leading: false } if self.is_percent() => {
+                UnitErrorKind::PercentDeviation {
+                    points: percent(x, y),
+                    part: percent(x, (x * y / 100.0).abs()),
+                }
+            }
             // what was a factor with a deviation in percent could be taken for a share now
-            Measure::Shared if self.is_percent() && !is_share(x, y) => UnitErrorKind::PercentDeviation {
-                points: plain(x / 100.0, y / 100.0),
-                part: plain(x, (x * y / 100.0).abs()),
-            },
-            Measure::Missing if self.is_percent() => UnitErrorKind::BareDeviation { fix: percent(x, y) },
+            Measure::Shared if self.is_percent() && !is_share(x, y) => {
+                UnitErrorKind::PercentDeviation {
+                    points: plain(x / 100.0, y / 100.0),
+                    part: plain(x, (x * y / 100.0).abs()),
+                }
+            }
+            Measure::Missing if self.is_percent() => {
+                UnitErrorKind::BareDeviation { fix: percent(x, y) }
+            }
             Measure::Missing => {
-                let fix =
-                    format!("{} ± {} {}", self.number_text(), self.text_of(deviation), self.unit_text());
+                let fix = format!(
+                    "{} ± {} {}",
+                    self.number_text(),
+                    self.text_of(deviation),
+                    self.unit_text()
+                );
                 UnitErrorKind::BareDeviation { fix }
             }
             Measure::Own(_, own) if own != dimension => UnitErrorKind::Dimension {
@@ -137,9 +157,17 @@ impl Reading<'_> {
     /// `0.8 ± 5 %` where something with a unit is due.
     pub(crate) fn percent_of_bare_number(&self, wanted: Type) -> Option<String> {
         let shared = |deviation: &&Deviation| matches!(deviation.measure, Measure::Shared);
-        let deviation =
-            self.deviation.as_ref().filter(shared).filter(|_| self.is_percent() && !wanted.absolute)?;
-        Some(format!("{} {} ± {} %", self.number_text(), wanted.usual_unit(), self.text_of(deviation)))
+        let deviation = self
+            .deviation
+            .as_ref()
+            .filter(shared)
+            .filter(|_| self.is_percent() && !wanted.absolute)?;
+        Some(format!(
+            "{} {} ± {} %",
+            self.number_text(),
+            wanted.usual_unit(),
+            self.text_of(deviation)
+        ))
     }
 
     fn is_percent(&self) -> bool {

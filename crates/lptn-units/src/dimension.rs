@@ -6,8 +6,8 @@ use crate::rational::Rational;
 
 /// A physical dimension: exponents of length, mass, time, temperature, current and angle.
 ///
-/// The angle is a dimension of its own here, unlike in the SI: 50 Hz and 50 rad/s differ by a factor of
-/// 2π that no number shows, and only the dimension can tell them apart.
+/// The angle is a dimension of its own here, unlike in the SI: 50 Hz and 50 rad/s differ by a
+/// factor of 2π that no number shows, and only the dimension can tell them apart.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Dimension {
     exponents: [Rational; 6],

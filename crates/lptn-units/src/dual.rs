@@ -6,7 +6,8 @@ use crate::scalar::Scalar;
 
 /// A value and its derivatives with respect to `N` variables.
 ///
-/// Source: A. Griewank and A. Walther, Evaluating Derivatives, 2nd edition (SIAM 2008), chapter 3 (forward mode).
+/// Source: A. Griewank and A. Walther, Evaluating Derivatives, 2nd edition (SIAM 2008), chapter 3
+/// (forward mode).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Dual<const N: usize> {
     /// The value of the function itself.
@@ -31,14 +32,19 @@ impl<const N: usize> Dual<N> {
     }
 }
 
-/// A slope times a derivative. What does not depend on a variable does not, however steep the function.
+/// A slope times a derivative. What does not depend on a variable does not, however steep the
+/// function.
 fn times(slope: f64, derivative: f64) -> f64 {
     if derivative == 0.0 { 0.0 } else { slope * derivative }
 }
 
 /// The slope of x^a, with the value 0 where it is infinite: at x = 0 for 0 < a < 1.
 fn power_slope(base: f64, exponent: f64) -> f64 {
-    if base == 0.0 && (0.0..1.0).contains(&exponent) { 0.0 } else { exponent * base.powf(exponent - 1.0) }
+    if base == 0.0 && (0.0..1.0).contains(&exponent) {
+        0.0
+    } else {
+        exponent * base.powf(exponent - 1.0)
+    }
 }
 
 impl<const N: usize> Add for Dual<N> {

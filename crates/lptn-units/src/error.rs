@@ -20,7 +20,8 @@ pub struct UnitError {
 }
 
 errors! {
-/// What is wrong. A `fix` is a text that can be pasted over the whole string, unless said otherwise.
+/// What is wrong. A `fix` is a text that can be pasted over the whole string, unless said
+/// otherwise.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum UnitErrorKind {
@@ -35,8 +36,8 @@ pub enum UnitErrorKind {
     /// `nan` or `inf`.
     NotFinite { text: String } = "units::not_finite", format!("`{text}` is not a finite number"),
         help "leave the field out if there is no such value";
-    /// `0,5` for `0.5`, or `1,000` for `1000`: the string with a decimal point, where the comma can be one, and
-    /// without the commas, where they can separate thousands.
+    /// `0,5` for `0.5`, or `1,000` for `1000`: the string with a decimal point, where the comma can
+    /// be one, and without the commas, where they can separate thousands.
     DecimalComma { decimal: Option<String>, thousands: Option<String> } = "units::decimal_comma",
         if thousands.is_none() { "decimal comma" } else { "comma in a number" },
         help comma(decimal.as_deref(), thousands.as_deref());
@@ -70,7 +71,8 @@ pub enum UnitErrorKind {
     BareNumber { wanted: Type, fix: String } = "units::bare_number",
         format!("must be {}, got a number without a unit", wanted.with_article()),
         help bare_number(wanted, fix);
-    /// `Hz` or `1/s` where a rotation is due; the string, or the part of an expression, in revolutions.
+    /// `Hz` or `1/s` where a rotation is due; the string, or the part of an expression, in
+    /// revolutions.
     Rotation { fix: Option<String> } = "units::rotation",
         "must be a rotational speed (rad/s), got a frequency: 1/s and Hz do not say what turns",
         help match fix {
@@ -94,8 +96,9 @@ pub enum UnitErrorKind {
     /// `25 ± 5 % degC`: a percentage of an absolute temperature.
     RelativeDeviation { fix: Option<String> } = "units::relative_deviation",
         "percentage of an absolute temperature", help fix.as_deref().map(write);
-    /// A deviation in percent that reads in two ways: `0.8 ± 5 %`, `80 % ± 5 %`, `220 ± 5 % W`. The string if the
-    /// percentage is one of the same kind as the value, and if it is a part of the value.
+    /// A deviation in percent that reads in two ways: `0.8 ± 5 %`, `80 % ± 5 %`, `220 ± 5 % W`. The
+    /// string if the percentage is one of the same kind as the value, and if it is a part of the
+    /// value.
     PercentDeviation { points: String, part: String } = "units::percent_deviation",
         "a deviation in percent that reads in two ways",
         help format!("write \"{part}\" for a part of the value, or \"{points}\" for percentage points");
@@ -123,14 +126,15 @@ pub enum UnitErrorKind {
     /// A wrong number of arguments; what the function takes, in words.
     Arity { function: &'static str, wanted: &'static str, found: usize } = "units::arity",
         format!("`{function}` takes {wanted}, got {found}");
-    /// `-2^2`, which some read as 4 and some as -4: the power negated, and the negative number raised.
+    /// `-2^2`, which some read as 4 and some as -4: the power negated, and the negative number
+    /// raised.
     AmbiguousSign { negated: String, raised: String } = "units::ambiguous_sign",
         "signed number with a power reads in two ways", help format!("write \"{negated}\" or \"{raised}\"");
     /// `a < b < c`.
     ChainedComparison = "units::chained_comparison", "comparison of a comparison",
         help "write \"if(a < b, if(b < c, x, y), y)\"";
-    /// The two sides of `+`, `-`, a comparison, or two arguments, are of different types. The fix is for the part in
-    /// question.
+    /// The two sides of `+`, `-`, a comparison, or two arguments, are of different types. The fix
+    /// is for the part in question.
     Operands { operation: &'static str, left: Box<Type>, right: Box<Type>, fix: Option<String> } = "units::operands",
         format!("{operation} needs values of one kind, got {} and {}", got(left), got(right)),
         help match fix {
@@ -138,18 +142,19 @@ pub enum UnitErrorKind {
             Some(fix) => write(fix),
             None => alike(left, right),
         };
-    /// An absolute temperature where only plain quantities can be used; what it cannot be, in words: "multiplied".
+    /// An absolute temperature where only plain quantities can be used; what it cannot be, in
+    /// words: "multiplied".
     AbsoluteOperand { operation: &'static str, fix: String } = "units::absolute_temperature",
         format!("an absolute temperature cannot be {operation}"), help write(fix);
-    /// A function argument of the wrong type; what it takes, in words, and the string with the argument made a plain
-    /// number by a scale of its own kind.
+    /// A function argument of the wrong type; what it takes, in words, and the string with the
+    /// argument made a plain number by a scale of its own kind.
     Argument { function: &'static str, wanted: &'static str, found: Box<Type>, example: Option<String> } =
         "units::argument", format!("`{function}` takes {wanted}, got {}", got(found)),
         help example.as_ref().map(|example| {
             format!("divide it by {}, for example \"{example}\"", found.with_article())
         });
-    /// A table called with a wrong number of arguments, or used without any; the fix has names in scope that are of the
-    /// right kind.
+    /// A table called with a wrong number of arguments, or used without any; the fix has names in
+    /// scope that are of the right kind.
     TableArity { table: String, wanted: Vec<Type>, found: usize, fix: Option<String> } = "units::arity", {
             let count = if wanted.len() == 1 { "one argument" } else { "two arguments" };
             format!("table `{table}` takes {count}, {}, got {found}", kinds(wanted))
@@ -165,8 +170,8 @@ pub enum UnitErrorKind {
             Some(fix) => write(fix),
             None => unit_wanted("argument", wanted),
         };
-    /// A parameter or another name without arguments, called as if it were a table; the string without the call, a
-    /// product if there is one argument.
+    /// A parameter or another name without arguments, called as if it were a table; the string
+    /// without the call, a product if there is one argument.
     NotATable { name: String, fix: String } = "units::not_a_table",
         format!("`{name}` is not a table and takes no arguments"), help write(fix);
     /// A variable exponent on a base that has a dimension; the power with a plain base.

@@ -18,7 +18,10 @@ pub(crate) fn turning(fix: &Option<String>) -> String {
         // radians that somebody wrote: nothing turns
         Some(fix) if !["rev", "rpm"].iter().any(|unit| fix.contains(unit)) => write(fix),
         Some(fix) => {
-            format!("{ask} {} for revolutions, or give the speed in rpm, rev/s or rad/s", write(fix))
+            format!(
+                "{ask} {} for revolutions, or give the speed in rpm, rev/s or rad/s",
+                write(fix)
+            )
         }
         None => format!("{ask} speeds are given in rpm, rev/s or rad/s"),
     }
@@ -37,7 +40,9 @@ pub(crate) fn comma(decimal: Option<&str>, thousands: Option<&str>) -> String {
 
 /// A temperature without a unit may be in kelvin as well.
 pub(crate) fn bare_number(wanted: &Type, fix: &str) -> String {
-    match fix.strip_suffix("degC").filter(|number| wanted.absolute && !number.starts_with(['-', '\u{2212}']))
+    match fix
+        .strip_suffix("degC")
+        .filter(|number| wanted.absolute && !number.starts_with(['-', '\u{2212}']))
     {
         Some(number) => format!("write \"{fix}\" or \"{number}K\""),
         None => write(fix),
@@ -95,5 +100,9 @@ pub(crate) fn kinds(arguments: &[Type]) -> String {
 }
 
 pub(crate) fn noun(ty: &Type) -> String {
-    if ty.dimension.quantity_name().is_some() { ty.to_string() } else { format!("quantity in {ty}") }
+    if ty.dimension.quantity_name().is_some() {
+        ty.to_string()
+    } else {
+        format!("quantity in {ty}")
+    }
 }

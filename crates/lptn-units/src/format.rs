@@ -9,8 +9,8 @@ pub fn number(value: f64) -> String {
     if plain { format!("{value}") } else { format!("{value:e}") }
 }
 
-/// Rounds to `digits` significant decimal digits, so that a number computed for a help text shows no noise of
-/// binary arithmetic: 50.00000000000001 becomes 50.
+/// Rounds to `digits` significant decimal digits, so that a number computed for a help text shows
+/// no noise of binary arithmetic: 50.00000000000001 becomes 50.
 pub(crate) fn rounded(value: f64, digits: usize) -> String {
     let text = format!("{value:.*e}", digits.saturating_sub(1));
     text.parse().map_or(text, number)

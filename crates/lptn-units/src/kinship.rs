@@ -1,4 +1,5 @@
-//! How kinds of quantities are related: inverses, frequencies and rotations, the end of the temperature scale.
+//! How kinds of quantities are related: inverses, frequencies and rotations, the end of the
+//! temperature scale.
 
 use std::ops::Range;
 
@@ -6,8 +7,8 @@ use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind};
 use crate::types::Type;
 
-/// Whether the inverse of what was found is what is due, and both are quantities that people write: a conductance and
-/// a resistance, a time and a frequency. The inverse of a length is a slip.
+/// Whether the inverse of what was found is what is due, and both are quantities that people write:
+/// a conductance and a resistance, a time and a frequency. The inverse of a length is a slip.
 pub(crate) fn has_inverse(found: Type, wanted: Type) -> bool {
     const WRITTEN: [Dimension; 5] = [
         Dimension::RESISTANCE,

@@ -1,11 +1,12 @@
 //! Quantities, dimensions and expressions with units checked.
 //!
-//! A value in a netlist is a string: a *quantity* such as `"0.3 K/W"` or `"87 ± 15 uW/rpm^(5/3)"`, or an
-//! *expression* such as `"20 [W/K] + 60 [W/K] * fan"`. [`parse_value`] tells them apart, checks their
-//! dimensions, and on a mistake names the place, what is wrong and the text to write instead.
+//! A value in a netlist is a string: a *quantity* such as `"0.3 K/W"` or `"87 ± 15 uW/rpm^(5/3)"`,
+//! or an *expression* such as `"20 [W/K] + 60 [W/K] * fan"`. [`parse_value`] tells them apart,
+//! checks their dimensions, and on a mistake names the place, what is wrong and the text to write
+//! instead.
 //!
-//! An expression is compiled once, against the names in scope, into a flat [`Program`] that is evaluated
-//! on `f64` or, for derivatives, on [`Dual`] numbers.
+//! An expression is compiled once, against the names in scope, into a flat [`Program`] that is
+//! evaluated on `f64` or, for derivatives, on [`Dual`] numbers.
 //!
 //! ```
 //! use lptn_units::{Dimension, Type, parse_quantity};
@@ -49,8 +50,8 @@ pub use dimension::Dimension;
 pub use dual::Dual;
 pub use error::{UnitError, UnitErrorKind};
 pub use expr::{
-    Comparison, Degree, EvalError, Expression, Program, RESERVED, Scope, SlotKind, Split, Symbol, TableCall,
-    Trend, is_function,
+    Comparison, Degree, EvalError, Expression, Program, RESERVED, Scope, SlotKind, Split, Symbol,
+    TableCall, Trend, is_function,
 };
 pub use format::{number as format_number, short as format_short, six as format_six};
 pub use problems::{Class, Help, Problem, Problems};

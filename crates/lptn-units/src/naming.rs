@@ -48,13 +48,14 @@ const KNOWN: &[(Dimension, &str, &str)] = &[
     (Dimension::ELECTRICAL_RESISTANCE, "ohm", "electrical resistance"),
 ];
 
-/// Derived units worth pulling out of a product of base units. J is left out: who writes K/W/s thinks in W.
+/// Derived units worth pulling out of a product of base units. J is left out: who writes K/W/s
+/// thinks in W.
 const FACTORS: [(Dimension, &str); 2] = [(Dimension::POWER, "W"), (Dimension::FORCE, "N")];
 
 impl Dimension {
-    /// The unit a reader expects: `W`, `K/W`, `J/K`, `W/(m^2 K)`; where the dimension has no usual unit, the
-    /// shortest product of base units and one derived unit. `1` for a plain number. [`Unit::parse`]
-    /// reads it back with scale 1.
+    /// The unit a reader expects: `W`, `K/W`, `J/K`, `W/(m^2 K)`; where the dimension has no usual
+    /// unit, the shortest product of base units and one derived unit. `1` for a plain number.
+    /// [`Unit::parse`] reads it back with scale 1.
     ///
     /// [`Unit::parse`]: crate::Unit::parse
     pub fn si_unit(&self) -> String {

@@ -54,7 +54,8 @@ impl<P: Problem> Problem for Box<P> {
     }
 }
 
-/// Several problems of one kind, all that were found; never empty. Code and help are those of the first.
+/// Several problems of one kind, all that were found; never empty. Code and help are those of the
+/// first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problems<P>(pub Vec<P>);
 
@@ -149,12 +150,12 @@ impl Help for Option<String> {
     }
 }
 
-/// Declares an enum of errors, each told once: its fields, its stable code, its sentence and, where there is one, the help;
-/// its class where it is not that of a wrong input. The expressions see the fields by reference; a sentence is anything that
-/// can be displayed. Where another error is a part of it, `source` names that. A variant that only passes an error on says
-/// which, `Name => ItsError;`: code, sentence, help, source and class are that error's, and `?` makes one of the other;
-/// `Name => ItsError as Class::of_numbers;` makes another class
-/// of its class.
+/// Declares an enum of errors, each told once: its fields, its stable code, its sentence and, where
+/// there is one, the help; its class where it is not that of a wrong input. The expressions see the
+/// fields by reference; a sentence is anything that can be displayed. Where another error is a part
+/// of it, `source` names that. A variant that only passes an error on says which,
+/// `Name => ItsError;`: code, sentence, help, source and class are that error's, and `?` makes one
+/// of the other; `Name => ItsError as Class::of_numbers;` makes another class of its class.
 ///
 /// ```
 /// lptn_units::errors! {
@@ -324,8 +325,9 @@ macro_rules! help_of {
     };
 }
 
-/// Declares an enum of problems, each told once: its fields, its stable code, where it is, what it says and what to do
-/// about it. The expressions see the fields by reference, and `$say`, which knows what things are called.
+/// Declares an enum of problems, each told once: its fields, its stable code, where it is, what it
+/// says and what to do about it. The expressions see the fields by reference, and `$say`, which
+/// knows what things are called.
 ///
 /// ```
 /// lptn_units::problems! {

@@ -6,7 +6,9 @@ use crate::deviation::{self, Deviation};
 use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind};
 use crate::format::{number, rounded};
-use crate::kinship::{above_absolute_zero, has_inverse, is_frequency_for_rotation, is_inverse, revolutions};
+use crate::kinship::{
+    above_absolute_zero, has_inverse, is_frequency_for_rotation, is_inverse, revolutions,
+};
 use crate::number::{self, Number};
 use crate::separators;
 use crate::types::Type;
@@ -26,24 +28,25 @@ pub struct Quantity {
 
 /// Reads a quantity: `0.3 K/W`, `87 ± 15 uW/rpm^(5/3)`, `20 W +- 5 %`, `25.5 degC`, `0.7`.
 ///
-/// `expected` is the type of the field, where it is known; the quantity must then be of this type, or have
-/// exactly one radian more (see [`Type::conforms_to`]). `300 K` is an absolute temperature only where one is
-/// expected. The deviation stands after the number (`25 ± 0.5 degC`) or, with a unit of its own, at the
-/// end (`25 degC ± 0.5 K`); behind a unit `± 5 %` is relative to the value. `50 ± 5 %` is `0.5 ± 0.05`, as for
-/// every other unit.
+/// `expected` is the type of the field, where it is known; the quantity must then be of this type,
+/// or have exactly one radian more (see [`Type::conforms_to`]). `300 K` is an absolute temperature
+/// only where one is expected. The deviation stands after the number (`25 ± 0.5 degC`) or, with a
+/// unit of its own, at the end (`25 degC ± 0.5 K`); behind a unit `± 5 %` is relative to the value.
+/// `50 ± 5 %` is `0.5 ± 0.05`, as for every other unit.
 ///
 /// # Errors
 ///
-/// Text that is not a quantity, an unknown or ambiguous unit, a value out of range, a negative deviation, a
-/// temperature below absolute zero, and, with `expected`, a wrong type. Every error names its place
-/// and, where possible, the string to write.
+/// Text that is not a quantity, an unknown or ambiguous unit, a value out of range, a negative
+/// deviation, a temperature below absolute zero, and, with `expected`, a wrong type. Every error
+/// names its place and, where possible, the string to write.
 pub fn parse_quantity(text: &str, expected: Option<Type>) -> Result<Quantity, UnitError> {
     read(text)?.conclude(expected)
 }
 
-/// The mistake in a whole string in kelvin, such as `300 K`, where an absolute temperature is due in a place that has
-/// no type of its own: its type follows from something else, as that of a parameter's new value or of a bound does.
-/// `K` is a difference there, as it is in the parameter itself. `None` for any other text.
+/// The mistake in a whole string in kelvin, such as `300 K`, where an absolute temperature is due
+/// in a place that has no type of its own: its type follows from something else, as that of a
+/// parameter's new value or of a bound does. `K` is a difference there, as it is in the parameter
+/// itself. `None` for any other text.
 pub fn kelvin_alone(text: &str) -> Option<UnitError> {
     let reading = read(text).ok()?;
     let found = reading.conclude(None).ok()?.ty;
@@ -60,7 +63,8 @@ pub struct WrittenQuantity {
     pub unit: Unit,
 }
 
-/// Where the number of a quantity stands and in which unit it is; `None` if the text is not a quantity.
+/// Where the number of a quantity stands and in which unit it is; `None` if the text is not a
+/// quantity.
 pub fn written_quantity(text: &str) -> Option<WrittenQuantity> {
     let reading = read(text).ok()?;
     let written = reading.unit_text();
@@ -84,7 +88,9 @@ pub(crate) fn read(text: &str) -> Result<Reading<'_>, UnitError> {
     if start >= end {
         return Err(UnitError::new(UnitErrorKind::Empty, 0..text.len()));
     }
-    let Some(number) = number::scan(text, start, true)? else { return Err(no_number(text, start..end)) };
+    let Some(number) = number::scan(text, start, true)? else {
+        return Err(no_number(text, start..end));
+    };
     separators::check(text, &number)?;
     separators::check_fraction(text, &number)?;
     let after_number = number.span.end;
@@ -120,7 +126,8 @@ pub(crate) fn skip_space(text: &str, at: usize) -> usize {
 
 pub(crate) fn deviation_number(text: &str, at: usize) -> Result<Number, UnitError> {
     let start = skip_space(text, at);
-    let number = number::scan(text, start, true)?.ok_or_else(|| no_number(text, start..text.len()))?;
+    let number =
+        number::scan(text, start, true)?.ok_or_else(|| no_number(text, start..text.len()))?;
     separators::check(text, &number)?;
     Ok(number)
 }
@@ -288,16 +295,19 @@ impl Reading<'_> {
         complete.then(|| format!("{} rev/s{tail}", rounded(self.number.value * scale, 12)))
     }
 
-    /// The inverse of what is due where both are in use. A unit that measures nothing known is one with a slip, of
-    /// another quantity nobody knows what was meant.
+    /// The inverse of what is due where both are in use. A unit that measures nothing known is one
+    /// with a slip, of another quantity nobody knows what was meant.
     fn mismatch_fix(&self, found: Type, wanted: Type) -> Option<String> {
         if is_inverse(found, wanted) {
             let inverse = || format!("1 / ({} [{}])", number(self.number.value), self.unit_text());
             return (self.deviation.is_none() && has_inverse(found, wanted)).then(inverse);
         }
         let slip = !found.absolute && found.dimension.quantity_name().is_none();
-        let fix =
-            || format!("{} {}", self.amount_text(), wanted.usual_unit()).trim_end_matches(" 1").to_owned();
+        let fix = || {
+            format!("{} {}", self.amount_text(), wanted.usual_unit())
+                .trim_end_matches(" 1")
+                .to_owned()
+        };
         slip.then(|| fix() + self.tail())
     }
 }

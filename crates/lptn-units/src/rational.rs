@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-/// A fraction in lowest terms with a positive denominator. Dimensions carry these as exponents, so that
-/// `(x^(5/3))^(3/5)` has exactly the dimension of `x`.
+/// A fraction in lowest terms with a positive denominator. Dimensions carry these as exponents, so
+/// that `(x^(5/3))^(3/5)` has exactly the dimension of `x`.
 ///
 /// Every operation is checked: it returns `None` where the result does not fit into two `i32`.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -30,8 +30,8 @@ impl Rational {
         Self::reduced(i64::from(num), i64::from(den))
     }
 
-    /// Reads a plain decimal number such as `1.25` or `-3` without rounding; `None` if it has an exponent
-    /// part or does not fit.
+    /// Reads a plain decimal number such as `1.25` or `-3` without rounding; `None` if it has an
+    /// exponent part or does not fit.
     pub fn from_decimal(text: &str) -> Option<Self> {
         let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
         let fraction = fraction.trim_end_matches('0');
@@ -144,7 +144,10 @@ mod tests {
     fn decimals_are_exact() {
         assert_eq!(Rational::from_decimal("1.25"), Rational::new(5, 4));
         assert_eq!(Rational::from_decimal("-0.50"), Rational::new(-1, 2));
-        assert_eq!(Rational::from_decimal("0.123456789"), Rational::new(123_456_789, 1_000_000_000));
+        assert_eq!(
+            Rational::from_decimal("0.123456789"),
+            Rational::new(123_456_789, 1_000_000_000)
+        );
         assert_eq!(Rational::from_decimal("0.1234567891"), None);
         assert_eq!(Rational::from_decimal("0.12500000000000"), Rational::new(1, 8));
         assert_eq!(Rational::from_decimal("1e3"), None);

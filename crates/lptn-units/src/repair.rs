@@ -6,8 +6,8 @@ use crate::unit_table;
 /// Texts longer than this are not a unit with a slip of the pen.
 const LONGEST: usize = 200;
 
-/// The corrected unit: exponents raised (`m2` to `m^2`), brackets after the bar, near names replaced.
-/// `None` when no correction reads as a unit.
+/// The corrected unit: exponents raised (`m2` to `m^2`), brackets after the bar, near names
+/// replaced. `None` when no correction reads as a unit.
 pub(crate) fn unit(text: &str) -> Option<String> {
     if text.len() > LONGEST {
         return None;
@@ -32,7 +32,10 @@ pub(crate) fn unit(text: &str) -> Option<String> {
 /// `kg.K` as `kg K`: a point before a letter multiplies.
 fn without_dots(text: &str) -> String {
     let next = text.chars().skip(1).chain([' ']);
-    text.chars().zip(next).map(|(c, next)| if c == '.' && is_name_start(next) { ' ' } else { c }).collect()
+    text.chars()
+        .zip(next)
+        .map(|(c, next)| if c == '.' && is_name_start(next) { ' ' } else { c })
+        .collect()
 }
 
 /// The factors of a product, each corrected.
@@ -116,8 +119,9 @@ fn exponent(text: &str) -> Option<(String, &str)> {
     let length = if body.starts_with('(') {
         body.find(')')? + 1
     } else {
-        let belongs =
-            |c: char| c.is_ascii_digit() || superscript(c).is_some() || matches!(c, '-' | '+' | '.');
+        let belongs = |c: char| {
+            c.is_ascii_digit() || superscript(c).is_some() || matches!(c, '-' | '+' | '.')
+        };
         body.find(|c: char| !belongs(c)).unwrap_or(body.len())
     };
     let (digits, tail) = body.split_at_checked(length)?;

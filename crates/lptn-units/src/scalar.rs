@@ -2,15 +2,22 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number a [`Program`](crate::Program) can be evaluated on: `f64`, or [`Dual`](crate::Dual) for derivatives.
+/// A number a [`Program`](crate::Program) can be evaluated on: `f64`, or [`Dual`](crate::Dual) for
+/// derivatives.
 ///
-/// Derivatives at the points where there is none: `abs`, `min` and `max` take one side at their kinks
-/// (`abs'(0) = 1`; `min` and `max` of equal values take the first; a table takes the piece above its knot). `sqrt` and `x^a` with 0 < a < 1 have
-/// an infinite derivative at 0; it is given as 0, so that a law whose conductance goes like `abs(dT)^0.25`
-/// has a finite Jacobian at `dT = 0` (where the term `dT * dG/ddT` is 0). `x^a` with a > 1 has derivative 0 at
-/// 0, which is what it is.
+/// Derivatives at the points where there is none: `abs`, `min` and `max` take one side at their
+/// kinks (`abs'(0) = 1`; `min` and `max` of equal values take the first; a table takes the piece
+/// above its knot). `sqrt` and `x^a` with 0 < a < 1 have an infinite derivative at 0; it is given
+/// as 0, so that a law whose conductance goes like `abs(dT)^0.25` has a finite Jacobian at `dT = 0`
+/// (where the term `dT * dG/ddT` is 0). `x^a` with a > 1 has derivative 0 at 0, which is what it
+/// is.
 pub trait Scalar:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
 {
     /// A constant.
     fn from_f64(value: f64) -> Self;

@@ -27,8 +27,8 @@ pub(crate) fn check(text: &str, number: &Number) -> Result<(), UnitError> {
     Err(UnitError::new(kind, run.first.clone()))
 }
 
-/// Refuses `3/8 in`, `1 1/2 in` and `1-1/2 in`, which are 0.375 and 1.5 of a unit to whoever writes them and would be
-/// a number over a unit as an expression.
+/// Refuses `3/8 in`, `1 1/2 in` and `1-1/2 in`, which are 0.375 and 1.5 of a unit to whoever writes
+/// them and would be a number over a unit as an expression.
 pub(crate) fn check_fraction(text: &str, first: &Number) -> Result<(), UnitError> {
     let Some((value, end)) = fraction_at(text, first).filter(|_| text.len() <= LONGEST) else {
         return Ok(());
@@ -52,8 +52,9 @@ fn fraction_at(text: &str, first: &Number) -> Option<(f64, usize)> {
     // `1 - 1/2` is a difference
     let joint = text.get(first.span.end..at)?;
     let joined = joint == "-" || (!joint.is_empty() && matches!(joint.trim(), "" | "+"));
-    let above =
-        number::scan(text, at, false).ok()?.filter(|above| joined && above.value.fract().abs() == 0.0)?;
+    let above = number::scan(text, at, false)
+        .ok()?
+        .filter(|above| joined && above.value.fract().abs() == 0.0)?;
     let (below, end) = divisor(text, above.span.end)?;
     let part = above.value / below;
     let proper = part < 1.0 && first.value.fract().abs() == 0.0;
@@ -135,12 +136,17 @@ impl<'a> Run<'a> {
 /// `7.7*10^-3 K/W` and `7.7x10-3 K/W` as `7.7e-3 K/W`, where that is a quantity.
 pub(crate) fn power_of_ten(text: &str) -> Option<String> {
     let text = text.trim();
-    let at = text.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))).filter(|&at| at > 0)?;
+    let at =
+        text.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))).filter(|&at| at > 0)?;
     let (mantissa, rest) = text.split_at_checked(at)?;
-    let rest =
-        rest.trim_start().strip_prefix(['*', 'x', 'X', '×', '·', '⋅'])?.trim_start().strip_prefix("10")?;
+    let rest = rest
+        .trim_start()
+        .strip_prefix(['*', 'x', 'X', '×', '·', '⋅'])?
+        .trim_start()
+        .strip_prefix("10")?;
     let rest = rest.strip_prefix("**").or_else(|| rest.strip_prefix('^')).unwrap_or(rest);
-    let exponent = rest.find(|c: char| !(c.is_ascii_digit() || "+-()".contains(c))).unwrap_or(rest.len());
+    let exponent =
+        rest.find(|c: char| !(c.is_ascii_digit() || "+-()".contains(c))).unwrap_or(rest.len());
     let (exponent, unit) = rest.split_at_checked(exponent)?;
     let fixed = format!("{mantissa}e{}{unit}", exponent.trim_matches(['(', ')']));
     (text.len() <= LONGEST && quantity::read(&fixed).is_ok()).then_some(fixed)
@@ -150,7 +156,8 @@ fn digits(text: &str) -> usize {
     text.find(|c: char| !c.is_ascii_digit() && c != '_').unwrap_or(text.len())
 }
 
-/// Can this stand between digits, with so many after it? A space can only before three: `5 1/s` is a quantity.
+/// Can this stand between digits, with so many after it? A space can only before three: `5 1/s` is
+/// a quantity.
 fn separates(mark: char, after: usize) -> bool {
     match mark {
         ',' | '.' => after > 0,

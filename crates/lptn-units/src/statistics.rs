@@ -14,8 +14,9 @@ pub fn squares_about_mean(values: &[f64]) -> f64 {
     values.iter().map(|value| (value - mean) * (value - mean)).sum()
 }
 
-/// The standard error of a number from its `values` when one part of the data after the other is left out (jackknife:
-/// B. Efron, R. J. Tibshirani, An Introduction to the Bootstrap, Chapman & Hall 1993, chapter 11).
+/// The standard error of a number from its `values` when one part of the data after the other is
+/// left out (jackknife: B. Efron, R. J. Tibshirani, An Introduction to the Bootstrap, Chapman &
+/// Hall 1993, chapter 11).
 pub fn jackknife(values: &[f64]) -> f64 {
     let n = values.len() as f64;
     ((n - 1.0) / n * squares_about_mean(values)).sqrt()

@@ -5,12 +5,13 @@ const LONGEST: usize = 64;
 
 /// The candidate nearest to `name`, or `None` when nothing is near.
 ///
-/// Near means: equal but for case, or at most one edit for every three characters (one edit for names
-/// of two to five) by the Damerau-Levenshtein distance in which no part is edited twice (optimal string
-/// alignment). Of equally near candidates those of the same length win, then the first.
+/// Near means: equal but for case, or at most one edit for every three characters (one edit for
+/// names of two to five) by the Damerau-Levenshtein distance in which no part is edited twice
+/// (optimal string alignment). Of equally near candidates those of the same length win, then the
+/// first.
 ///
-/// Source: R. A. Wagner and M. J. Fischer, Journal of the ACM 21 (1974) 168, with the transposition of
-/// neighbours added.
+/// Source: R. A. Wagner and M. J. Fischer, Journal of the ACM 21 (1974) 168, with the transposition
+/// of neighbours added.
 pub fn suggest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let wanted: Vec<char> = name.chars().take(LONGEST + 1).collect();
     if wanted.is_empty() || wanted.len() > LONGEST {
@@ -85,7 +86,8 @@ mod tests {
         assert_eq!(suggest("x", ["K", "W"].into_iter()), None);
     }
 
-    /// Wagner and Fischer's kind of examples; with "no part is edited twice" `ca` to `abc` takes three edits, not two.
+    /// Wagner and Fischer's kind of examples; with "no part is edited twice" `ca` to `abc` takes
+    /// three edits, not two.
     #[test]
     fn distances_are_those_of_the_literature() {
         let table = [
@@ -111,14 +113,23 @@ mod tests {
 
     #[test]
     fn one_edit_is_near_for_every_three_characters() {
-        assert!(near("abc", "abx") && near("ab", "ax") && near("abcde", "abcdx") && !near("abcde", "abcxy"));
+        assert!(
+            near("abc", "abx")
+                && near("ab", "ax")
+                && near("abcde", "abcdx")
+                && !near("abcde", "abcxy")
+        );
         assert!(near("abcdef", "abcdxy") && !near("abcdef", "abcxyz"));
         assert!(near("abcdefgh", "abcdefxy") && !near("abcdefgh", "abcdexyz"));
         assert!(near("abcdefghi", "abcdefxyz"));
         // the longer of the two counts
         assert!(near("abcdefgh", "abcdefghxyz") && !near("abcdefg", "abcdefgxyz1"));
         assert!(
-            !near("w", "wa") && !near("wa", "w") && !near("", "a") && near("ab", "abc") && !near("a", "abc")
+            !near("w", "wa")
+                && !near("wa", "w")
+                && !near("", "a")
+                && near("ab", "abc")
+                && !near("a", "abc")
         );
     }
 
@@ -139,7 +150,10 @@ mod tests {
     #[test]
     fn of_equally_near_names_those_of_the_same_length_win_and_then_the_first() {
         assert_eq!(suggest("abcde", ["abcdef", "abcdx", "abxde"].into_iter()), Some("abcdx"));
-        assert_eq!(suggest("abcdef", ["abcdexyz", "abcdefg", "abcxyf"].into_iter()), Some("abcdefg"));
+        assert_eq!(
+            suggest("abcdef", ["abcdexyz", "abcdefg", "abcxyf"].into_iter()),
+            Some("abcdefg")
+        );
         assert_eq!(suggest("abcde", ["abcde", "abcdx"].into_iter()), Some("abcdx"));
         assert_eq!(suggest("abcde", ["abcdx", "ABCDE"].into_iter()), Some("ABCDE"));
     }

@@ -4,8 +4,8 @@ use std::fmt;
 
 use crate::dimension::Dimension;
 
-/// What a value is: a dimension, and for temperatures whether it is a point on the scale (absolute) or a
-/// difference of two such points.
+/// What a value is: a dimension, and for temperatures whether it is a point on the scale (absolute)
+/// or a difference of two such points.
 ///
 /// 20 degC + 20 degC has no meaning while 20 K + 20 K has, so the two are kept apart.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -18,7 +18,8 @@ pub struct Type {
 
 impl Type {
     /// A point on the temperature scale, in K.
-    pub const ABSOLUTE_TEMPERATURE: Self = Self { dimension: Dimension::TEMPERATURE, absolute: true };
+    pub const ABSOLUTE_TEMPERATURE: Self =
+        Self { dimension: Dimension::TEMPERATURE, absolute: true };
     /// A plain number.
     pub const SCALAR: Self = Self::of(Dimension::NONE);
 
@@ -45,8 +46,8 @@ impl Type {
 
     /// May a value of this type stand where `wanted` is due?
     ///
-    /// The types are equal, or the value has exactly one radian too many: a torque (N m) times a rotational
-    /// speed (rad/s) is a power. A rotational speed is never a frequency (1/s).
+    /// The types are equal, or the value has exactly one radian too many: a torque (N m) times a
+    /// rotational speed (rad/s) is a power. A rotational speed is never a frequency (1/s).
     pub fn conforms_to(&self, wanted: Type) -> bool {
         let one_radian_too_many = || {
             !self.absolute
@@ -57,16 +58,17 @@ impl Type {
         *self == wanted || one_radian_too_many()
     }
 
-    /// Do the two differ by nothing but a power of rad? Then a frequency was probably meant to be a rotational
-    /// speed, which [`Dimension`] tells apart.
+    /// Do the two differ by nothing but a power of rad? Then a frequency was probably meant to be a
+    /// rotational speed, which [`Dimension`] tells apart.
     ///
     /// `other` is what is due.
     pub fn differs_by_radians(&self, other: Type) -> bool {
         let apart = self.dimension.checked_div(other.dimension).map(|ratio| ratio.exponents());
         // where a frequency is due a speed is what is wrong
         let due = other.dimension == Dimension::FREQUENCY || self.absolute || other.absolute;
-        apart.is_some_and(|[rest @ .., rad]| rest.iter().all(|exponent| exponent.is_zero()) && !rad.is_zero())
-            && !due
+        apart.is_some_and(|[rest @ .., rad]| {
+            rest.iter().all(|exponent| exponent.is_zero()) && !rad.is_zero()
+        }) && !due
     }
 
     /// With the article a sentence needs: `a thermal resistance (K/W)`.

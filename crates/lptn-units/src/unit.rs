@@ -21,17 +21,18 @@ pub struct Unit {
 impl Unit {
     /// Reads a unit: `W/(m^2 K)`, `uW/rpm^(5/3)`, `1` for plain numbers.
     ///
-    /// `degC` and `degF` standing alone are absolute; `K`, and every temperature inside a compound unit, is a
-    /// difference.
+    /// `degC` and `degF` standing alone are absolute; `K`, and every temperature inside a compound
+    /// unit, is a difference.
     ///
     /// # Errors
     ///
-    /// An unknown unit, a product after `/` without brackets, a malformed exponent; the help shows the
-    /// corrected unit.
+    /// An unknown unit, a product after `/` without brackets, a malformed exponent; the help shows
+    /// the corrected unit.
     pub fn parse(text: &str) -> Result<Self, UnitError> {
         let parsed = parse_or_repair(text)?;
         let entry = parsed.alone.filter(|entry| entry.offset > 0.0);
-        let ty = if entry.is_some() { Type::ABSOLUTE_TEMPERATURE } else { Type::of(parsed.dimension) };
+        let ty =
+            if entry.is_some() { Type::ABSOLUTE_TEMPERATURE } else { Type::of(parsed.dimension) };
         let offset = entry.map_or(0.0, |entry| entry.offset);
         Ok(Self { text: text.trim().to_owned(), scale: parsed.scale, offset, ty })
     }
@@ -58,8 +59,11 @@ pub(crate) fn parse_or_repair(text: &str) -> Result<ParsedUnit, UnitError> {
 fn with_fix(mut error: UnitError, text: &str) -> UnitError {
     let repaired = repair::unit(text);
     match &mut error.kind {
-        UnitErrorKind::UnknownUnit { fix, .. } | UnitErrorKind::AmbiguousProduct { fix } => *fix = repaired,
-        // `m-2`, `m**2`: no such thing as a unit, but plainly one with its exponent written otherwise.
+        UnitErrorKind::UnknownUnit { fix, .. } | UnitErrorKind::AmbiguousProduct { fix } => {
+            *fix = repaired
+        }
+        // `m-2`, `m**2`: no such thing as a unit, but plainly one with its exponent written
+        // otherwise.
         UnitErrorKind::Syntax { .. } if repaired.is_some() => {
             let name = text.trim().to_owned();
             error.kind = UnitErrorKind::UnknownUnit { name, fix: repaired };

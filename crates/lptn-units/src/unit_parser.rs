@@ -165,7 +165,9 @@ impl Parser<'_> {
         let written = self.text.get(start..self.at).unwrap_or_default();
         self.names.push(start..self.at);
         match unit_table::find(&unit_table::plain_name(written)) {
-            Some(entry) => Ok(Factor { scale: entry.scale, dimension: entry.dimension, alone: Some(entry) }),
+            Some(entry) => {
+                Ok(Factor { scale: entry.scale, dimension: entry.dimension, alone: Some(entry) })
+            }
             None => {
                 let kind = UnitErrorKind::UnknownUnit { name: written.to_owned(), fix: None };
                 Err(UnitError::new(kind, start..self.at))
@@ -190,7 +192,8 @@ impl Parser<'_> {
             }
             _ => return Ok(None),
         };
-        let error = || UnitError::new(UnitErrorKind::Exponent { text: body.clone() }, start..self.at);
+        let error =
+            || UnitError::new(UnitErrorKind::Exponent { text: body.clone() }, start..self.at);
         fraction(&digits).map(Some).ok_or_else(error)
     }
 
@@ -244,7 +247,8 @@ impl Parser<'_> {
 
 /// Letters, and the signs that are units by themselves.
 pub(crate) fn is_name_start(c: char) -> bool {
-    (c.is_alphabetic() && superscript(c).is_none()) || matches!(c, '°' | '˚' | '%' | '_' | '℃' | '℉')
+    (c.is_alphabetic() && superscript(c).is_none())
+        || matches!(c, '°' | '˚' | '%' | '_' | '℃' | '℉')
 }
 
 fn raise(base: Factor, exponent: Rational) -> Option<Factor> {

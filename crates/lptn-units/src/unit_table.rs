@@ -33,9 +33,10 @@ const GALLON: f64 = 3.785_411_784e-3;
 const BTU: f64 = 1_055.055_852_62;
 const REVOLUTION: f64 = std::f64::consts::TAU;
 
-/// Every unit. SI values: SI Brochure, 9th edition (2019), tables 2 to 8. The others: NIST Special Publication
-/// 811 (2008), appendix B: international foot and avoirdupois pound (exact), BTU of the International
-/// Table, thermochemical calorie, mechanical horsepower (550 ft lbf/s), US gallon (231 in^3).
+/// Every unit. SI values: SI Brochure, 9th edition (2019), tables 2 to 8. The others: NIST Special
+/// Publication 811 (2008), appendix B: international foot and avoirdupois pound (exact), BTU of the
+/// International Table, thermochemical calorie, mechanical horsepower (550 ft lbf/s), US gallon
+/// (231 in^3).
 pub(crate) const UNITS: &[Entry] = &[
     si("m", 1.0, Dimension::LENGTH),
     si("g", 1e-3, Dimension::MASS),
@@ -211,7 +212,8 @@ fn exact(name: &str) -> Option<Entry> {
     UNITS.iter().find(|entry| entry.name == name).copied()
 }
 
-/// Writes special signs in plain letters: `°C` as `degC`, `µ` (two code points) as `u`, `Ω` as `ohm`.
+/// Writes special signs in plain letters: `°C` as `degC`, `µ` (two code points) as `u`, `Ω` as
+/// `ohm`.
 pub(crate) fn plain_name(written: &str) -> String {
     let mut name = written.replace('℃', "degC").replace('℉', "degF");
     if let Some(scale @ ("C" | "F" | "R")) = name.strip_prefix('°') {
@@ -220,7 +222,8 @@ pub(crate) fn plain_name(written: &str) -> String {
     name.replace(['µ', 'μ'], "u").replace(['Ω', '\u{2126}'], "ohm")
 }
 
-/// `kgK` as `kg K` and `mPas` as `mPa s`: units that were run together. Other letters at the end of a name are slips.
+/// `kgK` as `kg K` and `mPas` as `mPa s`: units that were run together. Other letters at the end of
+/// a name are slips.
 fn run_together(name: &str) -> Option<String> {
     let joined = |last: &str, of: &dyn Fn(&str) -> bool| {
         let first = name.strip_suffix(last).filter(|first| of(first))?;
@@ -230,7 +233,8 @@ fn run_together(name: &str) -> Option<String> {
     joined("K", &|_| true).or_else(|| joined("s", &by_time))
 }
 
-/// Names that are refused because each is too near to a unit of another kind: the metric horsepower `PS` is not a pascal.
+/// Names that are refused because each is too near to a unit of another kind: the metric horsepower
+/// `PS` is not a pascal.
 const NO_SLIPS: [&str; 2] = ["PS", "ps"];
 
 /// The unit that was probably meant by an unknown name.
@@ -241,8 +245,8 @@ pub(crate) fn meant(name: &str) -> Option<String> {
     let lower = name.to_lowercase();
     let alias = ALIASES.iter().find(|(word, _)| *word == lower).map(|(_, unit)| *unit);
     const PREFIXED: [&str; 24] = [
-        "mm", "cm", "km", "um", "kW", "mW", "uW", "MW", "kJ", "MJ", "mK", "kPa", "MPa", "hPa", "mbar", "mL",
-        "kWh", "kHz", "mA", "mV", "cSt", "cP", "kcal", "ms",
+        "mm", "cm", "km", "um", "kW", "mW", "uW", "MW", "kJ", "MJ", "mK", "kPa", "MPa", "hPa",
+        "mbar", "mL", "kWh", "kHz", "mA", "mV", "cSt", "cP", "kcal", "ms",
     ];
     if let Some([milli, mega]) = TWO_SIZES.iter().find(|[milli, _]| milli.to_lowercase() == lower) {
         // the prefix as it is written; without any capital letter nobody knows
@@ -253,8 +257,10 @@ pub(crate) fn meant(name: &str) -> Option<String> {
     }
     let names = UNITS.iter().map(|entry| entry.name).chain(PREFIXED);
     let near = alias.or_else(|| crate::suggest::suggest(name, names));
-    // a slip in the case of letters is likelier than two units, and those likelier than another slip
-    let certain = near.filter(|near| alias.is_some() || near.eq_ignore_ascii_case(name)).map(str::to_owned);
+    // a slip in the case of letters is likelier than two units, and those likelier than another
+    // slip
+    let certain =
+        near.filter(|near| alias.is_some() || near.eq_ignore_ascii_case(name)).map(str::to_owned);
     certain.or_else(|| run_together(name)).or_else(|| near.map(str::to_owned))
 }
 

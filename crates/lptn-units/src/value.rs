@@ -19,17 +19,18 @@ pub enum Written {
     Expression(Expression),
 }
 
-/// Reads a string that is either a quantity or an expression. A string that reads as a quantity is never an
-/// expression.
+/// Reads a string that is either a quantity or an expression. A string that reads as a quantity is
+/// never an expression.
 ///
-/// `expected` is the type of the field, where it is known; only a quantity is checked against it here, an
-/// expression is when it is compiled. `is_parameter` tells which names are parameters in scope.
+/// `expected` is the type of the field, where it is known; only a quantity is checked against it
+/// here, an expression is when it is compiled. `is_parameter` tells which names are parameters in
+/// scope.
 ///
 /// # Errors
 ///
-/// Where neither reading succeeds, the error of the more probable one. `2 * m` is an error if `m` is a
-/// parameter, because both readings succeed; units without brackets in an expression are an error that shows
-/// the brackets.
+/// Where neither reading succeeds, the error of the more probable one. `2 * m` is an error if `m`
+/// is a parameter, because both readings succeed; units without brackets in an expression are an
+/// error that shows the brackets.
 pub fn parse_value(
     text: &str,
     expected: Option<Type>,
@@ -40,7 +41,9 @@ pub fn parse_value(
         Err(error) => error,
     };
     let as_expression = match Expression::parse(text) {
-        Ok(expression) if !is_word(text, &as_quantity) => return Ok(Written::Expression(expression)),
+        Ok(expression) if !is_word(text, &as_quantity) => {
+            return Ok(Written::Expression(expression));
+        }
         Ok(_) => return Err(as_quantity),
         Err(error) => error,
     };
@@ -86,7 +89,9 @@ fn more_helpful(
     if let Some(error) = missing_operator(text, &as_quantity, is_parameter) {
         return error;
     }
-    if matches!(as_quantity.kind, UnitErrorKind::Fraction { .. }) && !mentions_parameter(text, is_parameter) {
+    if matches!(as_quantity.kind, UnitErrorKind::Fraction { .. })
+        && !mentions_parameter(text, is_parameter)
+    {
         return as_quantity;
     }
     if matches!(as_expression.kind, UnitErrorKind::AmbiguousSign { .. }) {
@@ -112,12 +117,19 @@ fn more_helpful(
 }
 
 /// `2 P`, where `P` is a parameter.
-fn missing_operator(text: &str, error: &UnitError, is_parameter: &dyn Fn(&str) -> bool) -> Option<UnitError> {
+fn missing_operator(
+    text: &str,
+    error: &UnitError,
+    is_parameter: &dyn Fn(&str) -> bool,
+) -> Option<UnitError> {
     let UnitErrorKind::UnknownUnit { name, .. } = &error.kind else { return None };
     let (before, after) = text.split_at_checked(error.span.start).filter(|_| is_parameter(name))?;
     let fix = format!("{} * {after}", before.trim_end()).trim().to_owned();
     Expression::parse(&fix).ok()?;
-    Some(UnitError::new(UnitErrorKind::MissingOperator { name: name.clone(), fix }, error.span.clone()))
+    Some(UnitError::new(
+        UnitErrorKind::MissingOperator { name: name.clone(), fix },
+        error.span.clone(),
+    ))
 }
 
 fn mentions_parameter(text: &str, is_parameter: &dyn Fn(&str) -> bool) -> bool {

@@ -73,7 +73,10 @@ fn derivatives_agree_with_central_differences() {
             let found = dual(text, a, b);
             for (exact, difference) in found.derivatives.into_iter().zip([in_a, in_b]) {
                 let error = (exact - difference).abs();
-                assert!(error < 1e-6 * (1.0 + exact.abs()), "{text} at {a}, {b}: {exact} and {difference}");
+                assert!(
+                    error < 1e-6 * (1.0 + exact.abs()),
+                    "{text} at {a}, {b}: {exact} and {difference}"
+                );
             }
             assert!((found.value - value(&program, a, b)).abs() <= 1e-14 * found.value.abs());
         }

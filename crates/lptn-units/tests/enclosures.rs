@@ -1,12 +1,13 @@
-//! Bounds on expressions hold everywhere, and their Taylor coefficients are those of the published series.
+//! Bounds on expressions hold everywhere, and their Taylor coefficients are those of the published
+//! series.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
 use std::sync::Arc;
 
 use lptn_units::{
-    Dimension, Dual, Expression, Interpolation, Outside, Program, Scope, Symbol, Table, Table1, Table2,
-    TableSymbol, Taylor, Type,
+    Dimension, Dual, Expression, Interpolation, Outside, Program, Scope, Symbol, Table, Table1,
+    Table2, TableSymbol, Taylor, Type,
 };
 
 /// `x` in slot 0, `a` in slot 1, and three tables.
@@ -26,10 +27,15 @@ impl Scope for Names {
         let (x, y) = (vec![-4.0, -1.0, 0.5, 2.0, 5.0], vec![3.0, 1.0, 1.0, -2.0, 7.0]);
         let table = match name {
             "lines" => Table::One(Table1::new(x, y, Interpolation::Linear, Outside::Hold).unwrap()),
-            "smooth" => Table::One(Table1::new(x, y, Interpolation::Pchip, Outside::Error).unwrap()),
+            "smooth" => {
+                Table::One(Table1::new(x, y, Interpolation::Pchip, Outside::Error).unwrap())
+            }
             "map" => {
                 let values = vec![0.0, 4.0, -1.0, 10.0, 16.0, 3.0];
-                Table::Two(Table2::new(vec![0.0, 1.0], vec![-1.0, 0.0, 2.0], values, Outside::Hold).unwrap())
+                Table::Two(
+                    Table2::new(vec![0.0, 1.0], vec![-1.0, 0.0, 2.0], values, Outside::Hold)
+                        .unwrap(),
+                )
             }
             _ => return None,
         };
@@ -85,15 +91,17 @@ const EXPRESSIONS: [&str; 24] = [
 fn every_value_and_slope_lies_within_the_bounds() {
     for text in EXPRESSIONS {
         let program = program(text);
-        for (from, width) in
-            [-4.0, -1.1, -0.3, 0.4, 0.89, 1.9, 3.5].iter().flat_map(|f| [(*f, 0.01), (*f, 0.3), (*f, 1.2)])
+        for (from, width) in [-4.0, -1.1, -0.3, 0.4, 0.89, 1.9, 3.5]
+            .iter()
+            .flat_map(|f| [(*f, 0.01), (*f, 0.3), (*f, 1.2)])
         {
             let bounds = program.enclose(0, [from, from + width], &[f64::NAN, A]);
             for i in 0..=50 {
                 let x = from + width * f64::from(i) / 50.0;
                 let found = at(&program, x);
                 let Some([low, high]) = bounds.range() else { continue };
-                let found = found.unwrap_or_else(|| panic!("{text} has no value at {x}, but bounds"));
+                let found =
+                    found.unwrap_or_else(|| panic!("{text} has no value at {x}, but bounds"));
                 let slack = 1e-12 * (1.0 + found.value.abs());
                 assert!(
                     low - slack <= found.value && found.value <= high + slack,
@@ -103,7 +111,10 @@ fn every_value_and_slope_lies_within_the_bounds() {
                     continue; // a kink at an end has its slope from outside
                 }
                 let steepest = bounds.largest(1) * (1.0 + 1e-9) + 1e-12;
-                assert!(found.derivatives[0].abs() <= steepest, "{text} at {x}: {found:?}, {steepest}");
+                assert!(
+                    found.derivatives[0].abs() <= steepest,
+                    "{text} at {x}: {found:?}, {steepest}"
+                );
             }
         }
     }
@@ -124,12 +135,14 @@ fn bounds_close_in_on_the_function() {
     }
 }
 
-/// The Maclaurin series, as in Abramowitz and Stegun 3.6.8, 4.1.24, 4.2.1, 4.3.65, 4.3.66 and 4.5.64.
+/// The Maclaurin series, as in Abramowitz and Stegun 3.6.8, 4.1.24, 4.2.1, 4.3.65, 4.3.66 and
+/// 4.5.64.
 #[test]
 fn coefficients_are_those_of_the_series() {
     let factorial = |k: usize| (1..=k).map(|i| i as f64).product::<f64>();
     let odd = |k: usize| k % 2 == 1;
-    let binomial = |k: usize| (0..k).map(|i| (0.5 - i as f64) / (i as f64 + 1.0)).product::<f64>().abs();
+    let binomial =
+        |k: usize| (0..k).map(|i| (0.5 - i as f64) / (i as f64 + 1.0)).product::<f64>().abs();
     let tanh = [0.0, 1.0, 0.0, 1.0 / 3.0, 0.0, 2.0 / 15.0, 0.0, 17.0 / 315.0, 0.0, 62.0 / 2835.0];
     for (k, of_tanh) in tanh.into_iter().enumerate() {
         let cases = [
@@ -154,10 +167,13 @@ fn coefficients_are_those_of_the_series() {
 fn coefficients_have_the_signs_of_the_series() {
     let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
     let factorial = |k: usize| (1..=k).map(|i| i as f64).product::<f64>();
-    let binomial =
-        |power: f64, k: usize| (0..k).map(|i| (power - i as f64) / (i as f64 + 1.0)).product::<f64>();
+    let binomial = |power: f64, k: usize| {
+        (0..k).map(|i| (power - i as f64) / (i as f64 + 1.0)).product::<f64>()
+    };
     let tanh = [0.0, 1.0, 0.0, -1.0 / 3.0, 0.0, 2.0 / 15.0, 0.0, -17.0 / 315.0, 0.0, 62.0 / 2835.0];
-    let of = |coefficient: &dyn Fn(usize) -> f64| (0..=Taylor::ORDER).map(coefficient).collect::<Vec<f64>>();
+    let of = |coefficient: &dyn Fn(usize) -> f64| {
+        (0..=Taylor::ORDER).map(coefficient).collect::<Vec<f64>>()
+    };
     let cases = [
         ("exp(-x)", of(&|k| sign(k) / factorial(k))),
         ("ln(1 + x)", of(&|k| if k == 0 { 0.0 } else { -sign(k) / k as f64 })),
@@ -171,7 +187,8 @@ fn coefficients_have_the_signs_of_the_series() {
         ("tanh(x)", of(&|k| tanh[k])),
     ];
     for (text, series) in &cases {
-        let terms: Vec<String> = series.iter().enumerate().map(|(k, c)| format!("({c:?}) * x^{k}")).collect();
+        let terms: Vec<String> =
+            series.iter().enumerate().map(|(k, c)| format!("({c:?}) * x^{k}")).collect();
         let less = over(&format!("{text} - ({})", terms.join(" + ")), 0.0, 0.0);
         for k in 0..=Taylor::ORDER {
             assert!(less.largest(k) < 1e-14, "{text}, order {k}: {}", less.largest(k));
@@ -193,7 +210,9 @@ fn so_many_branches_are_followed_and_no_more() {
 /// Beyond its ends a table that is held is a number, up to the knot itself.
 #[test]
 fn a_held_table_stands_still() {
-    for (from, to, value) in [(-6.0, -5.0, 3.0), (-6.0, -4.0, 3.0), (5.0, 6.0, 7.0), (5.5, 6.0, 7.0)] {
+    for (from, to, value) in
+        [(-6.0, -5.0, 3.0), (-6.0, -4.0, 3.0), (5.0, 6.0, 7.0), (5.5, 6.0, 7.0)]
+    {
         let found = over("lines(x)", from, to);
         assert_eq!((found.range(), found.largest(1)), (Some([value, value]), 0.0), "{from} {to}");
     }
@@ -203,7 +222,10 @@ fn a_held_table_stands_still() {
     // a power whose base comes down to 0 has bounds, and no slope
     let [low, high] = over("x^1.5", 0.0, 4.0).range().unwrap();
     assert!(low.abs() < 1e-15 && (high - 8.0).abs() < 1e-14);
-    assert!(over("x^1.5", 0.0, 4.0).largest(1).is_infinite() && over("x^-1.5", 0.0, 4.0).range().is_none());
+    assert!(
+        over("x^1.5", 0.0, 4.0).largest(1).is_infinite()
+            && over("x^-1.5", 0.0, 4.0).range().is_none()
+    );
 }
 
 #[test]
@@ -215,14 +237,20 @@ fn what_may_have_no_value_has_no_bounds() {
 
 #[test]
 fn the_degree_is_that_of_the_polynomial() {
-    for (text, degree) in
-        [("a", 0), ("2 * x + a", 1), ("x^2 * x", 3), ("lines(x)", 1), ("smooth(x)", 3), ("exp(x)", 9)]
-    {
+    for (text, degree) in [
+        ("a", 0),
+        ("2 * x + a", 1),
+        ("x^2 * x", 3),
+        ("lines(x)", 1),
+        ("smooth(x)", 3),
+        ("exp(x)", 9),
+    ] {
         assert_eq!(over(text, 0.6, 1.0).degree(), degree, "{text}");
     }
 }
 
-/// A kink inside the interval is not part of a polynomial; neither is the end of a table whose last value is held.
+/// A kink inside the interval is not part of a polynomial; neither is the end of a table whose last
+/// value is held.
 #[test]
 fn a_kink_bounds_no_slope() {
     for text in [

@@ -1,5 +1,5 @@
-//! A table of expressions: right values against hand computation, and every error with its code, the part of
-//! the text it points to, and its help.
+//! A table of expressions: right values against hand computation, and every error with its code,
+//! the part of the text it points to, and its help.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -17,13 +17,19 @@ fn check_right(table: &[(&str, Type, f64)]) {
     for (text, ty, expected) in table {
         let program = program(text);
         let value = program.eval(&values(), &mut Vec::new()).unwrap();
-        assert!((value - expected).abs() <= 1e-13 * expected.abs(), "{text} = {value}, not {expected}");
+        assert!(
+            (value - expected).abs() <= 1e-13 * expected.abs(),
+            "{text} = {value}, not {expected}"
+        );
         assert_eq!(program.ty(), *ty, "{text}");
     }
 }
 
 #[test]
-#[expect(clippy::excessive_precision, reason = "digits as computed by hand with more than f64 holds")]
+#[expect(
+    clippy::excessive_precision,
+    reason = "digits as computed by hand with more than f64 holds"
+)]
 fn arithmetic_and_units_are_right() {
     check_right(&[
         ("1 + 2 * 3", SCALAR, 7.0),
@@ -44,13 +50,20 @@ fn arithmetic_and_units_are_right() {
         ("1.7 [K] / P", Type::of(Dimension::RESISTANCE), 0.00772727272727272727),
         ("1 [kW] + 1 [BTU/h]", POWER, 1000.29307107017222),
         ("87 [uW/rpm^(5/3)] * (1000 [rpm])^(5/3)", POWER, 8.7),
-        ("torque * omega", Type::of(Dimension::POWER.checked_mul(Dimension::ANGLE).unwrap()), 500.0),
+        (
+            "torque * omega",
+            Type::of(Dimension::POWER.checked_mul(Dimension::ANGLE).unwrap()),
+            500.0,
+        ),
         ("torque * omega + 20 [W]", POWER, 520.0),
     ]);
 }
 
 #[test]
-#[expect(clippy::excessive_precision, reason = "digits as computed by hand with more than f64 holds")]
+#[expect(
+    clippy::excessive_precision,
+    reason = "digits as computed by hand with more than f64 holds"
+)]
 fn absolute_temperatures_and_differences_are_right() {
     check_right(&[
         ("T - T_amb", DIFFERENCE, 50.0),
@@ -65,7 +78,11 @@ fn absolute_temperatures_and_differences_are_right() {
         ("mean(1, 2, 6)", SCALAR, 3.0),
         ("max(T, T_amb, 100 [degC])", ABSOLUTE, 373.15),
         ("min(x, n, x * n)", SCALAR, 2.0),
-        ("kelvin(T)^2", Type::of(DIFFERENCE.dimension.checked_mul(DIFFERENCE.dimension).unwrap()), 122500.0),
+        (
+            "kelvin(T)^2",
+            Type::of(DIFFERENCE.dimension.checked_mul(DIFFERENCE.dimension).unwrap()),
+            122500.0,
+        ),
         ("absolute(300 [K])", ABSOLUTE, 300.0),
         ("steel.T - planet[1].gear.T", DIFFERENCE, -10.0),
         ("steel.T - planet[ 1 ].gear.T", DIFFERENCE, -10.0),
@@ -73,7 +90,10 @@ fn absolute_temperatures_and_differences_are_right() {
 }
 
 #[test]
-#[expect(clippy::excessive_precision, reason = "digits as computed by hand with more than f64 holds")]
+#[expect(
+    clippy::excessive_precision,
+    reason = "digits as computed by hand with more than f64 holds"
+)]
 fn conditions_and_functions_are_right() {
     check_right(&[
         ("if(T > 80 [degC], 1, 2)", SCALAR, 2.0),
@@ -90,7 +110,11 @@ fn conditions_and_functions_are_right() {
         ("tanh(0.5)", SCALAR, 0.462117157260009758),
         ("(8 [m^3])^(1/3)", Type::of(Dimension::LENGTH), 2.0),
         ("(4 [m^2])^0.5", Type::of(Dimension::LENGTH), 2.0),
-        ("(4 [m^2])^-(1/2)", Type::of(Dimension::NONE.checked_div(Dimension::LENGTH).unwrap()), 0.5),
+        (
+            "(4 [m^2])^-(1/2)",
+            Type::of(Dimension::NONE.checked_div(Dimension::LENGTH).unwrap()),
+            0.5,
+        ),
         ("(0 - x)^3", SCALAR, -8.0),
         ("(0 - x)^71", SCALAR, -2361183241434822606848.0),
         ("(0 - x)^n", SCALAR, -8.0),
@@ -148,7 +172,13 @@ fn errors_of_syntax() {
         ("P [W] * 2", None, "units::misplaced_bracket", "[W]", Some("write \"P * 2\"")),
         ("P[W] * 2", None, "units::misplaced_bracket", "[W]", Some("write \"P * 2\"")),
         ("5 [Watt]", None, "units::unknown_unit", "Watt", Some("did you mean \"5 [W]\"?")),
-        ("2 * 5 [J/kg K]", None, "units::ambiguous_product", "K", Some("write \"2 * 5 [J/(kg K)]\"")),
+        (
+            "2 * 5 [J/kg K]",
+            None,
+            "units::ambiguous_product",
+            "K",
+            Some("write \"2 * 5 [J/(kg K)]\""),
+        ),
         (
             "5 [W^x]",
             None,
@@ -203,7 +233,13 @@ fn errors_of_names_and_arguments() {
 #[test]
 fn errors_of_dimensions() {
     check_wrong(&[
-        ("P + 5 [K]", None, "units::operands", "P + 5 [K]", Some("give all of them in W or all in K")),
+        (
+            "P + 5 [K]",
+            None,
+            "units::operands",
+            "P + 5 [K]",
+            Some("give all of them in W or all in K"),
+        ),
         ("P + 5", None, "units::operands", "P + 5", Some("write \"P + 5 [W]\"")),
         (
             "max(0, T - T_amb)",
@@ -245,7 +281,13 @@ fn a_bare_number_beside_a_temperature_gets_the_unit_that_is_right_in_its_place()
             "T - 20",
             Some("write \"1 + 0.004 [1/K] * (T - 20 [degC])\""),
         ),
-        ("1 + 0.004 * (T - 20)", Some(SCALAR), code, "T - 20", Some("write \"1 + 0.004 * (T - 20 [degC])\"")),
+        (
+            "1 + 0.004 * (T - 20)",
+            Some(SCALAR),
+            code,
+            "T - 20",
+            Some("write \"1 + 0.004 * (T - 20 [degC])\""),
+        ),
         (
             "T_amb - 5 [degC]",
             Some(ABSOLUTE),
@@ -253,7 +295,13 @@ fn a_bare_number_beside_a_temperature_gets_the_unit_that_is_right_in_its_place()
             "T_amb - 5 [degC]",
             Some("write \"T_amb - 5 [K]\""),
         ),
-        ("min(T_amb, 40)", Some(ABSOLUTE), code, "T_amb, 40", Some("write \"min(T_amb, 40 [degC])\"")),
+        (
+            "min(T_amb, 40)",
+            Some(ABSOLUTE),
+            code,
+            "T_amb, 40",
+            Some("write \"min(T_amb, 40 [degC])\""),
+        ),
     ]);
 }
 
@@ -291,7 +339,9 @@ fn errors_of_rotations_and_results() {
             None,
             "units::rotation",
             "3 [kHz]",
-            Some("write \"if(omega > 3000 [rev/s], 1, 2)\" for revolutions, or use rad/s, deg/s or rpm"),
+            Some(
+                "write \"if(omega > 3000 [rev/s], 1, 2)\" for revolutions, or use rad/s, deg/s or rpm",
+            ),
         ),
         (
             "50 [1/s]",
@@ -315,11 +365,36 @@ fn errors_of_rotations_and_results() {
             "torque * omega * omega",
             Some("the value must come out in W"),
         ),
-        ("2 * 3 / 4", resistance, "units::dimension", "2 * 3 / 4", Some("the value must come out in K/W")),
+    ]);
+}
+
+#[test]
+fn errors_of_results() {
+    let resistance = Some(Type::of(Dimension::RESISTANCE));
+    check_wrong(&[
+        (
+            "2 * 3 / 4",
+            resistance,
+            "units::dimension",
+            "2 * 3 / 4",
+            Some("the value must come out in K/W"),
+        ),
         ("T", Some(POWER), "units::dimension", "T", Some("the value must come out in W")),
-        ("P * 1", Some(DIFFERENCE), "units::dimension", "P * 1", Some("the value must come out in K")),
+        (
+            "P * 1",
+            Some(DIFFERENCE),
+            "units::dimension",
+            "P * 1",
+            Some("the value must come out in K"),
+        ),
         ("omega^x", None, "units::exponent", "x", Some("write \"(omega / 1 [rad/s])^x\"")),
-        ("2^P", None, "units::exponent", "P", Some("divide the exponent by its unit: \"x^(n / 1 [K])\"")),
+        (
+            "2^P",
+            None,
+            "units::exponent",
+            "P",
+            Some("divide the exponent by its unit: \"x^(n / 1 [K])\""),
+        ),
         (
             "(1 [m])^2000000000 * (1 [m])^2000000000",
             None,
@@ -344,9 +419,21 @@ fn errors_of_absolute_temperatures() {
         ("abs(T)", None, code, "T", Some("write \"abs(kelvin(T))\"")),
         ("-T", None, code, "T", Some("write \"-kelvin(T)\"")),
         ("5 [K] - T", None, code, "T", Some("write \"5 [K] - kelvin(T)\"")),
-        ("300 [K]", Some(ABSOLUTE), "units::absolute_wanted", "300 [K]", Some("write \"absolute(300 [K])\"")),
+        (
+            "300 [K]",
+            Some(ABSOLUTE),
+            "units::absolute_wanted",
+            "300 [K]",
+            Some("write \"absolute(300 [K])\""),
+        ),
         ("T", Some(DIFFERENCE), "units::difference_wanted", "T", Some("write \"T - 0 [degC]\"")),
-        ("5 [degC]", Some(DIFFERENCE), "units::difference_wanted", "5 [degC]", Some("write \"5 [K]\"")),
+        (
+            "5 [degC]",
+            Some(DIFFERENCE),
+            "units::difference_wanted",
+            "5 [degC]",
+            Some("write \"5 [K]\""),
+        ),
     ]);
 }
 
@@ -354,8 +441,12 @@ fn errors_of_absolute_temperatures() {
 fn all_errors_are_reported_in_order_of_place() {
     let errors = compile("foo + (T + T_amb) * sqrt(1, 2) + bar", None).unwrap_err();
     let codes: Vec<&str> = errors.iter().map(UnitError::code).collect();
-    let expected =
-        ["units::unknown_name", "units::absolute_temperature", "units::arity", "units::unknown_name"];
+    let expected = [
+        "units::unknown_name",
+        "units::absolute_temperature",
+        "units::arity",
+        "units::unknown_name",
+    ];
     assert_eq!(codes, expected);
 }
 
@@ -367,8 +458,9 @@ fn one_radian_too_many_is_a_result_in_the_type_that_is_due() {
 #[test]
 fn habits_of_other_languages_are_answered() {
     let nested = Some("conditions are combined by nesting: \"if(a < b, if(c < d, x, y), y)\"");
-    let choice =
-        Some("write `if(condition, value, other value)`, for example \"if(t < 10 [min], 100 [W], 0 [W])\"");
+    let choice = Some(
+        "write `if(condition, value, other value)`, for example \"if(t < 10 [min], 100 [W], 0 [W])\"",
+    );
     let power = Some("a power is written with `^`: \"x^2\"");
     check_wrong(&[
         ("if x < 3 then 1 else 2", None, "units::syntax", "x", choice),
@@ -387,9 +479,12 @@ fn habits_of_other_languages_are_answered() {
 #[test]
 fn comparisons_for_equality_are_found_by_name() {
     let expression =
-        lptn_units::Expression::parse("if(t == 5 [s], x, 0) + if(t < x, 1, if(x != t, 1, 2))").unwrap();
+        lptn_units::Expression::parse("if(t == 5 [s], x, 0) + if(t < x, 1, if(x != t, 1, 2))")
+            .unwrap();
     let found: Vec<&str> =
         expression.equalities("t").into_iter().map(|span| &expression.text()[span]).collect();
     assert_eq!(found, ["t == 5 [s]", "x != t"]);
-    assert!(lptn_units::Expression::parse("if(x == 2, t, 0 [s])").unwrap().equalities("t").is_empty());
+    assert!(
+        lptn_units::Expression::parse("if(x == 2, t, 0 [s])").unwrap().equalities("t").is_empty()
+    );
 }

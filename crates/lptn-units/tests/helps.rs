@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-use lptn_units::{Dimension, Expression, Scope, Symbol, Type, Written, parse_quantity, parse_value};
+use lptn_units::{
+    Dimension, Expression, Scope, Symbol, Type, Written, parse_quantity, parse_value,
+};
 use proptest::prelude::*;
 
 const LENGTH: Type = Type::of(Dimension::LENGTH);
@@ -21,7 +23,8 @@ impl Scope for NoNames {
     }
 }
 
-/// The value of a string where this type is due, as a netlist reads it, and its deviation; or the helps.
+/// The value of a string where this type is due, as a netlist reads it, and its deviation; or the
+/// helps.
 fn read(text: &str, ty: Type) -> Result<(f64, Option<f64>), Option<String>> {
     match parse_value(text, Some(ty), &|_| false).map_err(|error| error.help())? {
         Written::Quantity(quantity) => Ok((quantity.value, quantity.deviation)),
@@ -56,7 +59,9 @@ fn leads_to(text: &str, ty: Type, expected: f64, deviation: Option<f64>) {
     let (found, of) = read(first, ty).unwrap_or_else(|help| panic!("{text}: {first}: {help:?}"));
     assert!(near(found, expected), "{text}: {first} is {found}, not {expected}");
     match (of, deviation) {
-        (Some(of), Some(wanted)) => assert!(near(of, wanted), "{text}: {first}: ± {of}, not {wanted}"),
+        (Some(of), Some(wanted)) => {
+            assert!(near(of, wanted), "{text}: {first}: ± {of}, not {wanted}")
+        }
         (of, wanted) => assert_eq!(of, wanted, "{text}: {first}"),
     }
 }
@@ -78,7 +83,10 @@ fn fractions_of_a_unit_are_shown_as_decimals() {
     leads_to("1/2 W ± 5 %", POWER, 0.5, Some(0.025));
     assert_eq!(offers("3/8 in", LENGTH), ["0.375 in"]);
     let units = parse_quantity("3/8 in", None).unwrap_err();
-    assert_eq!((units.code(), units.help().as_deref()), ("units::fraction", Some("write \"0.375 in\"")));
+    assert_eq!(
+        (units.code(), units.help().as_deref()),
+        ("units::fraction", Some("write \"0.375 in\""))
+    );
     for right in ["5 1/min", "1 / 2", "3/8 * 1 [in]", "1/s", "2 1/K"] {
         assert!(parse_value(right, None, &|_| false).is_ok(), "{right}");
     }
@@ -99,10 +107,12 @@ fn an_inverse_is_offered_for_what_people_write_both_ways_only() {
     }
 }
 
-/// What is known to measure something else is not a slip of the unit: its number says nothing of what is due.
+/// What is known to measure something else is not a slip of the unit: its number says nothing of
+/// what is due.
 #[test]
 fn another_quantity_is_not_relabelled() {
-    for (text, ty) in [("25 degC", POWER), ("5 kWh", POWER), ("475 J/(kg K)", Type::of(Dimension::CAPACITY))]
+    for (text, ty) in
+        [("25 degC", POWER), ("5 kWh", POWER), ("475 J/(kg K)", Type::of(Dimension::CAPACITY))]
     {
         assert!(offers(text, ty).is_empty(), "{text}: {:?}", offers(text, ty));
     }
@@ -141,7 +151,8 @@ fn a_prefix_keeps_its_case_and_without_any_nothing_is_offered() {
     leads_to("5 MPA", pressure, 5e6, None);
     leads_to("5 Mw", POWER, 5e6, None);
     leads_to("5 KW", POWER, 5e3, None);
-    for (text, ty) in [("5 mpa", pressure), ("5 mw", POWER), ("5 mj", Type::of(Dimension::ENERGY))] {
+    for (text, ty) in [("5 mpa", pressure), ("5 mw", POWER), ("5 mj", Type::of(Dimension::ENERGY))]
+    {
         assert!(offers(text, ty).is_empty(), "{text}: {:?}", offers(text, ty));
     }
 }
@@ -169,7 +180,8 @@ proptest! {
         leads_to(&text, Type::of(dimension), value * scale, None);
     }
 
-    /// A part of the value is offered first, the percentage second; both are read at once as what they say.
+    /// A part of the value is offered first, the percentage second; both are read at once as what
+    /// they say.
     #[test]
     fn any_deviation_in_percent(x in 0.01f64..200.0, y in 0.0f64..50.0) {
         for text in [format!("{x} ± {y} %"), format!("{x} % ± {y} %"), format!("{x} % ± {y}")] {

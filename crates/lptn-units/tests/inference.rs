@@ -31,8 +31,12 @@ fn check(text: &str, expected: &[(&str, &str)]) {
     assert_eq!(found.len(), expected.len(), "{text}: {found:?}");
     for ((name, unit), (wanted_name, wanted)) in found.iter().zip(expected) {
         assert_eq!(name, wanted_name, "{text}");
-        let same = *wanted == "?" || Unit::parse(unit).unwrap().ty == Unit::parse(wanted).unwrap().ty;
-        assert!(same && (unit == "?") == (*wanted == "?"), "{text}: {name} is {unit}, not {wanted}");
+        let same =
+            *wanted == "?" || Unit::parse(unit).unwrap().ty == Unit::parse(wanted).unwrap().ty;
+        assert!(
+            same && (unit == "?") == (*wanted == "?"),
+            "{text}: {name} is {unit}, not {wanted}"
+        );
     }
 }
 

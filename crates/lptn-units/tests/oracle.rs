@@ -54,13 +54,18 @@ fn udunits(have: &str, want: &str) -> Option<f64> {
 #[test]
 fn scales_agree_with_udunits() {
     if Command::new("udunits2").arg("-h").output().is_err() {
-        assert_ne!(std::env::var("LPTN_REQUIRE_ORACLES").as_deref(), Ok("1"), "udunits2 is required");
+        assert_ne!(
+            std::env::var("LPTN_REQUIRE_ORACLES").as_deref(),
+            Ok("1"),
+            "udunits2 is required"
+        );
         println!("SKIPPED: udunits2 not found; install it with: sudo apt-get install udunits-bin");
         return;
     }
     for (ours, theirs, si) in UDUNITS {
         let scale = Unit::parse(ours).unwrap_or_else(|e| panic!("{ours}: {e}")).scale;
-        let expected = udunits(theirs, si).unwrap_or_else(|| panic!("udunits2 does not convert {theirs}"));
+        let expected =
+            udunits(theirs, si).unwrap_or_else(|| panic!("udunits2 does not convert {theirs}"));
         // udunits2 prints six digits.
         assert!((scale / expected - 1.0).abs() < 6e-6, "{ours}: {scale}, UDUNITS {expected}");
     }
@@ -91,8 +96,8 @@ fn scales_agree_with_fend() {
     for (ours, theirs, si) in table {
         let mut context = fend_core::Context::new();
         let question = format!("(1 {theirs}) to ({si}) to 16 sf");
-        let answer =
-            fend_core::evaluate(&question, &mut context).unwrap_or_else(|e| panic!("{question}: {e}"));
+        let answer = fend_core::evaluate(&question, &mut context)
+            .unwrap_or_else(|e| panic!("{question}: {e}"));
         let text = answer.get_main_result().trim_start_matches("approx. ").to_owned();
         let number = text.split_whitespace().next().unwrap_or_default();
         let expected: f64 = number.parse().unwrap_or_else(|e| panic!("{question} = {text}: {e}"));

@@ -1,4 +1,5 @@
-//! What compiled programs and parsed expressions tell about themselves, and how they fail at run time.
+//! What compiled programs and parsed expressions tell about themselves, and how they fail at run
+//! time.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -52,8 +53,9 @@ fn comparisons_load_frozen_slots_and_their_own_programs_the_ordinary_ones() {
 
 #[test]
 fn held_comparisons_take_their_truth_from_slots() {
-    let program =
-        program("if(if(T > 340 [K] + 0 [degC], x, n) > 1, kelvin(T), 0 [K]) + if(x < 3, 1 [K], 2 [K])");
+    let program = program(
+        "if(if(T > 340 [K] + 0 [degC], x, n) > 1, kelvin(T), 0 [K]) + if(x < 3, 1 [K], 2 [K])",
+    );
     assert_eq!(program.relations(), [Comparison::Greater, Comparison::Greater, Comparison::Less]);
     let held = program.with_held_comparisons(&mut |i| [Some(11), Some(12), None][i]);
     assert_eq!(held.slots(), [0, 1, 6, 10, 11, 12]);
@@ -67,7 +69,8 @@ fn held_comparisons_take_their_truth_from_slots() {
     assert_eq!(value(0.0, 0.0), (1.0, 2.0));
     assert_eq!(value(1.0, 1.0), (351.0, 1.0));
     // derivatives are those of the branch that is held
-    let mut slots: Vec<Dual<1>> = values().into_iter().chain([0.0, 1.0]).map(Dual::constant).collect();
+    let mut slots: Vec<Dual<1>> =
+        values().into_iter().chain([0.0, 1.0]).map(Dual::constant).collect();
     slots[6] = Dual::variable(300.0, 0);
     let slope = held.eval(&slots, &mut Vec::new()).unwrap();
     assert_eq!((slope.value, slope.derivatives[0]), (301.0, 1.0));
@@ -77,21 +80,26 @@ fn held_comparisons_take_their_truth_from_slots() {
 fn a_comparison_splits_into_its_sides() {
     let text = "steel.T <= 80 [degC]";
     let (left, comparison, right) = Expression::parse(text).unwrap().split_comparison().unwrap();
-    assert_eq!((left.text(), comparison.to_string().as_str(), right.text()), ("steel.T", "<=", "80 [degC]"));
+    assert_eq!(
+        (left.text(), comparison.to_string().as_str(), right.text()),
+        ("steel.T", "<=", "80 [degC]")
+    );
     let right = right.compile(&Names, Some(ABSOLUTE)).unwrap();
     assert!((right.eval::<f64>(&[], &mut Vec::new()).unwrap() - 353.15).abs() < 1e-12);
-    let (_, _, wrong) = Expression::parse("steel.T < 80 [K] * foo").unwrap().split_comparison().unwrap();
+    let (_, _, wrong) =
+        Expression::parse("steel.T < 80 [K] * foo").unwrap().split_comparison().unwrap();
     assert_eq!(wrong.compile(&Names, None).unwrap_err()[0].span, 19..22);
     assert!(Expression::parse("1 + 2").unwrap().split_comparison().is_none());
     let text = "x + 2 * n - 1 >= max(n, fan, 3 * (x + 1)) + if(x < n, 2, 5)";
     let (left, _, right) = Expression::parse(text).unwrap().split_comparison().unwrap();
-    let value =
-        |side: Expression| side.compile(&Names, None).unwrap().eval(&values(), &mut Vec::new()).unwrap();
+    let value = |side: Expression| {
+        side.compile(&Names, None).unwrap().eval(&values(), &mut Vec::new()).unwrap()
+    };
     assert_eq!((value(left), value(right)), (7.0, 11.0));
 }
 
-/// A constant part is computed before the run, whatever it is made of, so that a negative base takes the whole exponent
-/// that it comes to: (2 - 3)^2 = 1, (2 - 3)^1 = -1.
+/// A constant part is computed before the run, whatever it is made of, so that a negative base
+/// takes the whole exponent that it comes to: (2 - 3)^2 = 1, (2 - 3)^1 = -1.
 #[test]
 fn constant_exponents_are_known_beforehand() {
     let even = [
@@ -123,9 +131,17 @@ fn constant_exponents_are_known_beforehand() {
         assert!((run(&format!("(x - 3)^({exponent})")).unwrap() + 1.0).abs() < 1e-15, "{exponent}");
     }
     // what is constant has no kink
-    for constant in
-        ["sqrt(4)", "ln(2)", "cos(1)", "sin(1)", "tanh(1)", "exp(1)", "abs(-2)", "2^0.5", "mean(1, 2)"]
-    {
+    for constant in [
+        "sqrt(4)",
+        "ln(2)",
+        "cos(1)",
+        "sin(1)",
+        "tanh(1)",
+        "exp(1)",
+        "abs(-2)",
+        "2^0.5",
+        "mean(1, 2)",
+    ] {
         assert!(program(&format!("x + max({constant}, 5)")).kinks().is_empty(), "{constant}");
     }
     let constant = program("2 * sqrt(9) + max(1, 4)");
@@ -195,8 +211,9 @@ fn deep_nesting_is_an_error_and_long_sums_are_not() {
 #[test]
 fn names_may_stand_for_others() {
     let expression = Expression::parse("R * (1 + R / 2) + loss(gear.T) - pi").unwrap();
-    let meaning =
-        |name: &str| matches!(name, "R" | "loss" | "gear.T" | "pi").then(|| format!("planet[2].{name}"));
+    let meaning = |name: &str| {
+        matches!(name, "R" | "loss" | "gear.T" | "pi").then(|| format!("planet[2].{name}"))
+    };
     let renamed = expression.renamed(&meaning);
     assert_eq!(
         renamed.meant(),
@@ -252,14 +269,25 @@ fn trends_are_told_only_where_they_are_sure() {
     let trend = |text: &str| {
         program(text).trend(&|slot| if slot == 0 { Trend::SIGNED } else { Trend::constant(3.0) })
     };
-    let rising =
-        ["1.6 * abs(x)^0.25 + n", "2 + x^2", "max(5, abs(x))", "1 - 0.5 * exp(-abs(x))", "abs(2 * x) / n"];
+    let rising = [
+        "1.6 * abs(x)^0.25 + n",
+        "2 + x^2",
+        "max(5, abs(x))",
+        "1 - 0.5 * exp(-abs(x))",
+        "abs(2 * x) / n",
+    ];
     for text in rising {
         let found = trend(text);
         assert!(found.rises && !found.falls && found.low >= 0.0, "{text}: {found:?}");
     }
-    let others =
-        ["x", "1 + x", "5 - abs(x)", "abs(x) * exp(-abs(x))", "n / (1 + abs(x))", "if(x < 2, 1, abs(x))"];
+    let others = [
+        "x",
+        "1 + x",
+        "5 - abs(x)",
+        "abs(x) * exp(-abs(x))",
+        "n / (1 + abs(x))",
+        "if(x < 2, 1, abs(x))",
+    ];
     for text in others {
         let found = trend(text);
         assert!(!(found.rises && found.low >= 0.0), "{text}: {found:?}");

@@ -5,8 +5,8 @@
 use std::sync::Arc;
 
 use lptn_units::{
-    Dimension, Expression, Interpolation, Outside, Rational, Scope, Symbol, Table, Table1, TableSymbol, Type,
-    Unit, format_number, parse_quantity, parse_value, suggest,
+    Dimension, Expression, Interpolation, Outside, Rational, Scope, Symbol, Table, Table1,
+    TableSymbol, Type, Unit, format_number, parse_quantity, parse_value, suggest,
 };
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
@@ -33,7 +33,8 @@ impl Scope for Nothing {
 
     fn table(&self, name: &str) -> Option<TableSymbol> {
         let points =
-            Table1::new(vec![0.0, 1.0], vec![0.0, 1.0], Interpolation::Linear, Outside::Error).unwrap();
+            Table1::new(vec![0.0, 1.0], vec![0.0, 1.0], Interpolation::Linear, Outside::Error)
+                .unwrap();
         let table = Arc::new(Table::One(points));
         (name == "loss").then_some(TableSymbol {
             table,
@@ -121,7 +122,11 @@ fn read_everything(text: &str) {
         .chain(compile_errors(text, expected))
         .collect();
         for error in spans {
-            assert!(text.get(error.span.clone()).is_some(), "{text:?}: {:?} is not a part", error.span);
+            assert!(
+                text.get(error.span.clone()).is_some(),
+                "{text:?}: {:?} is not a part",
+                error.span
+            );
             assert!(!error.to_string().is_empty() && error.code().starts_with("units::"));
             let _ = error.help();
         }

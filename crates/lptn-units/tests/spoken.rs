@@ -20,7 +20,9 @@ fn numbers_with_separators_show_those_without() {
             None,
             decimal,
             ",",
-            Some("write \"1000 W\" if the comma separates thousands, \"1.000 W\" if it is a decimal comma"),
+            Some(
+                "write \"1000 W\" if the comma separates thousands, \"1.000 W\" if it is a decimal comma",
+            ),
         ),
         ("0,350 K/W", None, decimal, ",", Some("write \"0.350 K/W\"")),
         ("-1,5 K/W", None, decimal, ",", Some("write \"-1.5 K/W\"")),
@@ -104,8 +106,12 @@ fn powers_of_ten_and_units_without_brackets_show_what_reads_and_is_right() {
 #[test]
 fn a_speed_per_minute_shows_rpm() {
     let speed = Some(Type::of(Dimension::ANGULAR_VELOCITY));
-    let help = |text: &str| parse_value(text, speed, &is_parameter).expect_err(text).help().unwrap();
-    assert_eq!(help("3000 1/min"), "write \"3000 rpm\" for revolutions, or use rad/s, deg/s or rpm");
+    let help =
+        |text: &str| parse_value(text, speed, &is_parameter).expect_err(text).help().unwrap();
+    assert_eq!(
+        help("3000 1/min"),
+        "write \"3000 rpm\" for revolutions, or use rad/s, deg/s or rpm"
+    );
     assert_eq!(help("3000 /min"), "write \"3000 rpm\" for revolutions, or use rad/s, deg/s or rpm");
     assert_eq!(help("50 Hz"), "write \"50 rev/s\" for revolutions, or use rad/s, deg/s or rpm");
     assert_eq!(help("3000 min-1"), "did you mean \"3000 rpm\"?");

@@ -1,5 +1,5 @@
-//! A table of strings, right and wrong. The numbers come from the definitions of the units (SI Brochure, NIST
-//! SP 811), worked out in decimal arithmetic with 40 digits, not from this crate.
+//! A table of strings, right and wrong. The numbers come from the definitions of the units (SI
+//! Brochure, NIST SP 811), worked out in decimal arithmetic with 40 digits, not from this crate.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -184,7 +184,8 @@ fn percent_is_a_unit_like_any_other_before_a_deviation_too() {
         assert!(close(quantity.deviation.unwrap(), deviation), "{text}");
     }
     let code = "units::percent_deviation";
-    for text in ["0.8 ± 5 %", "80 % ± 5 %", "20 +- 5 % W", "1.2 ± 5 % mK/W", "0 ± 1 %", "3 ± 10 %"] {
+    for text in ["0.8 ± 5 %", "80 % ± 5 %", "20 +- 5 % W", "1.2 ± 5 % mK/W", "0 ± 1 %", "3 ± 10 %"]
+    {
         assert_eq!(parse_quantity(text, None).unwrap_err().code(), code, "{text}");
     }
 }
@@ -194,12 +195,24 @@ fn wrong_units_show_the_right_ones() {
     check_wrong(&[
         ("25 degX", None, "units::unknown_unit", "degX", Some("did you mean \"25 degC\"?")),
         ("25 C", None, "units::unknown_unit", "C", Some("did you mean \"25 degC\"?")),
-        ("1 BTU/(h ft^2 F)", None, "units::unknown_unit", "F", Some("did you mean \"1 BTU/(h ft^2 degF)\"?")),
+        (
+            "1 BTU/(h ft^2 F)",
+            None,
+            "units::unknown_unit",
+            "F",
+            Some("did you mean \"1 BTU/(h ft^2 degF)\"?"),
+        ),
         ("0.5 Watts", None, "units::unknown_unit", "Watts", Some("did you mean \"0.5 W\"?")),
         ("3 kgs", None, "units::unknown_unit", "kgs", Some("did you mean \"3 kg\"?")),
         ("3 m3", None, "units::unknown_unit", "m3", Some("did you mean \"3 m^3\"?")),
         ("12 W/(m2 K)", None, "units::unknown_unit", "m2", Some("did you mean \"12 W/(m^2 K)\"?")),
-        ("12 W m-2 K-1", None, "units::unknown_unit", "-", Some("did you mean \"12 W m^-2 K^-1\"?")),
+        (
+            "12 W m-2 K-1",
+            None,
+            "units::unknown_unit",
+            "-",
+            Some("did you mean \"12 W m^-2 K^-1\"?"),
+        ),
         ("12 W/m²K", None, "units::ambiguous_product", "K", Some("write \"12 W/(m² K)\"")),
         ("5 J/kg K", None, "units::ambiguous_product", "K", Some("write \"5 J/(kg K)\"")),
         ("5 J/kg*K", None, "units::ambiguous_product", "*K", Some("write \"5 J/(kg K)\"")),
@@ -213,12 +226,48 @@ fn wrong_types_say_what_is_due() {
     check_wrong(&[
         ("5", Some(RESISTANCE), "units::bare_number", "5", Some("write \"5 K/W\"")),
         ("5", Some(ABSOLUTE), "units::bare_number", "5", Some("write \"5 degC\" or \"5 K\"")),
-        ("0.42 K/W/s", Some(RESISTANCE), "units::dimension", "0.42 K/W/s", Some("write \"0.42 K/W\"")),
-        ("0.42 W/K", Some(RESISTANCE), "units::dimension", "0.42 W/K", Some("write \"1 / (0.42 [W/K])\"")),
-        ("5 W", Some(NONE), "units::dimension", "5 W", Some("the value must come out without a unit")),
-        ("25 degC", Some(POWER), "units::dimension", "25 degC", Some("the value must come out in W")),
+        (
+            "0.42 K/W/s",
+            Some(RESISTANCE),
+            "units::dimension",
+            "0.42 K/W/s",
+            Some("write \"0.42 K/W\""),
+        ),
+        (
+            "0.42 W/K",
+            Some(RESISTANCE),
+            "units::dimension",
+            "0.42 W/K",
+            Some("write \"1 / (0.42 [W/K])\""),
+        ),
+        (
+            "5 W",
+            Some(NONE),
+            "units::dimension",
+            "5 W",
+            Some("the value must come out without a unit"),
+        ),
+        (
+            "25 degC",
+            Some(POWER),
+            "units::dimension",
+            "25 degC",
+            Some("the value must come out in W"),
+        ),
+    ]);
+}
+
+#[test]
+fn wrong_temperatures_and_products_say_what_is_due() {
+    check_wrong(&[
         ("5 degC", Some(DIFFERENCE), "units::difference_wanted", "5 degC", Some("write \"5 K\"")),
-        ("9 degF", Some(DIFFERENCE), "units::difference_wanted", "9 degF", Some("write \"9 degR\"")),
+        (
+            "9 degF",
+            Some(DIFFERENCE),
+            "units::difference_wanted",
+            "9 degF",
+            Some("write \"9 degR\""),
+        ),
         ("5 K W/W", Some(ABSOLUTE), "units::absolute_wanted", "5 K W/W", Some("write \"5 degC\"")),
         (
             "50 Hz",
@@ -302,13 +351,37 @@ fn expressions_taken_for_quantities_and_the_other_way_round() {
             Some("write \"20 [W/K] + 60 [W/K] * fan\""),
         ),
         ("60 W * fan", None, "units::unbracketed_unit", "W", Some("write \"60 [W] * fan\"")),
-        ("20 W/s^2 * fan", None, "units::unbracketed_unit", "W/s^2", Some("write \"20 [W/s^2] * fan\"")),
-        ("3 s^(1/2) * fan", None, "units::unbracketed_unit", "s^(1/2)", Some("write \"3 [s^(1/2)] * fan\"")),
+        (
+            "20 W/s^2 * fan",
+            None,
+            "units::unbracketed_unit",
+            "W/s^2",
+            Some("write \"20 [W/s^2] * fan\""),
+        ),
+        (
+            "3 s^(1/2) * fan",
+            None,
+            "units::unbracketed_unit",
+            "s^(1/2)",
+            Some("write \"3 [s^(1/2)] * fan\""),
+        ),
         ("3 s^-2 * fan", None, "units::unbracketed_unit", "s^-2", Some("write \"3 [s^-2] * fan\"")),
         ("3 W/s² * fan", None, "units::unbracketed_unit", "W/s²", Some("write \"3 [W/s²] * fan\"")),
-        ("20 W/m2K * m", None, "units::unbracketed_unit", "W/m2K", Some("write \"20 [W/(m^2 K)] * m\"")),
+        (
+            "20 W/m2K * m",
+            None,
+            "units::unbracketed_unit",
+            "W/m2K",
+            Some("write \"20 [W/(m^2 K)] * m\""),
+        ),
         ("T_amb + 5 K", None, "units::unbracketed_unit", "K", Some("write \"T_amb + 5 [K]\"")),
-        ("max(3 K, T_amb)", None, "units::unbracketed_unit", "K", Some("write \"max(3 [K], T_amb)\"")),
+        (
+            "max(3 K, T_amb)",
+            None,
+            "units::unbracketed_unit",
+            "K",
+            Some("write \"max(3 [K], T_amb)\""),
+        ),
         ("T_amb [K]", None, "units::misplaced_bracket", "[K]", Some("write \"T_amb\"")),
         ("T_amb +", None, "units::syntax", "", None),
         ("-2^2", None, "units::ambiguous_sign", "-2", Some("write \"- 2^2\" or \"(-2)^2\"")),
@@ -331,15 +404,21 @@ fn deep_brackets_are_an_error() {
 
 #[test]
 fn units_alone_convert_both_ways() {
-    let table =
-        [("degC", 25.0, 298.15, ABSOLUTE), ("degF", 77.0, 298.15, ABSOLUTE), ("K", 5.0, 5.0, DIFFERENCE)];
+    let table = [
+        ("degC", 25.0, 298.15, ABSOLUTE),
+        ("degF", 77.0, 298.15, ABSOLUTE),
+        ("K", 5.0, 5.0, DIFFERENCE),
+    ];
     for (text, value, si, ty) in table {
         let unit = Unit::parse(text).unwrap();
         assert_eq!(unit.ty, ty);
         assert!(close(unit.to_si(value), si) && (unit.from_si(si) - value).abs() < 1e-12, "{text}");
     }
     assert!(Unit::parse("1").unwrap().ty.is_scalar());
-    assert_eq!(Unit::parse("W/m2K").unwrap_err().help().as_deref(), Some("did you mean \"W/(m^2 K)\"?"));
+    assert_eq!(
+        Unit::parse("W/m2K").unwrap_err().help().as_deref(),
+        Some("did you mean \"W/(m^2 K)\"?")
+    );
     assert_eq!(Unit::parse(" ").unwrap_err().code(), "units::empty");
 }
 

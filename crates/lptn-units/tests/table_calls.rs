@@ -17,7 +17,11 @@ fn tables_are_called_with_values_of_their_types() {
         ("2 * loss(speed / 2) + loss(0 [rad/s])", POWER, 100.0),
         ("map(speed, torque)", POWER, 110.0),
         ("map(speed - 10 [rad/s], max(torque, 1.5 [N m])) - loss(speed)", POWER, -5.0),
-        ("loss(speed) * cp(T) + map(loss(speed) / torque * 1 [rad], torque * 2)", POWER, 120.0 + 220.0),
+        (
+            "loss(speed) * cp(T) + map(loss(speed) / torque * 1 [rad], torque * 2)",
+            POWER,
+            120.0 + 220.0,
+        ),
         ("cp(20 [degC]) + cp(T - 1000 [K] + 1500 [K])", Type::SCALAR, 3.0),
         ("f(f(f(x)))", Type::SCALAR, 0.25),
     ] {
@@ -29,7 +33,8 @@ fn tables_are_called_with_values_of_their_types() {
 
 #[test]
 fn derivatives_go_through_tables() {
-    let slots: Vec<Dual<3>> = SLOTS.iter().enumerate().map(|(i, value)| Dual::variable(*value, i)).collect();
+    let slots: Vec<Dual<3>> =
+        SLOTS.iter().enumerate().map(|(i, value)| Dual::variable(*value, i)).collect();
     let found = program("map(speed * 1.5, torque) * cp(T)").eval(&slots, &mut Vec::new()).unwrap();
     for (found, hand) in found.derivatives.into_iter().zip([3.0 * 1.2, 10.0 * 1.2, 160.0 * 0.01]) {
         assert!((found - hand).abs() < 1e-12, "{found} instead of {hand}");
@@ -38,7 +43,8 @@ fn derivatives_go_through_tables() {
 
 #[test]
 fn a_stack_of_the_stated_size_is_never_reallocated() {
-    for text in ["g(x, f(g(y, f(x)) + 1))", "1 + (x + (y + g(x * (y + 1), (x + f(y)) * (y - 2))))"] {
+    for text in ["g(x, f(g(y, f(x)) + 1))", "1 + (x + (y + g(x * (y + 1), (x + f(y)) * (y - 2))))"]
+    {
         let program = program(text);
         let mut stack = Vec::with_capacity(program.stack_size());
         let before = (stack.as_ptr(), stack.capacity());
@@ -107,7 +113,12 @@ fn calls_of_tables_are_listed_inner_ones_first() {
     let found: Vec<(usize, Vec<f64>)> = program
         .table_calls()
         .iter()
-        .map(|call| (call.table.dimension(), parts(&call.arguments).into_iter().map(|part| part.0).collect()))
+        .map(|call| {
+            (
+                call.table.dimension(),
+                parts(&call.arguments).into_iter().map(|part| part.0).collect(),
+            )
+        })
         .collect();
     assert_eq!(found, [(1, vec![1.25]), (2, vec![1.0, 2.5]), (1, vec![320.0])]);
 }
@@ -118,7 +129,8 @@ fn many_arguments_have_few_kinks_and_none_is_missed() {
     let lines: Vec<String> = (0..100).map(|i| format!("({i} * x - {})", i * i)).collect();
     let program = program(&format!("max({})", lines.join(", ")));
     assert!(program.kinks().len() < 1000, "{}", program.kinks().len());
-    // the lines i and i + 1 meet at x = 2 i + 1, above all others: i x - i^2 is largest for the i next to x / 2
+    // the lines i and i + 1 meet at x = 2 i + 1, above all others: i x - i^2 is largest for the i
+    // next to x / 2
     for i in 0..99 {
         let mut slots = SLOTS;
         slots[3] = f64::from(2 * i + 1);

@@ -89,8 +89,20 @@ const WRONG: [Wrong; 17] = [
         "table `f` takes a plain number, got a rotational speed (rad/s)",
         "write \"f((speed - 3 [rad/s]) / 1 [rad/s])\"",
     ),
-    ("lss(speed)", "units::unknown_function", "lss", "unknown function `lss`", "did you mean `loss`?"),
-    ("tanhh(x)", "units::unknown_function", "tanhh", "unknown function `tanhh`", "did you mean `tanh`?"),
+    (
+        "lss(speed)",
+        "units::unknown_function",
+        "lss",
+        "unknown function `lss`",
+        "did you mean `loss`?",
+    ),
+    (
+        "tanhh(x)",
+        "units::unknown_function",
+        "tanhh",
+        "unknown function `tanhh`",
+        "did you mean `tanh`?",
+    ),
     (
         "P(x + 1)",
         "units::not_a_table",
@@ -152,13 +164,18 @@ fn every_wrong_argument_is_reported_once() {
 fn an_argument_outside_is_an_error_with_its_place() {
     let text = "3 * map(speed, torque * 2.5)";
     let error = run(&program(text)).unwrap_err();
-    assert_eq!((error.code(), &text[error.span()]), ("units::outside_table", "map(speed, torque * 2.5)"));
+    assert_eq!(
+        (error.code(), &text[error.span()]),
+        ("units::outside_table", "map(speed, torque * 2.5)")
+    );
     assert!(error.help().unwrap().contains("outside = \"hold\""));
     assert_eq!(
         error.to_string(),
         "table `map` reaches from 0 to 2 in its second argument, got 2.5 (SI units)"
     );
-    let EvalError::OutsideTable { table, argument, value, from, to, .. } = error else { panic!("{error}") };
+    let EvalError::OutsideTable { table, argument, value, from, to, .. } = error else {
+        panic!("{error}")
+    };
     assert_eq!((table.as_str(), argument, value, from, to), ("map", 1, 2.5, 0.0, 2.0));
     let error = run(&program("loss(120 [rad/s])")).unwrap_err();
     assert_eq!(error.code(), "units::outside_table");
@@ -167,8 +184,12 @@ fn an_argument_outside_is_an_error_with_its_place() {
 /// A held table would turn an infinite argument into its end value.
 #[test]
 fn an_argument_that_is_not_finite_is_reported_where_it_arises() {
-    for text in ["1 + f(1 / (y - 2.5))", "1 + g(x, 1 / (y - 2.5))", "loss(speed * (1 / (y - 2.5)))"] {
+    for text in ["1 + f(1 / (y - 2.5))", "1 + g(x, 1 / (y - 2.5))", "loss(speed * (1 / (y - 2.5)))"]
+    {
         let error = run(&program(text)).unwrap_err();
-        assert_eq!((error.code(), &text[error.span()]), ("units::result_not_finite", "1 / (y - 2.5)"));
+        assert_eq!(
+            (error.code(), &text[error.span()]),
+            ("units::result_not_finite", "1 / (y - 2.5)")
+        );
     }
 }

@@ -21,9 +21,10 @@ fn assert_near(found: f64, expected: f64, scale: f64, what: &str) {
 /// Knots, values, slopes at the knots, `(x, value, slope)`, `(from, to, integral)`.
 type Reference<'a> = (&'a [f64], &'a [f64], &'a [f64], [(f64, f64, f64); 5], (f64, f64, f64));
 
-/// `scipy.interpolate.PchipInterpolator(x, y)` of SciPy 1.17.1, its `derivative()` and `integrate(from, to)`,
-/// as printed but for the last digits where these are rounding.
-/// The first has a flat piece and an uneven grid; the third has an end slope that is limited to three secants.
+/// `scipy.interpolate.PchipInterpolator(x, y)` of SciPy 1.17.1, its `derivative()` and
+/// `integrate(from, to)`, as printed but for the last digits where these are rounding. The first
+/// has a flat piece and an uneven grid; the third has an end slope that is limited to three
+/// secants.
 const SCIPY: [Reference<'_>; 5] = [
     (
         &[0.0, 1.0, 2.5, 3.0, 5.0, 8.0],
@@ -100,7 +101,12 @@ fn pchip_is_that_of_scipy() {
             assert_near(found, value, 1e-14 * (1.0 + value.abs()), "value");
             assert_near(found_slope, slope, 2e-13 * (1.0 + slope.abs()), "slope");
         }
-        assert_near(found.integral(from, to).unwrap(), area, 1e-14 * (1.0 + area.abs()), "integral");
+        assert_near(
+            found.integral(from, to).unwrap(),
+            area,
+            1e-14 * (1.0 + area.abs()),
+            "integral",
+        );
     }
 }
 
@@ -136,7 +142,8 @@ fn outside_is_nothing_or_the_value_at_the_end() {
         assert_eq!(held.value_and_slope(9.0), Some((5.0, 0.0)));
         assert_eq!(held.value_and_slope(1.0), Some((5.0, 2.0)));
         assert_eq!(held.value_and_slope(f64::NAN), None);
-        for (from, to, area) in [(-2.0, 3.0, 6.0 + 4.0 + 10.0), (-2.0, -1.0, 3.0), (2.0, 4.0, 10.0)] {
+        for (from, to, area) in [(-2.0, 3.0, 6.0 + 4.0 + 10.0), (-2.0, -1.0, 3.0), (2.0, 4.0, 10.0)]
+        {
             assert_eq!(held.integral(from, to), Some(area));
             assert_eq!(held.integral(to, from), Some(-area));
         }
@@ -144,8 +151,8 @@ fn outside_is_nothing_or_the_value_at_the_end() {
     }
 }
 
-/// The end of a table reached by another sum than the one that was written: an argument one rounding further
-/// on is at the end, a small step is not.
+/// The end of a table reached by another sum than the one that was written: an argument one
+/// rounding further on is at the end, a small step is not.
 #[test]
 fn rounding_does_not_lead_outside() {
     let speed = 7000.0 * (std::f64::consts::TAU / 60.0);
@@ -158,8 +165,8 @@ fn rounding_does_not_lead_outside() {
     assert_eq!(table.value_and_slope(-1e-9), None);
 }
 
-/// A body that warms by a millionth of a kelvin in a table that begins far below: the energy is not lost in
-/// the difference of two large integrals.
+/// A body that warms by a millionth of a kelvin in a table that begins far below: the energy is not
+/// lost in the difference of two large integrals.
 #[test]
 fn the_integral_over_a_short_way_keeps_its_digits() {
     let capacity = linear(&[200.0, 300.0, 1000.0], &[1e5, 2e5, 4e5], Outside::Error);
@@ -208,8 +215,16 @@ fn numbers_that_are_no_table_are_refused() {
             TableError::NotIncreasing { index: 2 },
             "units::table_not_increasing",
         ),
-        (one(&[1.0, 1.0], &[0.0; 2]), TableError::NotIncreasing { index: 1 }, "units::table_not_increasing"),
-        (one(&[1.0, f64::NAN], &[0.0; 2]), TableError::NotFinite { index: 1 }, "units::table_not_finite"),
+        (
+            one(&[1.0, 1.0], &[0.0; 2]),
+            TableError::NotIncreasing { index: 1 },
+            "units::table_not_increasing",
+        ),
+        (
+            one(&[1.0, f64::NAN], &[0.0; 2]),
+            TableError::NotFinite { index: 1 },
+            "units::table_not_finite",
+        ),
         (
             one(&[1.0, 2.0], &[f64::INFINITY; 2]),
             TableError::NotFinite { index: 0 },
@@ -224,7 +239,10 @@ fn numbers_that_are_no_table_are_refused() {
         Table2::new(x.to_vec(), y.to_vec(), z.to_vec(), Outside::Error).unwrap_err()
     };
     assert_eq!(two(&[0.0, 1.0], &[0.0, 1.0], &[0.0; 3]), TableError::LengthsDiffer);
-    assert_eq!(two(&[0.0, 1.0], &[0.0, 1.0], &[0.0, 0.0, 0.0, f64::NAN]), TableError::NotFinite { index: 3 });
+    assert_eq!(
+        two(&[0.0, 1.0], &[0.0, 1.0], &[0.0, 0.0, 0.0, f64::NAN]),
+        TableError::NotFinite { index: 3 }
+    );
     let falling = two(&[0.0, 1.0], &[1.0, 0.0], &[0.0; 4]);
     assert_eq!(falling.code(), "units::table_not_increasing");
     assert_eq!(
@@ -267,7 +285,8 @@ fn along(knots: &[f64], share: f64) -> f64 {
     first + (last - first) * share
 }
 
-/// The integral of a piece by Simpson's rule in 64 parts, from knot to knot so that each piece is smooth.
+/// The integral of a piece by Simpson's rule in 64 parts, from knot to knot so that each piece is
+/// smooth.
 fn simpson(table: &Table1, from: f64, to: f64) -> f64 {
     let inner = table.knots().iter().copied().filter(|knot| from < *knot && *knot < to);
     let stops: Vec<f64> = [from].into_iter().chain(inner).chain([to]).collect();
@@ -276,7 +295,9 @@ fn simpson(table: &Table1, from: f64, to: f64) -> f64 {
         let part = (b - a) / 64.0;
         let at = |i: u32| a + part * f64::from(i);
         (0..64)
-            .map(|i| (value(at(i)) + 4.0 * value(at(i) + 0.5 * part) + value(at(i + 1))) * part / 6.0)
+            .map(|i| {
+                (value(at(i)) + 4.0 * value(at(i) + 0.5 * part) + value(at(i + 1))) * part / 6.0
+            })
             .sum()
     };
     stops.windows(2).map(|pair| -> f64 { piece(pair[0], pair[1]) }).sum()

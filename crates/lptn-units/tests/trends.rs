@@ -1,15 +1,17 @@
-//! Which way an expression goes with a variable: what is claimed holds wherever one looks, and what can be told is.
+//! Which way an expression goes with a variable: what is claimed holds wherever one looks, and what
+//! can be told is.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
 use std::sync::Arc;
 
 use lptn_units::{
-    Expression, Interpolation, Outside, Program, Scope, Symbol, Table, Table1, Table2, TableSymbol, Trend,
-    Type,
+    Expression, Interpolation, Outside, Program, Scope, Symbol, Table, Table1, Table2, TableSymbol,
+    Trend, Type,
 };
 
-/// `x` in slot 0 is the variable, `u` in slot 1 is held and not known, `n` in slot 2 is 3, `z` in slot 3 is 0.
+/// `x` in slot 0 is the variable, `u` in slot 1 is held and not known, `n` in slot 2 is 3, `z` in
+/// slot 3 is 0.
 struct Names;
 
 const KNOWN: [&str; 4] = ["x", "u", "n", "z"];
@@ -221,13 +223,21 @@ fn even_functions_go_the_way_of_the_magnitude() {
     );
 }
 
-/// Regression: the negative of 0 is 0, and a product with what is 0 everywhere never ended: a coefficient of 0 in a
-/// conductance stopped `lptn steady` with an overflow of the stack.
+/// Regression: the negative of 0 is 0, and a product with what is 0 everywhere never ended: a
+/// coefficient of 0 in a conductance stopped `lptn steady` with an overflow of the stack.
 #[test]
 fn a_product_with_nothing_ends() {
-    for text in
-        ["z * x", "x * z", "0 * x", "z * -x", "-x * z", "z * (x - 5)", "z * exp(-x)", "z * u", "z * z"]
-    {
+    for text in [
+        "z * x",
+        "x * z",
+        "0 * x",
+        "z * -x",
+        "-x * z",
+        "z * (x - 5)",
+        "z * exp(-x)",
+        "z * u",
+        "z * z",
+    ] {
         let found = trend(text, Trend::VARIABLE);
         assert!(found.low <= 0.0 && found.high >= 0.0, "{text}: {found:?}");
     }
@@ -269,7 +279,9 @@ fn what_is_claimed_holds_wherever_one_looks() {
         "(B) / (n + (A)^2)",
     ];
     let mut told = 0;
-    for (form, a, b) in forms.iter().flat_map(|f| parts.iter().flat_map(move |a| parts.map(|b| (f, a, b)))) {
+    for (form, a, b) in
+        forms.iter().flat_map(|f| parts.iter().flat_map(move |a| parts.map(|b| (f, a, b))))
+    {
         let text = form.replace('A', a).replace('B', b);
         let compiled = program(&text);
         for (x, sign) in [(Trend::VARIABLE, 1.0), (Trend::SIGNED, 1.0), (Trend::SIGNED, -1.0)] {
@@ -282,7 +294,10 @@ fn what_is_claimed_holds_wherever_one_looks() {
                 };
                 for (now, next) in (0..20).filter_map(|k| at(k).zip(at(k + 1))) {
                     let slack = 1e-12 * (1.0 + now.abs());
-                    assert!(found.low - slack <= now && now <= found.high + slack, "{text} {found:?}: {now}");
+                    assert!(
+                        found.low - slack <= now && now <= found.high + slack,
+                        "{text} {found:?}: {now}"
+                    );
                     assert!(!found.rises || next >= now - slack, "{text} {found:?}: {now} {next}");
                     assert!(!found.falls || next <= now + slack, "{text} {found:?}: {now} {next}");
                 }

@@ -4,9 +4,9 @@ use std::fmt;
 
 use lptn_units::{Class, Problem};
 
-/// Whatever a call of this library can fail with: `?` makes one of every error, so that `fn main() -> Result<(), Error>`
-/// does. Its sentence is that of the error, [`Problem::code`] and [`Problem::help`] are too; which error it was tells
-/// [`Error::downcast_ref`].
+/// Whatever a call of this library can fail with: `?` makes one of every error, so that
+/// `fn main() -> Result<(), Error>` does. Its sentence is that of the error, [`Problem::code`] and
+/// [`Problem::help`] are too; which error it was tells [`Error::downcast_ref`].
 ///
 /// ```
 /// fn main() -> Result<(), lptn::Error> {

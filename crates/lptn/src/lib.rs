@@ -20,13 +20,14 @@
 //! # }
 //! ```
 //!
-//! Every error becomes an [`Error`], which `main` can return. Many candidates of one network need no second assembly from
-//! text: [`ThermalSystem::with`](assembly::ThermalSystem::with) takes other values of its parameters.
+//! Every error becomes an [`Error`], which `main` can return. Many candidates of one network need
+//! no second assembly from text: [`ThermalSystem::with`](assembly::ThermalSystem::with) takes other
+//! values of its parameters.
 //!
 //! A network comes from a TOML netlist ([`read`], [`parse`]) or from a
-//! [`NetworkBuilder`](network::NetworkBuilder). Each module is a crate of its own; ARCHITECTURE.md says what
-//! each of them owns. All numbers are in SI units, temperatures in K, heat positive into a node and from
-//! `from` to `to`.
+//! [`NetworkBuilder`](network::NetworkBuilder). Each module is a crate of its own; ARCHITECTURE.md
+//! says what each of them owns. All numbers are in SI units, temperatures in K, heat positive into
+//! a node and from `from` to `to`.
 
 pub use lptn_assembly as assembly;
 pub use lptn_fit as fit;

@@ -79,7 +79,9 @@ impl<'a> Laboratory<'a> {
                 Ok(shape[self.node(node)?.index()] / shape[self.node(over)?.index()])
             }
             Quantity::PortResistance { node } => self.resistance(node, node),
-            Quantity::TransferResistance { node, source_node } => self.resistance(source_node, node),
+            Quantity::TransferResistance { node, source_node } => {
+                self.resistance(source_node, node)
+            }
             Quantity::TotalCapacity {} => {
                 let network = self.system().network();
                 Ok(network.node_ids().map(|id| network.capacity(id)).sum())
@@ -92,10 +94,12 @@ impl<'a> Laboratory<'a> {
             Quantity::FrequencyGain(_) | Quantity::FrequencyPhase(_) => {
                 Err(Trouble::Missing("frequency response"))
             }
-            Quantity::GateFirstSwitch { .. } | Quantity::GateOnTime { .. } | Quantity::GatePeriod { .. } => {
-                gate::answer(self.whole_run()?, &expected.quantity)
+            Quantity::GateFirstSwitch { .. }
+            | Quantity::GateOnTime { .. }
+            | Quantity::GatePeriod { .. } => gate::answer(self.whole_run()?, &expected.quantity),
+            Quantity::Calibrated { param } => {
+                calibration::value(self.case, self.calibrated()?, param)
             }
-            Quantity::Calibrated { param } => calibration::value(self.case, self.calibrated()?, param),
             Quantity::CalibrationRms {} => Ok(self.calibrated()?.rms),
         }
     }
@@ -124,7 +128,11 @@ impl<'a> Laboratory<'a> {
 
     /// The latest time that any value asks for, in s.
     fn end(&self) -> f64 {
-        self.case.expected.iter().map(Expected::latest).fold(self.case.t_end.unwrap_or(0.0), f64::max)
+        self.case
+            .expected
+            .iter()
+            .map(Expected::latest)
+            .fold(self.case.t_end.unwrap_or(0.0), f64::max)
     }
 
     fn calibrated(&self) -> Result<&NetworkFit, Trouble> {
@@ -149,19 +157,20 @@ impl<'a> Laboratory<'a> {
     /// The run that has a row at every time at which a value is expected.
     fn whole_run(&self) -> Result<&Solution, Trouble> {
         let solve = || {
-            let moments = self.case.expected.iter().filter_map(|expected| match expected.quantity {
-                Quantity::T { t: Moment::At(t), .. }
-                | Quantity::EdgeHeat { t: Moment::At(t), .. }
-                | Quantity::BoundaryHeat { t: Moment::At(t), .. } => Some(t),
-                _ => None,
-            });
+            let moments =
+                self.case.expected.iter().filter_map(|expected| match expected.quantity {
+                    Quantity::T { t: Moment::At(t), .. }
+                    | Quantity::EdgeHeat { t: Moment::At(t), .. }
+                    | Quantity::BoundaryHeat { t: Moment::At(t), .. } => Some(t),
+                    _ => None,
+                });
             self.run_at(moments.chain([self.end()]).collect())
         };
         self.run.get_or_init(solve).as_ref().map_err(Trouble::clone)
     }
 
-    /// Reads from the row at `t`. At a jump a row holds what is after it, but for the last row of a run, which holds
-    /// what is before it.
+    /// Reads from the row at `t`. At a jump a row holds what is after it, but for the last row of a
+    /// run, which holds what is before it.
     fn read<T>(
         &self,
         (t, side): (f64, Side),
@@ -170,8 +179,10 @@ impl<'a> Laboratory<'a> {
     ) -> Result<T, Trouble> {
         let jumps = !steady_over_jumps && t > 0.0 && !self.case.breaks(t, t).is_empty();
         let value = |solution: &Solution| {
-            let row = solution.times().iter().position(|time| time.to_bits() == (t + 0.0).to_bits());
-            row.and_then(|row| value(solution, row)).ok_or_else(|| format!("no value at {t} s").into())
+            let row =
+                solution.times().iter().position(|time| time.to_bits() == (t + 0.0).to_bits());
+            row.and_then(|row| value(solution, row))
+                .ok_or_else(|| format!("no value at {t} s").into())
         };
         match side {
             Side::Left if jumps => value(&self.run_at(vec![t])?),
@@ -219,7 +230,9 @@ impl<'a> Laboratory<'a> {
             let inputs = port.inputs(self.system(), 0.0)?;
             let seen = inputs.reference + port.resistance * inputs.heat;
             if (seen - temperature).abs() > expected.allowed() {
-                return Err(format!("the port gives {seen} K, the steady state {temperature} K").into());
+                return Err(
+                    format!("the port gives {seen} K, the steady state {temperature} K").into()
+                );
             }
         }
         Ok(temperature)
@@ -255,7 +268,8 @@ impl<'a> Laboratory<'a> {
         Ok(transfer_resistance(self.system(), self.node(from)?, self.node(to)?)?)
     }
 
-    /// The first crossing of a level in K between two times: the bracket among a few thousand rows, then again in it.
+    /// The first crossing of a level in K between two times: the bracket among a few thousand rows,
+    /// then again in it.
     fn crossing(
         &self,
         node: &str,
@@ -270,7 +284,9 @@ impl<'a> Laboratory<'a> {
             let solution = self.run_at(rows)?;
             let start = solution.times().partition_point(|t| *t < from);
             let seen: Vec<(f64, f64)> = (start..solution.times().len())
-                .filter_map(|row| Some((solution.times()[row], temperature(&solution, end, row)? - level)))
+                .filter_map(|row| {
+                    Some((solution.times()[row], temperature(&solution, end, row)? - level))
+                })
                 .collect();
             let crosses = |pair: &&[(f64, f64)]| match direction {
                 Direction::Rising => pair[0].1 < 0.0 && pair[1].1 >= 0.0,
@@ -291,9 +307,14 @@ impl<'a> Laboratory<'a> {
             let run = Transient::until(Time(fit.t1)).every(Time(fit.t1 / steps));
             let bias = Bias::new(self.system(), node, &run.tolerance(self.case.tolerance()))??;
             let counted = bias.points == fit.n;
-            return if counted { Ok(bias.fit) } else { Err(format!("{} points", bias.points).into()) };
+            return if counted {
+                Ok(bias.fit)
+            } else {
+                Err(format!("{} points", bias.points).into())
+            };
         }
-        let times: Vec<f64> = (0..fit.n).map(|i| fit.t0 + (fit.t1 - fit.t0) * i as f64 / steps).collect();
+        let times: Vec<f64> =
+            (0..fit.n).map(|i| fit.t0 + (fit.t1 - fit.t0) * i as f64 / steps).collect();
         let solution = self.run_at(times.clone())?;
         let record = solution.temperature(node).ok_or("no record")?;
         Ok(fit_exponential(&times, &record[record.len() - fit.n..])?)
@@ -320,7 +341,9 @@ fn terms<'a>(
         (Some(node), None, None) => Ok(vec![(node, 1.0)]),
         (Some(node), Some(minus), None) => Ok(vec![(node, 1.0), (minus, -1.0)]),
         // `node` beside it is for the reader
-        (_, None, Some(combine)) => Ok(combine.iter().map(|(id, factor)| (id.as_str(), *factor)).collect()),
+        (_, None, Some(combine)) => {
+            Ok(combine.iter().map(|(id, factor)| (id.as_str(), *factor)).collect())
+        }
         _ => Err("which temperature?".into()),
     }
 }

@@ -13,17 +13,26 @@ use super::network::Model;
 
 /// Fits what the case asks for, from its initial values and without bounds.
 pub fn fit(case: &Case) -> Result<NetworkFit, Trouble> {
-    let Some(calibration) = &case.calibration else { return Err("there is nothing to calibrate".into()) };
+    let Some(calibration) = &case.calibration else {
+        return Err("there is nothing to calibrate".into());
+    };
     let model = Model::calibrating(case)?;
     let network = model.system.network();
     let varied = |name: &str| -> Result<Varied, Trouble> {
         let parameter = network.parameter(&parameter(name))?;
         Ok(Varied { parameter, bounds: (f64::NEG_INFINITY, f64::INFINITY), prior: None })
     };
-    let parameters = calibration.parameters.iter().map(|p| varied(&p.name)).collect::<Result<_, _>>()?;
+    let parameters =
+        calibration.parameters.iter().map(|p| varied(&p.name)).collect::<Result<_, _>>()?;
     let run = measured(case, calibration, &model)?;
     let threads = available_threads();
-    let fit = fit_network(&NetworkFitTask { network, parameters, runs: vec![run], more_starts: 0, threads })?;
+    let fit = fit_network(&NetworkFitTask {
+        network,
+        parameters,
+        runs: vec![run],
+        more_starts: 0,
+        threads,
+    })?;
     match fit.not_converged {
         None => Ok(fit),
         Some(stop) => Err(format!("the fit did not converge: {}", stop.text()).into()),
@@ -39,7 +48,9 @@ pub fn parameter(name: &str) -> String {
 pub fn value(case: &Case, fit: &NetworkFit, name: &str) -> Result<f64, Trouble> {
     let parameters = case.calibration.iter().flat_map(|calibration| &calibration.parameters);
     let found = parameters.zip(&fit.parameters).find(|(parameter, _)| parameter.name == name);
-    found.map(|(_, fitted)| fitted.value).ok_or_else(|| format!("there is no parameter `{name}`").into())
+    found
+        .map(|(_, fitted)| fitted.value)
+        .ok_or_else(|| format!("there is no parameter `{name}`").into())
 }
 
 fn measured(case: &Case, calibration: &Calibration, model: &Model) -> Result<MeasuredRun, Trouble> {
@@ -54,7 +65,12 @@ fn measured(case: &Case, calibration: &Calibration, model: &Model) -> Result<Mea
             return Err(format!("`{}` is no node", observation.node).into());
         };
         let values = column(&observation.column)?.iter().map(|t| t + case.zero()).collect();
-        Ok(Measured { name: observation.column.clone(), of: vec![(*node, 1.0)], sigma: None, values })
+        Ok(Measured {
+            name: observation.column.clone(),
+            of: vec![(*node, 1.0)],
+            sigma: None,
+            values,
+        })
     };
     Ok(MeasuredRun {
         name: calibration.data.clone(),
@@ -73,7 +89,8 @@ fn rows(path: &Path) -> Result<(Vec<String>, Vec<Vec<f64>>), Trouble> {
     let head: Vec<String> = head.split(',').map(|name| name.trim().to_owned()).collect();
     let mut rows = Vec::new();
     for line in lines {
-        let row: Result<Vec<f64>, _> = line.split(',').map(|cell| cell.trim().parse::<f64>()).collect();
+        let row: Result<Vec<f64>, _> =
+            line.split(',').map(|cell| cell.trim().parse::<f64>()).collect();
         let row = row.map_err(|e| format!("{}: `{line}`: {e}", path.display()))?;
         if row.len() != head.len() {
             return Err(format!("{}: `{line}` is not as long as the header", path.display()).into());

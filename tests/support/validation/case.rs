@@ -48,7 +48,8 @@ impl Case {
         }
     }
 
-    /// A hundredth of the smallest tolerance of a transient temperature, at least 1e-9 K; 1e-7 K if there is none.
+    /// A hundredth of the smallest tolerance of a transient temperature, at least 1e-9 K; 1e-7 K if
+    /// there is none.
     pub fn tolerance(&self) -> f64 {
         let transient = self.expected.iter().filter(|e| e.is_transient_temperature());
         let least = transient.map(Expected::allowed).fold(f64::INFINITY, f64::min);
@@ -131,7 +132,9 @@ pub enum Node {
 impl Node {
     pub fn id(&self) -> &str {
         match self {
-            Self::Capacitance { id, .. } | Self::Boundary { id, .. } | Self::Massless { id, .. } => id,
+            Self::Capacitance { id, .. }
+            | Self::Boundary { id, .. }
+            | Self::Massless { id, .. } => id,
         }
     }
 }

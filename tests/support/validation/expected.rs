@@ -175,7 +175,8 @@ impl TryFrom<Map<String, Value>> for Expected {
         let name = map.get("quantity").and_then(Value::as_str).unwrap_or_default().to_owned();
         let said = format!("{}", Value::Object(map.clone()));
         let failed = |why: &str| format!("{why} in {said}");
-        let value = map.remove("value").and_then(|v| v.as_f64()).ok_or_else(|| failed("no `value`"))?;
+        let value =
+            map.remove("value").and_then(|v| v.as_f64()).ok_or_else(|| failed("no `value`"))?;
         if map.remove("provenance").is_some_and(|text| !text.is_string()) {
             return Err(failed("`provenance` is no text"));
         }
@@ -186,7 +187,8 @@ impl TryFrom<Map<String, Value>> for Expected {
         }
         let tolerances: Tolerances =
             serde_json::from_value(Value::Object(common)).map_err(|e| failed(&e.to_string()))?;
-        let quantity = serde_json::from_value(Value::Object(map)).map_err(|e| failed(&e.to_string()))?;
+        let quantity =
+            serde_json::from_value(Value::Object(map)).map_err(|e| failed(&e.to_string()))?;
         Ok(Self { quantity, name, value, tolerances })
     }
 }

@@ -18,7 +18,8 @@ impl Building {
         let threshold =
             |half: f64| self.expression(Context::Control, &format!("({setpoint}) + ({half} [K])"));
         let (on, off) = (threshold(-0.5 * gate.band)?, threshold(0.5 * gate.band)?);
-        let (sense, start, min_dwell) = (self.end(&gate.sensor)?, gate.initial_on, Time(0.0).into());
+        let (sense, start, min_dwell) =
+            (self.end(&gate.sensor)?, gate.initial_on, Time(0.0).into());
         let acts = Acts::Heating;
         self.b.thermostat(declared, Thermostat { sense, acts, on, off, start, min_dwell });
         Ok(control)

@@ -8,7 +8,8 @@ use super::answer::{Laboratory, Trouble, temperature};
 use super::case::Case;
 use super::expected::{Expected, Quantity};
 
-/// Points and weights of the Gauss-Legendre rule of order 16 on (-1, 1), one half (Abramowitz and Stegun, table 25.4).
+/// Points and weights of the Gauss-Legendre rule of order 16 on (-1, 1), one half (Abramowitz and
+/// Stegun, table 25.4).
 const GAUSS: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),

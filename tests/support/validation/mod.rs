@@ -1,6 +1,10 @@
 //! Runs the cases of a validation set and judges what lptn says to each expected value.
 
-#![allow(dead_code, unreachable_pub, reason = "the format is read whole; each test file uses a part of this")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    reason = "the format is read whole; each test file uses a part of this"
+)]
 
 mod answer;
 mod calibration;
@@ -31,7 +35,8 @@ pub fn own_folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/validation")
 }
 
-/// The names of the cases in a folder, in order: every folder in it, but for those that are no one's work.
+/// The names of the cases in a folder, in order: every folder in it, but for those that are no
+/// one's work.
 pub fn cases(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
     let mut names: Vec<String> = entries
@@ -48,7 +53,8 @@ pub fn cases(folder: &Path) -> Vec<String> {
 pub fn json(folder: &Path, id: &str) -> Value {
     let path = folder.join(id).join("case.json");
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    let mut json: Value = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let mut json: Value =
+        serde_json::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     if let Some(data) = json.pointer_mut("/calibration/data")
         && let Some(name) = data.as_str()
     {
@@ -71,8 +77,9 @@ pub fn judge(id: &str, json: &Value, waiting: Waiting<'_>) -> Report {
     report
 }
 
-/// Judges what `network` says to every value of a case of the project's own copy but to `size`, which is about the
-/// fields of the case. `names` pairs names of the case with others of the network.
+/// Judges what `network` says to every value of a case of the project's own copy but to `size`,
+/// which is about the fields of the case. `names` pairs names of the case with others of the
+/// network.
 pub fn judge_network(id: &str, network: &Network, names: &[(&str, &str)]) -> Report {
     let mut json = json(&own_folder(), id);
     if let Some(expected) = json["expected"].as_array_mut() {
@@ -80,7 +87,8 @@ pub fn judge_network(id: &str, network: &Network, names: &[(&str, &str)]) -> Rep
     }
     let case: Case = serde_json::from_value(json.clone()).unwrap_or_else(|e| panic!("{id}: {e}"));
     let mut report = Report::new(id, &case);
-    let laboratory = Model::of(network, &case, names).map(|model| Laboratory::of(&case, &json, model));
+    let laboratory =
+        Model::of(network, &case, names).map(|model| Laboratory::of(&case, &json, model));
     let nothing_waits = Waiting { list: &[], known: &[id.to_owned()] };
     values(&case, laboratory.map_err(Trouble::Failed), nothing_waits, &mut report);
     report

@@ -5,14 +5,18 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lptn::network::{
-    AfterEnd, Area, ConductorId, ConductorKind, Context, Course, End, FilmCoefficient, Input, Item, Path,
+    AfterEnd, Area, ConductorId, ConductorKind, Context, Course, End, FilmCoefficient, Input, Item,
+    Path,
 };
 use lptn::prelude::*;
-use lptn::units::{Dimension, Interpolation as Join, Outside, Table as Curve, Table1, TableSymbol, Type};
+use lptn::units::{
+    Dimension, Interpolation as Join, Outside, Table as Curve, Table1, TableSymbol, Type,
+};
 
 use super::calibration;
 use super::case::{
-    At, Calibrated, CapacityCurve, Case, Edge, Gate, Interpolation, Node, Source, Table, Target, TimeFunction,
+    At, Calibrated, CapacityCurve, Case, Edge, Gate, Interpolation, Node, Source, Table, Target,
+    TimeFunction,
 };
 
 /// The Stefan-Boltzmann constant of the SI in W/(m^2 K^4), which lptn computes with.
@@ -39,7 +43,10 @@ impl Model {
     /// # Errors
     /// What lptn says about it, or a field that cannot be calibrated here.
     pub fn calibrating(case: &Case) -> Result<Self, String> {
-        Self::built(case, case.calibration.as_ref().map_or(&[], |calibration| &calibration.parameters))
+        Self::built(
+            case,
+            case.calibration.as_ref().map_or(&[], |calibration| &calibration.parameters),
+        )
     }
 
     fn built(case: &Case, calibrated: &[Calibrated]) -> Result<Self, String> {
@@ -55,7 +62,9 @@ impl Model {
         for parameter in calibrated {
             let name = calibration::parameter(&parameter.name);
             building.b.parameter(&name, Input::number(parameter.initial));
-            building.targets.extend(parameter.targets.iter().map(|target| (target.clone(), name.clone())));
+            building
+                .targets
+                .extend(parameter.targets.iter().map(|target| (target.clone(), name.clone())));
         }
         case.nodes.iter().try_for_each(|node| building.node(node))?;
         case.edges.iter().try_for_each(|edge| building.edge(edge))?;
@@ -69,8 +78,8 @@ impl Model {
         Ok(Self { system, ends, edges })
     }
 
-    /// A network from elsewhere that is to answer for a case. Nodes and edges bear the names of the case, or those that
-    /// `names` pairs with them.
+    /// A network from elsewhere that is to answer for a case. Nodes and edges bear the names of the
+    /// case, or those that `names` pairs with them.
     ///
     /// # Errors
     /// What lptn says about it.
@@ -136,8 +145,8 @@ impl Unit {
     }
 }
 
-/// A name that lptn accepts and that says what it stands for: names of a case may be reserved words, and a node and
-/// an edge may share one.
+/// A name that lptn accepts and that says what it stands for: names of a case may be reserved
+/// words, and a node and an edge may share one.
 pub fn name(kind: &str, id: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
     format!("{kind}_{}", id.chars().map(plain).collect::<String>())
@@ -162,7 +171,10 @@ impl Building {
     fn number(&self, place: (&str, &str, &str), plain: impl Into<Input>) -> Result<Input, String> {
         let plain = plain.into();
         let Some(factor) = self.factor(place) else { return Ok(plain) };
-        self.expression(Context::Time, &format!("{factor} * 1 [{}]", plain.ty().dimension.si_unit()))
+        self.expression(
+            Context::Time,
+            &format!("{factor} * 1 [{}]", plain.ty().dimension.si_unit()),
+        )
     }
 
     pub fn expression(&self, context: Context, text: &str) -> Result<Input, String> {
@@ -192,7 +204,12 @@ impl Building {
         }
     }
 
-    fn capacity(&mut self, id: &str, capacity: f64, curve: &CapacityCurve) -> Result<Input, String> {
+    fn capacity(
+        &mut self,
+        id: &str,
+        capacity: f64,
+        curve: &CapacityCurve,
+    ) -> Result<Input, String> {
         let text = match curve {
             CapacityCurve::Linear { beta, reference } => {
                 let rise = format!("(T - absolute({} [K]))", reference + self.zero);
@@ -243,10 +260,15 @@ impl Building {
                 };
                 let rise = format!("({at} - absolute({} [K]))", reference + self.zero);
                 let g = format!("{conductance} [W/K] * (1 + ({beta} [1/K]) * {rise})");
-                ((id, a, b), ConductorKind::Resistor, Path::conductance(self.expression(Context::Link, &g)?))
+                (
+                    (id, a, b),
+                    ConductorKind::Resistor,
+                    Path::conductance(self.expression(Context::Link, &g)?),
+                )
             }
             Edge::Radiation { id, a, b, exchange, sigma } => {
-                // books print 5.67e-8: their constant goes into the area, for lptn has the exact one
+                // books print 5.67e-8: their constant goes into the area, for lptn has the exact
+                // one
                 let share = sigma / STEFAN_BOLTZMANN;
                 let area = match self.factor(("edges", id, "epsA")) {
                     None => Area(exchange * share).into(),
@@ -261,7 +283,8 @@ impl Building {
                 ((id, a, b), ConductorKind::Advection, stream)
             }
         };
-        let conductor = self.b.conductor(&name("edge", id), kind, (self.end(a)?, self.end(b)?), path);
+        let conductor =
+            self.b.conductor(&name("edge", id), kind, (self.end(a)?, self.end(b)?), path);
         match self.edges.insert(id.clone(), conductor) {
             Some(_) => Err(format!("there are two edges `{id}`")),
             None => Ok(()),
@@ -275,9 +298,9 @@ impl Building {
                 (id, node, self.heat(id, heat)?)
             }
             Source::Heat { id, node, heat, coefficient, gate } => {
-                let factor = coefficient
-                    .as_ref()
-                    .map_or("1".to_owned(), |c| format!("(1 + ({} [1/K]) * {})", c.alpha, rise(c.reference)));
+                let factor = coefficient.as_ref().map_or("1".to_owned(), |c| {
+                    format!("(1 + ({} [1/K]) * {})", c.alpha, rise(c.reference))
+                });
                 let heat = self.text(heat, Unit::Watt)?;
                 (id, node, self.gated((id, gate.as_ref()), &format!("({heat}) * {factor}"))?)
             }
@@ -293,9 +316,13 @@ impl Building {
 
     /// The heat of a source. A parameter stands for it, or multiplies its table.
     fn heat(&mut self, id: &str, heat: &TimeFunction) -> Result<Input, String> {
-        let Some(factor) = self.factor(("sources", id, "Q")) else { return self.of_time(heat, Unit::Watt) };
+        let Some(factor) = self.factor(("sources", id, "Q")) else {
+            return self.of_time(heat, Unit::Watt);
+        };
         match heat {
-            TimeFunction::Constant(_) => self.expression(Context::Source, &format!("{factor} * 1 [W]")),
+            TimeFunction::Constant(_) => {
+                self.expression(Context::Source, &format!("{factor} * 1 [W]"))
+            }
             table => {
                 let table = self.text(table, Unit::Watt)?;
                 self.expression(Context::Source, &format!("{factor} * ({table})"))
@@ -348,7 +375,8 @@ impl Building {
     }
 }
 
-/// A table of the format: its first value holds before it, its last one after it, and a period wraps time.
+/// A table of the format: its first value holds before it, its last one after it, and a period
+/// wraps time.
 fn course(table: &Table, offset: f64) -> Result<Course, String> {
     let mut times = table.t.clone();
     let mut values: Vec<f64> = table.v.iter().map(|v| v + offset).collect();

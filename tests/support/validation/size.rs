@@ -24,8 +24,9 @@ pub fn answer(laboratory: &Laboratory<'_>, quantity: &Quantity) -> Result<f64, T
         let mut json = laboratory.json.clone();
         let elements = json[list].as_array_mut().ok_or("no list")?;
         let element = elements.iter_mut().find(|e| e["id"] == id.as_str());
-        let place =
-            element.and_then(|e| e.get_mut(field)).ok_or_else(|| format!("no `{field}` of `{id}`"))?;
+        let place = element
+            .and_then(|e| e.get_mut(field))
+            .ok_or_else(|| format!("no `{field}` of `{id}`"))?;
         *place = Value::from(value);
         let case: Case = serde_json::from_value(json.clone())?;
         let changed = Laboratory::new(&case, &json)?;

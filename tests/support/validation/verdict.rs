@@ -50,7 +50,12 @@ pub struct Report {
 
 impl Report {
     pub fn new(id: &str, case: &Case) -> Self {
-        Self { id: id.to_owned(), lines: Vec::new(), complaints: Vec::new(), tolerance: case.tolerance() }
+        Self {
+            id: id.to_owned(),
+            lines: Vec::new(),
+            complaints: Vec::new(),
+            tolerance: case.tolerance(),
+        }
     }
 
     pub fn unreadable(id: &str, why: &str) -> Self {
@@ -63,17 +68,19 @@ impl Report {
     }
 
     pub fn add(&mut self, expected: &Expected, verdict: Verdict, listed: bool) {
-        let i = self.lines.iter().position(|line| line.quantity == expected.name).unwrap_or_else(|| {
-            let quantity = expected.name.clone();
-            self.lines.push(Line {
-                quantity,
-                right: 0,
-                wrong: 0,
-                waiting: 0,
-                worst: (0.0, expected.allowed()),
-            });
-            self.lines.len() - 1
-        });
+        let i = self.lines.iter().position(|line| line.quantity == expected.name).unwrap_or_else(
+            || {
+                let quantity = expected.name.clone();
+                self.lines.push(Line {
+                    quantity,
+                    right: 0,
+                    wrong: 0,
+                    waiting: 0,
+                    worst: (0.0, expected.allowed()),
+                });
+                self.lines.len() - 1
+            },
+        );
         let line = &mut self.lines[i];
         match verdict {
             Verdict::Right(share) => {

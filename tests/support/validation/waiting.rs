@@ -5,8 +5,8 @@
 pub struct Waiting<'a> {
     /// Pairs of case and quantity.
     pub list: &'a [(&'a str, &'a str)],
-    /// The cases that the list speaks of. In a case from elsewhere, which it cannot know, whatever needs an analysis
-    /// that lptn does not have waits.
+    /// The cases that the list speaks of. In a case from elsewhere, which it cannot know, whatever
+    /// needs an analysis that lptn does not have waits.
     pub known: &'a [String],
 }
 

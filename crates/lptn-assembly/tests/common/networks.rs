@@ -9,7 +9,8 @@ use lptn_units::{
 
 pub const SIGMA: f64 = 5.670_374_419e-8;
 
-/// Numbers that look random and are the same every time (xorshift64*, S. Vigna, ACM TOMS 42 (2016) 30).
+/// Numbers that look random and are the same every time (xorshift64*, S. Vigna, ACM TOMS 42 (2016)
+/// 30).
 pub struct Random(pub u64);
 
 impl Random {
@@ -54,7 +55,12 @@ pub fn system(builder: NetworkBuilder) -> ThermalSystem {
 /// A table of one argument.
 pub fn table(x: &[f64], y: &[f64], interp: Interpolation, types: (Type, Type)) -> TableSymbol {
     let table = Table1::new(x.to_vec(), y.to_vec(), interp, Outside::Error).unwrap();
-    TableSymbol { table: Table::One(table).into(), arguments: vec![types.0], ty: types.1, units: Vec::new() }
+    TableSymbol {
+        table: Table::One(table).into(),
+        arguments: vec![types.0],
+        ty: types.1,
+        units: Vec::new(),
+    }
 }
 
 /// A table of two arguments.

@@ -65,7 +65,9 @@ impl Div for Rational {
 pub(crate) fn solved(mut rows: Vec<Vec<Rational>>) -> Vec<Rational> {
     let zero = Rational::whole(0);
     for k in 0..rows.len() {
-        let pivot = (k..rows.len()).find(|&i| rows[i][k] != zero).expect("the balances determine everything");
+        let pivot = (k..rows.len())
+            .find(|&i| rows[i][k] != zero)
+            .expect("the balances determine everything");
         rows.swap(k, pivot);
         let by = rows[k][k];
         rows[k].iter_mut().for_each(|x| *x = *x / by);

@@ -13,8 +13,8 @@ use super::names::{COMMIT, temporary};
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
 
-/// Files under temporary names, until all of them are whole and take their places together. Dropped before that, by an
-/// error or a panic, they are removed and what was there stays.
+/// Files under temporary names, until all of them are whole and take their places together. Dropped
+/// before that, by an error or a panic, they are removed and what was there stays.
 pub(crate) struct Batch<'a> {
     folder: &'a Folder,
     /// Of every file that was begun.
@@ -53,12 +53,13 @@ impl<'a> Batch<'a> {
         &self.written
     }
 
-    /// Puts every file into its place, and removes those of `ours`, the names that runs of this kind write, that this one
-    /// did not: they are of an earlier run.
+    /// Puts every file into its place, and removes those of `ours`, the names that runs of this
+    /// kind write, that this one did not: they are of an earlier run.
     pub(crate) fn commit(mut self, ours: &[&str]) -> Result<(), Failure> {
         let rename: Vec<String> = self.written.iter().map(|file| file.name.clone()).collect();
-        let is_over =
-            |name: &&&str| !rename.iter().any(|own| own == **name) && self.folder.path.join(name).exists();
+        let is_over = |name: &&&str| {
+            !rename.iter().any(|own| own == **name) && self.folder.path.join(name).exists()
+        };
         let remove = ours.iter().filter(is_over).map(|name| (*name).to_owned()).collect();
         let commit = Commit { process: std::process::id(), rename, remove };
         let outcome = commit.carry_out(&self.folder.path);
@@ -68,7 +69,8 @@ impl<'a> Batch<'a> {
     }
 
     fn cannot_write(&self, name: &str, error: &io::Error) -> Failure {
-        let message = format!("cannot write {}: {}", self.folder.path.join(name).display(), reason(error));
+        let message =
+            format!("cannot write {}: {}", self.folder.path.join(name).display(), reason(error));
         let problem = Diagnostic::error("output::cannot_write", message)
             .help("choose another folder with -o DIR, or write none with --no-files");
         Failure::new(Exit::Failed, problem)
@@ -83,7 +85,8 @@ impl Drop for Batch<'_> {
     }
 }
 
-/// Gives a new file the owner and permissions of the one whose place it takes, before anything is in it.
+/// Gives a new file the owner and permissions of the one whose place it takes, before anything is
+/// in it.
 fn like(old: &Path, new: &Path) -> io::Result<()> {
     let Ok(old) = fs::metadata(old) else { return Ok(()) };
     #[cfg(unix)]
@@ -96,7 +99,10 @@ fn like(old: &Path, new: &Path) -> io::Result<()> {
 }
 
 /// Writes a file and gives the SHA-256 of its content.
-fn write_hashed(file: File, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<String> {
+fn write_hashed(
+    file: File,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<String> {
     let mut out = Hashing::new(BufWriter::with_capacity(1 << 16, file));
     content(&mut out)?;
     let (mut file, hash) = out.finish();

@@ -1,11 +1,13 @@
-//! From results under temporary names to results in their places: a step that no end of the process halves.
+//! From results under temporary names to results in their places: a step that no end of the process
+//! halves.
 //!
-//! Every file replaces the old one by a rename, so none is ever half. But several renames are several moments, and a
-//! process that is killed between two of them would leave new results beside old ones. So what is to be renamed and
-//! removed is written down first, under a name that itself appears by a rename: before that moment the old results
-//! stand and the new ones are waste, after it the new ones are decided, and the next process that writes into the
-//! folder does what is left. Until then the record lies there to be seen, and the manifest, which is renamed last,
-//! names hashes that are not those of the new files.
+//! Every file replaces the old one by a rename, so none is ever half. But several renames are
+//! several moments, and a process that is killed between two of them would leave new results beside
+//! old ones. So what is to be renamed and removed is written down first, under a name that itself
+//! appears by a rename: before that moment the old results stand and the new ones are waste, after
+//! it the new ones are decided, and the next process that writes into the folder does what is left.
+//! Until then the record lies there to be seen, and the manifest, which is renamed last, names
+//! hashes that are not those of the new files.
 
 use std::fs;
 use std::io::{self, ErrorKind};
@@ -41,11 +43,14 @@ impl Commit {
         fs::remove_file(folder.join(COMMIT))
     }
 
-    /// Does what a process left that was killed on the way. What cannot be done now cannot be done later either.
+    /// Does what a process left that was killed on the way. What cannot be done now cannot be done
+    /// later either.
     pub(super) fn finish(folder: &Path) {
         let place = folder.join(COMMIT);
         let Ok(text) = fs::read_to_string(&place) else { return };
-        if let Some(mut commit) = serde_json::from_str(&text).ok().and_then(|record| Self::read(&record)) {
+        if let Some(mut commit) =
+            serde_json::from_str(&text).ok().and_then(|record| Self::read(&record))
+        {
             commit.rename.retain(|name| folder.join(temporary(name, commit.process)).exists());
             drop(commit.apply(folder));
         }
@@ -54,10 +59,12 @@ impl Commit {
 
     /// Renames and removes; the first trouble does not keep back the rest.
     fn apply(&self, folder: &Path) -> io::Result<()> {
-        let rename =
-            |name: &String| fs::rename(folder.join(temporary(name, self.process)), folder.join(name));
+        let rename = |name: &String| {
+            fs::rename(folder.join(temporary(name, self.process)), folder.join(name))
+        };
         let renames = self.rename.iter().map(rename);
-        let removals = self.remove.iter().map(|name| unless_missing(fs::remove_file(folder.join(name))));
+        let removals =
+            self.remove.iter().map(|name| unless_missing(fs::remove_file(folder.join(name))));
         renames.chain(removals).fold(Ok(()), io::Result::and)
     }
 
@@ -68,7 +75,8 @@ impl Commit {
     /// The record; `None` if it is not one, or if it names what is not a result.
     fn read(record: &Value) -> Option<Self> {
         let names = |key: &str| -> Option<Vec<String>> {
-            let name = |value: &Value| value.as_str().filter(|name| is_result(name)).map(str::to_owned);
+            let name =
+                |value: &Value| value.as_str().filter(|name| is_result(name)).map(str::to_owned);
             record[key].as_array()?.iter().map(name).collect()
         };
         let process = u32::try_from(record["process"].as_u64()?).ok()?;

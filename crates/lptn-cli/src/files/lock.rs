@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use super::names::LOCK;
 
-/// The folder belongs to this process until this is dropped or the process ends, however it does: the lock is one of
-/// the system and not the file, so that none is ever left over.
+/// The folder belongs to this process until this is dropped or the process ends, however it does:
+/// the lock is one of the system and not the file, so that none is ever left over.
 #[derive(Debug)]
 pub(super) struct Lock {
     path: PathBuf,
@@ -28,7 +28,8 @@ pub(super) enum NotLocked {
 const PAUSE: Duration = Duration::from_millis(20);
 
 impl Lock {
-    /// Takes the folder; where another process has it, after asking again for as long as `patience`.
+    /// Takes the folder; where another process has it, after asking again for as long as
+    /// `patience`.
     pub(super) fn take(folder: &Path, patience: Duration) -> Result<Self, NotLocked> {
         let begun = Instant::now();
         loop {
@@ -43,11 +44,13 @@ impl Lock {
 
     /// `None` where the file was removed between opening and locking, by the process that had it.
     fn try_take(path: PathBuf) -> Result<Option<Self>, NotLocked> {
-        let options = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
+        let options =
+            OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
         let mut file = options.map_err(NotLocked::Io)?;
         match file.try_lock() {
             Err(TryLockError::WouldBlock) => return Err(NotLocked::Busy(owner(&mut file))),
-            // a file system without locks still takes results, and two processes at once are the user's affair
+            // a file system without locks still takes results, and two processes at once are the
+            // user's affair
             Ok(()) | Err(TryLockError::Error(_)) => {}
         }
         if !is_at(&file, &path) {
@@ -61,8 +64,8 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // while it is still locked: whoever waits for it sees that it is no longer there. Elsewhere an open file cannot
-        // be removed safely, and stays
+        // while it is still locked: whoever waits for it sees that it is no longer there. Elsewhere
+        // an open file cannot be removed safely, and stays
         if cfg!(unix) {
             drop(fs::remove_file(&self.path));
         }
@@ -102,13 +105,17 @@ mod tests {
         let place = Place::new();
         let lock = Lock::take(&place.0, Duration::ZERO).unwrap();
         let other = Lock::take(&place.0, Duration::ZERO).unwrap_err();
-        assert!(matches!(other, NotLocked::Busy(Some(id)) if id == std::process::id()), "{other:?}");
+        assert!(
+            matches!(other, NotLocked::Busy(Some(id)) if id == std::process::id()),
+            "{other:?}"
+        );
         drop(lock);
         assert_eq!(place.files(), [""; 0]);
         drop(Lock::take(&place.0, Duration::ZERO).unwrap());
     }
 
-    /// Threads that take and give back: at no time do two have it, although its file comes and goes.
+    /// Threads that take and give back: at no time do two have it, although its file comes and
+    /// goes.
     #[test]
     fn the_file_that_comes_and_goes_is_no_way_around_it() {
         let place = Place::new();

@@ -31,8 +31,8 @@ pub(crate) struct Folder {
 }
 
 impl Folder {
-    /// Makes the folder of results and takes it for this process, before anything is computed; what a process that was
-    /// killed left undone there is done, and what it left over is removed.
+    /// Makes the folder of results and takes it for this process, before anything is computed; what
+    /// a process that was killed left undone there is done, and what it left over is removed.
     pub(crate) fn prepare(path: PathBuf) -> Result<Self, Failure> {
         Self::take(path, Duration::ZERO)
     }
@@ -65,17 +65,21 @@ impl Folder {
     }
 }
 
-/// Removes what processes that were killed did not finish. Only one that holds the folder writes there, so every file
-/// under a temporary name is of a process that is no more.
+/// Removes what processes that were killed did not finish. Only one that holds the folder writes
+/// there, so every file under a temporary name is of a process that is no more.
 fn sweep(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    for entry in entries.filter(|entry| entry.file_name().to_str().is_some_and(names::is_temporary)) {
+    for entry in entries.filter(|entry| entry.file_name().to_str().is_some_and(names::is_temporary))
+    {
         drop(fs::remove_file(entry.path()));
     }
 }
 
 fn cannot_create(path: &Path, error: &io::Error) -> Failure {
-    refused("output::cannot_create", format!("cannot write into {}: {}", path.display(), reason(error)))
+    refused(
+        "output::cannot_create",
+        format!("cannot write into {}: {}", path.display(), reason(error)),
+    )
 }
 
 fn in_use(path: &Path, process: Option<u32>) -> Failure {
@@ -104,7 +108,11 @@ pub(crate) fn arguments() -> Vec<String> {
 }
 
 /// The files of a folder with this ending, by name.
-pub(crate) fn of_folder(folder: &Path, ending: &str, help: impl Help) -> Result<Vec<PathBuf>, Failure> {
+pub(crate) fn of_folder(
+    folder: &Path,
+    ending: &str,
+    help: impl Help,
+) -> Result<Vec<PathBuf>, Failure> {
     let entries = fs::read_dir(folder);
     let entries = entries.map_err(|error| Failure::cannot_read(folder.display(), &error, help))?;
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
@@ -114,25 +122,29 @@ pub(crate) fn of_folder(folder: &Path, ending: &str, help: impl Help) -> Result<
     Ok(paths)
 }
 
-/// Writes a file that is not there yet, whole or not at all; `exists` is the code where it is there.
+/// Writes a file that is not there yet, whole or not at all; `exists` is the code where it is
+/// there.
 pub(crate) fn write_new(path: &Path, text: &str, exists: &'static str) -> Result<(), Failure> {
     link_new(path, text).map_err(|error| {
         let path = path.display();
         let problem = match error.kind() {
-            io::ErrorKind::AlreadyExists => {
-                Diagnostic::error(exists, format!("{path} exists already, and is never written over"))
-                    .help("choose another name, or remove the file first")
-            }
-            _ => {
-                Diagnostic::error("output::cannot_create", format!("cannot write {path}: {}", reason(&error)))
-            }
+            io::ErrorKind::AlreadyExists => Diagnostic::error(
+                exists,
+                format!("{path} exists already, and is never written over"),
+            )
+            .help("choose another name, or remove the file first"),
+            _ => Diagnostic::error(
+                "output::cannot_create",
+                format!("cannot write {path}: {}", reason(&error)),
+            ),
         };
         Failure::new(Exit::Input, problem)
     })
 }
 
 fn link_new(path: &Path, text: &str) -> io::Result<()> {
-    let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let name =
+        path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let temporary = path.with_file_name(names::temporary(&name, std::process::id()));
     let linked = fs::write(&temporary, text).and_then(|()| fs::hard_link(&temporary, path));
     drop(fs::remove_file(&temporary));
@@ -140,7 +152,8 @@ fn link_new(path: &Path, text: &str) -> io::Result<()> {
         Ok(()) => Ok(()),
         // a full disk; or a file system without links, where the file has to grow in its place
         Err(_) => File::create_new(path).and_then(|mut file| {
-            io::Write::write_all(&mut file, text.as_bytes()).inspect_err(|_| drop(fs::remove_file(path)))
+            io::Write::write_all(&mut file, text.as_bytes())
+                .inspect_err(|_| drop(fs::remove_file(path)))
         }),
     }
 }
@@ -159,7 +172,11 @@ pub(crate) mod tests {
     impl Place {
         pub(crate) fn new() -> Self {
             static COUNT: AtomicU32 = AtomicU32::new(0);
-            let name = format!("lptn-files-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+            let name = format!(
+                "lptn-files-{}-{}",
+                std::process::id(),
+                COUNT.fetch_add(1, Ordering::Relaxed)
+            );
             let path = std::env::temp_dir().join(name);
             std::fs::create_dir_all(&path).unwrap();
             Self(path)

@@ -18,8 +18,19 @@ pub(super) const COMMIT: &str = ".commit.json";
 /// The file whose lock says that somebody writes here.
 pub(super) const LOCK: &str = ".lptn.lock";
 
-const RESULTS: [&str; 11] =
-    [RESULT, STATE, EVENTS, WINDOWS, UNCERTAINTY, RANKING, RISE, TIME_CONSTANT, POWER, LAWS, MANIFEST];
+const RESULTS: [&str; 11] = [
+    RESULT,
+    STATE,
+    EVENTS,
+    WINDOWS,
+    UNCERTAINTY,
+    RANKING,
+    RISE,
+    TIME_CONSTANT,
+    POWER,
+    LAWS,
+    MANIFEST,
+];
 
 /// Whether a file of this name may be one of results.
 pub(super) fn is_result(name: &str) -> bool {
@@ -31,7 +42,8 @@ pub(super) fn temporary(name: &str, process: u32) -> String {
     format!(".{name}.{process}.tmp")
 }
 
-/// Whether this program calls a file so that is not whole yet: a result, the record of results, a netlist.
+/// Whether this program calls a file so that is not whole yet: a result, the record of results, a
+/// netlist.
 pub(super) fn is_temporary(name: &str) -> bool {
     let parts = name
         .strip_prefix('.')
@@ -51,9 +63,14 @@ mod tests {
         for name in [RESULT, COMMIT, "motor.toml"] {
             assert!(is_temporary(&temporary(name, 4_194_304)), "{name}");
         }
-        for name in
-            ["result.csv", ".result.csv.tmp", ".result.csv.x1.tmp", ".thesis.csv.12.tmp", ".12.tmp", "..tmp"]
-        {
+        for name in [
+            "result.csv",
+            ".result.csv.tmp",
+            ".result.csv.x1.tmp",
+            ".thesis.csv.12.tmp",
+            ".12.tmp",
+            "..tmp",
+        ] {
             assert!(!is_temporary(name), "{name}");
         }
     }

@@ -9,9 +9,11 @@ use crate::common::{Folder, Ran};
 /// Far longer than half a second of CPU takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// Starts the program and presses Ctrl-C when it has used half a second of CPU, far more than the gearbox needs.
+/// Starts the program and presses Ctrl-C when it has used half a second of CPU, far more than the
+/// gearbox needs.
 pub(crate) fn interrupted(folder: &Folder, arguments: &[&str]) -> Ran {
-    let child = folder.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let child =
+        folder.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let begun = Instant::now();
     while cpu_ticks(&child).is_none_or(|ticks| ticks < 50) && begun.elapsed() < PATIENCE {
         std::thread::sleep(Duration::from_millis(10));

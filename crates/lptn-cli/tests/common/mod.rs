@@ -1,5 +1,10 @@
 //! Runs the program in a folder of its own.
-#![allow(dead_code, unreachable_pub, clippy::unwrap_used, reason = "each test file uses a part of it")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    clippy::unwrap_used,
+    reason = "each test file uses a part of it"
+)]
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -11,8 +16,9 @@ pub const GEARBOX: &str = include_str!("../../../../networks/gearbox.toml");
 
 /// A run that would take minutes.
 pub fn endless() -> String {
-    let long =
-        GEARBOX.replace("\"25 min\"", "\"2000 d\"").replace("{ every = \"5 s\" }", "{ every = \"1 d\" }");
+    let long = GEARBOX
+        .replace("\"25 min\"", "\"2000 d\"")
+        .replace("{ every = \"5 s\" }", "{ every = \"1 d\" }");
     long.replace("P = \"P_7000\"", "P = \"P_7000 * (1 + 0.5 * sin(t / 10 [s]))\"")
 }
 
@@ -25,7 +31,8 @@ impl Folder {
     /// An empty folder.
     pub fn empty() -> Self {
         static COUNT: AtomicU32 = AtomicU32::new(0);
-        let name = format!("lptn-cli-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let name =
+            format!("lptn-cli-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
         let path = std::env::temp_dir().join(name);
         std::fs::create_dir_all(&path).unwrap();
         Self { path }
@@ -152,15 +159,21 @@ pub fn csv(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
 
 /// What the validation case `gearbox_two_node` expects of a quantity, of a node where it has one.
 pub fn gearbox_case(quantity: &str, node: &str) -> Vec<serde_json::Value> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/validation/gearbox_two_node/case.json");
-    let case: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let path =
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/validation/gearbox_two_node/case.json");
+    let case: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let all = case["expected"].as_array().unwrap().iter();
-    let of_node =
-        |e: &&serde_json::Value| e["quantity"] == quantity && (node.is_empty() || e["node"] == node);
+    let of_node = |e: &&serde_json::Value| {
+        e["quantity"] == quantity && (node.is_empty() || e["node"] == node)
+    };
     all.filter(of_node).cloned().collect()
 }
 
 /// The values of [`gearbox_case`].
 pub fn gearbox_values(quantity: &str, node: &str) -> Vec<f64> {
-    gearbox_case(quantity, node).iter().map(|expected| expected["value"].as_f64().unwrap()).collect()
+    gearbox_case(quantity, node)
+        .iter()
+        .map(|expected| expected["value"].as_f64().unwrap())
+        .collect()
 }

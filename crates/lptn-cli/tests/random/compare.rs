@@ -40,13 +40,16 @@ impl Case {
         let growth = largest(&found, &disturbed) / DISTURBANCE;
         if growth > MOST_GROWTH || found.events.len() > MOST_SWITCHES {
             let switches = found.events.len();
-            return Err(LeftOut::NoBound(format!("errors grow {growth:.1} times, {switches} switches")));
+            return Err(LeftOut::NoBound(format!(
+                "errors grow {growth:.1} times, {switches} switches"
+            )));
         }
         Ok(Self { seed, net, results: found, growth })
     }
 
-    /// How far two temperatures of the same meaning may be apart, in K: ten times the tolerance, as far as the network does
-    /// not amplify errors. Every switch adds what an error in its time does.
+    /// How far two temperatures of the same meaning may be apart, in K: ten times the tolerance, as
+    /// far as the network does not amplify errors. Every switch adds what an error in its time
+    /// does.
     pub fn bound(&self) -> f64 {
         10.0 * TOLERANCE * self.growth.max(1.0) * (1 + self.results.events.len()) as f64
     }
@@ -131,12 +134,14 @@ fn columns(
     (column, values): (&str, &[f64]),
     found: &Results,
 ) -> Result<(), String> {
-    let get = |name: &str| found.columns.get(name).ok_or_else(|| format!("no column {name} for {column}"));
+    let get = |name: &str| {
+        found.columns.get(name).ok_or_else(|| format!("no column {name} for {column}"))
+    };
     match variant.columns(column) {
         As::Nothing => Ok(()),
-        As::Each(names) => {
-            names.iter().try_for_each(|name| rows(case, variant, (column, values), (get(name)?, found)))
-        }
+        As::Each(names) => names
+            .iter()
+            .try_for_each(|name| rows(case, variant, (column, values), (get(name)?, found))),
         As::Sum(names) => {
             let mut sum = vec![0.0; values.len()];
             for name in &names {
@@ -158,7 +163,8 @@ fn rows(
     let slope = case.slope(column);
     for (i, (a, b)) in before.iter().zip(now).enumerate() {
         let time = case.results.times[i];
-        let count = |events: &[f64], shift: f64| events.iter().filter(|at| **at - shift <= time).count();
+        let count =
+            |events: &[f64], shift: f64| events.iter().filter(|at| **at - shift <= time).count();
         let switched = count(&case.results.events, 0.0) != count(&found.events, variant.shift);
         if a.is_nan() && b.is_nan() || !temperature && switched {
             continue; // between the moments at which one and the other switch
@@ -178,7 +184,9 @@ fn near(what: &str, (before, now): (f64, f64), bound: f64) -> Result<(), String>
         return Ok(());
     }
     let apart = (before - now).abs();
-    Err(format!("{what} was {before} and is {now}: {apart:.2e} apart, where {bound:.1e} is allowed"))
+    Err(format!(
+        "{what} was {before} and is {now}: {apart:.2e} apart, where {bound:.1e} is allowed"
+    ))
 }
 
 /// How many networks hold each feature.

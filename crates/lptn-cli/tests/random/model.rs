@@ -1,4 +1,5 @@
-//! A network as data that can be changed: what a relation turns into another one that means the same.
+//! A network as data that can be changed: what a relation turns into another one that means the
+//! same.
 
 use super::units::{Kind, Number};
 
@@ -177,7 +178,10 @@ impl Net {
     }
 
     pub fn fields(&mut self, visit: &mut dyn FnMut(&mut Field)) {
-        self.entries.iter_mut().flat_map(|entry| &mut entry.fields).for_each(|(_, field)| visit(field));
+        self.entries
+            .iter_mut()
+            .flat_map(|entry| &mut entry.fields)
+            .for_each(|(_, field)| visit(field));
     }
 
     pub fn of(&self, kind: &str) -> impl Iterator<Item = &Entry> {
@@ -189,7 +193,10 @@ impl Net {
     }
 
     pub fn run(&mut self) -> &mut Entry {
-        self.entries.iter_mut().find(|entry| entry.section == "run").expect("every network has a run")
+        self.entries
+            .iter_mut()
+            .find(|entry| entry.section == "run")
+            .expect("every network has a run")
     }
 
     pub fn run_value(&self, key: &str) -> f64 {

@@ -30,12 +30,16 @@ fn as_csv(folder: &Folder, file: &str, more: &[&str]) -> Result<Columns, String>
     let (headers, rows) = csv(&ran.out);
     let column = |(i, header): (usize, &String)| {
         let (name, unit) = header.split_once(" [").unwrap_or((header, "]"));
-        (name.to_owned(), in_si(unit.trim_end_matches(']'), rows.iter().map(|row| row[i]).collect()))
+        (
+            name.to_owned(),
+            in_si(unit.trim_end_matches(']'), rows.iter().map(|row| row[i]).collect()),
+        )
     };
     Ok(headers.iter().enumerate().map(column).collect())
 }
 
-/// The columns of a run as JSON. Numbers are read from their text: serde_json rounds the last digit of some.
+/// The columns of a run as JSON. Numbers are read from their text: serde_json rounds the last digit
+/// of some.
 fn as_json(folder: &Folder) -> Result<Columns, String> {
     let ran = folder.run(&["run", MAIN, "--no-files", "--format", "json"]);
     let words = |error: serde_json::Error| error.to_string();
@@ -45,8 +49,10 @@ fn as_json(folder: &Folder) -> Result<Columns, String> {
     };
     let columns: Vec<serde_json::Value> = serde_json::from_str(columns.get()).map_err(words)?;
     let rows: Vec<Vec<Box<RawValue>>> = serde_json::from_str(rows.get()).map_err(words)?;
-    let text = |column: &serde_json::Value, key: &str| column[key].as_str().unwrap_or("?").to_owned();
-    let values = |i: usize| rows.iter().map(|row| row[i].get().parse().unwrap_or(f64::NAN)).collect();
+    let text =
+        |column: &serde_json::Value, key: &str| column[key].as_str().unwrap_or("?").to_owned();
+    let values =
+        |i: usize| rows.iter().map(|row| row[i].get().parse().unwrap_or(f64::NAN)).collect();
     let column = |(i, column)| (text(column, "name"), in_si(&text(column, "unit"), values(i)));
     Ok(columns.iter().enumerate().map(column).collect())
 }
@@ -102,7 +108,8 @@ pub fn in_two_parts(case: &Case) -> Result<(), (String, Texts)> {
     let mut texts = first.texts();
     let main = texts.remove(MAIN).unwrap_or_default();
     texts.insert("first.toml".into(), main);
-    let text = second.texts()[MAIN].replace("[run]\n", "[run]\ninitial = \"out/first/state.json\"\n");
+    let text =
+        second.texts()[MAIN].replace("[run]\n", "[run]\ninitial = \"out/first/state.json\"\n");
     texts.insert("second.toml".into(), text);
     two_parts(case, &texts, stop).map_err(|words| (words, texts))
 }
@@ -119,7 +126,10 @@ fn two_parts(case: &Case, texts: &Texts, stop: f64) -> Result<(), String> {
         let whole = &case.results.columns[name];
         for (a, b) in whole[whole.len() - rows..].iter().zip(values) {
             if (a - b).abs() > case.bound() {
-                return Err(format!("{name} is {a} in one run and {b} in two, {:.1e} allowed", case.bound()));
+                return Err(format!(
+                    "{name} is {a} in one run and {b} in two, {:.1e} allowed",
+                    case.bound()
+                ));
             }
         }
     }

@@ -52,13 +52,15 @@ pub fn results_of(netlist: &Netlist) -> Result<Results, String> {
     };
     let windows = run.windows.iter().map(window).collect();
     let transient = Transient { windows, ..lptn_solve::Transient::of(network, run) };
-    let solution = transient.solve(&system).map_err(|error| format!("{}: {error}", error.code()))?;
+    let solution =
+        transient.solve(&system).map_err(|error| format!("{}: {error}", error.code()))?;
     if !solution.ledger().closes() {
         return Err("the books do not close".into());
     }
     let mut found = of_solution(&solution);
     if let Ok(steady) = SteadyState::solve(&system, run.start) {
-        let temperatures = network.nodes().iter().map(|node| node.name.clone()).zip(steady.temperatures);
+        let temperatures =
+            network.nodes().iter().map(|node| node.name.clone()).zip(steady.temperatures);
         found.steady = temperatures.collect();
     }
     Ok(found)
@@ -87,7 +89,8 @@ fn of_solution(solution: &Solution) -> Results {
         let values = || values.iter().map(|kelvin| kelvin - 273.15).collect();
         columns.entry(format!("{}.T", node.name)).or_insert_with(values);
     }
-    let switched = solution.events().iter().filter(|event| !matches!(event.kind, EventKind::Limit(_)));
+    let switched =
+        solution.events().iter().filter(|event| !matches!(event.kind, EventKind::Limit(_)));
     let limits = network.limits();
     let mut windows = BTreeMap::new();
     for window in solution.windows() {

@@ -4,7 +4,8 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Plain,
-    /// An absolute temperature, held in degC; kelvin may stand only alone in a field that wants one.
+    /// An absolute temperature, held in degC; kelvin may stand only alone in a field that wants
+    /// one.
     Temperature,
     Difference,
     /// A duration.
@@ -33,7 +34,8 @@ pub enum Kind {
 /// A unit: its text, its size in the first unit of its kind, and its zero in that unit.
 pub type Unit = (&'static str, f64, f64);
 
-const TEMPERATURES: [Unit; 3] = [("degC", 1.0, 0.0), ("degF", 5.0 / 9.0, -160.0 / 9.0), ("K", 1.0, -273.15)];
+const TEMPERATURES: [Unit; 3] =
+    [("degC", 1.0, 0.0), ("degF", 5.0 / 9.0, -160.0 / 9.0), ("K", 1.0, -273.15)];
 
 impl Kind {
     /// The units; numbers are held in the first of them.
@@ -49,7 +51,9 @@ impl Kind {
             Self::Capacity => &[("J/K", 1.0, 0.0), ("kJ/K", 1e3, 0.0), ("W h/K", 3600.0, 0.0)],
             Self::Resistance => &[("K/W", 1.0, 0.0), ("mK/W", 1e-3, 0.0), ("K/kW", 1e-3, 0.0)],
             Self::Conductance => &[("W/K", 1.0, 0.0), ("mW/K", 1e-3, 0.0), ("W/mK", 1e3, 0.0)],
-            Self::Film => &[("W/(m^2 K)", 1.0, 0.0), ("W/(cm^2 K)", 1e4, 0.0), ("kW/(m^2 K)", 1e3, 0.0)],
+            Self::Film => {
+                &[("W/(m^2 K)", 1.0, 0.0), ("W/(cm^2 K)", 1e4, 0.0), ("kW/(m^2 K)", 1e3, 0.0)]
+            }
             Self::Area => &[("m^2", 1.0, 0.0), ("cm^2", 1e-4, 0.0), ("mm^2", 1e-6, 0.0)],
             Self::Length => &[("m", 1.0, 0.0), ("mm", 1e-3, 0.0), ("cm", 1e-2, 0.0)],
             Self::Volume => &[("m^3", 1.0, 0.0), ("cm^3", 1e-6, 0.0), ("L", 1e-3, 0.0)],
@@ -58,12 +62,16 @@ impl Kind {
             Self::SpecificHeat => &[("J/(kg K)", 1.0, 0.0), ("kJ/(kg K)", 1e3, 0.0)],
             Self::Conductivity => &[("W/(m K)", 1.0, 0.0), ("mW/(m K)", 1e-3, 0.0)],
             Self::Latent => &[("J/kg", 1.0, 0.0), ("kJ/kg", 1e3, 0.0)],
-            Self::MassFlow => &[("kg/s", 1.0, 0.0), ("g/s", 1e-3, 0.0), ("kg/h", 1.0 / 3600.0, 0.0)],
+            Self::MassFlow => {
+                &[("kg/s", 1.0, 0.0), ("g/s", 1e-3, 0.0), ("kg/h", 1.0 / 3600.0, 0.0)]
+            }
             Self::VolumeFlow => &[("m^3/s", 1.0, 0.0), ("L/min", 1e-3 / 60.0, 0.0)],
             Self::PerKelvin => &[("1/K", 1.0, 0.0), ("1/mK", 1e3, 0.0)],
-            Self::Speed => {
-                &[("rpm", 1.0, 0.0), ("rad/s", 30.0 / std::f64::consts::PI, 0.0), ("rev/s", 60.0, 0.0)]
-            }
+            Self::Speed => &[
+                ("rpm", 1.0, 0.0),
+                ("rad/s", 30.0 / std::f64::consts::PI, 0.0),
+                ("rev/s", 60.0, 0.0),
+            ],
         }
     }
 }

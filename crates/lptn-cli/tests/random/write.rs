@@ -16,9 +16,11 @@ const IN_RUN: [&str; 2] = ["report", "window"];
 
 impl Net {
     pub fn texts(&self) -> Texts {
-        let mut texts: Texts = self.sides.iter().map(|(name, side)| (name.clone(), side.text())).collect();
+        let mut texts: Texts =
+            self.sides.iter().map(|(name, side)| (name.clone(), side.text())).collect();
         let included = self.entries.iter().any(|entry| entry.included);
-        let mut main = if included { format!("include = [\"{INCLUDED}\"]\n") } else { String::new() };
+        let mut main =
+            if included { format!("include = [\"{INCLUDED}\"]\n") } else { String::new() };
         main += &self.file(false);
         if included {
             texts.insert(INCLUDED.into(), self.file(true));
@@ -29,7 +31,8 @@ impl Net {
 
     fn file(&self, included: bool) -> String {
         let mut text = "format = 1\n".to_owned();
-        let entries: Vec<&Entry> = self.entries.iter().filter(|entry| entry.included == included).collect();
+        let entries: Vec<&Entry> =
+            self.entries.iter().filter(|entry| entry.included == included).collect();
         let mut sections: Vec<&str> = Vec::new();
         for entry in &entries {
             if !IN_RUN.contains(&&*entry.section) && !sections.contains(&&*entry.section) {
@@ -37,7 +40,8 @@ impl Net {
             }
         }
         for section in sections {
-            let of: Vec<&&Entry> = entries.iter().filter(|entry| entry.section == section).collect();
+            let of: Vec<&&Entry> =
+                entries.iter().filter(|entry| entry.section == section).collect();
             self.section(&mut text, section, &of);
         }
         text
@@ -67,7 +71,8 @@ impl Net {
 
     fn inside_run(&self, text: &mut String, section: &str) {
         let of = self.entries.iter().filter(|entry| entry.section == section);
-        let table: Vec<(String, Field)> = of.map(|entry| (entry.name.clone(), entry.value())).collect();
+        let table: Vec<(String, Field)> =
+            of.map(|entry| (entry.name.clone(), entry.value())).collect();
         if !table.is_empty() {
             line(text, &(section.to_owned(), Field::Table(table)));
         }
@@ -136,7 +141,8 @@ impl Side {
         });
         let mut text = head.collect::<Vec<_>>().join(",") + "\n";
         for row in 0..columns[0].1.len() {
-            let cells: Vec<String> = columns.iter().map(|(_, numbers)| numbers[row].bare()).collect();
+            let cells: Vec<String> =
+                columns.iter().map(|(_, numbers)| numbers[row].bare()).collect();
             let _ = writeln!(text, "{}", cells.join(","));
         }
         text

@@ -1,8 +1,8 @@
 //! The first step after a start, whose length is a guess.
 //!
-//! CVODES makes that guess from the flow some way ahead. Where this cannot be had there, it gives up after four looks, with
-//! the last state that it looked at in the output: that must not be taken for the present one, and nothing says that a
-//! shorter step would fail as well.
+//! CVODES makes that guess from the flow some way ahead. Where this cannot be had there, it gives
+//! up after four looks, with the last state that it looked at in the output: that must not be taken
+//! for the present one, and nothing says that a shorter step would fail as well.
 
 use sundials_sys as sys;
 
@@ -17,7 +17,8 @@ const ATTEMPTS: usize = 6;
 const PART: f64 = 0.1;
 
 /// CVODES' flags for a flow that cannot be had.
-const REFUSED: [i32; 3] = [sys::CV_REPTD_RHSFUNC_ERR, sys::CV_REPTD_QRHSFUNC_ERR, sys::CV_REPTD_SRHSFUNC_ERR];
+const REFUSED: [i32; 3] =
+    [sys::CV_REPTD_RHSFUNC_ERR, sys::CV_REPTD_QRHSFUNC_ERR, sys::CV_REPTD_SRHSFUNC_ERR];
 
 impl<S: OdeSystem> Cvodes<S> {
     /// One step of CVODES. After a failure the state is that of the last good one.
@@ -30,7 +31,9 @@ impl<S: OdeSystem> Cvodes<S> {
         for _ in 0..ATTEMPTS {
             let Err(flag) = &reached else { break };
             self.state.as_mut_slice().copy_from_slice(&start);
-            let Some(length) = self.shorter().filter(|_| REFUSED.contains(&flag.value)) else { break };
+            let Some(length) = self.shorter().filter(|_| REFUSED.contains(&flag.value)) else {
+                break;
+            };
             self.begin_anew()?;
             self.memory.set_initial_step(length)?;
             reached = self.memory.step(towards, &mut self.state, &mut self.time);

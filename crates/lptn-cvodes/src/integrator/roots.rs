@@ -21,7 +21,8 @@ pub(super) struct Roots {
     pub(super) directions: Vec<c_int>,
     /// Whether the last step ended at a root.
     met: bool,
-    /// CVODES has to begin anew before it goes on, because what it knows about the functions is out of date.
+    /// CVODES has to begin anew before it goes on, because what it knows about the functions is out
+    /// of date.
     stale: bool,
     before: Vec<f64>,
     now: Vec<f64>,
@@ -41,7 +42,8 @@ impl Roots {
         self.met
     }
 
-    /// Whether a function has a root on the way from `before` to `now`; if so, the directions are set.
+    /// Whether a function has a root on the way from `before` to `now`; if so, the directions are
+    /// set.
     fn compare(&mut self) -> bool {
         let pairs = || self.before.iter().zip(&self.now);
         let met = pairs().any(|(&before, &now)| direction(before, now) != 0);
@@ -87,10 +89,12 @@ impl<S: OdeSystem> Cvodes<S> {
         }
     }
 
-    /// A start so close to the stop time that CVODES would refuse it, as may happen after a root: moves to the stop time.
+    /// A start so close to the stop time that CVODES would refuse it, as may happen after a root:
+    /// moves to the stop time.
     pub(super) fn starts_at_stop(&mut self) -> bool {
         let is_close = self.from >= self.time && is_within(TOO_CLOSE, self.time, self.stop);
-        let starts = is_close && self.memory.counters().steps == 0 && self.memory_at(self.stop).is_ok();
+        let starts =
+            is_close && self.memory.counters().steps == 0 && self.memory_at(self.stop).is_ok();
         if starts {
             (self.time, self.from) = (self.stop, self.stop);
             (self.shown.time, self.shown.from) = (self.shown.stop, self.shown.stop);
@@ -105,8 +109,9 @@ impl<S: OdeSystem> Cvodes<S> {
         self.start_roots()
     }
 
-    /// After a root, CVODES stands at the end of its own step and returns that next. If a stop time comes first, or if
-    /// what it knows about the functions is out of date, it begins anew at the root.
+    /// After a root, CVODES stands at the end of its own step and returns that next. If a stop time
+    /// comes first, or if what it knows about the functions is out of date, it begins anew at the
+    /// root.
     pub(super) fn leave_rest(&mut self) -> Result<(), Flag> {
         if self.roots.are_none() {
             return Ok(());
@@ -129,7 +134,8 @@ impl<S: OdeSystem> Cvodes<S> {
         if given_up == Some(sys::CV_RTFUNC_FAIL) {
             self.put_state_back()?;
         } else if was_met && given_up == Some(sys::CV_ILL_INPUT) {
-            // A function that stays exactly zero behind its root: a start leaves it out, CVODES itself gives up.
+            // A function that stays exactly zero behind its root: a start leaves it out, CVODES
+            // itself gives up.
             self.put_state_back()?;
             self.read_running()?;
             self.begin_anew()?;
@@ -149,7 +155,8 @@ impl<S: OdeSystem> Cvodes<S> {
         self.memory.interpolate(self.time, &mut self.state)
     }
 
-    /// A root within rounding of the stop time is at the stop time: a start just before it would be refused.
+    /// A root within rounding of the stop time is at the stop time: a start just before it would be
+    /// refused.
     fn take_roots(&mut self) -> Result<bool, Flag> {
         self.memory.root_directions(&mut self.roots.directions)?;
         if is_within(SAME, self.time, self.stop) {
@@ -159,7 +166,8 @@ impl<S: OdeSystem> Cvodes<S> {
         Ok(true)
     }
 
-    /// CVODES looks for roots up to the end of its step, which may lie some rounding errors before the stop time.
+    /// CVODES looks for roots up to the end of its step, which may lie some rounding errors before
+    /// the stop time.
     fn roots_at_stop(&mut self) -> Result<bool, Flag> {
         let end = self.memory.internal_time()?;
         if end >= self.time {
@@ -167,10 +175,12 @@ impl<S: OdeSystem> Cvodes<S> {
         }
         self.memory.interpolate(end, &mut self.scratch)?;
         let Roots { before, now, .. } = &mut self.roots;
-        let places = [(end, self.scratch.as_slice(), before), (self.time, self.state.as_slice(), now)];
+        let places =
+            [(end, self.scratch.as_slice(), before), (self.time, self.state.as_slice(), now)];
         for (t, y, out) in places {
             let t = self.origin + t;
-            let flag = self.shared.get_mut().guard(Callback::Roots, t, |shared| shared.roots(t, y, out));
+            let flag =
+                self.shared.get_mut().guard(Callback::Roots, t, |shared| shared.roots(t, y, out));
             if flag != crate::callback::DONE {
                 return Err(Flag { function: "CVode", value: sys::CV_RTFUNC_FAIL });
             }

@@ -7,8 +7,11 @@ use lptn_integrate::OdeSystem;
 impl<S: OdeSystem> Cvodes<S> {
     pub(super) fn read_quadratures(&mut self) -> Result<(), Flag> {
         match &mut self.quadratures {
-            // Before the first step after a (re)start CVODES has no step to evaluate them in; they are as they were set.
-            Some(quadratures) if self.memory.counters().steps > 0 => self.memory.quadratures(quadratures),
+            // Before the first step after a (re)start CVODES has no step to evaluate them in; they
+            // are as they were set.
+            Some(quadratures) if self.memory.counters().steps > 0 => {
+                self.memory.quadratures(quadratures)
+            }
             _ => Ok(()),
         }
     }

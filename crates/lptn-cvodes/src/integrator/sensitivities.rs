@@ -16,7 +16,10 @@ pub(super) struct Sensitivities {
 impl Sensitivities {
     pub(super) fn new(context: &Context, system: &impl OdeSystem) -> Result<Self, IntegrateError> {
         let (count, length) = (system.sensitivity_count(), system.size());
-        Ok(Self { vectors: Vectors::new(context, count, length)?, blocks: vec![0.0; count * length] })
+        Ok(Self {
+            vectors: Vectors::new(context, count, length)?,
+            blocks: vec![0.0; count * length],
+        })
     }
 }
 
@@ -36,7 +39,8 @@ impl<S: OdeSystem> Cvodes<S> {
 
     pub(super) fn read_sensitivities(&mut self) -> Result<(), Flag> {
         let vectors = &mut self.sensitivities.vectors;
-        // Before the first step after a (re)start CVODES has no step to evaluate them in; they are as they were set.
+        // Before the first step after a (re)start CVODES has no step to evaluate them in; they are
+        // as they were set.
         if vectors.is_empty() || self.memory.counters().steps == 0 {
             return Ok(());
         }

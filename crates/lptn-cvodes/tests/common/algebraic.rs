@@ -1,10 +1,12 @@
-//! Nonlinear systems with algebraic unknowns, with states carried as another variable, and with a bad Jacobian.
+//! Nonlinear systems with algebraic unknowns, with states carried as another variable, and with a
+//! bad Jacobian.
 #![allow(dead_code, reason = "every test file uses a part of it")]
 
 use lptn_integrate::{OdeSystem, Pattern, Retry};
 
-/// Surfaces that radiate: every state of mass 1 feeds its own massless surface through the conductance 1, and a surface
-/// at `z` gives `s (z^4 - a^4)` to the surroundings at `a`. The surfaces also conduct to the next one.
+/// Surfaces that radiate: every state of mass 1 feeds its own massless surface through the
+/// conductance 1, and a surface at `z` gives `s (z^4 - a^4)` to the surroundings at `a`. The
+/// surfaces also conduct to the next one.
 ///
 /// Quadrature: the heat given to the surroundings.
 pub(crate) struct Surfaces {
@@ -26,7 +28,15 @@ impl Surfaces {
         let skin = (0..n).map(|i| (i, n + i));
         let pattern = Pattern::new(2 * n, skin.chain((1..n).map(|i| (n + i - 1, n + i))));
         let mass = (0..2 * n).map(|i| if i < n { 1.0 } else { 0.0 }).collect();
-        Self { unknowns: vec![surroundings; n], mass, pattern, radiation, surroundings, between, symmetric }
+        Self {
+            unknowns: vec![surroundings; n],
+            mass,
+            pattern,
+            radiation,
+            surroundings,
+            between,
+            symmetric,
+        }
     }
 
     fn emitted(&self, z: f64) -> f64 {
@@ -51,11 +61,14 @@ impl Surfaces {
 
     fn newton_change(&self, y: &[f64]) -> Vec<f64> {
         let (n, z, g) = (y.len(), &self.unknowns, self.between);
-        let neighbours = |i: usize| [i.checked_sub(1), (i + 1 < n).then_some(i + 1)].into_iter().flatten();
-        let mut diagonal: Vec<f64> =
-            (0..n).map(|i| 1.0 + self.emitted_slope(z[i]) + g * neighbours(i).count() as f64).collect();
-        let balance =
-            |i: usize| neighbours(i).fold(y[i] - z[i] - self.emitted(z[i]), |b, j| b + g * (z[j] - z[i]));
+        let neighbours =
+            |i: usize| [i.checked_sub(1), (i + 1 < n).then_some(i + 1)].into_iter().flatten();
+        let mut diagonal: Vec<f64> = (0..n)
+            .map(|i| 1.0 + self.emitted_slope(z[i]) + g * neighbours(i).count() as f64)
+            .collect();
+        let balance = |i: usize| {
+            neighbours(i).fold(y[i] - z[i] - self.emitted(z[i]), |b, j| b + g * (z[j] - z[i]))
+        };
         let mut change: Vec<f64> = (0..n).map(balance).collect();
         for i in 1..n {
             let factor = g / diagonal[i - 1];
@@ -114,8 +127,9 @@ impl OdeSystem for Surfaces {
     }
 }
 
-/// Enthalpies `y` of bodies in a row, each linked by `g` to the next and the first to an end at `hot`; mass 1. The
-/// temperature is `y` up to 0, 0 while the body melts (`y` up to `latent`), `y - latent` beyond.
+/// Enthalpies `y` of bodies in a row, each linked by `g` to the next and the first to an end at
+/// `hot`; mass 1. The temperature is `y` up to 0, 0 while the body melts (`y` up to `latent`),
+/// `y - latent` beyond.
 ///
 /// Quadrature: the heat from the hot end.
 pub(crate) struct Melting {
@@ -129,9 +143,21 @@ pub(crate) struct Melting {
 }
 
 impl Melting {
-    pub(crate) fn new(n: usize, (latent, hot, conductance): (f64, f64, f64), symmetric: bool) -> Self {
+    pub(crate) fn new(
+        n: usize,
+        (latent, hot, conductance): (f64, f64, f64),
+        symmetric: bool,
+    ) -> Self {
         let pattern = Pattern::new(n, (1..n).map(|i| (i - 1, i)));
-        Self { latent, hot, conductance, mass: vec![1.0; n], slopes: vec![1.0; n], pattern, symmetric }
+        Self {
+            latent,
+            hot,
+            conductance,
+            mass: vec![1.0; n],
+            slopes: vec![1.0; n],
+            pattern,
+            symmetric,
+        }
     }
 
     pub(crate) fn temperature(&self, y: f64) -> f64 {
@@ -169,7 +195,8 @@ impl OdeSystem for Melting {
         values.fill(0.0);
         values[self.pattern.diagonal_slot(0)] -= self.conductance;
         for i in 1..y.len() {
-            for (row, column, sign) in [(i - 1, i - 1, -1.0), (i, i, -1.0), (i, i - 1, 1.0), (i - 1, i, 1.0)]
+            for (row, column, sign) in
+                [(i - 1, i - 1, -1.0), (i, i, -1.0), (i, i - 1, 1.0), (i - 1, i, 1.0)]
             {
                 values[self.pattern.slot(row, column).unwrap()] += sign * self.conductance;
             }
@@ -187,8 +214,8 @@ impl OdeSystem for Melting {
     }
 }
 
-/// A stream through a row of cells: `y_i' = k (y_{i-1} - y_i)`, entered at `inlet(t)`. As long as it is held to be
-/// symmetric, its Jacobian is that of conductances `hold k`, which is wrong.
+/// A stream through a row of cells: `y_i' = k (y_{i-1} - y_i)`, entered at `inlet(t)`. As long as
+/// it is held to be symmetric, its Jacobian is that of conductances `hold k`, which is wrong.
 ///
 /// Quadratures: what enters and what leaves.
 pub(crate) struct Stream {
@@ -237,7 +264,8 @@ impl OdeSystem for Stream {
         values.fill(0.0);
         let exact = self.left_at > 0;
         for i in 0..y.len() {
-            values[self.pattern.diagonal_slot(i)] = if exact { -self.rate } else { -self.hold * self.rate };
+            values[self.pattern.diagonal_slot(i)] =
+                if exact { -self.rate } else { -self.hold * self.rate };
             if exact && i > 0 {
                 values[self.pattern.slot(i, i - 1).unwrap()] = self.rate;
             }

@@ -26,14 +26,19 @@ fn exponential(a: &Square) -> Square {
     (0..halvings).fold(sum, |power, _| product(&power, &power))
 }
 
-/// `[y, 1]' = A [y, 1]` for two nodes of capacity `c`, linked by `g`, the second to 0 by `out`, `power` into the first.
+/// `[y, 1]' = A [y, 1]` for two nodes of capacity `c`, linked by `g`, the second to 0 by `out`,
+/// `power` into the first.
 fn affine((g, out, power, c): (f64, f64, f64, f64)) -> [[f64; 3]; 3] {
     [[-g / c, g / c, power / c], [g / c, -(g + out) / c, 0.0], [0.0; 3]]
 }
 
-/// The derivative of both temperatures at `t` by parameter `i` of `[g, out, power, c]`: the upper right block of the
-/// exponential of `[[A, dA], [0, A]]` times the start.
-pub(crate) fn two_nodes_by(i: usize, p: (f64, f64, f64, f64), (t, y0): (f64, [f64; 2])) -> [f64; 2] {
+/// The derivative of both temperatures at `t` by parameter `i` of `[g, out, power, c]`: the upper
+/// right block of the exponential of `[[A, dA], [0, A]]` times the start.
+pub(crate) fn two_nodes_by(
+    i: usize,
+    p: (f64, f64, f64, f64),
+    (t, y0): (f64, [f64; 2]),
+) -> [f64; 2] {
     let a = affine(p);
     let (g, out, power, c) = p;
     // linear in all but the capacity, which divides everything

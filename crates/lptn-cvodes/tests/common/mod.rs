@@ -32,7 +32,11 @@ impl Linear {
     }
 
     /// Every link `(a, b, g)` is a conductance between two components, or to zero if `b` is `None`.
-    pub(crate) fn network(mass: Vec<f64>, links: &[(usize, Option<usize>, f64)], source: Source) -> Self {
+    pub(crate) fn network(
+        mass: Vec<f64>,
+        links: &[(usize, Option<usize>, f64)],
+        source: Source,
+    ) -> Self {
         let mut entries = Vec::new();
         for &(a, b, g) in links {
             entries.push((a, a, -g));
@@ -49,7 +53,9 @@ impl Linear {
         let mut entries: Vec<_> = (n..n + count).map(|i| (i, i, 0.0)).collect();
         for column in 0..n {
             let slots = self.pattern.column(column);
-            entries.extend(slots.map(|slot| (self.pattern.row_indices()[slot], column, self.matrix[slot])));
+            entries.extend(
+                slots.map(|slot| (self.pattern.row_indices()[slot], column, self.matrix[slot])),
+            );
         }
         let mut mass = self.mass;
         mass.resize(n + count, 1.0);
@@ -140,7 +146,8 @@ pub(crate) fn equal_times(end: f64, count: usize) -> Vec<f64> {
     (1..=count).map(|k| if k == count { end } else { end * k as f64 / count as f64 }).collect()
 }
 
-/// `n` by `n` plate of unit cells with unit conductances, one side at 0, a source of `power` in its middle cells.
+/// `n` by `n` plate of unit cells with unit conductances, one side at 0, a source of `power` in its
+/// middle cells.
 pub(crate) fn plate(n: usize, power: f64) -> Linear {
     let at = |i: usize, j: usize| i * n + j;
     let mut links = Vec::new();
@@ -159,5 +166,9 @@ pub(crate) fn plate(n: usize, power: f64) -> Linear {
         .filter(|k| (k / n).abs_diff(n / 2) < n / 10 + 1 && (k % n).abs_diff(n / 2) < n / 10 + 1)
         .collect();
     let each = power / middle.len() as f64;
-    Linear::network(vec![1.0; n * n], &links, Box::new(move |_, b| middle.iter().for_each(|&k| b[k] = each)))
+    Linear::network(
+        vec![1.0; n * n],
+        &links,
+        Box::new(move |_, b| middle.iter().for_each(|&k| b[k] = each)),
+    )
 }

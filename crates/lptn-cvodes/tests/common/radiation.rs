@@ -1,9 +1,11 @@
-//! A plate whose cells also radiate to each other and to a boundary: nonlinear, with a symmetrised Newton matrix.
+//! A plate whose cells also radiate to each other and to a boundary: nonlinear, with a symmetrised
+//! Newton matrix.
 #![allow(dead_code, reason = "every test file uses a part of it")]
 
 use lptn_integrate::{OdeSystem, Pattern, Retry};
 
-/// Cells of mass 1 linked by `g (a - b) + s (a^4 - b^4)`; the first cell of every row is linked to a boundary.
+/// Cells of mass 1 linked by `g (a - b) + s (a^4 - b^4)`; the first cell of every row is linked to
+/// a boundary.
 pub(crate) struct Radiating {
     links: Vec<(usize, Option<usize>)>,
     mass: Vec<f64>,

@@ -12,8 +12,8 @@ pub(crate) enum Fault {
     Stop,
 }
 
-/// `C T' = P - T / R` from `T0`, with the derivatives by `[R, C, P, T0]` and the integrals of `P` and `T / R`. Roots:
-/// `T - level`.
+/// `C T' = P - T / R` from `T0`, with the derivatives by `[R, C, P, T0]` and the integrals of `P`
+/// and `T / R`. Roots: `T - level`.
 pub(crate) struct Body {
     pub(crate) r: f64,
     pub(crate) c: [f64; 1],
@@ -26,7 +26,14 @@ pub(crate) struct Body {
 
 impl Body {
     pub(crate) fn new(r: f64, c: f64, p: f64) -> Self {
-        Self { r, c: [c], p, levels: Vec::new(), fault: None, pattern: Pattern::new(1, std::iter::empty()) }
+        Self {
+            r,
+            c: [c],
+            p,
+            levels: Vec::new(),
+            fault: None,
+            pattern: Pattern::new(1, std::iter::empty()),
+        }
     }
 
     /// The temperature at `t` and its derivatives by `[R, C, P, T0]`.
@@ -73,7 +80,13 @@ impl OdeSystem for Body {
     fn sensitivity_count(&self) -> usize {
         4
     }
-    fn sensitivity_flow(&mut self, t: f64, y: &[f64], s: &[f64], g: &mut [f64]) -> Result<(), Retry> {
+    fn sensitivity_flow(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        s: &[f64],
+        g: &mut [f64],
+    ) -> Result<(), Retry> {
         let (r, c) = (self.r, self.c[0]);
         let direct = [y[0] / (r * r), -(self.p - y[0] / r) / c, 1.0, 0.0];
         (0..4).for_each(|i| g[i] = direct[i] - s[i] / r);
@@ -109,8 +122,8 @@ pub(crate) struct Row {
 }
 
 impl Row {
-    /// `n` nodes of capacity `c`, conductances `g` between neighbours, `out` from the last to 0, `power` into the first.
-    /// Parameters: `[g, out, power, c]`.
+    /// `n` nodes of capacity `c`, conductances `g` between neighbours, `out` from the last to 0,
+    /// `power` into the first. Parameters: `[g, out, power, c]`.
     pub(crate) fn new(n: usize, (g, out, power, c): (f64, f64, f64, f64), symmetric: bool) -> Self {
         let pattern = Pattern::new(n, (1..n).map(|i| (i - 1, i)));
         Self { active: n, mass: vec![c; n], pattern, g, out, power, symmetric, books: false }
@@ -155,7 +168,8 @@ impl OdeSystem for Row {
         values.fill(0.0);
         let n = self.active;
         for i in 1..n {
-            for (row, column, sign) in [(i - 1, i - 1, -1.0), (i, i, -1.0), (i, i - 1, 1.0), (i - 1, i, 1.0)]
+            for (row, column, sign) in
+                [(i - 1, i - 1, -1.0), (i, i, -1.0), (i, i - 1, 1.0), (i - 1, i, 1.0)]
             {
                 values[self.pattern.slot(row, column).unwrap()] += sign * self.g;
             }
@@ -176,7 +190,13 @@ impl OdeSystem for Row {
     fn sensitivity_count(&self) -> usize {
         4
     }
-    fn sensitivity_flow(&mut self, t: f64, y: &[f64], s: &[f64], g: &mut [f64]) -> Result<(), Retry> {
+    fn sensitivity_flow(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        s: &[f64],
+        g: &mut [f64],
+    ) -> Result<(), Retry> {
         let n = y.len();
         let (mut direct, mut flow) = (vec![0.0; n], vec![0.0; n]);
         self.flow(t, y, &mut flow)?;
@@ -185,8 +205,13 @@ impl OdeSystem for Row {
             match i {
                 0 => self.conduct(1.0, 0.0, y, &mut direct),
                 1 => self.conduct(0.0, 1.0, y, &mut direct),
-                2 => direct.iter_mut().enumerate().for_each(|(k, d)| *d = f64::from(u8::from(k == 0))),
-                _ => direct.iter_mut().zip(&flow).zip(&self.mass).for_each(|((d, f), m)| *d = -f / m),
+                2 => direct
+                    .iter_mut()
+                    .enumerate()
+                    .for_each(|(k, d)| *d = f64::from(u8::from(k == 0))),
+                _ => {
+                    direct.iter_mut().zip(&flow).zip(&self.mass).for_each(|((d, f), m)| *d = -f / m)
+                }
             }
             g.iter_mut().zip(&direct).for_each(|(g, d)| *g += d);
         }
@@ -230,15 +255,21 @@ impl OdeSystem for Quadratic {
     fn sensitivity_count(&self) -> usize {
         2
     }
-    fn sensitivity_flow(&mut self, _t: f64, y: &[f64], s: &[f64], g: &mut [f64]) -> Result<(), Retry> {
+    fn sensitivity_flow(
+        &mut self,
+        _t: f64,
+        y: &[f64],
+        s: &[f64],
+        g: &mut [f64],
+    ) -> Result<(), Retry> {
         let slope = -2.0 * self.k * y[0];
         g.copy_from_slice(&[slope * s[0] - y[0] * y[0], slope * s[1]]);
         Ok(())
     }
 }
 
-/// Equal bodies of mass 1, each with a massless skin behind the conductance 1 that radiates `a z^4` to nothing:
-/// `y' = z - y` with `0 = y - z - a z^4`. One parameter, `a`.
+/// Equal bodies of mass 1, each with a massless skin behind the conductance 1 that radiates `a z^4`
+/// to nothing: `y' = z - y` with `0 = y - z - a z^4`. One parameter, `a`.
 pub(crate) struct Skins {
     pub(crate) a: f64,
     mass: Vec<f64>,
@@ -293,7 +324,13 @@ impl OdeSystem for Skins {
     fn sensitivity_count(&self) -> usize {
         1
     }
-    fn sensitivity_flow(&mut self, _t: f64, y: &[f64], s: &[f64], g: &mut [f64]) -> Result<(), Retry> {
+    fn sensitivity_flow(
+        &mut self,
+        _t: f64,
+        y: &[f64],
+        s: &[f64],
+        g: &mut [f64],
+    ) -> Result<(), Retry> {
         for ((&y, &s), g) in y.iter().zip(s).zip(g) {
             let z = self.skin(y);
             let of_skin = (s - z.powi(4)) / (1.0 + 4.0 * self.a * z.powi(3));

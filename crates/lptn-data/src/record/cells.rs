@@ -26,7 +26,9 @@ impl Counted {
             0 => first,
             1 => first.note(format!("and one more {what}")),
             _ => first.note(
-                format!("and {more} more {what}").replacen("cell", "cells", 1).replacen("row", "rows", 1),
+                format!("and {more} more {what}")
+                    .replacen("cell", "cells", 1)
+                    .replacen("row", "rows", 1),
             ),
         })
     }
@@ -75,7 +77,8 @@ impl Cells {
         for (i, Column { index, unit }) in self.chosen.iter().enumerate() {
             let value = value(row.cell(*index), unit).unwrap_or_else(|wrong| {
                 if !is_gap(row.cell(*index), wrong) {
-                    self.wrong[i].add(|| self.head.no_number(row, (*index, wrong), &Asked::default()));
+                    self.wrong[i]
+                        .add(|| self.head.no_number(row, (*index, wrong), &Asked::default()));
                 }
                 f64::NAN
             });
@@ -98,7 +101,8 @@ pub(crate) fn is_gap(cell: &str, wrong: Wrong) -> bool {
         Wrong::Missing => true,
         Wrong::Cold => false,
         Wrong::Text | Wrong::NotFinite => {
-            cell.chars().all(|c| "-–—.".contains(c)) || GAPS.iter().any(|gap| gap.eq_ignore_ascii_case(word))
+            cell.chars().all(|c| "-–—.".contains(c))
+                || GAPS.iter().any(|gap| gap.eq_ignore_ascii_case(word))
         }
     }
 }

@@ -22,7 +22,9 @@ pub(crate) fn choose(
     };
     match (time, chosen) {
         (Ok(time), Ok(chosen)) => Ok((time, chosen)),
-        (time, chosen) => Err(time.err().into_iter().chain(chosen.err().into_iter().flatten()).collect()),
+        (time, chosen) => {
+            Err(time.err().into_iter().chain(chosen.err().into_iter().flatten()).collect())
+        }
     }
 }
 
@@ -40,7 +42,8 @@ pub(crate) fn each<T>(
     if problems.is_empty() { Ok(found) } else { Err(problems) }
 }
 
-/// The columns that are read where none is named: those of numbers. Words under a header without unit are remarks.
+/// The columns that are read where none is named: those of numbers. Words under a header without
+/// unit are remarks.
 pub(crate) fn all(
     head: &Head,
     first: Option<&csv::StringRecord>,
@@ -61,7 +64,8 @@ fn time(head: &Head, asked: Option<&RecordName>) -> Result<Column, Diagnostic> {
         let unit = header.unit.as_deref().and_then(|unit| Unit::parse(unit).ok());
         unit.is_some_and(|unit| unit.ty == TIME)
     };
-    let by_name = |header: &Header| ["t", "time"].iter().any(|name| header.name.eq_ignore_ascii_case(name));
+    let by_name =
+        |header: &Header| ["t", "time"].iter().any(|name| header.name.eq_ignore_ascii_case(name));
     let columns = &head.columns;
     let index = columns.iter().position(is_time).or_else(|| columns.iter().position(by_name));
     head.column(index.ok_or_else(|| no_time(head))?, Some(TIME), &Asked::default())
@@ -97,8 +101,7 @@ fn no_time(head: &Head) -> Diagnostic {
             "the first line that is no comment names the columns: `t [s],ring [degC]`; \
              put `#` before the lines above it",
         ),
-        None => {
-            problem.help("add a column of times, `t [s]`, or correct the unit of the one that holds them")
-        }
+        None => problem
+            .help("add a column of times, `t [s]`, or correct the unit of the one that holds them"),
     }
 }

@@ -17,7 +17,8 @@ pub(crate) fn of(
     column: &RecordColumn,
     text: &str,
 ) -> (Option<Saturation>, Vec<Diagnostic>) {
-    let rows: Vec<usize> = (0..column.values.len()).filter(|&i| !column.values[i].is_nan()).collect();
+    let rows: Vec<usize> =
+        (0..column.values.len()).filter(|&i| !column.values[i].is_nan()).collect();
     let line = |row: usize| record.line_in(text, row);
     let mut warnings = Vec::new();
     warnings.extend(gaps(column, &line));
@@ -44,15 +45,19 @@ fn gaps(column: &RecordColumn, line: &dyn Fn(usize) -> Span) -> Option<Diagnosti
     let first = column.values.iter().position(|value| value.is_nan())?;
     let (count, all) = (column.gaps, column.values.len());
     let which = if count == 1 { "gap, which is" } else { "gaps, which are" };
-    let message = format!("column `{}` has {count} {which} left out of its {all} rows", column.name);
+    let message =
+        format!("column `{}` has {count} {which} left out of its {all} rows", column.name);
     let label = if count == 1 { "here" } else { "the first" };
     Some(Diagnostic::warning("record::gaps", message).at(line(first), label))
 }
 
 fn unchanging(column: &RecordColumn) -> Diagnostic {
     let value = column.values.iter().copied().find(|value| !value.is_nan()).unwrap_or(f64::NAN);
-    let message =
-        format!("column `{}` does not change: it is {} throughout", column.name, shown(column, value));
+    let message = format!(
+        "column `{}` does not change: it is {} throughout",
+        column.name,
+        shown(column, value)
+    );
     Diagnostic::warning("record::constant", message).at(column.span.clone(), "")
 }
 
@@ -103,9 +108,13 @@ fn implausible(column: &RecordColumn) -> Option<Diagnostic> {
     if !column.unit.ty.absolute {
         return None;
     }
-    let written =
-        column.values.iter().filter(|value| !value.is_nan()).map(|&value| column.unit.from_si(value));
-    let (low, high) = written.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+    let written = column
+        .values
+        .iter()
+        .filter(|value| !value.is_nan())
+        .map(|&value| column.unit.from_si(value));
+    let (low, high) =
+        written.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
     let unit = column.unit.text.as_str();
     let other = match unit {
         "K" if high < 150.0 => "degC",
@@ -122,7 +131,8 @@ fn implausible(column: &RecordColumn) -> Option<Diagnostic> {
     Some(warning.help(format!("if so, write `{} [{other}]`", column.name)))
 }
 
-/// An extreme value that is come to steeply and then held: a body that settles slows down before it stands still.
+/// An extreme value that is come to steeply and then held: a body that settles slows down before it
+/// stands still.
 fn saturation(record: &Record, column: &RecordColumn, rows: &[usize]) -> Option<Saturation> {
     let values: Vec<f64> = rows.iter().map(|&row| column.values[row]).collect();
     let highest = values.iter().copied().max_by(f64::total_cmp)?;
@@ -158,13 +168,15 @@ fn longest_run(values: &[f64], value: f64) -> Option<(usize, usize)> {
     best
 }
 
-/// Whether the values before a run come to it as fast at the end as before, and it lasts much longer than at that
-/// speed a value would that is rounded: over the last tenth of the range in no more than 1.5 times the rows of the
-/// tenth before it, and for 4 times the rows of one step between values. A body that settles, `exp(-t / tau)`, takes
-/// longer and longer for the same stretch; where its record ends before it slows down, its last value lasts no longer
-/// than the steps before.
+/// Whether the values before a run come to it as fast at the end as before, and it lasts much
+/// longer than at that speed a value would that is rounded: over the last tenth of the range in no
+/// more than 1.5 times the rows of the tenth before it, and for 4 times the rows of one step
+/// between values. A body that settles, `exp(-t / tau)`, takes longer and longer for the same
+/// stretch; where its record ends before it slows down, its last value lasts no longer than the
+/// steps before.
 fn is_abrupt(before: &[f64], length: usize, (extreme, range): (f64, f64)) -> bool {
-    let reached = |share: f64| before.iter().rposition(|value| (value - extreme).abs() > share * range);
+    let reached =
+        |share: f64| before.iter().rposition(|value| (value - extreme).abs() > share * range);
     let (Some(last), Some(earlier)) = (reached(0.1), reached(0.2)) else { return false };
     let end = before.len() - 1 - last;
     let steps = before.iter().map(|value| (value - extreme).abs()).filter(|&step| step > 0.0);
@@ -190,5 +202,7 @@ fn saturated(
     );
     Diagnostic::warning("record::saturated", message)
         .at(line(found.first), "the first row of the run")
-        .help(format!("leave out what comes after {from} s, or measure again with a range that is larger"))
+        .help(format!(
+            "leave out what comes after {from} s, or measure again with a range that is larger"
+        ))
 }

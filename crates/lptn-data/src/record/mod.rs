@@ -1,7 +1,7 @@
 //! Measured records: columns of numbers over time, from a CSV file with headers `name [unit]`.
 //!
-//! What is wrong with a record is an error with its line; what can be gone on with is treated in a stated way and
-//! said in a warning:
+//! What is wrong with a record is an error with its line; what can be gone on with is treated in a
+//! stated way and said in a warning:
 //!
 //! | In the file | What becomes of it |
 //! |---|---|
@@ -56,9 +56,11 @@ impl RecordName {
 /// What is to be read of a record.
 #[derive(Clone, Debug, Default)]
 pub struct RecordQuery {
-    /// The column of the times; where none is named, the first in a unit of time, else the one named `t` or `time`.
+    /// The column of the times; where none is named, the first in a unit of time, else the one
+    /// named `t` or `time`.
     pub time: Option<RecordName>,
-    /// The columns to read, in this order; where none is named, all columns of numbers in the order of the file.
+    /// The columns to read, in this order; where none is named, all columns of numbers in the order
+    /// of the file.
     pub columns: Vec<RecordName>,
     /// Rows before this time, in s, are left out, whatever they hold.
     pub from: Option<f64>,
@@ -140,9 +142,14 @@ impl Record {
 ///
 /// # Errors
 /// [`Rejected`] with every problem, each with a code `record::problem` and its line.
-pub fn read_record(path: &Path, bytes: &[u8], query: &RecordQuery) -> Result<(Record, Files), Rejected> {
+pub fn read_record(
+    path: &Path,
+    bytes: &[u8],
+    query: &RecordQuery,
+) -> Result<(Record, Files), Rejected> {
     let mut files = Files::new();
-    let text = CsvText::of(&mut files, path.display().to_string(), bytes).map_err(|problem| vec![problem]);
+    let text =
+        CsvText::of(&mut files, path.display().to_string(), bytes).map_err(|problem| vec![problem]);
     match text.and_then(|text| read_text(&text, query)) {
         Ok(record) => Ok((record, files)),
         Err(diagnostics) => Err(Rejected::new(files, diagnostics)),

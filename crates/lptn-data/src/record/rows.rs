@@ -30,7 +30,8 @@ struct Work<'t> {
 pub(crate) fn read(text: &CsvText, query: &RecordQuery) -> Result<Record, Vec<Diagnostic>> {
     let mut reader = reader(&text.text);
     let mut rows = reader.records().filter_map(Result::ok).peekable();
-    let head = header(text, rows.next(), (hints::RECORD, EXAMPLE)).map_err(|problem| vec![problem])?;
+    let head =
+        header(text, rows.next(), (hints::RECORD, EXAMPLE)).map_err(|problem| vec![problem])?;
     let (time, chosen) = choose(&head, rows.peek(), query)?;
     let mut work = Work::new(text, Cells::new(head, chosen), time);
     work.window = (query.from.unwrap_or(f64::NEG_INFINITY), query.to.unwrap_or(f64::INFINITY));
@@ -79,7 +80,8 @@ impl<'t> Work<'t> {
         }
     }
 
-    /// Whether a row has as many cells as the header. The last one may break off: the logger was switched off.
+    /// Whether a row has as many cells as the header. The last one may break off: the logger was
+    /// switched off.
     fn has_its_cells(&mut self, row: &Row, last: bool) -> bool {
         let (cells, columns) = (row.cells.len(), self.cells.head.columns.len());
         if last && cells < columns {

@@ -23,7 +23,8 @@ pub struct DataSheet {
     pub file: FileId,
     /// The place of the header.
     pub header: Span,
-    /// The columns of numbers, each with a value for every row; as in a record, `K` alone is absolute and a gap is NaN.
+    /// The columns of numbers, each with a value for every row; as in a record, `K` alone is
+    /// absolute and a gap is NaN.
     pub columns: Vec<RecordColumn>,
     /// The columns of words: name, and a text for every row.
     pub words: Vec<(String, Vec<String>)>,
@@ -54,9 +55,11 @@ fn parse(files: &mut Files, name: &str, bytes: &[u8]) -> Result<DataSheet, Vec<D
     let text = CsvText::of(files, name.to_owned(), bytes).map_err(|problem| vec![problem])?;
     let mut reader = reader(&text.text);
     let mut records = reader.records().filter_map(Result::ok).peekable();
-    let head = header(&text, records.next(), (hints::RECORD, EXAMPLE)).map_err(|problem| vec![problem])?;
+    let head =
+        header(&text, records.next(), (hints::RECORD, EXAMPLE)).map_err(|problem| vec![problem])?;
     let numbers: Vec<usize> = all(&head, records.peek(), None).collect();
-    let spoken: Vec<usize> = (0..head.columns.len()).filter(|index| !numbers.contains(index)).collect();
+    let spoken: Vec<usize> =
+        (0..head.columns.len()).filter(|index| !numbers.contains(index)).collect();
     let mut words: Vec<(String, Vec<String>)> =
         spoken.iter().map(|&index| (head.columns[index].name.clone(), Vec::new())).collect();
     let chosen = each(numbers.into_iter().map(|index| of_any(&head, index)))?;

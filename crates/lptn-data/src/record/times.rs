@@ -29,7 +29,8 @@ impl<'t> Order<'t> {
         Self { text, unit: unit.clone(), first: None, last: None, reversed, repeated, same: None }
     }
 
-    /// Whether a row comes after those before it; one that says the same as the one before it is dropped.
+    /// Whether a row comes after those before it; one that says the same as the one before it is
+    /// dropped.
     pub(crate) fn accepts(&mut self, time: f64, place: Span) -> bool {
         let written = |span: &Span| self.text.get(span.range.clone()).unwrap_or_default().trim();
         let accepted = match &self.last {
@@ -87,10 +88,13 @@ fn reversed([last, time]: [String; 2], place: &Span, before: &Span) -> Diagnosti
 }
 
 fn repeated(time: &str, place: &Span, before: &Span) -> Diagnostic {
-    Diagnostic::error("record::time_repeated", format!("the time {time} stands twice, with different values"))
-        .at(place.clone(), "again")
-        .also(before.clone(), "first here")
-        .help("keep one of the two rows; times that are rounded need another digit")
+    Diagnostic::error(
+        "record::time_repeated",
+        format!("the time {time} stands twice, with different values"),
+    )
+    .at(place.clone(), "again")
+    .also(before.clone(), "first here")
+    .help("keep one of the two rows; times that are rounded need another digit")
 }
 
 /// The longest time without a row, if it is long.

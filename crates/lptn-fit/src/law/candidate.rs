@@ -44,8 +44,8 @@ pub enum Outcome {
 /// A coefficient of a law.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coefficient {
-    /// Its name: `a`, `b`, `c` in the order of the law's powers, `P_top` (power at the highest speed) and `n` of the
-    /// free exponent, or as the user wrote it.
+    /// Its name: `a`, `b`, `c` in the order of the law's powers, `P_top` (power at the highest
+    /// speed) and `n` of the free exponent, or as the user wrote it.
     pub name: String,
     /// Its value in SI units.
     pub value: f64,
@@ -64,23 +64,26 @@ pub struct Fitted {
     pub correlation: Vec<Vec<f64>>,
     /// What the law says at every point, in W.
     pub values: Vec<f64>,
-    /// Root of the mean square of what it misses, in W: the divisor is the number of points, and weights do not count.
+    /// Root of the mean square of what it misses, in W: the divisor is the number of points, and
+    /// weights do not count.
     pub rmse: f64,
-    /// The same of what each point is missed by when the law is fitted to the others, in W; `None` where the others do
-    /// not determine the law.
+    /// The same of what each point is missed by when the law is fitted to the others, in W; `None`
+    /// where the others do not determine the law.
     pub leave_one_out: Option<f64>,
-    /// Sum of the squares of what it misses, each over its standard error; without standard errors in W^2.
+    /// Sum of the squares of what it misses, each over its standard error; without standard errors
+    /// in W^2.
     pub squares: f64,
     /// Points less coefficients.
     pub degrees_of_freedom: usize,
-    /// Akaike's criterion with the correction for few points; smaller is better, only differences count. `None` where
-    /// there are too few points for it.
+    /// Akaike's criterion with the correction for few points; smaller is better, only differences
+    /// count. `None` where there are too few points for it.
     pub aicc: Option<f64>,
 }
 
 impl Fitted {
-    /// Whether a coefficient is below 0: then a part of the loss would feed heat back, and another sum fits as well as
-    /// this one can without it. The exponent of [`Law::FreeExponent`] does not count.
+    /// Whether a coefficient is below 0: then a part of the loss would feed heat back, and another
+    /// sum fits as well as this one can without it. The exponent of [`Law::FreeExponent`] does not
+    /// count.
     pub fn negative(&self) -> bool {
         self.coefficients.iter().any(|c| c.value < 0.0 && !c.dimension.is_none())
     }
@@ -100,17 +103,20 @@ impl Candidate {
         }
     }
 
-    /// Whether it may be the answer: fitted, with its criterion, and, where it is a sum of powers, without a negative
-    /// coefficient. What a user writes may have coefficients of any sign.
+    /// Whether it may be the answer: fitted, with its criterion, and, where it is a sum of powers,
+    /// without a negative coefficient. What a user writes may have coefficients of any sign.
     pub fn eligible(&self) -> bool {
         let fitted = self.fitted().filter(|fitted| fitted.aicc.is_some());
         fitted.is_some_and(|fitted| matches!(self.law, Law::Written(_)) || !fitted.negative())
     }
 
-    /// Why there is nothing to show, or why it is not an answer; `None` where nothing has to be said.
+    /// Why there is nothing to show, or why it is not an answer; `None` where nothing has to be
+    /// said.
     pub fn remark(&self) -> Option<String> {
         match &self.outcome {
-            Outcome::Fitted(fitted) if !matches!(self.law, Law::Written(_)) && fitted.negative() => {
+            Outcome::Fitted(fitted)
+                if !matches!(self.law, Law::Written(_)) && fitted.negative() =>
+            {
                 Some("a coefficient is negative".to_owned())
             }
             Outcome::Fitted(fitted) if fitted.aicc.is_none() => Some(format!(
@@ -124,9 +130,15 @@ impl Candidate {
             Outcome::TooFew { needed, speeds, .. } => {
                 Some(format!("too few different speeds: {speeds} for {needed} coefficients"))
             }
-            Outcome::NotDetermined => Some("the points do not determine its coefficients".to_owned()),
-            Outcome::NotConverged(stop) => Some(format!("the fit did not converge: {}", stop.text())),
-            Outcome::NoValue { point, reason } => Some(format!("no value at point {}: {reason}", point + 1)),
+            Outcome::NotDetermined => {
+                Some("the points do not determine its coefficients".to_owned())
+            }
+            Outcome::NotConverged(stop) => {
+                Some(format!("the fit did not converge: {}", stop.text()))
+            }
+            Outcome::NoValue { point, reason } => {
+                Some(format!("no value at point {}: {reason}", point + 1))
+            }
         }
     }
 }

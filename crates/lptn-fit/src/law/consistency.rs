@@ -10,7 +10,8 @@ use crate::step::Capacity;
 /// Below this probability that chance alone explains a difference the laws contradict each other.
 pub const SIGNIFICANT: f64 = 0.05;
 
-/// Laws without standard errors contradict each other where no common factor brings their powers closer than this.
+/// Laws without standard errors contradict each other where no common factor brings their powers
+/// closer than this.
 pub const CLOSE: f64 = 0.05;
 
 /// What the laws say at one speed.
@@ -39,7 +40,8 @@ pub struct Significance {
     pub probability: f64,
 }
 
-/// Implied power over the law's, in the middle of the range: a wrong capacity shows here, a wrong law in the exponents.
+/// Implied power over the law's, in the middle of the range: a wrong capacity shows here, a wrong
+/// law in the exponents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
     /// Implied over stated power; 1 where they agree.
@@ -50,8 +52,8 @@ pub struct Level {
     pub significance: Option<Significance>,
 }
 
-/// The comparison. With `P = C dT / t_RC` (equations 8 and 11 of the seed paper) the exponent of the power has to be that
-/// of the rise less that of the time constant, whatever the capacity.
+/// The comparison. With `P = C dT / t_RC` (equations 8 and 11 of the seed paper) the exponent of
+/// the power has to be that of the rise less that of the time constant, whatever the capacity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Consistency {
     /// The least and the highest speed, in rad/s.
@@ -74,8 +76,8 @@ pub struct Consistency {
     pub capacity: f64,
     /// Implied against stated power; `None` without a capacity.
     pub level: Option<Level>,
-    /// Points whose power is `C dT / t_RC` of the same point, all with one C: it was computed from the others and tells
-    /// nothing by itself.
+    /// Points whose power is `C dT / t_RC` of the same point, all with one C: it was computed from
+    /// the others and tells nothing by itself.
     pub derived: bool,
     /// Points less fitted numbers; `None` for stated laws.
     pub degrees_of_freedom: Option<usize>,
@@ -106,7 +108,8 @@ impl Consistency {
     /// Compares three stated laws over a range of speeds in rad/s.
     ///
     /// # Errors
-    /// [`LawError`] for a range that does not rise from above 0, or a law that is not positive in it.
+    /// [`LawError`] for a range that does not rise from above 0, or a law that is not positive in
+    /// it.
     pub fn of_laws(
         rise: &StatedLaw,
         time_constant: &StatedLaw,
@@ -161,15 +164,21 @@ impl Consistency {
         })
     }
 
-    /// Fits a power of the speed to each of three measured quantities, by least squares of their logarithms (weighted by
-    /// relative standard errors where these are known, and then with errors no less than these say), and compares. Speeds in rad/s, rises in K, time constants in s, powers in W, one of each a point and all above 0. The
-    /// standard errors of difference and level are those of leaving one point out at a time (jackknife: B. Efron,
-    /// R. J. Tibshirani, An Introduction to the Bootstrap, Chapman & Hall 1993, chapter 11), which counts the errors that
-    /// the quantities share; probabilities are Student's with two degrees of freedom less than points.
+    /// Fits a power of the speed to each of three measured quantities, by least squares of their
+    /// logarithms (weighted by relative standard errors where these are known, and then with errors
+    /// no less than these say), and compares. Speeds in rad/s, rises in K, time constants in s,
+    /// powers in W, one of each a point and all above 0. The standard errors of difference and
+    /// level are those of leaving one point out at a time (jackknife: B. Efron, R. J. Tibshirani,
+    /// An Introduction to the Bootstrap, Chapman & Hall 1993, chapter 11), which counts the errors
+    /// that the quantities share; probabilities are Student's with two degrees of freedom less than
+    /// points.
     ///
     /// # Errors
     /// [`LawError`] for fewer than 5 points, one speed alone, or a number out of range.
-    pub fn of_points(measured: &Measured<'_>, capacity: Option<Capacity>) -> Result<Self, LawError> {
+    pub fn of_points(
+        measured: &Measured<'_>,
+        capacity: Option<Capacity>,
+    ) -> Result<Self, LawError> {
         let logs = Logarithms::new(measured)?;
         let all: Vec<usize> = (0..measured.speed.len()).collect();
         let lines = [1, 2, 3].map(|i| logs.line(i, &all));
@@ -177,10 +186,13 @@ impl Consistency {
             StatedLaw::through(of, (fit.centre.exp(), fit.mean.exp()), fit.slope, fit.mean_error)
         };
         let [rise, tau, power] = lines;
-        let laws = (law(LawOf::Rise, rise), law(LawOf::TimeConstant, tau), law(LawOf::Power, power));
-        let exponents = lines.map(|fit| Exponent { value: fit.slope, standard_error: Some(fit.slope_error) });
-        let ends =
-            |pick: fn(f64, f64) -> f64| measured.speed.iter().copied().reduce(pick).unwrap_or(f64::NAN);
+        let laws =
+            (law(LawOf::Rise, rise), law(LawOf::TimeConstant, tau), law(LawOf::Power, power));
+        let exponents =
+            lines.map(|fit| Exponent { value: fit.slope, standard_error: Some(fit.slope_error) });
+        let ends = |pick: fn(f64, f64) -> f64| {
+            measured.speed.iter().copied().reduce(pick).unwrap_or(f64::NAN)
+        };
         let range = (ends(f64::min), ends(f64::max));
         let laws = Laws { rise: &laws.0, time_constant: &laws.1, power: &laws.2 };
         let mut found = Self::compared(&laws, exponents, capacity, range)?;
@@ -209,21 +221,24 @@ impl Consistency {
         let error = jackknife(points, &difference);
         self.difference.standard_error = Some(error);
         self.exponents = Some(significance(self.difference.value / error, freedom));
-        let kept = |kept: &[usize]| kept.iter().map(|&i| offsets[i]).sum::<f64>() / kept.len() as f64;
+        let kept =
+            |kept: &[usize]| kept.iter().map(|&i| offsets[i]).sum::<f64>() / kept.len() as f64;
         let own = Some(jackknife(points, &kept));
-        self.level = capacity
-            .map(|c| level(c.value * mean.exp(), quadrature([own, relative(c)].into_iter()), freedom));
+        self.level = capacity.map(|c| {
+            level(c.value * mean.exp(), quadrature([own, relative(c)].into_iter()), freedom)
+        });
     }
 
-    /// The factor between implied and stated power at the ends that no common factor removes, at least 1.
+    /// The factor between implied and stated power at the ends that no common factor removes, at
+    /// least 1.
     pub fn spread(&self) -> f64 {
         let ratio = |at: &AtSpeed| at.implied / at.power;
         let change = ratio(&self.at[2]) / ratio(&self.at[0]);
         change.max(1.0 / change).sqrt()
     }
 
-    /// Whether the exponents contradict each other: by more than chance explains, or, where they are stated without
-    /// errors, by more than [`CLOSE`] at the ends of the range.
+    /// Whether the exponents contradict each other: by more than chance explains, or, where they
+    /// are stated without errors, by more than [`CLOSE`] at the ends of the range.
     pub fn exponents_contradict(&self) -> bool {
         match self.exponents {
             Some(found) => found.probability < SIGNIFICANT,
@@ -231,7 +246,8 @@ impl Consistency {
         }
     }
 
-    /// Whether the powers contradict each other in the middle of the range, where a capacity is given.
+    /// Whether the powers contradict each other in the middle of the range, where a capacity is
+    /// given.
     pub fn levels_contradict(&self) -> bool {
         self.level.is_some_and(|level| match level.significance {
             Some(found) => found.probability < SIGNIFICANT,
@@ -301,10 +317,16 @@ impl Logarithms {
         if !several {
             return Err(LawError::Range);
         }
-        let relative =
-            |errors: &[f64], of: &[f64]| errors.iter().zip(of).map(|(e, x)| e / x).collect::<Vec<f64>>();
+        let relative = |errors: &[f64], of: &[f64]| {
+            errors.iter().zip(of).map(|(e, x)| e / x).collect::<Vec<f64>>()
+        };
         let errors = measured.errors.map(|[rise, tau, power]| {
-            [Vec::new(), relative(rise, lists[1]), relative(tau, lists[2]), relative(power, lists[3])]
+            [
+                Vec::new(),
+                relative(rise, lists[1]),
+                relative(tau, lists[2]),
+                relative(power, lists[3]),
+            ]
         });
         let usable = |e: &[Vec<f64>; 4]| e[1..].iter().flatten().all(|e| e.is_finite() && *e > 0.0);
         Ok(Self { values, errors: errors.filter(usable) })
@@ -314,7 +336,8 @@ impl Logarithms {
     fn line(&self, of: usize, kept: &[usize]) -> Line {
         let (x, y) = (&self.values[0], &self.values[of]);
         let weight = |i: usize| self.errors.as_ref().map_or(1.0, |errors| errors[of][i].powi(-2));
-        let sum = |term: &dyn Fn(usize) -> f64| kept.iter().map(|&i| weight(i) * term(i)).sum::<f64>();
+        let sum =
+            |term: &dyn Fn(usize) -> f64| kept.iter().map(|&i| weight(i) * term(i)).sum::<f64>();
         let whole = sum(&|_| 1.0);
         let (centre, mean) = (sum(&|i| x[i]) / whole, sum(&|i| y[i]) / whole);
         let square = sum(&|i| (x[i] - centre).powi(2));

@@ -6,7 +6,8 @@ use lptn_units::{Problem, Problems, Type, UnitError};
 pub(crate) const MOST: usize = 8;
 
 lptn_units::errors! {
-/// Points or a law that cannot be used. Rows are counted from 0 here and from 1 in messages; laws stand as they were written.
+/// Points or a law that cannot be used. Rows are counted from 0 here and from 1 in messages; laws
+/// stand as they were written.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum LawError {
@@ -19,7 +20,8 @@ pub enum LawError {
     Speed { point: usize, value: f64 } = "fit::law_speed",
         format!("the speed of point {} is {value} rad/s, which is not above 0", point + 1),
         help "leave out points at rest, and give speeds as positive numbers";
-    /// A power, rise or time constant that is not a number, or not above 0 where its logarithm is needed.
+    /// A power, rise or time constant that is not a number, or not above 0 where its logarithm is
+    /// needed.
     Power { point: usize } = "fit::law_power", format!("a value of point {} is out of range", point + 1);
     /// A standard error in W that is not above 0, or not a number.
     Deviation { point: usize, value: f64 } = "fit::law_deviation",

@@ -1,10 +1,11 @@
-//! Which law of the speed a measured power follows, and whether laws of power, temperature rise and time constant can be
-//! true together.
+//! Which law of the speed a measured power follows, and whether laws of power, temperature rise and
+//! time constant can be true together.
 //!
-//! Losses of gearboxes at no load are sums of parts that go with the speed (seals), with its power 5/3 (bearings in oil or
-//! grease: A. Palmgren) and with its third power (gears in oil); AGMA 6123 and ISO/TR 14179 add them up. [`LawStudy`]
-//! fits each, every sum of them, a free exponent and what the user writes, and ranks them. [`Consistency`] asks whether
-//! `P = C dT / t_RC` holds between the laws that were fitted to each. [`RunsStudy`] begins with the records themselves.
+//! Losses of gearboxes at no load are sums of parts that go with the speed (seals), with its power
+//! 5/3 (bearings in oil or grease: A. Palmgren) and with its third power (gears in oil); AGMA 6123
+//! and ISO/TR 14179 add them up. [`LawStudy`] fits each, every sum of them, a free exponent and
+//! what the user writes, and ranks them. [`Consistency`] asks whether `P = C dT / t_RC` holds
+//! between the laws that were fitted to each. [`RunsStudy`] begins with the records themselves.
 //!
 //! ```
 //! use lptn_fit::law::{Law, LawStudy, Points};
@@ -39,7 +40,9 @@ pub use consistency::{AtSpeed, CLOSE, Consistency, Level, Measured, SIGNIFICANT,
 pub use error::LawError;
 pub use model::Law;
 pub use points::{Points, Variable};
-pub use runs::{ColumnFits, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy, Systematic};
+pub use runs::{
+    ColumnFits, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy, Systematic,
+};
 pub use stated::{Exponent, LawOf, StatedLaw};
 pub use study::{ALIKE, LawStudy};
 pub use written::{Start, WrittenLaw};

@@ -11,8 +11,9 @@ use super::written::WrittenLaw;
 /// A law of power over speed.
 #[derive(Clone, Debug)]
 pub enum Law {
-    /// The sum of these powers of the speed, each with a coefficient. Their signs are left free: where a coefficient comes
-    /// out negative, the best sum without negative coefficients is one of the shorter sums, which stands beside it.
+    /// The sum of these powers of the speed, each with a coefficient. Their signs are left free:
+    /// where a coefficient comes out negative, the best sum without negative coefficients is one of
+    /// the shorter sums, which stands beside it.
     Powers(Vec<Rational>),
     /// One power with an exponent that is fitted too.
     FreeExponent,
@@ -23,7 +24,8 @@ pub enum Law {
 impl Law {
     /// omega, omega^(5/3) and omega^3, every sum of them, and a free exponent.
     pub fn standard() -> Vec<Self> {
-        let exponents = [Rational::ONE, Rational::new(5, 3).unwrap_or(Rational::ONE), Rational::integer(3)];
+        let exponents =
+            [Rational::ONE, Rational::new(5, 3).unwrap_or(Rational::ONE), Rational::integer(3)];
         let subsets: [&[usize]; 7] = [&[0], &[1], &[2], &[0, 1], &[0, 2], &[1, 2], &[0, 1, 2]];
         let sum = |subset: &&[usize]| Self::Powers(subset.iter().map(|&i| exponents[i]).collect());
         subsets.iter().map(sum).chain([Self::FreeExponent]).collect()
@@ -38,10 +40,12 @@ impl Law {
         }
     }
 
-    /// Names and dimensions of the coefficients. That of a free exponent is the power at the highest speed.
+    /// Names and dimensions of the coefficients. That of a free exponent is the power at the
+    /// highest speed.
     pub(crate) fn coefficients(&self) -> Vec<(String, Dimension)> {
         let per_speed = |exponent: Rational| {
-            let speed = Dimension::ANGULAR_VELOCITY.checked_pow(exponent).unwrap_or(Dimension::NONE);
+            let speed =
+                Dimension::ANGULAR_VELOCITY.checked_pow(exponent).unwrap_or(Dimension::NONE);
             Dimension::POWER.checked_div(speed).unwrap_or(Dimension::NONE)
         };
         match self {
@@ -85,7 +89,8 @@ impl fmt::Display for Law {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Powers(exponents) => {
-                let names: Vec<String> = exponents.iter().map(|e| power_name("omega", *e)).collect();
+                let names: Vec<String> =
+                    exponents.iter().map(|e| power_name("omega", *e)).collect();
                 f.write_str(&names.join(" + "))
             }
             Self::FreeExponent => f.write_str("omega^n"),

@@ -22,17 +22,22 @@ pub struct Points {
     variables: Vec<Variable>,
     power: Vec<f64>,
     deviation: Option<Vec<f64>>,
-    /// The highest speed in rad/s, at which a law with a free exponent has its coefficient; it stays where a point is
-    /// left out.
+    /// The highest speed in rad/s, at which a law with a free exponent has its coefficient; it
+    /// stays where a point is left out.
     top: f64,
 }
 
 impl Points {
-    /// Speeds in rad/s (above 0), powers in W, and the standard error of each power in W (above 0) where they are known.
+    /// Speeds in rad/s (above 0), powers in W, and the standard error of each power in W (above 0)
+    /// where they are known.
     ///
     /// # Errors
     /// [`LawError`] where there are no points, lists of different length, or a number out of range.
-    pub fn new(speed: Vec<f64>, power: Vec<f64>, deviation: Option<Vec<f64>>) -> Result<Self, LawError> {
+    pub fn new(
+        speed: Vec<f64>,
+        power: Vec<f64>,
+        deviation: Option<Vec<f64>>,
+    ) -> Result<Self, LawError> {
         let lengths = [power.len(), deviation.as_ref().map_or(power.len(), Vec::len)];
         if let Some(&other) = lengths.iter().find(|length| **length != speed.len()) {
             return Err(LawError::Lengths { speeds: speed.len(), others: other });

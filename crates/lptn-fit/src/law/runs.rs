@@ -21,7 +21,8 @@ pub struct Run {
     pub speed: f64,
     /// Times in s, ascending.
     pub times: Vec<f64>,
-    /// Temperatures by column: name, and K at every time, NaN for gaps. All runs have the same columns.
+    /// Temperatures by column: name, and K at every time, NaN for gaps. All runs have the same
+    /// columns.
     pub columns: Vec<(String, Vec<f64>)>,
 }
 
@@ -114,8 +115,9 @@ pub struct RunsStudy {
     pub columns: Vec<ColumnFits>,
     /// The laws of the first column's power.
     pub laws: LawStudy,
-    /// The exponents of the first column's rise, time constant and power; `None` where there are too few runs, or a rise
-    /// that is not above 0. The power was computed from the other two: this shows which laws of them are possible.
+    /// The exponents of the first column's rise, time constant and power; `None` where there are
+    /// too few runs, or a rise that is not above 0. The power was computed from the other two: this
+    /// shows which laws of them are possible.
     pub consistency: Option<Consistency>,
     settings: RunsSettings,
 }
@@ -160,8 +162,8 @@ impl RunsStudy {
         })
     }
 
-    /// The systematic errors of the coefficients of a law, in its order and in SI units: by fitting powers that are off
-    /// by one standard deviation. `None` where the law was not fitted.
+    /// The systematic errors of the coefficients of a law, in its order and in SI units: by fitting
+    /// powers that are off by one standard deviation. `None` where the law was not fitted.
     pub fn systematic(&self, candidate: &Candidate) -> Option<Vec<Systematic>> {
         let before = candidate.fitted()?;
         let first = &self.columns.first()?.fits;
@@ -189,8 +191,8 @@ impl RunsStudy {
         Some(all.map(|((capacity, offset), gain)| Systematic { capacity, offset, gain }).collect())
     }
 
-    /// Mean of a column's time constants in s and their standard deviation (divisor: number less one), as the paper's
-    /// Figure 8 gives them; the deviation of a single run is NaN.
+    /// Mean of a column's time constants in s and their standard deviation (divisor: number less
+    /// one), as the paper's Figure 8 gives them; the deviation of a single run is NaN.
     pub fn time_constant(&self, column: &ColumnFits) -> (f64, f64) {
         let taus: Vec<f64> = column.fits.iter().map(|f| f.fit.tau.value).collect();
         let squares = statistics::squares_about_mean(&taus);
@@ -228,7 +230,8 @@ fn fits(run: &Run, settings: &RunsSettings) -> Result<Vec<RunFit>, RunsError> {
             RunsError::Step { run, column, error: Box::new(error) }
         };
         let fit = StepFit::new(&run.times, find(column)?).map_err(failed)?;
-        let power = Power::new(&fit, settings.capacity, &reference, settings.sensor).map_err(failed)?;
+        let power =
+            Power::new(&fit, settings.capacity, &reference, settings.sensor).map_err(failed)?;
         Ok(RunFit { fit, power })
     };
     settings.columns.iter().map(fitted).collect()

@@ -1,9 +1,10 @@
 //! How likely chance alone is.
 
-/// The probability that a standard normal variable, or Student's t with so many degrees of freedom (at least 1), is
-/// further from 0 than `z`.
+/// The probability that a standard normal variable, or Student's t with so many degrees of freedom
+/// (at least 1), is further from 0 than `z`.
 ///
-/// Student's t in closed form: M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions, 26.7.3 and 26.7.4.
+/// Student's t in closed form: M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions,
+/// 26.7.3 and 26.7.4.
 pub(crate) fn two_sided(z: f64, degrees_of_freedom: Option<usize>) -> f64 {
     match degrees_of_freedom {
         None => libm::erfc(z.abs() * std::f64::consts::FRAC_1_SQRT_2),
@@ -17,7 +18,8 @@ fn inside(t: f64, freedom: usize) -> f64 {
     let (sine, cosine) = angle.sin_cos();
     let odd = freedom % 2 == 1;
     let (mut term, mut sum) = (if odd { cosine } else { 1.0 }, 0.0);
-    // powers of the cosine up to freedom - 2, each with a quotient of products of every second number
+    // powers of the cosine up to freedom - 2, each with a quotient of products of every second
+    // number
     let mut k = if odd { 1 } else { 0 };
     while k + 2 <= freedom {
         sum += term;

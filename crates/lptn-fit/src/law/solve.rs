@@ -10,8 +10,8 @@ use super::points::Points;
 use crate::Covariance;
 use crate::least_squares::{self, Residuals, Settings};
 
-/// Up to here each point is left out in turn and the law fitted anew; beyond, and for laws that are linear in their
-/// coefficients, what is missed then follows from the leverage of the point.
+/// Up to here each point is left out in turn and the law fitted anew; beyond, and for laws that are
+/// linear in their coefficients, what is missed then follows from the leverage of the point.
 const REFITS: usize = 500;
 
 /// Fits a law; without its criterion.
@@ -48,7 +48,8 @@ impl Local {
             rows.push(slopes);
         }
         let scale = |point: usize| points.scale(point);
-        let misses = values.iter().enumerate().map(|(i, v)| (v - points.power()[i]) / scale(i)).collect();
+        let misses =
+            values.iter().enumerate().map(|(i, v)| (v - points.power()[i]) / scale(i)).collect();
         let column = |j: usize| rows.iter().enumerate().map(move |(i, row)| row[j] / scale(i));
         Ok(Self { misses, values, jacobian: (0..p.len()).flat_map(column).collect() })
     }
@@ -90,17 +91,26 @@ fn linear(law: &Law, points: &Points) -> bool {
     let Law::Written(written) = law else { return matches!(law, Law::Powers(_)) };
     let [first, .., last] = &written.starts()[..] else {
         return written.starts().first().is_some_and(|start| {
-            same_slopes(law, points, start, &start.iter().map(|x| 3.0 * x + 1.0).collect::<Vec<_>>())
+            same_slopes(
+                law,
+                points,
+                start,
+                &start.iter().map(|x| 3.0 * x + 1.0).collect::<Vec<_>>(),
+            )
         });
     };
     same_slopes(law, points, first, last)
 }
 
 fn same_slopes(law: &Law, points: &Points, one: &[f64], other: &[f64]) -> bool {
-    let (Ok(one), Ok(other)) = (Local::new(law, points, one), Local::new(law, points, other)) else {
+    let (Ok(one), Ok(other)) = (Local::new(law, points, one), Local::new(law, points, other))
+    else {
         return false;
     };
-    one.jacobian.iter().zip(&other.jacobian).all(|(a, b)| (a - b).abs() <= 1e-12 * a.abs().max(b.abs()))
+    one.jacobian
+        .iter()
+        .zip(&other.jacobian)
+        .all(|(a, b)| (a - b).abs() <= 1e-12 * a.abs().max(b.abs()))
 }
 
 /// Where searches begin.
@@ -181,14 +191,19 @@ fn conclude(law: &Law, points: &Points, p: &[f64]) -> Outcome {
     let variance = variance(squares, degrees_of_freedom, points);
     let error = |j: usize| Some(inverse.standard_error(j)? * variance?.sqrt());
     let named = law.coefficients().into_iter().enumerate();
-    let coefficient =
-        |(j, (name, dimension))| Coefficient { name, value: p[j], standard_error: error(j), dimension };
+    let coefficient = |(j, (name, dimension))| Coefficient {
+        name,
+        value: p[j],
+        standard_error: error(j),
+        dimension,
+    };
     let drifts = |j: usize| error(j).is_some_and(|error| error > DRIFT * p[j].abs());
     if !linear(law, points) && (0..p.len()).any(drifts) {
         return Outcome::NotDetermined; // the search ran off to where a coefficient has no effect
     }
     let all = 0..p.len();
-    let row = |i: usize| all.clone().map(|j| inverse.correlation(i, j).unwrap_or(f64::NAN)).collect();
+    let row =
+        |i: usize| all.clone().map(|j| inverse.correlation(i, j).unwrap_or(f64::NAN)).collect();
     Outcome::Fitted(Box::new(Fitted {
         coefficients: named.map(coefficient).collect(),
         correlation: all.clone().map(row).collect(),
@@ -201,7 +216,8 @@ fn conclude(law: &Law, points: &Points, p: &[f64]) -> Outcome {
     }))
 }
 
-/// The variance of one residual: what the residuals show, and where standard errors are given no less than these say.
+/// The variance of one residual: what the residuals show, and where standard errors are given no
+/// less than these say.
 fn variance(squares: f64, degrees_of_freedom: usize, points: &Points) -> Option<f64> {
     let shown = (degrees_of_freedom > 0).then(|| squares / degrees_of_freedom as f64);
     if points.deviation().is_some() { Some(shown.unwrap_or(1.0).max(1.0)) } else { shown }
@@ -218,8 +234,9 @@ fn leave_one_out(
     }
     let missed: Option<Vec<f64>> = if linear(law, points) || points.len() > REFITS {
         let leverages = local.leverages(inverse, p.len());
-        let miss =
-            |(i, h): (usize, &f64)| (*h < 1.0 - 1e-9).then(|| local.misses[i] * points.scale(i) / (1.0 - h));
+        let miss = |(i, h): (usize, &f64)| {
+            (*h < 1.0 - 1e-9).then(|| local.misses[i] * points.scale(i) / (1.0 - h))
+        };
         leverages.iter().enumerate().map(miss).collect()
     } else {
         let miss = |i: usize| {

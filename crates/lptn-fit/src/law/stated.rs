@@ -1,6 +1,9 @@
-//! Laws of the speed as they are stated: a coefficient whose unit tells the exponent, or an expression.
+//! Laws of the speed as they are stated: a coefficient whose unit tells the exponent, or an
+//! expression.
 
-use lptn_units::{Dimension, Expression, Program, Scope, Symbol, Type, parse_quantity, written_quantity};
+use lptn_units::{
+    Dimension, Expression, Program, Scope, Symbol, Type, parse_quantity, written_quantity,
+};
 
 use super::error::LawError;
 
@@ -35,7 +38,8 @@ impl LawOf {
     }
 }
 
-/// An exponent, or the mean of one over a range: how many per cent a quantity grows by for one per cent of speed.
+/// An exponent, or the mean of one over a range: how many per cent a quantity grows by for one per
+/// cent of speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exponent {
     /// Per cent of the quantity for one per cent of speed.
@@ -78,9 +82,9 @@ impl Scope for Omega {
 }
 
 impl StatedLaw {
-    /// Reads a law. Where it is a quantity its unit tells the exponent: `0.0084 ± 0.0011 K/rpm` is proportional to the
-    /// speed, `18.6 ± 3.8 min` does not depend on it, `87 ± 15 uW/rpm^(5/3)` goes with its power 5/3. Anything else is
-    /// an expression in `omega`.
+    /// Reads a law. Where it is a quantity its unit tells the exponent: `0.0084 ± 0.0011 K/rpm` is
+    /// proportional to the speed, `18.6 ± 3.8 min` does not depend on it, `87 ± 15 uW/rpm^(5/3)`
+    /// goes with its power 5/3. Anything else is an expression in `omega`.
     ///
     /// # Errors
     /// [`LawError::Units`] for what cannot be read, [`LawError::NotALaw`] for another dimension.
@@ -88,7 +92,8 @@ impl StatedLaw {
         let refused = |errors| LawError::Units { law: text.to_owned(), errors };
         if written_quantity(text).is_none() {
             let expression = Expression::parse(text).map_err(|error| refused(error.into()))?;
-            let program = expression.compile(&Omega, Some(Type::of(of.dimension()))).map_err(refused)?;
+            let program =
+                expression.compile(&Omega, Some(Type::of(of.dimension()))).map_err(refused)?;
             return Ok(Self {
                 of,
                 text: text.to_owned(),
@@ -102,18 +107,27 @@ impl StatedLaw {
         let speed = exponent.and_then(|e| Dimension::ANGULAR_VELOCITY.checked_pow(e));
         let whole = speed.and_then(|speed| quantity.ty.dimension.checked_mul(speed));
         match (exponent, whole) {
-            (Some(exponent), Some(whole)) if whole == of.dimension() && !quantity.ty.absolute => Ok(Self {
-                of,
-                text: text.to_owned(),
-                relative_error: quantity.deviation.map(|deviation| deviation / quantity.value.abs()),
-                form: Form::Power(quantity.value, exponent.to_f64()),
-            }),
+            (Some(exponent), Some(whole)) if whole == of.dimension() && !quantity.ty.absolute => {
+                Ok(Self {
+                    of,
+                    text: text.to_owned(),
+                    relative_error: quantity
+                        .deviation
+                        .map(|deviation| deviation / quantity.value.abs()),
+                    form: Form::Power(quantity.value, exponent.to_f64()),
+                })
+            }
             _ => Err(LawError::NotALaw { of: of.symbol(), found: quantity.ty }),
         }
     }
 
     /// A power of the speed through `value` (SI units) at `speed` (rad/s).
-    pub(crate) fn through(of: LawOf, (speed, value): (f64, f64), exponent: f64, relative_error: f64) -> Self {
+    pub(crate) fn through(
+        of: LawOf,
+        (speed, value): (f64, f64),
+        exponent: f64,
+        relative_error: f64,
+    ) -> Self {
         let form = Form::Power(value * speed.powf(-exponent), exponent);
         Self { of, text: String::new(), relative_error: Some(relative_error), form }
     }
@@ -128,7 +142,11 @@ impl StatedLaw {
             Form::Written(program) => program.eval(&[speed], &mut Vec::new()).unwrap_or(f64::NAN),
         };
         let positive = value.is_finite() && value > 0.0;
-        if positive { Ok(value) } else { Err(LawError::NotPositive { of: self.of.symbol(), speed }) }
+        if positive {
+            Ok(value)
+        } else {
+            Err(LawError::NotPositive { of: self.of.symbol(), speed })
+        }
     }
 
     /// Its exponent, for an expression the mean over a range of speeds.

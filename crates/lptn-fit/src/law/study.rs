@@ -6,8 +6,8 @@ use super::model::Law;
 use super::points::Points;
 use super::solve;
 
-/// Laws whose criteria differ by less than this cannot be told apart (K. P. Burnham, D. R. Anderson, Model Selection and
-/// Multimodel Inference, 2nd edition, Springer 2002, section 2.6).
+/// Laws whose criteria differ by less than this cannot be told apart (K. P. Burnham, D. R.
+/// Anderson, Model Selection and Multimodel Inference, 2nd edition, Springer 2002, section 2.6).
 pub const ALIKE: f64 = 2.0;
 
 /// Laws that were fitted to the same points, best first.
@@ -36,7 +36,8 @@ impl LawStudy {
                 fit.aicc = aicc(fit, &points, dispersion);
             }
         }
-        candidates.sort_by(|a, b| order(a).0.cmp(&order(b).0).then(order(a).1.total_cmp(&order(b).1)));
+        candidates
+            .sort_by(|a, b| order(a).0.cmp(&order(b).0).then(order(a).1.total_cmp(&order(b).1)));
         Self { points, candidates, dispersion }
     }
 
@@ -53,13 +54,16 @@ impl LawStudy {
 
     /// The laws other than the best that may be the answer too: less than [`ALIKE`] behind.
     pub fn rivals(&self) -> Vec<&Candidate> {
-        let close = |c: &&Candidate| c.eligible() && self.behind(c).is_some_and(|behind| behind < ALIKE);
+        let close =
+            |c: &&Candidate| c.eligible() && self.behind(c).is_some_and(|behind| behind < ALIKE);
         self.candidates.iter().skip(1).filter(close).collect()
     }
 
-    /// The laws of one power with the standard exponents, best first: the kinds of loss by themselves.
+    /// The laws of one power with the standard exponents, best first: the kinds of loss by
+    /// themselves.
     pub fn single_powers(&self) -> Vec<&Candidate> {
-        let single = |c: &&Candidate| matches!(&c.law, Law::Powers(exponents) if exponents.len() == 1);
+        let single =
+            |c: &&Candidate| matches!(&c.law, Law::Powers(exponents) if exponents.len() == 1);
         self.candidates.iter().filter(single).collect()
     }
 
@@ -90,7 +94,10 @@ impl LawStudy {
         };
         if rivals.is_empty() {
             let behind = self.behind(second).unwrap_or(f64::NAN);
-            return format!("{} is best: the next, {}, is {behind:.1} AICc behind", best.law, second.law);
+            return format!(
+                "{} is best: the next, {}, is {behind:.1} AICc behind",
+                best.law, second.law
+            );
         }
         let names: Vec<String> = rivals.iter().map(|c| c.law.to_string()).collect();
         let close = rivals.last().and_then(|c| self.behind(c)).unwrap_or(f64::NAN);

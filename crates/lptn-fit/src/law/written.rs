@@ -8,7 +8,8 @@ use super::points::{Points, Variable};
 /// A name with the value at which a search begins.
 pub type Start = (String, Quantity);
 
-/// A law as a user wrote it: `a * omega + b * omega^3`. Names that are no variable are its coefficients.
+/// A law as a user wrote it: `a * omega + b * omega^3`. Names that are no variable are its
+/// coefficients.
 #[derive(Clone, Debug)]
 pub struct WrittenLaw {
     text: String,
@@ -30,8 +31,10 @@ struct Names<'a> {
 impl Scope for Names<'_> {
     fn symbol(&self, name: &str) -> Option<Symbol> {
         let variables = self.variables.iter().map(|v| (v.name.as_str(), v.ty));
-        let coefficients = self.coefficients.iter().map(|(name, of)| (name.as_str(), Type::of(*of)));
-        let found = variables.chain(coefficients).enumerate().find(|(_, (known, _))| *known == name);
+        let coefficients =
+            self.coefficients.iter().map(|(name, of)| (name.as_str(), Type::of(*of)));
+        let found =
+            variables.chain(coefficients).enumerate().find(|(_, (known, _))| *known == name);
         let (slot, (_, ty)) = found?;
         Some(Symbol { slot: u32::try_from(slot).ok()?, ty, in_comparison: None })
     }
@@ -43,11 +46,12 @@ impl Scope for Names<'_> {
 }
 
 impl WrittenLaw {
-    /// Reads a law of power over the variables of `points`. The units of the coefficients follow from the law; `starts`
-    /// settles those that it leaves open, and where a search begins.
+    /// Reads a law of power over the variables of `points`. The units of the coefficients follow
+    /// from the law; `starts` settles those that it leaves open, and where a search begins.
     ///
     /// # Errors
-    /// [`LawError`] where the text is not an expression, its units do not give a power, or a unit stays open.
+    /// [`LawError`] where the text is not an expression, its units do not give a power, or a unit
+    /// stays open.
     pub fn new(text: &str, points: &Points, starts: &[Start]) -> Result<Self, LawError> {
         let refused = |errors| LawError::Units { law: text.to_owned(), errors };
         let expression = Expression::parse(text).map_err(|error| refused(error.into()))?;
@@ -57,16 +61,31 @@ impl WrittenLaw {
             return Err(LawError::NoCoefficient { law: text.to_owned() });
         }
         if coefficients.len() > MOST {
-            return Err(LawError::ManyCoefficients { law: text.to_owned(), count: coefficients.len() });
+            return Err(LawError::ManyCoefficients {
+                law: text.to_owned(),
+                count: coefficients.len(),
+            });
         }
         let scope = Names { variables, coefficients: &coefficients };
-        let program = expression.compile(&scope, Some(Type::of(Dimension::POWER))).map_err(refused)?;
-        let given = |name: &str| starts.iter().find(|(known, _)| known == name).map(|(_, start)| start.value);
+        let program =
+            expression.compile(&scope, Some(Type::of(Dimension::POWER))).map_err(refused)?;
+        let given = |name: &str| {
+            starts.iter().find(|(known, _)| known == name).map(|(_, start)| start.value)
+        };
         let all_given = coefficients.iter().all(|(name, _)| given(name).is_some());
-        let start = |(name, of): &(String, Dimension)| given(name).unwrap_or_else(|| usual_size(*of, points));
+        let start = |(name, of): &(String, Dimension)| {
+            given(name).unwrap_or_else(|| usual_size(*of, points))
+        };
         let start = coefficients.iter().map(start).collect();
         let variables = variables.len();
-        Ok(Self { text: text.to_owned(), program, coefficients, start, variables, given: all_given })
+        Ok(Self {
+            text: text.to_owned(),
+            program,
+            coefficients,
+            start,
+            variables,
+            given: all_given,
+        })
     }
 
     /// The law as the user wrote it.
@@ -82,7 +101,10 @@ impl WrittenLaw {
     /// Where searches begin, in SI units: at the values given, or at several sizes.
     pub(crate) fn starts(&self) -> Vec<Vec<f64>> {
         let factors: &[f64] = if self.given { &[1.0] } else { &[1.0, 0.1, 10.0] };
-        factors.iter().map(|factor| self.start.iter().map(|start| start * factor).collect()).collect()
+        factors
+            .iter()
+            .map(|factor| self.start.iter().map(|start| start * factor).collect())
+            .collect()
     }
 
     pub(crate) fn evaluate(
@@ -112,7 +134,8 @@ fn coefficients(
     let open = expression.unknown_names(&Names { variables, coefficients: &given }, power);
     let mut found: Vec<(String, Dimension)> = Vec::new();
     for (name, _) in expression.names() {
-        let known = found.iter().any(|(other, _)| *other == name) || variables.iter().any(|v| v.name == name);
+        let known = found.iter().any(|(other, _)| *other == name)
+            || variables.iter().any(|v| v.name == name);
         if known {
             continue;
         }
@@ -126,8 +149,9 @@ fn coefficients(
     Ok(found)
 }
 
-/// The size that a coefficient of this dimension would have if it were all of the power: the largest power over the
-/// largest speed to the power that the dimension says; 1 in SI units where it says more than that.
+/// The size that a coefficient of this dimension would have if it were all of the power: the
+/// largest power over the largest speed to the power that the dimension says; 1 in SI units where
+/// it says more than that.
 fn usual_size(of: Dimension, points: &Points) -> f64 {
     let [_, mass, .., angle] = of.exponents();
     let speed = Dimension::ANGULAR_VELOCITY.checked_pow(angle);

@@ -27,8 +27,8 @@ pub enum Test {
 pub enum Stop {
     /// The largest number of steps was made.
     Iterations,
-    /// However short the step, the sum of squares does not fall although its derivative says so: the derivatives are
-    /// wrong, or the model is noisier than the tests ask for.
+    /// However short the step, the sum of squares does not fall although its derivative says so:
+    /// the derivatives are wrong, or the model is noisier than the tests ask for.
     Stalled,
     /// The residuals or derivatives at the start are not finite.
     StartNotFinite,
@@ -43,7 +43,9 @@ impl Stop {
             Self::Iterations => "the largest number of steps was made",
             Self::Stalled => "no shorter step lowers the misfit, although its derivatives say so",
             Self::StartNotFinite => "the model has no finite value at the start",
-            Self::DerivativeNotFinite => "the model has no finite derivative where the search came to",
+            Self::DerivativeNotFinite => {
+                "the model has no finite derivative where the search came to"
+            }
         }
     }
 }
@@ -53,7 +55,8 @@ impl Stop {
 pub enum Outcome {
     /// At a minimum.
     Converged(Test),
-    /// Elsewhere: the parameters are those of the lowest sum of squares that was seen, and no result.
+    /// Elsewhere: the parameters are those of the lowest sum of squares that was seen, and no
+    /// result.
     NotConverged(Stop),
 }
 
@@ -71,7 +74,8 @@ pub struct Estimate {
     pub parameters: Vec<f64>,
     /// How the search ended.
     pub outcome: Outcome,
-    /// The bound that each parameter sits on. There the data ask for a value beyond the bound, or for none at all.
+    /// The bound that each parameter sits on. There the data ask for a value beyond the bound, or
+    /// for none at all.
     pub on_bound: Vec<Option<Side>>,
     /// Sum of the squares of the residuals, priors included.
     pub squares: f64,
@@ -81,7 +85,8 @@ pub struct Estimate {
     pub jacobian: Vec<f64>,
     /// Number of residuals that are data.
     pub data: usize,
-    /// The part of the residuals that the free parameters could still remove, to first order; 0 at a minimum.
+    /// The part of the residuals that the free parameters could still remove, to first order; 0 at
+    /// a minimum.
     pub offset: f64,
     /// Steps that lowered the sum of squares.
     pub iterations: usize,
@@ -100,15 +105,17 @@ impl Estimate {
         self.residuals.len().saturating_sub(self.free().len())
     }
 
-    /// `(J^T J)^-1` of the free parameters: their covariance if every residual is in units of its own standard
-    /// deviation and independent of the others. Times `squares / degrees_of_freedom` where only the ratios of the
-    /// deviations are known. `None` where the rank of J is less than the number of free parameters.
+    /// `(J^T J)^-1` of the free parameters: their covariance if every residual is in units of its
+    /// own standard deviation and independent of the others. Times `squares / degrees_of_freedom`
+    /// where only the ratios of the deviations are known. `None` where the rank of J is less than
+    /// the number of free parameters.
     pub fn covariance(&self) -> Option<Covariance> {
         Covariance::inverse(&self.jacobian, self.residuals.len(), &self.free())
     }
 
-    /// What the residuals determine: [`Spectrum::new`] of the Jacobian with parameter j in units of `scales[j]`, all
-    /// parameters included. With `scales` their values it is about their logarithms.
+    /// What the residuals determine: [`Spectrum::new`] of the Jacobian with parameter j in units of
+    /// `scales[j]`, all parameters included. With `scales` their values it is about their
+    /// logarithms.
     pub fn spectrum(&self, scales: &[f64], threshold: f64) -> Option<Spectrum> {
         Spectrum::new(&self.jacobian, scales, threshold)
     }

@@ -18,7 +18,8 @@ impl Triangle {
         let n = jacobian.len() / rows;
         let both = [jacobian, residuals].concat();
         let upper = dense::triangle(MatRef::from_column_major_slice(&both, rows, n + 1));
-        let entry = |i: usize, j: usize| if i < upper.nrows() && i <= j { upper[(i, j)] } else { 0.0 };
+        let entry =
+            |i: usize, j: usize| if i < upper.nrows() && i <= j { upper[(i, j)] } else { 0.0 };
         Self { factor: Mat::from_fn(n, n, entry), inside: (0..n).map(|i| entry(i, n)).collect() }
     }
 
@@ -46,8 +47,9 @@ impl Triangle {
         self.misses(step).iter().zip(&self.inside).map(change).sum()
     }
 
-    /// The step of the `free` parameters, by `scales` so long that `|R s + target|^2 + damping |s scales|^2` is least.
-    /// Without damping, directions whose singular values are below 1e-14 of the largest are left alone.
+    /// The step of the `free` parameters, by `scales` so long that
+    /// `|R s + target|^2 + damping |s scales|^2` is least. Without damping, directions whose
+    /// singular values are below 1e-14 of the largest are left alone.
     pub(crate) fn solve(
         &self,
         free: &[usize],
@@ -56,7 +58,8 @@ impl Triangle {
         damping: f64,
     ) -> Option<Vec<f64>> {
         let n = self.inside.len();
-        let scaled = Mat::from_fn(n, free.len(), |i, j| self.factor[(i, free[j])] / scales[free[j]]);
+        let scaled =
+            Mat::from_fn(n, free.len(), |i, j| self.factor[(i, free[j])] / scales[free[j]]);
         let svd = dense::singular(scaled.as_ref())?;
         let least = 1e-14 * svd.values.first().copied().unwrap_or(0.0);
         let mut step = vec![0.0; free.len()];

@@ -1,11 +1,13 @@
 //! Nonlinear least squares with bounds and priors.
 //!
-//! [`minimise`] finds the parameters `p` for which the sum of the squares of the residuals `r(p)` is least, by the method
-//! of Levenberg and Marquardt in the form of J. J. Moré (The Levenberg-Marquardt algorithm: implementation and theory,
-//! Lecture Notes in Mathematics 630 (1978) 105): a trust region in parameters scaled by the norms of the Jacobian's
-//! columns, so that the units of the parameters do not matter. Bounds are part of each step: it minimises the linear
-//! model inside the box and the region by an active set (P. B. Stark and R. L. Parker, Computational Statistics 10
-//! (1995) 129), so a minimum on a bound is reached and [`Estimate::on_bound`] says which.
+//! [`minimise`] finds the parameters `p` for which the sum of the squares of the residuals `r(p)`
+//! is least, by the method of Levenberg and Marquardt in the form of J. J. Moré (The
+//! Levenberg-Marquardt algorithm: implementation and theory, Lecture Notes in Mathematics 630
+//! (1978) 105): a trust region in parameters scaled by the norms of the Jacobian's columns, so that
+//! the units of the parameters do not matter. Bounds are part of each step: it minimises the linear
+//! model inside the box and the region by an active set (P. B. Stark and R. L. Parker,
+//! Computational Statistics 10 (1995) 129), so a minimum on a bound is reached and
+//! [`Estimate::on_bound`] says which.
 //!
 //! Only the triangular factor of `[J r]` is used; `J^T J` is never formed.
 //!
@@ -53,11 +55,12 @@ pub trait Residuals {
     /// The number of parameters, which does not change.
     fn parameters(&self) -> usize;
 
-    /// The residuals (model less data, each over its standard deviation if they differ) at `p`, and where `derivatives` are
-    /// asked for also these, one parameter after the other: `d r_i / d p_j` at `j * residuals.len() + i`.
+    /// The residuals (model less data, each over its standard deviation if they differ) at `p`, and
+    /// where `derivatives` are asked for also these, one parameter after the other: `d r_i / d p_j`
+    /// at `j * residuals.len() + i`.
     ///
-    /// The number of residuals does not change. `p` keeps the bounds. Where the model has no value at `p`, a residual that
-    /// is NaN or infinite asks for a shorter step.
+    /// The number of residuals does not change. `p` keeps the bounds. Where the model has no value
+    /// at `p`, a residual that is NaN or infinite asks for a shorter step.
     ///
     /// # Errors
     /// [`LeastSquaresError::Interrupted`] ends the search.
@@ -79,20 +82,23 @@ pub struct Prior {
 /// How to search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Least and greatest value of every parameter, infinite where there is none; empty if no parameter has bounds.
+    /// Least and greatest value of every parameter, infinite where there is none; empty if no
+    /// parameter has bounds.
     pub bounds: Vec<(f64, f64)>,
     /// What is known beforehand.
     pub priors: Vec<Prior>,
-    /// The search ends where the part of the residuals that the free parameters could still remove, to first order, is
-    /// this part of all residuals (relative offset: D. M. Bates, D. G. Watts, Technometrics 23 (1981) 179). With n
-    /// residuals and k parameters the parameters are then within `gradient * sqrt(n)` of their standard errors.
+    /// The search ends where the part of the residuals that the free parameters could still remove,
+    /// to first order, is this part of all residuals (relative offset: D. M. Bates, D. G. Watts,
+    /// Technometrics 23 (1981) 179). With n residuals and k parameters the parameters are then
+    /// within `gradient * sqrt(n)` of their standard errors.
     pub gradient: f64,
     /// The search ends where a full step changes no parameter by more than this part of it.
     pub step: f64,
-    /// Differences of the sum of squares by less than this part of it count as rounding. A step that was to lower it by
-    /// no more, and changes it by no more, is judged by `gradient`'s measure instead: while that falls by a tenth or
-    /// more the search goes on, and then it ends, with the parameters within `sqrt(cost n)` of their standard errors.
-    /// To be raised where the model is computed less precisely than to double precision.
+    /// Differences of the sum of squares by less than this part of it count as rounding. A step
+    /// that was to lower it by no more, and changes it by no more, is judged by `gradient`'s
+    /// measure instead: while that falls by a tenth or more the search goes on, and then it ends,
+    /// with the parameters within `sqrt(cost n)` of their standard errors. To be raised where the
+    /// model is computed less precisely than to double precision.
     pub cost: f64,
     /// The largest number of steps that lower the sum of squares.
     pub iterations: usize,

@@ -26,11 +26,11 @@ impl Region<'_> {
         length(step, self.scales)
     }
 
-    /// The step that lowers the linear model most among those that are no longer than `radius`, to a tenth; with
-    /// whether the radius bounds it. `None` if no singular values could be computed.
+    /// The step that lowers the linear model most among those that are no longer than `radius`, to
+    /// a tenth; with whether the radius bounds it. `None` if no singular values could be computed.
     ///
-    /// The length falls with the damping, and its inverse is nearly a straight line (M. D. Hebden, AERE Harwell
-    /// TP 515 (1973)), which the secant follows.
+    /// The length falls with the damping, and its inverse is nearly a straight line (M. D. Hebden,
+    /// AERE Harwell TP 515 (1973)), which the secant follows.
     pub(crate) fn step(&self, radius: f64) -> Option<(BoxStep, bool)> {
         let full = self.inside_box(0.0)?;
         let length = self.length(&full.step);
@@ -38,7 +38,8 @@ impl Region<'_> {
             return Some((full, false));
         }
         let gradient = self.model.gradient(&vec![0.0; self.scales.len()]);
-        let steepest = gradient.iter().zip(self.scales).map(|(g, d)| (g / d) * (g / d)).sum::<f64>().sqrt();
+        let steepest =
+            gradient.iter().zip(self.scales).map(|(g, d)| (g / d) * (g / d)).sum::<f64>().sqrt();
         let (mut low, mut high) = ((0.0, 1.0 / length), (steepest / radius, f64::NAN));
         let mut best = full;
         let mut damping = 1e-3 * high.0;
@@ -63,7 +64,8 @@ impl Region<'_> {
         Some((best, true))
     }
 
-    /// The minimum of the damped model inside the box, by an active set that begins with no step at all.
+    /// The minimum of the damped model inside the box, by an active set that begins with no step at
+    /// all.
     pub(crate) fn inside_box(&self, damping: f64) -> Option<BoxStep> {
         let n = self.scales.len();
         let mut at = BoxStep { step: vec![0.0; n], sides: vec![None; n] };

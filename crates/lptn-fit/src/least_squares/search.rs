@@ -11,18 +11,25 @@ const MOST_TRIALS: usize = 100;
 
 type Fallible<T> = Result<T, LeastSquaresError>;
 
-/// Finds the parameters, near `start`, for which the sum of the squares of residuals and priors is least.
+/// Finds the parameters, near `start`, for which the sum of the squares of residuals and priors is
+/// least.
 ///
-/// A start outside its bounds begins on them. The minimum is a local one. The tests are those of [`Settings`], each
-/// of the full step that leads to the minimum of the linear model inside the box, not of one that the trust region
-/// cut short; a search that none of them ends says so in [`Estimate::outcome`].
+/// A start outside its bounds begins on them. The minimum is a local one. The tests are those of
+/// [`Settings`], each of the full step that leads to the minimum of the linear model inside the
+/// box, not of one that the trust region cut short; a search that none of them ends says so in
+/// [`Estimate::outcome`].
 ///
 /// # Errors
 /// [`LeastSquaresError`]
-pub fn minimise<P: Residuals>(problem: &mut P, start: &[f64], settings: &Settings) -> Fallible<Estimate> {
+pub fn minimise<P: Residuals>(
+    problem: &mut P,
+    start: &[f64],
+    settings: &Settings,
+) -> Fallible<Estimate> {
     check(problem.parameters(), start, settings)?;
     let mut search = Search { problem, settings, evaluations: 0, data: 0 };
-    let clamped = start.iter().enumerate().map(|(j, p)| p.clamp(search.bounds(j).0, search.bounds(j).1));
+    let clamped =
+        start.iter().enumerate().map(|(j, p)| p.clamp(search.bounds(j).0, search.bounds(j).1));
     let first = search.point(clamped.collect())?;
     search.run(first)
 }
@@ -35,7 +42,8 @@ fn check(count: usize, start: &[f64], settings: &Settings) -> Fallible<()> {
     if !settings.bounds.is_empty() && settings.bounds.len() != count {
         return Err(wrong(settings.bounds.len()));
     }
-    let reversed = |(low, high): &(f64, f64)| low.partial_cmp(high) != Some(std::cmp::Ordering::Less);
+    let reversed =
+        |(low, high): &(f64, f64)| low.partial_cmp(high) != Some(std::cmp::Ordering::Less);
     if let Some(parameter) = settings.bounds.iter().position(reversed) {
         return Err(LeastSquaresError::Bounds { parameter });
     }
@@ -131,7 +139,8 @@ impl<P: Residuals> Search<'_, P> {
         };
         same(self.data.max(1), rows)?;
         let priors = &self.settings.priors;
-        residuals.extend(priors.iter().map(|prior| (p[prior.parameter] - prior.value) / prior.sigma));
+        residuals
+            .extend(priors.iter().map(|prior| (p[prior.parameter] - prior.value) / prior.sigma));
         if with_jacobian {
             same(rows * p.len(), jacobian.len())?;
             jacobian = self.with_priors(&jacobian, p.len());
@@ -143,7 +152,8 @@ impl<P: Residuals> Search<'_, P> {
         let mut all = Vec::with_capacity(jacobian.len() + count * self.settings.priors.len());
         for j in 0..count {
             all.extend_from_slice(&jacobian[j * self.data..][..self.data]);
-            let slope = |prior: &super::Prior| if prior.parameter == j { 1.0 / prior.sigma } else { 0.0 };
+            let slope =
+                |prior: &super::Prior| if prior.parameter == j { 1.0 / prior.sigma } else { 0.0 };
             all.extend(self.settings.priors.iter().map(slope));
         }
         all
@@ -208,7 +218,8 @@ impl<P: Residuals> Search<'_, P> {
         let room = self.room(&point.parameters);
         let region = Region { model: &model, scales, room: &room };
         let full = region.inside_box(0.0).ok_or(LeastSquaresError::Decomposition)?.step;
-        let offset = (model.reduction(&full).max(0.0) / point.squares.max(f64::MIN_POSITIVE)).sqrt();
+        let offset =
+            (model.reduction(&full).max(0.0) / point.squares.max(f64::MIN_POSITIVE)).sqrt();
         Ok(Place { point, model, room, full, offset })
     }
 
@@ -222,7 +233,11 @@ impl<P: Residuals> Search<'_, P> {
 
     /// Where no step leads lower, a minimum whose residuals are rounding is one all the same.
     fn stopped(&self, here: &Place, stop: Stop) -> Outcome {
-        if here.moves_less_than(1e-8) { Outcome::Converged(Test::Step) } else { Outcome::NotConverged(stop) }
+        if here.moves_less_than(1e-8) {
+            Outcome::Converged(Test::Step)
+        } else {
+            Outcome::NotConverged(stop)
+        }
     }
 
     /// Shortens the step until one lowers the sum of squares.
@@ -261,7 +276,8 @@ impl<P: Residuals> Search<'_, P> {
         let (residuals, _) = self.evaluate(&parameters, false)?;
         let squares: f64 = residuals.iter().map(|r| r * r).sum();
         let foretold = region.model.reduction(&taken.step) / point.squares;
-        let lowered = if squares.is_finite() { 1.0 - squares / point.squares } else { f64::NEG_INFINITY };
+        let lowered =
+            if squares.is_finite() { 1.0 - squares / point.squares } else { f64::NEG_INFINITY };
         let length = region.length(&taken.step);
         Ok(Trial { parameters, cut, length, foretold, lowered })
     }
@@ -292,8 +308,8 @@ fn widen(scales: &mut [f64], norms: &[f64]) {
     }
 }
 
-/// A shorter radius after a step that did less than a quarter of what was foretold, a longer one after one that did
-/// three quarters of it.
+/// A shorter radius after a step that did less than a quarter of what was foretold, a longer one
+/// after one that did three quarters of it.
 fn next_radius(radius: f64, trial: &Trial) -> f64 {
     let foretold = trial.foretold.max(f64::MIN_POSITIVE);
     if !trial.lowered.is_finite() || trial.lowered < -99.0 {

@@ -6,7 +6,8 @@ const LARGEST: i32 = 2;
 /// Parameters in one combination, at most.
 const MOST: usize = 3;
 
-/// A combination lies across an undetermined direction if their angle is this close to a right one (cosine).
+/// A combination lies across an undetermined direction if their angle is this close to a right one
+/// (cosine).
 const ACROSS: f64 = 1e-3;
 
 /// What a determined combination is.
@@ -18,9 +19,9 @@ pub enum Kind {
     Sum,
 }
 
-/// The simplest whole-numbered combinations of `count` parameters that lie across every one of the `unseen` directions:
-/// as many independent ones as there are determined directions, or nothing if there are not so many. In logarithms they
-/// are exponents of products.
+/// The simplest whole-numbered combinations of `count` parameters that lie across every one of the
+/// `unseen` directions: as many independent ones as there are determined directions, or nothing if
+/// there are not so many. In logarithms they are exponents of products.
 pub(crate) fn combinations(unseen: &[Vec<f64>], count: usize) -> Option<Vec<Vec<i32>>> {
     let wanted = count.checked_sub(unseen.len())?;
     let across = |c: &Vec<i32>| unseen.iter().all(|direction| cosine(direction, c).abs() < ACROSS);
@@ -38,12 +39,13 @@ pub(crate) fn combinations(unseen: &[Vec<f64>], count: usize) -> Option<Vec<Vec<
 
 fn cosine(direction: &[f64], c: &[i32]) -> f64 {
     let dot: f64 = direction.iter().zip(c).map(|(d, &c)| d * f64::from(c)).sum();
-    let lengths =
-        direction.iter().map(|d| d * d).sum::<f64>() * c.iter().map(|&c| f64::from(c * c)).sum::<f64>();
+    let lengths = direction.iter().map(|d| d * d).sum::<f64>()
+        * c.iter().map(|&c| f64::from(c * c)).sum::<f64>();
     dot / lengths.sqrt()
 }
 
-/// Few parameters first, small numbers before large ones, products before quotients, then the order of the parameters.
+/// Few parameters first, small numbers before large ones, products before quotients, then the order
+/// of the parameters.
 fn complexity(c: &[i32]) -> (usize, i32, usize, Vec<usize>) {
     let used: Vec<usize> = (0..c.len()).filter(|&i| c[i] != 0).collect();
     let negative = c.iter().filter(|&&c| c < 0).count();

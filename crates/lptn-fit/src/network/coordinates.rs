@@ -9,8 +9,8 @@ pub(crate) struct Coordinates {
 }
 
 impl Coordinates {
-    /// Logarithms where the bounds are positive: what is constant for products of powers then is a straight line. Without
-    /// a least value the sign of a parameter is open.
+    /// Logarithms where the bounds are positive: what is constant for products of powers then is a
+    /// straight line. Without a least value the sign of a parameter is open.
     pub(crate) fn new(varied: &[Varied], absolute: &[bool]) -> Self {
         let logarithm = |(v, &absolute): (&Varied, &bool)| !absolute && v.bounds.0 > 0.0;
         let logarithmic = varied.iter().zip(absolute).map(logarithm).collect();

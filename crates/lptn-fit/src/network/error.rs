@@ -15,7 +15,8 @@ pub enum NetworkFitError {
     NoParameter = "fit::no_parameter", "nothing is varied, so nothing can be fitted";
     /// The records hold no value.
     NoData = "fit::no_data", "the records hold no value of a column that is fitted";
-    /// A record, its first and last time in s, begins before its run, whose start is in s, or has no row behind the start.
+    /// A record, its first and last time in s, begins before its run, whose start is in s, or has
+    /// no row behind the start.
     Times { record: String, span: (f64, f64), start: f64 } = "fit::record_times",
         format!("{record}: rows from {} s to {} s do not fit a run that starts at {start} s", span.0, span.1),
         help format!(
@@ -41,7 +42,8 @@ pub enum NetworkFitError {
             SensitiveError::Run(_) => Class::Numbers,
             _ => Class::Input,
         };
-    /// A column measures something, as it is written, that is neither the temperature of a node nor a mean of some.
+    /// A column measures something, as it is written, that is neither the temperature of a node nor
+    /// a mean of some.
     Observed { column: String, result: String } = "fit::observed",
         format!("column `{column}` measures `{result}`, which is not a temperature of a node or a mean of some"),
         help "write the temperature of a node, `\"steel.T\"`, or a mean, `\"mean(steel.T, bed.T)\"`; parameters, signals, \
@@ -50,7 +52,8 @@ pub enum NetworkFitError {
     Plan => EvalError;
     /// The sum of squares cannot be minimised.
     Search => LeastSquaresError as Class::of_numbers;
-    /// It was interrupted at this stage; the values in SI units that describe the records best among those that were tried.
+    /// It was interrupted at this stage; the values in SI units that describe the records best
+    /// among those that were tried.
     Interrupted { stage: FitStage, best: Option<Vec<f64>> } = "fit::interrupted",
         format!("the fit was interrupted in {stage}"), class Class::Interrupted;
 }

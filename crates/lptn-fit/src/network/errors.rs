@@ -30,17 +30,21 @@ struct ColumnNoise<'a> {
 }
 
 impl<'a> Errors<'a> {
-    /// With the parameters that sit on no bound. Where some cannot be told apart, so many of them are held that the
-    /// others can; the errors of the determined ones do not depend on which.
+    /// With the parameters that sit on no bound. Where some cannot be told apart, so many of them
+    /// are held that the others can; the errors of the determined ones do not depend on which.
     pub(crate) fn new(
         task: &'a NetworkFitTask<'a>,
         model: &'a Model<'_>,
         (at_end, inside, known): (&'a Evaluated, &[usize], Option<&Identifiability>),
     ) -> Self {
-        let held: Vec<usize> =
-            known.iter().flat_map(|known| &known.unseparated).flat_map(|group| group.held()).collect();
+        let held: Vec<usize> = known
+            .iter()
+            .flat_map(|known| &known.unseparated)
+            .flat_map(|group| group.held())
+            .collect();
         let unfelt = |i: &usize| known.is_none_or(|known| known.unfelt.contains(i));
-        let free: Vec<usize> = inside.iter().copied().filter(|i| !unfelt(i) && !held.contains(i)).collect();
+        let free: Vec<usize> =
+            inside.iter().copied().filter(|i| !unfelt(i) && !held.contains(i)).collect();
         let mut errors = Self { task, at_end, data: model.data(), free, columns: Vec::new() };
         let blocks = model.blocks.iter().filter(|block| !block.range.is_empty());
         errors.columns = blocks.map(|block| errors.noise_of(block)).collect();
@@ -96,14 +100,16 @@ impl<'a> Errors<'a> {
         self.at_end.residuals.len().saturating_sub(self.free.len())
     }
 
-    /// The covariance of the free parameters: `(J^T J)^-1 J^T Omega J (J^T J)^-1` with the covariance Omega of the
-    /// residuals. Few residuals may be small by chance, and as many as parameters vanish: then errors are at least those
-    /// that the standard deviations given say, and where none are given and nothing is left over there are none.
+    /// The covariance of the free parameters: `(J^T J)^-1 J^T Omega J (J^T J)^-1` with the
+    /// covariance Omega of the residuals. Few residuals may be small by chance, and as many as
+    /// parameters vanish: then errors are at least those that the standard deviations given say,
+    /// and where none are given and nothing is left over there are none.
     pub(crate) fn covariance(&self) -> Option<Covariance> {
         if self.free.is_empty() || self.data == 0 {
             return None;
         }
-        let bread = Covariance::inverse(&self.at_end.jacobian, self.at_end.residuals.len(), &self.free)?;
+        let bread =
+            Covariance::inverse(&self.at_end.jacobian, self.at_end.residuals.len(), &self.free)?;
         let found = bread.sandwich(&self.middle());
         let given = self.columns.iter().all(|column| self.sigma(column).is_some());
         match self.left_over() {
@@ -121,7 +127,8 @@ impl<'a> Errors<'a> {
         let n = self.free.len();
         // priors are what they are said to be
         let prior = |i: usize| &self.derivatives(self.free[i])[self.data..];
-        let dot = |at: usize| prior(at / n).iter().zip(prior(at % n)).map(|(a, b)| a * b).sum::<f64>();
+        let dot =
+            |at: usize| prior(at / n).iter().zip(prior(at % n)).map(|(a, b)| a * b).sum::<f64>();
         let mut middle: Vec<f64> = (0..n * n).map(dot).collect();
         for column in &self.columns {
             middle.iter_mut().zip(&column.middle).for_each(|(sum, part)| *sum += part);

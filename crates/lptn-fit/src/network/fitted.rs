@@ -10,7 +10,8 @@ use crate::network::search::Starts;
 /// What came of a fit of a network.
 #[derive(Clone, Debug)]
 pub struct NetworkFit {
-    /// Why the search did not converge; `None` if it did. Without a minimum the values are no result.
+    /// Why the search did not converge; `None` if it did. Without a minimum the values are no
+    /// result.
     pub not_converged: Option<Stop>,
     /// The varied parameters, in the order of the task.
     pub parameters: Vec<FittedParameter>,
@@ -18,10 +19,11 @@ pub struct NetworkFit {
     pub columns: Vec<ColumnMisfit>,
     /// Root of the mean of the squares of all misfits, not weighted, in K.
     pub rms: f64,
-    /// Covariance of the parameters that are free and determined, corrected for residuals that follow each other.
+    /// Covariance of the parameters that are free and determined, corrected for residuals that
+    /// follow each other.
     pub covariance: Option<Covariance>,
-    /// Values and priors beyond those that the parameters take up. With none, errors are those that the standard
-    /// deviations of the columns say, or there are none.
+    /// Values and priors beyond those that the parameters take up. With none, errors are those that
+    /// the standard deviations of the columns say, or there are none.
     pub left_over: usize,
     /// What the records determine; `None` where the derivatives are not finite.
     pub identifiability: Option<Identifiability>,
@@ -38,7 +40,8 @@ pub struct NetworkFit {
 pub struct FittedParameter {
     /// Where the search ended.
     pub value: f64,
-    /// Its standard error; `None` on a bound, where the records do not determine it and where nothing tells it.
+    /// Its standard error; `None` on a bound, where the records do not determine it and where
+    /// nothing tells it.
     pub standard_error: Option<f64>,
     /// Its value before.
     pub start: f64,

@@ -6,11 +6,12 @@ use crate::network::combination::{Kind, combinations};
 /// A parameter takes part in an undetermined direction if its share of it is larger than this.
 const SHARE: f64 = 1e-4;
 
-/// A displacement along an undetermined direction may change the residuals by this part of what it would do to them if
-/// its parameters were determined.
+/// A displacement along an undetermined direction may change the residuals by this part of what it
+/// would do to them if its parameters were determined.
 const UNCHANGED: f64 = 1e-2;
 
-/// How far the parameters are moved to see whether a direction stays undetermined: a change of a logarithm.
+/// How far the parameters are moved to see whether a direction stays undetermined: a change of a
+/// logarithm.
 const MOVED: f64 = 0.2;
 
 /// A combination of parameters that is determined where they are not.
@@ -33,7 +34,8 @@ pub struct Unseparated {
     pub missing: usize,
     /// What is determined of them; `None` if that is not a simple product or sum.
     pub determined: Option<Vec<Combination>>,
-    /// Changes, in SI units, that leave every column as it is to first order: one list for each missing one.
+    /// Changes, in SI units, that leave every column as it is to first order: one list for each
+    /// missing one.
     pub directions: Vec<Vec<f64>>,
 }
 
@@ -41,9 +43,11 @@ impl Unseparated {
     /// Parameters that, were they known, would let the others be told apart.
     pub(crate) fn held(&self) -> Vec<usize> {
         let only = |k: usize, c: usize| {
-            (0..self.directions.len()).all(|other| other == k || self.directions[other][c].abs() <= 0.0)
+            (0..self.directions.len())
+                .all(|other| other == k || self.directions[other][c].abs() <= 0.0)
         };
-        let pivot = |(k, d): (usize, &Vec<f64>)| (0..d.len()).find(|&c| d[c].abs() > 0.0 && only(k, c));
+        let pivot =
+            |(k, d): (usize, &Vec<f64>)| (0..d.len()).find(|&c| d[c].abs() > 0.0 && only(k, c));
         self.directions.iter().enumerate().filter_map(pivot).map(|c| self.parameters[c]).collect()
     }
 }
@@ -51,8 +55,9 @@ impl Unseparated {
 /// What the data determine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identifiability {
-    /// Singular values of the derivatives of the residuals by the scaled parameters, largest first. A parameter is in
-    /// units of its own value (so that it is about its logarithm), a temperature in units of 10 K.
+    /// Singular values of the derivatives of the residuals by the scaled parameters, largest first.
+    /// A parameter is in units of its own value (so that it is about its logarithm), a temperature
+    /// in units of 10 K.
     pub singular_values: Vec<f64>,
     /// How many directions are determined.
     pub rank: usize,
@@ -83,8 +88,8 @@ pub(crate) struct Place<'a> {
     pub(crate) values: &'a [f64],
     /// In units of which each is seen; its value where that is about its logarithm.
     pub(crate) scales: &'a [f64],
-    /// Singular values and columns below this part of the largest count as 0: derivatives are as accurate as that and no
-    /// more.
+    /// Singular values and columns below this part of the largest count as 0: derivatives are as
+    /// accurate as that and no more.
     pub(crate) accuracy: f64,
     /// Whether parameters `i` and `j` can be added.
     pub(crate) addable: &'a dyn Fn(usize, usize) -> bool,
@@ -96,7 +101,8 @@ impl Place<'_> {
     }
 }
 
-/// What is determined at `place`. `misfit` gives the residuals for other values, or nothing where there are none.
+/// What is determined at `place`. `misfit` gives the residuals for other values, or nothing where
+/// there are none.
 pub(crate) fn identify(
     place: &Place<'_>,
     misfit: &mut dyn FnMut(&[f64]) -> Option<Vec<f64>>,
@@ -129,7 +135,8 @@ pub(crate) fn identify(
     Some(Identifiability { singular_values, rank: spectrum.rank, unfelt, unseparated })
 }
 
-/// Parameters that undetermined directions tie together, with those directions in scaled parameters.
+/// Parameters that undetermined directions tie together, with those directions in scaled
+/// parameters.
 struct Group {
     members: Vec<usize>,
     directions: Vec<Vec<f64>>,
@@ -153,14 +160,15 @@ fn groups(felt: &[usize], unseen: &[Vec<f64>]) -> Vec<Group> {
         }
         members.sort_unstable();
         left.retain(|i| !members.contains(i));
-        let directions = basis(unseen.iter().map(|d| members.iter().map(|&i| d[i]).collect()).collect());
+        let directions =
+            basis(unseen.iter().map(|d| members.iter().map(|&i| d[i]).collect()).collect());
         groups.push(Group { members: members.iter().map(|&i| felt[i]).collect(), directions });
     }
     groups
 }
 
-/// A basis of what some directions span, reduced: each has a 1 where the others have a 0. Parts of directions below
-/// [`SHARE`] are nothing.
+/// A basis of what some directions span, reduced: each has a 1 where the others have a 0. Parts of
+/// directions below [`SHARE`] are nothing.
 fn basis(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let columns = rows.first().map_or(0, Vec::len);
     let mut found: Vec<Vec<f64>> = Vec::new();
@@ -232,7 +240,8 @@ impl Group {
         }
     }
 
-    /// The parameters moved along a direction, as far as their combinations of this kind stay the same exactly.
+    /// The parameters moved along a direction, as far as their combinations of this kind stay the
+    /// same exactly.
     fn moved(&self, place: &Place<'_>, kind: Kind, direction: &[f64]) -> Option<Vec<f64>> {
         let largest = direction.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
         let mut values = place.values.to_vec();
@@ -249,8 +258,11 @@ impl Group {
     /// What moving the parameters one by one would do to the residuals.
     fn expected(&self, direction: &[f64], length: &dyn Fn(usize) -> f64) -> f64 {
         let largest = direction.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
-        let each =
-            self.members.iter().zip(direction).map(|(&i, d)| (MOVED * d / largest * length(i)).powi(2));
+        let each = self
+            .members
+            .iter()
+            .zip(direction)
+            .map(|(&i, d)| (MOVED * d / largest * length(i)).powi(2));
         each.sum::<f64>().sqrt()
     }
 
@@ -285,11 +297,19 @@ mod tests {
                 model(&p)
             };
             let (up, down) = (moved(1.0), moved(-1.0));
-            up.iter().zip(&down).map(|(a, b)| (a - b) / (2.0 * step * values[i])).collect::<Vec<f64>>()
+            up.iter()
+                .zip(&down)
+                .map(|(a, b)| (a - b) / (2.0 * step * values[i]))
+                .collect::<Vec<f64>>()
         };
         let jacobian: Vec<f64> = (0..values.len()).flat_map(by).collect();
-        let place =
-            Place { jacobian: &jacobian, values, scales: values, accuracy: 1e-6, addable: &|_, _| true };
+        let place = Place {
+            jacobian: &jacobian,
+            values,
+            scales: values,
+            accuracy: 1e-6,
+            addable: &|_, _| true,
+        };
         identify(&place, &mut |p| Some(model(p))).unwrap()
     }
 
@@ -302,7 +322,9 @@ mod tests {
     fn a_rise_and_a_time_constant_do_not_tell_three_parameters() {
         // T = P R (1 - exp(-t / (R C)))
         let model = |p: &[f64]| {
-            (1..40).map(|k| p[0] * p[1] * (1.0 - f64::exp(-50.0 * f64::from(k) / (p[1] * p[2])))).collect()
+            (1..40)
+                .map(|k| p[0] * p[1] * (1.0 - f64::exp(-50.0 * f64::from(k) / (p[1] * p[2]))))
+                .collect()
         };
         let found = told(&[220.6, 0.3046, 2659.0], model);
         assert_eq!((found.rank, found.unfelt.len()), (2, 0));
@@ -310,15 +332,20 @@ mod tests {
             names(&found),
             [(Kind::Product, vec![(0, 1), (1, 1)]), (Kind::Product, vec![(1, 1), (2, 1)])]
         );
-        let values: Vec<f64> = found.unseparated[0].determined.iter().flatten().map(|c| c.value).collect();
-        assert!((values[0] - 220.6 * 0.3046).abs() < 1e-9 && (values[1] - 0.3046 * 2659.0).abs() < 1e-9);
+        let values: Vec<f64> =
+            found.unseparated[0].determined.iter().flatten().map(|c| c.value).collect();
+        assert!(
+            (values[0] - 220.6 * 0.3046).abs() < 1e-9 && (values[1] - 0.3046 * 2659.0).abs() < 1e-9
+        );
     }
 
     /// Equal ones too, whose product is stationary as their sum is.
     #[test]
     fn parallel_conductances_are_known_as_a_sum() {
         for values in [[2.0, 2.0, 50.0], [1.3, 4.1, 50.0]] {
-            let model = |p: &[f64]| (1..40).map(|k| f64::exp(-f64::from(k) * (p[0] + p[1]) / p[2])).collect();
+            let model = |p: &[f64]| {
+                (1..40).map(|k| f64::exp(-f64::from(k) * (p[0] + p[1]) / p[2])).collect()
+            };
             let model = |p: &[f64]| -> Vec<f64> {
                 let cooled: Vec<f64> = model(p);
                 cooled.iter().map(|e| (1.0 - e) * 7.0 / (p[0] + p[1])).collect()
@@ -333,17 +360,23 @@ mod tests {
     #[test]
     fn two_pairs_are_two_groups_and_an_idle_parameter_is_named() {
         let model = |p: &[f64]| {
-            (1..30).map(|k| p[0] * p[1] + f64::from(k) * (p[2] + p[3]) + 0.0 * p[4]).collect::<Vec<f64>>()
+            (1..30)
+                .map(|k| p[0] * p[1] + f64::from(k) * (p[2] + p[3]) + 0.0 * p[4])
+                .collect::<Vec<f64>>()
         };
         let found = told(&[3.0, 5.0, 2.0, 7.0, 1.0], model);
         assert_eq!(found.unfelt, [4]);
-        assert_eq!(names(&found), [(Kind::Product, vec![(0, 1), (1, 1)]), (Kind::Sum, vec![(2, 1), (3, 1)])]);
+        assert_eq!(
+            names(&found),
+            [(Kind::Product, vec![(0, 1), (1, 1)]), (Kind::Sum, vec![(2, 1), (3, 1)])]
+        );
         assert_eq!(found.singular_values.len(), 5);
     }
 
     #[test]
     fn what_is_neither_a_product_nor_a_sum_keeps_its_direction() {
-        let model = |p: &[f64]| (1..30).map(|k| f64::from(k) * (p[0] * p[0] + p[1]).sqrt()).collect();
+        let model =
+            |p: &[f64]| (1..30).map(|k| f64::from(k) * (p[0] * p[0] + p[1]).sqrt()).collect();
         let found = told(&[3.0, 5.0], model);
         let group = &found.unseparated[0];
         assert!(group.determined.is_none() && group.missing == 1);

@@ -1,14 +1,15 @@
 //! Parameters of a network from records of its temperatures.
 //!
-//! Residuals are model less record, over the standard deviation of a value where one is given, at every row of every
-//! record; what is known of a parameter beforehand (`±`) counts as one more. Runs are shared out to threads, and nothing
-//! depends on how many there are. Searches begin at the own values and at points between the bounds, on at most 150 rows
-//! of each record; the best goes on with all rows.
+//! Residuals are model less record, over the standard deviation of a value where one is given, at
+//! every row of every record; what is known of a parameter beforehand (`±`) counts as one more.
+//! Runs are shared out to threads, and nothing depends on how many there are. Searches begin at the
+//! own values and at points between the bounds, on at most 150 rows of each record; the best goes
+//! on with all rows.
 //!
-//! Standard errors follow from the residuals as they are, not from the standard deviations given, and know that
-//! neighbours in a record are alike: see [`crate::noise`]. Only where few values are left over they are no smaller
-//! than the standard deviations say. [`Identifiability`] tells what the records cannot
-//! separate.
+//! Standard errors follow from the residuals as they are, not from the standard deviations given,
+//! and know that neighbours in a record are alike: see [`crate::noise`]. Only where few values are
+//! left over they are no smaller than the standard deviations say. [`Identifiability`] tells what
+//! the records cannot separate.
 
 mod combination;
 mod coordinates;
@@ -43,15 +44,16 @@ const TEMPERATURE: f64 = 10.0;
 /// A value below this part of a parameter's size does not measure it.
 const SMALL: f64 = 0.1;
 
-/// How accurate derivatives are, relative: those that come with runs at a tolerance of 1e-7 K, and differences.
+/// How accurate derivatives are, relative: those that come with runs at a tolerance of 1e-7 K, and
+/// differences.
 const EXACT: f64 = 1e-6;
 const DIFFERENCES: f64 = 1e-4;
 
 /// Fits the parameters of a task.
 ///
 /// # Errors
-/// [`NetworkFitError`] for a task that asks for nothing, or where the own values have no run. That the search does not
-/// converge is an answer: [`NetworkFit::not_converged`].
+/// [`NetworkFitError`] for a task that asks for nothing, or where the own values have no run. That
+/// the search does not converge is an answer: [`NetworkFit::not_converged`].
 pub fn fit_network(task: &NetworkFitTask<'_>) -> Result<NetworkFit, NetworkFitError> {
     fit_network_observed(task, &|_, _| Control::Continue)
 }
@@ -65,7 +67,8 @@ pub fn fit_network_observed(
     observer: &FitObserver<'_>,
 ) -> Result<NetworkFit, NetworkFitError> {
     check(task)?;
-    let own: Vec<f64> = task.parameters.iter().map(|v| task.network.parameter_value(v.parameter)).collect();
+    let own: Vec<f64> =
+        task.parameters.iter().map(|v| task.network.parameter_value(v.parameter)).collect();
     let absolute: Vec<bool> = task.parameters.iter().map(|v| is_temperature(task, *v)).collect();
     let sizes = sizes(task, &own);
     let coordinates = Coordinates::new(&task.parameters, &absolute);
@@ -128,8 +131,10 @@ fn check(task: &NetworkFitTask<'_>) -> Result<(), NetworkFitError> {
         return Err(NetworkFitError::NoParameter);
     }
     for run in &task.runs {
-        let span =
-            (run.times.first().copied().unwrap_or(f64::NAN), run.times.last().copied().unwrap_or(f64::NAN));
+        let span = (
+            run.times.first().copied().unwrap_or(f64::NAN),
+            run.times.last().copied().unwrap_or(f64::NAN),
+        );
         let start = run.settings.start;
         if !(span.0 >= start && span.1 > start) {
             return Err(NetworkFitError::Times { record: run.name.clone(), span, start });
@@ -142,7 +147,10 @@ fn check(task: &NetworkFitTask<'_>) -> Result<(), NetworkFitError> {
     }
     let priors = task.parameters.iter().filter(|varied| varied.prior.is_some()).count();
     if values + priors < task.parameters.len() {
-        return Err(NetworkFitError::TooFew { values: values + priors, parameters: task.parameters.len() });
+        return Err(NetworkFitError::TooFew {
+            values: values + priors,
+            parameters: task.parameters.len(),
+        });
     }
     let outside = |varied: &Varied| {
         let own = task.network.parameter_value(varied.parameter);
@@ -163,7 +171,8 @@ fn told_apart(
 ) -> Option<Identifiability> {
     let types: Vec<_> =
         task.parameters.iter().map(|v| task.network.parameters()[v.parameter.index()].ty).collect();
-    // in units of its own value a parameter is seen as its logarithm, unless it drifted to nearly nothing
+    // in units of its own value a parameter is seen as its logarithm, unless it drifted to nearly
+    // nothing
     let scale = |i: usize| match at_end.values[i].abs() {
         size if size > SMALL * sizes[i] && !types[i].absolute => size,
         _ if types[i].absolute => sizes[i],

@@ -22,7 +22,8 @@ pub(crate) struct Block {
     pub(crate) range: Range<usize>,
 }
 
-/// Residuals over their standard deviations, and their derivatives one parameter after the other, in SI units.
+/// Residuals over their standard deviations, and their derivatives one parameter after the other,
+/// in SI units.
 #[derive(Clone, Debug)]
 pub(crate) struct Evaluated {
     pub(crate) values: Vec<f64>,
@@ -60,7 +61,8 @@ impl<'a> Model<'a> {
         coordinates: &'a Coordinates,
         (most, tolerance): (usize, f64),
     ) -> Self {
-        let rows: Vec<Vec<usize>> = task.runs.iter().map(|run| chosen(run.times.len(), most)).collect();
+        let rows: Vec<Vec<usize>> =
+            task.runs.iter().map(|run| chosen(run.times.len(), most)).collect();
         let blocks = blocks(task, &rows);
         let stage = FitStage { search: 0, of: 1, evaluations: 0 };
         Self {
@@ -152,7 +154,8 @@ impl<'a> Model<'a> {
                 let rows = run.residuals.len();
                 jacobian.extend_from_slice(&run.jacobian[j * rows..(j + 1) * rows]);
             }
-            jacobian.extend(priors.iter().map(|&(i, _, sigma)| if i == j { 1.0 / sigma } else { 0.0 }));
+            jacobian
+                .extend(priors.iter().map(|&(i, _, sigma)| if i == j { 1.0 / sigma } else { 0.0 }));
         }
         Evaluated { values: values.to_vec(), residuals, jacobian }
     }
@@ -169,17 +172,23 @@ impl<'a> Model<'a> {
     fn run(&self, i: usize, values: &[f64]) -> Result<Measure, SensitiveError> {
         let (run, rows) = (&self.task.runs[i], &self.rows[i]);
         let network = self.task.network_of(run, values)?;
-        let ids: Vec<ParameterId> = self.task.parameters.iter().map(|varied| varied.parameter).collect();
+        let ids: Vec<ParameterId> =
+            self.task.parameters.iter().map(|varied| varied.parameter).collect();
         let (settings, stage) = (settings(run, rows, self.tolerance), self.stage_now());
-        let found =
-            sensitive_run_observed(&network, (&settings, &ids), &|step| (self.observer)(stage, step))?;
+        let found = sensitive_run_observed(&network, (&settings, &ids), &|step| {
+            (self.observer)(stage, step)
+        })?;
         Ok(measure(run, rows, (&found, &ids)))
     }
 }
 
 impl NetworkFitTask<'_> {
     /// The network of one record with values of the varied parameters in SI units.
-    pub(crate) fn network_of(&self, run: &MeasuredRun, values: &[f64]) -> Result<Network, SensitiveError> {
+    pub(crate) fn network_of(
+        &self,
+        run: &MeasuredRun,
+        values: &[f64],
+    ) -> Result<Network, SensitiveError> {
         let mut parameters = run.parameters.clone();
         self.parameters
             .iter()
@@ -221,7 +230,8 @@ fn blocks(task: &NetworkFitTask<'_>, rows: &[Vec<usize>]) -> Vec<Block> {
 fn settings(run: &MeasuredRun, rows: &[usize], tolerance: f64) -> Transient {
     let start = run.settings.start;
     let stop = rows.last().map_or(start, |&row| run.times[row]);
-    let between = rows.iter().map(|&row| run.times[row]).filter(|&time| time > start && time < stop);
+    let between =
+        rows.iter().map(|&row| run.times[row]).filter(|&time| time > start && time < stop);
     Transient {
         stop,
         output: OutputTimes::At(between.collect()),
@@ -234,7 +244,11 @@ fn settings(run: &MeasuredRun, rows: &[usize], tolerance: f64) -> Transient {
     }
 }
 
-fn measure(run: &MeasuredRun, rows: &[usize], (found, ids): (&SensitiveRun, &[ParameterId])) -> Measure {
+fn measure(
+    run: &MeasuredRun,
+    rows: &[usize],
+    (found, ids): (&SensitiveRun, &[ParameterId]),
+) -> Measure {
     let solution = &found.solution;
     // the run has one more row where the record does not begin at its start
     let skipped = solution.times().len() - rows.len();
@@ -242,8 +256,10 @@ fn measure(run: &MeasuredRun, rows: &[usize], (found, ids): (&SensitiveRun, &[Pa
     let mut measure = Measure { residuals, jacobian, gradient: found.gradient };
     for column in &run.columns {
         let model = combined(column, |node| solution.temperature(node), skipped);
-        let misses =
-            rows.iter().zip(model).map(|(&row, model)| (model - column.values[row]) / column.weight());
+        let misses = rows
+            .iter()
+            .zip(model)
+            .map(|(&row, model)| (model - column.values[row]) / column.weight());
         measure.residuals.extend(misses.filter(|miss| !miss.is_nan()));
     }
     for &id in ids {
@@ -276,14 +292,16 @@ impl Residuals for Model<'_> {
         self.task.parameters.len()
     }
 
-    /// Derivatives come with the runs at little cost, so they are always computed: the next call may ask for them.
+    /// Derivatives come with the runs at little cost, so they are always computed: the next call
+    /// may ask for them.
     fn evaluate(&mut self, p: &[f64], _: bool) -> least_squares::Evaluated {
         let (values, slopes) = self.coordinates.values(p);
         let count = self.data() + self.priors().len();
         match self.at(&values) {
             Ok(found) => {
                 let columns = found.jacobian.chunks(found.residuals.len().max(1)).zip(slopes);
-                let scaled = columns.flat_map(|(column, slope)| column.iter().map(move |x| x * slope));
+                let scaled =
+                    columns.flat_map(|(column, slope)| column.iter().map(move |x| x * slope));
                 Ok((found.residuals.clone(), scaled.collect()))
             }
             Err((_, SensitiveError::Interrupted)) => Err(LeastSquaresError::Interrupted),

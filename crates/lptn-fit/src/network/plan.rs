@@ -10,33 +10,46 @@ use crate::network::task::{Measured, MeasuredRun, NetworkFitTask};
 /// Searches that begin between the bounds, where the netlist does not say.
 const MORE_STARTS: usize = 4;
 
-/// A temperature that nodes are thought to have while an expression is looked at, in K. Powers of 2 keep sums exact.
+/// A temperature that nodes are thought to have while an expression is looked at, in K. Powers of 2
+/// keep sums exact.
 const BASE: f64 = 256.0;
 
 /// By how much one of them is raised.
 const RAISED: f64 = 64.0;
 
 impl<'a> NetworkFitTask<'a> {
-    /// The task of a study: each record is a run of the network that begins at `[run] start` (0 s without one), and the
-    /// times of its rows are times of that run.
+    /// The task of a study: each record is a run of the network that begins at `[run] start` (0 s
+    /// without one), and the times of its rows are times of that run.
     ///
     /// # Errors
-    /// [`NetworkFitError`] for a result that is not a temperature of a node or a mean of some, and what the evaluation of the
-    /// study's numbers reports.
-    pub fn of(netlist: &'a Netlist, study: &FitStudy, threads: usize) -> Result<Self, NetworkFitError> {
+    /// [`NetworkFitError`] for a result that is not a temperature of a node or a mean of some, and
+    /// what the evaluation of the study's numbers reports.
+    pub fn of(
+        netlist: &'a Netlist,
+        study: &FitStudy,
+        threads: usize,
+    ) -> Result<Self, NetworkFitError> {
         let network = &netlist.network;
         let plan = study.plan(network, &netlist.overrides())?;
         let settings = netlist
             .run
             .as_ref()
             .map_or_else(|| Transient::until(Time(1.0)), |run| Transient::of(network, run));
-        let of: Vec<_> = study.observed.iter().map(|o| weights(network, o)).collect::<Result<_, _>>()?;
+        let of: Vec<_> =
+            study.observed.iter().map(|o| weights(network, o)).collect::<Result<_, _>>()?;
         let mut runs = Vec::with_capacity(study.records.len());
         for (record, parameters) in study.records.iter().zip(plan.parameters) {
             let column = |(i, observed): (usize, &Observed)| {
-                let values =
-                    record.record.column(&observed.column).map_or_else(Vec::new, |c| c.values.clone());
-                Measured { name: observed.column.clone(), of: of[i].clone(), sigma: plan.sigmas[i], values }
+                let values = record
+                    .record
+                    .column(&observed.column)
+                    .map_or_else(Vec::new, |c| c.values.clone());
+                Measured {
+                    name: observed.column.clone(),
+                    of: of[i].clone(),
+                    sigma: plan.sigmas[i],
+                    values,
+                }
             };
             runs.push(MeasuredRun {
                 name: record.csv.clone(),
@@ -55,17 +68,20 @@ fn weights(network: &Network, observed: &Observed) -> Result<Vec<(NodeId, f64)>,
     if let Some(End::Node(node)) = observed.end {
         return Ok(vec![(node, 1.0)]);
     }
-    let refused =
-        || NetworkFitError::Observed { column: observed.column.clone(), result: observed.text.clone() };
+    let refused = || NetworkFitError::Observed {
+        column: observed.column.clone(),
+        result: observed.text.clone(),
+    };
     if !observed.ty.absolute {
         return Err(refused());
     }
     linear(network, observed).ok_or_else(refused)
 }
 
-/// The factors of a result that is a weighted sum of temperatures of nodes. What it reads is known from its code:
-/// a parameter that is 0 now may be another number later. The factors are found by raising the temperatures one after
-/// the other; a result that answers otherwise when all are raised by different amounts is not such a sum.
+/// The factors of a result that is a weighted sum of temperatures of nodes. What it reads is known
+/// from its code: a parameter that is 0 now may be another number later. The factors are found by
+/// raising the temperatures one after the other; a result that answers otherwise when all are
+/// raised by different amounts is not such a sum.
 fn linear(network: &Network, observed: &Observed) -> Option<Vec<(NodeId, f64)>> {
     if !network.reads_node_temperatures_only(&observed.value) {
         return None;
@@ -94,5 +110,6 @@ fn linear(network: &Network, observed: &Observed) -> Option<Vec<(NodeId, f64)>> 
         (0..count).map(|i| BASE + RAISED * (1.0 + (i % 7) as f64 - (i % 3) as f64)).collect();
     let sum: f64 = weights.iter().map(|(id, weight)| weight * uneven[id.index()]).sum();
     let is_sum = |value: f64| (value - sum).abs() <= 1e-12 * sum.abs();
-    (!weights.is_empty() && is_sum(at(&uneven, BASE)?) && is_sum(at(&uneven, 2.0 * BASE)?)).then_some(weights)
+    (!weights.is_empty() && is_sum(at(&uneven, BASE)?) && is_sum(at(&uneven, 2.0 * BASE)?))
+        .then_some(weights)
 }

@@ -55,15 +55,20 @@ pub(crate) fn search<'a>(
     coordinates: &'a Coordinates,
     own: &[f64],
 ) -> Result<Found<'a>, NetworkFitError> {
-    let tolerance = |least: f64| task.runs.iter().fold(least, |t, run| t.min(run.settings.tolerance));
+    let tolerance =
+        |least: f64| task.runs.iter().fold(least, |t, run| t.min(run.settings.tolerance));
     let starts = starts(task, coordinates, own);
-    let mut coarse = Model::new((task, observer), coordinates, (COARSE_ROWS, tolerance(TOLERANCES[0])));
+    let mut coarse =
+        Model::new((task, observer), coordinates, (COARSE_ROWS, tolerance(TOLERANCES[0])));
     coarse.stage = FitStage { search: 1, of: starts.len(), evaluations: 0 };
     if let Err((run, error)) = coarse.at(own) {
         if let SensitiveError::Interrupted = error {
             return Err(coarse.broken_off());
         }
-        return Err(NetworkFitError::Start { record: task.runs[run].name.clone(), error: Box::new(error) });
+        return Err(NetworkFitError::Start {
+            record: task.runs[run].name.clone(),
+            error: Box::new(error),
+        });
     }
     let gradient = coarse.gradient.unwrap_or(Gradient::Exact);
     let settings = |gradient: f64, step: f64| Settings {
@@ -80,7 +85,8 @@ pub(crate) fn search<'a>(
         ends.push(search.map_err(|error| coarse.ended(error))?);
     }
     let (best, starts) = best(&ends, &coarse, tolerance(TOLERANCES[0]));
-    let mut model = Model::new((task, observer), coordinates, (usize::MAX, tolerance(TOLERANCES[1])));
+    let mut model =
+        Model::new((task, observer), coordinates, (usize::MAX, tolerance(TOLERANCES[1])));
     model.best = Some((f64::INFINITY, coordinates.values(&ends[best].parameters).0));
     model.stage = FitStage { search: 0, ..coarse.stage_now() };
     let exact = match gradient {
@@ -93,15 +99,16 @@ pub(crate) fn search<'a>(
     Ok(Found { estimate, outcome, starts, gradient, searches: coarse.evaluations, model })
 }
 
-/// The own values, then points of a scrambled Sobol sequence between the bounds (A. B. Owen, in Monte Carlo and
-/// Quasi-Monte Carlo Methods in Scientific Computing, 1995, 299).
+/// The own values, then points of a scrambled Sobol sequence between the bounds (A. B. Owen, in
+/// Monte Carlo and Quasi-Monte Carlo Methods in Scientific Computing, 1995, 299).
 fn starts(task: &NetworkFitTask<'_>, coordinates: &Coordinates, own: &[f64]) -> Vec<Vec<f64>> {
     let mut starts = vec![own.to_vec()];
     if (0..own.len()).any(|j| coordinates.is_bounded(j)) {
         let more = u32::try_from(task.more_starts).unwrap_or(u32::MAX);
         starts.extend((0..more).map(|k| {
-            let share =
-                |j: usize| f64::from(sobol_burley::sample(k, u32::try_from(j % 256).unwrap_or(0), SEED));
+            let share = |j: usize| {
+                f64::from(sobol_burley::sample(k, u32::try_from(j % 256).unwrap_or(0), SEED))
+            };
             let shares: Vec<f64> = (0..own.len()).map(share).collect();
             coordinates.between(&shares, own)
         }));
@@ -137,14 +144,17 @@ fn removable(end: &Estimate) -> f64 {
     end.offset * end.squares.sqrt()
 }
 
-/// A search that gets no further because what is left to remove is less than the errors of the runs is at its minimum.
+/// A search that gets no further because what is left to remove is less than the errors of the runs
+/// is at its minimum.
 fn outcome(end: &Estimate, floor: f64, gradient: &Gradient) -> Result<(), Stop> {
     /// Differences of runs are no more accurate than this.
     const DIFFERENCES: f64 = 1e-3;
     match end.outcome {
         Outcome::Converged(_) => Ok(()),
         Outcome::NotConverged(_) if removable(end) <= floor => Ok(()),
-        Outcome::NotConverged(Stop::Stalled) if *gradient != Gradient::Exact && end.offset <= DIFFERENCES => {
+        Outcome::NotConverged(Stop::Stalled)
+            if *gradient != Gradient::Exact && end.offset <= DIFFERENCES =>
+        {
             Ok(())
         }
         Outcome::NotConverged(stop) => Err(stop),

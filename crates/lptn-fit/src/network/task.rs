@@ -49,11 +49,13 @@ pub type FitObserver<'a> = dyn Fn(FitStage, Progress) -> Control + Sync + 'a;
 pub struct MeasuredRun {
     /// The name of the record.
     pub name: String,
-    /// The values that the parameters have in this run, but for the varied ones; see [`Network::overrides`].
+    /// The values that the parameters have in this run, but for the varied ones; see
+    /// [`Network::overrides`].
     pub parameters: Parameters,
     /// Start and controls of the run; its stop, rows and tolerance follow from the record.
     pub settings: Transient,
-    /// The times of the rows in s, ascending, on the clock of the run: none before its start, at least one behind it.
+    /// The times of the rows in s, ascending, on the clock of the run: none before its start, at
+    /// least one behind it.
     pub times: Vec<f64>,
     /// What was measured.
     pub columns: Vec<Measured>,
@@ -82,8 +84,11 @@ impl Measured {
 impl MeasuredRun {
     /// The nodes that its columns need, ascending.
     pub(crate) fn nodes(&self) -> Vec<NodeId> {
-        let mut nodes: Vec<NodeId> =
-            self.columns.iter().flat_map(|column| column.of.iter().map(|(node, _)| *node)).collect();
+        let mut nodes: Vec<NodeId> = self
+            .columns
+            .iter()
+            .flat_map(|column| column.of.iter().map(|(node, _)| *node))
+            .collect();
         nodes.sort_unstable();
         nodes.dedup();
         nodes

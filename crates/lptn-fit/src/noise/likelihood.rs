@@ -20,8 +20,8 @@ pub(crate) struct Shape {
 impl Shape {
     pub(crate) const WHITE: Self = Self { correlated: 0.0, time: 0.0 };
 
-    /// From `ln theta` and the logit of c over its greatest value: at that the spectrum of samples `spacing` apart is 0
-    /// at its upper end.
+    /// From `ln theta` and the logit of c over its greatest value: at that the spectrum of samples
+    /// `spacing` apart is 0 at its upper end.
     pub(crate) fn at([time, logit]: [f64; 2], spacing: f64) -> Self {
         let decay = (-spacing / time.exp()).exp();
         let most = (1.0 + decay) / (2.0 * decay).max(1e-12);
@@ -95,15 +95,17 @@ impl Likelihood {
         let (whitened, determinant) = self.filtered(shape);
         let width = self.rank + 1;
         let column = |j: usize| &whitened[j * self.times.len()..][..self.times.len()];
-        let product =
-            |i: usize, j: usize| -> f64 { column(i).iter().zip(column(j)).map(|(a, b)| a * b).sum() };
+        let product = |i: usize, j: usize| -> f64 {
+            column(i).iter().zip(column(j)).map(|(a, b)| a * b).sum()
+        };
         let mut gram = Mat::zeros(width, width);
         for i in 0..width {
             for j in 0..=i {
                 gram[(i, j)] = product(i, j);
             }
         }
-        let nowhere = Value { restricted: f64::INFINITY, whole: f64::INFINITY, deviation: f64::NAN };
+        let nowhere =
+            Value { restricted: f64::INFINITY, whole: f64::INFINITY, deviation: f64::NAN };
         let Some(diagonal) = dense::cholesky_diagonal(gram.as_ref()) else { return nowhere };
         let squares = diagonal[self.rank] * diagonal[self.rank];
         let free = self.count() - self.rank as f64;
@@ -115,14 +117,16 @@ impl Likelihood {
         }
     }
 
-    /// The series less what the filter foretells, over the deviation of that; and the logarithm of the determinant.
+    /// The series less what the filter foretells, over the deviation of that; and the logarithm of
+    /// the determinant.
     fn filtered(&self, shape: Shape) -> (Vec<f64>, f64) {
         let gains = Gains::new(&self.times, shape);
         let n = self.times.len();
         let mut whitened = vec![0.0; self.series.len() * LANES * n];
         for (group, out) in self.series.iter().zip(whitened.chunks_mut(LANES * n)) {
             let mut state = [0.0; LANES];
-            for (i, (values, &[decay, gain, weight])) in group.iter().zip(&gains.steps).enumerate() {
+            for (i, (values, &[decay, gain, weight])) in group.iter().zip(&gains.steps).enumerate()
+            {
                 for l in 0..LANES {
                     let foretold = decay * state[l];
                     let miss = values[l] - foretold;
@@ -139,7 +143,8 @@ impl Likelihood {
         let length = self.times[self.times.len() - 1] - self.times[0];
         let (least, most) = ((0.3 * self.spacing).ln(), length.max(self.spacing).ln());
         let at = |p: [f64; 2]| {
-            self.at(Shape::at([p[0].clamp(least, most), p[1].clamp(-7.0, 7.0)], self.spacing)).restricted
+            self.at(Shape::at([p[0].clamp(least, most), p[1].clamp(-7.0, 7.0)], self.spacing))
+                .restricted
         };
         let mut start = ([0.0, 0.0], f64::INFINITY);
         for multiple in [1.0_f64, 4.0, 16.0, 64.0, 256.0] {
@@ -154,17 +159,19 @@ impl Likelihood {
         (place, self.at(Shape::at(place, self.spacing)))
     }
 
-    /// The covariance of `ln theta` and the logit at the greatest likelihood: twice the inverse of the second derivatives
-    /// of what [`Likelihood::at`] gives. A direction in which it does not bend is taken as known: there the noise does
-    /// not depend on it.
+    /// The covariance of `ln theta` and the logit at the greatest likelihood: twice the inverse of
+    /// the second derivatives of what [`Likelihood::at`] gives. A direction in which it does not
+    /// bend is taken as known: there the noise does not depend on it.
     pub(crate) fn spread(&self, [time, logit]: [f64; 2]) -> [[f64; 2]; 2] {
         const STEP: f64 = 0.1;
-        let at =
-            |a: f64, b: f64| self.at(Shape::at([time + a * STEP, logit + b * STEP], self.spacing)).restricted;
+        let at = |a: f64, b: f64| {
+            self.at(Shape::at([time + a * STEP, logit + b * STEP], self.spacing)).restricted
+        };
         let middle = at(0.0, 0.0);
         let bend = |plus: f64, minus: f64| (plus - 2.0 * middle + minus) / (STEP * STEP);
         let (a, d) = (bend(at(1.0, 0.0), at(-1.0, 0.0)), bend(at(0.0, 1.0), at(0.0, -1.0)));
-        let b = (at(1.0, 1.0) - at(1.0, -1.0) - at(-1.0, 1.0) + at(-1.0, -1.0)) / (4.0 * STEP * STEP);
+        let b =
+            (at(1.0, 1.0) - at(1.0, -1.0) - at(-1.0, 1.0) + at(-1.0, -1.0)) / (4.0 * STEP * STEP);
         let determinant = a * d - b * b;
         if a > 1e-3 && d > 1e-3 && determinant > 1e-3 * a * d {
             return [
@@ -177,7 +184,8 @@ impl Likelihood {
     }
 }
 
-/// The filter's numbers for every sample: how much of the state is left, gain, and weight of what was not foretold.
+/// The filter's numbers for every sample: how much of the state is left, gain, and weight of what
+/// was not foretold.
 struct Gains {
     steps: Vec<[f64; 3]>,
     determinant: f64,
@@ -215,7 +223,8 @@ impl Gains {
     }
 }
 
-/// An orthonormal basis of the columns (Gram and Schmidt, each twice); columns that others make up are left out.
+/// An orthonormal basis of the columns (Gram and Schmidt, each twice); columns that others make up
+/// are left out.
 pub(crate) fn orthonormal(columns: &[f64], rows: usize) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for column in columns.chunks(rows.max(1)) {

@@ -41,13 +41,16 @@ impl Middle {
         Self { values, slopes, spread: noise.spread, free }
     }
 
-    /// The degrees of freedom with which the variance of a quantity is known that has these derivatives by all
-    /// parameters of the fit, `bread` being `(J^T J)^-1`.
+    /// The degrees of freedom with which the variance of a quantity is known that has these
+    /// derivatives by all parameters of the fit, `bread` being `(J^T J)^-1`.
     pub fn degrees_of_freedom(&self, bread: &Covariance, gradient: &[f64]) -> f64 {
         let n = bread.parameters.len();
-        let weight = |i: usize| (0..n).map(|j| bread.values[i * n + j] * gradient[bread.parameters[j]]).sum();
+        let weight = |i: usize| {
+            (0..n).map(|j| bread.values[i * n + j] * gradient[bread.parameters[j]]).sum()
+        };
         let weights: Vec<f64> = (0..n).map(weight).collect();
-        let form = |m: &[f64]| (0..n * n).map(|at| weights[at / n] * m[at] * weights[at % n]).sum::<f64>();
+        let form =
+            |m: &[f64]| (0..n * n).map(|at| weights[at / n] * m[at] * weights[at % n]).sum::<f64>();
         let variance = form(&self.values);
         if variance <= 0.0 {
             return self.free;
@@ -59,7 +62,8 @@ impl Middle {
     }
 }
 
-/// `J^T V J` with V of unit variance, row by row: exponential correlations add up from sample to sample.
+/// `J^T V J` with V of unit variance, row by row: exponential correlations add up from sample to
+/// sample.
 pub(super) fn product(times: &[f64], jacobian: &[f64], shape: Shape) -> Vec<f64> {
     let rows = times.len();
     let n = jacobian.len() / rows.max(1);

@@ -1,24 +1,28 @@
 //! Standard errors where residuals depend on those before them.
 //!
-//! Least squares takes residuals as independent. Those of a thermocouple are not: they drift, and the rounding of the
-//! instrument adds a part that hides the drift from an estimate by the correlation of neighbours (a plain AR(1)
-//! correction). What a fit feels is the slow part of the noise alone. So it is the means of stretches of the record
-//! (some 400 of them) that get a model, with a correlated and a white part,
+//! Least squares takes residuals as independent. Those of a thermocouple are not: they drift, and
+//! the rounding of the instrument adds a part that hides the drift from an estimate by the
+//! correlation of neighbours (a plain AR(1) correction). What a fit feels is the slow part of the
+//! noise alone. So it is the means of stretches of the record (some 400 of them) that get a model,
+//! with a correlated and a white part,
 //!
 //! ```text
 //! covariance(e(t), e(t')) = s^2 (c exp(-|t - t'| / theta) + (1 - c) [t = t'])
 //! ```
 //!
-//! which on an even grid of times is an ARMA(1,1) process, with c up to where its spectrum would fall below 0; what happens inside a stretch need not be modelled. `s`, `c` and `theta` maximise the *restricted* likelihood (H. D.
-//! Patterson, R. Thompson, Biometrika 58 (1971) 545; D. A. Harville, J. Am. Stat. Assoc. 72 (1977) 320): that of what the
-//! fitted parameters could not remove, so that variance and correlation are not biased low by the fit. It is computed
-//! by a Kalman filter over the samples (A. C. Harvey, Forecasting, Structural Time Series Models and the Kalman Filter,
-//! 1989, chapter 3), for any times, so gaps need no treatment.
+//! which on an even grid of times is an ARMA(1,1) process, with c up to where its spectrum would
+//! fall below 0; what happens inside a stretch need not be modelled. `s`, `c` and `theta` maximise
+//! the *restricted* likelihood (H. D. Patterson, R. Thompson, Biometrika 58 (1971) 545; D. A.
+//! Harville, J. Am. Stat. Assoc. 72 (1977) 320): that of what the fitted parameters could not
+//! remove, so that variance and correlation are not biased low by the fit. It is computed by a
+//! Kalman filter over the samples (A. C. Harvey, Forecasting, Structural Time Series Models and the
+//! Kalman Filter, 1989, chapter 3), for any times, so gaps need no treatment.
 //!
-//! The covariance of the parameters is the sandwich `(J^T J)^-1 J^T Omega J (J^T J)^-1`, exact for least squares with
-//! residuals of covariance Omega. How well the variance itself is known is counted in degrees of freedom after F. E.
-//! Satterthwaite (Biometrics Bulletin 2 (1946) 110), from the curvature of the restricted likelihood, and gives the
-//! quantile of Student's t that an interval takes.
+//! The covariance of the parameters is the sandwich `(J^T J)^-1 J^T Omega J (J^T J)^-1`, exact for
+//! least squares with residuals of covariance Omega. How well the variance itself is known is
+//! counted in degrees of freedom after F. E. Satterthwaite (Biometrics Bulletin 2 (1946) 110), from
+//! the curvature of the restricted likelihood, and gives the quantile of Student's t that an
+//! interval takes.
 
 mod likelihood;
 mod middle;
@@ -36,8 +40,8 @@ pub use resolution::resolution;
 /// The random part of a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Noise {
-    /// Its standard deviation, in the unit of the residuals: root of the sum of their squares over the number of samples
-    /// less that of fitted parameters.
+    /// Its standard deviation, in the unit of the residuals: root of the sum of their squares over
+    /// the number of samples less that of fitted parameters.
     pub deviation: f64,
     /// Number of samples.
     pub samples: usize,
@@ -49,7 +53,8 @@ pub struct Noise {
     pub means: Means,
     /// Fitted parameters that the residuals feel.
     rank: usize,
-    /// Where the likelihood is greatest, the covariance of these two numbers, and the distance of two means in s.
+    /// Where the likelihood is greatest, the covariance of these two numbers, and the distance of
+    /// two means in s.
     place: [f64; 2],
     spread: [[f64; 2]; 2],
     spacing: f64,
@@ -60,28 +65,34 @@ pub struct Noise {
 pub struct Means {
     /// Standard deviation `s`, in the unit of the residuals.
     pub deviation: f64,
-    /// The factor `c` of the correlation. Above 1 where means of neighbours have more in common than what is left of it
-    /// from stretch to stretch.
+    /// The factor `c` of the correlation. Above 1 where means of neighbours have more in common
+    /// than what is left of it from stretch to stretch.
     pub correlated: f64,
-    /// The time `theta` in s in which that part's correlation falls to 1/e; 0 where nothing is correlated.
+    /// The time `theta` in s in which that part's correlation falls to 1/e; 0 where nothing is
+    /// correlated.
     pub time: f64,
-    /// Twice the negative logarithm of the likelihood (of the means, not the restricted one), up to a constant of their
-    /// number: to compare models of one record.
+    /// Twice the negative logarithm of the likelihood (of the means, not the restricted one), up to
+    /// a constant of their number: to compare models of one record.
     pub misfit: f64,
 }
 
 impl Noise {
-    /// From the `residuals` of a fit at ascending `times` in s and their derivatives by the fitted parameters, one
-    /// parameter after the other.
+    /// From the `residuals` of a fit at ascending `times` in s and their derivatives by the fitted
+    /// parameters, one parameter after the other.
     ///
-    /// White noise is taken where the two more numbers do not lower Akaike's criterion. Residuals that are all 0 have
-    /// deviation 0.
+    /// White noise is taken where the two more numbers do not lower Akaike's criterion. Residuals
+    /// that are all 0 have deviation 0.
     pub fn estimate(times: &[f64], residuals: &[f64], jacobian: &[f64]) -> Self {
         Self::of_stretches(times, residuals, jacobian, stretches::size(times.len(), jacobian))
     }
 
     /// As [`Noise::estimate`], with stretches of `stretch` samples.
-    pub(crate) fn of_stretches(times: &[f64], residuals: &[f64], jacobian: &[f64], stretch: usize) -> Self {
+    pub(crate) fn of_stretches(
+        times: &[f64],
+        residuals: &[f64],
+        jacobian: &[f64],
+        stretch: usize,
+    ) -> Self {
         let rows = times.len();
         let likelihood = Likelihood::new(
             &stretches::means(times, stretch),
@@ -92,7 +103,8 @@ impl Noise {
         let rank = likelihood.rank();
         let deviation = (squares / rows.saturating_sub(rank).max(1) as f64).sqrt();
         let white = likelihood.at(Shape::WHITE);
-        let whole = Means { deviation: white.deviation, correlated: 0.0, time: 0.0, misfit: white.whole };
+        let whole =
+            Means { deviation: white.deviation, correlated: 0.0, time: 0.0, misfit: white.whole };
         let samples = rows;
         let mut noise = Self {
             deviation,
@@ -133,7 +145,8 @@ impl Noise {
         let ones = vec![1.0; likelihood.times().len()];
         let of_mean = middle::product(likelihood.times(), &ones, shape)[0] / (count * count);
         let variance = self.means.deviation * self.means.deviation * of_mean;
-        self.effective = (self.deviation * self.deviation / variance).clamp(1.0, self.samples as f64);
+        self.effective =
+            (self.deviation * self.deviation / variance).clamp(1.0, self.samples as f64);
     }
 
     /// `J^T Omega J`, which the sandwich holds, with how it changes with what was estimated.

@@ -2,8 +2,9 @@
 
 use lptn_units::statistics::NORMAL_95;
 
-/// The t that a variable of Student's distribution with so many degrees of freedom (at least 1) exceeds in size with
-/// probability 5 %: 1.96 for many, 12.7 for one. To 1e-4 of itself from 2 on; below, between the two exact values.
+/// The t that a variable of Student's distribution with so many degrees of freedom (at least 1)
+/// exceeds in size with probability 5 %: 1.96 for many, 12.7 for one. To 1e-4 of itself from 2 on;
+/// below, between the two exact values.
 ///
 /// G. W. Hill, Algorithm 396, Communications of the ACM 13 (1970) 619.
 pub fn student_95(degrees: f64) -> f64 {

@@ -1,7 +1,7 @@
 //! The minimum of a function of two numbers without its derivatives.
 
-/// By the simplex of J. A. Nelder and R. Mead (Computer Journal 7 (1965) 308), to 1e-3 of the function and 1e-2 of the
-/// numbers, both of order 1, or 80 evaluations.
+/// By the simplex of J. A. Nelder and R. Mead (Computer Journal 7 (1965) 308), to 1e-3 of the
+/// function and 1e-2 of the numbers, both of order 1, or 80 evaluations.
 pub(super) fn minimum(function: impl Fn([f64; 2]) -> f64, start: [f64; 2]) -> [f64; 2] {
     let at = |p: [f64; 2]| (p, function(p));
     let mut corners = [at(start), at([start[0] + 0.6, start[1]]), at([start[0], start[1] + 0.6])];

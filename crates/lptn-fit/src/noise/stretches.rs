@@ -8,8 +8,8 @@ const STRETCHES: usize = 400;
 /// The part of the derivatives' squares that the means have to keep.
 const KEPT: f64 = 0.9995;
 
-/// The number of samples of one stretch: as many as leave [`STRETCHES`] of them, but so few that the derivatives hardly
-/// change inside one.
+/// The number of samples of one stretch: as many as leave [`STRETCHES`] of them, but so few that
+/// the derivatives hardly change inside one.
 pub(super) fn size(rows: usize, jacobian: &[f64]) -> usize {
     let basis = orthonormal(jacobian, rows);
     let mut size = (rows / STRETCHES).max(1);

@@ -23,19 +23,21 @@ impl Off {
     }
 }
 
-/// The same fit on a network's own answer, without noise, at the record's times: what one exponential gets wrong because
-/// the network has several nodes. It stands apart from the standard errors, which know nothing of it.
+/// The same fit on a network's own answer, without noise, at the record's times: what one
+/// exponential gets wrong because the network has several nodes. It stands apart from the standard
+/// errors, which know nothing of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelBias {
-    /// `T_i`: the port at the first time that is fitted, in K; as fitted for a port without capacity at the start, which
-    /// has no start of its own.
+    /// `T_i`: the port at the first time that is fitted, in K; as fitted for a port without
+    /// capacity at the start, which has no start of its own.
     pub initial: Off,
     /// `T_f`: the port in steady state with the inputs of the start, in K.
     pub settled: Off,
     /// `t_RC`: `C_sum R_eq` of the network at the port, in s.
     pub tau: Off,
-    /// `P`: the heat that the port feels, in W, against `C_sum (T_f - T_i) / t_RC`; where the record is cut, with the
-    /// port's temperature at the start of the run for `T_i`: that of the cut gives no heat.
+    /// `P`: the heat that the port feels, in W, against `C_sum (T_f - T_i) / t_RC`; where the
+    /// record is cut, with the port's temperature at the start of the run for `T_i`: that of the
+    /// cut gives no heat.
     pub power: Off,
     /// `C_sum` in J/K: the sum of the capacities that heat from the port reaches.
     pub capacity: f64,
@@ -58,12 +60,13 @@ struct Seen {
 }
 
 impl ModelBias {
-    /// Runs the network from its own start, which is the time `begin` of the record, through the `times` of the record
-    /// that are fitted (in s), with the other settings of `run`, and fits the port.
+    /// Runs the network from its own start, which is the time `begin` of the record, through the
+    /// `times` of the record that are fitted (in s), with the other settings of `run`, and fits the
+    /// port.
     ///
     /// # Errors
-    /// [`StepError::Model`] if the network has no equivalent at the port or its run fails, [`StepError::Fit`] if its
-    /// answer has no exponential.
+    /// [`StepError::Model`] if the network has no equivalent at the port or its run fails,
+    /// [`StepError::Fit`] if its answer has no exponential.
     pub fn new(
         system: &ThermalSystem,
         port: NodeId,
@@ -72,7 +75,9 @@ impl ModelBias {
     ) -> Result<Self, StepError> {
         let norton = NortonEquivalent::new(system, port).map_err(StepError::Model)?;
         let seen = Seen::new(system, port, run, (begin, times))?;
-        let inputs = norton.inputs(system, run.start).map_err(|e| StepError::Model(ReduceError::Input(e)))?;
+        let inputs = norton
+            .inputs(system, run.start)
+            .map_err(|e| StepError::Model(ReduceError::Input(e)))?;
         let fit = &seen.fit;
         let massless = system.network().nodes()[port.index()].massless;
         let first = if massless && !seen.cut { fit.initial } else { seen.first };
@@ -107,7 +112,8 @@ impl Seen {
         // a run has a row at its start, whether or not it is among those that are asked for
         let skipped = solution.times().partition_point(|&t| t < first);
         let times: Vec<f64> = solution.times()[skipped..].iter().map(|t| t - first).collect();
-        let (&start, &at_first) = temperatures.first().zip(temperatures.get(skipped)).ok_or_else(few)?;
+        let (&start, &at_first) =
+            temperatures.first().zip(temperatures.get(skipped)).ok_or_else(few)?;
         let fit = fit_exponential(&times, &temperatures[skipped..]).map_err(StepError::Fit)?;
         Ok(Self { start, fit, first: at_first, cut: skipped > 0 })
     }

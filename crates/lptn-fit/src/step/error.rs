@@ -39,14 +39,16 @@ pub enum StepError {
             FitError::NoCurvature { .. } => Some(LONGER.to_owned()),
             error => error.help(),
         }, class error.class();
-    /// The record stands still at its least or greatest value in K, between these times in s, while it changes beside.
+    /// The record stands still at its least or greatest value in K, between these times in s, while
+    /// it changes beside.
     Saturated { value: f64, from: f64, to: f64, samples: usize } = "fit::saturated",
         format!(
             "the record stands still at its extreme value from {from} s to {to} s ({samples} samples) while it changes beside: \
              the instrument was at the end of its range, or the step began later"
         ),
         help format!("leave {from} s to {to} s out of the record");
-    /// The record does not tell `T_i`, `T_f` and `t_RC`: the time constant in s at which it does not, and what is missing.
+    /// The record does not tell `T_i`, `T_f` and `t_RC`: the time constant in s at which it does
+    /// not, and what is missing.
     Undetermined { tau: f64, lack: Lack } = "fit::undetermined", lack.explain(*tau), help lack.help(), class Class::Numbers;
     /// The reference column has no samples.
     Reference = "fit::no_reference", "the reference column has no samples";
@@ -89,4 +91,5 @@ impl Lack {
     }
 }
 
-const LONGER: &str = "a longer record, until the temperature bends towards its end, tells T_f and t_RC apart";
+const LONGER: &str =
+    "a longer record, until the temperature bends towards its end, tells T_f and t_RC apart";

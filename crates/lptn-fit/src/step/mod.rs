@@ -1,11 +1,12 @@
 //! The seed paper's fit: one exponential through the record of a thermocouple.
 //!
-//! `T(t) = T_f + (T_i - T_f) exp(-t / t_RC)` (the paper's equation 10, which prints `T_i` and `T_f` exchanged) by least
-//! squares: [`StepFit`]. With a capacity follow `R_eq = t_RC / C` and `P = dT / R_eq` (equations 8 and 11): [`Power`].
-//! With a model follows what the method itself gets wrong of it: [`ModelBias`]. Without one, no error that is stated here
-//! includes that bias.
+//! `T(t) = T_f + (T_i - T_f) exp(-t / t_RC)` (the paper's equation 10, which prints `T_i` and `T_f`
+//! exchanged) by least squares: [`StepFit`]. With a capacity follow `R_eq = t_RC / C` and
+//! `P = dT / R_eq` (equations 8 and 11): [`Power`]. With a model follows what the method itself
+//! gets wrong of it: [`ModelBias`]. Without one, no error that is stated here includes that bias.
 //!
-//! Units: s, K, W, J/K. Temperatures may be on any scale with kelvins as steps; differences come out the same.
+//! Units: s, K, W, J/K. Temperatures may be on any scale with kelvins as steps; differences come
+//! out the same.
 
 mod bias;
 mod error;
@@ -34,7 +35,8 @@ pub struct Estimated {
     pub value: f64,
     /// Its standard error, corrected for residuals that depend on each other.
     pub standard_error: f64,
-    /// What the error would be if every sample were independent of the others: for comparison, it is too small.
+    /// What the error would be if every sample were independent of the others: for comparison, it
+    /// is too small.
     pub naive: f64,
     /// Half the width of the 95 % interval: the error times the quantile of Student's t.
     pub half_width: f64,
@@ -66,16 +68,16 @@ pub struct StepFit {
     pub gaps: usize,
     /// From the first to the last sample, in s.
     pub length: f64,
-    /// How far `T_f` lies beyond the curve's end, in K: where the record is shorter than [`LONG_ENOUGH`] time constants,
-    /// that much is extrapolated.
+    /// How far `T_f` lies beyond the curve's end, in K: where the record is shorter than
+    /// [`LONG_ENOUGH`] time constants, that much is extrapolated.
     pub beyond: f64,
     /// The random part of the record.
     pub noise: Noise,
     /// The step of the instrument's numbers in K, where they have one.
     pub resolution: Option<f64>,
-    /// Whether the residuals are little more than the rounding to that step. It then follows the curve and does not
-    /// average out as noise does: the intervals hold the truth less often than they say (in 86 of 100 records with a
-    /// step of five deviations of slow noise).
+    /// Whether the residuals are little more than the rounding to that step. It then follows the
+    /// curve and does not average out as noise does: the intervals hold the truth less often than
+    /// they say (in 86 of 100 records with a step of five deviations of slow noise).
     pub coarse: bool,
     /// Whether the residuals ask for a second exponential.
     pub second: Asked,
@@ -96,8 +98,8 @@ struct Random {
 }
 
 impl Random {
-    /// From the derivatives of residuals at these times, one number after the other; `None` where they do not determine
-    /// all numbers.
+    /// From the derivatives of residuals at these times, one number after the other; `None` where
+    /// they do not determine all numbers.
     fn new(times: &[f64], jacobian: &[f64], noise: &Noise) -> Option<Self> {
         let all: Vec<usize> = (0..jacobian.len() / times.len()).collect();
         let bread = Covariance::inverse(jacobian, times.len(), &all)?;
@@ -117,7 +119,8 @@ impl Random {
 }
 
 impl StepFit {
-    /// Fits a column: `temperatures` in K at strictly ascending `times` in s, NaN where there is none.
+    /// Fits a column: `temperatures` in K at strictly ascending `times` in s, NaN where there is
+    /// none.
     ///
     /// # Errors
     /// [`StepError`]
@@ -127,7 +130,8 @@ impl StepFit {
         }
         let first = times.first().copied().unwrap_or(0.0);
         let rows = times.iter().zip(temperatures).filter(|(_, value)| !value.is_nan());
-        let (times, values): (Vec<f64>, Vec<f64>) = rows.map(|(t, value)| (t - first, *value)).unzip();
+        let (times, values): (Vec<f64>, Vec<f64>) =
+            rows.map(|(t, value)| (t - first, *value)).unzip();
         let gaps = temperatures.len() - values.len();
         let fit = fit_exponential(&times, &values).map_err(StepError::Fit)?;
         let step = resolution(&values);
@@ -184,9 +188,11 @@ impl StepFit {
 /// What one exponential misses (curve less record), and its derivatives by `T_i`, `T_f` and `t_RC`.
 fn curve(times: &[f64], values: &[f64], [initial, settled, tau]: [f64; 3]) -> (Vec<f64>, Vec<f64>) {
     let decay: Vec<f64> = times.iter().map(|t| (-t / tau).exp()).collect();
-    let misses = decay.iter().zip(values).map(|(d, v)| settled + (initial - settled) * d - v).collect();
+    let misses =
+        decay.iter().zip(values).map(|(d, v)| settled + (initial - settled) * d - v).collect();
     let slope = |(t, d): (&f64, &f64)| (initial - settled) * d * t / (tau * tau);
     let slopes = times.iter().zip(&decay).map(slope);
-    let jacobian = decay.iter().copied().chain(decay.iter().map(|d| 1.0 - d)).chain(slopes).collect();
+    let jacobian =
+        decay.iter().copied().chain(decay.iter().map(|d| 1.0 - d)).chain(slopes).collect();
     (misses, jacobian)
 }

@@ -6,8 +6,8 @@ use super::error::StepError;
 use super::{Random, StepFit};
 use crate::noise::{Noise, student_95};
 
-/// The capacity that is believed, with one standard deviation, in J/K. The paper gives none for its 2659 J/K, although
-/// `P` is proportional to it.
+/// The capacity that is believed, with one standard deviation, in J/K. The paper gives none for its
+/// 2659 J/K, although `P` is proportional to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capacity {
     /// The most likely value, above 0.
@@ -19,8 +19,9 @@ pub struct Capacity {
 /// What a thermocouple of some class may be wrong by.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sensor {
-    /// The limit of its offset, in K: ± 3 K in the paper. All offsets inside are thought equally likely, so one standard
-    /// deviation is this over sqrt(3) (GUM, JCGM 100:2008, 4.3.7). It drops out of differences of one sensor.
+    /// The limit of its offset, in K: ± 3 K in the paper. All offsets inside are thought equally
+    /// likely, so one standard deviation is this over sqrt(3) (GUM, JCGM 100:2008, 4.3.7). It drops
+    /// out of differences of one sensor.
     pub class: f64,
     /// One standard deviation of its gain, relative.
     pub gain: f64,
@@ -44,8 +45,8 @@ pub enum Reference<'a> {
     Value(f64),
 }
 
-/// A number whose random and systematic errors stand apart: the first falls with more samples or repeated runs, the
-/// second is the same in every run.
+/// A number whose random and systematic errors stand apart: the first falls with more samples or
+/// repeated runs, the second is the same in every run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parted {
     /// The number, in the unit of its quantity.
@@ -58,8 +59,8 @@ pub struct Parted {
     pub systematic: f64,
 }
 
-/// What a step says with a capacity. That a network of several nodes does not follow one exponential is not in the errors:
-/// [`ModelBias`](super::ModelBias).
+/// What a step says with a capacity. That a network of several nodes does not follow one
+/// exponential is not in the errors: [`ModelBias`](super::ModelBias).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Power {
     /// `R_eq = t_RC / C` in K/W (equation 8).
@@ -74,8 +75,8 @@ pub struct Power {
     pub reference_temperature: f64,
     /// That error.
     pub reference_error: f64,
-    /// How much the reference column changes over the record by its straight line, in K; 0 for the others. A bed that
-    /// warms is not fixed ground.
+    /// How much the reference column changes over the record by its straight line, in K; 0 for the
+    /// others. A bed that warms is not fixed ground.
     pub drift: f64,
 }
 
@@ -90,7 +91,8 @@ impl Power {
         reference: &Reference<'_>,
         sensor: Sensor,
     ) -> Result<Self, StepError> {
-        let positive = capacity.value > 0.0 && capacity.value.is_finite() && capacity.deviation >= 0.0;
+        let positive =
+            capacity.value > 0.0 && capacity.value.is_finite() && capacity.deviation >= 0.0;
         if !positive {
             return Err(StepError::Capacity(capacity.value));
         }
@@ -105,7 +107,8 @@ impl Power {
         let of_rise = parted(fit, rise, [initial, 1.0, 0.0], zero.error, in_rise);
         let heat = c * rise / tau;
         let by = [initial * c / tau, c / tau, -heat / tau];
-        let power = parted(fit, heat, by, zero.error * c / tau, (heat * relative).hypot(in_rise * c / tau));
+        let power =
+            parted(fit, heat, by, zero.error * c / tau, (heat * relative).hypot(in_rise * c / tau));
         Ok(Self {
             resistance,
             rise: of_rise,
@@ -150,7 +153,8 @@ impl Zero {
         Ok(Self { name: name.into(), value, error: 0.0, own, sensors, drift: 0.0 })
     }
 
-    /// The mean of a column. Its random error is that of the noise around the column's straight line.
+    /// The mean of a column. Its random error is that of the noise around the column's straight
+    /// line.
     fn column(name: &str, times: &[f64], temperatures: &[f64]) -> Result<Self, StepError> {
         let rows = times.iter().zip(temperatures).filter(|(_, value)| value.is_finite());
         let (times, values): (Vec<f64>, Vec<f64>) = rows.map(|(t, v)| (*t, *v)).unzip();
@@ -162,7 +166,8 @@ impl Zero {
         let square: f64 = apart.iter().map(|a| a * a).sum();
         let product: f64 = apart.iter().zip(&values).map(|(a, v)| a * (v - mean)).sum();
         let slope = if square > 0.0 { product / square } else { 0.0 };
-        let residuals: Vec<f64> = apart.iter().zip(&values).map(|(a, v)| mean + slope * a - v).collect();
+        let residuals: Vec<f64> =
+            apart.iter().zip(&values).map(|(a, v)| mean + slope * a - v).collect();
         let jacobian: Vec<f64> = std::iter::repeat_n(1.0, values.len()).chain(apart).collect();
         let error = || {
             let noise = Noise::estimate(&times, &residuals, &jacobian);

@@ -7,9 +7,10 @@ use super::error::StepError;
 /// A stretch of equal extreme values counts from so many samples on.
 const FEWEST: usize = 10;
 
-/// Refuses a record that stands still at its least or greatest value where, by the exponential through the rest of it, it
-/// should be elsewhere: in the mean by more than five times what that exponential misses of the rest, or than the
-/// instrument's `step`. A record that has settled to within a step is not refused.
+/// Refuses a record that stands still at its least or greatest value where, by the exponential
+/// through the rest of it, it should be elsewhere: in the mean by more than five times what that
+/// exponential misses of the rest, or than the instrument's `step`. A record that has settled to
+/// within a step is not refused.
 pub(super) fn check(times: &[f64], values: &[f64], first: f64, step: f64) -> Result<(), StepError> {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -22,7 +23,8 @@ pub(super) fn check(times: &[f64], values: &[f64], first: f64, step: f64) -> Res
         let Ok(fit) = fit_exponential(&rest(times), &rest(values)) else { continue };
         let curve = |t: &f64| fit.settled + (fit.initial - fit.settled) * (-t / fit.tau).exp();
         let samples = to - from;
-        let apart = times[from..to].iter().map(|t| curve(t) - extreme).sum::<f64>() / samples as f64;
+        let apart =
+            times[from..to].iter().map(|t| curve(t) - extreme).sum::<f64>() / samples as f64;
         if apart.abs() > 5.0 * fit.rms.max(step).max(1e-6 * (most - least)) {
             let (from, to) = (first + times[from], first + times[to - 1]);
             return Err(StepError::Saturated { value: extreme, from, to, samples });
@@ -35,7 +37,10 @@ pub(super) fn check(times: &[f64], values: &[f64], first: f64, step: f64) -> Res
 fn longest(values: &[f64], wanted: f64) -> (usize, usize) {
     let (mut best, mut from) = ((0, 0), 0);
     for (i, value) in values.iter().enumerate() {
-        #[expect(clippy::float_cmp, reason = "an instrument at the end of its range prints one number")]
+        #[expect(
+            clippy::float_cmp,
+            reason = "an instrument at the end of its range prints one number"
+        )]
         if *value != wanted {
             from = i + 1;
         } else if i + 1 - from > best.1 - best.0 {

@@ -10,15 +10,16 @@ use crate::noise::{Noise, orthonormal, stretches};
 /// A record is looked at through the means of some so many stretches.
 const STRETCHES: usize = 400;
 
-/// Of 1000 records without a second exponential at most some 10 have a larger likelihood ratio (measured in the tests:
-/// its time constant is free, so the ratio does not follow chi-square with two degrees of freedom, whose value would be 9.2).
+/// Of 1000 records without a second exponential at most some 10 have a larger likelihood ratio
+/// (measured in the tests: its time constant is free, so the ratio does not follow chi-square with
+/// two degrees of freedom, whose value would be 9.2).
 const THRESHOLD: f64 = 13.0;
 
 /// Whether the residuals ask for a second exponential.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// Twice the logarithm of the ratio of the likelihoods with and without it, both with noise that is correlated as
-    /// its residuals are: slow noise alone does not ask for it.
+    /// Twice the logarithm of the ratio of the likelihoods with and without it, both with noise
+    /// that is correlated as its residuals are: slow noise alone does not ask for it.
     pub ratio: f64,
     /// What that has to exceed.
     pub threshold: f64,
@@ -50,12 +51,14 @@ pub(super) fn ask(times: &[f64], values: &[f64], one: &ExponentialFit) -> Asked 
     }
     let (residuals, jacobian) = super::curve(&few, &means, [one.initial, one.settled, one.tau]);
     let mut two = Two { times: &few, values: &means };
-    let Some(two) = two.start(one.tau, &residuals, &jacobian).and_then(|start| two.fitted(&start, 1e-3))
+    let Some(two) =
+        two.start(one.tau, &residuals, &jacobian).and_then(|start| two.fitted(&start, 1e-3))
     else {
         return nothing;
     };
-    let misfit =
-        |residuals: &[f64], jacobian: &[f64]| Noise::of_stretches(&few, residuals, jacobian, 1).means.misfit;
+    let misfit = |residuals: &[f64], jacobian: &[f64]| {
+        Noise::of_stretches(&few, residuals, jacobian, 1).means.misfit
+    };
     let ratio = misfit(&residuals, &jacobian) - misfit(&two.residuals, &two.jacobian);
     let asked = ratio > THRESHOLD && distinct(&two, &few);
     let offer = asked.then(|| Two { times, values }.fitted(&two.parameters, 1e-6)).flatten();
@@ -113,8 +116,9 @@ impl Two<'_> {
         minimise(self, start, &settings).ok()
     }
 
-    /// From one exponential: the time constant of a grid whose decay takes most of its `residuals`, beside what their
-    /// derivatives can take. Between two time constants that are near each other nothing is sought.
+    /// From one exponential: the time constant of a grid whose decay takes most of its `residuals`,
+    /// beside what their derivatives can take. Between two time constants that are near each other
+    /// nothing is sought.
     fn start(&self, tau: f64, residuals: &[f64], jacobian: &[f64]) -> Option<Vec<f64>> {
         const GRID: usize = 24;
         let basis = orthonormal(jacobian, self.times.len());
@@ -156,7 +160,8 @@ impl Two<'_> {
 
     /// `values = s + a x + b y`, by least squares.
     fn linear(&self, x: &[f64], y: &[f64]) -> Option<(f64, f64, f64)> {
-        let (mx, my, mv) = (statistics::mean(x), statistics::mean(y), statistics::mean(self.values));
+        let (mx, my, mv) =
+            (statistics::mean(x), statistics::mean(y), statistics::mean(self.values));
         let [mut xx, mut xy, mut yy, mut xv, mut yv] = [0.0; 5];
         for ((x, y), v) in x.iter().zip(y).zip(self.values) {
             let (x, y, v) = (x - mx, y - my, v - mv);

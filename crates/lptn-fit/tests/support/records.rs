@@ -36,7 +36,8 @@ impl Truth {
 
     /// Times in s and temperatures in degC; each seed has its own noise.
     pub(crate) fn record(&self, seed: u128) -> (Vec<f64>, Vec<f64>) {
-        let mut random = Pcg64::new(0xcafe_f00d_d15e_a5e5 + seed, 0x0a02_bdbf_7bb3_c0a7_ac28_fa16_a64a_bf96);
+        let mut random =
+            Pcg64::new(0xcafe_f00d_d15e_a5e5 + seed, 0x0a02_bdbf_7bb3_c0a7_ac28_fa16_a64a_bf96);
         let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
         let mut noise = self.deviation * normal();
         let times: Vec<f64> = (0..self.samples).map(|i| i as f64 * self.spacing).collect();
@@ -44,7 +45,8 @@ impl Truth {
         let mut value = |t: &f64| {
             let slow = (initial - settled - self.second.0) * (-t / tau).exp();
             let exact = settled + slow + self.second.0 * (-t / self.second.1).exp() + noise;
-            noise = self.rho * noise + (1.0 - self.rho * self.rho).sqrt() * self.deviation * normal();
+            noise =
+                self.rho * noise + (1.0 - self.rho * self.rho).sqrt() * self.deviation * normal();
             if self.step > 0.0 { (exact / self.step).round() * self.step } else { exact }
         };
         let values = times.iter().map(&mut value).collect();
@@ -64,7 +66,8 @@ impl Truth {
 /// In how many percent of the fits the 95 % intervals of `T_i`, `T_f` and `t_RC` hold the truth.
 pub(crate) fn coverage(truth: &Truth, fits: &[StepFit]) -> [f64; 3] {
     let numbers = |fit: &StepFit| [fit.initial, fit.settled, fit.tau];
-    let holds = |estimated: &Estimated, value: f64| (estimated.value - value).abs() <= estimated.half_width;
+    let holds =
+        |estimated: &Estimated, value: f64| (estimated.value - value).abs() <= estimated.half_width;
     std::array::from_fn(|k| {
         let inside = fits.iter().filter(|fit| holds(&numbers(fit)[k], truth.curve[k])).count();
         100.0 * inside as f64 / fits.len() as f64

@@ -14,7 +14,8 @@ use crate::{FactorError, Pattern};
 
 /// Sparse Cholesky with approximate minimum degree ordering.
 ///
-/// One thread: on two cores faer's parallel factorisation costs more processor time and gains next to nothing.
+/// One thread: on two cores faer's parallel factorisation costs more processor time and gains next
+/// to nothing.
 pub struct SparseCholesky {
     lower: SymbolicSparseColMat<usize>,
     /// Slot in the full pattern of every entry of `lower`.
@@ -47,10 +48,20 @@ impl SparseCholesky {
         )?;
         let (lower_values, factors) = (vec![0.0; source.len()], vec![0.0; symbolic.len_val()]);
         let full_length = pattern.len();
-        Ok(Self { lower, source, lower_values, symbolic, factors, memory, full_length, ready: false })
+        Ok(Self {
+            lower,
+            source,
+            lower_values,
+            symbolic,
+            factors,
+            memory,
+            full_length,
+            ready: false,
+        })
     }
 
-    /// The row, in the order given by the caller, of a pivot that faer reports in elimination order.
+    /// The row, in the order given by the caller, of a pivot that faer reports in elimination
+    /// order.
     fn row_of_pivot(&self, reported: usize) -> usize {
         // faer counts from 1 in its simplicial code and from 0 in its supernodal one.
         let position = match self.symbolic.raw() {

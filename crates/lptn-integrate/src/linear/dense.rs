@@ -26,8 +26,9 @@ impl Dense {
         let size = pattern.size();
         let mut position = Vec::with_capacity(pattern.len());
         for column in 0..size {
-            position
-                .extend(pattern.row_indices()[pattern.column(column)].iter().map(|row| row * size + column));
+            position.extend(
+                pattern.row_indices()[pattern.column(column)].iter().map(|row| row * size + column),
+            );
         }
         let (factors, swapped) = (vec![0.0; size * size], (0..size).collect());
         Self { size, symmetric, position, factors, swapped, ready: false }
@@ -88,7 +89,11 @@ impl Dense {
     }
 
     fn column_size(&self, k: usize) -> f64 {
-        self.factors.iter().skip(k).step_by(self.size).fold(0.0, |largest, a| f64::max(largest, a.abs()))
+        self.factors
+            .iter()
+            .skip(k)
+            .step_by(self.size)
+            .fold(0.0, |largest, a| f64::max(largest, a.abs()))
     }
 
     fn pivot_row(&self, k: usize) -> usize {

@@ -3,10 +3,10 @@
 use super::{Factorization, LinearSolverKind, SparseCholesky, SparseLu, expect_length};
 use crate::{FactorError, Pattern};
 
-/// Sparse Cholesky for values that are symmetric and positive definite, sparse LU for others. Looked at anew with every
-/// set of values: the Jacobian of a body that radiates to its surroundings is symmetric, that of one whose conductivity
-/// depends on temperature is not, and LU of a large body takes many times as long. Each is analysed when it is first
-/// needed.
+/// Sparse Cholesky for values that are symmetric and positive definite, sparse LU for others.
+/// Looked at anew with every set of values: the Jacobian of a body that radiates to its
+/// surroundings is symmetric, that of one whose conductivity depends on temperature is not, and LU
+/// of a large body takes many times as long. Each is analysed when it is first needed.
 pub struct Either {
     pattern: Pattern,
     /// For each slot above the diagonal its own place and that of its mirror image.
@@ -23,7 +23,8 @@ impl Either {
     pub fn new(pattern: &Pattern) -> Self {
         let mut mirrored = Vec::with_capacity(pattern.len() / 2);
         // columns in order meet the entries of each row in order
-        let mut next: Vec<usize> = (0..pattern.size()).map(|row| pattern.diagonal_slot(row) + 1).collect();
+        let mut next: Vec<usize> =
+            (0..pattern.size()).map(|row| pattern.diagonal_slot(row) + 1).collect();
         for column in 0..pattern.size() {
             for slot in pattern.column(column).start..pattern.diagonal_slot(column) {
                 let row = pattern.row_indices()[slot];

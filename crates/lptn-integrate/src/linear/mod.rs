@@ -1,7 +1,7 @@
 //! Solvers for `A x = b` with one sparsity pattern and many sets of values.
 //!
-//! Used for the Newton matrices `M - gamma J` of the integrator, and by others for steady states `G x = b`. The
-//! analysis of the pattern happens once, in `new`; [`Factorization::factorize`] and
+//! Used for the Newton matrices `M - gamma J` of the integrator, and by others for steady states
+//! `G x = b`. The analysis of the pattern happens once, in `new`; [`Factorization::factorize`] and
 //! [`Factorization::solve_in_place`] work in memory kept between calls.
 
 mod cholesky;
@@ -21,17 +21,19 @@ use faer::dyn_stack::{MemBuffer, StackReq};
 
 use crate::{FactorError, Pattern, kernels};
 
-/// Largest size for which [`LinearSolver::Auto`] takes a dense solver: below it the bookkeeping of sparse factors costs
-/// more than the arithmetic.
+/// Largest size for which [`LinearSolver::Auto`] takes a dense solver: below it the bookkeeping of
+/// sparse factors costs more than the arithmetic.
 pub const DENSE_LIMIT: usize = 30;
 
-/// Solution components of the probe in [`Factorization::check`] above which a matrix counts as singular.
+/// Solution components of the probe in [`Factorization::check`] above which a matrix counts as
+/// singular.
 const SINGULAR: f64 = 1e15;
 
 /// Which solver to use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LinearSolver {
-    /// Dense up to [`DENSE_LIMIT`] components, else sparse; Cholesky for symmetric matrices, else LU.
+    /// Dense up to [`DENSE_LIMIT`] components, else sparse; Cholesky for symmetric matrices, else
+    /// LU.
     #[default]
     Auto,
     /// Dense Cholesky for symmetric matrices, else dense LU with partial pivoting.
@@ -67,31 +69,35 @@ pub trait Factorization {
     /// Which solver this is.
     fn kind(&self) -> LinearSolverKind;
 
-    /// Numbers stored for the factors (for sparse LU: of the matrix, its factors being sized on the fly).
+    /// Numbers stored for the factors (for sparse LU: of the matrix, its factors being sized on the
+    /// fly).
     fn fill(&self) -> usize;
 
-    /// Factorises the matrix with these values, one per slot of the pattern; Cholesky reads the lower triangle only.
+    /// Factorises the matrix with these values, one per slot of the pattern; Cholesky reads the
+    /// lower triangle only.
     ///
     /// # Errors
-    /// [`FactorError::NotPositiveDefinite`] (Cholesky), [`FactorError::Singular`] (LU), a wrong length. There are then
-    /// no factors to solve with.
+    /// [`FactorError::NotPositiveDefinite`] (Cholesky), [`FactorError::Singular`] (LU), a wrong
+    /// length. There are then no factors to solve with.
     fn factorize(&mut self, values: &[f64]) -> Result<(), FactorError>;
 
     /// Replaces `b` by the solution of `A x = b`.
     ///
     /// # Errors
-    /// [`FactorError::NotFactorized`], a wrong length, or [`FactorError::Singular`] with the first component of the
-    /// solution that is not finite.
+    /// [`FactorError::NotFactorized`], a wrong length, or [`FactorError::Singular`] with the first
+    /// component of the solution that is not finite.
     fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError>;
 
-    /// Whether the factors are usable: sparse elimination may pass a singular matrix with a pivot of rounding errors
-    /// only. Solves once, with the diagonal as right side, so that the solution is of the order of 1 for a matrix that
-    /// is dominated by its diagonal.
+    /// Whether the factors are usable: sparse elimination may pass a singular matrix with a pivot
+    /// of rounding errors only. Solves once, with the diagonal as right side, so that the solution
+    /// is of the order of 1 for a matrix that is dominated by its diagonal.
     ///
     /// # Errors
-    /// [`FactorError::Singular`] with the component that is largest: for a network one of an island that leads nowhere.
+    /// [`FactorError::Singular`] with the component that is largest: for a network one of an island
+    /// that leads nowhere.
     fn check(&mut self, pattern: &Pattern, values: &[f64]) -> Result<(), FactorError> {
-        let mut probe: Vec<f64> = pattern.diagonal().iter().map(|&slot| values[slot].abs()).collect();
+        let mut probe: Vec<f64> =
+            pattern.diagonal().iter().map(|&slot| values[slot].abs()).collect();
         self.solve_in_place(&mut probe)?;
         let index = kernels::worst(&probe, &vec![1.0; probe.len()]);
         match probe.get(index) {
@@ -130,13 +136,14 @@ pub fn new(
     Ok(Box::new(SparseLu::new(pattern)?))
 }
 
-/// The factors of a Cholesky decomposition hold more numbers than this, and more than so many times those of the matrix,
-/// where a body is cut into cells along three axes: 8 million and 41 times for 30 x 30 x 30 cells, 27 million and 60 times
-/// for 40 x 40 x 40, but 4 million and 8 times for 300 x 300.
+/// The factors of a Cholesky decomposition hold more numbers than this, and more than so many times
+/// those of the matrix, where a body is cut into cells along three axes: 8 million and 41 times for
+/// 30 x 30 x 30 cells, 27 million and 60 times for 40 x 40 x 40, but 4 million and 8 times for 300
+/// x 300.
 const FILL: (usize, usize) = (5_000_000, 25);
 
-/// As [`new`], for the matrices `M - gamma J` of the steps of a run: [`LinearSolver::Auto`] takes [`Pcg`] where exact
-/// factors fill up.
+/// As [`new`], for the matrices `M - gamma J` of the steps of a run: [`LinearSolver::Auto`] takes
+/// [`Pcg`] where exact factors fill up.
 ///
 /// # Errors
 /// As [`new`].
@@ -153,7 +160,8 @@ pub fn for_steps(
     Ok(factors)
 }
 
-/// From so many rows on the exact Jacobians of Newton's method are looked at for symmetry: below it LU is soon done.
+/// From so many rows on the exact Jacobians of Newton's method are looked at for symmetry: below it
+/// LU is soon done.
 const LARGE: usize = 2000;
 
 /// As [`new`], for exact Jacobians: not symmetric in general, but often by their values.
@@ -167,8 +175,9 @@ pub fn for_exact(pattern: &Pattern) -> Result<Box<dyn Factorization>, FactorErro
     Ok(Box::new(Either::new(pattern)))
 }
 
-/// Solves `A x = b` with `steps` steps of iterative refinement, for which `A` (pattern and values) is needed beside
-/// its factors. Writes the solution to `x` and returns the largest `|b - A x|` that is left.
+/// Solves `A x = b` with `steps` steps of iterative refinement, for which `A` (pattern and values)
+/// is needed beside its factors. Writes the solution to `x` and returns the largest `|b - A x|`
+/// that is left.
 ///
 /// # Errors
 /// Those of [`Factorization::solve_in_place`].
@@ -194,7 +203,12 @@ pub fn solve_refined(
     Ok(kernels::max_norm(&residual))
 }
 
-fn write_residual(pattern: &Pattern, values: &[f64], (b, x): (&[f64], &[f64]), residual: &mut [f64]) {
+fn write_residual(
+    pattern: &Pattern,
+    values: &[f64],
+    (b, x): (&[f64], &[f64]),
+    residual: &mut [f64],
+) {
     pattern.multiply(values, x, residual);
     kernels::scale_and_add(-1.0, residual, 1.0, b);
 }
@@ -203,7 +217,8 @@ fn expect_length(expected: usize, found: usize) -> Result<(), FactorError> {
     if expected == found { Ok(()) } else { Err(FactorError::WrongLength { expected, found }) }
 }
 
-/// A solve by factors of this size that are there or not, with what every solve begins and ends with.
+/// A solve by factors of this size that are there or not, with what every solve begins and ends
+/// with.
 fn checked(
     (size, ready): (usize, bool),
     b: &mut [f64],

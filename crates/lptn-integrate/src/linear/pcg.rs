@@ -1,15 +1,18 @@
 //! Conjugate gradients, preconditioned by an incomplete Cholesky factor without fill.
 //!
-//! For the Newton matrices `M - gamma J` of bodies that are cut into cells along three axes: their exact factors hold
-//! sixty times as many numbers as the matrix (40 x 40 x 40 cells), and the steps of a run are short enough for a few dozen iterations to
-//! do. Method: M. R. Hestenes and E. Stiefel, J. Res. Natl. Bur. Stand. 49 (1952) 409; preconditioner: J. A. Meijerink and
-//! H. A. van der Vorst, Math. Comp. 31 (1977) 148, who prove that it exists for the M-matrices that conductances make.
+//! For the Newton matrices `M - gamma J` of bodies that are cut into cells along three axes: their
+//! exact factors hold sixty times as many numbers as the matrix (40 x 40 x 40 cells), and the steps
+//! of a run are short enough for a few dozen iterations to do. Method: M. R. Hestenes and E.
+//! Stiefel, J. Res. Natl. Bur. Stand. 49 (1952) 409; preconditioner: J. A. Meijerink and H. A. van
+//! der Vorst, Math. Comp. 31 (1977) 148, who prove that it exists for the M-matrices that
+//! conductances make.
 
 use super::{Factorization, LinearSolverKind, SparseCholesky, checked, expect_length};
 use crate::{FactorError, Pattern, kernels};
 
-/// What is left over of a right side, relative, both over the diagonal (for a network: in K) and in the maximum norm, in
-/// which CVODES measures errors too. CVODES solves to 1e-2 and less of a tolerance, so the books of a run do not feel it.
+/// What is left over of a right side, relative, both over the diagonal (for a network: in K) and in
+/// the maximum norm, in which CVODES measures errors too. CVODES solves to 1e-2 and less of a
+/// tolerance, so the books of a run do not feel it.
 const LEFT_OVER: f64 = 1e-9;
 
 /// More iterations than this cost more than exact factors.
@@ -47,7 +50,8 @@ impl Pcg {
         let size = pattern.size();
         let (mut rows, mut columns, mut source) = (vec![0], Vec::new(), Vec::new());
         for row in 0..size {
-            // the pattern is symmetric: the rows above the diagonal of a column are the columns before it in its row
+            // the pattern is symmetric: the rows above the diagonal of a column are the columns
+            // before it in its row
             for slot in pattern.column(row).start..pattern.diagonal_slot(row) {
                 let column = pattern.row_indices()[slot];
                 columns.push(u32::try_from(column).expect("a matrix has fewer than 2^32 rows"));
@@ -94,7 +98,8 @@ impl Pcg {
         Ok(())
     }
 
-    /// The product of the entries `first..end` of a row with those of another row in the same columns.
+    /// The product of the entries `first..end` of a row with those of another row in the same
+    /// columns.
     fn overlap(&self, (mut own, end): (usize, usize), other: usize) -> f64 {
         let (mut theirs, last) = (self.rows[other], self.rows[other + 1]);
         let mut sum = 0.0;

@@ -1,8 +1,10 @@
-//! Formulas with the ranges they are tested in. Inputs stand in the order of the function's arguments.
+//! Formulas with the ranges they are tested in. Inputs stand in the order of the function's
+//! arguments.
 
 use lptn_laws::{
-    advection_from, advection_to, biot, cylinder, diffusion_time, effective_emissivity_parallel_plates, film,
-    radiation_conductance, radiation_exchange_area, rod, slab, sphere, stream_from, stream_to,
+    advection_from, advection_to, biot, cylinder, diffusion_time,
+    effective_emissivity_parallel_plates, film, radiation_conductance, radiation_exchange_area,
+    rod, slab, sphere, stream_from, stream_to,
 };
 use lptn_units::{Dual, Scalar};
 
@@ -110,13 +112,23 @@ fn advection() -> Vec<Law> {
             "advection_to",
             |x| advection_to(x[0], x[1], x[2]),
             [[FORWARD, KELVIN, KELVIN], [BACKWARD, KELVIN, KELVIN]],
-            [[0.0, 350.0, 300.0], [-0.0, 300.0, 350.0], [20.0, 300.0, 300.0], [-20.0, 300.0, 300.0]]
+            [
+                [0.0, 350.0, 300.0],
+                [-0.0, 300.0, 350.0],
+                [20.0, 300.0, 300.0],
+                [-20.0, 300.0, 300.0]
+            ]
         ),
         law!(
             "advection_from",
             |x| advection_from(x[0], x[1], x[2]),
             [[FORWARD, KELVIN, KELVIN], [BACKWARD, KELVIN, KELVIN]],
-            [[0.0, 350.0, 300.0], [-0.0, 300.0, 350.0], [20.0, 300.0, 300.0], [-20.0, 300.0, 300.0]]
+            [
+                [0.0, 350.0, 300.0],
+                [-0.0, 300.0, 350.0],
+                [20.0, 300.0, 300.0],
+                [-20.0, 300.0, 300.0]
+            ]
         ),
         law!(
             "stream_to",
@@ -135,7 +147,12 @@ fn advection() -> Vec<Law> {
 
 fn lumps() -> Vec<Law> {
     vec![
-        law!("biot", |x| biot(x[0], x[1], x[2]), [[FILM, (1e-4, 0.5), CONDUCTIVITY]], [[0.0, 0.01, 20.0]]),
+        law!(
+            "biot",
+            |x| biot(x[0], x[1], x[2]),
+            [[FILM, (1e-4, 0.5), CONDUCTIVITY]],
+            [[0.0, 0.01, 20.0]]
+        ),
         law!(
             "diffusion_time",
             |x| diffusion_time(x[0], x[1], x[2], x[3]),

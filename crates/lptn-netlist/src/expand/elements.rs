@@ -32,7 +32,9 @@ impl Writer<'_> {
             fields.word("material", &self.name(Item::Material(*material)));
             match size {
                 Size::Mass(mass) => fields.put("mass", value(mass, Type::of(Dimension::MASS))),
-                Size::Volume(volume) => fields.put("volume", value(volume, Type::of(Dimension::VOLUME))),
+                Size::Volume(volume) => {
+                    fields.put("volume", value(volume, Type::of(Dimension::VOLUME)))
+                }
             }
         } else if let Some(capacity) = capacity {
             fields.put("C", value(capacity, Type::of(Dimension::CAPACITY)));
@@ -80,7 +82,8 @@ impl Writer<'_> {
             fields.word("fluid", &self.name(Item::Fluid(fluid)));
         }
         let declared = law.formula().declaration();
-        let parts: Vec<(&lptn_laws::Field, &Value)> = declared.fields.iter().zip(law.values()).collect();
+        let parts: Vec<(&lptn_laws::Field, &Value)> =
+            declared.fields.iter().zip(law.values()).collect();
         for same in parts.chunk_by(|(a, _), (b, _)| a.key == b.key) {
             self.part(&mut fields, same);
             // the word that chooses the law stands behind what all of them take
@@ -99,7 +102,8 @@ impl Writer<'_> {
             (Some(material), _) => fields.word("material", &self.name(Item::Material(material))),
             (None, [_]) => fields.put(field.key, value(first, field.ty)),
             _ => {
-                let values: Vec<String> = same.iter().map(|(field, part)| value(part, field.ty)).collect();
+                let values: Vec<String> =
+                    same.iter().map(|(field, part)| value(part, field.ty)).collect();
                 fields.put(field.key, format!("[{}]", values.join(", ")));
             }
         }

@@ -6,12 +6,15 @@ use lptn_network::{Item, Network};
 use crate::netlist::Netlist;
 
 impl Netlist {
-    /// Why [`Netlist::expanded`] is not this network: its grids, imported elements without names, or what only a
-    /// state can say of the start cannot be written in a flat netlist. `None` for all other networks.
+    /// Why [`Netlist::expanded`] is not this network: its grids, imported elements without names,
+    /// or what only a state can say of the start cannot be written in a flat netlist. `None` for
+    /// all other networks.
     pub fn not_flat(&self) -> Option<Diagnostic> {
         let network = &self.network;
-        let (item, words, help) = grid(network).or_else(|| unnamed(network)).or_else(|| self.of_state())?;
-        let problem = Diagnostic::error("netlist::not_flat", format!("{words}, which has no flat form"));
+        let (item, words, help) =
+            grid(network).or_else(|| unnamed(network)).or_else(|| self.of_state())?;
+        let problem =
+            Diagnostic::error("netlist::not_flat", format!("{words}, which has no flat form"));
         let problem = problem.help(help);
         Some(problem.at(self.source_map.name(item), ""))
     }
@@ -22,8 +25,8 @@ impl Netlist {
         let held = || {
             let held = self.plan.as_ref()?.settings(network).ok()?.held;
             let mut controls = network.control_ids().zip(held);
-            let (id, _) =
-                controls.find(|(id, held)| held.is_some_and(|held| held < network.min_dwell(*id)))?;
+            let (id, _) = controls
+                .find(|(id, held)| held.is_some_and(|held| held < network.min_dwell(*id)))?;
             let name = network.name_of(Item::Control(id));
             Some((Item::Control(id), format!("control `{name}` starts amid its `min_dwell`"), KEEP))
         };
@@ -38,14 +41,19 @@ type Reason = (Item, String, &'static str);
 fn grid(network: &Network) -> Option<Reason> {
     let grid = network.grids().first()?;
     let item = network.item(&grid.name).ok()?;
-    Some((item, format!("`{}` is a grid", grid.name), "`lptn run` and `lptn check` read the file as it is"))
+    Some((
+        item,
+        format!("`{}` is a grid", grid.name),
+        "`lptn run` and `lptn check` read the file as it is",
+    ))
 }
 
 /// Such names are reserved for the rows of imports.
 fn unnamed(network: &Network) -> Option<Reason> {
     let conductors = network.conductor_ids().map(Item::Conductor);
     let mut items = conductors.chain(network.source_ids().map(Item::Source));
-    let reserved = |name: &str| name.starts_with("import.conductor[") || name.starts_with("import.source[");
+    let reserved =
+        |name: &str| name.starts_with("import.conductor[") || name.starts_with("import.source[");
     let item = items.find(|item| reserved(&network.name_of(*item)))?;
     let words = format!("`{}` has no name of its own", network.name_of(item));
     Some((item, words, "give every row of the CSV file a `name`"))

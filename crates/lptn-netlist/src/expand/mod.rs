@@ -1,7 +1,8 @@
-//! A network as a flat netlist in SI units: no includes, no templates, every value where it belongs.
+//! A network as a flat netlist in SI units: no includes, no templates, every value where it
+//! belongs.
 //!
-//! It is written from the network that was built, not from what was read, so that whatever made an element comes
-//! out as the element; and it can be read again.
+//! It is written from the network that was built, not from what was read, so that whatever made an
+//! element comes out as the element; and it can be read again.
 
 mod controls;
 mod elements;
@@ -29,8 +30,8 @@ pub struct Derived<'a> {
     pub title: &'a str,
     /// The run that goes with it.
     pub run: Option<&'a RunSettings>,
-    /// The folder in which the text is going to stand, which paths of CSV files are relative to; `None` for that of the
-    /// netlist.
+    /// The folder in which the text is going to stand, which paths of CSV files are relative to;
+    /// `None` for that of the netlist.
     pub folder: Option<&'a Path>,
 }
 
@@ -96,12 +97,14 @@ fn resolved(path: &Path) -> PathBuf {
 }
 
 impl Netlist {
-    /// The network as a flat netlist, with everything that was set: includes, templates and whatever else stands for
-    /// many elements are written out, quantities are in SI units, temperatures in K. Parameters and expressions are
-    /// kept. Materials of the library are named, those of the file written if they are used. Read again it is the
-    /// same network, and is written as the same text.
+    /// The network as a flat netlist, with everything that was set: includes, templates and
+    /// whatever else stands for many elements are written out, quantities are in SI units,
+    /// temperatures in K. Parameters and expressions are kept. Materials of the library are named,
+    /// those of the file written if they are used. Read again it is the same network, and is
+    /// written as the same text.
     ///
-    /// A table of two arguments, and a fit, still name their CSV files, which have to be beside the text.
+    /// A table of two arguments, and a fit, still name their CSV files, which have to be beside the
+    /// text.
     pub fn expanded(&self) -> String {
         let mut writer = Writer::new(&self.network, self, None);
         if let Some(title) = self.network.title() {

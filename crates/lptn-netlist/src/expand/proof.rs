@@ -8,7 +8,8 @@ use lptn_network::{Flow, Item, Network};
 use crate::netlist::{Netlist, parse_file};
 
 lptn_units::errors! {
-/// A netlist that was written is not the network that it was written for: a mistake of this program.
+/// A netlist that was written is not the network that it was written for: a mistake of this
+/// program.
 #[derive(Clone, Debug)]
 pub enum WrittenError {
     /// It is not read; the first reason.
@@ -19,11 +20,12 @@ pub enum WrittenError {
 }
 }
 
-/// How far two numbers may be apart that come from one text, relative to their size: rounding of a unit.
+/// How far two numbers may be apart that come from one text, relative to their size: rounding of a
+/// unit.
 const ROUNDING: f64 = 1e-12;
 
-/// Reads a netlist that was written for a network as the file at `place` is going to be read, and compares: the same
-/// names, and the same numbers at several times from `start` to `stop` in s.
+/// Reads a netlist that was written for a network as the file at `place` is going to be read, and
+/// compares: the same names, and the same numbers at several times from `start` to `stop` in s.
 ///
 /// # Errors
 /// [`WrittenError`] with the first difference.
@@ -34,11 +36,13 @@ pub fn prove(
     (start, stop): (f64, f64),
 ) -> Result<Netlist, WrittenError> {
     let again = parse_file(place, text.as_bytes()).map_err(|rejected| {
-        let reason = rejected.diagnostics.first().map(|problem| problem.message.clone()).unwrap_or_default();
+        let reason =
+            rejected.diagnostics.first().map(|problem| problem.message.clone()).unwrap_or_default();
         WrittenError::Rejected { reason }
     })?;
     // times that no grid of points of a signal meets
-    let times: Vec<f64> = [0.0, 0.071, 0.293, 0.517, 0.839, 1.0].map(|x| start + x * (stop - start)).to_vec();
+    let times: Vec<f64> =
+        [0.0, 0.071, 0.293, 0.517, 0.839, 1.0].map(|x| start + x * (stop - start)).to_vec();
     let (found, wanted) = (Facts::of(&again.network, &times), Facts::of(network, &times));
     match found.difference(&wanted) {
         None => Ok(again),
@@ -74,7 +78,8 @@ impl Facts {
             self.add("node", &node.name, network.initial(id));
         }
         for (name, symbol) in network.tables() {
-            let knots = (0..symbol.table.dimension()).flat_map(|argument| symbol.table.knots(argument));
+            let knots =
+                (0..symbol.table.dimension()).flat_map(|argument| symbol.table.knots(argument));
             knots.for_each(|knot| self.add("table", name, *knot));
         }
     }
@@ -83,7 +88,8 @@ impl Facts {
     fn names(&mut self, network: &Network) {
         let controls = network.controls().iter().map(|control| ("control", control.name.as_str()));
         let limits = network.limits().iter().map(|limit| ("limit", limit.name.as_str()));
-        let capacitors = network.capacitors().iter().map(|capacitor| ("capacitor", capacitor.name.as_str()));
+        let capacitors =
+            network.capacitors().iter().map(|capacitor| ("capacitor", capacitor.name.as_str()));
         for (kind, name) in controls.chain(limits).chain(capacitors) {
             self.add(kind, name, 0.0);
         }
@@ -97,7 +103,11 @@ impl Facts {
             self.add("signal", &signal.name, scope.signal(id));
         }
         for boundary in network.boundaries() {
-            self.add("boundary", &boundary.name, boundary.temperature.at(&mut scope).unwrap_or(f64::NAN));
+            self.add(
+                "boundary",
+                &boundary.name,
+                boundary.temperature.at(&mut scope).unwrap_or(f64::NAN),
+            );
         }
         for id in network.source_ids() {
             let heat = network.source_heat(id, &mut scope, temperatures).unwrap_or(f64::NAN);
@@ -110,7 +120,8 @@ impl Facts {
                     self.add("path", &name, number);
                 }
                 Flow::Variable => {
-                    let heats = network.exchange(id, &mut scope, temperatures).unwrap_or([f64::NAN; 2]);
+                    let heats =
+                        network.exchange(id, &mut scope, temperatures).unwrap_or([f64::NAN; 2]);
                     heats.into_iter().for_each(|heat| self.add("path", &name, heat));
                 }
             }
@@ -123,17 +134,21 @@ impl Facts {
                 || (a.is_nan() && b.is_nan())
                 || (a - b).abs() <= ROUNDING * a.abs().max(b.abs())
         };
-        let same = |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| near(*a, *b));
+        let same =
+            |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| near(*a, *b));
         let missing = self.0.keys().find(|name| !wanted.0.contains_key(*name));
-        let differs = || wanted.0.iter().find(|(name, b)| self.0.get(*name).is_none_or(|a| !same(a, b)));
+        let differs =
+            || wanted.0.iter().find(|(name, b)| self.0.get(*name).is_none_or(|a| !same(a, b)));
         missing.or_else(|| differs().map(|(name, _)| name)).cloned()
     }
 }
 
-/// A temperature for every vertex that its name tells, so that the order does not matter: 280 K to 340 K.
+/// A temperature for every vertex that its name tells, so that the order does not matter: 280 K to
+/// 340 K.
 fn temperatures(network: &Network) -> Vec<f64> {
     let of = |name: &str| {
-        280.0 + f64::from(name.bytes().fold(7_u32, |sum, b| (31 * sum + u32::from(b)) % 6007)) / 100.0
+        280.0
+            + f64::from(name.bytes().fold(7_u32, |sum, b| (31 * sum + u32::from(b)) % 6007)) / 100.0
     };
     let nodes = network.nodes().iter().map(|node| of(&node.name));
     nodes.chain(network.boundaries().iter().map(|boundary| of(&boundary.name))).collect()

@@ -17,8 +17,8 @@ impl Writer<'_> {
         let used = self.used_materials();
         for (id, material) in network.material_ids().zip(network.materials()) {
             let source = material.source.as_deref();
-            let shipped =
-                library::find(&material.name).is_some_and(|record| Some(record.source.as_str()) == source);
+            let shipped = library::find(&material.name)
+                .is_some_and(|record| Some(record.source.as_str()) == source);
             if shipped || !used.contains(&id) {
                 continue;
             }
@@ -36,7 +36,8 @@ impl Writer<'_> {
             if let Some(melting) = &material.melting {
                 fields.put("solidus", value(&melting.solidus, Type::ABSOLUTE_TEMPERATURE));
                 fields.put("liquidus", value(&melting.liquidus, Type::ABSOLUTE_TEMPERATURE));
-                fields.put("latent_heat", value(&melting.heat, Type::of(Dimension::SPECIFIC_ENERGY)));
+                fields
+                    .put("latent_heat", value(&melting.heat, Type::of(Dimension::SPECIFIC_ENERGY)));
             }
             if let Some(source) = source {
                 fields.word("source", source);
@@ -60,7 +61,10 @@ impl Writer<'_> {
             }
             let mut fields = TomlFields::default();
             if let Some(density) = &fluid.density {
-                fields.put("density", self.property(density, "density", Type::of(Dimension::DENSITY)));
+                fields.put(
+                    "density",
+                    self.property(density, "density", Type::of(Dimension::DENSITY)),
+                );
             }
             fields.put("cp", self.property(&fluid.cp, "cp", Type::of(Dimension::SPECIFIC_HEAT)));
             if let Some(source) = source {

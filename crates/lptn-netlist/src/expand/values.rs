@@ -4,7 +4,9 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use lptn_network::{AfterEnd, Course, Evaluation, Item, Parameter, ParameterId, Signal, Value};
-use lptn_units::{Dimension, Interpolation, Outside, Table, Table1, TableSymbol, Type, format_number};
+use lptn_units::{
+    Dimension, Interpolation, Outside, Table, Table1, TableSymbol, Type, format_number,
+};
 
 use super::Writer;
 use crate::raw::{RawKind, RawTable};
@@ -23,7 +25,11 @@ impl Writer<'_> {
     }
 
     /// An expression, unless another value was set.
-    fn parameter(&self, (id, parameter): (ParameterId, &Parameter), scope: &mut Evaluation) -> String {
+    fn parameter(
+        &self,
+        (id, parameter): (ParameterId, &Parameter),
+        scope: &mut Evaluation,
+    ) -> String {
         let network = &self.network;
         let number = network.parameter_value(id);
         let own = parameter.value.at(scope);
@@ -102,7 +108,8 @@ impl Writer<'_> {
 
     /// The name of a table of the network.
     pub(super) fn name_of_table(&self, table: &Arc<Table>) -> Option<&str> {
-        let mut named = self.network.tables().filter(|(_, symbol)| Arc::ptr_eq(&symbol.table, table));
+        let mut named =
+            self.network.tables().filter(|(_, symbol)| Arc::ptr_eq(&symbol.table, table));
         named.next().map(|(name, _)| name)
     }
 
@@ -145,7 +152,9 @@ fn joined(fields: &mut TomlFields, table: &Table1) {
 fn course(signal: &Signal) -> String {
     let (times, values, interpolation) = match &signal.course {
         Course::Expression(expression) => return value(expression, signal.ty),
-        Course::Steps { times, values, .. } => (times.as_slice(), values.as_slice(), Some("previous")),
+        Course::Steps { times, values, .. } => {
+            (times.as_slice(), values.as_slice(), Some("previous"))
+        }
         Course::Curve { points, .. } => {
             let pchip = points.interpolation() == Interpolation::Pchip;
             (points.knots(), points.values(), pchip.then_some("pchip"))

@@ -68,8 +68,10 @@ impl<'a> Elaboration<'a> {
             ty: column.observed.as_ref().map(|observed| observed.ty),
             span: Some(column.entry.key_span.clone()),
         };
-        let time =
-            time.map(|(name, raw)| RecordName { span: Some(raw.span.clone()), ..RecordName::new(name) });
+        let time = time.map(|(name, raw)| RecordName {
+            span: Some(raw.span.clone()),
+            ..RecordName::new(name)
+        });
         let columns = columns.iter().map(name).collect();
         let query = RecordQuery { time, columns, ..RecordQuery::default() };
         let mut records: Vec<FitRecord> = Vec::new();
@@ -119,7 +121,8 @@ impl<'a> Elaboration<'a> {
         sound.then(|| FitRecord { csv: text.to_owned(), record, set, span: raw.span.clone() })
     }
 
-    /// The record that a value names. Without columns to read there is nothing to be said of its inside.
+    /// The record that a value names. Without columns to read there is nothing to be said of its
+    /// inside.
     fn fit_file(&mut self, raw: &RawValue, query: &RecordQuery) -> Option<Arc<Record>> {
         let csv: &'a crate::csv_files::CsvFiles = self.csv;
         let text = self.kept(csv.text(raw)?.map_err(Diagnostic::clone))?;
@@ -152,10 +155,9 @@ impl<'a> Elaboration<'a> {
                 sound = false;
                 continue;
             }
-            let value =
-                self.builder.scope(Context::Time).symbol(name).and_then(|symbol| {
-                    self.given_inside(&owner, (name, &entry.value), Wanted::like(symbol.ty))
-                });
+            let value = self.builder.scope(Context::Time).symbol(name).and_then(|symbol| {
+                self.given_inside(&owner, (name, &entry.value), Wanted::like(symbol.ty))
+            });
             match value {
                 Some(value) => set.push((name.clone(), value.value())),
                 None => sound = false,
@@ -173,13 +175,20 @@ impl<'a> Elaboration<'a> {
     ) {
         for record in records {
             for (name, _) in &record.set {
-                let Some(sought) = varied.iter().find(|varied| varied.name == *name) else { continue };
-                let message =
-                    format!("{} varies `{name}`, which the record {} sets", fields.owner.words(), record.csv);
+                let Some(sought) = varied.iter().find(|varied| varied.name == *name) else {
+                    continue;
+                };
+                let message = format!(
+                    "{} varies `{name}`, which the record {} sets",
+                    fields.owner.words(),
+                    record.csv
+                );
                 let problem = Diagnostic::error("netlist::fit_set_and_varied", message)
                     .at(sought.span.clone(), "varied")
                     .also(record.span.clone(), "set for this record");
-                self.report(problem.help(format!("leave `{name}` out of `vary`, or out of every `set`")));
+                self.report(
+                    problem.help(format!("leave `{name}` out of `vary`, or out of every `set`")),
+                );
             }
         }
     }
@@ -187,8 +196,8 @@ impl<'a> Elaboration<'a> {
 
 fn unknown_key(fields: &Fields<'_>, entry: &RawEntry, key: &str) -> Diagnostic {
     let message = format!("a record of {} has no field `{key}`", fields.owner.words());
-    let problem =
-        Diagnostic::error("netlist::unknown_key", message).at(entry.key_span.clone(), "unknown key");
+    let problem = Diagnostic::error("netlist::unknown_key", message)
+        .at(entry.key_span.clone(), "unknown key");
     problem.help(nearest(key, KEYS, "the keys here are"))
 }
 

@@ -19,8 +19,14 @@ pub(crate) const FIT: SectionDeclaration = SectionDeclaration {
     sentence: "Parameters to find from records.",
     role: Role::Study,
     keys: &[
-        key("data", "file, or a list of files", "the records; one may `set` parameters", "\"record.csv\""),
-        key("time", "name of a column", "the column of the times", "\"t\"").or("the first in a unit of time"),
+        key(
+            "data",
+            "file, or a list of files",
+            "the records; one may `set` parameters",
+            "\"record.csv\"",
+        ),
+        key("time", "name of a column", "the column of the times", "\"t\"")
+            .or("the first in a unit of time"),
         key("column", "table of results", "what each column measures", "{ ring = \"steel.T\" }"),
         key("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\""),
         key(
@@ -92,11 +98,13 @@ pub struct FitRecord {
 pub struct Observed {
     /// The column.
     pub column: String,
-    /// The result as it is written, `steel.T`: a temperature, a heat flow, or an expression of results.
+    /// The result as it is written, `steel.T`: a temperature, a heat flow, or an expression of
+    /// results.
     pub text: String,
     /// The node or boundary, where the result is the temperature of one.
     pub end: Option<End>,
-    /// The result; it reads temperatures and heats, see [`lptn_network::Evaluation::set_temperatures`].
+    /// The result; it reads temperatures and heats, see
+    /// [`lptn_network::Evaluation::set_temperatures`].
     pub value: Value,
     /// The type of the result.
     pub ty: Type,
@@ -122,11 +130,11 @@ pub struct VariedName {
 pub struct FitPlan {
     /// The parameters to find, in file order.
     pub varied: Vec<Varied>,
-    /// The standard deviation of one sample of each of [`FitStudy::observed`], in the unit of its type (K for a
-    /// temperature); `None` where none is given.
+    /// The standard deviation of one sample of each of [`FitStudy::observed`], in the unit of its
+    /// type (K for a temperature); `None` where none is given.
     pub sigmas: Vec<Option<f64>>,
-    /// For each of [`FitStudy::records`] the parameters that its run starts from: everything that was set, and what the
-    /// record sets. The varied parameters are to be set in addition.
+    /// For each of [`FitStudy::records`] the parameters that its run starts from: everything that
+    /// was set, and what the record sets. The varied parameters are to be set in addition.
     pub parameters: Vec<Parameters>,
 }
 
@@ -148,8 +156,11 @@ impl FitStudy {
             let prior = deviation.filter(|deviation| *deviation > 0.0);
             varied.push(Varied { parameter, bounds: (from, to), prior });
         }
-        let sigmas: Result<_, _> =
-            self.observed.iter().map(|observed| observed.sigma.as_ref().map(&mut at).transpose()).collect();
+        let sigmas: Result<_, _> = self
+            .observed
+            .iter()
+            .map(|observed| observed.sigma.as_ref().map(&mut at).transpose())
+            .collect();
         let mut parameters = Vec::with_capacity(self.records.len());
         for record in &self.records {
             let mut own = set.clone();
@@ -164,7 +175,11 @@ impl FitStudy {
     }
 
     /// Its fields as they are written; `path` is how a file that a file names is named there.
-    pub(crate) fn written(&self, network: &Network, path: &dyn Fn(FileId, &str) -> String) -> TomlFields {
+    pub(crate) fn written(
+        &self,
+        network: &Network,
+        path: &dyn Fn(FileId, &str) -> String,
+    ) -> TomlFields {
         let ty = |name: &str| {
             let id = network.parameter(name).ok();
             id.map_or(Type::SCALAR, |id| network.parameters()[id.index()].ty)
@@ -177,7 +192,11 @@ impl FitStudy {
                 .iter()
                 .map(|(name, own)| format!("{} = {}", toml_key(name), like(own, ty(name))))
                 .collect();
-            if set.is_empty() { csv } else { format!("{{ csv = {csv}, set = {{ {} }} }}", set.join(", ")) }
+            if set.is_empty() {
+                csv
+            } else {
+                format!("{{ csv = {csv}, set = {{ {} }} }}", set.join(", "))
+            }
         };
         let records: Vec<String> = self.records.iter().map(record).collect();
         fields.put("data", format!("[{}]", records.join(", ")));
@@ -199,9 +218,15 @@ impl FitStudy {
         let varied = |varied: &VariedName| {
             let ends = [("from", &varied.from), ("to", &varied.to)].into_iter();
             let ends: Vec<String> = ends
-                .filter_map(|(name, end)| Some(format!("{name} = {}", like(end.as_ref()?, ty(&varied.name)))))
+                .filter_map(|(name, end)| {
+                    Some(format!("{name} = {}", like(end.as_ref()?, ty(&varied.name))))
+                })
                 .collect();
-            let range = if ends.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", ends.join(", ")) };
+            let range = if ends.is_empty() {
+                "{}".to_owned()
+            } else {
+                format!("{{ {} }}", ends.join(", "))
+            };
             format!("{} = {range}", toml_key(&varied.name))
         };
         let varied: Vec<String> = self.varied.iter().map(varied).collect();
@@ -228,22 +253,33 @@ impl FitStudy {
                     "the standard deviation of column `{}` has to be more than zero",
                     observed.column
                 );
-                let problem = Diagnostic::error("netlist::fit_sigma", message).at(observed.span.clone(), "");
+                let problem =
+                    Diagnostic::error("netlist::fit_sigma", message).at(observed.span.clone(), "");
                 problems
-                    .push(problem.help("write how far one sample scatters, for example `sigma = \"0.2 K\"`"));
+                    .push(problem.help(
+                        "write how far one sample scatters, for example `sigma = \"0.2 K\"`",
+                    ));
             }
         }
         problems
     }
 
-    fn check_range(&self, network: &Network, (entry, varied): (&VariedName, &Varied)) -> Option<Diagnostic> {
+    fn check_range(
+        &self,
+        network: &Network,
+        (entry, varied): (&VariedName, &Varied),
+    ) -> Option<Diagnostic> {
         let (name, fit) = (&entry.name, &self.name);
-        let at =
-            |message: String| Diagnostic::error("netlist::fit_range", message).at(entry.span.clone(), "");
+        let at = |message: String| {
+            Diagnostic::error("netlist::fit_range", message).at(entry.span.clone(), "")
+        };
         let (from, to) = varied.bounds;
         if from >= to {
-            let message = format!("`vary` of fit `{fit}`: `from` of `{name}` has to be less than `to`");
-            return Some(at(message).help("write the least value as `from` and the largest as `to`"));
+            let message =
+                format!("`vary` of fit `{fit}`: `from` of `{name}` has to be less than `to`");
+            return Some(
+                at(message).help("write the least value as `from` and the largest as `to`"),
+            );
         }
         let start = network.parameter_value(varied.parameter);
         if (from..=to).contains(&start) {
@@ -256,6 +292,9 @@ impl FitStudy {
             "`vary` of fit `{fit}`: the range of `{name}` does not hold its own value, {start} {unit}, from which the \
              search starts"
         );
-        Some(at(message).help("make the range wider, or give the parameter another value in [param]"))
+        Some(
+            at(message)
+                .help("make the range wider, or give the parameter another value in [param]"),
+        )
     }
 }

@@ -35,11 +35,14 @@ impl<'a> Elaboration<'a> {
         self.all_there(&fields)?;
         let varied = self.varied(&fields);
         let columns = self.observed(&fields);
-        let time = fields.get("time").map(|raw| (fields.text("time", raw, &mut self.problems), raw));
-        let records = self.fit_records(&fields, &columns, time.map(|(text, raw)| (text.unwrap_or("t"), raw)));
+        let time =
+            fields.get("time").map(|raw| (fields.text("time", raw, &mut self.problems), raw));
+        let records =
+            self.fit_records(&fields, &columns, time.map(|(text, raw)| (text.unwrap_or("t"), raw)));
         let records = records?;
         self.set_and_varied(&fields, &records, varied.as_deref().unwrap_or_default());
-        let observed: Option<Vec<Observed>> = columns.into_iter().map(|column| column.observed).collect();
+        let observed: Option<Vec<Observed>> =
+            columns.into_iter().map(|column| column.observed).collect();
         let observed = observed.filter(|observed| !observed.is_empty())?;
         Some(FitStudy {
             name: entry.key.clone(),
@@ -51,10 +54,13 @@ impl<'a> Elaboration<'a> {
         })
     }
 
-    /// Whether it says what to read and what to find; all that is missing is one problem, for it has one place.
+    /// Whether it says what to read and what to find; all that is missing is one problem, for it
+    /// has one place.
     fn all_there(&mut self, fields: &Fields<'a>) -> Option<()> {
-        let missing: Vec<&str> =
-            ["data", "column", "vary"].into_iter().filter(|key| fields.get(key).is_none()).collect();
+        let missing: Vec<&str> = ["data", "column", "vary"]
+            .into_iter()
+            .filter(|key| fields.get(key).is_none())
+            .collect();
         if missing.len() < 2 || !fields.complete {
             return Some(());
         }
@@ -85,7 +91,8 @@ impl<'a> Elaboration<'a> {
         let all = all?;
         for (i, entry) in all.iter().enumerate() {
             if let Some(first) = all[..i].iter().find(|other| other.name == entry.name) {
-                let message = format!("{} names `{}` twice", fields.owner.field("vary"), entry.name);
+                let message =
+                    format!("{} names `{}` twice", fields.owner.field("vary"), entry.name);
                 let problem = Diagnostic::error("netlist::fit_vary", message)
                     .at(entry.span.clone(), "again")
                     .also(first.span.clone(), "first here");
@@ -110,8 +117,10 @@ impl<'a> Elaboration<'a> {
         let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
         let [from, to] = ["from", "to"].map(|key| self.range_end(&range, key, ty));
         // one that is there and wrong has been reported
-        let (from, to) =
-            (from.map_or(Some(None), |end| end.map(Some)), to.map_or(Some(None), |end| end.map(Some)));
+        let (from, to) = (
+            from.map_or(Some(None), |end| end.map(Some)),
+            to.map_or(Some(None), |end| end.map(Some)),
+        );
         Some(VariedName { name: name.clone(), span: entry.key_span.clone(), from: from?, to: to? })
     }
 
@@ -136,7 +145,11 @@ impl<'a> Elaboration<'a> {
         let entries = match &raw.kind {
             RawKind::Table(table) if !table.entries.is_empty() => &table.entries,
             _ => {
-                self.report(fields.wrong_shape("column", raw, "a table of columns and what they measure"));
+                self.report(fields.wrong_shape(
+                    "column",
+                    raw,
+                    "a table of columns and what they measure",
+                ));
                 return Vec::new();
             }
         };

@@ -12,7 +12,11 @@ use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
     /// The file of this kind, if one is named; its header has no unknown columns.
-    pub(crate) fn rows(&mut self, import: Option<&Fields<'a>>, contents: &Contents) -> Option<Rows<'a>> {
+    pub(crate) fn rows(
+        &mut self,
+        import: Option<&Fields<'a>>,
+        contents: &Contents,
+    ) -> Option<Rows<'a>> {
         let fields = import?;
         fields.get(contents.key)?;
         let rows = self.opened(fields, contents);
@@ -45,13 +49,19 @@ impl<'a> Elaboration<'a> {
     }
 
     /// A column of numbers that has to be there.
-    pub(crate) fn number_column(&mut self, rows: &Rows<'_>, name: &str, ty: Type) -> Option<Column> {
+    pub(crate) fn number_column(
+        &mut self,
+        rows: &Rows<'_>,
+        name: &str,
+        ty: Type,
+    ) -> Option<Column> {
         self.kept(rows.numbers(name, ty))
     }
 
     /// The conductances or the resistances: one of the two.
     pub(crate) fn law_column(&mut self, rows: &Rows<'_>) -> Option<(Column, Formula)> {
-        let (conductance, resistance) = (self.optional_column(rows, "G"), self.optional_column(rows, "R"));
+        let (conductance, resistance) =
+            (self.optional_column(rows, "G"), self.optional_column(rows, "R"));
         match (conductance, resistance) {
             (Some(g), Some(r)) => {
                 self.report(two_laws(rows, g, r));
@@ -89,7 +99,11 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The node or boundary that a cell names.
-    pub(crate) fn end_of(&mut self, rows: &mut Rows<'_>, (key, index): (&str, usize)) -> Option<End> {
+    pub(crate) fn end_of(
+        &mut self,
+        rows: &mut Rows<'_>,
+        (key, index): (&str, usize),
+    ) -> Option<End> {
         let name = rows.cell(index);
         if let Some(end) = self.builder.end(name) {
             return Some(end);
@@ -105,7 +119,8 @@ impl<'a> Elaboration<'a> {
             return None;
         }
         let name = name.to_owned();
-        let problem = self.unknown_end((&format!("column `{key}`"), key), (&name, &rows.place(index)));
+        let problem =
+            self.unknown_end((&format!("column `{key}`"), key), (&name, &rows.place(index)));
         self.refuse_row(rows, |rows| rows.asked.also(problem));
         None
     }
@@ -122,8 +137,8 @@ impl<'a> Elaboration<'a> {
         named
     }
 
-    /// Goes to the next row, if there is one. A row that has more or fewer cells than the header is reported: something
-    /// in it is not where it seems to be.
+    /// Goes to the next row, if there is one. A row that has more or fewer cells than the header is
+    /// reported: something in it is not where it seems to be.
     pub(crate) fn next_row(&mut self, rows: &mut Rows<'_>) -> bool {
         let there = rows.step();
         if there && !rows.sound {
@@ -133,7 +148,11 @@ impl<'a> Elaboration<'a> {
     }
 
     /// Reports a problem of a row, up to so many of a file.
-    fn refuse_row<'s>(&mut self, rows: &mut Rows<'s>, problem: impl FnOnce(&Rows<'s>) -> Diagnostic) {
+    fn refuse_row<'s>(
+        &mut self,
+        rows: &mut Rows<'s>,
+        problem: impl FnOnce(&Rows<'s>) -> Diagnostic,
+    ) {
         rows.problems += 1;
         if rows.problems > MOST_PROBLEMS {
             self.dropped += 1;

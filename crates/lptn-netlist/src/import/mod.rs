@@ -1,5 +1,5 @@
-//! `[import]`: elements from CSV files, by the million. Rows are read one after the other and nothing is kept of them
-//! but what the network needs.
+//! `[import]`: elements from CSV files, by the million. Rows are read one after the other and
+//! nothing is kept of them but what the network needs.
 
 mod column;
 
@@ -23,7 +23,12 @@ pub(crate) const IMPORT: SectionDeclaration = SectionDeclaration {
     keys: &[
         key("nodes", "file", "columns `name`, `C`, and `T0` if there is one", "\"nodes.csv\""),
         key("boundaries", "file", "columns `name`, `T`", "\"boundaries.csv\""),
-        key("conductors", "file", "columns `from`, `to`, `G` or `R`, and `name`", "\"conductors.csv\""),
+        key(
+            "conductors",
+            "file",
+            "columns `from`, `to`, `G` or `R`, and `name`",
+            "\"conductors.csv\"",
+        ),
         key("sources", "file", "columns `into`, `P`, and `name`", "\"sources.csv\""),
     ],
     example: "{ nodes = \"nodes.csv\", conductors = \"conductors.csv\" }",
@@ -57,12 +62,20 @@ const NODES: Contents =
     Contents { key: "nodes", columns: &["name", "C", "T0"], example: "name,C [J/K],T0 [degC]" };
 const BOUNDARIES: Contents =
     Contents { key: "boundaries", columns: &["name", "T"], example: "name,T [degC]" };
-const CONDUCTORS: Contents =
-    Contents { key: "conductors", columns: &["from", "to", "G", "R", "name"], example: "from,to,G [W/K]" };
-const SOURCES: Contents = Contents { key: "sources", columns: &["into", "P", "name"], example: "into,P [W]" };
+const CONDUCTORS: Contents = Contents {
+    key: "conductors",
+    columns: &["from", "to", "G", "R", "name"],
+    example: "from,to,G [W/K]",
+};
+const SOURCES: Contents =
+    Contents { key: "sources", columns: &["into", "P", "name"], example: "into,P [W]" };
 
 /// The way back from the elements, the first of them given, to their rows.
-fn places(rows: Rows<'_>, (kind, first): (Kind, usize), fields: &[(Field, Option<usize>)]) -> Places {
+fn places(
+    rows: Rows<'_>,
+    (kind, first): (Kind, usize),
+    fields: &[(Field, Option<usize>)],
+) -> Places {
     let columns = fields.iter().filter_map(|(field, column)| Some((*field, (*column)?))).collect();
     Places { kind, first, columns, marks: rows.marks() }
 }
@@ -82,7 +95,11 @@ impl<'a> Elaboration<'a> {
         fields
     }
 
-    pub(crate) fn import_nodes(&mut self, import: Option<&Fields<'a>>, default: Option<&Initial<'a>>) {
+    pub(crate) fn import_nodes(
+        &mut self,
+        import: Option<&Fields<'a>>,
+        default: Option<&Initial<'a>>,
+    ) {
         let Some(mut rows) = self.rows(import, &NODES) else { return };
         let name = self.required_column(&rows, "name");
         let capacity = self.number_column(&rows, "C", Type::of(Dimension::CAPACITY));
@@ -96,7 +113,8 @@ impl<'a> Elaboration<'a> {
         while self.next_row(&mut rows) {
             let given = |column: &Column| !(rows.sound && rows.cell(column.index).is_empty());
             let (stores, starts) = (given(&capacity), initial.as_ref().is_some_and(given));
-            let own = initial.as_ref().filter(|_| starts).map(|column| self.number(&mut rows, column));
+            let own =
+                initial.as_ref().filter(|_| starts).map(|column| self.number(&mut rows, column));
             let capacity = stores.then(|| self.number(&mut rows, &capacity));
             let initial = own.or_else(|| default.map(|(input, _)| input.clone()));
             if self.is_named(&mut rows, name) {
@@ -104,8 +122,11 @@ impl<'a> Elaboration<'a> {
             }
         }
         let initial = initial.map(|column| column.index);
-        let fields =
-            [(Field::Name, Some(name)), (Field::Capacity, Some(capacity.index)), (Field::Initial, initial)];
+        let fields = [
+            (Field::Name, Some(name)),
+            (Field::Capacity, Some(capacity.index)),
+            (Field::Initial, initial),
+        ];
         self.map.add_import(places(rows, (Kind::Node, first), &fields));
     }
 
@@ -178,7 +199,8 @@ impl<'a> Elaboration<'a> {
                 None => self.builder.numbered_source(rows.count(), end, value),
             };
         }
-        let fields = [(Field::Name, name), (Field::Into, Some(into)), (Field::Power, Some(power.index))];
+        let fields =
+            [(Field::Name, name), (Field::Into, Some(into)), (Field::Power, Some(power.index))];
         self.map.add_import(places(rows, (Kind::Source, first), &fields));
     }
 

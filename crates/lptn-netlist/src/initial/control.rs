@@ -8,20 +8,24 @@ use crate::section::CONTROL;
 use crate::work::Elaboration;
 
 impl Elaboration<'_> {
-    /// Whether a control is on in the state that the run starts from; `None` if it starts from none.
+    /// Whether a control is on in the state that the run starts from; `None` if it starts from
+    /// none.
     pub(crate) fn stands(&self, name: &str) -> Option<bool> {
         self.state?.controls.get(name).map(|(stand, _)| stand.on)
     }
 
-    /// How long each control was held, in s, by id, in the state that the run starts from; empty if it starts from
-    /// none.
+    /// How long each control was held, in s, by id, in the state that the run starts from; empty if
+    /// it starts from none.
     pub(crate) fn held(&self) -> Vec<Option<f64>> {
         let Some(file) = self.state else { return Vec::new() };
         let controls = self.elements(CONTROL.name).iter();
-        controls.map(|entry| file.controls.get(&entry.key).and_then(|(stand, _)| stand.held)).collect()
+        controls
+            .map(|entry| file.controls.get(&entry.key).and_then(|(stand, _)| stand.held))
+            .collect()
     }
 
-    /// Controls of the state that the network does not have, and those of the network that are not in the state.
+    /// Controls of the state that the network does not have, and those of the network that are not
+    /// in the state.
     pub(super) fn check_controls(&mut self, file: &StateFile) {
         let known = self.elements(CONTROL.name);
         let missing = known.iter().filter(|entry| file.controls.get(&entry.key).is_none());

@@ -1,4 +1,5 @@
-//! `initial` of `[run]`: temperatures and controls at the start, from the state that another run left.
+//! `initial` of `[run]`: temperatures and controls at the start, from the state that another run
+//! left.
 
 mod control;
 mod stand;
@@ -85,12 +86,17 @@ pub(crate) struct StateFile {
 
 impl StateFile {
     /// Reads the file that a value names, `initial` of `[run]`.
-    pub(crate) fn read(files: &mut Files, value: &RawValue, loader: Option<&mut Loader<'_>>) -> Self {
+    pub(crate) fn read(
+        files: &mut Files,
+        value: &RawValue,
+        loader: Option<&mut Loader<'_>>,
+    ) -> Self {
         let RawKind::String { text, .. } = &value.kind else {
             // said where `[run]` is read; nodes are not missing a start for it
             return Self { usable: false, ..Self::empty(String::new(), value) };
         };
-        let from = Path::new(files.name(value.span.file)).parent().unwrap_or(Path::new("")).to_owned();
+        let from =
+            Path::new(files.name(value.span.file)).parent().unwrap_or(Path::new("")).to_owned();
         let path = from.join(text);
         let mut state = Self::empty(path.display().to_string(), value);
         match load(files, &path, value, loader) {
@@ -120,7 +126,10 @@ impl StateFile {
         if format.map(JsonValue::written) != Some(FORMAT) {
             let words = match format {
                 Some(found) => {
-                    format!("the state has format {}, but this lptn reads {FORMAT}", found.written())
+                    format!(
+                        "the state has format {}, but this lptn reads {FORMAT}",
+                        found.written()
+                    )
                 }
                 None => "the file has no `format`, so it is no state of a run".to_owned(),
             };
@@ -151,8 +160,9 @@ impl StateFile {
 
     fn refuse(&mut self, code: &'static str, words: String, place: Span) {
         let help = "use the `state.json` that `lptn run` writes beside its results";
-        let problem =
-            Diagnostic::error(code, words).at(place, "").also(self.state.place.clone(), "read here");
+        let problem = Diagnostic::error(code, words)
+            .at(place, "")
+            .also(self.state.place.clone(), "read here");
         self.problems.push(problem.help(help));
     }
 
@@ -186,7 +196,8 @@ impl StateFile {
         match value.string().and_then(|word| StateEnd::of(&word)) {
             Some(end) => self.state.end = end,
             None => {
-                let words = "`end` of a state is \"reached\", \"interrupted\" or \"failed\"".to_owned();
+                let words =
+                    "`end` of a state is \"reached\", \"interrupted\" or \"failed\"".to_owned();
                 self.refuse("netlist::state_member", words, value.span());
             }
         }
@@ -227,8 +238,9 @@ impl StateFile {
     fn temperature(&mut self, name: &str, value: JsonValue<'_>) -> Option<f64> {
         let number = self.number(value, &format!("`{name}` in `temperatures` of the state"))?;
         if number < 0.0 {
-            let words =
-                format!("the temperature of `{name}` in the state is below absolute zero: {number} K");
+            let words = format!(
+                "the temperature of `{name}` in the state is below absolute zero: {number} K"
+            );
             self.refuse("netlist::state_below_absolute_zero", words, value.span());
         }
         Some(number)

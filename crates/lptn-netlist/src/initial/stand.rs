@@ -16,7 +16,9 @@ pub(super) struct Stand {
 impl StateFile {
     pub(super) fn stand(&mut self, name: &str, value: JsonValue<'_>) -> Option<Stand> {
         let members = value.members().unwrap_or_default();
-        for (other, value) in members.iter().filter(|(other, _)| !["on", "held"].contains(&&**other)) {
+        for (other, value) in
+            members.iter().filter(|(other, _)| !["on", "held"].contains(&&**other))
+        {
             let words = format!("control `{name}` of a state has no member `{other}`");
             self.refuse("netlist::state_member", words, value.span());
         }
@@ -27,7 +29,9 @@ impl StateFile {
             _ => None,
         };
         if known.is_none() {
-            let words = format!("control `{name}` of a state has to have `\"on\": true` or `\"on\": false`");
+            let words = format!(
+                "control `{name}` of a state has to have `\"on\": true` or `\"on\": false`"
+            );
             self.refuse("netlist::state_control", words, on.unwrap_or(value).span());
         }
         let held = member(&members, "held").and_then(|_| self.held(name, &members, &value.span()));
@@ -38,7 +42,8 @@ impl StateFile {
         let value = self.in_unit(members, ("held", "value", "s"), place)?;
         let held = self.number(value, &format!("`held` of control `{name}` in the state"))?;
         if held < 0.0 {
-            let words = format!("how long control `{name}` was held must be at least 0 s, got {held} s");
+            let words =
+                format!("how long control `{name}` was held must be at least 0 s, got {held} s");
             self.refuse("netlist::state_control", words, value.span());
         }
         Some(held).filter(|held| *held >= 0.0)

@@ -14,10 +14,16 @@ use crate::state::StateEnd;
 use crate::work::Elaboration;
 
 impl<'a> Elaboration<'a> {
-    /// The temperature of a node in the state that the run starts from; `None` if it starts from none.
-    pub(crate) fn start_of(&mut self, entry: &RawEntry, massless: bool) -> Option<(Input, Option<Span>)> {
+    /// The temperature of a node in the state that the run starts from; `None` if it starts from
+    /// none.
+    pub(crate) fn start_of(
+        &mut self,
+        entry: &RawEntry,
+        massless: bool,
+    ) -> Option<(Input, Option<Span>)> {
         let file = self.state?;
-        let kelvin = |value| Quantity { value, deviation: None, ty: Type::ABSOLUTE_TEMPERATURE }.into();
+        let kelvin =
+            |value| Quantity { value, deviation: None, ty: Type::ABSOLUTE_TEMPERATURE }.into();
         if let Some((value, place)) = file.temperatures.get(&entry.key) {
             return Some((kelvin(value), Some(place.clone())));
         }
@@ -39,10 +45,12 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// The nodes of grids and imports, which stand in no `[node]`: their temperatures in the state take the place of
-    /// those that the file gives them. And all massless nodes: where they stood.
+    /// The nodes of grids and imports, which stand in no `[node]`: their temperatures in the state
+    /// take the place of those that the file gives them. And all massless nodes: where they stood.
     pub(crate) fn start_the_others(&mut self) {
-        let Some(file) = self.state.filter(|file| file.usable && file.problems.is_empty()) else { return };
+        let Some(file) = self.state.filter(|file| file.usable && file.problems.is_empty()) else {
+            return;
+        };
         let written: HashSet<&str> =
             self.elements(NODE.name).iter().map(|entry| entry.key.as_str()).collect();
         let names: Vec<String> = self.builder.end_names(true).map(str::to_owned).collect();
@@ -62,8 +70,11 @@ impl<'a> Elaboration<'a> {
             }
         }
         if let Some(first) = missing.first() {
-            let more =
-                if missing.len() > 1 { format!(" and of {} more", missing.len() - 1) } else { String::new() };
+            let more = if missing.len() > 1 {
+                format!(" and of {} more", missing.len() - 1)
+            } else {
+                String::new()
+            };
             let message = format!("the state has no temperature of node `{first}`{more}");
             let problem = Diagnostic::error("netlist::state_missing_node", message);
             let problem = problem.at(file.state.place.clone(), "the state is read here");
@@ -71,7 +82,8 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// Reports what is wrong with the state that the run starts from, and what it names beyond the network.
+    /// Reports what is wrong with the state that the run starts from, and what it names beyond the
+    /// network.
     pub(crate) fn check_state(&mut self) {
         let Some(file) = self.state else { return };
         self.problems.extend(file.problems.iter().cloned());
@@ -96,7 +108,11 @@ impl<'a> Elaboration<'a> {
 }
 
 /// What a reader should know of where a run starts.
-pub(crate) fn warnings(state: &InitialState, plan: Option<&RunPlan>, network: &Network) -> Vec<Diagnostic> {
+pub(crate) fn warnings(
+    state: &InitialState,
+    plan: Option<&RunPlan>,
+    network: &Network,
+) -> Vec<Diagnostic> {
     let Some(plan) = plan else { return Vec::new() };
     let Ok(run) = plan.settings(network) else { return Vec::new() };
     let written = plan.start_place();
@@ -104,17 +120,23 @@ pub(crate) fn warnings(state: &InitialState, plan: Option<&RunPlan>, network: &N
     let at = |problem: Diagnostic| problem.at(state.place.clone(), "");
     let mut warnings = Vec::new();
     if apart && (written.is_some() || network.has_time_dependent_inputs()) {
-        let message = format!("the run starts at {} s, from a state at {} s", run.start, state.time);
+        let message =
+            format!("the run starts at {} s, from a state at {} s", run.start, state.time);
         let warning = at(Diagnostic::warning("netlist::initial_time", message));
         let warning = match written {
             Some(place) => warning.also(place.clone(), "`t` begins here"),
             None => warning.note("`t` begins at 0 s, and the inputs depend on it"),
         };
-        warnings.push(warning.help(format!("to go on where it ended write `start = \"{} s\"`", state.time)));
+        warnings.push(
+            warning.help(format!("to go on where it ended write `start = \"{} s\"`", state.time)),
+        );
     }
     if state.end != StateEnd::Reached && (apart || written.is_none()) {
-        let message =
-            format!("the state is of a run that {} at {} s, before its stop", ended(state.end), state.time);
+        let message = format!(
+            "the state is of a run that {} at {} s, before its stop",
+            ended(state.end),
+            state.time
+        );
         warnings.push(
             at(Diagnostic::warning("netlist::initial_unfinished", message))
                 .help(format!("to finish that run write `start = \"{} s\"`", state.time)),

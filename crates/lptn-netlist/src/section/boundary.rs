@@ -16,7 +16,10 @@ pub(crate) const BOUNDARY: SectionDeclaration = SectionDeclaration {
     example: "{ T = \"25 degC\" }",
     elsewhere: &[
         ("T0", "the temperature of a boundary is `T`"),
-        ("C", "a boundary keeps its temperature whatever flows in; what has a capacity is a [node]"),
+        (
+            "C",
+            "a boundary keeps its temperature whatever flows in; what has a capacity is a [node]",
+        ),
     ],
     ..SectionDeclaration::NEW
 };
@@ -28,7 +31,8 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// A boundary keeps its name even if its temperature is wrong, so that paths to it are not reported too.
+    /// A boundary keeps its name even if its temperature is wrong, so that paths to it are not
+    /// reported too.
     fn boundary(&mut self, entry: &'a RawEntry) {
         let fields = self.fields(&BOUNDARY, entry);
         let ty = Type::ABSOLUTE_TEMPERATURE;

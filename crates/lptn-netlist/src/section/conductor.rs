@@ -26,7 +26,8 @@ impl<'a> Elaboration<'a> {
         fields.area = self.area_of(&fields, [&from, &to]);
         // a stand-in where the law is wrong, so that the ends still count
         let path = self.path(&fields, of);
-        let path = path.unwrap_or_else(|| Path::resistance(stand_in(Type::of(Dimension::RESISTANCE))));
+        let path =
+            path.unwrap_or_else(|| Path::resistance(stand_in(Type::of(Dimension::RESISTANCE))));
         let (from, to) = (from?, to?);
         let before = self.builder.sizes();
         let item = self.builder.connect(&entry.key, of.kind, (from.0, to.0), path);

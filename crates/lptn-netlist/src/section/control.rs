@@ -15,8 +15,7 @@ use crate::work::Elaboration;
 const TIME: Type = Type::of(Dimension::TIME);
 
 /// What a control for something else than a thermostat would be given.
-const BOTH: &str =
-    "give both thresholds: `on_above` and `off_below` for cooling, `on_below` and `off_above` for heating";
+const BOTH: &str = "give both thresholds: `on_above` and `off_below` for cooling, `on_below` and `off_above` for heating";
 
 pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
     name: ValueKind::Control.section(),
@@ -28,8 +27,13 @@ pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
         key("off_below", ABSOLUTE, "of cooling: below it, it goes off", "\"55 degC\""),
         key("on_below", ABSOLUTE, "of heating: below it, it goes on", "\"18 degC\""),
         key("off_above", ABSOLUTE, "of heating: above it, it goes off", "\"20 degC\""),
-        key("start", "`\"on\"`, `\"off\"`", "how it stands at the start, between the thresholds", "\"on\"")
-            .or("`\"off\"`"),
+        key(
+            "start",
+            "`\"on\"`, `\"off\"`",
+            "how it stands at the start, between the thresholds",
+            "\"on\"",
+        )
+        .or("`\"off\"`"),
         key("min_dwell", "s", "the least time between two switches", "\"30 s\"").or("0 s"),
     ],
     example: "{ sense = \"a\", on_above = \"60 degC\", off_below = \"55 degC\" }",
@@ -44,7 +48,10 @@ pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
         ("band", BOTH),
         ("initial", "whether it is on at the start is `start`"),
         ("dwell", "the least time between two switches is `min_dwell`"),
-        ("P", "what it switches uses its name, which is 0 or 1: `P = \"100 [W] * name\"` of a [source]"),
+        (
+            "P",
+            "what it switches uses its name, which is 0 or 1: `P = \"100 [W] * name\"` of a [source]",
+        ),
     ],
     ..SectionDeclaration::NEW
 };
@@ -95,11 +102,13 @@ impl<'a> Elaboration<'a> {
             let Some(raw) = fields.get(field.key()) else { continue };
             self.map.value(Item::Control(id), field, raw);
             let place = Place { owner: &fields.owner, key: field.key(), raw };
-            given.extend(self.given(place, Wanted::threshold()).map(|value| (field, value.input())));
+            given
+                .extend(self.given(place, Wanted::threshold()).map(|value| (field, value.input())));
         }
         let acts = acts?;
-        let of =
-            |field: Field| given.iter().find(|(other, _)| *other == field).map(|(_, value)| value.clone());
+        let of = |field: Field| {
+            given.iter().find(|(other, _)| *other == field).map(|(_, value)| value.clone())
+        };
         let [on, off] = acts.fields().map(of);
         Some((acts, [on?, off?]))
     }
@@ -168,10 +177,13 @@ fn half_a_pair(fields: &Fields<'_>, there: &str, missing: &str) -> Diagnostic {
 
 /// Thresholds of both pairs.
 fn mixed(fields: &Fields<'_>) -> Diagnostic {
-    let message = format!("{} has thresholds for cooling as well as for heating", fields.owner.words());
+    let message =
+        format!("{} has thresholds for cooling as well as for heating", fields.owner.words());
     let pairs = [("cooling", Acts::Cooling), ("heating", Acts::Heating)];
-    let keys = pairs.into_iter().flat_map(|(word, acts)| acts.fields().map(|field| (word, field.key())));
-    let given = keys.filter_map(|(word, key)| Some((fields.key(key)?.clone(), format!("for {word}"))));
+    let keys =
+        pairs.into_iter().flat_map(|(word, acts)| acts.fields().map(|field| (word, field.key())));
+    let given =
+        keys.filter_map(|(word, key)| Some((fields.key(key)?.clone(), format!("for {word}"))));
     let error = Diagnostic::error("netlist::two_thermostats", message).places(given);
     error.help(format!("keep one pair, {}", both_pairs()))
 }

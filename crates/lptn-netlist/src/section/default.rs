@@ -16,7 +16,8 @@ pub(crate) const DEFAULT: SectionDeclaration = SectionDeclaration {
     role: Role::Default,
     keys: &[
         key("T0", ABSOLUTE, "temperature of the nodes at the start", "\"25 degC\""),
-        key("temperature_unit", "unit", "unit of temperatures in results", "\"degC\"").or("`\"degC\"`"),
+        key("temperature_unit", "unit", "unit of temperatures in results", "\"degC\"")
+            .or("`\"degC\"`"),
     ],
     example: "{ T0 = \"25 degC\" }",
     ..SectionDeclaration::NEW
@@ -37,9 +38,12 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn defaults(&mut self) -> Default<'a> {
         let mut default = Default { initial: None, temperature_unit: celsius() };
         let Some(entry) = self.raw.top.get(DEFAULT.name) else { return default };
-        let Some(fields) = self.inner(&DEFAULT, Owner::section(DEFAULT.name), entry) else { return default };
+        let Some(fields) = self.inner(&DEFAULT, Owner::section(DEFAULT.name), entry) else {
+            return default;
+        };
         let ty = Type::ABSOLUTE_TEMPERATURE;
-        if let (Some(raw), Some(input)) = (fields.get("T0"), self.input(&fields, "T0", Wanted::constant(ty)))
+        if let (Some(raw), Some(input)) =
+            (fields.get("T0"), self.input(&fields, "T0", Wanted::constant(ty)))
         {
             self.map.set_default(raw.span.clone());
             default.initial = Some((input, raw));
@@ -83,5 +87,10 @@ fn bad_unit(owner: &Owner, raw: &RawValue, text: &str, error: Option<&UnitError>
         None => format!("{words} must be a unit of temperature, got `{text}`"),
     };
     let code = error.map_or("netlist::temperature_unit", UnitError::code);
-    Diagnostic::wrong(code, message, &raw.span, "write `temperature_unit = \"degC\"`, or \"K\", \"degF\"")
+    Diagnostic::wrong(
+        code,
+        message,
+        &raw.span,
+        "write `temperature_unit = \"degC\"`, or \"K\", \"degF\"",
+    )
 }

@@ -15,7 +15,11 @@ use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
     /// The node, boundary or face of a grid that a field names.
-    pub(crate) fn terminal(&mut self, fields: &Fields<'a>, key: &str) -> Option<(Terminal, &'a RawValue)> {
+    pub(crate) fn terminal(
+        &mut self,
+        fields: &Fields<'a>,
+        key: &str,
+    ) -> Option<(Terminal, &'a RawValue)> {
         let (name, raw) = self.required_word(fields, key)?;
         match self.face_at(&raw.span, name) {
             Some(at) => Some((at.into(), raw)),
@@ -40,7 +44,8 @@ impl<'a> Elaboration<'a> {
             }
             _ => false,
         };
-        let lost = ends.into_iter().zip(["from", "to"]).any(|(end, key)| end.is_none() && meant(key));
+        let lost =
+            ends.into_iter().zip(["from", "to"]).any(|(end, key)| end.is_none() && meant(key));
         area.or_else(|| lost.then(|| stand_in(Type::of(Dimension::AREA))))
     }
 
@@ -50,7 +55,8 @@ impl<'a> Elaboration<'a> {
         if other { None } else { self.names.grid_part(name) }
     }
 
-    /// The face that a name means at `place`, also the end of a rod, whose one surface has the same name.
+    /// The face that a name means at `place`, also the end of a rod, whose one surface has the same
+    /// name.
     fn face_at(&self, place: &Span, name: &str) -> Option<GridFace> {
         let full = self.names.structure.inside(place, name)?;
         match self.names.grid_part(&full)? {
@@ -59,7 +65,8 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// What a name that is written at `place` means of a grid; inside a template it has to be one of the template's.
+    /// What a name that is written at `place` means of a grid; inside a template it has to be one
+    /// of the template's.
     pub(crate) fn part_of_grid_at(&self, place: &Span, name: &str) -> Option<GridPart> {
         let full = self.names.structure.inside(place, name)?;
         self.part_of_grid(&full).map(|(_, part)| part)
@@ -145,11 +152,13 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// Whether every port leads to a node or boundary; what does not is reported once, and not where it is used.
+    /// Whether every port leads to a node or boundary; what does not is reported once, and not
+    /// where it is used.
     pub(crate) fn connections(&mut self) {
         for (line, connection) in self.structure.connections() {
             let (owner, value) = (Owner::element(USE.name, &line.key), &connection.value);
-            let Some(fields) = Fields::of(&USE, owner.inside("connect"), line, &mut Vec::new()) else {
+            let Some(fields) = Fields::of(&USE, owner.inside("connect"), line, &mut Vec::new())
+            else {
                 continue;
             };
             let RawKind::String { text, .. } = &value.kind else { continue };
@@ -173,21 +182,28 @@ impl<'a> Elaboration<'a> {
             let problem = Diagnostic::error("netlist::outside_template", message);
             return problem.at(raw.span.clone(), "not in the template").help(by_port(name));
         }
-        let message =
-            format!("template `{template}` has no node, boundary or port `{name}`, which {words} refers to");
+        let message = format!(
+            "template `{template}` has no node, boundary or port `{name}`, which {words} refers to"
+        );
         let problem = Diagnostic::error("netlist::unknown_node", message).at(raw.span.clone(), "");
         let names = self.structure.names_at(&raw.span);
         problem.help(nearest(name, names.iter().copied(), "its names are"))
     }
 
     /// The node that a field names; a boundary is not one.
-    pub(crate) fn node_end(&mut self, fields: &Fields<'a>, key: &str) -> Option<(NodeId, &'a RawValue)> {
+    pub(crate) fn node_end(
+        &mut self,
+        fields: &Fields<'a>,
+        key: &str,
+    ) -> Option<(NodeId, &'a RawValue)> {
         let (end, raw) = self.end(fields, key)?;
         match end {
             End::Node(id) => Some((id, raw)),
             End::Boundary(_) => {
-                let message =
-                    format!("{} names a boundary, which needs no capacity", fields.owner.field(key));
+                let message = format!(
+                    "{} names a boundary, which needs no capacity",
+                    fields.owner.field(key)
+                );
                 let problem = Diagnostic::error("netlist::not_a_node", message)
                     .at(raw.span.clone(), "a boundary")
                     .help("a boundary keeps its temperature whatever flows in: name a node");
@@ -198,18 +214,24 @@ impl<'a> Elaboration<'a> {
     }
 
     /// A name that no node or boundary has, which `from` refers to.
-    pub(crate) fn unknown_end(&mut self, (from, key): (&str, &str), (name, at): (&str, &Span)) -> Diagnostic {
+    pub(crate) fn unknown_end(
+        &mut self,
+        (from, key): (&str, &str),
+        (name, at): (&str, &Span),
+    ) -> Diagnostic {
         let wanted = if matches!(key, "node" | "into") { "node" } else { "node or boundary" };
         let message = format!("no {wanted} named `{name}`, which {from} refers to");
-        let error =
-            Diagnostic::error("netlist::unknown_node", message).at(at.clone(), format!("no such {wanted}"));
+        let error = Diagnostic::error("netlist::unknown_node", message)
+            .at(at.clone(), format!("no such {wanted}"));
         if let Some(wrong) = self.structure.wrong_path(name) {
             return wrong_path((from, name), at.clone(), wrong);
         }
         if let Some(near) = self.similar_end(name, wanted == "node") {
             let error = error.help(format!("did you mean `{near}`?"));
-            return error
-                .also(self.builder.end(&near).and_then(|end| self.map.name(end.into())), "similar name");
+            return error.also(
+                self.builder.end(&near).and_then(|end| self.map.name(end.into())),
+                "similar name",
+            );
         }
         let value = || self.names.value_kind(name).map(|kind| kind.word());
         match self.kind_of(name).or_else(value) {
@@ -218,7 +240,9 @@ impl<'a> Elaboration<'a> {
                 let near = self.similar_grid(name).unwrap_or_default();
                 error.help(format!("did you mean grid `{near}`?"))
             }
-            None if is_name(name) => error.help(format!("add it, for example {}", example(name, wanted))),
+            None if is_name(name) => {
+                error.help(format!("add it, for example {}", example(name, wanted)))
+            }
             None => error.help("write the name as it stands below [node] or [boundary]"),
         }
     }

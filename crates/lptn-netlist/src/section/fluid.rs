@@ -44,7 +44,8 @@ impl<'a> Elaboration<'a> {
         let fields = self.fields(&FLUID, entry)?;
         let cp_type = Type::of(Dimension::SPECIFIC_HEAT);
         self.require(&fields, "cp");
-        let cp = self.property(&fields, "cp", Wanted::own(cp_type)).unwrap_or_else(|| stand_in(cp_type));
+        let cp =
+            self.property(&fields, "cp", Wanted::own(cp_type)).unwrap_or_else(|| stand_in(cp_type));
         let ty = Type::of(Dimension::DENSITY);
         let density = self.property(&fields, "density", Wanted::own(ty));
         // an unknown key may be the property that is missing
@@ -52,7 +53,12 @@ impl<'a> Elaboration<'a> {
         let source = self.word(&fields, "source").map(|(text, _)| text.to_owned());
         let known = density.is_some();
         let id = self.builder.fluid(&entry.key, density, cp, source);
-        self.note(Item::Fluid(id), &entry.key_span, &fields, &[Field::Density, Field::SpecificHeat]);
+        self.note(
+            Item::Fluid(id),
+            &entry.key_span,
+            &fields,
+            &[Field::Density, Field::SpecificHeat],
+        );
         self.known_fluids.insert(entry.key.clone(), KnownFluid { id, density: known });
         Some(())
     }
@@ -64,14 +70,20 @@ impl<'a> Elaboration<'a> {
         law: Formula,
         (fluid, name, raw): (KnownFluid, &'a str, &'a RawValue),
     ) -> Option<FluidId> {
-        let Carries::VolumeFlow(measured) = law.declaration().carries else { return Some(fluid.id) };
+        let Carries::VolumeFlow(measured) = law.declaration().carries else {
+            return Some(fluid.id);
+        };
         if fluid.density || !fields.has(measured) {
             return Some(fluid.id);
         }
-        let message = format!("{} needs `density` of fluid `{name}`, which has none", fields.owner.words());
+        let message =
+            format!("{} needs `density` of fluid `{name}`, which has none", fields.owner.words());
         let problem = Diagnostic::error("netlist::no_property", message).at(raw.span.clone(), "");
         self.report(
-            problem.help(format!("add `{}` to the fluid, or give a mass flow", FLUID.sample("density"))),
+            problem.help(format!(
+                "add `{}` to the fluid, or give a mass flow",
+                FLUID.sample("density")
+            )),
         );
         None
     }
@@ -113,7 +125,8 @@ impl<'a> Elaboration<'a> {
     }
 
     fn unknown_fluid(&self, fields: &Fields<'_>, (name, raw): (&str, &RawValue)) -> Diagnostic {
-        let message = format!("no fluid named `{name}`, which {} refers to", fields.owner.field("fluid"));
+        let message =
+            format!("no fluid named `{name}`, which {} refers to", fields.owner.field("fluid"));
         let problem = Diagnostic::error("netlist::unknown_fluid", message)
             .at(raw.span.clone(), "neither in [fluid] nor in the library");
         let own = self.elements(FLUID.name).iter().map(|entry| entry.key.as_str());

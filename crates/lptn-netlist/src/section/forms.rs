@@ -27,7 +27,8 @@ fn written(fields: &Fields<'_>, form: &[&str]) -> String {
 fn no_form(fields: &Fields<'_>, forms: &[&[&str]]) -> Diagnostic {
     let either: Vec<String> = forms.iter().map(|form| words(form)).collect();
     let message = format!("{} has neither {}", fields.owner.words(), either.join(" nor "));
-    let samples: Vec<String> = forms.iter().map(|form| format!("`{}`", written(fields, form))).collect();
+    let samples: Vec<String> =
+        forms.iter().map(|form| format!("`{}`", written(fields, form))).collect();
     Diagnostic::error("netlist::no_law", message)
         .at(fields.place.clone(), "does not say how much heat it carries")
         .help(format!("add {}", samples.join(" or ")))

@@ -22,10 +22,25 @@ pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
     sentence: "A block that is cut into cells.",
     role: Role::Element,
     keys: &[
-        key("size", "list of three lengths", "along x, y and z", "[\"0.5 m\", \"0.5 m\", \"20 mm\"]"),
-        key("cells", "list of one to three whole numbers", "how many cells along x, y and z", "[20, 20, 4]"),
+        key(
+            "size",
+            "list of three lengths",
+            "along x, y and z",
+            "[\"0.5 m\", \"0.5 m\", \"20 mm\"]",
+        ),
+        key(
+            "cells",
+            "list of one to three whole numbers",
+            "how many cells along x, y and z",
+            "[20, 20, 4]",
+        ),
         MATERIAL_OF,
-        key("k", "W/(m K), or three", "conductivity, or those along x, y and z", "\"46.6 W/(m K)\""),
+        key(
+            "k",
+            "W/(m K), or three",
+            "conductivity, or those along x, y and z",
+            "\"46.6 W/(m K)\"",
+        ),
         DENSITY,
         CP,
         START,
@@ -34,7 +49,10 @@ pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
     elsewhere: &[
         ("rho", "the density is `density`"),
         ("lambda", "the thermal conductivity is `k`"),
-        ("C", "the capacity of a grid follows from its size and its `material`, or `density` and `cp`"),
+        (
+            "C",
+            "the capacity of a grid follows from its size and its `material`, or `density` and `cp`",
+        ),
         ("T", "the temperature at the start is `T0`"),
         ("area", "the areas follow from `size`"),
     ],
@@ -56,8 +74,8 @@ const FIELDS: [Field; 7] = [
 ];
 
 impl<'a> Elaboration<'a> {
-    /// The grids, and the surfaces of the faces that anything names: expressions may use their temperatures before the
-    /// path that ends there is read.
+    /// The grids, and the surfaces of the faces that anything names: expressions may use their
+    /// temperatures before the path that ends there is read.
     pub(crate) fn grids(&mut self, default: Option<&Initial<'a>>) {
         for entry in self.elements(GRID.name) {
             if self.grid(entry, default).is_none() {
@@ -73,7 +91,10 @@ impl<'a> Elaboration<'a> {
         let entries: Vec<&'a RawEntry> = sections.flat_map(|name| self.elements(name)).collect();
         for entry in entries {
             if let RawKind::Table(table) = &entry.value.kind {
-                let named = table.entries.iter().filter(|f| matches!(f.key.as_str(), "from" | "to" | "into"));
+                let named = table
+                    .entries
+                    .iter()
+                    .filter(|f| matches!(f.key.as_str(), "from" | "to" | "into"));
                 named.for_each(|field| self.attach(&field.value));
             }
         }
@@ -88,7 +109,9 @@ impl<'a> Elaboration<'a> {
         };
         for name in names {
             let Some(full) = self.names.structure.inside(&raw.span, name) else { continue };
-            let Some((own, GridPart::Face(at) | GridPart::Surface(at))) = self.names.grid_part(&full) else {
+            let Some((own, GridPart::Face(at) | GridPart::Surface(at))) =
+                self.names.grid_part(&full)
+            else {
                 continue;
             };
             let before = self.builder.sizes();
@@ -103,7 +126,12 @@ impl<'a> Elaboration<'a> {
     }
 
     /// Notes that the nodes and conductors made since `before` are parts of `whole`.
-    pub(crate) fn note_parts(&mut self, before: (usize, usize), whole: Item, section: &'static str) {
+    pub(crate) fn note_parts(
+        &mut self,
+        before: (usize, usize),
+        whole: Item,
+        section: &'static str,
+    ) {
         let (nodes, conductors) = self.builder.sizes();
         self.map.parts((before.0..nodes, before.1..conductors), whole);
         (before.1..conductors).for_each(|_| self.map.conductor(section));
@@ -117,7 +145,8 @@ impl<'a> Elaboration<'a> {
         let own = self.initial(&fields);
         let initial_at = fields.get("T0").or(default.map(|(_, raw)| *raw));
         let initial = own.or_else(|| default.map(|(input, _)| input.clone()));
-        let initial = initial.or_else(|| (!fields.complete).then(|| stand_in(Type::ABSOLUTE_TEMPERATURE)));
+        let initial =
+            initial.or_else(|| (!fields.complete).then(|| stand_in(Type::ABSOLUTE_TEMPERATURE)));
         let ((substance, conductivity), cells) = (substance?, cells?);
         let before = self.builder.sizes();
         let block = Block { size: size?, cells: cells.clone(), conductivity, substance, initial };
@@ -142,7 +171,8 @@ impl<'a> Elaboration<'a> {
         let raw = self.require(fields, "size")?;
         let list = self.list(fields, ("size", "a list of three lengths"))?;
         let [x, y, z] = list else {
-            let message = format!("{} has {}, not three", fields.owner.field("size"), lengths(list.len()));
+            let message =
+                format!("{} has {}, not three", fields.owner.field("size"), lengths(list.len()));
             let help = "a block has three lengths, along x, y and z, also where it is not divided";
             let help = format!("{help}: `{}`", fields.sample("size"));
             self.refuse("netlist::grid_size", message, &raw.span, help);
@@ -162,7 +192,8 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::grid_cells", message, &raw.span, help);
             return None;
         }
-        let counts: Vec<Option<usize>> = list.iter().map(|raw| self.cell_count(fields, raw)).collect();
+        let counts: Vec<Option<usize>> =
+            list.iter().map(|raw| self.cell_count(fields, raw)).collect();
         counts.into_iter().collect()
     }
 
@@ -192,20 +223,21 @@ impl<'a> Elaboration<'a> {
             return self.of_material(fields, k);
         }
         if fields.complete && ["k", "density", "cp"].iter().all(|key| fields.get(key).is_none()) {
-            let message =
-                format!("{} has neither a `material` nor `k`, `density` and `cp`", fields.owner.words());
-            let problem = Diagnostic::error("netlist::missing_field", message);
-            self.report(
-                problem
-                    .at(fields.place.clone(), "does not say what it is made of")
-                    .help(format!("add `{}`, or the properties themselves", fields.sample("material"))),
+            let message = format!(
+                "{} has neither a `material` nor `k`, `density` and `cp`",
+                fields.owner.words()
             );
+            let problem = Diagnostic::error("netlist::missing_field", message);
+            self.report(problem.at(fields.place.clone(), "does not say what it is made of").help(
+                format!("add `{}`, or the properties themselves", fields.sample("material")),
+            ));
             return None;
         }
         for key in ["k", "density", "cp"] {
             self.require(fields, key);
         }
-        let density = self.property(fields, "density", Wanted::constant(Type::of(Dimension::DENSITY)));
+        let density =
+            self.property(fields, "density", Wanted::constant(Type::of(Dimension::DENSITY)));
         let cp = self.property(fields, "cp", Wanted::own(Type::of(Dimension::SPECIFIC_HEAT)));
         Some((Substance::Properties { density: density?, cp: cp? }, k?))
     }
@@ -218,7 +250,8 @@ impl<'a> Elaboration<'a> {
         let (name, raw) = self.word(fields, "material")?;
         let known = self.known_material(fields, name, raw)?;
         let needs = [("density", known.density), ("cp", known.cp), ("k", known.k || k.is_some())];
-        let missing: Vec<&str> = needs.into_iter().filter(|(_, has)| !has).map(|(key, _)| key).collect();
+        let missing: Vec<&str> =
+            needs.into_iter().filter(|(_, has)| !has).map(|(key, _)| key).collect();
         for property in &missing {
             let problem = self.without_property(fields, (name, raw), known.id, property);
             self.report(problem);
@@ -240,8 +273,10 @@ impl<'a> Elaboration<'a> {
         };
         let [x, y, z] = list.as_slice() else {
             let message = format!("{} has {} values", fields.owner.field("k"), list.len());
-            let help =
-                format!("give one for all directions, `{}`, or three, along x, y and z", fields.sample("k"));
+            let help = format!(
+                "give one for all directions, `{}`, or three, along x, y and z",
+                fields.sample("k")
+            );
             self.refuse("netlist::grid_conductivity", message, &raw.span, help);
             return [(); 3].map(|()| stand_in(CONDUCTIVITY));
         };

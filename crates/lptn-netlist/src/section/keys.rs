@@ -2,8 +2,12 @@
 
 use crate::format::{KeyDeclaration, key};
 
-pub(super) const DENSITY: KeyDeclaration =
-    key("density", "kg/m^3", "density; constant: the mass of a volume does not change", "\"7850 kg/m^3\"");
+pub(super) const DENSITY: KeyDeclaration = key(
+    "density",
+    "kg/m^3",
+    "density; constant: the mass of a volume does not change",
+    "\"7850 kg/m^3\"",
+);
 pub(super) const CP: KeyDeclaration = key(
     "cp",
     "J/(kg K)",
@@ -24,5 +28,9 @@ pub(super) const MATERIAL_OF: KeyDeclaration = key(
 );
 pub(super) const MASS: KeyDeclaration =
     key("mass", "kg", "with `material`, or `volume`: the capacity is `mass cp`", "\"1.2 kg\"");
-pub(super) const VOLUME: KeyDeclaration =
-    key("volume", "m^3", "with `material`, or `mass`: the capacity is `volume density cp`", "\"150 cm^3\"");
+pub(super) const VOLUME: KeyDeclaration = key(
+    "volume",
+    "m^3",
+    "with `material`, or `mass`: the capacity is `volume density cp`",
+    "\"150 cm^3\"",
+);

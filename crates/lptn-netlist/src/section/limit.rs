@@ -18,7 +18,8 @@ pub(crate) const LIMIT: SectionDeclaration = SectionDeclaration {
         key("of", "expression of results", "what is limited", "\"steel.T\""),
         key("below", "as `of`", "the highest value that is allowed", "\"110 degC\""),
         key("above", "as `of`", "the lowest value that is allowed", "\"-20 degC\""),
-        key("severity", "`\"error\"`, `\"warning\"`", "how bad it is", "\"warning\"").or("`\"error\"`"),
+        key("severity", "`\"error\"`, `\"warning\"`", "how bad it is", "\"warning\"")
+            .or("`\"error\"`"),
     ],
     example: "{ of = \"a.T\", below = \"110 degC\" }",
     elsewhere: &[
@@ -54,9 +55,12 @@ impl<'a> Elaboration<'a> {
         match self.given(place, Wanted::of_results()) {
             Some(Given::Quantity(_)) => {
                 self.report(
-                    Diagnostic::error("netlist::constant_limit", format!("{} is a constant", place.words()))
-                        .at(raw.span.clone(), "never changes")
-                        .help("name what the run computes, for example `of = \"steel.T\"`"),
+                    Diagnostic::error(
+                        "netlist::constant_limit",
+                        format!("{} is a constant", place.words()),
+                    )
+                    .at(raw.span.clone(), "never changes")
+                    .help("name what the run computes, for example `of = \"steel.T\"`"),
                 );
                 nothing()
             }
@@ -70,7 +74,8 @@ impl<'a> Elaboration<'a> {
 
     /// Exactly one of `below` and `above`; of the type of what is limited.
     fn bound(&mut self, fields: &Fields<'a>, ty: Option<Type>) -> (Bound, Input) {
-        let bound = match [Bound::Below, Bound::Above].map(|bound| fields.get(bound.field().key()).is_some())
+        let bound = match [Bound::Below, Bound::Above]
+            .map(|bound| fields.get(bound.field().key()).is_some())
         {
             [true, true] => {
                 let message = "has `below` as well as `above`".to_owned();

@@ -76,7 +76,8 @@ impl<'a> Elaboration<'a> {
         self.known.insert(entry.key.clone(), Known { id, density, cp, k });
     }
 
-    /// The capacity of a node or capacitor: `C`, or `material` with `mass` or `volume`; `None` where neither is.
+    /// The capacity of a node or capacitor: `C`, or `material` with `mass` or `volume`; `None`
+    /// where neither is.
     pub(crate) fn capacity(&mut self, fields: &Fields<'a>) -> Option<Input> {
         let ty = Type::of(Dimension::CAPACITY);
         let lump = ["material", "mass", "volume"].into_iter().find(|key| fields.get(key).is_some());
@@ -127,7 +128,9 @@ impl<'a> Elaboration<'a> {
             [true, true] => {
                 let message = "has `mass` as well as `volume`".to_owned();
                 let problem = fields.several("netlist::two_sizes", message, ["mass", "volume"]);
-                self.report(problem.help("keep one of them; the material's density gives the other"));
+                self.report(
+                    problem.help("keep one of them; the material's density gives the other"),
+                );
             }
             [false, false] if fields.complete => self.report(no_size(fields)),
             _ => {}
@@ -180,8 +183,10 @@ impl<'a> Elaboration<'a> {
         id: MaterialId,
         property: &str,
     ) -> Diagnostic {
-        let message =
-            format!("{} needs `{property}` of material `{name}`, which has none", fields.owner.words());
+        let message = format!(
+            "{} needs `{property}` of material `{name}`, which has none",
+            fields.owner.words()
+        );
         let problem = Diagnostic::error("netlist::no_property", message).at(raw.span.clone(), "");
         let own = self.map.name(Item::Material(id)).filter(|span| *span != raw.span);
         let problem = problem.also(own.clone(), format!("`{property}` is missing"));
@@ -207,7 +212,12 @@ impl<'a> Elaboration<'a> {
         });
         let help = "use it or remove it; a misspelt name elsewhere may be the cause";
         let warning = |(section, code, entry): (&str, &'static str, &RawEntry)| {
-            Diagnostic::doubt(code, format!("nothing uses {section} `{}`", entry.key), &entry.key_span, help)
+            Diagnostic::doubt(
+                code,
+                format!("nothing uses {section} `{}`", entry.key),
+                &entry.key_span,
+                help,
+            )
         };
         unused.map(warning).collect()
     }
@@ -231,10 +241,12 @@ fn unknown(
     (name, raw): (&str, &RawValue),
     (own, is_fluid): (&[&str], bool),
 ) -> Diagnostic {
-    let message = format!("no material named `{name}`, which {} refers to", fields.owner.field("material"));
+    let message =
+        format!("no material named `{name}`, which {} refers to", fields.owner.field("material"));
     let problem = Diagnostic::error("netlist::unknown_material", message)
         .at(raw.span.clone(), "neither in [material] nor in the library");
-    let shipped = library::materials().iter().chain(library::fluids()).map(|record| record.name.as_str());
+    let shipped =
+        library::materials().iter().chain(library::fluids()).map(|record| record.name.as_str());
     if is_fluid {
         return problem.help(format!(
             "`{name}` is a fluid of this file: give the capacity itself, or write a [material] of this name as well"
@@ -250,7 +262,8 @@ fn unknown(
 }
 
 fn no_size(fields: &Fields<'_>) -> Diagnostic {
-    let message = format!("{} has a `material` but neither `mass` nor `volume`", fields.owner.words());
+    let message =
+        format!("{} has a `material` but neither `mass` nor `volume`", fields.owner.words());
     Diagnostic::error("netlist::no_size", message)
         .at(fields.place.clone(), "does not say how much of it there is")
         .help(format!("add `{}` or `{}`", fields.sample("mass"), fields.sample("volume")))

@@ -56,8 +56,10 @@ impl<'a> Elaboration<'a> {
         let massless = fields.as_ref().map_or(Some(false), |fields| self.massless(fields));
         let (doubtful, massless) = (massless.is_none(), massless.unwrap_or(false));
         if let (true, None, Some(raw)) = (massless, capacity_at, initial_at) {
-            let message = format!("`T0` of node `{}` has no effect: the node is massless", entry.key);
-            let help = "leave `T0` out: a massless node takes the temperature that its neighbours give it";
+            let message =
+                format!("`T0` of node `{}` has no effect: the node is massless", entry.key);
+            let help =
+                "leave `T0` out: a massless node takes the temperature that its neighbours give it";
             self.report(Diagnostic::doubt("netlist::massless_initial", message, &raw.span, help));
         }
         let capacity = fields.as_ref().and_then(|fields| self.capacity(fields));
@@ -86,11 +88,13 @@ impl<'a> Elaboration<'a> {
     /// The characteristic length, for the Biot number.
     fn length(&mut self, fields: &Fields<'a>, (id, massless): (NodeId, bool)) {
         let Some(raw) = fields.get("L_char") else { return };
-        let length = self.input_at(fields, "L_char", raw, Wanted::constant(Type::of(Dimension::LENGTH)));
+        let length =
+            self.input_at(fields, "L_char", raw, Wanted::constant(Type::of(Dimension::LENGTH)));
         self.builder.length(id, length);
         self.map.value(Item::Node(id), Field::CharacteristicLength, raw);
         if massless {
-            let message = format!("{} has no effect: the node is massless", fields.owner.field("L_char"));
+            let message =
+                format!("{} has no effect: the node is massless", fields.owner.field("L_char"));
             let help = "leave it out: a junction is no body";
             self.report(Diagnostic::doubt("netlist::massless_length", message, &raw.span, help));
         }

@@ -55,22 +55,30 @@ fn path_section(kind: Kind) -> PathSection {
         example: declared.example,
         elsewhere: declared.elsewhere,
     };
-    let value = |field: &'static Field| PathValue { field, most: most(field.key), types: types(field.key) };
+    let value =
+        |field: &'static Field| PathValue { field, most: most(field.key), types: types(field.key) };
     let values = kind.fields().into_iter().map(value).collect();
     PathSection { section, kind, groups: groups(kind), values }
 }
 
-/// The ends, then its fields, with `material` before a property, `fluid` before a flow, and the key that chooses a law
-/// behind what all laws take.
+/// The ends, then its fields, with `material` before a property, `fluid` before a flow, and the key
+/// that chooses a law behind what all laws take.
 fn keys(kind: Kind) -> Vec<KeyDeclaration> {
     let end = "name of a node or boundary";
     let mut keys = vec![
-        key("from", end, "where heat comes from while it is positive", "\"name of a node or boundary\""),
+        key(
+            "from",
+            end,
+            "where heat comes from while it is positive",
+            "\"name of a node or boundary\"",
+        ),
         key("to", end, "where it goes", "\"name of another node or boundary\""),
     ];
     let first = kind.laws().next().map_or("", |law| law.declaration().name);
-    let mut selector =
-        kind.declaration().selector.map(|name| key(name, "word", "the law", format!("\"{first}\"").leak()));
+    let mut selector = kind
+        .declaration()
+        .selector
+        .map(|name| key(name, "word", "the law", format!("\"{first}\"").leak()));
     for field in kind.fields() {
         let laws = || kind.laws().filter(|law| law.field(field.key).is_some());
         keys.extend(selector.take_if(|_| !laws().eq(kind.laws())));
@@ -94,7 +102,8 @@ struct Group {
 fn required(law: Formula) -> Vec<&'static str> {
     let declared = law.declaration();
     let fluid = declared.carries.is_of_fluid().then_some("fluid");
-    let fields = declared.fields.iter().filter(|field| field.default.is_none()).map(|field| field.key);
+    let fields =
+        declared.fields.iter().filter(|field| field.default.is_none()).map(|field| field.key);
     let mut keys: Vec<&str> = fluid.into_iter().chain(fields).collect();
     keys.dedup();
     keys
@@ -126,7 +135,8 @@ impl<'a> Elaboration<'a> {
             Some(selector) => {
                 self.check_property(fields, path);
                 let law = self.selected(fields, path, selector);
-                let own = values.filter(|value| law.is_some_and(|law| law.field(value.field.key).is_some()));
+                let own = values
+                    .filter(|value| law.is_some_and(|law| law.field(value.field.key).is_some()));
                 let read = self.read(fields, own);
                 return self.complete(fields, law?, read, None);
             }
@@ -137,7 +147,8 @@ impl<'a> Elaboration<'a> {
         let fluid = fields.get("fluid").filter(|_| fields.known("fluid"));
         let fluid = fluid.map(|raw| self.used_fluid(fields, raw));
         let read = self.read(fields, values);
-        let begun = groups.iter().filter(|group| group.keys.iter().any(|key| fields.get(key).is_some()));
+        let begun =
+            groups.iter().filter(|group| group.keys.iter().any(|key| fields.get(key).is_some()));
         let one = begun.count() == 1;
         let law = of_values(&law?.laws, &read)?;
         let idle = law.declaration().idle.iter().filter(|_| one);
@@ -159,15 +170,30 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The law that a word chooses; fields of others mean nothing beside it.
-    fn selected(&mut self, fields: &Fields<'a>, path: &PathSection, selector: &str) -> Option<Formula> {
-        let words: Vec<(&str, Formula)> = path.kind.laws().map(|law| (law.declaration().name, law)).collect();
+    fn selected(
+        &mut self,
+        fields: &Fields<'a>,
+        path: &PathSection,
+        selector: &str,
+    ) -> Option<Formula> {
+        let words: Vec<(&str, Formula)> =
+            path.kind.laws().map(|law| (law.declaration().name, law)).collect();
         let given = self.require(fields, selector).is_some();
         let law = self.choice(fields, selector, &words).filter(|_| given)?;
         let name = law.declaration().name;
-        let own: Vec<&str> =
-            law.declaration().fields.iter().filter(|field| !field.property).map(|field| field.key).collect();
+        let own: Vec<&str> = law
+            .declaration()
+            .fields
+            .iter()
+            .filter(|field| !field.property)
+            .map(|field| field.key)
+            .collect();
         let others: Vec<&str> = path.values().filter(|key| law.field(key).is_none()).collect();
-        self.refuse_keys(fields, &others, &format!("means nothing for a {name}, which takes {}", list(&own)));
+        self.refuse_keys(
+            fields,
+            &others,
+            &format!("means nothing for a {name}, which takes {}", list(&own)),
+        );
         if let Some(key) = own.iter().find(|key| !fields.has(key)).filter(|_| fields.complete) {
             let message = format!("{} is a {name} without `{key}`", fields.owner.words());
             self.report(fields.missing(key, message));
@@ -176,7 +202,11 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The values as far as they are given; stand-ins for those that are wrong.
-    fn read(&mut self, fields: &Fields<'a>, wanted: impl Iterator<Item = &'static PathValue>) -> Vec<Read> {
+    fn read(
+        &mut self,
+        fields: &Fields<'a>,
+        wanted: impl Iterator<Item = &'static PathValue>,
+    ) -> Vec<Read> {
         wanted.map(|value| (value.field, self.values(fields, value))).collect()
     }
 
@@ -191,7 +221,8 @@ impl<'a> Elaboration<'a> {
             return area.into_iter().collect();
         };
         if let (RawKind::Array(items), 2..) = (&raw.kind, most) {
-            let values: Vec<Input> = items.iter().map(|raw| self.link(fields, field, raw)).collect();
+            let values: Vec<Input> =
+                items.iter().map(|raw| self.link(fields, field, raw)).collect();
             if values.len() == *most {
                 return values;
             }
@@ -204,7 +235,8 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// The value of a field of a path, which may depend on time and temperatures; a stand-in if it is wrong.
+    /// The value of a field of a path, which may depend on time and temperatures; a stand-in if it
+    /// is wrong.
     fn link(&mut self, fields: &Fields<'a>, field: &Field, raw: &'a RawValue) -> Input {
         self.input_at(fields, field.key, raw, Wanted::of_link(field.ty))
     }
@@ -224,8 +256,12 @@ impl<'a> Elaboration<'a> {
             return Some(given.input());
         }
         let names: Vec<String> = types.iter().map(|(ty, _)| ty.with_article()).collect();
-        let message =
-            format!("{} must be {}, got {}", place.words(), names.join(" or "), found.with_article());
+        let message = format!(
+            "{} must be {}, got {}",
+            place.words(),
+            names.join(" or "),
+            found.with_article()
+        );
         let problem = Diagnostic::error("netlist::flow_unit", message).at(raw.span.clone(), "");
         let written: Vec<String> = types.iter().map(|(_, law)| written(*law)).collect();
         self.report(problem.help(format!("write it like this: {}", written.join(", or "))));
@@ -258,7 +294,9 @@ impl<'a> Elaboration<'a> {
             let found = read.iter().find(|(field, _)| field.key == same[0].key);
             match (found.map_or(&[][..], |(_, values)| values), same[0].default) {
                 (given, _) if given.len() == same.len() => values.extend_from_slice(given),
-                (_, Some(value)) => values.push(Quantity { value, deviation: None, ty: same[0].ty }.into()),
+                (_, Some(value)) => {
+                    values.push(Quantity { value, deviation: None, ty: same[0].ty }.into())
+                }
                 (_, None) => return self.lacks(fields, law, same[0]),
             }
         }
@@ -271,7 +309,8 @@ impl<'a> Elaboration<'a> {
     /// A field that this law needs beside those that chose it.
     fn lacks(&mut self, fields: &Fields<'a>, law: Formula, field: Field) -> Option<Path> {
         let first = law.declaration().fields[0].key;
-        if fields.complete && !fields.has(field.key) && fields.has(first) && types(first).len() > 1 {
+        if fields.complete && !fields.has(field.key) && fields.has(first) && types(first).len() > 1
+        {
             self.report(without(fields, law, field.key));
         }
         None
@@ -280,15 +319,19 @@ impl<'a> Elaboration<'a> {
 
 /// How many values a key may have in a list.
 fn most(key: &str) -> usize {
-    let count = |law: &Formula| law.declaration().fields.iter().filter(|field| field.key == key).count();
+    let count =
+        |law: &Formula| law.declaration().fields.iter().filter(|field| field.key == key).count();
     Formula::ALL.iter().map(count).max().unwrap_or(1)
 }
 
-/// The types that a key has in the laws of streams and the like, where one key chooses the law by its unit.
+/// The types that a key has in the laws of streams and the like, where one key chooses the law by
+/// its unit.
 fn types(key: &str) -> Vec<(Type, Formula)> {
     let mut types: Vec<(Type, Formula)> = Vec::new();
     for law in Formula::ALL {
-        if let Some(field) = law.field(key).filter(|field| types.iter().all(|(ty, _)| *ty != field.ty)) {
+        if let Some(field) =
+            law.field(key).filter(|field| types.iter().all(|(ty, _)| *ty != field.ty))
+        {
             types.push((field.ty, *law));
         }
     }
@@ -312,7 +355,8 @@ fn of_values(laws: &[Formula], read: &[Read]) -> Option<Formula> {
 /// `flow = "3 L/min"` with `flow_T = "20 degC"`
 fn written(law: Formula) -> String {
     let fields = law.declaration().fields.iter();
-    let all: Vec<String> = fields.map(|field| format!("`{} = {}`", field.key, field.example)).collect();
+    let all: Vec<String> =
+        fields.map(|field| format!("`{} = {}`", field.key, field.example)).collect();
     all.join(" with ")
 }
 
@@ -323,9 +367,9 @@ fn wrong_count(
     count: usize,
 ) -> Diagnostic {
     let message = format!("{} has {count} values", fields.owner.field(field.key));
-    let laws = Formula::ALL
-        .iter()
-        .filter(|law| law.declaration().fields.iter().filter(|own| own.key == field.key).count() == most);
+    let laws = Formula::ALL.iter().filter(|law| {
+        law.declaration().fields.iter().filter(|own| own.key == field.key).count() == most
+    });
     let of = laws.map(|law| law.declaration().name.replace('_', " ")).next().unwrap_or_default();
     let list = vec![field.example; most].join(", ");
     let count_of_list = if most == 2 { "two".to_owned() } else { most.to_string() };
@@ -347,8 +391,11 @@ fn without(fields: &Fields<'_>, law: Formula, key: &str) -> Diagnostic {
     let message = format!("{} is {is} without `{key}`", fields.owner.field(first.key));
     let span = fields.get(first.key).map_or(fields.place, |raw| &raw.span);
     let meaning = law.field(key).map_or("", |field| field.meaning);
-    let others: Vec<String> =
-        types(first.key).iter().filter(|(ty, _)| *ty != first.ty).map(|(ty, _)| ty.with_article()).collect();
+    let others: Vec<String> = types(first.key)
+        .iter()
+        .filter(|(ty, _)| *ty != first.ty)
+        .map(|(ty, _)| ty.with_article())
+        .collect();
     Diagnostic::wrong(
         "netlist::flow_temperature",
         message,

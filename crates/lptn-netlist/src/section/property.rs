@@ -13,15 +13,22 @@ const MELTING: [&str; 3] = ["solidus", "liquidus", "latent_heat"];
 
 impl<'a> Elaboration<'a> {
     /// A property; a stand-in if it is wrong.
-    pub(crate) fn property(&mut self, fields: &Fields<'a>, key: &str, wanted: Wanted) -> Option<Input> {
+    pub(crate) fn property(
+        &mut self,
+        fields: &Fields<'a>,
+        key: &str,
+        wanted: Wanted,
+    ) -> Option<Input> {
         let raw = fields.get(key)?;
         let ty = wanted.ty.unwrap_or(Type::SCALAR);
         let place = Place { owner: &fields.owner, key, raw };
         match raw.kind {
             RawKind::Table(_) if wanted == Wanted::constant(ty) => {
                 let message = format!("{} has to be constant", place.words());
-                let help =
-                    format!("give one value, at the temperature of the volume: `{}`", fields.sample(key));
+                let help = format!(
+                    "give one value, at the temperature of the volume: `{}`",
+                    fields.sample(key)
+                );
                 self.refuse("netlist::constant_property", message, &raw.span, help);
                 return Some(stand_in(ty));
             }

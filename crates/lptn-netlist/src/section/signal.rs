@@ -25,10 +25,20 @@ pub(crate) const SIGNAL: SectionDeclaration = SectionDeclaration {
         CSV,
         key("time", "name of a column", "with `csv`: the times", "\"t\""),
         COLUMN,
-        key("interp", "`\"linear\"`, `\"pchip\"`, `\"previous\"`", "what joins the points", "\"linear\"")
-            .or("`\"linear\"`"),
-        key("after_end", "`\"error\"`, `\"hold\"`, `\"repeat\"`", "what follows the last point", "\"hold\"")
-            .or("`\"error\"`"),
+        key(
+            "interp",
+            "`\"linear\"`, `\"pchip\"`, `\"previous\"`",
+            "what joins the points",
+            "\"linear\"",
+        )
+        .or("`\"linear\"`"),
+        key(
+            "after_end",
+            "`\"error\"`, `\"hold\"`, `\"repeat\"`",
+            "what follows the last point",
+            "\"hold\"",
+        )
+        .or("`\"error\"`"),
         key("period", "s", "with `\"repeat\"`: from one beginning to the next", "\"60 s\"")
             .or("as long as the points"),
     ],
@@ -54,7 +64,8 @@ enum After {
     Repeat,
 }
 
-const AFTER: [(&str, After); 3] = [("error", After::Error), ("hold", After::Hold), ("repeat", After::Repeat)];
+const AFTER: [(&str, After); 3] =
+    [("error", After::Error), ("hold", After::Hold), ("repeat", After::Repeat)];
 
 impl<'a> Elaboration<'a> {
     /// Gives all signals to the builder, each after those it uses.
@@ -80,8 +91,11 @@ impl<'a> Elaboration<'a> {
             })
         } else {
             let place = Place { owner: &pending.owner, key: "", raw: &entry.value };
-            let given = pending.text.take().and_then(|text| self.resolve(place, text, Wanted::signal()));
-            given.map(|given| Item::Signal(self.builder.signal_expression(&entry.key, given.input())))
+            let given =
+                pending.text.take().and_then(|text| self.resolve(place, text, Wanted::signal()));
+            given.map(|given| {
+                Item::Signal(self.builder.signal_expression(&entry.key, given.input()))
+            })
         };
         let item = id.unwrap_or_else(|| {
             self.names.fail(&entry.key);
@@ -104,14 +118,18 @@ impl<'a> Elaboration<'a> {
             Join::Pchip => Interpolation::Pchip,
             Join::Linear | Join::Previous => Interpolation::Linear,
         };
-        let points =
-            match Table1::new(times.numbers.clone(), values.numbers.clone(), interpolation, Outside::Hold) {
-                Ok(points) => points,
-                Err(error) => {
-                    self.report_points(fields, (&times, &values), ("the times", &error));
-                    return None;
-                }
-            };
+        let points = match Table1::new(
+            times.numbers.clone(),
+            values.numbers.clone(),
+            interpolation,
+            Outside::Hold,
+        ) {
+            Ok(points) => points,
+            Err(error) => {
+                self.report_points(fields, (&times, &values), ("the times", &error));
+                return None;
+            }
+        };
         let span = points.knots().last()? - points.knots().first()?;
         let after = match after? {
             After::Error => AfterEnd::Error,
@@ -134,7 +152,9 @@ impl<'a> Elaboration<'a> {
         }
         let place = Place { owner: &fields.owner, key: "period", raw };
         let text = match &raw.kind {
-            RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => text.as_str(),
+            RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => {
+                text.as_str()
+            }
             _ => {
                 self.report(fields.wrong_shape("period", raw, "a quantity"));
                 return None;

@@ -22,10 +22,18 @@ pub(crate) const SOURCE: SectionDeclaration = SectionDeclaration {
             "the node, grid or face that is heated",
             "\"name of a node\"",
         ),
-        key("P", "W", "heat flow, may depend on time, signals, controls and temperatures", "\"100 W\""),
+        key(
+            "P",
+            "W",
+            "heat flow, may depend on time, signals, controls and temperatures",
+            "\"100 W\"",
+        ),
     ],
     example: "{ into = \"a\", P = \"100 W\" }",
-    elsewhere: &[("node", "the node that is heated is `into`"), ("to", "the node that is heated is `into`")],
+    elsewhere: &[
+        ("node", "the node that is heated is `into`"),
+        ("to", "the node that is heated is `into`"),
+    ],
     ..SectionDeclaration::NEW
 };
 
@@ -57,7 +65,9 @@ impl<'a> Elaboration<'a> {
                 let (end, at) = end?;
                 (Item::Source(self.builder.source(&entry.key, end, power)), at.span.clone())
             }
-            Ends::Several(nodes, raw) => (self.shared(&entry.key, &nodes?, power), raw.span.clone()),
+            Ends::Several(nodes, raw) => {
+                (self.shared(&entry.key, &nodes?, power), raw.span.clone())
+            }
         };
         self.note(item, &entry.key_span, &fields, &[Field::Power]);
         self.map.insert(item, Field::Into, at);
@@ -130,9 +140,12 @@ enum Ends<'a> {
 }
 
 fn boundary(fields: &Fields<'_>, at: &Span) -> Diagnostic {
-    Diagnostic::error("network::source_into_boundary", format!("{} heats a boundary", fields.owner.words()))
-        .at(at.clone(), "a boundary")
-        .help("a boundary keeps its temperature whatever flows in: name a node")
+    Diagnostic::error(
+        "network::source_into_boundary",
+        format!("{} heats a boundary", fields.owner.words()),
+    )
+    .at(at.clone(), "a boundary")
+    .help("a boundary keeps its temperature whatever flows in: name a node")
 }
 
 fn negative(place: Place<'_>) -> Diagnostic {

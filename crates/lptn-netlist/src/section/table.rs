@@ -5,8 +5,8 @@ use std::sync::Arc;
 use lptn_data::{Diagnostic, Points};
 use lptn_network::{Field, Input, Item, slot};
 use lptn_units::{
-    Expression, Interpolation, Outside, Scope, Symbol, Table, Table1, Table2, TableError, TableSymbol, Type,
-    Unit,
+    Expression, Interpolation, Outside, Scope, Symbol, Table, Table1, Table2, TableError,
+    TableSymbol, Type, Unit,
 };
 
 use crate::fields::Fields;
@@ -17,8 +17,12 @@ use crate::raw::{RawEntry, RawKind};
 use crate::work::Elaboration;
 
 /// The keys that a table and a signal share.
-pub(super) const CSV: KeyDeclaration =
-    key("csv", "file", "in place of the lists: a CSV file, and the names of its columns", "\"cycle.csv\"");
+pub(super) const CSV: KeyDeclaration = key(
+    "csv",
+    "file",
+    "in place of the lists: a CSV file, and the names of its columns",
+    "\"cycle.csv\"",
+);
 pub(super) const COLUMN: KeyDeclaration =
     key("value", "name of a column", "with `csv`: the values", "\"speed\"");
 
@@ -34,7 +38,8 @@ pub(crate) const TABLE: SectionDeclaration = SectionDeclaration {
         key("y_unit", "unit", "the unit of plain numbers in `y`", "\"W\""),
         CSV,
         COLUMN,
-        key("interp", "`\"linear\"`, `\"pchip\"`", "what joins the points", "\"linear\"").or("`\"linear\"`"),
+        key("interp", "`\"linear\"`, `\"pchip\"`", "what joins the points", "\"linear\"")
+            .or("`\"linear\"`"),
         key(
             "outside",
             "`\"error\"`, `\"hold\"`",
@@ -81,7 +86,11 @@ impl<'a> Elaboration<'a> {
     }
 
     /// A table of one argument.
-    fn tabulated(&mut self, fields: &Fields<'a>, ty: (Option<Type>, Option<Type>)) -> Option<TableSymbol> {
+    fn tabulated(
+        &mut self,
+        fields: &Fields<'a>,
+        ty: (Option<Type>, Option<Type>),
+    ) -> Option<TableSymbol> {
         let interpolation = self.choice(fields, "interp", &INTERPOLATIONS);
         let outside = self.choice(fields, "outside", &OUTSIDE);
         let x = Axis { list: "x", unit: "x_unit", column: "x", ty: ty.0 };
@@ -102,18 +111,24 @@ impl<'a> Elaboration<'a> {
 
     /// A table of two arguments: one row of a CSV file for each point of the grid, in any order.
     fn map_of_two(&mut self, fields: &Fields<'a>) -> Option<TableSymbol> {
-        self.refuse_keys(fields, &["x_unit", "y_unit"], "is for lists, but the points come from a CSV file");
+        self.refuse_keys(
+            fields,
+            &["x_unit", "y_unit"],
+            "is for lists, but the points come from a CSV file",
+        );
         let outside = self.choice(fields, "outside", &OUTSIDE);
         let linear = self.choice(fields, "interp", &INTERPOLATIONS) != Some(Interpolation::Pchip);
         if let (false, Some(raw)) = (linear, fields.get("interp")) {
-            let message = format!("{} of two arguments is not supported yet", fields.owner.field("interp"));
+            let message =
+                format!("{} of two arguments is not supported yet", fields.owner.field("interp"));
             let help = "a table of two arguments is bilinear: leave `interp` out";
             self.refuse("netlist::not_supported_yet", message, &raw.span, help);
         }
         let file = self.csv_file(fields);
         let names = ["x", "y", "value"].map(|key| self.column_name(fields, key));
         let file = file?;
-        let columns = ["x", "y", "value"].map(|key| Axis { list: key, unit: "", column: key, ty: None });
+        let columns =
+            ["x", "y", "value"].map(|key| Axis { list: key, unit: "", column: key, ty: None });
         let mut columns = columns
             .into_iter()
             .zip(names)
@@ -142,7 +157,12 @@ impl<'a> Elaboration<'a> {
     }
 
     /// A property that is tabulated over the temperature.
-    pub(crate) fn property_table(&mut self, fields: &Fields<'a>, key: &str, ty: Type) -> Option<Input> {
+    pub(crate) fn property_table(
+        &mut self,
+        fields: &Fields<'a>,
+        key: &str,
+        ty: Type,
+    ) -> Option<Input> {
         let entry = fields.entry(key)?;
         let inner = self.inner(&TABLE, fields.owner.inside(key), entry)?;
         let types = (Some(Type::ABSOLUTE_TEMPERATURE), Some(ty));
@@ -150,15 +170,19 @@ impl<'a> Elaboration<'a> {
         if let Table::One(table) = &*symbol.table
             && let Some(value) = table.values().iter().find(|value| **value <= 0.0)
         {
-            let message =
-                format!("{} must be more than zero, got {value} {}", inner.owner.words(), ty.usual_unit());
+            let message = format!(
+                "{} must be more than zero, got {value} {}",
+                inner.owner.words(),
+                ty.usual_unit()
+            );
             let help = "check the sign, or leave the point out";
             self.refuse("network::not_positive", message, &entry.value.span, help);
             return None;
         }
         // an error at run time names the table by its key
         let scope = OfTemperature { name: key, table: symbol };
-        let program = Expression::parse(&format!("{key}(T)")).ok()?.compile(&scope, Some(ty)).ok()?;
+        let program =
+            Expression::parse(&format!("{key}(T)")).ok()?.compile(&scope, Some(ty)).ok()?;
         Some(program.into())
     }
 }

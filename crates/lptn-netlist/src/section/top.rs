@@ -47,7 +47,12 @@ impl Elaboration<'_> {
             RawKind::String { .. } => {}
             _ => {
                 let sample = format!("{} = \"..\"", entry.key);
-                self.report(wrong_shape(&format!("`{}`", entry.key), &entry.value, "a string", &sample));
+                self.report(wrong_shape(
+                    &format!("`{}`", entry.key),
+                    &entry.value,
+                    "a string",
+                    &sample,
+                ));
             }
         }
     }
@@ -59,8 +64,9 @@ fn whole(entry: &RawEntry) -> Span {
 
 fn check_section(entry: &RawEntry) -> Option<Diagnostic> {
     let name = &entry.key;
-    let error =
-        |message: String| Diagnostic::error("netlist::not_a_table", message).at(entry.key_span.clone(), "");
+    let error = |message: String| {
+        Diagnostic::error("netlist::not_a_table", message).at(entry.key_span.clone(), "")
+    };
     match &entry.value.kind {
         RawKind::Table(_) => None,
         RawKind::Array(_) => Some(
@@ -98,16 +104,20 @@ fn unknown(entry: &RawEntry, format: &Format) -> Diagnostic {
     let (name, place) = (entry.key.as_str(), entry.key_span.clone());
     let is_table = matches!(entry.value.kind, RawKind::Table(_) | RawKind::Array(_));
     if format.later.iter().any(|section| section.name == name) {
-        return Diagnostic::error("netlist::not_supported_yet", format!("`[{name}]` is not supported yet"))
-            .at(place, "")
-            .help(format!("the sections so far are {}", list(&format.names())));
+        return Diagnostic::error(
+            "netlist::not_supported_yet",
+            format!("`[{name}]` is not supported yet"),
+        )
+        .at(place, "")
+        .help(format!("the sections so far are {}", list(&format.names())));
     }
     let (code, message) = if is_table {
         ("netlist::unknown_section", format!("there is no section `[{name}]`"))
     } else {
         ("netlist::unknown_key", format!("there is no key `{name}` at the top of a netlist"))
     };
-    let other = OTHER_NAMES.iter().find(|(other, _)| name.eq_ignore_ascii_case(other)).filter(|_| is_table);
+    let other =
+        OTHER_NAMES.iter().find(|(other, _)| name.eq_ignore_ascii_case(other)).filter(|_| is_table);
     let later = format.later.iter().map(|section| section.name);
     let known = format.names().into_iter().chain(later).chain(TOP_KEYS);
     let near = other.map(|(_, section)| *section).or_else(|| suggest(name, known));
@@ -115,7 +125,10 @@ fn unknown(entry: &RawEntry, format: &Format) -> Diagnostic {
         Some(near) if TOP_KEYS.contains(&near) => format!("did you mean `{near}`?"),
         Some(near) => format!("did you mean `[{near}]`?"),
         None if is_table => format!("the sections are {}", list(&format.names())),
-        None => format!("a parameter belongs below the heading `[param]`; here stand {}", list(&TOP_KEYS)),
+        None => format!(
+            "a parameter belongs below the heading `[param]`; here stand {}",
+            list(&TOP_KEYS)
+        ),
     };
     Diagnostic::error(code, message).at(place, "").help(help)
 }

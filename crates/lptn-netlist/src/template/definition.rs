@@ -61,7 +61,11 @@ impl<'r> Template<'r> {
     }
 
     /// Reads a template and reports what is wrong with it.
-    pub(super) fn read(entry: &'r RawEntry, format: &Format, problems: &mut Vec<Diagnostic>) -> Self {
+    pub(super) fn read(
+        entry: &'r RawEntry,
+        format: &Format,
+        problems: &mut Vec<Diagnostic>,
+    ) -> Self {
         let mut template = Self {
             entry,
             parameters: Vec::new(),
@@ -75,7 +79,9 @@ impl<'r> Template<'r> {
             RawKind::Table(table) => {
                 table.entries.iter().for_each(|part| template.part(part, format, problems))
             }
-            kind => problems.push(no_table(&format!("template `{}`", entry.key), &entry.value, kind)),
+            kind => {
+                problems.push(no_table(&format!("template `{}`", entry.key), &entry.value, kind))
+            }
         }
         problems.extend(template.names());
         template.broken = problems.len() > before;
@@ -120,7 +126,11 @@ impl<'r> Template<'r> {
     }
 
     /// `m = "0.2 kg"` with a value of its own; `R = { unit = "K/W" }` has to be set.
-    fn read_parameter(&self, entry: &'r RawEntry, problems: &mut Vec<Diagnostic>) -> Option<Parameter<'r>> {
+    fn read_parameter(
+        &self,
+        entry: &'r RawEntry,
+        problems: &mut Vec<Diagnostic>,
+    ) -> Option<Parameter<'r>> {
         let owner = Owner::element("parameter", &format!("{}.{}", self.name(), entry.key));
         let text = match &entry.value.kind {
             RawKind::Table(_) => {
@@ -130,7 +140,9 @@ impl<'r> Template<'r> {
                 return match Unit::parse(text) {
                     Ok(unit) => Some(Parameter { entry, default: false, ty: Some(unit.ty) }),
                     Err(error) => {
-                        problems.push(Place { owner: &fields.owner, key: "unit", raw }.unit_error(&error));
+                        problems.push(
+                            Place { owner: &fields.owner, key: "unit", raw }.unit_error(&error),
+                        );
                         None
                     }
                 };
@@ -166,7 +178,11 @@ impl<'r> Template<'r> {
         }
         for entry in self.uses {
             if let Some((kind, other)) = self.elements().find(|(_, other)| other.key == entry.key) {
-                problems.push(taken_twice((&entry.key, &entry.key_span), USE.name, (kind, &other.key_span)));
+                problems.push(taken_twice(
+                    (&entry.key, &entry.key_span),
+                    USE.name,
+                    (kind, &other.key_span),
+                ));
             }
         }
         problems
@@ -175,7 +191,9 @@ impl<'r> Template<'r> {
     /// The elements, each with its section.
     pub(super) fn elements(&self) -> impl Iterator<Item = (&'r str, &'r RawEntry)> {
         let sections = self.sections.iter();
-        sections.flat_map(|(section, table)| table.entries.iter().map(|entry| (section.key.as_str(), entry)))
+        sections.flat_map(|(section, table)| {
+            table.entries.iter().map(|entry| (section.key.as_str(), entry))
+        })
     }
 
     fn unusable(&self, (kind, name): (&str, &str), span: &lptn_data::Span) -> Option<Diagnostic> {
@@ -228,13 +246,17 @@ fn unknown_part(template: &str, part: &RawEntry, format: &Format) -> Diagnostic 
             "netlist::not_in_template",
             message,
             &part.key_span,
-            format!("a template holds `param`, `port` and elements: move `[{key}]` to the top of the file"),
+            format!(
+                "a template holds `param`, `port` and elements: move `[{key}]` to the top of the file"
+            ),
         );
     }
     let inside = format.names().into_iter().filter(|section| !format.is_outside_templates(section));
     let inside: Vec<&str> = [PORT].into_iter().chain(inside).collect();
-    let problem =
-        Diagnostic::error("netlist::unknown_section", format!("template `{template}` cannot hold `{key}`"))
-            .at(part.key_span.clone(), "");
+    let problem = Diagnostic::error(
+        "netlist::unknown_section",
+        format!("template `{template}` cannot hold `{key}`"),
+    )
+    .at(part.key_span.clone(), "");
     problem.help(nearest(key, inside.iter().copied(), "a template holds"))
 }

@@ -23,7 +23,11 @@ pub(crate) fn outside(place: Place<'_>, name: &str, template: &str) -> Diagnosti
 }
 
 /// What is to be pasted into a template has the names of the template.
-pub(crate) fn in_own_words(structure: &Structure, place: Place<'_>, mut problem: Diagnostic) -> Diagnostic {
+pub(crate) fn in_own_words(
+    structure: &Structure,
+    place: Place<'_>,
+    mut problem: Diagnostic,
+) -> Diagnostic {
     if let Some(instance) = structure.instance_at(&place.raw.span) {
         problem.help = problem.help.map(|help| help.replace(&format!("{instance}."), ""));
     }

@@ -43,7 +43,17 @@ impl<'r, 'w> Maker<'r, 'w> {
         let entries = raw.top.entries.iter().enumerate();
         let sections = entries.map(|(position, entry)| (entry.key.clone(), position)).collect();
         let (structure, problems) = (Structure::default(), Vec::new());
-        Self { files, format, templates, sizes, raw, sections, insides: HashMap::new(), structure, problems }
+        Self {
+            files,
+            format,
+            templates,
+            sizes,
+            raw,
+            sections,
+            insides: HashMap::new(),
+            structure,
+            problems,
+        }
     }
 
     /// The uses of the file itself.
@@ -61,7 +71,8 @@ impl<'r, 'w> Maker<'r, 'w> {
     /// What was made, what is wrong, and which templates were named.
     pub(super) fn finish(self) -> (Structure, Vec<Diagnostic>, HashSet<usize>) {
         let templates = self.templates.iter().enumerate();
-        let broken = templates.filter(|(_, template)| template.broken).map(|(position, _)| position);
+        let broken =
+            templates.filter(|(_, template)| template.broken).map(|(position, _)| position);
         let used = self.insides.keys().copied().chain(broken).collect();
         (self.structure, self.problems, used)
     }
@@ -72,7 +83,9 @@ impl<'r, 'w> Maker<'r, 'w> {
         let before = self.problems.len();
         let plan = plan(self.templates, &entry, &mut self.problems);
         let made = plan.as_ref().map_or(0, |plan| {
-            plan.count.unwrap_or(1).saturating_mul(self.sizes.get(plan.position).copied().unwrap_or(1))
+            plan.count
+                .unwrap_or(1)
+                .saturating_mul(self.sizes.get(plan.position).copied().unwrap_or(1))
         });
         let room = MOST_INSTANCES - self.structure.instances.len().min(MOST_INSTANCES);
         if made > room && self.problems.len() == before {
@@ -98,7 +111,10 @@ impl<'r, 'w> Maker<'r, 'w> {
             self.structure.instances.push(Instance { path: path.clone(), inside, ports });
             self.parameters((&plan, number), &path, copy);
             for (section, table) in &plan.template.sections {
-                table.entries.iter().for_each(|element| self.element(section, element, (&path, copy)));
+                table
+                    .entries
+                    .iter()
+                    .for_each(|element| self.element(section, element, (&path, copy)));
             }
             let around = Around { prefix: path + ".", copy };
             plan.template.uses.iter().for_each(|entry| self.make(entry, &around));
@@ -108,7 +124,9 @@ impl<'r, 'w> Maker<'r, 'w> {
     /// Notes the template of a use that cannot be made.
     fn note_template(&mut self, entry: &RawEntry) {
         let RawKind::Table(table) = &entry.value.kind else { return };
-        let Some(RawKind::String { text, .. }) = table.get("template").map(|field| &field.value.kind) else {
+        let Some(RawKind::String { text, .. }) =
+            table.get("template").map(|field| &field.value.kind)
+        else {
             return;
         };
         if let Some(position) = self.templates.iter().position(|template| template.name() == text) {
@@ -118,7 +136,8 @@ impl<'r, 'w> Maker<'r, 'w> {
 
     /// The names inside the template of a plan.
     fn inside(&mut self, plan: &Plan<'_>) -> usize {
-        if let Some(known) = self.insides.get(&plan.position).filter(|known| **known != usize::MAX) {
+        if let Some(known) = self.insides.get(&plan.position).filter(|known| **known != usize::MAX)
+        {
             return *known;
         }
         let template = plan.template;
@@ -139,14 +158,21 @@ impl<'r, 'w> Maker<'r, 'w> {
         for (port, _) in &plan.template.ports {
             let given = plan.connect.iter().find(|(name, _)| name == port);
             let value = given.and_then(|(_, values)| of_instance(values, number));
-            let Some((value, RawKind::String { text, .. })) = value.map(|value| (value, &value.kind)) else {
+            let Some((value, RawKind::String { text, .. })) =
+                value.map(|value| (value, &value.kind))
+            else {
                 targets.push(String::new()); // reported with the plan
                 continue;
             };
             let target = self.structure.resolve(&value.span, text);
             let single = given.is_some_and(|(_, values)| values.len() == 1);
             if !(single && number > 0) {
-                self.structure.connections.push(Connection::new(line, port, value.clone(), target.clone()));
+                self.structure.connections.push(Connection::new(
+                    line,
+                    port,
+                    value.clone(),
+                    target.clone(),
+                ));
             }
             targets.push(target);
         }
@@ -164,7 +190,10 @@ impl<'r, 'w> Maker<'r, 'w> {
             }
             let value = value.cloned().unwrap_or_else(|| copied_value(&written.value, copy));
             let key_span = written.key_span.for_copy(copy);
-            self.push((ValueKind::Parameter.section(), &written.key_span), RawEntry { key, key_span, value });
+            self.push(
+                (ValueKind::Parameter.section(), &written.key_span),
+                RawEntry { key, key_span, value },
+            );
         }
     }
 
@@ -183,7 +212,9 @@ impl<'r, 'w> Maker<'r, 'w> {
             entries.push(RawEntry { key: section.to_owned(), key_span: at.clone(), value });
             entries.len() - 1
         });
-        if let Some(RawKind::Table(table)) = entries.get_mut(position).map(|entry| &mut entry.value.kind) {
+        if let Some(RawKind::Table(table)) =
+            entries.get_mut(position).map(|entry| &mut entry.value.kind)
+        {
             table.entries.push(entry);
         }
     }
@@ -198,7 +229,10 @@ fn elements(raw: &RawNetlist, format: &Format) -> HashMap<String, (String, Span)
         _ => None,
     });
     let named = elements.flat_map(|(section, table)| {
-        table.entries.iter().map(|entry| (entry.key.clone(), (section.key.clone(), entry.key_span.clone())))
+        table
+            .entries
+            .iter()
+            .map(|entry| (entry.key.clone(), (section.key.clone(), entry.key_span.clone())))
     });
     named.collect()
 }
@@ -214,7 +248,9 @@ fn copied(entry: &RawEntry, copy: CopyId) -> RawEntry {
 
 fn copied_value(value: &RawValue, copy: CopyId) -> RawValue {
     let kind = match &value.kind {
-        RawKind::Array(list) => RawKind::Array(list.iter().map(|value| copied_value(value, copy)).collect()),
+        RawKind::Array(list) => {
+            RawKind::Array(list.iter().map(|value| copied_value(value, copy)).collect())
+        }
         RawKind::Table(table) => {
             let entries = table.entries.iter().map(|entry| copied(entry, copy)).collect();
             RawKind::Table(RawTable { span: table.span.for_copy(copy), entries })

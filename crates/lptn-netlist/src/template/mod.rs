@@ -1,8 +1,9 @@
 //! Templates: parts that are written once and used several times.
 //!
-//! The work is done on what is written, before anything is read: each instance becomes elements of its own, with
-//! full names (`planet[2].gear`), and values as they stand in the template. A place knows for which instance it is
-//! read, and that decides what a name there means ([`Structure::meaning`]); so no section has to know of templates.
+//! The work is done on what is written, before anything is read: each instance becomes elements of
+//! its own, with full names (`planet[2].gear`), and values as they stand in the template. A place
+//! knows for which instance it is read, and that decides what a name there means
+//! ([`Structure::meaning`]); so no section has to know of templates.
 
 mod definition;
 mod inside;
@@ -34,8 +35,18 @@ pub(crate) const TEMPLATE: SectionDeclaration = SectionDeclaration {
     sentence: "A part that is written once: its elements stand below `[template.NAME.node]` and so on.",
     role: Role::Template,
     keys: &[
-        key("param", "table", "parameters, with a value or with `{ unit = .. }`", "{ m = \"0.2 kg\" }"),
-        key("port", "list of names", "what it knows of the rest of the network", "[\"in\", \"out\"]"),
+        key(
+            "param",
+            "table",
+            "parameters, with a value or with `{ unit = .. }`",
+            "{ m = \"0.2 kg\" }",
+        ),
+        key(
+            "port",
+            "list of names",
+            "what it knows of the rest of the network",
+            "[\"in\", \"out\"]",
+        ),
     ],
     example: "`port = [\"in\", \"out\"]` and elements below `[template.planet.node]`",
     ..SectionDeclaration::NEW
@@ -47,7 +58,12 @@ pub(crate) const USE: SectionDeclaration = SectionDeclaration {
     role: Role::Use,
     keys: &[
         key("template", "name of a template", "what is used", "\"planet\""),
-        key("count", "whole number", "how many there are; without it there is one, without an index", "3"),
+        key(
+            "count",
+            "whole number",
+            "how many there are; without it there is one, without an index",
+            "3",
+        ),
         key(
             "connect",
             "table of names of nodes or boundaries",
@@ -65,7 +81,10 @@ pub(crate) const USE: SectionDeclaration = SectionDeclaration {
     elsewhere: &[
         ("param", "parameters of the template are given in `set`: `set = { ratio = 0.5 }`"),
         ("port", "what a port leads to stands in `connect`: `connect = { carrier = \"carrier\" }`"),
-        ("ports", "what a port leads to stands in `connect`: `connect = { carrier = \"carrier\" }`"),
+        (
+            "ports",
+            "what a port leads to stands in `connect`: `connect = { carrier = \"carrier\" }`",
+        ),
         ("n", "how many there are is `count`"),
     ],
     ..SectionDeclaration::NEW
@@ -91,7 +110,8 @@ pub(crate) fn expand(files: &mut Files, mut raw: RawNetlist, format: &Format) ->
     let (structure, found, used) = maker.finish();
     problems.extend(found);
     problems.extend(pattern::expand(&mut raw, &structure));
-    problems.extend(unused(&templates, &used).filter(|d| d.place().is_some_and(|at| at.file == main)));
+    problems
+        .extend(unused(&templates, &used).filter(|d| d.place().is_some_and(|at| at.file == main)));
     if any_error(&problems) {
         // what is odd may follow from what is wrong
         problems.retain(|problem| problem.severity == Severity::Error);
@@ -99,7 +119,8 @@ pub(crate) fn expand(files: &mut Files, mut raw: RawNetlist, format: &Format) ->
     Expanded { raw, structure: Arc::new(structure), problems }
 }
 
-/// Takes the entries of a section out of a netlist; a section that is no table is left, to be reported.
+/// Takes the entries of a section out of a netlist; a section that is no table is left, to be
+/// reported.
 fn take(raw: &mut RawNetlist, name: &str) -> Vec<RawEntry> {
     let entries = &mut raw.top.entries;
     let section = entries.iter().position(|entry| entry.key == name && is_table(entry));
@@ -113,8 +134,12 @@ fn is_table(entry: &RawEntry) -> bool {
     matches!(entry.value.kind, RawKind::Table(_))
 }
 
-/// A file of templates that is included is there to be chosen from; in its own file a template is for use.
-fn unused<'t>(templates: &'t [Template<'t>], used: &HashSet<usize>) -> impl Iterator<Item = Diagnostic> {
+/// A file of templates that is included is there to be chosen from; in its own file a template is
+/// for use.
+fn unused<'t>(
+    templates: &'t [Template<'t>],
+    used: &HashSet<usize>,
+) -> impl Iterator<Item = Diagnostic> {
     let unused = templates.iter().enumerate().filter(|(position, _)| !used.contains(position));
     unused.map(|(_, template)| {
         Diagnostic::doubt(

@@ -15,13 +15,14 @@ struct Extent {
     depth: Vec<usize>,
 }
 
-/// Reports every circle of templates once, and marks its members as broken; for the others it says how many
-/// instances one of each makes, itself included.
+/// Reports every circle of templates once, and marks its members as broken; for the others it says
+/// how many instances one of each makes, itself included.
 pub(super) fn check(templates: &mut [Template<'_>], problems: &mut Vec<Diagnostic>) -> Vec<usize> {
     let edges: Vec<Vec<Edge<'_>>> =
         templates.iter().map(|template| used_by(template.uses, templates)).collect();
     let mut state = vec![State::New; templates.len()];
-    let mut extent = Extent { instances: vec![1; templates.len()], depth: vec![1; templates.len()] };
+    let mut extent =
+        Extent { instances: vec![1; templates.len()], depth: vec![1; templates.len()] };
     let mut circles = Vec::new();
     for start in 0..templates.len() {
         let mut path = vec![(start, 0_usize)];
@@ -43,15 +44,18 @@ pub(super) fn check(templates: &mut [Template<'_>], problems: &mut Vec<Diagnosti
                 Some(edge) if state[edge.used] == State::Open => {
                     // each step is the member and the edge that was taken
                     let members = path.iter().map(|(at, next)| (*at, next - 1));
-                    circles.push(members.skip_while(|(at, _)| *at != edge.used).collect::<Vec<_>>());
+                    circles
+                        .push(members.skip_while(|(at, _)| *at != edge.used).collect::<Vec<_>>());
                 }
                 Some(_) => {}
             }
         }
     }
     for circle in circles {
-        let steps: Vec<(&str, &RawValue)> =
-            circle.iter().map(|&(at, edge)| (templates[at].name(), edges[at][edge].value)).collect();
+        let steps: Vec<(&str, &RawValue)> = circle
+            .iter()
+            .map(|&(at, edge)| (templates[at].name(), edges[at][edge].value))
+            .collect();
         problems.push(describe(&steps));
         circle.iter().for_each(|(at, _)| templates[*at].broken = true);
     }
@@ -124,8 +128,10 @@ fn describe(steps: &[(&str, &RawValue)]) -> Diagnostic {
         _ => format!("templates use each other: {}", chain.join(" -> ")),
     };
     let next = chain.iter().skip(1);
-    let uses =
-        steps.iter().zip(next).map(|((_, value), next)| (value.span.clone(), format!("uses `{next}`")));
+    let uses = steps
+        .iter()
+        .zip(next)
+        .map(|((_, value), next)| (value.span.clone(), format!("uses `{next}`")));
     Diagnostic::error("netlist::template_recursion", message)
         .places(uses)
         .help("a part cannot be inside itself: take one of the uses out, or give a use a `count`")

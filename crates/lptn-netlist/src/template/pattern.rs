@@ -10,8 +10,8 @@ use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 
 const STAR: &str = "[*]";
 
-/// Puts one limit for each instance in the place of a limit of all, and the instances in the place of a pattern
-/// that is heated.
+/// Puts one limit for each instance in the place of a limit of all, and the instances in the place
+/// of a pattern that is heated.
 pub(super) fn expand(raw: &mut RawNetlist, structure: &Structure) -> Vec<Diagnostic> {
     let mut work = Patterns { structure, problems: Vec::new() };
     for section in &mut raw.top.entries {
@@ -37,7 +37,9 @@ type Indices = Vec<usize>;
 impl Patterns<'_> {
     /// `hot` with `of = "planet[*].gear.T"` becomes `hot[1]`, `hot[2]` and so on.
     fn limit(&mut self, entry: RawEntry) -> Vec<RawEntry> {
-        let Some((text, value)) = field(&entry, "of").and_then(|value| Some((starred(value)?, value))) else {
+        let Some((text, value)) =
+            field(&entry, "of").and_then(|value| Some((starred(value)?, value)))
+        else {
             return vec![entry];
         };
         let Ok(expression) = Expression::parse(text) else { return vec![entry] };
@@ -70,7 +72,9 @@ impl Patterns<'_> {
     fn source(&mut self, entry: &mut RawEntry) -> bool {
         let before = self.problems.len();
         let RawKind::Table(fields) = &mut entry.value.kind else { return true };
-        let Some(into) = fields.entries.iter_mut().find(|field| field.key == "into") else { return true };
+        let Some(into) = fields.entries.iter_mut().find(|field| field.key == "into") else {
+            return true;
+        };
         let span = into.value.span.clone();
         let shares = match &into.value.kind {
             RawKind::String { text, .. } if text.contains(STAR) => {
@@ -93,7 +97,11 @@ impl Patterns<'_> {
     }
 
     /// A share for each instance, which sum to the share of all.
-    fn shares(&mut self, pattern: &str, (span, share): (&Span, &RawValue)) -> Option<Vec<RawEntry>> {
+    fn shares(
+        &mut self,
+        pattern: &str,
+        (span, share): (&Span, &RawValue),
+    ) -> Option<Vec<RawEntry>> {
         let instances = self.instances(pattern, (span, span))?;
         let each = match &share.kind {
             RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => {
@@ -102,7 +110,8 @@ impl Patterns<'_> {
             _ => None,
         };
         // a share that is no number is reported where it is read
-        let number = each.map(|share| RawKind::Float(format!("{:?}", share / instances.len() as f64)));
+        let number =
+            each.map(|share| RawKind::Float(format!("{:?}", share / instances.len() as f64)));
         let kind = number.unwrap_or_else(|| share.kind.clone());
         let value = RawValue { span: share.span.clone(), kind };
         let entry = |indices: Indices| RawEntry {
@@ -113,7 +122,8 @@ impl Patterns<'_> {
         Some(instances.into_iter().map(entry).collect())
     }
 
-    /// The indices of every instance that a pattern names; `None` if it names none, which is reported.
+    /// The indices of every instance that a pattern names; `None` if it names none, which is
+    /// reported.
     fn instances(&mut self, pattern: &str, (scope, at): (&Span, &Span)) -> Option<Vec<Indices>> {
         let full = self.structure.resolve(scope, pattern);
         if self.structure.is_lost(&full) {
@@ -187,7 +197,8 @@ fn with_of(entry: &RawEntry, key: String, text: String) -> RawEntry {
 }
 
 fn no_instances(used: &str, at: &Span) -> Diagnostic {
-    let message = format!("`{used}[*]` stands for every instance, but `{used}` is no use with a `count`");
+    let message =
+        format!("`{used}[*]` stands for every instance, but `{used}` is no use with a `count`");
     Diagnostic::wrong(
         "netlist::pattern",
         message,

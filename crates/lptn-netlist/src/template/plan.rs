@@ -28,7 +28,8 @@ pub(super) fn of_instance(values: &[RawValue], number: usize) -> Option<&RawValu
     if values.len() == 1 { values.first() } else { values.get(number) }
 }
 
-/// Reads the line of a use; `None` if something is wrong, which is then reported, or if its template is broken.
+/// Reads the line of a use; `None` if something is wrong, which is then reported, or if its
+/// template is broken.
 pub(super) fn plan<'r>(
     templates: &'r [Template<'r>],
     entry: &RawEntry,
@@ -65,7 +66,11 @@ fn set_is_wrong(fields: &Fields<'_>) -> bool {
 }
 
 /// The members of `connect` or `set`.
-fn members<'a>(fields: &Fields<'a>, key: &str, problems: &mut Vec<Diagnostic>) -> Option<&'a RawTable> {
+fn members<'a>(
+    fields: &Fields<'a>,
+    key: &str,
+    problems: &mut Vec<Diagnostic>,
+) -> Option<&'a RawTable> {
     let raw = fields.get(key)?;
     let RawKind::Table(table) = &raw.kind else {
         problems.push(fields.wrong_shape(key, raw, "a table"));
@@ -76,14 +81,14 @@ fn members<'a>(fields: &Fields<'a>, key: &str, problems: &mut Vec<Diagnostic>) -
 
 fn count(fields: &Fields<'_>, raw: &RawValue, problems: &mut Vec<Diagnostic>) -> Option<usize> {
     let words = fields.owner.field("count");
-    let wrong = |message: String, help: &str| Diagnostic::wrong("netlist::count", message, &raw.span, help);
+    let wrong =
+        |message: String, help: &str| Diagnostic::wrong("netlist::count", message, &raw.span, help);
     let number = match &raw.kind {
         RawKind::Integer(number) => number.replace('_', ""),
         RawKind::Float(number) => number.clone(),
         RawKind::String { .. } => {
             let message = format!("{words} has to be a whole number, got a string");
-            let help =
-                "write the number itself, `count = 3`: parameters do not change what a network consists of";
+            let help = "write the number itself, `count = 3`: parameters do not change what a network consists of";
             problems.push(wrong(message, help));
             return None;
         }
@@ -129,7 +134,8 @@ fn values(
         Some(count) => format!("{words} has {has}, but there are {count} instances"),
     };
     let problem = Diagnostic::error("netlist::list_length", message).at(raw.span.clone(), "");
-    problems.push(problem.help("give one value for each instance in order, or a single one for all"));
+    problems
+        .push(problem.help("give one value for each instance in order, or a single one for all"));
     vec![raw.clone()]
 }
 
@@ -148,7 +154,12 @@ fn connections<'r>(
     for entry in entries {
         let Some(port) = known.iter().find(|port| **port == entry.key) else {
             let give = format!("port = [\"{}\"]", entry.key);
-            problems.push(unknown((template, entry), ("port", &known), (&owner, "connects"), &give));
+            problems.push(unknown(
+                (template, entry),
+                ("port", &known),
+                (&owner, "connects"),
+                &give,
+            ));
             continue;
         };
         let given = values(&owner.field(&entry.key), &entry.value, count, problems);
@@ -180,12 +191,21 @@ fn settings<'r>(
     for entry in table.map_or(&[][..], |table| &table.entries) {
         match template.parameter(&entry.key) {
             Some(parameter) => {
-                found.push((parameter, values(&owner.field(&entry.key), &entry.value, count, problems)));
+                found.push((
+                    parameter,
+                    values(&owner.field(&entry.key), &entry.value, count, problems),
+                ));
             }
             None => {
-                let known: Vec<&str> = template.parameters.iter().map(|p| p.entry.key.as_str()).collect();
+                let known: Vec<&str> =
+                    template.parameters.iter().map(|p| p.entry.key.as_str()).collect();
                 let give = format!("param = {{ {} = \"..\" }}", entry.key);
-                problems.push(unknown((template, entry), ("parameter", &known), (&owner, "gives"), &give));
+                problems.push(unknown(
+                    (template, entry),
+                    ("parameter", &known),
+                    (&owner, "gives"),
+                    &give,
+                ));
             }
         }
     }
@@ -197,7 +217,8 @@ fn unknown_template(
     fields: &Fields<'_>,
     (name, raw): (&str, &RawValue),
 ) -> Diagnostic {
-    let message = format!("no template named `{name}`, which {} refers to", fields.owner.field("template"));
+    let message =
+        format!("no template named `{name}`, which {} refers to", fields.owner.field("template"));
     let problem = Diagnostic::error("netlist::unknown_template", message).at(raw.span.clone(), "");
     let names: Vec<&str> = templates.iter().map(Template::name).collect();
     problem.help(match names.as_slice() {
@@ -220,7 +241,8 @@ fn unknown(
     give: &str,
 ) -> Diagnostic {
     let (name, words) = (&entry.key, owner.words());
-    let message = format!("template `{}` has no {what} `{name}`, which {words} {does}", template.name());
+    let message =
+        format!("template `{}` has no {what} `{name}`, which {words} {does}", template.name());
     let help = match known {
         [] => format!("give the template the {what}: `{give}`"),
         known => nearest(name, known.iter().copied(), &format!("its {what}s are")),
@@ -238,8 +260,8 @@ fn missing_port(template: &Template<'_>, fields: &Fields<'_>, missing: &[&str]) 
     let ports = if missing.len() == 1 { "port" } else { "ports" };
     let message = format!("{} does not connect {ports} {}", fields.owner.words(), list(missing));
     let lines: Vec<String> = missing.iter().map(|port| format!("{port} = \"..\"")).collect();
-    let mut problem =
-        Diagnostic::error("netlist::missing_port", message).at(fields.place.clone(), "not connected");
+    let mut problem = Diagnostic::error("netlist::missing_port", message)
+        .at(fields.place.clone(), "not connected");
     if let Some((_, value)) = template.ports.iter().find(|(port, _)| missing.contains(port)) {
         problem = problem.also(value.span.clone(), "a port of the template");
     }
@@ -248,7 +270,8 @@ fn missing_port(template: &Template<'_>, fields: &Fields<'_>, missing: &[&str]) 
 
 fn not_set(fields: &Fields<'_>, parameter: &Parameter<'_>) -> Diagnostic {
     let name = &parameter.entry.key;
-    let message = format!("{} does not set `{name}`, which has no value of its own", fields.owner.words());
+    let message =
+        format!("{} does not set `{name}`, which has no value of its own", fields.owner.words());
     let unit = parameter.ty.map_or_else(String::new, |ty| match ty.usual_unit() {
         unit if unit == "1" => String::new(),
         unit => format!(" {unit}"),

@@ -81,7 +81,8 @@ impl Structure {
         Some((instance, self.insides.get(instance.inside)?))
     }
 
-    /// What a name means that is written at `place`, if that is inside a template and the name belongs to it.
+    /// What a name means that is written at `place`, if that is inside a template and the name
+    /// belongs to it.
     pub(crate) fn meaning(&self, place: &Span, name: &str) -> Option<String> {
         let (instance, inside) = self.instance(place.copy)?;
         let first = root(name);
@@ -115,7 +116,8 @@ impl Structure {
     /// The names that belong to the template at `place`, sorted; nothing may depend on hash order.
     pub(crate) fn names_at(&self, place: &Span) -> Vec<&str> {
         let Some((_, inside)) = self.instance(place.copy) else { return Vec::new() };
-        let mut names: Vec<&str> = inside.own.iter().chain(&inside.ports).map(String::as_str).collect();
+        let mut names: Vec<&str> =
+            inside.own.iter().chain(&inside.ports).map(String::as_str).collect();
         names.sort_unstable();
         names
     }
@@ -123,7 +125,8 @@ impl Structure {
     /// Whether what is meant by `full` belongs to the instance at `place`, or is one of its ports.
     pub(crate) fn belongs(&self, place: &Span, full: &str) -> bool {
         let under = |whole: &str| {
-            full.strip_prefix(whole).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+            full.strip_prefix(whole)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
         };
         self.instance(place.copy).is_some_and(|(instance, _)| {
             under(&instance.path) || instance.ports.iter().any(|port| under(port))
@@ -145,7 +148,9 @@ impl Structure {
 
     /// Every connection with the line of its use.
     pub(crate) fn connections(&self) -> impl Iterator<Item = (&RawEntry, &Connection)> {
-        self.connections.iter().filter_map(|connection| Some((self.lines.get(connection.line)?, connection)))
+        self.connections
+            .iter()
+            .filter_map(|connection| Some((self.lines.get(connection.line)?, connection)))
     }
 
     /// The type that a parameter of an instance has to have, and where that is written.

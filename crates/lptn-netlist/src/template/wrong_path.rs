@@ -26,8 +26,9 @@ impl Structure {
             let full = format!("{before}{name}");
             if let Some(used) = self.uses.get(&full) {
                 let tail = path.get(before.len() + part.len()..).unwrap_or_default();
-                let wrong =
-                    |why: String, help: String| Some(WrongPath { why, help, made: used.span.clone() });
+                let wrong = |why: String, help: String| {
+                    Some(WrongPath { why, help, made: used.span.clone() })
+                };
                 match (used.count, index) {
                     (Some(count), Some("*")) => {
                         let help = format!(

@@ -32,7 +32,8 @@ impl NetworkBuilder {
         let threshold = Type::ABSOLUTE_TEMPERATURE;
         let on = self.typed((&name, item, on_field), on, threshold);
         let off = self.typed((&name, item, off_field), off, threshold);
-        let min_dwell = self.typed((&name, item, Field::MinDwell), min_dwell, Type::of(Dimension::TIME));
+        let min_dwell =
+            self.typed((&name, item, Field::MinDwell), min_dwell, Type::of(Dimension::TIME));
         let thermostat = Thermostat { sense, acts, on, off, start, min_dwell };
         self.parts.controls[id.index()].thermostat = Some(thermostat);
     }

@@ -14,10 +14,11 @@ use crate::value::{Input, Size, Value};
 pub struct Block {
     /// Its lengths along x, y and z; constant.
     pub size: [Input; 3],
-    /// How many cells there are along x, and along y and z where it is divided there too: one to three counts of at
-    /// least 1, together at most [`MOST_CELLS`].
+    /// How many cells there are along x, and along y and z where it is divided there too: one to
+    /// three counts of at least 1, together at most [`MOST_CELLS`].
     pub cells: Vec<usize>,
-    /// Its thermal conductivity along x, y and z; it may depend on `T`, which is then the mean of two neighbours.
+    /// Its thermal conductivity along x, y and z; it may depend on `T`, which is then the mean of
+    /// two neighbours.
     pub conductivity: [Input; 3],
     /// Its material, or density and specific heat capacity.
     pub substance: Substance<Input>,
@@ -47,9 +48,9 @@ const LETTERS: [&str; 3] = ["x", "y", "z"];
 impl NetworkBuilder {
     /// Adds a block of one material, cut into equal cells.
     ///
-    /// A cell is a node named `NAME[i,j,k]`, with as many indices as there are counts of cells, from 1; the path from it
-    /// to the next one along x is `NAME.x[i,j,k]`. Faces are named `NAME.x0` to `NAME.z1`; see
-    /// [`NetworkBuilder::surfaces`] and [`NetworkBuilder::connect`].
+    /// A cell is a node named `NAME[i,j,k]`, with as many indices as there are counts of cells,
+    /// from 1; the path from it to the next one along x is `NAME.x[i,j,k]`. Faces are named
+    /// `NAME.x0` to `NAME.z1`; see [`NetworkBuilder::surfaces`] and [`NetworkBuilder::connect`].
     pub fn grid(&mut self, name: &str, block: Block) -> GridId {
         let id = GridId::from_len(self.parts.grids.len());
         let item = Item::Grid(id);
@@ -57,19 +58,23 @@ impl NetworkBuilder {
         let (cells, axes) = self.divisions(name, id, &block.cells);
         let size = block.size.map(|s| self.typed((name, item, Field::Size), s, length));
         let k = Type::of(Dimension::CONDUCTIVITY);
-        let conductivity = block.conductivity.map(|v| self.typed((name, item, Field::Conductivity), v, k));
+        let conductivity =
+            block.conductivity.map(|v| self.typed((name, item, Field::Conductivity), v, k));
         let capacity = self.cell_capacity((name, item), &block.substance, (&size, cells));
-        let initial =
-            block.initial.map(|t| self.typed((name, item, Field::Initial), t, Type::ABSOLUTE_TEMPERATURE));
+        let initial = block
+            .initial
+            .map(|t| self.typed((name, item, Field::Initial), t, Type::ABSOLUTE_TEMPERATURE));
         let substance = match block.substance {
             Substance::Material(material) => Substance::Material(material),
             Substance::Properties { density, cp } => {
                 Substance::Properties { density: density.value, cp: cp.value }
             }
         };
-        let first = u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
+        let first =
+            u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
         let (name, surfaces) = (name.to_owned(), [None; 6]);
-        let grid = Grid { name, cells, axes, size, conductivity, substance, initial, first, surfaces };
+        let grid =
+            Grid { name, cells, axes, size, conductivity, substance, initial, first, surfaces };
         self.register(&grid.name, item);
         self.parts.grids.push(grid.clone());
         self.cells(&grid, item, capacity);
@@ -106,15 +111,21 @@ impl NetworkBuilder {
                 let lump = self.lump(*material, Size::Volume(typed(volume, Dimension::VOLUME)));
                 if lump.is_none() {
                     let known = &self.parts.materials[material.index()];
-                    let field = if known.cp.is_none() { Field::SpecificHeat } else { Field::Density };
+                    let field =
+                        if known.cp.is_none() { Field::SpecificHeat } else { Field::Density };
                     self.error(name, BuildErrorKind::NoProperty { item, field });
                 }
                 lump
             }
             Substance::Properties { density, cp } => {
                 let at = |field| (name, item, field);
-                let density = self.typed(at(Field::Density), density.clone(), Type::of(Dimension::DENSITY));
-                let cp = self.typed(at(Field::SpecificHeat), cp.clone(), Type::of(Dimension::SPECIFIC_HEAT));
+                let density =
+                    self.typed(at(Field::Density), density.clone(), Type::of(Dimension::DENSITY));
+                let cp = self.typed(
+                    at(Field::SpecificHeat),
+                    cp.clone(),
+                    Type::of(Dimension::SPECIFIC_HEAT),
+                );
                 Some(typed(product(vec![volume, density, cp]), Dimension::CAPACITY))
             }
         }
@@ -124,8 +135,12 @@ impl NetworkBuilder {
         // without a capacity there is an error already
         let capacity = capacity.unwrap_or_else(|| typed(Value::Constant(1.0), Dimension::CAPACITY));
         let initial = grid.initial.clone();
-        let initial =
-            initial.map(|value| Input { value, ty: Type::ABSOLUTE_TEMPERATURE, deviation: None, lump: None });
+        let initial = initial.map(|value| Input {
+            value,
+            ty: Type::ABSOLUTE_TEMPERATURE,
+            deviation: None,
+            lump: None,
+        });
         for at in grid.places([0; 3]) {
             let name = format!("{}{}", grid.name, grid.indices(at));
             self.add_node(&name, Some(capacity.clone()), initial.clone(), false);
@@ -165,7 +180,8 @@ impl NetworkBuilder {
     }
 
     pub(crate) fn next_conductor(&self) -> u32 {
-        u32::try_from(self.parts.conductors.len()).expect("a network holds fewer than 2^32 conductors")
+        u32::try_from(self.parts.conductors.len())
+            .expect("a network holds fewer than 2^32 conductors")
     }
 
     /// Notes that the conductors from `first` on are parts of `whole`.
@@ -176,16 +192,18 @@ impl NetworkBuilder {
         }
     }
 
-    /// The massless nodes on a face of a grid, `NAME.x1[j,k]` by the indices of the cells along it, the last one running
-    /// fastest. They are made when they are first asked for, with the path `NAME.x1.cell[j,k]` from the middle of the
-    /// cell to each; what is attached to the face meets there. None if the grid is not of this builder.
+    /// The massless nodes on a face of a grid, `NAME.x1[j,k]` by the indices of the cells along it,
+    /// the last one running fastest. They are made when they are first asked for, with the path
+    /// `NAME.x1.cell[j,k]` from the middle of the cell to each; what is attached to the face meets
+    /// there. None if the grid is not of this builder.
     pub fn surfaces(&mut self, grid: GridId, face: Face) -> Vec<NodeId> {
         let Some(known) = self.parts.grids.get(grid.index()) else { return Vec::new() };
         if known.surfaces[face as usize].is_some() {
             return known.surfaces(face).collect();
         }
         let (whole, known) = (Item::Grid(grid), known.clone());
-        let first = u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
+        let first =
+            u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
         let first_path = self.next_conductor();
         let path = known.path(face.axis(), 0.5);
         let mut nodes = Vec::with_capacity(known.face_count(face));
@@ -197,7 +215,8 @@ impl NetworkBuilder {
             self.conductor(&name, Kind::Conduction, (cell, surface.into()), path.clone());
             nodes.push(surface);
         }
-        let end = u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
+        let end =
+            u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
         self.parts.grids[grid.index()].surfaces[face as usize] = Some(first);
         // the one surface of a rod's end has the name of the face and stands for itself
         if known.face_axes(face).next().is_some() {

@@ -11,11 +11,12 @@ use crate::parts::grid::{GridFace, Joint, Terminal};
 use crate::value::{Input, Value};
 
 impl NetworkBuilder {
-    /// Adds a path between nodes, boundaries and faces of grids. One that ends at a face becomes a conductor for each of
-    /// its cells; they share the conductance or the area of the whole. Two faces are joined cell by cell, in the order
-    /// of the axes along each.
+    /// Adds a path between nodes, boundaries and faces of grids. One that ends at a face becomes a
+    /// conductor for each of its cells; they share the conductance or the area of the whole. Two
+    /// faces are joined cell by cell, in the order of the axes along each.
     ///
-    /// Expressions in its values see the temperatures of each conductor by itself, and are those of the whole path.
+    /// Expressions in its values see the temperatures of each conductor by itself, and are those of
+    /// the whole path.
     pub fn connect(
         &mut self,
         name: &str,
@@ -72,7 +73,9 @@ impl NetworkBuilder {
     fn ends(&mut self, terminal: Terminal, count: usize) -> Vec<End> {
         match terminal {
             Terminal::End(end) => vec![end; count],
-            Terminal::Face(at) => self.surfaces(at.grid, at.face).into_iter().map(End::Node).collect(),
+            Terminal::Face(at) => {
+                self.surfaces(at.grid, at.face).into_iter().map(End::Node).collect()
+            }
         }
     }
 
@@ -86,13 +89,21 @@ impl NetworkBuilder {
             return Some(BuildErrorKind::StreamIntoFace { item });
         }
         let [a, b] = faces[..] else { return None };
-        let cells = |at: GridFace| at.face.along().map(|axis| self.parts.grids[at.grid.index()].cells[axis]);
+        let cells = |at: GridFace| {
+            at.face.along().map(|axis| self.parts.grids[at.grid.index()].cells[axis])
+        };
         let name = |at: GridFace| self.parts.grids[at.grid.index()].face_name(at.face);
         let (cells, names) = ([cells(a), cells(b)], [name(a), name(b)]);
-        (cells[0] != cells[1]).then_some(BuildErrorKind::FaceCells { item, faces: [a, b], names, cells })
+        (cells[0] != cells[1]).then_some(BuildErrorKind::FaceCells {
+            item,
+            faces: [a, b],
+            names,
+            cells,
+        })
     }
 
-    /// The area of a face, for a path whose area is that of the face; `None` if the grid is not of this builder.
+    /// The area of a face, for a path whose area is that of the face; `None` if the grid is not of
+    /// this builder.
     pub fn face_area(&self, at: GridFace) -> Option<Input> {
         let grid = self.parts.grids.get(at.grid.index())?;
         let sides = at.face.along().map(|axis| grid.size[axis].clone());
@@ -123,7 +134,9 @@ impl Path {
 
     /// One of `count` equal parts of it, side by side.
     fn shared(self, count: f64) -> Self {
-        let times = |factor: f64| move |input: Input| Input { value: scaled(&input.value, factor), ..input };
+        let times = |factor: f64| {
+            move |input: Input| Input { value: scaled(&input.value, factor), ..input }
+        };
         match self.formula().declaration().extent {
             Extent::Divided(key) => self.with(key, times(1.0 / count)),
             Extent::Multiplied(key) => self.with(key, times(count)),

@@ -5,7 +5,8 @@ use crate::id::{End, Item, NodeId};
 use crate::value::Value;
 
 impl NetworkBuilder {
-    /// What has this name among the nodes, boundaries and elements added so far; the first, if several have it.
+    /// What has this name among the nodes, boundaries and elements added so far; the first, if
+    /// several have it.
     pub fn item(&self, name: &str) -> Option<Item> {
         self.parts.item(name)
     }
@@ -41,7 +42,8 @@ impl NetworkBuilder {
         self.parts.nodes[node.index()].massless
     }
 
-    /// Sets another temperature at the start of a node with capacity, in K; says where a massless one stood.
+    /// Sets another temperature at the start of a node with capacity, in K; says where a massless
+    /// one stood.
     pub fn start_at(&mut self, node: NodeId, temperature: crate::Temperature) {
         let start = &mut self.parts.nodes[node.index()];
         match start.massless {

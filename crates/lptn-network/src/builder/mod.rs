@@ -12,11 +12,14 @@ pub(crate) mod substance;
 use std::sync::Arc;
 
 use lptn_laws::{Formula, Kind};
-use lptn_units::{Dimension, Expression, Problems, Program, RESERVED, TableSymbol, Type, UnitError};
+use lptn_units::{
+    Dimension, Expression, Problems, Program, RESERVED, TableSymbol, Type, UnitError,
+};
 
 use crate::error::{BuildError, BuildErrorKind, BuildErrors};
 use crate::id::{
-    BoundaryId, CapacitorId, ConductorId, End, Field, Item, LimitId, NodeId, ParameterId, SourceId, TableId,
+    BoundaryId, CapacitorId, ConductorId, End, Field, Item, LimitId, NodeId, ParameterId, SourceId,
+    TableId,
 };
 use crate::law::Law;
 use crate::names::is_path;
@@ -81,7 +84,12 @@ impl NetworkBuilder {
     }
 
     /// Adds a node with a heat capacity and a temperature at the start.
-    pub fn node(&mut self, name: &str, capacity: impl Into<Input>, initial: impl Into<Input>) -> NodeId {
+    pub fn node(
+        &mut self,
+        name: &str,
+        capacity: impl Into<Input>,
+        initial: impl Into<Input>,
+    ) -> NodeId {
         self.add_node(name, Some(capacity.into()), Some(initial.into()), false)
     }
 
@@ -107,7 +115,8 @@ impl NetworkBuilder {
         let at = |field| (name, Item::Node(id), field);
         let lump = capacity.as_ref().and_then(|c| c.lump.clone());
         let capacity = capacity.map(|c| self.typed(at(Field::Capacity), c, CAPACITY));
-        let initial = initial.map(|t| self.typed(at(Field::Initial), t, Type::ABSOLUTE_TEMPERATURE));
+        let initial =
+            initial.map(|t| self.typed(at(Field::Initial), t, Type::ABSOLUTE_TEMPERATURE));
         self.parts.nodes.push(Node {
             name: name.to_owned(),
             capacity,
@@ -124,7 +133,12 @@ impl NetworkBuilder {
     }
 
     /// Adds a part to the capacity of `node`.
-    pub fn capacitor(&mut self, name: &str, node: NodeId, capacity: impl Into<Input>) -> CapacitorId {
+    pub fn capacitor(
+        &mut self,
+        name: &str,
+        node: NodeId,
+        capacity: impl Into<Input>,
+    ) -> CapacitorId {
         let id = CapacitorId::from_len(self.parts.capacitors.len());
         let at = (name, Item::Capacitor(id), Field::Capacity);
         self.check_end(name, Item::Capacitor(id), node.into());
@@ -170,21 +184,37 @@ impl NetworkBuilder {
     }
 
     /// Adds a conductor of any kind.
-    pub fn conductor(&mut self, name: &str, kind: Kind, (from, to): (End, End), path: Path) -> ConductorId {
+    pub fn conductor(
+        &mut self,
+        name: &str,
+        kind: Kind,
+        (from, to): (End, End),
+        path: Path,
+    ) -> ConductorId {
         let id = self.push_conductor(name.into(), kind, (from, to), path);
         self.register(name, Item::Conductor(id));
         id
     }
 
     /// Adds a source that heats a node with `power`, which may depend on `t`.
-    pub fn source(&mut self, name: &str, into: impl Into<End>, power: impl Into<Input>) -> SourceId {
+    pub fn source(
+        &mut self,
+        name: &str,
+        into: impl Into<End>,
+        power: impl Into<Input>,
+    ) -> SourceId {
         let id = self.push_source(name.into(), into.into(), power.into());
         self.register(name, Item::Source(id));
         id
     }
 
     /// Adds a source whose heat is shared between nodes; the shares have to sum to 1.
-    pub fn shared_source(&mut self, name: &str, into: &[(NodeId, f64)], power: impl Into<Input>) -> SourceId {
+    pub fn shared_source(
+        &mut self,
+        name: &str,
+        into: &[(NodeId, f64)],
+        power: impl Into<Input>,
+    ) -> SourceId {
         let id = SourceId::from_len(self.parts.sources.len());
         let at = (name, Item::Source(id), Field::Power);
         let power = self.typed(at, power.into(), Type::of(Dimension::POWER));
@@ -229,7 +259,11 @@ impl NetworkBuilder {
     ///
     /// # Errors
     /// Every problem of the text: syntax, unknown names, dimensions.
-    pub fn expression(&self, text: &str, expected: Option<Type>) -> Result<Program, Problems<UnitError>> {
+    pub fn expression(
+        &self,
+        text: &str,
+        expected: Option<Type>,
+    ) -> Result<Program, Problems<UnitError>> {
         self.expression_in(Context::Time, text, expected)
     }
 
@@ -238,8 +272,8 @@ impl NetworkBuilder {
         self.scope(Context::Result)
     }
 
-    /// Adds a limit: `of`, written as `text`, has to stay below or above a value of the same type, which is
-    /// constant.
+    /// Adds a limit: `of`, written as `text`, has to stay below or above a value of the same type,
+    /// which is constant.
     pub fn limit(
         &mut self,
         name: &str,
@@ -251,7 +285,15 @@ impl NetworkBuilder {
         let ty = of.ty;
         let value = self.typed((name, Item::Limit(id), bound.field()), value, ty);
         let (name, text) = (name.to_owned(), text.to_owned());
-        self.parts.limits.push(Limit { name: name.clone(), of: of.value, ty, bound, value, severity, text });
+        self.parts.limits.push(Limit {
+            name: name.clone(),
+            of: of.value,
+            ty,
+            bound,
+            value,
+            severity,
+            text,
+        });
         self.register(&name, Item::Limit(id));
         id
     }

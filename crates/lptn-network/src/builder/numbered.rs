@@ -13,8 +13,8 @@ use crate::value::Input;
 const CONDUCTANCE: Type = Type::of(Dimension::CONDUCTANCE);
 
 impl NetworkBuilder {
-    /// Adds a conductor that is called by a number, `import.conductor[17]`. Numbers are at least 1 and rise with each
-    /// conductor that is added.
+    /// Adds a conductor that is called by a number, `import.conductor[17]`. Numbers are at least 1
+    /// and rise with each conductor that is added.
     pub fn numbered_conductor(
         &mut self,
         number: u32,
@@ -27,7 +27,8 @@ impl NetworkBuilder {
         self.push_conductor(Label::Number(number), kind, (from, to), path)
     }
 
-    /// Adds a source that is called by a number, `import.source[17]`, as [`NetworkBuilder::numbered_conductor`].
+    /// Adds a source that is called by a number, `import.source[17]`, as
+    /// [`NetworkBuilder::numbered_conductor`].
     pub fn numbered_source(&mut self, number: u32, into: End, power: Input) -> SourceId {
         let position = self.parts.sources.len();
         self.parts.numbered_sources.get_or_insert((position, number));

@@ -11,8 +11,9 @@ use crate::scope::Context;
 use crate::value::Input;
 
 impl NetworkBuilder {
-    /// Gives a place to every heat flow (`NAME.Q`, `NAME.Q_from`, `NAME.Q_to`, `NAME.P`) and every temperature of a grid
-    /// (`NAME.mean`, `NAME.x1.T`) that an expression names, so that it can be compiled for [`Context::Result`].
+    /// Gives a place to every heat flow (`NAME.Q`, `NAME.Q_from`, `NAME.Q_to`, `NAME.P`) and every
+    /// temperature of a grid (`NAME.mean`, `NAME.x1.T`) that an expression names, so that it can be
+    /// compiled for [`Context::Result`].
     pub fn name_heats(&mut self, expression: &Expression) {
         for (name, _) in expression.names() {
             if let Some(heat) = self.parts.heat(&name) {
@@ -22,8 +23,8 @@ impl NetworkBuilder {
         }
     }
 
-    /// Compiles an expression over parameters, `t`, signals, tables, and the temperatures and heat flows of what was
-    /// added so far; see [`NetworkBuilder::post_scope`].
+    /// Compiles an expression over parameters, `t`, signals, tables, and the temperatures and heat
+    /// flows of what was added so far; see [`NetworkBuilder::post_scope`].
     ///
     /// # Errors
     /// Every problem of the text: syntax, unknown names, dimensions.
@@ -37,8 +38,8 @@ impl NetworkBuilder {
         expression.compile(&self.scope(Context::Result), expected)
     }
 
-    /// Adds a report: `value`, written as `text`, becomes a column of the results. Its name is one of those that
-    /// parameters, signals and tables share.
+    /// Adds a report: `value`, written as `text`, becomes a column of the results. Its name is one
+    /// of those that parameters, signals and tables share.
     pub fn report(&mut self, name: &str, value: Input, text: &str) -> ReportId {
         let id = ReportId::from_len(self.parts.reports.len());
         let Input { value, ty, .. } = value;
@@ -49,7 +50,8 @@ impl NetworkBuilder {
 }
 
 impl NetworkBuilder {
-    /// Gives a place to a value of a grid (`NAME.mean`, `NAME.x1.T`) that an expression of results names.
+    /// Gives a place to a value of a grid (`NAME.mean`, `NAME.x1.T`) that an expression of results
+    /// names.
     pub(crate) fn name_grid_value(&mut self, name: &str) {
         if let Some(value) = self.parts.grid_value(name) {
             Arc::make_mut(&mut self.parts.layout).add_grid_value(value);

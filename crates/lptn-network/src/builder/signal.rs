@@ -17,12 +17,21 @@ impl NetworkBuilder {
         let constant = Course::Expression(Value::Constant(f64::NAN));
         let course = if sound { course } else { constant }; // nothing reads it: the network is refused
         let layout = Arc::make_mut(&mut self.parts.layout);
-        let id = layout.add_signal(Signal { name: name.to_owned(), ty, course: course.clone(), unit: None });
+        let id = layout.add_signal(Signal {
+            name: name.to_owned(),
+            ty,
+            course: course.clone(),
+            unit: None,
+        });
         if let AfterEnd::Repeat(period) = course.after() {
             let (first, last) = course.span();
-            let covers = period > 0.0 && period.is_finite() && period >= (last - first) * (1.0 - 1e-12);
+            let covers =
+                period > 0.0 && period.is_finite() && period >= (last - first) * (1.0 - 1e-12);
             if !covers {
-                self.error(name, BuildErrorKind::PeriodTooShort { signal: id, period, span: last - first });
+                self.error(
+                    name,
+                    BuildErrorKind::PeriodTooShort { signal: id, period, span: last - first },
+                );
             }
         }
         if !sound {

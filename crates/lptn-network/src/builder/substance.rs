@@ -30,13 +30,16 @@ impl NetworkBuilder {
     pub fn material(&mut self, name: &str, properties: Properties) -> MaterialId {
         let id = MaterialId::from_len(self.parts.materials.len());
         let mut value = |field, input: Option<Input>, dimension| {
-            input.map(|input| self.typed((name, Item::Material(id), field), input, Type::of(dimension)))
+            input.map(|input| {
+                self.typed((name, Item::Material(id), field), input, Type::of(dimension))
+            })
         };
         let density = value(Field::Density, properties.density, Dimension::DENSITY);
         let cp = value(Field::SpecificHeat, properties.cp, Dimension::SPECIFIC_HEAT);
         let k = value(Field::Conductivity, properties.k, Dimension::CONDUCTIVITY);
         let melting = properties.melting.map(|m| {
-            let mut value = |field, input, ty| self.typed((name, Item::Material(id), field), input, ty);
+            let mut value =
+                |field, input, ty| self.typed((name, Item::Material(id), field), input, ty);
             Melting {
                 solidus: value(Field::Solidus, m.solidus, Type::ABSOLUTE_TEMPERATURE),
                 liquidus: value(Field::Liquidus, m.liquidus, Type::ABSOLUTE_TEMPERATURE),
@@ -50,8 +53,8 @@ impl NetworkBuilder {
         id
     }
 
-    /// Says how much of a node is molten at its start, from 0 to 1; the start then has to be the one temperature at
-    /// which it melts.
+    /// Says how much of a node is molten at its start, from 0 to 1; the start then has to be the
+    /// one temperature at which it melts.
     pub fn molten(&mut self, node: NodeId, share: f64) {
         if !(0.0..=1.0).contains(&share) {
             let name = self.parts.nodes[node.index()].name.clone();
@@ -61,15 +64,15 @@ impl NetworkBuilder {
         self.parts.nodes[node.index()].molten = share;
     }
 
-    /// The conductivity of a material, for a [`Path`](crate::Path) of conduction; it may depend on the
-    /// temperature, which is then the mean of the ends.
+    /// The conductivity of a material, for a [`Path`](crate::Path) of conduction; it may depend on
+    /// the temperature, which is then the mean of the ends.
     pub fn conductivity(&self, material: MaterialId) -> Option<Input> {
         let value = self.parts.materials[material.index()].k.clone()?;
         Some(Input { value, ty: Type::of(Dimension::CONDUCTIVITY), deviation: None, lump: None })
     }
 
-    /// The capacity of a lump, `mass cp` or `volume density cp`, for a node or capacitor; `None` if the material
-    /// lacks a property that this takes.
+    /// The capacity of a lump, `mass cp` or `volume density cp`, for a node or capacitor; `None` if
+    /// the material lacks a property that this takes.
     pub fn lump(&self, material: MaterialId, size: Size<Input>) -> Option<Input> {
         let properties = &self.parts.materials[material.index()];
         let cp = properties.cp.clone()?;
@@ -107,8 +110,8 @@ impl NetworkBuilder {
     ) -> FluidId {
         let id = FluidId::from_len(self.parts.fluids.len());
         let at = |field| (name, Item::Fluid(id), field);
-        let density =
-            density.map(|input| self.typed(at(Field::Density), input, Type::of(Dimension::DENSITY)));
+        let density = density
+            .map(|input| self.typed(at(Field::Density), input, Type::of(Dimension::DENSITY)));
         let cp = self.typed(at(Field::SpecificHeat), cp.into(), Type::of(Dimension::SPECIFIC_HEAT));
         self.parts.fluids.push(Fluid { name: name.to_owned(), density, cp, source });
         self.check_name(name, Item::Fluid(id));
@@ -126,7 +129,8 @@ pub enum NoMaterial {
 }
 
 impl NetworkBuilder {
-    /// Gives a node its characteristic length, volume over surface, so that it can be checked for being a lump.
+    /// Gives a node its characteristic length, volume over surface, so that it can be checked for
+    /// being a lump.
     pub fn length(&mut self, node: NodeId, length: impl Into<Input>) {
         let name = self.parts.nodes[node.index()].name.clone();
         let at = (name.as_str(), Item::Node(node), Field::CharacteristicLength);

@@ -1,7 +1,7 @@
 //! Polynomials on panels in place of a capacity.
 //!
-//! What a panel misses is bounded by the form of the capacity over the whole of it (see [`Taylor`]), not judged at some
-//! points: a peak between them, however narrow, is met.
+//! What a panel misses is bounded by the form of the capacity over the whole of it (see
+//! [`Taylor`]), not judged at some points: a peak between them, however narrow, is met.
 
 use lptn_units::Taylor;
 
@@ -22,8 +22,8 @@ const HOTTEST: f64 = 16_384.0;
 /// How often a nearer edge is looked for before the capacity counts as unknown.
 const EDGES: usize = 50;
 
-/// How many panels are tried in either direction; the curve ends where they are used up. One that is smooth takes some
-/// hundreds, a jump or a kink some forty more.
+/// How many panels are tried in either direction; the curve ends where they are used up. One that
+/// is smooth takes some hundreds, a jump or a kink some forty more.
 const TRIES: usize = 100_000;
 
 /// Where a panel is interpolated: the zeros of Chebyshev's polynomial of degree 9.
@@ -42,7 +42,8 @@ const POINTS: [f64; TERMS] = [
 /// The largest absolute value on (-1, 1) of the product of all `x - point`.
 const PRODUCT: f64 = 1.0 / 256.0;
 
-/// Differences are judged relative to the capacity, but no smaller one than this part of that at the start.
+/// Differences are judged relative to the capacity, but no smaller one than this part of that at
+/// the start.
 const FLOOR: f64 = 1e-6;
 
 /// A capacity over temperature in K.
@@ -81,7 +82,8 @@ pub(super) struct Fit<'a> {
 }
 
 impl<'a> Fit<'a> {
-    /// The panels of a capacity around a start, ascending. `stops` are temperatures at which it may bend.
+    /// The panels of a capacity around a start, ascending. `stops` are temperatures at which it may
+    /// bend.
     pub(super) fn panels(
         capacity: &'a mut dyn Capacity,
         start: f64,
@@ -106,7 +108,8 @@ impl<'a> Fit<'a> {
         self.capacity.at(temperature).filter(|c| c.is_finite() && *c > 0.0)
     }
 
-    /// Covers the temperatures from `start` on in one direction with panels, as far as the capacity is defined.
+    /// Covers the temperatures from `start` on in one direction with panels, as far as the capacity
+    /// is defined.
     fn walk(&mut self, start: f64, stops: &[f64], direction: f64) {
         let mut here = start;
         while here > 0.0 && here < HOTTEST || here <= 0.0 && direction > 0.0 {
@@ -156,7 +159,8 @@ impl<'a> Fit<'a> {
         ((inside - first).abs() > NARROWEST).then_some(inside)
     }
 
-    /// Adds panels from `from` to `to`, halved until it is certain that they agree with the capacity.
+    /// Adds panels from `from` to `to`, halved until it is certain that they agree with the
+    /// capacity.
     fn cover(&mut self, from: f64, to: f64) -> Result<(), Stop> {
         self.tries = self.tries.checked_sub(1).ok_or(Stop::TooQuick)?;
         let half = 0.5 * (to - from);
@@ -184,8 +188,8 @@ impl<'a> Fit<'a> {
         Ok(())
     }
 
-    /// Whether a capacity is certainly positive on a panel and that of the polynomial: as its ninth derivative bounds
-    /// what an interpolation misses, or as it hardly changes.
+    /// Whether a capacity is certainly positive on a panel and that of the polynomial: as its ninth
+    /// derivative bounds what an interpolation misses, or as it hardly changes.
     fn is_met(&self, capacity: &[f64; TERMS], bounds: &Taylor, half: f64) -> bool {
         let Some([least, most]) = bounds.range() else { return false };
         let missed = bounds.largest(TERMS) * half.powi(9) * PRODUCT;
@@ -198,7 +202,8 @@ impl<'a> Fit<'a> {
     }
 }
 
-/// The polynomial through the values at [`POINTS`], by powers: Newton's divided differences, multiplied out.
+/// The polynomial through the values at [`POINTS`], by powers: Newton's divided differences,
+/// multiplied out.
 fn interpolate(values: &[f64; TERMS]) -> [f64; TERMS] {
     let mut divided = *values;
     for order in 1..TERMS {

@@ -1,7 +1,8 @@
 //! Heat content over temperature: the exact integral of a capacity that depends on temperature.
 //!
-//! A capacity C(T) is represented on panels by polynomials that agree with it to 1e-12; the heat content is their
-//! integral, so capacity, heat content and its inverse belong together to the last digit and books close.
+//! A capacity C(T) is represented on panels by polynomials that agree with it to 1e-12; the heat
+//! content is their integral, so capacity, heat content and its inverse belong together to the last
+//! digit and books close.
 
 mod fit;
 mod panel;
@@ -34,8 +35,8 @@ pub(crate) struct Latent {
     pub(crate) heat: f64,
 }
 
-/// Solidus and liquidus that differ by no more than this, relative to them, are one temperature: the rounding of a
-/// change of units and of a few sums, 3e-10 K at room temperature.
+/// Solidus and liquidus that differ by no more than this, relative to them, are one temperature:
+/// the rounding of a change of units and of a few sums, 3e-10 K at room temperature.
 const ONE_TEMPERATURE: f64 = 1e-12;
 
 /// Whether what melts between these two temperatures in K melts at one.
@@ -56,13 +57,14 @@ impl Latent {
 pub struct Content {
     /// Temperature in K.
     pub temperature: f64,
-    /// Capacity in J/K (J/(kg K) for a fluid); infinite while latent heat is taken up at one temperature.
+    /// Capacity in J/K (J/(kg K) for a fluid); infinite while latent heat is taken up at one
+    /// temperature.
     pub capacity: f64,
 }
 
 impl Enthalpy {
-    /// The curve of `capacity` around `start` in K, as far as it is defined and positive. Its zero is at `start`.
-    /// `edges` are temperatures at which the capacity may bend or jump.
+    /// The curve of `capacity` around `start` in K, as far as it is defined and positive. Its zero
+    /// is at `start`. `edges` are temperatures at which the capacity may bend or jump.
     pub(crate) fn new(
         capacity: &mut dyn Capacity,
         start: f64,
@@ -77,14 +79,15 @@ impl Enthalpy {
         Ok(Self { panels: panels.into(), scale: 1.0, zero: 0.0 })
     }
 
-    /// The same curve `scale` times as high, with its zero at another `start` in K; `None` if that is outside its range.
+    /// The same curve `scale` times as high, with its zero at another `start` in K; `None` if that
+    /// is outside its range.
     pub(crate) fn rescaled(&self, scale: f64, start: f64) -> Option<Self> {
         let zero = self.zero + self.heat(start)? / self.scale;
         Some(Self { panels: Arc::clone(&self.panels), scale: self.scale * scale, zero })
     }
 
-    /// The same curve with its zero where `share` of the latent heat at just `start` in K is taken up; `None` if no
-    /// latent heat is taken up at that temperature alone.
+    /// The same curve with its zero where `share` of the latent heat at just `start` in K is taken
+    /// up; `None` if no latent heat is taken up at that temperature alone.
     pub(crate) fn partly_molten(&self, start: f64, share: f64) -> Option<Self> {
         let latent = self.latent_at(start)?;
         let mut curve = self.rescaled(1.0, start)?;
@@ -96,19 +99,21 @@ impl Enthalpy {
     fn latent_at(&self, temperature: f64) -> Option<f64> {
         let first = self.panels.partition_point(|panel| panel.to < temperature);
         let here = self.panels[first..].iter().take_while(|panel| panel.from <= temperature);
-        let mut latent = here.filter(|panel| panel.to <= panel.from).map(|panel| panel.rise).peekable();
+        let mut latent =
+            here.filter(|panel| panel.to <= panel.from).map(|panel| panel.rise).peekable();
         latent.peek().is_some().then(|| latent.sum())
     }
 
-    /// How much of the latent heat that is taken up at just one temperature is taken up, from 0 to 1; `None` for a
-    /// heat content at another temperature.
+    /// How much of the latent heat that is taken up at just one temperature is taken up, from 0 to
+    /// 1; `None` for a heat content at another temperature.
     pub fn melted(&self, heat: f64) -> Option<f64> {
         let temperature = self.temperature(heat)?.temperature;
         let latent = self.scale * self.latent_at(temperature)?;
         Some(((heat - self.heat(temperature)?) / latent).clamp(0.0, 1.0))
     }
 
-    /// The panel of a temperature, the lower one where two meet; `None` outside [`Enthalpy::range`].
+    /// The panel of a temperature, the lower one where two meet; `None` outside
+    /// [`Enthalpy::range`].
     fn panel(&self, temperature: f64) -> Option<&Panel> {
         let (first, last) = self.range();
         if !(first..=last).contains(&temperature) {
@@ -131,8 +136,8 @@ impl Enthalpy {
         stops
     }
 
-    /// Heat content at a temperature in K; `None` outside [`Enthalpy::range`]. At the temperature of an isothermal
-    /// change of phase: before it.
+    /// Heat content at a temperature in K; `None` outside [`Enthalpy::range`]. At the temperature
+    /// of an isothermal change of phase: before it.
     pub fn heat(&self, temperature: f64) -> Option<f64> {
         let panel = self.panel(temperature)?;
         Some(self.scale * (panel.heat - self.zero + panel.taken_up(temperature)))
@@ -160,7 +165,8 @@ impl Enthalpy {
 fn add_latent(panels: &mut Vec<Panel>, latent: Latent) {
     let Latent { solidus, liquidus, heat } = latent;
     if liquidus > solidus {
-        let within = panels.iter_mut().filter(|p| p.from >= solidus && p.to <= liquidus && p.to > p.from);
+        let within =
+            panels.iter_mut().filter(|p| p.from >= solidus && p.to <= liquidus && p.to > p.from);
         within.for_each(|panel| panel.raise(lptn_laws::melting_capacity(heat, solidus, liquidus)));
         return;
     }

@@ -72,7 +72,8 @@ impl Panel {
         self.half() * (self.primitive(self.x(temperature)) - self.primitive(-1.0))
     }
 
-    /// The temperature at which so much heat is taken up. The capacity is positive, so the heat grows strictly.
+    /// The temperature at which so much heat is taken up. The capacity is positive, so the heat
+    /// grows strictly.
     pub(super) fn invert(&self, heat: f64) -> f64 {
         if self.to <= self.from || heat <= 0.0 {
             return self.from;
@@ -85,16 +86,16 @@ impl Panel {
         (self.from + self.half() * along).min(self.to)
     }
 
-    /// `1 + x` at which the integral of a straight line is `due`: the root of a parabola, in the form that does not
-    /// cancel.
+    /// `1 + x` at which the integral of a straight line is `due`: the root of a parabola, in the
+    /// form that does not cancel.
     fn straight(&self, due: f64) -> f64 {
         let slope = if self.terms > 1 { self.capacity[1] } else { 0.0 };
         let first = self.capacity[0] - slope;
         2.0 * due / (first + (first * first + 2.0 * slope * due).max(0.0).sqrt())
     }
 
-    /// `x` at which the integral is `due`: Newton's method kept between the ends, until nothing is missing but
-    /// rounding. Also tells how many steps that took.
+    /// `x` at which the integral is `due`: Newton's method kept between the ends, until nothing is
+    /// missing but rounding. Also tells how many steps that took.
     fn newton(&self, due: f64) -> (f64, u32) {
         let first = self.primitive(-1.0);
         let rounding = f64::EPSILON * (first.abs() + due);
@@ -127,7 +128,8 @@ impl Panel {
 mod tests {
     use super::*;
 
-    /// It went on for 60 steps, as it halved the panel again wherever Newton's step was lost to rounding.
+    /// It went on for 60 steps, as it halved the panel again wherever Newton's step was lost to
+    /// rounding.
     #[test]
     fn an_inversion_ends_where_nothing_but_rounding_is_missing() {
         for (from, to) in [(250.0, 314.0), (273.05, 273.25), (300.0, 300.0 + 1e-9)] {
@@ -139,7 +141,10 @@ mod tests {
                 assert!(steps <= 8, "{from} {to} {i}: {steps} steps");
                 // no more than what the last digit of the temperature tells
                 let digit = 1000.0 * f64::EPSILON * (4.0 + to / panel.half());
-                assert!((panel.primitive(x) - panel.primitive(-1.0) - due).abs() <= digit, "{from} {to} {i}");
+                assert!(
+                    (panel.primitive(x) - panel.primitive(-1.0) - due).abs() <= digit,
+                    "{from} {to} {i}"
+                );
             }
         }
     }

@@ -132,11 +132,13 @@ fn latent_heat_over_an_interval_adds_to_the_capacity() {
 
 #[test]
 fn a_peak_is_never_lost_however_narrow_it_is_and_wherever() {
-    // a Gaussian of area 200 on a capacity of 2: from 40 K below to 40 K above it takes up 2 * 80 + 200
+    // a Gaussian of area 200 on a capacity of 2: from 40 K below to 40 K above it takes up 2 * 80 +
+    // 200
     for width in [2.0, 0.5, 0.2, 0.05, 0.01, 1e-3, 1e-5] {
         for peak in [307.5, 320.4637, 323.15, 333.3333, 346.0001, 364.0, 372.999] {
             let height = 200.0 / (width * (2.0 * std::f64::consts::PI).sqrt());
-            let curve = curve_of(&format!("2 + {height} * exp(-0.5 * ((x - {peak}) / {width})^2)"), &[]);
+            let curve =
+                curve_of(&format!("2 + {height} * exp(-0.5 * ((x - {peak}) / {width})^2)"), &[]);
             close(curve.heat(peak + 40.0).unwrap() - curve.heat(peak - 40.0).unwrap(), 360.0);
             let middle = curve.heat(peak - 40.0).unwrap() + 180.0;
             assert!((curve.temperature(middle).unwrap().temperature - peak).abs() < 1e-9);
@@ -151,9 +153,12 @@ fn other_narrow_changes_are_met_too() {
     let pi = std::f64::consts::PI;
     close(heat("100 + 0.5 * (1 + tanh((x - 350.0137) / 1e-3))"), 1e4 + 49.9863);
     close(heat("100 + 5e4 * max(0, 1 - abs(x - 331.3) / 1e-3)"), 1e4 + 50.0);
-    let lorentz =
-        50.0 / pi * ((400.0_f64 - 341.7) / 1e-6).atan() + 50.0 / pi * ((341.7_f64 - 300.0) / 1e-6).atan();
-    close(heat(&format!("100 + {} / (1 + ((x - 341.7) / 1e-6)^2)", 50.0 / pi / 1e-6)), 1e4 + lorentz);
+    let lorentz = 50.0 / pi * ((400.0_f64 - 341.7) / 1e-6).atan()
+        + 50.0 / pi * ((341.7_f64 - 300.0) / 1e-6).atan();
+    close(
+        heat(&format!("100 + {} / (1 + ((x - 341.7) / 1e-6)^2)", 50.0 / pi / 1e-6)),
+        1e4 + lorentz,
+    );
     close(heat("100 + if(x < 350.123456789, 0, 1)"), 1e4 + 49.876543211);
 }
 
@@ -173,8 +178,10 @@ fn a_dip_below_zero_ends_the_curve_however_narrow_it_is() {
 #[test]
 fn melting_keeps_its_heat_whatever_its_width() {
     // from 0 over the rounding of a change of units to some kelvin
-    let widths =
-        [0.0, 5.7e-14, 1.2e-13, 1e-12, 1e-11, 1e-10, 3e-10, 1e-9, 3.3e-8, 1e-7, 1e-6, 1e-3, 0.7, 20.0];
+    let widths = [
+        0.0, 5.7e-14, 1.2e-13, 1e-12, 1e-11, 1e-10, 3e-10, 1e-9, 3.3e-8, 1e-7, 1e-6, 1e-3, 0.7,
+        20.0,
+    ];
     for solidus in [304.85, 310.0, 333.3333, 363.999, 364.0] {
         for width in widths.into_iter().flat_map(|w| [w, -w]).filter(|w| *w > -1e-10) {
             let latent = Latent::new((solidus, solidus + width), 2e4);
@@ -182,7 +189,10 @@ fn melting_keeps_its_heat_whatever_its_width() {
             let heat = |t: f64| curve.heat(t).unwrap();
             close(heat(390.0) - heat(303.0), 200.0 * 87.0 + 2e4);
             let half = curve.temperature(200.0 * (solidus - 300.0) + 1e4).unwrap().temperature;
-            assert!((half - solidus).abs() <= 0.5 * width.abs() + 1e-9, "{solidus} {width}: {half}");
+            assert!(
+                (half - solidus).abs() <= 0.5 * width.abs() + 1e-9,
+                "{solidus} {width}: {half}"
+            );
         }
     }
 }
@@ -197,7 +207,8 @@ fn a_temperature_is_found_to_its_last_digits_in_few_steps() {
     }
 }
 
-/// A run stops where a curve may bend: at what was named, where it melts, never at the ends that were asked for.
+/// A run stops where a curve may bend: at what was named, where it melts, never at the ends that
+/// were asked for.
 #[test]
 fn stops_are_the_bends_strictly_between_two_temperatures() {
     let latent = Latent::new((330.0, 330.0), 5000.0);
@@ -210,5 +221,8 @@ fn stops_are_the_bends_strictly_between_two_temperatures() {
         assert!(stops.contains(&bend), "{bend}: {stops:?}");
     }
     let inner = curve.stops(320.0, 350.0);
-    assert!(inner.contains(&330.0) && !inner.contains(&320.0) && !inner.contains(&350.0), "{inner:?}");
+    assert!(
+        inner.contains(&330.0) && !inner.contains(&320.0) && !inner.contains(&350.0),
+        "{inner:?}"
+    );
 }

@@ -1,4 +1,5 @@
-//! What a node is as a body: its length, its material, the surfaces through which it gives off heat.
+//! What a node is as a body: its length, its material, the surfaces through which it gives off
+//! heat.
 
 use crate::builder::substance::NoMaterial;
 use crate::evaluation::Evaluation;
@@ -35,7 +36,8 @@ impl Network {
     pub fn material_of(&self, id: NodeId) -> Result<MaterialId, NoMaterial> {
         let node = &self.nodes()[id.index()];
         let own = node.capacity.iter().map(|_| node.lump.as_ref());
-        let parts = self.capacitors().iter().filter(|part| part.node == id).map(|part| part.lump.as_ref());
+        let parts =
+            self.capacitors().iter().filter(|part| part.node == id).map(|part| part.lump.as_ref());
         let materials: Option<Vec<MaterialId>> =
             own.chain(parts).map(|lump| lump.map(|lump| lump.material)).collect();
         match materials.as_deref() {
@@ -45,8 +47,8 @@ impl Network {
         }
     }
 
-    /// Density in kg/m^3, specific heat in J/(kg K) or conductivity in W/(m K) of a material at a temperature in K;
-    /// `None` where it is not known. `scope` is any [`Network::evaluation`].
+    /// Density in kg/m^3, specific heat in J/(kg K) or conductivity in W/(m K) of a material at a
+    /// temperature in K; `None` where it is not known. `scope` is any [`Network::evaluation`].
     pub fn property(
         &self,
         (id, field): (MaterialId, Field),
@@ -63,15 +65,20 @@ impl Network {
         self.property_of(value?, temperature, scope)
     }
 
-    /// A value that may depend on a temperature of its own, at that temperature in K, in SI units; `None` where it is not
-    /// known and positive. `scope` is any [`Network::evaluation`].
-    pub fn property_of(&self, value: &Value, temperature: f64, scope: &mut Evaluation) -> Option<f64> {
+    /// A value that may depend on a temperature of its own, at that temperature in K, in SI units;
+    /// `None` where it is not known and positive. `scope` is any [`Network::evaluation`].
+    pub fn property_of(
+        &self,
+        value: &Value,
+        temperature: f64,
+        scope: &mut Evaluation,
+    ) -> Option<f64> {
         scope.set(slot::OWN, temperature);
         value.at(scope).ok().filter(|value| value.is_finite() && *value > 0.0)
     }
 
-    /// The surface that a convection, contact or radiation is, at the time of `scope` and these temperatures of all
-    /// vertices in K; `None` for any other conductor.
+    /// The surface that a convection, contact or radiation is, at the time of `scope` and these
+    /// temperatures of all vertices in K; `None` for any other conductor.
     ///
     /// # Errors
     /// [`InputError`] if a value fails, or is one that its field cannot have.

@@ -29,9 +29,9 @@ impl Network {
         Some((constant(on)? - constant(off)?).abs())
     }
 
-    /// How far, in K, the temperature that a control feels is beyond the threshold at which it leaves the state that
-    /// it has in the mode of `scope`: a positive number means that it has to switch. `scope` stands at a time;
-    /// `temperatures` are those of all vertices in K.
+    /// How far, in K, the temperature that a control feels is beyond the threshold at which it
+    /// leaves the state that it has in the mode of `scope`: a positive number means that it has to
+    /// switch. `scope` stands at a time; `temperatures` are those of all vertices in K.
     ///
     /// # Errors
     /// [`InputError`] if a threshold cannot be had, or the two are crossed over.
@@ -48,7 +48,11 @@ impl Network {
         let on = self.number(item, on_field, &thermostat.on, scope)?;
         let off = self.number(item, off_field, &thermostat.off, scope)?;
         if !thermostat.acts.in_order(on, off) {
-            return Err(self.failed(item, (on_field, InputProblem::ThresholdsCrossed { on, off }), scope));
+            return Err(self.failed(
+                item,
+                (on_field, InputProblem::ThresholdsCrossed { on, off }),
+                scope,
+            ));
         }
         let felt = temperatures[self.vertex(thermostat.sense)];
         Ok(match (thermostat.acts, scope.is_on(id)) {

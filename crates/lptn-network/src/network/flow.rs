@@ -24,7 +24,8 @@ impl Network {
         self.numbers.flows[id.index()]
     }
 
-    /// The vertices (nodes, then boundaries) on whose temperatures a conductor depends: its ends first.
+    /// The vertices (nodes, then boundaries) on whose temperatures a conductor depends: its ends
+    /// first.
     pub fn conductor_variables(&self, id: ConductorId) -> &[u32] {
         &self.parts.dependence(id).vertices
     }
@@ -39,19 +40,20 @@ impl Network {
         self.parts.vertex(end) as usize
     }
 
-    /// For each node whether it is massless and can be eliminated: nothing but constant conductances and heat that
-    /// depends on time reaches it.
+    /// For each node whether it is massless and can be eliminated: nothing but constant
+    /// conductances and heat that depends on time reaches it.
     pub fn linear_massless(&self) -> Vec<bool> {
         self.parts.linear_massless()
     }
 
-    /// The heat content of a node over its temperature in J, zero at its start; `None` if its capacity is constant.
+    /// The heat content of a node over its temperature in J, zero at its start; `None` if its
+    /// capacity is constant.
     pub fn enthalpy(&self, id: NodeId) -> Option<&Enthalpy> {
         self.numbers.enthalpy[id.index()].as_deref()
     }
 
-    /// The heat that the two ends of a [`Flow::Variable`] conductor receive in W, at the time of `scope` and these
-    /// temperatures of all vertices in K.
+    /// The heat that the two ends of a [`Flow::Variable`] conductor receive in W, at the time of
+    /// `scope` and these temperatures of all vertices in K.
     ///
     /// # Errors
     /// [`InputError`] if a value fails, or a conductance is negative or not finite.
@@ -96,7 +98,8 @@ impl Network {
                 place(slots, dependence, &at);
                 self.received(conductor, At { slots, stack }, at(0), at(1))
             };
-            let [from, to] = result.map_err(|failed| self.failed(Item::Conductor(id), failed, scope))?;
+            let [from, to] =
+                result.map_err(|failed| self.failed(Item::Conductor(id), failed, scope))?;
             values = [from.value, to.value];
             for k in 0..PASS.min(count - first) {
                 slopes.push([from.derivatives[k], to.derivatives[k]]);
@@ -105,7 +108,8 @@ impl Network {
         Ok(values)
     }
 
-    /// The heat of a source in W, at the time of `scope` and these temperatures of all vertices in K.
+    /// The heat of a source in W, at the time of `scope` and these temperatures of all vertices in
+    /// K.
     ///
     /// # Errors
     /// [`InputError`] if its value fails or is not finite.
@@ -126,7 +130,8 @@ impl Network {
         self.finite(result, (Item::Source(id), Field::Power), scope)
     }
 
-    /// As [`Network::source_heat`], and writes its derivatives in W/K by each of [`Network::source_variables`].
+    /// As [`Network::source_heat`], and writes its derivatives in W/K by each of
+    /// [`Network::source_variables`].
     ///
     /// # Errors
     /// As [`Network::source_heat`].
@@ -170,13 +175,23 @@ impl Network {
     }
 
     /// Puts the temperatures that values name into their slots.
-    pub(crate) fn place_named(&self, of: &Dependence, scope: &mut Evaluation, temperatures: &[f64]) {
+    pub(crate) fn place_named(
+        &self,
+        of: &Dependence,
+        scope: &mut Evaluation,
+        temperatures: &[f64],
+    ) {
         let at = |k: usize| temperatures[of.vertices[k] as usize];
         name(scope.plain().0, of, &at);
     }
 
     /// Names what failed: a signal without a value goes before what it was used for.
-    pub(crate) fn failed(&self, item: Item, (field, problem): Failed, scope: &Evaluation) -> InputError {
+    pub(crate) fn failed(
+        &self,
+        item: Item,
+        (field, problem): Failed,
+        scope: &Evaluation,
+    ) -> InputError {
         let (item, field, problem) = match scope.failure() {
             Some((id, problem)) if self.parts.uses_signal(item, id) => {
                 (Item::Signal(id), Field::Value, problem)
@@ -222,7 +237,10 @@ impl Network {
             return Err(not_finite(Field::law(law.formula(), 0), flow.value()));
         }
         let Some(id) = law.fluid() else {
-            return Ok([lptn_laws::advection_from(flow, from, to), lptn_laws::advection_to(flow, from, to)]);
+            return Ok([
+                lptn_laws::advection_from(flow, from, to),
+                lptn_laws::advection_to(flow, from, to),
+            ]);
         };
         let fluid = &self.fluids()[id.index()];
         let flow = match law.carries() {
@@ -250,7 +268,12 @@ impl Network {
 }
 
 /// The density of a fluid in kg/m^3 at the temperature that the field of this key gives.
-fn density<S: Scalar>(law: &Law, measured: &str, fluid: &Fluid, at: &mut At<'_, S>) -> Result<S, Failed> {
+fn density<S: Scalar>(
+    law: &Law,
+    measured: &str,
+    fluid: &Fluid,
+    at: &mut At<'_, S>,
+) -> Result<S, Failed> {
     if let Some(position) = law.formula().position(measured) {
         at.slots[slot::OWN as usize] = at.get(law, position)?;
     }

@@ -6,8 +6,8 @@ use crate::parts::grid::{Face, Terminal};
 use crate::parts::grid_value::GridValue;
 
 impl Network {
-    /// What a node or conductor is a part of: the grid of a cell, a surface node or an inner path, the joint of a path
-    /// from one cell of a face; `None` for what stands for itself.
+    /// What a node or conductor is a part of: the grid of a cell, a surface node or an inner path,
+    /// the joint of a path from one cell of a face; `None` for what stands for itself.
     pub fn whole(&self, item: Item) -> Option<Item> {
         self.parts.whole(item)
     }
@@ -24,22 +24,26 @@ impl Network {
 }
 
 impl Network {
-    /// The values of grids that are worth a column: mean, minimum, maximum, and the faces that something is attached to,
-    /// but for those of a single node, which is named as the face is.
+    /// The values of grids that are worth a column: mean, minimum, maximum, and the faces that
+    /// something is attached to, but for those of a single node, which is named as the face is.
     pub fn grid_values(&self) -> impl Iterator<Item = GridValue> + '_ {
         self.parts.grid_values().filter(|value| match value {
             GridValue::Face(at) => {
                 let grid = &self.grids()[at.grid.index()];
-                grid.surfaces[at.face as usize].is_some() && grid.face_axes(at.face).next().is_some()
+                grid.surfaces[at.face as usize].is_some()
+                    && grid.face_axes(at.face).next().is_some()
             }
             _ => true,
         })
     }
 
-    /// The values of grids that are not in [`Network::grid_values`]: faces that nothing is attached to.
+    /// The values of grids that are not in [`Network::grid_values`]: faces that nothing is attached
+    /// to.
     pub fn idle_grid_values(&self) -> impl Iterator<Item = GridValue> + '_ {
         self.parts.grid_values().filter(|value| match value {
-            GridValue::Face(at) => self.grids()[at.grid.index()].surfaces[at.face as usize].is_none(),
+            GridValue::Face(at) => {
+                self.grids()[at.grid.index()].surfaces[at.face as usize].is_none()
+            }
             _ => false,
         })
     }
@@ -74,7 +78,8 @@ impl Network {
         face.map_or_else(|| grid.name.clone(), |face| grid.face_name(face))
     }
 
-    /// The paths to faces that are more than one conductor, whose heat is a sum; the others are ordinary conductors.
+    /// The paths to faces that are more than one conductor, whose heat is a sum; the others are
+    /// ordinary conductors.
     pub fn shared_joints(&self) -> impl Iterator<Item = JointId> + '_ {
         self.parts.shared_joints()
     }

@@ -3,8 +3,8 @@
 use lptn_units::TableSymbol;
 
 use crate::id::{
-    BoundaryId, CapacitorId, ConductorId, ControlId, FluidId, GridId, JointId, LimitId, MaterialId, NodeId,
-    ParameterId, ReportId, SignalId, SourceId, SwitchId, TableId,
+    BoundaryId, CapacitorId, ConductorId, ControlId, FluidId, GridId, JointId, LimitId, MaterialId,
+    NodeId, ParameterId, ReportId, SignalId, SourceId, SwitchId, TableId,
 };
 use crate::network::Network;
 use crate::parts::control::Control;

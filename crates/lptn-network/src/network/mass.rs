@@ -5,11 +5,13 @@ use crate::network::Network;
 use crate::value::{Lump, Size};
 
 impl Network {
-    /// The mass of a node with all its parts in kg; `None` if it has none, or the mass of a part is not known.
+    /// The mass of a node with all its parts in kg; `None` if it has none, or the mass of a part is
+    /// not known.
     pub fn mass(&self, id: NodeId) -> Option<f64> {
         let node = &self.nodes()[id.index()];
         let parts = self.capacitors().iter().filter(|part| part.node == id);
-        let mut masses: Vec<Option<f64>> = parts.map(|part| self.lump_mass(part.lump.as_ref())).collect();
+        let mut masses: Vec<Option<f64>> =
+            parts.map(|part| self.lump_mass(part.lump.as_ref())).collect();
         if node.capacity.is_some() {
             masses.push(self.lump_mass(node.lump.as_ref()));
         }
@@ -23,7 +25,8 @@ impl Network {
         match size {
             Size::Mass(mass) => mass.at(&mut scope).ok(),
             Size::Volume(volume) => {
-                let density = self.materials()[material.index()].density.as_ref()?.at(&mut scope).ok()?;
+                let density =
+                    self.materials()[material.index()].density.as_ref()?.at(&mut scope).ok()?;
                 Some(density * volume.at(&mut scope).ok()?)
             }
         }

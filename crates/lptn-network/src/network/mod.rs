@@ -27,10 +27,11 @@ use lptn_units::Problems;
 
 /// A thermal network: nodes, boundaries, the paths between them and the heat put in.
 ///
-/// Holds by construction: ids are dense and of this network; names are unique; the two ends of a path
-/// differ; capacities, resistances and conductances are finite and positive; each node either has a capacity
-/// and a start temperature, or is massless; each set of connected nodes reaches a capacity or a boundary.
-/// Order is the order of addition. All numbers are in SI units, temperatures in K.
+/// Holds by construction: ids are dense and of this network; names are unique; the two ends of a
+/// path differ; capacities, resistances and conductances are finite and positive; each node either
+/// has a capacity and a start temperature, or is massless; each set of connected nodes reaches a
+/// capacity or a boundary. Order is the order of addition. All numbers are in SI units,
+/// temperatures in K.
 #[derive(Clone, Debug)]
 pub struct Network {
     pub(crate) parts: Arc<Parts>,
@@ -120,7 +121,8 @@ impl Network {
         Parameters::new(Arc::clone(&self.parts))
     }
 
-    /// The parameters that this network was given in place of its own values, to change others beside them.
+    /// The parameters that this network was given in place of its own values, to change others
+    /// beside them.
     pub fn given(&self) -> Parameters {
         let mut parameters = self.overrides();
         for id in self.parameter_ids().filter(|id| self.numbers.given[id.index()]) {
@@ -136,7 +138,10 @@ impl Network {
     pub fn with(&self, parameters: &Parameters) -> Result<Self, BuildErrors> {
         if !parameters.belong_to(&self.parts) {
             let name = self.title().unwrap_or_default().to_owned();
-            return Err(Problems::from(BuildError { kind: BuildErrorKind::ForeignParameters, name }));
+            return Err(Problems::from(BuildError {
+                kind: BuildErrorKind::ForeignParameters,
+                name,
+            }));
         }
         let numbers = Numbers::evaluate(&self.parts, parameters.values()).map_err(Problems)?;
         Ok(Self { parts: Arc::clone(&self.parts), numbers: Arc::new(numbers) })
@@ -155,7 +160,11 @@ impl Network {
     ///
     /// # Errors
     /// [`InputError`] if an expression fails or gives no number.
-    pub fn boundary_temperatures(&self, scope: &mut Evaluation, out: &mut [f64]) -> Result<(), InputError> {
+    pub fn boundary_temperatures(
+        &self,
+        scope: &mut Evaluation,
+        out: &mut [f64],
+    ) -> Result<(), InputError> {
         for (id, value) in self.boundary_ids().zip(out) {
             let temperature = &self.boundaries()[id.index()].temperature;
             *value = self.input(Item::Boundary(id), Field::Temperature, temperature, scope)?;
@@ -163,7 +172,8 @@ impl Network {
         Ok(())
     }
 
-    /// Writes the heat of every source in W that does not depend on a temperature; the others are left alone.
+    /// Writes the heat of every source in W that does not depend on a temperature; the others are
+    /// left alone.
     ///
     /// # Errors
     /// [`InputError`] if an expression fails or gives no number.
@@ -178,7 +188,13 @@ impl Network {
         Ok(())
     }
 
-    fn input(&self, item: Item, field: Field, value: &Value, at: &mut Evaluation) -> Result<f64, InputError> {
+    fn input(
+        &self,
+        item: Item,
+        field: Field,
+        value: &Value,
+        at: &mut Evaluation,
+    ) -> Result<f64, InputError> {
         let problem = match value.at(at) {
             Ok(x) if !x.is_finite() => InputProblem::NotFinite(x),
             Ok(x) if field == Field::Temperature && x < 0.0 => InputProblem::BelowAbsoluteZero(x),
@@ -198,7 +214,8 @@ impl Network {
         self.inputs().any(|(_, _, value)| self.depends_on_time(value))
     }
 
-    /// Whether anything that is evaluated over a run depends on the time by itself: inputs, what switches, limits, reports.
+    /// Whether anything that is evaluated over a run depends on the time by itself: inputs, what
+    /// switches, limits, reports.
     pub fn reads_time(&self) -> bool {
         let limits = self.limits().iter().map(|limit| &limit.of);
         let mut results = limits.chain(self.reports().iter().map(|report| &report.value));
@@ -211,13 +228,14 @@ impl Network {
         self.parts.reads(value).time
     }
 
-    /// The first item that makes the network more than constant capacities, constant conductances and heat that
-    /// depends on time only.
+    /// The first item that makes the network more than constant capacities, constant conductances
+    /// and heat that depends on time only.
     pub fn first_nonlinear(&self) -> Option<Item> {
         let conductor = self.conductor_ids().find(|id| self.conductance(*id).is_none());
         let source = self.source_ids().find(|id| !self.source_variables(*id).is_empty());
         let node = self.node_ids().find(|id| self.enthalpy(*id).is_some());
-        let items = [conductor.map(Item::Conductor), source.map(Item::Source), node.map(Item::Node)];
+        let items =
+            [conductor.map(Item::Conductor), source.map(Item::Source), node.map(Item::Node)];
         items.into_iter().flatten().next()
     }
 
@@ -226,8 +244,8 @@ impl Network {
         self.parts.inputs()
     }
 
-    /// Sets of connected nodes that no path leads from to a boundary, in order; empty if the network forgets
-    /// its start. Such a set has no steady state of its own.
+    /// Sets of connected nodes that no path leads from to a boundary, in order; empty if the
+    /// network forgets its start. Such a set has no steady state of its own.
     pub fn ungrounded(&self) -> Vec<Vec<NodeId>> {
         let parts = &*self.parts;
         let islands = Islands::of(parts);

@@ -13,9 +13,9 @@ use crate::scope::{Context, NetworkScope};
 use crate::value::Value;
 
 impl Network {
-    /// How far a limit is from being broken where `scope` stands: positive while it is kept, in SI units of
-    /// `of`, a difference in K for temperatures. `scope` needs the temperatures of the time that is asked for,
-    /// see [`Evaluation::set_temperatures`].
+    /// How far a limit is from being broken where `scope` stands: positive while it is kept, in SI
+    /// units of `of`, a difference in K for temperatures. `scope` needs the temperatures of the
+    /// time that is asked for, see [`Evaluation::set_temperatures`].
     ///
     /// # Errors
     /// [`InputError`] if an expression fails or gives no number.
@@ -44,8 +44,8 @@ impl Network {
         }
     }
 
-    /// The names that expressions of results may use: parameters, `t`, and `NAME.T` of every node and boundary.
-    /// What is compiled against it is evaluated in [`Network::evaluation`] after
+    /// The names that expressions of results may use: parameters, `t`, and `NAME.T` of every node
+    /// and boundary. What is compiled against it is evaluated in [`Network::evaluation`] after
     /// [`Evaluation::set_temperatures`].
     pub fn post_scope(&self) -> NetworkScope<'_> {
         NetworkScope::new(&self.parts, Context::Result)
@@ -53,17 +53,19 @@ impl Network {
 }
 
 impl Network {
-    /// The value of a report in SI units where `scope` stands, which needs temperatures and heat flows: see
-    /// [`Evaluation::set_temperatures`] and [`Evaluation::set_heats`].
+    /// The value of a report in SI units where `scope` stands, which needs temperatures and heat
+    /// flows: see [`Evaluation::set_temperatures`] and [`Evaluation::set_heats`].
     ///
     /// # Errors
     /// [`InputError`] if the expression fails or gives no number.
     pub fn report_value(&self, id: ReportId, scope: &mut Evaluation) -> Result<f64, InputError> {
-        let value = self.number(Item::Report(id), Field::Value, &self.reports()[id.index()].value, scope)?;
+        let value =
+            self.number(Item::Report(id), Field::Value, &self.reports()[id.index()].value, scope)?;
         Ok(value + 0.0) // no `-0` in columns
     }
 
-    /// The heat flows that expressions of results name, in the order in which [`Evaluation::set_heats`] takes them.
+    /// The heat flows that expressions of results name, in the order in which
+    /// [`Evaluation::set_heats`] takes them.
     pub fn named_heats(&self) -> impl ExactSizeIterator<Item = HeatOf> + '_ {
         self.parts.layout.heats().iter().map(|(heat, _)| *heat)
     }
@@ -75,14 +77,19 @@ impl Network {
 }
 
 impl Network {
-    /// Whether a result reads temperatures of nodes, and means of grids, and nothing else, each in the first degree at
-    /// most. That is told from its code and not from its numbers: a parameter that happens to be 0 is read all the same.
+    /// Whether a result reads temperatures of nodes, and means of grids, and nothing else, each in
+    /// the first degree at most. That is told from its code and not from its numbers: a parameter
+    /// that happens to be 0 is read all the same.
     pub fn reads_node_temperatures_only(&self, result: &Value) -> bool {
         let is_node = |slot: &u32| {
-            matches!(self.parts.layout.holds(*slot), Holds::Temperature(End::Node(_)) | Holds::Grid(_))
+            matches!(
+                self.parts.layout.holds(*slot),
+                Holds::Temperature(End::Node(_)) | Holds::Grid(_)
+            )
         };
-        let affine =
-            |slot: &u32| result.programs().iter().all(|program| program.degree_in(*slot) <= Degree::Affine);
+        let affine = |slot: &u32| {
+            result.programs().iter().all(|program| program.degree_in(*slot) <= Degree::Affine)
+        };
         result.slots().iter().all(|slot| is_node(slot) && affine(slot))
     }
 }

@@ -9,8 +9,9 @@ use crate::parts::dependence::{Dependence, NONE};
 use crate::parts::switch::Switch;
 
 impl Network {
-    /// Left side minus right side of a switch, at the time of `scope` and these temperatures of all vertices in K, and
-    /// how much it changes, at most and in linear terms, when each temperature changes by 1 K.
+    /// Left side minus right side of a switch, at the time of `scope` and these temperatures of all
+    /// vertices in K, and how much it changes, at most and in linear terms, when each temperature
+    /// changes by 1 K.
     ///
     /// # Errors
     /// [`InputError`] if a side fails or gives no number.

@@ -44,7 +44,12 @@ impl Work<'_> {
         let number = At { slots, stack }.value(law).unwrap_or(f64::NAN);
         if law.is_stream() {
             let rate = self.capacity_rate(law, number);
-            return Flow::Stream(self.in_range(item, Field::law(law.formula(), 0), rate, Range::Finite));
+            return Flow::Stream(self.in_range(
+                item,
+                Field::law(law.formula(), 0),
+                rate,
+                Range::Finite,
+            ));
         }
         // 1/R and h A can still leave the range of numbers
         let last = Field::law(law.formula(), declared.fields.len() - 1);
@@ -64,7 +69,10 @@ impl Work<'_> {
             Carries::VolumeFlow(measured) => {
                 let temperature = law.value(measured).map_or(f64::NAN, &mut at);
                 self.scope.set(slot::OWN, temperature);
-                fluid.density.as_ref().map_or(f64::NAN, |d| d.at(&mut self.scope).unwrap_or(f64::NAN))
+                fluid
+                    .density
+                    .as_ref()
+                    .map_or(f64::NAN, |d| d.at(&mut self.scope).unwrap_or(f64::NAN))
             }
             _ => 1.0,
         };

@@ -22,12 +22,14 @@ fn at(value: &Value, temperature: f64, scope: &mut Evaluation) -> Option<f64> {
     value.at(scope).ok()
 }
 
-/// Temperatures at which the tables in a value bend, as far as they are called with the bare temperature.
+/// Temperatures at which the tables in a value bend, as far as they are called with the bare
+/// temperature.
 fn edges(value: &Value, scope: &mut Evaluation) -> Vec<f64> {
     let mut edges = Vec::new();
     for program in value.programs() {
         for call in program.table_calls() {
-            let (lptn_units::Table::One(table), [argument]) = (&*call.table, &call.arguments[..]) else {
+            let (lptn_units::Table::One(table), [argument]) = (&*call.table, &call.arguments[..])
+            else {
                 continue;
             };
             // linear in T, so two values tell where it takes that of a knot
@@ -57,7 +59,8 @@ impl Curves {
     /// None yet.
     pub(crate) fn new(parts: &Parts) -> Self {
         let capacitors = parts.capacitors.iter().enumerate();
-        let mut capacitors: Vec<(NodeId, usize)> = capacitors.map(|(i, part)| (part.node, i)).collect();
+        let mut capacitors: Vec<(NodeId, usize)> =
+            capacitors.map(|(i, part)| (part.node, i)).collect();
         capacitors.sort_unstable();
         Self { made: BTreeMap::new(), capacitors }
     }
@@ -86,9 +89,9 @@ struct Sum<'a, 'b> {
 impl Capacity for Sum<'_, '_> {
     fn at(&mut self, temperature: f64) -> Option<f64> {
         let mut product = |factors: &Vec<&Value>| {
-            factors
-                .iter()
-                .try_fold(1.0, |product, factor| Some(product * at(factor, temperature, self.scope)?))
+            factors.iter().try_fold(1.0, |product, factor| {
+                Some(product * at(factor, temperature, self.scope)?)
+            })
         };
         self.parts.iter().try_fold(0.0, |sum, part| Some(sum + product(part)?))
     }
@@ -96,16 +99,16 @@ impl Capacity for Sum<'_, '_> {
     fn over(&mut self, from: f64, to: f64) -> Taylor {
         let (slots, _) = self.scope.plain();
         let product = |factors: &Vec<&Value>| {
-            factors
-                .iter()
-                .fold(Taylor::constant(1.0), |product, factor| product * factor.enclose([from, to], slots))
+            factors.iter().fold(Taylor::constant(1.0), |product, factor| {
+                product * factor.enclose([from, to], slots)
+            })
         };
         self.parts.iter().fold(Taylor::constant(0.0), |sum, part| sum + product(part))
     }
 }
 
-/// What two curves have in common that are the same. Tables of different materials are called by the same text, so
-/// each counts as itself.
+/// What two curves have in common that are the same. Tables of different materials are called by
+/// the same text, so each counts as itself.
 fn form(parts: &[Vec<&Value>], latent: &[Latent]) -> String {
     let program = |program: &Arc<Program>| {
         let tables: Vec<*const Table> =
@@ -151,7 +154,8 @@ impl Parts {
         varying
     }
 
-    /// The heat content of a node around its start in K, a share of it molten there. See [`Parts::enthalpy_of`].
+    /// The heat content of a node around its start in K, a share of it molten there. See
+    /// [`Parts::enthalpy_of`].
     pub(crate) fn content_of(
         &self,
         id: NodeId,
@@ -168,7 +172,8 @@ impl Parts {
         amid.ok_or(BuildErrorKind::NotMelting { node: id, temperature: start })
     }
 
-    /// The heat content of a node around its start in K. Curves of one form are made once and kept in `known`.
+    /// The heat content of a node around its start in K. Curves of one form are made once and kept
+    /// in `known`.
     fn enthalpy_of(
         &self,
         id: NodeId,
@@ -196,7 +201,9 @@ impl Parts {
         let curve = Enthalpy::new(&mut Sum { parts: &factors, scope }, start, &bends, &latent);
         let curve = curve.map_err(|reason| match reason {
             NoCurve::Unknown => BuildErrorKind::CapacityUnknown { node: id, temperature: start },
-            NoCurve::TooQuick => BuildErrorKind::TooQuick { item: Item::Node(id), field: Field::Capacity },
+            NoCurve::TooQuick => {
+                BuildErrorKind::TooQuick { item: Item::Node(id), field: Field::Capacity }
+            }
         })?;
         let scaled = curve.rescaled(scale, start);
         known.made.insert(form, curve);
@@ -208,14 +215,16 @@ impl Parts {
         let melting = material.melting.as_ref()?;
         let mass = match &lump.size {
             Size::Mass(mass) => mass.at(scope).ok()?,
-            Size::Volume(volume) => volume.at(scope).ok()? * material.density.as_ref()?.at(scope).ok()?,
+            Size::Volume(volume) => {
+                volume.at(scope).ok()? * material.density.as_ref()?.at(scope).ok()?
+            }
         };
         let between = (melting.solidus.at(scope).ok()?, melting.liquidus.at(scope).ok()?);
         Some(Latent::new(between, mass * melting.heat.at(scope).ok()?))
     }
 
-    /// The heat content of a kg of a fluid whose specific heat depends on its temperature; `None` for one whose
-    /// specific heat is constant.
+    /// The heat content of a kg of a fluid whose specific heat depends on its temperature; `None`
+    /// for one whose specific heat is constant.
     pub(crate) fn fluid_enthalpy(
         &self,
         id: FluidId,
@@ -228,13 +237,17 @@ impl Parts {
         let bends = edges(cp, scope);
         // where it is known: from 25 degC, or from the middle of its table
         let middle = bends.iter().sum::<f64>() / bends.len().max(1) as f64;
-        let mut curve = |start| Enthalpy::new(&mut Sum { parts: &[vec![cp]], scope }, start, &bends, &[]);
-        let curve = curve(FLUID_ZERO).or_else(|_| curve(middle)).map_err(|reason| match reason {
-            NoCurve::Unknown => BuildErrorKind::FluidUnknown { fluid: id, field: Field::SpecificHeat },
-            NoCurve::TooQuick => {
-                BuildErrorKind::TooQuick { item: Item::Fluid(id), field: Field::SpecificHeat }
-            }
-        })?;
+        let mut curve =
+            |start| Enthalpy::new(&mut Sum { parts: &[vec![cp]], scope }, start, &bends, &[]);
+        let curve =
+            curve(FLUID_ZERO).or_else(|_| curve(middle)).map_err(|reason| match reason {
+                NoCurve::Unknown => {
+                    BuildErrorKind::FluidUnknown { fluid: id, field: Field::SpecificHeat }
+                }
+                NoCurve::TooQuick => {
+                    BuildErrorKind::TooQuick { item: Item::Fluid(id), field: Field::SpecificHeat }
+                }
+            })?;
         Ok(Some(Arc::new(curve)))
     }
 }

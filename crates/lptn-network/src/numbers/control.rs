@@ -7,7 +7,8 @@ use crate::parts::control::Thermostat;
 use lptn_laws::Range;
 
 impl Work<'_> {
-    /// How long each control stays as it is after a switch, in s. Thresholds that are constant are compared now.
+    /// How long each control stays as it is after a switch, in s. Thresholds that are constant are
+    /// compared now.
     pub(crate) fn controls(&mut self) -> Vec<f64> {
         let parts = self.parts;
         let controls = parts.controls.iter().enumerate();
@@ -19,7 +20,8 @@ impl Work<'_> {
                     return 0.0;
                 };
                 self.thresholds(id, thermostat);
-                let (item, field, value) = (Item::Control(id), Field::MinDwell, &thermostat.min_dwell);
+                let (item, field, value) =
+                    (Item::Control(id), Field::MinDwell, &thermostat.min_dwell);
                 let dwell = self.constant(item, field, value, Range::Finite);
                 if dwell < 0.0 {
                     self.error(item, BuildErrorKind::Negative { item, field, value: dwell });
@@ -31,10 +33,11 @@ impl Work<'_> {
 
     fn thresholds(&mut self, control: ControlId, thermostat: &Thermostat) {
         let (item, fields) = (Item::Control(control), thermostat.acts.fields());
-        let [on, off] = [(fields[0], &thermostat.on), (fields[1], &thermostat.off)].map(|(field, value)| {
-            let constant = self.parts.reads(value).is_constant();
-            constant.then(|| self.constant(item, field, value, Range::Temperature))
-        });
+        let [on, off] =
+            [(fields[0], &thermostat.on), (fields[1], &thermostat.off)].map(|(field, value)| {
+                let constant = self.parts.reads(value).is_constant();
+                constant.then(|| self.constant(item, field, value, Range::Temperature))
+            });
         if let (Some(on), Some(off)) = (on, off)
             && on.is_finite()
             && off.is_finite()

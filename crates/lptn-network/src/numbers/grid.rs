@@ -6,7 +6,8 @@ use crate::numbers::Work;
 use crate::parts::grid::{GridFace, Substance};
 use lptn_laws::Range;
 
-/// By how much two areas may differ that are written for the same, relative: numbers are rounded to a few digits.
+/// By how much two areas may differ that are written for the same, relative: numbers are rounded to
+/// a few digits.
 const SAME: f64 = 1e-3;
 
 fn differ(a: f64, b: f64) -> bool {
@@ -35,7 +36,8 @@ impl Work<'_> {
         }
     }
 
-    /// What ends at a face has the area of the face, and two faces that are joined are of the same size.
+    /// What ends at a face has the area of the face, and two faces that are joined are of the same
+    /// size.
     pub(crate) fn check_joints(&mut self) {
         let parts = self.parts;
         for (i, joint) in parts.joints.iter().enumerate() {
@@ -50,7 +52,10 @@ impl Work<'_> {
                 let [u, v] = self.sides(face);
                 if differ(given, u * v) {
                     let name = parts.grids[face.grid.index()].face_name(face.face);
-                    self.error(item, BuildErrorKind::FaceArea { item, given, face, name, area: u * v });
+                    self.error(
+                        item,
+                        BuildErrorKind::FaceArea { item, given, face, name, area: u * v },
+                    );
                 }
             }
         }

@@ -40,8 +40,12 @@ pub(crate) struct Numbers {
 
 impl Numbers {
     /// Evaluates `parts`, with the parameters of `overrides` in place of their own values.
-    pub(crate) fn evaluate(parts: &Parts, overrides: &[Option<f64>]) -> Result<Self, Vec<BuildError>> {
-        let mut work = Work { parts, scope: Evaluation::new(&parts.layout, &[]), errors: Vec::new() };
+    pub(crate) fn evaluate(
+        parts: &Parts,
+        overrides: &[Option<f64>],
+    ) -> Result<Self, Vec<BuildError>> {
+        let mut work =
+            Work { parts, scope: Evaluation::new(&parts.layout, &[]), errors: Vec::new() };
         let parameters = work.parameters(overrides);
         if !work.errors.is_empty() {
             return Err(work.errors); // every value below would fail for the same reason
@@ -154,7 +158,8 @@ impl Work<'_> {
                 curves.push(curves[i - 1].clone());
                 continue;
             }
-            let curve = varies.then(|| self.parts.content_of(id, initial[i], &mut self.scope, &mut known));
+            let curve =
+                varies.then(|| self.parts.content_of(id, initial[i], &mut self.scope, &mut known));
             curves.push(curve.and_then(|curve| match curve {
                 Ok(curve) => Some(curve),
                 Err(kind) => {
@@ -185,18 +190,22 @@ impl Work<'_> {
             .map(|(i, node)| {
                 let item = Item::Node(NodeId::from_len(i));
                 let initial = node.initial.as_ref().filter(|_| !node.massless);
-                initial.map_or(f64::NAN, |t| self.constant(item, Field::Initial, t, Range::Temperature))
+                initial.map_or(f64::NAN, |t| {
+                    self.constant(item, Field::Initial, t, Range::Temperature)
+                })
             })
             .collect()
     }
 
-    /// Inputs may depend on time, sources and conductors on temperatures too: a constant one is checked now, the
-    /// others when they are read.
+    /// Inputs may depend on time, sources and conductors on temperatures too: a constant one is
+    /// checked now, the others when they are read.
     fn check_inputs(&mut self) {
         for (item, field, value) in self.parts.inputs() {
             let reads = self.parts.reads(value);
             let allowed = match item {
-                Item::Conductor(_) => matches!(field, Field::Law(law) if law.property) || !reads.own,
+                Item::Conductor(_) => {
+                    matches!(field, Field::Law(law) if law.property) || !reads.own
+                }
                 Item::Control(_) => !reads.link && !reads.own,
                 Item::Source(id) => !reads.link && self.names_its_node(id, reads.own),
                 _ => !reads.reads_results(),
@@ -206,7 +215,8 @@ impl Work<'_> {
             }
             self.check_comparisons(item, field, value);
             if matches!(item, Item::Boundary(_) | Item::Source(_)) && reads.is_constant() {
-                let range = if field == Field::Temperature { Range::Temperature } else { Range::Finite };
+                let range =
+                    if field == Field::Temperature { Range::Temperature } else { Range::Finite };
                 self.constant(item, field, value, range);
             }
         }
@@ -225,7 +235,9 @@ impl Work<'_> {
     pub(crate) fn check_comparisons(&mut self, item: Item, field: Field, value: &Value) {
         for program in value.programs() {
             for (comparison, &relation) in program.comparisons().iter().zip(program.relations()) {
-                if let Some(kind) = self.parts.comparison_problem((comparison, relation), item, field) {
+                if let Some(kind) =
+                    self.parts.comparison_problem((comparison, relation), item, field)
+                {
                     self.error(item, kind);
                     return;
                 }
@@ -233,7 +245,13 @@ impl Work<'_> {
         }
     }
 
-    pub(crate) fn constant(&mut self, item: Item, field: Field, value: &Value, range: Range) -> f64 {
+    pub(crate) fn constant(
+        &mut self,
+        item: Item,
+        field: Field,
+        value: &Value,
+        range: Range,
+    ) -> f64 {
         let reads = self.parts.reads(value);
         if reads.reads_results() {
             self.error(item, BuildErrorKind::DependsOnResult { item, field });
@@ -265,7 +283,9 @@ impl Work<'_> {
             Range::Fraction if !(value > 0.0 && value <= 1.0) => {
                 BuildErrorKind::NotAFraction { item, field, value }
             }
-            Range::Temperature if value < 0.0 => BuildErrorKind::BelowAbsoluteZero { item, field, value },
+            Range::Temperature if value < 0.0 => {
+                BuildErrorKind::BelowAbsoluteZero { item, field, value }
+            }
             _ => return value,
         };
         self.error(item, kind);

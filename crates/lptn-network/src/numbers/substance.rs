@@ -1,4 +1,5 @@
-//! Properties of substances, lumps and limits, which have to be physical before anything is computed from them.
+//! Properties of substances, lumps and limits, which have to be physical before anything is
+//! computed from them.
 
 use crate::enthalpy::is_one_temperature;
 use crate::error::BuildErrorKind;
@@ -12,7 +13,8 @@ impl<'a> Work<'a> {
     pub(crate) fn check_materials(&mut self) {
         for (i, material) in self.parts.materials.iter().enumerate() {
             let item = Item::Material(MaterialId::from_len(i));
-            let properties = [(Field::SpecificHeat, &material.cp), (Field::Conductivity, &material.k)];
+            let properties =
+                [(Field::SpecificHeat, &material.cp), (Field::Conductivity, &material.k)];
             if let Some(value) = &material.density {
                 self.constant(item, Field::Density, value, Range::Positive);
             }
@@ -22,8 +24,10 @@ impl<'a> Work<'a> {
                 }
             }
             if let Some(melting) = &material.melting {
-                let solidus = self.constant(item, Field::Solidus, &melting.solidus, Range::Temperature);
-                let liquidus = self.constant(item, Field::Liquidus, &melting.liquidus, Range::Temperature);
+                let solidus =
+                    self.constant(item, Field::Solidus, &melting.solidus, Range::Temperature);
+                let liquidus =
+                    self.constant(item, Field::Liquidus, &melting.liquidus, Range::Temperature);
                 self.constant(item, Field::LatentHeat, &melting.heat, Range::Positive);
                 if liquidus < solidus && !is_one_temperature(solidus, liquidus) {
                     self.error(item, BuildErrorKind::Melting { item, solidus, liquidus });
@@ -57,14 +61,19 @@ impl<'a> Work<'a> {
         let nodes = parts.nodes.iter().enumerate();
         let nodes = nodes.map(|(i, node)| (Item::Node(NodeId::from_len(i)), &node.lump));
         let capacitors = parts.capacitors.iter().enumerate();
-        let capacitors = capacitors.map(|(i, part)| (Item::Capacitor(CapacitorId::from_len(i)), &part.lump));
+        let capacitors =
+            capacitors.map(|(i, part)| (Item::Capacitor(CapacitorId::from_len(i)), &part.lump));
         // the volume of a cell follows from the size of its grid, which is checked by itself
         let lumps = nodes.chain(capacitors).filter(|(item, _)| parts.whole(*item).is_none());
         let sizes = lumps.filter_map(|(item, lump)| Some((item, lump.as_ref()?.size.field())));
         let length = |(i, node): (usize, &'a Node)| {
-            Some((Item::Node(NodeId::from_len(i)), (Field::CharacteristicLength, node.length.as_ref()?)))
+            Some((
+                Item::Node(NodeId::from_len(i)),
+                (Field::CharacteristicLength, node.length.as_ref()?),
+            ))
         };
-        for (item, (field, value)) in sizes.chain(parts.nodes.iter().enumerate().filter_map(length)) {
+        for (item, (field, value)) in sizes.chain(parts.nodes.iter().enumerate().filter_map(length))
+        {
             self.constant(item, field, value, Range::Positive);
         }
     }

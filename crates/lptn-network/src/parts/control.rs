@@ -8,12 +8,13 @@ use crate::value::Value;
 pub struct Control {
     /// Its name, unique among parameters, signals, tables, controls and reports.
     pub name: String,
-    /// What it does; `None` until [`NetworkBuilder::thermostat`](crate::NetworkBuilder::thermostat) says so.
+    /// What it does; `None` until [`NetworkBuilder::thermostat`](crate::NetworkBuilder::thermostat)
+    /// says so.
     pub thermostat: Option<Thermostat>,
 }
 
-/// When a control switches. Both thresholds are absolute temperatures in K and may depend on time, parameters, other
-/// controls and temperatures.
+/// When a control switches. Both thresholds are absolute temperatures in K and may depend on time,
+/// parameters, other controls and temperatures.
 #[derive(Clone, Debug)]
 pub struct Thermostat<T = Value> {
     /// The node or boundary whose temperature it feels.

@@ -36,12 +36,13 @@ pub struct Node {
     pub initial: Option<Value>,
     /// If it melts at just that temperature: how much is molten then, from 0 to 1.
     pub molten: f64,
-    /// Its characteristic length in m, volume over surface, if it is to be checked for being a lump.
+    /// Its characteristic length in m, volume over surface, if it is to be checked for being a
+    /// lump.
     pub length: Option<Value>,
     /// Whether it is a junction that stores nothing.
     pub massless: bool,
-    /// If it is, where it stood in the state that a run starts from, in K: of several solutions of its balance it keeps
-    /// the one that is there.
+    /// If it is, where it stood in the state that a run starts from, in K: of several solutions of
+    /// its balance it keeps the one that is there.
     pub stood: Option<f64>,
 }
 

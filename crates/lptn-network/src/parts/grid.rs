@@ -1,10 +1,11 @@
 //! Grids: a block of one material, cut into equal cells.
 //!
-//! Each cell is a node in its middle. Two neighbours are joined by the conduction between their middles, `k A / d`, with
-//! the conductivity at the mean of their temperatures; a face that something is attached to has a massless node on
-//! each of its cells, joined to it by the conduction through half a cell, `2 k A / d`. This is the finite-volume scheme
-//! with nodes in the middle of cells (S. V. Patankar, Numerical Heat Transfer and Fluid Flow, Hemisphere 1980, section
-//! 4.2); its error shrinks with the square of the cell.
+//! Each cell is a node in its middle. Two neighbours are joined by the conduction between their
+//! middles, `k A / d`, with the conductivity at the mean of their temperatures; a face that
+//! something is attached to has a massless node on each of its cells, joined to it by the
+//! conduction through half a cell, `2 k A / d`. This is the finite-volume scheme with nodes in the
+//! middle of cells (S. V. Patankar, Numerical Heat Transfer and Fluid Flow, Hemisphere 1980,
+//! section 4.2); its error shrinks with the square of the cell.
 
 use lptn_laws::Kind;
 
@@ -60,7 +61,8 @@ impl Face {
     }
 }
 
-/// A block of one material, cut into equal cells: see [`NetworkBuilder::grid`](crate::NetworkBuilder::grid).
+/// A block of one material, cut into equal cells: see
+/// [`NetworkBuilder::grid`](crate::NetworkBuilder::grid).
 #[derive(Clone, Debug)]
 pub struct Grid {
     /// Its name, which begins those of its cells, faces and inner paths.
@@ -106,7 +108,8 @@ impl Grid {
         (first..first + self.count()).map(NodeId::from_len)
     }
 
-    /// The massless nodes on a face, the last index running fastest; none of a face that nothing is attached to.
+    /// The massless nodes on a face, the last index running fastest; none of a face that nothing is
+    /// attached to.
     pub fn surfaces(&self, face: Face) -> impl ExactSizeIterator<Item = NodeId> + use<> {
         let first = self.surfaces[face as usize];
         let count = first.map_or(0, |_| self.face_count(face));
@@ -236,8 +239,8 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// Its conductors, `NAME[j,k]` by the cells of the face it starts at, else of that it ends at. At the end of a rod,
-    /// whose cell has no index there, it is one, named as the path itself.
+    /// Its conductors, `NAME[j,k]` by the cells of the face it starts at, else of that it ends at.
+    /// At the end of a rod, whose cell has no index there, it is one, named as the path itself.
     pub fn conductors(&self) -> impl ExactSizeIterator<Item = ConductorId> + use<> {
         (self.first as usize..self.end as usize).map(ConductorId::from_len)
     }

@@ -12,7 +12,8 @@ pub enum GridValue {
     Min(GridId),
     /// `NAME.max`: that of the hottest cell.
     Max(GridId),
-    /// `NAME.x1.T`: the mean over a face, of its surface where something is attached to it, else of the cells behind it.
+    /// `NAME.x1.T`: the mean over a face, of its surface where something is attached to it, else of
+    /// the cells behind it.
     Face(GridFace),
 }
 

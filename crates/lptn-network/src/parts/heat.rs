@@ -23,7 +23,9 @@ impl HeatOf {
     /// What it is the heat of.
     pub fn item(self) -> Item {
         match self {
-            Self::Conductor(id) | Self::ReceivedFrom(id) | Self::ReceivedTo(id) => Item::Conductor(id),
+            Self::Conductor(id) | Self::ReceivedFrom(id) | Self::ReceivedTo(id) => {
+                Item::Conductor(id)
+            }
             Self::Source(id) => Item::Source(id),
             Self::Boundary(id) => Item::Boundary(id),
             Self::Joint(id) => Item::Joint(id),

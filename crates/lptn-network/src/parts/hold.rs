@@ -11,17 +11,21 @@ use crate::parts::switch::Switch;
 use crate::value::Value;
 
 impl Parts {
-    /// Whether the truth of a comparison is not known beforehand: it compares temperatures, or something that a
-    /// control changes with something that time does.
+    /// Whether the truth of a comparison is not known beforehand: it compares temperatures, or
+    /// something that a control changes with something that time does.
     pub(crate) fn is_switch(&self, difference: &Program) -> bool {
         let value = Value::Expression(difference.clone().into());
         let reads = self.reads(&value);
-        let controlled =
-            difference.slots().into_iter().any(|slot| matches!(self.layout.holds(slot), Holds::Control(_)));
-        reads.reads_results() || (controlled && self.course_of(difference) > lptn_units::Degree::Constant)
+        let controlled = difference
+            .slots()
+            .into_iter()
+            .any(|slot| matches!(self.layout.holds(slot), Holds::Control(_)));
+        reads.reads_results()
+            || (controlled && self.course_of(difference) > lptn_units::Degree::Constant)
     }
 
-    /// Gives every such comparison in the values of sources and conductors a slot that holds its truth.
+    /// Gives every such comparison in the values of sources and conductors a slot that holds its
+    /// truth.
     pub(crate) fn hold_comparisons(&mut self) {
         let mut sources = std::mem::take(&mut self.sources);
         for (i, source) in sources.iter_mut().enumerate() {
@@ -57,11 +61,14 @@ impl Parts {
 
     fn switches_in(&self, value: &Value) -> bool {
         let mut programs = value.programs().into_iter();
-        programs.any(|program| program.comparisons().iter().any(|difference| self.is_switch(difference)))
+        programs.any(|program| {
+            program.comparisons().iter().any(|difference| self.is_switch(difference))
+        })
     }
 
     fn held(&mut self, (item, field): (Item, Field), program: &Program) -> Program {
-        let is_switch: Vec<bool> = program.comparisons().iter().map(|d| self.is_switch(d)).collect();
+        let is_switch: Vec<bool> =
+            program.comparisons().iter().map(|d| self.is_switch(d)).collect();
         let mut next = self.switches.len();
         let layout = Arc::make_mut(&mut self.layout);
         let held = program.with_held_comparisons(&mut |i| {
@@ -70,7 +77,8 @@ impl Parts {
                 layout.add_switch(SwitchId::from_len(next - 1))
             })
         });
-        let of = held.comparisons().iter().zip(held.relations()).zip(is_switch).filter(|(_, is)| *is);
+        let of =
+            held.comparisons().iter().zip(held.relations()).zip(is_switch).filter(|(_, is)| *is);
         self.switches.extend(of.map(|((difference, &relation), _)| Switch {
             item,
             field,

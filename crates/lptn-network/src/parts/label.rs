@@ -1,4 +1,5 @@
-//! Names of conductors and sources: their own, or one that is made of their number when someone asks.
+//! Names of conductors and sources: their own, or one that is made of their number when someone
+//! asks.
 
 use std::borrow::Cow;
 

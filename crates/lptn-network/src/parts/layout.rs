@@ -97,8 +97,10 @@ impl Layout {
     }
 
     pub(crate) fn show_signal_in(&mut self, id: SignalId, unit: lptn_units::Unit) {
-        let signal =
-            self.signals.get_mut(id.index()).filter(|signal| signal.ty.dimension == unit.ty.dimension);
+        let signal = self
+            .signals
+            .get_mut(id.index())
+            .filter(|signal| signal.ty.dimension == unit.ty.dimension);
         if let Some(signal) = signal {
             signal.unit = Some(unit);
         }
@@ -177,13 +179,18 @@ impl Layout {
         &self.grid_values
     }
 
-    /// Sets the nodes that each temperature of a grid is made of, in the order of [`Layout::grid_values`].
+    /// Sets the nodes that each temperature of a grid is made of, in the order of
+    /// [`Layout::grid_values`].
     pub(crate) fn set_members(&mut self, members: Vec<Vec<u32>>) {
         self.members = members;
     }
 
-    /// The temperatures of grids that expressions name, as slots and values, from the temperatures of all nodes.
-    pub(crate) fn grid_temperatures<'a>(&'a self, nodes: &'a [f64]) -> impl Iterator<Item = (u32, f64)> + 'a {
+    /// The temperatures of grids that expressions name, as slots and values, from the temperatures
+    /// of all nodes.
+    pub(crate) fn grid_temperatures<'a>(
+        &'a self,
+        nodes: &'a [f64],
+    ) -> impl Iterator<Item = (u32, f64)> + 'a {
         let values = self.grid_values.iter().zip(&self.members);
         values.map(|((value, slot), members)| (*slot, value.of(members, nodes)))
     }

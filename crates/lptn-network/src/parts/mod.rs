@@ -98,7 +98,13 @@ impl Parts {
         let conductors = self.conductors.iter().map(Conductor::name);
         let sources = self.sources.iter().map(Source::name);
         let limits = self.limits.iter().map(|limit| Cow::from(&limit.name));
-        nodes.chain(boundaries).chain(capacitors).chain(conductors).chain(sources).chain(limits).collect()
+        nodes
+            .chain(boundaries)
+            .chain(capacitors)
+            .chain(conductors)
+            .chain(sources)
+            .chain(limits)
+            .collect()
     }
 
     pub(crate) fn name_of(&self, item: Item) -> Cow<'_, str> {
@@ -122,8 +128,8 @@ impl Parts {
         name.into()
     }
 
-    /// Every value that may depend on time: temperatures of boundaries, heat of sources, values of conductors,
-    /// signals that are expressions, thresholds of controls.
+    /// Every value that may depend on time: temperatures of boundaries, heat of sources, values of
+    /// conductors, signals that are expressions, thresholds of controls.
     pub(crate) fn inputs(&self) -> impl Iterator<Item = (Item, Field, &Value)> {
         let boundaries = self.boundaries.iter().enumerate();
         let sources = self.sources.iter().enumerate();
@@ -131,14 +137,20 @@ impl Parts {
             self.conductors.iter().enumerate().filter(|(_, conductor)| !conductor.law.is_number());
         let signals = self.layout.signals().iter().enumerate();
         boundaries
-            .map(|(i, b)| (Item::Boundary(BoundaryId::from_len(i)), Field::Temperature, &b.temperature))
-            .chain(sources.map(|(i, s)| (Item::Source(SourceId::from_len(i)), Field::Power, &s.power)))
+            .map(|(i, b)| {
+                (Item::Boundary(BoundaryId::from_len(i)), Field::Temperature, &b.temperature)
+            })
+            .chain(
+                sources.map(|(i, s)| (Item::Source(SourceId::from_len(i)), Field::Power, &s.power)),
+            )
             .chain(conductors.flat_map(|(i, c)| {
                 let item = Item::Conductor(ConductorId::from_len(i));
                 c.law.parts().map(move |(field, value)| (item, field, value))
             }))
             .chain(signals.filter_map(|(i, s)| match &s.course {
-                Course::Expression(value) => Some((Item::Signal(SignalId::from_len(i)), Field::Value, value)),
+                Course::Expression(value) => {
+                    Some((Item::Signal(SignalId::from_len(i)), Field::Value, value))
+                }
                 _ => None,
             }))
             .chain(self.thresholds())
@@ -161,7 +173,11 @@ impl Parts {
     pub(crate) fn numbered(&self, name: &str) -> Option<Item> {
         let (kind, number) = parsed(name)?;
         if kind == CONDUCTOR {
-            let at = position(self.conductors.iter().map(|c| &c.label), self.numbered_conductors, number)?;
+            let at = position(
+                self.conductors.iter().map(|c| &c.label),
+                self.numbered_conductors,
+                number,
+            )?;
             return Some(Item::Conductor(ConductorId::from_len(at)));
         }
         let at = position(self.sources.iter().map(|s| &s.label), self.numbered_sources, number)?;
@@ -169,7 +185,8 @@ impl Parts {
     }
 }
 
-/// Where the label with this number is; as a rule each next one has the next number after the one at `first`.
+/// Where the label with this number is; as a rule each next one has the next number after the one
+/// at `first`.
 fn position<'a>(
     mut labels: impl ExactSizeIterator<Item = &'a Label> + Clone,
     first: Option<(usize, u32)>,

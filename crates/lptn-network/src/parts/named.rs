@@ -43,9 +43,11 @@ impl Parts {
 
     /// The names of all heat flows: paths, sources, boundaries.
     pub(crate) fn heat_names(&self) -> impl Iterator<Item = String> + '_ {
-        let conductors = (0..self.conductors.len()).flat_map(|i| self.heats_of(ConductorId::from_len(i)));
+        let conductors =
+            (0..self.conductors.len()).flat_map(|i| self.heats_of(ConductorId::from_len(i)));
         let sources = (0..self.sources.len()).map(|i| HeatOf::Source(SourceId::from_len(i)));
-        let boundaries = (0..self.boundaries.len()).map(|i| HeatOf::Boundary(BoundaryId::from_len(i)));
+        let boundaries =
+            (0..self.boundaries.len()).map(|i| HeatOf::Boundary(BoundaryId::from_len(i)));
         let joints = self.shared_joints().map(HeatOf::Joint);
         conductors.chain(sources).chain(boundaries).chain(joints).map(|heat| self.heat_name(heat))
     }
@@ -87,7 +89,8 @@ impl Parts {
 
     /// Lays down which nodes the values are made of that expressions of results name.
     pub(crate) fn settle_grid_values(&mut self) {
-        let values: Vec<GridValue> = self.layout.grid_values().iter().map(|(value, _)| *value).collect();
+        let values: Vec<GridValue> =
+            self.layout.grid_values().iter().map(|(value, _)| *value).collect();
         let members = values.into_iter().map(|value| self.grid_value_members(value)).collect();
         Arc::make_mut(&mut self.layout).set_members(members);
     }

@@ -100,7 +100,8 @@ impl Parts {
         dependence
     }
 
-    /// The temperatures a source depends on: its own node first, if it reads that; none if it depends on time only.
+    /// The temperatures a source depends on: its own node first, if it reads that; none if it
+    /// depends on time only.
     pub(crate) fn source_dependence(&self, source: &Source) -> Dependence {
         let reads = self.reads(&source.power);
         let mut dependence = Dependence::default();
@@ -115,14 +116,16 @@ impl Parts {
     /// The temperatures that the thresholds of a control depend on.
     fn control_dependence(&self, control: &Control) -> Dependence {
         let mut dependence = Dependence::default();
-        let thresholds = control.thermostat.iter().flat_map(|thermostat| [&thermostat.on, &thermostat.off]);
+        let thresholds =
+            control.thermostat.iter().flat_map(|thermostat| [&thermostat.on, &thermostat.off]);
         for value in thresholds {
             self.reads(value).temperatures.into_iter().for_each(|end| dependence.add(self, end));
         }
         dependence
     }
 
-    /// Which massless nodes have only constant conductances around them, so that they can be eliminated.
+    /// Which massless nodes have only constant conductances around them, so that they can be
+    /// eliminated.
     pub(crate) fn linear_massless(&self) -> Vec<bool> {
         let mut linear: Vec<bool> = self.nodes.iter().map(|node| node.massless).collect();
         let mut touch = |vertex: u32| {
@@ -158,6 +161,7 @@ impl Parts {
         let sources = self.sources.iter().map(|s| self.source_dependence(s)).collect();
         self.conductor_dependence = conductors;
         self.source_dependence = sources;
-        self.control_dependence = self.controls.iter().map(|c| self.control_dependence(c)).collect();
+        self.control_dependence =
+            self.controls.iter().map(|c| self.control_dependence(c)).collect();
     }
 }

@@ -38,7 +38,8 @@ pub enum Severity {
 pub struct Limit {
     /// Its name, unique among nodes, boundaries and elements.
     pub name: String,
-    /// The quantity: an expression over parameters, `t`, signals, tables, temperatures and heat flows of the results.
+    /// The quantity: an expression over parameters, `t`, signals, tables, temperatures and heat
+    /// flows of the results.
     pub of: Value,
     /// The type of `of` and of `value`.
     pub ty: Type,
@@ -64,7 +65,8 @@ impl Limit {
 pub struct Report {
     /// Its name, unique among parameters, signals, tables, controls and reports.
     pub name: String,
-    /// An expression over parameters, `t`, signals, tables, temperatures and heat flows of the results.
+    /// An expression over parameters, `t`, signals, tables, temperatures and heat flows of the
+    /// results.
     pub value: Value,
     /// The type of its value.
     pub ty: Type,

@@ -51,7 +51,8 @@ pub enum AfterEnd {
     Error,
     /// The last value stays.
     Hold,
-    /// It begins anew every so many s after the first point; past the last point its value is held until then.
+    /// It begins anew every so many s after the first point; past the last point its value is held
+    /// until then.
     Repeat(f64),
 }
 
@@ -70,7 +71,10 @@ impl Course {
     /// First and last point in s; an expression reaches from minus to plus infinity.
     pub fn span(&self) -> (f64, f64) {
         let times = self.times();
-        (times.first().copied().unwrap_or(f64::NEG_INFINITY), times.last().copied().unwrap_or(f64::INFINITY))
+        (
+            times.first().copied().unwrap_or(f64::NEG_INFINITY),
+            times.last().copied().unwrap_or(f64::INFINITY),
+        )
     }
 
     fn times(&self) -> &[f64] {
@@ -103,7 +107,8 @@ impl Course {
         !matches!(self, Self::Expression(_))
     }
 
-    /// The start of the repetition that `segment` lies in, less that of the first; 0 without repetition.
+    /// The start of the repetition that `segment` lies in, less that of the first; 0 without
+    /// repetition.
     fn offset(&self, segment: f64) -> f64 {
         match self.after() {
             AfterEnd::Repeat(period) => self.repetition(segment, period) * period,
@@ -116,8 +121,8 @@ impl Course {
         ((time - self.span().0) / period).floor().max(0.0)
     }
 
-    /// Adds the points that lie strictly inside `(start, stop)`. Where the signal is smooth between its ends and only
-    /// `bends` are asked for, these are the ends.
+    /// Adds the points that lie strictly inside `(start, stop)`. Where the signal is smooth between
+    /// its ends and only `bends` are asked for, these are the ends.
     ///
     /// # Errors
     /// How many there would be, if that is more than [`MOST_POINTS`].
@@ -129,8 +134,11 @@ impl Course {
     ) -> Result<(), f64> {
         let (first, last) = self.span();
         let ends = [first, last];
-        let times =
-            if bends && !self.is_straight() && !self.times().is_empty() { &ends } else { self.times() };
+        let times = if bends && !self.is_straight() && !self.times().is_empty() {
+            &ends
+        } else {
+            self.times()
+        };
         let (from, to, period) = match self.after() {
             AfterEnd::Repeat(p) => (self.repetition(start, p), self.repetition(stop, p), p),
             AfterEnd::Error | AfterEnd::Hold => (0.0, 0.0, 0.0),
@@ -148,7 +156,8 @@ impl Course {
         Ok(())
     }
 
-    /// Whether its points can be read: as many values as times, one at least, all numbers, the times rising.
+    /// Whether its points can be read: as many values as times, one at least, all numbers, the
+    /// times rising.
     pub(crate) fn is_sound(&self) -> bool {
         match self {
             Self::Steps { times, values, .. } => {

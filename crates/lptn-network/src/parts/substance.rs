@@ -24,7 +24,8 @@ pub struct Material {
 pub struct Melting<T = Value> {
     /// Absolute temperature in K at which melting begins.
     pub solidus: T,
-    /// Absolute temperature in K at which all is molten; not below the solidus, and equal to it for a pure substance.
+    /// Absolute temperature in K at which all is molten; not below the solidus, and equal to it for
+    /// a pure substance.
     pub liquidus: T,
     /// Latent heat in J/kg.
     pub heat: T,

@@ -28,12 +28,14 @@ impl Parts {
         self.joints.iter().enumerate().filter(shared).map(|(i, _)| JointId::from_len(i))
     }
 
-    /// Whether a node and the one before it belong to one grid and have the same values: what holds for one holds for
-    /// the other, capacitors left aside.
+    /// Whether a node and the one before it belong to one grid and have the same values: what holds
+    /// for one holds for the other, capacitors left aside.
     pub(crate) fn is_like_the_last_node(&self, index: usize) -> bool {
         let whole = |i: usize| self.whole(Item::Node(NodeId::from_len(i)));
         let Some(last) = index.checked_sub(1) else { return false };
-        whole(index).is_some() && whole(index) == whole(last) && self.nodes[last].is_same(&self.nodes[index])
+        whole(index).is_some()
+            && whole(index) == whole(last)
+            && self.nodes[last].is_same(&self.nodes[index])
     }
 
     /// The same for a conductor of a grid or joint.
@@ -47,7 +49,9 @@ impl Parts {
 
     /// Whether no capacitor belongs to a node and to the one before it.
     pub(crate) fn has_no_capacitors(&self, index: usize) -> bool {
-        self.capacitors.iter().all(|part| part.node.index() != index && part.node.index() + 1 != index)
+        self.capacitors
+            .iter()
+            .all(|part| part.node.index() != index && part.node.index() + 1 != index)
     }
 }
 
@@ -55,7 +59,9 @@ impl Parts {
 pub(crate) fn collapse(parts: &Parts, errors: &mut Vec<BuildError>) {
     let mut told: Vec<(Item, &'static str)> = Vec::new();
     errors.retain_mut(|error| {
-        let Some(whole) = error.place().and_then(|(item, _)| parts.whole(item)) else { return true };
+        let Some(whole) = error.place().and_then(|(item, _)| parts.whole(item)) else {
+            return true;
+        };
         let key = (whole, error.code());
         error.name = parts.name_of(whole).into_owned();
         let new = !told.contains(&key);

@@ -1,7 +1,8 @@
 //! How the heat content of a node changes with a parameter, its temperature held.
 //!
-//! `H(T) = integral of C from T0 to T`, so that `dH = integral of dC - C(T0) dT0`. For a constant capacity this is
-//! `dC (T - T0) - C dT0`; where all of a varying one is scaled by a size, `H dln(size) - C(T0) dT0`.
+//! `H(T) = integral of C from T0 to T`, so that `dH = integral of dC - C(T0) dT0`. For a constant
+//! capacity this is `dC (T - T0) - C dT0`; where all of a varying one is scaled by a size,
+//! `H dln(size) - C(T0) dT0`.
 
 use lptn_units::Scalar;
 
@@ -59,7 +60,8 @@ pub(super) fn all_of(
     for (id, parts) in network.node_ids().zip(capacitors) {
         let node = &network.nodes()[id.index()];
         let values: Vec<&Value> = node.capacity.iter().chain(parts).collect();
-        let starts = node.initial.as_ref().filter(|_| !node.massless).is_some_and(|t| live.value(t));
+        let starts =
+            node.initial.as_ref().filter(|_| !node.massless).is_some_and(|t| live.value(t));
         let changes = values.iter().any(|value| live.value(value)) || may_melt && live.melting(id);
         if starts || changes {
             if starts && node.molten > 0.0 {
@@ -87,7 +89,9 @@ impl Content {
             (true, Some(size)) if !melts || latent_scales(network, node, (&size, live)) => {
                 Change::Scaled(logarithmic(&size, passes))
             }
-            (true, _) if !melts => Change::Parts(values.iter().map(|&value| value.clone()).collect()),
+            (true, _) if !melts => {
+                Change::Parts(values.iter().map(|&value| value.clone()).collect())
+            }
             (true, _) => return Err(NoTangents::Melting { node }),
         };
         Ok(Self { node, initial, change })
@@ -114,8 +118,8 @@ impl Content {
     }
 }
 
-/// The factors of the only part that all of a capacity is proportional to and that alone changes with the parameters:
-/// its size. `None` if something else changes too.
+/// The factors of the only part that all of a capacity is proportional to and that alone changes
+/// with the parameters: its size. `None` if something else changes too.
 fn size_of(values: &[&Value], live: &Live<'_>) -> Option<Vec<Value>> {
     let [value] = values else {
         return values.iter().all(|value| !live.value(value)).then(Vec::new);
@@ -133,13 +137,15 @@ fn melts(network: &Network, node: NodeId) -> bool {
     network.nodes()[node.index()].molten > 0.0 || melting(network, node).next().is_some()
 }
 
-/// Whether latent heat is proportional to these factors of a capacity too, and else does not change.
+/// Whether latent heat is proportional to these factors of a capacity too, and else does not
+/// change.
 fn latent_scales(network: &Network, node: NodeId, (size, live): (&[Value], &Live<'_>)) -> bool {
     melting(network, node).all(|(lump, melting)| {
         let density = network.materials()[lump.material.index()].density.as_ref();
         let amount = [Some(lump.size.field().1), density];
         let fixed = [&melting.solidus, &melting.liquidus, &melting.heat];
-        let scales = |factor: &Value| amount.into_iter().flatten().any(|value| value.is_same(factor));
+        let scales =
+            |factor: &Value| amount.into_iter().flatten().any(|value| value.is_same(factor));
         !fixed.into_iter().any(|value| live.value(value)) && size.iter().all(scales)
     })
 }
@@ -157,16 +163,22 @@ fn slopes(values: &[&Value], passes: &mut [Pass]) -> Vec<[f64; PASS]> {
 
 fn logarithmic(factors: &[Value], passes: &mut [Pass]) -> Vec<[f64; PASS]> {
     let one = |pass: &mut Pass| {
-        let product =
-            factors.iter().fold(Slope::constant(1.0), |product, factor| product * sum(&[factor], pass));
+        let product = factors
+            .iter()
+            .fold(Slope::constant(1.0), |product, factor| product * sum(&[factor], pass));
         product.derivatives.map(|slope| slope / product.value())
     };
     passes.iter_mut().map(one).collect()
 }
 
-/// The integral of the derivatives of the sum of `values` over a stretch of temperature, panel by panel of the curve
-/// that was found to be smooth on each.
-fn integral(values: &[Value], curve: &Enthalpy, (from, to): (f64, f64), pass: &mut Pass) -> [f64; PASS] {
+/// The integral of the derivatives of the sum of `values` over a stretch of temperature, panel by
+/// panel of the curve that was found to be smooth on each.
+fn integral(
+    values: &[Value],
+    curve: &Enthalpy,
+    (from, to): (f64, f64),
+    pass: &mut Pass,
+) -> [f64; PASS] {
     let values: Vec<&Value> = values.iter().collect();
     let mut stops = curve.stops(from.min(to), from.max(to));
     stops.insert(0, from.min(to));
@@ -185,15 +197,17 @@ fn integral(values: &[Value], curve: &Enthalpy, (from, to): (f64, f64), pass: &m
 }
 
 impl Tangents {
-    /// Writes by how much the heat content of every node over that at its start changes in J per SI unit of each
-    /// parameter, at these temperatures of all nodes in K: blocks of as many values as there are nodes.
+    /// Writes by how much the heat content of every node over that at its start changes in J per SI
+    /// unit of each parameter, at these temperatures of all nodes in K: blocks of as many values as
+    /// there are nodes.
     pub fn contents(&mut self, network: &Network, temperatures: &[f64], out: &mut [f64]) {
         let nodes = network.nodes().len();
         out.fill(0.0);
         for (index, (first, count)) in self.spans().enumerate() {
             for content in &self.contents {
                 let node = content.node.index();
-                let change = content.at(network, (index, &mut self.passes[index]), temperatures[node]);
+                let change =
+                    content.at(network, (index, &mut self.passes[index]), temperatures[node]);
                 (0..count).for_each(|k| out[(first + k) * nodes + node] = change[k]);
             }
         }

@@ -14,9 +14,10 @@ use crate::parts::signal::Course;
 use crate::slot;
 
 impl Tangents {
-    /// Writes by how much the heat that every vertex (nodes, then boundaries) receives changes in W per SI unit of each
-    /// parameter: where `scope` stands, at these temperatures of all vertices in K, those of the nodes held and those
-    /// of the boundaries as they change. Blocks of as many values as there are vertices.
+    /// Writes by how much the heat that every vertex (nodes, then boundaries) receives changes in W
+    /// per SI unit of each parameter: where `scope` stands, at these temperatures of all vertices
+    /// in K, those of the nodes held and those of the boundaries as they change. Blocks of as many
+    /// values as there are vertices.
     ///
     /// # Errors
     /// [`InputError`] for a value that has no finite derivative here.
@@ -65,7 +66,8 @@ impl Tangents {
         boundaries.iter_mut().zip(given).for_each(|(dual, t)| *dual = Slope::constant(*t));
         for &id in &self.boundaries {
             let dual = network.boundaries()[id.index()].temperature.on(slots, stack);
-            boundaries[id.index()] = network.finite(dual, (Item::Boundary(id), Field::Temperature), scope)?;
+            boundaries[id.index()] =
+                network.finite(dual, (Item::Boundary(id), Field::Temperature), scope)?;
         }
         Ok(())
     }
@@ -87,7 +89,8 @@ impl Tangents {
             place_ends(slots, dependence, ends, &dual);
             let (from, to) = (dual(ends[0]), dual(ends[1]));
             let received = network.received(conductor, At { slots, stack }, from, to);
-            let received = received.map_err(|failed| network.failed(Item::Conductor(id), failed, scope))?;
+            let received =
+                received.map_err(|failed| network.failed(Item::Conductor(id), failed, scope))?;
             for (vertex, heat) in ends.into_iter().zip(received) {
                 add(out, vertex, temperatures.len(), &heat.derivatives);
             }
@@ -120,7 +123,12 @@ impl Tangents {
 }
 
 /// The temperature of a vertex: that of a node is held.
-fn of_vertex(vertex: usize, network: &Network, boundaries: &[Slope], temperatures: &[f64]) -> Slope {
+fn of_vertex(
+    vertex: usize,
+    network: &Network,
+    boundaries: &[Slope],
+    temperatures: &[f64],
+) -> Slope {
     match vertex.checked_sub(network.nodes().len()) {
         Some(boundary) => boundaries[boundary],
         None => Slope::from_f64(temperatures[vertex]),
@@ -128,7 +136,12 @@ fn of_vertex(vertex: usize, network: &Network, boundaries: &[Slope], temperature
 }
 
 /// As [`place`], for constant conductors too, of which no dependence is kept.
-fn place_ends(slots: &mut [Slope], of: &Dependence, ends: [usize; 2], dual: &dyn Fn(usize) -> Slope) {
+fn place_ends(
+    slots: &mut [Slope],
+    of: &Dependence,
+    ends: [usize; 2],
+    dual: &dyn Fn(usize) -> Slope,
+) {
     let at = |k: usize| dual(of.vertices.get(k).map_or_else(|| ends[k], |&vertex| vertex as usize));
     place(slots, of, &at);
 }

@@ -1,6 +1,8 @@
 //! What depends on the parameters that a network is differentiated by.
 
-use crate::id::{BoundaryId, ConductorId, ControlId, Item, NodeId, ParameterId, SignalId, SourceId};
+use crate::id::{
+    BoundaryId, ConductorId, ControlId, Item, NodeId, ParameterId, SignalId, SourceId,
+};
 use crate::network::Network;
 use crate::parts::layout::Holds;
 use crate::parts::signal::Course;
@@ -41,7 +43,8 @@ impl<'a> Live<'a> {
 
     /// Whether a value changes with one of the parameters, temperatures of nodes held.
     pub(super) fn value(&self, value: &Value) -> bool {
-        !matches!(value, Value::Constant(_)) && value.slots().iter().any(|&slot| self.slots[slot as usize])
+        !matches!(value, Value::Constant(_))
+            && value.slots().iter().any(|&slot| self.slots[slot as usize])
     }
 
     pub(super) fn signal(&self, id: SignalId) -> bool {
@@ -56,7 +59,8 @@ impl<'a> Live<'a> {
         self.value(&self.network.sources()[id.index()].power)
     }
 
-    /// Whether the heat of a conductor changes: by its values, or because a boundary does that it ends at.
+    /// Whether the heat of a conductor changes: by its values, or because a boundary does that it
+    /// ends at.
     pub(super) fn conductor(&self, id: ConductorId) -> bool {
         let conductor = &self.network.conductors()[id.index()];
         let ends = [conductor.from, conductor.to].into_iter().any(|end| match end {
@@ -64,7 +68,8 @@ impl<'a> Live<'a> {
             crate::End::Node(_) => false,
         });
         let fluid = conductor.law.fluid().map(|id| &self.network.fluids()[id.index()]);
-        let properties = fluid.into_iter().flat_map(|fluid| fluid.density.iter().chain([&fluid.cp]));
+        let properties =
+            fluid.into_iter().flat_map(|fluid| fluid.density.iter().chain([&fluid.cp]));
         ends || !conductor.law.is_number() && conductor.law.values().iter().any(|v| self.value(v))
             || properties.into_iter().any(|v| self.value(v))
     }
@@ -78,13 +83,17 @@ impl<'a> Live<'a> {
         })
     }
 
-    /// The first input with a comparison that changes its truth at a time which depends on one of the parameters.
+    /// The first input with a comparison that changes its truth at a time which depends on one of
+    /// the parameters.
     pub(super) fn moving_jump(&self) -> Option<Item> {
         let moves = |value: &Value| {
-            value.programs().into_iter().flat_map(|program| program.comparisons()).any(|comparison| {
-                let slots = comparison.slots();
-                slots.iter().any(|&s| self.slots[s as usize]) && slots.iter().any(|&s| self.varies(s))
-            })
+            value.programs().into_iter().flat_map(|program| program.comparisons()).any(
+                |comparison| {
+                    let slots = comparison.slots();
+                    slots.iter().any(|&s| self.slots[s as usize])
+                        && slots.iter().any(|&s| self.varies(s))
+                },
+            )
         };
         self.network.inputs().find(|(_, _, value)| moves(value)).map(|(item, _, _)| item)
     }
@@ -98,7 +107,8 @@ impl<'a> Live<'a> {
 
     /// The first control or comparison of temperatures.
     pub(super) fn event(&self) -> Option<Item> {
-        let control = (!self.network.controls().is_empty()).then(|| Item::Control(ControlId::from_len(0)));
+        let control =
+            (!self.network.controls().is_empty()).then(|| Item::Control(ControlId::from_len(0)));
         control.or_else(|| self.network.switches().first().map(|switch| switch.item))
     }
 }

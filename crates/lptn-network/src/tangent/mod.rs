@@ -1,7 +1,8 @@
-//! Derivatives of a network's values by its parameters, temperatures held: what sensitivities are driven by.
+//! Derivatives of a network's values by its parameters, temperatures held: what sensitivities are
+//! driven by.
 //!
-//! Each value is evaluated on dual numbers by the same code that evaluates it on numbers, the parameters being the
-//! variables. Only what depends on one of them is evaluated at all.
+//! Each value is evaluated on dual numbers by the same code that evaluates it on numbers, the
+//! parameters being the variables. Only what depends on one of them is evaluated at all.
 
 mod content;
 mod heat;
@@ -19,8 +20,8 @@ pub use refusal::NoTangents;
 
 /// Derivatives of a network's heat flows and heat contents by some of its parameters.
 ///
-/// All results are in SI units per SI unit of the parameter, in blocks, one for each parameter in the order in which
-/// they were asked for. Evaluating allocates nothing.
+/// All results are in SI units per SI unit of the parameter, in blocks, one for each parameter in
+/// the order in which they were asked for. Evaluating allocates nothing.
 #[derive(Clone, Debug)]
 pub struct Tangents {
     parameters: Vec<ParameterId>,
@@ -43,8 +44,8 @@ struct Pass {
 }
 
 impl Network {
-    /// What is needed to differentiate by these parameters. One that is an expression of others counts as a variable of
-    /// its own if it is among them.
+    /// What is needed to differentiate by these parameters. One that is an expression of others
+    /// counts as a variable of its own if it is among them.
     ///
     /// # Errors
     /// [`NoTangents`] where a derivative by them does not exist everywhere or is not to be had.
@@ -98,6 +99,10 @@ impl Pass {
             };
             slots[layout.parameter(id) as usize] = dual;
         }
-        Self { slots, stack, boundaries: vec![Slope::constant(f64::NAN); network.boundaries().len()] }
+        Self {
+            slots,
+            stack,
+            boundaries: vec![Slope::constant(f64::NAN); network.boundaries().len()],
+        }
     }
 }

@@ -9,18 +9,19 @@ use crate::id::{FluidId, Item, NodeId};
 use crate::network::Network;
 
 lptn_units::problems! {
-/// Why a network cannot be differentiated by some parameters. Of an item and what kind of thing it is, `say` tells one.
+/// Why a network cannot be differentiated by some parameters. Of an item and what kind of thing it
+/// is, `say` tells one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoTangents for |say: &dyn Fn(Item, &str) -> String| at Item {
-    /// It switches: the times of events move with the parameters. The first control, or what a comparison of temperatures
-    /// stands in.
+    /// It switches: the times of events move with the parameters. The first control, or what a
+    /// comparison of temperatures stands in.
     Events { item: Item } = "sensitivity::events", at Some(*item),
         says format!("{} switches, at times that move with the parameters", say(*item, "the network")), help None;
     /// An input jumps at a time that moves with a parameter.
     MovingJump { item: Item } = "sensitivity::moving_jump", at Some(*item),
         says format!("{} jumps at a time that moves with a parameter", say(*item, "an input")), help None;
-    /// A massless node leaps from one solution of its balance to another, at a time that moves with the parameters. A run
-    /// finds that, not the form of the network.
+    /// A massless node leaps from one solution of its balance to another, at a time that moves with
+    /// the parameters. A run finds that, not the form of the network.
     Leaps = "sensitivity::leaps", at None,
         says "a massless node leaps, at a time that moves with the parameters".to_owned(), help None;
     /// How a node melts changes by more than its size.
@@ -43,7 +44,8 @@ pub(super) fn check(network: &Network, live: &Live<'_>) -> Result<(), NoTangents
     if let Some(item) = live.moving_jump() {
         return Err(NoTangents::MovingJump { item });
     }
-    let varying = network.fluid_ids().zip(&network.numbers.fluids).filter(|(_, curve)| curve.is_some());
+    let varying =
+        network.fluid_ids().zip(&network.numbers.fluids).filter(|(_, curve)| curve.is_some());
     let mut changing = varying.filter(|(id, _)| live.value(&network.fluids()[id.index()].cp));
     match changing.next() {
         Some((fluid, _)) => Err(NoTangents::Fluid { fluid }),

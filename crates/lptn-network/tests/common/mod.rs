@@ -1,9 +1,14 @@
 //! Small networks and values for the tests.
-#![allow(dead_code, unreachable_pub, clippy::unwrap_used, reason = "each test file uses a part of it")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    clippy::unwrap_used,
+    reason = "each test file uses a part of it"
+)]
 
 use lptn_network::{
-    Acts, BoundaryId, Conductance, Context, HeatCapacity, Input, NetworkBuilder, NodeId, Temperature,
-    Thermostat, Time,
+    Acts, BoundaryId, Conductance, Context, HeatCapacity, Input, NetworkBuilder, NodeId,
+    Temperature, Thermostat, Time,
 };
 use lptn_units::{Type, parse_quantity};
 
@@ -51,11 +56,16 @@ pub fn cooled() -> (NetworkBuilder, NodeId, BoundaryId) {
 
 /// The codes of everything that is wrong with a network.
 pub fn codes(b: NetworkBuilder) -> Vec<&'static str> {
-    b.build().err().map_or_else(Vec::new, |errors| errors.0.iter().map(|error| error.code()).collect())
+    b.build()
+        .err()
+        .map_or_else(Vec::new, |errors| errors.0.iter().map(|error| error.code()).collect())
 }
 
 pub fn near(found: f64, expected: f64) {
-    assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1.0), "{found} is not {expected}");
+    assert!(
+        (found - expected).abs() <= 1e-12 * expected.abs().max(1.0),
+        "{found} is not {expected}"
+    );
 }
 
 pub fn all_near(found: &[f64], expected: &[f64]) {

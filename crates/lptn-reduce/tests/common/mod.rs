@@ -1,8 +1,15 @@
 //! Networks with known answers.
-#![allow(dead_code, unreachable_pub, clippy::unwrap_used, reason = "each test file uses a part of it")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    clippy::unwrap_used,
+    reason = "each test file uses a part of it"
+)]
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::{Conductance, HeatCapacity, HeatFlow, NetworkBuilder, NodeId, Resistance, Temperature};
+use lptn_network::{
+    Conductance, HeatCapacity, HeatFlow, NetworkBuilder, NodeId, Resistance, Temperature,
+};
 
 pub fn assembled(builder: NetworkBuilder) -> ThermalSystem {
     ThermalSystem::assemble(&builder.build().unwrap()).unwrap()
@@ -25,8 +32,11 @@ pub fn two_nodes(c: [f64; 2], r_int: f64, r_amb: f64, heat: f64) -> (ThermalSyst
 pub fn chain(capacity: &[f64], conductance: &[f64]) -> (ThermalSystem, Vec<NodeId>) {
     let zero = Temperature::celsius(0.0);
     let mut b = NetworkBuilder::new();
-    let nodes: Vec<NodeId> =
-        capacity.iter().enumerate().map(|(i, &c)| b.node(&format!("n{i}"), HeatCapacity(c), zero)).collect();
+    let nodes: Vec<NodeId> = capacity
+        .iter()
+        .enumerate()
+        .map(|(i, &c)| b.node(&format!("n{i}"), HeatCapacity(c), zero))
+        .collect();
     let end = b.boundary("end", zero);
     b.resistor("g0", end, nodes[0], Conductance(conductance[0]));
     for i in 1..nodes.len() {

@@ -26,24 +26,30 @@ pub(crate) struct Plate {
 }
 
 impl Plate {
-    /// `n` by `n` cells: capacities, conductances and areas are spread evenly over their decades, powers step, pulse or
-    /// ramp at seven times that they share.
+    /// `n` by `n` cells: capacities, conductances and areas are spread evenly over their decades,
+    /// powers step, pulse or ramp at seven times that they share.
     pub(crate) fn make(n: usize) -> Self {
         let mut random = Random(20_240_517);
         let (cells, stop) = (n * n, 2.0 * (n * n) as f64);
         let mut links = Vec::new();
         for (i, k) in (0..cells).map(|k| (k / n, k)) {
             let neighbours = [(k % n + 1 < n).then_some(k + 1), (i + 1 < n).then_some(k + n)];
-            links.extend(neighbours.into_iter().flatten().map(|to| (k, to, random.decades(0.1, 10.0))));
+            links.extend(
+                neighbours.into_iter().flatten().map(|to| (k, to, random.decades(0.1, 10.0))),
+            );
         }
         for i in 0..n {
             let faces = [i, cells - n + i, i * n, i * n + n - 1];
             links.extend(faces.map(|k| (k, cells, random.decades(0.01, 0.1))));
         }
-        let mut radiation: Vec<_> = (0..cells).map(|k| (k, cells, random.decades(1e-3, 1e-2))).collect();
-        let far = (0..cells).step_by(10).map(|k| (k, (k + cells / 2) % cells, random.decades(1e-3, 5e-3)));
+        let mut radiation: Vec<_> =
+            (0..cells).map(|k| (k, cells, random.decades(1e-3, 1e-2))).collect();
+        let far = (0..cells)
+            .step_by(10)
+            .map(|k| (k, (k + cells / 2) % cells, random.decades(1e-3, 5e-3)));
         radiation.extend(far);
-        let sources: Vec<_> = (0..300).map(|k| (k * 1783 % cells, points(k, stop, &mut random))).collect();
+        let sources: Vec<_> =
+            (0..300).map(|k| (k * 1783 % cells, points(k, stop, &mut random))).collect();
         let mut probes: Vec<usize> =
             sources.iter().take(25).map(|s| s.0).chain((0..25).map(|k| k * 101)).collect();
         probes.sort_unstable();
@@ -61,12 +67,13 @@ impl Plate {
         }
     }
 
-    /// Reads the binary form: 12 numbers of 64 bits (the second to the tenth count the items), doubles, then indices of
-    /// 32 bits.
+    /// Reads the binary form: 12 numbers of 64 bits (the second to the tenth count the items),
+    /// doubles, then indices of 32 bits.
     pub(crate) fn read(bytes: &[u8]) -> Self {
         let mut rest = bytes;
         let counts = take(&mut rest, 12, |b| i64::from_le_bytes(b) as usize);
-        let [_, n, links, radiation, given, sources, points, probes, rows, breaks, ..] = counts[..] else {
+        let [_, n, links, radiation, given, sources, points, probes, rows, breaks, ..] = counts[..]
+        else {
             return Self::make(0);
         };
         let mut doubles = |count| take(&mut rest, count, f64::from_le_bytes);
@@ -90,7 +97,11 @@ impl Plate {
 }
 
 /// Takes `count` values of `N` bytes each.
-fn take<const N: usize, T>(bytes: &mut &[u8], count: usize, value: impl Fn([u8; N]) -> T) -> Vec<T> {
+fn take<const N: usize, T>(
+    bytes: &mut &[u8],
+    count: usize,
+    value: impl Fn([u8; N]) -> T,
+) -> Vec<T> {
     let (head, rest) = bytes.split_at(count * N);
     *bytes = rest;
     head.as_chunks().0.iter().map(|chunk| value(*chunk)).collect()
@@ -121,7 +132,8 @@ struct Random(u64);
 impl Random {
     /// Even over 0 to 1.
     fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 

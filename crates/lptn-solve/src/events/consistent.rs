@@ -13,10 +13,11 @@ use crate::times::just_after;
 /// The most positions that are tried.
 const MOST: usize = 64;
 
-/// Seeks positions in whose steady state nothing has to switch. From the start on, what has to switch does; when that
-/// comes back to where it was, all other positions are tried in turn.
+/// Seeks positions in whose steady state nothing has to switch. From the start on, what has to
+/// switch does; when that comes back to where it was, all other positions are tried in turn.
 pub(crate) fn find(system: &ThermalSystem, time: f64) -> Result<SteadyState, SteadyError> {
-    let mut search = Search { system, time, tried: HashSet::new(), failure: None, restless: Vec::new() };
+    let mut search =
+        Search { system, time, tried: HashSet::new(), failure: None, restless: Vec::new() };
     let mut next = Some(system.network().initial_positions());
     while let Some(positions) = next {
         match search.attempt(positions)? {

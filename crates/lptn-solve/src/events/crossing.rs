@@ -8,7 +8,8 @@ use crate::heat::Heat;
 /// An integrator on the way.
 type Stepping<'a> = dyn Integrator<Heat<'a>> + 'a;
 
-/// Looks inside a step, besides those of the integrator at its ends: what comes and goes between them is found too.
+/// Looks inside a step, besides those of the integrator at its ends: what comes and goes between
+/// them is found too.
 const LOOKS: u32 = 4;
 
 /// Halvings of the interval in which something begins to be due: to the rounding of the time.
@@ -32,9 +33,12 @@ impl From<StopReason> for Trouble {
     }
 }
 
-/// What has to switch inside a step or at its end, by its position, and when that is; nothing at the end of a step
-/// without an event.
-pub(crate) fn find(integrator: &mut Stepping<'_>, step: &Step) -> Result<(Vec<usize>, f64), Trouble> {
+/// What has to switch inside a step or at its end, by its position, and when that is; nothing at
+/// the end of a step without an event.
+pub(crate) fn find(
+    integrator: &mut Stepping<'_>,
+    step: &Step,
+) -> Result<(Vec<usize>, f64), Trouble> {
     let mut look = Look::new(integrator);
     let mut before = step.from;
     for k in 1..=LOOKS {
@@ -49,7 +53,8 @@ pub(crate) fn find(integrator: &mut Stepping<'_>, step: &Step) -> Result<(Vec<us
         }
         before = time;
     }
-    let rising = integrator.root_directions().iter().enumerate().filter(|(_, direction)| **direction > 0);
+    let rising =
+        integrator.root_directions().iter().enumerate().filter(|(_, direction)| **direction > 0);
     let due = if step.roots { rising.map(|(position, _)| position).collect() } else { Vec::new() };
     Ok((due, step.to))
 }

@@ -3,8 +3,8 @@
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::InputError;
 
-/// A comparison changes only when its sides are apart by what this part of the tolerance makes of them: without it
-/// rounding at the moment of an event would decide which side it is on.
+/// A comparison changes only when its sides are apart by what this part of the tolerance makes of
+/// them: without it rounding at the moment of an event would decide which side it is on.
 const MARGIN: f64 = 0.01;
 
 /// What everything that switches waits for: controls in their order, then comparisons.
@@ -19,7 +19,10 @@ pub(crate) struct Gates {
 impl Gates {
     pub(crate) fn new(system: &ThermalSystem) -> Self {
         let network = system.network();
-        Self { armed: vec![true; network.controls().len()], margins: vec![0.0; network.switches().len()] }
+        Self {
+            armed: vec![true; network.controls().len()],
+            margins: vec![0.0; network.switches().len()],
+        }
     }
 
     /// How many there are.
@@ -27,8 +30,8 @@ impl Gates {
         self.armed.len() + self.margins.len()
     }
 
-    /// Writes how far each is beyond the point where it switches, positive if it has to; from the inputs, the positions and
-    /// the temperatures that `work` holds.
+    /// Writes how far each is beyond the point where it switches, positive if it has to; from the
+    /// inputs, the positions and the temperatures that `work` holds.
     pub(crate) fn excess(
         &self,
         system: &ThermalSystem,
@@ -42,8 +45,11 @@ impl Gates {
         }
         for ((id, margin), out) in system.network().switch_ids().zip(&self.margins).zip(switches) {
             let (difference, _) = system.switch_difference(work, id)?;
-            let towards_true =
-                if system.network().switches()[id.index()].holds(1.0) { difference } else { -difference };
+            let towards_true = if system.network().switches()[id.index()].holds(1.0) {
+                difference
+            } else {
+                -difference
+            };
             let holds = work.positions().switches[id.index()];
             *out = if holds { -towards_true } else { towards_true } - margin;
         }

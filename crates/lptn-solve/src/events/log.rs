@@ -42,7 +42,8 @@ impl Event {
 }
 
 impl EventKind {
-    /// Everything of a network that switches at times that are not known beforehand: controls, then comparisons.
+    /// Everything of a network that switches at times that are not known beforehand: controls, then
+    /// comparisons.
     pub fn switching(network: &Network) -> impl Iterator<Item = Self> + use<> {
         let controls = network.control_ids().map(Self::Control);
         controls.chain(network.switch_ids().map(Self::Comparison))
@@ -57,7 +58,8 @@ impl EventKind {
         }
     }
 
-    /// What it is about by name; a comparison by the element and the field it stands in, `heater.P`.
+    /// What it is about by name; a comparison by the element and the field it stands in,
+    /// `heater.P`.
     pub fn name(self, network: &Network) -> String {
         match self {
             Self::Control(id) => network.controls()[id.index()].name.clone(),

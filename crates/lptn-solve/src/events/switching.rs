@@ -39,7 +39,11 @@ pub(crate) struct Switching<'a> {
 
 impl<'a> Switching<'a> {
     /// Begins with these states of the controls, or as the network does if there are none.
-    pub(crate) fn new(system: &'a ThermalSystem, controls: &[ControlState], tolerance: f64) -> Self {
+    pub(crate) fn new(
+        system: &'a ThermalSystem,
+        controls: &[ControlState],
+        tolerance: f64,
+    ) -> Self {
         let (network, gates) = (system.network(), Gates::new(system));
         let kinds: Vec<EventKind> = EventKind::switching(network).collect();
         let mut positions = network.initial_positions();
@@ -61,16 +65,25 @@ impl<'a> Switching<'a> {
         }
     }
 
-    /// Finds the positions at the start: comparisons as they stand, controls outside their dead band by their condition.
-    pub(crate) fn begin(&mut self, heat: &mut Heat<'_>, time: f64, state: &[f64]) -> Result<(), StopReason> {
+    /// Finds the positions at the start: comparisons as they stand, controls outside their dead
+    /// band by their condition.
+    pub(crate) fn begin(
+        &mut self,
+        heat: &mut Heat<'_>,
+        time: f64,
+        state: &[f64],
+    ) -> Result<(), StopReason> {
         self.arm(time);
         let controls = self.positions.controls.len();
         let mut changed = Vec::new();
         for _ in 0..ROUNDS {
             self.install(heat);
             let holds = heat.comparisons(time, state)?;
-            let differ =
-                holds.iter().zip(&self.positions.switches).enumerate().filter(|(_, (now, was))| now != was);
+            let differ = holds
+                .iter()
+                .zip(&self.positions.switches)
+                .enumerate()
+                .filter(|(_, (now, was))| now != was);
             changed = differ.map(|(switch, _)| controls + switch).collect();
             if changed.is_empty() {
                 return self.settle(heat, time, state, &[]);
@@ -136,7 +149,8 @@ impl<'a> Switching<'a> {
     /// The next time after `time` at which a control may switch again.
     pub(crate) fn next_armed(&self, time: f64) -> f64 {
         let ends = self.network.control_ids().zip(&self.since);
-        let ends = ends.map(|(id, since)| since + self.network.min_dwell(id)).filter(|end| *end > time);
+        let ends =
+            ends.map(|(id, since)| since + self.network.min_dwell(id)).filter(|end| *end > time);
         ends.fold(f64::INFINITY, f64::min)
     }
 
@@ -146,8 +160,8 @@ impl<'a> Switching<'a> {
         states.map(|(&on, &since)| ControlState { on, since }).collect()
     }
 
-    /// The run goes on to `time`. What happened before a row, or before the present part of the run where rows are
-    /// rare, counts no longer.
+    /// The run goes on to `time`. What happened before a row, or before the present part of the run
+    /// where rows are rare, counts no longer.
     pub(crate) fn reach(&mut self, time: f64, (start, stop): (f64, f64), row: bool) {
         let part = (PARTS * (time - start) / (stop - start)).floor();
         if row || part > self.part {

@@ -38,7 +38,8 @@ impl Panel {
 impl<'a> Inputs<'a> {
     pub(crate) fn new(network: &'a Network, reference: f64) -> Self {
         let boundaries = network.boundaries().iter().map(|b| network.course(&b.temperature));
-        let forms = boundaries.chain(network.sources().iter().map(|s| network.course(&s.power))).collect();
+        let forms =
+            boundaries.chain(network.sources().iter().map(|s| network.course(&s.power))).collect();
         let rule = Rule::new();
         Self { network, scope: network.evaluation(), reference, forms, rule, inside: 0.0 }
     }
@@ -91,14 +92,19 @@ impl<'a> Inputs<'a> {
             values.iter_mut().zip(&samples).for_each(|(value, all)| *value = all[i]);
             let series = self.rule.series(&values);
             let tail = series[TERMS - 2].abs() + series[TERMS - 1].abs();
-            let missed = CHECKS.iter().zip(&checks).map(|(&x, all)| (value(&series, x) - all[i]).abs());
+            let missed =
+                CHECKS.iter().zip(&checks).map(|(&x, all)| (value(&series, x) - all[i]).abs());
             panel.errors[i] = missed.fold(tail, f64::max);
             panel.series[i] = series.to_vec();
         }
         Ok(())
     }
 
-    fn sample(&mut self, (from, to): (f64, f64), places: &[f64]) -> Result<Vec<Vec<f64>>, InputError> {
+    fn sample(
+        &mut self,
+        (from, to): (f64, f64),
+        places: &[f64],
+    ) -> Result<Vec<Vec<f64>>, InputError> {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         places.iter().map(|x| self.at((middle + half * x).clamp(from, to))).collect()
     }

@@ -1,10 +1,11 @@
 //! Inputs as Legendre series on a panel, and what a mode makes of them in closed form.
 //!
-//! A mode of rate `r` answers to `u = sum c_n P_n(x)`, x from -1 to 1 over a panel of length h, with
-//! `int exp(-r (h - s)) u(s) ds = h sum c_n w_n(r h / 2)`, where `w_n(a) = exp(-a) i_n(a)` and i_n is the
-//! modified spherical Bessel function of the first kind: from `2 i_n(a) = int exp(a x) P_n(x) dx` over (-1, 1)
-//! (Abramowitz and Stegun, Handbook of Mathematical Functions, 10.2.36, DLMF 10.60.8, with the orthogonality of
-//! P_n). The kernel is integrated exactly, so a panel may be as long as the input is smooth, however fast the mode.
+//! A mode of rate `r` answers to `u = sum c_n P_n(x)`, x from -1 to 1 over a panel of length h,
+//! with `int exp(-r (h - s)) u(s) ds = h sum c_n w_n(r h / 2)`, where `w_n(a) = exp(-a) i_n(a)` and
+//! i_n is the modified spherical Bessel function of the first kind: from
+//! `2 i_n(a) = int exp(a x) P_n(x) dx` over (-1, 1) (Abramowitz and Stegun, Handbook of
+//! Mathematical Functions, 10.2.36, DLMF 10.60.8, with the orthogonality of P_n). The kernel is
+//! integrated exactly, so a panel may be as long as the input is smooth, however fast the mode.
 
 /// Points of the Gauss-Legendre rule and terms of the series.
 pub(crate) const TERMS: usize = 16;
@@ -17,7 +18,8 @@ pub(crate) struct Rule {
 }
 
 impl Rule {
-    /// Zeros of P_n by Newton's method and weights `2 / ((1 - x^2) P_n'(x)^2)` (Abramowitz and Stegun 25.4.29).
+    /// Zeros of P_n by Newton's method and weights `2 / ((1 - x^2) P_n'(x)^2)` (Abramowitz and
+    /// Stegun 25.4.29).
     pub(crate) fn new() -> Self {
         let mut rule = Self { points: [0.0; TERMS], weights: [0.0; TERMS] };
         for k in 0..TERMS {
@@ -62,12 +64,12 @@ pub(crate) fn value(series: &[f64], x: f64) -> f64 {
     polynomials::<TERMS>(x).iter().zip(series).map(|(p, c)| p * c).sum()
 }
 
-/// Above this the recurrence for [`responses`] is run upwards: it loses at most `exp(n^2 / a)`, less than two
-/// digits.
+/// Above this the recurrence for [`responses`] is run upwards: it loses at most `exp(n^2 / a)`,
+/// less than two digits.
 const LARGE: f64 = 60.0;
 
-/// Terms above [`TERMS`] at which the downward recurrence starts: what is wrong at the start has decayed by
-/// `exp(-n^2 / a)`, 1e-40 at [`LARGE`].
+/// Terms above [`TERMS`] at which the downward recurrence starts: what is wrong at the start has
+/// decayed by `exp(-n^2 / a)`, 1e-40 at [`LARGE`].
 const MARGIN: usize = 60;
 
 /// `w_n(a) = exp(-a) i_n(a)` for n below the length of `out`, a >= 0.
@@ -104,7 +106,8 @@ mod tests {
 
     #[test]
     fn the_rule_is_the_published_one() {
-        // Abramowitz and Stegun, table 25.4, n = 16: first and last positive abscissa and their weights
+        // Abramowitz and Stegun, table 25.4, n = 16: first and last positive abscissa and their
+        // weights
         let rule = Rule::new();
         assert!((rule.points[8] - 0.095_012_509_837_637_44).abs() < 1e-15);
         assert!((rule.weights[8] - 0.189_450_610_455_068_5).abs() < 1e-14);
@@ -130,7 +133,11 @@ mod tests {
             let mut out = [0.0; TERMS];
             responses(a, &mut out);
             for (n, expected) in [0, 1, 5, 15].into_iter().zip(expected) {
-                assert!((out[n] - expected).abs() <= 2e-14 * expected.abs() + 1e-300, "{a} {n}: {}", out[n]);
+                assert!(
+                    (out[n] - expected).abs() <= 2e-14 * expected.abs() + 1e-300,
+                    "{a} {n}: {}",
+                    out[n]
+                );
             }
         }
     }

@@ -42,10 +42,11 @@ pub(crate) struct March<'a> {
     gains: Vec<Gain>,
     duration: f64,
     panels: u64,
-    /// No panel is longer where a series stands for an input: what is between its points might be missed.
+    /// No panel is longer where a series stands for an input: what is between its points might be
+    /// missed.
     longest: f64,
-    /// Largest error of the series so far, in K: that of panels on which it lasts, and the sum of those on
-    /// which it is made short instead.
+    /// Largest error of the series so far, in K: that of panels on which it lasts, and the sum of
+    /// those on which it is made short instead.
     lasting: f64,
     summed: f64,
 }
@@ -62,8 +63,19 @@ impl<'a> March<'a> {
         let islands: Vec<Driven<'a>> = islands.iter().map(driven).collect();
         let columns = 0..reduced.feeds.ncols();
         let gains = columns.map(|i| gain(reduced, &islands, i, duration)).collect();
-        let longest = if inputs.need_quadrature() { duration / LEAST_PANELS } else { f64::INFINITY };
-        Self { reduced, inputs, islands, gains, duration, panels: 0, longest, lasting: 0.0, summed: 0.0 }
+        let longest =
+            if inputs.need_quadrature() { duration / LEAST_PANELS } else { f64::INFINITY };
+        Self {
+            reduced,
+            inputs,
+            islands,
+            gains,
+            duration,
+            panels: 0,
+            longest,
+            lasting: 0.0,
+            summed: 0.0,
+        }
     }
 
     /// Enters a segment: comparisons of `t` are read inside it.
@@ -76,8 +88,8 @@ impl<'a> March<'a> {
         self.inputs.at(time)
     }
 
-    /// What series in place of inputs may have cost so far, in K; `None` where every input is constant or a
-    /// straight line, so that there is no such error.
+    /// What series in place of inputs may have cost so far, in K; `None` where every input is
+    /// constant or a straight line, so that there is no such error.
     pub(crate) fn series_error(&self) -> Option<f64> {
         self.inputs.need_quadrature().then_some(self.lasting + self.summed)
     }
@@ -101,7 +113,8 @@ impl<'a> March<'a> {
         Ok(())
     }
 
-    /// Whether the series are good enough: they cost little however long, or so little in this short time.
+    /// Whether the series are good enough: they cost little however long, or so little in this
+    /// short time.
     fn accepts(&mut self, panel: &Panel, length: f64) -> bool {
         if length > self.longest {
             return false;
@@ -131,9 +144,11 @@ impl<'a> March<'a> {
                     continue;
                 }
                 responses(0.5 * rate * length, weights);
-                let answer =
-                    |series: &Vec<f64>| -> f64 { series.iter().zip(&*weights).map(|(c, w)| c * w).sum() };
-                let heat: f64 = panel.series.iter().zip(drive).map(|(series, f)| *f * answer(series)).sum();
+                let answer = |series: &Vec<f64>| -> f64 {
+                    series.iter().zip(&*weights).map(|(c, w)| c * w).sum()
+                };
+                let heat: f64 =
+                    panel.series.iter().zip(drive).map(|(series, f)| *f * answer(series)).sum();
                 *y += length * heat;
             }
         }
@@ -142,12 +157,17 @@ impl<'a> March<'a> {
     /// Forgets everything that a boundary takes: a start from which a cycle shows what it brings.
     pub(crate) fn forget(&mut self) {
         for Driven { island, amplitude, .. } in &mut self.islands {
-            island.rates.iter().zip(amplitude).filter(|(rate, _)| **rate > 0.0).for_each(|(_, y)| *y = 0.0);
+            island
+                .rates
+                .iter()
+                .zip(amplitude)
+                .filter(|(rate, _)| **rate > 0.0)
+                .for_each(|(_, y)| *y = 0.0);
         }
     }
 
-    /// After a cycle of `period` in s from [`March::forget`]: the amplitudes that it leads back to. With what the cycle
-    /// brings, c, they obey `y = exp(-r period) y + c`.
+    /// After a cycle of `period` in s from [`March::forget`]: the amplitudes that it leads back to.
+    /// With what the cycle brings, c, they obey `y = exp(-r period) y + c`.
     pub(crate) fn repeat(&mut self, period: f64) {
         for Driven { island, amplitude, .. } in &mut self.islands {
             let forgetful = island.rates.iter().zip(amplitude).filter(|(rate, _)| **rate > 0.0);
@@ -160,9 +180,10 @@ impl<'a> March<'a> {
         self.superposed(|island, k| island.amplitude[k])
     }
 
-    /// What is wrong with the modes, in K: the rates of change that they give at `time` are put into the heat
-    /// balance of every node, path by path, and what is left over is taken as heat that lasts for the whole
-    /// run. An eigenvector or a rate that is off shows here, whatever the reason.
+    /// What is wrong with the modes, in K: the rates of change that they give at `time` are put
+    /// into the heat balance of every node, path by path, and what is left over is taken as heat
+    /// that lasts for the whole run. An eigenvector or a rate that is off shows here, whatever the
+    /// reason.
     pub(crate) fn defect(&mut self, time: f64) -> Result<f64, InputError> {
         let inputs = self.inputs.at(time)?;
         let rises = self.rises();
@@ -187,7 +208,11 @@ impl<'a> March<'a> {
         let rise = |island: &Driven<'_>| {
             let members = &island.island.members;
             island.largest_rise(self.duration, |k| {
-                members.iter().enumerate().map(|(row, &i)| island.island.shapes[(row, k)] * left[i]).sum()
+                members
+                    .iter()
+                    .enumerate()
+                    .map(|(row, &i)| island.island.shapes[(row, k)] * left[i])
+                    .sum()
             })
         };
         Ok(self.islands.iter().map(rise).fold(0.0, f64::max))
@@ -216,9 +241,14 @@ impl<'a> Driven<'a> {
         };
         let modes = 0..island.rates.len();
         let inputs = reduced.feeds.ncols();
-        let drive = |k| (0..inputs).map(|i| project(k, &|state| reduced.feeds[(state, i)])).collect();
+        let drive =
+            |k| (0..inputs).map(|i| project(k, &|state| reduced.feeds[(state, i)])).collect();
         let amplitude = |k| project(k, &|state| reduced.capacity[state] * rises[state]);
-        Self { island, drive: modes.clone().map(drive).collect(), amplitude: modes.map(amplitude).collect() }
+        Self {
+            island,
+            drive: modes.clone().map(drive).collect(),
+            amplitude: modes.map(amplitude).collect(),
+        }
     }
 
     /// The most that `heat` into each mode for `duration` can do to a member.
@@ -228,7 +258,9 @@ impl<'a> Driven<'a> {
         for (k, rate) in self.island.rates.iter().enumerate() {
             responses(0.5 * rate * duration, &mut weight);
             let answer = (heat(k) * duration * weight[0]).abs();
-            let add = |(row, rise): (usize, &mut f64)| *rise += answer * self.island.shapes[(row, k)].abs();
+            let add = |(row, rise): (usize, &mut f64)| {
+                *rise += answer * self.island.shapes[(row, k)].abs()
+            };
             rises.iter_mut().enumerate().for_each(add);
         }
         rises.into_iter().fold(0.0, f64::max)
@@ -241,6 +273,7 @@ fn gain(reduced: &Reduced, islands: &[Driven<'_>], input: usize, duration: f64) 
         .map(|island| island.largest_rise(duration, |k| island.drive[k][input]))
         .fold(0.0, f64::max);
     let states = 0..reduced.states.len();
-    let at_once = states.map(|i| reduced.feeds[(i, input)] / reduced.capacity[i]).fold(0.0, f64::max);
+    let at_once =
+        states.map(|i| reduced.feeds[(i, input)] / reduced.capacity[i]).fold(0.0, f64::max);
     Gain { lasting, at_once }
 }

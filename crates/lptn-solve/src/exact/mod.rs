@@ -1,11 +1,11 @@
 //! The exact solution of a linear network by its modes: an oracle for every other way to solve it.
 //!
 //! With `x_k` the modes of `C^-1/2 G C^-1/2` scaled so that `x_k' C x_k = 1`, the amplitudes
-//! `y_k = x_k' C (T - T_ref)` obey `dy_k/dt = -r_k y_k + f_k(t)` each by itself, and between two rows
-//! `y_k(b) = exp(-r_k (b - a)) y_k(a) + int exp(-r_k (b - s)) f_k(s) ds`. Constant and straight inputs are
-//! integrated in closed form, others through series of Legendre polynomials against the exact kernel. No step
-//! depends on the one before but through rounding, and no tolerance is passed on. Nothing is shared with
-//! `lptn-assembly` and `lptn-integrate`.
+//! `y_k = x_k' C (T - T_ref)` obey `dy_k/dt = -r_k y_k + f_k(t)` each by itself, and between two
+//! rows `y_k(b) = exp(-r_k (b - a)) y_k(a) + int exp(-r_k (b - s)) f_k(s) ds`. Constant and
+//! straight inputs are integrated in closed form, others through series of Legendre polynomials
+//! against the exact kernel. No step depends on the one before but through rounding, and no
+//! tolerance is passed on. Nothing is shared with `lptn-assembly` and `lptn-integrate`.
 
 mod inputs;
 mod legendre;
@@ -72,7 +72,8 @@ pub enum ExactError {
     /// It is not linear with constant coefficients; the name of the first item that makes it so.
     NotLinear { name: String } = "exact::not_linear",
         format!("`{name}` makes the network more than constant capacities and conductances"), help CONSTANTS;
-    /// It switches at times that are not known beforehand; the name of the first control or comparison.
+    /// It switches at times that are not known beforehand; the name of the first control or
+    /// comparison.
     Switches { name: String } = "exact::switches",
         format!("`{name}` switches at times that depend on the temperatures"), help CONSTANTS;
     /// The conductances of the massless nodes span more than the numbers can hold.
@@ -87,8 +88,8 @@ pub enum ExactError {
 }
 
 impl ExactSolution {
-    /// Temperatures of `network` at `times` in s, which increase strictly, from a start at `start` in s. At a jump
-    /// of an input the temperatures are those after it, except at the last time.
+    /// Temperatures of `network` at `times` in s, which increase strictly, from a start at `start`
+    /// in s. At a jump of an input the temperatures are those after it, except at the last time.
     ///
     /// # Errors
     /// [`ExactError`]; more than 2000 nodes are refused, and networks that switch by themselves.
@@ -139,16 +140,16 @@ impl ExactSolution {
         self.states
     }
 
-    /// What integrating inputs that are neither constant nor straight may have cost, in K; `None` where there
-    /// are none, so that everything is in closed form.
+    /// What integrating inputs that are neither constant nor straight may have cost, in K; `None`
+    /// where there are none, so that everything is in closed form.
     pub fn quadrature_error(&self) -> Option<f64> {
         self.quadrature
     }
 
-    /// An estimate of its own error in K: quadrature and rounding. The latter is what the modes miss of the
-    /// start, a few units in the last place of a temperature, and what is left over when the rates of change
-    /// that the modes give are put into the heat balance of every node at some 32 of the rows after the start,
-    /// taken as heat that lasts for the whole run.
+    /// An estimate of its own error in K: quadrature and rounding. The latter is what the modes
+    /// miss of the start, a few units in the last place of a temperature, and what is left over
+    /// when the rates of change that the modes give are put into the heat balance of every node at
+    /// some 32 of the rows after the start, taken as heat that lasts for the whole run.
     pub fn own_error(&self) -> f64 {
         self.quadrature.unwrap_or(0.0) + self.rounding
     }
@@ -161,14 +162,19 @@ impl ExactSolution {
 }
 
 impl Difference {
-    /// The largest difference between the rows of a run that kept every node and those of a reference; `None`
-    /// for a run without rows.
-    pub(crate) fn largest<'a>(solution: &Solution, reference: impl Fn(usize) -> &'a [f64]) -> Option<Self> {
+    /// The largest difference between the rows of a run that kept every node and those of a
+    /// reference; `None` for a run without rows.
+    pub(crate) fn largest<'a>(
+        solution: &Solution,
+        reference: impl Fn(usize) -> &'a [f64],
+    ) -> Option<Self> {
         let nodes: Vec<NodeId> = solution.recorded().to_vec();
         let time = *solution.times().first()?;
-        let mut found = Self { largest: -1.0, node: *nodes.first()?, time, by_node: vec![0.0; nodes.len()] };
+        let mut found =
+            Self { largest: -1.0, node: *nodes.first()?, time, by_node: vec![0.0; nodes.len()] };
         for (row, &time) in solution.times().iter().enumerate() {
-            let pairs = solution.row(row).iter().zip(reference(row)).zip(&nodes).zip(&mut found.by_node);
+            let pairs =
+                solution.row(row).iter().zip(reference(row)).zip(&nodes).zip(&mut found.by_node);
             for (((a, b), &node), most) in pairs {
                 let difference = (a - b).abs();
                 // in total order a difference that is no number is larger than any
@@ -213,7 +219,8 @@ impl<'a> Rows<'a> {
         (begin, times): (f64, &'a [f64]),
     ) -> Result<Self, ExactError> {
         let initial = reduced.initial(network)?;
-        // rises over a temperature of the network itself are small numbers with small rounding errors
+        // rises over a temperature of the network itself are small numbers with small rounding
+        // errors
         let reference = initial.first().copied().unwrap_or(lptn_network::ZERO_CELSIUS);
         let rises: Vec<f64> = initial.iter().map(|t| t - reference).collect();
         let nodes = network.nodes().len();
@@ -233,7 +240,8 @@ impl<'a> Rows<'a> {
         })
     }
 
-    /// Goes through a segment; a row at its end is left to the next one, unless it is the last of all.
+    /// Goes through a segment; a row at its end is left to the next one, unless it is the last of
+    /// all.
     fn segment(&mut self, march: &mut March<'_>, segment: Segment) -> Result<(), ExactError> {
         march.enter(segment.inside());
         let mut now = segment.from;
@@ -266,7 +274,8 @@ impl<'a> Rows<'a> {
             row[id.index()] = *rise;
         }
         for (m, id) in self.reduced.massless.iter().enumerate() {
-            let parts = known.iter().enumerate().map(|(j, value)| self.reduced.recovery[(m, j)] * value);
+            let parts =
+                known.iter().enumerate().map(|(j, value)| self.reduced.recovery[(m, j)] * value);
             row[id.index()] = parts.sum();
         }
         self.span = row.iter().fold(self.span, |span, rise| span.max(rise.abs()));
@@ -275,8 +284,9 @@ impl<'a> Rows<'a> {
         Ok(())
     }
 
-    /// Whether the modes are put to the test at the next row, which is at `time`. Not at the start: rounding of rates of
-    /// change that are gone at once would count as heat that lasts. What is left of them shows at the second row.
+    /// Whether the modes are put to the test at the next row, which is at `time`. Not at the start:
+    /// rounding of rates of change that are gone at once would count as heat that lasts. What is
+    /// left of them shows at the second row.
     fn is_tested(&self, time: f64) -> bool {
         let regular = self.next.is_multiple_of(self.times.len() / DEFECTS + 1);
         time > self.begin && (regular || self.next == 1 || self.next + 1 == self.times.len())

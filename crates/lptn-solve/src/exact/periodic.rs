@@ -20,7 +20,8 @@ pub(crate) struct ExactCycle {
 }
 
 impl ExactCycle {
-    /// The cycle from `start` on, both in s. What nothing carries away stays as the network's own start has it.
+    /// The cycle from `start` on, both in s. What nothing carries away stays as the network's own
+    /// start has it.
     pub(crate) fn solve(network: &Network, start: f64, period: f64) -> Result<Self, ExactError> {
         let stop = start + period;
         let breakpoints = network.breakpoints(start, stop)?;
@@ -37,7 +38,8 @@ impl ExactCycle {
             march.advance(segment.from, segment.to)?;
         }
         march.repeat(period);
-        let rates = islands.iter().flat_map(|island| &island.rates).copied().filter(|rate| *rate > 0.0);
+        let rates =
+            islands.iter().flat_map(|island| &island.rates).copied().filter(|rate| *rate > 0.0);
         let slowest = rates.fold(f64::INFINITY, f64::min);
         let mut temperatures = vec![f64::NAN; network.nodes().len()];
         for (id, rise) in reduced.states.iter().zip(march.rises()) {

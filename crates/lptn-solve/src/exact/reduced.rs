@@ -1,11 +1,12 @@
 //! A network as its element list says it, massless nodes eliminated by dense algebra.
 //!
-//! Written apart from `lptn-assembly` on purpose: it reads the laws of the conductors and the parts of the
-//! nodes anew and eliminates with a Cholesky factorisation, where the assembly uses the star-mesh
-//! transformation. With m the massless nodes, r the others, u the boundaries and g >= 0 the conductances
-//! between two vertices, the balance of the massless nodes is `G_mm T_m = g_mr T_r + g_mu T_u + q_m`. Put into
-//! the balances of the others it adds `g_rm G_mm^-1 g_mr` to the conductances between them: sums and products
-//! of numbers that are not negative, so that nothing cancels.
+//! Written apart from `lptn-assembly` on purpose: it reads the laws of the conductors and the parts
+//! of the nodes anew and eliminates with a Cholesky factorisation, where the assembly uses the
+//! star-mesh transformation. With m the massless nodes, r the others, u the boundaries and g >= 0
+//! the conductances between two vertices, the balance of the massless nodes is
+//! `G_mm T_m = g_mr T_r + g_mu T_u + q_m`. Put into the balances of the others it adds
+//! `g_rm G_mm^-1 g_mr` to the conductances between them: sums and products of numbers that are not
+//! negative, so that nothing cancels.
 
 use faer::Mat;
 use lptn_integrate::dense;
@@ -14,8 +15,8 @@ use lptn_units::EvalError;
 
 use super::ExactError;
 
-/// Nodes with capacity (states), what joins them, and what the inputs do to them. The inputs are the
-/// boundaries, then the sources.
+/// Nodes with capacity (states), what joins them, and what the inputs do to them. The inputs are
+/// the boundaries, then the sources.
 #[derive(Clone, Debug)]
 pub(crate) struct Reduced {
     pub(crate) states: Vec<NodeId>,
@@ -100,7 +101,10 @@ impl Elements {
             }
         }
         for (k, source) in network.sources().iter().enumerate() {
-            source.into.iter().for_each(|(node, share)| inputs[(node.index(), boundaries + k)] += share);
+            source
+                .into
+                .iter()
+                .for_each(|(node, share)| inputs[(node.index(), boundaries + k)] += share);
         }
         Ok(Self { among, inputs, boundaries })
     }
@@ -110,9 +114,10 @@ impl Elements {
         let inputs = self.inputs.ncols();
         let given = Mat::from_fn(massless.len(), states.len() + inputs, |i, j| {
             let row = massless[i].index();
-            states
-                .get(j)
-                .map_or_else(|| self.inputs[(row, j - states.len())], |s| self.among[(row, s.index())])
+            states.get(j).map_or_else(
+                || self.inputs[(row, j - states.len())],
+                |s| self.among[(row, s.index())],
+            )
         });
         if massless.is_empty() {
             return Some(given);
@@ -128,17 +133,26 @@ impl Elements {
         dense::cholesky_solve(own.as_ref(), given.as_ref())
     }
 
-    /// Conductances between the states, and what the inputs do to them, with the massless nodes gone.
-    fn eliminate(&self, massless: &[NodeId], states: &[NodeId], recovery: &Mat<f64>) -> (Mat<f64>, Mat<f64>) {
+    /// Conductances between the states, and what the inputs do to them, with the massless nodes
+    /// gone.
+    fn eliminate(
+        &self,
+        massless: &[NodeId],
+        states: &[NodeId],
+        recovery: &Mat<f64>,
+    ) -> (Mat<f64>, Mat<f64>) {
         let n = states.len();
         let direct = |i: usize, j: usize| {
             let row = states[i].index();
-            states.get(j).map_or_else(|| self.inputs[(row, j - n)], |s| self.among[(row, s.index())])
+            states
+                .get(j)
+                .map_or_else(|| self.inputs[(row, j - n)], |s| self.among[(row, s.index())])
         };
         let mut all = Mat::from_fn(n, n + self.inputs.ncols(), direct);
         if !massless.is_empty() {
-            let to_massless =
-                Mat::from_fn(n, massless.len(), |i, m| self.among[(states[i].index(), massless[m].index())]);
+            let to_massless = Mat::from_fn(n, massless.len(), |i, m| {
+                self.among[(states[i].index(), massless[m].index())]
+            });
             all += dense::product(to_massless.as_ref(), recovery.as_ref());
         }
         (all.subcols(0, n).to_owned(), all.subcols(n, self.inputs.ncols()).to_owned())

@@ -13,7 +13,8 @@ pub(crate) struct Island {
     pub(crate) members: Vec<usize>,
     /// Rate of each mode in 1/s; exactly 0 for the mean of an island without a way to a boundary.
     pub(crate) rates: Vec<f64>,
-    /// Temperature of each member (row) in each mode (column), such that the sum of `C x^2` is 1 J K.
+    /// Temperature of each member (row) in each mode (column), such that the sum of `C x^2` is 1 J
+    /// K.
     pub(crate) shapes: Mat<f64>,
 }
 
@@ -53,8 +54,8 @@ fn numbering(reduced: &Reduced) -> Vec<usize> {
     numbers
 }
 
-/// Modes slower than this share of the fastest are told apart anew: the eigenvectors of a dense solver are right to
-/// rounding of the fastest rate over the distance of two rates.
+/// Modes slower than this share of the fastest are told apart anew: the eigenvectors of a dense
+/// solver are right to rounding of the fastest rate over the distance of two rates.
 const SLOW: f64 = 1e-2;
 
 /// Paths whose differences are multiplied at once.
@@ -80,7 +81,8 @@ impl Part {
 
     fn solve(self) -> Result<Island, ExactError> {
         let n = self.members.len();
-        let (_, mut vectors) = dense::symmetric_eigen(self.scaled().as_ref()).ok_or(ExactError::Modes)?;
+        let (_, mut vectors) =
+            dense::symmetric_eigen(self.scaled().as_ref()).ok_or(ExactError::Modes)?;
         self.sharpen(&mut vectors)?;
         if self.is_loose() {
             self.take_out_the_mean(&mut vectors);
@@ -113,10 +115,11 @@ impl Part {
         a
     }
 
-    /// Tells slow modes apart that the dense solver has mixed. Rounding mixes little of the fast modes into the slow
-    /// ones, as much as a rounding error, but slow ones among each other if their rates differ by less than rounding
-    /// of the fastest. So `x' G x` of the slow ones, summed over paths, where nothing fast is left that could drown
-    /// them, is diagonalised by itself; and again the slow ones among these, until one is left.
+    /// Tells slow modes apart that the dense solver has mixed. Rounding mixes little of the fast
+    /// modes into the slow ones, as much as a rounding error, but slow ones among each other if
+    /// their rates differ by less than rounding of the fastest. So `x' G x` of the slow ones,
+    /// summed over paths, where nothing fast is left that could drown them, is diagonalised by
+    /// itself; and again the slow ones among these, until one is left.
     fn sharpen(&self, vectors: &mut Mat<f64>) -> Result<(), ExactError> {
         let mut count = vectors.ncols();
         loop {
@@ -148,13 +151,14 @@ impl Part {
             });
             sum += dense::product(difference.transpose(), difference.as_ref());
         }
-        let tied = Mat::from_fn(self.ties.len(), count, |i, k| self.ties[i].sqrt() * shapes[(i, k)]);
+        let tied =
+            Mat::from_fn(self.ties.len(), count, |i, k| self.ties[i].sqrt() * shapes[(i, k)]);
         sum += dense::product(tied.transpose(), tied.as_ref());
         sum
     }
 
-    /// The slowest mode of an island that nothing leaves is known: all at one temperature. The others are
-    /// made orthogonal to it, so that they carry no heat to the last digit.
+    /// The slowest mode of an island that nothing leaves is known: all at one temperature. The
+    /// others are made orthogonal to it, so that they carry no heat to the last digit.
     fn take_out_the_mean(&self, vectors: &mut Mat<f64>) {
         let size = self.root.iter().map(|r| r * r).sum::<f64>().sqrt();
         for (i, root) in self.root.iter().enumerate() {
@@ -169,11 +173,12 @@ impl Part {
         }
     }
 
-    /// Rayleigh's quotient as a sum of the heat of every path: positive terms, so that slow modes keep their
-    /// digits beside fast ones, which the eigenvalues of a dense solver do not.
+    /// Rayleigh's quotient as a sum of the heat of every path: positive terms, so that slow modes
+    /// keep their digits beside fast ones, which the eigenvalues of a dense solver do not.
     fn rate(&self, shapes: &Mat<f64>, k: usize) -> f64 {
         let x = |i: usize| shapes[(i, k)];
-        let links: f64 = self.links.iter().map(|&(i, j, g)| g * (x(i) - x(j)) * (x(i) - x(j))).sum();
+        let links: f64 =
+            self.links.iter().map(|&(i, j, g)| g * (x(i) - x(j)) * (x(i) - x(j))).sum();
         let ties: f64 = self.ties.iter().enumerate().map(|(i, g)| g * x(i) * x(i)).sum();
         let norm: f64 = self.root.iter().enumerate().map(|(i, r)| (r * x(i)) * (r * x(i))).sum();
         (links + ties) / norm

@@ -31,7 +31,8 @@ pub(super) struct Cycles<'a> {
     controls: Vec<ControlState>,
     /// And the massless nodes of several solutions, in K.
     stood: Vec<f64>,
-    /// Whether they stood there too at the start of the last one, and everything switched as in the cycle before it.
+    /// Whether they stood there too at the start of the last one, and everything switched as in the
+    /// cycle before it.
     pub(super) repeats: bool,
     /// Whether they then had as long to stay as they are.
     pub(super) same_times: bool,
@@ -100,7 +101,11 @@ impl<'a> Cycles<'a> {
         self.run(&Transient { tolerance, ..self.settings.clone() }, start)
     }
 
-    fn run(&mut self, settings: &Transient, start: Vec<f64>) -> Result<(Shot, Solution), PeriodicError> {
+    fn run(
+        &mut self,
+        settings: &Transient,
+        start: Vec<f64>,
+    ) -> Result<(Shot, Solution), PeriodicError> {
         let from = State::of_carried(start).standing(self.stood.clone());
         let settings = &Transient { controls: self.controls.clone(), ..settings.clone() };
         let solution =
@@ -121,7 +126,8 @@ impl<'a> Cycles<'a> {
         Ok((shot, solution))
     }
 
-    /// Whether controls end where they began, with as long to stay there, and what switched is what did before.
+    /// Whether controls end where they began, with as long to stay there, and what switched is what
+    /// did before.
     fn compare(&mut self, settings: &Transient, solution: &Solution) {
         let (network, period) = (self.system.network(), settings.stop - settings.start);
         let back = |state: &ControlState| ControlState { since: state.since - period, ..*state };
@@ -130,12 +136,17 @@ impl<'a> Cycles<'a> {
         let rest = |(id, state): (ControlId, &ControlState)| {
             (state.since + network.min_dwell(id) - settings.start).max(0.0)
         };
-        let stays =
-            |states: &[ControlState]| -> Vec<f64> { network.control_ids().zip(states).map(rest).collect() };
+        let stays = |states: &[ControlState]| -> Vec<f64> {
+            network.control_ids().zip(states).map(rest).collect()
+        };
         let (before, after) = (stays(&self.controls), stays(&next));
-        let long =
-            before.iter().zip(&after).all(|(a, b)| (a - b).abs() <= SAME_TIME * settings.tolerance * period);
-        let on = |states: &[ControlState]| -> Vec<bool> { states.iter().map(|state| state.on).collect() };
+        let long = before
+            .iter()
+            .zip(&after)
+            .all(|(a, b)| (a - b).abs() <= SAME_TIME * settings.tolerance * period);
+        let on = |states: &[ControlState]| -> Vec<bool> {
+            states.iter().map(|state| state.on).collect()
+        };
         let limit = |event: &&Event| !matches!(event.kind, EventKind::Limit(_));
         let switched: Vec<(EventKind, u8)> =
             solution.events().iter().filter(limit).map(|event| (event.kind, event.after)).collect();

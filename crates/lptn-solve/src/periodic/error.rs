@@ -17,7 +17,8 @@ pub enum PeriodicError {
         };
     /// An input has no value.
     Input => InputError;
-    /// Some nodes lead to no boundary and gain or lose heat in every cycle, this much in J in the first one.
+    /// Some nodes lead to no boundary and gain or lose heat in every cycle, this much in J in the
+    /// first one.
     NoBalance { nodes: Vec<NodeId>, names: Vec<String>, heat: f64 } = "periodic::no_balance",
         format!(
             "no path leads to a boundary from {}, where every cycle leaves {} J: there is no periodic state",
@@ -25,7 +26,8 @@ pub enum PeriodicError {
             six_digits(*heat)
         ),
         help "add a path to a boundary, or look at `lptn run`";
-    /// The cycles do not come to the same state; the smallest difference in K between the start of a cycle and its end.
+    /// The cycles do not come to the same state; the smallest difference in K between the start of
+    /// a cycle and its end.
     NotFound { cycles: usize, residual: f64 } = "periodic::not_found",
         format!(
             "{cycles} cycles came to no state that repeats itself; the best one was off by {residual:.1e} K"
@@ -37,8 +39,8 @@ pub enum PeriodicError {
         help "the controls have a rhythm of their own: look at `lptn run`, and at means over many cycles", class Class::No;
     /// A cycle could not be integrated.
     Cycle => TransientError as Class::of_numbers;
-    /// The observer asked for an end, after so many whole cycles; the last difference in K between the start of a cycle and its
-    /// end, if there was one.
+    /// The observer asked for an end, after so many whole cycles; the last difference in K between
+    /// the start of a cycle and its end, if there was one.
     Interrupted { cycles: usize, residual: Option<f64> } = "periodic::interrupted",
         format!("interrupted after {cycles} cycles"), class Class::Interrupted;
 }
@@ -57,7 +59,8 @@ impl PeriodicError {
 
 fn not_periodic(found: &NotPeriodic) -> String {
     let unit = found.unit.as_ref().map_or(String::new(), |unit| format!(" {unit}"));
-    let value = |value: Option<f64>| value.map_or("nothing".into(), |x| format!("{}{unit}", six_digits(x)));
+    let value =
+        |value: Option<f64>| value.map_or("nothing".into(), |x| format!("{}{unit}", six_digits(x)));
     let [now, then] = found.values.map(value);
     format!(
         "`{}` does not repeat itself: it is {now} at {} s and {then} one period of {} s later",

@@ -12,8 +12,9 @@ const ITERATIONS: usize = 100;
 /// More states than these are not factorised for an estimate.
 const MOST_STATES: usize = 20_000;
 
-/// The slowest time constant in s of small disturbances of a state at a time in s, everything held as it is there, by
-/// inverse iteration with the capacities. `None` where nothing is forgotten, and for very many states.
+/// The slowest time constant in s of small disturbances of a state at a time in s, everything held
+/// as it is there, by inverse iteration with the capacities. `None` where nothing is forgotten, and
+/// for very many states.
 pub(super) fn slowest(system: &ThermalSystem, time: f64, carried: &[f64]) -> Option<f64> {
     if system.states().len() > MOST_STATES || !system.network().ungrounded().is_empty() {
         return None;
@@ -24,7 +25,8 @@ pub(super) fn slowest(system: &ThermalSystem, time: f64, carried: &[f64]) -> Opt
     let temperatures = unfold.temperatures(&mut work, carried).ok()?.to_vec();
     let mut newton = Newton::new(system, (0..temperatures.len()).collect()).ok()?;
     newton.factorize(&mut work, &temperatures, 0.0).ok()?;
-    let capacity: Vec<f64> = system.mass().iter().zip(unfold.slopes()).map(|(c, slope)| c / slope).collect();
+    let capacity: Vec<f64> =
+        system.mass().iter().zip(unfold.slopes()).map(|(c, slope)| c / slope).collect();
     let mut x = vec![1.0; temperatures.len()];
     let mut slowest = 0.0;
     for _ in 0..ITERATIONS {

@@ -1,4 +1,5 @@
-//! The periodic state of a repeating cycle, by shooting: the start of a cycle that is its end as well.
+//! The periodic state of a repeating cycle, by shooting: the start of a cycle that is its end as
+//! well.
 
 mod cycle;
 mod error;
@@ -43,27 +44,30 @@ pub struct Periodic {
     pub steps: u64,
     /// Evaluations of the heat flows in all cycles.
     pub flow_evaluations: u64,
-    /// The largest difference in K between the start of the cycle and its end, as integrated, of what is carried (see
-    /// [`State`]).
+    /// The largest difference in K between the start of the cycle and its end, as integrated, of
+    /// what is carried (see [`State`]).
     pub residual: f64,
-    /// The largest part of a disturbance that one cycle leaves over, from 0 to 1; for a network that is not linear an
-    /// estimate, the larger one of what the cycles integrated show and of what the slowest time constant of its balances,
-    /// as they are at the start and in the middle of the cycle, makes of it. `None` without states, or where nothing forgets.
+    /// The largest part of a disturbance that one cycle leaves over, from 0 to 1; for a network
+    /// that is not linear an estimate, the larger one of what the cycles integrated show and of
+    /// what the slowest time constant of its balances, as they are at the start and in the middle
+    /// of the cycle, makes of it. `None` without states, or where nothing forgets.
     pub multiplier: Option<f64>,
-    /// By how much in K the state may differ from one that repeats itself exactly. By modes: rounding, and series in
-    /// place of inputs. By shooting: residual and rounding over `1 - multiplier`, what all later cycles would add up to if the slowest
-    /// part of the network had all of the residual. The error of the integration, ten tolerances, comes on top.
+    /// By how much in K the state may differ from one that repeats itself exactly. By modes:
+    /// rounding, and series in place of inputs. By shooting: residual and rounding over
+    /// `1 - multiplier`, what all later cycles would add up to if the slowest part of the network
+    /// had all of the residual. The error of the integration, ten tolerances, comes on top.
     pub error: f64,
 }
 
 impl Periodic {
-    /// The periodic state of a network whose inputs repeat after `settings.stop - settings.start`, and the cycle from
-    /// there on.
+    /// The periodic state of a network whose inputs repeat after `settings.stop - settings.start`,
+    /// and the cycle from there on.
     ///
-    /// A linear network of up to 2000 nodes is solved in closed form. Others are integrated cycle by cycle from the
-    /// network's own start (which a network with several periodic states leads to one of them), coarsely at first, each
-    /// cycle beginning where those before it make the next difference smallest; until the error is below ten
-    /// tolerances, or the residual is and comes no further.
+    /// A linear network of up to 2000 nodes is solved in closed form. Others are integrated cycle
+    /// by cycle from the network's own start (which a network with several periodic states leads to
+    /// one of them), coarsely at first, each cycle beginning where those before it make the next
+    /// difference smallest; until the error is below ten tolerances, or the residual is and comes
+    /// no further.
     ///
     /// # Errors
     /// [`PeriodicError`].
@@ -71,7 +75,8 @@ impl Periodic {
         Self::find_observed(system, settings, &mut |_| Control::Continue)
     }
 
-    /// As [`Periodic::find`], with an observer that is called after every step of every cycle and may interrupt.
+    /// As [`Periodic::find`], with an observer that is called after every step of every cycle and
+    /// may interrupt.
     ///
     /// # Errors
     /// As [`Periodic::find`].
@@ -80,7 +85,9 @@ impl Periodic {
         settings: &Transient,
         observer: &mut dyn FnMut(Progress) -> Control,
     ) -> Result<Self, PeriodicError> {
-        settings.check().map_err(|e| PeriodicError::Cycle(crate::error::TransientError::Settings(e)))?;
+        settings
+            .check()
+            .map_err(|e| PeriodicError::Cycle(crate::error::TransientError::Settings(e)))?;
         let (network, period) = (system.network(), settings.stop - settings.start);
         let repeats = network.check_period(settings.start, period)?;
         repeats.map_err(PeriodicError::NotPeriodic)?;
@@ -92,7 +99,11 @@ impl Periodic {
             return Ok(Self::stateless(solution));
         }
         check_balance(&mut cycles)?;
-        let exact = if system.is_linear() && !network.has_events() { exact(system, settings) } else { None };
+        let exact = if system.is_linear() && !network.has_events() {
+            exact(system, settings)
+        } else {
+            None
+        };
         let method = if exact.is_some() { Method::Modes } else { Method::Shooting };
         let found = match exact {
             Some((start, exact)) => by_modes(&mut cycles, start, (&exact, settings.tolerance))?,
@@ -147,10 +158,16 @@ fn by_modes(
 ) -> Result<Found, PeriodicError> {
     let (shot, solution) = cycles.record(start, tolerance)?;
     let forgets = exact.multiplier > 0.0;
-    Ok(Found { shot, solution, multiplier: forgets.then_some(exact.multiplier), error: exact.error })
+    Ok(Found {
+        shot,
+        solution,
+        multiplier: forgets.then_some(exact.multiplier),
+        error: exact.error,
+    })
 }
 
-/// Heat that a cycle leaves in nodes without a way out is real if it is so many times what the books leave open.
+/// Heat that a cycle leaves in nodes without a way out is real if it is so many times what the
+/// books leave open.
 const REAL: f64 = 10.0;
 
 /// Refuses nodes that lead to no boundary and that a cycle does not leave with the heat they had.

@@ -16,8 +16,9 @@ const COARSEST: f64 = 1e-3;
 /// .. and goes on with this part of it, ..
 const FINER: f64 = 1e-2;
 
-/// .. unless the tolerance asked for is within this of the next one. A network that hardly forgets anything in a cycle
-/// adds up what the integrator leaves over in very many: then the search goes on beyond that tolerance, ..
+/// .. unless the tolerance asked for is within this of the next one. A network that hardly forgets
+/// anything in a cycle adds up what the integrator leaves over in very many: then the search goes
+/// on beyond that tolerance, ..
 const NEAR: f64 = 20.0;
 
 /// .. but not below this in K: near 300 K the last digit is 6e-14 K.
@@ -29,10 +30,12 @@ const MOST_CYCLES: usize = 300;
 /// The error of a cycle is so many tolerances.
 const ERROR: f64 = 10.0;
 
-/// Cycles without a residual smaller by half, after which it is held to be what the integrator makes up.
+/// Cycles without a residual smaller by half, after which it is held to be what the integrator
+/// makes up.
 const PATIENCE: usize = 2;
 
-/// No next cycle begins further from the end of the last one than this times what later cycles would add up to; ..
+/// No next cycle begins further from the end of the last one than this times what later cycles
+/// would add up to; ..
 const REACH: f64 = 2.0;
 
 /// .. less by this factor after each step that led nowhere, ..
@@ -47,10 +50,12 @@ const ASTRAY: f64 = 3.0;
 /// .. and so has every one after so many without progress.
 const MOST_IDLE: usize = 8;
 
-/// Cycles that begin where the last one ended, after one with a larger residual: what is fast settles by itself.
+/// Cycles that begin where the last one ended, after one with a larger residual: what is fast
+/// settles by itself.
 const RELAXED: usize = 2;
 
-/// What is taken for the largest part of a disturbance that a cycle leaves over, as long as nothing shows it.
+/// What is taken for the largest part of a disturbance that a cycle leaves over, as long as nothing
+/// shows it.
 const UNKNOWN: f64 = 0.9;
 
 /// .. and where cycles seem to forget nothing.
@@ -143,8 +148,9 @@ impl<'a, 'b> Search<'a, 'b> {
         let Some(best) = &self.best else { return };
         let (start, period) = self.cycles.span();
         let times = [start, start + 0.5 * period];
-        let slowest =
-            times.into_iter().filter_map(|time| memory::slowest(self.cycles.system, time, &best.end));
+        let slowest = times
+            .into_iter()
+            .filter_map(|time| memory::slowest(self.cycles.system, time, &best.end));
         self.frozen = slowest.map(|tau| (-period / tau).exp()).fold(self.frozen, f64::max);
         self.multiplier = self.multiplier.map(|rho| rho.max(self.frozen));
     }
@@ -175,12 +181,15 @@ impl<'a, 'b> Search<'a, 'b> {
                     self.strayed = RELAXED;
                 }
                 Verdict::GoOn => start = next.start,
-                Verdict::Switches => start = self.best.as_ref().map_or(next.start, |shot| shot.end.clone()),
+                Verdict::Switches => {
+                    start = self.best.as_ref().map_or(next.start, |shot| shot.end.clone())
+                }
             }
         }
     }
 
-    /// The last cycle is integrated with everything that was asked for; if it is not the last, others follow.
+    /// The last cycle is integrated with everything that was asked for; if it is not the last,
+    /// others follow.
     fn record(mut self, mut start: Vec<f64>, level: f64) -> Result<Found, PeriodicError> {
         loop {
             self.check_count()?;
@@ -208,8 +217,8 @@ impl<'a, 'b> Search<'a, 'b> {
         Err(PeriodicError::NotFound { cycles: self.cycles.count, residual: self.least })
     }
 
-    /// Integrates a cycle. One that begins where no cycle came to may begin where none can: then from where the best one
-    /// ended.
+    /// Integrates a cycle. One that begins where no cycle came to may begin where none can: then
+    /// from where the best one ended.
     fn shoot(&mut self, start: Vec<f64>, level: f64) -> Result<Shot, PeriodicError> {
         match (self.cycles.shoot(start, level), &self.best) {
             (Err(PeriodicError::Cycle(TransientError::Stopped { .. })), Some(best)) => {
@@ -241,13 +250,16 @@ impl<'a, 'b> Search<'a, 'b> {
         } else if least.is_some_and(|least| size > ASTRAY * least) || self.idle > MOST_IDLE {
             self.astray = Some(shot);
         }
-        self.multiplier = self.secants.multiplier().or(self.multiplier).map(|rho| rho.max(self.frozen));
+        self.multiplier =
+            self.secants.multiplier().or(self.multiplier).map(|rho| rho.max(self.frozen));
         let settled = amplified(residual, self.multiplier) <= noise;
-        let stuck = self.multiplier.is_some() && residual.min(best) <= noise && self.idle >= PATIENCE;
+        let stuck =
+            self.multiplier.is_some() && residual.min(best) <= noise && self.idle >= PATIENCE;
         if (settled || stuck) && self.cycles.same_times { Verdict::Settled } else { Verdict::GoOn }
     }
 
-    /// Where the next cycle begins: after the best one, unless the last one may become better by itself.
+    /// Where the next cycle begins: after the best one, unless the last one may become better by
+    /// itself.
     fn next(&mut self) -> Result<Next, PeriodicError> {
         if let Some(last) = self.astray.take() {
             self.strayed += 1;
@@ -269,17 +281,22 @@ impl<'a, 'b> Search<'a, 'b> {
     }
 }
 
-/// Whether a cycle maps its start to its end by a matrix and an offset, streams of constant capacity included.
+/// Whether a cycle maps its start to its end by a matrix and an offset, streams of constant
+/// capacity included.
 fn linear(system: &ThermalSystem) -> bool {
     let network = system.network();
-    let paths =
-        network.conductor_ids().all(|id| matches!(network.flow(id), Flow::Conductance(_) | Flow::Stream(_)));
+    let paths = network
+        .conductor_ids()
+        .all(|id| matches!(network.flow(id), Flow::Conductance(_) | Flow::Stream(_)));
     let sources = network.source_ids().all(|id| network.source_variables(id).is_empty());
-    !network.has_events() && paths && sources && network.node_ids().all(|id| network.enthalpy(id).is_none())
+    !network.has_events()
+        && paths
+        && sources
+        && network.node_ids().all(|id| network.enthalpy(id).is_none())
 }
 
-/// What a residual and the rounding of a temperature add up to if all of it fades as slowly as the slowest part; infinite
-/// where that is not known or does not fade.
+/// What a residual and the rounding of a temperature add up to if all of it fades as slowly as the
+/// slowest part; infinite where that is not known or does not fade.
 fn amplified(residual: f64, multiplier: Option<f64>) -> f64 {
     match multiplier {
         Some(rho) if rho < 1.0 => (residual + ROUNDING) / (1.0 - rho),

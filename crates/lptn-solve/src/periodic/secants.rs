@@ -1,10 +1,11 @@
 //! What the cycles integrated so far tell about the map from the start of a cycle to its end.
 //!
-//! With `f = g - y`, y the start of a cycle and g its end, the next start is `g - dG c`, where c makes `f - dF c`
-//! smallest and dG, dF are the differences between cycles: Anderson's mixing (D. G. Anderson, J. ACM 12 (1965) 547) in
-//! its multisecant form (H. Fang and Y. Saad, Numer. Linear Algebra Appl. 16 (2009) 197). For a linear map it is GMRES on
-//! `y - Phi(y) = 0` (H. F. Walker and P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715), and it needs no differences that are
-//! taken for their own sake. Norms are weighted by capacity: a conductive network forgets in that norm.
+//! With `f = g - y`, y the start of a cycle and g its end, the next start is `g - dG c`, where c
+//! makes `f - dF c` smallest and dG, dF are the differences between cycles: Anderson's mixing (D.
+//! G. Anderson, J. ACM 12 (1965) 547) in its multisecant form (H. Fang and Y. Saad, Numer. Linear
+//! Algebra Appl. 16 (2009) 197). For a linear map it is GMRES on `y - Phi(y) = 0` (H. F. Walker and
+//! P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715), and it needs no differences that are taken for
+//! their own sake. Norms are weighted by capacity: a conductive network forgets in that norm.
 
 use std::collections::VecDeque;
 
@@ -17,7 +18,8 @@ const MOST: usize = 30;
 /// A difference counts if what is new in it is so many times what may be wrong with it.
 const CLEAR: f64 = 3.0;
 
-/// The map of a network that is not linear bends: over a difference of so many K its slope is another one.
+/// The map of a network that is not linear bends: over a difference of so many K its slope is
+/// another one.
 const BEND: f64 = 300.0;
 
 /// Differences between two cycles, in K.
@@ -86,12 +88,13 @@ impl Secants {
         self.last = Some(shot);
     }
 
-    /// Where the next cycle had best begin, after this one: no further away from its end than `most` in K. `None` where
-    /// no difference helps.
+    /// Where the next cycle had best begin, after this one: no further away from its end than
+    /// `most` in K. `None` where no difference helps.
     pub(super) fn next(&self, shot: &Shot, most: f64) -> Option<Vec<f64>> {
         let directions = self.directions(|pair| (minus(&pair.end, &pair.start), pair.end.clone()));
         let residual = minus(&shot.end, &shot.start);
-        let shares: Vec<f64> = directions.iter().map(|d| self.product(&d.vector, &residual)).collect();
+        let shares: Vec<f64> =
+            directions.iter().map(|d| self.product(&d.vector, &residual)).collect();
         // the last ones are those of the cycles longest ago
         for count in (1..=directions.len()).rev() {
             let mut step = vec![0.0; residual.len()];
@@ -110,12 +113,14 @@ impl Secants {
         self.length(&minus(&shot.end, &shot.start))
     }
 
-    /// The largest factor by which a cycle multiplies a disturbance, of those that the differences show: Ritz values of
-    /// the map (W. E. Arnoldi, Quart. Appl. Math. 9 (1951) 17). `None` if there is no difference that shows one.
+    /// The largest factor by which a cycle multiplies a disturbance, of those that the differences
+    /// show: Ritz values of the map (W. E. Arnoldi, Quart. Appl. Math. 9 (1951) 17). `None` if
+    /// there is no difference that shows one.
     pub(super) fn multiplier(&self) -> Option<f64> {
         let directions = self.directions(|pair| (pair.start.clone(), pair.end.clone()));
         let n = directions.len();
-        let entry = |i: usize, j: usize| self.product(&directions[i].vector, &directions[j].partner);
+        let entry =
+            |i: usize, j: usize| self.product(&directions[i].vector, &directions[j].partner);
         if n == 0 {
             return None;
         }
@@ -124,13 +129,14 @@ impl Secants {
         largest.is_finite().then_some(largest)
     }
 
-    /// Orthonormal combinations of what `of` takes first from each difference, the latest first, without those that may
-    /// be made up of what is wrong with the differences.
+    /// Orthonormal combinations of what `of` takes first from each difference, the latest first,
+    /// without those that may be made up of what is wrong with the differences.
     fn directions(&self, of: impl Fn(&Pair) -> (Vec<f64>, Vec<f64>)) -> Vec<Direction> {
         let mut known: Vec<Direction> = Vec::new();
         for pair in &self.pairs {
             let (mut vector, mut partner) = of(pair);
-            let mut wrong = pair.noise + self.length(&vector) * self.length(&pair.start) / self.bend;
+            let mut wrong =
+                pair.noise + self.length(&vector) * self.length(&pair.start) / self.bend;
             // twice is enough
             for _ in 0..2 {
                 for direction in &known {

@@ -16,7 +16,8 @@ impl Recorder<'_> {
         !(self.seen.is_empty() && self.limits.is_empty())
     }
 
-    /// Looks at watched nodes and limits and into the windows between two times, anew where results may jump.
+    /// Looks at watched nodes and limits and into the windows between two times, anew where results
+    /// may jump.
     pub(super) fn look_between(
         &mut self,
         step: (f64, f64),
@@ -62,14 +63,19 @@ impl Recorder<'_> {
         outcome
     }
 
-    fn look(&mut self, (from, to): (f64, f64), state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
+    fn look(
+        &mut self,
+        (from, to): (f64, f64),
+        state_at: &mut StateAt<'_>,
+    ) -> Result<(), StopReason> {
         let count = SAMPLES + 1;
         for (points, seen) in self.points.iter_mut().zip(&self.seen) {
             points.clear();
             points.push(seen.last_point());
         }
         for k in 1..=count {
-            let time = if k == count { to } else { from + (to - from) * f64::from(k) / f64::from(count) };
+            let time =
+                if k == count { to } else { from + (to - from) * f64::from(k) / f64::from(count) };
             self.place_at(time, state_at)?;
             let nodes = self.system.node_temperatures(&self.work);
             for (list, seen) in self.points.iter_mut().zip(&self.seen) {
@@ -120,7 +126,12 @@ impl Recorder<'_> {
         Ok(())
     }
 
-    fn margin_at(&mut self, id: LimitId, time: f64, state_at: &mut StateAt<'_>) -> Result<f64, StopReason> {
+    fn margin_at(
+        &mut self,
+        id: LimitId,
+        time: f64,
+        state_at: &mut StateAt<'_>,
+    ) -> Result<f64, StopReason> {
         self.place_at(time, state_at)?;
         let at = (time, self.inside);
         self.limits.margin(id, &mut self.work, at).map_err(StopReason::Input)

@@ -1,8 +1,8 @@
 //! Folds: where the solution that a massless node follows ends, so that it leaps to another one.
 //!
-//! Heat refuses to leave the branch (`branch.rs`), so that the integrator gets to the fold in ever shorter steps. So near
-//! that it does not matter when, the state is taken a little further along its present course, the node leaps there, and
-//! the run goes on from where it was.
+//! Heat refuses to leave the branch (`branch.rs`), so that the integrator gets to the fold in ever
+//! shorter steps. So near that it does not matter when, the state is taken a little further along
+//! its present course, the node leaps there, and the run goes on from where it was.
 
 use lptn_integrate::{IntegrateError, OdeSystem};
 
@@ -11,11 +11,12 @@ use crate::times::Segment;
 use crate::transient::{Break, Care, Run};
 use crate::unsolved::Unsolved;
 
-/// How late a massless node may be at a fold: the share of the tolerance by which another node moves meanwhile.
+/// How late a massless node may be at a fold: the share of the tolerance by which another node
+/// moves meanwhile.
 const LATE: f64 = 1e-2;
 
-/// How far a state stays in front of a fold, as a share of that: the last digits of the balances tell the same there to
-/// everyone who looks.
+/// How far a state stays in front of a fold, as a share of that: the last digits of the balances
+/// tell the same there to everyone who looks.
 const MARGIN: f64 = 0.1;
 
 /// The shortest distance to a fold that is looked beyond, as a part of the longest.
@@ -55,8 +56,8 @@ impl Run<'_> {
         Ok(ahead)
     }
 
-    /// How far a step gets, up to `to`, before a massless node is at the end of its branch. What the last correction of a
-    /// step adds may lie beyond it.
+    /// How far a step gets, up to `to`, before a massless node is at the end of its branch. What
+    /// the last correction of a step adds may lie beyond it.
     pub(super) fn reaches(&mut self, from: f64, to: f64) -> Result<f64, Break> {
         if !self.integrator.system().is_guarded() {
             return Ok(to);
@@ -109,7 +110,11 @@ impl Run<'_> {
     }
 
     /// A step that failed in front of a fold leaps, or is tried again nearer to it.
-    pub(super) fn leap_or_fail(&mut self, segment: Segment, error: IntegrateError) -> Result<(), Break> {
+    pub(super) fn leap_or_fail(
+        &mut self,
+        segment: Segment,
+        error: IntegrateError,
+    ) -> Result<(), Break> {
         let at_fold = self.integrator.system().fold.is_some();
         if !at_fold || self.stuck >= ATTEMPTS {
             return Err(self.failed(error));
@@ -141,7 +146,9 @@ impl Run<'_> {
         let mut rates = vec![0.0; state.len()];
         if heat.flow(time, &state, &mut rates).is_ok() {
             rates.iter_mut().zip(&mass).for_each(|(rate, mass)| *rate /= mass);
-        } else if let Some((before, stood)) = self.stood.as_ref().filter(|(before, _)| *before < time) {
+        } else if let Some((before, stood)) =
+            self.stood.as_ref().filter(|(before, _)| *before < time)
+        {
             // by the last correction of the step it is beyond the fold already
             let course = state.iter().zip(stood).map(|(now, was)| (now - was) / (time - before));
             rates = course.collect();
@@ -155,7 +162,8 @@ impl Run<'_> {
         let mut ahead = (fold - time).max(LEAST * late).max(4.0 * f64::EPSILON * time.abs());
         for _ in 0..DOUBLINGS {
             ahead *= 2.0;
-            let beyond: Vec<f64> = state.iter().zip(&rates).map(|(y, rate)| y + ahead * rate).collect();
+            let beyond: Vec<f64> =
+                state.iter().zip(&rates).map(|(y, rate)| y + ahead * rate).collect();
             if heat.leap((time + ahead, &beyond), (time, &state)) {
                 heat.failure = None;
                 self.integrator.restart(None).map_err(|e| self.failed(e))?;

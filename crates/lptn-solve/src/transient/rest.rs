@@ -1,8 +1,8 @@
 //! Where a network comes to rest from its start while its inputs are held.
 //!
-//! Newton's method finds one of several steady states, not the one that the network comes to. The integrator follows the
-//! network with its capacities, folds and switches; its steps grow as it settles, so that this costs little more than the
-//! way itself.
+//! Newton's method finds one of several steady states, not the one that the network comes to. The
+//! integrator follows the network with its capacities, folds and switches; its steps grow as it
+//! settles, so that this costs little more than the way itself.
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{OutputTimes, Positions};
@@ -45,8 +45,8 @@ pub(crate) struct Rest {
     pub(crate) positions: Positions,
 }
 
-/// Follows a network from its start with its inputs as they are at `time` in s; `None` where it does not come to rest,
-/// or cannot be followed.
+/// Follows a network from its start with its inputs as they are at `time` in s; `None` where it
+/// does not come to rest, or cannot be followed.
 pub(crate) fn rest(system: &ThermalSystem, time: f64) -> Option<Rest> {
     let mut newton = Newton::new(system, (0..system.unknowns().len()).collect()).ok()?;
     let (segment, mut run) = Run::held(system, time)?;
@@ -89,10 +89,12 @@ impl<'a> Run<'a> {
             ..Transient::until(lptn_network::Time(segment.to))
         };
         let mut recorder =
-            Recorder::new(system, (settings.rows().ok()?, Readings::none(segment)), &settings).ok()?;
+            Recorder::new(system, (settings.rows().ok()?, Readings::none(segment)), &settings)
+                .ok()?;
         recorder.idle = true;
         let mut run =
-            Self::new(recorder, (segment, None), (&settings, Care::Way), &State::initial(system)).ok()?;
+            Self::new(recorder, (segment, None), (&settings, Care::Way), &State::initial(system))
+                .ok()?;
         run.integrator.system_mut().held = Some((time, just_after(time)));
         Some((segment, run))
     }

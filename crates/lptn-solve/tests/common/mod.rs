@@ -1,7 +1,9 @@
 //! Networks of the validation set, written out.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used, reason = "each test file uses a part")]
 
-use lptn_network::{Conductance, HeatCapacity, HeatFlow, Network, NetworkBuilder, NodeId, Temperature};
+use lptn_network::{
+    Conductance, HeatCapacity, HeatFlow, Network, NetworkBuilder, NodeId, Temperature,
+};
 
 pub const ZERO: f64 = 273.15;
 
@@ -48,7 +50,8 @@ pub fn two_masses() -> Network {
 pub fn nafems_t3() -> Network {
     let zero = Temperature::celsius(0.0);
     let mut b = NetworkBuilder::new();
-    let nodes: Vec<NodeId> = (1..100).map(|i| b.node(&format!("n{i}"), HeatCapacity(3171.6), zero)).collect();
+    let nodes: Vec<NodeId> =
+        (1..100).map(|i| b.node(&format!("n{i}"), HeatCapacity(3171.6), zero)).collect();
     let cold = b.boundary("n0", zero);
     let heat = b.expression("0 [degC] + 100 [K] * sin(pi * t / 40 [s])", None).unwrap();
     let hot = b.boundary("n100", heat);
@@ -72,8 +75,8 @@ pub fn one_node(c: f64, boundary: &str, power: &str) -> Network {
     b.build().unwrap()
 }
 
-/// Six nodes in a row, capacities over nine decades, conductances over five, 50 W into the first, the last
-/// tied to a boundary at 0 degC. Its rates span 1.1e14.
+/// Six nodes in a row, capacities over nine decades, conductances over five, 50 W into the first,
+/// the last tied to a boundary at 0 degC. Its rates span 1.1e14.
 pub fn stiff() -> Network {
     let zero = Temperature::celsius(0.0);
     let mut b = NetworkBuilder::new();

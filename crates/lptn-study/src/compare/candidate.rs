@@ -4,8 +4,8 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
 use lptn_network::{InputError, Network, Severity};
 use lptn_solve::{
-    Beyond, Control, End, NodeSummary, Others, OutputTimes, Progress, Record, Solution, SteadyError,
-    SteadyState, Summary, Transient, TransientError, Unsolved, first_there,
+    Beyond, Control, End, NodeSummary, Others, OutputTimes, Progress, Record, Solution,
+    SteadyError, SteadyState, Summary, Transient, TransientError, Unsolved, first_there,
 };
 use lptn_units::Class;
 
@@ -29,12 +29,13 @@ pub struct Candidate {
     pub peak: Option<Peak>,
     /// Its temperature in steady state; `None` where inputs change with time or there is none.
     pub steady: Option<f64>,
-    /// How long it takes to get 95 % of the way from its start to its steady state; `None` if the run ends before.
+    /// How long it takes to get 95 % of the way from its start to its steady state; `None` if the
+    /// run ends before.
     pub time_to_95: Option<f64>,
     /// Every limit, in the order of the network.
     pub limits: Vec<LimitResult>,
-    /// For each boundary by name the heat it takes at the end as a share of the heat that all boundaries take; 0
-    /// for one that gives heat. `None` where no boundary takes any.
+    /// For each boundary by name the heat it takes at the end as a share of the heat that all
+    /// boundaries take; 0 for one that gives heat. `None` where no boundary takes any.
     pub shares: Vec<(String, Option<f64>)>,
     /// Sum of all heat capacities in J/K.
     pub capacity: f64,
@@ -63,7 +64,8 @@ pub enum CompareError {
         format!(
             "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than the {bound:.1e} allowed"
         ), class Class::Numbers;
-    /// Its run was interrupted at this time in s: peaks and limits of a part would read like those of the whole.
+    /// Its run was interrupted at this time in s: peaks and limits of a part would read like those
+    /// of the whole.
     Interrupted(time: f64) = "run::interrupted", format!("the run was interrupted at {time} s"), class Class::Interrupted;
 }
 }
@@ -86,7 +88,10 @@ impl Candidate {
     ///
     /// # Errors
     /// [`CompareError`] if it cannot be solved.
-    pub fn evaluate(system: &ThermalSystem, run: Option<&RunSettings>) -> Result<Self, CompareError> {
+    pub fn evaluate(
+        system: &ThermalSystem,
+        run: Option<&RunSettings>,
+    ) -> Result<Self, CompareError> {
         Self::evaluate_observed(system, run, &mut |_| Control::Continue)
     }
 
@@ -105,8 +110,8 @@ impl Candidate {
         }
     }
 
-    /// The temperature limit with the least margin: of those of severity error, else of the warnings; `None` without
-    /// a limit of a temperature.
+    /// The temperature limit with the least margin: of those of severity error, else of the
+    /// warnings; `None` without a limit of a temperature.
     pub fn worst(&self) -> Option<&LimitResult> {
         let of = |severity| {
             let judged = self.limits.iter().filter(|l| !l.is_open());
@@ -188,7 +193,8 @@ fn peak(node: &NodeSummary, run: &RunSettings) -> Peak {
     Peak { temperature: node.peak.0, at: Some(first_there(node.peak, ends, 10.0 * run.tolerance)) }
 }
 
-/// The run of the file without its rows, and with every node watched: peaks and limits are looked at between rows.
+/// The run of the file without its rows, and with every node watched: peaks and limits are looked
+/// at between rows.
 fn transient(
     system: &ThermalSystem,
     run: &RunSettings,
@@ -208,14 +214,17 @@ fn transient(
 /// What has the largest value; of equals the first.
 fn hottest<T>(mut of: impl Iterator<Item = (T, f64)>) -> Option<(T, f64)> {
     let first = of.next()?;
-    Some(of.fold(first, |best, other| if other.1.total_cmp(&best.1).is_gt() { other } else { best }))
+    Some(
+        of.fold(first, |best, other| if other.1.total_cmp(&best.1).is_gt() { other } else { best }),
+    )
 }
 
 fn capacity(network: &Network) -> f64 {
     network.node_ids().map(|id| network.capacity(id)).sum()
 }
 
-/// A part whose material is not known makes the whole unknown: a sum without it would look like a light design.
+/// A part whose material is not known makes the whole unknown: a sum without it would look like a
+/// light design.
 fn mass(network: &Network) -> Option<f64> {
     let nodes = network.node_ids().filter(|id| network.capacity(*id) > 0.0);
     let masses: Vec<Option<f64>> = nodes.map(|id| network.mass(id)).collect();
@@ -243,5 +252,10 @@ fn shares(network: &Network, given: &[f64]) -> Vec<(String, Option<f64>)> {
     let taken = |&given: &f64| (-given).max(0.0);
     let all: f64 = given.iter().map(taken).sum();
     let share = |given: &f64| (all > 0.0).then(|| taken(given) / all);
-    network.boundaries().iter().zip(given).map(|(b, given)| (b.name.clone(), share(given))).collect()
+    network
+        .boundaries()
+        .iter()
+        .zip(given)
+        .map(|(b, given)| (b.name.clone(), share(given)))
+        .collect()
 }

@@ -9,8 +9,8 @@ use crate::compare::candidate::Candidate;
 /// What candidates are sorted by, the best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SortKey {
-    /// Those that keep every limit first; then by the least margin of their temperature limits, the largest first, and
-    /// those without such a limit last; then by peak.
+    /// Those that keep every limit first; then by the least margin of their temperature limits, the
+    /// largest first, and those without such a limit last; then by peak.
     Margin,
     /// The lowest peak first.
     Peak,
@@ -42,8 +42,8 @@ impl SortKey {
     }
 }
 
-/// The positions of candidates in their order; `None` stands for one without results, which comes last. Equals
-/// stay as they were given.
+/// The positions of candidates in their order; `None` stands for one without results, which comes
+/// last. Equals stay as they were given.
 pub fn order(candidates: &[Option<&Candidate>], key: SortKey) -> Vec<usize> {
     let mut positions: Vec<usize> = (0..candidates.len()).collect();
     positions.sort_by(|&a, &b| match (candidates[a], candidates[b]) {

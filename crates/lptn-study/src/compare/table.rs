@@ -24,14 +24,16 @@ impl CompareRow {
         self.outcome.as_ref().ok()
     }
 
-    /// `none` without limits, `kept`, `warning` where only limits of that severity are broken, `broken`, `not judged`
-    /// where inputs change with time and there is no run, or the code of the problem.
+    /// `none` without limits, `kept`, `warning` where only limits of that severity are broken,
+    /// `broken`, `not judged` where inputs change with time and there is no run, or the code of the
+    /// problem.
     pub fn status(&self) -> &str {
         let candidate = match &self.outcome {
             Ok(candidate) => candidate,
             Err(code) => return code,
         };
-        let broken = |severity| candidate.limits.iter().any(|l| l.broken() && l.severity == severity);
+        let broken =
+            |severity| candidate.limits.iter().any(|l| l.broken() && l.severity == severity);
         match (broken(Severity::Error), broken(Severity::Warning)) {
             (true, _) => "broken",
             (false, true) => "warning",
@@ -78,10 +80,11 @@ impl CompareRow {
     }
 }
 
-/// One line for each row: what it is and how it ended, then its numbers, temperatures in `unit`; what a candidate does
-/// not have is NaN.
+/// One line for each row: what it is and how it ended, then its numbers, temperatures in `unit`;
+/// what a candidate does not have is NaN.
 pub fn compare_table(rows: &[CompareRow], unit: &Unit) -> Table {
-    let hottest = |row: &CompareRow| row.candidate().and_then(|c| c.hottest.clone()).unwrap_or_default();
+    let hottest =
+        |row: &CompareRow| row.candidate().and_then(|c| c.hottest.clone()).unwrap_or_default();
     let worst = |row: &CompareRow| {
         row.candidate().and_then(Candidate::worst).map_or(String::new(), |limit| limit.name.clone())
     };
@@ -117,8 +120,8 @@ fn general(rows: &[CompareRow], unit: &Unit, table: &mut TableOf<'_, CompareRow>
     }
 }
 
-/// The margins of the limits of a name and when they break. Candidates may mean different quantities by one name: each
-/// quantity has a column of its own, told apart by the unit.
+/// The margins of the limits of a name and when they break. Candidates may mean different
+/// quantities by one name: each quantity has a column of its own, told apart by the unit.
 fn of_limit(rows: &[CompareRow], name: &str, table: &mut TableOf<'_, CompareRow>) {
     let unit = |limit: &LimitResult| limit.ty.dimension.si_unit();
     let mut units: Vec<String> = Vec::new();
@@ -128,10 +131,12 @@ fn of_limit(rows: &[CompareRow], name: &str, table: &mut TableOf<'_, CompareRow>
         }
     }
     for of in &units {
-        let own =
-            |row: &CompareRow| row.limit(name).filter(|l| unit(l) == *of).map_or(f64::NAN, |l| l.margin);
+        let own = |row: &CompareRow| {
+            row.limit(name).filter(|l| unit(l) == *of).map_or(f64::NAN, |l| l.margin)
+        };
         table.column(format!("{name}.margin"), of, own);
     }
-    let broken = |row: &CompareRow| row.limit(name).and_then(|limit| limit.broken_at).unwrap_or(f64::NAN);
+    let broken =
+        |row: &CompareRow| row.limit(name).and_then(|limit| limit.broken_at).unwrap_or(f64::NAN);
     table.column(format!("{name}.broken_at"), "s", broken);
 }

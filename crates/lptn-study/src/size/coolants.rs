@@ -12,8 +12,9 @@ impl Coolant {
         Some(Self { density: air.density * record.temperature? / temperature, ..air })
     }
 
-    /// Mineral gear oil ISO VG 220 as in the library. Its properties are those at 60 degC; per K its
-    /// density falls by 0.07 % and its specific heat grows by 0.2 % (unused engine oil, Incropera et al., Table A.5).
+    /// Mineral gear oil ISO VG 220 as in the library. Its properties are those at 60 degC; per K
+    /// its density falls by 0.07 % and its specific heat grows by 0.2 % (unused engine oil,
+    /// Incropera et al., Table A.5).
     pub fn oil() -> Option<Self> {
         Self::record("gear_oil_vg220").map(|(oil, _)| oil)
     }

@@ -1,6 +1,7 @@
 //! What a cooling has to do, from a power and two temperatures alone.
 
-/// Heat, the temperature that must not be exceeded, and what takes the heat away. Temperatures in K.
+/// Heat, the temperature that must not be exceeded, and what takes the heat away. Temperatures in
+/// K.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoolingTask {
     /// Heat to be taken away in W.
@@ -34,8 +35,8 @@ pub struct Flow {
 /// What a cooling has to do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cooling {
-    /// `limit - ambient` in K: by so much the limit is above its surroundings; if it is not positive no cooling
-    /// without refrigeration keeps it.
+    /// `limit - ambient` in K: by so much the limit is above its surroundings; if it is not
+    /// positive no cooling without refrigeration keeps it.
     pub available: f64,
     /// Largest thermal resistance to the surroundings in K/W.
     pub resistance: f64,
@@ -55,9 +56,10 @@ pub enum CoolingError {
 }
 
 impl CoolingTask {
-    /// The resistance that carries `power` with `limit - ambient` across it: `R_max = (limit - ambient) / P`, the
-    /// definition of a thermal resistance (F. P. Incropera et al., Fundamentals of Heat and Mass Transfer).
-    /// Its inverse is the product of film coefficient and area.
+    /// The resistance that carries `power` with `limit - ambient` across it:
+    /// `R_max = (limit - ambient) / P`, the definition of a thermal resistance (F. P. Incropera et
+    /// al., Fundamentals of Heat and Mass Transfer). Its inverse is the product of film coefficient
+    /// and area.
     ///
     /// # Errors
     /// [`CoolingError`] for a power or rise that is not positive.
@@ -73,8 +75,9 @@ impl CoolingTask {
         Ok(Cooling { available, resistance: available / self.power })
     }
 
-    /// The flow that takes the heat away while it warms by `rise`: `P = m cp rise`, the energy equation of a steady
-    /// flow without work (Incropera et al.). `None` where the coolant would have to leave warmer than the limit.
+    /// The flow that takes the heat away while it warms by `rise`: `P = m cp rise`, the energy
+    /// equation of a steady flow without work (Incropera et al.). `None` where the coolant would
+    /// have to leave warmer than the limit.
     pub fn flow(&self, coolant: Coolant) -> Option<Flow> {
         if self.rise > self.limit - self.ambient {
             return None;

@@ -1,16 +1,18 @@
 //! Where a function of one variable changes its sign.
 
-/// Most steps; bisection alone needs 52 to use up the digits of a number, Brent's method at most the square of that.
+/// Most steps; bisection alone needs 52 to use up the digits of a number, Brent's method at most
+/// the square of that.
 const MOST_STEPS: usize = 3000;
 
 /// A point and the value there.
 pub(crate) type Point = (f64, f64);
 
-/// Narrows a bracket between a point where `f` is not negative and one where it is, to neighbouring numbers, and
-/// gives the point of the first kind: the last one at which everything is kept.
+/// Narrows a bracket between a point where `f` is not negative and one where it is, to neighbouring
+/// numbers, and gives the point of the first kind: the last one at which everything is kept.
 ///
-/// Brent's method: R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 4: inverse quadratic
-/// interpolation or the secant where they make progress, bisection where they do not.
+/// Brent's method: R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 4:
+/// inverse quadratic interpolation or the secant where they make progress, bisection where they do
+/// not.
 ///
 /// # Errors
 /// What `f` reports.
@@ -77,7 +79,8 @@ impl Bracket {
         let promising = self.step_before.abs() >= self.least() && self.a.1.abs() > self.b.1.abs();
         let (p, q) = if promising { self.interpolation(half) } else { (0.0, 0.0) };
         if promising
-            && 2.0 * p < (3.0 * half * q - (self.least() * q).abs()).min((self.step_before * q).abs())
+            && 2.0 * p
+                < (3.0 * half * q - (self.least() * q).abs()).min((self.step_before * q).abs())
         {
             self.step_before = self.step;
             self.step = p / q;
@@ -112,12 +115,12 @@ impl Bracket {
     }
 }
 
-/// The zero nearest to the middle of `x = (a, m, b)` of the function `(u + v x) / (1 + w x)` through three points,
-/// if it lies between the outer ones.
+/// The zero nearest to the middle of `x = (a, m, b)` of the function `(u + v x) / (1 + w x)`
+/// through three points, if it lies between the outer ones.
 ///
-/// This is how a temperature depends on one conductance. Seen from its two ends the rest of a linear network is a
-/// Norton equivalent, so the heat through the path is `G dT_open / (1 + G R_open)`, and every temperature is a
-/// constant plus a multiple of this heat.
+/// This is how a temperature depends on one conductance. Seen from its two ends the rest of a
+/// linear network is a Norton equivalent, so the heat through the path is
+/// `G dT_open / (1 + G R_open)`, and every temperature is a constant plus a multiple of this heat.
 pub(crate) fn norton_guess([(x0, y0), (x1, y1), (x2, y2)]: [Point; 3]) -> Option<f64> {
     // y (1 + w x) = u + v x, with differences to the middle point so that u = y1 there
     let ((s0, d0), (s2, d2)) = ((x0 - x1, y0 - y1), (x2 - x1, y2 - y1));
@@ -151,7 +154,10 @@ mod tests {
     #[test]
     fn known_roots_are_found_to_the_last_digits() {
         let (x, calls) = root(|x| x * x - 2.0, 2.0, 0.0);
-        assert!((x - std::f64::consts::SQRT_2).abs() <= 4.0 * f64::EPSILON && calls < 20, "{x} in {calls}");
+        assert!(
+            (x - std::f64::consts::SQRT_2).abs() <= 4.0 * f64::EPSILON && calls < 20,
+            "{x} in {calls}"
+        );
         let (x, _) = root(|x| x.cos() - x, 0.0, 1.0);
         // the Dottie number, OEIS A003957
         assert!((x - 0.739_085_133_215_160_6).abs() <= 4.0 * f64::EPSILON, "{x}");

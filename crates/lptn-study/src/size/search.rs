@@ -1,8 +1,9 @@
 //! The best value of a parameter that keeps every requirement.
 //!
-//! The range is looked at in [`POINTS`] places first, so that a requirement that is kept in the middle only is
-//! found and one that breaks again behind the answer is told. Then the border nearest to the best end is
-//! narrowed to neighbouring numbers, with the full network at every step.
+//! The range is looked at in [`POINTS`] places first, so that a requirement that is kept in the
+//! middle only is found and one that breaks again behind the answer is told. Then the border
+//! nearest to the best end is narrowed to neighbouring numbers, with the full network at every
+//! step.
 
 use lptn_netlist::{Goal, Requirement};
 use lptn_network::Value;
@@ -17,7 +18,8 @@ const POINTS: usize = 25;
 /// A range that spans more than this is looked at in equal ratios rather than in equal steps.
 const WIDE: f64 = 10.0;
 
-/// Steps of the search for a value that keeps what no place looked at keeps: golden section, 2e-9 of its interval.
+/// Steps of the search for a value that keeps what no place looked at keeps: golden section, 2e-9
+/// of its interval.
 const GOLDEN_STEPS: usize = 42;
 
 /// Relative change of the parameter for its sensitivity.
@@ -41,12 +43,14 @@ pub struct Sizing {
     pub verdict: Verdict,
     /// The value with its margins; where it is infeasible, the value that comes closest.
     pub trial: Trial,
-    /// The requirement that is closest to being broken, relative to how much it varies over the range.
+    /// The requirement that is closest to being broken, relative to how much it varies over the
+    /// range.
     pub closest: usize,
-    /// Where a requirement breaks again on the far side of the value, in SI units: more is not always better.
+    /// Where a requirement breaks again on the far side of the value, in SI units: more is not
+    /// always better.
     pub breaks_again: Option<f64>,
-    /// Change of the closest requirement's margin, in SI units, for 1 % more of the parameter; `None` for a
-    /// temperature, of which there is no percentage, and for zero.
+    /// Change of the closest requirement's margin, in SI units, for 1 % more of the parameter;
+    /// `None` for a temperature, of which there is no percentage, and for zero.
     pub sensitivity: Option<f64>,
     /// The value that the Norton equivalent seen from the changed path predicted, in SI units.
     pub first_guess: Option<f64>,
@@ -69,8 +73,8 @@ impl Sizing {
 /// Finds the best value of the task's parameter.
 ///
 /// # Errors
-/// [`SizeError`] if a network inside the range cannot be solved or a requirement has no value. That no value
-/// keeps the requirements is an answer: [`Verdict::Infeasible`].
+/// [`SizeError`] if a network inside the range cannot be solved or a requirement has no value. That
+/// no value keeps the requirements is an answer: [`Verdict::Infeasible`].
 pub fn size(task: &SizeTask<'_>) -> Result<Sizing, SizeError> {
     let (from, to) = task.range;
     if !(from.is_finite() && to.is_finite() && from < to) {
@@ -170,7 +174,8 @@ impl Search<'_> {
         }
     }
 
-    /// The last trial on the way from `kept` to `broken` that keeps everything, and the first guess for it.
+    /// The last trial on the way from `kept` to `broken` that keeps everything, and the first guess
+    /// for it.
     fn border(&self, broken: &Trial, kept: &Trial) -> Result<(Trial, Option<f64>), SizeError> {
         let (mut broken, mut kept) = (broken.clone(), kept.clone());
         let middle = self.trials.at(0.5 * (broken.value + kept.value))?;
@@ -195,14 +200,18 @@ impl Search<'_> {
     /// Where a requirement breaks behind place `k`, at which everything is kept.
     fn breaks_after(&self, k: usize) -> Result<Option<f64>, SizeError> {
         let behind = self.scan.iter().enumerate().skip(k + 1);
-        let Some((at, _)) = behind.into_iter().find(|(_, trial)| !self.keeps(trial)) else { return Ok(None) };
+        let Some((at, _)) = behind.into_iter().find(|(_, trial)| !self.keeps(trial)) else {
+            return Ok(None);
+        };
         self.border(&self.scan[at], &self.scan[at - 1]).map(|(trial, _)| Some(trial.value))
     }
 
-    /// No place keeps everything: perhaps a value between them does. Golden section around the best place.
+    /// No place keeps everything: perhaps a value between them does. Golden section around the best
+    /// place.
     fn between_the_places(&self) -> Result<Found, SizeError> {
-        let by_worst =
-            |a: &usize, b: &usize| self.worst(&self.scan[*a]).total_cmp(&self.worst(&self.scan[*b]));
+        let by_worst = |a: &usize, b: &usize| {
+            self.worst(&self.scan[*a]).total_cmp(&self.worst(&self.scan[*b]))
+        };
         // of equals the first, which is nearer to the best end
         let best = (0..self.scan.len()).rev().max_by(by_worst).unwrap_or(0);
         let low = &self.scan[best.saturating_sub(1)];
@@ -218,7 +227,8 @@ impl Search<'_> {
         Ok(Found { verdict: Verdict::Bound, trial, breaks_again, first_guess })
     }
 
-    /// The best trial between two values that golden section finds; the first that keeps everything ends it.
+    /// The best trial between two values that golden section finds; the first that keeps everything
+    /// ends it.
     fn top(&self, (mut a, mut b): (f64, f64), mut best: Trial) -> Result<Trial, SizeError> {
         let golden = 0.5 * (5_f64.sqrt() - 1.0);
         let inner = |from: f64, to: f64| self.trials.at(to - golden * (to - from));
@@ -251,7 +261,8 @@ impl Search<'_> {
         if ty.absolute || trial.value == 0.0 {
             return None;
         }
-        let margin = |share: f64| self.trials.at(trial.value * share).ok().map(|t| t.margins[closest]);
+        let margin =
+            |share: f64| self.trials.at(trial.value * share).ok().map(|t| t.margins[closest]);
         Some((margin(1.0 + NUDGE)? - margin(1.0 - NUDGE)?) / (2.0 * NUDGE) * 0.01)
     }
 }

@@ -1,4 +1,5 @@
-//! One value of the parameter: the full network in steady state, and what is left of every requirement.
+//! One value of the parameter: the full network in steady state, and what is left of every
+//! requirement.
 
 use std::cell::Cell;
 
@@ -58,19 +59,22 @@ impl<'a> Trials<'a> {
         let task = self.task;
         let mut parameters = task.parameters.clone();
         parameters.set(task.parameter, value);
-        let network =
-            task.network.with(&parameters).map_err(|errors| SizeError::Network { value, errors })?;
-        let margins =
-            requirement_margins(&network, task.requirements, task.time).map_err(|error| match error {
+        let network = task
+            .network
+            .with(&parameters)
+            .map_err(|errors| SizeError::Network { value, errors })?;
+        let margins = requirement_margins(&network, task.requirements, task.time).map_err(
+            |error| match error {
                 SizeError::Steady { error, .. } => SizeError::Steady { value, error },
                 error => error,
-            })?;
+            },
+        )?;
         Ok(Trial { value, margins })
     }
 }
 
-/// How far each requirement is from being broken in the steady state of `network` with inputs as they are at `time`
-/// in s: in SI units, positive while it is kept.
+/// How far each requirement is from being broken in the steady state of `network` with inputs as
+/// they are at `time` in s: in SI units, positive while it is kept.
 ///
 /// # Errors
 /// [`SizeError`] if there is no steady state or a requirement has no value.
@@ -80,8 +84,8 @@ pub fn requirement_margins(
     time: f64,
 ) -> Result<Vec<f64>, SizeError> {
     let system = ThermalSystem::assemble(network).map_err(SizeError::Assembly)?;
-    let steady =
-        SteadyState::solve(&system, time).map_err(|error| SizeError::Steady { value: f64::NAN, error })?;
+    let steady = SteadyState::solve(&system, time)
+        .map_err(|error| SizeError::Steady { value: f64::NAN, error })?;
     let mut scope = steady.evaluation(network);
     let margin = |requirement: &Requirement| {
         let failed = |error| SizeError::Requirement { text: requirement.text.clone(), error };

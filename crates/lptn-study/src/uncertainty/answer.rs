@@ -13,8 +13,8 @@ pub enum AnswerOf {
     End(NodeId),
     /// Its highest temperature, between the rows too, in K.
     Max(NodeId),
-    /// The least margin of a limit in SI units of its quantity, a difference in K for temperatures; negative where it is
-    /// broken.
+    /// The least margin of a limit in SI units of its quantity, a difference in K for temperatures;
+    /// negative where it is broken.
     Margin(LimitId),
 }
 
@@ -33,15 +33,17 @@ impl AnswerOf {
 /// What one parameter does to an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contribution {
-    /// The parameter, as its place in [`Uncertainty::inputs`](crate::uncertainty::Uncertainty::inputs).
+    /// The parameter, as its place in
+    /// [`Uncertainty::inputs`](crate::uncertainty::Uncertainty::inputs).
     pub input: usize,
-    /// What one standard deviation more of the parameter adds to the answer, in its unit: exact for a small deviation
-    /// where the method is linear, the mean slope over the samples else.
+    /// What one standard deviation more of the parameter adds to the answer, in its unit: exact for
+    /// a small deviation where the method is linear, the mean slope over the samples else.
     pub effect: f64,
-    /// The share of the answer's variance that this parameter makes by itself, its first-order index.
+    /// The share of the answer's variance that this parameter makes by itself, its first-order
+    /// index.
     pub share: Estimate,
-    /// The share that it makes by itself and together with others, its total index; `None` where the method is linear,
-    /// which knows no together.
+    /// The share that it makes by itself and together with others, its total index; `None` where
+    /// the method is linear, which knows no together.
     pub total: Option<Estimate>,
 }
 

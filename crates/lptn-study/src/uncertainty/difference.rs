@@ -9,8 +9,9 @@ use crate::uncertainty::result::{Bands, Method, Uncertainty};
 /// Bands that differ by more than this part of half the sampled band's width are not the same.
 const TENTH: f64 = 0.1;
 
-/// The standard error of a 2.5 % quantile of n independent normal numbers is `2.67 sd / sqrt(n)`, the square root of
-/// 0.025 x 0.975 over the density there. Sobol points do better; two of these are not a difference.
+/// The standard error of a 2.5 % quantile of n independent normal numbers is `2.67 sd / sqrt(n)`,
+/// the square root of 0.025 x 0.975 over the density there. Sobol points do better; two of these
+/// are not a difference.
 const NOISE: f64 = 2.0 * 2.671;
 
 /// A band that the linear method gives wrongly.
@@ -28,15 +29,16 @@ pub struct Discrepancy {
     pub part: f64,
 }
 
-/// Where the two methods, asked the same, differ by more than a tenth of the band: for each node the row where they
-/// differ most, then maxima and margins; what the number of samples cannot tell does not count. `least` in K is the width
-/// below which a band is that of the solver.
+/// Where the two methods, asked the same, differ by more than a tenth of the band: for each node
+/// the row where they differ most, then maxima and margins; what the number of samples cannot tell
+/// does not count. `least` in K is the width below which a band is that of the solver.
 pub fn discrepancies(linear: &Uncertainty, sampled: &Uncertainty, least: f64) -> Vec<Discrepancy> {
     let noise = match sampled.method {
         Method::Sobol { samples, .. } => NOISE / (2.0 * samples as f64).sqrt(),
         Method::Linear { .. } => 0.0,
     };
-    let rows = linear.bands.iter().zip(&sampled.bands).filter_map(|(l, s)| worst(l, s, &sampled.times));
+    let rows =
+        linear.bands.iter().zip(&sampled.bands).filter_map(|(l, s)| worst(l, s, &sampled.times));
     let answers = linear.answers.iter().zip(&sampled.answers);
     let others = answers.filter(|(l, _)| !matches!(l.of, AnswerOf::End(_))).map(|(l, s)| {
         let (linear, sampled) = ((l.low.value, l.high.value), (s.low.value, s.high.value));
@@ -50,7 +52,13 @@ fn worst(linear: &Bands, sampled: &Bands, times: &[f64]) -> Option<Discrepancy> 
     let of: NodeId = linear.node;
     let row = |i: usize| {
         let (l, s) = ((linear.low[i], linear.high[i]), (sampled.low[i], sampled.high[i]));
-        Discrepancy { of: AnswerOf::End(of), time: Some(times[i]), linear: l, sampled: s, part: part(l, s) }
+        Discrepancy {
+            of: AnswerOf::End(of),
+            time: Some(times[i]),
+            linear: l,
+            sampled: s,
+            part: part(l, s),
+        }
     };
     (0..times.len()).map(row).max_by(|a, b| a.part.total_cmp(&b.part))
 }

@@ -23,7 +23,8 @@ pub enum UncertaintyError {
     Samples(samples: usize) = "uncertainty::samples",
         format!("the number of samples must be {LEAST} to {MOST_POINTS}, got {samples}"),
         help "write for example `--samples 512`";
-    /// The temperatures of all samples at all rows do not fit into the memory that is allowed, in bytes.
+    /// The temperatures of all samples at all rows do not fit into the memory that is allowed, in
+    /// bytes.
     TooLarge(bytes: usize) = "uncertainty::too_large",
         format!("the temperatures of all samples at all rows need {} MB", bytes / 1_000_000),
         help "write fewer rows or samples, or fewer columns with `--select 'steel.T'`";

@@ -15,15 +15,19 @@ pub struct Uncertain {
     pub deviation: f64,
 }
 
-/// The parameters of `network` that carry `±`, in the order of the network; `parameters` are the values that were set in
-/// place of its own, whose `±` counts where it was given.
+/// The parameters of `network` that carry `±`, in the order of the network; `parameters` are the
+/// values that were set in place of its own, whose `±` counts where it was given.
 ///
 /// # Errors
 /// [`UncertaintyError::NoDeviation`] if none does.
-pub fn uncertain(network: &Network, parameters: &Parameters) -> Result<Vec<Uncertain>, UncertaintyError> {
+pub fn uncertain(
+    network: &Network,
+    parameters: &Parameters,
+) -> Result<Vec<Uncertain>, UncertaintyError> {
     let one = |parameter: ParameterId| {
         let own = network.parameters()[parameter.index()].deviation;
-        let deviation = parameters.deviation(parameter).or(own).filter(|deviation| *deviation > 0.0)?;
+        let deviation =
+            parameters.deviation(parameter).or(own).filter(|deviation| *deviation > 0.0)?;
         Some(Uncertain { parameter, value: network.parameter_value(parameter), deviation })
     };
     let found: Vec<Uncertain> = network.parameter_ids().filter_map(one).collect();

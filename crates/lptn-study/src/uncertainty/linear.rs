@@ -17,10 +17,11 @@ use crate::uncertainty::sample::Sample;
 use crate::uncertainty::task::UncertaintyTask;
 
 impl UncertaintyTask<'_> {
-    /// Bands and shares of the variance from `dT/dp`: the variance of a result is the sum of `(dT/dp sigma)^2`, its band
-    /// 1.96 standard deviations to each side of the value (ISO/IEC Guide 98-3, 5.1.2). A maximum changes as the temperature
-    /// does at its time, a margin as it does when it is least. Where a network has no exact sensitivities they are
-    /// differences of runs, and the method says so.
+    /// Bands and shares of the variance from `dT/dp`: the variance of a result is the sum of
+    /// `(dT/dp sigma)^2`, its band 1.96 standard deviations to each side of the value (ISO/IEC
+    /// Guide 98-3, 5.1.2). A maximum changes as the temperature does at its time, a margin as it
+    /// does when it is least. Where a network has no exact sensitivities they are differences of
+    /// runs, and the method says so.
     ///
     /// # Errors
     /// [`UncertaintyError`].
@@ -56,7 +57,8 @@ const ROUNDING: f64 = 1e-9;
 /// A result whose change with one standard deviation more of each parameter is known.
 fn answer(of: AnswerOf, value: f64, effects: &[f64]) -> Answer {
     let least = ROUNDING * value.abs();
-    let effects: Vec<f64> = effects.iter().map(|e| if e.abs() > least { *e } else { 0.0 }).collect();
+    let effects: Vec<f64> =
+        effects.iter().map(|e| if e.abs() > least { *e } else { 0.0 }).collect();
     let variance: f64 = effects.iter().map(|effect| effect * effect).sum();
     let deviation = variance.sqrt();
     let share = |effect: f64| if variance > 0.0 { effect * effect / variance } else { 0.0 };
@@ -66,7 +68,8 @@ fn answer(of: AnswerOf, value: f64, effects: &[f64]) -> Answer {
         share: Estimate::exact(share(effect)),
         total: None,
     };
-    let below_zero = if deviation > 0.0 { share_below(-value / deviation) } else { f64::from(value < 0.0) };
+    let below_zero =
+        if deviation > 0.0 { share_below(-value / deviation) } else { f64::from(value < 0.0) };
     Answer {
         of,
         value,

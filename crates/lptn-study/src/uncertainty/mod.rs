@@ -1,10 +1,10 @@
 //! What the `±` of parameters do to the results of a run.
 //!
-//! Every parameter with `±` is normal, the number after `±` one standard deviation, and independent of the others.
-//! [`UncertaintyTask::sobol`] runs the network at scrambled Sobol points of the parameters: no assumption about how
-//! the results depend on them. [`UncertaintyTask::linear`] takes the exact sensitivities of one run and assumes that
-//! results are straight lines in the parameters as far as these may be off. [`discrepancies`] says where the two
-//! disagree.
+//! Every parameter with `±` is normal, the number after `±` one standard deviation, and independent
+//! of the others. [`UncertaintyTask::sobol`] runs the network at scrambled Sobol points of the
+//! parameters: no assumption about how the results depend on them. [`UncertaintyTask::linear`]
+//! takes the exact sensitivities of one run and assumes that results are straight lines in the
+//! parameters as far as these may be off. [`discrepancies`] says where the two disagree.
 
 mod answer;
 mod difference;

@@ -9,8 +9,8 @@ pub(crate) fn share_below(x: f64) -> f64 {
 
 /// The number of standard deviations below which lies the share `p`, from 1e-10 to 1 - 1e-10.
 ///
-/// M. J. Wichura, Algorithm AS 241, Applied Statistics 37 (1988) 477, routine PPND16 without its far tails (beyond 6.3
-/// standard deviations): relative error about 1e-16.
+/// M. J. Wichura, Algorithm AS 241, Applied Statistics 37 (1988) 477, routine PPND16 without its
+/// far tails (beyond 6.3 standard deviations): relative error about 1e-16.
 pub(crate) fn quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {

@@ -11,8 +11,9 @@ pub(crate) const LEAST: usize = 64;
 /// The longest sequence.
 pub(crate) const MOST_POINTS: usize = 1 << 16;
 
-/// One coordinate of one point of an Owen-scrambled Sobol sequence, as a normal number: the crate's numbers are multiples
-/// of 2^-24 from 0, and the middle of each cell is taken, so that nothing lies beyond 5.5 standard deviations.
+/// One coordinate of one point of an Owen-scrambled Sobol sequence, as a normal number: the crate's
+/// numbers are multiples of 2^-24 from 0, and the middle of each cell is taken, so that nothing
+/// lies beyond 5.5 standard deviations.
 pub(crate) fn normal(index: usize, dimension: usize, seed: u32) -> f64 {
     const HALF_CELL: f64 = 1.0 / (1_u64 << 25) as f64;
     #[expect(clippy::cast_possible_truncation, reason = "both are below 2^16")]
@@ -24,16 +25,21 @@ pub(crate) fn normal(index: usize, dimension: usize, seed: u32) -> f64 {
 mod tests {
     use super::normal;
 
-    /// Sixteen points of a scrambled sequence have one in each sixteenth of every dimension: a property of every (0, 4, 1) net.
+    /// Sixteen points of a scrambled sequence have one in each sixteenth of every dimension: a
+    /// property of every (0, 4, 1) net.
     #[test]
     fn every_dimension_is_filled_evenly() {
         for seed in [0, 1, 77] {
             for dimension in 0..40 {
-                let mut numbers: Vec<f64> = (0..16).map(|index| normal(index, dimension, seed)).collect();
+                let mut numbers: Vec<f64> =
+                    (0..16).map(|index| normal(index, dimension, seed)).collect();
                 numbers.sort_by(f64::total_cmp);
                 for (i, z) in numbers.iter().enumerate() {
                     let share = crate::uncertainty::normal::share_below(*z) * 16.0;
-                    assert!((i as f64..=i as f64 + 1.0).contains(&share), "{seed} {dimension} {i}: {share}");
+                    assert!(
+                        (i as f64..=i as f64 + 1.0).contains(&share),
+                        "{seed} {dimension} {i}: {share}"
+                    );
                 }
             }
         }

@@ -33,7 +33,8 @@ pub enum Method {
 pub struct Lost {
     /// How many.
     pub count: usize,
-    /// Whether the network refused the parameters, such as a resistance below zero; else the run failed.
+    /// Whether the network refused the parameters, such as a resistance below zero; else the run
+    /// failed.
     pub refused: bool,
     /// The stable code of the reason.
     pub code: &'static str,

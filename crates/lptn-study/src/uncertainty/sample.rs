@@ -8,7 +8,8 @@ use crate::uncertainty::result::Lost;
 /// What one run gives.
 #[derive(Clone, Debug)]
 pub(crate) struct Sample {
-    /// The temperatures of the first node at all rows in K, then those of the next; empty unless asked for.
+    /// The temperatures of the first node at all rows in K, then those of the next; empty unless
+    /// asked for.
     pub(crate) rows: Vec<f64>,
     /// The answers in the order of the task's questions.
     pub(crate) answers: Vec<f64>,
@@ -17,8 +18,11 @@ pub(crate) struct Sample {
 impl Sample {
     /// The rows, ends, peaks and margins of a run whose recorded nodes are its watched ones.
     pub(crate) fn of(solution: &Solution, rows: bool) -> Self {
-        let columns: Vec<Vec<f64>> =
-            solution.recorded().iter().map(|node| solution.temperature(*node).unwrap_or_default()).collect();
+        let columns: Vec<Vec<f64>> = solution
+            .recorded()
+            .iter()
+            .map(|node| solution.temperature(*node).unwrap_or_default())
+            .collect();
         let of_node = |(seen, column): (&lptn_solve::Seen, &Vec<f64>)| {
             // a network without state is not watched between its rows
             let max = column.iter().copied().fold(seen.peak.0, f64::max);
@@ -61,7 +65,10 @@ impl NoSample {
     }
 
     fn lost((code, name): (&'static str, &str), refused: bool, message: String) -> Self {
-        Self::Lost { key: format!("{code} {name}"), lost: Lost { count: 1, refused, code, message } }
+        Self::Lost {
+            key: format!("{code} {name}"),
+            lost: Lost { count: 1, refused, code, message },
+        }
     }
 }
 

@@ -21,9 +21,9 @@ const MOST_BYTES: usize = 1 << 31;
 /// How to sample.
 #[derive(Clone, Copy)]
 pub struct Sobol<'a> {
-    /// Base points, 64 to 65536, rounded up to a power of two. With d uncertain parameters there are d + 2 runs for each:
-    /// two with every parameter sampled, from which bands are taken, and d that share all parameters but one with the
-    /// first of the two.
+    /// Base points, 64 to 65536, rounded up to a power of two. With d uncertain parameters there
+    /// are d + 2 runs for each: two with every parameter sampled, from which bands are taken, and d
+    /// that share all parameters but one with the first of the two.
     pub samples: usize,
     /// The seed of the scrambling: the same seed gives the same result to the last digit.
     pub seed: u32,
@@ -36,20 +36,22 @@ pub struct Sobol<'a> {
 }
 
 impl UncertaintyTask<'_> {
-    /// Bands, probabilities and variance shares from runs at Owen-scrambled Sobol points (crate `sobol_burley`: directions
-    /// of S. Joe and F. Y. Kuo, scrambling of B. Burley, JCGT 9 (2020) 4), in eight independent scramblings whose spread
-    /// gives the standard errors.
+    /// Bands, probabilities and variance shares from runs at Owen-scrambled Sobol points (crate
+    /// `sobol_burley`: directions of S. Joe and F. Y. Kuo, scrambling of B. Burley, JCGT 9 (2020)
+    /// 4), in eight independent scramblings whose spread gives the standard errors.
     ///
-    /// Parameters that the network refuses, such as a resistance below zero, are left out and counted: the distribution
-    /// is cut off there.
+    /// Parameters that the network refuses, such as a resistance below zero, are left out and
+    /// counted: the distribution is cut off there.
     ///
     /// # Errors
     /// [`UncertaintyError`]; runs that fail are an error only where too few are left.
     pub fn sobol(&self, how: &Sobol<'_>) -> Result<Uncertainty, UncertaintyError> {
         let inputs = uncertain(self.network, &self.parameters)?;
         let samples = self.checked(how.samples, &inputs)?;
-        let nominal = self.sample(&self.parameters, true, how.control).map_err(|error| nothing(&error))?;
-        let design = Design { task: self, inputs: &inputs, per_group: samples / GROUPS, seed: how.seed };
+        let nominal =
+            self.sample(&self.parameters, true, how.control).map_err(|error| nothing(&error))?;
+        let design =
+            Design { task: self, inputs: &inputs, per_group: samples / GROUPS, seed: how.seed };
         let numbers: Vec<usize> = (0..samples).collect();
         let blocks = in_parallel(&numbers, how.threads, |&number| {
             let block = design.block(number, how.control);
@@ -107,8 +109,8 @@ struct Block {
 }
 
 impl Design<'_> {
-    /// A parameter in standard deviations: of the first base run from the first half of the dimensions, of the second one
-    /// from the second half.
+    /// A parameter in standard deviations: of the first base run from the first half of the
+    /// dimensions, of the second one from the second half.
     fn normal(&self, number: usize, which: usize, input: usize) -> f64 {
         #[expect(clippy::cast_possible_truncation, reason = "there are eight groups")]
         let group = (number / self.per_group) as u32;
@@ -139,7 +141,8 @@ impl Design<'_> {
             if !both {
                 return Err(NoSample::Skipped);
             }
-            self.run(number, &|i| usize::from(i == input), false, control).map(|sample| sample.answers)
+            self.run(number, &|i| usize::from(i == input), false, control)
+                .map(|sample| sample.answers)
         };
         Block { mixed: (0..self.inputs.len()).map(mixed).collect(), base }
     }
@@ -168,7 +171,8 @@ impl Blocks {
         }
         let lost = count(failures.into_iter());
         let found = Self { per_group: samples / GROUPS, runs, lost, blocks };
-        let enough = |group: usize| found.base().filter(|(of, _)| *of == group).count() >= LEAST / GROUPS;
+        let enough =
+            |group: usize| found.base().filter(|(of, _)| *of == group).count() >= LEAST / GROUPS;
         if (0..GROUPS).all(enough) { Ok(found) } else { Err(UncertaintyError::TooFew(found.lost)) }
     }
 
@@ -177,7 +181,10 @@ impl Blocks {
         let numbered = self.blocks.iter().enumerate();
         numbered.flat_map(|(number, block)| {
             let group = number / self.per_group;
-            block.base.iter().filter_map(move |base| base.as_ref().ok().map(|sample| (group, sample)))
+            block
+                .base
+                .iter()
+                .filter_map(move |base| base.as_ref().ok().map(|sample| (group, sample)))
         })
     }
 }

@@ -15,8 +15,9 @@ pub struct UncertaintyTask<'a> {
     pub network: &'a Network,
     /// The values that were set in place of the network's own; see [`Network::overrides`].
     pub parameters: Parameters,
-    /// The times, the tolerance and the controls at the start; what is recorded and watched is chosen by the method. The
-    /// times stay as they are, also where they were computed from a parameter with `±`.
+    /// The times, the tolerance and the controls at the start; what is recorded and watched is
+    /// chosen by the method. The times stay as they are, also where they were computed from a
+    /// parameter with `±`.
     pub run: Transient,
     /// The nodes whose temperatures are asked for, ascending.
     pub nodes: Vec<NodeId>,
@@ -50,9 +51,10 @@ impl UncertaintyTask<'_> {
         rows: bool,
         control: &(dyn Fn() -> Control + Sync),
     ) -> Result<Sample, NoSample> {
-        let system =
-            ThermalSystem::of(self.network, parameters).map_err(|error| NoSample::refused(&error))?;
-        let solution = self.solve(&system, rows, control).map_err(|error| NoSample::failed(&error))?;
+        let system = ThermalSystem::of(self.network, parameters)
+            .map_err(|error| NoSample::refused(&error))?;
+        let solution =
+            self.solve(&system, rows, control).map_err(|error| NoSample::failed(&error))?;
         let ledger = solution.ledger();
         match solution.end() {
             End::Interrupted(_) => Err(NoSample::Interrupted),

@@ -1,5 +1,10 @@
 //! Networks whose uncertainty has a closed form.
-#![allow(dead_code, unreachable_pub, clippy::unwrap_used, reason = "each test file uses a part of it")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    clippy::unwrap_used,
+    reason = "each test file uses a part of it"
+)]
 
 use lptn_netlist::{Netlist, parse};
 use lptn_solve::{Control, Transient, available_threads};
@@ -22,7 +27,11 @@ pub const RADIATING: &str = "[node]\nblock = { C = \"10 J/K\", T0 = \"20 degC\" 
 
 /// A network with these parameters; R is 0.5 K/W unless they say otherwise.
 pub fn parsed(network: &str, param: &str) -> Netlist {
-    let r = if network.contains("R = \"R\"") && !param.contains("R =") { "R = \"0.5 K/W\"\n" } else { "" };
+    let r = if network.contains("R = \"R\"") && !param.contains("R =") {
+        "R = \"0.5 K/W\"\n"
+    } else {
+        ""
+    };
     let text = format!("format = 1\n[param]\n{r}{param}\n{network}");
     parse("uncertain.toml", &text).unwrap_or_else(|rejected| panic!("{rejected}"))
 }
@@ -31,7 +40,12 @@ pub fn parsed(network: &str, param: &str) -> Netlist {
 pub fn task(netlist: &Netlist) -> UncertaintyTask<'_> {
     let network = &netlist.network;
     let run = Transient::of(network, netlist.run.as_ref().unwrap());
-    UncertaintyTask { network, parameters: netlist.overrides(), run, nodes: network.node_ids().collect() }
+    UncertaintyTask {
+        network,
+        parameters: netlist.overrides(),
+        run,
+        nodes: network.node_ids().collect(),
+    }
 }
 
 /// Samples on all threads with seed 1.
@@ -39,7 +53,10 @@ pub fn sobol(netlist: &Netlist, samples: usize) -> Uncertainty {
     sobol_with(netlist, (samples, 1, available_threads())).unwrap_or_else(|e| panic!("{e}"))
 }
 
-pub fn sobol_with(netlist: &Netlist, how: (usize, u32, usize)) -> Result<Uncertainty, UncertaintyError> {
+pub fn sobol_with(
+    netlist: &Netlist,
+    how: (usize, u32, usize),
+) -> Result<Uncertainty, UncertaintyError> {
     sample(&task(netlist), how)
 }
 

@@ -20,10 +20,12 @@ pub(super) fn no_table(source: &Source<'_>, scope: &dyn Scope, id: Id) -> UnitEr
         return UnitError::new(Kind::Empty, source.tree.span(id));
     };
     if scope.symbol(name).is_some() || name == "pi" {
-        let kind = Kind::NotATable { name: name.clone(), fix: uncalled(source, id, name, arguments) };
+        let kind =
+            Kind::NotATable { name: name.clone(), fix: uncalled(source, id, name, arguments) };
         return UnitError::new(kind, name_span.clone());
     }
-    let known: Vec<String> = function::names().map(str::to_owned).chain(scope.table_names()).collect();
+    let known: Vec<String> =
+        function::names().map(str::to_owned).chain(scope.table_names()).collect();
     let suggestion = suggest(name, known.iter().map(String::as_str)).map(str::to_owned);
     UnitError::new(Kind::UnknownFunction { name: name.clone(), suggestion }, name_span.clone())
 }
@@ -42,8 +44,8 @@ fn uncalled(source: &Source<'_>, id: Id, name: &str, arguments: &[Id]) -> String
     source.replace(id, &if whole { product } else { format!("({product})") })
 }
 
-/// A table with too many or too few arguments, or with none and without brackets. The given ones are
-/// kept if they are of the right types, those that it lacks become names in scope.
+/// A table with too many or too few arguments, or with none and without brackets. The given ones
+/// are kept if they are of the right types, those that it lacks become names in scope.
 pub(super) fn wrong_arity(
     source: &Source<'_>,
     scope: &dyn Scope,
@@ -52,9 +54,11 @@ pub(super) fn wrong_arity(
 ) -> UnitError {
     let (name, symbol) = table;
     let (span, arguments) = given;
-    let wanted: Vec<Type> = (0..symbol.table.dimension()).map(|index| symbol.argument(index)).collect();
+    let wanted: Vec<Type> =
+        (0..symbol.table.dimension()).map(|index| symbol.argument(index)).collect();
     let names = scope.names();
-    let of_type = |ty: Type| names.iter().find(|name| scope.symbol(name).is_some_and(|s| s.ty == ty));
+    let of_type =
+        |ty: Type| names.iter().find(|name| scope.symbol(name).is_some_and(|s| s.ty == ty));
     let texts: Option<Vec<&str>> = wanted
         .iter()
         .enumerate()
@@ -66,7 +70,10 @@ pub(super) fn wrong_arity(
         .collect();
     let call = texts.map(|texts| format!("{name}({})", texts.join(", ")));
     let fix = call.map(|call| super::lexer::splice(source.text, &span, &call));
-    UnitError::new(Kind::TableArity { table: name.to_owned(), wanted, found: arguments.len(), fix }, span)
+    UnitError::new(
+        Kind::TableArity { table: name.to_owned(), wanted, found: arguments.len(), fix },
+        span,
+    )
 }
 
 /// One argument against its type.

@@ -51,7 +51,11 @@ pub(crate) fn check(
     scope: &dyn Scope,
     expected: Option<Type>,
 ) -> Result<Resolved, Vec<UnitError>> {
-    types(Source { text, tree, judge: Some(Judge { scope, expected, check: mistakes }) }, scope, expected)
+    types(
+        Source { text, tree, judge: Some(Judge { scope, expected, check: mistakes }) },
+        scope,
+        expected,
+    )
 }
 
 fn mistakes(source: Source<'_>, scope: &dyn Scope, expected: Option<Type>) -> Vec<UnitError> {
@@ -59,8 +63,13 @@ fn mistakes(source: Source<'_>, scope: &dyn Scope, expected: Option<Type>) -> Ve
 }
 
 /// The types of all nodes, or every mistake.
-fn types(source: Source<'_>, scope: &dyn Scope, expected: Option<Type>) -> Result<Resolved, Vec<UnitError>> {
-    let mut checker = Checker { source, scope, found: Vec::new(), tables: Vec::new(), errors: Vec::new() };
+fn types(
+    source: Source<'_>,
+    scope: &dyn Scope,
+    expected: Option<Type>,
+) -> Result<Resolved, Vec<UnitError>> {
+    let mut checker =
+        Checker { source, scope, found: Vec::new(), tables: Vec::new(), errors: Vec::new() };
     for (id, (node, _)) in source.tree.nodes().enumerate() {
         let found = checker.node(id, node);
         checker.found.push(found);
@@ -89,17 +98,22 @@ impl Checker<'_> {
             Node::Number { value, exact } => {
                 Some(Checked { constant: Some(*value), exact: *exact, ..Checked::of(Type::SCALAR) })
             }
-            Node::Literal { value, ty } => Some(Checked { constant: Some(*value), ..Checked::of(*ty) }),
+            Node::Literal { value, ty } => {
+                Some(Checked { constant: Some(*value), ..Checked::of(*ty) })
+            }
             Node::Name(name) => self.name(name, self.source.tree.span(id)),
             Node::Negate(operand) => self.negate(*operand),
             Node::Binary(operator, left, right) => self.binary(*operator, *left, *right),
             Node::Compare(comparison, left, right) => {
                 let (a, b) = (self.value(*left), self.value(*right));
-                let checked = operands::common(&self.source, comparison.symbol(), (*left, a?), (*right, b?));
+                let checked =
+                    operands::common(&self.source, comparison.symbol(), (*left, a?), (*right, b?));
                 self.keep(checked)?;
                 Some(Checked { ty: None, ..Checked::of(Type::SCALAR) })
             }
-            Node::Call { function, name_span, arguments } => self.call(id, function, name_span, arguments),
+            Node::Call { function, name_span, arguments } => {
+                self.call(id, function, name_span, arguments)
+            }
         }
     }
 
@@ -118,7 +132,8 @@ impl Checker<'_> {
         match found.ty {
             Some(ty) => Some(ty),
             None => {
-                let fix = self.source.replace(id, &format!("if({}, 1, 0)", self.source.text_of(id)));
+                let fix =
+                    self.source.replace(id, &format!("if({}, 1, 0)", self.source.text_of(id)));
                 self.fail(Kind::TruthValue { fix }, self.source.tree.span(id))
             }
         }
@@ -134,7 +149,10 @@ impl Checker<'_> {
 
     fn name(&mut self, name: &str, span: Range<usize>) -> Option<Checked> {
         if name == "pi" {
-            return Some(Checked { constant: Some(std::f64::consts::PI), ..Checked::of(Type::SCALAR) });
+            return Some(Checked {
+                constant: Some(std::f64::consts::PI),
+                ..Checked::of(Type::SCALAR)
+            });
         }
         if let Some(symbol) = self.scope.symbol(name) {
             return Some(Checked { symbol: Some(symbol), ..Checked::of(symbol.ty) });
@@ -170,7 +188,9 @@ impl Checker<'_> {
         let (a, b) = ((left, a?), (right, b?));
         let checked = match operator {
             Operator::Add | Operator::Subtract => operands::sum(&self.source, operator, a, b),
-            Operator::Multiply | Operator::Divide => operands::product(&self.source, operator, a, b),
+            Operator::Multiply | Operator::Divide => {
+                operands::product(&self.source, operator, a, b)
+            }
             Operator::Power => operands::power(&self.source, a, b, self.exact(right)),
         };
         let ty = self.keep(checked)?;
@@ -179,7 +199,13 @@ impl Checker<'_> {
         Some(Checked { constant, exact, ..Checked::of(ty) })
     }
 
-    fn call(&mut self, id: Id, name: &str, span: &Range<usize>, arguments: &[Id]) -> Option<Checked> {
+    fn call(
+        &mut self,
+        id: Id,
+        name: &str,
+        span: &Range<usize>,
+        arguments: &[Id],
+    ) -> Option<Checked> {
         let Some(function) = function::find(name) else { return self.table(id, name, arguments) };
         if let Some(wanted) = function.wrong_arity(arguments.len()) {
             let kind = Kind::Arity { function: function.name(), wanted, found: arguments.len() };
@@ -187,7 +213,9 @@ impl Checker<'_> {
         }
         match (function, arguments) {
             (Function::If, [condition, values @ ..]) => self.conditional(*condition, values),
-            (Function::Min | Function::Max | Function::Mean, _) => self.several(function, arguments),
+            (Function::Min | Function::Max | Function::Mean, _) => {
+                self.several(function, arguments)
+            }
             (_, [argument]) => self.single(function, *argument),
             _ => None,
         }
@@ -209,7 +237,8 @@ impl Checker<'_> {
         }
         let mut right = Some(());
         for (index, (argument, ty)) in types.into_iter().enumerate() {
-            let checked = ty.map(|ty| call::argument(&self.source, (name, &symbol), index, (argument, ty)));
+            let checked =
+                ty.map(|ty| call::argument(&self.source, (name, &symbol), index, (argument, ty)));
             right = right.and(checked.and_then(|checked| self.keep(checked)));
         }
         right?;

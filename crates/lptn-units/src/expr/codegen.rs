@@ -77,8 +77,8 @@ impl<'a> Generator<'a> {
         self.spans.push(self.common.tree.span(origin));
     }
 
-    /// Leaves the value of a node in the accumulator. A long sum leans to the left: that side is walked in
-    /// a loop, so that the recursion is as deep as the brackets and no deeper.
+    /// Leaves the value of a node in the accumulator. A long sum leans to the left: that side is
+    /// walked in a loop, so that the recursion is as deep as the brackets and no deeper.
     pub(super) fn node(&mut self, id: Id) {
         let mut spine = Vec::new();
         let mut bottom = id;
@@ -164,7 +164,9 @@ impl<'a> Generator<'a> {
                 self.note(operand);
                 self.emit(Op::Right(arithmetic, operand), origin);
             }
-            (None, Some(Operand::Constant(exponent))) => self.emit(constant_power(exponent), origin),
+            (None, Some(Operand::Constant(exponent))) => {
+                self.emit(constant_power(exponent), origin)
+            }
             (arithmetic, _) => {
                 self.emit(Op::Push, origin);
                 self.node(right);
@@ -176,13 +178,18 @@ impl<'a> Generator<'a> {
     fn call(&mut self, name: &str, arguments: &[Id], origin: Id) {
         let Some(function) = function::find(name) else { return self.table(arguments, origin) };
         match (function, arguments) {
-            (Function::If, [condition, then, otherwise]) => self.conditional(*condition, *then, *otherwise),
+            (Function::If, [condition, then, otherwise]) => {
+                self.conditional(*condition, *then, *otherwise)
+            }
             (Function::Min, _) => self.fold(Arithmetic::Min, arguments, origin),
             (Function::Max, _) => self.fold(Arithmetic::Max, arguments, origin),
             (Function::Mean, _) => {
                 self.fold(Arithmetic::Add, arguments, origin);
                 let count = u32::try_from(arguments.len()).unwrap_or(u32::MAX);
-                self.emit(Op::Right(Arithmetic::Divide, Operand::Constant(f64::from(count))), origin);
+                self.emit(
+                    Op::Right(Arithmetic::Divide, Operand::Constant(f64::from(count))),
+                    origin,
+                );
             }
             (_, [argument]) => {
                 self.node(*argument);
@@ -231,7 +238,9 @@ impl<'a> Generator<'a> {
 
     /// Only the branch taken runs.
     fn conditional(&mut self, condition: Id, then: Id, otherwise: Id) {
-        let Node::Compare(comparison, left, right) = self.common.tree.node(condition) else { return };
+        let Node::Compare(comparison, left, right) = self.common.tree.node(condition) else {
+            return;
+        };
         let to_second = self.compare(*comparison, *left, *right, condition);
         self.node(then);
         let to_end = self.code.len();

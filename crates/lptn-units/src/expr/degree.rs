@@ -14,7 +14,8 @@ pub enum Degree {
 }
 
 impl Program {
-    /// How the result depends on one slot, the others held: an upper bound from the form of the code.
+    /// How the result depends on one slot, the others held: an upper bound from the form of the
+    /// code.
     pub fn degree_in(&self, slot: u32) -> Degree {
         degree(&self.code, slot)
     }
@@ -76,9 +77,13 @@ fn step(op: &Op, current: Degree, stack: &mut Vec<Degree>, slot: u32) -> Degree 
         Op::Load(operand) => of(operand),
         Op::Right(arithmetic, operand) => combine(arithmetic, current, of(operand)),
         Op::Left(arithmetic, operand) => combine(arithmetic, of(operand), current),
-        Op::Popped(arithmetic) => combine(arithmetic, stack.pop().unwrap_or(Degree::Nonlinear), current),
+        Op::Popped(arithmetic) => {
+            combine(arithmetic, stack.pop().unwrap_or(Degree::Nonlinear), current)
+        }
         Op::WholePower(1) | Op::Negate => current,
-        Op::PoppedPower | Op::PoppedTable(_) => bent(stack.pop().unwrap_or(Degree::Nonlinear).max(current)),
+        Op::PoppedPower | Op::PoppedTable(_) => {
+            bent(stack.pop().unwrap_or(Degree::Nonlinear).max(current))
+        }
         _ => bent(current),
     }
 }

@@ -7,13 +7,14 @@ use crate::table::Table;
 use crate::taylor::Taylor;
 use crate::taylor::interval::Interval;
 
-/// How many times both branches of an `if` are followed, as both may be taken, before the result counts as unknown.
+/// How many times both branches of an `if` are followed, as both may be taken, before the result
+/// counts as unknown.
 const FORKS: u32 = 64;
 
 impl Program {
-    /// Bounds on the result, and on its derivatives, while one slot runs through an interval and the others stand
-    /// still. They hold for every number of the interval, whatever the expression does between any two of them: where
-    /// [`Taylor::range`] is known, every evaluation succeeds.
+    /// Bounds on the result, and on its derivatives, while one slot runs through an interval and
+    /// the others stand still. They hold for every number of the interval, whatever the expression
+    /// does between any two of them: where [`Taylor::range`] is known, every evaluation succeeds.
     pub fn enclose(&self, slot: u32, over: [f64; 2], slots: &[f64]) -> Taylor {
         if self.slots.last().is_some_and(|last| *last as usize >= slots.len()) {
             return Taylor::unknown();
@@ -132,7 +133,9 @@ fn holds(comparison: Comparison, left: Interval, right: Interval) -> Option<bool
 
 fn power(base: Taylor, exponent: Taylor) -> Taylor {
     match exponent.range() {
-        Some([from, to]) if from.to_bits() == to.to_bits() && exponent.degree() == 0 => base.power(from),
+        Some([from, to]) if from.to_bits() == to.to_bits() && exponent.degree() == 0 => {
+            base.power(from)
+        }
         _ => (base.ln() * exponent).exp(),
     }
 }
@@ -165,19 +168,24 @@ fn apply(arithmetic: Arithmetic, left: Taylor, right: Taylor) -> Taylor {
 mod tests {
     use super::*;
 
-    /// A comparison holds for all numbers of two ranges, for none or for some: their halves tell which.
+    /// A comparison holds for all numbers of two ranges, for none or for some: their halves tell
+    /// which.
     #[test]
     fn a_comparison_of_ranges_is_that_of_all_their_numbers() {
         use Comparison::{Equal, Greater, GreaterEqual, Less, LessEqual, NotEqual};
         let ranges: Vec<Interval> = (0..4)
-            .flat_map(|low| (low..4).map(move |high| Interval::new(f64::from(low), f64::from(high))))
+            .flat_map(|low| {
+                (low..4).map(move |high| Interval::new(f64::from(low), f64::from(high)))
+            })
             .collect();
         let halves = (0..7).map(|k| 0.5 * f64::from(k));
-        let numbers = |range: Interval| halves.clone().filter(move |x| range.low <= *x && *x <= range.high);
+        let numbers =
+            |range: Interval| halves.clone().filter(move |x| range.low <= *x && *x <= range.high);
         for comparison in [Less, LessEqual, Greater, GreaterEqual, Equal, NotEqual] {
             for (a, b) in ranges.iter().flat_map(|a| ranges.iter().map(move |b| (*a, *b))) {
-                let truths: Vec<bool> =
-                    numbers(a).flat_map(|x| numbers(b).map(move |y| comparison.holds(x, y))).collect();
+                let truths: Vec<bool> = numbers(a)
+                    .flat_map(|x| numbers(b).map(move |y| comparison.holds(x, y)))
+                    .collect();
                 let expected = truths.iter().all(|truth| *truth == truths[0]).then_some(truths[0]);
                 assert_eq!(holds(comparison, a, b), expected, "{a:?} {comparison} {b:?}");
             }

@@ -92,9 +92,15 @@ impl EvalError {
     /// What to write instead.
     pub fn help(&self) -> Option<&'static str> {
         match self {
-            Self::NegativeBase { .. } => Some("write \"abs(x)^a\", or \"if(x > 0, x^a, 0)\" with its units"),
-            Self::Domain { .. } => Some("keep the argument positive: \"max(x, 1e-9)\" with its unit"),
-            Self::NotFinite { .. } => Some("keep divisors away from 0: \"max(x, 1e-9)\" with its unit"),
+            Self::NegativeBase { .. } => {
+                Some("write \"abs(x)^a\", or \"if(x > 0, x^a, 0)\" with its units")
+            }
+            Self::Domain { .. } => {
+                Some("keep the argument positive: \"max(x, 1e-9)\" with its unit")
+            }
+            Self::NotFinite { .. } => {
+                Some("keep divisors away from 0: \"max(x, 1e-9)\" with its unit")
+            }
             Self::OutsideTable { .. } => {
                 Some("add points to the table, or keep its end values with `outside = \"hold\"`")
             }
@@ -107,7 +113,10 @@ impl fmt::Display for EvalError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NegativeBase { base, exponent, .. } => {
-                write!(f, "negative base {base} with the exponent {exponent}, which is not a whole number")
+                write!(
+                    f,
+                    "negative base {base} with the exponent {exponent}, which is not a whole number"
+                )
             }
             Self::Domain { function, argument, .. } => write!(f, "`{function}` of {argument}"),
             Self::OutsideTable { table, value, from, to, argument, unit, .. } => {
@@ -122,7 +131,9 @@ impl fmt::Display for EvalError {
                     "table `{table}` reaches from {first} to {last} in its {which} argument, got {found}{si}"
                 )
             }
-            Self::NotFinite { value, .. } => write!(f, "result {value} or its derivative is not finite"),
+            Self::NotFinite { value, .. } => {
+                write!(f, "result {value} or its derivative is not finite")
+            }
             Self::MissingSlot { slot, given } => {
                 write!(f, "slot {slot} is needed, but only {given} slots are given")
             }
@@ -154,8 +165,9 @@ fn in_unit(si: f64, unit: Option<&Unit>, digits: usize) -> String {
 impl Program {
     /// Evaluates the program on the values of its slots, in SI units.
     ///
-    /// `stack` is scratch space that is kept between calls; with a capacity of [`Program::stack_size`]
-    /// nothing is allocated. Only the branch of an `if` that is taken is evaluated.
+    /// `stack` is scratch space that is kept between calls; with a capacity of
+    /// [`Program::stack_size`] nothing is allocated. Only the branch of an `if` that is taken is
+    /// evaluated.
     ///
     /// # Errors
     ///
@@ -169,7 +181,11 @@ impl Program {
         stack.clear();
         stack.reserve(self.stack_size);
         let result = self.run(slots, stack, |_, _| Ok(()))?;
-        if result.is_finite() { Ok(result) } else { Err(self.not_finite(slots, stack, result.value())) }
+        if result.is_finite() {
+            Ok(result)
+        } else {
+            Err(self.not_finite(slots, stack, result.value()))
+        }
     }
 
     /// Runs again, up to the first operation whose result is not finite.
@@ -227,7 +243,9 @@ impl Program {
                 Op::PoppedPower => self.power(index, pop(stack), accumulator)?,
                 Op::Call(function) => self.call(index, function, accumulator)?,
                 Op::Table(table) => self.table(index, table, accumulator)?,
-                Op::PoppedTable(table) => self.table_of_two(index, table, [pop(stack), accumulator])?,
+                Op::PoppedTable(table) => {
+                    self.table_of_two(index, table, [pop(stack), accumulator])?
+                }
                 Op::JumpUnless(comparison, target) => {
                     if !self.holds(index, comparison, [pop(stack).value(), accumulator.value()])? {
                         next = target;
@@ -292,7 +310,12 @@ impl Program {
     }
 
     #[inline(never)]
-    fn table_of_two<S: Scalar>(&self, index: usize, table: usize, arguments: [S; 2]) -> Result<S, EvalError> {
+    fn table_of_two<S: Scalar>(
+        &self,
+        index: usize,
+        table: usize,
+        arguments: [S; 2],
+    ) -> Result<S, EvalError> {
         let [x, y] = arguments;
         let found = match &self.named(table).table.as_ref() {
             Table::Two(table) => table.value_and_slopes(x.value(), y.value()),
@@ -307,13 +330,21 @@ impl Program {
     fn named(&self, table: usize) -> &NamedTable {
         match self.tables.get(table) {
             Some(named) => named,
-            None => unreachable!("code calls the tables it was compiled with; this is a bug in lptn"),
+            None => {
+                unreachable!("code calls the tables it was compiled with; this is a bug in lptn")
+            }
         }
     }
 
-    /// An argument that is not finite gives a value that is not either, so that its own place is reported.
+    /// An argument that is not finite gives a value that is not either, so that its own place is
+    /// reported.
     #[cold]
-    fn outside<S: Scalar>(&self, index: usize, table: usize, arguments: &[S]) -> Result<S, EvalError> {
+    fn outside<S: Scalar>(
+        &self,
+        index: usize,
+        table: usize,
+        arguments: &[S],
+    ) -> Result<S, EvalError> {
         let NamedTable { name, table, units } = self.named(table);
         for (argument, value) in arguments.iter().map(|argument| argument.value()).enumerate() {
             let knots = table.knots(argument);
@@ -321,14 +352,27 @@ impl Program {
             if value.is_finite() && !table.reaches(argument, value) {
                 let (table, span) = (name.clone(), self.span(index));
                 let unit = units.get(argument).cloned().map(Box::new);
-                return Err(EvalError::OutsideTable { table, argument, value, from, to, unit, span });
+                return Err(EvalError::OutsideTable {
+                    table,
+                    argument,
+                    value,
+                    from,
+                    to,
+                    unit,
+                    span,
+                });
             }
         }
         Ok(S::from_f64(f64::NAN))
     }
 
     #[inline]
-    fn call<S: Scalar>(&self, index: usize, function: Function, argument: S) -> Result<S, EvalError> {
+    fn call<S: Scalar>(
+        &self,
+        index: usize,
+        function: Function,
+        argument: S,
+    ) -> Result<S, EvalError> {
         let value = argument.value();
         let outside = match function {
             Function::Sqrt => value < 0.0,

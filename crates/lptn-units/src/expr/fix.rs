@@ -57,13 +57,15 @@ impl Source<'_> {
         self.literal_number(id).map(|number| self.replace(id, &format!("{number} [{unit}]")))
     }
 
-    /// How many mistakes are left when these names and numbers are of another type; `None` while that is tried.
+    /// How many mistakes are left when these names and numbers are of another type; `None` while
+    /// that is tried.
     fn mistakes_with(&self, ids: &[Id], ty: Type) -> Option<usize> {
         let Judge { scope, expected, check } = self.judge?;
         let tree = self.tree.with_literals(ids, ty);
         let source = Source { tree: &tree, judge: None, ..*self };
         // a temperature that something is done to shows that it should have been a difference
-        let weight = |error: &UnitError| if let Kind::AbsoluteOperand { .. } = error.kind { 2 } else { 1 };
+        let weight =
+            |error: &UnitError| if let Kind::AbsoluteOperand { .. } = error.kind { 2 } else { 1 };
         Some(check(source, scope, expected).iter().map(weight).sum())
     }
 
@@ -78,7 +80,8 @@ impl Source<'_> {
         let found = self.tree.nodes().enumerate().filter(|(_, (node, _))| frequency(node));
         let ids: Vec<Id> = found.map(|(id, _)| id).collect();
         let same = |id: &Id| self.text_of(*id) == self.text_of(ids[0]);
-        let right = !ids.is_empty() && ids.iter().all(same) && self.mistakes_with(&ids, SPEED) == Some(0);
+        let right =
+            !ids.is_empty() && ids.iter().all(same) && self.mistakes_with(&ids, SPEED) == Some(0);
         right.then(|| {
             let mut text = self.text.to_owned();
             for &id in ids.iter().rev() {
@@ -96,8 +99,8 @@ impl Source<'_> {
         self.relabel(id, if fahrenheit { "degR" } else { "K" })
     }
 
-    /// An absolute temperature that something was to be done to. `signed` tells that a literal would be right
-    /// with its sign directly before it.
+    /// An absolute temperature that something was to be done to. `signed` tells that a literal
+    /// would be right with its sign directly before it.
     pub(crate) fn absolute(&self, id: Id, operation: &'static str, signed: bool) -> UnitError {
         let kelvin = || self.replace(id, &format!("kelvin({})", self.text_of(id)));
         let fix = if signed && self.literal_number(id).is_some() {
@@ -123,7 +126,9 @@ impl Source<'_> {
             return Some(self.in_revolutions(id).unwrap_or_else(turned));
         }
         match self.tree.node(id) {
-            Node::Number { .. } => Some(self.replace(id, &format!("{part} [{}]", wanted.usual_unit()))),
+            Node::Number { .. } => {
+                Some(self.replace(id, &format!("{part} [{}]", wanted.usual_unit())))
+            }
             _ if wanted.absolute && found.is_temperature() => {
                 let made = || self.replace(id, &format!("absolute({})", self.text_of(id)));
                 Some(self.relabel(id, "degC").unwrap_or_else(made))
@@ -160,7 +165,9 @@ impl Source<'_> {
         let span = self.tree.span(root);
         let whole = self.text.get(span.clone()).unwrap_or_default();
         let kind = if is_frequency_for_rotation(found, wanted) {
-            Kind::Rotation { fix: Some(self.in_revolutions(root).unwrap_or(format!("({whole}) * 1 [rev]"))) }
+            Kind::Rotation {
+                fix: Some(self.in_revolutions(root).unwrap_or(format!("({whole}) * 1 [rev]"))),
+            }
         } else if wanted.absolute && found.is_temperature() {
             let made = || format!("absolute({whole})");
             Kind::AbsoluteWanted { fix: self.less_a_difference(root).unwrap_or_else(made) }
@@ -180,7 +187,9 @@ impl Source<'_> {
 
     /// `3/8 [in]`, a number over inches, as `0.375 [in]`, where inches are due.
     fn fraction(&self, root: Id, wanted: Type) -> Option<String> {
-        let Node::Binary(Operator::Divide, above, below) = self.tree.node(root) else { return None };
+        let Node::Binary(Operator::Divide, above, below) = self.tree.node(root) else {
+            return None;
+        };
         let (Node::Number { value, .. }, Node::Literal { ty, .. }) =
             (self.tree.node(*above), self.tree.node(*below))
         else {
@@ -200,7 +209,12 @@ impl Source<'_> {
     }
 
     /// Two values of different types that should have one.
-    pub(crate) fn unlike(&self, operation: &'static str, a: (Id, Type), b: (Id, Type)) -> UnitError {
+    pub(crate) fn unlike(
+        &self,
+        operation: &'static str,
+        a: (Id, Type),
+        b: (Id, Type),
+    ) -> UnitError {
         for (this, other) in [(a, b), (b, a)] {
             if is_frequency_for_rotation(this.1, other.1) {
                 let fix = self.in_revolutions(this.0);
@@ -208,7 +222,8 @@ impl Source<'_> {
             }
         }
         let turning = || a.1.differs_by_radians(b.1).then(|| self.turning()).flatten();
-        let fix = self.like(operation, b, a.1).or_else(|| self.like(operation, a, b.1)).or_else(turning);
+        let fix =
+            self.like(operation, b, a.1).or_else(|| self.like(operation, a, b.1)).or_else(turning);
         let span = self.tree.span(a.0).start..self.tree.span(b.0).end;
         let (left, right) = (Box::new(a.1), Box::new(b.1));
         UnitError::new(Kind::Operands { operation, left, right, fix }, span)
@@ -225,7 +240,9 @@ impl Source<'_> {
                 };
                 Some(self.replace(id, &format!("{} [{unit}]", self.text_of(id))))
             }
-            Node::Literal { .. } if ty.is_temperature() && other.absolute => self.relabel(id, "degC"),
+            Node::Literal { .. } if ty.is_temperature() && other.absolute => {
+                self.relabel(id, "degC")
+            }
             Node::Literal { .. } if ty.absolute && other.is_temperature() => self.as_difference(id),
             _ if ty.absolute && other.is_temperature() => {
                 Some(self.replace(id, &format!("({} - 0 [degC])", self.text_of(id))))
@@ -234,11 +251,12 @@ impl Source<'_> {
         }
     }
 
-    /// The unit of a number that is added to a temperature or subtracted: a difference, unless it is wrong that
-    /// the outcome is a temperature again, as in `0.004 [1/K] * (T - 20)`.
+    /// The unit of a number that is added to a temperature or subtracted: a difference, unless it
+    /// is wrong that the outcome is a temperature again, as in `0.004 [1/K] * (T - 20)`.
     fn beside_temperature(&self, id: Id) -> String {
         let mistakes = |ty| self.mistakes_with(&[id], ty).unwrap_or(0);
-        let absolute = mistakes(Type::ABSOLUTE_TEMPERATURE) < mistakes(Type::of(Dimension::TEMPERATURE));
+        let absolute =
+            mistakes(Type::ABSOLUTE_TEMPERATURE) < mistakes(Type::of(Dimension::TEMPERATURE));
         if absolute { "degC".to_owned() } else { "K".to_owned() }
     }
 

@@ -16,7 +16,11 @@ pub(crate) fn binary(operator: Operator, left: Option<f64>, right: Option<f64>) 
 }
 
 /// The same in exact fractions, for exponents such as `(5/3)` and `-(1/2)`.
-pub(crate) fn exact(operator: Operator, left: Option<Rational>, right: Option<Rational>) -> Option<Rational> {
+pub(crate) fn exact(
+    operator: Operator,
+    left: Option<Rational>,
+    right: Option<Rational>,
+) -> Option<Rational> {
     let (a, b) = (left?, right?);
     match operator {
         Operator::Add => a.checked_add(b),

@@ -8,8 +8,8 @@ use crate::dimension::Dimension;
 use crate::rational::Rational;
 use crate::types::Type;
 
-/// The names that `scope` does not know, in order of appearance, each with its dimension where the rest of the
-/// expression leaves no choice.
+/// The names that `scope` does not know, in order of appearance, each with its dimension where the
+/// rest of the expression leaves no choice.
 pub(crate) fn unknown_names(
     tree: &Tree,
     scope: &dyn Scope,
@@ -89,7 +89,8 @@ impl Inference<'_> {
         if name == "pi" {
             return Some(Dimension::NONE);
         }
-        let settled = || self.names.iter().find(|(known, _)| known == name).and_then(|(_, found)| *found);
+        let settled =
+            || self.names.iter().find(|(known, _)| known == name).and_then(|(_, found)| *found);
         self.scope.symbol(name).map(|symbol| symbol.ty.dimension).or_else(settled)
     }
 
@@ -108,7 +109,12 @@ impl Inference<'_> {
         }
     }
 
-    fn call(&self, name: &str, of: &dyn Fn(usize) -> Option<Dimension>, count: usize) -> Option<Dimension> {
+    fn call(
+        &self,
+        name: &str,
+        of: &dyn Fn(usize) -> Option<Dimension>,
+        count: usize,
+    ) -> Option<Dimension> {
         match function::find(name) {
             None => self.scope.table(name).map(|table| table.ty.dimension),
             Some(Function::Abs) => of(0),
@@ -128,7 +134,10 @@ impl Inference<'_> {
         for id in (0..known.len()).rev() {
             match self.tree.node(id) {
                 Node::Name(name) => {
-                    let open = self.names.iter_mut().find(|(known, found)| known == name && found.is_none());
+                    let open = self
+                        .names
+                        .iter_mut()
+                        .find(|(known, found)| known == name && found.is_none());
                     if let (Some((_, found)), Some(dimension)) = (open, due[id]) {
                         *found = Some(dimension);
                     }
@@ -156,7 +165,9 @@ impl Inference<'_> {
             Node::Call { function, arguments, .. } => {
                 let one = match function::find(function) {
                     Some(Function::Abs | Function::Min | Function::Max | Function::Mean) => due,
-                    Some(Function::If) => return arguments.iter().skip(1).map(|&id| (id, due)).collect(),
+                    Some(Function::If) => {
+                        return arguments.iter().skip(1).map(|&id| (id, due)).collect();
+                    }
                     Some(Function::Sqrt) => due.and_then(|d| d.checked_mul(d)),
                     Some(Function::Kelvin | Function::Absolute) => Some(Dimension::TEMPERATURE),
                     Some(_) => Some(Dimension::NONE),

@@ -122,7 +122,8 @@ impl Lexer<'_> {
     }
 
     fn misplaced(&self, span: Range<usize>) -> UnitError {
-        let follows = matches!(self.tokens.last(), Some((Token::Name(_) | Token::Unit(_) | Token::Close, _)));
+        let follows =
+            matches!(self.tokens.last(), Some((Token::Name(_) | Token::Unit(_) | Token::Close, _)));
         let in_name = self.text.get(..span.start).is_some_and(|t| t.ends_with(is_identifier_part));
         // a unit where a value is due is one of that unit: `[W]` as `1 [W]`
         let replacement = match self.text.get(span.clone()) {
@@ -135,7 +136,9 @@ impl Lexer<'_> {
 
     /// The number before an absolute unit, with its sign, is a temperature above 0 K.
     fn absolute_zero(&self, unit: &Unit) -> Result<(), UnitError> {
-        let [before @ .., (Token::Number(number), span)] = self.tokens.as_slice() else { return Ok(()) };
+        let [before @ .., (Token::Number(number), span)] = self.tokens.as_slice() else {
+            return Ok(());
+        };
         let negative = matches!(before.last(), Some((Token::Operator(Operator::Subtract), sign))
             if sign.end == span.start && starts_operand(before));
         let value = if negative { -number.value } else { number.value };

@@ -51,9 +51,9 @@ pub struct Expression {
 impl Expression {
     /// Parses an expression.
     ///
-    /// Precedence, from the loosest: comparison, `+ -`, `* /`, sign, `^` (right to left). Units stand in
-    /// brackets directly after a number, `5 [W/K]`. A sign directly before a number belongs to it
-    /// (`-20 [degC]`), for which reason `-2^2` is refused.
+    /// Precedence, from the loosest: comparison, `+ -`, `* /`, sign, `^` (right to left). Units
+    /// stand in brackets directly after a number, `5 [W/K]`. A sign directly before a number
+    /// belongs to it (`-20 [degC]`), for which reason `-2^2` is refused.
     ///
     /// # Errors
     ///
@@ -63,9 +63,9 @@ impl Expression {
         Ok(Self { text: text.to_owned(), part: 0..text.len(), tree, renamed: Vec::new() })
     }
 
-    /// The same expression with other names: where `meaning` gives a name for one, in the place of a value or of a
-    /// table that is called, that name is meant. Spans still count in the text that was parsed;
-    /// [`Program::text`] has the new names.
+    /// The same expression with other names: where `meaning` gives a name for one, in the place of
+    /// a value or of a table that is called, that name is meant. Spans still count in the text that
+    /// was parsed; [`Program::text`] has the new names.
     #[must_use]
     pub fn renamed(mut self, meaning: &dyn Fn(&str) -> Option<String>) -> Self {
         let renamed = self.tree.rename(meaning);
@@ -77,7 +77,8 @@ impl Expression {
     /// The text with the names that are meant, for a reader who does not know what they stand for.
     pub fn meant(&self) -> String {
         let (mut text, mut at) = (String::new(), self.part.start);
-        for (span, name) in self.renamed.iter().filter(|(span, _)| self.part.contains(&span.start)) {
+        for (span, name) in self.renamed.iter().filter(|(span, _)| self.part.contains(&span.start))
+        {
             text += self.text.get(at..span.start).unwrap_or_default();
             text += name;
             at = span.end;
@@ -91,8 +92,8 @@ impl Expression {
         self.text.get(self.part.clone()).unwrap_or_default()
     }
 
-    /// The names used, in order of appearance: identifiers and paths such as `steel.T` and `planet[1].gear.T`
-    /// (without spaces), functions and `pi` left out.
+    /// The names used, in order of appearance: identifiers and paths such as `steel.T` and
+    /// `planet[1].gear.T` (without spaces), functions and `pi` left out.
     pub fn names(&self) -> Vec<(String, Range<usize>)> {
         let named = self.tree.nodes().filter_map(|(node, span)| match node {
             Node::Name(name) if name != "pi" => Some((name.clone(), span.clone())),
@@ -101,15 +102,20 @@ impl Expression {
         named.collect()
     }
 
-    /// The names that `scope` does not know, in order of appearance, each with the dimension it must have so that the
-    /// whole is of type `expected`: with a rotation `omega`, power is due from `a * omega + b * omega^3` only if `a` is
-    /// in W s/rad and `b` in W s^3/rad^3. `None` where the expression leaves a choice, as in `a * b`.
-    pub fn unknown_names(&self, scope: &dyn Scope, expected: Type) -> Vec<(String, Option<Dimension>)> {
+    /// The names that `scope` does not know, in order of appearance, each with the dimension it
+    /// must have so that the whole is of type `expected`: with a rotation `omega`, power is due
+    /// from `a * omega + b * omega^3` only if `a` is in W s/rad and `b` in W s^3/rad^3. `None`
+    /// where the expression leaves a choice, as in `a * b`.
+    pub fn unknown_names(
+        &self,
+        scope: &dyn Scope,
+        expected: Type,
+    ) -> Vec<(String, Option<Dimension>)> {
         infer::unknown_names(&self.tree, scope, expected)
     }
 
-    /// The names that are called and are not functions, in order of appearance: tables, such as `loss` in
-    /// `2 * loss(speed)`.
+    /// The names that are called and are not functions, in order of appearance: tables, such as
+    /// `loss` in `2 * loss(speed)`.
     pub fn calls(&self) -> Vec<(String, Range<usize>)> {
         let called = self.tree.nodes().filter_map(|(node, _)| match node {
             Node::Call { function: name, name_span, .. } if !is_function(name) => {
@@ -120,8 +126,8 @@ impl Expression {
         called.collect()
     }
 
-    /// The comparisons by `==` or `!=` in which this name occurs: where it is a time, they hold, or fail to,
-    /// for a moment that has no length.
+    /// The comparisons by `==` or `!=` in which this name occurs: where it is a time, they hold, or
+    /// fail to, for a moment that has no length.
     pub fn equalities(&self, name: &str) -> Vec<Range<usize>> {
         let named = |node: &Node| matches!(node, Node::Name(found) if found == name);
         let uses: Vec<&Range<usize>> =
@@ -139,17 +145,24 @@ impl Expression {
     ///
     /// # Errors
     ///
-    /// Every unknown name, wrong dimension and misuse of an absolute temperature, in order of place. Parts
-    /// that contain an error raise no further ones.
-    pub fn compile(&self, scope: &dyn Scope, expected: Option<Type>) -> Result<Program, Problems<UnitError>> {
+    /// Every unknown name, wrong dimension and misuse of an absolute temperature, in order of
+    /// place. Parts that contain an error raise no further ones.
+    pub fn compile(
+        &self,
+        scope: &dyn Scope,
+        expected: Option<Type>,
+    ) -> Result<Program, Problems<UnitError>> {
         let checked = check::check(&self.text, &self.tree, scope, expected).map_err(Problems)?;
         Ok(parts::generate(&self.meant(), &self.tree, checked))
     }
 
     /// For `a <= b`: the two sides as expressions, and the comparison between them. `None` if the
-    /// expression as a whole is not a comparison. Spans still count from the start of the original text.
+    /// expression as a whole is not a comparison. Spans still count from the start of the original
+    /// text.
     pub fn split_comparison(&self) -> Option<(Expression, Comparison, Expression)> {
-        let Node::Compare(comparison, left, right) = self.tree.node(self.tree.root()) else { return None };
+        let Node::Compare(comparison, left, right) = self.tree.node(self.tree.root()) else {
+            return None;
+        };
         let side = |tree: Tree| Expression {
             part: tree.span(tree.root()),
             text: self.text.clone(),

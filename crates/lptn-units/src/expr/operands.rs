@@ -12,7 +12,12 @@ type Operand = (Id, Type);
 type Typed = Result<Type, UnitError>;
 
 /// One type for two values that are added, compared or chosen from.
-pub(crate) fn common(source: &Source<'_>, operation: &'static str, a: Operand, b: Operand) -> Typed {
+pub(crate) fn common(
+    source: &Source<'_>,
+    operation: &'static str,
+    a: Operand,
+    b: Operand,
+) -> Typed {
     if a.1.conforms_to(b.1) {
         Ok(b.1)
     } else if b.1.conforms_to(a.1) {
@@ -55,7 +60,11 @@ pub(crate) fn product(source: &Source<'_>, operator: Operator, a: Operand, b: Op
     let divide = operator == Operator::Divide;
     for (id, ty) in [a, b] {
         if ty.absolute {
-            return Err(source.absolute(id, if divide { "part of a quotient" } else { "multiplied" }, false));
+            return Err(source.absolute(
+                id,
+                if divide { "part of a quotient" } else { "multiplied" },
+                false,
+            ));
         }
     }
     let (left, right) = (a.1.dimension, b.1.dimension);
@@ -64,7 +73,12 @@ pub(crate) fn product(source: &Source<'_>, operator: Operator, a: Operand, b: Op
 }
 
 /// A base with a dimension needs an exponent that is known exactly.
-pub(crate) fn power(source: &Source<'_>, base: Operand, exponent: Operand, exact: Option<Rational>) -> Typed {
+pub(crate) fn power(
+    source: &Source<'_>,
+    base: Operand,
+    exponent: Operand,
+    exact: Option<Rational>,
+) -> Typed {
     if base.1.absolute {
         return Err(source.absolute(base.0, "raised to a power", false));
     }
@@ -76,7 +90,11 @@ pub(crate) fn power(source: &Source<'_>, base: Operand, exponent: Operand, exact
         return Ok(base.1);
     }
     let Some(exact) = exact else { return Err(variable_exponent(source, base, exponent.0)) };
-    base.1.dimension.checked_pow(exact).map(Type::of).ok_or_else(|| overflow(source, base.0, exponent.0))
+    base.1
+        .dimension
+        .checked_pow(exact)
+        .map(Type::of)
+        .ok_or_else(|| overflow(source, base.0, exponent.0))
 }
 
 fn variable_exponent(source: &Source<'_>, base: Operand, exponent: Id) -> UnitError {
@@ -97,19 +115,24 @@ pub(crate) fn argument(source: &Source<'_>, function: Function, given: Operand) 
     let wrong = |wanted| {
         let scaled = !matches!(function, Function::Kelvin | Function::Absolute);
         let example = scaled.then(|| source.divided(id, ty));
-        let kind = Kind::Argument { function: function.name(), wanted, found: Box::new(ty), example };
+        let kind =
+            Kind::Argument { function: function.name(), wanted, found: Box::new(ty), example };
         Err(UnitError::new(kind, source.tree.span(id)))
     };
     match function {
         Function::Kelvin if ty.absolute => Ok(Type::of(Dimension::TEMPERATURE)),
         Function::Kelvin => wrong("an absolute temperature"),
         Function::Absolute if !ty.absolute && ty.is_temperature() => Ok(Type::ABSOLUTE_TEMPERATURE),
-        Function::Absolute => wrong("a temperature above 0 K as a plain quantity, `absolute(300 [K])`"),
+        Function::Absolute => {
+            wrong("a temperature above 0 K as a plain quantity, `absolute(300 [K])`")
+        }
         _ if ty.absolute => Err(source.absolute(id, "the argument of this function", false)),
         Function::Abs => Ok(ty),
-        Function::Sqrt => {
-            ty.dimension.checked_pow(Rational::HALF).map(Type::of).ok_or_else(|| overflow(source, id, id))
-        }
+        Function::Sqrt => ty
+            .dimension
+            .checked_pow(Rational::HALF)
+            .map(Type::of)
+            .ok_or_else(|| overflow(source, id, id)),
         Function::Sin | Function::Cos => {
             if ty.conforms_to(Type::SCALAR) {
                 Ok(Type::SCALAR)

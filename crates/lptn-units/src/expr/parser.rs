@@ -59,7 +59,9 @@ impl Parser<'_> {
         loop {
             let next = match self.peek() {
                 Some(Token::Operator(operator)) => self.binary(*operator, left, start, floor)?,
-                Some(Token::Comparison(comparison)) => self.comparison(*comparison, left, start, floor)?,
+                Some(Token::Comparison(comparison)) => {
+                    self.comparison(*comparison, left, start, floor)?
+                }
                 _ => None,
             };
             let Some(next) = next else { break };
@@ -158,7 +160,8 @@ impl Parser<'_> {
         self.finish(node, start)
     }
 
-    /// A sign directly before a number belongs to it: `-20 [degC]`. Before anything else it negates.
+    /// A sign directly before a number belongs to it: `-20 [degC]`. Before anything else it
+    /// negates.
     fn signed(&mut self, sign: Operator) -> Parsed {
         let span = self.here();
         self.at += 1;
@@ -259,7 +262,8 @@ fn with_sign(number: Number, sign: Operator) -> Number {
     Number { value: -number.value, exact, span: number.span }
 }
 
-/// The lexer has refused temperatures below absolute zero; rounding may still put 0 K a little below.
+/// The lexer has refused temperatures below absolute zero; rounding may still put 0 K a little
+/// below.
 fn in_si(unit: &Unit, value: f64) -> f64 {
     let si = unit.to_si(value);
     if unit.ty == Type::ABSOLUTE_TEMPERATURE { si.max(0.0) } else { si }

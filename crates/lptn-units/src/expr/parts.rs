@@ -10,7 +10,8 @@ use super::tree::{Id, Node, Operator, Tree};
 use crate::dimension::Dimension;
 use crate::types::Type;
 
-/// Most arguments of a `min` or `max` of which every pair has a program: pairs grow with the square.
+/// Most arguments of a `min` or `max` of which every pair has a program: pairs grow with the
+/// square.
 const MOST_IN_PAIRS: usize = 16;
 
 /// The program of a checked tree, with those of its parts.
@@ -39,7 +40,9 @@ impl Parts<'_> {
                     program.relations.push(*relation);
                     program.comparisons.push(self.difference(*left, *right, id));
                 }
-                Node::Call { function, arguments, .. } => self.call(function, arguments, id, program),
+                Node::Call { function, arguments, .. } => {
+                    self.call(function, arguments, id, program)
+                }
                 _ => {}
             }
         }
@@ -48,9 +51,15 @@ impl Parts<'_> {
     fn call(&self, name: &str, arguments: &[Id], id: Id, program: &mut Program) {
         let constant = self.common.checked[id].constant.is_some();
         match (function::find(name), arguments) {
-            (Some(Function::Abs), [argument]) if !constant => program.kinks.push(self.value(*argument)),
-            (Some(Function::Min), _) => self.extreme(Arithmetic::Min, arguments, id, &mut program.kinks),
-            (Some(Function::Max), _) => self.extreme(Arithmetic::Max, arguments, id, &mut program.kinks),
+            (Some(Function::Abs), [argument]) if !constant => {
+                program.kinks.push(self.value(*argument))
+            }
+            (Some(Function::Min), _) => {
+                self.extreme(Arithmetic::Min, arguments, id, &mut program.kinks)
+            }
+            (Some(Function::Max), _) => {
+                self.extreme(Arithmetic::Max, arguments, id, &mut program.kinks)
+            }
             (None, _) => program.table_calls.extend(self.table_call(arguments, id)),
             _ => {}
         }

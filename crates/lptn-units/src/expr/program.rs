@@ -71,8 +71,8 @@ pub(crate) struct NamedTable {
 pub struct TableCall {
     /// The table that is called.
     pub table: Arc<Table>,
-    /// One program per argument. It loads the ordinary slots of its symbols, inside comparisons too, so that
-    /// the roots of its value minus a knot are where the call crosses the knot.
+    /// One program per argument. It loads the ordinary slots of its symbols, inside comparisons
+    /// too, so that the roots of its value minus a knot are where the call crosses the knot.
     pub arguments: Vec<Program>,
 }
 
@@ -114,15 +114,16 @@ impl Program {
         &self.text
     }
 
-    /// One program per comparison, nested ones included: left side minus right side, in the order of the
-    /// text. They load the ordinary slots of their symbols, so that a root of theirs is where the truth of
-    /// the comparison changes.
+    /// One program per comparison, nested ones included: left side minus right side, in the order
+    /// of the text. They load the ordinary slots of their symbols, so that a root of theirs is
+    /// where the truth of the comparison changes.
     pub fn comparisons(&self) -> &[Program] {
         &self.comparisons
     }
 
-    /// The same program with the truth of some comparisons read from slots, 0 for no: `slot_of` is asked for each of
-    /// [`Program::comparisons`] by its position. Comparisons inside others are held in these too.
+    /// The same program with the truth of some comparisons read from slots, 0 for no: `slot_of` is
+    /// asked for each of [`Program::comparisons`] by its position. Comparisons inside others are
+    /// held in these too.
     #[must_use]
     pub fn with_held_comparisons(&self, slot_of: &mut dyn FnMut(usize) -> Option<u32>) -> Self {
         let mut held = self.clone();
@@ -154,20 +155,21 @@ impl Program {
         &self.relations
     }
 
-    /// Where the result has a kink: for every `abs` its argument, for every pair of arguments of a `min` or
-    /// `max` their difference, inner calls before those around them and otherwise in the order of the text.
-    /// They load the ordinary slots of their symbols, so that a kink is at a root of theirs. Not every root
-    /// is a kink: the pair may not be the smallest or largest, the branch not the one that is taken; there a
-    /// program may also fail to evaluate.
+    /// Where the result has a kink: for every `abs` its argument, for every pair of arguments of a
+    /// `min` or `max` their difference, inner calls before those around them and otherwise in the
+    /// order of the text. They load the ordinary slots of their symbols, so that a kink is at a
+    /// root of theirs. Not every root is a kink: the pair may not be the smallest or largest, the
+    /// branch not the one that is taken; there a program may also fail to evaluate.
     ///
-    /// Pairs of constants are left out. Of more than 16 arguments the lists are halved until they have no
-    /// more; between halves stands the difference of their extremes, whose roots are the kinks between them.
+    /// Pairs of constants are left out. Of more than 16 arguments the lists are halved until they
+    /// have no more; between halves stands the difference of their extremes, whose roots are the
+    /// kinks between them.
     pub fn kinks(&self) -> &[Program] {
         &self.kinks
     }
 
-    /// The calls of tables, inner ones before those around them and otherwise in the order of the text. In a
-    /// branch that is not taken the programs of the arguments may fail to evaluate.
+    /// The calls of tables, inner ones before those around them and otherwise in the order of the
+    /// text. In a branch that is not taken the programs of the arguments may fail to evaluate.
     pub fn table_calls(&self) -> &[TableCall] {
         &self.table_calls
     }

@@ -3,11 +3,11 @@
 use crate::table::TableSymbol;
 use crate::types::Type;
 
-/// Names with a meaning of their own, which no parameter, signal, control or table may take: the time `t`, `pi`,
-/// the temperatures of the element at hand, and all functions.
+/// Names with a meaning of their own, which no parameter, signal, control or table may take: the
+/// time `t`, `pi`, the temperatures of the element at hand, and all functions.
 pub const RESERVED: &[&str] = &[
-    "t", "pi", "T", "T_from", "T_to", "T_mean", "dT", "abs", "min", "max", "mean", "sqrt", "exp", "ln",
-    "sin", "cos", "tanh", "if", "kelvin", "absolute",
+    "t", "pi", "T", "T_from", "T_to", "T_mean", "dT", "abs", "min", "max", "mean", "sqrt", "exp",
+    "ln", "sin", "cos", "tanh", "if", "kelvin", "absolute",
 ];
 
 /// A name in scope: where its value is found and what it is.
@@ -17,8 +17,8 @@ pub struct Symbol {
     pub slot: u32,
     /// The type of the value that the name stands for.
     pub ty: Type,
-    /// Index to load instead inside the two operands of a comparison. An integrator keeps the truth of
-    /// comparisons fixed between events by freezing the values in these slots.
+    /// Index to load instead inside the two operands of a comparison. An integrator keeps the truth
+    /// of comparisons fixed between events by freezing the values in these slots.
     pub in_comparison: Option<u32>,
 }
 

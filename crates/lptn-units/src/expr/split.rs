@@ -18,11 +18,11 @@ pub enum SlotKind {
 /// What [`Program::split`] finds.
 #[derive(Clone, Debug, Default)]
 pub struct Split {
-    /// The largest parts that read no foreign slot and some varying one, in the order of the code. Parts of branches that
-    /// are not taken may fail to evaluate.
+    /// The largest parts that read no foreign slot and some varying one, in the order of the code.
+    /// Parts of branches that are not taken may fail to evaluate.
     pub parts: Vec<Program>,
-    /// Whether something other than a sum, a product or a choice is made of a value that reads both varying and foreign
-    /// slots, so that the parts do not tell how the whole varies.
+    /// Whether something other than a sum, a product or a choice is made of a value that reads both
+    /// varying and foreign slots, so that the parts do not tell how the whole varies.
     pub entangled: bool,
 }
 
@@ -51,11 +51,16 @@ struct Walk<'a> {
 }
 
 impl Program {
-    /// The parts that read no slot of the kind [`SlotKind::Foreign`]: in `a(t) * (1 + b * T)` with `T` foreign it is `a(t)`,
-    /// wherever it stands.
+    /// The parts that read no slot of the kind [`SlotKind::Foreign`]: in `a(t) * (1 + b * T)` with
+    /// `T` foreign it is `a(t)`, wherever it stands.
     pub fn split(&self, kind: &dyn Fn(u32) -> SlotKind) -> Split {
-        let mut walk =
-            Walk { program: self, kind, stack: Vec::new(), branches: Vec::new(), found: Split::default() };
+        let mut walk = Walk {
+            program: self,
+            kind,
+            stack: Vec::new(),
+            branches: Vec::new(),
+            found: Split::default(),
+        };
         walk.run();
         walk.found
     }
@@ -74,7 +79,10 @@ impl Program {
             Op::Jump(target) => Op::Jump(target - from),
             other => other,
         };
-        self.of_code(self.code[from..to].iter().map(shifted).collect(), self.spans[from..to].to_vec())
+        self.of_code(
+            self.code[from..to].iter().map(shifted).collect(),
+            self.spans[from..to].to_vec(),
+        )
     }
 
     fn of_code(&self, code: Vec<Op>, spans: Vec<std::ops::Range<usize>>) -> Self {
@@ -199,7 +207,8 @@ impl Walk<'_> {
 
     fn branch(&mut self, left: Held, right: Held, foreign: bool) -> Held {
         let foreign = foreign || left.foreign || right.foreign;
-        self.branches.push(Branch { condition: Held { varies: false, foreign, ..left }, first: None });
+        self.branches
+            .push(Branch { condition: Held { varies: false, foreign, ..left }, first: None });
         right
     }
 

@@ -1,4 +1,5 @@
-//! The syntax tree, in one list: operands stand before what uses them, so that no walk over it recurses.
+//! The syntax tree, in one list: operands stand before what uses them, so that no walk over it
+//! recurses.
 
 use std::fmt;
 use std::ops::Range;
@@ -129,8 +130,12 @@ impl Tree {
         tree
     }
 
-    /// Puts other names in the place of those that have a meaning; where these stand, and what they are now.
-    pub(crate) fn rename(&mut self, meaning: &dyn Fn(&str) -> Option<String>) -> Vec<(Range<usize>, String)> {
+    /// Puts other names in the place of those that have a meaning; where these stand, and what they
+    /// are now.
+    pub(crate) fn rename(
+        &mut self,
+        meaning: &dyn Fn(&str) -> Option<String>,
+    ) -> Vec<(Range<usize>, String)> {
         let mut renamed = Vec::new();
         for (node, span) in &mut self.nodes {
             let (name, place) = match node {
@@ -148,8 +153,8 @@ impl Tree {
         renamed
     }
 
-    /// The nodes from `first` to `root`, where these are a tree of their own: all operands of a node stand
-    /// directly before it.
+    /// The nodes from `first` to `root`, where these are a tree of their own: all operands of a
+    /// node stand directly before it.
     pub(crate) fn subtree(&self, first: Id, root: Id) -> Self {
         let mut nodes = self.nodes[first..=root].to_vec();
         for (node, _) in &mut nodes {
@@ -169,7 +174,9 @@ impl Node {
                 *left -= by;
                 *right -= by;
             }
-            Self::Call { arguments, .. } => arguments.iter_mut().for_each(|argument| *argument -= by),
+            Self::Call { arguments, .. } => {
+                arguments.iter_mut().for_each(|argument| *argument -= by)
+            }
         }
     }
 }

@@ -1,10 +1,12 @@
-//! Whether a result goes one way with a variable, from the form of its code: what cannot be told is not known.
+//! Whether a result goes one way with a variable, from the form of its code: what cannot be told is
+//! not known.
 
 use super::function::Function;
 use super::program::{Arithmetic, Op, Operand, Program};
 use crate::table::Table;
 
-/// What is known of a value that depends on one variable: the range it stays in, and whether it goes one way.
+/// What is known of a value that depends on one variable: the range it stays in, and whether it
+/// goes one way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trend {
     /// It is never less than this.
@@ -21,8 +23,13 @@ pub struct Trend {
 
 impl Trend {
     /// Nothing is known of it.
-    pub const UNKNOWN: Self =
-        Self { low: f64::NEG_INFINITY, high: f64::INFINITY, rises: false, falls: false, signed: false };
+    pub const UNKNOWN: Self = Self {
+        low: f64::NEG_INFINITY,
+        high: f64::INFINITY,
+        rises: false,
+        falls: false,
+        signed: false,
+    };
 
     /// A variable that is never negative.
     pub const VARIABLE: Self =
@@ -43,8 +50,8 @@ impl Trend {
     #[must_use]
     pub fn times(self, other: Self) -> Self {
         if self.is_held() && other.is_held() && !(self.low >= 0.0 && other.low >= 0.0) {
-            let both =
-                self.low.to_bits() == self.high.to_bits() && other.low.to_bits() == other.high.to_bits();
+            let both = self.low.to_bits() == self.high.to_bits()
+                && other.low.to_bits() == other.high.to_bits();
             return if both { Self::constant(self.low * other.low) } else { Self::HELD };
         }
         // of what is 0 and nothing else the negative is the same again
@@ -57,7 +64,8 @@ impl Trend {
         if self.low >= 0.0 && other.low >= 0.0 {
             // 0 times infinity: no bound on that side
             let bound = |a: f64, b: f64, none: f64| if (a * b).is_nan() { none } else { a * b };
-            let (low, high) = (bound(self.low, other.low, 0.0), bound(self.high, other.high, f64::INFINITY));
+            let (low, high) =
+                (bound(self.low, other.low, 0.0), bound(self.high, other.high, f64::INFINITY));
             return Self {
                 low,
                 high,
@@ -81,7 +89,13 @@ impl Trend {
     }
 
     fn negated(self) -> Self {
-        Self { low: -self.high, high: -self.low, rises: self.falls, falls: self.rises, signed: self.signed }
+        Self {
+            low: -self.high,
+            high: -self.low,
+            rises: self.falls,
+            falls: self.rises,
+            signed: self.signed,
+        }
     }
 
     fn inverted(self) -> Self {
@@ -175,7 +189,8 @@ impl Trend {
 }
 
 impl Program {
-    /// How the result goes with a variable: `of` says what is known of each slot. Behind a condition nothing is known.
+    /// How the result goes with a variable: `of` says what is known of each slot. Behind a
+    /// condition nothing is known.
     pub fn trend(&self, of: &dyn Fn(u32) -> Trend) -> Trend {
         let operand = |operand: Operand| match operand {
             Operand::Constant(value) => Trend::constant(value),
@@ -199,7 +214,9 @@ impl Program {
                 Op::RealPower(exponent) => now.power(exponent),
                 Op::Call(function) => now.called(function),
                 Op::Table(index) => self.looked_up(index, now),
-                Op::PoppedPower | Op::PoppedTable(_) if now.is_held() && pop().is_held() => Trend::HELD,
+                Op::PoppedPower | Op::PoppedTable(_) if now.is_held() && pop().is_held() => {
+                    Trend::HELD
+                }
                 _ => return Trend::UNKNOWN,
             };
         }

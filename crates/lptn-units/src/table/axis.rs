@@ -5,14 +5,16 @@
 pub enum Interpolation {
     /// Straight lines.
     Linear,
-    /// Cubic pieces that are smooth to the first derivative and rise and fall only where the points do.
+    /// Cubic pieces that are smooth to the first derivative and rise and fall only where the points
+    /// do.
     Pchip,
 }
 
 /// What a table is outside its points.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Outside {
-    /// Nothing: it has no value there. Up to 1e-14 of the larger end beyond it, which is rounding, is inside.
+    /// Nothing: it has no value there. Up to 1e-14 of the larger end beyond it, which is rounding,
+    /// is inside.
     Error,
     /// The value at the nearer end; its slope is 0.
     Hold,
@@ -28,12 +30,12 @@ pub(super) enum Place {
     Above,
 }
 
-/// What an argument may be beyond an end of its knots, relative to the larger end: the rounding of a few
-/// operations, such as a speed computed from another speed and a ratio of gears.
+/// What an argument may be beyond an end of its knots, relative to the larger end: the rounding of
+/// a few operations, such as a speed computed from another speed and a ratio of gears.
 const ROUNDING: f64 = 1e-14;
 
-/// The place of `x` among knots that rise; `None` where the table has no value, and for a number that is not
-/// finite.
+/// The place of `x` among knots that rise; `None` where the table has no value, and for a number
+/// that is not finite.
 pub(super) fn place(knots: &[f64], x: f64, outside: Outside) -> Option<Place> {
     let (&first, &last) = (knots.first()?, knots.last()?);
     if !x.is_finite() {

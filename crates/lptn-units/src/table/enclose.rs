@@ -7,8 +7,8 @@ use super::two::Table2;
 use crate::taylor::Taylor;
 use crate::taylor::interval::Interval;
 
-/// What an argument may be beyond a knot, relative to it, and still count as before it: a table is continuous, so
-/// nothing is lost, and knots are seldom met to the last digit.
+/// What an argument may be beyond a knot, relative to it, and still count as before it: a table is
+/// continuous, so nothing is lost, and knots are seldom met to the last digit.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The part of one axis that an argument runs through.
@@ -51,7 +51,9 @@ impl Table1 {
             Some(Part::Held(end)) => Taylor::constant(self.y[end]),
             Some(Part::Within(piece)) => self.piece_of(piece, x),
             // straight lines, and cubics that rise and fall only where the points do
-            Some(Part::Over(first, last)) => Taylor::rough(hull(self.y[first..=last].iter().copied())),
+            Some(Part::Over(first, last)) => {
+                Taylor::rough(hull(self.y[first..=last].iter().copied()))
+            }
         }
     }
 
@@ -73,7 +75,8 @@ impl Table2 {
     /// Bounds on its value for arguments of which bounds are known.
     pub(crate) fn enclose(&self, [x, y]: [Taylor; 2]) -> Taylor {
         let along = [(self.x_knots(), x), (self.y_knots(), y)];
-        let [Some(in_x), Some(in_y)] = along.map(|(knots, argument)| part(knots, &argument, self.outside()))
+        let [Some(in_x), Some(in_y)] =
+            along.map(|(knots, argument)| part(knots, &argument, self.outside()))
         else {
             return Taylor::unknown();
         };
@@ -88,13 +91,14 @@ impl Table2 {
             let rows = (i..=k).flat_map(|row| self.row(row)[j..=l].iter().copied());
             return Taylor::rough(hull(rows));
         }
-        let share = |knots: &[f64], (first, last): (usize, usize), argument: Taylor| match first == last {
-            true => Taylor::constant(0.0),
-            false => {
-                let width = knots[last] - knots[first];
-                (argument + Taylor::constant(-knots[first])) * Taylor::constant(width.recip())
-            }
-        };
+        let share =
+            |knots: &[f64], (first, last): (usize, usize), argument: Taylor| match first == last {
+                true => Taylor::constant(0.0),
+                false => {
+                    let width = knots[last] - knots[first];
+                    (argument + Taylor::constant(-knots[first])) * Taylor::constant(width.recip())
+                }
+            };
         let (u, v) = (share(self.x_knots(), (i, k), x), share(self.y_knots(), (j, l), y));
         let line = |row: &[f64]| Taylor::constant(row[j]) + v * Taylor::constant(row[l] - row[j]);
         let (low, high) = (line(self.row(i)), line(self.row(k)));

@@ -1,7 +1,7 @@
 //! Tabulated functions of one number ([`Table1`]) and of two ([`Table2`]).
 //!
-//! All numbers are in SI units; a table knows nothing of units. [`Scope::table`](crate::Scope::table) says
-//! what its arguments and its result are.
+//! All numbers are in SI units; a table knows nothing of units.
+//! [`Scope::table`](crate::Scope::table) says what its arguments and its result are.
 
 mod axis;
 mod enclose;
@@ -39,8 +39,8 @@ impl Table {
         }
     }
 
-    /// The knots along one argument, rising; empty for an argument that it does not have. The table is smooth
-    /// between them, all derivatives included.
+    /// The knots along one argument, rising; empty for an argument that it does not have. The table
+    /// is smooth between them, all derivatives included.
     pub fn knots(&self, argument: usize) -> &[f64] {
         match (self, argument) {
             (Self::One(table), 0) => table.knots(),
@@ -69,12 +69,13 @@ impl Table {
 pub struct TableSymbol {
     /// The numbers, in SI units.
     pub table: Arc<Table>,
-    /// The type of each argument, as many as [`Table::dimension`]; one that is missing is a plain number.
+    /// The type of each argument, as many as [`Table::dimension`]; one that is missing is a plain
+    /// number.
     pub arguments: Vec<Type>,
     /// The type of the value.
     pub ty: Type,
-    /// The units in which people give them, arguments first, then the value; none where that is not known. Nothing is
-    /// computed with them.
+    /// The units in which people give them, arguments first, then the value; none where that is not
+    /// known. Nothing is computed with them.
     pub units: Vec<Unit>,
 }
 

@@ -34,11 +34,17 @@ impl Table2 {
     ///
     /// # Errors
     ///
-    /// Per argument, fewer than two knots, numbers that are not finite or do not rise; then, values that are
-    /// not as many as the points of the grid, or not finite.
-    pub fn new(x: Vec<f64>, y: Vec<f64>, z: Vec<f64>, outside: Outside) -> Result<Self, TableError> {
+    /// Per argument, fewer than two knots, numbers that are not finite or do not rise; then, values
+    /// that are not as many as the points of the grid, or not finite.
+    pub fn new(
+        x: Vec<f64>,
+        y: Vec<f64>,
+        z: Vec<f64>,
+        outside: Outside,
+    ) -> Result<Self, TableError> {
         for (argument, knots) in [&x, &y].into_iter().enumerate() {
-            check_knots(knots).map_err(|error| TableError::Argument { argument, error: Box::new(error) })?;
+            check_knots(knots)
+                .map_err(|error| TableError::Argument { argument, error: Box::new(error) })?;
         }
         if x.len().checked_mul(y.len()) != Some(z.len()) {
             return Err(TableError::LengthsDiffer);
@@ -47,8 +53,9 @@ impl Table2 {
         Ok(Self { x, y, z, outside })
     }
 
-    /// The value at `(x, y)` and its slopes along `x` and `y`. At a knot the slope is that of the cell above
-    /// it, at the last knot that of the cell below; along an argument outside held ends it is 0.
+    /// The value at `(x, y)` and its slopes along `x` and `y`. At a knot the slope is that of the
+    /// cell above it, at the last knot that of the cell below; along an argument outside held ends
+    /// it is 0.
     ///
     /// `None` if an argument is outside its knots with [`Outside::Error`], or not finite.
     pub fn value_and_slopes(&self, x: f64, y: f64) -> Option<(f64, [f64; 2])> {

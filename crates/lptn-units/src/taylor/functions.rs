@@ -89,8 +89,11 @@ impl Taylor {
         }
         let Interval { low, high } = self.value();
         let power = |x: f64| x.powf(exponent);
-        let first =
-            if exponent < 0.0 { Interval::new(power(high), power(low)) } else { self.value().rising(power) };
+        let first = if exponent < 0.0 {
+            Interval::new(power(high), power(low))
+        } else {
+            self.value().rising(power)
+        };
         if low > 0.0 {
             let over = self.value().reciprocal();
             return self.of(first, |k, terms| {
@@ -156,7 +159,11 @@ impl Taylor {
     }
 
     /// A function of this: a number where this is one.
-    fn of(&self, first: Interval, next: impl Fn(usize, &[Interval; super::ORDERS]) -> Interval) -> Self {
+    fn of(
+        &self,
+        first: Interval,
+        next: impl Fn(usize, &[Interval; super::ORDERS]) -> Interval,
+    ) -> Self {
         if self.is_unknown() {
             Self::unknown()
         } else if self.degree == 0 {

@@ -116,8 +116,12 @@ impl Mul for Interval {
         if self.is_zero() || other.is_zero() {
             return Self::ZERO;
         }
-        let ends =
-            [self.low * other.low, self.low * other.high, self.high * other.low, self.high * other.high];
+        let ends = [
+            self.low * other.low,
+            self.low * other.high,
+            self.high * other.low,
+            self.high * other.high,
+        ];
         if ends.iter().any(|end| end.is_nan()) {
             return Self::ALL;
         }
@@ -176,13 +180,18 @@ mod tests {
     fn magnitudes_and_whole_powers_know_where_zero_is() {
         assert_eq!(of(-3.0, 2.0).abs(), of(0.0, 3.0));
         assert_eq!((of(1.0, 2.0).abs(), of(-3.0, -1.0).abs()), (of(1.0, 2.0), of(1.0, 3.0)));
-        assert_eq!((of(-3.0, 2.0).power(2), of(-3.0, 2.0).power(3)), (of(0.0, 9.0), of(-27.0, 8.0)));
+        assert_eq!(
+            (of(-3.0, 2.0).power(2), of(-3.0, 2.0).power(3)),
+            (of(0.0, 9.0), of(-27.0, 8.0))
+        );
         assert_eq!(of(-3.0, -2.0).power(2), of(4.0, 9.0));
         assert_eq!(of(-3.0, 2.0).power(0), Interval::point(1.0));
         assert_eq!((of(-3.0, 2.0).magnitude(), of(-3.0, 2.0).width()), (3.0, 5.0));
         assert_eq!(of(-1.0, 0.0).hull(of(2.0, 3.0)), of(-1.0, 3.0));
         assert!(
-            of(-3.0, 2.0).is_bounded() && !of(0.0, f64::INFINITY).is_bounded() && !Interval::ALL.is_bounded()
+            of(-3.0, 2.0).is_bounded()
+                && !of(0.0, f64::INFINITY).is_bounded()
+                && !Interval::ALL.is_bounded()
         );
         assert!(Interval::ZERO.is_zero() && !of(0.0, 1.0).is_zero() && !of(-1.0, 0.0).is_zero());
         assert_eq!((of(1.0, 0.0), of(f64::NAN, 0.0)), (Interval::ALL, Interval::ALL));
@@ -192,15 +201,23 @@ mod tests {
     #[test]
     fn sines_turn_at_crests_and_troughs() {
         let steps = 2000;
-        for (from, width) in
-            (-40..40).flat_map(|k| [0.1, 1.0, 2.5, 4.0, 7.0].map(|width| (0.37 * f64::from(k), width)))
+        for (from, width) in (-40..40)
+            .flat_map(|k| [0.1, 1.0, 2.5, 4.0, 7.0].map(|width| (0.37 * f64::from(k), width)))
         {
             let found = of(from, from + width).sin();
-            let values = (0..=steps).map(|i| (from + width * f64::from(i) / f64::from(steps)).sin());
-            let (low, high) = values.fold((1.0_f64, -1.0_f64), |(low, high), v| (low.min(v), high.max(v)));
+            let values =
+                (0..=steps).map(|i| (from + width * f64::from(i) / f64::from(steps)).sin());
+            let (low, high) =
+                values.fold((1.0_f64, -1.0_f64), |(low, high), v| (low.min(v), high.max(v)));
             let between = (width / f64::from(steps)).powi(2);
-            assert!(found.low <= low && low - between <= found.low, "{from} {width}: {found:?} {low}");
-            assert!(found.high >= high && high + between >= found.high, "{from} {width}: {found:?} {high}");
+            assert!(
+                found.low <= low && low - between <= found.low,
+                "{from} {width}: {found:?} {low}"
+            );
+            assert!(
+                found.high >= high && high + between >= found.high,
+                "{from} {width}: {found:?} {high}"
+            );
         }
         assert_eq!(of(0.0, f64::INFINITY).sin(), of(-1.0, 1.0));
     }

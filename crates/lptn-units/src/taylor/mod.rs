@@ -1,8 +1,9 @@
-//! Bounds on a function of one variable: on its values over an interval, and on its Taylor coefficients at every point
-//! of it. They follow from the form of the function, not from looking at it at some points, so nothing can hide.
+//! Bounds on a function of one variable: on its values over an interval, and on its Taylor
+//! coefficients at every point of it. They follow from the form of the function, not from looking
+//! at it at some points, so nothing can hide.
 //!
-//! Source: R. E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis (SIAM 2009), chapter 9.2:
-//! automatic differentiation to higher order in interval arithmetic.
+//! Source: R. E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis (SIAM 2009),
+//! chapter 9.2: automatic differentiation to higher order in interval arithmetic.
 
 mod functions;
 pub(crate) mod interval;
@@ -14,7 +15,8 @@ use interval::Interval;
 /// How many coefficients are carried: the value, and derivatives to the ninth.
 const ORDERS: usize = 10;
 
-/// Bounds on `f(x)` for every x of an interval, and on `f'(x)`, `f''(x)/2!`, .. for every x between its ends.
+/// Bounds on `f(x)` for every x of an interval, and on `f'(x)`, `f''(x)/2!`, .. for every x between
+/// its ends.
 ///
 /// ```
 /// use lptn_units::Taylor;
@@ -78,13 +80,14 @@ impl Taylor {
         self.terms[0] == Interval::ALL
     }
 
-    /// The smallest and largest value it may take; `None` if that is not known, or it may have none.
+    /// The smallest and largest value it may take; `None` if that is not known, or it may have
+    /// none.
     pub fn range(&self) -> Option<[f64; 2]> {
         self.value().is_bounded().then(|| [self.value().low, self.value().high])
     }
 
-    /// A bound on the absolute value of `1/order!` times the derivative of this order, up to [`Taylor::ORDER`];
-    /// infinite if none is known.
+    /// A bound on the absolute value of `1/order!` times the derivative of this order, up to
+    /// [`Taylor::ORDER`]; infinite if none is known.
     pub fn largest(&self, order: usize) -> f64 {
         self.terms.get(order).map_or(f64::INFINITY, |term| term.magnitude())
     }
@@ -108,7 +111,12 @@ impl Taylor {
     }
 
     /// `sum over j from 1 to k of weight(j) a_j b_(k-j)`, a those of this.
-    fn folded(&self, k: usize, other: &[Interval; ORDERS], weight: impl Fn(f64) -> f64) -> Interval {
+    fn folded(
+        &self,
+        k: usize,
+        other: &[Interval; ORDERS],
+        weight: impl Fn(f64) -> f64,
+    ) -> Interval {
         (1..=k.min(self.degree))
             .fold(Interval::ZERO, |sum, j| sum + self.terms[j] * other[k - j] * weight(number(j)))
     }

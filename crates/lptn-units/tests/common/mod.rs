@@ -3,7 +3,9 @@
 #![allow(dead_code, reason = "each test uses a part of this")]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-use lptn_units::{Dimension, EvalError, Expression, Problems, Program, Scope, Symbol, Type, UnitError};
+use lptn_units::{
+    Dimension, EvalError, Expression, Problems, Program, Scope, Symbol, Type, UnitError,
+};
 
 /// Name, type, value in SI, slot for comparisons.
 const NAMES: [(&str, Type, f64, Option<u32>); 10] = [

@@ -6,8 +6,8 @@
 use std::sync::Arc;
 
 use lptn_units::{
-    Dimension, EvalError, Expression, Interpolation, Outside, Problems, Program, Scope, Symbol, Table,
-    Table1, Table2, TableSymbol, Type, UnitError,
+    Dimension, EvalError, Expression, Interpolation, Outside, Problems, Program, Scope, Symbol,
+    Table, Table1, Table2, TableSymbol, Type, UnitError,
 };
 
 pub(crate) const SPEED: Type = Type::of(Dimension::ANGULAR_VELOCITY);
@@ -27,14 +27,20 @@ const NAMES: [(&str, Type, Option<u32>); 6] = [
 /// `speed`, `torque`, `T`, `x`, `y`, `P` and the frozen `T`.
 pub(crate) const SLOTS: [f64; 7] = [50.0, 1.0, 320.0, 0.25, 2.5, 7.0, 410.0];
 
-/// `loss(speed)`: 0 to 100 rad/s, 0 to 200 W; `map(speed, torque)`: 2 speed + 10 torque in W up to 100 rad/s
-/// and 2 N m; `cp(T)`: 300 to 400 K held, plain numbers 1 to 2; `f(x)`, `g(x, y)`: the property's own.
+/// `loss(speed)`: 0 to 100 rad/s, 0 to 200 W; `map(speed, torque)`: 2 speed + 10 torque in W up to
+/// 100 rad/s and 2 N m; `cp(T)`: 300 to 400 K held, plain numbers 1 to 2; `f(x)`, `g(x, y)`: the
+/// property's own.
 pub(crate) struct Names {
     pub(crate) plain: Arc<Table>,
     pub(crate) pair: Arc<Table>,
 }
 
-pub(crate) fn one(x: &[f64], y: &[f64], interpolation: Interpolation, outside: Outside) -> Arc<Table> {
+pub(crate) fn one(
+    x: &[f64],
+    y: &[f64],
+    interpolation: Interpolation,
+    outside: Outside,
+) -> Arc<Table> {
     Arc::new(Table::One(Table1::new(x.to_vec(), y.to_vec(), interpolation, outside).unwrap()))
 }
 
@@ -65,12 +71,18 @@ impl Scope for Names {
     fn table(&self, name: &str) -> Option<TableSymbol> {
         let linear = Interpolation::Linear;
         let (table, arguments, ty) = match name {
-            "loss" => (one(&[0.0, 100.0], &[0.0, 200.0], linear, Outside::Error), vec![SPEED], POWER),
+            "loss" => {
+                (one(&[0.0, 100.0], &[0.0, 200.0], linear, Outside::Error), vec![SPEED], POWER)
+            }
             "map" => {
                 let z = [0.0, 20.0, 200.0, 220.0];
                 (two(&[0.0, 100.0], &[0.0, 2.0], &z, Outside::Error), vec![SPEED, TORQUE], POWER)
             }
-            "cp" => (one(&[300.0, 400.0], &[1.0, 2.0], linear, Outside::Hold), vec![ABSOLUTE], Type::SCALAR),
+            "cp" => (
+                one(&[300.0, 400.0], &[1.0, 2.0], linear, Outside::Hold),
+                vec![ABSOLUTE],
+                Type::SCALAR,
+            ),
             "f" => (Arc::clone(&self.plain), vec![Type::SCALAR], Type::SCALAR),
             "g" => (Arc::clone(&self.pair), vec![Type::SCALAR; 2], Type::SCALAR),
             "tempo" => (Arc::clone(&self.plain), vec![Type::of(Dimension::TIME)], Type::SCALAR),

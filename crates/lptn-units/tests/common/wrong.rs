@@ -3,7 +3,8 @@
 use lptn_units::{Type, parse_value};
 
 /// Text, expected type, code, part pointed to, help.
-pub(crate) type Wrong = (&'static str, Option<Type>, &'static str, &'static str, Option<&'static str>);
+pub(crate) type Wrong =
+    (&'static str, Option<Type>, &'static str, &'static str, Option<&'static str>);
 
 /// Names that are parameters in the tests of wrong strings.
 pub(crate) fn is_parameter(name: &str) -> bool {

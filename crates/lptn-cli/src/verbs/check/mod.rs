@@ -50,7 +50,8 @@ fn expand(text: &Given, set: &[String], console: &Console) -> Result<Exit, Failu
     console.print(&proven(flat, Path::new(&text.name), &netlist.network, netlist.run.as_ref())?)
 }
 
-/// How far the nodes are lumps at the start; `None` where the start cannot be had, which a run says.
+/// How far the nodes are lumps at the start; `None` where the start cannot be had, which a run
+/// says.
 fn lumped(netlist: &Netlist, system: &ThermalSystem) -> Option<(Network, Lumping)> {
     let run = netlist.run.as_ref();
     let start = run.map_or(0.0, |run| run.start);
@@ -78,8 +79,16 @@ impl Finding {
         let mut netlist = match input::parse(text) {
             Ok(netlist) => netlist,
             Err(rejected) => {
-                let (files, diagnostics, syntax) = (rejected.files, rejected.diagnostics, rejected.syntax);
-                return Ok(Self { files, diagnostics, counts: None, stiffness: None, lumping: None, syntax });
+                let (files, diagnostics, syntax) =
+                    (rejected.files, rejected.diagnostics, rejected.syntax);
+                return Ok(Self {
+                    files,
+                    diagnostics,
+                    counts: None,
+                    stiffness: None,
+                    lumping: None,
+                    syntax,
+                });
             }
         };
         netlist.set(set)?;
@@ -93,7 +102,8 @@ impl Finding {
             Ok(system) => lumping = lumped(&input.netlist, &system),
             Err(failure) => diagnostics.extend(failure.diagnostics),
         }
-        let found = lumping.iter().flat_map(|(_, lumping)| lumping::warnings(&input.netlist, lumping));
+        let found =
+            lumping.iter().flat_map(|(_, lumping)| lumping::warnings(&input.netlist, lumping));
         diagnostics.extend(found);
         let selection = select::of_run(&input.netlist, &[]);
         diagnostics.extend(selection.err().into_iter().flat_map(|failure| failure.diagnostics));
@@ -188,7 +198,8 @@ impl Stiff {
     }
 
     fn json(&self) -> Value {
-        let one = |(name, tau): &(String, f64)| json!({ "node": name, "tau": Scalar::new(*tau, "s") });
+        let one =
+            |(name, tau): &(String, f64)| json!({ "node": name, "tau": Scalar::new(*tau, "s") });
         let ratio = Scalar::new(self.ratio, "1");
         json!({ "fastest": one(&self.fastest), "slowest": one(&self.slowest), "ratio": ratio })
     }

@@ -82,12 +82,15 @@ fn load(file: &Path, set: &[String]) -> Loaded {
     let name = file.display().to_string();
     let mut input = match Input::load(&source) {
         Ok(input) => input,
-        Err(failure) => return Loaded { file: name, input: Err(failure), has: vec![false; set.len()] },
+        Err(failure) => {
+            return Loaded { file: name, input: Err(failure), has: vec![false; set.len()] };
+        }
     };
     let network = &input.netlist.network;
     // a text without `=` is for `set` to refuse
-    let has_it =
-        |text: &String| text.split_once('=').is_none_or(|(left, _)| network.parameter(left.trim()).is_ok());
+    let has_it = |text: &String| {
+        text.split_once('=').is_none_or(|(left, _)| network.parameter(left.trim()).is_ok())
+    };
     let has: Vec<bool> = set.iter().map(has_it).collect();
     let own: Vec<String> =
         set.iter().zip(&has).filter(|(_, has)| **has).map(|(text, _)| text.clone()).collect();
@@ -99,17 +102,22 @@ fn load(file: &Path, set: &[String]) -> Loaded {
 /// Without a run a candidate is looked at once: what comes later is not seen.
 fn inputs_vary(netlist: &Netlist, name: &str) -> Option<Diagnostic> {
     let network = &netlist.network;
-    let judged: Vec<_> = network.limits().iter().flat_map(|limit| [&limit.of, &limit.value]).collect();
-    let changes = || !network.changing_inputs().is_empty() || !network.changing_inputs_of(&judged).is_empty();
+    let judged: Vec<_> =
+        network.limits().iter().flat_map(|limit| [&limit.of, &limit.value]).collect();
+    let changes =
+        || !network.changing_inputs().is_empty() || !network.changing_inputs_of(&judged).is_empty();
     let vary = netlist.run.is_none() && changes();
     let message = format!(
         "{name}: the inputs change with time; without a [run] they are taken at 0 s, and no limit is judged that \
          depends on them"
     );
-    vary.then(|| Diagnostic::warning("steady::inputs_vary", message).help("add a [run] to compare over time"))
+    vary.then(|| {
+        Diagnostic::warning("steady::inputs_vary", message).help("add a [run] to compare over time")
+    })
 }
 
-/// A `--set` that no candidate can use is a mistake, unless a candidate that could not be read may be meant.
+/// A `--set` that no candidate can use is a mistake, unless a candidate that could not be read may
+/// be meant.
 fn used(args: &CompareArgs, loaded: &[Loaded]) -> Result<(), Failure> {
     let all_read = loaded.iter().all(|one| one.input.is_ok());
     let idle = (0..args.set.len()).find(|&i| loaded.iter().all(|one| !one.has[i]));
@@ -136,7 +144,11 @@ enum NoResult {
 }
 
 /// Every candidate, with progress on a terminal; after Ctrl-C those that were finished by then.
-fn evaluate_all(loaded: &[Loaded], threads: usize, console: &Console) -> Vec<Result<Candidate, NoResult>> {
+fn evaluate_all(
+    loaded: &[Loaded],
+    threads: usize,
+    console: &Console,
+) -> Vec<Result<Candidate, NoResult>> {
     let interrupt = Interrupt::listen();
     let progress = ProgressOfAll::new(console.quiet, loaded.len(), "candidates");
     let numbered: Vec<(usize, &Loaded)> = loaded.iter().enumerate().collect();
@@ -195,7 +207,10 @@ pub(crate) struct Comparison {
 }
 
 impl Comparison {
-    fn of(outcomes: impl Iterator<Item = (Loaded, Result<Candidate, NoResult>)>, unit: Unit) -> Self {
+    fn of(
+        outcomes: impl Iterator<Item = (Loaded, Result<Candidate, NoResult>)>,
+        unit: Unit,
+    ) -> Self {
         let (rows, ends, failures, warnings) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut comparison = Self { rows, unit, ends, failures, warnings };
         outcomes.for_each(|(loaded, outcome)| comparison.add(loaded, outcome));
@@ -212,10 +227,14 @@ impl Comparison {
                 let beyond = outcome.as_ref().ok().and_then(|found| found.beyond.as_ref());
                 let beyond = beyond.map(|beyond| sense::warning(&input.netlist, beyond));
                 let several = outcome.as_ref().ok().and_then(|found| found.several.as_ref());
-                let several = several.and_then(|steady| others(&input.netlist.network, steady, &self.unit));
-                let several = several
-                    .map(|warning| Diagnostic { message: format!("{file}: {}", warning.message), ..warning });
-                let warnings = input.netlist.warnings.into_iter().chain(beyond).chain(several).collect();
+                let several =
+                    several.and_then(|steady| others(&input.netlist.network, steady, &self.unit));
+                let several = several.map(|warning| Diagnostic {
+                    message: format!("{file}: {}", warning.message),
+                    ..warning
+                });
+                let warnings =
+                    input.netlist.warnings.into_iter().chain(beyond).chain(several).collect();
                 self.warnings.push((input.netlist.files, warnings));
             }
             Err(not_read) => failure = Some(not_read),
@@ -239,7 +258,8 @@ impl Comparison {
         problems.for_each(|failure| console.report(&failure.files, &failure.diagnostics));
     }
 
-    /// Ctrl-C goes before what could not be read, that before what failed, and that before a broken limit.
+    /// Ctrl-C goes before what could not be read, that before what failed, and that before a broken
+    /// limit.
     pub(crate) fn exit(&self) -> Exit {
         if self.ends.contains(&Exit::Interrupted) {
             Exit::Interrupted

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use lptn_network::Severity;
 use lptn_report::{
-    Align, Column, Json, Page, Rows, Text, TextTable, WIDTH, decimals, duration, fixed, plain, significant,
-    stacked,
+    Align, Column, Json, Page, Rows, Text, TextTable, WIDTH, decimals, duration, fixed, plain,
+    significant, stacked,
 };
 use lptn_study::{Candidate, CompareRow, LimitResult, compare_table};
 
@@ -51,7 +51,8 @@ impl Page for Comparison {
     }
 }
 
-/// The names of the candidates: their files without folder and ending, unless two would be the same.
+/// The names of the candidates: their files without folder and ending, unless two would be the
+/// same.
 fn names(rows: &[CompareRow]) -> Vec<String> {
     let stem = |row: &CompareRow| {
         let stem = Path::new(&row.file).file_stem();
@@ -59,7 +60,10 @@ fn names(rows: &[CompareRow]) -> Vec<String> {
     };
     let stems: Vec<String> = rows.iter().map(stem).collect();
     let twice = |stem: &String| stems.iter().filter(|other| *other == stem).count() > 1;
-    rows.iter().zip(&stems).map(|(row, s)| if twice(s) { plain(&row.file) } else { s.clone() }).collect()
+    rows.iter()
+        .zip(&stems)
+        .map(|(row, s)| if twice(s) { plain(&row.file) } else { s.clone() })
+        .collect()
 }
 
 fn overview(comparison: &Comparison) -> TextTable {
@@ -132,18 +136,23 @@ fn margin(limit: &LimitResult) -> String {
 /// A column for each boundary: its share of the heat that boundaries take at the end.
 fn heat(rows: &[CompareRow]) -> Vec<Column> {
     let column = |name: &&str| {
-        let share = |row: &CompareRow| row.share(name).map(|share| format!("{} %", fixed(100.0 * share, 1)));
-        let cells = rows.iter().map(|row| share(row).unwrap_or_else(|| NOTHING.to_owned())).collect();
+        let share = |row: &CompareRow| {
+            row.share(name).map(|share| format!("{} %", fixed(100.0 * share, 1)))
+        };
+        let cells =
+            rows.iter().map(|row| share(row).unwrap_or_else(|| NOTHING.to_owned())).collect();
         Column::new(*name, Align::Right, cells)
     };
     CompareRow::boundary_names(rows).iter().map(column).collect()
 }
 
-/// As many tables as it takes to show every column within the width; a row with nothing in it is left out.
+/// As many tables as it takes to show every column within the width; a row with nothing in it is
+/// left out.
 fn tables(title: &str, rows: &[CompareRow], mut columns: Vec<Column>) -> Vec<TextTable> {
     let mut first = Column::new(title, Align::Left, names(rows));
-    let kept: Vec<bool> =
-        (0..rows.len()).map(|row| columns.iter().any(|column| column.cells[row] != NOTHING)).collect();
+    let kept: Vec<bool> = (0..rows.len())
+        .map(|row| columns.iter().any(|column| column.cells[row] != NOTHING))
+        .collect();
     for column in columns.iter_mut().chain([&mut first]) {
         let mut kept = kept.iter();
         column.cells.retain(|_| kept.next().is_some_and(|kept| *kept));
@@ -154,7 +163,8 @@ fn tables(title: &str, rows: &[CompareRow], mut columns: Vec<Column>) -> Vec<Tex
     stacked(&first, columns, |table| table.width() <= WIDTH)
 }
 
-/// One sentence: what was not finished, else what could not be read, else what failed, else which limits are broken.
+/// One sentence: what was not finished, else what could not be read, else what failed, else which
+/// limits are broken.
 pub(crate) fn answer(comparison: &Comparison) -> String {
     let names = names(&comparison.rows);
     let of = |wanted: Exit| {
@@ -166,7 +176,11 @@ pub(crate) fn answer(comparison: &Comparison) -> String {
         Exit::Input => format!("not read: {}", of(Exit::Input)),
         Exit::Failed => format!("failed: {}", of(Exit::Failed)),
         Exit::No => format!("limit broken: {}", broken(&comparison.rows, &names)),
-        _ if comparison.rows.iter().all(|row| row.candidate().is_some_and(|c| c.limits.is_empty())) => {
+        _ if comparison
+            .rows
+            .iter()
+            .all(|row| row.candidate().is_some_and(|c| c.limits.is_empty())) =>
+        {
             "no candidate has a [limit]".into()
         }
         _ if comparison.rows.iter().any(|row| row.status() == "not judged") => {

@@ -35,7 +35,8 @@ fn all(records: &'static [Record]) -> Records {
 }
 
 fn one(name: &str) -> Result<(Records, Records), Failure> {
-    let of = |records: &'static [Record]| records.iter().filter(|r| r.name == name).collect::<Records>();
+    let of =
+        |records: &'static [Record]| records.iter().filter(|r| r.name == name).collect::<Records>();
     let found = (of(library::materials()), of(library::fluids()));
     if found.0.is_empty() && found.1.is_empty() {
         return Err(unknown(name));
@@ -44,8 +45,10 @@ fn one(name: &str) -> Result<(Records, Records), Failure> {
 }
 
 fn unknown(name: &str) -> Failure {
-    let problem = Diagnostic::error("materials::unknown", format!("the library has no material `{name}`"));
-    let names = library::materials().iter().chain(library::fluids()).map(|record| record.name.as_str());
+    let problem =
+        Diagnostic::error("materials::unknown", format!("the library has no material `{name}`"));
+    let names =
+        library::materials().iter().chain(library::fluids()).map(|record| record.name.as_str());
     let all = || "`lptn materials` lists them all".into();
     Failure::new(Exit::Input, problem.did_you_mean(name, names, all))
 }
@@ -66,7 +69,10 @@ impl Page for Found {
     fn text(&self) -> Text {
         let mut text = Text::new();
         if self.named {
-            self.materials.iter().chain(&self.fluids).for_each(|record| describe(record, &mut text));
+            self.materials
+                .iter()
+                .chain(&self.fluids)
+                .for_each(|record| describe(record, &mut text));
             return text;
         }
         text.table(table("material", &self.materials));
@@ -122,8 +128,16 @@ fn describe(record: &Record, text: &mut Text) {
 }
 
 fn rows(materials: &[&Record], fluids: &[&Record]) -> Vec<Vec<String>> {
-    let heading =
-        ["name", "kind", "density [kg/m^3]", "cp [J/(kg K)]", "k [W/(m K)]", "T [K]", "title", "source"];
+    let heading = [
+        "name",
+        "kind",
+        "density [kg/m^3]",
+        "cp [J/(kg K)]",
+        "k [W/(m K)]",
+        "T [K]",
+        "title",
+        "source",
+    ];
     let cell = |value: Option<f64>| value.map_or(String::new(), lptn_units::format_number);
     let row = |kind: &str, r: &Record| {
         let numbers = [r.density, r.cp, r.k, r.temperature].map(cell);

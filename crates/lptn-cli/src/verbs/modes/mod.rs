@@ -69,13 +69,18 @@ impl View<'_> {
     /// The nodes that take most part, most first, those of equal part in the order of the file.
     fn partners(&self, mode: &Mode) -> String {
         let nodes = self.network().nodes();
-        let mut parts: Vec<(f64, &str)> =
-            mode.participation.iter().zip(nodes).map(|(&part, node)| (part, node.name.as_str())).collect();
+        let mut parts: Vec<(f64, &str)> = mode
+            .participation
+            .iter()
+            .zip(nodes)
+            .map(|(&part, node)| (part, node.name.as_str()))
+            .collect();
         // rounded, so that equal parts keep their order
         parts.sort_by_key(|part| std::cmp::Reverse(fixed(part.0, 6)));
         let shown = parts.iter().take(PARTNERS).filter(|(part, _)| *part >= 5e-4);
-        let words = shown
-            .map(|(part, name)| format!("{} {} %", shortened(name, PARTNER_WIDTH), fixed(100.0 * part, 1)));
+        let words = shown.map(|(part, name)| {
+            format!("{} {} %", shortened(name, PARTNER_WIDTH), fixed(100.0 * part, 1))
+        });
         let mut text = String::new();
         for word in words {
             let separator = if text.is_empty() { "" } else { ", " };
@@ -89,7 +94,8 @@ impl View<'_> {
 
     /// A line a node: its temperature in each of the slowest modes.
     fn shapes(&self) -> TextTable {
-        let nodes: Vec<(usize, &Node)> = self.network().nodes().iter().take(MOST_NODES).enumerate().collect();
+        let nodes: Vec<(usize, &Node)> =
+            self.network().nodes().iter().take(MOST_NODES).enumerate().collect();
         let mut table = TextTable::of(&nodes).left("shape", |(_, node)| node.name.as_str());
         for (k, mode) in self.modes.modes().iter().take(MOST_SHAPES).enumerate() {
             table = table.right(format!("mode {}", k + 1), |(i, _)| fixed(mode.shape[*i], 3));
@@ -102,7 +108,8 @@ impl View<'_> {
         let mut notes = self.findings();
         let (modes, nodes) = (self.modes.modes().len(), self.network().nodes().len());
         if modes < self.all {
-            notes.push(format!("the {modes} slowest of {} modes; --count N shows others", self.all));
+            notes
+                .push(format!("the {modes} slowest of {} modes; --count N shows others", self.all));
         }
         if modes > MOST_SHAPES || nodes > MOST_NODES {
             notes.push("every shape and every node is in --format csv and json".to_owned());
@@ -127,7 +134,9 @@ impl View<'_> {
         if lasting > 0 {
             let verb = if lasting == 1 { "lasts" } else { "last" };
             let which = count(lasting, "mode");
-            notes.push(format!("{which} {verb} for ever: no path leads from its nodes to a boundary"));
+            notes.push(format!(
+                "{which} {verb} for ever: no path leads from its nodes to a boundary"
+            ));
         }
         notes
     }

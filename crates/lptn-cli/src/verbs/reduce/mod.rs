@@ -35,7 +35,8 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
     let explain = |error: ReduceError| failed(&input, args, &error);
     let port = port(&input.netlist.network, &args.port).map_err(explain)?;
     let run = run.as_ref().map(|run| lptn_solve::Transient::of(&input.netlist.network, run));
-    let reduction = Reduction::new(&system, port, &options(&system, run.as_ref(), (window, limit.is_some())));
+    let reduction =
+        Reduction::new(&system, port, &options(&system, run.as_ref(), (window, limit.is_some())));
     let reduction = reduction.map_err(explain)?;
     let bias = match &run {
         Some(run) if args.bias => Some(Bias::new(&system, port, run).map_err(explain)?),
@@ -43,7 +44,8 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
     };
     let definition = args.definition;
     console.warn(&input.netlist.files, &input.netlist.warnings);
-    let view = View { input: &input, args, system: &system, reduction, bias, unit, limit, definition };
+    let view =
+        View { input: &input, args, system: &system, reduction, bias, unit, limit, definition };
     view.show(console)?;
     Ok(view.conclude(console))
 }
@@ -81,7 +83,8 @@ impl View<'_> {
         }
         if let Some(path) = &self.args.write {
             let path = path.display();
-            console.note(&format!("wrote  {path}: one node that stands for {}", self.input.text.name));
+            console
+                .note(&format!("wrote  {path}: one node that stands for {}", self.input.text.name));
         } else if let (ReduceFormat::Of(Format::Table), Some(file), false) =
             (self.args.format, self.input.typed(), self.system.network().has_events())
         {
@@ -91,7 +94,8 @@ impl View<'_> {
         Ok(())
     }
 
-    /// The one-node network as a netlist that runs where it is going to stand, or beside the whole one.
+    /// The one-node network as a netlist that runs where it is going to stand, or beside the whole
+    /// one.
     fn netlist(&self, place: Option<&Path>) -> Result<String, Failure> {
         let run = self.input.netlist.run.as_ref();
         let start = run.map_or(0.0, |run| run.start);
@@ -110,7 +114,9 @@ impl View<'_> {
         let mut text = format!("# What `{}` of {from} sees, by `lptn reduce`.\n", self.args.port);
         if let Some(pair) = self.pair() {
             let error = match pair.run {
-                Some(run) => format!("; over the run it errs by {} K at most", significant(run.kelvin, 2)),
+                Some(run) => {
+                    format!("; over the run it errs by {} K at most", significant(run.kelvin, 2))
+                }
                 None => String::new(),
             };
             text += &format!("# C_eq by {}{error}.\n", pair.definition.key());
@@ -124,7 +130,8 @@ impl View<'_> {
         if run.within(limit.kelvin, limit.relative) {
             return Exit::Done;
         }
-        let share = run.relative.map(|r| format!(" ({} %)", significant(100.0 * r, 3))).unwrap_or_default();
+        let share =
+            run.relative.map(|r| format!(" ({} %)", significant(100.0 * r, 3))).unwrap_or_default();
         console.message(&format!(
             "too large: with C_eq by {} the error reaches {} K{share}, and {} is allowed",
             pair.definition.key(),
@@ -159,7 +166,8 @@ fn window(text: &str) -> Result<f64, Failure> {
     input::quantity("--window", text, Type::of(Dimension::TIME)).map(|quantity| quantity.value)
 }
 
-/// One node cannot follow a network that switches over its run: the run is left out, but where it is asked for.
+/// One node cannot follow a network that switches over its run: the run is left out, but where it
+/// is asked for.
 fn options(
     system: &ThermalSystem,
     run: Option<&Transient>,

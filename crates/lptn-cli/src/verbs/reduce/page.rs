@@ -59,7 +59,11 @@ impl View<'_> {
         let sources = network.sources().iter().map(|s| s.name());
         let unit = &self.unit;
         let mut rows = vec![
-            ["R_eq".to_owned(), format!("{} K/W", significant(norton.resistance, 5)), String::new()],
+            [
+                "R_eq".to_owned(),
+                format!("{} K/W", significant(norton.resistance, 5)),
+                String::new(),
+            ],
             [
                 "T_ref".to_owned(),
                 format!("{} {}", fixed(unit.from_si(inputs.reference), 2), unit.text),
@@ -151,13 +155,16 @@ impl View<'_> {
         let mut notes = Vec::new();
         if self.input.netlist.network.has_time_dependent_inputs() {
             notes.push(
-                "the inputs change with time; T_ref and Q_N are those at the start of the run".to_owned(),
+                "the inputs change with time; T_ref and Q_N are those at the start of the run"
+                    .to_owned(),
             );
         }
         notes.extend(self.switched());
         notes.extend(self.apart());
         let Some(dynamics) = &self.reduction.dynamics else {
-            notes.push("the port sees no capacity: T = T_ref + R_eq Q_N holds at every moment".to_owned());
+            notes.push(
+                "the port sees no capacity: T = T_ref + R_eq Q_N holds at every moment".to_owned(),
+            );
             return notes;
         };
         let window = duration(dynamics.window.length(), 4);
@@ -171,7 +178,10 @@ impl View<'_> {
             }
         });
         if let Some(tolerance) = dynamics.tolerance {
-            notes.push(format!("runs are compared at a tolerance of {} K", significant(tolerance, 2)));
+            notes.push(format!(
+                "runs are compared at a tolerance of {} K",
+                significant(tolerance, 2)
+            ));
         }
         let (residual, resistance) = (dynamics.step.residual, dynamics.step.resistance);
         if dynamics.pair(Definition::LeastSquares).capacity <= 0.0 {
@@ -197,7 +207,8 @@ impl View<'_> {
             format!("`{}` {}", network.controls()[id.index()].name, if on { "on" } else { "off" })
         };
         let stand: Vec<String> = network.control_ids().map(stands).collect();
-        let says = if self.input.netlist.initial().is_some() { "the state" } else { "their `start`" };
+        let says =
+            if self.input.netlist.initial().is_some() { "the state" } else { "their `start`" };
         (!stand.is_empty()).then(|| {
             format!(
                 "T_ref and Q_N are those with {}, as {says} says; what switches over the run is not compared",
@@ -274,8 +285,7 @@ fn dynamics(dynamics: Option<&Dynamics>, json: &mut Json<'_>) -> io::Result<()> 
         dynamics.pairs.iter().map(|pair| (pair.definition.key().to_owned(), value(pair))).collect()
     };
     json.member("C_eq", &by_name(&|pair| json!(scalar(pair.capacity, "J/K"))))?;
-    let errors =
-        |pair: &lptn_reduce::Pair| json!({ "step": error(&pair.step), "run": pair.run.as_ref().map(error) });
+    let errors = |pair: &lptn_reduce::Pair| json!({ "step": error(&pair.step), "run": pair.run.as_ref().map(error) });
     json.member("errors", &by_name(&errors))?;
     json.member("recommended", dynamics.recommended.definition.key())?;
     json.member("recommended_by", if dynamics.recommended.by_run { "run" } else { "step" })?;

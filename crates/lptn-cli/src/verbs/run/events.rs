@@ -13,7 +13,8 @@ const SHOWN: usize = 6;
 
 /// The rows of `events.csv`.
 pub(crate) fn rows(solution: &Solution) -> Vec<Vec<String>> {
-    let mut rows = vec![["time [s]", "kind", "name", "before", "after"].map(str::to_owned).to_vec()];
+    let mut rows =
+        vec![["time [s]", "kind", "name", "before", "after"].map(str::to_owned).to_vec()];
     let mut number = Shortest::new();
     rows.extend(solution.events().iter().map(|event| {
         let Event { time, kind, before, after } = *event;
@@ -63,7 +64,8 @@ impl Use {
             (now, since) = (event.after == 1, event.time);
         }
         time_on += if now { end - since } else { 0.0 };
-        let starts: Vec<f64> = own().filter(|event| event.after == 1).map(|event| event.time).collect();
+        let starts: Vec<f64> =
+            own().filter(|event| event.after == 1).map(|event| event.time).collect();
         #[expect(clippy::cast_precision_loss, reason = "a run has at most 10^6 events")]
         let period = match starts.as_slice() {
             [first, .., last] => Some((last - first) / (starts.len() - 1) as f64),
@@ -76,7 +78,8 @@ impl Use {
     }
 }
 
-/// A section with a line for each control and the first events, from `start` on; nothing where nothing can switch.
+/// A section with a line for each control and the first events, from `start` on; nothing where
+/// nothing can switch.
 pub(crate) fn section(text: &mut Text, solution: &Solution, (start, end): (f64, f64)) {
     let network = solution.network();
     if !network.has_events() {
@@ -95,7 +98,8 @@ pub(crate) fn section(text: &mut Text, solution: &Solution, (start, end): (f64, 
 }
 
 fn controls(uses: &[Use]) -> TextTable {
-    let percent = |share: Option<f64>| share.map_or("-".into(), |s| format!("{} %", fixed(100.0 * s, 1)));
+    let percent =
+        |share: Option<f64>| share.map_or("-".into(), |s| format!("{} %", fixed(100.0 * s, 1)));
     TextTable::of(uses)
         .left("control", |u| u.name.as_str())
         .right("starts", |u| u.starts.to_string())

@@ -5,14 +5,16 @@ use lptn_network::{Field, Item};
 use lptn_report::significant;
 use lptn_solve::Table;
 
-/// A warning for each report with a row in which its expression has no value, with the first such time.
+/// A warning for each report with a row in which its expression has no value, with the first such
+/// time.
 pub(crate) fn gaps(netlist: &Netlist, table: &Table) -> Vec<Diagnostic> {
     let network = &netlist.network;
     let times = table.columns().first().map_or(&[][..], |time| &time.values);
     let gap = |(report, id): (&lptn_network::Report, _)| {
         let column = table.columns().iter().find(|column| column.name == report.name)?;
         let time = times.get(column.values.iter().position(|value| !value.is_finite())?)?;
-        let message = format!("report `{}` has no value at {} s", report.name, significant(*time, 6));
+        let message =
+            format!("report `{}` has no value at {} s", report.name, significant(*time, 6));
         let warning = Diagnostic::warning("run::report_without_value", message).help(
             "keep divisors and what stands under `sqrt` and `ln` away from 0: `max(x, 1e-9)` with its unit",
         );

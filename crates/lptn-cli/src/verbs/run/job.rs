@@ -6,8 +6,8 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings, Span};
 use lptn_network::{End, InputError, InputProblem, Item, Network, NodeId};
 use lptn_solve::{
-    Record, Selection, Solution, SteadyError, SteadyState, StopReason, Summary, Transient, TransientError,
-    Window,
+    Record, Selection, Solution, SteadyError, SteadyState, StopReason, Summary, Transient,
+    TransientError, Window,
 };
 use lptn_units::{Problem as _, Unit};
 
@@ -69,7 +69,8 @@ impl<'a> Job<'a> {
         steady: Option<&SteadyState>,
         console: &Console,
     ) -> Result<(Solution, Option<Diagnostic>), Failure> {
-        let transient = self.transient(system, steady).map_err(|error| failed(self.input, &error))?;
+        let transient =
+            self.transient(system, steady).map_err(|error| failed(self.input, &error))?;
         let interrupt = Interrupt::listen();
         let mut line = ProgressLine::new(console.quiet);
         let outcome = transient.solve_observed(system, &mut |progress| {
@@ -82,7 +83,8 @@ impl<'a> Job<'a> {
             Err(error) => {
                 let problem = explain(self.input, &error);
                 match error {
-                    // nothing was computed, and nothing could be: the question does not fit the network
+                    // nothing was computed, and nothing could be: the question does not fit the
+                    // network
                     TransientError::Stopped { reason: StopReason::NothingSwitches, .. } => {
                         Err(failed(self.input, &error))
                     }
@@ -138,7 +140,8 @@ pub(crate) fn failed(input: &Input, error: &TransientError) -> Failure {
 
 /// Of thresholds that crossed over: the one that is not said to be at fault.
 fn other_threshold(input: &Input, error: &TransientError) -> Option<Span> {
-    let InputError { item, problem: InputProblem::ThresholdsCrossed { .. }, .. } = error.input()? else {
+    let InputError { item, problem: InputProblem::ThresholdsCrossed { .. }, .. } = error.input()?
+    else {
         return None;
     };
     let Item::Control(id) = *item else { return None };
@@ -147,14 +150,17 @@ fn other_threshold(input: &Input, error: &TransientError) -> Option<Span> {
 }
 
 pub(crate) fn no_run(input: &Input) -> Failure {
-    let problem =
-        Diagnostic::error("run::no_run", format!("{} has no [run]: how long is it to run?", input.text.name))
-            .help("add these lines, or look at `lptn steady`:\n\n[run]\nstop = \"25 min\"");
+    let problem = Diagnostic::error(
+        "run::no_run",
+        format!("{} has no [run]: how long is it to run?", input.text.name),
+    )
+    .help("add these lines, or look at `lptn steady`:\n\n[run]\nstop = \"25 min\"");
     Failure::new(Exit::Input, problem)
 }
 
-/// The nodes that a table shows: those selected, in the order of the file; unless any is, all but the cells of grids.
-/// Of too many the hottest in steady state, hottest first; where there is none, the first ones.
+/// The nodes that a table shows: those selected, in the order of the file; unless any is, all but
+/// the cells of grids. Of too many the hottest in steady state, hottest first; where there is none,
+/// the first ones.
 pub(crate) fn shown(
     network: &Network,
     selection: Option<&Selection>,

@@ -38,12 +38,14 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     let (solution, failure) = job.solve(&system, steady.as_ref().ok(), console)?;
     // what broke off or was interrupted is not asked how sure it is
     let whole = matches!(solution.end(), lptn_solve::End::Reached);
-    let uncertainty = if whole { uncertainty::study(&args.uncertainty, &job, console) } else { None };
+    let uncertainty =
+        if whole { uncertainty::study(&args.uncertainty, &job, console) } else { None };
     let wall_time = begun.elapsed().as_secs_f64();
     let lumping = Lumping::of_run(&solution);
     let table = Table::of_solution(&solution, &job.selection, &job.unit);
     let (verbose, format) = (console.verbose, job.format);
-    let result = Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, verbose };
+    let result =
+        Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, verbose };
     if let Some(folder) = &folder {
         result.write(&args.source.set, folder)?;
     }

@@ -7,8 +7,8 @@ use lptn_units::{Dimension, Type};
 
 use crate::input::Input;
 
-/// What a user of `lptn run` may want to know next: the same with a fifth more heat, or five degrees warmer; else
-/// the steady state.
+/// What a user of `lptn run` may want to know next: the same with a fifth more heat, or five
+/// degrees warmer; else the steady state.
 pub(crate) fn after_run(input: &Input, has_steady: bool) -> Option<String> {
     let file = input.typed()?;
     match what_if(&input.netlist) {
@@ -23,7 +23,11 @@ fn what_if(netlist: &Netlist) -> Option<String> {
     let changed = |wanted: Type, change: fn(f64) -> (f64, &'static str)| {
         let id = network.parameter_ids().find(|&id| is_constant(network, id, wanted))?;
         let (value, unit) = change(network.parameter_value(id));
-        let set = format!("{}=\"{} {unit}\"", network.parameters()[id.index()].name, significant(value, 3));
+        let set = format!(
+            "{}=\"{} {unit}\"",
+            network.parameters()[id.index()].name,
+            significant(value, 3)
+        );
         let plain = set.replace('"', "");
         netlist.clone().set(&[plain]).is_ok().then_some(set)
     };
@@ -31,8 +35,8 @@ fn what_if(netlist: &Netlist) -> Option<String> {
         .or_else(|| changed(Type::ABSOLUTE_TEMPERATURE, |kelvin| (kelvin - 273.15 + 5.0, "degC")))
 }
 
-/// Whether a parameter is a constant of this type that can be changed by itself: a heat that conductances are
-/// made from as well would change the network with it.
+/// Whether a parameter is a constant of this type that can be changed by itself: a heat that
+/// conductances are made from as well would change the network with it.
 fn is_constant(network: &Network, id: ParameterId, wanted: Type) -> bool {
     let parameter = &network.parameters()[id.index()];
     parameter.ty == wanted

@@ -105,7 +105,8 @@ impl Outcome<'_> {
         let record = |(parameter, id): (&Parameter, _)| {
             let unit = parameter.ty.dimension.si_unit();
             let value = network.parameter_value(id);
-            ParameterRecord { name: parameter.name.clone(), value, unit, set: set(&parameter.name) }.member()
+            ParameterRecord { name: parameter.name.clone(), value, unit, set: set(&parameter.name) }
+                .member()
         };
         network.parameters().iter().zip(network.parameter_ids()).map(record).collect()
     }
@@ -161,8 +162,10 @@ impl Outcome<'_> {
             let took = duration(self.wall_time, 2);
             let rows = self.table.rows();
             let windows = if self.solution.windows().is_empty() { "" } else { ", windows.csv" };
-            let bands = if self.uncertainty().is_some() { ", uncertainty.csv, ranking.csv" } else { "" };
-            let files = format!("{}{bands}, {EVENTS}{windows}, {STATE}, {MANIFEST}", path.display());
+            let bands =
+                if self.uncertainty().is_some() { ", uncertainty.csv, ranking.csv" } else { "" };
+            let files =
+                format!("{}{bands}, {EVENTS}{windows}, {STATE}, {MANIFEST}", path.display());
             let mut pieces = words(&files);
             pieces.push(format!("({rows} rows, solved in {took})"));
             console.note(&labelled("wrote  ", &pieces, WIDTH).join("\n"));

@@ -86,11 +86,12 @@ impl Page for Outcome<'_> {
     }
 }
 
-/// Takes in the rows, since a network without state is not watched between them; and a peak that the tolerance
-/// cannot tell from the start or from the end is there.
+/// Takes in the rows, since a network without state is not watched between them; and a peak that
+/// the tolerance cannot tell from the start or from the end is there.
 fn include_rows(of: &Outcome<'_>, node: &mut NodeSummary) {
     let values = of.solution.temperature(node.node).unwrap_or_default();
-    node.end = values.last().copied().filter(|_| of.solution.end() == End::Reached).unwrap_or(node.end);
+    node.end =
+        values.last().copied().filter(|_| of.solution.end() == End::Reached).unwrap_or(node.end);
     for (&time, &value) in of.solution.times().iter().zip(&values) {
         if value > node.peak.0 {
             node.peak = (value, time);
@@ -110,7 +111,8 @@ fn reached(of: &Outcome<'_>) -> f64 {
 
 fn temperatures(of: &Outcome<'_>, nodes: &[NodeSummary]) -> TextTable {
     let (unit, settings) = (&of.job.unit, &of.job.settings);
-    let temperatures = nodes.iter().flat_map(|n| [Some(n.start), Some(n.end), Some(n.peak.0), n.steady]);
+    let temperatures =
+        nodes.iter().flat_map(|n| [Some(n.start), Some(n.end), Some(n.peak.0), n.steady]);
     let (low, high) = range(temperatures.flatten());
     // what the tolerance cannot tell from rest takes no decimals
     let span = Some(high - low).filter(|span| *span > 10.0 * settings.tolerance).unwrap_or(0.0);
@@ -132,15 +134,17 @@ fn temperatures(of: &Outcome<'_>, nodes: &[NodeSummary]) -> TextTable {
         .into()
 }
 
-/// What is no temperature of a node: every report, the values of grids, and the other columns that were asked for by
-/// name.
+/// What is no temperature of a node: every report, the values of grids, and the other columns that
+/// were asked for by name.
 fn columns(of: &Outcome<'_>, text: &mut Text) {
     let network = of.solution.network();
     let is_report = |name: &str| network.reports().iter().any(|report| report.name == name);
-    let is_node = |name: &str| name.strip_suffix(".T").is_some_and(|name| network.node(name).is_ok());
+    let is_node =
+        |name: &str| name.strip_suffix(".T").is_some_and(|name| network.node(name).is_ok());
     let of_grids: Vec<String> = network.grid_values().map(|value| value.name(network)).collect();
     let is_of_grid = |name: &str| of_grids.iter().any(|value| value == name);
-    let wanted = |name: &str| is_report(name) || is_of_grid(name) || (of.job.chosen && !is_node(name));
+    let wanted =
+        |name: &str| is_report(name) || is_of_grid(name) || (of.job.chosen && !is_node(name));
     let all = of.table.columns().get(1..).unwrap_or_default();
     let shown: Vec<_> = all.iter().filter(|column| wanted(&column.name)).take(MOST_NODES).collect();
     if shown.is_empty() {
@@ -197,7 +201,9 @@ fn notes(of: &Outcome<'_>, nodes: &[NodeSummary]) -> Vec<String> {
     notes.extend(short_record(nodes));
     match &of.steady {
         Err(NoSteady::Inputs) => notes.push("steady is `-`: the inputs change with time".into()),
-        Ok(steady) => notes.extend(others(network, steady, &of.job.unit).map(|found| found.message)),
+        Ok(steady) => {
+            notes.extend(others(network, steady, &of.job.unit).map(|found| found.message))
+        }
         Err(NoSteady::Network(SteadyError::NoBoundary { .. })) => {}
         Err(NoSteady::Network(error)) => notes.push(format!("steady is `-`: {error}")),
     }
@@ -237,7 +243,8 @@ fn over(length: f64) -> String {
 pub(crate) fn heat_over(text: &mut Text, solution: &Solution, length: f64) {
     let (network, ledger) = (solution.network(), solution.ledger());
     let sources = network.sources().iter().map(|s| s.name()).zip(&ledger.sources);
-    let boundaries = network.boundaries().iter().map(|b| Cow::from(&b.name)).zip(&ledger.boundaries);
+    let boundaries =
+        network.boundaries().iter().map(|b| Cow::from(&b.name)).zip(&ledger.boundaries);
     let flow = |(name, &heat): (Cow<'_, str>, &f64)| Flow { name: name.into_owned(), heat };
     let mut flows: Vec<Flow> = sources.chain(boundaries).map(flow).collect();
     // one stream hands on what another brings: only all of them together say something
@@ -251,7 +258,9 @@ pub(crate) fn heat_over(text: &mut Text, solution: &Solution, length: f64) {
             let (residual, bound) = (significant(residual.abs(), 2), significant(ledger.bound, 2));
             format!("closes to {residual} of the heat turned over (allowed: {bound})")
         }
-        None => format!("residual {} J; no heat was turned over", significant(ledger.residual(), 2)),
+        None => {
+            format!("residual {} J; no heat was turned over", significant(ledger.residual(), 2))
+        }
     };
     text.sentence(&format!("{:width$}", "balance:"), &balance);
 }

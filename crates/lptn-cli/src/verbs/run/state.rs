@@ -24,7 +24,11 @@ pub(crate) fn of<'a>(input: &'a Input, solution: &'a Solution) -> State<'a> {
             .map(|node| node.name.as_str())
             .zip(last.temperatures.iter().copied())
             .collect(),
-        melted: last.melted.iter().map(|(id, share)| (nodes[id.index()].name.as_str(), *share)).collect(),
+        melted: last
+            .melted
+            .iter()
+            .map(|(id, share)| (nodes[id.index()].name.as_str(), *share))
+            .collect(),
         controls: controls(solution),
     }
 }

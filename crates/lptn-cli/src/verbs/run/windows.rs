@@ -19,7 +19,8 @@ fn section(text: &mut Text, window: &WindowSeen, unit: &Unit) {
         let [low, high] = [column.min.0, column.max.0].map(|value| column.shown(value, unit));
         fixed(column.shown(value, unit), decimals(low.abs().max(high.abs()), 4, 1))
     };
-    let title = format!("{}: {} to {}", window.name, duration(window.from, 4), duration(window.to, 4));
+    let title =
+        format!("{}: {} to {}", window.name, duration(window.from, 4), duration(window.to, 4));
     let table = TextTable::of(shown)
         .left(title, |c| format!("{} [{}]", c.name, symbol(&c.unit(unit))))
         .right("mean", |c| number(c, c.mean))
@@ -38,15 +39,26 @@ fn section(text: &mut Text, window: &WindowSeen, unit: &Unit) {
 
 /// The rows of `windows.csv`, temperatures in `unit`.
 pub(crate) fn rows(windows: &[WindowSeen], unit: &Unit) -> Vec<Vec<String>> {
-    let heading =
-        ["window", "column", "unit", "from [s]", "to [s]", "mean", "min", "min_at [s]", "max", "max_at [s]"];
+    let heading = [
+        "window",
+        "column",
+        "unit",
+        "from [s]",
+        "to [s]",
+        "mean",
+        "min",
+        "min_at [s]",
+        "max",
+        "max_at [s]",
+    ];
     let mut rows = vec![heading.map(str::to_owned).to_vec()];
     let mut text = Shortest::new();
     for window in windows {
         for c in &window.columns {
             let in_unit = symbol(&c.unit(unit)).to_owned();
             let values = [c.mean, c.min.0, c.max.0].map(|value| c.shown(value, unit));
-            let numbers = [window.from, window.to, values[0], values[1], c.min.1, values[2], c.max.1];
+            let numbers =
+                [window.from, window.to, values[0], values[1], c.min.1, values[2], c.max.1];
             let mut row = vec![window.name.clone(), c.name.clone(), in_unit];
             row.extend(numbers.map(|number| text.text(number).to_owned()));
             rows.push(row);
@@ -55,7 +67,8 @@ pub(crate) fn rows(windows: &[WindowSeen], unit: &Unit) -> Vec<Vec<String>> {
     rows
 }
 
-/// Members by the window's name: `{ from, to, columns: { NAME: { mean, min, min_at, max, max_at } } }`, in SI.
+/// Members by the window's name:
+/// `{ from, to, columns: { NAME: { mean, min, min_at, max, max_at } } }`, in SI.
 pub(crate) fn members(windows: &[WindowSeen]) -> Map<String, Value> {
     let time = |time: f64| Scalar::new(time, "s");
     let column = |c: &ColumnSeen| {
@@ -71,7 +84,8 @@ pub(crate) fn members(windows: &[WindowSeen]) -> Map<String, Value> {
     };
     let one = |window: &WindowSeen| {
         let columns: Map<String, Value> = window.columns.iter().map(column).collect();
-        let member = json!({ "from": time(window.from), "to": time(window.to), "columns": columns });
+        let member =
+            json!({ "from": time(window.from), "to": time(window.to), "columns": columns });
         (window.name.clone(), member)
     };
     windows.iter().map(one).collect()

@@ -1,4 +1,5 @@
-//! Why `lptn size` does not size a network whose inputs change with time, and what to write instead.
+//! Why `lptn size` does not size a network whose inputs change with time, and what to write
+//! instead.
 
 use lptn_netlist::{Diagnostic, SizeStudy};
 use lptn_network::{Changing, Course, Item, Network, SignalId, list_of};
@@ -81,7 +82,8 @@ fn candidates(input: &Input, study: &SizeStudy) -> String {
     let file = input.typed().unwrap_or_else(|| "FILE".into());
     let value = study.range(network).ok().zip(network.parameter(&study.parameter).ok());
     let set = value.map(|((from, _), parameter)| {
-        let set = quantity(&study.parameter, from, &input.unit_of(parameter)).replacen(" = ", "=", 1);
+        let set =
+            quantity(&study.parameter, from, &input.unit_of(parameter)).replacen(" = ", "=", 1);
         format!(" --set \"{set}\"")
     });
     let set = set.unwrap_or_default();

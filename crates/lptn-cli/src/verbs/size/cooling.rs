@@ -66,7 +66,9 @@ impl Answer<'_> {
             return "infeasible: the limit is the temperature of the surroundings, so no heat flows to them"
                 .into();
         }
-        format!("infeasible: the limit is {off} K below the surroundings; only refrigeration could keep it")
+        format!(
+            "infeasible: the limit is {off} K below the surroundings; only refrigeration could keep it"
+        )
     }
 
     /// Name, value in SI units, unit; NaN for what there is not.
@@ -106,14 +108,19 @@ impl Answer<'_> {
         for (name, of) in [("air", self.air), ("gear oil", self.oil)] {
             rows.push([format!("{name}, {rise} K warmer"), flow(of), properties(of)]);
         }
-        TextTable::of(&rows).left("", |row| &row[0]).left("", |row| &row[1]).left("", |row| &row[2]).into()
+        TextTable::of(&rows)
+            .left("", |row| &row[0])
+            .left("", |row| &row[1])
+            .left("", |row| &row[2])
+            .into()
     }
 }
 
 impl Page for Answer<'_> {
     fn text(&self) -> Text {
         let said = |text: &Option<String>| plain(text.as_deref().unwrap_or_default());
-        let [power, limit, ambient] = [&self.asked.power, &self.asked.limit, &self.asked.ambient].map(said);
+        let [power, limit, ambient] =
+            [&self.asked.power, &self.asked.limit, &self.asked.ambient].map(said);
         let mut text = Text::titled(format!("Cooling of {power} at {limit} in {ambient}"));
         match self.feasible() {
             true => text.section().table(self.needs()),
@@ -130,8 +137,9 @@ impl Page for Answer<'_> {
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        let member =
-            |(name, value, unit): (&str, f64, &str)| (name.to_owned(), json!(Scalar::new(value, unit)));
+        let member = |(name, value, unit): (&str, f64, &str)| {
+            (name.to_owned(), json!(Scalar::new(value, unit)))
+        };
         diagnostics::head(json, None, (&Files::new(), &[]))?;
         json.member("values", &self.values().map(member).into_iter().collect::<Map<_, _>>())?;
         json.member("margin", &Scalar::new(self.cooling.available, "K"))?;
@@ -149,7 +157,8 @@ fn flow(of: Option<(Coolant, Option<Flow>)>) -> String {
         None => "no properties".into(),
         Some((_, None)) => "would leave warmer than the limit".into(),
         Some((_, Some(flow))) => {
-            let (mass, volume) = (significant(1e3 * flow.mass, 4), significant(6e4 * flow.volume, 4));
+            let (mass, volume) =
+                (significant(1e3 * flow.mass, 4), significant(6e4 * flow.volume, 4));
             format!("{mass} g/s = {volume} L/min")
         }
     }

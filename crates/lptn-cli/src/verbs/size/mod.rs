@@ -22,14 +22,16 @@ use crate::options::Source;
 pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
     let Some(file) = &args.file else { return cooling::cooling(args, console) };
     let input = Input::load(&Source { file: file.clone(), set: args.set.clone() })?;
-    let study = STUDIES.find(&input, (&input.netlist.sizes, |study| &study.name), args.name.as_deref())?;
+    let study =
+        STUDIES.find(&input, (&input.netlist.sizes, |study| &study.name), args.name.as_deref())?;
     let parameter = parameter(&input, study)?;
     let unit = input.unit_of(parameter);
     if args.write {
         write::possible(&input, parameter)?;
     }
     console.warn(&input.netlist.files, &input.netlist.warnings);
-    let sizing = solve(&input, study, parameter).map_err(|error| failed(&input, study, &unit, &error))?;
+    let sizing =
+        solve(&input, study, parameter).map_err(|error| failed(&input, study, &unit, &error))?;
     let answer = Answer { input: &input, study, parameter, unit, sizing };
     let exit = console.show(&answer, args.printed.format)?;
     if args.write && exit == Exit::Done {
@@ -77,7 +79,9 @@ fn failed(input: &Input, study: &SizeStudy, unit: &Unit, error: &SizeError) -> F
     };
     // the library does not know the unit
     let message = match error {
-        SizeError::Network { value, errors } => format!("there is no network with {}: {errors}", at(*value)),
+        SizeError::Network { value, errors } => {
+            format!("there is no network with {}: {errors}", at(*value))
+        }
         SizeError::Steady { value, error } => {
             format!("there is no steady state with {}: {error}", at(*value))
         }

@@ -21,7 +21,8 @@ const ZERO: f64 = 1e-9;
 impl Page for Answer<'_> {
     fn text(&self) -> Text {
         let (study, network) = (self.study, &self.input.netlist.network);
-        let (goal, range) = (goal(study.goal), study.range(network).unwrap_or((f64::NAN, f64::NAN)));
+        let (goal, range) =
+            (goal(study.goal), study.range(network).unwrap_or((f64::NAN, f64::NAN)));
         let unit = &self.unit;
         let number = |si: f64| significant(unit.from_si(si), DIGITS);
         let sought = format!(
@@ -66,7 +67,10 @@ impl Page for Answer<'_> {
         let scalar = |value: f64| Scalar::new(value, &si);
         let of_margin = |value: f64| Scalar::new(value, &self.closest_unit());
         self.input.head(json, &[])?;
-        json.member("values", &json!({ (self.study.parameter.as_str()): scalar(sizing.trial.value) }))?;
+        json.member(
+            "values",
+            &json!({ (self.study.parameter.as_str()): scalar(sizing.trial.value) }),
+        )?;
         json.member("margin", &of_margin(sizing.margin()))?;
         json.member("binding", &self.binding().map(|requirement| &requirement.text))?;
         json.member("feasible", &sizing.feasible())?;
@@ -122,7 +126,8 @@ pub(crate) fn rounded(value: f64, digits: usize, up: bool) -> f64 {
 fn requirements(answer: &Answer<'_>) -> TextTable {
     let (study, sizing) = (answer.study, &answer.sizing);
     let margin = |i: usize| {
-        let (margin, unit) = (sizing.trial.margins[i], study.requirements[i].ty.dimension.si_unit());
+        let (margin, unit) =
+            (sizing.trial.margins[i], study.requirements[i].ty.dimension.si_unit());
         let margin = if margin.abs() < ZERO { 0.0 } else { margin };
         format!("{}{}", significant(margin, 4), spaced(&unit))
     };
@@ -151,13 +156,19 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
         notes.push(("sensitivity", format!("{change} {unit} of margin for 1 % more {name}")));
     }
     if let Some(guess) = sizing.first_guess {
-        notes.push(("first guess", format!("{} (Norton equivalent)", quantity(name, guess, &answer.unit))));
+        notes.push((
+            "first guess",
+            format!("{} (Norton equivalent)", quantity(name, guess, &answer.unit)),
+        ));
     }
     notes.push(("proof", format!("{} steady states of the full network", sizing.solved)));
     if let Some(value) = sizing.breaks_again {
         let side = if study.goal == Goal::Minimise { "above" } else { "below" };
         let value = quantity(name, value, &answer.unit);
-        notes.push(("note", format!("more is not always better: {side} {value} a requirement breaks again")));
+        notes.push((
+            "note",
+            format!("more is not always better: {side} {value} a requirement breaks again"),
+        ));
     }
     notes
 }
@@ -169,8 +180,13 @@ pub(crate) fn verdict(answer: &Answer<'_>) -> String {
     match sizing.verdict {
         Verdict::Bound => format!("{} keeps every requirement", value(answer)),
         Verdict::BestEnd => {
-            let all = if sizing.breaks_again.is_none() { " and so does the whole range" } else { "" };
-            format!("{}, the {} of the range, keeps every requirement{all}", value(answer), goal(study.goal))
+            let all =
+                if sizing.breaks_again.is_none() { " and so does the whole range" } else { "" };
+            format!(
+                "{}, the {} of the range, keeps every requirement{all}",
+                value(answer),
+                goal(study.goal)
+            )
         }
         Verdict::Infeasible => {
             let off = significant(-sizing.margin(), 4);

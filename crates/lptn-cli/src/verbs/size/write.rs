@@ -26,16 +26,22 @@ pub(crate) fn possible(input: &Input, parameter: ParameterId) -> Result<(), Fail
 
 pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Result<(), Failure> {
     let Some(number) = proven(answer) else {
-        let problem = Diagnostic::error("size::write", "no number of 17 digits keeps what is required");
+        let problem =
+            Diagnostic::error("size::write", "no number of 17 digits keeps what is required");
         return Err(Failure::new(Exit::Failed, problem));
     };
     put(file, &with_numbers(answer.input, &[(answer.parameter, number.clone())])?)?;
     let unit = spaced(&answer.unit.text);
-    console.note(&format!("wrote  {}: {} = {number}{unit}", file.display(), answer.study.parameter));
+    console.note(&format!(
+        "wrote  {}: {} = {number}{unit}",
+        file.display(),
+        answer.study.parameter
+    ));
     Ok(())
 }
 
-/// The number with the fewest digits whose netlist, read again from its text, keeps every requirement.
+/// The number with the fewest digits whose netlist, read again from its text, keeps every
+/// requirement.
 fn proven(answer: &Answer<'_>) -> Option<String> {
     let netlist = &answer.input.netlist;
     let written = netlist.written_number(answer.parameter)?;

@@ -58,7 +58,12 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
     Ok(limits::conclude(&Judgement { netlist, unit: &unit, limits: &limits }, console))
 }
 
-fn table(input: &Input, steady: &SteadyState, selection: &Selection, unit: &Unit) -> Result<Table, Failure> {
+fn table(
+    input: &Input,
+    steady: &SteadyState,
+    selection: &Selection,
+    unit: &Unit,
+) -> Result<Table, Failure> {
     let table = Table::of_steady(&input.netlist.network, steady, selection, unit);
     table.map_err(|error| failed(input, &SteadyError::Input(error)))
 }
@@ -82,7 +87,9 @@ fn failed(input: &Input, error: &SteadyError) -> Failure {
         SteadyError::NoBoundary { nodes, .. } => {
             nodes.first().and_then(|&node| input.netlist.source_map.name(Item::Node(node)))
         }
-        SteadyError::Unsolved(unsolved) if unsolved.input().is_none() => input.node_place(unsolved.node()),
+        SteadyError::Unsolved(unsolved) if unsolved.input().is_none() => {
+            input.node_place(unsolved.node())
+        }
         SteadyError::BelowAbsoluteZero { name, .. } => input.node_place(name),
         error => error.input().and_then(|error| input.place_of(error)),
     };

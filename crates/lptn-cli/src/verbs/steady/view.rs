@@ -5,7 +5,9 @@ use std::io;
 
 use lptn_netlist::Diagnostic;
 use lptn_network::{ConductorId, GridValue, HeatOf, Item, JointId, Network, NodeId};
-use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, fixed, prefix, shortened, significant};
+use lptn_report::{
+    Json, Page, Rows, Text, TextTable, decimals, fixed, prefix, shortened, significant,
+};
 use lptn_solve::{Balance, Selection, SteadyState, Table};
 use lptn_study::Scalar;
 use lptn_units::Unit;
@@ -18,7 +20,8 @@ use crate::limits::{self, Judged};
 use crate::words::{difference, largest, some_of};
 use crate::{balance, sense};
 
-/// Rises in K and heats in W below this are what rounding left over: no unit and no decimals are chosen to show them.
+/// Rises in K and heats in W below this are what rounding left over: no unit and no decimals are
+/// chosen to show them.
 const NOISE: f64 = 1e-9;
 
 /// A steady state and how it is shown.
@@ -65,7 +68,9 @@ impl Row {
         match self.of {
             Of::Item(item) => network.name_of(item).into_owned(),
             Of::Heat(heat) => network.name_of(heat.item()).into_owned(),
-            Of::Grid(GridValue::Mean(_) | GridValue::Min(_) | GridValue::Max(_)) => self.column(network),
+            Of::Grid(GridValue::Mean(_) | GridValue::Min(_) | GridValue::Max(_)) => {
+                self.column(network)
+            }
             Of::Grid(_) => self.column(network).trim_end_matches(".T").to_owned(),
         }
     }
@@ -86,7 +91,8 @@ impl Row {
             Of::Grid(_) => "mean of the face".into(),
             Of::Heat(HeatOf::Joint(id)) => {
                 let joint = &network.joints()[id.index()];
-                let [from, to] = [joint.from, joint.to].map(|terminal| network.terminal_name(terminal));
+                let [from, to] =
+                    [joint.from, joint.to].map(|terminal| network.terminal_name(terminal));
                 format!("{from} -> {to}")
             }
             Of::Heat(HeatOf::Conductor(id)) => {
@@ -97,7 +103,8 @@ impl Row {
             Of::Heat(HeatOf::ReceivedTo(id)) => format!("stream to {}", ends(id).1),
             Of::Heat(HeatOf::Source(id)) => {
                 let into = network.sources()[id.index()].into.iter();
-                let mut into: Vec<String> = into.map(|(node, _)| network.place_name(*node)).collect();
+                let mut into: Vec<String> =
+                    into.map(|(node, _)| network.place_name(*node)).collect();
                 into.dedup();
                 format!("source into {}", into.join(", "))
             }
@@ -115,10 +122,10 @@ impl View<'_> {
         let row = |item, value| Row { of: Of::Item(item), value };
         let nodes = ids.map(|id| row(Item::Node(id), self.steady.temperatures[id.index()]));
         let idle = network.idle_grid_values().filter(|_| inside);
-        let grids = network
-            .grid_values()
-            .chain(idle)
-            .map(|of| Row { of: Of::Grid(of), value: network.grid_value(of, &self.steady.temperatures) });
+        let grids = network.grid_values().chain(idle).map(|of| Row {
+            of: Of::Grid(of),
+            value: network.grid_value(of, &self.steady.temperatures),
+        });
         let boundaries = network.boundary_ids().zip(&self.steady.boundary_temperatures);
         let boundaries = boundaries.map(|(id, &value)| row(Item::Boundary(id), value));
         nodes.chain(grids).chain(boundaries).collect()
@@ -137,7 +144,9 @@ impl View<'_> {
         let paths = network.conductor_ids().filter(shown).flat_map(|id| {
             let [back, on] = self.steady.received[id.index()];
             let heats = network.heats_of(id).into_iter();
-            heats.map(move |heat| row(heat, if heat == HeatOf::ReceivedFrom(id) { back } else { on }))
+            heats.map(move |heat| {
+                row(heat, if heat == HeatOf::ReceivedFrom(id) { back } else { on })
+            })
         });
         let sources = network.source_ids().zip(&self.steady.source_heat);
         let boundaries = network.boundary_ids().zip(&self.steady.boundary_heat);
@@ -159,7 +168,10 @@ impl View<'_> {
         let table = TextTable::of(&rows)
             .left("temperature", |row| row.label(network))
             .right(format!("T [{}]", self.unit.text), |r| fixed(self.unit.from_si(r.value), digits))
-            .right(format!("over {} [{}]", shortened(&coldest.0, 24), difference(self.unit)), kelvin)
+            .right(
+                format!("over {} [{}]", shortened(&coldest.0, 24), difference(self.unit)),
+                kelvin,
+            )
             .left("", |r| r.words(network))
             .optional();
         some_of(text, table, (all, "the hottest first; --select 'NAME.T' shows others"));
@@ -168,7 +180,8 @@ impl View<'_> {
     fn heat_flows(&self, mut rows: Vec<Row>, text: &mut Text) {
         let network = &self.input.netlist.network;
         let all = largest(&mut rows, |row| row.value.abs());
-        let most = rows.iter().map(|r| r.value.abs()).filter(|heat| *heat > NOISE).fold(0.0, f64::max);
+        let most =
+            rows.iter().map(|r| r.value.abs()).filter(|heat| *heat > NOISE).fold(0.0, f64::max);
         let (scale, letter) = prefix(most);
         let digits = decimals(most / scale, 4, 0);
         let table = TextTable::of(&rows)
@@ -182,7 +195,8 @@ impl View<'_> {
     /// Signals, controls and reports.
     fn others(&self, text: &mut Text) {
         let network = &self.input.netlist.network;
-        let of_item = |name: &str| name.rsplit_once('.').is_some_and(|(item, _)| network.item(item).is_ok());
+        let of_item =
+            |name: &str| name.rsplit_once('.').is_some_and(|(item, _)| network.item(item).is_ok());
         let shown: Vec<_> = self.table.columns().iter().filter(|c| !of_item(&c.name)).collect();
         if !shown.is_empty() {
             let table = TextTable::of(&shown);
@@ -211,7 +225,8 @@ impl Page for View<'_> {
     fn text(&self) -> Text {
         let network = &self.input.netlist.network;
         let mut text = self.input.begun();
-        let kept: HashSet<&str> = self.table.columns().iter().map(|column| column.name.as_str()).collect();
+        let kept: HashSet<&str> =
+            self.table.columns().iter().map(|column| column.name.as_str()).collect();
         let keep = |row: &Row| self.all || kept.contains(row.column(network).as_str());
         // cells and their paths are shown where they are asked for
         let inside = !self.all && !network.grids().is_empty();
@@ -237,7 +252,8 @@ impl Page for View<'_> {
         let kelvin = Unit { text: "K".into(), scale: 1.0, offset: 0.0, ty: self.unit.ty };
         let table = Table::of_steady(&netlist.network, self.steady, self.selection, &kelvin);
         let table = table.map_err(io::Error::other)?;
-        let value = |c: &lptn_solve::Column| (c.name.clone(), json!(Scalar::new(c.values[0], &c.unit)));
+        let value =
+            |c: &lptn_solve::Column| (c.name.clone(), json!(Scalar::new(c.values[0], &c.unit)));
         let found = self.doubts().into_iter().chain(sense::of_steady(netlist, self.steady));
         self.input.head(json, &found.collect::<Vec<_>>())?;
         json.member("values", &table.columns().iter().map(value).collect::<Map<_, _>>())?;
@@ -249,8 +265,10 @@ impl Page for View<'_> {
 /// The boundary that rises are measured against; without one the coldest node.
 fn coldest(network: &Network, steady: &SteadyState) -> Option<(String, f64)> {
     let coldest = |a: &(Item, f64), b: &(Item, f64)| a.1.total_cmp(&b.1);
-    let boundaries =
-        network.boundary_ids().map(Item::Boundary).zip(steady.boundary_temperatures.iter().copied());
+    let boundaries = network
+        .boundary_ids()
+        .map(Item::Boundary)
+        .zip(steady.boundary_temperatures.iter().copied());
     let nodes = network.node_ids().map(Item::Node).zip(steady.temperatures.iter().copied());
     let (item, temperature) = boundaries.min_by(coldest).or_else(|| nodes.min_by(coldest))?;
     Some((network.name_of(item).into_owned(), temperature))

@@ -32,7 +32,8 @@ fn describe(given: &str, quantity: &Quantity) -> Text {
     let ty = quantity.ty;
     let si_unit = ty.dimension.si_unit();
     let unit = spaced(&si_unit);
-    let deviation = quantity.deviation.map_or(String::new(), |d| format!(" ± {}", format_number(d)));
+    let deviation =
+        quantity.deviation.map_or(String::new(), |d| format!(" ± {}", format_number(d)));
     let name = ty.dimension.quantity_name().filter(|_| !ty.absolute).unwrap_or(unnamed(ty));
     let others = if ty.absolute { ABSOLUTE } else { conversions::of(ty.dimension) };
     let known = |unit: &str| unit == si_unit || given.trim().ends_with(&format!(" {unit}"));
@@ -60,7 +61,11 @@ fn in_unit(si: f64, unit: &str) -> Option<String> {
 
 fn separated(texts: Vec<String>) -> Vec<String> {
     let last = texts.len().saturating_sub(1);
-    texts.into_iter().enumerate().map(|(i, text)| if i < last { text + "," } else { text }).collect()
+    texts
+        .into_iter()
+        .enumerate()
+        .map(|(i, text)| if i < last { text + "," } else { text })
+        .collect()
 }
 
 /// A temperature in K is the one quantity whose meaning depends on where it stands.
@@ -78,7 +83,9 @@ fn list() -> Text {
     let rows: Vec<(&str, String)> = std::iter::once(absolute).chain(USUAL.iter().map(of)).collect();
     let mut text = Text::new();
     text.table(
-        TextTable::of(&rows).left("quantity", |row| row.0).left("usual units, SI first", |row| &row.1),
+        TextTable::of(&rows)
+            .left("quantity", |row| row.0)
+            .left("usual units, SI first", |row| &row.1),
     );
     text.section().line("Units are combined with spaces, `/`, `^` and brackets: W/(m^2 K).");
     text.line("SI units take prefixes: mK, kJ, um.");

@@ -101,7 +101,9 @@ impl View<'_> {
                     NoReference::Unsolved(error) => error.to_string(),
                     NoReference::TooStiff { own_error } => {
                         let error = significant(*own_error, 2);
-                        format!("time constants differ so much that it would be good to {error} K only")
+                        format!(
+                            "time constants differ so much that it would be good to {error} K only"
+                        )
                     }
                 };
                 format!("a run at {tolerance} K; no independent solution: {why}")
@@ -120,7 +122,9 @@ impl View<'_> {
                 "not verified: there is nothing to compare".into()
             }
             (None, true) => "verified: every node at every row is within what is allowed".into(),
-            (None, false) => "consistent, not verified: two tolerances agree within what is allowed".into(),
+            (None, false) => {
+                "consistent, not verified: two tolerances agree within what is allowed".into()
+            }
             (Some(c), _) => format!(
                 "not verified: off by {} K at a tolerance of {} K, {} K allowed",
                 significant(c.difference.largest, 2),
@@ -172,7 +176,8 @@ impl Page for View<'_> {
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        let worst: Vec<Value> = self.verification.comparisons.iter().map(|c| self.worst(c)).collect();
+        let worst: Vec<Value> =
+            self.verification.comparisons.iter().map(|c| self.worst(c)).collect();
         self.input.head(json, &[])?;
         json.table(&self.verification.table(self.network()))?;
         json.member("worst", &worst)?;

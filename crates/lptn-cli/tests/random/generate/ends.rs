@@ -71,7 +71,8 @@ impl Maker {
                 self.has("capacitor");
                 for _ in 0..1 + self.random.below(2) {
                     let name = self.fresh("c");
-                    let part = Entry::new("capacitor", &name).with("node", Field::Name(entry.name.clone()));
+                    let part = Entry::new("capacitor", &name)
+                        .with("node", Field::Name(entry.name.clone()));
                     self.add(part.with("C", constant(0.7 * size, Kind::Capacity)));
                 }
                 entry
@@ -82,8 +83,10 @@ impl Maker {
                 let slope = piece(self.random.between(0.0005, 0.004), Kind::PerKelvin);
                 let zero = self.degrees(0.0, 30.0);
                 let c = piece(size, Kind::Capacity);
-                let value =
-                    expression("{} * (1 + {} * ({} - {}))", [c, slope, Piece::Text("T".into()), zero]);
+                let value = expression(
+                    "{} * (1 + {} * ({} - {}))",
+                    [c, slope, Piece::Text("T".into()), zero],
+                );
                 entry.with("C", Field::Value(value))
             }
             4 => self.made_of(entry, size, true),
@@ -96,7 +99,8 @@ impl Maker {
 
     /// A capacity of about `size` J/K from a material.
     fn made_of(&mut self, entry: Entry, size: f64, curved: bool) -> Entry {
-        let (cp, density) = (self.random.between(400.0, 4000.0), self.random.between(800.0, 8000.0));
+        let (cp, density) =
+            (self.random.between(400.0, 4000.0), self.random.between(800.0, 8000.0));
         let material = self.material(cp, density, curved);
         let entry = entry.with("material", Field::Name(material));
         if self.random.chance(0.5) {

@@ -11,7 +11,8 @@ impl Maker {
         }
         let grid = self.fresh("g");
         let size = [0.0; 3].map(|_| self.random.decades(0.01, 0.1));
-        let counts: Vec<usize> = (0..1 + self.random.below(2)).map(|_| 1 + self.random.below(3)).collect();
+        let counts: Vec<usize> =
+            (0..1 + self.random.below(2)).map(|_| 1 + self.random.below(3)).collect();
         self.has(if counts.len() > 1 { "grid in two dimensions" } else { "grid" });
         let lengths = size.map(|length| constant(length, Kind::Length)).to_vec();
         let start = self.degrees(10.0, 60.0);

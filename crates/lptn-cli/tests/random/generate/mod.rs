@@ -30,8 +30,15 @@ pub fn network(seed: u64) -> Net {
     let stop = random.decades(300.0, 5000.0).round();
     let net = Net { linear: seed.is_multiple_of(3), ..Net::default() };
     let lists = || Vec::new();
-    let mut maker =
-        Maker { random, net, stop, states: lists(), massless: lists(), boundaries: lists(), count: 0 };
+    let mut maker = Maker {
+        random,
+        net,
+        stop,
+        states: lists(),
+        massless: lists(),
+        boundaries: lists(),
+        count: 0,
+    };
     maker.run();
     maker.boundaries();
     maker.nodes();

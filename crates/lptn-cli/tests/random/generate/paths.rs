@@ -11,7 +11,8 @@ impl Maker {
         let (states, junctions) = (self.states.clone(), self.massless.clone());
         for (i, node) in states.iter().enumerate() {
             let back = self.random.below(i + self.boundaries.len());
-            let to = states[..i].iter().chain(&self.boundaries).nth(back).cloned().expect("a place");
+            let to =
+                states[..i].iter().chain(&self.boundaries).nth(back).cloned().expect("a place");
             self.path(node, &to, false);
         }
         for node in &junctions {
@@ -67,7 +68,10 @@ impl Maker {
         let area = self.random.decades(1e-4, 1e-2);
         let value = self.value(conductance / area, Kind::Film, place);
         let slope = value.slope(conductance);
-        entry.with("h", Field::Value(value.pieces)).with("area", constant(area, Kind::Area)).slope(slope)
+        entry
+            .with("h", Field::Value(value.pieces))
+            .with("area", constant(area, Kind::Area))
+            .slope(slope)
     }
 
     fn convection(&mut self, entry: Entry, conductance: f64, place: Place) -> Entry {
@@ -81,7 +85,10 @@ impl Maker {
         let area = self.random.decades(0.01, 0.3);
         let value = self.value(conductance / area, Kind::Film, place);
         let slope = value.slope(conductance);
-        entry.with("h", Field::Value(value.pieces)).with("area", constant(area, Kind::Area)).slope(slope)
+        entry
+            .with("h", Field::Value(value.pieces))
+            .with("area", constant(area, Kind::Area))
+            .slope(slope)
     }
 
     fn conduction(&mut self, entry: Entry, conductance: f64, place: Place) -> Entry {
@@ -91,7 +98,8 @@ impl Maker {
         let (shape, of_k, measures) = match self.random.below(4) {
             0 => {
                 let area = self.random.decades(1e-4, 1e-1);
-                let measures = vec![("area", area, Kind::Area), ("thickness", length, Kind::Length)];
+                let measures =
+                    vec![("area", area, Kind::Area), ("thickness", length, Kind::Length)];
                 ("slab", area / length, measures)
             }
             1 => {
@@ -100,7 +108,8 @@ impl Maker {
             }
             2 => ("sphere", 2.0 * std::f64::consts::TAU / (1.0 / r_in - 1.0 / r_out), vec![]),
             _ => {
-                let measures = vec![("diameter", r_in, Kind::Length), ("length", length, Kind::Length)];
+                let measures =
+                    vec![("diameter", r_in, Kind::Length), ("length", length, Kind::Length)];
                 ("rod", std::f64::consts::PI * r_in * r_in / (4.0 * length), measures)
             }
         };
@@ -122,7 +131,12 @@ impl Maker {
     }
 
     /// `k`, or a material that has one, for a conductance of `of_k` times k.
-    fn conductivity(&mut self, entry: Entry, (conductance, of_k): (f64, f64), place: Place) -> (Entry, f64) {
+    fn conductivity(
+        &mut self,
+        entry: Entry,
+        (conductance, of_k): (f64, f64),
+        place: Place,
+    ) -> (Entry, f64) {
         if self.random.chance(0.8) {
             let value = self.value(conductance / of_k, Kind::Conductivity, place);
             let slope = value.slope(conductance);
@@ -176,9 +190,11 @@ impl Maker {
         for pair in ends.windows(2) {
             let name = self.fresh("f");
             let entry = Entry::new("advection", &name);
+            let entry = entry
+                .with("from", Field::Name(pair[0].clone()))
+                .with("to", Field::Name(pair[1].clone()));
             let entry =
-                entry.with("from", Field::Name(pair[0].clone())).with("to", Field::Name(pair[1].clone()));
-            let entry = keys.iter().fold(entry, |entry, (key, field)| entry.with(key, field.clone()));
+                keys.iter().fold(entry, |entry, (key, field)| entry.with(key, field.clone()));
             self.add(entry.slope(slope));
         }
     }
@@ -191,13 +207,15 @@ impl Maker {
             let slope = value.slope(rate);
             return (vec![("mcp", Field::Value(value.pieces))], slope);
         }
-        let (cp, density) = (self.random.between(1000.0, 4200.0), self.random.between(700.0, 1100.0));
+        let (cp, density) =
+            (self.random.between(1000.0, 4200.0), self.random.between(700.0, 1100.0));
         let fluid = self.fresh("flu");
         let form = if self.curved() { self.random.below(3) } else { 2 };
         self.has(if form == 2 { "fluid" } else { "fluid of cp(T)" });
         let heat = self.specific_heat(cp, form);
-        let entry =
-            Entry::new("fluid", &fluid).with("cp", heat).with("density", constant(density, Kind::Density));
+        let entry = Entry::new("fluid", &fluid)
+            .with("cp", heat)
+            .with("density", constant(density, Kind::Density));
         self.add(entry);
         let fluid = ("fluid", Field::Name(fluid));
         if self.random.chance(0.5) {

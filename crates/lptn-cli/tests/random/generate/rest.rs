@@ -22,8 +22,10 @@ impl Maker {
         }
         if self.random.chance(0.3) {
             self.has("dwell time");
-            entry =
-                entry.with("min_dwell", constant(self.random.between(0.01, 0.05) * self.stop, Kind::Time));
+            entry = entry.with(
+                "min_dwell",
+                constant(self.random.between(0.01, 0.05) * self.stop, Kind::Time),
+            );
         }
         if self.random.chance(0.3) {
             entry = entry.with("start", Field::Word("on".into()));
@@ -60,7 +62,8 @@ impl Maker {
         // a heater that the control switches
         if let Some(control) = self.control() {
             let cools = self.net.of("control").any(|entry| entry.get("on_above").is_some());
-            let (heat, into, source) = (self.random.decades(5.0, 60.0), self.state(), self.fresh("s"));
+            let (heat, into, source) =
+                (self.random.decades(5.0, 60.0), self.state(), self.fresh("s"));
             let heat = piece(if cools { -0.2 * heat } else { heat }, Kind::Heat);
             let value = Field::Value(expression("{} * {}", [heat, name(control)]));
             let entry = Entry::new("source", &source).with("into", Field::Name(into));
@@ -77,8 +80,11 @@ impl Maker {
             1 => {
                 self.has("table of a signal");
                 let speed = self.signal(Kind::Speed, (0.0, 3000.0));
-                let table =
-                    self.table((&[0.0, 1000.0, 2000.0, 4000.0], Kind::Speed), (heat, Kind::Heat), false);
+                let table = self.table(
+                    (&[0.0, 1000.0, 2000.0, 4000.0], Kind::Speed),
+                    (heat, Kind::Heat),
+                    false,
+                );
                 (expression("{}({})", [name(table), name(speed)]), 0.0)
             }
             _ => {

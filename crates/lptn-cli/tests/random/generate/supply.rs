@@ -33,8 +33,9 @@ impl Maker {
             0 => {
                 self.has("cp table");
                 let x = [-50.0, 20.0, 80.0, 150.0, 400.0].map(|x| constant(x, Kind::Temperature));
-                let y =
-                    x.each_ref().map(|_| constant(cp * self.random.between(0.7, 1.4), Kind::SpecificHeat));
+                let y = x
+                    .each_ref()
+                    .map(|_| constant(cp * self.random.between(0.7, 1.4), Kind::SpecificHeat));
                 let interp = *self.random.pick(&["linear", "pchip"]);
                 Field::Table(vec![
                     ("x".into(), Field::List(x.to_vec())),
@@ -46,8 +47,12 @@ impl Maker {
             1 => {
                 self.has("cp(T)");
                 let slope = piece(self.random.between(0.0005, 0.003), Kind::PerKelvin);
-                let parts =
-                    [piece(cp, Kind::SpecificHeat), slope, Piece::Text("T".into()), self.degrees(0.0, 30.0)];
+                let parts = [
+                    piece(cp, Kind::SpecificHeat),
+                    slope,
+                    Piece::Text("T".into()),
+                    self.degrees(0.0, 30.0),
+                ];
                 Field::Value(expression("{} * (1 + {} * ({} - {}))", parts))
             }
             _ => constant(cp, Kind::SpecificHeat),
@@ -65,13 +70,16 @@ impl Maker {
         }
         self.has("parameter of a parameter");
         let other = self.fresh("k");
-        let value =
-            Field::Value(expression("0.5 * ({} + {}^2)", [Piece::Name(name.clone()), Piece::Name(name)]));
+        let value = Field::Value(expression(
+            "0.5 * ({} + {}^2)",
+            [Piece::Name(name.clone()), Piece::Name(name)],
+        ));
         self.add(Entry::new("param", &other).with("", value));
         other
     }
 
-    /// A table of one argument from 0 to the last of `x`, whose values go from half to twice `size`.
+    /// A table of one argument from 0 to the last of `x`, whose values go from half to twice
+    /// `size`.
     pub(super) fn table(
         &mut self,
         (x, of): (&[f64], Kind),
@@ -95,12 +103,18 @@ impl Maker {
     }
 
     /// Points as lists of quantities, or in a CSV file whose columns the keys `columns` name.
-    fn points(&mut self, entry: Entry, points: [(&str, Vec<Number>); 2], columns: [&str; 2]) -> Entry {
+    fn points(
+        &mut self,
+        entry: Entry,
+        points: [(&str, Vec<Number>); 2],
+        columns: [&str; 2],
+    ) -> Entry {
         if self.random.chance(0.3) {
             self.has("CSV file");
             let file = format!("{}.csv", entry.name);
             let heads = ["first", "second"];
-            let numbers = heads.iter().zip(points).map(|(head, (_, numbers))| ((*head).to_owned(), numbers));
+            let numbers =
+                heads.iter().zip(points).map(|(head, (_, numbers))| ((*head).to_owned(), numbers));
             self.net.sides.push((file.clone(), Side::Numbers(numbers.collect())));
             let entry = entry.with("csv", Field::Word(file));
             return columns
@@ -120,9 +134,11 @@ impl Maker {
         let name = self.fresh("map");
         let axis = [0.0, 0.3, 1.0];
         let grid: Vec<(f64, f64)> = axis.iter().flat_map(|x| axis.map(|y| (*x, y))).collect();
-        let column =
-            |of: &dyn Fn(&(f64, f64)) -> f64| grid.iter().map(|at| number(of(at), Kind::Plain)).collect();
-        let values = grid.iter().map(|_| number(self.random.between(0.7, 1.3), Kind::Plain)).collect();
+        let column = |of: &dyn Fn(&(f64, f64)) -> f64| {
+            grid.iter().map(|at| number(of(at), Kind::Plain)).collect()
+        };
+        let values =
+            grid.iter().map(|_| number(self.random.between(0.7, 1.3), Kind::Plain)).collect();
         let columns = vec![
             ("x".to_owned(), column(&|at| at.0)),
             ("y".to_owned(), column(&|at| at.1)),
@@ -131,8 +147,10 @@ impl Maker {
         let file = format!("{name}.csv");
         self.net.sides.push((file.clone(), Side::Numbers(columns)));
         let word = |text: &str| Field::Word(text.into());
-        let entry =
-            Entry::new("table", &name).with("csv", word(&file)).with("x", word("x")).with("y", word("y"));
+        let entry = Entry::new("table", &name)
+            .with("csv", word(&file))
+            .with("x", word("x"))
+            .with("y", word("y"));
         self.add(entry.with("value", word("value")).with("outside", word("hold")));
         name
     }
@@ -161,7 +179,9 @@ impl Maker {
             _ => self.random.between(0.2, 0.7) * stop,
         };
         let count = 3 + self.random.below(4);
-        let t = (0..count).map(|i| number(reach * i as f64 / (count - 1) as f64, Kind::Instant)).collect();
+        let t = (0..count)
+            .map(|i| number(reach * i as f64 / (count - 1) as f64, Kind::Instant))
+            .collect();
         let v = (0..count).map(|_| number(self.random.between(low, high), kind)).collect();
         let interp = *self.random.pick(&["linear", "pchip", "previous"]);
         self.has(match interp {
@@ -169,10 +189,14 @@ impl Maker {
             "pchip" => "pchip signal",
             _ => "previous signal",
         });
-        let mut entry = self.points(Entry::new("signal", &name), [("t", t), ("v", v)], ["time", "value"]);
-        entry = entry.with("interp", Field::Word(interp.into())).with("after_end", Field::Word(after.into()));
+        let mut entry =
+            self.points(Entry::new("signal", &name), [("t", t), ("v", v)], ["time", "value"]);
+        entry = entry
+            .with("interp", Field::Word(interp.into()))
+            .with("after_end", Field::Word(after.into()));
         if after == "repeat" && self.random.chance(0.5) {
-            entry = entry.with("period", constant(self.random.between(1.05, 1.5) * reach, Kind::Time));
+            entry =
+                entry.with("period", constant(self.random.between(1.05, 1.5) * reach, Kind::Time));
         }
         self.add(entry);
         name

@@ -92,9 +92,13 @@ impl Maker {
         let (pieces, most, per_kelvin) = match (choice, place) {
             (0, Place::Path { junction }) => {
                 self.has("table of dT");
-                // where a film falls with dT faster than dT grows, a junction can have more than one temperature
-                let table =
-                    self.table((&[0.0, 15.0, 40.0, 90.0, 200.0], Kind::Difference), (size, kind), junction);
+                // where a film falls with dT faster than dT grows, a junction can have more than
+                // one temperature
+                let table = self.table(
+                    (&[0.0, 15.0, 40.0, 90.0, 200.0], Kind::Difference),
+                    (size, kind),
+                    junction,
+                );
                 (expression("{}(abs(dT))", [name(table)]), 2.0, 0.15)
             }
             (1, Place::Path { .. }) if kind != Kind::Resistance => {

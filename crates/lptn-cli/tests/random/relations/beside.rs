@@ -14,9 +14,11 @@ pub fn idle_nodes(net: &Net, random: &mut Random) -> Option<Variant> {
     for i in 0..5 {
         let node = format!("idle_{i}");
         let start = if i == 0 { 60.0 } else { 20.0 };
-        let entry = Entry::new("node", &node).with("C", constant(random.decades(1.0, 1e3), Kind::Capacity));
+        let entry =
+            Entry::new("node", &node).with("C", constant(random.decades(1.0, 1e3), Kind::Capacity));
         more.push(entry.with("T0", constant(start, Kind::Temperature)));
-        let path = Entry::new("resistor", &format!("idle_path_{i}")).with("from", Field::Name(node));
+        let path =
+            Entry::new("resistor", &format!("idle_path_{i}")).with("from", Field::Name(node));
         let path = path.with("to", Field::Name("idle_room".into()));
         more.push(path.with("R", constant(random.decades(0.1, 10.0), Kind::Resistance)));
     }
@@ -31,12 +33,17 @@ pub fn idle_nodes(net: &Net, random: &mut Random) -> Option<Variant> {
 pub fn more_outputs(net: &Net, random: &mut Random) -> Option<Variant> {
     let mut variant = Variant::of(net);
     let stop = net.run_value("stop");
-    let path = net.entries.iter().find(|entry| entry.end("from").is_some() && entry.kind() != "advection")?;
+    let path = net
+        .entries
+        .iter()
+        .find(|entry| entry.end("from").is_some() && entry.kind() != "advection")?;
     let node = net.of("node").next()?;
     let flow = || Piece::Name(format!("{}.Q", path.name));
     let hot = || Piece::Name(format!("{}.T", node.name));
-    let wave =
-        expression("sin(2 * pi * {} / {}) * {}", [Piece::Time, piece(0.37 * stop, Kind::Time), flow()]);
+    let wave = expression(
+        "sin(2 * pi * {} / {}) * {}",
+        [Piece::Time, piece(0.37 * stop, Kind::Time), flow()],
+    );
     let level = constant(random.between(20.0, 60.0), Kind::Temperature);
     let entries = [
         Entry::new("report", "extra_flow").with("", Field::Value(wave)),

@@ -39,7 +39,9 @@ pub fn templated(net: &Net, random: &mut Random) -> Option<Variant> {
     let ports: Vec<String> = net.of("boundary").map(|entry| entry.name.clone()).collect();
     if copies.len() > 1 {
         // what a boundary gives is twice as much
-        ports.iter().for_each(|port| drop(variant.parts.insert(format!("{port}.Q"), (Vec::new(), false))));
+        ports
+            .iter()
+            .for_each(|port| drop(variant.parts.insert(format!("{port}.Q"), (Vec::new(), false))));
     }
     let (mut set, mut params) = (Vec::new(), Vec::new());
     for entry in &mut variant.net.entries {
@@ -73,7 +75,9 @@ pub fn templated(net: &Net, random: &mut Random) -> Option<Variant> {
 fn outside(entry: &mut Entry, parts: &std::collections::BTreeMap<String, (Vec<String>, bool)>) {
     for (_, field) in &mut entry.fields {
         field.names(&mut |name| {
-            if let Some((copies, _)) = parts.get(base(name)).filter(|(copies, _)| !copies.is_empty()) {
+            if let Some((copies, _)) =
+                parts.get(base(name)).filter(|(copies, _)| !copies.is_empty())
+            {
                 *name = format!("{}{}", copies[0], &name[base(name).len()..]);
             }
         });
@@ -101,9 +105,12 @@ pub fn imported(net: &Net, random: &mut Random) -> Option<Variant> {
         }
     }
     let mut import = Entry::new("import", "");
-    let heads = ["name,C [kJ/K],T0 [degF]", "name,T [degC]", "from,to,G [W/K],name", "into,P [mW],name"];
+    let heads =
+        ["name,C [kJ/K],T0 [degF]", "name,T [degC]", "from,to,G [W/K],name", "into,P [mW],name"];
     let keys = ["nodes", "boundaries", "conductors", "sources"];
-    for ((key, head), rows) in keys.iter().zip(heads).zip(&rows).filter(|(_, rows)| !rows.is_empty()) {
+    for ((key, head), rows) in
+        keys.iter().zip(heads).zip(&rows).filter(|(_, rows)| !rows.is_empty())
+    {
         let mut text = format!("{head}\n");
         for row in rows {
             let _ = writeln!(text, "{row}");
@@ -133,11 +140,13 @@ fn row(entry: &Entry) -> Option<(usize, String)> {
                 (Some(r), _) => number(1.0 / r.value, Kind::Conductance),
                 (_, g) => g?,
             };
-            let plain = |end: &str| entry.end(end).filter(|end| base(end) == *end).map(str::to_owned);
+            let plain =
+                |end: &str| entry.end(end).filter(|end| base(end) == *end).map(str::to_owned);
             Some((2, format!("{},{},{},{name}", plain("from")?, plain("to")?, g.bare())))
         }
         "source" => {
-            let into = entry.end("into").filter(|into| base(into) == *into && into.starts_with('n'))?;
+            let into =
+                entry.end("into").filter(|into| base(into) == *into && into.starts_with('n'))?;
             Some((3, format!("{into},{},{name}", bare(entry.constant("P")?, 2))))
         }
         _ => None,

@@ -32,7 +32,8 @@ pub fn grid_written_out(net: &Net, _: &mut Random) -> Option<Variant> {
         entries.push(node.with("T0", start.clone()));
     }
     let path = |from: &str, to: &str, g: f64| {
-        let path = Entry::new("resistor", &format!("{from}_to_{to}")).with("from", Field::Name(from.into()));
+        let path = Entry::new("resistor", &format!("{from}_to_{to}"))
+            .with("from", Field::Name(from.into()));
         path.with("to", Field::Name(to.into())).with("G", constant(g, Kind::Conductance))
     };
     for pair in cells.windows(2) {
@@ -46,7 +47,10 @@ pub fn grid_written_out(net: &Net, _: &mut Random) -> Option<Variant> {
     for entry in entries.iter_mut() {
         attach(entry, &name, (&cells, area));
     }
-    let parts = cells.iter().enumerate().map(|(i, cell)| (format!("{name}[{}]", i + 1), vec![cell.clone()]));
+    let parts = cells
+        .iter()
+        .enumerate()
+        .map(|(i, cell)| (format!("{name}[{}]", i + 1), vec![cell.clone()]));
     variant.parts.extend(parts.map(|(cell, node)| (cell, (node, false))));
     variant.parts.insert(name.clone(), (Vec::new(), false));
     Some(variant)

@@ -37,7 +37,8 @@ pub struct Variant {
     pub net: Net,
     /// New names by old ones.
     pub names: BTreeMap<String, String>,
-    /// What became of elements that are no longer one: their parts, and whether a heat flow is the sum of theirs.
+    /// What became of elements that are no longer one: their parts, and whether a heat flow is the
+    /// sum of theirs.
     pub parts: BTreeMap<String, (Vec<String>, bool)>,
     /// How much later everything happens, in s.
     pub shift: f64,
@@ -93,11 +94,14 @@ impl Variant {
         }
         let (element, what) = split(column);
         let rest = |whole: &str| format!("{}{what}", &element[whole.len()..]);
-        let found = [element, base(element)].into_iter().find_map(|name| Some((name, self.parts.get(name)?)));
+        let found = [element, base(element)]
+            .into_iter()
+            .find_map(|name| Some((name, self.parts.get(name)?)));
         let Some((whole, (parts, sum))) = found else {
             return As::Each(vec![self.renamed(column)]);
         };
-        let names: Vec<String> = parts.iter().map(|part| format!("{part}{}", rest(whole))).collect();
+        let names: Vec<String> =
+            parts.iter().map(|part| format!("{part}{}", rest(whole))).collect();
         match (names.is_empty(), sum) {
             (true, _) => As::Nothing,
             (_, true) => As::Sum(names),

@@ -61,7 +61,8 @@ pub fn changed_units(net: &Net, random: &mut Random) -> Option<Variant> {
         }
         let kind = entry.kind().to_owned();
         for (key, field) in &mut entry.fields {
-            let kelvin = KELVIN.contains(&(&kind, key)) && matches!(field, Field::Value(v) if v.len() == 1);
+            let kelvin =
+                KELVIN.contains(&(&kind, key)) && matches!(field, Field::Value(v) if v.len() == 1);
             field.numbers(&mut |number| number.unit = other_unit(number, kelvin, random));
         }
     }
@@ -89,7 +90,8 @@ fn inverse(entry: &mut Entry) {
             _ => continue,
         };
         let Field::Value(pieces) = field else { continue };
-        let zero = pieces.iter().any(|piece| matches!(piece, Piece::Text(text) if text.contains("(1/4)")));
+        let zero =
+            pieces.iter().any(|piece| matches!(piece, Piece::Text(text) if text.contains("(1/4)")));
         if zero {
             continue;
         }
@@ -138,7 +140,8 @@ pub fn over_time_only(net: &Net, pieces: &[Piece]) -> bool {
     pieces.iter().all(|piece| match piece {
         Piece::Text(text) => !text.contains('T'),
         Piece::Name(name) => {
-            !name.ends_with(".T") && net.entry(base(name)).is_none_or(|entry| entry.kind() != "node")
+            !name.ends_with(".T")
+                && net.entry(base(name)).is_none_or(|entry| entry.kind() != "node")
         }
         _ => true,
     })

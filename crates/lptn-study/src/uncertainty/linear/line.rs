@@ -35,14 +35,17 @@ impl<'a> Line<'a> {
         Ok(Self { inputs, run, rows: places })
     }
 
-    /// What one standard deviation more of each parameter adds to the temperature of a node at a time of the run, in K.
+    /// What one standard deviation more of each parameter adds to the temperature of a node at a
+    /// time of the run, in K.
     pub(super) fn effects(&self, node: NodeId, place: usize) -> Vec<f64> {
         let effect = |input: &Uncertain| self.slopes(input, node)[place] * input.deviation;
         self.inputs.iter().map(effect).collect()
     }
 
     fn slopes(&self, input: &Uncertain, node: NodeId) -> Vec<f64> {
-        self.run.sensitivity(input.parameter, node).expect("every node that is asked for is recorded")
+        self.run
+            .sensitivity(input.parameter, node)
+            .expect("every node that is asked for is recorded")
     }
 
     /// The place of the last time.
@@ -50,10 +53,12 @@ impl<'a> Line<'a> {
         self.run.solution.times().len() - 1
     }
 
-    /// The same for its maximum: as the temperature changes at the time of the maximum, or as the maxima of the runs do
-    /// where these are compared, for a maximum may stand where something jumps.
+    /// The same for its maximum: as the temperature changes at the time of the maximum, or as the
+    /// maxima of the runs do where these are compared, for a maximum may stand where something
+    /// jumps.
     pub(super) fn effects_on_maximum(&self, node: NodeId) -> Vec<f64> {
-        let of_runs = |input: &Uncertain| Some(self.run.peak(input.parameter, node)? * input.deviation);
+        let of_runs =
+            |input: &Uncertain| Some(self.run.peak(input.parameter, node)? * input.deviation);
         let all: Option<Vec<f64>> = self.inputs.iter().map(of_runs).collect();
         all.unwrap_or_else(|| self.effects(node, self.highest(node)))
     }
@@ -76,7 +81,8 @@ impl<'a> Line<'a> {
             variance.iter_mut().zip(squares).for_each(|(sum, square)| *sum += square);
         }
         let deviation: Vec<f64> = variance.into_iter().map(f64::sqrt).collect();
-        let side = |sign: f64| value.iter().zip(&deviation).map(|(v, d)| v + sign * BAND * d).collect();
+        let side =
+            |sign: f64| value.iter().zip(&deviation).map(|(v, d)| v + sign * BAND * d).collect();
         Bands { node, low: side(-1.0), median: None, high: side(1.0), value, deviation }
     }
 
@@ -97,7 +103,8 @@ pub(super) fn ids(inputs: &[Uncertain]) -> Vec<ParameterId> {
 /// The times with those of `more` that lie between them, ascending.
 pub(super) fn joined(times: &[f64], more: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut all = times.to_vec();
-    let same = SAME * (times.last().copied().unwrap_or(0.0) - times.first().copied().unwrap_or(0.0));
+    let same =
+        SAME * (times.last().copied().unwrap_or(0.0) - times.first().copied().unwrap_or(0.0));
     for time in more {
         let place = all.partition_point(|known| *known < time);
         let (before, after) = (place.checked_sub(1).map(|i| all[i]), all.get(place).copied());

@@ -11,12 +11,13 @@ use crate::uncertainty::input::Uncertain;
 use crate::uncertainty::linear::line::{Line, ids, joined};
 use crate::uncertainty::task::UncertaintyTask;
 
-/// The part of a standard deviation over which the expression of a limit is differentiated. Its temperatures are moved
-/// along their sensitivities, so that the limit of a temperature is exact to rounding; what bends within a thousandth
-/// of a standard deviation is wrong in the seventh digit.
+/// The part of a standard deviation over which the expression of a limit is differentiated. Its
+/// temperatures are moved along their sensitivities, so that the limit of a temperature is exact to
+/// rounding; what bends within a thousandth of a standard deviation is wrong in the seventh digit.
 const PART: f64 = 1e-3;
 
-/// For each limit what one standard deviation more of each parameter adds to its margin, in SI units.
+/// For each limit what one standard deviation more of each parameter adds to its margin, in SI
+/// units.
 pub(super) fn effects(
     task: &UncertaintyTask<'_>,
     line: &Line<'_>,
@@ -30,7 +31,8 @@ pub(super) fn effects(
         let of_runs = |limit: &LimitSeen, input: &Uncertain| {
             line.run.margin(input.parameter, limit.limit).unwrap_or(f64::NAN) * input.deviation
         };
-        let all = |limit: &LimitSeen| line.inputs.iter().map(|input| of_runs(limit, input)).collect();
+        let all =
+            |limit: &LimitSeen| line.inputs.iter().map(|input| of_runs(limit, input)).collect();
         return Ok(seen.iter().map(all).collect());
     }
     let ends = [task.run.start, task.run.stop];
@@ -43,7 +45,8 @@ pub(super) fn effects(
     seen.iter().map(all).collect()
 }
 
-/// The margin at the time at which it is least, with the parameter and the temperatures moved to both sides.
+/// The margin at the time at which it is least, with the parameter and the temperatures moved to
+/// both sides.
 fn of_expression(
     task: &UncertaintyTask<'_>,
     run: &SensitiveRun,
@@ -60,8 +63,13 @@ fn of_expression(
     let moved = |change: f64| {
         let mut parameters = task.parameters.clone();
         parameters.set(input.parameter, input.value + change);
-        let temperatures: Vec<f64> =
-            run.solution.row(place).iter().zip(&slopes).map(|(t, slope)| t + slope * change).collect();
+        let temperatures: Vec<f64> = run
+            .solution
+            .row(place)
+            .iter()
+            .zip(&slopes)
+            .map(|(t, slope)| t + slope * change)
+            .collect();
         margin(task, &parameters, (limit.limit, times[place]), &temperatures)
     };
     let change = PART * input.deviation;

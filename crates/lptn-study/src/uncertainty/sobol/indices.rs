@@ -16,7 +16,8 @@ pub(super) fn answers(
     let questions = task.questions().into_iter().enumerate();
     let one = |(place, of): (usize, AnswerOf)| {
         let column = Column::of(blocks, place, design.inputs.len());
-        let ranking = (0..design.inputs.len()).map(|input| column.contribution(input, design)).collect();
+        let ranking =
+            (0..design.inputs.len()).map(|input| column.contribution(input, design)).collect();
         column.answer(of, nominal.answers[place], ranking).sorted()
     };
     questions.map(one).collect()
@@ -40,19 +41,26 @@ struct Row {
 impl Column {
     fn of(blocks: &Blocks, place: usize, inputs: usize) -> Self {
         let row = |(number, block): (usize, &super::Block)| {
-            let base = [0, 1].map(|k: usize| block.base[k].as_ref().ok().map(|sample| sample.answers[place]));
-            let mixed = (0..inputs).map(|i| block.mixed[i].as_ref().ok().map(|answers| answers[place]));
+            let base = [0, 1]
+                .map(|k: usize| block.base[k].as_ref().ok().map(|sample| sample.answers[place]));
+            let mixed =
+                (0..inputs).map(|i| block.mixed[i].as_ref().ok().map(|answers| answers[place]));
             Row { number, group: number / blocks.per_group, base, mixed: mixed.collect() }
         };
         let blocks_of: Vec<Row> = blocks.blocks.iter().enumerate().map(row).collect();
-        let mut base: Vec<(f64, usize)> = blocks.base().map(|(group, s)| (s.answers[place], group)).collect();
+        let mut base: Vec<(f64, usize)> =
+            blocks.base().map(|(group, s)| (s.answers[place], group)).collect();
         base.sort_by(|a, b| a.0.total_cmp(&b.0));
         Self { base, blocks: blocks_of }
     }
 
     /// The values of the base runs but for those of a group, ascending.
     fn kept(&self, left_out: Option<usize>) -> Vec<f64> {
-        self.base.iter().filter(|(_, group)| Some(*group) != left_out).map(|(value, _)| *value).collect()
+        self.base
+            .iter()
+            .filter(|(_, group)| Some(*group) != left_out)
+            .map(|(value, _)| *value)
+            .collect()
     }
 
     fn rows(&self, left_out: Option<usize>) -> impl Iterator<Item = &Row> {
@@ -85,13 +93,15 @@ impl Column {
         }
     }
 
-    /// First-order and total index: A. Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, table 2 (b) and (f), the
-    /// first with values counted from their mean. Zero where nothing varies.
+    /// First-order and total index: A. Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, table
+    /// 2 (b) and (f), the first with values counted from their mean. Zero where nothing varies.
     fn indices(&self, input: usize, left_out: Option<usize>) -> [f64; 2] {
         let (mean, deviation) = moments(&self.kept(left_out));
         let (mut sums, mut n) = ([0.0; 2], 0.0);
         for row in self.rows(left_out) {
-            let ([Some(first), Some(second)], Some(mixed)) = (row.base, row.mixed[input]) else { continue };
+            let ([Some(first), Some(second)], Some(mixed)) = (row.base, row.mixed[input]) else {
+                continue;
+            };
             sums[0] += (second - mean) * (mixed - first);
             sums[1] += 0.5 * (mixed - first) * (mixed - first);
             n += 1.0;
@@ -100,10 +110,12 @@ impl Column {
         sums.map(|sum| if variance > 0.0 && n > 0.0 { sum / (n * variance) } else { 0.0 })
     }
 
-    /// The slope of the straight line through the answers of the base runs over the parameter in standard deviations.
+    /// The slope of the straight line through the answers of the base runs over the parameter in
+    /// standard deviations.
     fn effect(&self, input: usize, design: &Design<'_>) -> f64 {
-        let point =
-            |row: &Row, which: usize| Some((design.normal(row.number, which, input), row.base[which]?));
+        let point = |row: &Row, which: usize| {
+            Some((design.normal(row.number, which, input), row.base[which]?))
+        };
         let pairs = self.rows(None).flat_map(|row| [0, 1].map(|which| point(row, which)));
         let points: Vec<(f64, f64)> = pairs.flatten().collect();
         let n = points.len() as f64;

@@ -21,7 +21,11 @@ Examples:
 #[command(before_help = EXAMPLES, help_template = TEMPLATE)]
 pub(crate) struct LawArgs {
     /// A CSV file with headers like `omega [rpm],P [W]`, or a folder of records
-    #[arg(value_name = "POINTS", required_unless_present = "rise_law", conflicts_with = "rise_law")]
+    #[arg(
+        value_name = "POINTS",
+        required_unless_present = "rise_law",
+        conflicts_with = "rise_law"
+    )]
     pub(crate) points: Option<PathBuf>,
     /// The column of the speed, where it is not the only rotation
     #[arg(long, value_name = "NAME", requires = "points")]

@@ -1,4 +1,5 @@
-//! Whether laws of rise, time constant and power can be true together: as text, as JSON, and the form without points.
+//! Whether laws of rise, time constant and power can be true together: as text, as JSON, and the
+//! form without points.
 
 use std::io;
 
@@ -19,7 +20,11 @@ use crate::failure::Failure;
 use crate::input::quantity;
 
 /// Compares three laws of the command line.
-pub(crate) fn laws(args: &LawArgs, capacity: Option<Capacity>, console: &Console) -> Result<Exit, Failure> {
+pub(crate) fn laws(
+    args: &LawArgs,
+    capacity: Option<Capacity>,
+    console: &Console,
+) -> Result<Exit, Failure> {
     let law = |option: &str, of: LawOf, text: &Option<String>| {
         let text = text.as_deref().unwrap_or_default();
         StatedLaw::parse(of, text).map_err(|error| wrong_law(option, text, &error))
@@ -88,7 +93,8 @@ fn range(text: &str) -> Result<(f64, f64), Failure> {
         return Err(Failure::of(&LawError::Range));
     };
     let speed = |text: &str| {
-        quantity("--over", text.trim(), Type::of(Dimension::ANGULAR_VELOCITY)).map(|speed| speed.value)
+        quantity("--over", text.trim(), Type::of(Dimension::ANGULAR_VELOCITY))
+            .map(|speed| speed.value)
     };
     Ok((speed(low)?, speed(high)?))
 }
@@ -150,7 +156,9 @@ fn at_speeds(found: &Consistency, unit: &SpeedUnit) -> TextTable {
 pub(crate) fn verdict(found: &Consistency, unit: &SpeedUnit) -> String {
     let [low, _, high] = &found.at;
     if found.exponents_contradict() {
-        let time = |at: &AtSpeed| format!("{} min at {}", fixed(at.needed / 60.0, 1), unit.speed(at.speed));
+        let time = |at: &AtSpeed| {
+            format!("{} min at {}", fixed(at.needed / 60.0, 1), unit.speed(at.speed))
+        };
         return format!(
             "contradiction: dT and t_RC imply a power that goes with {}, not {}; all three hold only if t_RC goes with \
              {}: {} and {}",
@@ -171,7 +179,8 @@ pub(crate) fn verdict(found: &Consistency, unit: &SpeedUnit) -> String {
         return "the power was computed from dT and t_RC of the same points, so their agreement proves nothing"
             .to_owned();
     }
-    if let Some(error) = found.level.and_then(|level| level.relative_error).filter(|error| *error > TOO_ROUGH)
+    if let Some(error) =
+        found.level.and_then(|level| level.relative_error).filter(|error| *error > TOO_ROUGH)
     {
         let percent = significant(100.0 * error, 2);
         return format!(
@@ -198,7 +207,8 @@ pub(crate) fn members(found: &Consistency) -> Value {
     let exponent =
         |e: &Exponent| json!({ "value": e.value, "unit": "1", "standard_error": e.standard_error });
     let scalar = Scalar::new;
-    let tested = |s: &Option<Significance>| s.map(|s| json!({ "z": s.z, "probability": s.probability }));
+    let tested =
+        |s: &Option<Significance>| s.map(|s| json!({ "z": s.z, "probability": s.probability }));
     let at = |at: &AtSpeed| {
         json!({
             "speed": scalar(at.speed, "rad/s"),

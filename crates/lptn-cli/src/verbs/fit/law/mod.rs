@@ -9,7 +9,9 @@ mod shown;
 
 pub(crate) use args::LawArgs;
 
-use lptn_fit::law::{Candidate, Consistency, Law, LawError, LawStudy, Measured, Outcome, Start, WrittenLaw};
+use lptn_fit::law::{
+    Candidate, Consistency, Law, LawError, LawStudy, Measured, Outcome, Start, WrittenLaw,
+};
 use lptn_fit::step::Capacity;
 use lptn_netlist::{Diagnostic, Files, Span};
 use lptn_report::Format;
@@ -68,8 +70,8 @@ fn laws_to_fit(args: &LawArgs, data: &Data) -> Result<Vec<Law>, Failure> {
     let mut laws = Law::standard();
     let mut known: Vec<String> = Vec::new();
     for text in &args.law {
-        let law =
-            WrittenLaw::new(text, &data.points, &starts).map_err(|error| wrong_law("--law", text, &error))?;
+        let law = WrittenLaw::new(text, &data.points, &starts)
+            .map_err(|error| wrong_law("--law", text, &error))?;
         known.extend(law.coefficients().iter().map(|(name, _)| name.clone()));
         laws.push(Law::Written(Box::new(law)));
     }
@@ -87,8 +89,12 @@ fn laws_to_fit(args: &LawArgs, data: &Data) -> Result<Vec<Law>, Failure> {
 /// `a = 20 mW/rpm`.
 fn start(text: &str) -> Result<Start, Failure> {
     let Some((name, value)) = text.split_once('=') else {
-        let problem = Diagnostic::error("fit::law_start", format!("`{text}` gives no name a value"));
-        return Err(Failure::new(Exit::Input, problem.help("write for example --start \"a = 20 mW/rpm\"")));
+        let problem =
+            Diagnostic::error("fit::law_start", format!("`{text}` gives no name a value"));
+        return Err(Failure::new(
+            Exit::Input,
+            problem.help("write for example --start \"a = 20 mW/rpm\""),
+        ));
     };
     let quantity = parse_quantity(value.trim(), None);
     let quantity = quantity.map_err(|error| wrong_unit("--start", value.trim(), &error))?;
@@ -103,7 +109,9 @@ fn capacity(text: Option<&str>) -> Result<Option<Capacity>, Failure> {
 }
 
 fn consistency(data: &Data, capacity: Option<Capacity>) -> Result<Option<Consistency>, Failure> {
-    let (Some(rise), Some(time_constant)) = (&data.rise, &data.time_constant) else { return Ok(None) };
+    let (Some(rise), Some(time_constant)) = (&data.rise, &data.time_constant) else {
+        return Ok(None);
+    };
     let (speed, power) = (data.points.speed(), data.points.power());
     let errors = data.errors.as_ref().map(|errors| errors.each_ref().map(Vec::as_slice));
     let measured = Measured { speed, rise, time_constant, power, errors };
@@ -120,7 +128,8 @@ fn consistency(data: &Data, capacity: Option<Capacity>) -> Result<Option<Consist
 fn wrong_law(option: &str, text: &str, error: &LawError) -> Failure {
     let mut files = Files::new();
     let file = files.add(option, text);
-    let problem = |found: &lptn_units::UnitError| told(found).at(Span::new(file, found.span.clone()), "");
+    let problem =
+        |found: &lptn_units::UnitError| told(found).at(Span::new(file, found.span.clone()), "");
     match error {
         LawError::Units { errors, .. } => {
             Failure { exit: Exit::Input, diagnostics: errors.iter().map(problem).collect(), files }

@@ -2,7 +2,9 @@
 
 use std::io;
 
-use lptn_fit::law::{Candidate, Coefficient, Consistency, Exponent, Fitted, Law, LawStudy, SIGNIFICANT};
+use lptn_fit::law::{
+    Candidate, Coefficient, Consistency, Exponent, Fitted, Law, LawStudy, SIGNIFICANT,
+};
 use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, fixed, plain, significant};
 use lptn_solve::Table;
 use serde_json::{Value, json};
@@ -21,7 +23,8 @@ impl Page for Answer {
             "unweighted"
         };
         let range = data.unit.range(ends(data.points.speed()));
-        let title = format!("{} over {}", plain(&data.power_name), plain(&data.points.variables()[0].name));
+        let title =
+            format!("{} over {}", plain(&data.power_name), plain(&data.points.variables()[0].name));
         let mut text = Text::titled(title);
         text.line(format!("{} points at {range}, {weights}", data.points.len()));
         text.section().table(laws(self));
@@ -45,7 +48,9 @@ impl Page for Answer {
         let mut rows: Vec<Row<'_>> = Vec::new();
         for candidate in &self.study.candidates {
             match candidate.fitted() {
-                Some(fit) => rows.extend(fit.coefficients.iter().map(|c| (candidate, Some((fit, c))))),
+                Some(fit) => {
+                    rows.extend(fit.coefficients.iter().map(|c| (candidate, Some((fit, c)))))
+                }
                 None => rows.push((candidate, None)),
             }
         }
@@ -54,9 +59,12 @@ impl Page for Answer {
         table.label("coefficient", |(_, row)| row.map_or(String::new(), |(_, c)| c.name.clone()));
         table.label("unit", |(_, row)| row.map_or(String::new(), |(_, c)| c.dimension.si_unit()));
         table.label("remark", |(candidate, _)| candidate.remark().unwrap_or_default());
-        let mut column = |name: &str, unit: &str, value: &dyn Fn(&Fitted, &Coefficient) -> Option<f64>| {
-            table.column(name, unit, |(_, row)| row.and_then(|(f, c)| value(f, c)).unwrap_or(f64::NAN));
-        };
+        let mut column =
+            |name: &str, unit: &str, value: &dyn Fn(&Fitted, &Coefficient) -> Option<f64>| {
+                table.column(name, unit, |(_, row)| {
+                    row.and_then(|(f, c)| value(f, c)).unwrap_or(f64::NAN)
+                });
+            };
         column("value", "SI", &|_, c| Some(c.value));
         column("standard_error", "SI", &|_, c| c.standard_error);
         column("rmse", "W", &|f, _| Some(f.rmse));
@@ -135,7 +143,9 @@ fn names(law: &Law, count: usize) -> Vec<String> {
     match law {
         Law::Powers(_) => {
             let terms = text.split(" + ").enumerate();
-            terms.map(|(i, term)| if i == 0 { term.to_owned() } else { format!("+ {term}") }).collect()
+            terms
+                .map(|(i, term)| if i == 0 { term.to_owned() } else { format!("+ {term}") })
+                .collect()
         }
         _ => (0..count).map(|i| if i == 0 { text.clone() } else { String::new() }).collect(),
     }
@@ -147,17 +157,22 @@ fn coefficient(answer: &Answer, candidate: &Candidate, fit: &Fitted, i: usize) -
     let value = unit.quantity(c.value, c.standard_error, c.dimension);
     match (&candidate.law, i) {
         (Law::Powers(_), _) => value,
-        (Law::FreeExponent, 0) => format!("{value} at {}", unit.speed(answer.data.points.largest_speed())),
+        (Law::FreeExponent, 0) => {
+            format!("{value} at {}", unit.speed(answer.data.points.largest_speed()))
+        }
         _ => format!("{} = {value}", c.name),
     }
 }
 
 fn numbers(study: &LawStudy, candidate: &Candidate, fit: &Fitted) -> [String; 4] {
-    let least = study.candidates.iter().filter_map(Candidate::fitted).map(|fit| fit.rmse).reduce(f64::min);
+    let least =
+        study.candidates.iter().filter_map(Candidate::fitted).map(|fit| fit.rmse).reduce(f64::min);
     let digits = |value: f64| fixed(value, decimals(least.unwrap_or(value), 3, 1));
     let behind = match study.behind(candidate) {
         Some(behind) if candidate.eligible() && behind == 0.0 => "best".to_owned(),
-        Some(behind) if candidate.eligible() => format!("+{}", fixed(behind, usize::from(behind < 100.0))),
+        Some(behind) if candidate.eligible() => {
+            format!("+{}", fixed(behind, usize::from(behind < 100.0)))
+        }
         _ if fit.aicc.is_none() => "few points".to_owned(),
         _ => "negative".to_owned(),
     };
@@ -171,10 +186,13 @@ fn notes(study: &LawStudy, text: &mut Text) {
         "rmse      ",
         "root of the mean square over all points; left out: each point foretold by the others",
     );
-    let negative =
-        study.candidates.iter().any(|c| c.fitted().is_some_and(|f| f.aicc.is_some()) && !c.eligible());
+    let negative = study
+        .candidates
+        .iter()
+        .any(|c| c.fitted().is_some_and(|f| f.aicc.is_some()) && !c.eligible());
     if negative {
-        let why = "a coefficient is below 0: no sum of losses; the best without is one of the others";
+        let why =
+            "a coefficient is below 0: no sum of losses; the best without is one of the others";
         text.sentence("negative  ", why);
     }
     if study.dispersion > 1.0 {
@@ -187,15 +205,17 @@ fn notes(study: &LawStudy, text: &mut Text) {
     if let (Some(least), Some(best)) = (study.least_rmse(), study.best())
         && least.law.to_string() != best.law.to_string()
     {
-        let least = format!("is least for {}, which has more coefficients to reach it with", least.law);
+        let least =
+            format!("is least for {}, which has more coefficients to reach it with", least.law);
         text.sentence("rmse      ", &least);
     }
     let singles = study.single_powers();
     if let [first, others @ ..] = &singles[..]
         && let Some(start) = first.fitted().and_then(|f| f.aicc)
     {
-        let behind =
-            |c: &&Candidate| Some(format!("{} +{}", c.law, significant(c.fitted()?.aicc? - start, 3)));
+        let behind = |c: &&Candidate| {
+            Some(format!("{} +{}", c.law, significant(c.fitted()?.aicc? - start, 3)))
+        };
         let others: Vec<String> = others.iter().filter_map(behind).collect();
         let all = others.join(", ");
         let alone = format!("{} is best of the single powers: AICc {all}", first.law);
@@ -211,7 +231,8 @@ fn correlation(study: &LawStudy, text: &mut Text) {
     let count = fit.coefficients.len();
     let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| (i, j)));
     let name = |i: usize| &fit.coefficients[i].name;
-    let pair = |(i, j)| format!("{} and {}: {};", name(i), name(j), fixed(fit.correlation[i][j], 3));
+    let pair =
+        |(i, j)| format!("{} and {}: {};", name(i), name(j), fixed(fit.correlation[i][j], 3));
     let mut pieces: Vec<String> = pairs.map(pair).collect();
     if pieces.is_empty() {
         return;

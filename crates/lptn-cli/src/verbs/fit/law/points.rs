@@ -39,7 +39,8 @@ fn is_error(name: &str) -> bool {
     ERRORS.iter().any(|ending| name.ends_with(ending))
 }
 
-/// Whether a column holds this; a difference of temperatures is one in K, which a record takes for absolute.
+/// Whether a column holds this; a difference of temperatures is one in K, which a record takes for
+/// absolute.
 fn holds(column: &RecordColumn, wanted: Dimension) -> bool {
     let ty = column.unit.ty;
     let difference = wanted == Dimension::TEMPERATURE && ty.absolute && column.unit.offset == 0.0;
@@ -52,7 +53,11 @@ impl<'a> Lookup<'a> {
     }
 
     fn of(&self, wanted: Dimension) -> Vec<&'a RecordColumn> {
-        self.sheet.columns.iter().filter(|column| holds(column, wanted) && !is_error(&column.name)).collect()
+        self.sheet
+            .columns
+            .iter()
+            .filter(|column| holds(column, wanted) && !is_error(&column.name))
+            .collect()
     }
 
     /// The column that an option names.
@@ -69,7 +74,8 @@ impl<'a> Lookup<'a> {
             return Ok(column);
         }
         let wanted = Type::of(wanted).with_article();
-        let message = format!("column `{name}` is {}, but {wanted} is due", column.unit.ty.with_article());
+        let message =
+            format!("column `{name}` is {}, but {wanted} is due", column.unit.ty.with_article());
         Err(self.refused(Diagnostic::error("record::unit", message).at(column.span.clone(), "")))
     }
 
@@ -93,17 +99,23 @@ impl<'a> Lookup<'a> {
                 Err(self.refused(problem.help(format!("give it a header like `{unit}`"))))
             }
             [first, second, ..] => {
-                let message = format!("several columns hold {what}: `{}`, `{}`", first.name, second.name);
+                let message =
+                    format!("several columns hold {what}: `{}`, `{}`", first.name, second.name);
                 let problem = Diagnostic::error("fit::law_column", message);
                 let problem = problem.at(second.span.clone(), "").also(first.span.clone(), "");
-                Err(self
-                    .refused(problem.help(format!("name the one that is meant: {option} {}", first.name))))
+                Err(self.refused(
+                    problem.help(format!("name the one that is meant: {option} {}", first.name)),
+                ))
             }
         }
     }
 
     /// The column that an option names, or the only one, if there is one.
-    fn optional(&self, name: Option<&str>, wanted: Dimension) -> Result<Option<&'a RecordColumn>, Failure> {
+    fn optional(
+        &self,
+        name: Option<&str>,
+        wanted: Dimension,
+    ) -> Result<Option<&'a RecordColumn>, Failure> {
         match (name, self.of(wanted).as_slice()) {
             (Some(name), _) => self.named(name, wanted).map(Some),
             (None, [only]) => Ok(Some(only)),
@@ -123,21 +135,30 @@ pub(crate) fn read(path: &Path, args: &LawArgs) -> Result<Data, Failure> {
     let bytes = lptn_netlist::read_bytes(path)?;
     let (sheet, files) = read_sheet(path, &bytes)?;
     let lookup = Lookup { sheet: &sheet, files: &files };
-    let speed =
-        lookup.needed(("--speed", args.speed.as_deref()), "the speed", Dimension::ANGULAR_VELOCITY)?;
+    let speed = lookup.needed(
+        ("--speed", args.speed.as_deref()),
+        "the speed",
+        Dimension::ANGULAR_VELOCITY,
+    )?;
     let power = lookup.needed(("--power", args.power.as_deref()), "the power", Dimension::POWER)?;
     let sigma = if args.unweighted { None } else { lookup.errors(power) };
     let rise = lookup.optional(args.rise.as_deref(), Dimension::TEMPERATURE)?;
     let time_constant = lookup.optional(args.time_constant.as_deref(), Dimension::TIME)?;
     let both = rise.zip(time_constant);
-    let sigmas = both.and_then(|(rise, time)| Some([lookup.errors(rise)?, lookup.errors(time)?, sigma?]));
+    let sigmas =
+        both.and_then(|(rise, time)| Some([lookup.errors(rise)?, lookup.errors(time)?, sigma?]));
     let mut used = vec![Some(speed), Some(power), sigma, both.map(|b| b.0), both.map(|b| b.1)];
     used.extend(sigmas.iter().flatten().map(|column| Some(*column)));
     let complete = |row: &usize| used.iter().flatten().all(|column| !column.values[*row].is_nan());
     let rows: Vec<usize> = (0..sheet.rows.len()).filter(complete).collect();
-    let kept = |column: &RecordColumn| rows.iter().map(|&row| column.values[row]).collect::<Vec<f64>>();
-    let others = sheet.columns.iter().filter(|c| c.gaps == 0 && c.name != speed.name && c.name != power.name);
-    let variable = |c: &RecordColumn| Variable { name: c.name.clone(), ty: c.unit.ty, values: kept(c) };
+    let kept =
+        |column: &RecordColumn| rows.iter().map(|&row| column.values[row]).collect::<Vec<f64>>();
+    let others = sheet
+        .columns
+        .iter()
+        .filter(|c| c.gaps == 0 && c.name != speed.name && c.name != power.name);
+    let variable =
+        |c: &RecordColumn| Variable { name: c.name.clone(), ty: c.unit.ty, values: kept(c) };
     let points = Points::new(kept(speed), kept(power), sigma.map(kept))
         .and_then(|points| points.with_variables(&speed.name, others.map(variable).collect()))
         .map_err(|error| wrong_points(&error, &sheet, &files, &rows))?;
@@ -163,7 +184,9 @@ fn left_out(sheet: &DataSheet, kept: usize) -> Option<Diagnostic> {
 
 fn wrong_points(error: &LawError, sheet: &DataSheet, files: &Files, rows: &[usize]) -> Failure {
     let point = match error {
-        LawError::Speed { point, .. } | LawError::Power { point } | LawError::Deviation { point, .. } => {
+        LawError::Speed { point, .. }
+        | LawError::Power { point }
+        | LawError::Deviation { point, .. } => {
             rows.get(*point).and_then(|&row| sheet.rows.get(row)).cloned()
         }
         _ => None,

@@ -31,12 +31,13 @@ impl SpeedUnit {
         if unit.is_empty() { number } else { format!("{number} {unit}") }
     }
 
-    /// A unit for a value: its size in SI and its text; `W` and the unit of the speed, where the dimension is made of
-    /// these.
+    /// A unit for a value: its size in SI and its text; `W` and the unit of the speed, where the
+    /// dimension is made of these.
     pub(crate) fn unit(&self, value: f64, of: Dimension) -> (f64, String) {
         let [_, mass, .., angle] = of.exponents();
         let parts = Dimension::ANGULAR_VELOCITY.checked_pow(angle);
-        let parts = parts.zip(Dimension::POWER.checked_pow(mass)).and_then(|(s, p)| s.checked_mul(p));
+        let parts =
+            parts.zip(Dimension::POWER.checked_pow(mass)).and_then(|(s, p)| s.checked_mul(p));
         if of.is_none() {
             return (1.0, String::new());
         }

@@ -23,16 +23,21 @@ pub(crate) fn tell(
         console.message(&format!("interrupted in {stage}: nothing is fitted"));
         return Ok(Exit::Interrupted);
     };
-    let values: Vec<[String; 3]> =
-        task.parameters.iter().zip(&best).map(|(varied, si)| cells(input, varied.parameter, *si)).collect();
+    let values: Vec<[String; 3]> = task
+        .parameters
+        .iter()
+        .zip(&best)
+        .map(|(varied, si)| cells(input, varied.parameter, *si))
+        .collect();
     if args.printed.format == Format::Table {
         let mut text = Text::new();
         let table = TextTable::of(&values).left("parameter", |cells| &cells[0]).names();
         text.table(table.right("best so far", |cells| &cells[1]).left("unit", |cells| &cells[2]));
         console.page(&text, Format::Table)?;
     }
-    let mut message =
-        format!("interrupted in {stage}: these values are not a result, and have no standard errors");
+    let mut message = format!(
+        "interrupted in {stage}: these values are not a result, and have no standard errors"
+    );
     if let Some(file) = input.typed() {
         let study = args.name.as_ref().map_or(String::new(), |name| format!(" {}", quoted(name)));
         message += &format!("\ngo on from them: lptn fit network {file}{study}");

@@ -37,7 +37,8 @@ pub(crate) struct Answer<'a> {
 
 pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&Source { file: args.file.clone(), set: args.set.clone() })?;
-    let study = STUDIES.find(&input, (&input.netlist.fits, |study| &study.name), args.name.as_deref())?;
+    let study =
+        STUDIES.find(&input, (&input.netlist.fits, |study| &study.name), args.name.as_deref())?;
     console.warn(&input.netlist.files, &input.netlist.warnings);
     let mut task = NetworkFitTask::of(&input.netlist, study, available_threads())
         .map_err(|error| failed(&input, study, &error))?;
@@ -97,9 +98,11 @@ fn failed(input: &Input, study: &FitStudy, error: &NetworkFitError) -> Failure {
         NetworkFitError::StartOutside { parameter } => {
             study.varied.get(*parameter).map(|varied| &varied.span)
         }
-        NetworkFitError::Observed { column, .. } => {
-            study.observed.iter().find(|observed| observed.column == *column).map(|observed| &observed.span)
-        }
+        NetworkFitError::Observed { column, .. } => study
+            .observed
+            .iter()
+            .find(|observed| observed.column == *column)
+            .map(|observed| &observed.span),
         NetworkFitError::Times { record, .. } | NetworkFitError::Start { record, .. } => {
             study.records.iter().find(|own| own.csv == *record).map(|own| &own.span)
         }

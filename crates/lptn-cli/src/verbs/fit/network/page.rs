@@ -43,8 +43,9 @@ impl Page for Answer<'_> {
     fn rows(&self) -> Rows<'_> {
         let all: Vec<usize> = (0..self.fit.parameters.len()).collect();
         let parameter = |i: usize| &self.fit.parameters[i];
-        let error =
-            |i: usize| parameter(i).standard_error.map_or(f64::NAN, |se| self.shown_difference(i, se));
+        let error = |i: usize| {
+            parameter(i).standard_error.map_or(f64::NAN, |se| self.shown_difference(i, se))
+        };
         let mut table = Table::of(&all);
         table.label("parameter", |&i| self.name(i).to_owned());
         table.label("unit", |&i| self.units[i].text.clone());
@@ -86,7 +87,10 @@ impl Page for Answer<'_> {
             "starts",
             &json!({ "tried": starts.tried, "same": starts.same, "other": starts.other, "failed": starts.failed }),
         )?;
-        json.member("gradient", if fit.gradient == Gradient::Exact { "exact" } else { "differences" })
+        json.member(
+            "gradient",
+            if fit.gradient == Gradient::Exact { "exact" } else { "differences" },
+        )
     }
 
     fn no(&self) -> Option<String> {
@@ -107,7 +111,11 @@ fn with_error(value: f64, error: Option<f64>) -> (String, String) {
                 return (fixed(value, digits), fixed(error, digits));
             }
             let digits = (size - error.log10().floor()).max(0.0);
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 700")]
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "below 700"
+            )]
             let digits = 2 + digits.min(15.0) as usize;
             (significant(value, digits), significant(error, 2))
         }
@@ -164,8 +172,9 @@ fn misfits(answer: &Answer<'_>) -> TextTable {
 const MOST: usize = 7;
 
 fn correlations(answer: &Answer<'_>) -> Option<TextTable> {
-    let known: Vec<usize> =
-        (0..answer.fit.parameters.len()).filter(|&i| answer.fit.correlation(i, i).is_some()).collect();
+    let known: Vec<usize> = (0..answer.fit.parameters.len())
+        .filter(|&i| answer.fit.correlation(i, i).is_some())
+        .collect();
     if known.len() < 2 || known.len() > MOST {
         return None;
     }
@@ -182,8 +191,10 @@ fn correlations(answer: &Answer<'_>) -> Option<TextTable> {
 
 fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
     let fit = &answer.fit;
-    let mut notes =
-        vec![("misfit", format!("{} K rms over all {} values", significant(fit.rms, 4), fit.samples()))];
+    let mut notes = vec![(
+        "misfit",
+        format!("{} K rms over all {} values", significant(fit.rms, 4), fit.samples()),
+    )];
     let starts = fit.starts;
     if starts.tried > 1 {
         let mut text = format!("{} of {} searches found this minimum", starts.same, starts.tried);
@@ -203,10 +214,16 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
     };
     notes.push(("gradient", format!("{how}; all records were run {} times", fit.evaluations)));
     if let Some(known) = &fit.identifiability {
-        let values: Vec<String> = known.singular_values.iter().map(|value| significant(*value, 3)).collect();
+        let values: Vec<String> =
+            known.singular_values.iter().map(|value| significant(*value, 3)).collect();
         notes.push((
             "determined",
-            format!("{} of {}; singular values {}", known.rank, fit.parameters.len(), values.join(", ")),
+            format!(
+                "{} of {}; singular values {}",
+                known.rank,
+                fit.parameters.len(),
+                values.join(", ")
+            ),
         ));
     }
     notes
@@ -246,7 +263,8 @@ fn columns(answer: &Answer<'_>) -> Value {
     answer.fit.columns.iter().map(column).collect()
 }
 
-/// What the records do not determine: parameters that nothing depends on, then those that cannot be told apart.
+/// What the records do not determine: parameters that nothing depends on, then those that cannot be
+/// told apart.
 fn unidentified(answer: &Answer<'_>) -> Value {
     let Some(known) = &answer.fit.identifiability else { return Value::Null };
     let unfelt = known
@@ -262,6 +280,7 @@ fn unseparated(answer: &Answer<'_>, group: &Unseparated) -> Value {
         let unit = type_of(answer, c).map_or_else(String::new, |ty| ty.dimension.si_unit());
         json!({ "combination": combination(answer, c), "value": Scalar::new(c.value, &unit) })
     };
-    let determined: Option<Value> = group.determined.as_ref().map(|all| all.iter().map(one).collect());
+    let determined: Option<Value> =
+        group.determined.as_ref().map(|all| all.iter().map(one).collect());
     json!({ "parameters": names, "missing": group.missing, "determined": determined })
 }

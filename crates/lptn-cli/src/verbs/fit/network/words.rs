@@ -27,7 +27,8 @@ pub(crate) fn state(answer: &Answer<'_>, i: usize) -> &'static str {
 pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
     let mut doubts = Vec::new();
     for (i, parameter) in answer.fit.parameters.iter().enumerate() {
-        let determined = answer.fit.identifiability.as_ref().is_some_and(|known| known.determines(i));
+        let determined =
+            answer.fit.identifiability.as_ref().is_some_and(|known| known.determines(i));
         let (Some(side), true) = (parameter.on_bound, determined) else { continue };
         let end = if side == Side::Lower { "least" } else { "greatest" };
         let message = format!(
@@ -43,10 +44,10 @@ pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
     let unweighted =
         answer.task.runs.iter().flat_map(|run| &run.columns).any(|column| column.sigma.is_none());
     if priors && unweighted {
-        let message =
-            "without `sigma` a value of a record counts as known to 1 K beside what `±` says of a parameter";
+        let message = "without `sigma` a value of a record counts as known to 1 K beside what `±` says of a parameter";
         let doubt = Diagnostic::warning("fit::no_sigma", message).at(answer.study.span.clone(), "");
-        doubts.push(doubt.help("write how far one value scatters, for example `sigma = \"0.2 K\"`"));
+        doubts
+            .push(doubt.help("write how far one value scatters, for example `sigma = \"0.2 K\"`"));
     }
     doubts.extend((0..answer.fit.parameters.len()).filter_map(|i| off_prior(answer, i)));
     doubts.extend(misfits(answer));
@@ -69,7 +70,8 @@ fn off_prior(answer: &Answer<'_>, i: usize) -> Option<Diagnostic> {
         significant(off, 2),
         shown(fitted.start)
     );
-    let doubt = Diagnostic::warning("fit::prior", message).at(answer.study.varied[i].span.clone(), "");
+    let doubt =
+        Diagnostic::warning("fit::prior", message).at(answer.study.varied[i].span.clone(), "");
     (off > FAR).then(|| {
         doubt.help(
             "the record and what `±` says of it contradict each other: one of them is wrong, or the model",
@@ -77,8 +79,8 @@ fn off_prior(answer: &Answer<'_>, i: usize) -> Option<Diagnostic> {
     })
 }
 
-/// The columns that the model misses by far more than their values scatter: each once, with the record in which it is
-/// worst.
+/// The columns that the model misses by far more than their values scatter: each once, with the
+/// record in which it is worst.
 fn misfits(answer: &Answer<'_>) -> Vec<Diagnostic> {
     let name = |column: &ColumnMisfit| &answer.task.runs[column.run].columns[column.column].name;
     let off = |column: &ColumnMisfit| column.sigma.map_or(0.0, |sigma| column.rms / sigma);
@@ -92,7 +94,8 @@ fn misfits(answer: &Answer<'_>) -> Vec<Diagnostic> {
             None => found.push((column, 1)),
         }
     }
-    let doubts = found.into_iter().map(|(worst, count)| misfit(answer, worst, (name(worst), count)));
+    let doubts =
+        found.into_iter().map(|(worst, count)| misfit(answer, worst, (name(worst), count)));
     doubts.collect()
 }
 
@@ -131,7 +134,8 @@ pub(crate) fn combination(answer: &Answer<'_>, combination: &Combination) -> Str
     let name = |i: usize| answer.name(i).to_owned();
     match combination.kind {
         Kind::Product => {
-            let power = |(i, c): (usize, i32)| if c == 1 { name(i) } else { format!("{}^{c}", name(i)) };
+            let power =
+                |(i, c): (usize, i32)| if c == 1 { name(i) } else { format!("{}^{c}", name(i)) };
             let side = |sign: i32| -> Vec<String> {
                 let terms = combination.terms.iter().filter(|(_, c)| c.signum() == sign);
                 terms.map(|&(i, c)| power((i, c.abs()))).collect()
@@ -161,7 +165,8 @@ pub(crate) fn combination(answer: &Answer<'_>, combination: &Combination) -> Str
 
 /// The type of a combination; `None` if its exponents cannot be held.
 pub(crate) fn type_of(answer: &Answer<'_>, combination: &Combination) -> Option<Type> {
-    let own = |i: usize| answer.task.network.parameters()[answer.task.parameters[i].parameter.index()].ty;
+    let own =
+        |i: usize| answer.task.network.parameters()[answer.task.parameters[i].parameter.index()].ty;
     if combination.kind == Kind::Sum {
         return combination.terms.first().map(|&(i, _)| own(i));
     }
@@ -175,7 +180,9 @@ pub(crate) fn type_of(answer: &Answer<'_>, combination: &Combination) -> Option<
 
 /// "67.2 K".
 pub(crate) fn value_of(answer: &Answer<'_>, combination: &Combination) -> String {
-    let Some(ty) = type_of(answer, combination) else { return significant(combination.value, DIGITS) };
+    let Some(ty) = type_of(answer, combination) else {
+        return significant(combination.value, DIGITS);
+    };
     let unit = match combination.kind {
         Kind::Sum => combination.terms.first().map(|&(i, _)| answer.units[i].clone()),
         Kind::Product => Unit::parse(&ty.usual_unit()).ok(),
@@ -210,7 +217,8 @@ pub(crate) fn unseparated(answer: &Answer<'_>, group: &Unseparated) -> String {
                 let part = |(&i, d): (&usize, &f64)| percent(answer, i, d / largest);
                 parts.map(part).collect::<Vec<_>>()
             };
-            let changes: Vec<String> = group.directions.iter().map(|d| joined(&change(d))).collect();
+            let changes: Vec<String> =
+                group.directions.iter().map(|d| joined(&change(d))).collect();
             format!(
                 "{} cannot be told apart: {} together leave every column as it is; {fix}",
                 listed(answer, &group.parameters),
@@ -261,10 +269,13 @@ pub(crate) fn verdict(answer: &Answer<'_>) -> String {
     text + unchecked(answer)
 }
 
-/// What there is to say of errors where the records have no value beyond those that the parameters take up.
+/// What there is to say of errors where the records have no value beyond those that the parameters
+/// take up.
 fn unchecked(answer: &Answer<'_>) -> &'static str {
     match (answer.fit.left_over, &answer.fit.covariance) {
-        (0, Some(_)) => "; no values are left over to tell errors from, so they are those of `sigma`",
+        (0, Some(_)) => {
+            "; no values are left over to tell errors from, so they are those of `sigma`"
+        }
         (0, None) => "; no values are left over to tell errors from",
         _ => "",
     }

@@ -45,7 +45,8 @@ pub(crate) fn of(request: &Request, column: &Column<'_>) -> Vec<Diagnostic> {
             column.power.reference,
             significant(drift, 3)
         );
-        let help = "a bed that warms is a node of the network: `lptn fit network` can fit it as one";
+        let help =
+            "a bed that warms is a node of the network: `lptn fit network` can fit it as one";
         warnings.push(at(Diagnostic::warning("fit::drift", message)).help(help));
     }
     warnings
@@ -60,8 +61,9 @@ fn short(name: &str, fit: &StepFit) -> Diagnostic {
         significant(fit.beyond.abs(), 3)
     );
     let long = duration(LONG_ENOUGH * fit.tau.value, 3);
-    let help =
-        format!("measure for {LONG_ENOUGH} time constants, {long}: what was not measured is in no error");
+    let help = format!(
+        "measure for {LONG_ENOUGH} time constants, {long}: what was not measured is in no error"
+    );
     Diagnostic::warning("fit::short", message).help(help)
 }
 
@@ -71,30 +73,33 @@ fn cut(request: &Request, column: &Column<'_>) -> Option<Diagnostic> {
         return None;
     }
     let from = significant(request.record.time.first().copied().unwrap_or(f64::NAN), 6);
-    let what = if request.capacity.is_some() { "P_disp is not the heat" } else { "is not the rise" };
+    let what =
+        if request.capacity.is_some() { "P_disp is not the heat" } else { "is not the rise" };
     let message = format!(
         "column `{}`: dT is counted from the cut at {from} s, and {what} unless the step begins there",
         column.column.name
     );
-    let help =
-        "count it from where the column was before the step: --reference \"25.5 degC\", or from a COLUMN";
+    let help = "count it from where the column was before the step: --reference \"25.5 degC\", or from a COLUMN";
     Some(Diagnostic::warning("fit::cut", message).help(help))
 }
 
-/// That a power is negative by more than its noise: no part of a gearbox takes heat out of the world.
+/// That a power is negative by more than its noise: no part of a gearbox takes heat out of the
+/// world.
 fn cooling(request: &Request, column: &Column<'_>) -> Option<Diagnostic> {
     let (name, fit, power) = (&column.column.name, &column.fit, &column.power.power);
     if request.capacity.is_none() || power.value + power.half_width >= 0.0 {
         return None;
     }
     if fit.settled.value < fit.initial.value {
-        let message = format!("column `{name}`: the record cools: the negative P_disp is no dissipation");
+        let message =
+            format!("column `{name}`: the record cools: the negative P_disp is no dissipation");
         let help = "what cools without heat has P = 0 and tends to its surroundings: T_f is their temperature, and t_RC \
                     and R_eq hold";
         return Some(Diagnostic::warning("fit::cooling", message).help(help));
     }
-    let message =
-        format!("column `{name}`: T_f is below the reference: the negative P_disp is no dissipation");
+    let message = format!(
+        "column `{name}`: T_f is below the reference: the negative P_disp is no dissipation"
+    );
     let help = "--reference is where the column would be without heat";
     Some(Diagnostic::warning("fit::cooling", message).help(help))
 }

@@ -15,11 +15,13 @@ pub(crate) fn with_error(value: f64, error: f64) -> String {
 
 /// The number with as many decimals as its error has.
 pub(crate) fn to_error(value: f64, error: f64) -> String {
-    decimals(value, error).map_or_else(|| significant(value, DIGITS), |decimals| fixed(value, decimals))
+    decimals(value, error)
+        .map_or_else(|| significant(value, DIGITS), |decimals| fixed(value, decimals))
 }
 
-/// Decimals that show two digits of an error; `None` for one that is 0 or not known, or so small that it is rounding: of
-/// the number, or of the record that it comes from, which has fewer than ten digits.
+/// Decimals that show two digits of an error; `None` for one that is 0 or not known, or so small
+/// that it is rounding: of the number, or of the record that it comes from, which has fewer than
+/// ten digits.
 fn decimals(value: f64, error: f64) -> Option<usize> {
     if !(error.is_finite() && error > 1e-9 && error > 1e-8 * value.abs()) {
         return None;

@@ -52,7 +52,8 @@ pub(crate) fn step(args: &StepArgs, console: &Console) -> Result<Exit, Failure> 
             }
         }
     }
-    let exit = failures.iter().map(|(exit, _)| *exit).max_by_key(|exit| *exit as u8).unwrap_or(Exit::Done);
+    let exit =
+        failures.iter().map(|(exit, _)| *exit).max_by_key(|exit| *exit as u8).unwrap_or(Exit::Done);
     let problems: Vec<Diagnostic> = failures.into_iter().map(|(_, problem)| problem).collect();
     let mut warnings = record.warnings.clone();
     warnings.extend(columns.iter().flat_map(|column| doubts::of(&request, column)));
@@ -76,12 +77,18 @@ fn fitted<'a>(request: &'a Request, column: &'a RecordColumn) -> Result<Column<'
         Reference::Value(kelvin) => Zero::Value(*kelvin),
         Reference::Column(index) => {
             let column = &record.columns[*index];
-            Zero::Column { name: column.name.clone(), times: &record.time, temperatures: &column.values }
+            Zero::Column {
+                name: column.name.clone(),
+                times: &record.time,
+                temperatures: &column.values,
+            }
         }
     };
     // dT does not depend on the capacity
     let capacity = match &request.capacity {
-        Some(capacity) => Capacity { value: capacity.value, deviation: capacity.deviation.unwrap_or(0.0) },
+        Some(capacity) => {
+            Capacity { value: capacity.value, deviation: capacity.deviation.unwrap_or(0.0) }
+        }
         None => Capacity { value: 1.0, deviation: 0.0 },
     };
     let sensor = Sensor { class: request.sensor.unwrap_or(0.0), gain: 0.0 };

@@ -25,7 +25,8 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    /// The same fit on the network's own answer at the times of the record; `None` where no network is named.
+    /// The same fit on the network's own answer at the times of the record; `None` where no network
+    /// is named.
     pub(crate) fn read(args: &StepArgs, request: &Request) -> Result<Option<Self>, Failure> {
         let (Some(file), Some(port)) = (&args.model, &args.port) else { return Ok(None) };
         let begin = request.begin.ok_or_else(unknown_begin)?;
@@ -36,7 +37,8 @@ impl Model {
         let input = Input::load(&Source { file: file.to_owned(), set: Vec::new() })?;
         let network = &input.netlist.network;
         let explain = |error: StepError| failed(&input, port, &error);
-        let node = lptn_reduce::port(network, port).map_err(|error| explain(StepError::Model(error)))?;
+        let node =
+            lptn_reduce::port(network, port).map_err(|error| explain(StepError::Model(error)))?;
         let system = input.assemble()?;
         let length = times.last().map_or(0.0, |last| last - begin);
         let run = match &input.netlist.run {
@@ -50,7 +52,8 @@ impl Model {
 }
 
 fn unknown_begin() -> Failure {
-    let message = "the run of the model begins with the record, but what is before --from cannot be read";
+    let message =
+        "the run of the model begins with the record, but what is before --from cannot be read";
     let help = "without --from the first row that cannot be read is named";
     Failure::new(Exit::Input, Diagnostic::error("fit::no_begin", message).help(help))
 }

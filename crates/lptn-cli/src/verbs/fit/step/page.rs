@@ -4,8 +4,8 @@ use std::io;
 
 use lptn_fit::step::{Estimated, Off, Parted, Power, TwoExponentials};
 use lptn_report::{
-    Align, Column as TextColumn, Json, Page, Rows, Text, TextTable, WIDTH, plain, shortened, significant,
-    stacked,
+    Align, Column as TextColumn, Json, Page, Rows, Text, TextTable, WIDTH, plain, shortened,
+    significant, stacked,
 };
 use lptn_solve::Table;
 use lptn_study::Scalar;
@@ -23,7 +23,8 @@ impl Page for Answer<'_> {
         let (from, to) = (record.time.first().copied(), record.time.last().copied());
         let [from, to] = [from, to].map(|time| significant(time.unwrap_or(f64::NAN), 6));
         let name = shortened(&plain(&self.request.name), LONGEST_NAME);
-        let mut text = Text::titled(format!("{name}: {} rows from {from} s to {to} s", record.time.len()));
+        let mut text =
+            Text::titled(format!("{name}: {} rows from {from} s to {to} s", record.time.len()));
         text.line("T(t) = T_f + (T_i - T_f) exp(-t / t_RC), t from the first row");
         fits(self, text.section());
         intervals(self, text.section());
@@ -37,8 +38,9 @@ impl Page for Answer<'_> {
         let unit = &self.request.unit;
         let mut table = Table::of(&self.columns);
         table.label("column", |column| column.column.name.clone());
-        let mut put =
-            |name: &str, unit: &str, value: &dyn Fn(&Column<'_>) -> f64| table.column(name, unit, value);
+        let mut put = |name: &str, unit: &str, value: &dyn Fn(&Column<'_>) -> f64| {
+            table.column(name, unit, value)
+        };
         put("T_i", &unit.text, &|c| unit.from_si(c.fit.initial.value));
         put("T_i_error", "K", &|c| c.fit.initial.standard_error);
         put("T_f", &unit.text, &|c| unit.from_si(c.fit.settled.value));
@@ -101,15 +103,17 @@ const LONGEST_NAME: usize = 40;
 /// A heading, and what stands below it for each column of the record.
 type Cells<'c> = (String, &'c dyn Fn(&Column<'_>) -> String);
 
-/// A table with a row for each column of the record: several below each other where one were too wide.
+/// A table with a row for each column of the record: several below each other where one were too
+/// wide.
 fn table(answer: &Answer<'_>, text: &mut Text, cells: &[Cells<'_>]) {
     let column = |title: &str, align, cell: &dyn Fn(&Column<'_>) -> String| {
         TextColumn::new(title, align, answer.columns.iter().map(cell).collect())
     };
     let names = column("column", Align::Left, &|column| plain(&column.column.name));
     let columns = cells.iter().map(|(title, cell)| column(title, Align::Right, cell)).collect();
-    let fits =
-        |table: &TextTable| table.clone().lines(WIDTH).iter().all(|line| line.chars().count() <= WIDTH);
+    let fits = |table: &TextTable| {
+        table.clone().lines(WIDTH).iter().all(|line| line.chars().count() <= WIDTH)
+    };
     for table in stacked(&names, columns, fits) {
         text.table(table);
     }
@@ -117,7 +121,8 @@ fn table(answer: &Answer<'_>, text: &mut Text, cells: &[Cells<'_>]) {
 
 fn fits(answer: &Answer<'_>, text: &mut Text) {
     let unit = &answer.request.unit;
-    let temperature = |t: &Estimated| with_error(unit.from_si(t.value), t.standard_error / unit.scale);
+    let temperature =
+        |t: &Estimated| with_error(unit.from_si(t.value), t.standard_error / unit.scale);
     table(
         answer,
         text,
@@ -136,7 +141,11 @@ fn intervals(answer: &Answer<'_>, text: &mut Text) {
     let unit = &answer.request.unit;
     let range = |t: &Estimated, of: &dyn Fn(f64) -> f64| {
         let (low, high) = t.interval();
-        format!("{} .. {}", to_error(of(low), t.standard_error), to_error(of(high), t.standard_error))
+        format!(
+            "{} .. {}",
+            to_error(of(low), t.standard_error),
+            to_error(of(high), t.standard_error)
+        )
     };
     let celsius = |si: f64| unit.from_si(si);
     table(
@@ -157,7 +166,10 @@ fn rises(answer: &Answer<'_>, text: &mut Text) {
     text.sentence("", &reference(answer));
     if let Some(capacity) = &answer.request.capacity {
         let capacity = with_error(capacity.value, capacity.deviation.unwrap_or(0.0));
-        text.sentence("", &format!("R_eq = t_RC / C and P_disp = dT / R_eq with C = {capacity} J/K"));
+        text.sentence(
+            "",
+            &format!("R_eq = t_RC / C and P_disp = dT / R_eq with C = {capacity} J/K"),
+        );
     }
     // one row for each number whose errors stand apart
     let mut rows: Vec<(String, &str, &Parted)> = Vec::new();
@@ -222,7 +234,8 @@ fn bias(answer: &Answer<'_>, text: &mut Text) {
         return;
     };
     let (unit, bias) = (&answer.request.unit, &model.bias);
-    let signed = |value: f64| format!("{}{}", if value > 0.0 { "+" } else { "" }, significant(value, 3));
+    let signed =
+        |value: f64| format!("{}{}", if value > 0.0 { "+" } else { "" }, significant(value, 3));
     // T_i, T_f, t_RC and P: how each is shown
     let row = |name, pick: fn(&Off) -> f64| {
         let temperature = |off: &Off| significant(unit.from_si(pick(off)), 6);

@@ -16,7 +16,8 @@ pub(crate) struct Request {
     /// What diagnostics and results call the record.
     pub(crate) name: String,
     pub(crate) record: Record,
-    /// The first time of the record in s before `--from` cut it; `None` where that part cannot be read.
+    /// The first time of the record in s before `--from` cut it; `None` where that part cannot be
+    /// read.
     pub(crate) begin: Option<f64>,
     pub(crate) files: Files,
     /// The columns to fit, by position.
@@ -51,7 +52,8 @@ impl Request {
             let what = (dimension, "fit::not_positive", example);
             text.as_deref().map(|text| input::positive(option, text, what)).transpose()
         };
-        let capacity = positive("--capacity", &args.capacity, Dimension::CAPACITY, "\"2659 J/K ± 5 %\"")?;
+        let capacity =
+            positive("--capacity", &args.capacity, Dimension::CAPACITY, "\"2659 J/K ± 5 %\"")?;
         let sensor = positive("--sensor", &args.sensor, Dimension::TEMPERATURE, "\"3 K\"")?;
         let unit = temperature_unit(args.scale.temperature_unit.as_deref())?;
         let text = input::read(&args.record)?;
@@ -66,7 +68,17 @@ impl Request {
             return Err(nothing(&record, files));
         }
         let sensor = sensor.map(|quantity| quantity.value);
-        Ok(Self { name: text.name, record, begin, files, columns, reference, capacity, sensor, unit })
+        Ok(Self {
+            name: text.name,
+            record,
+            begin,
+            files,
+            columns,
+            reference,
+            capacity,
+            sensor,
+            unit,
+        })
     }
 }
 
@@ -117,14 +129,17 @@ fn reference(text: &str, (record, files): (&Record, &Files)) -> Result<Reference
     if text == "initial" {
         return Ok(Reference::Initial);
     }
-    let temperatures = || record.columns.iter().enumerate().filter(|(_, column)| column.unit.ty.absolute);
+    let temperatures =
+        || record.columns.iter().enumerate().filter(|(_, column)| column.unit.ty.absolute);
     if let Some((index, _)) = temperatures().find(|(_, column)| column.name == text) {
         return Ok(Reference::Column(index));
     }
     match parse_quantity(text, Some(Type::ABSOLUTE_TEMPERATURE)) {
         Ok(quantity) => Ok(Reference::Value(quantity.value)),
         // what begins with a digit was meant as a temperature
-        Err(error) if text.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit()) => {
+        Err(error)
+            if text.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit()) =>
+        {
             Err(wrong_unit("--reference", text, &error))
         }
         Err(_) => {
@@ -132,14 +147,16 @@ fn reference(text: &str, (record, files): (&Record, &Files)) -> Result<Reference
             let problem = Diagnostic::error("fit::reference", message);
             let names = temperatures().map(|(_, column)| column.name.as_str()).chain(["initial"]);
             let problem = problem.did_you_mean(text, names, || {
-                "name a column of the record, a temperature such as \"25.5 degC\", or initial".into()
+                "name a column of the record, a temperature such as \"25.5 degC\", or initial"
+                    .into()
             });
             Err(Failure::at(Exit::Input, files.clone(), problem))
         }
     }
 }
 
-/// The columns to fit: those that are named, or all temperatures that change, without the one that dT is counted from.
+/// The columns to fit: those that are named, or all temperatures that change, without the one that
+/// dT is counted from.
 fn columns(args: &StepArgs, record: &Record, reference: &Reference) -> Vec<usize> {
     let is_asked = |i: usize| args.column.contains(&record.columns[i].name);
     let changes = |i: usize| {
@@ -149,7 +166,9 @@ fn columns(args: &StepArgs, record: &Record, reference: &Reference) -> Vec<usize
     };
     let all = 0..record.columns.len();
     let chosen = all.filter(|&i| match args.column.is_empty() {
-        true => record.columns[i].unit.ty.absolute && *reference != Reference::Column(i) && changes(i),
+        true => {
+            record.columns[i].unit.ty.absolute && *reference != Reference::Column(i) && changes(i)
+        }
         false => is_asked(i),
     });
     chosen.collect()

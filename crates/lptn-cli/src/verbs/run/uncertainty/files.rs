@@ -12,8 +12,8 @@ use serde_json::{Map, Value, json};
 use super::Study;
 use crate::words::difference;
 
-/// The rows of `uncertainty.csv`: the time, then for each node its temperature as in `result.csv`, one standard deviation
-/// and the band of 95 %.
+/// The rows of `uncertainty.csv`: the time, then for each node its temperature as in `result.csv`,
+/// one standard deviation and the band of 95 %.
 pub(crate) fn bands(network: &Network, found: &Uncertainty, unit: &Unit) -> Table {
     let rows: Vec<usize> = (0..found.times.len()).collect();
     let mut table = Table::of(&rows);
@@ -23,7 +23,8 @@ pub(crate) fn bands(network: &Network, found: &Uncertainty, unit: &Unit) -> Tabl
     add("time".into(), "s", &|row| found.times.get(row).copied());
     for bands in &found.bands {
         let name = |ending: &str| format!("{}.T{ending}", network.name_of(Item::Node(bands.node)));
-        let shown = |values: &[f64], row: usize| values.get(row).map(|kelvin| unit.from_si(*kelvin));
+        let shown =
+            |values: &[f64], row: usize| values.get(row).map(|kelvin| unit.from_si(*kelvin));
         add(name(""), &unit.text, &|row| shown(&bands.value, row));
         let deviation = |row: usize| bands.deviation.get(row).map(|kelvin| kelvin / unit.scale);
         add(name(".sd"), difference(unit), &deviation);
@@ -36,8 +37,8 @@ pub(crate) fn bands(network: &Network, found: &Uncertainty, unit: &Unit) -> Tabl
     table.done()
 }
 
-/// The rows of `ranking.csv`: for each result every parameter, the one that matters most first. Effects are for one
-/// standard deviation, in the SI unit of the result.
+/// The rows of `ranking.csv`: for each result every parameter, the one that matters most first.
+/// Effects are for one standard deviation, in the SI unit of the result.
 pub(crate) fn ranking(network: &Network, found: &Uncertainty) -> Table {
     let rows: Vec<(&Answer, &Contribution)> = found
         .answers
@@ -117,7 +118,8 @@ pub(crate) fn parameters(network: &Network, found: &Uncertainty) -> Value {
     Value::Object(found.inputs.iter().enumerate().map(one).collect())
 }
 
-/// The member `uncertainty` of the results: method, parameters, and by the name of the column or limit what was found.
+/// The member `uncertainty` of the results: method, parameters, and by the name of the column or
+/// limit what was found.
 pub(crate) fn json(network: &Network, study: &Study) -> Value {
     let found = &study.found;
     let mut members = method(found);
@@ -132,7 +134,8 @@ pub(crate) fn json(network: &Network, study: &Study) -> Value {
     }
     members.insert("results".into(), Value::Object(results));
     if let Some(Ok(differ)) = &study.linear {
-        members.insert("not_linear".into(), differ.iter().map(|one| differs(network, one)).collect());
+        members
+            .insert("not_linear".into(), differ.iter().map(|one| differs(network, one)).collect());
     }
     members.insert("bands".into(), rows(network, found));
     Value::Object(members)
@@ -195,8 +198,12 @@ fn estimate(of: Estimate, unit: &str) -> Value {
 
 /// The bands at every row in SI units: `columns` with name and unit, and `rows` of plain numbers.
 fn rows(network: &Network, found: &Uncertainty) -> Value {
-    let kelvin =
-        Unit { text: "K".into(), scale: 1.0, offset: 0.0, ty: lptn_units::Type::ABSOLUTE_TEMPERATURE };
+    let kelvin = Unit {
+        text: "K".into(),
+        scale: 1.0,
+        offset: 0.0,
+        ty: lptn_units::Type::ABSOLUTE_TEMPERATURE,
+    };
     let table = bands(network, found, &kelvin);
     let columns: Vec<Value> =
         table.columns().iter().map(|c| json!({ "name": c.name, "unit": c.unit })).collect();

@@ -71,7 +71,8 @@ pub(crate) fn study(
         nodes = shown(network, None, None);
         nodes.sort_unstable();
     }
-    let (parameters, run) = (netlist.overrides(), lptn_solve::Transient::of(network, &job.settings));
+    let (parameters, run) =
+        (netlist.overrides(), lptn_solve::Transient::of(network, &job.settings));
     let task = UncertaintyTask { network, parameters, run, nodes };
     let outcome = match method {
         Method::Linear => task.linear().map(|found| Study { found, linear: None }),
@@ -92,7 +93,8 @@ fn sobol(
 ) -> Result<Uncertainty, UncertaintyError> {
     let interrupt = Interrupt::listen();
     let samples = args.samples.unwrap_or(SAMPLES);
-    let progress = ProgressOfAll::new(console.quiet, samples.next_power_of_two() as usize, "samples");
+    let progress =
+        ProgressOfAll::new(console.quiet, samples.next_power_of_two() as usize, "samples");
     let done = std::sync::atomic::AtomicUsize::new(0);
     let outcome = task.sobol(&Sobol {
         samples: samples as usize,

@@ -2,7 +2,9 @@
 
 use lptn_network::{Item, Network};
 use lptn_report::{Align, Column, Text, TextTable, WIDTH, decimals, duration, fixed, significant};
-use lptn_study::uncertainty::{Answer, AnswerOf, Contribution, Discrepancy, Estimate, Method, Uncertainty};
+use lptn_study::uncertainty::{
+    Answer, AnswerOf, Contribution, Discrepancy, Estimate, Method, Uncertainty,
+};
 use lptn_units::Unit;
 
 use super::Study;
@@ -31,7 +33,8 @@ fn heading(found: &Uncertainty) -> String {
     let parameters = count(found.inputs.len(), "parameter");
     match &found.method {
         Method::Linear { differences } => {
-            let exact = if differences.is_none() { "exact sensitivities" } else { "differences of runs" };
+            let exact =
+                if differences.is_none() { "exact sensitivities" } else { "differences of runs" };
             format!("{parameters} with ±, straight lines from {exact}")
         }
         Method::Sobol { samples, seed, runs, .. } => {
@@ -80,7 +83,9 @@ fn band(answers: &[&Answer], title: &str, (unit, digits): (&Unit, usize)) -> Vec
     let shown = |kelvin: f64| fixed(unit.from_si(kelvin), digits);
     vec![
         column(title, &|a| shown(a.value)),
-        column(&format!("sd [{}]", difference(unit)), &|a| fixed(a.deviation.value / unit.scale, digits)),
+        column(&format!("sd [{}]", difference(unit)), &|a| {
+            fixed(a.deviation.value / unit.scale, digits)
+        }),
         column("2.5 %", &|a| shown(a.low.value)),
         column("97.5 %", &|a| shown(a.high.value)),
     ]
@@ -116,8 +121,9 @@ fn sampled(found: &Uncertainty) -> usize {
     }
 }
 
-/// A probability in percent, with its standard error where it was sampled; of none or all of the samples the bound that
-/// holds at 95 % (1 - 0.05^(1/n), the rule of three: J. A. Hanley, A. Lippman-Hand, JAMA 249 (1983) 1743).
+/// A probability in percent, with its standard error where it was sampled; of none or all of the
+/// samples the bound that holds at 95 % (1 - 0.05^(1/n), the rule of three: J. A. Hanley, A.
+/// Lippman-Hand, JAMA 249 (1983) 1743).
 fn probability(of: Estimate, samples: usize) -> String {
     let percent = |share: f64| fixed(100.0 * share, if share >= 0.1 { 0 } else { 1 });
     if of.error.is_some() && samples > 0 && (of.value <= 0.0 || of.value >= 1.0) {
@@ -133,40 +139,54 @@ fn probability(of: Estimate, samples: usize) -> String {
     }
     match of.error {
         Some(error) => format!("{} ± {} %", percent(of.value), significant(100.0 * error, 2)),
-        None if of.value > 0.0 && of.value < 5e-4 => format!("{} %", significant(100.0 * of.value, 2)),
+        None if of.value > 0.0 && of.value < 5e-4 => {
+            format!("{} %", significant(100.0 * of.value, 2))
+        }
         None => format!("{} %", percent(of.value)),
     }
 }
 
-/// What matters for the ends of as many nodes as fit, for the margins where no temperature is asked for.
+/// What matters for the ends of as many nodes as fit, for the margins where no temperature is asked
+/// for.
 fn ranking(text: &mut Text, network: &Network, found: &Uncertainty) {
     let ends: Vec<&Answer> =
         found.answers.iter().filter(|answer| matches!(answer.of, AnswerOf::End(_))).collect();
     let all = if ends.is_empty() { found.answers.iter().collect() } else { ends };
-    let varied: Vec<&Answer> = all.into_iter().filter(|answer| answer.deviation.value > 0.0).collect();
+    let varied: Vec<&Answer> =
+        all.into_iter().filter(|answer| answer.deviation.value > 0.0).collect();
     let most = varied.len().min(MOST_RANKINGS);
-    let tables = (1..=most).rev().map(|count| (count, side_by_side(network, found, &varied[..count])));
-    let fits = |(count, (table, _)): &(usize, (TextTable, _))| *count == 1 || table.width() <= WIDTH;
+    let tables =
+        (1..=most).rev().map(|count| (count, side_by_side(network, found, &varied[..count])));
+    let fits =
+        |(count, (table, _)): &(usize, (TextTable, _))| *count == 1 || table.width() <= WIDTH;
     let Some((shown, (table, others))) = tables.into_iter().find(fits) else { return };
     text.table(table).lines(others);
     let more = varied.len() - shown;
     if more > 0 {
         let results = if more == 1 { "result" } else { "results" };
-        text.line(format!("not shown: the rankings of {more} more {results}, which ranking.csv has"));
+        text.line(format!(
+            "not shown: the rankings of {more} more {results}, which ranking.csv has"
+        ));
     }
 }
 
-fn side_by_side(network: &Network, found: &Uncertainty, answers: &[&Answer]) -> (TextTable, Option<String>) {
+fn side_by_side(
+    network: &Network,
+    found: &Uncertainty,
+    answers: &[&Answer],
+) -> (TextTable, Option<String>) {
     let part = |answer: &Answer, input: usize| -> Option<Contribution> {
         answer.ranking.iter().copied().find(|part| part.input == input)
     };
     let weight = |input: &usize| {
-        let weights = answers.iter().filter_map(|answer| part(answer, *input)).map(|part| part.weight());
+        let weights =
+            answers.iter().filter_map(|answer| part(answer, *input)).map(|part| part.weight());
         weights.fold(0.0, f64::max)
     };
     let mut inputs: Vec<usize> = (0..found.inputs.len()).collect();
     inputs.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
-    let named = inputs.iter().take_while(|input| weight(input) >= LEAST_SHARE).take(MOST_RANKED).count();
+    let named =
+        inputs.iter().take_while(|input| weight(input) >= LEAST_SHARE).take(MOST_RANKED).count();
     let (shown, others) = inputs.split_at(named);
     let mut table = TextTable::of(shown)
         .left("what matters", |input| parameter(network, found, *input))
@@ -180,9 +200,12 @@ fn side_by_side(network: &Network, found: &Uncertainty, answers: &[&Answer]) -> 
         let linear = matches!(found.method, Method::Linear { .. });
         table = table
             .right(title, |i| of(*i, &|part| signed(part.effect, digits)))
-            .right(if linear { "share" } else { "alone" }, |i| of(*i, &|part| percent(part.share.value)));
+            .right(if linear { "share" } else { "alone" }, |i| {
+                of(*i, &|part| percent(part.share.value))
+            });
         if !linear {
-            let total = |part: Contribution| part.total.map_or("-".into(), |total| percent(total.value));
+            let total =
+                |part: Contribution| part.total.map_or("-".into(), |total| percent(total.value));
             table = table.right("in all", |i| of(*i, &total));
         }
     }
@@ -236,7 +259,9 @@ const WIDE: f64 = 0.35;
 fn wide<'a>(network: &'a Network, found: &'a Uncertainty) -> impl Iterator<Item = String> + 'a {
     let inputs = found.inputs.iter().filter(|input| {
         let parameter = &network.parameters()[input.parameter.index()];
-        !parameter.ty.absolute && input.deviation >= WIDE * input.value.abs() && input.value.abs() > 0.0
+        !parameter.ty.absolute
+            && input.deviation >= WIDE * input.value.abs()
+            && input.value.abs() > 0.0
     });
     inputs.map(|input| {
         let name = &network.parameters()[input.parameter.index()].name;
@@ -263,13 +288,17 @@ pub(crate) fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String
         Method::Sobol { lost, .. } => lost,
     };
     let parts = found.answers.iter().flat_map(|answer| &answer.ranking);
-    let errors = parts.flat_map(|part| [part.share.error, part.total.and_then(|total| total.error)]);
+    let errors =
+        parts.flat_map(|part| [part.share.error, part.total.and_then(|total| total.error)]);
     let worst = percent(errors.flatten().fold(0.0, f64::max));
     let mut notes =
         vec![format!("shares have standard errors of up to {worst}; more --samples, smaller ones")];
     notes.extend(lost.iter().map(|lost| {
-        let cut =
-            if lost.refused { "the distribution ends there" } else { "the bands are those of the others" };
+        let cut = if lost.refused {
+            "the distribution ends there"
+        } else {
+            "the bands are those of the others"
+        };
         format!("{lost}: {cut}")
     }));
     match &study.linear {
@@ -283,7 +312,8 @@ pub(crate) fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String
     notes
 }
 
-/// "steel.T at 25 min is not linear: 59.4 to 105.6 degC by straight lines, 60 to 104.9 degC sampled".
+/// "steel.T at 25 min is not linear: 59.4 to 105.6 degC by straight lines, 60 to 104.9 degC
+/// sampled".
 fn differs(network: &Network, one: &Discrepancy, unit: &Unit) -> String {
     let what = match (one.of, one.time) {
         (AnswerOf::End(_), Some(time)) => {
@@ -294,12 +324,21 @@ fn differs(network: &Network, one: &Discrepancy, unit: &Unit) -> String {
     let digits = decimals(0.5 * (one.sampled.1 - one.sampled.0), 3, 1);
     let band = |(low, high): (f64, f64)| match one.of {
         AnswerOf::Margin(_) => {
-            format!("{} to {} {}", fixed(low, digits), fixed(high, digits), unit_of(network, one.of))
+            format!(
+                "{} to {} {}",
+                fixed(low, digits),
+                fixed(high, digits),
+                unit_of(network, one.of)
+            )
         }
         _ => {
             let shown = |kelvin: f64| fixed(unit.from_si(kelvin), digits);
             format!("{} to {} {}", shown(low), shown(high), unit.text)
         }
     };
-    format!("{what} is not linear: {} by straight lines, {} sampled", band(one.linear), band(one.sampled))
+    format!(
+        "{what} is not linear: {} by straight lines, {} sampled",
+        band(one.linear),
+        band(one.sampled)
+    )
 }

@@ -8,7 +8,9 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings};
 use lptn_network::{Item, OutputTimes};
 use lptn_report::duration;
-use lptn_solve::{Beyond, Lumping, Method, Periodic, PeriodicError, Table, Transient, Window, WindowSeen};
+use lptn_solve::{
+    Beyond, Lumping, Method, Periodic, PeriodicError, Table, Transient, Window, WindowSeen,
+};
 use lptn_study::Scalar;
 use lptn_units::{Dimension, Problem as _};
 use serde_json::{Map, Value, json};
@@ -60,7 +62,8 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
     let steady = Err(NoSteady::Inputs);
     let table = Table::of_solution(&solution, &job.selection, &job.unit);
     let verbose = console.verbose;
-    let outcome = Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, verbose };
+    let outcome =
+        Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, verbose };
     let view = View { outcome: &outcome, found: &found };
     if let Some(folder) = &folder {
         outcome.write(&args.source.set, folder)?;
@@ -81,7 +84,9 @@ fn settings(args: &SteadyArgs, input: &Input) -> Result<RunSettings, Failure> {
     let start = run.map_or(0.0, |run| run.start);
     let period = period(args, input)?;
     let output = match run.map(|run| &run.output) {
-        Some(OutputTimes::Every(every)) if *every <= period / LEAST_ROWS => OutputTimes::Every(*every),
+        Some(OutputTimes::Every(every)) if *every <= period / LEAST_ROWS => {
+            OutputTimes::Every(*every)
+        }
         _ => OutputTimes::Every(period / OutputTimes::USUAL_INTERVALS),
     };
     let tolerance = match &args.cycle.tolerance {
@@ -105,12 +110,15 @@ fn period_of_signals(input: &Input) -> Result<f64, Failure> {
     let network = &input.netlist.network;
     let problem = match network.repeat_period() {
         Ok(Some(period)) => return Ok(period),
-        Ok(None) if network.has_time_dependent_inputs() => {
-            Diagnostic::error("periodic::no_period", "no signal is repeated, so the period is not known")
-                .help(HELP)
+        Ok(None) if network.has_time_dependent_inputs() => Diagnostic::error(
+            "periodic::no_period",
+            "no signal is repeated, so the period is not known",
+        )
+        .help(HELP),
+        Ok(None) => {
+            Diagnostic::error("periodic::no_period", "nothing changes with time: there is no cycle")
+                .help("leave --periodic out")
         }
-        Ok(None) => Diagnostic::error("periodic::no_period", "nothing changes with time: there is no cycle")
-            .help("leave --periodic out"),
         Err(none) => {
             let [first, second] = &none.names;
             let [a, b] = none.periods.map(|period| duration(period, 6));
@@ -150,7 +158,9 @@ fn failed(input: &Input, error: &PeriodicError) -> Failure {
         PeriodicError::NotPeriodic(found) => {
             map.get(found.item, found.field).or_else(|| map.name(found.item))
         }
-        PeriodicError::NoBalance { nodes, .. } => nodes.first().and_then(|&node| map.name(Item::Node(node))),
+        PeriodicError::NoBalance { nodes, .. } => {
+            nodes.first().and_then(|&node| map.name(Item::Node(node)))
+        }
         PeriodicError::Cycle(cause) => {
             return input.refused(error.class().into(), explain(input, cause));
         }
@@ -183,7 +193,12 @@ impl View<'_> {
 
     /// The first row of every column, in the unit that is shown.
     fn starts(&self) -> impl Iterator<Item = f64> + '_ {
-        self.outcome.table.columns().iter().skip(1).map(|c| c.values.first().copied().unwrap_or(f64::NAN))
+        self.outcome
+            .table
+            .columns()
+            .iter()
+            .skip(1)
+            .map(|c| c.values.first().copied().unwrap_or(f64::NAN))
     }
 
     /// By column: start, mean, extremes and swing in SI.

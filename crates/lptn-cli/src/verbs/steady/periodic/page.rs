@@ -2,7 +2,9 @@
 
 use std::io;
 
-use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, duration, fixed, prefix, significant};
+use lptn_report::{
+    Json, Page, Rows, Text, TextTable, decimals, duration, fixed, prefix, significant,
+};
 use lptn_solve::{ColumnSeen, Method};
 use lptn_study::{Scalar, StatisticsRecord};
 use lptn_units::Dimension;
@@ -24,8 +26,9 @@ impl Page for View<'_> {
         let rows: Vec<Row<'_>> = seen.iter().zip(self.starts()).collect();
         let (temperatures, rest): (Vec<Row<'_>>, Vec<Row<'_>>) =
             rows.into_iter().partition(|(c, _)| c.ty.absolute);
-        let (flows, others): (Vec<Row<'_>>, Vec<Row<'_>>) =
-            rest.into_iter().partition(|(c, _)| c.ty.dimension == Dimension::POWER && c.name.contains('.'));
+        let (flows, others): (Vec<Row<'_>>, Vec<Row<'_>>) = rest
+            .into_iter()
+            .partition(|(c, _)| c.ty.dimension == Dimension::POWER && c.name.contains('.'));
         temperature_section(&mut text, self, temperatures);
         flow_section(&mut text, flows);
         other_section(&mut text, self, &others);
@@ -41,11 +44,14 @@ impl Page for View<'_> {
 
     /// Name, unit, value at the start, mean, extremes with their times, and swing of each column.
     fn rows(&self) -> Rows<'_> {
-        let heading = ["name", "unit", "start", "mean", "min", "min_at [s]", "max", "max_at [s]", "swing"];
+        let heading =
+            ["name", "unit", "start", "mean", "min", "min_at [s]", "max", "max_at [s]", "swing"];
         let mut rows = vec![heading.map(str::to_owned).to_vec()];
         let mut text = lptn_report::Shortest::new();
         let unit = &self.outcome.job.unit;
-        for (seen, start) in self.cycle().into_iter().flat_map(|cycle| &cycle.columns).zip(self.starts()) {
+        for (seen, start) in
+            self.cycle().into_iter().flat_map(|cycle| &cycle.columns).zip(self.starts())
+        {
             let [mean, min, max] = [seen.mean, seen.min.0, seen.max.0].map(|x| seen.shown(x, unit));
             let numbers = [start, mean, min, seen.min.1, max, seen.max.1, max - min];
             let mut row = vec![seen.name.clone(), symbol(&seen.unit(unit)).to_owned()];
@@ -77,7 +83,8 @@ fn temperature_section(text: &mut Text, view: &View<'_>, mut rows: Vec<Row<'_>>)
     let span = rows.iter().map(|(c, _)| swing(c)).fold(0.0, f64::max);
     let digits = decimals(span / unit.scale, 3, 1);
     // what the tolerance cannot tell from rest is none
-    let clear = |swing: f64| if swing > 10.0 * view.outcome.job.settings.tolerance { swing } else { 0.0 };
+    let clear =
+        |swing: f64| if swing > 10.0 * view.outcome.job.settings.tolerance { swing } else { 0.0 };
     let kelvin = |value: f64| fixed(unit.from_si(value), digits);
     let table = TextTable::of(&rows)
         .left(format!("T [{}]", unit.text), |(c, _)| c.name.strip_suffix(".T").unwrap_or(&c.name))
@@ -135,8 +142,11 @@ fn found_section(text: &mut Text, view: &View<'_>) {
     };
     let mut pieces = vec![how.to_owned(), format!("{} integrated,", count(found.cycles, "cycle"))];
     pieces.push(format!("{} steps", found.steps));
-    let cycle =
-        format!("{}, from {} on", duration(view.period(), 6), duration(view.outcome.job.settings.start, 4));
+    let cycle = format!(
+        "{}, from {} on",
+        duration(view.period(), 6),
+        duration(view.outcome.job.settings.start, 4)
+    );
     text.section().line(format!("cycle:   {cycle}"));
     text.labelled("found:   ", pieces);
     let bound = if found.error.is_finite() {

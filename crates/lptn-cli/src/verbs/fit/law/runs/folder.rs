@@ -34,8 +34,12 @@ struct Speeds {
 
 pub(crate) fn read(folder: &Path) -> Result<Folder, Failure> {
     let paths = records(folder)?;
-    let mut found =
-        Folder { runs: Vec::new(), unit: SpeedUnit::rpm(), inputs: Vec::new(), warnings: Vec::new() };
+    let mut found = Folder {
+        runs: Vec::new(),
+        unit: SpeedUnit::rpm(),
+        inputs: Vec::new(),
+        warnings: Vec::new(),
+    };
     let sheet = folder.join(RUNS);
     let speeds = if sheet.is_file() {
         listed(&sheet, &mut found)?
@@ -47,7 +51,8 @@ pub(crate) fn read(folder: &Path) -> Result<Folder, Failure> {
         found.inputs.push(hash(&path, &bytes));
         let (record, files) = read_record(&path, &bytes, &RecordQuery::default())?;
         let speed = speed(&path, (&record, &files), &speeds)?;
-        let temperatures = record.temperatures().map(|column| (column.name.clone(), column.values.clone()));
+        let temperatures =
+            record.temperatures().map(|column| (column.name.clone(), column.values.clone()));
         found.runs.push(Run {
             name: file_name(&path),
             speed,
@@ -93,7 +98,8 @@ fn listed(path: &Path, found: &mut Folder) -> Result<Speeds, Failure> {
     let column = sheet.columns.iter().find(|column| column.unit.ty == speed);
     let names = sheet.words.iter().find(|(name, _)| name == "file").or_else(|| sheet.words.first());
     let (Some(column), Some((_, names))) = (column, names) else {
-        let problem = Diagnostic::error("fit::law_runs", "the sheet has to give files and their speeds");
+        let problem =
+            Diagnostic::error("fit::law_runs", "the sheet has to give files and their speeds");
         let problem = problem.at(sheet.header.clone(), "").help("begin it with `file,omega [rpm]`");
         return Err(Failure::at(Exit::Input, files, problem));
     };
@@ -101,7 +107,8 @@ fn listed(path: &Path, found: &mut Folder) -> Result<Speeds, Failure> {
     Ok(Speeds { by_file, unit: Some(SpeedUnit(column.unit.clone())) })
 }
 
-/// The speed of a record: from the sheet, a line `# omega = 1000 rpm`, or the name of the file. They may not differ.
+/// The speed of a record: from the sheet, a line `# omega = 1000 rpm`, or the name of the file.
+/// They may not differ.
 fn speed(path: &Path, (record, files): (&Record, &Files), speeds: &Speeds) -> Result<f64, Failure> {
     let name = file_name(path);
     let listed = speeds.by_file.iter().find(|(file, _)| *file == name).map(|(_, speed)| *speed);
@@ -118,10 +125,15 @@ fn speed(path: &Path, (record, files): (&Record, &Files), speeds: &Speeds) -> Re
             "write a line `# omega = 1000 rpm` above its header, put the speed into its name (`1000rpm.csv`), or add a \
              sheet runs.csv with `file,omega [rpm]`",
         ),
-        [first, others @ ..] if others.iter().any(|other| (other - first).abs() > 1e-9 * first.abs()) => {
+        [first, others @ ..]
+            if others.iter().any(|other| (other - first).abs() > 1e-9 * first.abs()) =>
+        {
             refused(
                 "fit::law_two_speeds",
-                format!("{}: its name, its comments or runs.csv give different speeds", path.display()),
+                format!(
+                    "{}: its name, its comments or runs.csv give different speeds",
+                    path.display()
+                ),
                 "correct the wrong one",
             )
         }
@@ -140,7 +152,8 @@ fn of_comment(comment: &str) -> Option<f64> {
 fn of_name(name: &str) -> Option<f64> {
     let lower = name.to_ascii_lowercase();
     let before = lower.get(..lower.find("rpm")?)?.trim_end_matches(['_', ' ', '-']);
-    let digits = before.len() - before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.').len();
+    let digits =
+        before.len() - before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.').len();
     let number: f64 = before.get(before.len() - digits..)?.parse().ok()?;
     Some(SpeedUnit::rpm().0.to_si(number))
 }

@@ -7,10 +7,14 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use lptn_fit::law::{Candidate, ColumnFits, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy};
+use lptn_fit::law::{
+    Candidate, ColumnFits, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy,
+};
 use lptn_fit::step::{Capacity, LONG_ENOUGH, Sensor};
 use lptn_netlist::{Diagnostic, Files};
-use lptn_report::{Json, Page, Rows, Text, TextTable, WIDTH, duration, fixed, labelled, significant, words};
+use lptn_report::{
+    Json, Page, Rows, Text, TextTable, WIDTH, duration, fixed, labelled, significant, words,
+};
 use lptn_solve::available_threads;
 use lptn_study::FileHash;
 use lptn_units::{Dimension, Type, parse_quantity};
@@ -62,8 +66,8 @@ pub(crate) fn runs(
     Ok(found.answer.conclude(args.format, console))
 }
 
-/// Fits the columns. One that nobody asked for by name and that has no exponential, such as a bed that hardly warms, is
-/// left out with a warning.
+/// Fits the columns. One that nobody asked for by name and that has no exponential, such as a bed
+/// that hardly warms, is left out with a warning.
 fn study(
     folder: &Folder,
     mut settings: RunsSettings,
@@ -95,25 +99,32 @@ fn target(path: &Path, args: &LawArgs) -> PathBuf {
 }
 
 fn no_capacity() -> Failure {
-    let problem = Diagnostic::error("fit::law_capacity", "a power needs the heat capacity, P = C dT / t_RC");
+    let problem =
+        Diagnostic::error("fit::law_capacity", "a power needs the heat capacity, P = C dT / t_RC");
     Failure::new(Exit::Input, problem.help("write for example --capacity \"2659 J/K ± 5 %\""))
 }
 
 fn settings(args: &LawArgs, runs: &[Run], capacity: Capacity) -> Result<RunsSettings, Failure> {
-    let known: Vec<&str> =
-        runs.first().map_or(Vec::new(), |run| run.columns.iter().map(|(name, _)| name.as_str()).collect());
+    let known: Vec<&str> = runs
+        .first()
+        .map_or(Vec::new(), |run| run.columns.iter().map(|(name, _)| name.as_str()).collect());
     let reference = reference(&args.records.reference, &known)?;
-    let is_reference = |name: &str| matches!(&reference, RunReference::Column(column) if column == name);
+    let is_reference =
+        |name: &str| matches!(&reference, RunReference::Column(column) if column == name);
     let columns: Vec<String> = match args.records.column.as_slice() {
-        [] => known.iter().filter(|name| !is_reference(name)).map(|name| (*name).to_owned()).collect(),
+        [] => {
+            known.iter().filter(|name| !is_reference(name)).map(|name| (*name).to_owned()).collect()
+        }
         names => names.to_vec(),
     };
     if let Some(name) = columns.iter().find(|name| !known.contains(&name.as_str())) {
         return Err(no_column(name, &known));
     }
     if columns.is_empty() {
-        let problem =
-            Diagnostic::error("fit::no_column", "the records have no column of temperatures to fit");
+        let problem = Diagnostic::error(
+            "fit::no_column",
+            "the records have no column of temperatures to fit",
+        );
         return Err(Failure::new(Exit::Input, problem));
     }
     let class = match &args.records.sensor {
@@ -148,7 +159,8 @@ fn reference(text: &str, known: &[&str]) -> Result<RunReference, Failure> {
 }
 
 fn no_column(name: &str, known: &[&str]) -> Failure {
-    let problem = Diagnostic::error("record::no_column", format!("the records have no column `{name}`"));
+    let problem =
+        Diagnostic::error("record::no_column", format!("the records have no column `{name}`"));
     let all = || format!("their temperatures are {}", known.join(", "));
     Failure::new(Exit::Input, problem.did_you_mean(name, known.iter().copied(), all))
 }
@@ -222,7 +234,8 @@ impl Runs {
         for column in &self.study.columns {
             let (mean, scatter) = self.study.time_constant(column);
             let mean = with_error(mean / 60.0, Some(scatter / 60.0));
-            let note = format!("{}: mean {mean} min (standard deviation of one run)", column.column);
+            let note =
+                format!("{}: mean {mean} min (standard deviation of one run)", column.column);
             text.sentence("t_RC   ", &note);
         }
         let all = self.first();
@@ -239,7 +252,10 @@ impl Runs {
         }
         let asked = all.iter().filter(|f| f.fit.second.offer.is_some()).count();
         if asked > 0 {
-            let note = format!("{asked} of {} runs ask for a second exponential: lptn fit step", all.len());
+            let note = format!(
+                "{asked} of {} runs ask for a second exponential: lptn fit step",
+                all.len()
+            );
             text.sentence("shape  ", &note);
         }
         text.sentence(

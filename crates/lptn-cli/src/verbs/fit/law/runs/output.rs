@@ -1,4 +1,5 @@
-//! The files of `lptn fit law FOLDER`: the tables of the paper's Figures 7, 8 and 9, and their manifest.
+//! The files of `lptn fit law FOLDER`: the tables of the paper's Figures 7, 8 and 9, and their
+//! manifest.
 
 use std::io;
 
@@ -18,7 +19,9 @@ pub(crate) const NAMES: [&str; 5] = [RISE, TIME_CONSTANT, POWER, LAWS, MANIFEST]
 
 pub(crate) fn write(found: &Runs, folder: &Folder) -> Result<(), Failure> {
     let mut files = folder.batch();
-    for (name, table) in [(RISE, rise(found)), (TIME_CONSTANT, time_constant(found)), (POWER, power(found))] {
+    for (name, table) in
+        [(RISE, rise(found)), (TIME_CONSTANT, time_constant(found)), (POWER, power(found))]
+    {
         files.write(name, |out| write_csv(&table, out))?;
     }
     files.write(LAWS, |mut out| lptn_report::write(&found.answer, Format::Csv, false, &mut out))?;
@@ -54,7 +57,8 @@ type Part<'a> = (&'a str, &'a str, &'a dyn Fn(&RunFit) -> f64);
 fn each(found: &Runs, parts: &[Part<'_>]) -> Table {
     let rows = rows(found);
     let mut table = table(found, &rows);
-    for (of, part) in found.columns().iter().flat_map(|of| parts.iter().map(move |part| (of, part))) {
+    for (of, part) in found.columns().iter().flat_map(|of| parts.iter().map(move |part| (of, part)))
+    {
         let value = |&row: &usize| of.fits.get(row).map_or(f64::NAN, part.2);
         table.column(format!("{}.{}", of.column, part.0), part.1, value);
     }
@@ -119,8 +123,7 @@ pub(crate) fn json(found: &Runs, json: &mut Json<'_>) -> io::Result<()> {
 }
 
 fn runs(found: &Runs) -> Value {
-    let number =
-        |value: f64, unit: &str, error: f64| json!({ "value": value, "unit": unit, "standard_error": error });
+    let number = |value: f64, unit: &str, error: f64| json!({ "value": value, "unit": unit, "standard_error": error });
     let column = |f: &RunFit| {
         let parted = |p: lptn_fit::step::Parted, unit: &str| json!({ "value": p.value, "unit": unit, "standard_error": p.random, "systematic": p.systematic });
         json!({

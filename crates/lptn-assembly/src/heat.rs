@@ -1,0 +1,104 @@
+//! The heat that boundaries give, streams carry and conductors pass on, after the temperatures are
+//! known.
+
+use lptn_network::{ConductorId, InputError, Received, Surface};
+
+use crate::system::ThermalSystem;
+use crate::workspace::Workspace;
+
+impl ThermalSystem {
+    /// Writes the heat that each boundary gives to the network in W, from the inputs last read and
+    /// the temperatures `y` of the unknowns in K; and keeps the heat of sources that depend on
+    /// temperatures.
+    ///
+    /// The sum runs over the same links as [`ThermalSystem::flow`], after the elimination: a
+    /// boundary next to a massless node through a large conductance would otherwise be the
+    /// difference of two temperatures that are equal to the last digit.
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::flow`].
+    pub fn boundary_heat(
+        &self,
+        work: &mut Workspace,
+        y: &[f64],
+        heat: &mut [f64],
+    ) -> Result<(), InputError> {
+        self.linear_boundary_heat(work, y, heat);
+        if !self.is_linear() {
+            let nodes = self.network.nodes().len();
+            self.evaluate_elements(work, y)?;
+            heat.iter_mut()
+                .zip(&work.element_heat[nodes..])
+                .for_each(|(q, received)| *q -= received);
+        }
+        Ok(())
+    }
+
+    /// The part of [`ThermalSystem::boundary_heat`] that constant conductances carry: all of it for
+    /// a linear system.
+    pub fn linear_boundary_heat(&self, work: &Workspace, y: &[f64], heat: &mut [f64]) {
+        let nodes = self.network.nodes().len();
+        for (q, share) in heat.iter_mut().zip(&work.heat[nodes..]) {
+            *q = -share; // what massless nodes hand on to it
+        }
+        for tie in &self.ties {
+            let boundary = tie.b as usize;
+            heat[boundary - nodes] += tie.g * (work.temperature[boundary] - y[tie.a as usize]);
+        }
+        for bridge in &self.bridges {
+            let (a, b) = (bridge.a as usize, bridge.b as usize);
+            let q = bridge.g * (work.temperature[a] - work.temperature[b]);
+            heat[a - nodes] += q;
+            heat[b - nodes] -= q;
+        }
+    }
+
+    /// The conductors that are streams.
+    pub fn streams(&self) -> &[ConductorId] {
+        &self.streams
+    }
+
+    /// Writes the heat that each stream brings to its two ends together, in W, after
+    /// [`ThermalSystem::boundary_heat`].
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::flow`].
+    pub fn stream_heat(&self, work: &mut Workspace, heat: &mut [f64]) -> Result<(), InputError> {
+        for (q, &id) in heat.iter_mut().zip(&self.streams) {
+            *q = self.received(work, id)?.iter().sum();
+        }
+        Ok(())
+    }
+
+    /// The surface that a convection, contact or radiation is, from inputs read and nodes
+    /// recovered; `None` for any other conductor.
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::flow`].
+    pub fn surface(
+        &self,
+        work: &mut Workspace,
+        id: ConductorId,
+    ) -> Result<Option<Surface>, InputError> {
+        self.network.surface(id, &mut work.scope, &work.temperature)
+    }
+
+    /// The heat that the two ends of a conductor receive in W, from inputs read and nodes
+    /// recovered: equal and opposite but for a stream.
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::flow`].
+    pub fn received(&self, work: &mut Workspace, id: ConductorId) -> Result<Received, InputError> {
+        let conductor = &self.network.conductors()[id.index()];
+        if let Some(conductance) = self.network.conductance(id) {
+            let at = |end| work.temperature[self.network.vertex(end)];
+            let heat = conductance * (at(conductor.from) - at(conductor.to));
+            return Ok([-heat, heat]);
+        }
+        if let Ok(place) = self.radiation.binary_search_by_key(&id, |r| r.conductor) {
+            return Ok(self.radiation[place].received(&work.temperature));
+        }
+        let place = self.elements.partition_point(|e| e.conductor.is_some_and(|c| c < id));
+        self.elements[place].received(&self.network, work)
+    }
+}
