@@ -151,7 +151,8 @@ proptest! {
         for row in 0..solution.times().len() {
             let q = plan.balance(&plan.with_boundaries(solution.row(row)));
             for (q, (capacity, _)) in q.iter().zip(&plan.nodes) {
-                prop_assert!(capacity.is_some() || q.abs() <= 1e-10 * plan.scale(), "{q} W are left over");
+                prop_assert!(capacity.is_some() || q.abs() <= 1e-10 * plan.scale(), "{q} W are \
+                    left over");
             }
         }
     }
@@ -165,7 +166,8 @@ proptest! {
         let solution = run(&plan.build(), 1e-5);
         for row in 0..solution.times().len() {
             for t in solution.row(row) {
-                prop_assert!((low - 1e-4..=high + 1e-4).contains(t), "{t} is outside {low} .. {high}");
+                prop_assert!((low - 1e-4..=high + 1e-4).contains(t), "{t} is outside {low} .. \
+                    {high}");
             }
         }
     }
@@ -180,7 +182,8 @@ proptest! {
             SteadyState::solve(&one.build(), 0.0).expect("it is grounded").temperatures[read] - 273.15
         };
         let (there, back, own) = (rise(a, b), rise(b, a), rise(a, a));
-        prop_assert!((there - back).abs() <= 1e-10 * own.max(rise(b, b)) + 1e-12, "{there} and {back} K/W");
+        prop_assert!((there - back).abs() <= 1e-10 * own.max(rise(b, b)) + 1e-12, "{there} and \
+            {back} K/W");
         prop_assert!(there <= own + 1e-12 && there >= -1e-12, "{there} of {own} K/W");
     }
 

@@ -11,7 +11,8 @@ use std::path::{Path, PathBuf};
 use pages::{blocks, lines, pages};
 
 /// What fragments may refer to.
-const BASE: &str = "format = 1\n[default]\nT0 = \"20 degC\"\n[node]\nbase_node = { C = \"1 kJ/K\" }\n\
+const BASE: &str = "format = 1\n[default]\nT0 = \"20 degC\"\n[node]\nbase_node = { C = \"1 kJ/K\" \
+    }\n\
                     [boundary]\nbase_air = { T = \"20 degC\" }\n[resistor]\n\
                     base_path = { from = \"base_node\", to = \"base_air\", R = \"1 K/W\" }\n";
 

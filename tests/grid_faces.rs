@@ -123,14 +123,18 @@ fn every_form_of_a_path_is_shared_by_area() {
     let (_, film) =
         plate("[convection]\np = { from = \"plate.z1\", to = \"air\", h = \"10 W/(m^2 K)\" }");
     let forms = [
-        "[convection]\np = { from = \"plate.z1\", to = \"air\", h = \"10 W/(m^2 K)\", area = \"200 cm^2\" }",
+        "[convection]\np = { from = \"plate.z1\", to = \"air\", h = \"10 W/(m^2 K)\", area = \"200 \
+         cm^2\" }",
         "[convection]\np = { from = \"plate.z1\", to = \"air\", R = \"5 K/W\" }",
         "[resistor]\np = { from = \"plate.z1\", to = \"air\", G = \"0.2 W/K\" }",
         "[contact]\np = { from = \"air\", to = \"plate.z1\", h = \"10 W/(m^2 K)\" }",
-        "[conduction]\np = { from = \"plate.z1\", to = \"air\", k = \"0.1 W/(m K)\", shape = \"slab\", thickness = \"10 mm\" }",
+        "[conduction]\np = { from = \"plate.z1\", to = \"air\", k = \"0.1 W/(m K)\", shape \
+         = \"slab\", thickness = \"10 mm\" }",
         // ln(2) / (2 pi L k) = 5 K/W
-        "[conduction]\np = { from = \"plate.z1\", to = \"air\", k = \"0.2 * ln(2) / (2 * pi) * 1 [W/(m K)]\", shape = \"cylinder\", r_in = \"1 m\", r_out = \"2 m\", length = \"1 m\" }",
-        "[conduction]\np = { from = \"plate.z1\", to = \"air\", k = \"0.2 / (4 * pi) * 0.5 * 1 [W/(m K)]\", shape = \"sphere\", r_in = \"1 m\", r_out = \"2 m\" }",
+        "[conduction]\np = { from = \"plate.z1\", to = \"air\", k = \"0.2 * ln(2) / (2 * pi) * 1 \
+         [W/(m K)]\", shape = \"cylinder\", r_in = \"1 m\", r_out = \"2 m\", length = \"1 m\" }",
+        "[conduction]\np = { from = \"plate.z1\", to = \"air\", k = \"0.2 / (4 * pi) * 0.5 * 1 \
+         [W/(m K)]\", shape = \"sphere\", r_in = \"1 m\", r_out = \"2 m\" }",
     ];
     for form in forms {
         let (_, other) = plate(form);
@@ -155,8 +159,8 @@ fn radiation_of_a_face_is_that_of_its_area() {
 fn the_columns_of_a_grid_are_few_and_the_others_can_be_had() {
     let (netlist, _) = parsed(PLATE);
     let names = Selection::names(&netlist.network);
-    let expected = "plate.mean plate.min plate.max plate.x0.T plate.z0.T plate.z1.T air.T sky.T skin.Q glow.Q foot.Q \
-                    heater.P spot.P air.Q sky.Q";
+    let expected = "plate.mean plate.min plate.max plate.x0.T plate.z0.T plate.z1.T air.T sky.T \
+        skin.Q glow.Q foot.Q heater.P spot.P air.Q sky.Q";
     let sorted = |names: &[&str]| {
         let mut names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
         names.sort();

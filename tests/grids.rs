@@ -237,7 +237,8 @@ fn ladder(cells: usize) -> String {
             &format!("p{i} = {{ from = \"c{i}\", to = \"c{}\", G = \"{whole} W/K\" }}\n", i + 1);
     }
     text += &format!("half = {{ from = \"c{cells}\", to = \"surface\", G = \"{half} W/K\" }}\n");
-    text += "[convection]\nskin = { from = \"surface\", to = \"air\", h = \"20 W/(m^2 K)\", area = \"0.35 m^2\" }\n";
+    text += "[convection]\nskin = { from = \"surface\", to = \"air\", h = \"20 W/(m^2 K)\", area \
+        = \"0.35 m^2\" }\n";
     text
 }
 

@@ -79,7 +79,8 @@ fn csv() -> Netlist {
     plate.sources.iter().for_each(|(into, power)| {
         let _ = writeln!(sources, "{into},{power}");
     });
-    let main = "format = 1\n[import]\nnodes = \"n.csv\"\nboundaries = \"b.csv\"\nconductors = \"c.csv\"\n\
+    let main = "format = 1\n[import]\nnodes = \"n.csv\"\nboundaries = \"b.csv\"\nconductors \
+        = \"c.csv\"\n\
                 sources = \"s.csv\"\n";
     parse_with("plate.toml", &format!("{main}{RUN}"), &mut |path: &Path| match path.to_str() {
         Some("n.csv") => Ok(nodes.clone().into_bytes()),

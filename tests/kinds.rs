@@ -52,9 +52,12 @@ fn netlist((kind, law): (Kind, Formula), value: impl Fn(&Field) -> String) -> St
         });
     }
     format!(
-        "format = 1\n[param]\np = 1\n[fluid]\noil = {{ density = \"870 kg/m^3\", cp = \"(1900 + 3 * kelvin(T) / 1 [K]) * 1 [J/(kg K)]\" }}\n\
-         [node]\na = {{ T0 = \"80 degC\", C = \"1 kJ/K\" }}\nb = {{ T0 = \"30 degC\", C = \"1 kJ/K\" }}\n\
-         [boundary]\nair = {{ T = \"20 degC\" }}\n[resistor]\ncooling = {{ from = \"b\", to = \"air\", R = \"1 K/W\" }}\n\
+        "format = 1\n[param]\np = 1\n[fluid]\noil = {{ density = \"870 kg/m^3\", cp = \"(1900 + 3 \
+         * kelvin(T) / 1 [K]) * 1 [J/(kg K)]\" }}\n\
+         [node]\na = {{ T0 = \"80 degC\", C = \"1 kJ/K\" }}\nb = {{ T0 = \"30 degC\", C = \"1 \
+         kJ/K\" }}\n\
+         [boundary]\nair = {{ T = \"20 degC\" }}\n[resistor]\ncooling = {{ from = \"b\", to \
+         = \"air\", R = \"1 K/W\" }}\n\
          [{}]\npath = {{ {} }}\n[run]\nstop = \"1 min\"\n",
         section.section,
         fields.join(", ")
@@ -266,7 +269,8 @@ fn tables(kind: Kind) -> String {
     let ends = if kind.is_stream() { "" } else { ", or faces of a grid" };
     lines.push(format!("| `from`, `to` | two nodes or boundaries{ends} | | | |"));
     if kind.laws().any(|law| law.declaration().carries.is_of_fluid()) {
-        let of = "a [fluid](material.md) of the file or of the library: `air`, `water`, `gear_oil_vg220`, ..";
+        let of = "a [fluid](material.md) of the file or of the library: `air`, `water`, \
+            `gear_oil_vg220`, ..";
         lines.push(format!("| `fluid` | {of} | | | |"));
     }
     if let Some(selector) = kind.declaration().selector {

@@ -18,8 +18,10 @@ fn solved(text: &str, transient: &Transient) -> lptn::solve::Solution {
 /// 175 s.
 #[test]
 fn thermocouple_reaches_its_level_when_the_textbook_says() {
-    let text = "format = 1\n[default]\nT0 = \"25 degC\"\n[node]\nbead = { C = \"0.0006261444181549207 J/K\" }\n\
-                [boundary]\ngas = { T = \"200 degC\" }\n[convection]\ne0 = { from = \"bead\", to = \"gas\", \
+    let text = "format = 1\n[default]\nT0 = \"25 degC\"\n[node]\nbead = { C \
+        = \"0.0006261444181549207 J/K\" }\n\
+                [boundary]\ngas = { T = \"200 degC\" }\n[convection]\ne0 = { from = \"bead\", to \
+                = \"gas\", \
                 h = \"400 W/(m^2 K)\", area = \"1.5653610453873015e-06 m^2\" }\n\
                 [limit]\nlevel = { of = \"bead.T\", below = \"199 degC\" }\n\
                 never = { of = \"bead.T\", below = \"201 degC\" }\n\
@@ -43,7 +45,8 @@ fn thermocouple_reaches_its_level_when_the_textbook_says() {
 /// then it cools.
 #[test]
 fn the_worst_of_a_pulse_is_found_between_two_rows() {
-    let text = "format = 1\n[node]\na = { T0 = \"20 degC\", C = \"100 J/K\" }\n[boundary]\nair = { T = \"20 degC\" }\n\
+    let text = "format = 1\n[node]\na = { T0 = \"20 degC\", C = \"100 J/K\" }\n[boundary]\nair = { \
+        T = \"20 degC\" }\n\
                 [resistor]\nr = { from = \"a\", to = \"air\", G = \"10 W/K\" }\n\
                 [source]\np = { into = \"a\", P = \"if(t < 10 [s], 100 [W], 0 [W])\" }\n\
                 [limit]\nrise = { of = \"a.T - air.T\", below = \"5 K\" }\n";
@@ -72,10 +75,12 @@ fn a_short_excursion_inside_a_step_is_seen() {
     }
     let peak = rise(low);
     let text = format!(
-        "format = 1\n[node]\na = {{ T0 = \"20 degC\", C = \"100 J/K\" }}\n[boundary]\nair = {{ T = \"20 degC\" }}\n\
+        "format = 1\n[node]\na = {{ T0 = \"20 degC\", C = \"100 J/K\" }}\n[boundary]\nair = {{ T \
+         = \"20 degC\" }}\n\
          [resistor]\nr = {{ from = \"a\", to = \"air\", G = \"10 W/K\" }}\n\
          [source]\np = {{ into = \"a\", P = \"100 [W] * sin(t * 0.2 [1/s])\" }}\n\
-         [limit]\nrise = {{ of = \"a.T - air.T\", below = \"{:.17} K\", severity = \"warning\" }}\n",
+         [limit]\nrise = {{ of = \"a.T - air.T\", below = \"{:.17} K\", severity = \"warning\" \
+         }}\n",
         peak - 1e-5
     );
     let solution = solved(&text, &Transient::until(Time(30.0)).at(&[]).tolerance(1e-8));
@@ -93,7 +98,8 @@ fn a_short_excursion_inside_a_step_is_seen() {
 
 #[test]
 fn limits_of_a_network_without_state_are_judged_too() {
-    let text = "format = 1\n[node]\na = { massless = true }\n[boundary]\nair = { T = \"20 degC\" }\n\
+    let text = "format = 1\n[node]\na = { massless = true }\n[boundary]\nair = { T = \"20 degC\" \
+        }\n\
                 [resistor]\nr = { from = \"a\", to = \"air\", R = \"2 K/W\" }\n\
                 [source]\np = { into = \"a\", P = \"t * 1 [W/s]\" }\n\
                 [limit]\nhot = { of = \"a.T\", below = \"30 degC\" }\n";
@@ -105,9 +111,12 @@ fn limits_of_a_network_without_state_are_judged_too() {
 
 #[test]
 fn steady_margins_have_the_sign_of_the_limit() {
-    let text = "format = 1\n[node]\na = { T0 = \"20 degC\", C = \"1 J/K\" }\n[boundary]\nair = { T = \"20 degC\" }\n\
-                [resistor]\nr = { from = \"a\", to = \"air\", R = \"2 K/W\" }\n[source]\np = { into = \"a\", P = \"5 W\" }\n\
-                [limit]\nhot = { of = \"a.T\", below = \"27 degC\" }\nwarm = { of = \"a.T\", above = \"27 degC\" }\n";
+    let text = "format = 1\n[node]\na = { T0 = \"20 degC\", C = \"1 J/K\" }\n[boundary]\nair = { T \
+        = \"20 degC\" }\n\
+                [resistor]\nr = { from = \"a\", to = \"air\", R = \"2 K/W\" }\n[source]\np = { \
+                into = \"a\", P = \"5 W\" }\n\
+                [limit]\nhot = { of = \"a.T\", below = \"27 degC\" }\nwarm = { of = \"a.T\", above \
+                = \"27 degC\" }\n";
     let netlist = lptn::netlist::parse("net.toml", text).unwrap();
     let system = ThermalSystem::assemble(&netlist.network).unwrap();
     let margins =

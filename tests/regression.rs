@@ -371,10 +371,12 @@ fn tables_of_two_materials_are_two() {
     let (netlist, system) = support::parsed(
         "format = 1\n[material]\n\
          a = { cp = { x = [0, 100], y = [500, 500], x_unit = \"degC\", y_unit = \"J/(kg K)\" } }\n\
-         b = { cp = { x = [0, 100], y = [1000, 1000], x_unit = \"degC\", y_unit = \"J/(kg K)\" } }\n[node]\n\
+         b = { cp = { x = [0, 100], y = [1000, 1000], x_unit = \"degC\", y_unit = \"J/(kg K)\" } \
+         }\n[node]\n\
          a = { material = \"a\", mass = \"1 kg\", T0 = \"20 degC\" }\n\
          b = { material = \"b\", mass = \"1 kg\", T0 = \"20 degC\" }\n[source]\n\
-         heat_a = { into = \"a\", P = \"10 W\" }\nheat_b = { into = \"b\", P = \"10 W\" }\n[run]\nstop = \"100 s\"\n",
+         heat_a = { into = \"a\", P = \"10 W\" }\nheat_b = { into = \"b\", P = \"10 W\" \
+         }\n[run]\nstop = \"100 s\"\n",
     );
     let solution = support::transient(&netlist).solve(&system).unwrap();
     let last = solution.row(solution.times().len() - 1);
@@ -387,7 +389,8 @@ fn tables_of_two_materials_are_two() {
 fn a_row_at_the_stop_in_another_unit_is_the_stop() {
     for (stop, at) in [("1.0161111111111112 h", "3658 s"), ("3658 s", "1.0161111111111112 h")] {
         let text = format!(
-            "format = 1\n[node]\na = {{ C = \"1 J/K\", T0 = \"20 degC\" }}\n[run]\nstop = \"{stop}\"\n\
+            "format = 1\n[node]\na = {{ C = \"1 J/K\", T0 = \"20 degC\" }}\n[run]\nstop \
+             = \"{stop}\"\n\
              output = {{ at = [\"100 s\", \"{at}\"] }}\n"
         );
         let (netlist, _) = support::parsed(&text);

@@ -56,7 +56,8 @@ fn agrees_by(text: &str, all: &[ParameterId]) {
                 let parameter = &network.parameters()[id.index()].name;
                 assert!(
                     (found - expected).abs() <= AGREEMENT * largest + least,
-                    "d {name} / d {parameter} at row {row}: {found:e}, differences say {expected:e} of {largest:e}"
+                    "d {name} / d {parameter} at row {row}: {found:e}, differences say \
+                     {expected:e} of {largest:e}"
                 );
             }
         }
@@ -92,14 +93,16 @@ output = {{ every = \"30 s\" }}
 fn resistors_and_conductances() {
     agrees(&with("R = \"0.5 K/W\"", "[resistor.path]\nfrom = \"hot\"\nto = \"cold\"\nR = \"R\""));
     agrees(&with("G = \"3 W/K\"", "[resistor.path]\nfrom = \"hot\"\nto = \"cold\"\nG = \"G\""));
-    let varying = "[resistor.path]\nfrom = \"hot\"\nto = \"cold\"\nG = \"G * (1 + b * dT + 0.01 [1/K] * (T_mean - 20 [degC]))\"";
+    let varying = "[resistor.path]\nfrom = \"hot\"\nto = \"cold\"\nG = \"G * (1 + b * dT + 0.01 \
+        [1/K] * (T_mean - 20 [degC]))\"";
     agrees(&with("G = \"3 W/K\"\nb = \"0.02 1/K\"", varying));
 }
 
 #[test]
 fn bodies_that_conduct() {
     let material = "[material.alloy]\nk = \"k0 * (1 + beta * (T - 20 [degC]))\"\n";
-    let param = "k0 = \"40 W/(m K)\"\nbeta = \"0.002 1/K\"\na = \"0.01 m^2\"\nlength = \"0.1 m\"\nr1 = \"20 mm\"\nr2 = \"30 mm\"";
+    let param = "k0 = \"40 W/(m K)\"\nbeta = \"0.002 1/K\"\na = \"0.01 m^2\"\nlength = \"0.1 \
+        m\"\nr1 = \"20 mm\"\nr2 = \"30 mm\"";
     for shape in [
         "shape = \"slab\"\narea = \"a\"\nthickness = \"length\"",
         "shape = \"cylinder\"\nr_in = \"r1\"\nr_out = \"r2\"\nlength = \"length / 10\"",
@@ -107,7 +110,8 @@ fn bodies_that_conduct() {
         "shape = \"rod\"\ndiameter = \"2 * r1\"\nlength = \"length\"",
     ] {
         let element = format!(
-            "{material}[conduction.path]\nfrom = \"hot\"\nto = \"cold\"\nmaterial = \"alloy\"\n{shape}"
+            "{material}[conduction.path]\nfrom = \"hot\"\nto = \"cold\"\nmaterial \
+             = \"alloy\"\n{shape}"
         );
         agrees(&with(param, &element));
     }
@@ -115,7 +119,8 @@ fn bodies_that_conduct() {
 
 #[test]
 fn films_and_contacts() {
-    let element = "[convection.path]\nfrom = \"hot\"\nto = \"cold\"\nh = \"h * (1 + abs(dT / 10 [K]))^0.25\"\narea = \"a\"
+    let element = "[convection.path]\nfrom = \"hot\"\nto = \"cold\"\nh = \"h * (1 + abs(dT / 10 \
+        [K]))^0.25\"\narea = \"a\"
 [contact.joint]\nfrom = \"hot\"\nto = \"cold\"\nh = \"hc\"\narea = \"a\"";
     agrees(&with("h = \"20 W/(m^2 K)\"\na = \"0.05 m^2\"\nhc = \"10 W/(m^2 K)\"", element));
 }
@@ -124,21 +129,27 @@ fn films_and_contacts() {
 fn radiation() {
     let areas = "[radiation.path]\nfrom = \"hot\"\nto = \"cold\"\nGr = \"Gr\"";
     agrees(&with("Gr = \"0.05 m^2\"", areas));
-    let surfaces = "[radiation.path]\nfrom = \"hot\"\nto = \"air\"\nemissivity = \"e\"\narea = \"a\"\nview_factor = \"F\"";
+    let surfaces = "[radiation.path]\nfrom = \"hot\"\nto = \"air\"\nemissivity = \"e\"\narea \
+        = \"a\"\nview_factor = \"F\"";
     agrees(&with("e = 0.8\na = \"0.1 m^2\"\nF = 0.9", surfaces));
-    let plates = "[radiation.path]\nfrom = \"hot\"\nto = \"cold\"\nemissivity = [\"e1\", \"e2\"]\narea = \"a\"";
+    let plates = "[radiation.path]\nfrom = \"hot\"\nto = \"cold\"\nemissivity = \
+        [\"e1\", \"e2\"]\narea = \"a\"";
     agrees(&with("e1 = 0.8\ne2 = 0.5\na = \"0.3 m^2\"", plates));
 }
 
 #[test]
 fn streams() {
-    let rate = "[advection.path]\nfrom = \"hot\"\nto = \"cold\"\nmcp = \"m\"\n[advection.back]\nfrom = \"cold\"\nto = \"hot\"\nmcp = \"m\"";
+    let rate = "[advection.path]\nfrom = \"hot\"\nto = \"cold\"\nmcp \
+        = \"m\"\n[advection.back]\nfrom = \"cold\"\nto = \"hot\"\nmcp = \"m\"";
     agrees(&with("m = \"3 W/K\"", rate));
-    let fluid = "[fluid.oil]\ndensity = \"rho * (1 - 0.0006 [1/K] * (T - 20 [degC]))\"\ncp = \"2000 [J/(kg K)] * (1 + 0.002 [1/K] * (T - 20 [degC]))\"
+    let fluid = "[fluid.oil]\ndensity = \"rho * (1 - 0.0006 [1/K] * (T - 20 [degC]))\"\ncp \
+        = \"2000 [J/(kg K)] * (1 + 0.002 [1/K] * (T - 20 [degC]))\"
 [advection.path]\nfrom = \"hot\"\nto = \"cold\"\nfluid = \"oil\"\nflow = \"V\"\nflow_T = \"T_pump\"
-[advection.back]\nfrom = \"cold\"\nto = \"hot\"\nfluid = \"oil\"\nflow = \"V\"\nflow_T = \"T_pump\"";
+[advection.back]\nfrom = \"cold\"\nto = \"hot\"\nfluid = \"oil\"\nflow = \"V\"\nflow_T \
+= \"T_pump\"";
     agrees(&with("rho = \"870 kg/m^3\"\nV = \"0.1 L/min\"\nT_pump = \"30 degC\"", fluid));
-    let mass = "[fluid.oil]\ncp = \"cp\"\n[advection.path]\nfrom = \"hot\"\nto = \"cold\"\nfluid = \"oil\"\nflow = \"m\"
+    let mass = "[fluid.oil]\ncp = \"cp\"\n[advection.path]\nfrom = \"hot\"\nto = \"cold\"\nfluid \
+        = \"oil\"\nflow = \"m\"
 [advection.back]\nfrom = \"cold\"\nto = \"hot\"\nfluid = \"oil\"\nflow = \"m\"";
     agrees(&with("cp = \"2000 J/(kg K)\"\nm = \"2 g/s\"", mass));
 }
@@ -170,20 +181,25 @@ output = { every = \"30 s\" }
 
 #[test]
 fn sources_of_time_temperature_and_signals() {
-    let element = "[signal]\nduty = { t = [\"0 s\", \"3 min\", \"5 min\"], v = [1, 0, 0.5], interp = \"previous\", after_end = \"hold\" }
+    let element =
+        "[signal]\nduty = { t = [\"0 s\", \"3 min\", \"5 min\"], v = [1, 0, 0.5], interp \
+        = \"previous\", after_end = \"hold\" }
 shaped = \"gain * duty * (1 + t / tau)\"
 [source.more]\ninto = { hot = 0.25, cold = 0.75 }\nP = \"30 [W] * shaped\"
-[source.loss]\ninto = \"hot\"\nP = \"q0 * exp(-b * (T - 20 [degC])) + 0.1 [W/K] * (cold.T - 20 [degC])\"";
+[source.loss]\ninto = \"hot\"\nP = \"q0 * exp(-b * (T - 20 [degC])) + 0.1 [W/K] * (cold.T - 20 \
+[degC])\"";
     agrees(&with("gain = 1.2\ntau = \"4 min\"\nq0 = \"20 W\"\nb = \"0.02 1/K\"", element));
 }
 
 #[test]
 fn tables_of_speed_and_temperature() {
     let element = "[table]
-loss = { x = [\"0 rpm\", \"3000 rpm\", \"7000 rpm\"], y = [\"0 W\", \"30 W\", \"90 W\"], interp = \"pchip\" }
+loss = { x = [\"0 rpm\", \"3000 rpm\", \"7000 rpm\"], y = [\"0 W\", \"30 W\", \"90 W\"], interp \
+= \"pchip\" }
 thin = { x = [\"0 degC\", \"40 degC\", \"200 degC\"], y = [1, 0.7, 0.3] }
 [source.mesh]\ninto = \"hot\"\nP = \"loss(omega) * thin(T)\"
-[resistor.path]\nfrom = \"hot\"\nto = \"cold\"\nG = \"1 [W/K] * (1 + thin(T_mean)) * (omega / 4000 [rpm])^0.5\"";
+[resistor.path]\nfrom = \"hot\"\nto = \"cold\"\nG = \"1 [W/K] * (1 + thin(T_mean)) * (omega / 4000 \
+[rpm])^0.5\"";
     agrees(&with("omega = \"4200 rpm\"", element));
 }
 
@@ -241,7 +257,8 @@ output = {{ every = \"30 s\" }}
     agrees(&text(", material = \"brass\", volume = \"m / (8500 [kg/m^3])\""));
     agrees(&text(", material = \"steel\", mass = \"m\""));
     let parts = text("")
-        + "[capacitor]\ngears = { node = \"body\", material = \"steel\", mass = \"m\" }\ncase = { node = \"body\", material = \"brass\", mass = \"m2\" }\n";
+        + "[capacitor]\ngears = { node = \"body\", material = \"steel\", mass = \"m\" }\ncase = { \
+            node = \"body\", material = \"brass\", mass = \"m2\" }\n";
     agrees(&parts);
 }
 
@@ -381,7 +398,9 @@ fn parameters_on_parameters() {
 fn what_has_no_exact_derivative_is_refused() {
     let controlled = with(
         "P2 = \"5 W\"",
-        "[resistor.path]\nfrom = \"hot\"\nto = \"cold\"\nG = \"1 [W/K] + 2 [W/K] * fan\"\n[control]\nfan = { sense = \"hot\", on_above = \"60 degC\", off_below = \"50 degC\" }",
+        "[resistor.path]\nfrom = \"hot\"\nto = \"cold\"\nG = \"1 [W/K] + 2 [W/K] * \
+         fan\"\n[control]\nfan = { sense = \"hot\", on_above = \"60 degC\", off_below = \"50 \
+         degC\" }",
     );
     let moving = with(
         "t_on = \"2 min\"",

@@ -25,7 +25,8 @@ fn close(found: f64, exact: f64, within: f64) {
 /// One body of 100 J/K at 30 degC beside a room of 20 degC, and what is added to it.
 fn body(rest: &str) -> String {
     format!(
-        "format = 1\n[node]\na = {{ C = \"100 J/K\", T0 = \"30 degC\" }}\n[boundary]\nroom = {{ T = \"20 degC\" }}\n{rest}"
+        "format = 1\n[node]\na = {{ C = \"100 J/K\", T0 = \"30 degC\" }}\n[boundary]\nroom = {{ T \
+         = \"20 degC\" }}\n{rest}"
     )
 }
 
@@ -61,11 +62,14 @@ fn a_pulse_beside_a_temperature_is_not_jumped_over() {
     let fallen = 1.0 / (0.1 + 0.05 * AREA / 100.0);
     for text in [
         format!(
-            "[resistor]\\nr = {{ from = \"a\", to = \"room\", G = \"0.05 [W/K^2] * dT * {PULSE}\" }}"
+            "[resistor]\\nr = {{ from = \"a\", to = \"room\", G = \"0.05 [W/K^2] * dT * {PULSE}\" \
+             }}"
         ),
         format!(
-            "[convection]\\nr = {{ from = \"a\", to = \"room\", h = \"{PULSE} * film(dT)\", area = \"1 m^2\" }}\\n\
-                 [table]\\nfilm = {{ x = [\"0 K\", \"100 K\"], y = [\"0 W/(m^2 K)\", \"5 W/(m^2 K)\"] }}"
+            "[convection]\\nr = {{ from = \"a\", to = \"room\", h = \"{PULSE} * film(dT)\", area \
+             = \"1 m^2\" }}\\n\
+                 [table]\\nfilm = {{ x = [\"0 K\", \"100 K\"], y = [\"0 W/(m^2 K)\", \"5 W/(m^2 \
+                 K)\"] }}"
         ),
     ] {
         close(rise_after(&text.replace("\\n", "\n")), fallen, 1e-4);
@@ -76,7 +80,8 @@ fn a_pulse_beside_a_temperature_is_not_jumped_over() {
 /// y)^2) whose y holds a temperature that stands still.
 #[test]
 fn a_pulse_whose_place_depends_on_a_temperature_is_not_jumped_over() {
-    let text = "[source]\ns = { into = \"a\", P = \"0.5 [W/K] * (T - 20 [degC]) * exp(-0.5 * ((t - 3123.4 [s] \
+    let text = "[source]\ns = { into = \"a\", P = \"0.5 [W/K] * (T - 20 [degC]) * exp(-0.5 * ((t - \
+        3123.4 [s] \
                 - (room.T - 10 [degC]) * 200 [s/K]) / (21.2 [s]))^2)\" }\n";
     close(rise_after(text), 10.0 * (0.5 * AREA / 100.0).exp(), 1e-4);
 }
@@ -87,7 +92,8 @@ fn a_pulse_whose_place_depends_on_a_temperature_is_not_jumped_over() {
 fn a_peak_of_a_table_of_time_and_temperature_is_met() {
     let folder = std::env::temp_dir().join("lptn-table-of-time");
     std::fs::create_dir_all(&folder).unwrap();
-    let rows = "time [s],rise [K],heat [W]\n0,0,0\n5000,0,0\n5030,0,0\n5060,0,0\n10000,0,0\n0,100,0\n5000,100,0\n\
+    let rows = "time [s],rise [K],heat \
+        [W]\n0,0,0\n5000,0,0\n5030,0,0\n5060,0,0\n10000,0,0\n0,100,0\n5000,100,0\n\
                 5030,100,50\n5060,100,0\n10000,100,0\n";
     std::fs::write(folder.join("map.csv"), rows).unwrap();
     let text = body(
@@ -108,7 +114,8 @@ fn a_peak_of_a_table_of_time_and_temperature_is_met() {
 #[test]
 fn a_pulse_of_a_threshold_switches() {
     let text = body(&format!(
-        "[control]\nfan = {{ sense = \"a\", on_above = \"80 [degC] - 70 [K] * {PULSE} + 0 * (a.T - room.T)\", \
+        "[control]\nfan = {{ sense = \"a\", on_above = \"80 [degC] - 70 [K] * {PULSE} + 0 * (a.T - \
+         room.T)\", \
          off_below = \"79 [degC] - 70 [K] * {PULSE}\" }}\n\
          [resistor]\nr = {{ from = \"a\", to = \"room\", G = \"1e-12 [W/K] * fan\" }}\n"
     ));
@@ -129,9 +136,12 @@ fn a_pulse_on_a_large_slow_input_is_not_jumped_over() {
         for part in [28.0, 200.0, 2000.0, 3000.0, 4500.0] {
             let sd = stop / part / 2.354_820_045_030_949;
             let text = format!(
-                "format = 1\n[node]\na = {{ C = \"1000 J/K\", T0 = \"20 degC\" }}\n[boundary]\nroom = {{ T = \"20 degC\" }}\n\
-                 [resistor]\nr = {{ from = \"a\", to = \"room\", R = \"1 K/W\" }}\n[source]\ns = {{ into = \"a\", P = \"{base} [W] \
-                 * sin(pi * t / (10000 [s])) + 200 [W] * exp(-0.5 * ((t - {middle} [s]) / ({sd} [s]))^2)\" }}\n"
+                "format = 1\n[node]\na = {{ C = \"1000 J/K\", T0 = \"20 degC\" \
+                 }}\n[boundary]\nroom = {{ T = \"20 degC\" }}\n\
+                 [resistor]\nr = {{ from = \"a\", to = \"room\", R = \"1 K/W\" }}\n[source]\ns = \
+                 {{ into = \"a\", P = \"{base} [W] \
+                 * sin(pi * t / (10000 [s])) + 200 [W] * exp(-0.5 * ((t - {middle} [s]) / ({sd} \
+                 [s]))^2)\" }}\n"
             );
             let solution = solved(&text, &Transient::until(Time(stop)).every(Time(500.0)));
             let exact = |t: f64| {
@@ -159,10 +169,14 @@ fn a_pulse_on_a_large_slow_input_is_not_jumped_over() {
 fn a_signal_that_rests_on_a_knot_costs_no_steps() {
     let steps = |speed: u32| {
         let text = format!(
-            "format = 1\n[signal]\nspeed = {{ t = [0, 25, 45, 80], v = [0, {speed}, {speed}, 0], t_unit = \"s\", v_unit = \
-             \"rpm\", interp = \"pchip\" }}\n[table]\nfilm = {{ x = [0, 500, 1500], y = [4, 20, 44], x_unit = \"rpm\", y_unit = \
-             \"W/(m^2 K)\", outside = \"hold\" }}\n[boundary]\nroom = {{ T = \"22 degC\" }}\n[node]\ncase = {{ C = \"3 kJ/K\", \
-             T0 = \"60 degC\" }}\n[convection]\nwindage = {{ from = \"case\", to = \"room\", h = \"film(speed)\", area = \
+            "format = 1\n[signal]\nspeed = {{ t = [0, 25, 45, 80], v = [0, {speed}, {speed}, 0], \
+             t_unit = \"s\", v_unit = \
+             \"rpm\", interp = \"pchip\" }}\n[table]\nfilm = {{ x = [0, 500, 1500], y = [4, 20, \
+             44], x_unit = \"rpm\", y_unit = \
+             \"W/(m^2 K)\", outside = \"hold\" }}\n[boundary]\nroom = {{ T = \"22 degC\" \
+             }}\n[node]\ncase = {{ C = \"3 kJ/K\", \
+             T0 = \"60 degC\" }}\n[convection]\nwindage = {{ from = \"case\", to = \"room\", h \
+             = \"film(speed)\", area = \
              \"0.35 m^2\" }}\n"
         );
         solved(&text, &Transient::until(Time(80.0))).statistics().steps
@@ -175,8 +189,10 @@ fn a_signal_that_rests_on_a_knot_costs_no_steps() {
 /// A body that stays at 30 degC, with inputs that only results know of.
 fn quiet(rest: &str) -> String {
     format!(
-        "format = 1\n[node]\na = {{ C = \"100 J/K\", T0 = \"30 degC\" }}\n[boundary]\nb = {{ T = \"20 degC\" }}\n[resistor]\n\
-         r = {{ from = \"a\", to = \"b\", R = \"1 K/W\" }}\n[source]\ns = {{ into = \"a\", P = \"10 W\" }}\n{rest}"
+        "format = 1\n[node]\na = {{ C = \"100 J/K\", T0 = \"30 degC\" }}\n[boundary]\nb = {{ T \
+         = \"20 degC\" }}\n[resistor]\n\
+         r = {{ from = \"a\", to = \"b\", R = \"1 K/W\" }}\n[source]\ns = {{ into = \"a\", P \
+         = \"10 W\" }}\n{rest}"
     )
 }
 
@@ -184,14 +200,18 @@ fn quiet(rest: &str) -> String {
 #[test]
 fn limits_follow_what_only_they_read() {
     let text = quiet(
-        "[signal]\nallowed = { t = [\"0 s\", \"700 s\", \"800 s\"], v = [\"60 degC\", \"25 degC\", \"60 degC\"], interp = \
-         \"previous\", after_end = \"hold\" }\nteeth = { t = [\"0 s\", \"10 s\"], v = [\"0 K\", \"10 K\"], after_end = \
+        "[signal]\nallowed = { t = [\"0 s\", \"700 s\", \"800 s\"], v = [\"60 degC\", \"25 \
+         degC\", \"60 degC\"], interp = \
+         \"previous\", after_end = \"hold\" }\nteeth = { t = [\"0 s\", \"10 s\"], v = [\"0 \
+         K\", \"10 K\"], after_end = \
          \"repeat\" }\n[limit]\nstep = { of = \"a.T - allowed\", below = \"0 K\" }\n\
          compared = { of = \"a.T - if(t < 600 [s], 60 [degC], 25 [degC])\", below = \"0 K\" }\n\
          kink = { of = \"a.T - abs(t - 612 [s]) * 1 [K/s]\", below = \"29 degC\" }\n\
          saw = { of = \"a.T + teeth\", below = \"38 degC\" }\n\
-         pulse = { of = \"a.T + 9 [K] * exp(-0.5 * ((t - 333.3 [s]) / (1 [s]))^2)\", below = \"38 degC\" }\n\
-         kept = { of = \"a.T + 9 [K] * exp(-0.5 * ((t - 333.3 [s]) / (1 [s]))^2)\", below = \"40 degC\" }\n",
+         pulse = { of = \"a.T + 9 [K] * exp(-0.5 * ((t - 333.3 [s]) / (1 [s]))^2)\", below = \"38 \
+         degC\" }\n\
+         kept = { of = \"a.T + 9 [K] * exp(-0.5 * ((t - 333.3 [s]) / (1 [s]))^2)\", below = \"40 \
+         degC\" }\n",
     );
     for run in
         [Transient::until(Time(1000.0)).at(&[]), Transient::until(Time(1000.0)).every(Time(1.0))]
@@ -220,9 +240,12 @@ fn limits_follow_what_only_they_read() {
 #[test]
 fn reports_and_signals_of_their_own_follow_the_time() {
     let text = quiet(
-        "[signal]\nsaw = { t = [\"0 s\", \"100 s\"], v = [\"0 K\", \"10 K\"], after_end = \"repeat\" }\n\
-         pulse = { t = [\"0 s\", \"50 s\"], v = [\"0 K\", \"10 K\"], interp = \"previous\", after_end = \"repeat\", period = \
-         \"100 s\" }\n[run]\nstop = \"1000 s\"\nreport = { two = \"if(t < 600 [s], 1, 2)\", saw2 = \"saw\", left = \
+        "[signal]\nsaw = { t = [\"0 s\", \"100 s\"], v = [\"0 K\", \"10 K\"], after_end \
+         = \"repeat\" }\n\
+         pulse = { t = [\"0 s\", \"50 s\"], v = [\"0 K\", \"10 K\"], interp = \"previous\", \
+         after_end = \"repeat\", period = \
+         \"100 s\" }\n[run]\nstop = \"1000 s\"\nreport = { two = \"if(t < 600 [s], 1, 2)\", saw2 \
+         = \"saw\", left = \
          \"a.T + pulse\", kink = \"abs(t - 500 [s])\" }\n",
     );
     let solution = solved(&text, &Transient::until(Time(1000.0)).every(Time(75.0)));
@@ -245,8 +268,10 @@ fn reports_and_signals_of_their_own_follow_the_time() {
 #[test]
 fn windows_follow_what_only_they_read() {
     let text = quiet(
-        "[signal]\nallowed = { t = [\"0 s\", \"600 s\"], v = [\"60 degC\", \"25 degC\"], interp = \"previous\", after_end = \
-         \"hold\" }\n[run]\nstop = \"1000 s\"\nreport = { two = \"if(t < 700 [s], 1, 2)\", bump = \"100 * exp(-0.5 * ((t - \
+        "[signal]\nallowed = { t = [\"0 s\", \"600 s\"], v = [\"60 degC\", \"25 degC\"], interp \
+         = \"previous\", after_end = \
+         \"hold\" }\n[run]\nstop = \"1000 s\"\nreport = { two = \"if(t < 700 [s], 1, 2)\", bump \
+         = \"100 * exp(-0.5 * ((t - \
          650 [s]) / (0.5 [s]))^2)\" }\n",
     );
     let system = system(&text);
@@ -273,8 +298,10 @@ fn a_start_far_from_zero_costs_no_accuracy() {
         [(1.7e9, 1e-3, 5e-4), (1e12, 1e-3, 0.000_488_281_25), (1e14, 1.0, 0.5), (1e17, 100.0, 32.0)]
     {
         let text = format!(
-            "format = 1\n[node]\na = {{ C = \"100 J/K\", T0 = \"20 degC\" }}\n[boundary]\nb = {{ T = \"20 degC\" }}\n\
-             [resistor]\nr = {{ from = \"a\", to = \"b\", R = \"{r} K/W\" }}\n[source]\ns = {{ into = \"a\", P = \"{p} W\" }}\n",
+            "format = 1\n[node]\na = {{ C = \"100 J/K\", T0 = \"20 degC\" }}\n[boundary]\nb = {{ T \
+             = \"20 degC\" }}\n\
+             [resistor]\nr = {{ from = \"a\", to = \"b\", R = \"{r} K/W\" }}\n[source]\ns = {{ \
+             into = \"a\", P = \"{p} W\" }}\n",
             r = tau / 100.0,
             p = 1000.0 / tau
         );
@@ -324,7 +351,8 @@ fn a_jump_near_a_row_stays_where_it_is_far_from_zero() {
 /// report.
 #[test]
 fn what_only_results_read_does_not_restart_the_integrator() {
-    let rest = "[signal]\nsaw = { t = [\"0 s\", \"0.05 s\"], v = [\"0 K\", \"10 K\"], after_end = \"repeat\" }\n\
+    let rest = "[signal]\nsaw = { t = [\"0 s\", \"0.05 s\"], v = [\"0 K\", \"10 K\"], after_end \
+        = \"repeat\" }\n\
                 [run]\nstop = \"1000 s\"\nreport = { top = \"a.T + saw\" }\n";
     let warm = |rest: &str| quiet(rest).replace("30 degC", "25 degC");
     let run = Transient::until(Time(1000.0)).every(Time(10.02));

@@ -12,8 +12,9 @@ use std::process::ExitCode;
 
 const HEADER: &str = "sundials/sundials_config.h";
 
-const NOT_FOUND: &str = "no SUNDIALS 6 or later found: install its headers and libraries (Debian and Ubuntu: apt install \
-    libsundials-dev), or set SUNDIALS_INCLUDE_DIR and SUNDIALS_LIBRARY_DIR, or use the cargo feature `bundled`";
+const NOT_FOUND: &str = "no SUNDIALS 6 or later found: install its headers and libraries (Debian \
+    and Ubuntu: apt install libsundials-dev), or set SUNDIALS_INCLUDE_DIR and \
+    SUNDIALS_LIBRARY_DIR, or use the cargo feature `bundled`";
 
 fn main() -> ExitCode {
     println!("cargo::rerun-if-changed=build.rs");

@@ -54,7 +54,8 @@ fn oil(b: &mut NetworkBuilder) -> lptn_network::FluidId {
     let density = own(b, "900 [kg/m^3] * (1 - 7e-4 [1/K] * (T - 20 [degC]))");
     let cp = own(
         b,
-        "1900 [J/(kg K)] + 4 [J/(kg K^2)] * (T - 20 [degC]) + 0.004 [J/(kg K^3)] * (T - 20 [degC])^2",
+        "1900 [J/(kg K)] + 4 [J/(kg K^2)] * (T - 20 [degC]) + 0.004 [J/(kg K^3)] * (T - 20 \
+         [degC])^2",
     );
     b.fluid("oil", Some(density), cp, None)
 }
@@ -190,8 +191,8 @@ const ELEMENTS: [(&str, Add); 24] = [
     ("conductance of six temperatures", |b, ends| {
         let g = link(
             b,
-            "1 [W/K] + 1e-3 [W/K^2] * (abs(a.T - c.T) + abs(third.T - fourth.T) + abs(fifth.T - room.T)) \
-             + 1e-4 [W/K^2] * kelvin(sixth.T)",
+            "1 [W/K] + 1e-3 [W/K^2] * (abs(a.T - c.T) + abs(third.T - fourth.T) + abs(fifth.T - \
+             room.T)) + 1e-4 [W/K^2] * kelvin(sixth.T)",
         );
         conductor(b, ConductorKind::Resistor, ends, Path::conductance(g));
     }),

@@ -58,7 +58,8 @@ pub(crate) fn adiabatic(network: &Network, steady: &SteadyState) -> Option<Diagn
     let name = |id: &NodeId| network.nodes()[id.index()].name.clone();
     let names: Vec<String> = steady.adiabatic.iter().map(name).collect();
     let message = format!(
-        "no path leads to a boundary from {}: the energy at the start decides where they come to rest",
+        "no path leads to a boundary from {}: the energy at the start decides where they come to \
+         rest",
         list_of_names(&names)
     );
     (!names.is_empty()).then(|| Diagnostic::warning("steady::energy", message))
@@ -72,19 +73,24 @@ pub(crate) fn others(network: &Network, steady: &SteadyState, unit: &Unit) -> Op
         Others::None => None,
         Others::NotKnown => warn(
             "steady::not_followed",
-            "the network may have several steady states, and it could not be followed from its start to this one".into(),
+            "the network may have several steady states, and it could not be followed from its \
+             start to this one"
+                .into(),
         ),
         Others::At(temperatures) => {
-            let apart = |id: &NodeId| (temperatures[id.index()] - steady.temperatures[id.index()]).abs();
+            let apart =
+                |id: &NodeId| (temperatures[id.index()] - steady.temperatures[id.index()]).abs();
             let most = network.node_ids().max_by(|a, b| apart(a).total_cmp(&apart(b)))?;
-            let at = |kelvin: f64| format!("{} {}", significant(unit.from_si(kelvin), 4), unit.text);
-            let (here, there) = (at(steady.temperatures[most.index()]), at(temperatures[most.index()]));
+            let at =
+                |kelvin: f64| format!("{} {}", significant(unit.from_si(kelvin), 4), unit.text);
+            let (here, there) =
+                (at(steady.temperatures[most.index()]), at(temperatures[most.index()]));
             let name = network.name_of(Item::Node(most));
             warn(
                 "steady::several",
                 format!(
-                    "several steady states: from its start the network comes to the one with `{name}` at {here}; in \
-                     another it is at {there}"
+                    "several steady states: from its start the network comes to the one with \
+                     `{name}` at {here}; in another it is at {there}"
                 ),
             )
         }

@@ -42,8 +42,8 @@ fn too_thick(netlist: &Netlist, check: &LumpCheck, biot: &Biot) -> Diagnostic {
         significant(biot.number, 3)
     );
     let numbers = format!(
-        "Bi = h L_char / k with h = {} W/(m^2 K) at {}, k = {} W/(m K); below 0.1 the error of one temperature is small \
-         ({SOURCE})",
+        "Bi = h L_char / k with h = {} W/(m^2 K) at {}, k = {} W/(m K); below 0.1 the error of one \
+         temperature is small ({SOURCE})",
         significant(biot.coefficient, 3),
         duration(biot.time, 3),
         significant(biot.conductivity, 3)
@@ -54,13 +54,14 @@ fn too_thick(netlist: &Netlist, check: &LumpCheck, biot: &Biot) -> Diagnostic {
 fn too_slow(netlist: &Netlist, check: &LumpCheck, (time, stretch): (f64, Stretch)) -> Diagnostic {
     let name = &netlist.network.nodes()[check.node.index()].name;
     let message = format!(
-        "inside node `{name}` heat takes {} to spread, more than a tenth of the {} between two changes",
+        "inside node `{name}` heat takes {} to spread, more than a tenth of the {} between two \
+         changes",
         duration(time, 3),
         duration(stretch.to - stretch.from, 3)
     );
     let numbers = format!(
-        "L_char^2 / alpha; from {} to {} no source and no boundary jumps, and for about so long after a jump one \
-         temperature is not that of the body",
+        "L_char^2 / alpha; from {} to {} no source and no boundary jumps, and for about so long \
+         after a jump one temperature is not that of the body",
         duration(stretch.from, 4),
         duration(stretch.to, 4)
     );

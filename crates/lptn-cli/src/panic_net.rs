@@ -54,7 +54,8 @@ fn fault(what: &str, arguments: impl Iterator<Item = std::ffi::OsString>) -> Dia
     let words: Vec<String> = arguments.map(|word| quoted(&word.to_string_lossy())).collect();
     let (version, os) = (env!("CARGO_PKG_VERSION"), std::env::consts::OS);
     Diagnostic::error("program::fault", message).help(format!(
-        "result files of earlier runs are as they were, and what was printed of this one is not to be used. Please report \
+        "result files of earlier runs are as they were, and what was printed of this one is not to \
+         be used. Please report \
          the fault with the line above, these two, and the files that the command reads:\n\n\
          lptn {version}, {os}\nlptn {}",
         words.join(" ")

@@ -83,8 +83,10 @@ pub(crate) fn can_be_written(
     } else if let Some(other) = netlist.written_together(parameter) {
         let message =
             format!("`{name}` is written once for several instances, `{other}` among them");
-        let problem = Diagnostic::error(shared, message)
-            .help("give each its own value, `set = { .. = [.., ..] }`, or make it a parameter of the file");
+        let problem = Diagnostic::error(shared, message).help(
+            "give each its own value, `set = { .. = [.., ..] }`, or make it a parameter of the \
+                file",
+        );
         problem.at(netlist.source_map.parameter(parameter), "")
     } else if netlist.written_number(parameter).is_none() {
         let message =

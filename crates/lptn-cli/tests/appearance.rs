@@ -151,7 +151,8 @@ fn a_terminal_gets_colours_unless_it_asks_for_none() {
     };
     let Some(coloured) = on_terminal("", false) else {
         eprintln!(
-            "SKIPPED: `script` is missing or opens no terminal; apt-get install bsdutils, mount /dev/pts"
+            "SKIPPED: `script` is missing or opens no terminal; apt-get install bsdutils, mount \
+             /dev/pts"
         );
         assert!(std::env::var_os("LPTN_REQUIRE_ORACLES").is_none());
         return;

@@ -11,21 +11,30 @@ use common::Folder;
 /// 60 W into a block that loses them through a surface without capacity, whose film falls between
 /// 76 and 97 K and between 138 and 143 K: the surface has up to three temperatures at which its
 /// balance holds.
-const BOILING: &str = "format = 1\n[table]\nfilm = { x = [0, 76, 97, 138, 143, 3000], y = [1.1, 0.73, 0.5, 1.35, 0.8, 0.65], \
-     x_unit = \"K\", y_unit = \"W/(m^2 K)\" }\n[node]\nblock = { C = \"117 J/K\", T0 = \"50 degC\" }\nj = { massless = true }\n\
-     [boundary]\nroom = { T = \"50 degC\" }\n[resistor]\ninner = { from = \"block\", to = \"j\", R = \"5.0 K/W\" }\n\
-     [convection]\nskin = { from = \"j\", to = \"room\", h = \"film(abs(dT))\", area = \"0.26 m^2\" }\n\
-     [source]\nheat = { into = \"block\", P = \"60 W\" }\n[run]\nstop = \"3000 s\"\noutput = { every = \"300 s\" }\n\
+const BOILING: &str = "format = 1\n[table]\nfilm = { x = [0, 76, 97, 138, 143, 3000], y = [1.1, \
+    0.73, 0.5, 1.35, 0.8, 0.65], \
+     x_unit = \"K\", y_unit = \"W/(m^2 K)\" }\n[node]\nblock = { C = \"117 J/K\", T0 = \"50 degC\" \
+     }\nj = { massless = true }\n\
+     [boundary]\nroom = { T = \"50 degC\" }\n[resistor]\ninner = { from = \"block\", to = \"j\", R \
+     = \"5.0 K/W\" }\n\
+     [convection]\nskin = { from = \"j\", to = \"room\", h = \"film(abs(dT))\", area = \"0.26 \
+     m^2\" }\n\
+     [source]\nheat = { into = \"block\", P = \"60 W\" }\n[run]\nstop = \"3000 s\"\noutput = { \
+     every = \"300 s\" }\n\
      tolerance = \"1e-5 K\"\n";
 
 /// Heat that rises and falls in a triangle, through a surface whose film has a gap: between 174 and
 /// 209 degC of the block the surface has two temperatures at which it stays.
-const HYSTERESIS: &str = "format = 1\n[signal]\np = { t = [0, 2000, 4000], v = [0, 50, 0], t_unit = \"s\", v_unit = \"W\", \
-     after_end = \"repeat\" }\n[node]\nblock = { C = \"20 J/K\", T0 = \"50 degC\" }\nj = { massless = true }\n\
-     [boundary]\nroom = { T = \"50 degC\" }\n[resistor]\ninner = { from = \"block\", to = \"j\", R = \"5 K/W\" }\n\
+const HYSTERESIS: &str = "format = 1\n[signal]\np = { t = [0, 2000, 4000], v = [0, 50, 0], t_unit \
+    = \"s\", v_unit = \"W\", \
+     after_end = \"repeat\" }\n[node]\nblock = { C = \"20 J/K\", T0 = \"50 degC\" }\nj = { \
+     massless = true }\n\
+     [boundary]\nroom = { T = \"50 degC\" }\n[resistor]\ninner = { from = \"block\", to = \"j\", R \
+     = \"5 K/W\" }\n\
      [convection]\nskin = { from = \"j\", to = \"room\", area = \"0.26 m^2\", \
      h = \"1 [W/(m^2 K)] - 0.7 [W/(m^2 K)] * exp(-((abs(dT) - 90 [K]) / 12 [K])^2)\" }\n\
-     [source]\nheat = { into = \"block\", P = \"p\" }\n[run]\nstop = \"8000 s\"\noutput = { every = \"500 s\" }\n\
+     [source]\nheat = { into = \"block\", P = \"p\" }\n[run]\nstop = \"8000 s\"\noutput = { every \
+     = \"500 s\" }\n\
      tolerance = \"1e-5 K\"\n";
 
 fn column(rows: &[Vec<f64>], time: f64, column: usize) -> f64 {
@@ -200,9 +209,11 @@ fn a_restart_goes_on_upon_the_same_branch() {
 fn of_several_steady_states_the_one_that_the_start_leads_to_is_given() {
     let two = |start: &str| {
         format!(
-            "format = 1\n[node]\na = {{ C = \"10 J/K\", T0 = \"{start}\" }}\n[boundary]\nb = {{ T = \"20 degC\" }}\n\
+            "format = 1\n[node]\na = {{ C = \"10 J/K\", T0 = \"{start}\" }}\n[boundary]\nb = {{ T \
+             = \"20 degC\" }}\n\
              [resistor]\nr = {{ from = \"a\", to = \"b\", R = \"0.5 K/W\" }}\n[source]\n\
-             s = {{ into = \"a\", P = \"160 [W] * 0.5 * (1 + tanh((a.T - 60 [degC]) / 2 [K]))\" }}\n\
+             s = {{ into = \"a\", P = \"160 [W] * 0.5 * (1 + tanh((a.T - 60 [degC]) / 2 [K]))\" \
+             }}\n\
              [run]\nstop = \"1 h\"\n"
         )
     };
@@ -229,8 +240,8 @@ fn every_verb_tells_in_the_same_words_that_there_are_several_steady_states() {
     let folder = Folder::with("net.toml", &net);
     folder.write("still.toml", &net[..net.find("[run]").unwrap()]);
     // 0.26 m^2 h(d) d = 9 W at d = 34.6154, 85.1209 (unstable) and 93.8597 K: SciPy 1.17, brentq
-    let words = "several steady states: from its start the network comes to the one with `j` at 143.9 degC; in another it is at \
-                 84.62 degC";
+    let words = "several steady states: from its start the network comes to the one with `j` at \
+        143.9 degC; in another it is at 84.62 degC";
     let warnings = |json: &serde_json::Value| -> Vec<String> {
         let all = json["warnings"].as_array().unwrap().iter();
         let several = all.filter(|warning| warning["code"] == "steady::several");
@@ -296,7 +307,8 @@ fn switching(random: &mut Random) -> (usize, String) {
         writeln!(sources, "s{i} = {{ into = \"n{i}\", P = \"{heat}\" }}").unwrap();
     }
     let text = format!(
-        "format = 1\n[node]\n{nodes}[boundary]\nb = {{ T = \"20 degC\" }}\n[resistor]\n{paths}[source]\n{sources}\
+        "format = 1\n[node]\n{nodes}[boundary]\nb = {{ T = \"20 degC\" \
+         }}\n[resistor]\n{paths}[source]\n{sources}\
          [run]\nstop = \"1e6 s\"\noutput = {{ every = \"5e5 s\" }}\n"
     );
     (count, text)

@@ -9,7 +9,8 @@ use common::Folder;
 /// One node: 2000 J/K, R to air of 20 degC, 100 W, 1 h. The time constant is 2000 R.
 fn candidate(resistance: &str, limits: &str) -> String {
     format!(
-        "format = 1\ntitle = \"R {resistance}\"\n[param]\nP = \"100 W\"\n[node]\nblock = {{ T0 = \"20 degC\", C = \"2000 J/K\" }}\n\
+        "format = 1\ntitle = \"R {resistance}\"\n[param]\nP = \"100 W\"\n[node]\nblock = {{ T0 \
+         = \"20 degC\", C = \"2000 J/K\" }}\n\
          [boundary]\nair = {{ T = \"20 degC\" }}\nbed = {{ T = \"20 degC\" }}\n[resistor]\n\
          to_air = {{ from = \"block\", to = \"air\", R = \"4 / 3 * {resistance} [K/W]\" }}\n\
          to_bed = {{ from = \"block\", to = \"bed\", R = \"4 * {resistance} [K/W]\" }}\n\

@@ -229,7 +229,8 @@ fn a_control_is_a_column_of_zero_and_one() {
 /// A body at 20 degC with what `extra` adds; `P` is the heat in W.
 fn body(extra: &str) -> String {
     format!(
-        "format = 1\ntitle = \"test\"\n[node]\nbody = {{ T0 = \"T_0\", C = \"600 J/K\" }}\n[boundary]\n\
+        "format = 1\ntitle = \"test\"\n[node]\nbody = {{ T0 = \"T_0\", C = \"600 J/K\" \
+         }}\n[boundary]\n\
          amb = {{ T = \"20 degC\" }}\n[run]\nstop = \"1000 s\"\n{extra}"
     )
 }
@@ -237,9 +238,12 @@ fn body(extra: &str) -> String {
 #[test]
 fn two_controls_that_hang_on_each_other() {
     let text = body(
-        "[param]\nT_0 = \"20 degC\"\n[resistor]\nskin = { from = \"body\", to = \"amb\", G = \"3 W/K\" }\n\
-         [control]\nbase = { sense = \"body\", on_below = \"50 degC\", off_above = \"62 [degC] - 3 [K] * boost\" }\n\
-         boost = { sense = \"body\", on_below = \"45 [degC] + 6 [K] * base\", off_above = \"58.6 degC\", start = \"on\" }\n\
+        "[param]\nT_0 = \"20 degC\"\n[resistor]\nskin = { from = \"body\", to = \"amb\", G = \"3 \
+         W/K\" }\n\
+         [control]\nbase = { sense = \"body\", on_below = \"50 degC\", off_above = \"62 [degC] - 3 \
+         [K] * boost\" }\n\
+         boost = { sense = \"body\", on_below = \"45 [degC] + 6 [K] * base\", off_above = \"58.6 \
+         degC\", start = \"on\" }\n\
          [source]\nheat = { into = \"body\", P = \"240 [W] * base + 90 [W] * boost\" }\n",
     );
     let of_base = |on: &[bool]| (50.0, if on[1] { 59.0 } else { 62.0 });
@@ -259,9 +263,11 @@ fn two_controls_that_hang_on_each_other() {
 fn the_sensor_is_a_boundary_with_a_signal() {
     let text = body(
         "[param]\nT_0 = \"20 degC\"\n[signal]\nweather = { t = [\"0 s\", \"500 s\", \"1000 s\"], \
-         v = [\"0 degC\", \"20 degC\", \"0 degC\"] }\n[boundary.outside]\nT = \"weather\"\n[resistor]\n\
+         v = [\"0 degC\", \"20 degC\", \"0 degC\"] }\n[boundary.outside]\nT \
+         = \"weather\"\n[resistor]\n\
          skin = { from = \"body\", to = \"outside\", G = \"3 W/K + 1 [W/K] * 0\" }\n\
-         [control]\nheating = { sense = \"outside\", on_below = \"5 degC\", off_above = \"15 degC\" }\n\
+         [control]\nheating = { sense = \"outside\", on_below = \"5 degC\", off_above = \"15 \
+         degC\" }\n\
          [source]\nheat = { into = \"body\", P = \"200 [W] * heating\" }\n",
     )
     .replace("3 W/K + 1 [W/K] * 0", "3 W/K");
@@ -273,7 +279,8 @@ fn the_sensor_is_a_boundary_with_a_signal() {
 #[test]
 fn a_control_switches_a_stream() {
     let text = body(
-        "[param]\nT_0 = \"20 degC\"\n[boundary.inlet]\nT = \"30 degC\"\n[boundary.outlet]\nT = \"30 degC\"\n\
+        "[param]\nT_0 = \"20 degC\"\n[boundary.inlet]\nT = \"30 degC\"\n[boundary.outlet]\nT \
+         = \"30 degC\"\n\
          [resistor]\nskin = { from = \"body\", to = \"amb\", G = \"3 W/K\" }\n\
          [advection]\nfeed = { from = \"inlet\", to = \"body\", mcp = \"9 [W/K] * pump\" }\n\
          drain = { from = \"body\", to = \"outlet\", mcp = \"9 [W/K] * pump\" }\n\
@@ -295,7 +302,8 @@ fn a_control_switches_a_boundary() {
     let text = body(
         "[param]\nT_0 = \"60 degC\"\n[boundary.bath]\nT = \"80 [degC] - 70 [K] * chiller\"\n\
          [resistor]\nskin = { from = \"body\", to = \"bath\", G = \"3 W/K\" }\n\
-         [control]\nchiller = { sense = \"body\", on_above = \"65 degC\", off_below = \"50 degC\" }\n",
+         [control]\nchiller = { sense = \"body\", on_above = \"65 degC\", off_below = \"50 degC\" \
+         }\n",
     );
     let thresholds = |_: &[bool]| (65.0, 50.0);
     let control = Exact { name: "chiller", cooling: true, thresholds: &thresholds };
@@ -329,7 +337,8 @@ fn thresholds_can_be_set() {
         .exits(2)
         .says("network::thresholds_crossed");
     ran.says(
-        "`on_below` and `off_above` of control `heater` are crossed over: on at 58 degC, off at 57 degC",
+        "`on_below` and `off_above` of control `heater` are crossed over: on at 58 degC, off at 57 \
+         degC",
     );
 }
 
@@ -373,7 +382,8 @@ fn a_comparison_of_a_control_is_the_control() {
 
 #[test]
 fn a_control_inside_a_template_is_one_of_each_instance() {
-    let text = "format = 1\n[template.room]\nport = [\"out\"]\n[template.room.param]\nT_on = \"58 degC\"\n\
+    let text = "format = 1\n[template.room]\nport = [\"out\"]\n[template.room.param]\nT_on = \"58 \
+        degC\"\n\
                 [template.room.node]\nbody = { T0 = \"20 degC\", C = \"600 J/K\" }\n\
                 [template.room.resistor]\nskin = { from = \"body\", to = \"out\", G = \"3 W/K\" }\n\
                 [template.room.control]\nheater = { sense = \"body\", on_below = \"T_on\", \
@@ -381,7 +391,8 @@ fn a_control_inside_a_template_is_one_of_each_instance() {
                 [template.room.source]\nelement = { into = \"body\", P = \"240 [W] * heater\" }\n\
                 [boundary]\namb = { T = \"20 degC\" }\n\
                 [use.room]\ntemplate = \"room\"\ncount = 2\nconnect = { out = \"amb\" }\n\
-                set = { T_on = [\"58 degC\", \"38 degC\"] }\n[run]\nstop = \"300 s\"\ntolerance = \"1e-7 K\"\n\
+                set = { T_on = [\"58 degC\", \"38 degC\"] }\n[run]\nstop = \"300 s\"\ntolerance \
+                = \"1e-7 K\"\n\
                 [limit]\nidle = { of = \"room[2].heater\", below = 2 }\n";
     let found = switches(text, &[]);
     for (name, low) in [("room[1].heater", 58.0), ("room[2].heater", 38.0)] {

@@ -14,7 +14,8 @@ const THERMOSTAT: &str = include_str!("../../../networks/thermostat.toml");
 
 /// The same with a comparison in place of the control.
 fn chattering() -> String {
-    let control = "[control]\nheater = { sense = \"body\", on_below = \"58 degC\", off_above = \"62 degC\", \
+    let control = "[control]\nheater = { sense = \"body\", on_below = \"58 degC\", off_above \
+        = \"62 degC\", \
                    start = \"on\" }\n\n";
     assert!(THERMOSTAT.contains(control));
     THERMOSTAT.replace(control, "").replace("240 [W] * heater", "if(T < 50 [degC], 240 [W], 0 [W])")
@@ -144,12 +145,16 @@ fn compare_runs_networks_that_switch() {
 }
 
 /// A fan that has to hold 100 W at 70 degC: 2 W/K in all, once it is on.
-const FAN: &str = "format = 1\n[param]\nG_fan = \"1.5 W/K\"\n[node]\nbody = { T0 = \"20 degC\", C = \"600 J/K\" }\n\
+const FAN: &str = "format = 1\n[param]\nG_fan = \"1.5 W/K\"\n[node]\nbody = { T0 = \"20 degC\", C \
+    = \"600 J/K\" }\n\
                    [boundary]\namb = { T = \"20 degC\" }\n[resistor]\n\
-                   skin = { from = \"body\", to = \"amb\", G = \"1 [W/K] + G_fan * fan\" }\n[control]\n\
-                   fan = { sense = \"body\", on_above = \"80 degC\", off_below = \"50 degC\" }\n[source]\n\
+                   skin = { from = \"body\", to = \"amb\", G = \"1 [W/K] + G_fan * fan\" \
+                   }\n[control]\n\
+                   fan = { sense = \"body\", on_above = \"80 degC\", off_below = \"50 degC\" \
+                   }\n[source]\n\
                    heat = { into = \"body\", P = \"100 W\" }\n[size.fan]\nminimise = \"G_fan\"\n\
-                   vary = { G_fan = { from = \"0.1 W/K\", to = \"1.9 W/K\" } }\nrequire = [\"body.T <= 70 [degC]\"]\n\
+                   vary = { G_fan = { from = \"0.1 W/K\", to = \"1.9 W/K\" } }\nrequire = \
+                   [\"body.T <= 70 [degC]\"]\n\
                    [run]\nstop = \"1 h\"\n";
 
 #[test]

@@ -6,7 +6,8 @@ use common::{Folder, GEARBOX, Ran};
 
 const TWO_MASSES: &str = "format = 1\n[node]\nhot = { T0 = \"100 degC\", C = \"15 J/K\" }\n\
                           cold = { T0 = \"0 degC\", C = \"15 J/K\" }\n[resistor]\n\
-                          bar = { from = \"hot\", to = \"cold\", R = \"0.1 K/W\" }\n[run]\nstop = \"10 s\"\n";
+                          bar = { from = \"hot\", to = \"cold\", R = \"0.1 K/W\" }\n[run]\nstop \
+                          = \"10 s\"\n";
 
 fn with(from: &str, to: &str) -> Folder {
     assert!(GEARBOX.contains(from));

@@ -11,8 +11,10 @@ fn the_expansion_is_a_netlist_with_the_same_results() {
     let folder = Folder::with("stage.toml", STAGE);
     let flat = folder.run(&["check", "stage.toml", "--expand"]).exits(0);
     assert!(flat.err.is_empty(), "{}", flat.err);
-    let flat = flat
-        .prints("\"planet[2].gear\" = { material = \"steel_8620\", mass = \"planet[2].m\", T0 = \"T_amb\" }");
+    let flat = flat.prints(
+        "\"planet[2].gear\" = { material = \"steel_8620\", mass = \"planet[2].m\", T0 = \"T_amb\" \
+            }",
+    );
     std::fs::create_dir(folder.path().join("flat")).unwrap();
     folder.write("flat/stage.toml", &flat.out);
     let again = folder.run(&["check", "flat/stage.toml", "--expand"]).exits(0);

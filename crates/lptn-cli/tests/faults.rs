@@ -17,9 +17,11 @@ use sha2::{Digest as _, Sha256};
 /// A block of 100 J/K behind 1 K/W, heated with `power`; a run that writes more than it computes.
 fn block(power: &str, extra: &str) -> String {
     format!(
-        "format = 1\n[node]\nblock = {{ C = \"100 J/K\", T0 = \"20 degC\" }}\n[boundary]\nroom = {{ T = \"20 degC\" }}\n\
+        "format = 1\n[node]\nblock = {{ C = \"100 J/K\", T0 = \"20 degC\" }}\n[boundary]\nroom = \
+         {{ T = \"20 degC\" }}\n\
          [resistor]\nfoot = {{ from = \"block\", to = \"room\", R = \"1 K/W\" }}\n\
-         [source]\nloss = {{ into = \"block\", P = \"{power}\" }}\n[limit]\nhot = {{ of = \"block.T\", below = \"90 degC\" }}\n\
+         [source]\nloss = {{ into = \"block\", P = \"{power}\" }}\n[limit]\nhot = {{ of \
+         = \"block.T\", below = \"90 degC\" }}\n\
          [run]\nstop = \"1000 s\"\noutput = {{ every = \"0.2 s\" }}\n{extra}"
     )
 }
@@ -209,9 +211,9 @@ fn a_full_disk_does_not_break_a_chain_of_runs() {
         &block("10 W", "initial = \"out/state.json\"\n").replace("0.2 s", "10 s"),
     );
     let script = "mkdir disk; mount -t tmpfs -o size=200k tmpfs disk; cp *.toml disk; cd disk; \
-                  \"$0\" run first.toml -q -o out > /dev/null; cp -r out ../before; \
-                  \"$0\" run large.toml -q -o out > /dev/null || echo \"exit $?\"; diff -r out ../before && echo same; \
-                  \"$0\" run third.toml -q -o out > /dev/null; ls -A out";
+                  \"$0\" run first.toml -q -o out > /dev/null; cp -r out ../before; \"$0\" run \
+                  large.toml -q -o out > /dev/null || echo \"exit $?\"; diff -r out ../before && \
+                  echo same; \"$0\" run third.toml -q -o out > /dev/null; ls -A out";
     if let Some(out) = mounting(&folder, script) {
         assert_eq!(out, "exit 3\nsame\nevents.csv\nmanifest.json\nresult.csv\nstate.json\n");
     }
@@ -223,8 +225,8 @@ fn a_folder_for_reading_keeps_its_results() {
     let folder = Folder::with("block.toml", &block("10 W", ""));
     folder.run(&["run", "block.toml", "-q", "-o", "out"]).exits(0);
     let old = contents(&folder.path().join("out"));
-    let script = "mount --bind out out; mount -o remount,ro,bind out; \
-                  \"$0\" run block.toml -q -o out 2>&1 > /dev/null || echo \"exit $?\"";
+    let script = "mount --bind out out; mount -o remount,ro,bind out; \"$0\" run block.toml -q -o \
+                  out 2>&1 > /dev/null || echo \"exit $?\"";
     if let Some(out) = mounting(&folder, script) {
         assert!(out.contains("output::cannot_create") && out.ends_with("exit 2\n"), "{out}");
     }

@@ -19,9 +19,12 @@ fn record(rise: f64, tau: f64) -> String {
 
 fn netlist(param: &str, fit: &str) -> String {
     format!(
-        "format = 1\n\n[param]\n{param}\n\n[node]\nbody = {{ C = \"C\", T0 = \"25.5 degC\" }}\n\n[boundary]\n\
-         air = {{ T = \"25.5 degC\" }}\n\n[resistor]\nskin = {{ from = \"body\", to = \"air\", R = \"R\" }}\n\n\
-         [source]\nheat = {{ into = \"body\", P = \"P\" }}\n\n[fit.heating]\ndata = \"record.csv\"\n\
+        "format = 1\n\n[param]\n{param}\n\n[node]\nbody = {{ C = \"C\", T0 = \"25.5 degC\" \
+         }}\n\n[boundary]\n\
+         air = {{ T = \"25.5 degC\" }}\n\n[resistor]\nskin = {{ from = \"body\", to = \"air\", R \
+         = \"R\" }}\n\n\
+         [source]\nheat = {{ into = \"body\", P = \"P\" }}\n\n[fit.heating]\ndata \
+         = \"record.csv\"\n\
          column = {{ ring = \"body.T\" }}\n{fit}\n"
     )
 }
@@ -47,7 +50,8 @@ fn what_a_record_cannot_tell_is_said_in_words() {
     let folder = folder(OWN, "vary = [\"P\", \"R\", \"C\"]");
     let run = folder.run(&["fit", "network", "body.toml"]).exits(1);
     let text = run.out.replace('\n', " ");
-    let told = "only P R and R C are determined (here 67.2 K and 810 s); fix one, for example give C a prior with `±`";
+    let told = "only P R and R C are determined (here 67.2 K and 810 s); fix one, for example give \
+        C a prior with `±`";
     assert!(text.contains(told), "{text}");
     assert!(run.out.lines().all(|line| line.chars().count() <= 80), "{}", run.out);
     let json = folder.run(&["fit", "network", "body.toml", "--format", "json"]).exits(1).json();

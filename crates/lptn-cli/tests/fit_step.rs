@@ -230,7 +230,8 @@ fn what_has_no_time_constant_ends_with_3_and_prints_no_number() {
 fn analytic_the_bias_of_a_model_stands_apart() {
     let folder = exact();
     let one = "format = 1\n[node]\nblock = { T0 = \"25.5 degC\", C = \"2659 J/K\" }\n[boundary]\n\
-               air = { T = \"25.5 degC\" }\n[resistor]\nskin = { from = \"block\", to = \"air\", R = \"0.3 K/W\" }\n\
+               air = { T = \"25.5 degC\" }\n[resistor]\nskin = { from = \"block\", to = \"air\", R \
+               = \"0.3 K/W\" }\n\
                [source]\nP = { into = \"block\", P = \"220 W\" }\n";
     folder.write("one.toml", one);
     folder.write("gearbox.toml", GEARBOX);

@@ -7,9 +7,12 @@ use common::{Folder, Ran, csv};
 /// 0.1 kg of wax from 60 degC, 2 kJ/(kg K) and 200 kJ/kg, through 1 K/W to 20 degC.
 fn wax(solidus: &str, liquidus: &str) -> String {
     format!(
-        "format = 1\n[material]\nwax = {{ cp = \"2 kJ/(kg K)\", solidus = \"{solidus}\", liquidus = \"{liquidus}\", \
-         latent_heat = \"200 kJ/kg\" }}\n[node]\nw = {{ material = \"wax\", mass = \"0.1 kg\", T0 = \"60 degC\" }}\n\
-         [boundary]\nroom = {{ T = \"20 degC\" }}\n[resistor]\nr = {{ from = \"w\", to = \"room\", R = \"1 K/W\" }}\n\
+        "format = 1\n[material]\nwax = {{ cp = \"2 kJ/(kg K)\", solidus = \"{solidus}\", liquidus \
+         = \"{liquidus}\", \
+         latent_heat = \"200 kJ/kg\" }}\n[node]\nw = {{ material = \"wax\", mass = \"0.1 kg\", T0 \
+         = \"60 degC\" }}\n\
+         [boundary]\nroom = {{ T = \"20 degC\" }}\n[resistor]\nr = {{ from = \"w\", to = \"room\", \
+         R = \"1 K/W\" }}\n\
          [run]\nstop = \"1500 s\"\noutput = {{ every = \"50 s\" }}\n"
     )
 }
@@ -96,7 +99,8 @@ fn a_narrow_peak_of_a_capacity_is_not_lost() {
     ];
     for (at, width, right) in cases {
         let text = format!(
-            "format = 1\n[material]\npcm = {{ cp = \"{}\" }}\n[node]\nw = {{ material = \"pcm\", mass = \"0.1 kg\", \
+            "format = 1\n[material]\npcm = {{ cp = \"{}\" }}\n[node]\nw = {{ material = \"pcm\", \
+             mass = \"0.1 kg\", \
              T0 = \"20 degC\" }}\n[boundary]\nb = {{ T = \"90 degC\" }}\n[resistor]\n\
              r = {{ from = \"w\", to = \"b\", R = \"1 K/W\" }}\n[run]\nstop = \"500 s\"\n",
             peak(at, width)
@@ -115,9 +119,11 @@ fn a_narrow_peak_of_a_capacity_is_not_lost() {
 fn a_narrow_peak_of_the_specific_heat_of_a_stream_is_not_lost() {
     for width in [0.3, 0.05, 0.001] {
         let text = format!(
-            "format = 1\n[fluid]\nslurry = {{ cp = \"{}\" }}\n[node]\na = {{ C = \"100 J/K\", T0 = \"20 degC\" }}\n\
+            "format = 1\n[fluid]\nslurry = {{ cp = \"{}\" }}\n[node]\na = {{ C = \"100 J/K\", T0 \
+             = \"20 degC\" }}\n\
              [boundary]\nhot = {{ T = \"90 degC\" }}\ncold = {{ T = \"20 degC\" }}\n[resistor]\n\
-             r = {{ from = \"a\", to = \"cold\", R = \"0.00666666666666666667 K/W\" }}\n[advection]\n\
+             r = {{ from = \"a\", to = \"cold\", R = \"0.00666666666666666667 K/W\" \
+             }}\n[advection]\n\
              feed = {{ from = \"hot\", to = \"a\", fluid = \"slurry\", flow = \"0.01 kg/s\" }}\n\
              drain = {{ from = \"a\", to = \"cold\", fluid = \"slurry\", flow = \"0.01 kg/s\" }}\n",
             peak(61.3137, width)
@@ -142,11 +148,15 @@ fn a_capacity_that_changes_too_quickly_is_refused() {
 }
 
 /// A block that 150 W heat, with a resistance and the temperature of the room as parameters.
-const BLOCK: &str = "format = 1\n[param]\nT_room = \"25 degC\"\nR_skin = \"0.3 K/W\"\nc = \"475 J/(kg K)\"\n\
+const BLOCK: &str = "format = 1\n[param]\nT_room = \"25 degC\"\nR_skin = \"0.3 K/W\"\nc = \"475 \
+    J/(kg K)\"\n\
     [material.steel]\ncp = \"c + 0 [J/(kg K^2)] * (T - 20 [degC])\"\n[node]\n\
-    block = { material = \"steel\", mass = \"1.2 kg\", T0 = \"25 degC\" }\nrim = { massless = true }\n\
-    [boundary]\nroom = { T = \"T_room\" }\n[resistor]\nweb = { from = \"block\", to = \"rim\", R = \"7 mK/W\" }\n\
-    skin = { from = \"rim\", to = \"room\", R = \"R_skin\" }\n[source]\nP = { into = \"block\", P = \"150 W\" }\n\
+    block = { material = \"steel\", mass = \"1.2 kg\", T0 = \"25 degC\" }\nrim = { massless = true \
+    }\n\
+    [boundary]\nroom = { T = \"T_room\" }\n[resistor]\nweb = { from = \"block\", to = \"rim\", R \
+    = \"7 mK/W\" }\n\
+    skin = { from = \"rim\", to = \"room\", R = \"R_skin\" }\n[source]\nP = { into = \"block\", P \
+    = \"150 W\" }\n\
     [limit]\nhot = { of = \"block.T\", below = \"110 degC\" }\n[run]\nstop = \"25 min\"\n";
 
 fn block(arguments: &[&str]) -> Ran {
@@ -186,12 +196,15 @@ fn a_bound_in_kelvin_for_an_absolute_temperature_is_refused() {
 /// What a parameter is sought between has the type of the parameter, which is not that of a field.
 #[test]
 fn other_values_of_a_parameter_follow_the_rule_too() {
-    let size = "[size.s]\nminimise = \"T_room\"\nvary = { T_room = { from = \"280 K\", to = \"300 degC\" } }\n\
+    let size = "[size.s]\nminimise = \"T_room\"\nvary = { T_room = { from = \"280 K\", to = \"300 \
+        degC\" } }\n\
         require = [\"block.T < 90 [degC]\"]\n";
     let folder = Folder::with("x.toml", &format!("{BLOCK}{size}"));
     folder.run(&["check", "x.toml"]).exits(1).prints("\"absolute(280 [K])\"` if kelvin is meant");
-    let template = "format = 1\n[template.part]\nparam = { T_air = \"25 degC\" }\n[template.part.node]\n\
-        a = { C = \"10 J/K\", T0 = \"20 degC\" }\n[template.part.boundary]\nair = { T = \"T_air\" }\n\
+    let template = "format = 1\n[template.part]\nparam = { T_air = \"25 degC\" \
+        }\n[template.part.node]\n\
+        a = { C = \"10 J/K\", T0 = \"20 degC\" }\n[template.part.boundary]\nair = { T = \"T_air\" \
+        }\n\
         [template.part.resistor]\nr = { from = \"a\", to = \"air\", R = \"1 K/W\" }\n[use.one]\n\
         template = \"part\"\nset = { T_air = \"25 K\" }\n";
     let ran = Folder::with("x.toml", template).run(&["check", "x.toml"]).exits(1);

@@ -4,8 +4,10 @@ mod common;
 
 use common::{Folder, csv};
 
-const NETLIST: &str = "format = 1\n[import]\nnodes = \"n.csv\"\nconductors = \"c.csv\"\nsources = \"s.csv\"\n\
-                       [node]\nhousing = { C = \"1 kJ/K\", T0 = \"20 degC\" }\n[boundary]\nair = { T = \"20 degC\" }\n\
+const NETLIST: &str = "format = 1\n[import]\nnodes = \"n.csv\"\nconductors = \"c.csv\"\nsources \
+    = \"s.csv\"\n\
+                       [node]\nhousing = { C = \"1 kJ/K\", T0 = \"20 degC\" }\n[boundary]\nair = { \
+                       T = \"20 degC\" }\n\
                        [resistor]\nskin = { from = \"housing\", to = \"air\", R = \"0.5 K/W\" }\n\
                        [run]\nstop = \"1 h\"\n";
 

@@ -68,7 +68,8 @@ fn candidates_that_were_not_begun_are_missing_too() {
 fn long_fit() -> Folder {
     let text = GEARBOX.replace("P = \"P_7000\"", "P = \"P_7000 * (1 + 0.5 * sin(t / 10 [s]))\"");
     let fit = "[fit.heating]\ndata = \"record.csv\"\ncolumn = { ring = \"steel.T\" }\n\
-               vary = { bed_share = { from = 0.1, to = 0.9 }, T_amb = { from = \"0 degC\", to = \"50 degC\" } }\n";
+               vary = { bed_share = { from = 0.1, to = 0.9 }, T_amb = { from = \"0 degC\", to \
+               = \"50 degC\" } }\n";
     let folder = Folder::with("gearbox.toml", &format!("{text}\n{fit}"));
     let rows: String =
         (0..150).map(|i| format!("{},{}\n", 10 * i, 25.0 + 0.4 * f64::from(i))).collect();

@@ -5,8 +5,10 @@ mod common;
 use common::Folder;
 
 /// C = 100 J/K, R = 0.5 K/W, P = 100 W: 50 K above 20 degC, tau = 50 s.
-const NET: &str = "format = 1\n[param]\nT_max = \"60 degC\"\n[node]\na = { T0 = \"20 degC\", C = \"100 J/K\" }\n\
-                   [boundary]\nair = { T = \"20 degC\" }\n[resistor]\nr = { from = \"a\", to = \"air\", R = \"0.5 K/W\" }\n\
+const NET: &str = "format = 1\n[param]\nT_max = \"60 degC\"\n[node]\na = { T0 = \"20 degC\", C \
+    = \"100 J/K\" }\n\
+                   [boundary]\nair = { T = \"20 degC\" }\n[resistor]\nr = { from = \"a\", to \
+                   = \"air\", R = \"0.5 K/W\" }\n\
                    [source]\np = { into = \"a\", P = \"100 W\" }\n[run]\nstop = \"1000 s\"\n\
                    [limit]\nhot = { of = \"a.T\", below = \"T_max\" }\n\
                    warm = { of = \"a.T - air.T\", below = \"45 K\", severity = \"warning\" }\n";

@@ -120,7 +120,8 @@ fn a_new_netlist_runs_and_settles_where_it_must() {
 fn a_peak_between_start_and_stop_is_found() {
     // heat for 600 s only: T = 25 + 0.3 K/W x 100 W (1 - exp(-t/150 s)) up to there, the peak
     let text = "format = 1\n[node]\nblock = { T0 = \"25 degC\", C = \"500 J/K\" }\n[boundary]\n\
-                air = { T = \"25 degC\" }\n[resistor]\ncooling = { from = \"block\", to = \"air\", R = \"0.3 K/W\" }\n\
+                air = { T = \"25 degC\" }\n[resistor]\ncooling = { from = \"block\", to = \"air\", \
+                R = \"0.3 K/W\" }\n\
                 [source]\nloss = { into = \"block\", P = \"if(t < 600 [s], 100 [W], 0 [W])\" }\n\
                 [run]\nstop = \"20 min\"\noutput = { every = \"7 min\" }\n";
     let ran = Folder::with("block.toml", text).run(&["run", "block.toml"]).exits(0);
@@ -148,7 +149,8 @@ fn the_selection_of_a_run_does_not_narrow_the_steady_state() {
 fn a_network_without_state_shows_its_highest_row() {
     // a junction halfway between 0 degC and 100 degC + 50 K sin(2 pi t / 60 s): 50 degC, and 75
     // degC at 15 s
-    let text = "format = 1\n[node]\nmiddle = { massless = true }\n[boundary]\ncold = { T = \"0 degC\" }\n\
+    let text = "format = 1\n[node]\nmiddle = { massless = true }\n[boundary]\ncold = { T = \"0 \
+        degC\" }\n\
                 hot = { T = \"100 [degC] + 50 [K] * sin(2 * pi * t / 60 [s])\" }\n[resistor]\n\
                 a = { from = \"hot\", to = \"middle\", R = \"1 K/W\" }\n\
                 b = { from = \"middle\", to = \"cold\", R = \"1 K/W\" }\n\

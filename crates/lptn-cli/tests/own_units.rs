@@ -11,15 +11,18 @@ const MAP: &str =
 
 fn motor(last: &str) -> Folder {
     let text = format!(
-        "format = 1\n[table]\nmap = {{ csv = \"map.csv\", x = \"speed\", y = \"torque\", value = \"loss\" }}\n[signal]\n\
+        "format = 1\n[table]\nmap = {{ csv = \"map.csv\", x = \"speed\", y = \"torque\", value \
+         = \"loss\" }}\n[signal]\n\
          n = {{ t = [\"0 s\", \"2 min\"], v = [\"1000 rpm\", \"{last}\"] }}\n\
          torque = {{ t = [0, 2], v = [10, 20], t_unit = \"min\", v_unit = \"N m\" }}\n\
-         duty = {{ t = [0, 2], v = [0.5, 1], t_unit = \"min\" }}\nday = {{ t = [0, 2], v = [20, 30], t_unit = \"min\", v_unit = \"degC\" }}\n\
+         duty = {{ t = [0, 2], v = [0.5, 1], t_unit = \"min\" }}\nday = {{ t = [0, 2], v = [20, \
+         30], t_unit = \"min\", v_unit = \"degC\" }}\n\
          twice = \"2 * n\"\n[boundary]\nair = {{ T = \"day\" }}\n\
          [node]\ncore = {{ C = \"640 J/K\", T0 = \"60 degC\" }}\n\
          [resistor]\nskin = {{ from = \"core\", to = \"air\", R = \"1 K/W\" }}\n\
          [source]\nq = {{ into = \"core\", P = \"duty * map(n, torque)\" }}\n\
-         [run]\nstop = \"2 min\"\noutput = {{ every = \"1 min\" }}\nwindow = {{ end = {{ from = \"1 min\", to = \"2 min\" }} }}\n"
+         [run]\nstop = \"2 min\"\noutput = {{ every = \"1 min\" }}\nwindow = {{ end = {{ from \
+         = \"1 min\", to = \"2 min\" }} }}\n"
     );
     let folder = Folder::with("motor.toml", &text);
     folder.write("map.csv", MAP);

@@ -92,7 +92,8 @@ fn what_is_no_cycle_is_refused() {
     refused(&constant, &[], "periodic::no_period", 2);
     let sine = DUTY.replace("P = \"duty\"", "P = \"220 [W] * sin(2 * pi * t / 600 [s])^2\"");
     refused(&sine, &[], "periodic::no_period", 2);
-    let other = "other = { t = [\"0 s\", \"1 s\"], v = [1, 2], after_end = \"repeat\", period = \"31.4159265 s\" }";
+    let other = "other = { t = [\"0 s\", \"1 s\"], v = [1, 2], after_end = \"repeat\", period = \
+        \"31.4159265 s\" }";
     let two = DUTY
         .replace("[node]", &format!("{other}\n\n[node]"))
         .replace("P = \"duty\"", "P = \"duty * other\"");

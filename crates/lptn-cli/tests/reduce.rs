@@ -80,7 +80,8 @@ fn csv_has_a_row_a_definition() {
         folder.run(&["reduce", "gearbox.toml", "--port", "steel", "--format", format]).exits(0)
     };
     let ran = reduce("csv");
-    let header = "definition,recommended,R_eq [K/W],C_eq [J/K],tau [s],step.max [K],step.relative [-],step.time [s],\
+    let header = "definition,recommended,R_eq [K/W],C_eq [J/K],tau [s],step.max [K],step.relative \
+        [-],step.time [s],\
                   run.max [K],run.relative [-],run.time [s]";
     assert_eq!(ran.out.lines().next(), Some(header));
     let (rows, json) = (rows(&ran.out), reduce("json").json());

@@ -75,7 +75,8 @@ fn failures_at_a_node_show_its_line() {
 fn a_steady_state_at_rest_is_shown_as_zeros() {
     let text = "format = 1\n[node]\nstill = { C = \"800 J/K\", T0 = \"100 degC\" }\n\
                 [boundary]\nroom = { T = \"20 degC\" }\n[convection]\n\
-                wall = { from = \"still\", to = \"room\", h = \"2 [W/(m^2 K)] * (abs(dT) / 1 [K])^(1/4)\", \
+                wall = { from = \"still\", to = \"room\", h = \"2 [W/(m^2 K)] * (abs(dT) / 1 \
+                [K])^(1/4)\", \
                 area = \"0.1 m^2\" }\n";
     let ran = Folder::with("still.toml", text).run(&["steady", "still.toml"]).exits(0);
     assert!(ran.out.contains("Q [W]") && !ran.out.contains("00000"), "{}", ran.out);
@@ -86,7 +87,8 @@ fn a_steady_state_at_rest_is_shown_as_zeros() {
 #[test]
 fn a_run_at_rest_shows_no_noise() {
     let text = "format = 1\n[node]\ncell = { C = \"100 J/K\", T0 = \"30 degC\" }\n[boundary]\n\
-                air = { T = \"20 degC\" }\n[resistor]\nskin = { from = \"cell\", to = \"air\", G = \"1 W/K\" }\n\
+                air = { T = \"20 degC\" }\n[resistor]\nskin = { from = \"cell\", to = \"air\", G \
+                = \"1 W/K\" }\n\
                 [source]\nheat = { into = \"cell\", P = \"9.99999 W\" }\n[run]\nstop = \"1 min\"\n";
     let folder = Folder::with("cell.toml", text);
     folder.run(&["run", "cell.toml"]).exits(0).prints("cell       30.0  30.0  30.0");
@@ -97,7 +99,8 @@ fn a_run_at_rest_shows_no_noise() {
 #[test]
 fn the_heat_of_streams_is_one_sum() {
     let text = "format = 1\n[node]\nsump = { C = \"100 J/K\", T0 = \"20 degC\" }\n[boundary]\n\
-                tank = { T = \"20 degC\" }\n[advection]\nfeed = { from = \"tank\", to = \"sump\", mcp = \"5 W/K\" }\n\
+                tank = { T = \"20 degC\" }\n[advection]\nfeed = { from = \"tank\", to = \"sump\", \
+                mcp = \"5 W/K\" }\n\
                 drain = { from = \"sump\", to = \"tank\", mcp = \"5 W/K\" }\n\
                 [source]\nheat = { into = \"sump\", P = \"100 W\" }\n[run]\nstop = \"10 min\"\n";
     let folder = Folder::with("oil.toml", text);
@@ -118,7 +121,8 @@ fn a_report_without_a_value_is_a_warning() {
 }
 
 /// A pipe across a room: boundaries alone.
-const PIPE: &str = "format = 1\n[boundary]\npipe = { T = \"200 degC\" }\nroom = { T = \"25 degC\" }\n\
+const PIPE: &str = "format = 1\n[boundary]\npipe = { T = \"200 degC\" }\nroom = { T = \"25 degC\" \
+    }\n\
     [resistor]\nwall = { from = \"pipe\", to = \"room\", R = \"0.5 K/W\" }\n\
     [limit]\nloss = { of = \"wall.Q\", below = \"400 W\" }\n";
 
@@ -167,8 +171,10 @@ fn a_network_without_nodes_is_compared_by_what_it_has() {
 /// A block at `at` degC behind a path whose conductance has no value there.
 fn undefined(conductance: &str, at: f64) -> String {
     format!(
-        "format = 1\n[table]\nfilm = {{ x = [\"20 degC\", \"80 degC\"], y = [\"4 W/K\", \"9 W/K\"] }}\n\
-         [node]\nblock = {{ C = \"100 J/K\", T0 = \"{at} degC\" }}\ncore = {{ C = \"100 J/K\", T0 = \"{at} degC\" }}\n\
+        "format = 1\n[table]\nfilm = {{ x = [\"20 degC\", \"80 degC\"], y = [\"4 W/K\", \"9 W/K\"] \
+         }}\n\
+         [node]\nblock = {{ C = \"100 J/K\", T0 = \"{at} degC\" }}\ncore = {{ C = \"100 J/K\", T0 \
+         = \"{at} degC\" }}\n\
          [boundary]\nroom = {{ T = \"20 degC\" }}\n\
          [resistor]\ngap = {{ from = \"block\", to = \"room\", G = \"{conductance}\" }}\n\
          foot = {{ from = \"core\", to = \"block\", R = \"1 K/W\" }}\n[run]\nstop = \"15 min\"\n"
@@ -217,9 +223,12 @@ fn a_run_that_fails_at_its_first_instant_has_no_rows() {
 fn an_extreme_that_lasts_is_where_it_begins() {
     let text = |air: &str| {
         format!(
-            "format = 1\n[boundary]\nair = {{ T = \"{air}\" }}\nwall = {{ T = \"20 degC\" }}\n[node]\n\
-             core = {{ C = \"100 J/K\", T0 = \"20 degC\" }}\nskin = {{ massless = true }}\n[resistor]\n\
-             foot = {{ from = \"core\", to = \"air\", R = \"1 K/W\" }}\nin = {{ from = \"air\", to = \"skin\", R = \"1 K/W\" }}\n\
+            "format = 1\n[boundary]\nair = {{ T = \"{air}\" }}\nwall = {{ T = \"20 degC\" \
+             }}\n[node]\n\
+             core = {{ C = \"100 J/K\", T0 = \"20 degC\" }}\nskin = {{ massless = true \
+             }}\n[resistor]\n\
+             foot = {{ from = \"core\", to = \"air\", R = \"1 K/W\" }}\nin = {{ from = \"air\", to \
+             = \"skin\", R = \"1 K/W\" }}\n\
              out = {{ from = \"skin\", to = \"wall\", R = \"1 K/W\" }}\n[run]\nstop = \"2 min\"\n\
              window = {{ all = {{ from = \"10 s\", to = \"100 s\" }} }}\n"
         )
@@ -269,8 +278,10 @@ fn a_long_signal_takes_little_more_memory_than_its_numbers() {
     let rows = 1_500_000;
     let mut csv = String::from("t [s],P [W]\n");
     (0..rows).for_each(|i| csv.push_str(&format!("{i}.5,{}.25\n", i % 977)));
-    let text = "format = 1\n[signal]\nf = { csv = \"long.csv\", time = \"t\", value = \"P\" }\n[node]\n\
-                block = { C = \"100 J/K\", T0 = \"20 degC\" }\n[source]\nheat = { into = \"block\", P = \"f\" }\n\
+    let text = "format = 1\n[signal]\nf = { csv = \"long.csv\", time = \"t\", value = \"P\" \
+        }\n[node]\n\
+                block = { C = \"100 J/K\", T0 = \"20 degC\" }\n[source]\nheat = { into \
+                = \"block\", P = \"f\" }\n\
                 [boundary]\nroom = { T = \"20 degC\" }\n[resistor]\n\
                 foot = { from = \"block\", to = \"room\", R = \"1 K/W\" }\n";
     let folder = Folder::with("long.toml", text);

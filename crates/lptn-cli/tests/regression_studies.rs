@@ -9,8 +9,10 @@ use common::Folder;
 /// A block at T = 20 degC + P R, with `[size.x]` for its conductance; parts in braces are replaced.
 fn block(power: &str, more: &str) -> String {
     format!(
-        "format = 1\n[param]\np = \"1 W/K\"\nq = \"1 K\"\n[node]\na = {{ C = \"100 J/K\", T0 = \"20 degC\" }}\n\
-         [boundary]\namb = {{ T = \"20 degC\" }}\n[resistor]\nr = {{ from = \"a\", to = \"amb\", G = \"p\" }}\n\
+        "format = 1\n[param]\np = \"1 W/K\"\nq = \"1 K\"\n[node]\na = {{ C = \"100 J/K\", T0 \
+         = \"20 degC\" }}\n\
+         [boundary]\namb = {{ T = \"20 degC\" }}\n[resistor]\nr = {{ from = \"a\", to = \"amb\", G \
+         = \"p\" }}\n\
          [source]\ns = {{ into = \"a\", P = \"{power}\" }}\n{more}\n"
     )
 }
@@ -26,7 +28,8 @@ fn warns(json: &serde_json::Value, code: &str) -> bool {
 }
 
 /// A load that changes with time in three ways, in place of the power of [`block`].
-const CYCLE: &str = "[signal]\nload = { t = [0, 60, 120], v = [0, 100, 0], t_unit = \"s\", v_unit = \"W\", \
+const CYCLE: &str = "[signal]\nload = { t = [0, 60, 120], v = [0, 100, 0], t_unit = \"s\", v_unit \
+    = \"W\", \
      after_end = \"repeat\" }\n";
 
 /// Sizing took the load at the start of its cycle, 0 W, and found that no cooling at all keeps 40
@@ -60,8 +63,10 @@ fn sizing_takes_inputs_that_do_not_matter_as_they_are() {
     let study = sized("{ from = \"1 W/K\", to = \"10 W/K\" }");
     // another block behind the boundary, a signal of one value, a signal that nothing uses, a
     // constant expression
-    let other = "one = { t = [0, 1], v = [50, 50], t_unit = \"s\", v_unit = \"W\", after_end = \"hold\" }\nhalf = \"one * 2\"\n\
-         [node.b]\nC = \"100 J/K\"\nT0 = \"20 degC\"\n[resistor.rb]\nfrom = \"b\"\nto = \"amb\"\nR = \"1 K/W\"\n\
+    let other = "one = { t = [0, 1], v = [50, 50], t_unit = \"s\", v_unit = \"W\", after_end \
+        = \"hold\" }\nhalf = \"one * 2\"\n\
+         [node.b]\nC = \"100 J/K\"\nT0 = \"20 degC\"\n[resistor.rb]\nfrom = \"b\"\nto = \"amb\"\nR \
+         = \"1 K/W\"\n\
          [source.sb]\ninto = \"b\"\nP = \"load\"\n";
     let folder = Folder::with("a.toml", &block("half", &(CYCLE.to_owned() + other + &study)));
     let ran = folder.run(&["size", "a.toml"]).exits(0).prints("p = 5 W/K keeps every requirement");
@@ -76,7 +81,8 @@ fn sizing_takes_inputs_that_do_not_matter_as_they_are() {
 /// called them kept.
 #[test]
 fn a_steady_state_of_changing_inputs_judges_no_limit_and_names_the_cycle() {
-    let limits = "[limit]\nhot = { of = \"a.T\", below = \"40 degC\" }\nair = { of = \"amb.T\", below = \"30 degC\" }\n";
+    let limits = "[limit]\nhot = { of = \"a.T\", below = \"40 degC\" }\nair = { of = \"amb.T\", \
+        below = \"30 degC\" }\n";
     let folder = Folder::with("a.toml", &block("load", &(CYCLE.to_owned() + limits)));
     let ran = folder.run(&["steady", "a.toml"]).exits(0).prints("not judged");
     let joined = ran.out.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -271,9 +277,12 @@ fn a_folder_is_not_offered_in_place_of_itself() {
 #[test]
 fn long_names_keep_tables_within_80_columns() {
     let long = |letter: &str| letter.repeat(60);
-    let text = "format = 1\n[param]\np = \"1 W/K\"\n[node]\nNODE = { C = \"100 J/K\", T0 = \"20 degC\" }\n\
-        [boundary]\namb = { T = \"20 degC\" }\n[resistor]\nr = { from = \"NODE\", to = \"amb\", G = \"p\" }\n\
-        [source]\ns = { into = \"NODE\", P = \"50 W\" }\n[limit]\nLIMIT = { of = \"NODE.T\", below = \"100 degC\" }\n\
+    let text = "format = 1\n[param]\np = \"1 W/K\"\n[node]\nNODE = { C = \"100 J/K\", T0 = \"20 \
+        degC\" }\n\
+        [boundary]\namb = { T = \"20 degC\" }\n[resistor]\nr = { from = \"NODE\", to = \"amb\", G \
+        = \"p\" }\n\
+        [source]\ns = { into = \"NODE\", P = \"50 W\" }\n[limit]\nLIMIT = { of = \"NODE.T\", below \
+        = \"100 degC\" }\n\
         [size.SIZE]\nminimise = \"p\"\nvary = { p = { from = \"0.1 W/K\", to = \"10 W/K\" } }\n\
         require = [\"NODE.T <= 90 [degC]\"]\n[run]\nstop = \"10 min\"\n";
     let text =
@@ -393,9 +402,12 @@ fn a_limit_that_is_reached_and_not_passed_is_kept_by_every_verb() {
 /// 5.7e-14 K.
 #[test]
 fn rounding_breaks_no_limit() {
-    let text = "format = 1\n[node]\na = { massless = true }\nb = { massless = true }\n[boundary]\namb = { T = \"20 degC\" }\n\
-        [resistor]\nr = { from = \"a\", to = \"b\", R = \"1.3 K/W\" }\nq = { from = \"b\", to = \"amb\", R = \"0.1 K/W\" }\n\
-        [source]\ns = { into = \"a\", P = \"33 W\" }\n[limit]\nhot = { of = \"a.T\", below = \"66.2 degC\" }\n";
+    let text = "format = 1\n[node]\na = { massless = true }\nb = { massless = true \
+        }\n[boundary]\namb = { T = \"20 degC\" }\n\
+        [resistor]\nr = { from = \"a\", to = \"b\", R = \"1.3 K/W\" }\nq = { from = \"b\", to \
+        = \"amb\", R = \"0.1 K/W\" }\n\
+        [source]\ns = { into = \"a\", P = \"33 W\" }\n[limit]\nhot = { of = \"a.T\", below \
+        = \"66.2 degC\" }\n";
     let folder = Folder::with("a.toml", text);
     folder.run(&["steady", "a.toml"]).exits(0);
     folder.run(&["compare", "a.toml"]).exits(0);

@@ -30,16 +30,20 @@ fn grids_of_templates_have_faces() {
     let paths = "joint = { from = \"HUB\", to = \"GRID.x0\", h = \"800 W/(m^2 K)\" }";
     let film =
         "film = { from = \"GRID.x1\", to = \"air\", h = \"(20 + 180 * FAN) * 1 [W/(m^2 K)]\" }";
-    let heat = "heat = { into = \"GRID\", P = \"5 W\" }\nface = { into = { \"GRID.y0\" = 0.75, \"GRID.y1\" = 0.25 }, P = \"4 W\" }";
+    let heat = "heat = { into = \"GRID\", P = \"5 W\" }\nface = { into = { \"GRID.y0\" = \
+        0.75, \"GRID.y1\" = 0.25 }, P = \"4 W\" }";
     let fan = "FAN = { sense = \"HUB\", on_above = \"30 degC\", off_below = \"25 degC\" }";
-    let around = "[boundary]\nair = { T = \"20 degC\" }\n[node]\nhub = { C = \"50 J/K\", T0 = \"20 degC\" }\n\
+    let around = "[boundary]\nair = { T = \"20 degC\" }\n[node]\nhub = { C = \"50 J/K\", T0 = \"20 \
+        degC\" }\n\
                   [source]\ndrive = { into = \"hub\", P = \"40 W\" }\n";
     let run = "[run]\nstop = \"10 min\"\n";
     let inside =
         |text: &str| text.replace("GRID", "plate").replace("HUB", "left").replace("FAN", "fan");
     let template = format!(
-        "format = 1\n{around}[grid.plate]\n{PLATE}[convection]\nother = {{ from = \"plate.x1\", to = \"air\", \
-         h = \"1 W/(m^2 K)\" }}\n[template.slab]\nport = [\"left\", \"air\"]\n[template.slab.grid.plate]\n{PLATE}\
+        "format = 1\n{around}[grid.plate]\n{PLATE}[convection]\nother = {{ from = \"plate.x1\", to \
+         = \"air\", \
+         h = \"1 W/(m^2 K)\" }}\n[template.slab]\nport = \
+         [\"left\", \"air\"]\n[template.slab.grid.plate]\n{PLATE}\
          [template.slab.contact]\n{}\n[template.slab.convection]\n{}\n[template.slab.source]\n{}\n\
          [template.slab.control]\n{}\n[use.s]\ntemplate = \"slab\"\ncount = 2\n\
          connect = {{ left = \"hub\", air = \"air\" }}\n{run}",
@@ -78,8 +82,10 @@ fn grids_of_templates_have_faces() {
 #[test]
 fn templates_do_not_reach_faces_outside() {
     let text = format!(
-        "format = 1\n[boundary]\nair = {{ T = \"20 degC\" }}\n[grid.plate]\n{PLATE}[template.skin]\nport = [\"amb\"]\n\
-         [template.skin.convection]\nfilm = {{ from = \"plate.x1\", to = \"amb\", h = \"5 W/(m^2 K)\" }}\n\
+        "format = 1\n[boundary]\nair = {{ T = \"20 degC\" \
+         }}\n[grid.plate]\n{PLATE}[template.skin]\nport = [\"amb\"]\n\
+         [template.skin.convection]\nfilm = {{ from = \"plate.x1\", to = \"amb\", h = \"5 W/(m^2 \
+         K)\" }}\n\
          [use.s]\ntemplate = \"skin\"\nconnect = {{ amb = \"air\" }}\n[run]\nstop = \"1 s\"\n"
     );
     Folder::with("skin.toml", &text)
@@ -108,7 +114,8 @@ fn imported_nodes_and_grids_go_on_from_a_state() {
     let text = |run: &str| {
         format!(
             "format = 1\n[import]\nnodes = \"nodes.csv\"\n[boundary]\nair = {{ T = \"20 degC\" }}\n\
-             [grid.plate]\n{PLATE}[convection]\nfilm = {{ from = \"plate.x0\", to = \"air\", h = \"10 W/(m^2 K)\" }}\n\
+             [grid.plate]\n{PLATE}[convection]\nfilm = {{ from = \"plate.x0\", to = \"air\", h \
+             = \"10 W/(m^2 K)\" }}\n\
              [resistor]\na = {{ from = \"n1\", to = \"n2\", R = \"0.5 K/W\" }}\n\
              b = {{ from = \"n2\", to = \"plate[2,2]\", R = \"1 K/W\" }}\n\
              [source]\nheat = {{ into = \"n1\", P = \"30 W\" }}\n[run]\n{run}\n"
@@ -138,14 +145,16 @@ fn imported_nodes_and_grids_go_on_from_a_state() {
 fn expansions_are_the_same_network_or_refused() {
     let grid = format!(
         "format = 1\n[boundary]\nair = {{ T = \"20 degC\" }}\n[grid.plate]\n{PLATE}[convection]\n\
-         film = {{ from = \"plate.x0\", to = \"air\", h = \"10 W/(m^2 K)\" }}\n[run]\nstop = \"1 min\"\n"
+         film = {{ from = \"plate.x0\", to = \"air\", h = \"10 W/(m^2 K)\" }}\n[run]\nstop = \"1 \
+         min\"\n"
     );
     let folder = Folder::with("grid.toml", &grid);
     let ran = folder.run(&["check", "grid.toml", "--expand"]).exits(1).says("netlist::not_flat");
     assert!(ran.out.is_empty(), "{}", ran.out);
     folder.write(
         "import.toml",
-        "format = 1\n[import]\nconductors = \"c.csv\"\n[boundary]\nair = { T = \"20 degC\" }\n[node]\n\
+        "format = 1\n[import]\nconductors = \"c.csv\"\n[boundary]\nair = { T = \"20 degC\" \
+         }\n[node]\n\
          a = { C = \"5 J/K\", T0 = \"50 degC\", L_char = \"2 mm\" }\n[run]\nstop = \"1 min\"\n",
     );
     folder.write("c.csv", "from,to,G [W/K]\na,air,2\n");
@@ -171,7 +180,8 @@ fn the_end_of_a_rod_is_a_face() {
         folder.run(&["steady", "rod.toml", "--format", "csv", "--select", "rod.x1.T"]).exits(0);
     // the face is 0.1 m by 10 mm: 20 W / (100 W/(m^2 K) * 0.001 m^2) = 200 K above the air
     close(&csv(&ran.out).1[0], &[220.0], 1e-6);
-    let control = "[control]\nfan = { sense = \"rod.x1\", on_above = \"40 degC\", off_below = \"30 degC\" }\n[run]";
+    let control = "[control]\nfan = { sense = \"rod.x1\", on_above = \"40 degC\", off_below = \"30 \
+        degC\" }\n[run]";
     folder.write(
         "control.toml",
         &rod("").replace("[run]", control).replace("100 W/(m^2 K)", "100 [W/(m^2 K)] * fan"),

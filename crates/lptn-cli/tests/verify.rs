@@ -7,13 +7,16 @@ use std::path::Path;
 use common::{Folder, GEARBOX, csv, gearbox_values};
 use serde_json::Value;
 
-const MASSLESS: &str = "format = 1\n[node]\nj = { massless = true }\n[boundary]\na = { T = \"20 degC\" }\n\
-                        [resistor]\nr = { from = \"j\", to = \"a\", R = \"1 K/W\" }\n[run]\nstop = \"1 s\"\n";
+const MASSLESS: &str = "format = 1\n[node]\nj = { massless = true }\n[boundary]\na = { T = \"20 \
+    degC\" }\n\
+                        [resistor]\nr = { from = \"j\", to = \"a\", R = \"1 K/W\" }\n[run]\nstop \
+                        = \"1 s\"\n";
 
 /// A pulse of one second after a long rest: the steps of an integrator have grown long and go past
 /// it.
 const PULSE: &str = "format = 1\n[node]\nbody = { C = \"100 J/K\", T0 = \"20 degC\" }\n\
-    [boundary]\nair = { T = \"20 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", R = \"1 K/W\" }\n\
+    [boundary]\nair = { T = \"20 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", R \
+    = \"1 K/W\" }\n\
     [source]\npulse = { into = \"body\", P = \"1 [kW] * exp(-((t - 700 [s]) / 1 [s])^2)\" }\n\
     [run]\nstop = \"1000 s\"\n";
 

@@ -4,9 +4,12 @@ mod common;
 
 use common::{Folder, GEARBOX};
 
-const BODY: &str = "format = 1\n[param]\nR = \"0.3 ± 0.001 K/W\"\n[node]\nbody = { C = \"100 J/K\", T0 = \"20 degC\" }\n\
-    [boundary]\nair = { T = \"20 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", R = \"R\" }\n\
-    [source]\nheat = { into = \"body\", P = \"100 W\" }\n[run]\nstop = \"5 min\"\noutput = { every = \"1 min\" }\n";
+const BODY: &str = "format = 1\n[param]\nR = \"0.3 ± 0.001 K/W\"\n[node]\nbody = { C = \"100 \
+    J/K\", T0 = \"20 degC\" }\n\
+    [boundary]\nair = { T = \"20 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", R \
+    = \"R\" }\n\
+    [source]\nheat = { into = \"body\", P = \"100 W\" }\n[run]\nstop = \"5 min\"\noutput = { every \
+    = \"1 min\" }\n";
 
 /// `check` warned of a node without a way out, `run` and `steady` did not.
 #[test]
@@ -47,7 +50,8 @@ fn a_probability_that_no_sample_shows_is_a_bound() {
 /// Every record of a column that the model does not describe had a warning of its own.
 #[test]
 fn a_column_that_is_not_described_is_told_once_with_its_worst_record() {
-    let fit = "[fit.heating]\ndata = [\"runs/mild_1.csv\", \"runs/mild_2.csv\", \"runs/bad_3.csv\"]\n\
+    let fit = "[fit.heating]\ndata = \
+        [\"runs/mild_1.csv\", \"runs/mild_2.csv\", \"runs/bad_3.csv\"]\n\
                column = { ring = \"body.T\" }\nsigma = \"0.01 K\"\nvary = [\"R\"]\n";
     let folder = Folder::with("net.toml", &format!("{BODY}{fit}").replace(" ± 0.001", ""));
     std::fs::create_dir(folder.path().join("runs")).unwrap();
@@ -89,7 +93,8 @@ fn help_is_a_verb_and_a_file_is_none() {
 /// A path in other letters of case, or with backslashes, was only said not to be there.
 #[test]
 fn a_path_that_leads_nowhere_is_told_the_one_that_was_meant() {
-    let signal = "[signal]\npower = { csv = 'PATH', time = \"t\", value = \"power\", after_end = \"hold\" }\n";
+    let signal = "[signal]\npower = { csv = 'PATH', time = \"t\", value = \"power\", after_end \
+        = \"hold\" }\n";
     let text = format!("{}{signal}", BODY.replace("\"100 W\"", "\"power\""));
     let folder = Folder::empty();
     std::fs::create_dir(folder.path().join("data")).unwrap();

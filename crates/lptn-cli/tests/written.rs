@@ -27,7 +27,8 @@ fn near(found: f64, expected: f64) {
 /// A block of 640 J/K behind 1 K/W, so that its time constant is 640 s.
 fn block(more: &str, air: &str) -> String {
     format!(
-        "format = 1\n{more}[boundary]\nair = {{ T = \"{air}\" }}\n[node]\ncore = {{ C = \"640 J/K\", T0 = \"60 degC\" }}\n\
+        "format = 1\n{more}[boundary]\nair = {{ T = \"{air}\" }}\n[node]\ncore = {{ C = \"640 \
+         J/K\", T0 = \"60 degC\" }}\n\
          [resistor]\nskin = {{ from = \"core\", to = \"air\", R = \"1 K/W\" }}\n"
     )
 }
@@ -38,9 +39,12 @@ const RUN: &str = "[run]\nstop = \"2 min\"\n";
 /// The name of a node in a template was written without quotes, which is another network to TOML.
 #[test]
 fn regression_a_reduced_network_keeps_the_name_of_a_node_in_a_template() {
-    let part = "format = 1\n[boundary]\nair = { T = \"20 degC\" }\n[template.part]\nparam = { R = { unit = \"K/W\" } }\n\
-        port = [\"to\"]\n[template.part.node]\ncore = { C = \"640 J/K\", T0 = \"60 degC\" }\n[template.part.resistor]\n\
-        skin = { from = \"core\", to = \"to\", R = \"R\" }\n[use.part]\ntemplate = \"part\"\nconnect = { to = \"air\" }\n\
+    let part = "format = 1\n[boundary]\nair = { T = \"20 degC\" }\n[template.part]\nparam = { R = \
+        { unit = \"K/W\" } }\n\
+        port = [\"to\"]\n[template.part.node]\ncore = { C = \"640 J/K\", T0 = \"60 degC\" \
+        }\n[template.part.resistor]\n\
+        skin = { from = \"core\", to = \"to\", R = \"R\" }\n[use.part]\ntemplate \
+        = \"part\"\nconnect = { to = \"air\" }\n\
         set = { R = \"1 K/W\" }\n";
     let folder = Folder::with("whole.toml", &format!("{part}{RUN}"));
     folder.run(&["reduce", "whole.toml", "--port", "part.core", "--write", "one.toml"]).exits(0);
@@ -79,7 +83,8 @@ const MAP: &str =
 /// named from where the new netlist stands.
 #[test]
 fn regression_a_reduced_network_keeps_tables_of_two_arguments() {
-    let map = "[table]\nmap = { csv = \"map.csv\", x = \"speed\", y = \"torque\", value = \"loss\" }\n[signal]\n\
+    let map = "[table]\nmap = { csv = \"map.csv\", x = \"speed\", y = \"torque\", value = \"loss\" \
+        }\n[signal]\n\
         n = { t = [\"0 s\", \"2 min\"], v = [\"1000 rpm\", \"2000 rpm\"] }\n";
     let source = "[source]\nq = { into = \"core\", P = \"map(n, 15 [N m])\" }\n";
     let folder = Folder::with("whole.toml", &(block(map, "20 degC") + source + RUN));
@@ -110,7 +115,8 @@ fn regression_an_expansion_names_files_from_where_it_stands() {
     std::fs::create_dir(folder.path().join("parts")).unwrap();
     folder.write(
         "parts/map.toml",
-        "format = 1\n[table]\nmap = { csv = \"map.csv\", x = \"speed\", y = \"torque\", value = \"loss\" }\n\
+        "format = 1\n[table]\nmap = { csv = \"map.csv\", x = \"speed\", y = \"torque\", value \
+         = \"loss\" }\n\
          [source]\nq = { into = \"core\", P = \"map(1500 [rpm], 15 [N m])\" }\n",
     );
     folder.write("parts/map.csv", MAP);
@@ -123,9 +129,12 @@ fn regression_an_expansion_names_files_from_where_it_stands() {
 /// A node inside a grid, and one of an import, keep their names.
 #[test]
 fn a_port_of_a_grid_or_an_import_is_written_or_refused_but_never_another() {
-    let grid = "format = 1\n[grid.bar]\nsize = [\"0.1 m\", \"0.1 m\", \"0.1 m\"]\ncells = [2, 1, 1]\n\
-        material = \"aluminium_6061\"\nT0 = \"60 degC\"\n[boundary]\nair = { T = \"20 degC\" }\n[convection]\n\
-        skin = { from = \"bar.x1\", to = \"air\", h = \"10 W/(m^2 K)\" }\n[run]\nstop = \"1 min\"\n";
+    let grid = "format = 1\n[grid.bar]\nsize = [\"0.1 m\", \"0.1 m\", \"0.1 m\"]\ncells = [2, 1, \
+        1]\n\
+        material = \"aluminium_6061\"\nT0 = \"60 degC\"\n[boundary]\nair = { T = \"20 degC\" \
+        }\n[convection]\n\
+        skin = { from = \"bar.x1\", to = \"air\", h = \"10 W/(m^2 K)\" }\n[run]\nstop = \"1 \
+        min\"\n";
     let folder = Folder::with("whole.toml", grid);
     folder.run(&["reduce", "whole.toml", "--port", "bar[1,1,1]", "--write", "one.toml"]).exits(0);
     folder.run(&["check", "one.toml"]).exits(0);
@@ -135,8 +144,10 @@ fn a_port_of_a_grid_or_an_import_is_written_or_refused_but_never_another() {
 /// Values that are written back replace numbers and nothing else.
 #[test]
 fn numbers_that_are_written_back_are_those_that_were_found() {
-    let study = "[param]\nR = \"300 mK/W\"  # of the skin\nP = \"50 W\"\n[size.skin]\nmaximise = \"R\"\n\
-        vary = { R = { from = \"1 mK/W\", to = \"10 K/W\" } }\nrequire = [\"core.T <= 80 [degC]\"]\n\
+    let study = "[param]\nR = \"300 mK/W\"  # of the skin\nP = \"50 W\"\n[size.skin]\nmaximise \
+        = \"R\"\n\
+        vary = { R = { from = \"1 mK/W\", to = \"10 K/W\" } }\nrequire = [\"core.T <= 80 \
+        [degC]\"]\n\
         [source]\nq = { into = \"core\", P = \"P\" }\n";
     let text = block(study, "20 degC").replace("R = \"1 K/W\" }", "R = \"R\" }");
     let folder = Folder::with("whole.toml", &text);

@@ -42,8 +42,8 @@ const fn same_version(found: &[u8], bindings: &[u8]) -> bool {
 
 const _: () = assert!(
     same_version(env!("LPTN_SUNDIALS_HEADER").as_bytes(), sundials_sys::SUNDIALS_VERSION),
-    "sundials-sys was built against another SUNDIALS than the one of the system: install libsundials-dev, or use the \
-     cargo feature `bundled`"
+    "sundials-sys was built against another SUNDIALS than the one of the system: install \
+     libsundials-dev, or use the cargo feature `bundled`"
 );
 const _: () = assert!(
     (sundials_sys::SUNDIALS_VERSION_MAJOR >= 7) == cfg!(sundials7),

@@ -165,7 +165,8 @@ mod tests {
 
     #[test]
     fn cells_are_found_where_they_stand() {
-        let text = "\u{feff}# cycle\r\n\r\nt [s], speed [rpm]\r\n\r\n0, 10\r\n# more\r\n 1 ,20\r\n\"2\",30\n3,40";
+        let text = "\u{feff}# cycle\r\n\r\nt [s], speed [rpm]\r\n\r\n0, 10\r\n# more\r\n 1 \
+            ,20\r\n\"2\",30\n3,40";
         let mut files = Files::new();
         let text = CsvText::of(&mut files, "a.csv".to_owned(), text.as_bytes()).unwrap();
         let file = CsvFile::open(&text, &Span::new(text.file, 0..0)).unwrap();

@@ -40,7 +40,8 @@ fn foreign(head: &Head, name: &str, codes: &Codes) -> Option<Diagnostic> {
     let (is, help) = if heading || first.starts_with("format = ") || first.starts_with("format=") {
         let help = match codes.of_record {
             true => format!(
-                "`lptn fit network {name}` fits a netlist to the records that it names below [fit.NAME]"
+                "`lptn fit network {name}` fits a netlist to the records that it names below \
+                 [fit.NAME]"
             ),
             false => "name a CSV file here; other netlists stand in `include`".to_owned(),
         };

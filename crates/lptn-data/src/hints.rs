@@ -70,7 +70,8 @@ pub(crate) fn text_help(name: &str, cell: &str) -> String {
     }
     if is_moment(cell) {
         return format!(
-            "times are numbers counted from any moment, in one unit: `{name} [s]`, not clock times or dates"
+            "times are numbers counted from any moment, in one unit: `{name} [s]`, not clock times \
+             or dates"
         );
     }
     if cell.contains(';') {

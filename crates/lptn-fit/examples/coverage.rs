@@ -37,7 +37,8 @@ fn main() {
         };
         let length = truth.samples as f64 * truth.spacing / truth.curve[2];
         println!(
-            "{:7} {length:7.2} {:6} {:8} {:9} | {initial:5.1} {settled:5.1} {tau:5.1}    | {:6.0} {:8.1}",
+            "{:7} {length:7.2} {:6} {:8} {:9} | {initial:5.1} {settled:5.1} {tau:5.1}    | {:6.0} \
+             {:8.1}",
             truth.samples,
             truth.rho,
             truth.deviation,

@@ -45,8 +45,10 @@ fn network(text: &str) -> Netlist {
 /// `param` has to give `G`, `C` and `P`.
 fn body(param: &str) -> Netlist {
     network(&format!(
-        "[param]\n{param}\n[node]\nbody = {{ C = \"C\", T0 = \"25.5 degC\" }}\n[boundary]\nair = {{ T = \"25.5 degC\" }}\n\
-         [resistor]\nskin = {{ from = \"body\", to = \"air\", G = \"G\" }}\n[source]\nheat = {{ into = \"body\", P = \"P\" }}"
+        "[param]\n{param}\n[node]\nbody = {{ C = \"C\", T0 = \"25.5 degC\" }}\n[boundary]\nair = \
+         {{ T = \"25.5 degC\" }}\n\
+         [resistor]\nskin = {{ from = \"body\", to = \"air\", G = \"G\" }}\n[source]\nheat = {{ \
+         into = \"body\", P = \"P\" }}"
     ))
 }
 
@@ -176,9 +178,12 @@ fn records_share_parameters_and_set_their_own() {
 #[test]
 fn a_radiating_body_gives_the_parameters_that_scipy_finds() {
     let netlist = network(
-        "[param]\nA = \"0.03 m^2\"\nP = \"30 W\"\n[node]\nbody = { C = \"50 J/K\", T0 = \"20 degC\" }\n[boundary]\n\
-         room = { T = \"20 degC\" }\n[radiation]\nskin = { from = \"body\", to = \"room\", Gr = \"A\" }\n[resistor]\n\
-         wire = { from = \"body\", to = \"room\", G = \"0.05 W/K\" }\n[source]\nheat = { into = \"body\", P = \"P\" }",
+        "[param]\nA = \"0.03 m^2\"\nP = \"30 W\"\n[node]\nbody = { C = \"50 J/K\", T0 = \"20 \
+         degC\" }\n[boundary]\n\
+         room = { T = \"20 degC\" }\n[radiation]\nskin = { from = \"body\", to = \"room\", Gr \
+         = \"A\" }\n[resistor]\n\
+         wire = { from = \"body\", to = \"room\", G = \"0.05 W/K\" }\n[source]\nheat = { into \
+         = \"body\", P = \"P\" }",
     );
     let both = vec![varied(&netlist, "P", (5.0, 200.0)), varied(&netlist, "A", (0.001, 0.5))];
     let fit = fit_network(&task(&netlist, both, vec![record(&netlist, ("body", &GLOWING), &[])]))
@@ -193,8 +198,10 @@ fn a_radiating_body_gives_the_parameters_that_scipy_finds() {
 #[test]
 fn power_resistance_and_capacity_are_not_to_be_had_from_temperatures_alone() {
     let netlist = network(
-        "[param]\nP = \"200 W\"\nR = \"0.3 K/W\"\nC = \"2600 J/K\"\n[node]\nbody = { C = \"C\", T0 = \"25.5 degC\" }\n\
-         [boundary]\nair = { T = \"25.5 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", R = \"R\" }\n\
+        "[param]\nP = \"200 W\"\nR = \"0.3 K/W\"\nC = \"2600 J/K\"\n[node]\nbody = { C = \"C\", T0 \
+         = \"25.5 degC\" }\n\
+         [boundary]\nair = { T = \"25.5 degC\" }\n[resistor]\nskin = { from = \"body\", to \
+         = \"air\", R = \"R\" }\n\
          [source]\nheat = { into = \"body\", P = \"P\" }",
     );
     let curve: Vec<f64> =
@@ -237,10 +244,14 @@ fn of_parallel_conductances_only_the_sum_is_determined() {
     for own in ["1.5 W/K", "2 W/K"] {
         let netlist = network(&format!(
             "[param]\nG1 = \"2 W/K\"\nG2 = \"{own}\"\nP = \"200 W\"\nidle = \"3 W\"\n[node]\n\
-             body = {{ C = \"2659 J/K\", T0 = \"25.5 degC\" }}\nother = {{ C = \"1 J/K\", T0 = \"20 degC\" }}\n[boundary]\n\
-             air = {{ T = \"25.5 degC\" }}\n[resistor]\na = {{ from = \"body\", to = \"air\", G = \"G1\" }}\n\
-             b = {{ from = \"body\", to = \"air\", G = \"G2\" }}\nc = {{ from = \"other\", to = \"air\", G = \"1 W/K\" }}\n\
-             [source]\nheat = {{ into = \"body\", P = \"P\" }}\nelsewhere = {{ into = \"other\", P = \"idle\" }}"
+             body = {{ C = \"2659 J/K\", T0 = \"25.5 degC\" }}\nother = {{ C = \"1 J/K\", T0 \
+             = \"20 degC\" }}\n[boundary]\n\
+             air = {{ T = \"25.5 degC\" }}\n[resistor]\na = {{ from = \"body\", to = \"air\", G \
+             = \"G1\" }}\n\
+             b = {{ from = \"body\", to = \"air\", G = \"G2\" }}\nc = {{ from = \"other\", to \
+             = \"air\", G = \"1 W/K\" }}\n\
+             [source]\nheat = {{ into = \"body\", P = \"P\" }}\nelsewhere = {{ into = \"other\", P \
+             = \"idle\" }}"
         ));
         let all = ["G1", "P", "G2", "idle"].map(|name| varied(&netlist, name, FREE)).to_vec();
         let fit = fit_network(&task(&netlist, all, vec![record(&netlist, ("body", &HEATED), &[])]))
@@ -286,7 +297,8 @@ fn values_that_follow_each_other_are_not_counted_as_independent() {
 /// 900 J/K at 20 degC that 100 W heat, cooled to 20 degC; `param` has to give what `R` and `C` say.
 fn warmed((own, param): (&str, &str), resistance: &str) -> Netlist {
     network(&format!(
-        "[param]\n{own}\n{param}\n[node]\nbody = {{ C = \"C\", T0 = \"20 degC\" }}\n[boundary]\nair = {{ T = \"20 degC\" }}\n\
+        "[param]\n{own}\n{param}\n[node]\nbody = {{ C = \"C\", T0 = \"20 degC\" \
+         }}\n[boundary]\nair = {{ T = \"20 degC\" }}\n\
          [resistor]\nskin = {{ from = \"body\", to = \"air\", R = \"{resistance}\" }}\n[source]\n\
          heat = {{ into = \"body\", P = \"P\" }}"
     ))
@@ -372,8 +384,10 @@ fn threads_change_nothing() {
 #[test]
 fn where_derivatives_are_refused_differences_do() {
     let netlist = network(
-        "[param]\nG = \"3 W/K\"\nP = \"200 W\"\n[node]\nbody = { C = \"2659 J/K\", T0 = \"25.5 degC\" }\n[boundary]\n\
-         air = { T = \"25.5 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", G = \"G\" }\n[control]\n\
+        "[param]\nG = \"3 W/K\"\nP = \"200 W\"\n[node]\nbody = { C = \"2659 J/K\", T0 = \"25.5 \
+         degC\" }\n[boundary]\n\
+         air = { T = \"25.5 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", G \
+         = \"G\" }\n[control]\n\
          fan = { sense = \"body\", on_above = \"300 degC\", off_below = \"290 degC\" }\n[source]\n\
          heat = { into = \"body\", P = \"P * (1 - fan)\" }",
     );

@@ -19,7 +19,8 @@ pub(crate) const Conduction: KindDeclaration = KindDeclaration {
     section: "conduction",
     sentence: "A body of simple shape that conducts between two of its faces.",
     selector: Some("shape"),
-    example: "{ from = \"a\", to = \"b\", k = \"46.6 W/(m K)\", shape = \"slab\", area = \"0.2 m^2\", thickness = \"5 mm\" }",
+    example: "{ from = \"a\", to = \"b\", k = \"46.6 W/(m K)\", shape = \"slab\", area = \"0.2 \
+        m^2\", thickness = \"5 mm\" }",
     elsewhere: &[
         ("lambda", "the thermal conductivity is `k`"),
         ("A", "the area is `area`"),
@@ -131,7 +132,8 @@ impl Law for Slab {
         area: &["area"],
         extent: Extent::Divided("area"),
         validity: "Heat in one direction: edges are insulated or far away.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 3.6",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation \
+            3.6",
         ..BODY
     };
 
@@ -158,7 +160,8 @@ impl Law for Cylinder {
         ordered: Some(["r_in", "r_out"]),
         extent: Extent::Divided("length"),
         validity: "Heat that flows radially only: ends are insulated or the cylinder is long.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 3.28",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation \
+            3.28",
         ..BODY
     };
 
@@ -183,7 +186,8 @@ impl Law for Sphere {
         ],
         ordered: Some(["r_in", "r_out"]),
         validity: "Heat that flows radially.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 3.36",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation \
+            3.36",
         ..BODY
     };
 
@@ -207,7 +211,8 @@ impl Law for Rod {
             length("length", "length", "\"0.3 m\""),
         ],
         validity: "The skin is insulated.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 3.6",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation \
+            3.6",
         ..BODY
     };
 

@@ -34,7 +34,8 @@ pub(crate) struct Film;
 impl Law for Film {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "film",
-        sentence: "The heat is a film coefficient times an area times the difference of the temperatures.",
+        sentence: "The heat is a film coefficient times an area times the difference of the \
+            temperatures.",
         equation: "Q = h A (T_from - T_to)",
         kinds: &[Kind::Convection, Kind::Contact],
         fields: &[
@@ -64,7 +65,8 @@ impl Law for Film {
         area: &["area"],
         extent: Extent::Divided("area"),
         validity: "By definition of h, which is that of the whole area.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations 1.3a, 3.9 and 3.20",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations \
+            1.3a, 3.9 and 3.20",
         idle: &[],
         confidence: Confidence::High,
     };

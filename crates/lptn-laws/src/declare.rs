@@ -192,7 +192,8 @@ impl Hints {
     /// Of what may be of either sign by mistake.
     pub const SIGN: Self = Self {
         zero: "check the sign: heat flows from the warm to the cold end, whichever is named first",
-        negative: "check the sign: heat flows from the warm to the cold end, whichever is named first",
+        negative: "check the sign: heat flows from the warm to the cold end, whichever is named \
+            first",
         infinite: "something is divided by zero, or a number is too large",
     };
     /// Of what carries the more heat the larger it is.

@@ -53,7 +53,8 @@ pub(crate) struct ExchangeArea;
 impl Law for ExchangeArea {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "exchange_area",
-        sentence: "Two surfaces of which the exchange area is known: area, view factor and emissivities in one.",
+        sentence: "Two surfaces of which the exchange area is known: area, view factor and \
+            emissivities in one.",
         equation: "Q = sigma Gr (T_from^4 - T_to^4)",
         kinds: &[Kind::Radiation],
         fields: &[Field {
@@ -67,7 +68,8 @@ impl Law for ExchangeArea {
         area: &[],
         extent: Extent::Divided("Gr"),
         validity: "Nothing absorbs between the surfaces.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations 1.8 and 1.9",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations \
+            1.8 and 1.9",
         idle: &[("view_factor", "has no effect: `Gr` includes it")],
         confidence: Confidence::High,
     };
@@ -84,14 +86,17 @@ pub(crate) struct GreySurfaces;
 impl Law for GreySurfaces {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "grey_surfaces",
-        sentence: "Two surfaces with an effective emissivity of the pair, an area and a view factor.",
+        sentence: "Two surfaces with an effective emissivity of the pair, an area and a view \
+            factor.",
         equation: "Q = sigma e A F (T_from^4 - T_to^4)",
         fields: &[EMISSIVITY, SEEN, VIEW_FACTOR],
         area: &["area", "view_factor"],
         idle: &[],
         extent: Extent::Divided("area"),
-        validity: "Exact for e = 1 (black surfaces) and for F = 1 (an enclosure of two); else what is reflected is taken to leave.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations 13.17 and 13.18",
+        validity: "Exact for e = 1 (black surfaces) and for F = 1 (an enclosure of two); else what \
+            is reflected is taken to leave.",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations \
+            13.17 and 13.18",
         ..ExchangeArea::DECLARATION
     };
 
@@ -112,7 +117,8 @@ impl Law for ParallelPlates {
         fields: &[EMISSIVITY, EMISSIVITY, SEEN, VIEW_FACTOR],
         form: Form::Other,
         validity: "The gap is small against the plates.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 13.19 (table 13.3)",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation \
+            13.19 (table 13.3)",
         ..GreySurfaces::DECLARATION
     };
 

@@ -24,7 +24,8 @@ fn ungrounded(network: &Network, map: &SourceMap) -> Option<Diagnostic> {
         nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
     let message = format!("no path leads to a boundary from {}", list_of_names(&names));
     let warning = Diagnostic::warning("network::no_boundary", message).help(
-        "add a path if heat is to get out; without one the energy at the start decides the steady state",
+        "add a path if heat is to get out; without one the energy at the start decides the steady \
+         state",
     );
     Some(warning.at(map.name(Item::Node(first)), ""))
 }

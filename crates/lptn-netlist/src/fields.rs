@@ -210,9 +210,13 @@ fn element_inside(
 ) -> Diagnostic {
     let (key, kind) = (&field.key, section.name);
     Diagnostic::error("netlist::unknown_key", format!("{} has no field `{key}`", owner.words()))
-        .at(field.key_span.clone(), format!("belongs to `[{kind}.{name}]`, which lasts to the next heading"))
+        .at(
+            field.key_span.clone(),
+            format!("belongs to `[{kind}.{name}]`, which lasts to the next heading"),
+        )
         .help(format!(
-            "put `{key}` above `[{kind}.{name}]`, or give it the heading `[{kind}.{key}]` of its own"
+            "put `{key}` above `[{kind}.{name}]`, or give it the heading `[{kind}.{key}]` of its \
+             own"
         ))
 }
 

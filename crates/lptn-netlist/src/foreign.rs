@@ -48,19 +48,21 @@ pub(crate) fn recognise(
     Some(problem.at(Span::new(file, start..start + first.len()), "not TOML").help(help))
 }
 
-const SPICE: &str = "a netlist is a TOML file: `R1 a b 0.3` is, below [resistor], \
-                     `R1 = { from = \"a\", to = \"b\", R = \"0.3 K/W\" }`; `lptn new NAME` writes one to start from";
+const SPICE: &str = "a netlist is a TOML file: `R1 a b 0.3` is, below [resistor], `R1 = { from = \
+                     \"a\", to = \"b\", R = \"0.3 K/W\" }`; `lptn new NAME` writes one to start \
+                     from";
 
 fn csv_help(name: &str) -> String {
     format!(
-        "a netlist is a TOML file that names CSV files: `lptn new NAME` writes one to start from; a measured record is fitted \
-         by `lptn fit step {name}`"
+        "a netlist is a TOML file that names CSV files: `lptn new NAME` writes one to start from; \
+         a measured record is fitted by `lptn fit step {name}`"
     )
 }
 
 fn json_help(text: &str) -> String {
     match text.contains("\"temperatures\"") {
-        true => "a run starts from a state that its netlist names below [run]: `initial = \"state.json\"`"
+        true => "a run starts from a state that its netlist names below [run]: `initial = \
+            \"state.json\"`"
             .to_owned(),
         false => NEW.to_owned(),
     }

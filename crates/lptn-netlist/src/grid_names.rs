@@ -73,7 +73,8 @@ impl Names {
                     "netlist::temperature_not_here",
                     message,
                     at,
-                    "limits and reports may use it; name a single cell, whose temperature is that of a node",
+                    "limits and reports may use it; name a single cell, whose temperature is that \
+                     of a node",
                 )
             }
             GridPart::Surface(face) if !self.is_attached(face) => {
@@ -86,7 +87,8 @@ impl Names {
             GridPart::Whole(_) => {
                 let values = VALUES.map(|value| format!("`{grid}.{value}`")).join(", ");
                 unknown(format!("`{grid}` is a grid")).help(format!(
-                    "a grid has {values}, and of each face such as `{grid}.x1` the mean `{grid}.x1.T`"
+                    "a grid has {values}, and of each face such as `{grid}.x1` the mean \
+                     `{grid}.x1.T`"
                 ))
             }
             _ => unknown(format!("`{base}` has a temperature only"))

@@ -6,7 +6,8 @@ use lptn_network::Context;
 use crate::place::{Place, Wanted};
 use crate::raw::RawKind;
 
-const BOUND_HELP: &str = "what changes belongs in `of`: a difference such as `of = \"steel.T - air.T\"` has a constant bound";
+const BOUND_HELP: &str = "what changes belongs in `of`: a difference such as `of = \"steel.T - \
+    air.T\"` has a constant bound";
 
 /// Temperatures of what is at hand.
 pub(crate) const LOCAL: [&str; 5] = ["T", "T_from", "T_to", "T_mean", "dT"];
@@ -28,15 +29,16 @@ pub(crate) fn not_here(place: Place<'_>, name: &str, wanted: Wanted, at: Span) -
             "name the place: a threshold may use the temperature `NAME.T` of any node or boundary"
         }
         Context::Time if place.key == "density" => {
-            "the density of a solid is constant: give it at the temperature at which its volume is measured"
+            "the density of a solid is constant: give it at the temperature at which its volume is \
+             measured"
         }
         Context::Own => {
             "it may depend on `T`, the temperature of what it belongs to, and on no other"
         }
         Context::Result => "name the node or boundary, for example `steel.T`",
         _ => {
-            "`P` of a source and the values of paths may depend on temperatures; `C` of a node and the properties \
-             of materials and fluids on their own `T`"
+            "`P` of a source and the values of paths may depend on temperatures; `C` of a node and \
+             the properties of materials and fluids on their own `T`"
         }
     };
     Diagnostic::error("netlist::temperature_not_here", message).at(at, "").help(help)
@@ -59,7 +61,8 @@ pub(crate) fn depends_on_time(place: Place<'_>, name: &str, at: Span) -> Diagnos
     let help = match place.key {
         "below" | "above" => BOUND_HELP,
         _ => {
-            "sources, boundaries, the values of paths and signals may depend on time; this is constant"
+            "sources, boundaries, the values of paths and signals may depend on time; this is \
+             constant"
         }
     };
     let message = format!("{} has to be constant, but depends on {what}", place.words());
@@ -73,14 +76,16 @@ pub(crate) fn control_not_here(place: Place<'_>, name: &str, at: Span) -> Diagno
     let help = match place.key {
         "below" | "above" => BOUND_HELP,
         "" if words.starts_with("signal") => {
-            "a signal is a function of time; use the control where the signal is used, for example in a source"
+            "a signal is a function of time; use the control where the signal is used, for example \
+             in a source"
         }
         "" => {
-            "a parameter is constant; use the control where the parameter is used, for example in a source"
+            "a parameter is constant; use the control where the parameter is used, for example in \
+             a source"
         }
         _ => {
-            "sources, boundaries, the values of paths, thresholds of other controls and limits may use controls; this is \
-             constant"
+            "sources, boundaries, the values of paths, thresholds of other controls and limits may \
+             use controls; this is constant"
         }
     };
     Diagnostic::error("netlist::control_not_here", message)

@@ -119,7 +119,8 @@ impl NamedFile {
         loader(path).map_err(|error| match error.kind() {
             ErrorKind::FileTooLarge if self.not_found == "netlist::csv_not_found" => {
                 let message = format!("cannot read {}: {error}", path.display());
-                let help = "leave out rows between which nothing changes, or split the file by its columns";
+                let help = "leave out rows between which nothing changes, or split the file by its \
+                    columns";
                 Diagnostic::wrong("netlist::csv_too_long", message, &value.span, help)
             }
             _ => self.unreadable(path, value, &error),

@@ -134,7 +134,8 @@ impl WindowPlan {
         if from < start || to > stop {
             let (end, time) = if from < start { (&self.from, from) } else { (&self.to, to) };
             let message = format!(
-                "window `{name}` is not inside the run, which lasts from {start} s to {stop} s: {time} s"
+                "window `{name}` is not inside the run, which lasts from {start} s to {stop} s: \
+                 {time} s"
             );
             return Err(problem(message)
                 .at(at(&end.span), "outside the run")

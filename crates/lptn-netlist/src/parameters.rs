@@ -16,7 +16,8 @@ use crate::work::Elaboration;
 
 pub(crate) const PARAM: SectionDeclaration = SectionDeclaration {
     name: ValueKind::Parameter.section(),
-    sentence: "Quantities, numbers, or expressions over other parameters, each below a name of its own.",
+    sentence: "Quantities, numbers, or expressions over other parameters, each below a name of its \
+        own.",
     role: Role::Value,
     example: "\"0.3 K/W\"",
     ..SectionDeclaration::NEW

@@ -184,6 +184,8 @@ fn apart(
     let place = |id: ConductorId| map.name(Item::Conductor(id));
     let warning = warning.at(place(weak), "");
     let warning = warning.also(place(strong), "beside it");
-    warning
-        .help("check the prefix of the unit: m is a thousandth, M a million; leave out what carries no heat")
+    warning.help(
+        "check the prefix of the unit: m is a thousandth, M a million; leave out what carries no \
+            heat",
+    )
 }

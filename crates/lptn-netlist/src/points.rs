@@ -304,7 +304,8 @@ fn two_units(place: Place<'_>, axis: Axis<'_>) -> Diagnostic {
         message,
         &place.raw.span,
         format!(
-            "write the number without quotes and unit, or remove `{}` and give every number its unit",
+            "write the number without quotes and unit, or remove `{}` and give every number its \
+             unit",
             axis.unit
         ),
     )

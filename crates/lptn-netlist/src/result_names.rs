@@ -37,9 +37,8 @@ impl Names {
                 error.help(format!("`{base}` is a {kind}; results are temperatures and heat flows"))
             }
             Some(("node", _)) => error.help(format!("its temperature is `{base}.T`")),
-            Some(("boundary", _)) => {
-                error.help(format!("its temperature is `{base}.T`, the heat it gives is `{base}.Q`"))
-            }
+            Some(("boundary", _)) => error
+                .help(format!("its temperature is `{base}.T`, the heat it gives is `{base}.Q`")),
             Some((kind, has)) => {
                 let has: Vec<String> = has.iter().map(|name| format!("`{name}`")).collect();
                 let article = if kind.starts_with('a') { "an" } else { "a" };
@@ -48,7 +47,8 @@ impl Names {
             None => match self.similar_result(name) {
                 Some(near) => error.help(format!("did you mean `{near}`?")),
                 None => error.help(
-                    "name a temperature such as `steel.T`, a heat flow such as `cooling.Q`, a parameter or `t`",
+                    "name a temperature such as `steel.T`, a heat flow such as `cooling.Q`, a \
+                     parameter or `t`",
                 ),
             },
         }

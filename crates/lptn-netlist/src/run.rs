@@ -238,7 +238,8 @@ impl RunPlan {
         if stop > last + margin && course.after() == AfterEnd::Error {
             let message = format!("signal `{name}` ends at {last} s, but the run at {stop} s");
             return Some(problem(message).also(self.stop.span.clone(), "the run ends here").help(
-                "write `after_end = \"hold\"` to keep its last value or `after_end = \"repeat\"`, or stop the run earlier",
+                "write `after_end = \"hold\"` to keep its last value or `after_end = \"repeat\"`, \
+                 or stop the run earlier",
             ));
         }
         None
@@ -322,7 +323,8 @@ impl Check {
                 Some(format!("{time} s is outside the run, which lasts from {start} s to {stop} s"))
             } else if times.last().is_some_and(|last| time <= *last) {
                 Some(format!(
-                    "the times of `at` have to ascend, but {time} s does not come after the one before"
+                    "the times of `at` have to ascend, but {time} s does not come after the one \
+                     before"
                 ))
             } else {
                 None

@@ -143,9 +143,12 @@ impl Names {
         let words = place.words();
         if name.contains(['.', '[']) {
             let message = format!("{words} uses `{name}`, which is no parameter");
-            return Diagnostic::error("netlist::unknown_name", message).at(at, "unknown name").help(
-                "expressions may use parameters, tables and, where time is allowed, signals, controls and `t`: write the value itself",
-            );
+            return Diagnostic::error("netlist::unknown_name", message)
+                .at(at, "unknown name")
+                .help(
+                    "expressions may use parameters, tables and, where time is allowed, signals, \
+                 controls and `t`: write the value itself",
+                );
         }
         let error = Diagnostic::error(
             "netlist::unknown_name",

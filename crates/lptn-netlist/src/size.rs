@@ -34,7 +34,8 @@ pub(crate) const SIZE: SectionDeclaration = SectionDeclaration {
             .or("`\"steady\"`"),
     ],
     later: &["catalogue"],
-    example: "{ minimise = \"p\", vary = { p = { from = \"..\", to = \"..\" } }, require = [\"a.T <= 80 [degC]\"] }",
+    example: "{ minimise = \"p\", vary = { p = { from = \"..\", to = \"..\" } }, require = [\"a.T \
+        <= 80 [degC]\"] }",
     elsewhere: &[
         ("minimize", "did you mean `minimise`?"),
         ("maximize", "did you mean `maximise`?"),
@@ -150,8 +151,8 @@ impl SizeStudy {
             Ok(_) => {
                 let message =
                     format!("`vary` of size `{}`: `from` has to be less than `to`", self.name);
-                let help = "write the least value as `from` and the largest as `to`; \
-                            `minimise` or `maximise` says which of them is the better end";
+                let help = "write the least value as `from` and the largest as `to`; `minimise` or \
+                            `maximise` says which of them is the better end";
                 Diagnostic::error("netlist::size_range", message).help(help)
             }
             Err(error) => {
@@ -320,7 +321,8 @@ fn one_goal(fields: &Fields<'_>, both: bool) -> Diagnostic {
         "netlist::size_goal",
         format!("{} {has}", fields.owner.words()),
         fields.place,
-        "name one parameter: `minimise = \"p\"` for the least value that does, `maximise` for the largest",
+        "name one parameter: `minimise = \"p\"` for the least value that does, `maximise` for the \
+         largest",
     )
 }
 

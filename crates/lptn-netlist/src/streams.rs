@@ -31,7 +31,7 @@ fn warning(network: &Network, map: &SourceMap, passing: Passing) -> Diagnostic {
     let problem = problem.at(first.and_then(|(_, id)| map.name(Item::Conductor(id))), "");
     let problem = problem.also(map.name(Item::Node(node)), "the node");
     problem.help(
-        "what flows in flows out: an [advection] to the next node, or to a boundary where the stream leaves the \
-         network",
+        "what flows in flows out: an [advection] to the next node, or to a boundary where the \
+         stream leaves the network",
     )
 }

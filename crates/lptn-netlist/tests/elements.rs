@@ -290,9 +290,11 @@ fn a_text_without_a_file_cannot_read_one() {
 /// The path is relative to the file that names it, and a file that two read is there once.
 #[test]
 fn csv_files_stand_beside_the_file_that_names_them() {
-    let main = "format = 1\ninclude = [\"parts/drive.toml\"]\n[node]\na = { C = \"1 J/K\", T0 = \"0 degC\" }\n\
+    let main = "format = 1\ninclude = [\"parts/drive.toml\"]\n[node]\na = { C = \"1 J/K\", T0 \
+        = \"0 degC\" }\n\
                 [source]\nP = { into = \"a\", P = \"1 [W/rpm] * (speed + twice)\" }\n";
-    let drive = "format = 1\n[signal]\nspeed = { csv = \"c.csv\", time = \"t\", value = \"speed\" }\n\
+    let drive = "format = 1\n[signal]\nspeed = { csv = \"c.csv\", time = \"t\", value = \"speed\" \
+        }\n\
                  twice = { csv = \"c.csv\", time = \"t\", value = \"speed\" }\n";
     let mut asked = Vec::new();
     let mut load = |path: &Path| {
@@ -321,11 +323,15 @@ fn parameters_reach_every_kind_of_element() {
 /// What a new value breaks is named, with the assignment that did it.
 #[test]
 fn assignments_that_break_an_element_are_named() {
-    let text = "format = 1\n[param]\nd = \"5 mm\"\neps = 0.8\nm = \"1 kg/s\"\nrate = \"1 W\"\nspare = 1\nthick = \"d * spare\"\n\
+    let text = "format = 1\n[param]\nd = \"5 mm\"\neps = 0.8\nm = \"1 kg/s\"\nrate = \"1 \
+        W\"\nspare = 1\nthick = \"d * spare\"\n\
                 [signal]\ncourse = \"rate * if(t < 5 [s], 1, 2)\"\n\
-                [node]\na = { C = \"1 J/K\", T0 = \"0 degC\" }\nb = { C = \"1 J/K\", T0 = \"0 degC\" }\n\
-                [conduction]\nw = { from = \"a\", to = \"b\", k = \"1 W/(m K)\", shape = \"slab\", area = \"1 m^2\", thickness = \"thick\" }\n\
-                [radiation]\nr = { from = \"a\", to = \"b\", emissivity = \"eps\", area = \"1 m^2\" }\n\
+                [node]\na = { C = \"1 J/K\", T0 = \"0 degC\" }\nb = { C = \"1 J/K\", T0 = \"0 \
+                degC\" }\n\
+                [conduction]\nw = { from = \"a\", to = \"b\", k = \"1 W/(m K)\", shape = \"slab\", \
+                area = \"1 m^2\", thickness = \"thick\" }\n\
+                [radiation]\nr = { from = \"a\", to = \"b\", emissivity = \"eps\", area = \"1 \
+                m^2\" }\n\
                 [advection]\ns = { from = \"a\", to = \"b\", fluid = \"water\", flow = \"m\" }\n\
                 [source]\nP = { into = \"a\", P = \"course\" }\n";
     let mut netlist = parse("a.toml", text).unwrap_or_else(|r| panic!("{r}"));
@@ -396,7 +402,8 @@ fn streams_that_balance_are_no_warning() {
 fn kelvin_in_a_table_over_temperature_is_absolute() {
     let of = |x: &str| {
         let text = format!(
-            "format = 1\n[material]\nm = {{ cp = {{ {x}, y = [\"400 J/(kg K)\", \"500 J/(kg K)\"] }} }}\n\
+            "format = 1\n[material]\nm = {{ cp = {{ {x}, y = [\"400 J/(kg K)\", \"500 J/(kg K)\"] \
+             }} }}\n\
              [node]\na = {{ T0 = \"300 K\", material = \"m\", mass = \"1 kg\" }}\n"
         );
         let netlist = parse("a.toml", &text).unwrap_or_else(|r| panic!("{r}"));
@@ -430,7 +437,8 @@ fn places_of_the_new_sections_are_known() {
 #[test]
 fn what_nothing_uses_is_a_warning() {
     let text = "format = 1\n[table]\nx = { x = [0, 1], y = [0, 1] }\n[signal]\ny = \"t / 1 [s]\"\n\
-                [fluid]\nz = { cp = \"1 kJ/(kg K)\" }\n[node]\na = { C = \"1 J/K\", T0 = \"0 degC\" }\n";
+                [fluid]\nz = { cp = \"1 kJ/(kg K)\" }\n[node]\na = { C = \"1 J/K\", T0 = \"0 \
+                degC\" }\n";
     let netlist = parse("a.toml", text).unwrap();
     let codes: Vec<&str> = netlist.warnings.iter().map(|w| w.code).collect();
     let unused = ["netlist::unused_table", "netlist::unused_signal", "netlist::unused_fluid"];

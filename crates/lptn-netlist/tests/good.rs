@@ -91,12 +91,18 @@ fn sections_and_parameters_may_stand_in_any_order() {
 
 #[test]
 fn both_forms_of_a_table_are_the_same() {
-    let inline = "format = 1\n[node]\na = { T0 = '1 degC', C = '2 J/K' }\nb = { T0 = '2 degC', C = '3 J/K' }\n\
-                  [resistor]\nab = { from = 'a', to = 'b', R = '2 K/W' }\n[run]\nstop = '1 s'\noutput = { every = '0.5 s' }\n";
-    let headings = "format = 1\n[node.a]\nT0 = '1 degC'\nC = '2 J/K'\n[node.b]\nT0 = '2 degC'\nC = '3 J/K'\n\
-                    [resistor.ab]\nfrom = 'a'\nto = 'b'\nR = '2 K/W'\n[run]\nstop = '1 s'\n[run.output]\nevery = '0.5 s'\n";
-    let dotted = "format = 1\nnode.a.T0 = '1 degC'\nnode.a.C = '2 J/K'\nnode.b = { T0 = '2 degC', C = '3 J/K' }\n\
-                  resistor.ab = { from = 'a', to = 'b', R = '2 K/W' }\nrun.stop = '1 s'\nrun.output.every = '0.5 s'\n";
+    let inline = "format = 1\n[node]\na = { T0 = '1 degC', C = '2 J/K' }\nb = { T0 = '2 degC', C = \
+        '3 J/K' }\n\
+                  [resistor]\nab = { from = 'a', to = 'b', R = '2 K/W' }\n[run]\nstop = '1 \
+                  s'\noutput = { every = '0.5 s' }\n";
+    let headings = "format = 1\n[node.a]\nT0 = '1 degC'\nC = '2 J/K'\n[node.b]\nT0 = '2 degC'\nC = \
+        '3 J/K'\n\
+                    [resistor.ab]\nfrom = 'a'\nto = 'b'\nR = '2 K/W'\n[run]\nstop = '1 \
+                    s'\n[run.output]\nevery = '0.5 s'\n";
+    let dotted = "format = 1\nnode.a.T0 = '1 degC'\nnode.a.C = '2 J/K'\nnode.b = { T0 = '2 degC', \
+        C = '3 J/K' }\n\
+                  resistor.ab = { from = 'a', to = 'b', R = '2 K/W' }\nrun.stop = '1 \
+                  s'\nrun.output.every = '0.5 s'\n";
     let of = |text| {
         let netlist = good(text);
         let capacity: Vec<f64> =
@@ -147,13 +153,16 @@ fn no_part_is_without_a_place() {
     network.source_ids().for_each(|id| has(Item::Source(id), Field::Into));
 }
 
-const BLOCK: &str = "format = 1\n[node]\nblock = { T0 = '300 K', C = '0.5 kJ/K' }\n[boundary]\nair = { T = '20 degC' }\n";
+const BLOCK: &str = "format = 1\n[node]\nblock = { T0 = '300 K', C = '0.5 kJ/K' }\n[boundary]\nair \
+    = { T = '20 degC' }\n";
 
 #[test]
 fn every_form_of_a_path_and_parallel_paths() {
     let netlist = good(&format!(
-        "{BLOCK}[resistor]\na = {{ from = 'block', to = 'air', R = '4 K/W' }}\nb = {{ from = 'block', to = 'air', G = '3 W/K' }}\n\
-         [convection]\nc = {{ from = 'block', to = 'air', h = '10 W/(m^2 K)', area = '20 cm^2' }}\nd = {{ from = 'air', to = 'block', R = '2 K/W' }}\n"
+        "{BLOCK}[resistor]\na = {{ from = 'block', to = 'air', R = '4 K/W' }}\nb = {{ from = \
+         'block', to = 'air', G = '3 W/K' }}\n\
+         [convection]\nc = {{ from = 'block', to = 'air', h = '10 W/(m^2 K)', area = '20 cm^2' \
+         }}\nd = {{ from = 'air', to = 'block', R = '2 K/W' }}\n"
     ));
     for (name, expected) in [("a", 0.25), ("b", 3.0), ("c", 0.02), ("d", 0.5)] {
         close(conductance(&netlist, name), expected);
@@ -176,7 +185,8 @@ fn junctions_need_neither_capacity_nor_start() {
 #[test]
 fn inputs_may_depend_on_time() {
     let netlist = good(&format!(
-        "{BLOCK}[param]\nstep = '60 s'\n[resistor]\na = {{ from = 'block', to = 'air', R = '4 K/W' }}\n\
+        "{BLOCK}[param]\nstep = '60 s'\n[resistor]\na = {{ from = 'block', to = 'air', R = '4 K/W' \
+         }}\n\
          [source]\nloss = {{ into = 'block', P = 'if(t < step, 5 [W], 2 [W])' }}\n"
     ));
     assert!(netlist.network.has_time_dependent_inputs());
@@ -206,8 +216,10 @@ fn a_parameter_comes_after_those_it_uses() {
 #[test]
 fn run_takes_expressions_and_lists() {
     let netlist = good(&format!(
-        "{BLOCK}[param]\ntau = '10 s'\n[run]\nstart = '-5 s'\nstop = '3 * tau'\noutput = {{ at = ['0 s', 'tau', '0.5 min'] }}\n\
-         select = ['*.T', 'loss.P']\ntolerance = '1 mK'\nintegrator = 'auto'\n[default]\ntemperature_unit = 'K'\n"
+        "{BLOCK}[param]\ntau = '10 s'\n[run]\nstart = '-5 s'\nstop = '3 * tau'\noutput = {{ at = \
+         ['0 s', 'tau', '0.5 min'] }}\n\
+         select = ['*.T', 'loss.P']\ntolerance = '1 mK'\nintegrator = \
+         'auto'\n[default]\ntemperature_unit = 'K'\n"
     ));
     let run = netlist.run.as_ref().unwrap();
     assert_eq!((run.start, run.stop, run.tolerance), (-5.0, 30.0, 1e-3));
@@ -242,7 +254,8 @@ fn reading_a_file_that_is_not_there_names_it() {
 fn limits_name_temperatures_parameters_and_time() {
     let netlist = good(
         "format = 1\n[param]\nT_max = \"110 degC\"\nspare = \"10 K\"\n\
-         [node]\nsteel = { T0 = \"25 degC\", C = \"500 J/K\" }\n[boundary]\nair = { T = \"25 degC\" }\n\
+         [node]\nsteel = { T0 = \"25 degC\", C = \"500 J/K\" }\n[boundary]\nair = { T = \"25 \
+         degC\" }\n\
          [resistor]\ncooling = { from = \"steel\", to = \"air\", R = \"0.3 K/W\" }\n\
          [limit]\nhot = { of = \"steel.T\", below = \"T_max - spare\" }\n\
          rise = { of = \"steel.T - air.T\", above = \"-5 K\", severity = \"warning\" }\n",
@@ -293,7 +306,8 @@ warning[netlist::massless_initial]: `T0` of node `joint` has no effect: the node
 warning[netlist::massless_length]: `L_char` of node `joint` has no effect: the node is massless
  --> a.toml:4:53
   = help: leave it out: a junction is no body
-warning[netlist::moment]: `P` of source `pulse` compares the time by equality, which lasts for no time
+warning[netlist::moment]: `P` of source `pulse` compares the time by equality, which lasts for no \
+time
  --> a.toml:11:35: never acts
   = help: use `<` or `>=`; a pulse is `if(t < 5 [s], a, if(t < 6 [s], b, a))`";
     assert_eq!(found.join("\n"), expected);

@@ -8,7 +8,8 @@ use std::path::Path;
 use lptn_netlist::{Netlist, Rejected, parse, parse_with};
 use lptn_network::{Field, Item};
 
-const MAIN: &str = "format = 1\n[import]\nnodes = \"n.csv\"\nboundaries = \"b.csv\"\nconductors = \"c.csv\"\n\
+const MAIN: &str = "format = 1\n[import]\nnodes = \"n.csv\"\nboundaries = \"b.csv\"\nconductors \
+    = \"c.csv\"\n\
                     sources = \"s.csv\"\n";
 
 /// A netlist with its files.
@@ -64,7 +65,8 @@ fn the_elements_of_the_files_are_those_of_the_network() {
 /// ends of Windows.
 #[test]
 fn files_of_other_programs_are_read() {
-    let nodes = "\u{feff}# from a mesher\r\nT0 [K],\"name\", C [kJ/K]\r\n\r\n298.15, n1 ,0.5\r\n,n2,\r\n303.15,\"wall[1,2]\",0.0005";
+    let nodes = "\u{feff}# from a mesher\r\nT0 [K],\"name\", C [kJ/K]\r\n\r\n298.15, n1 \
+        ,0.5\r\n,n2,\r\n303.15,\"wall[1,2]\",0.0005";
     let netlist = read(MAIN, &with("n.csv", nodes)).unwrap();
     let plain = read(MAIN, &SMALL).unwrap();
     for id in plain.network.node_ids() {
@@ -84,12 +86,15 @@ fn files_of_other_programs_are_read() {
 
 #[test]
 fn the_file_uses_imported_names_like_its_own() {
-    let more = "[node]\nhousing = { C = \"1 kJ/K\", T0 = \"25 degC\" }\n[capacitor]\nlid = { node = \"n1\", C = \"100 J/K\" }\n\
-                [resistor]\nfoot = { from = \"housing\", to = \"n2\", G = \"1 [W/K] * (1 + (n1.T - 20 [degC]) / 100 [K])\" }\n\
+    let more = "[node]\nhousing = { C = \"1 kJ/K\", T0 = \"25 degC\" }\n[capacitor]\nlid = { node \
+        = \"n1\", C = \"100 J/K\" }\n\
+                [resistor]\nfoot = { from = \"housing\", to = \"n2\", G = \"1 [W/K] * (1 + (n1.T - \
+                20 [degC]) / 100 [K])\" }\n\
                 [source]\nheat = { into = { n1 = 0.5, housing = 0.5 }, P = \"5 W\" }\n\
                 [limit]\nhot = { of = \"max(n1.T, 'wall'.T)\", below = \"80 degC\" }\n";
     let more = more.replace("'wall'", "wall[1,2]");
-    let run = "[run]\nstop = \"1 min\"\nselect = [\"n1.T\", \"import.conductor[*].Q\"]\nreport = { q = \"skin.Q + import.source[1].P + import.conductor[1].Q\" }\n";
+    let run = "[run]\nstop = \"1 min\"\nselect = [\"n1.T\", \"import.conductor[*].Q\"]\nreport = { \
+        q = \"skin.Q + import.source[1].P + import.conductor[1].Q\" }\n";
     let netlist = read(&format!("{MAIN}{more}{run}"), &SMALL).unwrap();
     let network = &netlist.network;
     assert!((network.capacity(network.node("n1").unwrap()) - 600.0).abs() < 1e-9);

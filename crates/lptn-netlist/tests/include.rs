@@ -42,7 +42,8 @@ impl Drop for Folder {
     }
 }
 
-const MAIN: &str = "include = [\"parts/materials.toml\", \"ambient.toml\"]\nformat = 1\ntitle = \"main\"\n\
+const MAIN: &str = "include = [\"parts/materials.toml\", \"ambient.toml\"]\nformat = 1\ntitle \
+    = \"main\"\n\
                     [node]\na = { T0 = \"25 degC\", material = \"cast\", mass = \"2 kg\" }\n\
                     [resistor]\nr = { from = \"a\", to = \"air\", R = \"1 K/W\" }\n";
 const MATERIALS: &str = "format = 1\ntitle = \"materials\"\n[param]\nc = \"460 J/(kg K)\"\n\
@@ -80,7 +81,8 @@ fn paths_are_relative_to_the_file_that_includes_and_a_file_counts_once() {
         &[
             (
                 "net.toml",
-                "include = [\"parts/one.toml\", \"ambient.toml\"]\nformat = 1\n[node]\na = { T0 = \"25 degC\", C = \"1 J/K\" }\n",
+                "include = [\"parts/one.toml\", \"ambient.toml\"]\nformat = 1\n[node]\na = { T0 \
+                 = \"25 degC\", C = \"1 J/K\" }\n",
             ),
             (
                 "parts/one.toml",
@@ -103,7 +105,8 @@ fn a_name_in_two_files_names_both_places() {
             (
                 "net.toml",
                 &format!(
-                    "{MAIN}[boundary]\nair = {{ T = \"20 degC\" }}\ncast = {{ T = \"1 K\" }}\n[source]\ncast = {{ into = \"a\", P = \"1 W\" }}\n"
+                    "{MAIN}[boundary]\nair = {{ T = \"20 degC\" }}\ncast = {{ T = \"1 K\" \
+                     }}\n[source]\ncast = {{ into = \"a\", P = \"1 W\" }}\n"
                 ),
             ),
             ("parts/materials.toml", MATERIALS),
@@ -112,7 +115,13 @@ fn a_name_in_two_files_names_both_places() {
     );
     let (text, rejected) = folder.refused("net.toml");
     assert_eq!(rejected.diagnostics.len(), 2, "{text}");
-    assert!(text.contains("error[netlist::duplicate_key]: `air` is given in two files\n --> net.toml:9:1: given again\n ::: ambient.toml:3:1: first given here"), "{text}");
+    assert!(
+        text.contains(
+            "error[netlist::duplicate_key]: `air` is given in two files\n --> \
+        net.toml:9:1: given again\n ::: ambient.toml:3:1: first given here"
+        ),
+        "{text}"
+    );
     assert!(
         text.contains("error[network::duplicate_name]: the name `cast` is taken twice"),
         "{text}"
@@ -198,12 +207,14 @@ fn what_cannot_be_included_is_named() {
     };
     says(
         "missing.toml",
-        "error[netlist::include_not_found]: cannot include nothing.toml: there is no such file\n --> missing.toml:1:12",
+        "error[netlist::include_not_found]: cannot include nothing.toml: there is no such file\n \
+         --> missing.toml:1:12",
     );
     says("text.toml", "error[netlist::wrong_shape]: `include` must be a list of file names");
     says(
         "numbers.toml",
-        "error[netlist::wrong_shape]: `include` must be a list of file names, got a number\n --> numbers.toml:1:12",
+        "error[netlist::wrong_shape]: `include` must be a list of file names, got a number\n --> \
+         numbers.toml:1:12",
     );
     says(
         "bare_net.toml",
@@ -215,13 +226,15 @@ fn what_cannot_be_included_is_named() {
     );
     says(
         "run_net.toml",
-        "error[netlist::study_in_include]: `[run]` cannot stand in a file that is included\n --> run.toml:2:2",
+        "error[netlist::study_in_include]: `[run]` cannot stand in a file that is included\n --> \
+         run.toml:2:2",
     );
     says("broken_net.toml", "\n --> broken.toml:2:");
     assert!(folder.refused("broken_net.toml").1.syntax);
     says(
         "units_net.toml",
-        "error[units::dimension]: `T` of boundary `air` must be an absolute temperature, got a power (W)\n --> units.toml:3:14",
+        "error[units::dimension]: `T` of boundary `air` must be an absolute temperature, got a \
+         power (W)\n --> units.toml:3:14",
     );
     says("folder_net.toml", "error[netlist::include_not_found]");
 }

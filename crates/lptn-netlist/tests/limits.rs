@@ -70,7 +70,8 @@ fn what_is_cut_off_is_warnings_before_errors() {
     for i in 0..60 {
         let _ = writeln!(text, "p{i} = 1");
     }
-    text += "[node]\na = { T0 = \"20 degC\", C = \"5 J/K\" }\n[boundary]\nair = { T = \"20 degC\" }\n\
+    text += "[node]\na = { T0 = \"20 degC\", C = \"5 J/K\" }\n[boundary]\nair = { T = \"20 degC\" \
+        }\n\
              [resistor]\nskin = { from = \"a\", to = \"air\", R = \"1 K/W\" }\n";
     let netlist = parse("unused.toml", &text).unwrap();
     assert_eq!(netlist.warnings.len(), MOST_PROBLEMS + 1);

@@ -43,7 +43,8 @@ fn a_volume_takes_the_density_too() {
 
 #[test]
 fn parts_add_and_the_mass_is_known_only_if_all_are() {
-    let parts = "[node]\na = {}\n[capacitor]\ng = { node = \"a\", material = \"steel_8620\", mass = \"2 kg\" }\n\
+    let parts = "[node]\na = {}\n[capacitor]\ng = { node = \"a\", material = \"steel_8620\", mass \
+        = \"2 kg\" }\n\
                  h = { node = \"a\", material = \"steel_4340\", volume = \"100 cm^3\" }\n";
     let netlist = good(parts);
     close(netlist.network.capacity(a(&netlist)), 2.0 * 475.0 + 1e-4 * 7850.0 * 477.0);
@@ -56,7 +57,8 @@ fn parts_add_and_the_mass_is_known_only_if_all_are() {
 #[test]
 fn a_material_of_the_file_hides_one_of_the_library_and_parameters_reach_both() {
     let mut netlist = good(
-        "[param]\nm = \"2 kg\"\nc = \"400 J/(kg K)\"\n[material]\nsteel_8620 = { cp = \"c + 10 [J/(kg K)]\" }\n\
+        "[param]\nm = \"2 kg\"\nc = \"400 J/(kg K)\"\n[material]\nsteel_8620 = { cp = \"c + 10 \
+         [J/(kg K)]\" }\n\
          [node]\na = { material = \"steel_8620\", mass = \"m / 2\" }\n",
     );
     close(netlist.network.capacity(a(&netlist)), 410.0);

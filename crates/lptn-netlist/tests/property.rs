@@ -35,7 +35,8 @@ fn with_files(text: &str) -> Result<Netlist, Rejected> {
 }
 
 /// A table of one, of two arguments and a signal from one file.
-const ALL_FROM_CSV: &str = "format = 1\n[table]\na = { csv = \"d.csv\", x = \"x\", value = \"z\" }\n\
+const ALL_FROM_CSV: &str = "format = 1\n[table]\na = { csv = \"d.csv\", x = \"x\", value = \"z\" \
+    }\n\
      b = { csv = \"d.csv\", x = \"x\", y = \"y\", value = \"z\" }\n[signal]\n\
      c = { csv = \"d.csv\", time = \"t\", value = \"z\" }\n\
      [node]\nn = { C = \"1 J/K\", T0 = \"0 degC\" }\n";
@@ -221,7 +222,8 @@ proptest! {
     }
 
     #[test]
-    fn any_assignments(texts in prop::collection::vec("(P_7000|bed_share|T_amb|x)?=?[-0-9.a-zA-Z±/ ]{0,9}", 0..4)) {
+    fn any_assignments(texts in prop::collection::vec("(P_7000|bed_share|T_amb|x)?=?[-0-9.a-zA-Z±/ \
+        ]{0,9}", 0..4)) {
         let mut netlist = parse("gearbox.toml", GEARBOX).unwrap();
         match netlist.set(&texts) {
             Ok(()) => sound(&netlist)?,

@@ -101,7 +101,8 @@ error[netlist::unknown_parameter]: there is no parameter `shar`
  --> --set:2:1
  ::: net.toml:7:9: its value in the netlist
   = help: did you mean `share`?
-error[units::dimension]: parameter `R_out` must be a thermal resistance (K/W), got a thermal conductance (W/K)
+error[units::dimension]: parameter `R_out` must be a thermal resistance (K/W), got a thermal \
+conductance (W/K)
  --> --set:3:7
  ::: net.toml:6:9: its value in the netlist
   = help: write \"1 / (2 [W/K])\"";

@@ -118,13 +118,14 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// A field that has to be constant depends on `t`.
     DependsOnTime { item: Item, field: Field } = "network::depends_on_time", at Some((*item, *field)),
         says format!("{} has to be constant, but depends on the time `t`", say.field(*item, *field)),
-        help text("sources, boundaries and the values of conductors may depend on `t`; a parameter that should is a [signal]");
+        help text("sources, boundaries and the values of conductors may depend on `t`; a parameter \
+            that should is a [signal]");
     /// A field that has to be known before any result depends on the temperature of a node or
     /// boundary.
     DependsOnResult { item: Item, field: Field } = "network::depends_on_result", at Some((*item, *field)),
         says format!("{} cannot depend on the temperature of a node or boundary", say.field(*item, *field)),
-        help text("sources, conductors and limits may depend on temperatures; a capacity and a property of a material may \
-                   depend on their own `T`");
+        help text("sources, conductors and limits may depend on temperatures; a capacity and a \
+            property of a material may depend on their own `T`");
     /// A comparison whose sides are not linear in `t`: the time at which it changes is not known
     /// beforehand.
     ComparisonNotLinear { item: Item, field: Field } = "network::comparison_not_linear", at Some((*item, *field)),
@@ -133,9 +134,10 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// A comparison of a temperature where its change cannot be followed: in a property, or for
     /// equality.
     ComparesTemperature { item: Item, field: Field } = "network::compares_temperature", at Some((*item, *field)),
-        says format!("{} compares temperatures, or what switches, where the change cannot be followed", say.field(*item, *field)),
-        help text("sources and paths may compare temperatures, with `<` or `>`; elsewhere write a smooth change, for \
-                   example `0.5 * (1 + tanh((T - 80 [degC]) / 1 [K]))`, or a [table]");
+        says format!("{} compares temperatures, or what switches, where the change cannot be \
+            followed", say.field(*item, *field)),
+        help text("sources and paths may compare temperatures, with `<` or `>`; elsewhere write a \
+            smooth change, for example `0.5 * (1 + tanh((T - 80 [degC]) / 1 [K]))`, or a [table]");
     /// The threshold at which a control switches on lies beyond that at which it switches off, or
     /// both are one.
     ThresholdsCrossed { control: ControlId, fields: [Field; 2], on: f64, off: f64 } = "network::thresholds_crossed",
@@ -181,7 +183,8 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// that temperature.
     NotMelting { node: NodeId, temperature: f64 } = "network::not_melting", at Some((Item::Node(*node), Field::Initial)),
         says format!("`{}` is to start partly molten, but does not melt at just {temperature} K", say.name),
-        help text("give the material the solidus and liquidus of the run that wrote the state, or leave the share out");
+        help text("give the material the solidus and liquidus of the run that wrote the state, or \
+            leave the share out");
     /// Shares of a source that are negative or do not sum to 1.
     Shares { source: SourceId, sum: f64 } = "network::shares", at Some((Item::Source(*source), Field::Into)),
         says format!("the shares of {} must sum to 1, got {}", say.item(Item::Source(*source)), format_short(*sum)),
@@ -238,7 +241,8 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     NoCapacity { node: NodeId } = "network::no_capacity", at Some((Item::Node(*node), Field::Name)),
         says format!("node `{}` has no capacity", say.name),
         help Some(format!(
-            "give it a capacity, `{0} = {{ C = \"500 J/K\" }}`, or make it a junction, `{0} = {{ massless = true }}`", say.name
+            "give it a capacity, `{0} = {{ C = \"500 J/K\" }}`, or make it a junction, `{0} = {{ \
+             massless = true }}`", say.name
         ));
     /// A node declared massless that has a capacity.
     MasslessWithCapacity { node: NodeId } = "network::massless_with_capacity", at Some((Item::Node(*node), Field::Name)),
@@ -301,6 +305,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             "the area of `{}`, {} m^2, is not that of the face `{name}`, {} m^2",
             say.name, format_short(*given), format_short(*area)
         ),
-        help text("leave `area` out: it is that of the face; a film on a part of it is given by `G` or `R`");
+        help text("leave `area` out: it is that of the face; a film on a part of it is given by \
+            `G` or `R`");
 }
 }

@@ -35,11 +35,14 @@ pub enum InputProblem {
     NegativeConductance(value: f64) = INPUT, format!("makes a negative conductance: {} W/K", format_number(*value)),
         help "keep it positive: `max(x, 0 [W/K])` with its own unit";
     /// A signal was read before its first point; times in s.
-    BeforeSignal { time: f64, first: f64 } = INPUT, format!("is not known at {time} s: its first point is at {first} s"),
+    BeforeSignal { time: f64, first: f64 } = INPUT, format!("is not known at {time} s: its first \
+        point is at {first} s"),
         help format!("begin the signal earlier, or the run at `start = \"{first} s\"`");
     /// A signal was read after its last point; times in s.
-    AfterSignal { time: f64, last: f64 } = INPUT, format!("is not known at {time} s: its last point is at {last} s"),
-        help "write `after_end = \"hold\"` or `after_end = \"repeat\"` in the signal, or stop the run there";
+    AfterSignal { time: f64, last: f64 } = INPUT, format!("is not known at {time} s: its last \
+        point is at {last} s"),
+        help "write `after_end = \"hold\"` or `after_end = \"repeat\"` in the signal, or stop the \
+            run there";
     /// A signal that is repeated so often that a run would have to stop at this many points.
     TooManyPoints(count: f64) = INPUT,
         format!("repeats the signal so often that the run would stop at {count:.0} points"),
@@ -67,7 +70,8 @@ pub enum InputProblem {
     /// A node outside the temperatures in K for which its capacity is known and positive.
     OutsideCapacity { range: (f64, f64) } = INPUT,
         format!(
-            "is not known where the temperature goes: it is known and positive from {} to {} K only",
+            "is not known where the temperature goes: it is known and positive from {} to {} K \
+             only",
             range.0, range.1
         ),
         help FURTHER;
@@ -76,7 +80,8 @@ pub enum InputProblem {
 
 const INPUT: &str = "solve::input";
 
-const FURTHER: &str = "let the table or expression reach further, or keep the end values of a table with `outside = \"hold\"`";
+const FURTHER: &str = "let the table or expression reach further, or keep the end values of a \
+    table with `outside = \"hold\"`";
 
 impl From<EvalError> for InputProblem {
     fn from(error: EvalError) -> Self {

@@ -106,7 +106,8 @@ fn a_capacity_that_rises_with_temperature() {
     let mut b = NetworkBuilder::new();
     let c = own(
         &b,
-        "10 [J/K] + 0.02 [J/K^2] * (T - absolute(300 [K])) + 1e-4 [J/K^3] * (T - absolute(300 [K]))^2",
+        "10 [J/K] + 0.02 [J/K^2] * (T - absolute(300 [K])) + 1e-4 [J/K^3] * (T - absolute(300 \
+         [K]))^2",
     );
     let x = b.node("x", c, Temperature(350.0));
     let network = b.build().unwrap();

@@ -13,19 +13,23 @@ pub enum ReduceError {
     UnknownPort(unknown: UnknownName) = "reduce::unknown_port", format!("no node is named `{}`", unknown.name),
         help unknown.suggestion.as_ref().map(|name| format!("did you mean `{name}`?"));
     /// The port is a boundary: its temperature is given, whatever heat goes in.
-    BoundaryPort { name: String } = "reduce::boundary_port", format!("`{name}` is a boundary and cannot be a port"),
+    BoundaryPort { name: String } = "reduce::boundary_port", format!("`{name}` is a boundary and \
+        cannot be a port"),
         help "choose a node: a boundary keeps its temperature whatever heat it gets";
     /// No path leads from the port and the nodes joined to it to a boundary: heat put in there is
     /// never given away.
     NoGround { names: Vec<String> } = "reduce::no_ground",
         format!("no path leads to a boundary from {}", list_of_names(names)),
-        help "add a path to a boundary: without one, a constant heat never leads to a rise that stays";
+        help "add a path to a boundary: without one, a constant heat never leads to a rise that \
+            stays";
     /// The network is not linear with constant coefficients; the name of the first item that makes
     /// it so.
     NotLinear { name: String } = "reduce::not_linear",
-        format!("`{name}` is more than a constant: only linear networks have one equivalent resistance"),
+        format!("`{name}` is more than a constant: only linear networks have one equivalent \
+            resistance"),
         help format!(
-            "put a constant conductance, capacity or heat in place of `{name}`, as it is in steady state: `lptn steady`"
+            "put a constant conductance, capacity or heat in place of `{name}`, as it is in steady \
+             state: `lptn steady`"
         );
     /// Sources or boundaries switch by themselves, which one node without the places that are felt
     /// cannot follow.
@@ -43,7 +47,8 @@ pub enum ReduceError {
     /// A run of the network or of its equivalent failed.
     Run => TransientError;
     /// The equivalent network could not be built; the text says why.
-    Equivalent(why: String) = "reduce::equivalent", format!("the equivalent network cannot be built: {why}"), class Class::Numbers;
+    Equivalent(why: String) = "reduce::equivalent", format!("the equivalent network cannot be \
+        built: {why}"), class Class::Numbers;
     /// The window in s of the least-squares definition is not a positive time, or too short to see
     /// the port warm.
     Window(window: f64) = "reduce::window",
@@ -67,7 +72,8 @@ pub enum FitError {
         format!("an exponential has three numbers to fit, and the record has {points} points"),
         help "four samples or more give a curve with an error";
     /// The times do not ascend, or a value is not finite.
-    NotARecord = "fit::not_a_record", "the times of the record do not ascend, or a value is not a number";
+    NotARecord = "fit::not_a_record", "the times of the record do not ascend, or a value is not a \
+        number";
     /// The temperature does not change.
     Flat = "fit::flat", "the temperature of the record does not change",
         help "name the columns that change: --column NAME";

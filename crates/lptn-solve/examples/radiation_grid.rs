@@ -56,7 +56,8 @@ fn main() -> Outcome<()> {
         let error = found.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let hottest = exact.iter().copied().fold(0.0, f64::max);
         println!(
-            "hottest {hottest:.3} degC, largest difference to a thousandth of the tolerance {error:.1e} K"
+            "hottest {hottest:.3} degC, largest difference to a thousandth of the tolerance \
+             {error:.1e} K"
         );
     }
     Ok(())

@@ -16,7 +16,8 @@ pub enum SteadyError {
     /// after the other, and the heat in W that they keep receiving.
     NoBoundary { nodes: Vec<NodeId>, names: Vec<String>, heat: f64 } = "steady::no_boundary",
         format!(
-            "no path leads to a boundary from {}, where {} W stay for ever: there is no steady state",
+            "no path leads to a boundary from {}, where {} W stay for ever: there is no steady \
+             state",
             list_of_names(names),
             six_digits(*heat)
         ),
@@ -36,7 +37,8 @@ pub enum SteadyError {
     /// switch: its names, and how many positions were tried.
     Cycles { names: Vec<String>, tried: usize } = "steady::cycles",
         format!(
-            "no steady state, it cycles: in each of the {tried} positions that were tried something has to switch, among it {}",
+            "no steady state, it cycles: in each of the {tried} positions that were tried \
+             something has to switch, among it {}",
             list_of(names, "things")
         ),
         help "run the network over time, `lptn run`: it shows how often it switches, and the means", class Class::No;
@@ -97,11 +99,12 @@ pub enum StopReason {
     /// and as they are.
     Chatter { name: String, changes: usize, place: (Item, Field) } = "run::chatter",
         format!(
-            "a comparison in `{name}` changed {changes} times between two rows: the temperatures stay where it neither holds \
-             nor fails"
+            "a comparison in `{name}` changed {changes} times between two rows: the temperatures \
+             stay where it neither holds nor fails"
         ),
-        help "give it a dead band: a [control] with `on_above` and `off_below`, or `on_below` and `off_above`, whose name is 0 \
-              or 1 in expressions; or a gradual change, `0.5 * (1 + tanh((T - 80 [degC]) / 1 [K]))`";
+        help "give it a dead band: a [control] with `on_above` and `off_below`, or `on_below` and \
+            `off_above`, whose name is 0 or 1 in expressions; or a gradual change, `0.5 * (1 + \
+            tanh((T - 80 [degC]) / 1 [K]))`";
     /// What switches back and forth at one moment, without time going on: controls by name,
     /// comparisons by element and field.
     Restless { names: Vec<String> } = "run::restless",
@@ -109,12 +112,16 @@ pub enum StopReason {
             [one] => format!("`{one}` switches back and forth at this very moment"),
             several => format!("{} switch back and forth at this very moment", list_of(several, "things")),
         },
-        help "switching changes at once what is compared: let a control feel a node with a capacity, or give it a `min_dwell`";
+        help "switching changes at once what is compared: let a control feel a node with a \
+            capacity, or give it a `min_dwell`";
     /// More events than a run may have.
-    TooManyEvents { count: usize } = "run::too_many_events", format!("{count} events, more than a run may have"),
-        help "what switches this often is better replaced by its mean, or made slower by `min_dwell`";
+    TooManyEvents { count: usize } = "run::too_many_events", format!("{count} events, more than a \
+        run may have"),
+        help "what switches this often is better replaced by its mean, or made slower by \
+            `min_dwell`";
     /// The network switches, but has no node with a capacity.
-    NothingSwitches = "run::no_capacity", "controls and comparisons of temperatures need a node with a capacity",
+    NothingSwitches = "run::no_capacity", "controls and comparisons of temperatures need a node \
+        with a capacity",
         help "give the nodes that are felt a capacity";
     /// The integrator gave up; the node with the largest error, where that is known.
     Integrator { error: IntegrateError, node: Option<String> } = "run::integrator",

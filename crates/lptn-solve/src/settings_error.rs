@@ -11,7 +11,8 @@ pub enum SettingsError {
     Interval { start: f64, stop: f64 } = "run::settings",
         format!("a run must stop after it starts, got {start} s to {stop} s");
     /// The tolerance is not positive and finite.
-    Tolerance(value: f64) = "run::settings", format!("the tolerance must be a positive number of K, got {value}");
+    Tolerance(value: f64) = "run::settings", format!("the tolerance must be a positive number of \
+        K, got {value}");
     /// An output time in s is outside the run or not after the one before it.
     OutputTime(time: f64) = "run::settings",
         format!("the output time {time} s is outside the run or not after the one before it");
@@ -26,7 +27,8 @@ pub enum SettingsError {
     /// well enough: start, stop and the distance of two doubles at the larger one of them, in s.
     FarFromZero { start: f64, stop: f64, resolution: f64 } = "run::settings",
         format!(
-            "the run from {start} s lasts {} s, but numbers of this size are {} s apart, too coarse for what depends on the time",
+            "the run from {start} s lasts {} s, but numbers of this size are {} s apart, too \
+             coarse for what depends on the time",
             six_digits(stop - start),
             six_digits(*resolution)
         ),
@@ -37,10 +39,12 @@ pub enum SettingsError {
     /// More temperatures would be kept than fit in memory.
     TooMuch { rows: usize, nodes: usize } = "run::settings",
         format!(
-            "{rows} rows of {nodes} temperatures do not fit in memory: write fewer rows, or select fewer columns"
+            "{rows} rows of {nodes} temperatures do not fit in memory: write fewer rows, or select \
+             fewer columns"
         );
     /// The distance between outputs in s is not positive, or so small that there would be too many.
-    OutputEvery(every: f64) = "run::settings", format!("outputs every {every} s are none, or more than 10 million");
+    OutputEvery(every: f64) = "run::settings", format!("outputs every {every} s are none, or more \
+        than 10 million");
     /// The state to begin with is one of another network, or not finite.
     State = "run::settings", "the state to begin with is not one of this network";
     /// The library was built without an integrator.
@@ -52,5 +56,5 @@ pub enum SettingsError {
 }
 }
 
-const FROM_ZERO: &str = "count the time from the beginning of the run, `start = \"0 s\"`; where an expression needs the other \
-                         time, write `(t + 1.7e9 [s])` in place of `t`";
+const FROM_ZERO: &str = "count the time from the beginning of the run, `start = \"0 s\"`; where an \
+    expression needs the other time, write `(t + 1.7e9 [s])` in place of `t`";

@@ -17,35 +17,40 @@ pub enum Unsolved {
     /// whatever it is.
     Undetermined { node: String } = "solve::undetermined",
         format!(
-            "nothing determines the temperature of `{node}` and of the nodes it exchanges heat with: no heat that leaves \
-             them depends on it, as where a stream stands still"
+            "nothing determines the temperature of `{node}` and of the nodes it exchanges heat \
+             with: no heat that leaves them depends on it, as where a stream stands still"
         ),
         help format!(
-            "let a path lead from `{node}` to a boundary at all times; with capacities `lptn run` follows it meanwhile"
+            "let a path lead from `{node}` to a boundary at all times; with capacities `lptn run` \
+             follows it meanwhile"
         );
     /// The numbers could not be factorised.
-    Factorization(error: FactorError) = "solve::singular", format!("the balances cannot be factorised: {error}"),
+    Factorization(error: FactorError) = "solve::singular", format!("the balances cannot be \
+        factorised: {error}"),
         source error;
     /// Heat in and out are equal at the temperatures found, but the least disturbance leads away
     /// from them.
     Unstable { node: String } = "solve::unstable",
-        format!("the only steady state that was found is unstable: from the least disturbance on `{node}` runs away"),
+        format!("the only steady state that was found is unstable: from the least disturbance on \
+            `{node}` runs away"),
         help GROWS;
     /// Heat in and out were equal at temperatures that end here: they are equal elsewhere only, and
     /// without a capacity nothing says how the node gets there.
     Fold { node: String } = "solve::fold",
         format!(
-            "the balance of the massless node `{node}` has more than one solution, and the one that it had so far ends \
-             here: it jumps, and where to is not known"
+            "the balance of the massless node `{node}` has more than one solution, and the one \
+             that it had so far ends here: it jumps, and where to is not known"
         ),
         help format!(
-            "give `{node}` a small capacity in place of `massless = true`, such as `C = \"1 mJ/K\"`, and a `T0`"
+            "give `{node}` a small capacity in place of `massless = true`, such as `C = \"1 \
+             mJ/K\"`, and a `T0`"
         );
     /// No temperatures were found at which heat in and heat out are equal: by how much the node
     /// still moved, in K.
     NotFound { node: String, change: f64 } = "solve::not_found",
         format!(
-            "no temperatures were found at which heat in and out are equal: `{node}` still moved by {} K",
+            "no temperatures were found at which heat in and out are equal: `{node}` still moved \
+             by {} K",
             six_digits(*change)
         ),
         help GROWS;

@@ -10,8 +10,10 @@ use lptn_study::{
 /// 100 W into `inner`, over `R_in` into `outer`, over `G` into air of 20 degC.
 fn chain(param: &str, study: &str) -> Netlist {
     let text = format!(
-        "format = 1\n[param]\nG = \"3 W/K\"\nR_in = \"0.05 K/W\"\n{param}\n[default]\nT0 = \"20 degC\"\n[node]\n\
-         inner = {{ C = \"1 kJ/K\" }}\nouter = {{ C = \"1 kJ/K\" }}\n[boundary]\nair = {{ T = \"20 degC\" }}\n\
+        "format = 1\n[param]\nG = \"3 W/K\"\nR_in = \"0.05 K/W\"\n{param}\n[default]\nT0 = \"20 \
+         degC\"\n[node]\n\
+         inner = {{ C = \"1 kJ/K\" }}\nouter = {{ C = \"1 kJ/K\" }}\n[boundary]\nair = {{ T = \"20 \
+         degC\" }}\n\
          [resistor]\njoint = {{ from = \"inner\", to = \"outer\", R = \"R_in\" }}\n\
          skin = {{ from = \"outer\", to = \"air\", G = \"G\" }}\n\
          [source]\nloss = {{ into = \"inner\", P = \"100 W\" }}\n[size.s]\n{study}\n"
@@ -21,8 +23,10 @@ fn chain(param: &str, study: &str) -> Netlist {
 
 fn one_node(resistor: &str, power: &str, study: &str) -> Netlist {
     let text = format!(
-        "format = 1\n[param]\nx = 3\n[node]\nblock = {{ C = \"1 kJ/K\", T0 = \"20 degC\" }}\n[boundary]\n\
-         air = {{ T = \"20 degC\" }}\n[resistor]\nskin = {{ from = \"block\", to = \"air\", {resistor} }}\n\
+        "format = 1\n[param]\nx = 3\n[node]\nblock = {{ C = \"1 kJ/K\", T0 = \"20 degC\" \
+         }}\n[boundary]\n\
+         air = {{ T = \"20 degC\" }}\n[resistor]\nskin = {{ from = \"block\", to = \"air\", \
+         {resistor} }}\n\
          [source]\nloss = {{ into = \"block\", P = \"{power}\" }}\n[size.s]\n{study}\n"
     );
     parse("one_node.toml", &text).unwrap_or_else(|rejected| panic!("{rejected}"))
@@ -48,7 +52,8 @@ fn near(found: f64, expected: f64, relative: f64) {
 
 #[test]
 fn one_node_has_the_closed_form() {
-    let study = "minimise = \"x\"\nvary = { x = { from = 0.1, to = 50 } }\nrequire = [\"block.T <= 75 [degC]\"]";
+    let study = "minimise = \"x\"\nvary = { x = { from = 0.1, to = 50 } }\nrequire = [\"block.T <= \
+        75 [degC]\"]";
     let sizing = solve(&one_node("G = \"x * 1 [W/K]\"", "100 W", study)).unwrap();
     assert_eq!(sizing.verdict, Verdict::Bound);
     near(sizing.trial.value, 100.0 / 55.0, 1e-12);
@@ -89,7 +94,8 @@ fn two_limits_bind_in_turn() {
 
 #[test]
 fn what_is_kept_already_takes_the_best_end() {
-    let study = "minimise = \"G\"\nvary = { G = { from = \"5 W/K\", to = \"50 W/K\" } }\nrequire = [\"outer.T <= 70 [degC]\"]";
+    let study = "minimise = \"G\"\nvary = { G = { from = \"5 W/K\", to = \"50 W/K\" } }\nrequire = \
+        [\"outer.T <= 70 [degC]\"]";
     let sizing = solve(&chain("", study)).unwrap();
     assert_eq!(sizing.verdict, Verdict::BestEnd);
     near(sizing.trial.value, 5.0, 0.0);
@@ -103,7 +109,8 @@ fn what_is_kept_already_takes_the_best_end() {
 
 #[test]
 fn infeasible_says_how_far_off() {
-    let study = "minimise = \"G\"\nvary = { G = { from = \"0.5 W/K\", to = \"2 W/K\" } }\nrequire = [\"outer.T <= 60 [degC]\"]";
+    let study = "minimise = \"G\"\nvary = { G = { from = \"0.5 W/K\", to = \"2 W/K\" } }\nrequire \
+        = [\"outer.T <= 60 [degC]\"]";
     let sizing = solve(&chain("", study)).unwrap();
     assert_eq!((sizing.verdict, sizing.feasible()), (Verdict::Infeasible, false));
     near(sizing.trial.value, 2.0, 1e-7);
@@ -117,7 +124,8 @@ fn infeasible_says_how_far_off() {
 /// A fan that heats what it cools: T = 20 + 100/x + 2 x, with its least value at the root of 50.
 fn fan(limit: &str) -> Sizing {
     let study = format!(
-        "minimise = \"x\"\nvary = {{ x = {{ from = 1, to = 50 }} }}\nrequire = [\"block.T <= {limit} [degC]\"]"
+        "minimise = \"x\"\nvary = {{ x = {{ from = 1, to = 50 }} }}\nrequire = [\"block.T <= \
+         {limit} [degC]\"]"
     );
     solve(&one_node("G = \"x * 1 [W/K]\"", "100 [W] + 2 [W] * x^2", &study)).unwrap()
 }
@@ -151,7 +159,8 @@ fn an_infeasible_middle_is_the_best_there_is() {
 
 #[test]
 fn what_was_set_before_stays_set() {
-    let study = "minimise = \"G\"\nvary = { G = { from = \"0.5 W/K\", to = \"50 W/K\" } }\nrequire = [\"inner.T <= 80 [degC]\"]";
+    let study = "minimise = \"G\"\nvary = { G = { from = \"0.5 W/K\", to = \"50 W/K\" } }\nrequire \
+        = [\"inner.T <= 80 [degC]\"]";
     let mut netlist = chain("", study);
     netlist.set(&["R_in=0.2 K/W".into()]).unwrap();
     near(solve(&netlist).unwrap().trial.value, 2.5, 1e-11);
@@ -159,7 +168,8 @@ fn what_was_set_before_stays_set() {
 
 #[test]
 fn a_range_without_network_is_an_error_that_says_where() {
-    let study = "minimise = \"x\"\nvary = { x = { from = -1, to = 5 } }\nrequire = [\"block.T <= 75 [degC]\"]";
+    let study = "minimise = \"x\"\nvary = { x = { from = -1, to = 5 } }\nrequire = [\"block.T <= \
+        75 [degC]\"]";
     let error = solve(&one_node("G = \"x * 1 [W/K]\"", "100 W", study)).unwrap_err();
     assert_eq!(error.code(), "size::network");
     assert!(matches!(error, SizeError::Network { value, .. } if value < 0.0), "{error}");

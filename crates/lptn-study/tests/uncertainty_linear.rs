@@ -142,7 +142,8 @@ fn both_methods_agree_where_lines_are_straight_and_say_where_not() {
 #[test]
 fn without_exact_sensitivities_there_are_differences_of_runs() {
     let text = ONE_NODE.replace("P = \"P\"", "P = \"P * heater\"")
-        + "[control]\nheater = { sense = \"block\", on_below = \"90 degC\", off_above = \"200 degC\", start = \"on\" }\n\
+        + "[control]\nheater = { sense = \"block\", on_below = \"90 degC\", off_above = \"200 \
+            degC\", start = \"on\" }\n\
            [limit]\nhot = { of = \"block.T\", below = \"120 degC\" }\n";
     let found = linear(&parsed(&text, "P = \"200 ± 20 W\"\nT_amb = \"20 degC\""));
     let Method::Linear { differences: Some(why) } = &found.method else {
@@ -182,8 +183,10 @@ fn regression_a_maximum_at_a_jump_moves_with_the_jump() {
 /// Without an effect a parameter has no share, and rounding is none.
 #[test]
 fn regression_a_parameter_without_effect_has_no_share() {
-    let balanced = "[boundary]\nair = { T = \"20 degC\" }\n[node]\nblock = { C = \"1 kJ/K\", T0 = \"20 degC\" }\n\
-        [resistor]\nskin = { from = \"block\", to = \"air\", R = \"R\" }\n[run]\nstop = \"1000 s\"\n";
+    let balanced = "[boundary]\nair = { T = \"20 degC\" }\n[node]\nblock = { C = \"1 kJ/K\", T0 \
+        = \"20 degC\" }\n\
+        [resistor]\nskin = { from = \"block\", to = \"air\", R = \"R\" }\n[run]\nstop = \"1000 \
+        s\"\n";
     let found = linear(&parsed(balanced, "R = \"0.5 ± 0.05 K/W\""));
     let end = answer(&found, |of| matches!(of, AnswerOf::End(_)));
     assert_eq!((end.deviation.value, end.ranking[0].share.value), (0.0, 0.0));

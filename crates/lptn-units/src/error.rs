@@ -32,7 +32,8 @@ pub enum UnitErrorKind {
     Syntax { wanted: &'static str, found: String } = "units::syntax",
         format!("expected {wanted}, found {found}"), help syntax_help(wanted, found).map(str::to_owned);
     /// The number, or the number in SI units, does not fit into an `f64`.
-    OutOfRange { number: String } = "units::out_of_range", format!("number `{number}` is out of range");
+    OutOfRange { number: String } = "units::out_of_range", format!("number `{number}` is out of \
+        range");
     /// `nan` or `inf`.
     NotFinite { text: String } = "units::not_finite", format!("`{text}` is not a finite number"),
         help "leave the field out if there is no such value";
@@ -55,7 +56,8 @@ pub enum UnitErrorKind {
     UnknownUnit { name: String, fix: Option<String> } = "units::unknown_unit",
         format!("unknown unit `{name}`"), help fix.as_deref().map(|fix| format!("did you mean \"{fix}\"?"));
     /// A product after a division bar without brackets: `J/kg K`.
-    AmbiguousProduct { fix: Option<String> } = "units::ambiguous_product", "product after `/` needs brackets",
+    AmbiguousProduct { fix: Option<String> } = "units::ambiguous_product", "product after `/` \
+        needs brackets",
         help fix.as_deref().map(write);
     /// An exponent that cannot be read or does not fit, as written, or the power it belongs to.
     Exponent { text: String } = "units::exponent", format!("exponent `{text}` cannot be used"),
@@ -101,7 +103,8 @@ pub enum UnitErrorKind {
     /// value.
     PercentDeviation { points: String, part: String } = "units::percent_deviation",
         "a deviation in percent that reads in two ways",
-        help format!("write \"{part}\" for a part of the value, or \"{points}\" for percentage points");
+        help format!("write \"{part}\" for a part of the value, or \"{points}\" for percentage \
+            points");
     /// A deviation without a unit behind a value that has one: `5 kW ± 1`.
     BareDeviation { fix: String } = "units::bare_number",
         "the deviation has no unit, but the value has one", help write(fix);
@@ -112,10 +115,12 @@ pub enum UnitErrorKind {
         format!("`{name}` is a unit and also a parameter, so that this reads in two ways"),
         help format!("write \"{quantity}\" for the quantity or \"{expression}\" for the expression");
     /// A unit without brackets in an expression.
-    UnbracketedUnit { fix: String } = "units::unbracketed_unit", "unit without brackets in an expression",
+    UnbracketedUnit { fix: String } = "units::unbracketed_unit", "unit without brackets in an \
+        expression",
         help write(fix);
     /// A bracket that follows neither a number nor, without space, a name.
-    MisplacedBracket { fix: String } = "units::misplaced_bracket", "unit in brackets may only follow a number",
+    MisplacedBracket { fix: String } = "units::misplaced_bracket", "unit in brackets may only \
+        follow a number",
         help write(fix);
     /// No parameter, signal, node ... has this name; the nearest in scope.
     UnknownName { name: String, suggestion: Option<String> } = "units::unknown_name",

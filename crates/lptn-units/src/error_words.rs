@@ -31,7 +31,8 @@ pub(crate) fn turning(fix: &Option<String>) -> String {
 pub(crate) fn comma(decimal: Option<&str>, thousands: Option<&str>) -> String {
     match (decimal, thousands) {
         (Some(decimal), Some(thousands)) => format!(
-            "write \"{thousands}\" if the comma separates thousands, \"{decimal}\" if it is a decimal comma"
+            "write \"{thousands}\" if the comma separates thousands, \"{decimal}\" if it is a \
+             decimal comma"
         ),
         (Some(fix), None) | (None, Some(fix)) => write(fix),
         (None, None) => "write a decimal point, and no separators between the digits".to_owned(),
@@ -57,7 +58,8 @@ pub(crate) fn syntax_help(wanted: &str, found: &str) -> Option<&'static str> {
     match (wanted, found) {
         (WANTED_POWER, _) => Some("a power is written with `^`: \"x^2\""),
         (WANTED_CALL | WANTED_CHOICE, _) | (_, "`then`" | "`else`") => Some(
-            "write `if(condition, value, other value)`, for example \"if(t < 10 [min], 100 [W], 0 [W])\"",
+            "write `if(condition, value, other value)`, for example \"if(t < 10 [min], 100 [W], 0 \
+             [W])\"",
         ),
         (_, "`:`") => Some("a time is one number with its unit: \"25 min\""),
         (_, "`and`" | "`or`" | "`not`" | "`&`" | "`|`" | "`!`") => {

@@ -340,7 +340,8 @@ fn errors_of_rotations_and_results() {
             "units::rotation",
             "3 [kHz]",
             Some(
-                "write \"if(omega > 3000 [rev/s], 1, 2)\" for revolutions, or use rad/s, deg/s or rpm",
+                "write \"if(omega > 3000 [rev/s], 1, 2)\" for revolutions, or use rad/s, deg/s or \
+                 rpm",
             ),
         ),
         (
@@ -459,7 +460,8 @@ fn one_radian_too_many_is_a_result_in_the_type_that_is_due() {
 fn habits_of_other_languages_are_answered() {
     let nested = Some("conditions are combined by nesting: \"if(a < b, if(c < d, x, y), y)\"");
     let choice = Some(
-        "write `if(condition, value, other value)`, for example \"if(t < 10 [min], 100 [W], 0 [W])\"",
+        "write `if(condition, value, other value)`, for example \"if(t < 10 [min], 100 [W], 0 \
+         [W])\"",
     );
     let power = Some("a power is written with `^`: \"x^2\"");
     check_wrong(&[

@@ -21,7 +21,8 @@ fn numbers_with_separators_show_those_without() {
             decimal,
             ",",
             Some(
-                "write \"1000 W\" if the comma separates thousands, \"1.000 W\" if it is a decimal comma",
+                "write \"1000 W\" if the comma separates thousands, \"1.000 W\" if it is a decimal \
+                 comma",
             ),
         ),
         ("0,350 K/W", None, decimal, ",", Some("write \"0.350 K/W\"")),

@@ -184,7 +184,8 @@ proptest! {
         let found = program.eval(&duals, &mut Vec::new()).unwrap();
         prop_assert_eq!(found.value.to_bits(), exact.to_bits());
         for (dual, difference) in found.derivatives.into_iter().zip([in_a, in_b]) {
-            prop_assert!((dual - difference).abs() < 1e-6 * (10.0 + dual.abs()), "{dual} and {difference}");
+            prop_assert!((dual - difference).abs() < 1e-6 * (10.0 + dual.abs()), "{dual} and \
+                {difference}");
         }
     }
 }

@@ -196,7 +196,8 @@ fn saturated(
 ) -> Diagnostic {
     let [from, to] = [found.first, found.last].map(|row| short(record.time[row]));
     let message = format!(
-        "column `{}` stays at {}, its most extreme value, from {from} s to {to} s: its sensor seems to be at its end",
+        "column `{}` stays at {}, its most extreme value, from {from} s to {to} s: its sensor \
+         seems to be at its end",
         column.name,
         shown(column, found.value)
     );

@@ -84,7 +84,10 @@ fn reversed([last, time]: [String; 2], place: &Span, before: &Span) -> Diagnosti
     Diagnostic::error("record::time_reversed", format!("the time goes back from {last} to {time}"))
         .at(place.clone(), "earlier than the row above it")
         .also(before.clone(), "the row above it")
-        .help("sort the rows by their time; where two records stand in one file, make two files of it")
+        .help(
+            "sort the rows by their time; where two records stand in one file, make two files of \
+            it",
+        )
 }
 
 fn repeated(time: &str, place: &Span, before: &Span) -> Diagnostic {
@@ -110,7 +113,8 @@ pub(crate) fn holes(record: &Record, text: &str) -> Option<Diagnostic> {
     }
     let [from, to] = [longest, longest + 1].map(|row| record.time[row]);
     let message = format!(
-        "no rows between {from} s and {to} s, where {} s apart is usual: nothing is put in their place",
+        "no rows between {from} s and {to} s, where {} s apart is usual: nothing is put in their \
+         place",
         short(median)
     );
     let warning = Diagnostic::warning("record::hole", message)

@@ -20,8 +20,9 @@ pub enum NetworkFitError {
     Times { record: String, span: (f64, f64), start: f64 } = "fit::record_times",
         format!("{record}: rows from {} s to {} s do not fit a run that starts at {start} s", span.0, span.1),
         help format!(
-            "the times of a record are times of the run, which begins at {start} s: set `start` in [run] to the time at which \
-             the network stood as `T0` says, or take the rows before it out of the record"
+            "the times of a record are times of the run, which begins at {start} s: set `start` in \
+             [run] to the time at which the network stood as `T0` says, or take the rows before it \
+             out of the record"
         );
     /// There are fewer values and priors than parameters.
     TooFew { values: usize, parameters: usize } = "fit::too_few_values",
@@ -45,9 +46,11 @@ pub enum NetworkFitError {
     /// A column measures something, as it is written, that is neither the temperature of a node nor
     /// a mean of some.
     Observed { column: String, result: String } = "fit::observed",
-        format!("column `{column}` measures `{result}`, which is not a temperature of a node or a mean of some"),
-        help "write the temperature of a node, `\"steel.T\"`, or a mean, `\"mean(steel.T, bed.T)\"`; parameters, signals, \
-              boundaries, heat flows and `t` cannot stand there, and an offset of a sensor is not fitted";
+        format!("column `{column}` measures `{result}`, which is not a temperature of a node or a \
+            mean of some"),
+        help "write the temperature of a node, `\"steel.T\"`, or a mean, `\"mean(steel.T, \
+            bed.T)\"`; parameters, signals, boundaries, heat flows and `t` cannot stand there, and \
+            an offset of a sensor is not fitted";
     /// A number of the study has no value.
     Plan => EvalError;
     /// The sum of squares cannot be minimised.

@@ -32,7 +32,8 @@ lptn_units::errors! {
 #[derive(Debug)]
 pub enum StepError {
     /// Times and values are not as many.
-    Length { times: usize, values: usize } = "fit::not_a_record", format!("there are {times} times and {values} values");
+    Length { times: usize, values: usize } = "fit::not_a_record", format!("there are {times} times \
+        and {values} values");
     /// Too few samples, not a record, a constant column, or one without curvature.
     Fit(error: FitError) = error.code(), error, source error,
         help match error {
@@ -43,8 +44,9 @@ pub enum StepError {
     /// it changes beside.
     Saturated { value: f64, from: f64, to: f64, samples: usize } = "fit::saturated",
         format!(
-            "the record stands still at its extreme value from {from} s to {to} s ({samples} samples) while it changes beside: \
-             the instrument was at the end of its range, or the step began later"
+            "the record stands still at its extreme value from {from} s to {to} s ({samples} \
+             samples) while it changes beside: the instrument was at the end of its range, or the \
+             step began later"
         ),
         help format!("leave {from} s to {to} s out of the record");
     /// The record does not tell `T_i`, `T_f` and `t_RC`: the time constant in s at which it does
@@ -53,7 +55,8 @@ pub enum StepError {
     /// The reference column has no samples.
     Reference = "fit::no_reference", "the reference column has no samples";
     /// The capacity in J/K or its deviation is not a positive number.
-    Capacity(value: f64) = "fit::capacity", format!("the capacity has to be positive, got {value} J/K"),
+    Capacity(value: f64) = "fit::capacity", format!("the capacity has to be positive, got {value} \
+        J/K"),
         help "write for example --capacity \"2659 J/K ± 5 %\"";
     /// The model has no equivalent at the port, or its run failed.
     Model => ReduceError;
@@ -67,15 +70,16 @@ impl Lack {
                 format!("T_i, T_f and t_RC cannot be told apart at a time constant of {tau:.3e} s")
             }
             Self::Interval { half_width } => format!(
-                "the record does not tell t_RC: its 95 % interval is {tau:.3e} s ± {half_width:.3e} s, which holds 0"
+                "the record does not tell t_RC: its 95 % interval is {tau:.3e} s ± \
+                 {half_width:.3e} s, which holds 0"
             ),
             Self::Shape { missed, changed } => format!(
-                "the record does not tell t_RC: one exponential misses {missed:.3e} K of it slowly and changes by \
-                 {changed:.3e} K itself"
+                "the record does not tell t_RC: one exponential misses {missed:.3e} K of it slowly \
+                 and changes by {changed:.3e} K itself"
             ),
             Self::Spacing { spacing } => format!(
-                "the record does not tell t_RC: at {tau:.3e} s it is shorter than the distance of the samples, \
-                 {spacing:.3e} s"
+                "the record does not tell t_RC: at {tau:.3e} s it is shorter than the distance of \
+                 the samples, {spacing:.3e} s"
             ),
         }
     }
@@ -84,7 +88,8 @@ impl Lack {
         match self {
             Self::Spacing { .. } => "take samples more often, several in each time constant",
             Self::Interval { .. } | Self::Shape { .. } => {
-                "is there a step in it? one that begins at the first row and lasts, with less noise or for longer, tells t_RC"
+                "is there a step in it? one that begins at the first row and lasts, with less \
+                 noise or for longer, tells t_RC"
             }
             Self::Alike => LONGER,
         }

@@ -42,7 +42,8 @@ pub(crate) const FIT: SectionDeclaration = SectionDeclaration {
         ("columns", "what a column measures is `column = { ring = \"steel.T\" }`"),
         (
             "set",
-            "what a record sets stands beside its file: `data = [{ csv = \"r1.csv\", set = { omega = \"1000 rpm\" } }]`",
+            "what a record sets stands beside its file: `data = [{ csv = \"r1.csv\", set = { omega \
+             = \"1000 rpm\" } }]`",
         ),
         ("parameters", "the parameters to find are `vary`"),
         ("prior", "what is known of a parameter stands in [param]: `R = \"0.3 ± 0.05 K/W\"`"),
@@ -289,8 +290,8 @@ impl FitStudy {
         let unit = if ty.absolute { "K".to_owned() } else { ty.dimension.si_unit() };
         let start = lptn_units::format_short(start);
         let message = format!(
-            "`vary` of fit `{fit}`: the range of `{name}` does not hold its own value, {start} {unit}, from which the \
-             search starts"
+            "`vary` of fit `{fit}`: the range of `{name}` does not hold its own value, {start} \
+             {unit}, from which the search starts"
         );
         Some(
             at(message)

@@ -15,7 +15,8 @@ use crate::work::Elaboration;
 const TIME: Type = Type::of(Dimension::TIME);
 
 /// What a control for something else than a thermostat would be given.
-const BOTH: &str = "give both thresholds: `on_above` and `off_below` for cooling, `on_below` and `off_above` for heating";
+const BOTH: &str = "give both thresholds: `on_above` and `off_below` for cooling, `on_below` and \
+    `off_above` for heating";
 
 pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
     name: ValueKind::Control.section(),
@@ -50,7 +51,8 @@ pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
         ("dwell", "the least time between two switches is `min_dwell`"),
         (
             "P",
-            "what it switches uses its name, which is 0 or 1: `P = \"100 [W] * name\"` of a [source]",
+            "what it switches uses its name, which is 0 or 1: `P = \"100 [W] * name\"` of a \
+             [source]",
         ),
     ],
     ..SectionDeclaration::NEW
@@ -204,7 +206,8 @@ fn narrow_band(
     let short = |x: f64| format_number(format!("{x:.2e}").parse().unwrap_or(x));
     let name = &network.controls()[id.index()].name;
     let message = format!(
-        "the dead band of control `{name}`, {} K, is less than {NARROW} times the tolerance of the run, {} K",
+        "the dead band of control `{name}`, {} K, is less than {NARROW} times the tolerance of the \
+         run, {} K",
         short(band),
         short(tolerance)
     );

@@ -269,7 +269,8 @@ fn example(name: &str, wanted: &str) -> String {
     match wanted {
         "node" => node,
         _ => format!(
-            "{node}, or, if its temperature is given, `{name} = {{ T = \"25 degC\" }}` below [boundary]"
+            "{node}, or, if its temperature is given, `{name} = {{ T = \"25 degC\" }}` below \
+             [boundary]"
         ),
     }
 }

@@ -138,7 +138,8 @@ impl<'a> Elaboration<'a> {
             return problem.help(format!("`{name}` is a material: what flows is a [fluid]"));
         }
         problem.help(format!(
-            "`lptn materials` lists the library; your own belong below [fluid], for example `{name} = {}`",
+            "`lptn materials` lists the library; your own belong below [fluid], for example \
+             `{name} = {}`",
             FLUID.example
         ))
     }

@@ -45,13 +45,15 @@ pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
         CP,
         START,
     ],
-    example: "{ size = [\"0.5 m\", \"0.5 m\", \"20 mm\"], cells = [20, 20, 4], material = \"steel_8620\" }",
+    example: "{ size = [\"0.5 m\", \"0.5 m\", \"20 mm\"], cells = [20, 20, 4], material = \
+        \"steel_8620\" }",
     elsewhere: &[
         ("rho", "the density is `density`"),
         ("lambda", "the thermal conductivity is `k`"),
         (
             "C",
-            "the capacity of a grid follows from its size and its `material`, or `density` and `cp`",
+            "the capacity of a grid follows from its size and its `material`, or `density` and \
+             `cp`",
         ),
         ("T", "the temperature at the start is `T0`"),
         ("area", "the areas follow from `size`"),

@@ -107,7 +107,8 @@ impl<'a> Elaboration<'a> {
                 let message = format!("{words} must be \"error\" or \"warning\", got \"{text}\"");
                 let problem = Diagnostic::error("netlist::unknown_severity", message);
                 self.report(problem.at(raw.span.clone(), "no such severity").help(
-                    "a broken limit of severity \"error\" ends with exit code 1, one of \"warning\" is printed",
+                    "a broken limit of severity \"error\" ends with exit code 1, one of \
+                     \"warning\" is printed",
                 ));
                 Severity::Error
             }

@@ -87,7 +87,8 @@ impl<'a> Elaboration<'a> {
             (Some(_), Some(key)) => {
                 let message = format!("has `C` as well as `{key}`");
                 self.report(fields.several("netlist::two_capacities", message, ["C", key]).help(
-                    "keep `C`, or `material` with `mass` or `volume`; more parts of a node are a [capacitor] each",
+                    "keep `C`, or `material` with `mass` or `volume`; more parts of a node are a \
+                     [capacitor] each",
                 ));
                 Some(stand_in(ty))
             }
@@ -249,7 +250,8 @@ fn unknown(
         library::materials().iter().chain(library::fluids()).map(|record| record.name.as_str());
     if is_fluid {
         return problem.help(format!(
-            "`{name}` is a fluid of this file: give the capacity itself, or write a [material] of this name as well"
+            "`{name}` is a fluid of this file: give the capacity itself, or write a [material] of \
+             this name as well"
         ));
     }
     match suggest(name, own.iter().copied().chain(shipped)) {

@@ -34,7 +34,8 @@ pub(crate) const NODE: SectionDeclaration = SectionDeclaration {
     elsewhere: &[
         (
             "T",
-            "a node's temperature is solved for: `T0` is its start, and a given temperature is a [boundary]",
+            "a node's temperature is solved for: `T0` is its start, and a given temperature is a \
+             [boundary]",
         ),
         ("L", "the characteristic length is `L_char`"),
         ("P", "heat is put in by a [source]: `name = { into = \"node\", P = \"100 W\" }`"),

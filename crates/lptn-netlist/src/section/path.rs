@@ -378,7 +378,8 @@ fn wrong_count(
         message,
         &raw.span,
         format!(
-            "give one for the exchange as a whole, `{}`, or {count_of_list} for {of}, `{} = [{list}]`",
+            "give one for the exchange as a whole, `{}`, or {count_of_list} for {of}, `{} = \
+             [{list}]`",
             fields.sample(field.key),
             field.key
         ),

@@ -247,7 +247,8 @@ fn unknown_part(template: &str, part: &RawEntry, format: &Format) -> Diagnostic 
             message,
             &part.key_span,
             format!(
-                "a template holds `param`, `port` and elements: move `[{key}]` to the top of the file"
+                "a template holds `param`, `port` and elements: move `[{key}]` to the top of the \
+                 file"
             ),
         );
     }

@@ -32,7 +32,8 @@ pub(crate) use wrong_path::wrong_path;
 /// `[template.NAME]`; what it holds is read by itself.
 pub(crate) const TEMPLATE: SectionDeclaration = SectionDeclaration {
     name: "template",
-    sentence: "A part that is written once: its elements stand below `[template.NAME.node]` and so on.",
+    sentence: "A part that is written once: its elements stand below `[template.NAME.node]` and so \
+        on.",
     role: Role::Template,
     keys: &[
         key(

@@ -88,7 +88,8 @@ fn count(fields: &Fields<'_>, raw: &RawValue, problems: &mut Vec<Diagnostic>) ->
         RawKind::Float(number) => number.clone(),
         RawKind::String { .. } => {
             let message = format!("{words} has to be a whole number, got a string");
-            let help = "write the number itself, `count = 3`: parameters do not change what a network consists of";
+            let help = "write the number itself, `count = 3`: parameters do not change what a \
+                network consists of";
             problems.push(wrong(message, help));
             return None;
         }
@@ -104,13 +105,18 @@ fn count(fields: &Fields<'_>, raw: &RawValue, problems: &mut Vec<Diagnostic>) ->
         }
         Ok(0) => wrong(
             format!("{words} is 0"),
-            "make it 1 or more, or leave the use out; without `count` there is one instance, without an index",
+            "make it 1 or more, or leave the use out; without `count` there is one instance, \
+             without an index",
         ),
         Ok(count) if count < 0 => wrong(format!("{words} is {count}"), "make it 1 or more"),
-        Err(_) if matches!(raw.kind, RawKind::Float(_)) => {
-            wrong(format!("{words} has to be a whole number, got {number}"), "write it like this: `count = 3`")
-        }
-        _ => wrong(format!("{words} is {number}, more than {MOST_INSTANCES}"), "are there zeros too many?"),
+        Err(_) if matches!(raw.kind, RawKind::Float(_)) => wrong(
+            format!("{words} has to be a whole number, got {number}"),
+            "write it like this: `count = 3`",
+        ),
+        _ => wrong(
+            format!("{words} is {number}, more than {MOST_INSTANCES}"),
+            "are there zeros too many?",
+        ),
     });
     None
 }
@@ -229,7 +235,8 @@ fn unknown_template(
 
 fn example(name: &str) -> String {
     format!(
-        "`[template.{name}]` with `port = [\"in\", \"out\"]`, then its elements below `[template.{name}.node]`"
+        "`[template.{name}]` with `port = [\"in\", \"out\"]`, then its elements below \
+         `[template.{name}.node]`"
     )
 }
 

@@ -62,7 +62,8 @@ pub enum ExactError {
     /// More nodes than the dense eigenproblem is for.
     TooLarge { nodes: usize } = "modes::too_large",
         format!("{nodes} nodes are more than the {} that are solved by modes", Reduced::MOST_NODES),
-        help "lump nodes until there are at most 2000, or let `lptn run` show how long each node takes";
+        help "lump nodes until there are at most 2000, or let `lptn run` show how long each node \
+            takes";
     /// The times are none, do not increase, or begin before the start.
     Times = "exact::times", "the times must increase and begin at the start or after it";
     /// A source or boundary has no value.
@@ -77,7 +78,8 @@ pub enum ExactError {
     Switches { name: String } = "exact::switches",
         format!("`{name}` switches at times that depend on the temperatures"), help CONSTANTS;
     /// The conductances of the massless nodes span more than the numbers can hold.
-    Singular = "exact::singular", "the conductances of the massless nodes span more than the numbers can hold",
+    Singular = "exact::singular", "the conductances of the massless nodes span more than the \
+        numbers can hold",
         help MERGE, class Class::Numbers;
     /// The eigenvalues were not found.
     Modes = "exact::modes", "the eigenvalues of the network were not found", help MERGE, class Class::Numbers;

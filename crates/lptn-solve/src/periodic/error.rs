@@ -21,7 +21,8 @@ pub enum PeriodicError {
     /// first one.
     NoBalance { nodes: Vec<NodeId>, names: Vec<String>, heat: f64 } = "periodic::no_balance",
         format!(
-            "no path leads to a boundary from {}, where every cycle leaves {} J: there is no periodic state",
+            "no path leads to a boundary from {}, where every cycle leaves {} J: there is no \
+             periodic state",
             list_of_names(names),
             six_digits(*heat)
         ),
@@ -30,13 +31,16 @@ pub enum PeriodicError {
     /// a cycle and its end.
     NotFound { cycles: usize, residual: f64 } = "periodic::not_found",
         format!(
-            "{cycles} cycles came to no state that repeats itself; the best one was off by {residual:.1e} K"
+            "{cycles} cycles came to no state that repeats itself; the best one was off by \
+             {residual:.1e} K"
         ),
         help "look at some cycles one after the other: `lptn run`", class Class::Numbers;
     /// What switches never does so in one cycle as in the next.
     Switches { cycles: usize } = "periodic::switches",
-        format!("in {cycles} cycles controls and comparisons did not come to switch alike twice in a row"),
-        help "the controls have a rhythm of their own: look at `lptn run`, and at means over many cycles", class Class::No;
+        format!("in {cycles} cycles controls and comparisons did not come to switch alike twice in \
+            a row"),
+        help "the controls have a rhythm of their own: look at `lptn run`, and at means over many \
+            cycles", class Class::No;
     /// A cycle could not be integrated.
     Cycle => TransientError as Class::of_numbers;
     /// The observer asked for an end, after so many whole cycles; the last difference in K between

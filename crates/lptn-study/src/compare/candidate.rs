@@ -62,7 +62,8 @@ pub enum CompareError {
     /// Its books do not close: relative residual, and what is allowed.
     Ledger(residual: f64, bound: f64) = "run::ledger",
         format!(
-            "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than the {bound:.1e} allowed"
+            "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than \
+             the {bound:.1e} allowed"
         ), class Class::Numbers;
     /// Its run was interrupted at this time in s: peaks and limits of a part would read like those
     /// of the whole.

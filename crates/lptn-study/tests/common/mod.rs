@@ -11,9 +11,11 @@ use lptn_solve::{Control, Transient, available_threads};
 use lptn_study::uncertainty::{Estimate, Sobol, Uncertainty, UncertaintyError, UncertaintyTask};
 
 /// 1000 J/K over `R` (0.5 K/W) towards `T_amb`, heated by `P`, for 1000 s: two time constants.
-pub const ONE_NODE: &str = "[default]\nT0 = \"T_amb\"\n[node]\nblock = { C = \"1 kJ/K\" }\n[boundary]\n\
+pub const ONE_NODE: &str = "[default]\nT0 = \"T_amb\"\n[node]\nblock = { C = \"1 kJ/K\" \
+    }\n[boundary]\n\
     air = { T = \"T_amb\" }\n[resistor]\nskin = { from = \"block\", to = \"air\", R = \"R\" }\n\
-    [source]\nloss = { into = \"block\", P = \"P\" }\n[run]\nstop = \"1000 s\"\noutput = { every = \"20 s\" }\n\
+    [source]\nloss = { into = \"block\", P = \"P\" }\n[run]\nstop = \"1000 s\"\noutput = { every \
+    = \"20 s\" }\n\
     tolerance = \"1e-7 K\"\n";
 
 /// K for each W at its end: 0.5 K/W (1 - exp(-2)).
@@ -21,8 +23,10 @@ pub const RISE: f64 = 0.432_332_358_381_693_65;
 
 /// 10 J/K that radiates `P` over `Gr` towards 20 degC until it is settled; its limit is 600 K.
 pub const RADIATING: &str = "[node]\nblock = { C = \"10 J/K\", T0 = \"20 degC\" }\n[boundary]\n\
-    space = { T = \"20 degC\" }\n[radiation]\nskin = { from = \"block\", to = \"space\", Gr = \"Gr\" }\n\
-    [source]\nloss = { into = \"block\", P = \"P\" }\n[limit]\nhot = { of = \"block.T\", below = \"326.85 degC\" }\n\
+    space = { T = \"20 degC\" }\n[radiation]\nskin = { from = \"block\", to = \"space\", Gr \
+    = \"Gr\" }\n\
+    [source]\nloss = { into = \"block\", P = \"P\" }\n[limit]\nhot = { of = \"block.T\", below \
+    = \"326.85 degC\" }\n\
     [run]\nstop = \"1 h\"\noutput = { every = \"30 min\" }\n";
 
 /// A network with these parameters; R is 0.5 K/W unless they say otherwise.

@@ -128,7 +128,8 @@ impl fmt::Display for EvalError {
                 let si = if unit.is_none() { " (SI units)" } else { "" };
                 write!(
                     f,
-                    "table `{table}` reaches from {first} to {last} in its {which} argument, got {found}{si}"
+                    "table `{table}` reaches from {first} to {last} in its {which} argument, got \
+                     {found}{si}"
                 )
             }
             Self::NotFinite { value, .. } => {

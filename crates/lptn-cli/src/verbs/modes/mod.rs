@@ -128,7 +128,8 @@ impl View<'_> {
         if let Some(kind) = EventKind::switching(self.network()).next() {
             let name = kind.name(self.network());
             notes.push(format!(
-                "`{name}` switches heat, which plays no part in these modes: the network has them between two switches"
+                "`{name}` switches heat, which plays no part in these modes: the network has them \
+                 between two switches"
             ));
         }
         if lasting > 0 {

@@ -171,10 +171,15 @@ impl View<'_> {
         notes.push(match dynamics.window {
             Window::Given(_) => format!("least_squares fits the response to a step over {window}"),
             Window::Run(_) => {
-                format!("least_squares fits the response to a step over {window}, as long as the run")
+                format!(
+                    "least_squares fits the response to a step over {window}, as long as the run"
+                )
             }
             Window::TimeConstants(_) => {
-                format!("without [run] no run is compared, and least_squares fits {window}, five times tau_1")
+                format!(
+                    "without [run] no run is compared, and least_squares fits {window}, five times \
+                    tau_1"
+                )
             }
         });
         if let Some(tolerance) = dynamics.tolerance {
@@ -187,12 +192,16 @@ impl View<'_> {
         if dynamics.pair(Definition::LeastSquares).capacity <= 0.0 {
             let share = significant(100.0 * dynamics.step.direct / resistance, 3);
             notes.push(format!(
-                "the port answers at once with {share} % of the rise: no capacity at all is nearest to that"
+                "the port answers at once with {share} % of the rise: no capacity at all is \
+                 nearest to that"
             ));
         }
         if residual > 1e-6 * resistance {
             let share = significant(100.0 * residual / resistance, 2);
-            notes.push(format!("the fastest modes, {share} % of R_eq, are not resolved: the errors for a step hold but for its very beginning"));
+            notes.push(format!(
+                "the fastest modes, {share} % of R_eq, are not resolved: the errors for a step \
+                hold but for its very beginning"
+            ));
         }
         notes
     }
@@ -211,7 +220,8 @@ impl View<'_> {
             if self.input.netlist.initial().is_some() { "the state" } else { "their `start`" };
         (!stand.is_empty()).then(|| {
             format!(
-                "T_ref and Q_N are those with {}, as {says} says; what switches over the run is not compared",
+                "T_ref and Q_N are those with {}, as {says} says; what switches over the run is \
+                 not compared",
                 stand.join(", ")
             )
         })
@@ -224,7 +234,10 @@ impl View<'_> {
         let apart = response.len() - reached;
         (apart > 0).then(|| {
             let reached = count(reached, "node");
-            format!("C_eq is that of the {reached} that heat from the port reaches; {apart} apart from it do not matter")
+            format!(
+                "C_eq is that of the {reached} that heat from the port reaches; {apart} apart from \
+                it do not matter"
+            )
         })
     }
 }

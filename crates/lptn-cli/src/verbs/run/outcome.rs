@@ -217,7 +217,8 @@ fn does_not_close(solution: &Solution) -> Diagnostic {
     let ledger = solution.ledger();
     let residual = ledger.relative_residual().unwrap_or(f64::NAN);
     let message = format!(
-        "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than the {:.1e} allowed",
+        "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than the \
+         {:.1e} allowed",
         ledger.bound
     );
     Diagnostic::error("run::ledger", message)
@@ -234,12 +235,14 @@ pub(super) fn not_bounded(solution: &Solution) -> Option<String> {
             format!("no path leads to a boundary from {}", list_of_names(&names))
         }
         Unbounded::LongMemory { steps } => format!(
-            "the network remembers about {} steps of inputs that keep changing; compare with a smaller --tolerance",
+            "the network remembers about {} steps of inputs that keep changing; compare with a \
+             smaller --tolerance",
             significant(steps, 1)
         ),
         Unbounded::Switches { count } => {
             format!(
-                "each of {count} switches shifts the times of the next ones; compare with a smaller --tolerance"
+                "each of {count} switches shifts the times of the next ones; compare with a \
+                 smaller --tolerance"
             )
         }
     };
@@ -254,7 +257,8 @@ pub(super) fn weak_ledger(solution: &Solution) -> Option<String> {
     weak.then(|| {
         let tolerance = significant(solution.tolerance(), 2);
         format!(
-            "so little heat is turned over that at a tolerance of {tolerance} K the balance proves nothing"
+            "so little heat is turned over that at a tolerance of {tolerance} K the balance proves \
+             nothing"
         )
     })
 }

@@ -55,11 +55,16 @@ fn constant(network: &Network, changing: &[Changing]) -> String {
     let signal = changing.iter().find_map(|change| change.signal);
     match signal.and_then(|id| largest(network, id)) {
         Some(line) => {
-            format!("size for one load with a constant in its place, as below [signal] its largest value: {line}")
+            format!(
+                "size for one load with a constant in its place, as below [signal] its largest \
+                value: {line}"
+            )
         }
-        None => "size for one load with a constant in its place, its mean or its worst value, best as a parameter that \
-                 `--set` can change"
-            .into(),
+        None => {
+            "size for one load with a constant in its place, its mean or its worst value, best as \
+            a parameter that `--set` can change"
+                .into()
+        }
     }
 }
 

@@ -63,11 +63,13 @@ impl Answer<'_> {
     fn infeasible(&self) -> String {
         let off = significant(-self.cooling.available, 4);
         if self.cooling.available == 0.0 {
-            return "infeasible: the limit is the temperature of the surroundings, so no heat flows to them"
+            return "infeasible: the limit is the temperature of the surroundings, so no heat flows \
+                to them"
                 .into();
         }
         format!(
-            "infeasible: the limit is {off} K below the surroundings; only refrigeration could keep it"
+            "infeasible: the limit is {off} K below the surroundings; only refrigeration could \
+             keep it"
         )
     }
 

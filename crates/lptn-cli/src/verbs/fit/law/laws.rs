@@ -160,8 +160,8 @@ pub(crate) fn verdict(found: &Consistency, unit: &SpeedUnit) -> String {
             format!("{} min at {}", fixed(at.needed / 60.0, 1), unit.speed(at.speed))
         };
         return format!(
-            "contradiction: dT and t_RC imply a power that goes with {}, not {}; all three hold only if t_RC goes with \
-             {}: {} and {}",
+            "contradiction: dT and t_RC imply a power that goes with {}, not {}; all three hold \
+             only if t_RC goes with {}: {} and {}",
             power(found.implied.value),
             power(found.power.value),
             power(found.rise.value - found.power.value),
@@ -176,7 +176,8 @@ pub(crate) fn verdict(found: &Consistency, unit: &SpeedUnit) -> String {
         );
     }
     if found.derived {
-        return "the power was computed from dT and t_RC of the same points, so their agreement proves nothing"
+        return "the power was computed from dT and t_RC of the same points, so their agreement \
+            proves nothing"
             .to_owned();
     }
     if let Some(error) =
@@ -184,7 +185,8 @@ pub(crate) fn verdict(found: &Consistency, unit: &SpeedUnit) -> String {
     {
         let percent = significant(100.0 * error, 2);
         return format!(
-            "nothing is contradicted and nothing is tested: C dT / t_RC over P is known to {percent} % only"
+            "nothing is contradicted and nothing is tested: C dT / t_RC over P is known to \
+             {percent} % only"
         );
     }
     "dT, t_RC and P agree: P = C dT / t_RC holds at all speeds, within their errors".to_owned()

@@ -197,7 +197,8 @@ fn notes(study: &LawStudy, text: &mut Text) {
     }
     if study.dispersion > 1.0 {
         let scatter = format!(
-            "the points scatter {} times as far as their standard errors say: AICc and errors count it",
+            "the points scatter {} times as far as their standard errors say: AICc and errors \
+             count it",
             significant(study.dispersion.sqrt(), 2)
         );
         text.sentence("scatter   ", &scatter);

@@ -32,8 +32,8 @@ pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
         let (Some(side), true) = (parameter.on_bound, determined) else { continue };
         let end = if side == Side::Lower { "least" } else { "greatest" };
         let message = format!(
-            "`{}` sits on the {end} value of its range: it has no standard error, and those of the others hold only if \
-             this value is right",
+            "`{}` sits on the {end} value of its range: it has no standard error, and those of the \
+             others hold only if this value is right",
             answer.name(i)
         );
         let place = answer.study.varied[i].span.clone();
@@ -44,7 +44,8 @@ pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
     let unweighted =
         answer.task.runs.iter().flat_map(|run| &run.columns).any(|column| column.sigma.is_none());
     if priors && unweighted {
-        let message = "without `sigma` a value of a record counts as known to 1 K beside what `±` says of a parameter";
+        let message = "without `sigma` a value of a record counts as known to 1 K beside what `±` \
+            says of a parameter";
         let doubt = Diagnostic::warning("fit::no_sigma", message).at(answer.study.span.clone(), "");
         doubts
             .push(doubt.help("write how far one value scatters, for example `sigma = \"0.2 K\"`"));
@@ -74,7 +75,8 @@ fn off_prior(answer: &Answer<'_>, i: usize) -> Option<Diagnostic> {
         Diagnostic::warning("fit::prior", message).at(answer.study.varied[i].span.clone(), "");
     (off > FAR).then(|| {
         doubt.help(
-            "the record and what `±` says of it contradict each other: one of them is wrong, or the model",
+            "the record and what `±` says of it contradict each other: one of them is wrong, or \
+             the model",
         )
     })
 }
@@ -104,11 +106,13 @@ fn misfit(answer: &Answer<'_>, worst: &ColumnMisfit, (name, count): (&str, usize
     let (rms, sigma) = (significant(worst.rms, 3), significant(worst.sigma.unwrap_or(f64::NAN), 3));
     let message = match count {
         1 => format!(
-            "the model does not describe column `{name}` of {record}: it misses it by {rms} K rms, where `sigma` is {sigma} K"
+            "the model does not describe column `{name}` of {record}: it misses it by {rms} K rms, \
+             where `sigma` is {sigma} K"
         ),
         _ => format!(
-            "the model does not describe column `{name}` in {count} records: it misses it by more than {FAR} times `sigma`, \
-             most in {record}, by {rms} K rms, where `sigma` is {sigma} K"
+            "the model does not describe column `{name}` in {count} records: it misses it by more \
+             than {FAR} times `sigma`, most in {record}, by {rms} K rms, where `sigma` is {sigma} \
+             K"
         ),
     };
     let doubt = Diagnostic::warning("fit::misfit", message).at(answer.study.span.clone(), "");

@@ -32,10 +32,11 @@ pub(crate) fn of(request: &Request, column: &Column<'_>) -> Vec<Diagnostic> {
     if fit.coarse {
         let step = significant(fit.resolution.unwrap_or(f64::NAN), 3);
         let message = format!(
-            "column `{name}`: what the curve misses is the rounding of the logger to {step} K, which does not average out"
+            "column `{name}`: what the curve misses is the rounding of the logger to {step} K, \
+             which does not average out"
         );
-        let help = "the 95 % intervals hold the truth less often than they say: in 86 of 100 records with a step of \
-                    five deviations of slow noise";
+        let help = "the 95 % intervals hold the truth less often than they say: in 86 of 100 \
+            records with a step of five deviations of slow noise";
         warnings.push(at(Diagnostic::warning("fit::coarse", message)).help(help));
     }
     let drift = column.power.drift;
@@ -57,7 +58,8 @@ fn short(name: &str, fit: &StepFit) -> Diagnostic {
     let lengths = significant(fit.time_constants(), 3);
     let several = if lengths == "1" { "" } else { "s" };
     let message = format!(
-        "column `{name}`: T_f is extrapolated by {} K: the record is {lengths} time constant{several} long",
+        "column `{name}`: T_f is extrapolated by {} K: the record is {lengths} time \
+         constant{several} long",
         significant(fit.beyond.abs(), 3)
     );
     let long = duration(LONG_ENOUGH * fit.tau.value, 3);
@@ -76,10 +78,12 @@ fn cut(request: &Request, column: &Column<'_>) -> Option<Diagnostic> {
     let what =
         if request.capacity.is_some() { "P_disp is not the heat" } else { "is not the rise" };
     let message = format!(
-        "column `{}`: dT is counted from the cut at {from} s, and {what} unless the step begins there",
+        "column `{}`: dT is counted from the cut at {from} s, and {what} unless the step begins \
+         there",
         column.column.name
     );
-    let help = "count it from where the column was before the step: --reference \"25.5 degC\", or from a COLUMN";
+    let help = "count it from where the column was before the step: --reference \"25.5 degC\", or \
+        from a COLUMN";
     Some(Diagnostic::warning("fit::cut", message).help(help))
 }
 
@@ -93,8 +97,8 @@ fn cooling(request: &Request, column: &Column<'_>) -> Option<Diagnostic> {
     if fit.settled.value < fit.initial.value {
         let message =
             format!("column `{name}`: the record cools: the negative P_disp is no dissipation");
-        let help = "what cools without heat has P = 0 and tends to its surroundings: T_f is their temperature, and t_RC \
-                    and R_eq hold";
+        let help = "what cools without heat has P = 0 and tends to its surroundings: T_f is their \
+            temperature, and t_RC and R_eq hold";
         return Some(Diagnostic::warning("fit::cooling", message).help(help));
     }
     let message = format!(

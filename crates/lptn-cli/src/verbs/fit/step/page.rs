@@ -228,8 +228,8 @@ fn bias(answer: &Answer<'_>, text: &mut Text) {
     let Some(model) = &answer.model else {
         text.sentence(
             "",
-            "no ± includes the bias of the method: a body of several parts is no single exponential; \
-             --model FILE --port NODE states it",
+            "no ± includes the bias of the method: a body of several parts is no single \
+             exponential; --model FILE --port NODE states it",
         );
         return;
     };

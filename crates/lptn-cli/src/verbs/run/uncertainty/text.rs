@@ -267,7 +267,8 @@ fn wide<'a>(network: &'a Network, found: &'a Uncertainty) -> impl Iterator<Item 
         let name = &network.parameters()[input.parameter.index()].name;
         let part = fixed(100.0 * input.deviation / input.value.abs(), 0);
         format!(
-            "`{name}` is known to {part} % only: bands of straight lines are rough, see --uncertainty sobol"
+            "`{name}` is known to {part} % only: bands of straight lines are rough, see \
+             --uncertainty sobol"
         )
     })
 }
@@ -279,8 +280,9 @@ pub(crate) fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String
         Method::Linear { differences } => {
             let note = |why: &String| {
                 format!(
-                    "no exact sensitivities, they are differences of runs: {why}; the further a parameter moves, the \
-                     less a straight line says: --uncertainty sobol follows it"
+                    "no exact sensitivities, they are differences of runs: {why}; the further a \
+                     parameter moves, the less a straight line says: --uncertainty sobol follows \
+                     it"
                 )
             };
             return differences.iter().map(note).chain(wide(network, found)).collect();

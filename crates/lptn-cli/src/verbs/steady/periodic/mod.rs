@@ -123,7 +123,8 @@ fn period_of_signals(input: &Input) -> Result<f64, Failure> {
             let [first, second] = &none.names;
             let [a, b] = none.periods.map(|period| duration(period, 6));
             let message = format!(
-                "`{second}` repeats itself every {b} and `{first}` every {a}: they have no period in common"
+                "`{second}` repeats itself every {b} and `{first}` every {a}: they have no period \
+                 in common"
             );
             let problem = Diagnostic::error("periodic::no_common_period", message);
             let place = input.netlist.source_map.name(Item::Signal(none.signals[1]));

@@ -122,8 +122,8 @@ fn speed(path: &Path, (record, files): (&Record, &Files), speeds: &Speeds) -> Re
         [] => refused(
             "fit::law_no_speed",
             format!("{}: at which speed was it recorded?", path.display()),
-            "write a line `# omega = 1000 rpm` above its header, put the speed into its name (`1000rpm.csv`), or add a \
-             sheet runs.csv with `file,omega [rpm]`",
+            "write a line `# omega = 1000 rpm` above its header, put the speed into its name \
+             (`1000rpm.csv`), or add a sheet runs.csv with `file,omega [rpm]`",
         ),
         [first, others @ ..]
             if others.iter().any(|other| (other - first).abs() > 1e-9 * first.abs()) =>

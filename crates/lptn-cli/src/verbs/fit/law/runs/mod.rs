@@ -244,7 +244,8 @@ impl Runs {
             let least = all.iter().map(|f| f.fit.time_constants()).fold(f64::INFINITY, f64::min);
             let beyond = all.iter().map(|f| f.fit.beyond.abs()).fold(0.0, f64::max);
             let note = format!(
-                "{short} records are shorter than {LONG_ENOUGH} t_RC (the shortest: {}): T_f is extrapolated by up to {} K",
+                "{short} records are shorter than {LONG_ENOUGH} t_RC (the shortest: {}): T_f is \
+                 extrapolated by up to {} K",
                 fixed(least, 1),
                 fixed(beyond, 1)
             );
@@ -260,7 +261,8 @@ impl Runs {
         }
         text.sentence(
             "error  ",
-            "± are standard errors of the noise alone; what one exponential makes wrong of a network is in none of them",
+            "± are standard errors of the noise alone; what one exponential makes wrong of a \
+             network is in none of them",
         );
     }
 
@@ -274,7 +276,8 @@ impl Runs {
             let show = |value: f64| significant(value / scale, 2);
             let value = with_error(c.value / scale, c.standard_error.map(|error| error / scale));
             let errors = format!(
-                "{} = {value} (random) ± {} (systematic: capacity {}, offset of the sensors {}) {unit}",
+                "{} = {value} (random) ± {} (systematic: capacity {}, offset of the sensors {}) \
+                 {unit}",
                 c.name,
                 show(systematic.total()),
                 show(systematic.capacity),
