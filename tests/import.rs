@@ -10,7 +10,7 @@ use lptn::prelude::*;
 
 const SIDE: usize = 7;
 
-/// Numbers that are no round ones, one for each element: the fractions of multiples of the golden
+/// Numbers that are not round ones, one for each element: the fractions of multiples of the golden
 /// ratio.
 fn spread(k: usize) -> f64 {
     (k as f64 * 0.618_033_988_749_895).fract() + 0.05

@@ -15,7 +15,7 @@ const MOST_WARNINGS: usize = 5;
 const SOURCE: &str =
     "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, section 5.2";
 
-/// A warning for each of the worst nodes that are no lumps, and one that counts the others.
+/// A warning for each of the worst nodes that are not lumps, and one that counts the others.
 pub(crate) fn warnings(netlist: &Netlist, lumping: &Lumping) -> Vec<Diagnostic> {
     let (thick, slow) = (lumping.too_thick(), lumping.too_slow());
     let mut found: Vec<Diagnostic> = Vec::new();
@@ -38,7 +38,7 @@ fn more(code: &'static str, all: usize, what: &str) -> Option<Diagnostic> {
 fn too_thick(netlist: &Netlist, check: &LumpCheck, biot: &Biot) -> Diagnostic {
     let name = &netlist.network.nodes()[check.node.index()].name;
     let message = format!(
-        "node `{name}` is no lump: its Biot number is {}, above 0.1",
+        "node `{name}` is not a lump: its Biot number is {}, above 0.1",
         significant(biot.number, 3)
     );
     let numbers = format!(

@@ -94,5 +94,5 @@ pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(
 ) -> impl TypedValueParser<Value = T> {
     let found = move |text: String| all.iter().copied().find(|choice| key(*choice) == text);
     PossibleValuesParser::new(all.iter().map(|choice| key(*choice)))
-        .try_map(move |text| found(text).ok_or("this is no choice"))
+        .try_map(move |text| found(text).ok_or("this is not one of the choices"))
 }

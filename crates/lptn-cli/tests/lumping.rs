@@ -51,7 +51,7 @@ fn check_says_which_nodes_are_no_lumps() {
     let folder = Folder::with("block.toml", BLOCK);
     let ran = folder.run(&["check", "block.toml"]).exits(0);
     let ran = ran.prints(
-        "warning[lumping::biot]: node `block` is no lump: its Biot number is 0.15, above 0.1",
+        "warning[lumping::biot]: node `block` is not a lump: its Biot number is 0.15, above 0.1",
     );
     // 0.03^2 * 8500 * 400 / 20 = 153 s against the 300 s before the step
     let ran = ran.prints(

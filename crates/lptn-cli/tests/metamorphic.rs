@@ -115,7 +115,7 @@ impl Asked {
     }
 }
 
-/// Asks one network in `every`, which is no multiple of 3, for every third is linear; shows the
+/// Asks one network in `every`, which is not a multiple of 3, for every third is linear; shows the
 /// smallest of at most three that differ.
 fn hold(name: &str, every: u64, check: Check<'_>) -> Asked {
     let every = if std::env::var_os("LPTN_METAMORPHIC").is_some() { 1 } else { every };

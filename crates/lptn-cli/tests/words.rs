@@ -77,7 +77,7 @@ fn a_column_that_is_not_described_is_told_once_with_its_worst_record() {
     }
 }
 
-/// `lptn help` was no command, and a file in the place of a verb only an unknown word.
+/// `lptn help` was not a command, and a file in the place of a verb only an unknown word.
 #[test]
 fn help_is_a_verb_and_a_file_is_none() {
     let folder = Folder::with_gearbox();

@@ -303,7 +303,7 @@ impl Head {
             Wrong::Cold => "0 K is -273.15 degC".to_owned(),
             Wrong::Text if digits || !codes.of_record => text_help(name, cell),
             _ if codes.of_record => "leave the cell empty where nothing was measured".to_owned(),
-            _ => "leave the row out: what is not known is no point of a curve".to_owned(),
+            _ => "leave the row out: what is not known is not a point of a curve".to_owned(),
         };
         ask.also(Diagnostic::error(code, message).at(row.place(self.file, index), "")).help(help)
     }

@@ -53,7 +53,7 @@ fn noise_is_that_of_a_dense_likelihood() {
     assert!((2.0..30.0).contains(&degrees), "{degrees}");
 }
 
-/// Residuals that alternate are no slow noise; white noise has the plain covariance.
+/// Residuals that alternate are not slow noise; white noise has the plain covariance.
 #[test]
 fn fast_noise_is_white() {
     let times: Vec<f64> = (0..200).map(f64::from).collect();
@@ -113,6 +113,6 @@ fn the_step_of_a_logger_is_found() {
     assert_eq!(resolution(&(0..500).map(|i| f64::from(i).sqrt()).collect::<Vec<f64>>()), None);
     assert_eq!(resolution(&[1.0, 1.0, 1.0]), None);
     assert_eq!(resolution(&[]), None);
-    // gaps are no values
+    // gaps are not values
     near(resolution(&[1.0, f64::NAN, 1.5, 2.5]).unwrap(), 0.5, 1e-12);
 }

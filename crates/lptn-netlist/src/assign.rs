@@ -29,7 +29,7 @@ impl Netlist {
     /// an error nothing is changed.
     ///
     /// # Errors
-    /// [`Rejected`] with every problem: a text that is no assignment, an unknown parameter, a wrong
+    /// [`Rejected`] with every problem: a text that is not an assignment, an unknown parameter, a wrong
     /// unit, or what the new values break in the network or in `[run]`.
     pub fn set(&mut self, assignments: &[String]) -> Result<(), Rejected> {
         let mut files = self.files.clone();
@@ -78,7 +78,7 @@ impl Netlist {
                 .help("write NAME=VALUE, for example `omega=5000rpm`")
         };
         let (name, value) =
-            text.split_once('=').ok_or_else(|| bad("is no assignment", "`=` is missing"))?;
+            text.split_once('=').ok_or_else(|| bad("is not an assignment", "`=` is missing"))?;
         let written = name.trim();
         if written.is_empty() {
             return Err(bad("names no parameter", "a name is missing before `=`"));

@@ -71,7 +71,7 @@ pub(crate) struct Fields<'a> {
 }
 
 impl<'a> Fields<'a> {
-    /// The fields of `entry`; `None` if it is no table.
+    /// The fields of `entry`; `None` if it is not a table.
     pub(crate) fn of(
         section: &'static SectionDeclaration,
         owner: Owner,

@@ -67,7 +67,7 @@ fn faces(name: &str) -> String {
     format!("its faces are {}", all.join(", "))
 }
 
-/// Why these are no indices of cells: the reason and what to write.
+/// Why these are not indices of cells: the reason and what to write.
 fn bad_index((name, what): (&str, &str), text: &str, counts: &[usize]) -> Option<(String, String)> {
     let inner = text.strip_prefix('[').and_then(|t| t.strip_suffix(']')).unwrap_or(text);
     let indices: Vec<Option<usize>> =

@@ -27,7 +27,7 @@ pub(crate) const PARAM: SectionDeclaration = SectionDeclaration {
 pub(crate) struct Pending<'a> {
     pub(crate) entry: &'a RawEntry,
     pub(crate) owner: Owner,
-    /// `None` if it could not be read, or is no expression.
+    /// `None` if it could not be read, or is not an expression.
     pub(crate) text: Option<Text>,
     /// Those of its kind that it uses, as positions in the file.
     uses: Vec<usize>,

@@ -13,7 +13,7 @@ use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
-    /// The fields of an element; `None` if it is no table.
+    /// The fields of an element; `None` if it is not a table.
     pub(crate) fn fields(
         &mut self,
         section: &'static SectionDeclaration,

@@ -29,7 +29,7 @@ impl Names {
                 format!("{words}: no node or boundary named `{base}`")
             }
             None if dotted => format!("{words}: no element named `{base}`"),
-            _ => format!("{words} uses `{name}`, which is no parameter"),
+            _ => format!("{words} uses `{name}`, which is not a parameter"),
         };
         let error = Diagnostic::error("netlist::unknown_name", message).at(at, "unknown name");
         match kind.map(|kind| (kind, results_of(kind, base))) {

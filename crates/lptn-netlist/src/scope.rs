@@ -142,7 +142,7 @@ impl Names {
     ) -> Diagnostic {
         let words = place.words();
         if name.contains(['.', '[']) {
-            let message = format!("{words} uses `{name}`, which is no parameter");
+            let message = format!("{words} uses `{name}`, which is not a parameter");
             return Diagnostic::error("netlist::unknown_name", message)
                 .at(at, "unknown name")
                 .help(
@@ -152,7 +152,7 @@ impl Names {
         }
         let error = Diagnostic::error(
             "netlist::unknown_name",
-            format!("{words} uses `{name}`, which is no parameter"),
+            format!("{words} uses `{name}`, which is not a parameter"),
         )
         .at(at, "unknown name");
         if is_function(name) {

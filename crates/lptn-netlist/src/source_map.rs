@@ -82,7 +82,7 @@ impl SourceMap {
         self.get(Item::Parameter(id), Field::Value)
     }
 
-    /// The places of values that carry `±` although they are no parameters: nothing varies them. In
+    /// The places of values that carry `±` although they are not parameters: nothing varies them. In
     /// the order of the files, each text once.
     pub fn deviations_elsewhere(&self, files: &Files) -> Vec<Span> {
         let no_parameter = |(item, field): &(Item, Field)| {

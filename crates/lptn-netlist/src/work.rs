@@ -48,7 +48,7 @@ pub(crate) struct Elaboration<'a> {
 pub(crate) struct Doubts {
     /// A section is not known or not a table: what it holds may be what is missing.
     pub(crate) sections: bool,
-    /// `format = 1` below a heading: it is no element of that section.
+    /// `format = 1` below a heading: it is not an element of that section.
     pub(crate) format: Option<Span>,
     /// A path is missing: islands cannot be told.
     pub(crate) paths: bool,

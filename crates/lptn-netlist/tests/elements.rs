@@ -36,9 +36,9 @@ fn close(found: f64, expected: f64) {
     );
 }
 
-/// Heat received by the two ends of a path that is no constant, at these temperatures in degC.
+/// Heat received by the two ends of a path that is not a constant, at these temperatures in degC.
 fn exchange(network: &Network, name: &str, time: f64, nodes: [f64; 4]) -> [f64; 2] {
-    let Item::Conductor(id) = network.item(name).unwrap() else { panic!("{name} is no path") };
+    let Item::Conductor(id) = network.item(name).unwrap() else { panic!("{name} is not a path") };
     let mut scope = network.evaluation();
     scope.set_time(time, time);
     let mut boundaries = [0.0; 2];

@@ -305,7 +305,7 @@ warning[netlist::massless_initial]: `T0` of node `joint` has no effect: the node
   = help: leave `T0` out: a massless node takes the temperature that its neighbours give it
 warning[netlist::massless_length]: `L_char` of node `joint` has no effect: the node is massless
  --> a.toml:4:53
-  = help: leave it out: a junction is no body
+  = help: leave it out: a junction is not a body
 warning[netlist::moment]: `P` of source `pulse` compares the time by equality, which lasts for no \
 time
  --> a.toml:11:35: never acts

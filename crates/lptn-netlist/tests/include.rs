@@ -65,7 +65,7 @@ fn what_is_included_counts_as_written_in_front() {
         netlist.inputs().map(|(name, _)| name.rsplit('/').next().unwrap().to_owned()).collect();
     assert_eq!(names, ["net.toml", "materials.toml", "ambient.toml"]);
     assert_eq!(netlist.inputs().nth(1).unwrap().1, MATERIALS);
-    // `--set` is no file, and places stay in theirs
+    // `--set` is not a file, and places stay in theirs
     netlist.set(&["c=500 J/(kg K)".into()]).unwrap();
     assert_eq!(netlist.inputs().count(), 3);
     let parameter = netlist.network.parameter("c").unwrap();
@@ -174,13 +174,14 @@ fn circles_and_depth_are_refused() {
     assert!(text.starts_with("error[network::empty]"), "{text}");
 }
 
+fn including(files: &str) -> String {
+    let node = "a = { T0 = \"25 degC\", C = \"1 J/K\" }";
+    format!("include = {files}\nformat = 1\n[node]\n{node}\n")
+}
+
 #[test]
 fn what_cannot_be_included_is_named() {
-    let net = |include: &str| {
-        format!(
-            "include = {include}\nformat = 1\n[node]\na = {{ T0 = \"25 degC\", C = \"1 J/K\" }}\n"
-        )
-    };
+    let net = including;
     let folder = Folder::new(
         "wrong",
         &[

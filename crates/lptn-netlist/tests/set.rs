@@ -94,7 +94,7 @@ fn a_refused_assignment_changes_nothing() {
 #[test]
 fn every_problem_is_named() {
     let expected = "\
-error[netlist::bad_assignment]: `omega` is no assignment
+error[netlist::bad_assignment]: `omega` is not an assignment
  --> --set:1:1: `=` is missing
   = help: write NAME=VALUE, for example `omega=5000rpm`
 error[netlist::unknown_parameter]: there is no parameter `shar`

@@ -142,7 +142,7 @@ fn input(
             Ok(Quantity { value: weight * value, deviation: None, ty }.into())
         }
         Value::Product(_) => {
-            Err(ReduceError::Equivalent("a product is no input: this is a bug in lptn".into()))
+            Err(ReduceError::Equivalent("a product is not an input: this is a bug in lptn".into()))
         }
         Value::Expression(program) => {
             let text = if factor == "1" {

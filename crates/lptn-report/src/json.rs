@@ -13,7 +13,7 @@ pub type Json<'a> = JsonWriter<&'a mut dyn Write>;
 
 /// Writes one JSON object, a member at a time; rows of a table never stand in memory as text.
 ///
-/// Numbers read back as the same `f64`; what is no number is `null`.
+/// Numbers read back as the same `f64`; what is not a number is `null`.
 pub struct JsonWriter<W: Write> {
     out: W,
     empty: bool,

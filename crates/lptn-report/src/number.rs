@@ -12,7 +12,7 @@ impl Shortest {
         Self::default()
     }
 
-    /// The text of `value`; `NaN`, `inf` and `-inf` for what is no number.
+    /// The text of `value`; `NaN`, `inf` and `-inf` for what is not a number.
     pub fn text(&mut self, value: f64) -> &str {
         let text = self.buffer.format(value);
         text.strip_suffix(".0").unwrap_or(text)

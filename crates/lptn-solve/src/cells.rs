@@ -178,7 +178,7 @@ impl Look<'_> {
 }
 
 /// For each step of [`PARTS`] samples how far they are from the cubic through the ends of steps,
-/// and from the chord. Where a sample is no number, nothing is known.
+/// and from the chord. Where a sample is not a number, nothing is known.
 fn bends(samples: &[f64]) -> Vec<(f64, f64)> {
     let count = samples.len() / PARTS;
     let end = |cell: usize| samples[cell * PARTS];

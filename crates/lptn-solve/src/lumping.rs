@@ -90,7 +90,7 @@ pub struct Lumping {
 }
 
 impl Lumping {
-    /// A Biot number above this is no lump's: Incropera et al., 6th edition, equation 5.10.
+    /// A Biot number above this is not a lump's: Incropera et al., 6th edition, equation 5.10.
     pub const MOST_BIOT: f64 = 0.1;
 
     /// The largest part of the shortest stretch that a diffusion time may be: within it the
@@ -145,7 +145,7 @@ impl Lumping {
         checker.into_lumping((span.1 > span.0).then_some(span))
     }
 
-    /// The checks with a Biot number that is no lump's, the largest first.
+    /// The checks with a Biot number that is not a lump's, the largest first.
     pub fn too_thick(&self) -> Vec<(&LumpCheck, Biot)> {
         let checks = self.checks.iter().filter_map(|check| Some((check, check.biot.ok()?)));
         let mut found: Vec<_> = checks.filter(|(_, biot)| biot.number > Self::MOST_BIOT).collect();

@@ -117,7 +117,7 @@ fn every_mutant_breaks_the_books() {
     }
 }
 
-/// What is wrong with the elements that are no constant conductances.
+/// What is wrong with the elements that are not constant conductances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Bent {
     Nothing,

@@ -391,7 +391,7 @@ pub(crate) fn largest(values: &[f64]) -> f64 {
     worst(values).1
 }
 
-/// The largest magnitude and where it is; what is no number counts as infinite.
+/// The largest magnitude and where it is; what is not a number counts as infinite.
 fn worst(values: &[f64]) -> (usize, f64) {
     let size = |v: f64| if v.is_nan() { f64::INFINITY } else { v.abs() };
     let all = values.iter().map(|&v| size(v)).enumerate();

@@ -201,7 +201,7 @@ impl Quadrature {
             largest[kind] = largest[kind].max(*size);
         }
         let agrees = |(&kind, [_, apart, size]): (&usize, &[f64; 3])| {
-            // not so where one of them is no number
+            // not so where one of them is not a number
             apart.abs() <= (AGREEMENT * size).max(ROUNDING * largest[kind])
         };
         self.kinds.iter().zip(integrals).all(agrees)

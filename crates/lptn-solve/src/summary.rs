@@ -37,7 +37,7 @@ pub struct NodeSummary {
 
 impl NodeSummary {
     /// The share of the way from start to steady state that the record covers; `None` where there
-    /// is no way.
+    /// is not a way.
     pub fn reached(&self) -> Option<f64> {
         let rise = self.steady? - self.start;
         (rise.abs() > LEAST_RISE).then(|| (self.end - self.start) / rise)

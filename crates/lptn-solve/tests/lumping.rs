@@ -75,7 +75,7 @@ fn the_bead_of_a_thermocouple_is_a_lump() {
     let lumping = Lumping::of_run(&run(thermocouple(), 8.0));
     assert!(lumping.too_slow().is_empty());
     close(lumping.shortest.unwrap().to, 8.0);
-    // 2.4 ms to spread are no tenth of 20 ms
+    // 2.4 ms to spread are not a tenth of 20 ms
     let short = Lumping::of_run(&run(thermocouple(), 0.02));
     assert_eq!(short.too_slow().len(), 1);
 }
@@ -157,7 +157,7 @@ fn what_cannot_be_checked_has_a_reason() {
     assert!(lumping.checks[0].diffusion.is_ok(), "that takes no surface");
     assert_eq!(lumping.checks[1].biot, Err(NotChecked::NoMaterial));
     assert_eq!(lumping.checks[1].diffusion, Err(NotChecked::NoMaterial));
-    assert!(lumping.without_length.is_empty(), "a junction is no body");
+    assert!(lumping.without_length.is_empty(), "a junction is not a body");
     assert_eq!(lumping.shortest, None);
 }
 

@@ -118,7 +118,7 @@ impl<'a> Laboratory<'a> {
     pub fn boundary(&self, id: &str) -> Result<BoundaryId, Trouble> {
         match self.end_named(id)? {
             End::Boundary(boundary) => Ok(boundary),
-            End::Node(_) => Err(format!("`{id}` is no boundary").into()),
+            End::Node(_) => Err(format!("`{id}` is not a boundary").into()),
         }
     }
 

@@ -62,7 +62,7 @@ fn measured(case: &Case, calibration: &Calibration, model: &Model) -> Result<Mea
     };
     let observe = |observation: &super::case::Observation| -> Result<Measured, Trouble> {
         let Some(End::Node(node)) = model.ends.get(&observation.node) else {
-            return Err(format!("`{}` is no node", observation.node).into());
+            return Err(format!("`{}` is not a node", observation.node).into());
         };
         let values = column(&observation.column)?.iter().map(|t| t + case.zero()).collect();
         Ok(Measured {

@@ -178,7 +178,7 @@ impl TryFrom<Map<String, Value>> for Expected {
         let value =
             map.remove("value").and_then(|v| v.as_f64()).ok_or_else(|| failed("no `value`"))?;
         if map.remove("provenance").is_some_and(|text| !text.is_string()) {
-            return Err(failed("`provenance` is no text"));
+            return Err(failed("`provenance` is not a text"));
         }
         let common: Map<String, Value> =
             ["tol_abs", "tol_rel"].into_iter().filter_map(|key| map.remove_entry(key)).collect();

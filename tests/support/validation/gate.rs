@@ -51,6 +51,6 @@ pub fn answer(solution: &Solution, quantity: &Quantity) -> Result<f64, Trouble> 
         }
         Quantity::GateOnTime { t_end } => last_cycle(until(t_end)).map(|[on, off, _]| off - on),
         Quantity::GatePeriod { t_end } => last_cycle(until(t_end)).map(|[on, _, again]| again - on),
-        _ => Err("this is no question to a gate".into()),
+        _ => Err("this is not a question to a gate".into()),
     }
 }

@@ -94,7 +94,7 @@ impl Model {
             let end = match item(node.id()) {
                 Some(Item::Node(id)) => End::Node(id),
                 Some(Item::Boundary(id)) => End::Boundary(id),
-                _ => return Err(format!("`{}` is no node of the network", node.id())),
+                _ => return Err(format!("`{}` is not a node of the network", node.id())),
             };
             model.ends.insert(node.id().to_owned(), end);
         }

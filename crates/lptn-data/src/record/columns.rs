@@ -98,7 +98,7 @@ fn no_time(head: &Head) -> Diagnostic {
             header.name.split(['(', '/', '[']).next().unwrap_or_default().trim()
         )),
         None if head.columns.iter().all(|header| header.unit.is_none()) => problem.help(
-            "the first line that is no comment names the columns: `t [s],ring [degC]`; \
+            "the first line that is not a comment names the columns: `t [s],ring [degC]`; \
              put `#` before the lines above it",
         ),
         None => problem

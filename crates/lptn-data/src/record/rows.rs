@@ -94,7 +94,7 @@ impl<'t> Work<'t> {
         self.cells.is_whole(row, "10.2,,45.1")
     }
 
-    /// A row whose time is no number.
+    /// A row whose time is not a number.
     fn no_time(&self, row: &Row, wrong: Wrong) -> Diagnostic {
         let index = self.time.index;
         if is_gap(row.cell(index), wrong) {

@@ -33,7 +33,7 @@ pub enum LawError {
     /// A law without a coefficient.
     NoCoefficient { law: String } = "fit::law_no_coefficient", format!("`{law}` has no coefficient \
         that could be fitted"),
-        help "names that are no column are coefficients: \"a * omega\"";
+        help "names that are not columns are coefficients: \"a * omega\"";
     /// A law with more coefficients than there may be.
     ManyCoefficients { law: String, count: usize } = "fit::law_many_coefficients",
         format!("`{law}` has {count} coefficients; at most {MOST} can be fitted");

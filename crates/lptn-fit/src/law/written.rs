@@ -8,7 +8,7 @@ use super::points::{Points, Variable};
 /// A name with the value at which a search begins.
 pub type Start = (String, Quantity);
 
-/// A law as a user wrote it: `a * omega + b * omega^3`. Names that are no variable are its
+/// A law as a user wrote it: `a * omega + b * omega^3`. Names that are not variables are its
 /// coefficients.
 #[derive(Clone, Debug)]
 pub struct WrittenLaw {
@@ -122,7 +122,7 @@ impl WrittenLaw {
     }
 }
 
-/// The names that are no variables, with their dimensions.
+/// The names that are not variables, with their dimensions.
 fn coefficients(
     expression: &Expression,
     variables: &[Variable],

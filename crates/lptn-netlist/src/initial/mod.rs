@@ -119,7 +119,7 @@ impl StateFile {
             Err((words, place)) => return self.refuse("netlist::state_not_json", words, place),
         };
         let Some(members) = whole.members() else {
-            let words = "the state is no JSON object".to_owned();
+            let words = "the state is not a JSON object".to_owned();
             return self.refuse("netlist::state_not_json", words, Span::new(file, 0..0));
         };
         let format = member(&members, "format");
@@ -131,7 +131,7 @@ impl StateFile {
                         found.written()
                     )
                 }
-                None => "the file has no `format`, so it is no state of a run".to_owned(),
+                None => "the file has no `format`, so it is not a state of a run".to_owned(),
             };
             let place = format.map_or(Span::new(file, 0..0), JsonValue::span);
             return self.refuse("netlist::state_format", words, place);

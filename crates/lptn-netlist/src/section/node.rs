@@ -96,7 +96,7 @@ impl<'a> Elaboration<'a> {
         if massless {
             let message =
                 format!("{} has no effect: the node is massless", fields.owner.field("L_char"));
-            let help = "leave it out: a junction is no body";
+            let help = "leave it out: a junction is not a body";
             self.report(Diagnostic::doubt("netlist::massless_length", message, &raw.span, help));
         }
     }

@@ -120,7 +120,7 @@ pub(crate) fn expand(files: &mut Files, mut raw: RawNetlist, format: &Format) ->
     Expanded { raw, structure: Arc::new(structure), problems }
 }
 
-/// Takes the entries of a section out of a netlist; a section that is no table is left, to be
+/// Takes the entries of a section out of a netlist; a section that is not a table is left, to be
 /// reported.
 fn take(raw: &mut RawNetlist, name: &str) -> Vec<RawEntry> {
     let entries = &mut raw.top.entries;

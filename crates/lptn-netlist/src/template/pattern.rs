@@ -109,7 +109,7 @@ impl Patterns<'_> {
             }
             _ => None,
         };
-        // a share that is no number is reported where it is read
+        // a share that is not a number is reported where it is read
         let number =
             each.map(|share| RawKind::Float(format!("{:?}", share / instances.len() as f64)));
         let kind = number.unwrap_or_else(|| share.kind.clone());

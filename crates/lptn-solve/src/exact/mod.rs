@@ -179,7 +179,7 @@ impl Difference {
                 solution.row(row).iter().zip(reference(row)).zip(&nodes).zip(&mut found.by_node);
             for (((a, b), &node), most) in pairs {
                 let difference = (a - b).abs();
-                // in total order a difference that is no number is larger than any
+                // in total order a difference that is not a number is larger than any
                 if difference.total_cmp(most).is_gt() {
                     *most = difference;
                 }

@@ -74,7 +74,7 @@ struct Finding {
 
 impl Finding {
     /// # Errors
-    /// What is wrong with `--set`: that is no property of the netlist.
+    /// What is wrong with `--set`: that is not a property of the netlist.
     fn of(text: &Given, set: &[String]) -> Result<Self, Failure> {
         let mut netlist = match input::parse(text) {
             Ok(netlist) => netlist,

@@ -134,7 +134,7 @@ fn temperatures(of: &Outcome<'_>, nodes: &[NodeSummary]) -> TextTable {
         .into()
 }
 
-/// What is no temperature of a node: every report, the values of grids, and the other columns that
+/// What is not a temperature of a node: every report, the values of grids, and the other columns that
 /// were asked for by name.
 fn columns(of: &Outcome<'_>, text: &mut Text) {
     let network = of.solution.network();

@@ -39,7 +39,7 @@ pub(crate) struct LawArgs {
     /// The column of the time constant, for the same test
     #[arg(long, value_name = "NAME", requires = "points")]
     pub(crate) time_constant: Option<String>,
-    /// Fit this law too; names that are no column are coefficients; may be repeated
+    /// Fit this law too; names that are not columns are coefficients; may be repeated
     #[arg(long, value_name = "EXPRESSION", requires = "points")]
     pub(crate) law: Vec<String>,
     /// Begin the search for a coefficient here: "a = 20 mW/rpm"; may be repeated

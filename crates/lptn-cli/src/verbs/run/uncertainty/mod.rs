@@ -35,7 +35,7 @@ pub(crate) fn check(args: &UncertaintyArgs, input: &Input) -> Result<(), Failure
     inputs.map(drop).map_err(|error| input.failure(&error, None))
 }
 
-/// Values with `±` that are no parameters, and so are taken as certain.
+/// Values with `±` that are not parameters, and so are taken as certain.
 pub(crate) fn elsewhere(netlist: &Netlist) -> Vec<Diagnostic> {
     let spans = netlist.source_map.deviations_elsewhere(&netlist.files);
     let warning = |span| {

@@ -85,7 +85,7 @@ fn study(
                 console.warn(&Files::new(), &[warning]);
                 settings.columns.retain(|other| *other != column);
             }
-            // a record that has no exponential is no failure of the numbers
+            // a record that has no exponential is not a failure of the numbers
             Err(error) => return Err(Failure::of(&error)),
         }
     }
