@@ -272,7 +272,7 @@ impl Head {
             .help(format!("what is left out is an empty cell between commas: `{example}`"))
     }
 
-    /// A cell that holds no number.
+    /// A cell that does not hold a number.
     pub(crate) fn no_number(
         &self,
         row: &Row,
@@ -287,8 +287,8 @@ impl Head {
             Wrong::Missing => {
                 (codes.missing_value, format!("column `{name}` has no value in this row"))
             }
-            Wrong::NotFinite => (codes.not_finite, holds("no finite number")),
-            Wrong::Text => (codes.not_a_number, holds("no number")),
+            Wrong::NotFinite => (codes.not_finite, holds("not a finite number")),
+            Wrong::Text => (codes.not_a_number, holds("not a number")),
             Wrong::Cold => (
                 "units::below_absolute_zero",
                 format!("column `{name}` goes below absolute zero: {cell} {unit}"),
@@ -324,7 +324,7 @@ fn no_unit(header: &Header, wanted: Option<Type>) -> Diagnostic {
     })
 }
 
-/// Why a cell holds no number.
+/// Why a cell does not hold a number.
 #[derive(Clone, Copy)]
 pub enum Wrong {
     /// It is empty.
