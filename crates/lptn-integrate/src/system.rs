@@ -57,7 +57,7 @@ pub trait OdeSystem {
 
     /// Whether the *values* written by [`jacobian`](Self::jacobian) are symmetric. They then are
     /// factorised as `M - gamma J` by Cholesky, which must be positive definite for the step sizes
-    /// of interest; otherwise by LU. Read once, by [`crate::Integrator::new`].
+    /// of interest; otherwise by LU. Read once, by the integrator when it is made.
     fn symmetric(&self) -> bool;
 
     /// The integrator gives up on the symmetric values: from now on they are factorised by LU, and
