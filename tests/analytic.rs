@@ -281,7 +281,7 @@ fn a_peak_between_the_rows_is_seen() {
     let fine = |k: u32| f64::from(k) * 1e-3;
     let peak = (0..200_000).map(|k| exact(fine(k))).fold(0.0, f64::max);
     let crossing = (0..200_000).map(fine).find(|t| exact(*t) >= 10.0).unwrap();
-    let seen = solution.seen()[0];
+    let seen = solution.watched()[0];
     close(celsius(seen.peak.0), peak, 2e-3);
     close(seen.crossed.unwrap(), crossing, 0.1);
 }

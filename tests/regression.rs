@@ -42,7 +42,7 @@ fn watches_of_a_network_without_state_see_peak_and_end() {
     b.resistor("b", middle, right, Conductance(1.0));
     let mut run = Transient::until(Time(60.0)).every(Time(10.0));
     run.watch = vec![Watch { node: middle, level: Some(273.15 + 22.0) }];
-    let seen = run.solve(&assembled(b)).unwrap().seen()[0];
+    let seen = run.solve(&assembled(b)).unwrap().watched()[0];
     let omega = std::f64::consts::PI / 50.0;
     assert!((seen.peak.0 - 298.15).abs() < 1e-3 && (seen.peak.1 - 25.0).abs() < 0.1, "{seen:?}");
     assert!((seen.last() - 293.15 - 5.0 * (omega * 60.0).sin()).abs() < 1e-9);
@@ -62,7 +62,7 @@ fn a_leap_over_a_level_has_the_time_of_the_jump() {
     b.source("step", junction, step);
     let mut run = Transient::until(Time(200.0)).every(Time(50.0));
     run.watch = vec![Watch { node: junction, level: Some(273.15 + 40.0) }];
-    let seen = run.solve(&assembled(b)).unwrap().seen()[0];
+    let seen = run.solve(&assembled(b)).unwrap().watched()[0];
     assert!((seen.crossed.unwrap() - 100.0).abs() < 1e-9, "{seen:?}");
 }
 
@@ -201,7 +201,7 @@ fn peaks_are_as_accurate_as_rows() {
     for tolerance in [1e-5, 1e-6, 1e-7] {
         let mut run = Transient::until(Time(600.0)).at(&[]).tolerance(tolerance);
         run.watch = vec![Watch { node: cold, level: None }];
-        let seen = run.solve(&system).unwrap().seen()[0];
+        let seen = run.solve(&system).unwrap().watched()[0];
         assert!(
             (seen.peak.0 - peak).abs() < 10.0 * tolerance,
             "{tolerance:e}: {:e} K",

@@ -32,9 +32,9 @@ impl Covariance {
     #[must_use]
     pub fn sandwich(&self, middle: &[f64]) -> Self {
         let n = self.parameters.len();
-        let bread = MatRef::from_row_major_slice(&self.values, n, n);
-        let half = dense::product(bread, MatRef::from_row_major_slice(middle, n, n));
-        let whole = dense::product(half.as_ref(), bread);
+        let inverse = MatRef::from_row_major_slice(&self.values, n, n);
+        let half = dense::product(inverse, MatRef::from_row_major_slice(middle, n, n));
+        let whole = dense::product(half.as_ref(), inverse);
         // rounding leaves the two halves unequal
         let values = (0..n * n)
             .map(|at| 0.5 * (whole[(at / n, at % n)] + whole[(at % n, at / n)]))

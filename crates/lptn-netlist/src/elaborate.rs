@@ -22,7 +22,7 @@ use crate::section;
 use crate::size::SizeStudy;
 use crate::source_map::SourceMap;
 use crate::template::Structure;
-use crate::work::{Doubts, Elaboration};
+use crate::work::{Elaboration, LeftOut};
 
 /// What a netlist means.
 pub(crate) struct Elaborated {
@@ -63,7 +63,7 @@ pub(crate) fn elaborate(
         names: Names::of(raw, structure, section::format()),
         problems: Vec::new(),
         dropped: 0,
-        doubts: Doubts::of(structure),
+        left_out: LeftOut::of(structure),
         scales: Scales::default(),
         known: HashMap::new(),
         known_fluids: HashMap::new(),
@@ -107,7 +107,7 @@ impl<'a> Elaboration<'a> {
         default: section::Default<'_>,
     ) -> (Option<Elaborated>, Found) {
         let substances = self.unused_substances();
-        let (map, doubts) = (&self.map, &self.doubts);
+        let (map, doubts) = (&self.map, &self.left_out);
         let network = match self.builder.build() {
             Ok(network) => Some(network),
             Err(errors) => {
@@ -118,7 +118,7 @@ impl<'a> Elaboration<'a> {
                 None
             }
         };
-        if let Some(format) = &self.doubts.format {
+        if let Some(format) = &self.left_out.format {
             self.problems.retain(|p| {
                 p.code == MISSING_FORMAT || !p.place().is_some_and(|at| at.is_inside(format))
             });

@@ -33,7 +33,7 @@ pub(crate) struct Elaboration<'a> {
     pub(crate) problems: Vec<Diagnostic>,
     /// How many problems of imported rows were not even written down.
     pub(crate) dropped: usize,
-    pub(crate) doubts: Doubts,
+    pub(crate) left_out: LeftOut,
     pub(crate) scales: Scales,
     /// Materials by name: those of the file, and those of the library that are used.
     pub(crate) known: HashMap<String, Known>,
@@ -45,7 +45,7 @@ pub(crate) struct Elaboration<'a> {
 
 /// What was left out because of an error, so that its absence is not reported as another one.
 #[derive(Debug, Default)]
-pub(crate) struct Doubts {
+pub(crate) struct LeftOut {
     /// A section is not known or not a table: what it holds may be what is missing.
     pub(crate) sections: bool,
     /// `format = 1` below a heading: it is not an element of that section.
@@ -58,7 +58,7 @@ pub(crate) struct Doubts {
     pub(crate) items: HashSet<Item>,
 }
 
-impl Doubts {
+impl LeftOut {
     /// What an instance would have held may be what is missing.
     pub(crate) fn of(structure: &Structure) -> Self {
         let lost = structure.has_lost();

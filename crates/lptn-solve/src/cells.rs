@@ -241,7 +241,7 @@ mod tests {
         assert!(sine(6.0) < MISSED && sine(5.0) > MISSED, "{} {}", sine(6.0), sine(5.0));
         let pulse = |width: f64| share(20, |x| 1e-3 * x * x + (-((x - 9.4) / width).powi(2)).exp());
         assert!(pulse(0.1) > MISSED && pulse(3.0) < MISSED, "{} {}", pulse(0.1), pulse(3.0));
-        // a cubic is foretold, whatever its size
+        // a cubic is predicted, whatever its size
         assert!(share(7, |x| 1e6 * (x - 3.0).powi(3)) < 1e-9);
     }
 }

@@ -92,5 +92,5 @@ pub use verification::{
     Comparison, LEAST_TOLERANCE, NoReference, Reference, Verification, allowed_error,
 };
 
-pub use watch::{Seen, Watch, first_there, top};
+pub use watch::{Watch, Watched, first_there, top};
 pub use window::{ColumnSeen, Window, WindowSeen};

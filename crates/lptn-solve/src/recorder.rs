@@ -26,7 +26,7 @@ use crate::times::Segment;
 use crate::tracked::Tracked;
 use crate::unfold::Unfold;
 use crate::unsolved::Unsolved;
-use crate::watch::{Seen, Watch};
+use crate::watch::{Watch, Watched};
 
 /// Writes the state at a time inside the present step.
 type StateAt<'a> = dyn FnMut(f64, &mut [f64]) -> Result<(), IntegrateError> + 'a;
@@ -53,7 +53,7 @@ pub(crate) struct Recorder<'a> {
     recorded: Vec<NodeId>,
     temperatures: Vec<f64>,
     watch: Vec<Watch>,
-    seen: Vec<Seen>,
+    seen: Vec<Watched>,
     /// For each watched node the points of the present step.
     points: Vec<Vec<(f64, f64)>>,
     limits: LimitWatch<'a>,
@@ -199,7 +199,7 @@ impl<'a> Recorder<'a> {
         let nodes = self.system.node_temperatures(&self.work);
         if self.seen.is_empty() {
             self.seen =
-                self.watch.iter().map(|&w| Seen::new(w, from, nodes[w.node.index()])).collect();
+                self.watch.iter().map(|&w| Watched::new(w, from, nodes[w.node.index()])).collect();
         } else {
             self.seen.iter_mut().for_each(|seen| seen.jump(from, nodes[seen.watch.node.index()]));
         }

@@ -44,7 +44,7 @@ impl Beyond {
             nodes.map(move |(&node, &temperature)| (node, temperature, Some(time)))
         });
         let peaks =
-            solution.seen().iter().map(|seen| (seen.watch.node, seen.peak.0, Some(seen.peak.1)));
+            solution.watched().iter().map(|seen| (seen.watch.node, seen.peak.0, Some(seen.peak.1)));
         let ends =
             network.node_ids().zip(&last.temperatures).map(|(id, &t)| (id, t, Some(last.time)));
         let mut scope = network.evaluation();

@@ -132,7 +132,7 @@ impl SensitiveRun {
         let (_, solutions, distance) =
             self.differences.iter().find(|(id, _, _)| *id == parameter)?;
         let peak = |solution: &Solution| {
-            solution.seen().iter().find(|seen| seen.watch.node == node).map(|seen| seen.peak.0)
+            solution.watched().iter().find(|seen| seen.watch.node == node).map(|seen| seen.peak.0)
         };
         let [below, above] = solutions.each_ref().map(peak);
         Some((above? - below?) / distance)

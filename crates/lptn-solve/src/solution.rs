@@ -17,7 +17,7 @@ use crate::quantity::Quantity;
 use crate::reading::Reading;
 use crate::sensitivity_rows::SensitivityRows;
 use crate::state::State;
-use crate::watch::Seen;
+use crate::watch::Watched;
 use crate::window::WindowSeen;
 
 /// How a run ended.
@@ -59,7 +59,7 @@ pub struct Solution {
     pub(crate) recorded: Vec<NodeId>,
     /// Row by row, one temperature in K for each recorded node.
     pub(crate) temperatures: Vec<f64>,
-    pub(crate) seen: Vec<Seen>,
+    pub(crate) seen: Vec<Watched>,
     pub(crate) limits: Vec<LimitSeen>,
     pub(crate) windows: Vec<WindowSeen>,
     pub(crate) balance: Option<Balance>,
@@ -210,7 +210,7 @@ impl Solution {
     }
 
     /// What was seen of the watched nodes between the rows too, in the order they were named.
-    pub fn seen(&self) -> &[Seen] {
+    pub fn watched(&self) -> &[Watched] {
         &self.seen
     }
 

@@ -81,7 +81,7 @@ impl Summary {
     /// Summarises the nodes that `solution` watched.
     pub fn new(solution: &Solution, steady: Option<&SteadyState>) -> Self {
         let start = solution.times().first().copied().unwrap_or(0.0);
-        let one = |seen: &crate::Seen| NodeSummary {
+        let one = |seen: &crate::Watched| NodeSummary {
             node: seen.watch.node,
             start: seen.first(),
             end: seen.last(),
@@ -89,6 +89,6 @@ impl Summary {
             steady: steady.map(|s| s.temperatures[seen.watch.node.index()]),
             time_to_95: seen.crossed.map(|time| time - start),
         };
-        Self { nodes: solution.seen().iter().map(one).collect() }
+        Self { nodes: solution.watched().iter().map(one).collect() }
     }
 }

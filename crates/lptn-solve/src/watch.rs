@@ -13,7 +13,7 @@ pub struct Watch {
 
 /// What was seen of a watched node.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen {
+pub struct Watched {
     /// The node and the level.
     pub watch: Watch,
     /// Highest temperature in K and its time in s.
@@ -49,7 +49,7 @@ pub fn first_there((value, time): (f64, f64), [first, last]: [(f64, f64); 2], ma
     }
 }
 
-impl Seen {
+impl Watched {
     pub(crate) fn new(watch: Watch, time: f64, temperature: f64) -> Self {
         Self {
             watch,

@@ -6,7 +6,7 @@ use super::points::Points;
 /// Root of the mean square of misses: the divisor is their number.
 pub(crate) fn rms(misses: impl ExactSizeIterator<Item = f64>) -> f64 {
     let count = misses.len() as f64;
-    (misses.map(|miss| miss * miss).sum::<f64>() / count).sqrt()
+    (misses.map(|residual| residual * residual).sum::<f64>() / count).sqrt()
 }
 
 /// The variance that weighted misses have beyond the standard errors given: chi^2 over degrees of

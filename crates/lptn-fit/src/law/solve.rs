@@ -186,7 +186,7 @@ fn conclude(law: &Law, points: &Points, p: &[f64]) -> Outcome {
         Err(outcome) => return outcome,
     };
     let Some(inverse) = local.inverse(p.len()) else { return Outcome::NotDetermined };
-    let squares: f64 = local.misses.iter().map(|miss| miss * miss).sum();
+    let squares: f64 = local.misses.iter().map(|residual| residual * residual).sum();
     let degrees_of_freedom = points.len() - p.len();
     let variance = variance(squares, degrees_of_freedom, points);
     let error = |j: usize| Some(inverse.standard_error(j)? * variance?.sqrt());
@@ -234,16 +234,16 @@ fn leave_one_out(
     }
     let missed: Option<Vec<f64>> = if linear(law, points) || points.len() > REFITS {
         let leverages = local.leverages(inverse, p.len());
-        let miss = |(i, h): (usize, &f64)| {
+        let residual = |(i, h): (usize, &f64)| {
             (*h < 1.0 - 1e-9).then(|| local.misses[i] * points.scale(i) / (1.0 - h))
         };
-        leverages.iter().enumerate().map(miss).collect()
+        leverages.iter().enumerate().map(residual).collect()
     } else {
-        let miss = |i: usize| {
+        let residual = |i: usize| {
             let p = search(law, &points.without(i), Some(p)).ok()?;
             Some(law.evaluate(&p, points, i).ok()?.0 - points.power()[i])
         };
-        (0..points.len()).map(miss).collect()
+        (0..points.len()).map(residual).collect()
     };
     missed.map(|misses| rms(misses.into_iter()))
 }

@@ -18,7 +18,7 @@ pub enum Test {
     Gradient,
     /// A full step would change no parameter.
     Step,
-    /// Steps change the sum of squares by no more than rounding, as was foretold.
+    /// Steps change the sum of squares by no more than rounding, as was predicted.
     Cost,
 }
 

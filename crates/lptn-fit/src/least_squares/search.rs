@@ -116,7 +116,7 @@ struct Trial {
     /// Length in scaled parameters.
     length: f64,
     /// By which part of the sum of squares it was to lower it, and did.
-    foretold: f64,
+    predicted: f64,
     lowered: f64,
 }
 
@@ -251,11 +251,11 @@ impl<P: Residuals> Search<'_, P> {
         for _ in 0..MOST_TRIALS {
             let trial = self.attempt(&here.point, &region, *radius)?;
             *radius = next_radius(*radius, &trial);
-            let rounding = trial.foretold.max(trial.lowered.abs()) <= self.settings.cost;
+            let rounding = trial.predicted.max(trial.lowered.abs()) <= self.settings.cost;
             if rounding && !trial.cut {
                 return Ok(Descent::Level(self.point(trial.parameters)?));
             }
-            if trial.lowered > 1e-4 * trial.foretold && trial.lowered > 0.0 {
+            if trial.lowered > 1e-4 * trial.predicted && trial.lowered > 0.0 {
                 return Ok(Descent::Lower(self.point(trial.parameters)?));
             }
             if *radius <= least || trial.length <= least {
@@ -275,11 +275,11 @@ impl<P: Residuals> Search<'_, P> {
         let parameters: Vec<f64> = (0..taken.step.len()).map(moved).collect();
         let (residuals, _) = self.evaluate(&parameters, false)?;
         let squares: f64 = residuals.iter().map(|r| r * r).sum();
-        let foretold = region.model.reduction(&taken.step) / point.squares;
+        let predicted = region.model.reduction(&taken.step) / point.squares;
         let lowered =
             if squares.is_finite() { 1.0 - squares / point.squares } else { f64::NEG_INFINITY };
         let length = region.length(&taken.step);
-        Ok(Trial { parameters, cut, length, foretold, lowered })
+        Ok(Trial { parameters, cut, length, predicted, lowered })
     }
 
     fn end(&self, point: Point, outcome: Outcome, offset: f64, iterations: usize) -> Estimate {
@@ -308,21 +308,21 @@ fn widen(scales: &mut [f64], norms: &[f64]) {
     }
 }
 
-/// A shorter radius after a step that did less than a quarter of what was foretold, a longer one
+/// A shorter radius after a step that did less than a quarter of what was predicted, a longer one
 /// after one that did three quarters of it.
 fn next_radius(radius: f64, trial: &Trial) -> f64 {
-    let foretold = trial.foretold.max(f64::MIN_POSITIVE);
+    let predicted = trial.predicted.max(f64::MIN_POSITIVE);
     if !trial.lowered.is_finite() || trial.lowered < -99.0 {
         return 0.1 * radius.min(trial.length);
     }
-    if trial.lowered < 0.25 * foretold {
+    if trial.lowered < 0.25 * predicted {
         // the minimum of the parabola through both ends with the slope at the first
-        let shrink = foretold / (2.0 * foretold - trial.lowered);
+        let shrink = predicted / (2.0 * predicted - trial.lowered);
         return shrink.clamp(0.1, 0.5) * radius.min(10.0 * trial.length);
     }
     match trial.cut {
         false => 2.0 * trial.length,
-        true if trial.lowered >= 0.75 * foretold => radius.max(2.0 * trial.length),
+        true if trial.lowered >= 0.75 * predicted => radius.max(2.0 * trial.length),
         true => radius,
     }
 }

@@ -89,8 +89,8 @@ impl<'a> Errors<'a> {
             column: block.column,
             samples,
             effective: column.noise.effective,
-            rms: mean(&|miss| miss * miss).sqrt(),
-            mean: mean(&|miss| miss),
+            rms: mean(&|residual| residual * residual).sqrt(),
+            mean: mean(&|residual| residual),
             sigma: measured.sigma,
         }
     }
@@ -108,13 +108,13 @@ impl<'a> Errors<'a> {
         if self.free.is_empty() || self.data == 0 {
             return None;
         }
-        let bread =
+        let inverse =
             Covariance::inverse(&self.at_end.jacobian, self.at_end.residuals.len(), &self.free)?;
-        let found = bread.sandwich(&self.middle());
+        let found = inverse.sandwich(&self.middle());
         let given = self.columns.iter().all(|column| self.sigma(column).is_some());
         match self.left_over() {
-            0 => given.then_some(bread),
-            left if left < FEW && given => Some(bread.at_least(&found)),
+            0 => given.then_some(inverse),
+            left if left < FEW && given => Some(inverse.at_least(&found)),
             _ => Some(found),
         }
     }

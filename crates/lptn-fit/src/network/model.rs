@@ -260,7 +260,7 @@ fn measure(
             .iter()
             .zip(model)
             .map(|(&row, model)| (model - column.values[row]) / column.weight());
-        measure.residuals.extend(misses.filter(|miss| !miss.is_nan()));
+        measure.residuals.extend(misses.filter(|residual| !residual.is_nan()));
     }
     for &id in ids {
         for column in &run.columns {

@@ -128,10 +128,10 @@ impl Likelihood {
             for (i, (values, &[decay, gain, weight])) in group.iter().zip(&gains.steps).enumerate()
             {
                 for l in 0..LANES {
-                    let foretold = decay * state[l];
-                    let miss = values[l] - foretold;
-                    state[l] = foretold + gain * miss;
-                    out[l * n + i] = miss * weight;
+                    let predicted = decay * state[l];
+                    let residual = values[l] - predicted;
+                    state[l] = predicted + gain * residual;
+                    out[l * n + i] = residual * weight;
                 }
             }
         }
@@ -185,7 +185,7 @@ impl Likelihood {
 }
 
 /// The filter's numbers for every sample: how much of the state is left, gain, and weight of what
-/// was not foretold.
+/// was not predicted.
 struct Gains {
     steps: Vec<[f64; 3]>,
     determinant: f64,
@@ -205,10 +205,10 @@ impl Gains {
                 if !same {
                     decay = if shape.time > 0.0 { (-apart / shape.time).exp() } else { 0.0 };
                 }
-                let foretold = decay * decay * variance + c * (1.0 - decay * decay);
-                let total = foretold + white;
-                let gain = foretold / total;
-                let next = foretold * (1.0 - gain);
+                let predicted = decay * decay * variance + c * (1.0 - decay * decay);
+                let total = predicted + white;
+                let gain = predicted / total;
+                let next = predicted * (1.0 - gain);
                 settled = same && (next - variance).abs() <= 1e-13 * next;
                 variance = next;
                 logarithm = total.ln();

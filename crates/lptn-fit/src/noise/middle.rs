@@ -42,11 +42,11 @@ impl Middle {
     }
 
     /// The degrees of freedom with which the variance of a quantity is known that has these
-    /// derivatives by all parameters of the fit, `bread` being `(J^T J)^-1`.
-    pub fn degrees_of_freedom(&self, bread: &Covariance, gradient: &[f64]) -> f64 {
-        let n = bread.parameters.len();
+    /// derivatives by all parameters of the fit, `inverse` being `(J^T J)^-1`.
+    pub fn degrees_of_freedom(&self, inverse: &Covariance, gradient: &[f64]) -> f64 {
+        let n = inverse.parameters.len();
         let weight = |i: usize| {
-            (0..n).map(|j| bread.values[i * n + j] * gradient[bread.parameters[j]]).sum()
+            (0..n).map(|j| inverse.values[i * n + j] * gradient[inverse.parameters[j]]).sum()
         };
         let weights: Vec<f64> = (0..n).map(weight).collect();
         let form =

@@ -9,14 +9,14 @@ use super::error::StepError;
 
 /// A number of the network, and what the fit makes of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Off {
+pub struct FittedValue {
     /// As it is.
     pub real: f64,
     /// As one exponential has it.
     pub fitted: f64,
 }
 
-impl Off {
+impl FittedValue {
     /// What the fit adds: to be subtracted from a measured value.
     pub fn bias(&self) -> f64 {
         self.fitted - self.real
@@ -30,15 +30,15 @@ impl Off {
 pub struct ModelBias {
     /// `T_i`: the port at the first time that is fitted, in K; as fitted for a port without
     /// capacity at the start, which has no start of its own.
-    pub initial: Off,
+    pub initial: FittedValue,
     /// `T_f`: the port in steady state with the inputs of the start, in K.
-    pub settled: Off,
+    pub settled: FittedValue,
     /// `t_RC`: `C_sum R_eq` of the network at the port, in s.
-    pub tau: Off,
+    pub tau: FittedValue,
     /// `P`: the heat that the port feels, in W, against `C_sum (T_f - T_i) / t_RC`; where the
     /// record is cut, with the port's temperature at the start of the run for `T_i`: that of the
     /// cut gives no heat.
-    pub power: Off,
+    pub power: FittedValue,
     /// `C_sum` in J/K: the sum of the capacities that heat from the port reaches.
     pub capacity: f64,
     /// `R_eq` of the network at the port, in K/W.
@@ -48,7 +48,7 @@ pub struct ModelBias {
 }
 
 /// What the port does.
-struct Seen {
+struct PortFit {
     /// At the start of the run, in K.
     start: f64,
     /// The exponential through the times that are fitted, from the first of them.
@@ -74,20 +74,26 @@ impl ModelBias {
         (begin, times): (f64, &[f64]),
     ) -> Result<Self, StepError> {
         let norton = NortonEquivalent::new(system, port).map_err(StepError::Model)?;
-        let seen = Seen::new(system, port, run, (begin, times))?;
+        let port_fit = PortFit::new(system, port, run, (begin, times))?;
         let inputs = norton
             .inputs(system, run.start)
             .map_err(|e| StepError::Model(ReduceError::Input(e)))?;
-        let fit = &seen.fit;
+        let fit = &port_fit.fit;
         let massless = system.network().nodes()[port.index()].massless;
-        let first = if massless && !seen.cut { fit.initial } else { seen.first };
-        let zero = if seen.cut { seen.start } else { fit.initial };
+        let first = if massless && !port_fit.cut { fit.initial } else { port_fit.first };
+        let zero = if port_fit.cut { port_fit.start } else { fit.initial };
         let (capacity, resistance) = (norton.capacity_sum(system.network()), norton.resistance);
         Ok(Self {
-            initial: Off { real: first, fitted: fit.initial },
-            settled: Off { real: inputs.reference + inputs.heat * resistance, fitted: fit.settled },
-            tau: Off { real: capacity * resistance, fitted: fit.tau },
-            power: Off { real: inputs.heat, fitted: capacity * (fit.settled - zero) / fit.tau },
+            initial: FittedValue { real: first, fitted: fit.initial },
+            settled: FittedValue {
+                real: inputs.reference + inputs.heat * resistance,
+                fitted: fit.settled,
+            },
+            tau: FittedValue { real: capacity * resistance, fitted: fit.tau },
+            power: FittedValue {
+                real: inputs.heat,
+                fitted: capacity * (fit.settled - zero) / fit.tau,
+            },
             capacity,
             resistance,
             rms: fit.rms,
@@ -95,7 +101,7 @@ impl ModelBias {
     }
 }
 
-impl Seen {
+impl PortFit {
     fn new(
         system: &ThermalSystem,
         port: NodeId,

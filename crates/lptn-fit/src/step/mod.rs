@@ -20,7 +20,7 @@ use lptn_reduce::fit_exponential;
 use crate::Covariance;
 use crate::noise::{Middle, Noise, resolution, student_95};
 
-pub use bias::{ModelBias, Off};
+pub use bias::{FittedValue, ModelBias};
 pub use error::{Lack, StepError};
 pub use power::{Capacity, Parted, Power, Reference, Sensor};
 pub use second::{Asked, TwoExponentials};
@@ -89,7 +89,7 @@ pub struct StepFit {
 #[derive(Clone, Debug, PartialEq)]
 struct Random {
     /// `(J^T J)^-1`.
-    bread: Covariance,
+    inverse: Covariance,
     middle: Middle,
     /// The sandwich of both.
     covariance: Covariance,
@@ -102,17 +102,17 @@ impl Random {
     /// they do not determine all numbers.
     fn new(times: &[f64], jacobian: &[f64], noise: &Noise) -> Option<Self> {
         let all: Vec<usize> = (0..jacobian.len() / times.len()).collect();
-        let bread = Covariance::inverse(jacobian, times.len(), &all)?;
+        let inverse = Covariance::inverse(jacobian, times.len(), &all)?;
         let middle = noise.middle(times, jacobian);
-        let covariance = bread.sandwich(&middle.values);
-        Some(Self { bread, middle, covariance, deviation: noise.deviation })
+        let covariance = inverse.sandwich(&middle.values);
+        Some(Self { inverse, middle, covariance, deviation: noise.deviation })
     }
 
     /// A function of the numbers with this value and these derivatives by them.
     fn estimated(&self, value: f64, gradient: &[f64]) -> Estimated {
         let standard_error = self.covariance.propagated(gradient);
-        let degrees_of_freedom = self.middle.degrees_of_freedom(&self.bread, gradient);
-        let naive = self.deviation * self.bread.propagated(gradient);
+        let degrees_of_freedom = self.middle.degrees_of_freedom(&self.inverse, gradient);
+        let naive = self.deviation * self.inverse.propagated(gradient);
         let half_width = standard_error * student_95(degrees_of_freedom);
         Estimated { value, standard_error, naive, half_width, degrees_of_freedom }
     }

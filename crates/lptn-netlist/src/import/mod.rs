@@ -151,7 +151,7 @@ impl<'a> Elaboration<'a> {
         let (from, to) = (self.required_column(&rows, "from"), self.required_column(&rows, "to"));
         let name = self.optional_column(&rows, "name");
         let (Some(from), Some(to), Some((column, law))) = (from, to, self.law_column(&rows)) else {
-            self.doubts.paths = true;
+            self.left_out.paths = true;
             return;
         };
         let first = self.builder.conductor_count();
@@ -160,7 +160,7 @@ impl<'a> Elaboration<'a> {
             let path = Path::new(law, [value]);
             let ends = (self.end_of(&mut rows, ("from", from)), self.end_of(&mut rows, ("to", to)));
             let (Some(start), Some(end)) = ends else {
-                self.doubts.paths = true;
+                self.left_out.paths = true;
                 rows.skip();
                 continue;
             };
@@ -207,8 +207,8 @@ impl<'a> Elaboration<'a> {
     /// What the absence of a file makes uncertain.
     fn lost(&mut self) {
         self.names.hide_all();
-        self.doubts.sections = true;
-        self.doubts.paths = true;
-        self.doubts.parts = true;
+        self.left_out.sections = true;
+        self.left_out.paths = true;
+        self.left_out.parts = true;
     }
 }

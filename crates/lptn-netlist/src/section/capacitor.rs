@@ -28,7 +28,7 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn capacitors(&mut self) {
         for entry in self.elements(CAPACITOR.name) {
             if self.capacitor(entry).is_none() {
-                self.doubts.parts = true;
+                self.left_out.parts = true;
             }
         }
     }

@@ -14,7 +14,7 @@ impl<'a> Elaboration<'a> {
         for path in PATHS.iter() {
             for entry in self.elements(path.section.name) {
                 let read = self.conductor(entry, path);
-                self.doubts.paths |= read.is_none();
+                self.left_out.paths |= read.is_none();
             }
         }
     }

@@ -82,8 +82,8 @@ impl<'a> Elaboration<'a> {
         for entry in self.elements(GRID.name) {
             if self.grid(entry, default).is_none() {
                 self.names.hide_grid(&entry.key);
-                self.doubts.paths = true;
-                self.doubts.sections = true;
+                self.left_out.paths = true;
+                self.left_out.sections = true;
             }
         }
         if self.names.grids.is_empty() {

@@ -82,7 +82,7 @@ impl<'a> Elaboration<'a> {
         }
         self.place_in_state(id, in_state);
         if doubtful || fields.is_none_or(|fields| !fields.complete) {
-            self.doubts.items.insert(item);
+            self.left_out.items.insert(item);
         }
     }
 

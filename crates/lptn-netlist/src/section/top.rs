@@ -16,14 +16,14 @@ impl Elaboration<'_> {
             Some(entry) => self.problems.extend(check_format(entry)),
             None => {
                 let inside = misplaced_format(entries);
-                self.doubts.format = inside.map(|(_, entry)| whole(entry));
+                self.left_out.format = inside.map(|(_, entry)| whole(entry));
                 self.problems.push(missing_format(entries, inside));
             }
         }
         for entry in entries.iter().filter(|entry| entry.key != "format") {
             if self.format.has(&entry.key) {
                 let problem = check_section(entry);
-                self.doubts.sections |= problem.is_some();
+                self.left_out.sections |= problem.is_some();
                 if problem.is_some() {
                     self.names.hide(entry);
                 }
@@ -33,7 +33,7 @@ impl Elaboration<'_> {
             } else if TOP_KEYS.contains(&entry.key.as_str()) {
                 self.words(entry);
             } else {
-                self.doubts.sections = true;
+                self.left_out.sections = true;
                 self.names.hide(entry);
                 self.problems.push(unknown(entry, self.format));
             }

@@ -6,7 +6,7 @@
 
 use lptn_units::Scalar;
 
-use super::live::{Live, melting};
+use super::influence::{Influence, melting};
 use super::refusal::NoTangents;
 use super::{Pass, Tangents};
 use crate::enthalpy::Enthalpy;
@@ -48,7 +48,7 @@ const GAUSS: [(f64, f64); 5] = [
 /// The nodes with capacity whose heat content changes.
 pub(super) fn all_of(
     network: &Network,
-    live: &Live<'_>,
+    influence: &Influence<'_>,
     passes: &mut [Pass],
 ) -> Result<Vec<Content>, NoTangents> {
     let mut capacitors: Vec<Vec<&Value>> = vec![Vec::new(); network.nodes().len()];
@@ -61,13 +61,14 @@ pub(super) fn all_of(
         let node = &network.nodes()[id.index()];
         let values: Vec<&Value> = node.capacity.iter().chain(parts).collect();
         let starts =
-            node.initial.as_ref().filter(|_| !node.massless).is_some_and(|t| live.value(t));
-        let changes = values.iter().any(|value| live.value(value)) || may_melt && live.melting(id);
+            node.initial.as_ref().filter(|_| !node.massless).is_some_and(|t| influence.value(t));
+        let changes =
+            values.iter().any(|value| influence.value(value)) || may_melt && influence.melting(id);
         if starts || changes {
             if starts && node.molten > 0.0 {
                 return Err(NoTangents::Melting { node: id });
             }
-            contents.push(Content::new(network, id, &values, (live, passes))?);
+            contents.push(Content::new(network, id, &values, (influence, passes))?);
         }
     }
     Ok(contents)
@@ -78,15 +79,15 @@ impl Content {
         network: &Network,
         node: NodeId,
         values: &[&Value],
-        (live, passes): (&Live<'_>, &mut [Pass]),
+        (influence, passes): (&Influence<'_>, &mut [Pass]),
     ) -> Result<Self, NoTangents> {
         let none = Value::Constant(0.0);
         let start = network.nodes()[node.index()].initial.as_ref().unwrap_or(&none);
         let initial = slopes(&[start], passes);
         let melts = melts(network, node);
-        let change = match (network.enthalpy(node).is_some(), size_of(values, live)) {
+        let change = match (network.enthalpy(node).is_some(), size_of(values, influence)) {
             (false, _) => Change::Constant(slopes(values, passes)),
-            (true, Some(size)) if !melts || latent_scales(network, node, (&size, live)) => {
+            (true, Some(size)) if !melts || latent_scales(network, node, (&size, influence)) => {
                 Change::Scaled(logarithmic(&size, passes))
             }
             (true, _) if !melts => {
@@ -120,16 +121,17 @@ impl Content {
 
 /// The factors of the only part that all of a capacity is proportional to and that alone changes
 /// with the parameters: its size. `None` if something else changes too.
-fn size_of(values: &[&Value], live: &Live<'_>) -> Option<Vec<Value>> {
+fn size_of(values: &[&Value], influence: &Influence<'_>) -> Option<Vec<Value>> {
     let [value] = values else {
-        return values.iter().all(|value| !live.value(value)).then(Vec::new);
+        return values.iter().all(|value| !influence.value(value)).then(Vec::new);
     };
     let factors: Vec<Value> = match value {
         Value::Product(factors) => factors.to_vec(),
         one => vec![(*one).clone()],
     };
     let reads_own = |factor: &Value| factor.slots().contains(&slot::OWN);
-    let changing: Vec<Value> = factors.into_iter().filter(|factor| live.value(factor)).collect();
+    let changing: Vec<Value> =
+        factors.into_iter().filter(|factor| influence.value(factor)).collect();
     changing.iter().all(|factor| !reads_own(factor)).then_some(changing)
 }
 
@@ -139,14 +141,18 @@ fn melts(network: &Network, node: NodeId) -> bool {
 
 /// Whether latent heat is proportional to these factors of a capacity too, and else does not
 /// change.
-fn latent_scales(network: &Network, node: NodeId, (size, live): (&[Value], &Live<'_>)) -> bool {
+fn latent_scales(
+    network: &Network,
+    node: NodeId,
+    (size, influence): (&[Value], &Influence<'_>),
+) -> bool {
     melting(network, node).all(|(lump, melting)| {
         let density = network.materials()[lump.material.index()].density.as_ref();
         let amount = [Some(lump.size.field().1), density];
         let fixed = [&melting.solidus, &melting.liquidus, &melting.heat];
         let scales =
             |factor: &Value| amount.into_iter().flatten().any(|value| value.is_same(factor));
-        !fixed.into_iter().any(|value| live.value(value)) && size.iter().all(scales)
+        !fixed.into_iter().any(|value| influence.value(value)) && size.iter().all(scales)
     })
 }
 

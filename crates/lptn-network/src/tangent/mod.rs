@@ -6,7 +6,7 @@
 
 mod content;
 mod heat;
-mod live;
+mod influence;
 mod refusal;
 
 use crate::evaluation::{PASS, Slope};
@@ -14,7 +14,7 @@ use crate::id::{BoundaryId, ConductorId, ParameterId, SignalId, SourceId};
 use crate::network::Network;
 use crate::slot;
 use content::Content;
-use live::Live;
+use influence::Influence;
 
 pub use refusal::NoTangents;
 
@@ -50,18 +50,18 @@ impl Network {
     /// # Errors
     /// [`NoTangents`] where a derivative by them does not exist everywhere or is not to be had.
     pub fn tangents(&self, parameters: &[ParameterId]) -> Result<Tangents, NoTangents> {
-        let live = Live::new(self, parameters);
-        refusal::check(self, &live)?;
+        let influence = Influence::new(self, parameters);
+        refusal::check(self, &influence)?;
         let chunks = parameters.chunks(PASS);
         let mut passes: Vec<Pass> = chunks.map(|chunk| Pass::new(self, chunk)).collect();
-        let contents = content::all_of(self, &live, &mut passes)?;
+        let contents = content::all_of(self, &influence, &mut passes)?;
         Ok(Tangents {
             parameters: parameters.to_vec(),
             passes,
-            conductors: self.conductor_ids().filter(|id| live.conductor(*id)).collect(),
-            sources: self.source_ids().filter(|id| live.source(*id)).collect(),
-            boundaries: self.boundary_ids().filter(|id| live.boundary(*id)).collect(),
-            signals: self.signal_ids().filter(|id| live.signal(*id)).collect(),
+            conductors: self.conductor_ids().filter(|id| influence.conductor(*id)).collect(),
+            sources: self.source_ids().filter(|id| influence.source(*id)).collect(),
+            boundaries: self.boundary_ids().filter(|id| influence.boundary(*id)).collect(),
+            signals: self.signal_ids().filter(|id| influence.signal(*id)).collect(),
             contents,
         })
     }

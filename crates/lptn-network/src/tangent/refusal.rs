@@ -4,7 +4,7 @@ use std::fmt;
 
 use lptn_units::Problem;
 
-use super::live::Live;
+use super::influence::Influence;
 use crate::id::{FluidId, Item, NodeId};
 use crate::network::Network;
 
@@ -37,16 +37,16 @@ pub enum NoTangents for |say: &dyn Fn(Item, &str) -> String| at Item {
 }
 }
 
-pub(super) fn check(network: &Network, live: &Live<'_>) -> Result<(), NoTangents> {
-    if let Some(item) = live.event() {
+pub(super) fn check(network: &Network, influence: &Influence<'_>) -> Result<(), NoTangents> {
+    if let Some(item) = influence.event() {
         return Err(NoTangents::Events { item });
     }
-    if let Some(item) = live.moving_jump() {
+    if let Some(item) = influence.moving_jump() {
         return Err(NoTangents::MovingJump { item });
     }
     let varying =
         network.fluid_ids().zip(&network.numbers.fluids).filter(|(_, curve)| curve.is_some());
-    let mut changing = varying.filter(|(id, _)| live.value(&network.fluids()[id.index()].cp));
+    let mut changing = varying.filter(|(id, _)| influence.value(&network.fluids()[id.index()].cp));
     match changing.next() {
         Some((fluid, _)) => Err(NoTangents::Fluid { fluid }),
         None => Ok(()),

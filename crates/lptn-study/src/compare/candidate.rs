@@ -238,7 +238,7 @@ fn heat_at_the_end(
     solution: &Solution,
     run: &RunSettings,
 ) -> Result<Vec<f64>, InputError> {
-    let last: Vec<f64> = solution.seen().iter().map(lptn_solve::Seen::last).collect();
+    let last: Vec<f64> = solution.watched().iter().map(lptn_solve::Watched::last).collect();
     let mut work = system.workspace();
     system.read_inputs(&mut work, run.stop, run.stop)?;
     system.place(&mut work, &last);

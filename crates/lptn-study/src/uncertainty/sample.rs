@@ -23,12 +23,12 @@ impl Sample {
             .iter()
             .map(|node| solution.temperature(*node).unwrap_or_default())
             .collect();
-        let of_node = |(seen, column): (&lptn_solve::Seen, &Vec<f64>)| {
+        let of_node = |(seen, column): (&lptn_solve::Watched, &Vec<f64>)| {
             // a network without state is not watched between its rows
             let max = column.iter().copied().fold(seen.peak.0, f64::max);
             [column.last().copied().unwrap_or(f64::NAN), max]
         };
-        let nodes = solution.seen().iter().zip(&columns).flat_map(of_node);
+        let nodes = solution.watched().iter().zip(&columns).flat_map(of_node);
         let answers = nodes.chain(solution.limits().iter().map(|limit| limit.margin)).collect();
         Self { rows: if rows { columns.concat() } else { Vec::new() }, answers }
     }

@@ -28,7 +28,7 @@ impl<'a> Line<'a> {
         solution: &Solution,
     ) -> Result<Self, UncertaintyError> {
         let rows = task.times()?;
-        let times = joined(&rows, solution.seen().iter().map(|seen| seen.peak.1));
+        let times = joined(&rows, solution.watched().iter().map(|seen| seen.peak.1));
         let places = rows.iter().map(|row| times.partition_point(|time| time < row)).collect();
         let run = Transient { output: OutputTimes::At(times), ..task.watched() };
         let run = sensitive_run(task.network, &run, &ids(inputs))?;

@@ -184,7 +184,7 @@ fn numbers(study: &LawStudy, candidate: &Candidate, fit: &Fitted) -> [String; 4]
 fn notes(study: &LawStudy, text: &mut Text) {
     text.sentence(
         "rmse      ",
-        "root of the mean square over all points; left out: each point foretold by the others",
+        "root of the mean square over all points; left out: each point predicted by the others",
     );
     let negative = study
         .candidates

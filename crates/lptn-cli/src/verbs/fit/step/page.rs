@@ -2,7 +2,7 @@
 
 use std::io;
 
-use lptn_fit::step::{Estimated, Off, Parted, Power, TwoExponentials};
+use lptn_fit::step::{Estimated, FittedValue, Parted, Power, TwoExponentials};
 use lptn_report::{
     Align, Column as TextColumn, Json, Page, Rows, Text, TextTable, WIDTH, plain, shortened,
     significant, stacked,
@@ -237,9 +237,9 @@ fn bias(answer: &Answer<'_>, text: &mut Text) {
     let signed =
         |value: f64| format!("{}{}", if value > 0.0 { "+" } else { "" }, significant(value, 3));
     // T_i, T_f, t_RC and P: how each is shown
-    let row = |name, pick: fn(&Off) -> f64| {
-        let temperature = |off: &Off| significant(unit.from_si(pick(off)), 6);
-        let number = |off: &Off| significant(pick(off), 5);
+    let row = |name, pick: fn(&FittedValue) -> f64| {
+        let temperature = |off: &FittedValue| significant(unit.from_si(pick(off)), 6);
+        let number = |off: &FittedValue| significant(pick(off), 5);
         let [initial, settled] = [&bias.initial, &bias.settled].map(temperature);
         let [tau, power] = [&bias.tau, &bias.power].map(number);
         (name, [initial, settled, tau, power])
@@ -337,7 +337,7 @@ fn two(two: &TwoExponentials) -> Value {
 }
 
 fn model(model: &Model) -> Value {
-    let off = |off: &Off, unit: &str| {
+    let off = |off: &FittedValue, unit: &str| {
         json!({
             "network": scalar(off.real, unit),
             "fitted": scalar(off.fitted, unit),

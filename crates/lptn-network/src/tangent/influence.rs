@@ -11,34 +11,34 @@ use crate::slot;
 use crate::value::{Lump, Value};
 
 /// For each slot whether its number changes with one of the parameters.
-pub(super) struct Live<'a> {
+pub(super) struct Influence<'a> {
     network: &'a Network,
     slots: Vec<bool>,
 }
 
-impl<'a> Live<'a> {
+impl<'a> Influence<'a> {
     pub(super) fn new(network: &'a Network, parameters: &[ParameterId]) -> Self {
         let layout = &network.parts.layout;
-        let mut live = Self { network, slots: vec![false; layout.len()] };
+        let mut influence = Self { network, slots: vec![false; layout.len()] };
         for id in network.parameter_ids() {
             let given = network.numbers.given[id.index()];
-            let follows = !given && live.value(&network.parameters()[id.index()].value);
-            live.slots[layout.parameter(id) as usize] = follows || parameters.contains(&id);
+            let follows = !given && influence.value(&network.parameters()[id.index()].value);
+            influence.slots[layout.parameter(id) as usize] = follows || parameters.contains(&id);
         }
         for id in network.signal_ids() {
             if let Course::Expression(value) = &network.signals()[id.index()].course {
-                let follows = live.value(value);
+                let follows = influence.value(value);
                 let now = layout.signal(id) as usize;
-                live.slots[now] = follows;
-                live.slots[now + 1] = follows; // where comparisons read it
+                influence.slots[now] = follows;
+                influence.slots[now + 1] = follows; // where comparisons read it
             }
         }
         let nodes = network.nodes().len();
         let temperatures: Vec<u32> = layout.temperatures().skip(nodes).collect();
         for (boundary, slot) in network.boundaries().iter().zip(temperatures) {
-            live.slots[slot as usize] = live.value(&boundary.temperature);
+            influence.slots[slot as usize] = influence.value(&boundary.temperature);
         }
-        live
+        influence
     }
 
     /// Whether a value changes with one of the parameters, temperatures of nodes held.
