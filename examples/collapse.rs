@@ -4,7 +4,7 @@
 
 use lptn::network::NodeId;
 use lptn::prelude::*;
-use lptn::reduce::{Definition, Options, Reduction, fit_exponential};
+use lptn::reduce::{Definition, Reduction, ReductionOptions, fit_exponential};
 
 const POWER: f64 = 220.6;
 
@@ -17,7 +17,7 @@ fn main() -> Result<(), lptn::Error> {
     for decade in -4..=0 {
         let ratio = 10_f64.powi(decade);
         let (system, steel, _) = gearbox(ratio * 0.3)?;
-        let reduction = Reduction::new(&system, steel, &Options::default())?;
+        let reduction = Reduction::new(&system, steel, &ReductionOptions::default())?;
         let pairs = reduction.dynamics.expect("the gearbox stores heat").pairs;
         let error = |i: usize| pairs[i].step.relative.unwrap_or(0.0);
         let now = [Definition::Sum, Definition::FirstMoment, Definition::DominantPole]

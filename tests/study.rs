@@ -7,7 +7,7 @@ mod support;
 
 use lptn::network::NodeId;
 use lptn::prelude::*;
-use lptn::reduce::{Definition, Options, Reduction, fit_exponential};
+use lptn::reduce::{Definition, Reduction, ReductionOptions, fit_exponential};
 use lptn::solve::Modes;
 
 const STEEL: f64 = 1235.0;
@@ -59,7 +59,7 @@ fn errors_of_the_sweep_are_those_of_the_closed_form() {
         let internal = ratio * OUTER;
         let (system, steel, _) = gearbox(internal);
         let dynamics =
-            Reduction::new(&system, steel, &Options::default()).unwrap().dynamics.unwrap();
+            Reduction::new(&system, steel, &ReductionOptions::default()).unwrap().dynamics.unwrap();
         // C_eq by hand: sum, sum of C_k R_k^2 over R^2, 1/(p R)
         let r = internal + OUTER;
         let moment = (STEEL * r * r + ALUMINIUM * OUTER * OUTER) / (r * r);
@@ -87,7 +87,7 @@ fn every_capacity_converges_with_order_one() {
     let errors = |ratio: f64| {
         let (system, steel, _) = gearbox(ratio * OUTER);
         let dynamics =
-            Reduction::new(&system, steel, &Options::default()).unwrap().dynamics.unwrap();
+            Reduction::new(&system, steel, &ReductionOptions::default()).unwrap().dynamics.unwrap();
         [Definition::Sum, Definition::FirstMoment, Definition::DominantPole]
             .map(|definition| dynamics.pair(definition).step.relative.unwrap())
     };

@@ -9,7 +9,7 @@ use lptn::netlist::{
     Files, Netlist, RecordQuery, Rejected, parse_bytes, parse_with, read_record, read_sheet,
 };
 use lptn::prelude::*;
-use lptn::solve::{Control, End};
+use lptn::solve::{End, Proceed};
 use lptn::units::{
     Dimension, Expression, Scope, Symbol, Type, Unit, UnitError, format_number, parse_quantity,
     parse_value,
@@ -212,7 +212,7 @@ fn solved(netlist: &Netlist) {
     let mut steps = 0;
     let outcome = transient.solve_observed(&system, &mut |_| {
         steps += 1;
-        if steps < STEPS { Control::Continue } else { Control::Interrupt }
+        if steps < STEPS { Proceed::Continue } else { Proceed::Interrupt }
     });
     match outcome {
         Ok(solution) => numbers(&solution),

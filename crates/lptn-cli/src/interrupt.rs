@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use lptn_solve::Control;
+use lptn_solve::Proceed;
 
 /// Whether Ctrl-C was pressed since this was made. Pressed once more, it ends the program at once.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ impl Interrupt {
     }
 
     /// What a run is to do.
-    pub(crate) fn control(&self) -> Control {
-        if self.pressed() { Control::Interrupt } else { Control::Continue }
+    pub(crate) fn control(&self) -> Proceed {
+        if self.pressed() { Proceed::Interrupt } else { Proceed::Continue }
     }
 }

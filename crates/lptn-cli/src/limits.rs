@@ -1,7 +1,7 @@
 //! Limits as a result: a line each, JSON, and what a broken one does to the exit code.
 
 use lptn_netlist::{Diagnostic, Netlist};
-use lptn_network::{Bound, Item, Limit, LimitId, Network, Severity};
+use lptn_network::{Bound, Item, Limit, LimitId, LimitSeverity, Network};
 use lptn_report::{Text, TextTable, duration, significant};
 use lptn_solve::LimitSeen;
 use lptn_study::Scalar;
@@ -103,10 +103,12 @@ fn verdict(judged: &Judged, limit: &Limit) -> String {
     }
     match (judged.is_broken(), judged.broken_at, limit.severity) {
         (false, ..) => "kept".into(),
-        (true, Some(time), Severity::Error) => format!("BROKEN from {}", duration(time, 4)),
-        (true, Some(time), Severity::Warning) => format!("exceeded from {}", duration(time, 4)),
-        (true, None, Severity::Error) => "BROKEN".into(),
-        (true, None, Severity::Warning) => "exceeded".into(),
+        (true, Some(time), LimitSeverity::Error) => format!("BROKEN from {}", duration(time, 4)),
+        (true, Some(time), LimitSeverity::Warning) => {
+            format!("exceeded from {}", duration(time, 4))
+        }
+        (true, None, LimitSeverity::Error) => "BROKEN".into(),
+        (true, None, LimitSeverity::Warning) => "exceeded".into(),
     }
 }
 
@@ -149,7 +151,7 @@ pub(crate) fn members(network: &Network, limits: &[Judged]) -> Option<Map<String
             "margin": scalar(judged.margin),
             "worst_at": time(judged.worst_at),
             "broken_at": time(judged.broken_at),
-            "severity": if limit.severity == Severity::Error { "error" } else { "warning" },
+            "severity": if limit.severity == LimitSeverity::Error { "error" } else { "warning" },
             "kept": (!judged.is_open()).then_some(!judged.is_broken()),
         });
         (limit.name.clone(), member)
@@ -163,15 +165,16 @@ pub(crate) fn members(network: &Network, limits: &[Judged]) -> Option<Map<String
 pub(crate) fn conclude(judgement: &Judgement<'_>, console: &Console) -> Exit {
     let Judgement { netlist, limits, .. } = *judgement;
     let severity = |judged: &Judged| netlist.network.limits()[judged.limit.index()].severity;
-    let broken =
-        |wanted: Severity| limits.iter().filter(move |j| j.is_broken() && severity(j) == wanted);
+    let broken = |wanted: LimitSeverity| {
+        limits.iter().filter(move |j| j.is_broken() && severity(j) == wanted)
+    };
     let warnings: Vec<Diagnostic> =
-        broken(Severity::Warning).map(|judged| warning(judgement, judged)).collect();
+        broken(LimitSeverity::Warning).map(|judged| warning(judgement, judged)).collect();
     console.warn(&netlist.files, &warnings);
-    for judged in broken(Severity::Error) {
+    for judged in broken(LimitSeverity::Error) {
         console.message(&format!("limit broken: {}", words(judgement, judged)));
     }
-    if broken(Severity::Error).next().is_some() { Exit::No } else { Exit::Done }
+    if broken(LimitSeverity::Error).next().is_some() { Exit::No } else { Exit::Done }
 }
 
 fn warning(judgement: &Judgement<'_>, judged: &Judged) -> Diagnostic {

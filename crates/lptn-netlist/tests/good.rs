@@ -7,7 +7,7 @@
 )]
 
 use lptn_netlist::{Netlist, Severity, parse};
-use lptn_network::{Bound, OutputTimes, Severity as LimitSeverity};
+use lptn_network::{Bound, LimitSeverity, OutputTimes};
 use lptn_network::{ConductorKind, End, Field, Item};
 
 /// The example at the end of the format's description.

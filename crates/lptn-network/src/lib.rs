@@ -65,7 +65,7 @@ pub use parts::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source
 pub use parts::grid::{Face, Grid, GridFace, Joint, MOST_CELLS, Substance, Terminal};
 pub use parts::grid_value::GridValue;
 pub use parts::heat::HeatOf;
-pub use parts::result::{Bound, Limit, Report, Severity};
+pub use parts::result::{Bound, Limit, LimitSeverity, Report};
 pub use parts::signal::{AfterEnd, Course, Join, Signal};
 pub use parts::substance::{Fluid, Material, Melting};
 pub use parts::switch::Switch;

@@ -5,8 +5,8 @@ mod common;
 
 use common::{celsius, codes, cooled, every, link, own, quantity, thermostat, time};
 use lptn_network::{
-    Acts, AfterEnd, Bound, ConductorKind, Course, Formula, Melting, NetworkBuilder, Path,
-    Properties, Severity, Size, Temperature, Thermostat, Time,
+    Acts, AfterEnd, Bound, ConductorKind, Course, Formula, LimitSeverity, Melting, NetworkBuilder,
+    Path, Properties, Size, Temperature, Thermostat, Time,
 };
 use lptn_units::{Dimension, Interpolation, Outside, Table1, Type};
 
@@ -164,11 +164,16 @@ fn limits_are_constants_of_the_same_type() {
         ("depends_on_time", |b, _, _| {
             let of = b.post_expression("a.T", None).unwrap();
             let value = time(b, "absolute(300 [K]) + 1 [K/s] * t");
-            b.limit("x", (of.into(), "a.T"), (Bound::Below, value), Severity::Error);
+            b.limit("x", (of.into(), "a.T"), (Bound::Below, value), LimitSeverity::Error);
         }),
         ("wrong_type", |b, _, _| {
             let of = b.post_expression("a.T", None).unwrap();
-            b.limit("x", (of.into(), "a.T"), (Bound::Below, quantity("300 K")), Severity::Error);
+            b.limit(
+                "x",
+                (of.into(), "a.T"),
+                (Bound::Below, quantity("300 K")),
+                LimitSeverity::Error,
+            );
         }),
         ("below_absolute_zero", |b, _, _| {
             let of = b.post_expression("a.T", None).unwrap();
@@ -176,7 +181,7 @@ fn limits_are_constants_of_the_same_type() {
                 "x",
                 (of.into(), "a.T"),
                 (Bound::Below, Temperature(-3.0).into()),
-                Severity::Error,
+                LimitSeverity::Error,
             );
         }),
     ]);

@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_network::{
-    Bound, BuildErrorKind, Conductance, HeatCapacity, InputProblem, Network, NetworkBuilder,
-    Severity, Temperature,
+    Bound, BuildErrorKind, Conductance, HeatCapacity, InputProblem, LimitSeverity, Network,
+    NetworkBuilder, Temperature,
 };
 use lptn_units::{Dimension, Expression, Type, parse_quantity};
 
@@ -23,7 +23,7 @@ fn network() -> Network {
         "hot",
         (of.into(), "max(a.T, b.T)"),
         (Bound::Below, value.into()),
-        Severity::Error,
+        LimitSeverity::Error,
     );
     let of = builder.post_expression("a.T - air.T", None).unwrap();
     let value = parse_quantity("5 K", Some(Type::of(Dimension::TEMPERATURE))).unwrap();
@@ -31,7 +31,7 @@ fn network() -> Network {
         "rise",
         (of.into(), "a.T - air.T"),
         (Bound::Above, value.into()),
-        Severity::Warning,
+        LimitSeverity::Warning,
     );
     builder.build().unwrap()
 }
@@ -99,9 +99,14 @@ fn wrong_limits_are_refused() {
     let a = builder.node("a", HeatCapacity(1.0), Temperature(300.0));
     let of = builder.post_expression("a.T", None).unwrap();
     let value = parse_quantity("5 W", None).unwrap();
-    builder.limit("a", (of.clone().into(), "a.T"), (Bound::Below, value.into()), Severity::Error);
+    builder.limit(
+        "a",
+        (of.clone().into(), "a.T"),
+        (Bound::Below, value.into()),
+        LimitSeverity::Error,
+    );
     let value = builder.post_expression("a.T", None).unwrap();
-    builder.limit("self", (of.into(), "a.T"), (Bound::Below, value.into()), Severity::Error);
+    builder.limit("self", (of.into(), "a.T"), (Bound::Below, value.into()), LimitSeverity::Error);
     builder.capacitor("more", a, HeatCapacity(1.0));
     builder.node("late", HeatCapacity(1.0), Temperature(300.0));
     let errors = builder.build().unwrap_err().0;

@@ -68,7 +68,7 @@ fn ramp(s: f64, window: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::step::Term;
+    use crate::step::ResponseTerm;
 
     #[test]
     fn the_two_forms_of_the_integral_meet() {
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn no_capacity_is_nearest_to_a_port_that_answers_at_once() {
         for r in [0.02_f64, 0.249, 0.25, 0.2501, 0.26, 0.5, 0.99] {
-            let term = Term { tau: 1.0, resistance: r, error: 0.0 };
+            let term = ResponseTerm { tau: 1.0, resistance: r, error: 0.0 };
             let step =
                 StepResponse { resistance: 1.0, direct: 1.0 - r, terms: vec![term], residual: 0.0 };
             let expected = (2.0 * r.sqrt() - 1.0).max(0.0);
@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn one_exponential_is_found_again() {
-        let term = Term { tau: 60.0, resistance: 0.3, error: 0.0 };
+        let term = ResponseTerm { tau: 60.0, resistance: 0.3, error: 0.0 };
         let step = StepResponse { resistance: 0.3, direct: 0.0, terms: vec![term], residual: 0.0 };
         for window in [1.0, 60.0, 1e5] {
             assert!((least_squares(&step, window) / 200.0 - 1.0).abs() < 1e-11, "{window}");
@@ -110,8 +110,8 @@ mod tests {
     #[test]
     fn in_a_short_window_the_port_warms_alone() {
         let terms = vec![
-            Term { tau: 800.0, resistance: 0.3, error: 0.0 },
-            Term { tau: 40.0, resistance: 0.1, error: 0.0 },
+            ResponseTerm { tau: 800.0, resistance: 0.3, error: 0.0 },
+            ResponseTerm { tau: 40.0, resistance: 0.1, error: 0.0 },
         ];
         let step = StepResponse { resistance: 0.4, direct: 0.0, terms, residual: 0.0 };
         let alone = 1.0 / (0.3 / 800.0 + 0.1 / 40.0);
@@ -129,7 +129,7 @@ mod tests {
         let step = StepResponse {
             resistance: 1.0,
             direct: 0.5,
-            terms: vec![Term { tau: 1.0, resistance: 0.5, error: 0.0 }],
+            terms: vec![ResponseTerm { tau: 1.0, resistance: 0.5, error: 0.0 }],
             residual: 0.0,
         };
         let window = 1e-9;

@@ -160,13 +160,13 @@ impl Dense {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::step::Term;
+    use crate::step::ResponseTerm;
 
     /// `exp(-t) - exp(-q t)` is largest at `t = ln q / (q - 1)`, and is
     /// `q^(-1/(q-1)) - q^(-q/(q-1))` there.
     #[test]
     fn the_error_of_one_exponential_for_another() {
-        let term = Term { tau: 1.0, resistance: 2.0, error: 0.0 };
+        let term = ResponseTerm { tau: 1.0, resistance: 2.0, error: 0.0 };
         let step = StepResponse { resistance: 2.0, direct: 0.0, terms: vec![term], residual: 0.0 };
         for q in [1e-6_f64, 0.3, 3.0, 500.0, 1e6] {
             let found = of_step(&step, 1.0 / (2.0 * q));
@@ -180,7 +180,7 @@ mod tests {
 
     #[test]
     fn without_capacity_the_error_is_all_that_is_still_to_come() {
-        let term = Term { tau: 7.0, resistance: 0.5, error: 0.0 };
+        let term = ResponseTerm { tau: 7.0, resistance: 0.5, error: 0.0 };
         let step = StepResponse { resistance: 2.0, direct: 1.5, terms: vec![term], residual: 0.0 };
         assert_eq!(of_step(&step, 0.0), Deviation { kelvin: 0.5, relative: Some(0.25), time: 0.0 });
     }

@@ -30,5 +30,5 @@ pub use deviation::Deviation;
 pub use error::{FitError, ReduceError};
 pub use fit::{ExponentialFit, fit_exponential};
 pub use norton::{Inputs, NortonEquivalent, port, transfer_resistance};
-pub use reduction::{Dynamics, Options, Reduction, TOLERANCE, Window};
-pub use step::{StepResponse, Term};
+pub use reduction::{Dynamics, Reduction, ReductionOptions, TOLERANCE, Window};
+pub use step::{ResponseTerm, StepResponse};

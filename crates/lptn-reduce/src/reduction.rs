@@ -19,7 +19,7 @@ pub const TOLERANCE: f64 = 1e-7;
 
 /// What a reduction needs to know besides the network.
 #[derive(Clone, Debug, Default)]
-pub struct Options {
+pub struct ReductionOptions {
     /// The run to compare over; `None` leaves the second error out.
     pub run: Option<Transient>,
     /// Length in s of the window of [`Definition::LeastSquares`], from the step on; else that of
@@ -92,7 +92,7 @@ impl Reduction {
     pub fn new(
         system: &ThermalSystem,
         port: NodeId,
-        options: &Options,
+        options: &ReductionOptions,
     ) -> Result<Self, ReduceError> {
         if let Some(window) = options.window.filter(|w| !(w.is_finite() && *w > 0.0)) {
             return Err(ReduceError::Window(window));
@@ -139,7 +139,7 @@ impl Reduction {
         &self,
         system: &ThermalSystem,
         step: StepResponse,
-        options: &Options,
+        options: &ReductionOptions,
     ) -> Result<Dynamics, ReduceError> {
         let slowest = step.slowest().tau;
         let window = match (options.window, &options.run) {

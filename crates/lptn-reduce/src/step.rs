@@ -9,7 +9,7 @@ use crate::rises::Rises;
 
 /// One exponential of a step response.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Term {
+pub struct ResponseTerm {
     /// Its time constant in s.
     pub tau: f64,
     /// Its share of `R_eq` in K/W.
@@ -32,7 +32,7 @@ pub struct StepResponse {
     /// The rise that comes at once in K/W: 0 unless the port is massless.
     pub direct: f64,
     /// The terms, slowest first.
-    pub terms: Vec<Term>,
+    pub terms: Vec<ResponseTerm>,
     /// By how much the terms miss the rise at time 0 in K/W: the part of the fastest modes that is
     /// not resolved. The curve is least exact there, so this is the size of its largest error (an
     /// estimate, not a bound).
@@ -100,9 +100,9 @@ impl StepResponse {
 
     /// The slowest time constant that the port sees: the slowest mode that has at least 1e-9 of
     /// `R_eq`.
-    pub fn slowest(&self) -> Term {
+    pub fn slowest(&self) -> ResponseTerm {
         let seen = self.terms.iter().find(|term| term.resistance >= VISIBLE * self.resistance);
-        seen.or(self.terms.first()).copied().unwrap_or(Term {
+        seen.or(self.terms.first()).copied().unwrap_or(ResponseTerm {
             tau: f64::NAN,
             resistance: 0.0,
             error: 0.0,
@@ -118,10 +118,11 @@ impl StepResponse {
 
 /// Modes as terms: the weight in the measure of `C^1/2 G^-1 e_p` is `tau r`. Values within rounding
 /// of zero are no time constants.
-fn terms(modes: &[Mode]) -> Vec<Term> {
+fn terms(modes: &[Mode]) -> Vec<ResponseTerm> {
     let least = 1e-15 * modes.first().map_or(0.0, |mode| mode.value);
     let real = modes.iter().filter(|mode| mode.value > least && mode.weight > 0.0);
-    real.map(|m| Term { tau: m.value, resistance: m.weight / m.value, error: m.error }).collect()
+    real.map(|m| ResponseTerm { tau: m.value, resistance: m.weight / m.value, error: m.error })
+        .collect()
 }
 
 /// The rise of a massless port in K/W while every capacity still has its old temperature.
@@ -144,8 +145,10 @@ mod tests {
     use super::*;
 
     fn of_terms(terms: &[(f64, f64)]) -> StepResponse {
-        let terms =
-            terms.iter().map(|&(tau, resistance)| Term { tau, resistance, error: 0.0 }).collect();
+        let terms = terms
+            .iter()
+            .map(|&(tau, resistance)| ResponseTerm { tau, resistance, error: 0.0 })
+            .collect();
         StepResponse { resistance: 0.5, direct: 0.0, terms, residual: 0.0 }
     }
 

@@ -6,7 +6,7 @@ use common::{assembled, chain, near};
 use lptn_network::{
     Conductance, HeatCapacity, HeatFlow, NetworkBuilder, NodeId, Temperature, Time,
 };
-use lptn_reduce::{NortonEquivalent, Options, ReduceError, Reduction, StepResponse, port};
+use lptn_reduce::{NortonEquivalent, ReduceError, Reduction, ReductionOptions, StepResponse, port};
 use lptn_solve::Transient;
 
 /// A sum with twice the digits (M. Knuth's two-sum).
@@ -140,7 +140,8 @@ fn junctions_can_be_ports() {
     let system = assembled(b);
     let run = Transient::until(Time(60.0));
     let reduction =
-        Reduction::new(&system, nodes[n - 1], &Options { run: Some(run), window: None }).unwrap();
+        Reduction::new(&system, nodes[n - 1], &ReductionOptions { run: Some(run), window: None })
+            .unwrap();
     let exact = exact_sum(conductance.iter().map(|g| 1.0 / g));
     near(reduction.norton.resistance, exact, 1e-12);
     let dynamics = reduction.dynamics.unwrap();
@@ -172,7 +173,7 @@ fn boundary_weights_are_those_of_a_divider() {
     let far = b.node("far", HeatCapacity(5.0), Temperature(300.0));
     b.resistor("c", far, cold, Conductance(1.0));
     let system = assembled(b);
-    let reduction = Reduction::new(&system, j, &Options::default()).unwrap();
+    let reduction = Reduction::new(&system, j, &ReductionOptions::default()).unwrap();
     assert_eq!(reduction.norton.boundary_weights, [0.75, 0.25]);
     near(reduction.inputs.reference, 375.0, 1e-15);
     assert!(reduction.dynamics.is_none());

@@ -5,7 +5,7 @@ mod common;
 
 use common::{assembled, near, two_nodes};
 use lptn_network::{HeatCapacity, HeatFlow, NetworkBuilder, NodeId, Resistance, Temperature, Time};
-use lptn_reduce::{Definition, Options, ReduceError, Reduction, Window};
+use lptn_reduce::{Definition, ReduceError, Reduction, ReductionOptions, Window};
 use lptn_solve::Transient;
 
 /// Printed values: capacity, half of its last digit, error in %, half of its last digit. Source:
@@ -95,7 +95,7 @@ fn check(r_int: f64, r_amb: f64, printed_tau: [f64; 2], printed: Printed) {
     );
     let (system, [steel, _]) = two_nodes(c, r_int, r_amb, 220.6);
     let run = Transient::until(Time(1500.0));
-    let options = Options { run: Some(run), window: None };
+    let options = ReductionOptions { run: Some(run), window: None };
     let reduction = Reduction::new(&system, steel, &options).unwrap();
     near(reduction.norton.resistance, r_int + r_amb, 1e-14);
     near(reduction.norton.boundary_weights[0], 1.0, 1e-14);
@@ -154,8 +154,8 @@ fn clearly_two_nodes() {
 #[test]
 fn the_pair_with_the_smallest_error_is_recommended() {
     let (system, [steel, _]) = two_nodes([1000.0, 1659.0], 0.1, 0.3, 220.6);
-    let with_run = Options { run: Some(Transient::until(Time(1500.0))), window: None };
-    for options in [with_run, Options::default()] {
+    let with_run = ReductionOptions { run: Some(Transient::until(Time(1500.0))), window: None };
+    for options in [with_run, ReductionOptions::default()] {
         let by_run = options.run.is_some();
         let reduction = Reduction::new(&system, steel, &options).unwrap();
         let recommended = reduction.dynamics.unwrap().recommended;
@@ -169,7 +169,8 @@ fn the_pair_with_the_smallest_error_is_recommended() {
 #[test]
 fn one_node_is_its_own_equivalent_by_all_definitions() {
     let (system, nodes) = common::chain(&[2659.0], &[3.25]);
-    let options = Options { run: Some(Transient::until(Time(900.0))), window: Some(400.0) };
+    let options =
+        ReductionOptions { run: Some(Transient::until(Time(900.0))), window: Some(400.0) };
     let dynamics = Reduction::new(&system, nodes[0], &options).unwrap().dynamics.unwrap();
     for pair in &dynamics.pairs {
         near(pair.capacity, 2659.0, 1e-12);
@@ -194,7 +195,7 @@ fn the_error_of_a_pulse_is_not_that_of_a_parabola_over_its_end() {
     b.resistor("inner", port, wall, Resistance(r_int));
     b.resistor("outer", wall, air, Resistance(r_amb));
     b.source("heat", port, pulse);
-    let options = Options { run: Some(Transient::until(Time(600.0))), window: None };
+    let options = ReductionOptions { run: Some(Transient::until(Time(600.0))), window: None };
     let dynamics = Reduction::new(&assembled(b), port, &options).unwrap().dynamics.unwrap();
     for pair in &dynamics.pairs {
         let tau = exact.resistance * pair.capacity;
@@ -224,7 +225,7 @@ fn the_error_of_a_leaping_port_is_largest_just_before_it_leaps() {
     b.resistor("inner", port, wall, Resistance(r_int));
     b.resistor("outer", wall, air, Resistance(r_amb));
     b.source("heat", port, ramp);
-    let options = Options { run: Some(Transient::until(Time(100.0))), window: None };
+    let options = ReductionOptions { run: Some(Transient::until(Time(100.0))), window: None };
     let reduction = Reduction::new(&assembled(b), port, &options).unwrap();
     let rise = |r: f64, tau: f64, t: f64| slope * r * (t + tau * (-t / tau).exp_m1());
     // the fourth is so small a capacity that the one-node network errs by more after the leap
@@ -251,7 +252,7 @@ fn a_massless_port_may_be_best_without_capacity() {
     b.resistor("outer", wall, air, Resistance(0.1));
     b.source("heat", port, lptn_network::HeatFlow(50.0));
     let system = assembled(b);
-    let options = Options { run: Some(Transient::until(Time(1000.0))), window: None };
+    let options = ReductionOptions { run: Some(Transient::until(Time(1000.0))), window: None };
     let reduction = Reduction::new(&system, port, &options).unwrap();
     let dynamics = reduction.dynamics.as_ref().unwrap();
     let pair = dynamics.pair(Definition::LeastSquares);
@@ -259,7 +260,8 @@ fn a_massless_port_may_be_best_without_capacity() {
     near(pair.step.kelvin, 0.1, 1e-9);
     near(pair.run.unwrap().kelvin, 5.0, 1e-6);
     let by_step =
-        Reduction::new(&system, port, &Options { run: None, window: Some(1000.0) }).unwrap();
+        Reduction::new(&system, port, &ReductionOptions { run: None, window: Some(1000.0) })
+            .unwrap();
     assert_eq!(by_step.dynamics.unwrap().recommended.definition, Definition::LeastSquares);
     let one = reduction.network(&system, 0.0, Some(pair)).unwrap();
     assert!(one.nodes()[0].massless);
@@ -292,7 +294,7 @@ fn islands_without_ground_do_not_matter_to_a_port_that_has_one() {
         b.source("P_disp", steel, HeatFlow(220.6));
         b.source("elsewhere", chain[1], HeatFlow(1000.0));
         let system = common::assembled(b);
-        let options = Options { run: Some(Transient::until(Time(1500.0))), window: None };
+        let options = ReductionOptions { run: Some(Transient::until(Time(1500.0))), window: None };
         let reduction = Reduction::new(&system, steel, &options).unwrap();
         near(reduction.norton.resistance, r_int + r_amb, 1e-14);
         near(reduction.inputs.heat, 220.6, 1e-14);
@@ -325,7 +327,7 @@ fn islands_without_ground_do_not_matter_to_a_port_that_has_one() {
 fn the_window_is_that_of_the_question() {
     let (system, nodes) = common::chain(&[2659.0], &[3.25]);
     let window = |run: Option<Transient>, window: Option<f64>| {
-        Reduction::new(&system, nodes[0], &Options { run, window })
+        Reduction::new(&system, nodes[0], &ReductionOptions { run, window })
             .unwrap()
             .dynamics
             .unwrap()
@@ -343,8 +345,12 @@ fn the_window_is_that_of_the_question() {
 fn a_window_must_be_a_time() {
     let (system, nodes) = common::chain(&[1.0], &[1.0]);
     for window in [0.0, -1.0, f64::NAN] {
-        let error = Reduction::new(&system, nodes[0], &Options { run: None, window: Some(window) })
-            .unwrap_err();
+        let error = Reduction::new(
+            &system,
+            nodes[0],
+            &ReductionOptions { run: None, window: Some(window) },
+        )
+        .unwrap_err();
         assert_eq!(error.code(), "reduce::window");
     }
 }

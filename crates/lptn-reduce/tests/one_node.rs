@@ -5,11 +5,11 @@ mod common;
 use common::{assembled, near};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Conductance, HeatCapacity, HeatFlow, NetworkBuilder, Temperature, Time};
-use lptn_reduce::{Options, Reduction};
+use lptn_reduce::{Reduction, ReductionOptions};
 use lptn_solve::Transient;
 
-fn options(stop: f64) -> Options {
-    Options { run: Some(Transient::until(Time(stop))), window: None }
+fn options(stop: f64) -> ReductionOptions {
+    ReductionOptions { run: Some(Transient::until(Time(stop))), window: None }
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn what_the_port_does_not_feel_is_left_out() {
     let constant = b.expression("P_far", None).unwrap();
     b.source("elsewhere", far, constant);
     let system = assembled(b);
-    let reduction = Reduction::new(&system, port, &Options::default()).unwrap();
+    let reduction = Reduction::new(&system, port, &ReductionOptions::default()).unwrap();
     let network = reduction.network(&system, 0.0, None).unwrap();
     let names: Vec<&str> =
         network.boundaries().iter().map(|boundary| boundary.name.as_str()).collect();
@@ -149,7 +149,8 @@ fn a_massless_port_starts_with_what_acts_after_the_start() {
         let mut run = Transient::until(Time(1000.0));
         run.start = start;
         let reduction =
-            Reduction::new(&system, port, &Options { run: Some(run), window: None }).unwrap();
+            Reduction::new(&system, port, &ReductionOptions { run: Some(run), window: None })
+                .unwrap();
         near(reduction.initial, 300.0 + heat / 2.0, 1e-14);
     }
 }
@@ -162,7 +163,8 @@ fn the_tolerance_of_the_comparison_follows_that_of_the_run() {
     for (asked, kept) in [(1e-3, lptn_reduce::TOLERANCE), (1e-6, 1e-8)] {
         let run = Transient::until(Time(100.0)).tolerance(asked);
         let reduction =
-            Reduction::new(&system, steel, &Options { run: Some(run), window: None }).unwrap();
+            Reduction::new(&system, steel, &ReductionOptions { run: Some(run), window: None })
+                .unwrap();
         near(reduction.dynamics.unwrap().tolerance.unwrap(), kept, 1e-12);
     }
 }

@@ -5,7 +5,7 @@ mod common;
 
 use common::{assembled, chain, near, two_nodes};
 use lptn_network::{Conductance, HeatCapacity, HeatFlow, NetworkBuilder, Temperature, Time};
-use lptn_reduce::{Bias, Options, Reduction, fit_exponential, transfer_resistance};
+use lptn_reduce::{Bias, Reduction, ReductionOptions, fit_exponential, transfer_resistance};
 use lptn_solve::{SteadyState, Transient};
 
 /// What the seed paper's method concludes from its fit, in the paper's own words: P = (T_f - T_i)
@@ -77,7 +77,7 @@ fn a_bridge_of_junctions_has_no_dynamics() {
     b.resistor("bd", n, d, Conductance(5.0));
     b.resistor("cd", c, d, Conductance(7.0));
     b.resistor("bc", n, c, Conductance(4.0));
-    let reduction = Reduction::new(&assembled(b), n, &Options::default()).unwrap();
+    let reduction = Reduction::new(&assembled(b), n, &ReductionOptions::default()).unwrap();
     near(reduction.norton.boundary_weights.iter().sum::<f64>(), 1.0, 1e-14);
     assert!(reduction.dynamics.is_none());
 }
@@ -89,8 +89,11 @@ fn a_bridge_of_junctions_has_no_dynamics() {
 fn the_end_of_a_chain_sees_every_mode() {
     let n = 8;
     let (system, nodes) = chain(&vec![50.0; n], &vec![4.0; n]);
-    let step =
-        Reduction::new(&system, nodes[n - 1], &Options::default()).unwrap().dynamics.unwrap().step;
+    let step = Reduction::new(&system, nodes[n - 1], &ReductionOptions::default())
+        .unwrap()
+        .dynamics
+        .unwrap()
+        .step;
     assert_eq!(step.terms.len(), n);
     assert!(step.residual < 1e-10, "{step:?}");
     for (k, term) in (1..).zip(&step.terms) {
@@ -111,7 +114,7 @@ fn nodes_that_a_boundary_joins_do_not_see_each_other() {
         b.resistor(&format!("e{i}"), node, bed, Conductance(3.25));
         b.source(&format!("q{i}"), node, HeatFlow(20.0 + 30.0 * i as f64));
     }
-    let options = Options { run: Some(Transient::until(Time(1500.0))), window: None };
+    let options = ReductionOptions { run: Some(Transient::until(Time(1500.0))), window: None };
     let reduction = Reduction::new(&assembled(b), nodes[6], &options).unwrap();
     near(reduction.norton.resistance, 1.0 / 3.25, 1e-14);
     near(reduction.inputs.heat, 200.0, 1e-14);
@@ -145,7 +148,7 @@ fn the_port_gives_the_steady_state_of_every_network() {
     for (system, ports) in [(system, nodes), (two_boundaries, vec![x, y, j])] {
         let steady = SteadyState::solve(&system, 0.0).unwrap();
         for port in ports {
-            let reduction = Reduction::new(&system, port, &Options::default()).unwrap();
+            let reduction = Reduction::new(&system, port, &ReductionOptions::default()).unwrap();
             let norton = &reduction.norton;
             let port_temperature =
                 reduction.inputs.reference + norton.resistance * reduction.inputs.heat;
@@ -180,7 +183,7 @@ fn a_fit_finds_one_exponential_again_and_says_where_there_is_none() {
 #[test]
 fn the_table_has_a_row_a_pair() {
     let (system, nodes) = two_nodes([1000.0, 1659.0], 0.1, 0.3, 220.6);
-    let options = Options { run: Some(Transient::until(Time(1500.0))), window: None };
+    let options = ReductionOptions { run: Some(Transient::until(Time(1500.0))), window: None };
     let reduction = Reduction::new(&system, nodes[0], &options).unwrap();
     let table = reduction.table();
     let labels: Vec<&[String]> =
@@ -197,7 +200,7 @@ fn the_table_has_a_row_a_pair() {
     // heat of 220.6 W from rest: the error of the run is that of 1 W, as often
     near(column("run.max")[0], 220.6 * column("step.max")[0], 1e-4);
     near(column("step.relative")[0], column("step.max")[0] / 0.4, 1e-14);
-    let alone = Reduction::new(&system, nodes[0], &Options::default()).unwrap().table();
+    let alone = Reduction::new(&system, nodes[0], &ReductionOptions::default()).unwrap().table();
     let runs = alone.columns().iter().filter(|column| column.name.starts_with("run."));
     assert!(runs.flat_map(|column| &column.values).all(|value| value.is_nan()));
 }
@@ -209,7 +212,7 @@ fn the_table_of_a_junction_has_one_row() {
     let bed = b.boundary("bed", Temperature(300.0));
     let port = b.massless("port");
     b.resistor("r", port, bed, Conductance(0.5));
-    let table = Reduction::new(&assembled(b), port, &Options::default()).unwrap().table();
+    let table = Reduction::new(&assembled(b), port, &ReductionOptions::default()).unwrap().table();
     assert_eq!((table.rows(), table.labels()[0].cells.as_slice()), (1, [String::new()].as_slice()));
     assert_eq!(table.labels()[1].cells, ["no"]);
     let row: Vec<f64> = table.row(0).collect();

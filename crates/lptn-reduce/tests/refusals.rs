@@ -9,7 +9,7 @@ use lptn_network::{
     Acts, Conductance, Context, HeatCapacity, NetworkBuilder, Temperature, Thermostat, Time,
     UnknownName,
 };
-use lptn_reduce::{NortonEquivalent, Options, ReduceError, Reduction, port};
+use lptn_reduce::{NortonEquivalent, ReduceError, Reduction, ReductionOptions, port};
 use lptn_solve::Transient;
 use lptn_units::{Dimension, Type, parse_quantity};
 
@@ -39,13 +39,13 @@ fn a_network_that_switches_has_no_run_of_one_node() {
     let system = assembled(switched());
     let node = system.network().node("a").unwrap();
     let run = Some(Transient::until(Time(10.0)));
-    let error = Reduction::new(&system, node, &Options { run, window: None }).unwrap_err();
+    let error = Reduction::new(&system, node, &ReductionOptions { run, window: None }).unwrap_err();
     assert_eq!(error.code(), "reduce::switches");
     assert!(
         error.to_string().contains("`fan`") && error.help().unwrap().contains("in place of `fan`")
     );
     // as it stands at the start it is linear: the fan is off, 7 W flow
-    let still = Reduction::new(&system, node, &Options::default()).unwrap();
+    let still = Reduction::new(&system, node, &ReductionOptions::default()).unwrap();
     assert!((still.inputs.heat - 7.0).abs() < 1e-14);
     assert_eq!(still.network(&system, 0.0, None).unwrap_err().code(), "reduce::switches");
 }
@@ -66,7 +66,7 @@ fn what_is_not_linear_is_named_with_what_to_put_in_its_place() {
 #[test]
 fn an_equivalent_that_cannot_be_built_says_why() {
     let (system, nodes) = chain(&[1.0, 2.0], &[1.0, 1.0]);
-    let reduction = Reduction::new(&system, nodes[1], &Options::default()).unwrap();
+    let reduction = Reduction::new(&system, nodes[1], &ReductionOptions::default()).unwrap();
     let mut pair = reduction.dynamics.as_ref().unwrap().pairs[0];
     pair.capacity = f64::INFINITY;
     let error = reduction.network(&system, 0.0, Some(&pair)).unwrap_err();

@@ -73,13 +73,13 @@ pub use lptn_network::OutputTimes;
 pub use lumping::{Biot, LumpCheck, Lumping, NotChecked, Stretch};
 pub use modes::{Mode, Modes};
 pub use parallel::{available_threads, in_parallel};
-pub use periodic::{Method, Periodic, PeriodicError};
+pub use periodic::{CycleMethod, Periodic, PeriodicError};
 pub use selection::{Record, Selection};
 pub use sense::Beyond;
 pub use sensitive_run::{
     Gradient, SensitiveError, SensitiveRun, sensitive_run, sensitive_run_observed,
 };
-pub use settings::{Control, Progress, Transient};
+pub use settings::{Proceed, Progress, Transient};
 pub use settings_error::SettingsError;
 pub use solution::{End, Solution, SolutionError, Unbounded};
 pub use state::State;

@@ -4,7 +4,7 @@ use lptn_assembly::{ChangeError, ThermalSystem};
 use lptn_network::{LimitId, Network, NoTangents, NodeId, ParameterId};
 
 use crate::error::TransientError;
-use crate::settings::{Control, Progress, Transient};
+use crate::settings::{Proceed, Progress, Transient};
 use crate::settings_error::SettingsError;
 use crate::solution::{End, Solution};
 
@@ -59,7 +59,7 @@ pub fn sensitive_run(
     settings: &Transient,
     parameters: &[ParameterId],
 ) -> Result<SensitiveRun, SensitiveError> {
-    sensitive_run_observed(network, (settings, parameters), &|_| Control::Continue)
+    sensitive_run_observed(network, (settings, parameters), &|_| Proceed::Continue)
 }
 
 /// The same; `observer` is called after every step of every run and may interrupt them.
@@ -69,7 +69,7 @@ pub fn sensitive_run(
 pub fn sensitive_run_observed(
     network: &Network,
     (settings, parameters): (&Transient, &[ParameterId]),
-    observer: &dyn Fn(Progress) -> Control,
+    observer: &dyn Fn(Progress) -> Proceed,
 ) -> Result<SensitiveRun, SensitiveError> {
     let run = |system: &ThermalSystem, settings: &Transient| {
         let solution = settings.solve_observed(system, &mut |step| observer(step))?;

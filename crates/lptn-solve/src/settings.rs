@@ -55,7 +55,7 @@ pub struct Progress {
 
 /// Whether a run goes on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Control {
+pub enum Proceed {
     /// It does.
     Continue,
     /// It ends here; what was computed is kept.

@@ -15,7 +15,7 @@ use crate::heat::Heat;
 use crate::newton::NewtonError;
 use crate::readings::Readings;
 use crate::recorder::Recorder;
-use crate::settings::{Control, Progress, Transient};
+use crate::settings::{Proceed, Progress, Transient};
 use crate::settings_error::SettingsError;
 use crate::solution::{End, Solution};
 use crate::state::{self, State};
@@ -33,7 +33,7 @@ impl Transient {
     /// # Errors
     /// [`TransientError`]; a run that breaks off hands over what it computed.
     pub fn solve(&self, system: &ThermalSystem) -> Result<Solution, TransientError> {
-        self.solve_observed(system, &mut |_| Control::Continue)
+        self.solve_observed(system, &mut |_| Proceed::Continue)
     }
 
     /// Runs to the stop and calls `observer` after every step of the integrator; it may interrupt
@@ -44,7 +44,7 @@ impl Transient {
     pub fn solve_observed(
         &self,
         system: &ThermalSystem,
-        observer: &mut dyn FnMut(Progress) -> Control,
+        observer: &mut dyn FnMut(Progress) -> Proceed,
     ) -> Result<Solution, TransientError> {
         self.solve_from(system, &State::initial(system), observer)
     }
@@ -57,7 +57,7 @@ impl Transient {
         &self,
         system: &ThermalSystem,
         from: &State,
-        observer: &mut dyn FnMut(Progress) -> Control,
+        observer: &mut dyn FnMut(Progress) -> Proceed,
     ) -> Result<Solution, TransientError> {
         if !state::fits(system, from) {
             return Err(TransientError::Settings(SettingsError::State));
@@ -81,7 +81,7 @@ impl Transient {
         &self,
         system: &ThermalSystem,
         from: &State,
-        (care, observer): (Care, &mut dyn FnMut(Progress) -> Control),
+        (care, observer): (Care, &mut dyn FnMut(Progress) -> Proceed),
     ) -> Result<Option<Solution>, TransientError> {
         let rows = self.rows().map_err(TransientError::Settings)?;
         let network = system.network();
@@ -212,7 +212,7 @@ impl<'a> Run<'a> {
     fn through(
         mut self,
         segments: &[Segment],
-        observer: &mut dyn FnMut(Progress) -> Control,
+        observer: &mut dyn FnMut(Progress) -> Proceed,
     ) -> Result<Option<Solution>, TransientError> {
         for (i, &segment) in segments.iter().enumerate() {
             let outcome = self.segment(segment, i == 0, observer);
@@ -238,14 +238,14 @@ impl<'a> Run<'a> {
         &mut self,
         segment: Segment,
         first: bool,
-        observer: &mut dyn FnMut(Progress) -> Control,
+        observer: &mut dyn FnMut(Progress) -> Proceed,
     ) -> Result<(), Break> {
         self.begin(segment, first)?;
         while self.integrator.time() < segment.to {
             self.step(segment)?;
             let (start, stop) = self.recorder.span();
             if observer(Progress { start, time: self.integrator.time(), stop })
-                == Control::Interrupt
+                == Proceed::Interrupt
             {
                 return Err(Break::Interrupted);
             }

@@ -6,7 +6,7 @@ use lptn_network::Network;
 use crate::error::TransientError;
 use crate::exact::{Difference, ExactError, ExactSolution};
 use crate::selection::Record;
-use crate::settings::{Control, Progress, Transient};
+use crate::settings::{Proceed, Progress, Transient};
 use crate::solution::{End, Solution};
 use crate::table::Table;
 
@@ -94,7 +94,7 @@ impl Verification {
     /// # Errors
     /// What a run reports.
     pub fn of(system: &ThermalSystem, settings: &Transient) -> Result<Self, TransientError> {
-        let runs = runs(system, settings, &mut |_, _| Control::Continue)?;
+        let runs = runs(system, settings, &mut |_, _| Proceed::Continue)?;
         Ok(Self::of_runs(system, settings, &runs))
     }
 
@@ -106,7 +106,7 @@ impl Verification {
     pub fn observed(
         system: &ThermalSystem,
         settings: &Transient,
-        observer: &mut dyn FnMut(f64, Progress) -> Control,
+        observer: &mut dyn FnMut(f64, Progress) -> Proceed,
     ) -> Result<Option<Self>, TransientError> {
         let runs = runs(system, settings, observer)?;
         let whole = runs.iter().all(|run| run.end() == End::Reached);
@@ -178,7 +178,7 @@ impl Comparison {
 fn runs(
     system: &ThermalSystem,
     settings: &Transient,
-    observer: &mut dyn FnMut(f64, Progress) -> Control,
+    observer: &mut dyn FnMut(f64, Progress) -> Proceed,
 ) -> Result<Vec<Solution>, TransientError> {
     let mut run = |tolerance: f64| {
         let settings =

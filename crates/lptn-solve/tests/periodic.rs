@@ -12,7 +12,9 @@ use lptn_network::{
     AfterEnd, Conductance, Course, HeatCapacity, Melting, NetworkBuilder, NodeId, Path, Properties,
     Size, Temperature, Time,
 };
-use lptn_solve::{Control, Method, Periodic, PeriodicError, Selection, State, Transient, Window};
+use lptn_solve::{
+    CycleMethod, Periodic, PeriodicError, Proceed, Selection, State, Transient, Window,
+};
 use lptn_units::Dimension;
 
 const AMBIENT: f64 = 300.0;
@@ -70,7 +72,7 @@ fn a_square_wave_on_one_node_has_its_closed_form() {
         // in closed form, whatever the tolerance
         let start = temperature(&system, &found.state, node);
         assert!((start - AMBIENT - square_wave()).abs() < 1e-9, "{start}");
-        assert_eq!((found.method, found.cycles), (Method::Modes, 1));
+        assert_eq!((found.method, found.cycles), (CycleMethod::Modes, 1));
         assert!((found.multiplier.unwrap() - (-0.5_f64).exp()).abs() < 1e-12);
         assert!(found.residual < 10.0 * tolerance && found.error < 1e-9);
         // means: all heat leaves, 30 W over 0.5 W/K
@@ -98,7 +100,7 @@ fn a_sine_on_one_node_has_its_closed_form() {
     let wc = TAU / 700.0 * 1000.0;
     let exact = AMBIENT + 60.0 - 50.0 * wc / (0.25 + wc * wc);
     assert!((temperature(&system, &found.state, node) - exact).abs() < 1e-8);
-    assert_eq!(found.method, Method::Modes);
+    assert_eq!(found.method, CycleMethod::Modes);
 }
 
 /// A stream warms two cells one after the other, C y' = m (y_before - y); the inlet swings as a
@@ -118,7 +120,7 @@ fn a_stream_under_a_sine_has_its_closed_form() {
     stream(&mut b, "out", (second, outlet), quantity("1 W/K"));
     let system = system(b);
     let found = Periodic::find(&system, &cycle(period, 1e-8)).unwrap();
-    assert_eq!(found.method, Method::Shooting);
+    assert_eq!(found.method, CycleMethod::Shooting);
     let w = TAU / period * tau;
     let size = (1.0 + w * w).sqrt();
     let phase = w.atan();
@@ -368,7 +370,7 @@ fn an_observer_may_interrupt_the_search() {
     let mut steps = 0;
     let outcome = Periodic::find_observed(&system, &cycle(PERIOD, 1e-5), &mut |_| {
         steps += 1;
-        if steps == 400 { Control::Interrupt } else { Control::Continue }
+        if steps == 400 { Proceed::Interrupt } else { Proceed::Continue }
     });
     let error = outcome.unwrap_err();
     assert!(
@@ -387,7 +389,7 @@ fn a_network_without_state_needs_no_search() {
     b.resistor("out", shield, cold, Conductance(3.0));
     let system = system(b);
     let found = Periodic::find(&system, &cycle(100.0, 1e-5)).unwrap();
-    assert_eq!((found.method, found.cycles), (Method::Stateless, 1));
+    assert_eq!((found.method, found.cycles), (CycleMethod::Stateless, 1));
     assert!((found.solution.row(0)[0] - 325.0).abs() < 1e-9);
 }
 

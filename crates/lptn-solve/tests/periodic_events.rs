@@ -43,7 +43,7 @@ fn wait(system: &ThermalSystem, cycles: usize, tolerance: f64) -> (State, Vec<Co
     let mut steps = 0;
     for _ in 0..cycles {
         let solution =
-            settings.solve_from(system, &state, &mut |_| lptn_solve::Control::Continue).unwrap();
+            settings.solve_from(system, &state, &mut |_| lptn_solve::Proceed::Continue).unwrap();
         steps += solution.statistics().steps;
         state = solution.last_state().clone();
         let back = |c: &ControlState| ControlState { since: c.since - PERIOD, ..*c };

@@ -6,7 +6,7 @@ mod common;
 
 use common::{ONE_NODE, RADIATING, RISE, near, parsed, sobol, task};
 use lptn_netlist::Netlist;
-use lptn_study::uncertainty::{Answer, AnswerOf, Method, Uncertainty, discrepancies};
+use lptn_study::uncertainty::{Answer, AnswerOf, Uncertainty, UncertaintyMethod, discrepancies};
 
 fn linear(netlist: &Netlist) -> Uncertainty {
     task(netlist).linear().unwrap_or_else(|error| panic!("{error}"))
@@ -51,7 +51,7 @@ fn slopes(t: f64) -> [f64; 4] {
 #[test]
 fn analytic_every_sensitivity_of_one_node_is_its_closed_form() {
     let found = linear(&one_node(""));
-    assert_eq!(found.method, Method::Linear { differences: None });
+    assert_eq!(found.method, UncertaintyMethod::Linear { differences: None });
     let end = answer(&found, |of| matches!(of, AnswerOf::End(_)));
     all_near(&effects(end), &slopes(1000.0));
     let variance = |t: f64| slopes(t).iter().map(|slope| slope * slope).sum::<f64>();
@@ -146,7 +146,7 @@ fn without_exact_sensitivities_there_are_differences_of_runs() {
             degC\", start = \"on\" }\n\
            [limit]\nhot = { of = \"block.T\", below = \"120 degC\" }\n";
     let found = linear(&parsed(&text, "P = \"200 ± 20 W\"\nT_amb = \"20 degC\""));
-    let Method::Linear { differences: Some(why) } = &found.method else {
+    let UncertaintyMethod::Linear { differences: Some(why) } = &found.method else {
         panic!("{:?}", found.method)
     };
     assert!(!why.is_empty());

@@ -5,7 +5,7 @@
 mod common;
 
 use common::{ONE_NODE, RADIATING, RISE, near, parsed, sobol, sobol_with, task, within};
-use lptn_study::uncertainty::{Answer, Method, Uncertainty, UncertaintyError};
+use lptn_study::uncertainty::{Answer, Uncertainty, UncertaintyError, UncertaintyMethod};
 
 /// Points with sampling errors of a few thousandths.
 const MANY: usize = 1024;
@@ -115,7 +115,9 @@ fn determinism_threads_change_nothing_and_seeds_do() {
 fn what_the_network_refuses_is_counted_and_named() {
     let netlist = parsed(ONE_NODE, "R = \"0.5 ± 0.25 K/W\"\nP = \"200 W\"\nT_amb = \"20 degC\"");
     let found = sobol(&netlist, 1024);
-    let Method::Sobol { samples, lost, .. } = &found.method else { panic!("{:?}", found.method) };
+    let UncertaintyMethod::Sobol { samples, lost, .. } = &found.method else {
+        panic!("{:?}", found.method)
+    };
     assert_eq!(*samples, 1024);
     let [lost] = lost.as_slice() else { panic!("{lost:?}") };
     assert!(lost.refused && lost.message.contains("skin"), "{lost}");
@@ -131,7 +133,9 @@ fn what_the_network_refuses_is_counted_and_named() {
 fn a_run_that_fails_is_counted_and_named() {
     let netlist = parsed(ONE_NODE, "P = \"0 ± 339.2 W\"\nT_amb = \"20 degC\"");
     let found = sobol(&netlist, 1024);
-    let Method::Sobol { lost, runs, .. } = &found.method else { panic!("{:?}", found.method) };
+    let UncertaintyMethod::Sobol { lost, runs, .. } = &found.method else {
+        panic!("{:?}", found.method)
+    };
     let [lost] = lost.as_slice() else { panic!("{lost:?}") };
     assert_eq!((lost.refused, lost.code), (false, "solve::below_absolute_zero"));
     assert!((5..runs / 10).contains(&lost.count), "{lost} of {runs}");
@@ -150,7 +154,9 @@ fn what_cannot_be_sampled_has_a_code() {
     assert_eq!(code(common::sample(&large, (4096, 1, 1))), "uncertainty::too_large");
     let nonsense = parsed(ONE_NODE, "P = \"200 W\"\nT_amb = \"20 degC\"\nR = \"0.01 ± 50 K/W\"");
     let outcome = sobol_with(&nonsense, (64, 1, 1)).unwrap();
-    assert!(matches!(outcome.method, Method::Sobol { ref lost, .. } if lost[0].count > 30));
+    assert!(
+        matches!(outcome.method, UncertaintyMethod::Sobol { ref lost, .. } if lost[0].count > 30)
+    );
 }
 
 /// `--set` with `±` takes the place of the file's, and one without leaves it.

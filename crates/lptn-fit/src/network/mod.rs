@@ -30,7 +30,7 @@ pub use lptn_network::Varied;
 pub use search::Starts;
 pub use task::{FitObserver, FitStage, Measured, MeasuredRun, NetworkFitTask};
 
-use lptn_solve::{Control, Gradient};
+use lptn_solve::{Gradient, Proceed};
 
 use crate::network::coordinates::Coordinates;
 use crate::network::errors::Errors;
@@ -55,7 +55,7 @@ const DIFFERENCES: f64 = 1e-4;
 /// [`NetworkFitError`] for a task that asks for nothing, or where the own values have no run. That
 /// the search does not converge is an answer: [`NetworkFit::not_converged`].
 pub fn fit_network(task: &NetworkFitTask<'_>) -> Result<NetworkFit, NetworkFitError> {
-    fit_network_observed(task, &|_, _| Control::Continue)
+    fit_network_observed(task, &|_, _| Proceed::Continue)
 }
 
 /// The same; `observer` is called after every step of every run and may interrupt the fit.

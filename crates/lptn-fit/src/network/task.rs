@@ -3,7 +3,7 @@
 use std::fmt;
 
 use lptn_network::{Network, NodeId, Parameters, Varied};
-use lptn_solve::{Control, Progress, Transient};
+use lptn_solve::{Proceed, Progress, Transient};
 
 /// A fit of parameters of a network to records of its temperatures.
 #[derive(Clone, Debug)]
@@ -42,7 +42,7 @@ impl fmt::Display for FitStage {
 }
 
 /// Is called after every step of every run, on its thread, and may interrupt the fit.
-pub type FitObserver<'a> = dyn Fn(FitStage, Progress) -> Control + Sync + 'a;
+pub type FitObserver<'a> = dyn Fn(FitStage, Progress) -> Proceed + Sync + 'a;
 
 /// A record, and the run that it is one of.
 #[derive(Clone, Debug)]

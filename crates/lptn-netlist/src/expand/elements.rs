@@ -1,7 +1,7 @@
 //! Nodes, and everything that stands between and on them.
 
 use lptn_laws::Kind;
-use lptn_network::{Bound, Conductor, Item, Lump, Severity, Size, Value};
+use lptn_network::{Bound, Conductor, Item, LimitSeverity, Lump, Size, Value};
 use lptn_units::{Dimension, Type, format_number};
 
 use super::Writer;
@@ -139,7 +139,7 @@ impl Writer<'_> {
                 Bound::Above => "above",
             };
             fields.put(bound, like(&limit.value, limit.ty));
-            if limit.severity == Severity::Warning {
+            if limit.severity == LimitSeverity::Warning {
                 fields.word("severity", "warning");
             }
             section.put(&limit.name, fields.inline());

@@ -1,7 +1,7 @@
 //! `[limit]`: what the results have to keep.
 
 use lptn_data::Diagnostic;
-use lptn_network::{Bound, Field, Input, Item, Severity};
+use lptn_network::{Bound, Field, Input, Item, LimitSeverity};
 use lptn_units::Type;
 
 use crate::fields::Fields;
@@ -97,11 +97,11 @@ impl<'a> Elaboration<'a> {
         (bound, input.unwrap_or_else(|| stand_in(ty.unwrap_or(Type::ABSOLUTE_TEMPERATURE))))
     }
 
-    fn severity(&mut self, fields: &Fields<'a>) -> Severity {
-        let Some(raw) = fields.get("severity") else { return Severity::Error };
+    fn severity(&mut self, fields: &Fields<'a>) -> LimitSeverity {
+        let Some(raw) = fields.get("severity") else { return LimitSeverity::Error };
         match &raw.kind {
-            RawKind::String { text, .. } if text == "error" => Severity::Error,
-            RawKind::String { text, .. } if text == "warning" => Severity::Warning,
+            RawKind::String { text, .. } if text == "error" => LimitSeverity::Error,
+            RawKind::String { text, .. } if text == "warning" => LimitSeverity::Warning,
             RawKind::String { text, .. } => {
                 let words = fields.owner.field("severity");
                 let message = format!("{words} must be \"error\" or \"warning\", got \"{text}\"");
@@ -110,11 +110,11 @@ impl<'a> Elaboration<'a> {
                     "a broken limit of severity \"error\" ends with exit code 1, one of \
                      \"warning\" is printed",
                 ));
-                Severity::Error
+                LimitSeverity::Error
             }
             _ => {
                 self.report(fields.wrong_shape("severity", raw, "\"error\" or \"warning\""));
-                Severity::Error
+                LimitSeverity::Error
             }
         }
     }

@@ -28,7 +28,7 @@ use crate::numbers::Numbers;
 use crate::parts::Parts;
 use crate::parts::element::{Boundary, Capacitor, Node, Parameter, Source};
 use crate::parts::label::is_numbered;
-use crate::parts::result::{Bound, Limit, Severity};
+use crate::parts::result::{Bound, Limit, LimitSeverity};
 use crate::parts::whole;
 use crate::scope::{Context, NetworkScope};
 use crate::value::{Input, Value};
@@ -279,7 +279,7 @@ impl NetworkBuilder {
         name: &str,
         (of, text): (Input, &str),
         (bound, value): (Bound, Input),
-        severity: Severity,
+        severity: LimitSeverity,
     ) -> LimitId {
         let id = LimitId::from_len(self.parts.limits.len());
         let ty = of.ty;

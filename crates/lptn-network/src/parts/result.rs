@@ -26,7 +26,7 @@ impl Bound {
 
 /// What a broken limit means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Severity {
+pub enum LimitSeverity {
     /// A broken limit ends with exit code 1.
     Error,
     /// A broken limit is printed, and the exit code stays 0.
@@ -48,7 +48,7 @@ pub struct Limit {
     /// What it has to stay below or above; constant for one set of parameters.
     pub value: Value,
     /// What it means if it is broken.
-    pub severity: Severity,
+    pub severity: LimitSeverity,
     /// `of` as it was written.
     pub text: String,
 }

@@ -7,12 +7,12 @@ use super::error::PeriodicError;
 use super::secants::Shot;
 use crate::events::{ControlState, Event, EventKind};
 use crate::selection::Record;
-use crate::settings::{Control, Progress, Transient};
+use crate::settings::{Proceed, Progress, Transient};
 use crate::solution::{End, Solution};
 use crate::state::State;
 
 /// What watches and may interrupt.
-pub(super) type Observer<'a> = dyn FnMut(Progress) -> Control + 'a;
+pub(super) type Observer<'a> = dyn FnMut(Progress) -> Proceed + 'a;
 
 /// Integrates cycles and counts them.
 pub(super) struct Cycles<'a> {

@@ -11,7 +11,7 @@ use lptn_assembly::ThermalSystem;
 
 use crate::adiabatic::Island;
 use crate::exact::ExactCycle;
-use crate::settings::{Control, Progress, Transient};
+use crate::settings::{Proceed, Progress, Transient};
 use crate::solution::Solution;
 use crate::state::State;
 use cycle::{Cycles, Observer};
@@ -20,7 +20,7 @@ use search::{Found, Search};
 
 /// How a periodic state was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
+pub enum CycleMethod {
     /// In closed form, mode by mode: a linear network.
     Modes,
     /// By accelerated cycles.
@@ -37,7 +37,7 @@ pub struct Periodic {
     /// The cycle from there on, as the settings asked for.
     pub solution: Solution,
     /// How it was found.
-    pub method: Method,
+    pub method: CycleMethod,
     /// Cycles that were integrated, that of the solution included.
     pub cycles: usize,
     /// Steps of the integrator in all cycles.
@@ -72,7 +72,7 @@ impl Periodic {
     /// # Errors
     /// [`PeriodicError`].
     pub fn find(system: &ThermalSystem, settings: &Transient) -> Result<Self, PeriodicError> {
-        Self::find_observed(system, settings, &mut |_| Control::Continue)
+        Self::find_observed(system, settings, &mut |_| Proceed::Continue)
     }
 
     /// As [`Periodic::find`], with an observer that is called after every step of every cycle and
@@ -83,7 +83,7 @@ impl Periodic {
     pub fn find_observed(
         system: &ThermalSystem,
         settings: &Transient,
-        observer: &mut dyn FnMut(Progress) -> Control,
+        observer: &mut dyn FnMut(Progress) -> Proceed,
     ) -> Result<Self, PeriodicError> {
         settings
             .check()
@@ -104,7 +104,7 @@ impl Periodic {
         } else {
             None
         };
-        let method = if exact.is_some() { Method::Modes } else { Method::Shooting };
+        let method = if exact.is_some() { CycleMethod::Modes } else { CycleMethod::Shooting };
         let found = match exact {
             Some((start, exact)) => by_modes(&mut cycles, start, (&exact, settings.tolerance))?,
             None => Search::new(&mut cycles, settings.tolerance).find(system.initial())?,
@@ -112,7 +112,7 @@ impl Periodic {
         Ok(Self::of(found, method, &cycles))
     }
 
-    fn of(found: Found, method: Method, cycles: &Cycles<'_>) -> Self {
+    fn of(found: Found, method: CycleMethod, cycles: &Cycles<'_>) -> Self {
         Self {
             residual: found.shot.residual(),
             state: State::of_carried(found.shot.start),
@@ -130,7 +130,7 @@ impl Periodic {
         Self {
             state: State::of_carried(Vec::new()),
             solution,
-            method: Method::Stateless,
+            method: CycleMethod::Stateless,
             cycles: 1,
             steps: 0,
             flow_evaluations: 0,

@@ -2,9 +2,9 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
-use lptn_network::{InputError, Network, Severity};
+use lptn_network::{InputError, LimitSeverity, Network};
 use lptn_solve::{
-    Beyond, Control, End, NodeSummary, Others, OutputTimes, Progress, Record, Solution,
+    Beyond, End, NodeSummary, Others, OutputTimes, Proceed, Progress, Record, Solution,
     SteadyError, SteadyState, Summary, Transient, TransientError, Unsolved, first_there,
 };
 use lptn_units::Class;
@@ -93,7 +93,7 @@ impl Candidate {
         system: &ThermalSystem,
         run: Option<&RunSettings>,
     ) -> Result<Self, CompareError> {
-        Self::evaluate_observed(system, run, &mut |_| Control::Continue)
+        Self::evaluate_observed(system, run, &mut |_| Proceed::Continue)
     }
 
     /// The same; `observer` is called after every step of the run and may interrupt it.
@@ -103,7 +103,7 @@ impl Candidate {
     pub fn evaluate_observed(
         system: &ThermalSystem,
         run: Option<&RunSettings>,
-        observer: &mut dyn FnMut(Progress) -> Control,
+        observer: &mut dyn FnMut(Progress) -> Proceed,
     ) -> Result<Self, CompareError> {
         match run {
             Some(run) => Self::over_time(system, run, observer),
@@ -119,7 +119,7 @@ impl Candidate {
             let limits = judged.filter(move |l| l.is_temperature() && l.severity == severity);
             limits.min_by(|a, b| a.margin.total_cmp(&b.margin))
         };
-        of(Severity::Error).or_else(|| of(Severity::Warning))
+        of(LimitSeverity::Error).or_else(|| of(LimitSeverity::Warning))
     }
 
     fn in_steady_state(system: &ThermalSystem) -> Result<Self, CompareError> {
@@ -151,7 +151,7 @@ impl Candidate {
     fn over_time(
         system: &ThermalSystem,
         run: &RunSettings,
-        observer: &mut dyn FnMut(Progress) -> Control,
+        observer: &mut dyn FnMut(Progress) -> Proceed,
     ) -> Result<Self, CompareError> {
         let network = system.network();
         let constant = network.changing_inputs().is_empty();

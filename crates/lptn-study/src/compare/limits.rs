@@ -1,6 +1,6 @@
 //! What became of the limits of a candidate.
 
-use lptn_network::{Network, Severity};
+use lptn_network::{LimitSeverity, Network};
 use lptn_solve::LimitSeen;
 use lptn_units::{Dimension, Type};
 
@@ -12,7 +12,7 @@ pub struct LimitResult {
     /// Type of the margin; a difference for temperatures.
     pub ty: Type,
     /// What it means if it is broken.
-    pub severity: Severity,
+    pub severity: LimitSeverity,
     /// The least margin, in SI units: positive while the limit is kept; NaN where it is not judged,
     /// since it depends on inputs that change with time and was looked at in steady state only.
     pub margin: f64,

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use lptn_network::Severity;
+use lptn_network::LimitSeverity;
 
 use crate::compare::candidate::Candidate;
 
@@ -71,7 +71,7 @@ fn compare(a: &Candidate, b: &Candidate, key: SortKey) -> Ordering {
 
 /// Whether a limit that counts is broken.
 fn broken(candidate: &Candidate) -> bool {
-    candidate.limits.iter().any(|limit| limit.broken() && limit.severity == Severity::Error)
+    candidate.limits.iter().any(|limit| limit.broken() && limit.severity == LimitSeverity::Error)
 }
 
 /// What is not known stands last among ascending values.

@@ -1,6 +1,6 @@
 //! A comparison as a table for files.
 
-use lptn_network::Severity;
+use lptn_network::LimitSeverity;
 use lptn_solve::{Table, TableOf};
 use lptn_units::Unit;
 
@@ -34,7 +34,7 @@ impl CompareRow {
         };
         let broken =
             |severity| candidate.limits.iter().any(|l| l.broken() && l.severity == severity);
-        match (broken(Severity::Error), broken(Severity::Warning)) {
+        match (broken(LimitSeverity::Error), broken(LimitSeverity::Warning)) {
             (true, _) => "broken",
             (false, true) => "warning",
             (false, false) if candidate.limits.is_empty() => "none",

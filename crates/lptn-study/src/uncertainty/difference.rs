@@ -4,7 +4,7 @@ use lptn_network::NodeId;
 
 use crate::uncertainty::answer::AnswerOf;
 use crate::uncertainty::normal::BAND;
-use crate::uncertainty::result::{Bands, Method, Uncertainty};
+use crate::uncertainty::result::{Bands, Uncertainty, UncertaintyMethod};
 
 /// Bands that differ by more than this part of half the sampled band's width are not the same.
 const TENTH: f64 = 0.1;
@@ -34,8 +34,8 @@ pub struct Discrepancy {
 /// does not count. `least` in K is the width below which a band is that of the solver.
 pub fn discrepancies(linear: &Uncertainty, sampled: &Uncertainty, least: f64) -> Vec<Discrepancy> {
     let noise = match sampled.method {
-        Method::Sobol { samples, .. } => NOISE / (2.0 * samples as f64).sqrt(),
-        Method::Linear { .. } => 0.0,
+        UncertaintyMethod::Sobol { samples, .. } => NOISE / (2.0 * samples as f64).sqrt(),
+        UncertaintyMethod::Linear { .. } => 0.0,
     };
     let rows =
         linear.bands.iter().zip(&sampled.bands).filter_map(|(l, s)| worst(l, s, &sampled.times));

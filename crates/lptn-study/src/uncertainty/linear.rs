@@ -4,7 +4,7 @@ mod line;
 mod margins;
 
 use lptn_assembly::ThermalSystem;
-use lptn_solve::Control;
+use lptn_solve::Proceed;
 
 use crate::uncertainty::answer::{Answer, AnswerOf, Contribution};
 use crate::uncertainty::error::UncertaintyError;
@@ -12,7 +12,7 @@ use crate::uncertainty::estimate::Estimate;
 use crate::uncertainty::input::uncertain;
 use crate::uncertainty::linear::line::Line;
 use crate::uncertainty::normal::{BAND, share_below};
-use crate::uncertainty::result::{Method, Uncertainty};
+use crate::uncertainty::result::{Uncertainty, UncertaintyMethod};
 use crate::uncertainty::sample::Sample;
 use crate::uncertainty::task::UncertaintyTask;
 
@@ -28,7 +28,7 @@ impl UncertaintyTask<'_> {
     pub fn linear(&self) -> Result<Uncertainty, UncertaintyError> {
         let inputs = uncertain(self.network, &self.parameters)?;
         let system = ThermalSystem::assemble(self.network).map_err(UncertaintyError::Assembly)?;
-        let solution = self.solve(&system, true, &|| Control::Continue);
+        let solution = self.solve(&system, true, &|| Proceed::Continue);
         let solution = solution.map_err(|error| UncertaintyError::Run(Box::new(error)))?;
         let sample = Sample::of(&solution, true);
         let line = Line::new(self, &inputs, &solution)?;
@@ -42,7 +42,7 @@ impl UncertaintyTask<'_> {
             answer(of, value, &effects)
         };
         Ok(Uncertainty {
-            method: Method::Linear { differences: line.differences() },
+            method: UncertaintyMethod::Linear { differences: line.differences() },
             times: self.times()?,
             bands: self.nodes.iter().map(|&node| line.bands(node)).collect(),
             answers: self.questions().into_iter().zip(&sample.answers).map(answer).collect(),

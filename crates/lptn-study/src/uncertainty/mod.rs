@@ -24,6 +24,6 @@ pub use difference::{Discrepancy, discrepancies};
 pub use error::UncertaintyError;
 pub use estimate::Estimate;
 pub use input::{Uncertain, uncertain};
-pub use result::{Bands, Lost, Method, Uncertainty};
+pub use result::{Bands, Lost, Uncertainty, UncertaintyMethod};
 pub use sobol::{GROUPS, Sobol};
 pub use task::UncertaintyTask;

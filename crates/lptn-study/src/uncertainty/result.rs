@@ -9,7 +9,7 @@ use crate::uncertainty::input::Uncertain;
 
 /// How the uncertainty of the results was found.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Method {
+pub enum UncertaintyMethod {
     /// From the sensitivities of one run.
     Linear {
         /// Why they are differences of runs, where they are not exact.
@@ -71,7 +71,7 @@ pub struct Bands {
 #[derive(Clone, Debug)]
 pub struct Uncertainty {
     /// How it was found.
-    pub method: Method,
+    pub method: UncertaintyMethod,
     /// The parameters that carry `±`, in the order of the network.
     pub inputs: Vec<Uncertain>,
     /// The time of each row in s.

@@ -3,12 +3,12 @@
 mod indices;
 mod rows;
 
-use lptn_solve::{Control, in_parallel};
+use lptn_solve::{Proceed, in_parallel};
 
 use crate::uncertainty::error::UncertaintyError;
 use crate::uncertainty::input::{Uncertain, uncertain};
 use crate::uncertainty::points::{self, LEAST, MOST_DIMENSIONS, MOST_POINTS};
-use crate::uncertainty::result::{Method, Uncertainty};
+use crate::uncertainty::result::{Uncertainty, UncertaintyMethod};
 use crate::uncertainty::sample::{NoSample, Sample, count};
 use crate::uncertainty::task::UncertaintyTask;
 
@@ -30,7 +30,7 @@ pub struct Sobol<'a> {
     /// Threads; the result does not depend on their number.
     pub threads: usize,
     /// Called after every step of every run; may interrupt the study.
-    pub control: &'a (dyn Fn() -> Control + Sync),
+    pub control: &'a (dyn Fn() -> Proceed + Sync),
     /// Called when a base point is finished.
     pub finished: &'a (dyn Fn() + Sync),
 }
@@ -61,7 +61,7 @@ impl UncertaintyTask<'_> {
         let blocks = Blocks::of(blocks, samples)?;
         let (runs, lost) = (blocks.runs + 1, blocks.lost.clone());
         Ok(Uncertainty {
-            method: Method::Sobol { samples, seed: how.seed, runs, lost },
+            method: UncertaintyMethod::Sobol { samples, seed: how.seed, runs, lost },
             times: self.times()?,
             bands: rows::bands(self, &nominal, &blocks, how.threads),
             answers: indices::answers(self, &nominal, &blocks, &design),
@@ -124,7 +124,7 @@ impl Design<'_> {
         number: usize,
         which: &dyn Fn(usize) -> usize,
         rows: bool,
-        control: &(dyn Fn() -> Control + Sync),
+        control: &(dyn Fn() -> Proceed + Sync),
     ) -> Result<Sample, NoSample> {
         let mut parameters = self.task.parameters.clone();
         for (i, input) in self.inputs.iter().enumerate() {
@@ -134,7 +134,7 @@ impl Design<'_> {
         self.task.sample(&parameters, rows, control)
     }
 
-    fn block(&self, number: usize, control: &(dyn Fn() -> Control + Sync)) -> Block {
+    fn block(&self, number: usize, control: &(dyn Fn() -> Proceed + Sync)) -> Block {
         let base = [0, 1].map(|which| self.run(number, &|_| which, true, control));
         let both = base.iter().all(Result::is_ok);
         let mixed = |input: usize| {

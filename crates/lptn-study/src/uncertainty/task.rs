@@ -2,7 +2,7 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Network, NodeId, OutputTimes, Parameters};
-use lptn_solve::{Control, End, Record, Solution, Transient, TransientError, Watch};
+use lptn_solve::{End, Proceed, Record, Solution, Transient, TransientError, Watch};
 
 use crate::uncertainty::answer::AnswerOf;
 use crate::uncertainty::error::UncertaintyError;
@@ -49,7 +49,7 @@ impl UncertaintyTask<'_> {
         &self,
         parameters: &Parameters,
         rows: bool,
-        control: &(dyn Fn() -> Control + Sync),
+        control: &(dyn Fn() -> Proceed + Sync),
     ) -> Result<Sample, NoSample> {
         let system = ThermalSystem::of(self.network, parameters)
             .map_err(|error| NoSample::refused(&error))?;
@@ -68,7 +68,7 @@ impl UncertaintyTask<'_> {
         &self,
         system: &ThermalSystem,
         rows: bool,
-        control: &(dyn Fn() -> Control + Sync),
+        control: &(dyn Fn() -> Proceed + Sync),
     ) -> Result<Solution, TransientError> {
         let mut run = self.watched();
         // without states nothing is watched between the rows

@@ -7,7 +7,7 @@
 )]
 
 use lptn_netlist::{Netlist, parse};
-use lptn_solve::{Control, Transient, available_threads};
+use lptn_solve::{Proceed, Transient, available_threads};
 use lptn_study::uncertainty::{Estimate, Sobol, Uncertainty, UncertaintyError, UncertaintyTask};
 
 /// 1000 J/K over `R` (0.5 K/W) towards `T_amb`, heated by `P`, for 1000 s: two time constants.
@@ -68,7 +68,7 @@ pub fn sample(
     task: &UncertaintyTask<'_>,
     (samples, seed, threads): (usize, u32, usize),
 ) -> Result<Uncertainty, UncertaintyError> {
-    task.sobol(&Sobol { samples, seed, threads, control: &|| Control::Continue, finished: &|| {} })
+    task.sobol(&Sobol { samples, seed, threads, control: &|| Proceed::Continue, finished: &|| {} })
 }
 
 #[track_caller]

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use lptn_network::Severity;
+use lptn_network::LimitSeverity;
 use lptn_report::{
     Align, Column, Json, Page, Rows, Text, TextTable, WIDTH, decimals, duration, fixed, plain,
     significant, stacked,
@@ -195,7 +195,8 @@ pub(crate) fn answer(comparison: &Comparison) -> String {
 fn broken(rows: &[CompareRow], names: &[String]) -> String {
     let of_row = |(row, name): (&CompareRow, &String)| {
         let limits = row.candidate()?.limits.iter();
-        let counts = limits.filter(|limit| limit.broken() && limit.severity == Severity::Error);
+        let counts =
+            limits.filter(|limit| limit.broken() && limit.severity == LimitSeverity::Error);
         let limits: Vec<&str> = counts.map(|limit| limit.name.as_str()).collect();
         (!limits.is_empty()).then(|| format!("{name} breaks {}", limits.join(" and ")))
     };

@@ -9,7 +9,9 @@ use std::path::Path;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Derived, Diagnostic};
-use lptn_reduce::{Bias, Definition, FitError, Options, Pair, ReduceError, Reduction, port};
+use lptn_reduce::{
+    Bias, Definition, FitError, Pair, ReduceError, Reduction, ReductionOptions, port,
+};
 use lptn_report::{Format, plain, significant};
 use lptn_solve::Transient;
 use lptn_units::{Dimension, Problem as _, Type, Unit};
@@ -172,11 +174,11 @@ fn options(
     system: &ThermalSystem,
     run: Option<&Transient>,
     (window, wanted): (Option<f64>, bool),
-) -> Options {
+) -> ReductionOptions {
     if wanted || !system.network().has_events() {
-        return Options { run: run.cloned(), window };
+        return ReductionOptions { run: run.cloned(), window };
     }
-    Options { run: None, window: window.or(run.map(|run| run.stop - run.start)) }
+    ReductionOptions { run: None, window: window.or(run.map(|run| run.stop - run.start)) }
 }
 
 /// The run of the file.

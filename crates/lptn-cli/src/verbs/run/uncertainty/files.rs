@@ -4,7 +4,7 @@ use lptn_network::{Item, Network};
 use lptn_solve::Table;
 use lptn_study::Scalar;
 use lptn_study::uncertainty::{
-    Answer, AnswerOf, Contribution, Discrepancy, Estimate, Lost, Method, Uncertainty,
+    Answer, AnswerOf, Contribution, Discrepancy, Estimate, Lost, Uncertainty, UncertaintyMethod,
 };
 use lptn_units::{Dimension, Unit};
 use serde_json::{Map, Value, json};
@@ -54,7 +54,7 @@ pub(crate) fn ranking(network: &Network, found: &Uncertainty) -> Table {
         table.column(name, "1", |(_, part)| value(part).unwrap_or(f64::NAN));
     };
     column("share", &|part| Some(part.share.value));
-    if matches!(found.method, Method::Sobol { .. }) {
+    if matches!(found.method, UncertaintyMethod::Sobol { .. }) {
         column("share_error", &|part| part.share.error);
         column("total", &|part| part.total.map(|total| total.value));
         column("total_error", &|part| part.total?.error);
@@ -81,11 +81,11 @@ pub(crate) fn method(found: &Uncertainty) -> Map<String, Value> {
     let mut members = Map::new();
     let count = |n: usize| json!({ "value": n, "unit": "1" });
     match &found.method {
-        Method::Linear { differences } => {
+        UncertaintyMethod::Linear { differences } => {
             members.insert("method".into(), json!("linear"));
             members.insert("exact".into(), json!(differences.is_none()));
         }
-        Method::Sobol { samples, seed, runs, lost } => {
+        UncertaintyMethod::Sobol { samples, seed, runs, lost } => {
             members.insert("method".into(), json!("sobol"));
             members.insert("samples".into(), count(*samples));
             members.insert("seed".into(), json!(seed));

@@ -3,7 +3,7 @@
 use lptn_network::{Item, Network};
 use lptn_report::{Align, Column, Text, TextTable, WIDTH, decimals, duration, fixed, significant};
 use lptn_study::uncertainty::{
-    Answer, AnswerOf, Contribution, Discrepancy, Estimate, Method, Uncertainty,
+    Answer, AnswerOf, Contribution, Discrepancy, Estimate, Uncertainty, UncertaintyMethod,
 };
 use lptn_units::Unit;
 
@@ -32,12 +32,12 @@ pub(crate) fn sections(text: &mut Text, network: &Network, (study, unit): (&Stud
 fn heading(found: &Uncertainty) -> String {
     let parameters = count(found.inputs.len(), "parameter");
     match &found.method {
-        Method::Linear { differences } => {
+        UncertaintyMethod::Linear { differences } => {
             let exact =
                 if differences.is_none() { "exact sensitivities" } else { "differences of runs" };
             format!("{parameters} with ±, straight lines from {exact}")
         }
-        Method::Sobol { samples, seed, runs, .. } => {
+        UncertaintyMethod::Sobol { samples, seed, runs, .. } => {
             format!("{parameters} with ±, {samples} Sobol points, seed {seed}, {runs} runs")
         }
     }
@@ -114,8 +114,8 @@ fn margins(text: &mut Text, network: &Network, found: &Uncertainty) {
 /// How many samples there are; 0 where nothing is sampled.
 fn sampled(found: &Uncertainty) -> usize {
     match &found.method {
-        Method::Linear { .. } => 0,
-        Method::Sobol { samples, lost, .. } => {
+        UncertaintyMethod::Linear { .. } => 0,
+        UncertaintyMethod::Sobol { samples, lost, .. } => {
             samples.saturating_sub(lost.iter().map(|lost| lost.count).sum::<usize>())
         }
     }
@@ -197,7 +197,7 @@ fn side_by_side(
             part(answer, input).map_or("-".into(), text)
         };
         let title = format!("{} [{}]", name(network, answer.of), unit_of(network, answer.of));
-        let linear = matches!(found.method, Method::Linear { .. });
+        let linear = matches!(found.method, UncertaintyMethod::Linear { .. });
         table = table
             .right(title, |i| of(*i, &|part| signed(part.effect, digits)))
             .right(if linear { "share" } else { "alone" }, |i| {
@@ -277,7 +277,7 @@ fn wide<'a>(network: &'a Network, found: &'a Uncertainty) -> impl Iterator<Item 
 pub(crate) fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String> {
     let found = &study.found;
     let lost = match &found.method {
-        Method::Linear { differences } => {
+        UncertaintyMethod::Linear { differences } => {
             let note = |why: &String| {
                 format!(
                     "no exact sensitivities, they are differences of runs: {why}; the further a \
@@ -287,7 +287,7 @@ pub(crate) fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String
             };
             return differences.iter().map(note).chain(wide(network, found)).collect();
         }
-        Method::Sobol { lost, .. } => lost,
+        UncertaintyMethod::Sobol { lost, .. } => lost,
     };
     let parts = found.answers.iter().flat_map(|answer| &answer.ranking);
     let errors =

@@ -9,7 +9,7 @@ use lptn_netlist::{Diagnostic, RunSettings};
 use lptn_network::{Item, OutputTimes};
 use lptn_report::duration;
 use lptn_solve::{
-    Beyond, Lumping, Method, Periodic, PeriodicError, Table, Transient, Window, WindowSeen,
+    Beyond, CycleMethod, Lumping, Periodic, PeriodicError, Table, Transient, Window, WindowSeen,
 };
 use lptn_study::Scalar;
 use lptn_units::{Dimension, Problem as _};
@@ -229,9 +229,9 @@ impl View<'_> {
         let kelvin = |value: f64| Scalar::new(value, "K");
         json!({
             "method": match found.method {
-                Method::Modes => "modes",
-                Method::Shooting => "shooting",
-                Method::Stateless => "stateless",
+                CycleMethod::Modes => "modes",
+                CycleMethod::Shooting => "shooting",
+                CycleMethod::Stateless => "stateless",
             },
             "cycles": found.cycles,
             "steps": found.steps,

@@ -5,7 +5,7 @@ use std::io;
 use lptn_report::{
     Json, Page, Rows, Text, TextTable, decimals, duration, fixed, prefix, significant,
 };
-use lptn_solve::{ColumnSeen, Method};
+use lptn_solve::{ColumnSeen, CycleMethod};
 use lptn_study::{Scalar, StatisticsRecord};
 use lptn_units::Dimension;
 
@@ -136,9 +136,9 @@ fn found_section(text: &mut Text, view: &View<'_>) {
     let found = view.found;
     let kelvin = |value: f64| format!("{} K", significant(value, 2));
     let how = match found.method {
-        Method::Modes => "in closed form, mode by mode;",
-        Method::Shooting => "by shooting;",
-        Method::Stateless => "without a search, as nothing is stored;",
+        CycleMethod::Modes => "in closed form, mode by mode;",
+        CycleMethod::Shooting => "by shooting;",
+        CycleMethod::Stateless => "without a search, as nothing is stored;",
     };
     let mut pieces = vec![how.to_owned(), format!("{} integrated,", count(found.cycles, "cycle"))];
     pieces.push(format!("{} steps", found.steps));
@@ -160,7 +160,7 @@ fn found_section(text: &mut Text, view: &View<'_>) {
     ];
     text.labelled("settled: ", ends);
     if let (Some(tau), Some(rho)) = (view.slowest(), found.multiplier) {
-        let about = if found.method == Method::Modes { "" } else { "about " };
+        let about = if found.method == CycleMethod::Modes { "" } else { "about " };
         text.line(format!(
             "memory:  {about}{} % of a disturbance outlasts a cycle, time constant {}",
             significant(100.0 * rho, 3),
