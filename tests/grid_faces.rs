@@ -45,7 +45,7 @@ fn heat_is_conserved_over_every_face_and_the_whole_is_the_sum_of_its_parts() {
     assert!(ledger.closes() && ledger.relative_residual().unwrap().abs() < 1e-8, "{ledger:?}");
     let network = &netlist.network;
     let table = Table::of_solution(&run, &Selection::all(network), &netlist.temperature_unit);
-    for joint in network.joints() {
+    for joint in network.face_paths() {
         let all = column(&table, &format!("{}.Q", joint.name));
         let parts: Vec<Vec<f64>> =
             joint.conductors().map(|id| run.conductor_heat(id).unwrap()).collect();

@@ -18,7 +18,7 @@ fn temperature(netlist: &Netlist, steady: &SteadyState, node: &str) -> f64 {
 fn heat(netlist: &Netlist, steady: &SteadyState, name: &str) -> f64 {
     match netlist.network.item(name).unwrap() {
         Item::Conductor(id) => steady.conductor_heat[id.index()],
-        Item::Joint(id) => netlist.network.joints()[id.index()]
+        Item::FacePath(id) => netlist.network.face_paths()[id.index()]
             .conductors()
             .map(|c| steady.conductor_heat[c.index()])
             .sum(),

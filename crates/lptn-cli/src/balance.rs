@@ -166,7 +166,7 @@ fn other(network: &Network, term: &Term) -> String {
 /// The name of an end; that of the face for a path to all its cells.
 fn place(network: &Network, term: &Term, end: End) -> String {
     match (term.item, end) {
-        (Item::Joint(_), End::Node(id)) => network.place_name(id),
+        (Item::FacePath(_), End::Node(id)) => network.place_name(id),
         _ => network.name_of(end.into()).into_owned(),
     }
 }

@@ -284,8 +284,8 @@ impl Netlist {
                 let grid = &network.grids()[id.index()];
                 grid.size.iter().chain(&grid.conductivity).chain(&grid.initial).collect()
             }
-            Item::Joint(id) => {
-                let joint = &network.joints()[id.index()];
+            Item::FacePath(id) => {
+                let joint = &network.face_paths()[id.index()];
                 // the area of the face depends on the size of its grid
                 let grids = joint.faces().flat_map(|at| &network.grids()[at.grid.index()].size);
                 joint.area.iter().chain(grids).collect()

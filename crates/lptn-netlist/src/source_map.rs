@@ -20,8 +20,8 @@ pub struct SourceMap {
     conductors: Vec<(usize, &'static str)>,
     conductor_count: usize,
     /// The section of each path that ends at a face.
-    joints: Vec<&'static str>,
-    /// Nodes and conductors that are parts of grids and joints, by their indices, in order.
+    face_paths: Vec<&'static str>,
+    /// Nodes and conductors that are parts of grids and of paths to faces, by their indices, in order.
     inner_nodes: Vec<(Range<usize>, Item)>,
     inner_conductors: Vec<(Range<usize>, Item)>,
     /// The beginning of the file.
@@ -47,7 +47,7 @@ impl SourceMap {
         written.or_else(|| self.imports.iter().find_map(|places| places.get(item, field)))
     }
 
-    /// The grid or joint that a node or conductor is a part of.
+    /// The grid or path to a face that a node or conductor is a part of.
     fn whole(&self, item: Item) -> Option<Item> {
         let (parts, index) = match item {
             Item::Node(id) => (&self.inner_nodes, id.index()),
@@ -68,8 +68,8 @@ impl SourceMap {
     }
 
     /// Notes the section of the next path that ends at a face.
-    pub(crate) fn joint(&mut self, section: &'static str) {
-        self.joints.push(section);
+    pub(crate) fn face_path(&mut self, section: &'static str) {
+        self.face_paths.push(section);
     }
 
     /// The place of an item's name.
@@ -223,7 +223,7 @@ impl Naming for SourceMap {
                 let run = self.conductors.partition_point(|(first, _)| *first <= id.index());
                 run.checked_sub(1).map_or("path", |run| self.conductors[run].1)
             }
-            Item::Joint(id) => self.joints.get(id.index()).copied().unwrap_or("path"),
+            Item::FacePath(id) => self.face_paths.get(id.index()).copied().unwrap_or("path"),
             other => other.word(),
         }
     }

@@ -208,8 +208,8 @@ impl<'a> Walk<'a> {
                     .filter(|(_, c)| touches(c.from) || touches(c.to));
                 own.for_each(|(i, _)| self.go(Element::Conductor(i)));
             }
-            HeatOf::Joint(id) => {
-                let all = parts.joints[id.index()].conductors();
+            HeatOf::FacePath(id) => {
+                let all = parts.face_paths[id.index()].conductors();
                 all.for_each(|id| self.go(Element::Conductor(id.index())));
             }
         }

@@ -3,7 +3,7 @@
 
 use crate::error::{BuildError, BuildErrorKind};
 use crate::id::{
-    BoundaryId, CapacitorId, ConductorId, GridId, Item, JointId, LimitId, NodeId, SourceId,
+    BoundaryId, CapacitorId, ConductorId, FacePathId, GridId, Item, LimitId, NodeId, SourceId,
 };
 use crate::parts::Parts;
 use crate::parts::grid::{Face, GridFace};
@@ -39,7 +39,7 @@ fn elements(parts: &Parts) -> impl Iterator<Item = Item> {
     let sources = (0..parts.sources.len()).map(|i| Item::Source(SourceId::from_len(i)));
     let limits = (0..parts.limits.len()).map(|i| Item::Limit(LimitId::from_len(i)));
     let grids = (0..parts.grids.len()).map(|i| Item::Grid(GridId::from_len(i)));
-    let joints = (0..parts.joints.len()).map(|i| Item::Joint(JointId::from_len(i)));
+    let joints = (0..parts.face_paths.len()).map(|i| Item::FacePath(FacePathId::from_len(i)));
     nodes
         .chain(boundaries)
         .chain(capacitors)

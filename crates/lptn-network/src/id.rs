@@ -53,7 +53,7 @@ ids! {
     /// A grid: a block cut into cells.
     GridId;
     /// A path that ends at a face of a grid.
-    JointId;
+    FacePathId;
 }
 
 /// One end of a conductor.
@@ -109,7 +109,7 @@ pub enum Item {
     /// A grid.
     Grid(GridId),
     /// A path that ends at a face of a grid.
-    Joint(JointId),
+    FacePath(FacePathId),
 }
 
 impl From<End> for Item {
@@ -129,7 +129,7 @@ impl Item {
             Self::Node(_) => "node",
             Self::Boundary(_) => "boundary",
             Self::Capacitor(_) => "capacitor",
-            Self::Conductor(_) | Self::Joint(_) => "path",
+            Self::Conductor(_) | Self::FacePath(_) => "path",
             Self::Source(_) => "source",
             Self::Limit(_) => "limit",
             Self::Material(_) => "material",

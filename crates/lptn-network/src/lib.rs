@@ -49,7 +49,7 @@ pub use error::{BuildError, BuildErrorKind, BuildErrors};
 pub use error_words::{Naming, Say};
 pub use evaluation::Evaluation;
 pub use id::{
-    BoundaryId, CapacitorId, ConductorId, ControlId, End, Field, FluidId, GridId, Item, JointId,
+    BoundaryId, CapacitorId, ConductorId, ControlId, End, FacePathId, Field, FluidId, GridId, Item,
     LawField, LimitId, MaterialId, NodeId, ParameterId, ReportId, SignalId, SourceId, SwitchId,
     TableId,
 };
@@ -62,7 +62,7 @@ pub use network::body::Surface;
 pub use parameters::{ParameterError, Parameters};
 pub use parts::control::{Acts, Control, Thermostat};
 pub use parts::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
-pub use parts::grid::{Face, Grid, GridFace, Joint, MOST_CELLS, Substance, Terminal};
+pub use parts::grid::{Face, FacePath, Grid, GridFace, MOST_CELLS, Substance, Terminal};
 pub use parts::grid_value::GridValue;
 pub use parts::heat::HeatOf;
 pub use parts::result::{Bound, Limit, LimitSeverity, Report};

@@ -70,7 +70,7 @@ fn cells_share_the_block() {
     assert_eq!(grid.nodes().len(), 12);
     assert_eq!((network.outer_nodes().count(), network.outer_conductors().count()), (0, 0));
     assert_eq!(network.whole(Item::Node(grid.cell(&[1, 1, 1]).unwrap())), Some(Item::Grid(id)));
-    assert_eq!((network.grid_ids().len(), network.joint_ids().len()), (1, 0));
+    assert_eq!((network.grid_ids().len(), network.face_path_ids().len()), (1, 0));
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn a_film_on_a_face() {
     let area = b.face_area(at).unwrap();
     let film = Path::film(quantity("5 W/(m^2 K)"), area);
     let item = b.connect("film", ConductorKind::Convection, (at, air), film);
-    let Item::Joint(id) = item else { panic!("{item:?}") };
+    let Item::FacePath(id) = item else { panic!("{item:?}") };
     let network = b.build().unwrap();
     assert_eq!(network.nodes().len(), 6 + 2);
     let names: Vec<&str> = network.nodes()[6..].iter().map(|node| node.name.as_str()).collect();
@@ -135,10 +135,10 @@ fn a_film_on_a_face() {
         let names = [c.from, c.to].map(|end| network.name_of(end.into()).into_owned());
         assert!(names.contains(&cell.to_owned()), "{names:?}");
     }
-    let joint = &network.joints()[id.index()];
+    let joint = &network.face_paths()[id.index()];
     assert_eq!(joint.conductors().len(), 2);
     assert_eq!(joint.faces().collect::<Vec<_>>(), [at]);
-    assert_eq!(network.shared_joints().collect::<Vec<_>>(), [id]);
+    assert_eq!(network.shared_face_paths().collect::<Vec<_>>(), [id]);
     assert_eq!(
         (network.terminal_name(joint.from), network.terminal_name(joint.to)),
         ("wall.x1".into(), "air".into())
@@ -195,8 +195,10 @@ fn every_law_is_shared_between_the_cells_of_a_face() {
         let air = b.boundary("air", Temperature(290.0));
         b.connect("p", kind, (air, GridFace { grid, face: Face::X0 }), path);
         let network = b.build().unwrap();
-        let parts: Vec<f64> =
-            network.joints()[0].conductors().map(|id| network.conductance(id).unwrap()).collect();
+        let parts: Vec<f64> = network.face_paths()[0]
+            .conductors()
+            .map(|id| network.conductance(id).unwrap())
+            .collect();
         assert_eq!(parts.len(), 4);
         parts.iter().for_each(|part| near(*part, whole / 4.0));
         assert_eq!(ends(&network, "p[3]"), ["air", "wall.x0[3]"]);
@@ -214,7 +216,7 @@ fn every_law_is_shared_between_the_cells_of_a_face() {
             exchange,
         );
         let network = b.build().unwrap();
-        for id in network.joints()[0].conductors() {
+        for id in network.face_paths()[0].conductors() {
             assert!(matches!(network.flow(id), Flow::Radiation(gr) if (gr - 0.01).abs() < 1e-15));
         }
     }
@@ -235,7 +237,7 @@ fn two_faces_are_joined_cell_by_cell() {
     let network = b.build().unwrap();
     assert_eq!(ends(&network, "glue[2]"), ["wall.x1[2]", "other.x0[2]"]);
     near(conductance(&network, "glue[3]"), 100.0 * 0.08 / 3.0);
-    assert_eq!(network.joints()[0].faces().count(), 2);
+    assert_eq!(network.face_paths()[0].faces().count(), 2);
 }
 
 #[test]
@@ -251,7 +253,7 @@ fn a_path_to_the_end_of_a_rod_is_an_ordinary_conductor() {
     let network = b.build().unwrap();
     near(conductance(&network, "tip"), 2.0);
     assert_eq!(ends(&network, "tip"), ["wall.x1", "air"]);
-    assert_eq!(network.shared_joints().count(), 0);
+    assert_eq!(network.shared_face_paths().count(), 0);
     let shown: Vec<String> = network.grid_values().map(|value| value.name(&network)).collect();
     assert_eq!(
         shown,

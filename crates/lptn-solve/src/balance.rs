@@ -1,7 +1,7 @@
 //! Heat into and out of one node or boundary: every path and source that reaches it.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{ConductorId, End, InputError, Item, JointId, Network, Received, SourceId};
+use lptn_network::{ConductorId, End, FacePathId, InputError, Item, Network, Received, SourceId};
 
 use crate::ledger::{self, Ledger};
 
@@ -41,8 +41,8 @@ impl Balance {
         let terms = Books::new(network, Some(of)).kinds.into_iter().map(|kind| {
             let power = match kind {
                 Kind::Conductor(id, side) => received[id.index()][side],
-                Kind::Joint(id, side) => {
-                    let parts = network.joints()[id.index()].conductors();
+                Kind::FacePath(id, side) => {
+                    let parts = network.face_paths()[id.index()].conductors();
                     parts.map(|part| received[part.index()][side]).sum()
                 }
                 Kind::Source(id, share) => share * source_heat[id.index()],
@@ -95,7 +95,7 @@ enum Kind {
     /// A conductor, and which of its ends the node is.
     Conductor(ConductorId, usize),
     /// A path to a face of a grid, and which of its ends the node is.
-    Joint(JointId, usize),
+    FacePath(FacePathId, usize),
     /// A source, and the share of its heat.
     Source(SourceId, f64),
 }
@@ -116,14 +116,14 @@ impl Books {
             .filter_map(|(c, id)| {
                 let side = [c.from, c.to].iter().position(|&e| e == end)?;
                 Some(match network.whole(Item::Conductor(id)) {
-                    Some(Item::Joint(whole)) if alone => Kind::Joint(whole, side),
+                    Some(Item::FacePath(whole)) if alone => Kind::FacePath(whole, side),
                     _ => Kind::Conductor(id, side),
                 })
             })
             .collect();
         // the parts of a path to a face follow one another
         kinds.dedup_by_key(|kind| match *kind {
-            Kind::Joint(id, _) => (Some(id), None),
+            Kind::FacePath(id, _) => (Some(id), None),
             Kind::Conductor(id, _) => (None, Some(Item::Conductor(id))),
             Kind::Source(id, _) => (None, Some(Item::Source(id))),
         });
@@ -189,8 +189,8 @@ impl Kind {
     fn power(self, system: &ThermalSystem, work: &mut Workspace) -> Result<f64, InputError> {
         Ok(match self {
             Self::Conductor(id, side) => system.received(work, id)?[side],
-            Self::Joint(id, side) => {
-                let parts = system.network().joints()[id.index()].conductors();
+            Self::FacePath(id, side) => {
+                let parts = system.network().face_paths()[id.index()].conductors();
                 parts
                     .map(|part| Ok(system.received(work, part)?[side]))
                     .sum::<Result<f64, InputError>>()?
@@ -206,11 +206,11 @@ impl Kind {
                 let other = if side == 0 { conductor.to } else { conductor.from };
                 Term { item: Item::Conductor(id), other: Some(other), power, heat }
             }
-            Self::Joint(id, side) => {
-                let first = network.joints()[id.index()].conductors().next();
+            Self::FacePath(id, side) => {
+                let first = network.face_paths()[id.index()].conductors().next();
                 let first = first.map(|id| &network.conductors()[id.index()]);
                 let other = first.map(|c| if side == 0 { c.to } else { c.from });
-                Term { item: Item::Joint(id), other, power, heat }
+                Term { item: Item::FacePath(id), other, power, heat }
             }
             Self::Source(id, _) => Term { item: Item::Source(id), other: None, power, heat },
         }

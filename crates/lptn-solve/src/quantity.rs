@@ -24,7 +24,7 @@ impl Quantity {
     pub(crate) fn all(network: &Network) -> impl Iterator<Item = Self> {
         let nodes = network.outer_nodes().map(Self::Node);
         let paths = network.outer_conductors().flat_map(|id| network.heats_of(id));
-        let joints = network.shared_joints().map(HeatOf::Joint);
+        let joints = network.shared_face_paths().map(HeatOf::FacePath);
         nodes
             .chain(network.grid_values().map(Self::Grid))
             .chain(network.boundary_ids().map(Self::BoundaryTemperature))
@@ -55,7 +55,7 @@ impl Quantity {
             Self::BoundaryTemperature(id) => (2, id.index(), 0),
             Self::Heat(HeatOf::Conductor(id) | HeatOf::ReceivedFrom(id)) => (3, id.index(), 0),
             Self::Heat(HeatOf::ReceivedTo(id)) => (3, id.index(), 1),
-            Self::Heat(HeatOf::Joint(id)) => (4, id.index(), 0),
+            Self::Heat(HeatOf::FacePath(id)) => (4, id.index(), 0),
             Self::Heat(HeatOf::Source(id)) => (5, id.index(), 0),
             Self::Heat(HeatOf::Boundary(id)) => (6, id.index(), 0),
             Self::Signal(id) => (7, id.index(), 0),

@@ -91,8 +91,8 @@ fn heat_of(
             Ok(if known { system.source_powers(work)[id.index()] } else { f64::NAN })
         }
         HeatOf::Boundary(id) => Ok(boundary_heat[id.index()]),
-        HeatOf::Joint(id) => {
-            let parts = system.network().joints()[id.index()].conductors();
+        HeatOf::FacePath(id) => {
+            let parts = system.network().face_paths()[id.index()].conductors();
             parts.map(|part| Ok(system.received(work, part)?[1])).sum()
         }
     }

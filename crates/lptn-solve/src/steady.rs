@@ -243,8 +243,8 @@ impl SteadyState {
             HeatOf::ReceivedFrom(id) => self.received[id.index()][0],
             HeatOf::Source(id) => self.source_heat[id.index()],
             HeatOf::Boundary(id) => self.boundary_heat[id.index()],
-            HeatOf::Joint(id) => {
-                let parts = network.joints()[id.index()].conductors();
+            HeatOf::FacePath(id) => {
+                let parts = network.face_paths()[id.index()].conductors();
                 parts.map(|part| self.received[part.index()][1]).sum()
             }
         }

@@ -32,8 +32,8 @@ impl<'a> Elaboration<'a> {
         let before = self.builder.sizes();
         let item = self.builder.connect(&entry.key, of.kind, (from.0, to.0), path);
         match item {
-            Item::Joint(_) => {
-                self.map.joint(section.name);
+            Item::FacePath(_) => {
+                self.map.face_path(section.name);
                 self.note_parts(before, item, section.name);
             }
             _ => self.map.conductor(section.name),

@@ -1,8 +1,8 @@
 //! Builds a network and checks that it is one.
 
 pub(crate) mod control;
+pub(crate) mod face_path;
 pub(crate) mod grid;
-pub(crate) mod joint;
 pub(crate) mod lookup;
 pub(crate) mod numbered;
 pub(crate) mod result;

@@ -1,6 +1,6 @@
 //! Grids as a whole.
 
-use crate::id::{ConductorId, Item, JointId, NodeId};
+use crate::id::{ConductorId, FacePathId, Item, NodeId};
 use crate::network::Network;
 use crate::parts::grid::{Face, Terminal};
 use crate::parts::grid_value::GridValue;
@@ -80,8 +80,8 @@ impl Network {
 
     /// The paths to faces that are more than one conductor, whose heat is a sum; the others are
     /// ordinary conductors.
-    pub fn shared_joints(&self) -> impl Iterator<Item = JointId> + '_ {
-        self.parts.shared_joints()
+    pub fn shared_face_paths(&self) -> impl Iterator<Item = FacePathId> + '_ {
+        self.parts.shared_face_paths()
     }
 }
 

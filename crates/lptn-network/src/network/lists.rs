@@ -3,13 +3,13 @@
 use lptn_units::TableSymbol;
 
 use crate::id::{
-    BoundaryId, CapacitorId, ConductorId, ControlId, FluidId, GridId, JointId, LimitId, MaterialId,
-    NodeId, ParameterId, ReportId, SignalId, SourceId, SwitchId, TableId,
+    BoundaryId, CapacitorId, ConductorId, ControlId, FacePathId, FluidId, GridId, LimitId,
+    MaterialId, NodeId, ParameterId, ReportId, SignalId, SourceId, SwitchId, TableId,
 };
 use crate::network::Network;
 use crate::parts::control::Control;
 use crate::parts::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
-use crate::parts::grid::{Grid, Joint};
+use crate::parts::grid::{FacePath, Grid};
 use crate::parts::result::{Limit, Report};
 use crate::parts::signal::Signal;
 use crate::parts::substance::{Fluid, Material};
@@ -46,7 +46,7 @@ lists! {
     "materials" materials: Material, material_ids: MaterialId;
     "fluids" fluids: Fluid, fluid_ids: FluidId;
     "grids" grids: Grid, grid_ids: GridId;
-    "paths that end at faces of grids" joints: Joint, joint_ids: JointId;
+    "paths that end at faces of grids" face_paths: FacePath, face_path_ids: FacePathId;
 }
 
 impl Network {

@@ -1,7 +1,7 @@
 //! Checks the numbers of grids and of what ends at their faces.
 
 use crate::error::BuildErrorKind;
-use crate::id::{Field, GridId, Item, JointId};
+use crate::id::{FacePathId, Field, GridId, Item};
 use crate::numbers::Work;
 use crate::parts::grid::{GridFace, Substance};
 use lptn_laws::Range;
@@ -38,15 +38,15 @@ impl Work<'_> {
 
     /// What ends at a face has the area of the face, and two faces that are joined are of the same
     /// size.
-    pub(crate) fn check_joints(&mut self) {
+    pub(crate) fn check_face_paths(&mut self) {
         let parts = self.parts;
-        for (i, joint) in parts.joints.iter().enumerate() {
-            let item = Item::Joint(JointId::from_len(i));
-            let faces: Vec<GridFace> = joint.faces().collect();
-            if let ([a, b], true) = (&faces[..], joint.conductors().len() > 0) {
+        for (i, face_path) in parts.face_paths.iter().enumerate() {
+            let item = Item::FacePath(FacePathId::from_len(i));
+            let faces: Vec<GridFace> = face_path.faces().collect();
+            if let ([a, b], true) = (&faces[..], face_path.conductors().len() > 0) {
                 self.check_sides(item, [*a, *b]);
             }
-            let constant = joint.area.as_ref().filter(|area| parts.reads(area).is_constant());
+            let constant = face_path.area.as_ref().filter(|area| parts.reads(area).is_constant());
             if let (Some(area), Some(&face)) = (constant, faces.first()) {
                 let given = area.at(&mut self.scope).unwrap_or(f64::NAN);
                 let [u, v] = self.sides(face);

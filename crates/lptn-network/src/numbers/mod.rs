@@ -61,7 +61,7 @@ impl Numbers {
         let initial = work.initials();
         let capacity = work.capacities(&initial);
         let flows = work.flows();
-        work.check_joints();
+        work.check_face_paths();
         work.check_inputs();
         work.check_limits();
         let min_dwell = work.controls();

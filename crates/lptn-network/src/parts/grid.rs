@@ -223,7 +223,7 @@ impl From<GridFace> for Terminal {
 
 /// A path that ends at a face: one conductor for each cell, which share its conductance or area.
 #[derive(Clone, Debug)]
-pub struct Joint {
+pub struct FacePath {
     /// Its name, unique among nodes, boundaries and elements.
     pub name: String,
     /// The section it stands in.
@@ -238,7 +238,7 @@ pub struct Joint {
     pub(crate) end: u32,
 }
 
-impl Joint {
+impl FacePath {
     /// Its conductors, `NAME[j,k]` by the cells of the face it starts at, else of that it ends at.
     /// At the end of a rod, whose cell has no index there, it is one, named as the path itself.
     pub fn conductors(&self) -> impl ExactSizeIterator<Item = ConductorId> + use<> {

@@ -1,6 +1,6 @@
 //! Heat flows of the results, by name.
 
-use crate::id::{BoundaryId, ConductorId, Item, JointId, SourceId};
+use crate::id::{BoundaryId, ConductorId, FacePathId, Item, SourceId};
 
 /// A heat flow of the results, in W.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -16,7 +16,7 @@ pub enum HeatOf {
     /// `NAME.Q` of a boundary: what it gives to the network.
     Boundary(BoundaryId),
     /// `NAME.Q` of a path that ends at a face of a grid: the sum over its conductors.
-    Joint(JointId),
+    FacePath(FacePathId),
 }
 
 impl HeatOf {
@@ -28,14 +28,14 @@ impl HeatOf {
             }
             Self::Source(id) => Item::Source(id),
             Self::Boundary(id) => Item::Boundary(id),
-            Self::Joint(id) => Item::Joint(id),
+            Self::FacePath(id) => Item::FacePath(id),
         }
     }
 
     /// The name of its column; `name` is that of its item.
     pub(crate) fn named(self, name: &str) -> String {
         let ending = match self {
-            Self::Conductor(_) | Self::Boundary(_) | Self::Joint(_) => "Q",
+            Self::Conductor(_) | Self::Boundary(_) | Self::FacePath(_) => "Q",
             Self::ReceivedFrom(_) => "Q_from",
             Self::ReceivedTo(_) => "Q_to",
             Self::Source(_) => "P",

@@ -28,7 +28,7 @@ use crate::name_index::NameIndex;
 use crate::parts::control::Control;
 use crate::parts::dependence::Dependence;
 use crate::parts::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
-use crate::parts::grid::{Grid, Inner, Joint};
+use crate::parts::grid::{FacePath, Grid, Inner};
 use crate::parts::label::{CONDUCTOR, Label, parsed};
 use crate::parts::layout::Layout;
 use crate::parts::result::{Limit, Report};
@@ -54,7 +54,7 @@ pub(crate) struct Parts {
     pub(crate) materials: Vec<Material>,
     pub(crate) fluids: Vec<Fluid>,
     pub(crate) grids: Vec<Grid>,
-    pub(crate) joints: Vec<Joint>,
+    pub(crate) face_paths: Vec<FacePath>,
     /// The nodes and conductors that are parts of grids and joints, in order.
     pub(crate) inner_nodes: Vec<Inner>,
     pub(crate) inner_conductors: Vec<Inner>,
@@ -123,7 +123,7 @@ impl Parts {
             Item::Report(id) => &self.reports[id.index()].name,
             Item::Control(id) => &self.controls[id.index()].name,
             Item::Grid(id) => &self.grids[id.index()].name,
-            Item::Joint(id) => &self.joints[id.index()].name,
+            Item::FacePath(id) => &self.face_paths[id.index()].name,
         };
         name.into()
     }

@@ -29,7 +29,7 @@ impl Parts {
             (Item::Conductor(id), "Q_to") if stream(&id) => Some(HeatOf::ReceivedTo(id)),
             (Item::Source(id), "P") => Some(HeatOf::Source(id)),
             (Item::Boundary(id), "Q") => Some(HeatOf::Boundary(id)),
-            (Item::Joint(id), "Q") => Some(HeatOf::Joint(id)),
+            (Item::FacePath(id), "Q") => Some(HeatOf::FacePath(id)),
             _ => None,
         }
     }
@@ -48,7 +48,7 @@ impl Parts {
         let sources = (0..self.sources.len()).map(|i| HeatOf::Source(SourceId::from_len(i)));
         let boundaries =
             (0..self.boundaries.len()).map(|i| HeatOf::Boundary(BoundaryId::from_len(i)));
-        let joints = self.shared_joints().map(HeatOf::Joint);
+        let joints = self.shared_face_paths().map(HeatOf::FacePath);
         conductors.chain(sources).chain(boundaries).chain(joints).map(|heat| self.heat_name(heat))
     }
 

@@ -1,9 +1,9 @@
 //! Cells, surfaces and the conductors of a path to a face, as parts of a whole.
 
 use crate::error::BuildError;
-use crate::id::{ConductorId, Item, JointId, NodeId};
+use crate::id::{ConductorId, FacePathId, Item, NodeId};
 use crate::parts::Parts;
-use crate::parts::grid::{Inner, Joint};
+use crate::parts::grid::{FacePath, Inner};
 
 fn whole_of(inner: &[Inner], index: u32) -> Option<Item> {
     let place = inner.partition_point(|part| part.end <= index);
@@ -21,11 +21,11 @@ impl Parts {
     }
 
     /// The joints of more than one conductor; the others are known by their conductor.
-    pub(crate) fn shared_joints(&self) -> impl Iterator<Item = JointId> + '_ {
-        let shared = |(_, joint): &(usize, &Joint)| {
+    pub(crate) fn shared_face_paths(&self) -> impl Iterator<Item = FacePathId> + '_ {
+        let shared = |(_, joint): &(usize, &FacePath)| {
             joint.conductors().next().is_some_and(|id| self.whole(Item::Conductor(id)).is_some())
         };
-        self.joints.iter().enumerate().filter(shared).map(|(i, _)| JointId::from_len(i))
+        self.face_paths.iter().enumerate().filter(shared).map(|(i, _)| FacePathId::from_len(i))
     }
 
     /// Whether a node and the one before it belong to one grid and have the same values: what holds

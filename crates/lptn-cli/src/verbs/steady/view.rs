@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::io;
 
 use lptn_netlist::Diagnostic;
-use lptn_network::{ConductorId, GridValue, HeatOf, Item, JointId, Network, NodeId};
+use lptn_network::{ConductorId, FacePathId, GridValue, HeatOf, Item, Network, NodeId};
 use lptn_report::{
     Json, Page, Rows, Text, TextTable, decimals, fixed, prefix, shortened, significant,
 };
@@ -89,8 +89,8 @@ impl Row {
             Of::Grid(GridValue::Min(_)) => "coldest cell".into(),
             Of::Grid(GridValue::Max(_)) => "hottest cell".into(),
             Of::Grid(_) => "mean of the face".into(),
-            Of::Heat(HeatOf::Joint(id)) => {
-                let joint = &network.joints()[id.index()];
+            Of::Heat(HeatOf::FacePath(id)) => {
+                let joint = &network.face_paths()[id.index()];
                 let [from, to] =
                     [joint.from, joint.to].map(|terminal| network.terminal_name(terminal));
                 format!("{from} -> {to}")
@@ -132,8 +132,8 @@ impl View<'_> {
     }
 
     /// The heat that the end of a path to a face receives.
-    fn through(&self, id: JointId) -> f64 {
-        let joint = &self.input.netlist.network.joints()[id.index()];
+    fn through(&self, id: FacePathId) -> f64 {
+        let joint = &self.input.netlist.network.face_paths()[id.index()];
         joint.conductors().map(|id| self.steady.received[id.index()][1]).sum()
     }
 
@@ -151,7 +151,8 @@ impl View<'_> {
         let sources = network.source_ids().zip(&self.steady.source_heat);
         let boundaries = network.boundary_ids().zip(&self.steady.boundary_heat);
         let sources = sources.map(|(id, &value)| row(HeatOf::Source(id), value));
-        let joints = network.shared_joints().map(|id| row(HeatOf::Joint(id), self.through(id)));
+        let joints =
+            network.shared_face_paths().map(|id| row(HeatOf::FacePath(id), self.through(id)));
         let boundaries = boundaries.map(|(id, &value)| row(HeatOf::Boundary(id), value));
         sources.chain(paths).chain(joints).chain(boundaries).collect()
     }

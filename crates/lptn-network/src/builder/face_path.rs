@@ -6,8 +6,8 @@ use lptn_units::Dimension;
 use crate::builder::grid::{product, scaled, typed};
 use crate::builder::{NetworkBuilder, Path};
 use crate::error::BuildErrorKind;
-use crate::id::{End, GridId, Item, JointId, NodeId};
-use crate::parts::grid::{GridFace, Joint, Terminal};
+use crate::id::{End, FacePathId, GridId, Item, NodeId};
+use crate::parts::grid::{FacePath, GridFace, Terminal};
 use crate::value::{Input, Value};
 
 impl NetworkBuilder {
@@ -28,39 +28,45 @@ impl NetworkBuilder {
         if let (Terminal::End(from), Terminal::End(to)) = (from, to) {
             return Item::Conductor(self.conductor(name, kind, (from, to), path));
         }
-        let item = Item::Joint(JointId::from_len(self.parts.joints.len()));
+        let item = Item::FacePath(FacePathId::from_len(self.parts.face_paths.len()));
         let first = self.next_conductor();
         let (name, area) = (name.to_owned(), path.area());
-        let joint = Joint { name, kind, from, to, area, first, end: first };
-        match self.joint_problem(&joint, item, path.is_stream()) {
+        let face_path = FacePath { name, kind, from, to, area, first, end: first };
+        match self.face_path_problem(&face_path, item, path.is_stream()) {
             Some(problem) => {
-                self.error(&joint.name, problem);
-                self.register(&joint.name, item);
-                self.parts.joints.push(joint);
+                self.error(&face_path.name, problem);
+                self.register(&face_path.name, item);
+                self.parts.face_paths.push(face_path);
                 item
             }
-            None => self.join(joint, (item, path)),
+            None => self.join(face_path, (item, path)),
         }
     }
 
-    fn join(&mut self, mut joint: Joint, (item, path): (Item, Path)) -> Item {
-        let named = joint.faces().next();
+    fn join(&mut self, mut face_path: FacePath, (item, path): (Item, Path)) -> Item {
+        let named = face_path.faces().next();
         let indices = named.map_or_else(Vec::new, |at| self.face_indices(at));
         let path = path.shared(indices.len() as f64);
-        let (from, to) = (self.ends(joint.from, indices.len()), self.ends(joint.to, indices.len()));
-        joint.first = self.next_conductor();
+        let (from, to) =
+            (self.ends(face_path.from, indices.len()), self.ends(face_path.to, indices.len()));
+        face_path.first = self.next_conductor();
         let whole = indices.iter().any(|index| !index.is_empty());
         if whole {
-            self.register(&joint.name, item);
+            self.register(&face_path.name, item);
         }
         for ((from, to), index) in from.into_iter().zip(to).zip(&indices) {
-            self.conductor(&format!("{}{index}", joint.name), joint.kind, (from, to), path.clone());
+            self.conductor(
+                &format!("{}{index}", face_path.name),
+                face_path.kind,
+                (from, to),
+                path.clone(),
+            );
         }
-        joint.end = self.next_conductor();
+        face_path.end = self.next_conductor();
         if whole {
-            self.inner_conductors(joint.first, item);
+            self.inner_conductors(face_path.first, item);
         }
-        self.parts.joints.push(joint);
+        self.parts.face_paths.push(face_path);
         item
     }
 
@@ -80,8 +86,13 @@ impl NetworkBuilder {
     }
 
     /// Why a path cannot end where it should.
-    fn joint_problem(&self, joint: &Joint, item: Item, stream: bool) -> Option<BuildErrorKind> {
-        let faces: Vec<GridFace> = joint.faces().collect();
+    fn face_path_problem(
+        &self,
+        face_path: &FacePath,
+        item: Item,
+        stream: bool,
+    ) -> Option<BuildErrorKind> {
+        let faces: Vec<GridFace> = face_path.faces().collect();
         if faces.iter().any(|at| at.grid.index() >= self.parts.grids.len()) {
             return Some(BuildErrorKind::ForeignId { item });
         }
