@@ -53,11 +53,10 @@ fn a_key_that_is_misspelt_is_refused_with_what_there_is() {
 }
 
 fn page() -> String {
-    let mut text = "# Sections and keys\n\nEvery section of a netlist with its keys, as they are \
-        declared. \
-                    [The reference](netlist.md) says\nhow they belong together. `LPTN_BLESS=1 \
-                    cargo test \
-                    --test sections` writes this page.\n"
+    let mut text = "# Sections and keys\n\n\
+        Every section of a netlist with its keys, as they are declared. \
+        [The reference](netlist.md) says\nhow they belong together. \
+        `LPTN_BLESS=1 cargo test --test sections` writes this page.\n"
         .to_owned();
     for section in &format().sections {
         let name = section.name;
