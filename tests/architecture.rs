@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// From the ground up: a crate may use only those before it.
-const ORDER: [&str; 15] = [
+const ORDER: [&str; 16] = [
+    "lptn-plot",
     "lptn-units",
     "lptn-laws",
     "lptn-network",
