@@ -1,6 +1,6 @@
 //! Lines, dots, bands and bars of a panel.
 
-use super::Area;
+use super::area::Area;
 use crate::figure::{Curve, Look, Panel, Scale};
 use crate::ink::{Ink, SERIES};
 use crate::scene::{Dash, Path, Scene, Step, Stroke, circle, line, polygon};

@@ -1,6 +1,7 @@
 //! Axes, grid lines, limits and moments of a panel.
 
-use super::{Area, NAME, SMALL, range, shortened};
+use super::area::{Area, NAME, SMALL, shortened};
+use super::range;
 use crate::figure::{Panel, Scale};
 use crate::font::width;
 use crate::ink::Ink;

@@ -1,6 +1,7 @@
 //! Names at the ends of curves, which need no legend and no colour to be told apart.
 
-use super::{Area, NAME, curves, shortened};
+use super::area::{Area, NAME, shortened};
+use super::curves;
 use crate::figure::{Panel, Scale};
 use crate::ink::Ink;
 use crate::scene::{Scene, Stroke, Text, line};

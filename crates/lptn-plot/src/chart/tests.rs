@@ -1,5 +1,6 @@
+use super::area::shortened;
 use super::labels::apart;
-use super::{scene, shortened, wrapped};
+use super::{scene, wrapped};
 use crate::figure::{Axis, Curve, Figure, Level, Look, Moment, Panel};
 use crate::font::width;
 use crate::scene::{Scene, Shape};

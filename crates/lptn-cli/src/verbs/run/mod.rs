@@ -2,6 +2,7 @@
 
 mod args;
 mod events;
+mod figure;
 mod gaps;
 pub(crate) mod job;
 mod next;
