@@ -19,7 +19,7 @@ pub(crate) struct Console {
     pub(crate) verbose: bool,
     styled_results: bool,
     styled_messages: bool,
-    plot: Option<Drawing>,
+    pub(crate) plot: Option<Drawing>,
 }
 
 impl Console {

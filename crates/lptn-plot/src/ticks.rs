@@ -126,9 +126,9 @@ const TIMES: [(&str, f64, &[f64]); 5] = [
     ("d", 86400.0, &[1.0, 2.0, 5.0, 7.0, 10.0, 20.0, 30.0, 50.0, 100.0]),
 ];
 
-/// The unit in which a time of this length is told: one of which there are at least two.
+/// The unit in which a time of this length is told: one of which there are at least three.
 fn time_unit(length: f64) -> (&'static str, f64, &'static [f64]) {
-    let fits = |unit: &&(_, f64, _)| length >= 2.0 * unit.1;
+    let fits = |unit: &&(_, f64, _)| length >= 3.0 * unit.1;
     *TIMES.iter().rev().find(fits).unwrap_or(&TIMES[0])
 }
 

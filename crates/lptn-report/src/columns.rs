@@ -30,7 +30,7 @@ pub fn panels(table: &Table) -> (Vec<Panel>, usize) {
         left_out += all.len() - shown.len();
         let name = key.0.name().unwrap_or(if all.len() == 1 { &column.name } else { "" });
         let mut panel = Panel::new(across(first), Axis::linear(name, key.1));
-        panel.curves = shown.into_iter().map(|column| curve(first, column)).collect();
+        shown.into_iter().for_each(|column| add(&mut panel.curves, curve(first, column)));
         panels.push(panel);
     }
     let share = if panels.len() > 2 { 0.6 } else { 1.0 };
@@ -81,6 +81,14 @@ fn curve(first: &Column, column: &Column) -> Curve {
     Curve::line(name, first.values.iter().copied().zip(column.values.iter().copied()).collect())
 }
 
+/// Adds a curve; one that lies on another takes its name along.
+fn add(curves: &mut Vec<Curve>, curve: Curve) {
+    match curves.iter_mut().find(|other| other.points == curve.points) {
+        Some(other) => other.name += &format!(", {}", curve.name),
+        None => curves.push(curve),
+    }
+}
+
 /// Those that reach highest, in the order of the table.
 fn highest<'a>(columns: &[&'a Column]) -> Vec<&'a Column> {
     let peak = |column: &Column| {
@@ -115,5 +123,15 @@ mod tests {
         let temperatures: Vec<&str> =
             panels[1].curves.iter().map(|curve| curve.name.as_str()).collect();
         assert_eq!((temperatures.len(), temperatures[0]), (12, "n2"));
+    }
+
+    #[test]
+    fn curves_that_lie_on_each_other_are_one() {
+        let mut table = Table::of(&[0.0, 60.0]);
+        table.column("time", "s", |time| *time);
+        table.column("bed.T", "degC", |_| 25.0);
+        table.column("air.T", "degC", |_| 25.0);
+        let curves = panels(&table.done()).0.remove(0).curves;
+        assert_eq!((curves.len(), curves[0].name.as_str()), (1, "bed, air"));
     }
 }

@@ -49,7 +49,7 @@ impl Selection {
             for (pattern, found) in
                 patterns.iter().zip(&mut found).filter(|(pattern, _)| asked(pattern))
             {
-                let fits = matches(pattern, &name);
+                let fits = name_matches(pattern, &name);
                 (*found, any) = (*found || fits, any || fits);
             }
             any
@@ -106,7 +106,7 @@ fn named(network: &Network, patterns: &[String]) -> Option<Vec<Quantity>> {
 
 /// Whether `name` has the form of `pattern`. Greedy with one place to go back to, so linear but for
 /// the product of the two lengths.
-fn matches(pattern: &str, name: &str) -> bool {
+pub fn name_matches(pattern: &str, name: &str) -> bool {
     let (pattern, name) = (pattern.as_bytes(), name.as_bytes());
     let (mut p, mut n, mut star) = (0, 0, None);
     while n < name.len() {

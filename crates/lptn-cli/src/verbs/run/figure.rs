@@ -4,17 +4,17 @@ use lptn_network::Network;
 use lptn_plot::Figure;
 use lptn_plot::figure::{Curve, Moment, Panel};
 use lptn_report::{MOST_CURVES, TEMPERATURE, panels};
-use lptn_solve::{Event, EventKind};
+use lptn_solve::Event;
 
 use super::outcome::Outcome;
 use crate::limits;
 
 /// More events than this would hide the curves.
-const MOST_EVENTS: usize = 24;
+pub(crate) const MOST_EVENTS: usize = 24;
 
 impl Outcome<'_> {
     /// The selected columns over time.
-    pub(super) fn figure(&self) -> Figure {
+    pub(crate) fn figure(&self) -> Figure {
         let (network, unit) = (self.solution.network(), &self.job.unit);
         let (mut panels, left_out) = panels(&self.table);
         limits::mark(&mut panels, network, unit);
@@ -71,16 +71,20 @@ fn moments(network: &Network, events: &[Event]) -> Vec<Moment> {
     if events.len() > MOST_EVENTS {
         return Vec::new();
     }
-    let what = |event: &Event| match (event.kind, event.after) {
-        (EventKind::Limit(_), _) => "broken",
-        (EventKind::Control(_), 0) => "off",
-        (EventKind::Control(_), _) => "on",
-        (EventKind::Comparison(_), 0) => "ceases to hold",
-        (EventKind::Comparison(_), _) => "holds",
-    };
     let moment = |event: &Event| {
-        let name = format!("{} {}", event.kind.name(network), what(event));
-        Moment { name, at: event.time }
+        let what = what(event.kind.word(), event.after != 0);
+        Moment { name: format!("{} {what}", event.kind.name(network)), at: event.time }
     };
     events.iter().map(moment).collect()
+}
+
+/// What an event of this kind did.
+pub(crate) fn what(kind: &str, after: bool) -> &'static str {
+    match (kind, after) {
+        ("limit", _) => "broken",
+        ("control", true) => "on",
+        ("control", false) => "off",
+        (_, true) => "holds",
+        (_, false) => "ceases to hold",
+    }
 }
