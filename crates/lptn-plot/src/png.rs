@@ -65,12 +65,13 @@ impl Canvas {
                     a.0 as f32, a.1 as f32, b.0 as f32, b.1 as f32, c.0 as f32, c.1 as f32,
                 ),
                 Step::Close => builder.close(),
+                Step::Circle((x, y), r) => builder.push_circle(x as f32, y as f32, r as f32),
             }
         }
         let Some(outline) = builder.finish() else { return };
         if let Some(fill) = path.fill {
             let paint = paint(fill.ink, fill.opacity);
-            self.pixels.fill_path(&outline, &paint, FillRule::EvenOdd, self.scale, None);
+            self.pixels.fill_path(&outline, &paint, FillRule::Winding, self.scale, None);
         }
         if let Some(stroke) = path.stroke {
             let line = Line {

@@ -74,10 +74,10 @@ fn dots(scene: &mut Scene, curve: &Curve, place: Place<'_>, ink: Ink) {
     let most = (place.1.width() / PER_DOT) as usize;
     let every = curve.points.len().div_ceil(most.max(1)).max(1);
     let radius = DOTS[usize::from(curve.points.len() > most / 3)];
-    for &point in curve.points.iter().step_by(every) {
-        if let Some(at) = on_page(place, point) {
-            scene.put(circle(at, radius).filled(ink, 1.0));
-        }
+    let shown = curve.points.iter().step_by(every).filter_map(|&point| on_page(place, point));
+    let steps: Vec<Step> = shown.flat_map(|at| circle(at, radius).steps).collect();
+    if !steps.is_empty() {
+        scene.put(Path::new(steps).filled(ink, 1.0).tipped(&curve.name));
     }
 }
 
