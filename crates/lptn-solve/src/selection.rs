@@ -131,17 +131,17 @@ pub fn name_matches(pattern: &str, name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::matches;
+    use super::name_matches;
 
     #[test]
     fn patterns_match_whole_names() {
-        assert!(matches("*.T", "steel.T"));
-        assert!(matches("s*l.?", "steel.T"));
-        assert!(matches("*", ""));
-        assert!(matches("*a*b*", "xxaxxbxx"));
-        assert!(matches("planet[1].*", "planet[1].gear.T"));
-        assert!(!matches("*.T", "internal.Q"));
-        assert!(!matches("steel", "steel.T"));
-        assert!(!matches("?", ""));
+        assert!(name_matches("*.T", "steel.T"));
+        assert!(name_matches("s*l.?", "steel.T"));
+        assert!(name_matches("*", ""));
+        assert!(name_matches("*a*b*", "xxaxxbxx"));
+        assert!(name_matches("planet[1].*", "planet[1].gear.T"));
+        assert!(!name_matches("*.T", "internal.Q"));
+        assert!(!name_matches("steel", "steel.T"));
+        assert!(!name_matches("?", ""));
     }
 }
