@@ -96,6 +96,28 @@ fn every_law_belongs_to_a_kind_and_is_told_apart() {
 }
 
 #[test]
+fn every_law_and_kind_that_is_written_is_in_the_list() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/lptn-laws/src");
+    let listed: Vec<String> = Kind::ALL
+        .iter()
+        .map(|kind| format!("{kind:?}"))
+        .chain(Formula::ALL.iter().map(|law| format!("{law:?}")))
+        .collect();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let law = |line: &str| line.strip_prefix("impl Law for ").map(str::to_owned);
+        let kind = |line: &str| line.strip_prefix("pub(crate) const ").map(str::to_owned);
+        let kinds =
+            text.lines().filter(|line| line.contains(": KindDeclaration =")).filter_map(kind);
+        for name in text.lines().filter_map(law).chain(kinds) {
+            let name = name.split([' ', ':']).next().unwrap();
+            assert!(listed.iter().any(|known| known == name), "{}: {name}", path.display());
+        }
+    }
+}
+
+#[test]
 fn every_law_is_read_as_it_is_declared() {
     for of in all() {
         let netlist = read(&netlist(of, example));

@@ -11,7 +11,7 @@ use crate::fields::Fields;
 use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
 use crate::place::{Place, Wanted};
 use crate::raw::{RawKind, RawValue};
-use crate::section::forms::check_forms;
+use crate::section::forms::{begun, check_forms};
 use crate::section::keys::MATERIAL_OF;
 use crate::work::{Elaboration, stand_in};
 
@@ -131,7 +131,8 @@ impl<'a> Elaboration<'a> {
     /// The law of a path with its values.
     pub(crate) fn path(&mut self, fields: &Fields<'a>, path: &'static PathSection) -> Option<Path> {
         let (groups, values) = (&path.groups, path.values.iter());
-        let law = match path.kind.declaration().selector {
+        let forms: Vec<&[&str]> = groups.iter().map(|group| group.keys.as_slice()).collect();
+        let group = match path.kind.declaration().selector {
             Some(selector) => {
                 self.check_property(fields, path);
                 let law = self.selected(fields, path, selector);
@@ -140,17 +141,14 @@ impl<'a> Elaboration<'a> {
                 let read = self.read(fields, own);
                 return self.complete(fields, law?, read, None);
             }
-            None => groups.iter().find(|group| group.keys.iter().any(|key| fields.has(key))),
+            None => begun(&forms, |key| fields.has(key)).first().map(|&first| &groups[first]),
         };
-        let forms: Vec<&[&str]> = groups.iter().map(|group| group.keys.as_slice()).collect();
         self.problems.extend(check_forms(fields, &forms));
         let fluid = fields.get("fluid").filter(|_| fields.known("fluid"));
         let fluid = fluid.map(|raw| self.used_fluid(fields, raw));
         let read = self.read(fields, values);
-        let begun =
-            groups.iter().filter(|group| group.keys.iter().any(|key| fields.get(key).is_some()));
-        let one = begun.count() == 1;
-        let law = of_values(&law?.laws, &read)?;
+        let one = begun(&forms, |key| fields.get(key).is_some()).len() == 1;
+        let law = of_values(&group?.laws, &read)?;
         let idle = law.declaration().idle.iter().filter(|_| one);
         idle.for_each(|(key, why)| self.refuse_keys(fields, &[key], why));
         let fluid = match fluid {
