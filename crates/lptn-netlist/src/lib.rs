@@ -98,5 +98,5 @@ pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 pub use section::{Studies, format};
 pub use size::{Goal, Requirement, SizeStudy};
 pub use source_map::SourceMap;
-pub use state::{State, StateControl, StateEnd};
+pub use state::{SavedState, StateControl, StateEnd};
 pub use write_back::WrittenNumber;

@@ -8,7 +8,7 @@
 //! between the laws that were fitted to each. [`RunsStudy`] begins with the records themselves.
 //!
 //! ```
-//! use lptn_fit::law::{Law, LawStudy, Points};
+//! use lptn_fit::law::{LawStudy, LossLaw, Points};
 //!
 //! // 87 uW/rpm^(5/3) and a disturbance of 1 W
 //! let rpm = std::f64::consts::TAU / 60.0;
@@ -35,10 +35,10 @@ mod stated;
 mod study;
 mod written;
 
-pub use candidate::{Candidate, Coefficient, Fitted, Outcome};
+pub use candidate::{Coefficient, Fitted, LawFit, Outcome};
 pub use consistency::{AtSpeed, CLOSE, Consistency, Level, Measured, SIGNIFICANT, Significance};
 pub use error::LawError;
-pub use model::Law;
+pub use model::LossLaw;
 pub use points::{Points, Variable};
 pub use runs::{
     ColumnFits, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy, Systematic,
