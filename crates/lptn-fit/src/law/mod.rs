@@ -16,7 +16,7 @@
 //! let noise = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0];
 //! let power = speeds.iter().zip(noise).map(|(n, w)| 87e-6 * f64::powf(*n, 5.0 / 3.0) + w).collect();
 //! let points = Points::new(speeds.map(|n| n * rpm).to_vec(), power, None)?;
-//! let study = LawStudy::new(points, Law::standard());
+//! let study = LawStudy::new(points, LossLaw::standard());
 //! assert_eq!(study.best().unwrap().law.to_string(), "omega^(5/3)");
 //! # Ok::<(), lptn_fit::law::LawError>(())
 //! ```
