@@ -6,7 +6,7 @@ use crate::quantity::Quantity;
 
 /// Which nodes a solution keeps.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Record {
+pub enum RecordedNodes {
     /// Every node: heat flows can be had from the solution.
     All,
     /// These nodes only, to save memory.
@@ -72,11 +72,11 @@ impl Selection {
     }
 
     /// What a run has to keep so that these columns can be had.
-    pub fn record(&self) -> Record {
+    pub fn record(&self) -> RecordedNodes {
         if self.quantities.iter().any(|q| q.needs_all()) {
-            return Record::All;
+            return RecordedNodes::All;
         }
-        Record::Nodes(self.nodes().collect())
+        RecordedNodes::Nodes(self.nodes().collect())
     }
 
     /// The nodes whose temperature is selected, in the order of the network.

@@ -11,7 +11,7 @@ use lptn_network::{Network, Node};
 use lptn_plot::Figure;
 use lptn_report::{Json, Page, Rows, Text, TextTable, duration, fixed, shortened};
 use lptn_solve::{EventKind, Mode, Modes};
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
 use crate::console::Console;
@@ -147,10 +147,10 @@ impl View<'_> {
     fn mode(&self, mode: &Mode) -> Value {
         let by_node = |values: &[f64]| -> Map<String, Value> {
             let named = self.network().nodes().iter().zip(values);
-            named.map(|(node, &x)| (node.name.clone(), json!(Scalar::new(x, "1")))).collect()
+            named.map(|(node, &x)| (node.name.clone(), json!(SiValue::new(x, "1")))).collect()
         };
         json!({
-            "tau": Scalar::new(mode.tau(), "s"),
+            "tau": SiValue::new(mode.tau(), "s"),
             "shape": by_node(&mode.shape),
             "participation": by_node(&mode.participation),
         })
@@ -180,7 +180,7 @@ impl Page for View<'_> {
         let modes: Vec<Value> = self.modes.modes().iter().map(|mode| self.mode(mode)).collect();
         self.input.head(json, &[])?;
         json.member("notes", &self.findings())?;
-        json.member("count", &Scalar::new(count_as_number(self.all), "1"))?;
+        json.member("count", &SiValue::new(count_as_number(self.all), "1"))?;
         json.member("modes", &modes)
     }
 }
