@@ -47,7 +47,9 @@ impl Drawing {
             Self::Terminal => (Picture::Text, None),
             Self::File(file, picture) => (*picture, Some(file)),
         };
-        let bytes = picture.draw(figures, (terminal_width(), styled)).map_err(|_| too_large())?;
+        let bytes = picture
+            .draw(figures, (terminal_width(), styled))
+            .map_err(|error| Failure::of(&error))?;
         let Some(file) = file else { return show(&bytes).map(|()| None) };
         let help = "name another place for the picture";
         files::replace(file, &bytes).map_err(|failure| failure.with_help(help))?;
@@ -59,11 +61,6 @@ fn nothing() -> Failure {
     let problem = Diagnostic::error("plot::nothing", "there is no picture of this answer");
     let help = "run, steady --periodic, modes, reduce, size, compare and the fits have one";
     Failure::new(Exit::Input, problem.help(help))
-}
-
-fn too_large() -> Failure {
-    let problem = Diagnostic::error("plot::too_large", "the picture has too many pixels for a PNG");
-    Failure::new(Exit::Input, problem.help("write it as SVG: a name that ends with .svg"))
 }
 
 /// Columns of the terminal that results go to; of anything else those of [`WIDTH`].

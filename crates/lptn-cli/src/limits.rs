@@ -6,7 +6,7 @@ use lptn_plot::figure::{Level, Panel};
 use lptn_plot::printed;
 use lptn_report::{TEMPERATURE, Text, TextTable, duration, significant};
 use lptn_solve::LimitSeen;
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use lptn_units::{Dimension, Type, Unit};
 use serde_json::{Map, Value, json};
 
@@ -157,9 +157,9 @@ fn number(value: f64, ty: Type, unit: &Unit) -> String {
 pub(crate) fn members(network: &Network, limits: &[Judged]) -> Option<Map<String, Value>> {
     let one = |judged: &Judged| {
         let limit = &network.limits()[judged.limit.index()];
-        let time = |time: Option<f64>| time.map(|time| Scalar::new(time, "s"));
+        let time = |time: Option<f64>| time.map(|time| SiValue::new(time, "s"));
         let scalar = |value: f64| {
-            (!value.is_nan()).then(|| Scalar::new(value, &limit.ty.dimension.si_unit()))
+            (!value.is_nan()).then(|| SiValue::new(value, &limit.ty.dimension.si_unit()))
         };
         let bound = bound(network, limit);
         let worst = match limit.bound {

@@ -18,6 +18,7 @@ mod ticks;
 
 pub use figure::Figure;
 pub use ink::{FIELD, Ink, Rgb, SERIES, Theme, contrast};
+pub use png::PngError;
 pub use scene::Scene;
 pub use thin::thinned;
 pub use ticks::printed;

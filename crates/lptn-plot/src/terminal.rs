@@ -3,7 +3,7 @@
 use std::iter::repeat_n;
 
 use crate::chart::{across, apart, in_lines, upward};
-use crate::figure::{Curve, Figure, Panel, Scale};
+use crate::figure::{Curve, Figure, Look, Panel, Scale};
 use crate::ink::SERIES;
 use crate::ticks::Ruler;
 
@@ -12,6 +12,9 @@ const ROWS: f64 = 16.0;
 
 /// Most of the width that names of curves may take.
 const NAMES: usize = 24;
+
+/// Signs of single points, by which curves differ without colours.
+const MARKS: [char; SERIES] = ['●', '■', '▲', '◆', '○', '□', '△', '◇'];
 
 /// Colours of the curves in the order of [`crate::Ink::Series`], by their numbers in a terminal.
 const COLOURS: [u8; SERIES] = [34, 33, 36, 35, 95, 32, 37, 31];
@@ -69,7 +72,11 @@ fn numbers(ruler: &Ruler) -> usize {
 
 /// Width of the names of a panel's curves.
 fn names(panel: &Panel) -> usize {
-    panel.curves.iter().map(|curve| curve.name.chars().count()).max().unwrap_or(0)
+    let length = |curve: &Curve| {
+        let marked = curve.look == Look::Dots;
+        curve.name.chars().count() + if marked { 2 } else { 0 }
+    };
+    panel.curves.iter().map(length).max().unwrap_or(0)
 }
 
 struct Canvas {
@@ -141,7 +148,6 @@ impl Canvas {
     }
 
     fn curve(&mut self, panel: &Panel, curve: &Curve, place: usize) {
-        use crate::figure::Look;
         let shown = |v: f64, scale: &Scale| v.is_finite() && (*scale != Scale::Log || v > 0.0);
         let mut last: Option<(f64, f64)> = None;
         for &(x, y) in &curve.points {
@@ -158,8 +164,23 @@ impl Canvas {
                 Look::Dots => dot,
                 Look::Stems => (dot.0, (4 * self.rows - 1) as f64),
             };
-            self.line(from, dot, place);
+            if self.marked(curve) {
+                self.mark((dot.0 as usize / 2, dot.1 as usize / 4), place);
+            } else {
+                self.line(from, dot, place);
+            }
             last = Some(dot);
+        }
+    }
+
+    /// Whether the points of a curve are so few that each has a sign.
+    fn marked(&self, curve: &Curve) -> bool {
+        curve.look == Look::Dots && curve.points.len() <= self.columns / 2
+    }
+
+    fn mark(&mut self, (column, row): (usize, usize), place: usize) {
+        if let Some(cell) = self.cells.get_mut(row * self.columns + column) {
+            *cell = Cell { dots: 0, sign: Some(MARKS[place % MARKS.len()]), place: Some(place) };
         }
     }
 
@@ -183,7 +204,10 @@ impl Canvas {
     }
 
     fn text(&self, panel: &Panel, styled: bool) -> String {
-        let mut out = format!("{} over {}\n", plain(&self.y.title), plain(&self.x.title));
+        let mut out = match self.y.title.as_str() {
+            "" => format!("{}\n", plain(&self.x.title)),
+            title => format!("{} over {}\n", plain(title), plain(&self.x.title)),
+        };
         let names = self.names(panel);
         for row in 0..self.rows {
             let cells = &self.cells[row * self.columns..(row + 1) * self.columns];
@@ -211,8 +235,11 @@ impl Canvas {
         let end = |(place, curve): (usize, &Curve)| {
             let shown = |&&(x, y): &&(f64, f64)| x.is_finite() && y.is_finite();
             let last = curve.points.iter().rev().find(shown)?;
-            let name: String = plain(&curve.name).chars().take(self.right).collect();
-            Some((name, self.row(last.1), curve.place.unwrap_or(place)))
+            let place = curve.place.unwrap_or(place);
+            let mark = if self.marked(curve) { MARKS[place % MARKS.len()] } else { ' ' };
+            let name = format!("{mark} {}", plain(&curve.name)).trim_start().to_owned();
+            let name: String = name.chars().take(self.right).collect();
+            Some((name, self.row(last.1), place))
         };
         let mut names: Vec<_> = panel.curves.iter().enumerate().filter_map(end).collect();
         names.sort_by_key(|name| name.1);
@@ -254,7 +281,11 @@ fn push(line: &mut String, cell: Cell, styled: bool) {
             let sign = char::from_u32(0x2800 + u32::from(cell.dots)).unwrap_or(' ');
             line.push_str(&paint(sign.encode_utf8(&mut [0; 4]), place, styled));
         }
-        _ => line.push(cell.sign.unwrap_or(' ')),
+        Some(place) => {
+            let sign = cell.sign.unwrap_or(' ');
+            line.push_str(&paint(sign.encode_utf8(&mut [0; 4]), place, styled));
+        }
+        None => line.push(cell.sign.unwrap_or(' ')),
     }
 }
 

@@ -28,6 +28,6 @@ pub use layout::{
 };
 pub use number::{Shortest, decimals, duration, fixed, prefix, significant};
 pub use page::{Page, Rows};
-pub use picture::{Picture, PictureError};
+pub use picture::Picture;
 pub use sparkline::sparkline;
 pub use text::{Block, Text, words};

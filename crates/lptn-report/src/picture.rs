@@ -1,6 +1,6 @@
 //! The formats in which figures are drawn.
 
-use lptn_plot::{Figure, chart, png, svg, terminal};
+use lptn_plot::{Figure, PngError, chart, png, svg, terminal};
 
 /// How figures are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,13 +11,6 @@ pub enum Picture {
     Png,
     /// Characters.
     Text,
-}
-
-/// Why a picture was not drawn.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PictureError {
-    /// It has more pixels than there is memory for.
-    TooLarge,
 }
 
 /// Width of a picture in CSS pixels: that of a page's text.
@@ -40,18 +33,15 @@ impl Picture {
     /// `styled`.
     ///
     /// # Errors
-    /// [`PictureError`]
+    /// [`PngError`]
     pub fn draw(
         self,
         figures: &[Figure],
         (columns, styled): (usize, bool),
-    ) -> Result<Vec<u8>, PictureError> {
+    ) -> Result<Vec<u8>, PngError> {
         match self {
             Self::Svg => Ok(svg::write(&chart::scene(figures, WIDTH)).into_bytes()),
-            Self::Png => {
-                let drawn = png::write(&chart::scene(figures, WIDTH), SCALE);
-                drawn.map_err(|_| PictureError::TooLarge)
-            }
+            Self::Png => png::write(&chart::scene(figures, WIDTH), SCALE),
             Self::Text => {
                 let texts: Vec<String> =
                     figures.iter().map(|figure| terminal::write(figure, columns, styled)).collect();

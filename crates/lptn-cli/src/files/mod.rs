@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use lptn_netlist::Diagnostic;
-use lptn_study::{Environment, Scalar};
+use lptn_study::{Environment, SiValue};
 use lptn_units::Help;
 
 use crate::exit::Exit;
@@ -98,7 +98,7 @@ pub(crate) fn environment(wall_time: f64) -> Environment {
     Environment {
         written: lptn_study::utc(std::time::SystemTime::now()),
         host: host.trim().to_owned(),
-        wall_time: Scalar::new(wall_time, "s"),
+        wall_time: SiValue::new(wall_time, "s"),
     }
 }
 

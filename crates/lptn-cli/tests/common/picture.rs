@@ -85,9 +85,11 @@ impl Picture {
             let ink = ink[2..].to_owned();
             match attribute(line, "d") {
                 Some(path) if path.contains('C') => {
-                    let (x, top) = points(path)[0];
-                    let bottom = points(path).iter().map(|p| p.1).fold(top, f64::max);
-                    panel.dots.push((ink, x, f64::midpoint(top, bottom)));
+                    for dot in path.split('Z').map(points).filter(|dot| !dot.is_empty()) {
+                        let (x, top) = dot[0];
+                        let bottom = dot.iter().map(|p| p.1).fold(top, f64::max);
+                        panel.dots.push((ink.clone(), x, f64::midpoint(top, bottom)));
+                    }
                 }
                 // not what leads to a name
                 Some(path) if attribute(line, "stroke-width") != Some("0.7") => {

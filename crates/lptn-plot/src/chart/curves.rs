@@ -75,10 +75,10 @@ fn lines(scene: &mut Scene, curve: &Curve, place: Place<'_>, stroke: Stroke) {
 fn dots(scene: &mut Scene, curve: &Curve, place: Place<'_>, ink: Ink) {
     let most = (place.1.width() / PER_DOT) as usize;
     let radius = DOTS[usize::from(curve.points.len() > most / 3)];
-    for at in placed(&curve.points, place, most) {
-        if at.1.is_finite() {
-            scene.put(circle(at, radius).filled(ink, 1.0));
-        }
+    let shown = placed(&curve.points, place, most).into_iter().filter(|at| at.1.is_finite());
+    let steps: Vec<Step> = shown.flat_map(|at| circle(at, radius).steps).collect();
+    if !steps.is_empty() {
+        scene.put(Path::new(steps).filled(ink, 1.0).tipped(&curve.name));
     }
 }
 

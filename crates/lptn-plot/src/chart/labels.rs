@@ -4,7 +4,7 @@ use super::area::{Area, NAME, shortened};
 use super::curves;
 use crate::figure::{Panel, Scale};
 use crate::ink::Ink;
-use crate::scene::{Scene, Stroke, Text, line};
+use crate::scene::{Scene, Stroke, Text, circle, line};
 
 /// Room between a curve's end and its name.
 pub(super) const GAP: f64 = 14.0;
@@ -29,14 +29,21 @@ pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area, right: f64) {
         labels.truncate(room - 1);
     }
     labels.sort_by(|a, b| a.end.1.total_cmp(&b.end.1));
-    let wanted: Vec<f64> = labels.iter().map(|label| label.end.1).collect();
+    // the curves of a list have no end: their names stand beside it as a legend
+    let is_list = matches!(panel.y.scale, Scale::Names(_));
+    let place = |label: &Label<'_>| if is_list { area.top } else { label.end.1 };
+    let wanted: Vec<f64> = labels.iter().map(place).collect();
     let places = apart(&wanted, LINE, (area.top, area.bottom));
     for (label, y) in labels.iter_mut().zip(places) {
         label.y = y;
     }
     let x = area.right + GAP;
     for label in &labels {
-        connect(scene, label, (area.right, x));
+        if is_list {
+            scene.put(circle((x - 8.0, label.y), 3.0).filled(label.ink, 1.0));
+        } else {
+            connect(scene, label, (area.right, x));
+        }
         let text = shortened(label.name, NAME, right - x);
         scene.write(Text::new(text, (x, label.y + 0.36 * NAME), NAME, label.ink));
     }

@@ -1,6 +1,6 @@
 //! From where to where an axis goes.
 
-use crate::figure::{Panel, Scale};
+use crate::figure::{Look, Panel, Scale};
 
 /// A limit widens the axis by at most this share of what the curves take.
 const FAR: f64 = 1.5;
@@ -24,16 +24,30 @@ fn some((low, high): Range, logarithmic: bool) -> Range {
 
 /// The range to the right of panels that share it.
 pub(crate) fn across<'a>(panels: impl Iterator<Item = &'a Panel>) -> Range {
-    let (mut range, mut logarithmic) = (NOTHING, false);
+    let (mut range, mut scale, mut dotted) = (NOTHING, &Scale::Linear, false);
     for panel in panels {
-        logarithmic = panel.x.scale == Scale::Log;
+        scale = &panel.x.scale;
+        let logarithmic = *scale == Scale::Log;
+        dotted |= panel.curves.iter().any(|curve| matches!(curve.look, Look::Dots | Look::Stems));
         let shown = |x: &f64| !logarithmic || *x > 0.0;
         let points = panel.curves.iter().flat_map(|curve| &curve.points);
         let moments = panel.moments.iter().map(|moment| moment.at);
         let all = points.map(|point| point.0).chain(moments);
         range = all.filter(shown).fold(range, with);
     }
-    some(range, logarithmic)
+    let range = some(range, *scale == Scale::Log);
+    // a dot on the edge would be cut in two; a record begins where it begins
+    if dotted && *scale != Scale::Time { aired(range, scale) } else { range }
+}
+
+/// A range with room at its ends.
+fn aired((low, high): Range, scale: &Scale) -> Range {
+    if *scale == Scale::Log {
+        let air = (high / low).powf(AIR);
+        return (low / air, high * air);
+    }
+    let air = AIR * (high - low);
+    (low - air, high + air)
 }
 
 /// The range upwards.
@@ -42,13 +56,7 @@ pub(crate) fn upward(panel: &Panel) -> Range {
     let range = panel.limits.iter().filter(|limit| is_near(limit.value, curves));
     let logarithmic = panel.y.scale == Scale::Log;
     let all = range.fold(curves, |range, limit| with(range, limit.value));
-    let (low, high) = some(all, logarithmic);
-    if logarithmic {
-        let air = (high / low).powf(AIR);
-        return (low / air, high * air);
-    }
-    let air = AIR * (high - low);
-    (low - air, high + air)
+    aired(some(all, logarithmic), &panel.y.scale)
 }
 
 fn of_curves(panel: &Panel) -> Range {
@@ -59,7 +67,7 @@ fn of_curves(panel: &Panel) -> Range {
         let spread = curve.spread.iter().flat_map(|&(low, high)| [low, high]);
         let all = curve.points.iter().map(|point| point.1).chain(spread);
         range = all.filter(shown).fold(range, with);
-        if curve.look == crate::figure::Look::Stems && !logarithmic {
+        if curve.look == Look::Stems && !logarithmic {
             range = with(range, 0.0);
         }
     }

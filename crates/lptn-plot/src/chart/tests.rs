@@ -122,15 +122,17 @@ fn no_dot_that_sticks_out_is_lost() {
     let mut panel = Panel::new(Axis::time(), Axis::linear("difference", "K"));
     panel.curves.push(Curve::line("ring", points).looks(Look::Dots));
     let scene = scene(&[Figure { panels: vec![panel], ..Figure::default() }], 760.0);
-    let dot = |shape: &Shape| match shape {
-        Shape::Path(path) => match path.steps[..] {
-            [Step::Move(_, top), Step::Line(..), Step::Curve(_), ..] => Some(top),
-            _ => None,
-        },
+    let paths = scene.shapes.iter().filter_map(|shape| match shape {
+        Shape::Path(path) => Some(&path.steps),
         Shape::Text(_) => None,
+    });
+    let dot = |pair: &[Step]| match *pair {
+        [Step::Line(..), Step::Curve([(_, top), ..])] => Some(top),
+        _ => None,
     };
-    let dots: Vec<f64> = scene.shapes.iter().filter_map(dot).collect();
-    assert_eq!(dots.iter().filter(|top| **top < 100.0).count(), 1, "{dots:?}");
+    let top = |steps: &Vec<Step>| -> Vec<f64> { steps.windows(2).filter_map(dot).collect() };
+    let dots: Vec<f64> = paths.flat_map(top).collect();
+    assert_eq!(dots.iter().filter(|top| **top < 25.0).count(), 1, "{dots:?}");
     assert!((100..1000).contains(&dots.len()), "{}", dots.len());
 }
 

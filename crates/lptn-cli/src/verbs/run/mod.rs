@@ -53,7 +53,7 @@ pub(crate) fn outcome<'a>(
     let begun = Instant::now();
     let (solution, failure) = job.solve(&system, steady.as_ref().ok(), console)?;
     // what broke off or was interrupted is not asked how sure it is
-    let whole = matches!(solution.end(), lptn_solve::End::Reached);
+    let whole = matches!(solution.end(), lptn_solve::RunStatus::Reached);
     let uncertainty =
         if whole { uncertainty::study(&args.uncertainty, &job, console) } else { None };
     let wall_time = begun.elapsed().as_secs_f64();

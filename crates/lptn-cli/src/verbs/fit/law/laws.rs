@@ -5,9 +5,10 @@ use std::io;
 
 use lptn_fit::law::{AtSpeed, Consistency, Exponent, LawError, LawOf, Significance, StatedLaw};
 use lptn_fit::step::Capacity;
+use lptn_plot::Figure;
 use lptn_report::{Json, Page, Rows, Text, TextTable, fixed, significant};
 use lptn_solve::Table;
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use lptn_units::{Dimension, Type};
 use serde_json::{Value, json};
 
@@ -41,10 +42,10 @@ pub(crate) fn laws(
 }
 
 /// Three laws and how they go together.
-struct Stated {
-    laws: [StatedLaw; 3],
-    found: Consistency,
-    unit: SpeedUnit,
+pub(super) struct Stated {
+    pub(super) laws: [StatedLaw; 3],
+    pub(super) found: Consistency,
+    pub(super) unit: SpeedUnit,
 }
 
 impl Page for Stated {
@@ -74,6 +75,10 @@ impl Page for Stated {
         table.column("P", "W", |at| at.power);
         table.column("t_RC_needed", "s", |at| at.needed);
         table.done().into()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        self.pictures()
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -208,7 +213,7 @@ fn power(value: f64) -> String {
 pub(crate) fn members(found: &Consistency) -> Value {
     let exponent =
         |e: &Exponent| json!({ "value": e.value, "unit": "1", "standard_error": e.standard_error });
-    let scalar = Scalar::new;
+    let scalar = SiValue::new;
     let tested =
         |s: &Option<Significance>| s.map(|s| json!({ "z": s.z, "probability": s.probability }));
     let at = |at: &AtSpeed| {

@@ -1,7 +1,7 @@
 //! What `lptn fit network` draws: every record over what the fitted network computes, and what that
 //! misses.
 
-use lptn_fit::network::{ColumnMisfit, Measured, MeasuredRun};
+use lptn_fit::network::{ColumnMisfit, MeasuredColumn, MeasuredRun};
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Panel};
 use lptn_report::{MOST_CURVES, TEMPERATURE, significant};
@@ -70,7 +70,7 @@ fn worst<'a>(all: &[&'a ColumnMisfit]) -> Vec<&'a ColumnMisfit> {
 /// A column of a record with its ink.
 struct Drawn<'a> {
     times: &'a [f64],
-    of: &'a Measured,
+    of: &'a MeasuredColumn,
     unit: &'a Unit,
     place: usize,
 }

@@ -1,5 +1,6 @@
 //! `lptn fit law FOLDER`: from records to a law.
 
+mod figure;
 mod folder;
 mod output;
 
@@ -8,10 +9,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use lptn_fit::law::{
-    Candidate, ColumnFits, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy,
+    ColumnFits, LawFit, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy,
 };
 use lptn_fit::step::{Capacity, LONG_ENOUGH, Sensor};
 use lptn_netlist::{Diagnostic, Files};
+use lptn_plot::Figure;
 use lptn_report::{
     Json, Page, Rows, Text, TextTable, WIDTH, duration, fixed, labelled, significant, words,
 };
@@ -293,7 +295,7 @@ impl Runs {
         }
     }
 
-    pub(crate) fn best(&self) -> Option<(&Candidate, &lptn_fit::law::Fitted)> {
+    pub(crate) fn best(&self) -> Option<(&LawFit, &lptn_fit::law::Fitted)> {
         let best = self.answer.study.best()?;
         Some((best, best.fitted()?))
     }
@@ -317,6 +319,10 @@ impl Page for Runs {
 
     fn rows(&self) -> Rows<'_> {
         output::power(self).into()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        self.pictures()
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
