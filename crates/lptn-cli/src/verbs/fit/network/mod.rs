@@ -1,6 +1,7 @@
 //! `lptn fit network`
 
 mod args;
+mod figure;
 mod interrupted;
 mod page;
 mod words;

@@ -4,6 +4,7 @@ use std::io;
 
 use lptn_fit::least_squares::Side;
 use lptn_fit::network::{ColumnMisfit, Combination, Unseparated};
+use lptn_plot::Figure;
 use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, differing, fixed, significant};
 use lptn_solve::Gradient;
 use lptn_solve::Table;
@@ -54,6 +55,10 @@ impl Page for Answer<'_> {
         table.column("standard_error", "unit", |&i| error(i));
         table.column("start", "unit", |&i| self.shown(i, parameter(i).start));
         table.done().into()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        self.pictures()
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
