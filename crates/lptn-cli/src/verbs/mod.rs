@@ -4,6 +4,7 @@ pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod fit;
+pub(crate) mod graph;
 pub(crate) mod materials;
 pub(crate) mod modes;
 pub(crate) mod new;
@@ -51,6 +52,7 @@ verbs! {
     Size(size::SizeArgs) => size::size,
     Fit(fit::FitArgs) => fit::fit,
     Reduce(reduce::ReduceArgs) => reduce::reduce,
+    Graph(graph::GraphArgs) => graph::graph,
     Check(check::CheckArgs) => check::check,
     New(new::NewArgs) => new::new,
     Units(units::UnitsArgs) => units::units,

@@ -118,6 +118,11 @@ impl Network {
         self.parts.layout.signal(id)
     }
 
+    /// The slot that expressions read a control from: 0 or 1.
+    pub fn control_slot(&self, id: crate::ControlId) -> u32 {
+        self.parts.layout.control(id)
+    }
+
     /// The parameters to change for [`Network::with`]; nothing is changed yet.
     pub fn overrides(&self) -> Parameters {
         Parameters::new(Arc::clone(&self.parts))

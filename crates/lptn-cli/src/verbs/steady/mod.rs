@@ -82,7 +82,7 @@ fn limits(input: &Input, steady: &SteadyState, time: f64) -> Result<Vec<Judged>,
     Ok(network.limit_ids().zip(margins).map(one).collect())
 }
 
-fn failed(input: &Input, error: &SteadyError) -> Failure {
+pub(super) fn failed(input: &Input, error: &SteadyError) -> Failure {
     let place = match error {
         SteadyError::NoBoundary { nodes, .. } => {
             nodes.first().and_then(|&node| input.netlist.source_map.name(Item::Node(node)))

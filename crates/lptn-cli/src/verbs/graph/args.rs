@@ -1,0 +1,57 @@
+//! The options of `lptn graph`.
+
+use std::path::PathBuf;
+
+use clap::Args as Arguments;
+
+use super::kind::Kind;
+use crate::options::{NoFiles, Scale, Source, TEMPLATE, one_of};
+
+const EXAMPLES: &str = "\
+Examples:
+  lptn graph motor.toml --steady
+  lptn graph motor.toml -o motor.png
+  lptn graph motor.toml --format mermaid
+  lptn graph wall.toml --slice z=1";
+
+/// Draw a network, or the temperatures in a grid
+#[derive(Debug, Arguments)]
+#[command(before_help = EXAMPLES, help_template = TEMPLATE)]
+pub(crate) struct GraphArgs {
+    #[command(flatten)]
+    pub(crate) source: Source,
+    /// Write svg, png, dot or mermaid; of a grid svg, png, vtk or csv
+    #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
+    #[arg(value_parser = one_of(&Kind::ALL, Kind::key))]
+    pub(crate) format: Option<Kind>,
+    /// Write this file, whose ending says the format; - is stdout
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Show the temperatures and heat flows at which it settles
+    #[arg(long)]
+    pub(crate) steady: bool,
+    /// Draw each grid, instance and family as one box
+    #[arg(long, conflicts_with = "no_group")]
+    pub(crate) group: bool,
+    /// Draw every node by itself
+    #[arg(long)]
+    pub(crate) no_group: bool,
+    #[command(flatten)]
+    pub(crate) field: FieldArgs,
+    #[command(flatten)]
+    pub(crate) scale: Scale,
+    #[command(flatten)]
+    _no_files: NoFiles,
+}
+
+/// The temperatures in a grid.
+#[derive(Debug, Arguments)]
+#[command(next_help_heading = "Grids")]
+pub(crate) struct FieldArgs {
+    /// Draw a layer of cells by number or place: z=3, "z=5 mm"
+    #[arg(long, value_name = "AXIS=PLACE", conflicts_with_all = ["group", "no_group", "steady"])]
+    pub(crate) slice: Option<String>,
+    /// Of several grids take this one
+    #[arg(long, value_name = "NAME")]
+    pub(crate) grid: Option<String>,
+}

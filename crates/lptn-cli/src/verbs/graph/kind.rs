@@ -1,0 +1,117 @@
+//! What a picture is written as, and where it goes.
+
+use std::path::{Path, PathBuf};
+
+use lptn_netlist::Diagnostic;
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Svg,
+    Png,
+    Dot,
+    Mermaid,
+    Vtk,
+    Csv,
+}
+
+/// Where it goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    Stdout,
+    File(PathBuf),
+    /// Among the results of the network, under a usual name.
+    Results,
+}
+
+impl Kind {
+    /// All of them.
+    pub(crate) const ALL: [Self; 6] =
+        [Self::Svg, Self::Png, Self::Dot, Self::Mermaid, Self::Vtk, Self::Csv];
+
+    /// Its name on the command line.
+    pub(crate) fn key(self) -> &'static str {
+        ["svg", "png", "dot", "mermaid", "vtk", "csv"][self as usize]
+    }
+
+    /// The ending of its files.
+    pub(super) fn ending(self) -> &'static str {
+        if self == Self::Mermaid { "mmd" } else { self.key() }
+    }
+
+    /// Whether it is of a grid only.
+    pub(super) fn is_of_grid(self) -> bool {
+        matches!(self, Self::Vtk | Self::Csv)
+    }
+
+    /// Whether it is text that other programs are given through a pipe.
+    fn is_piped(self) -> bool {
+        matches!(self, Self::Dot | Self::Mermaid | Self::Csv)
+    }
+
+    fn of_ending(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        match ending.as_str() {
+            "gv" => Some(Self::Dot),
+            "mermaid" => Some(Self::Mermaid),
+            ending => Self::ALL.into_iter().find(|kind| kind.ending() == ending),
+        }
+    }
+}
+
+/// What is written and where, by `--format` and `-o`; `sliced` where a slice is asked for.
+pub(super) fn wanted(
+    format: Option<Kind>,
+    output: Option<&Path>,
+    sliced: bool,
+) -> Result<(Kind, Place), Failure> {
+    let (kind, place) = match (format, output) {
+        (format, None) => {
+            let kind = format.unwrap_or(Kind::Svg);
+            (kind, if kind.is_piped() { Place::Stdout } else { Place::Results })
+        }
+        (format, Some(path)) if path.as_os_str() == "-" => {
+            (format.unwrap_or(Kind::Svg), Place::Stdout)
+        }
+        (format, Some(path)) => {
+            let kind = match (format, Kind::of_ending(path)) {
+                (Some(format), Some(of_file)) if format != of_file => {
+                    return Err(contradiction(path, format, of_file));
+                }
+                (Some(kind), _) | (None, Some(kind)) => kind,
+                (None, None) => return Err(no_format(path)),
+            };
+            (kind, Place::File(path.to_owned()))
+        }
+    };
+    if sliced && !matches!(kind, Kind::Svg | Kind::Png) {
+        let message = format!("a slice is a picture, and {} holds the whole grid", kind.key());
+        let problem = Diagnostic::error("graph::format", message);
+        return Err(refused(problem.help("leave --slice out, or write svg or png")));
+    }
+    Ok((kind, place))
+}
+
+fn refused(problem: Diagnostic) -> Failure {
+    Failure::new(Exit::Input, problem)
+}
+
+fn contradiction(path: &Path, format: Kind, of_file: Kind) -> Failure {
+    let message = format!(
+        "--format {} does not fit {}, which ends as {} does",
+        format.key(),
+        path.display(),
+        of_file.key()
+    );
+    let help = format!("leave --format out, or let the name end with .{}", format.ending());
+    refused(Diagnostic::error("graph::format", message).help(help))
+}
+
+fn no_format(path: &Path) -> Failure {
+    let message = format!("the ending of {} says no format", path.display());
+    let help = "end it with .svg, .png, .dot, .mmd, .vtk or .csv, or add --format svg";
+    refused(Diagnostic::error("graph::format", message).help(help))
+}

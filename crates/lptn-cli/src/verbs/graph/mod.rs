@@ -1,0 +1,119 @@
+//! `lptn graph`
+
+mod args;
+mod field;
+mod kind;
+mod output;
+
+pub(crate) use args::GraphArgs;
+
+use kind::Kind;
+use lptn_graph::{Diagram, Grouping, View};
+use lptn_netlist::{Diagnostic, RunSettings};
+use lptn_network::Network;
+use lptn_plot::{Scene, png, svg};
+use lptn_solve::SteadyState;
+use lptn_units::Unit;
+
+use super::steady::failed;
+use crate::console::Console;
+use crate::doubts::{adiabatic, inputs_vary, others};
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::{self, Input};
+
+/// Pixels of a PNG for one of the drawing: 192 an inch.
+const SCALE: f64 = 2.0;
+
+pub(crate) fn graph(args: &GraphArgs, console: &Console) -> Result<Exit, Failure> {
+    let (kind, place) =
+        kind::wanted(args.format, args.output.as_deref(), args.field.slice.is_some())?;
+    let input = Input::load(&args.source)?;
+    let unit = input::temperature_unit(args.scale.temperature_unit.as_deref(), &input.netlist)?;
+    console.warn(&input.netlist.files, &input.netlist.warnings);
+    let (bytes, name) = if field::is_wanted(args, kind) {
+        field::written(args, kind, (&input, &unit, console))?
+    } else {
+        network(args, kind, (&input, &unit, console))?
+    };
+    output::put(&bytes, (&place, &name), &input, console)?;
+    let plain = !args.steady && !field::is_wanted(args, kind);
+    if let (true, Some(file)) = (plain, input.typed()) {
+        console.note(&format!("next   lptn graph {file} --steady"));
+    }
+    Ok(Exit::Done)
+}
+
+/// What is written of the network, and its usual name.
+fn network(
+    args: &GraphArgs,
+    kind: Kind,
+    (input, unit, console): (&Input, &Unit, &Console),
+) -> Result<(Vec<u8>, String), Failure> {
+    let diagram = diagram(args, input, (unit, console))?;
+    let bytes = match kind {
+        Kind::Dot => lptn_graph::dot(&diagram).into_bytes(),
+        Kind::Mermaid => lptn_graph::mermaid(&diagram).into_bytes(),
+        _ => {
+            let scene = lptn_graph::scene(&diagram);
+            picture(kind, &scene.map_err(|error| Failure::of(&error))?)?
+        }
+    };
+    if !diagram.grouped.is_empty() {
+        console.note(&grouped(&diagram, args.group));
+    }
+    Ok((bytes, format!("graph.{}", kind.ending())))
+}
+
+fn diagram(
+    args: &GraphArgs,
+    input: &Input,
+    (unit, console): (&Unit, &Console),
+) -> Result<Diagram, Failure> {
+    let grouping = match (args.group, args.no_group) {
+        (true, _) => Grouping::Yes,
+        (_, true) => Grouping::No,
+        _ => Grouping::Auto,
+    };
+    let steady = if args.steady { Some(solve(input, unit, console)?) } else { None };
+    let title = input.title();
+    let view = View { title: &title, grouping, unit, steady: steady.as_ref() };
+    Ok(lptn_graph::diagram(&input.netlist.network, &view))
+}
+
+/// The steady state, with what to know before it is believed.
+fn solve(input: &Input, unit: &Unit, console: &Console) -> Result<SteadyState, Failure> {
+    let netlist = &input.netlist;
+    let network: &Network = &netlist.network;
+    let system = input.assemble()?;
+    let start = netlist.run.as_ref().map_or(0.0, |run: &RunSettings| run.start);
+    let steady = SteadyState::solve(&system, start).map_err(|error| failed(input, &error))?;
+    let vary = inputs_vary(input, &steady, &[]);
+    let doubts = [vary, adiabatic(network, &steady), others(network, &steady, unit)];
+    let doubts: Vec<Diagnostic> = doubts.into_iter().flatten().collect();
+    console.warn(&netlist.files, &doubts);
+    Ok(steady)
+}
+
+/// A drawing as a picture.
+fn picture(kind: Kind, scene: &Scene) -> Result<Vec<u8>, Failure> {
+    if kind != Kind::Png {
+        return Ok(svg::write(scene).into_bytes());
+    }
+    png::write(scene, SCALE).map_err(|error| {
+        let problem = Diagnostic::error("graph::picture", error.to_string());
+        Failure::new(Exit::Failed, problem.help("write svg, which may be as large as it likes"))
+    })
+}
+
+/// What stands as one box, and how to have it otherwise.
+fn grouped(diagram: &Diagram, asked: bool) -> String {
+    const SHOWN: usize = 6;
+    let mut words: Vec<&str> = diagram.grouped.iter().take(SHOWN).map(String::as_str).collect();
+    let more = format!("{} more", diagram.grouped.len().saturating_sub(SHOWN));
+    if diagram.grouped.len() > SHOWN {
+        words.push(&more);
+    }
+    let otherwise = if asked { "" } else { "; --no-group draws every node" };
+    format!("one box each: {}{otherwise}", words.join("; "))
+}

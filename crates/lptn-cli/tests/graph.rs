@@ -1,0 +1,202 @@
+//! `lptn graph`: numbers on pictures, what is written where, and what is refused.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod common;
+
+use common::Folder;
+
+/// 10 W leave through 2 K/W and 3 K/W side by side: 1.2 K/W together, so 12 K above the air; 6 W
+/// and 4 W. The second path is written from the cold end to the hot one.
+const PARALLEL: &str = "\
+format = 1
+title = \"Two paths\"
+[node]
+hot = { C = \"100 J/K\", T0 = \"20 degC\" }
+[boundary]
+air = { T = \"20 degC\" }
+[resistor]
+near = { from = \"hot\", to = \"air\", R = \"2 K/W\" }
+far = { from = \"air\", to = \"hot\", R = \"3 K/W\" }
+[source]
+loss = { into = \"hot\", P = \"10 W\" }
+";
+
+/// 10 W through a rod of 10 W/(m K) and 0.01 m^2: 100 K/m. Its cold end is 10 K above the air,
+/// 10 W / (100 W/(m^2 K) 0.01 m^2), so the middles of its cells are at 65, 55, 45 and 35 degC.
+const ROD: &str = "\
+format = 1
+[grid.rod]
+size = [\"0.4 m\", \"0.1 m\", \"0.1 m\"]
+cells = [4, 1, 1]
+k = \"10 W/(m K)\"
+density = \"1000 kg/m^3\"
+cp = \"1000 J/(kg K)\"
+T0 = \"20 degC\"
+[boundary]
+air = { T = \"20 degC\" }
+[convection]
+end = { from = \"rod.x1\", to = \"air\", h = \"100 W/(m^2 K)\" }
+[source]
+heater = { into = \"rod.x0\", P = \"10 W\" }
+";
+
+fn numbers(texts: impl Iterator<Item = String>) -> Vec<f64> {
+    texts.map(|text| text.parse().unwrap()).collect()
+}
+
+fn close(found: &[f64], expected: &[f64]) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?}");
+}
+
+#[test]
+fn temperatures_and_heat_flows_are_those_of_the_closed_form() {
+    let folder = Folder::with("two.toml", PARALLEL);
+    let ran = folder.run(&["graph", "two.toml", "--steady", "-o", "two.svg"]);
+    assert_eq!((ran.code, ran.out.as_str()), (Some(0), "wrote  two.svg\n"), "{}", ran.err);
+    let text = folder.read("two.svg");
+    for shown in ["hot", "32.0 °C", "20.0 °C", "6.00 W", "4.00 W", "2 K/W", "3 K/W", "100 J/K"] {
+        assert!(text.contains(&format!(">{shown}</text>")), "{shown}:\n{text}");
+    }
+    let ran = folder.run(&["graph", "two.toml", "--steady", "--format", "mermaid"]);
+    // heat goes from the node to the air on both paths
+    assert!(ran.out.contains("n1 -->|\"near<br/>2 K/W<br/>6.00 W\"| n2"), "{}", ran.out);
+    assert!(ran.out.contains("n1 -->|\"far<br/>3 K/W<br/>4.00 W\"| n2"), "{}", ran.out);
+}
+
+#[test]
+fn without_steady_no_temperature_is_computed() {
+    let folder = Folder::with("two.toml", PARALLEL);
+    let ran = folder.run(&["graph", "two.toml", "--format", "mermaid"]);
+    assert!(ran.out.contains("n1(\"hot<br/>100 J/K\")"), "{}", ran.out);
+    assert!(ran.out.contains("n1 ---|\"near<br/>2 K/W\"| n2"), "{}", ran.out);
+}
+
+#[test]
+fn the_ending_decides_and_a_picture_stands_among_the_results() {
+    let folder = Folder::with("two.toml", PARALLEL);
+    assert_eq!(folder.run(&["graph", "two.toml"]).out, "wrote  out/two/graph.svg\n");
+    for name in ["a.svg", "a.png", "a.dot", "a.gv", "a.mmd", "new/a.svg"] {
+        let ran = folder.run(&["graph", "two.toml", "-q", "-o", name]);
+        assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""), "{name}");
+    }
+    assert!(std::fs::read(folder.path().join("a.png")).unwrap().starts_with(b"\x89PNG"));
+    assert_eq!(folder.read("a.dot"), folder.read("a.gv"));
+    let piped = folder.run_with(&["graph", "-", "-o", "-"], PARALLEL);
+    assert_eq!(piped.out, folder.read("a.svg"));
+    let files = ["a.dot", "a.gv", "a.mmd", "a.png", "a.svg", "new/a.svg", "out/two/graph.svg"];
+    assert_eq!(folder.files(), [&files[..], &["two.toml"]].concat());
+}
+
+#[test]
+fn a_title_cannot_become_code() {
+    let title = r#"title = "\"] --> </title><script>alert(1)</script> %%{init}%% \\ end""#;
+    let folder = Folder::with("evil.toml", &PARALLEL.replace("title = \"Two paths\"", title));
+    for arguments in [&["-o", "-"][..], &["--format", "dot"], &["--format", "mermaid"]] {
+        let ran = folder.run(&[&["graph", "evil.toml"], arguments].concat());
+        assert_eq!(ran.code, Some(0), "{}", ran.err);
+        let code = match arguments[1] {
+            "dot" => "label=\"\"]", // the quote of the title ends no string
+            "mermaid" => "%%{",
+            _ => "<script",
+        };
+        assert!(!ran.out.contains(code), "{}", ran.out);
+    }
+}
+
+#[test]
+fn a_control_says_what_it_switches() {
+    let heater = "[control]\nguard = { sense = \"hot\", on_below = \"25 degC\", off_above = \"30 \
+                  degC\" }\n";
+    let text = PARALLEL.replace("P = \"10 W\"", "P = \"10 [W] * guard\"") + heater;
+    let folder = Folder::with("two.toml", &text);
+    let ran = folder.run(&["graph", "two.toml", "-o", "-"]);
+    let said = "control guard switches loss: on below 25 °C, off above 30 °C, felt at hot";
+    assert!(ran.out.contains(said), "{}", ran.out);
+    let ran = folder.run(&["graph", "two.toml", "--format", "dot"]);
+    assert!(ran.out.contains("n1 -> c1") && ran.out.contains("c1 -> s1"), "{}", ran.out);
+}
+
+#[test]
+fn inputs_that_change_are_said_in_the_picture_too() {
+    let text = PARALLEL.replace("P = \"10 W\"", "P = \"10 [W] * (1 + t / 1 [h])\"")
+        + "[run]\nstop = \"1 h\"\n";
+    let folder = Folder::with("two.toml", &text);
+    let ran = folder.run(&["graph", "two.toml", "--steady", "-o", "-"]);
+    assert!(ran.err.contains("warning[steady::inputs_vary]"), "{}", ran.err);
+    assert!(ran.out.contains("steady state for the inputs at 0 s"), "{}", ran.out);
+}
+
+#[test]
+fn a_grid_is_written_for_paraview() {
+    let folder = Folder::with("rod.toml", ROD);
+    let ran = folder.run(&["graph", "rod.toml", "--format", "vtk"]);
+    assert_eq!((ran.code, ran.out.as_str()), (Some(0), "wrote  out/rod/rod.vtk\n"), "{}", ran.err);
+    let text = folder.read("out/rod/rod.vtk");
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("# vtk DataFile Version 3.0"));
+    let after = |word: &str| {
+        let line = text.lines().find_map(|line| line.strip_prefix(word)).unwrap();
+        numbers(line.split_whitespace().map(str::to_owned))
+    };
+    close(&after("DIMENSIONS "), &[5.0, 2.0, 2.0]);
+    close(&after("SPACING "), &[0.1, 0.1, 0.1]);
+    close(&after("CELL_DATA "), &[4.0]);
+    assert!(text.contains("SCALARS T_degC double 1\nLOOKUP_TABLE default\n"), "{text}");
+    let (_, values) = text.split_once("default\n").unwrap();
+    close(&numbers(values.lines().map(str::to_owned)), &[65.0, 55.0, 45.0, 35.0]);
+}
+
+#[test]
+fn a_grid_is_written_with_the_places_of_its_cells() {
+    let folder = Folder::with("rod.toml", ROD);
+    let ran = folder.run(&["graph", "rod.toml", "--format", "csv", "--temperature-unit", "K"]);
+    let mut reader = csv::Reader::from_reader(ran.out.as_bytes());
+    assert_eq!(reader.headers().unwrap(), &["cell", "x [m]", "y [m]", "z [m]", "T [K]"][..]);
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    let column = |i: usize| numbers(rows.iter().map(|row| row[i].to_owned()));
+    close(&column(1), &[0.05, 0.15, 0.25, 0.35]);
+    close(&column(2), &[0.05; 4]);
+    close(&column(4), &[338.15, 328.15, 318.15, 308.15]);
+    let names: Vec<&str> = rows.iter().map(|row| &row[0]).collect();
+    assert_eq!(names, ["rod[1,1,1]", "rod[2,1,1]", "rod[3,1,1]", "rod[4,1,1]"]);
+}
+
+#[test]
+fn a_slice_is_drawn_with_its_hottest_cell() {
+    let folder = Folder::with("rod.toml", ROD);
+    let ran = folder.run(&["graph", "rod.toml", "--slice", "z=5 cm"]);
+    assert_eq!(ran.out, "wrote  out/rod/rod_z1.svg\n", "{}", ran.err);
+    let text = folder.read("out/rod/rod_z1.svg");
+    assert!(text.contains("hottest here: 65.0 °C at rod[1,1,1]"), "{text}");
+    assert!(text.contains("<title>rod[3,1,1]: 45.0 °C</title>"), "{text}");
+}
+
+#[test]
+fn what_cannot_be_drawn_is_said_before_anything_is_computed() {
+    let folder = Folder::with("rod.toml", ROD);
+    folder.write("two.toml", PARALLEL);
+    folder.write("file", "");
+    for (arguments, code) in [
+        (&["rod.toml", "--slice", "z=2"][..], "graph::slice"),
+        (&["rod.toml", "--slice", "x=41 cm"], "graph::slice"),
+        (&["rod.toml", "--slice", "w=1"], "graph::slice"),
+        (&["rod.toml", "--slice", "x=1 s"], "units::dimension"),
+        (&["rod.toml", "--grid", "rod"], "graph::slice"),
+        (&["rod.toml", "--grid", "rot", "--slice", "x=1"], "graph::grid"),
+        (&["two.toml", "--slice", "x=1"], "graph::grid"),
+        (&["two.toml", "--format", "vtk"], "graph::grid"),
+        (&["rod.toml", "--format", "vtk", "--slice", "x=1"], "graph::format"),
+        (&["two.toml", "-o", "two.jpg"], "graph::format"),
+        (&["two.toml", "-o", "two.svg", "--format", "png"], "graph::format"),
+        (&["two.toml", "-o", "file/two.svg"], "output::cannot_create"),
+        (&["two.toml", "--format", "jpg"], "possible values"),
+        (&["two.toml", "--group", "--no-group"], "cannot be used with"),
+    ] {
+        let ran = folder.run(&[&["graph"], arguments].concat());
+        assert_eq!((ran.code, ran.out.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.err);
+        assert!(ran.err.contains(code), "{arguments:?}: {}", ran.err);
+    }
+    assert_eq!(folder.files(), ["file", "rod.toml", "two.toml"]);
+}

@@ -1,0 +1,167 @@
+//! Which nodes and boundaries stand as one box.
+
+use std::collections::BTreeMap;
+
+use lptn_network::{BoundaryId, Item, Network, NodeId};
+
+/// More places than this are grouped unless the user says otherwise.
+pub const MOST_PLACES: usize = 150;
+
+/// Groups are joined further until there are no more places than this.
+const READABLE: usize = 40;
+
+/// Whether many nodes stand as one box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grouping {
+    /// Where there are more than [`MOST_PLACES`].
+    Auto,
+    /// Always.
+    Yes,
+    /// Never.
+    No,
+}
+
+/// Nodes or boundaries that stand as one box; one that stands for itself is alone.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Group {
+    pub(crate) name: String,
+    pub(crate) nodes: Vec<NodeId>,
+    pub(crate) boundaries: Vec<BoundaryId>,
+    /// What its members are, if they are more than one.
+    pub(crate) words: Option<String>,
+}
+
+/// How far names are told apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Level {
+    /// Every node stands for itself.
+    Alone,
+    /// A grid is one, an instance of a template is one.
+    Instances,
+    /// All instances of a template and all members of a family are one.
+    Families,
+    /// Names that differ in the number at their end are one.
+    Numbers,
+}
+
+/// The boxes of a network, in the order of the file.
+pub(crate) fn groups(network: &Network, grouping: Grouping) -> Vec<Group> {
+    let places = network.nodes().len() + network.boundaries().len();
+    let alone = match grouping {
+        Grouping::Auto => places <= MOST_PLACES,
+        Grouping::Yes => false,
+        Grouping::No => true,
+    };
+    if alone {
+        return at_level(network, Level::Alone);
+    }
+    let mut found = at_level(network, Level::Instances);
+    for level in [Level::Families, Level::Numbers] {
+        if found.len() > READABLE {
+            found = at_level(network, level);
+        }
+    }
+    found
+}
+
+fn at_level(network: &Network, level: Level) -> Vec<Group> {
+    let mut places: BTreeMap<(bool, String), usize> = BTreeMap::new();
+    let mut groups: Vec<Group> = Vec::new();
+    let mut join = |boundary: bool, name: &str, label: String| {
+        let key = if level == Level::Alone { name.to_owned() } else { label };
+        let place = *places.entry((boundary, key.clone())).or_insert(groups.len());
+        if place == groups.len() {
+            groups.push(Group { name: key, ..Group::default() });
+        }
+        place
+    };
+    let mut members: Vec<(usize, Item)> = Vec::new();
+    for id in network.node_ids() {
+        let name = &network.nodes()[id.index()].name;
+        let label = match network.whole(Item::Node(id)) {
+            Some(whole) => label(&network.name_of(whole), level),
+            None => label(name, level),
+        };
+        members.push((join(false, name, label), Item::Node(id)));
+    }
+    for id in network.boundary_ids() {
+        let name = &network.boundaries()[id.index()].name;
+        let label = if level >= Level::Families { label(name, level) } else { name.clone() };
+        members.push((join(true, name, label), Item::Boundary(id)));
+    }
+    for (place, member) in members {
+        match member {
+            Item::Node(id) => groups[place].nodes.push(id),
+            Item::Boundary(id) => groups[place].boundaries.push(id),
+            _ => {}
+        }
+    }
+    groups.iter_mut().for_each(|group| finish(network, group));
+    groups
+}
+
+/// What a name is called at a level.
+fn label(name: &str, level: Level) -> String {
+    let head = name.split('.').next().unwrap_or(name);
+    let family = || match head.split_once('[') {
+        Some((family, _)) => format!("{family}[*]"),
+        None => head.to_owned(),
+    };
+    match level {
+        Level::Alone => name.to_owned(),
+        // a member of a family that is no instance stands for itself
+        Level::Instances => head.to_owned(),
+        Level::Families => family(),
+        Level::Numbers => {
+            let family = family();
+            let stem = family.trim_end_matches(|c: char| c.is_ascii_digit());
+            let stem = stem.trim_end_matches('_');
+            if stem.is_empty() || stem.len() == family.len() { family } else { format!("{stem}*") }
+        }
+    }
+}
+
+/// A box of one is called as that one is.
+fn finish(network: &Network, group: &mut Group) {
+    match (group.nodes.as_slice(), group.boundaries.as_slice()) {
+        ([one], []) => group.name = network.nodes()[one.index()].name.clone(),
+        ([], [one]) => group.name = network.boundaries()[one.index()].name.clone(),
+        (nodes, []) => {
+            let grid = |id: &NodeId| match network.whole(Item::Node(*id)) {
+                Some(Item::Grid(grid)) => Some(grid),
+                _ => None,
+            };
+            let first = nodes.first().and_then(grid);
+            group.words = Some(match first {
+                Some(of) if nodes.iter().all(|id| grid(id) == first) => {
+                    let of = &network.grids()[of.index()];
+                    let cells: Vec<String> =
+                        of.cells.iter().take(of.axes).map(ToString::to_string).collect();
+                    format!("{} cells", cells.join(" × "))
+                }
+                _ => format!("{} nodes", nodes.len()),
+            });
+        }
+        (_, boundaries) => group.words = Some(format!("{} boundaries", boundaries.len())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Level, label};
+
+    #[test]
+    fn names_lose_what_tells_them_apart() {
+        use Level::{Families, Instances, Numbers};
+        for (name, level, expected) in [
+            ("planet[2].gear", Instances, "planet[2]"),
+            ("planet[2].gear", Families, "planet[*]"),
+            ("steel", Families, "steel"),
+            ("w12", Families, "w12"),
+            ("w_12", Numbers, "w*"),
+            ("hot[3]", Numbers, "hot[*]"),
+        ] {
+            assert_eq!(label(name, level), expected);
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Order in the columns, such that few wires cross.
+
+use super::columns::Columns;
+
+/// How often all columns are gone through.
+const SWEEPS: usize = 12;
+
+/// Orders every column by the mean position of what its vertices are joined to; the best order that
+/// is met stays.
+pub(crate) fn reduce_crossings(columns: &mut Columns) {
+    let neighbours = columns.neighbours();
+    let mut best = (crossings(columns, &neighbours[1]), columns.layers.clone());
+    for sweep in 0..SWEEPS {
+        let forth = sweep % 2 == 0;
+        let count = columns.layers.len();
+        for k in 0..count {
+            let layer = if forth { k } else { count - 1 - k };
+            sort(columns, layer, &neighbours[usize::from(!forth)]);
+        }
+        let found = crossings(columns, &neighbours[1]);
+        if found < best.0 {
+            best = (found, columns.layers.clone());
+        }
+    }
+    columns.layers = best.1;
+}
+
+/// Where each vertex stands in its column, from 0, the first, to 1.
+fn positions(columns: &Columns) -> Vec<f64> {
+    let mut at = vec![0.0; columns.vertices.len()];
+    for layer in &columns.layers {
+        for (i, v) in layer.iter().enumerate() {
+            at[*v] = (i as f64 + 0.5) / layer.len() as f64;
+        }
+    }
+    at
+}
+
+fn sort(columns: &mut Columns, layer: usize, joined: &[Vec<usize>]) {
+    let at = positions(columns);
+    let wish = |v: usize| match joined[v].as_slice() {
+        [] => at[v],
+        all => all.iter().map(|other| at[*other]).sum::<f64>() / all.len() as f64,
+    };
+    columns.layers[layer].sort_by(|a, b| wish(*a).total_cmp(&wish(*b)));
+}
+
+/// How many pairs of wires cross.
+fn crossings(columns: &Columns, after: &[Vec<usize>]) -> usize {
+    let mut at = vec![0; columns.vertices.len()];
+    for layer in &columns.layers {
+        for (i, v) in layer.iter().enumerate() {
+            at[*v] = i;
+        }
+    }
+    columns.layers.iter().map(|layer| inversions(layer, after, &at)).sum()
+}
+
+/// Pairs of wires behind a column whose ends stand in the other order than their beginnings.
+fn inversions(layer: &[usize], after: &[Vec<usize>], at: &[usize]) -> usize {
+    // a Fenwick tree over the positions of the next column
+    let most = layer.iter().flat_map(|v| &after[*v]).map(|v| at[*v] + 1).max().unwrap_or(0);
+    let mut tree = vec![0_usize; most + 1];
+    let (mut total, mut sum) = (0, 0);
+    for v in layer {
+        for other in &after[*v] {
+            let (mut k, mut not_after) = (at[*other] + 1, 0);
+            while k > 0 {
+                not_after += tree[k];
+                k &= k - 1;
+            }
+            sum += total - not_after;
+        }
+        for other in &after[*v] {
+            let mut k = at[*other] + 1;
+            while k < tree.len() {
+                tree[k] += 1;
+                k += k & k.wrapping_neg();
+            }
+            total += 1;
+        }
+    }
+    sum
+}

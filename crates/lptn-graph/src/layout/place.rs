@@ -1,0 +1,185 @@
+//! Coordinates: levels in the columns, and rows of columns.
+
+use std::ops::Range;
+
+use super::Block;
+use super::columns::{Columns, Vertex};
+use super::route::{Channel, MOST_TURNING};
+
+/// Between two neighbours of a column.
+const GAP: f64 = 14.0;
+
+/// How much wider than the mean a row may be.
+const UNEVEN: f64 = 1.1;
+
+/// How often levels are drawn towards their neighbours.
+const ROUNDS: usize = 24;
+
+/// The weight of what stands in line already.
+const HELD: f64 = 1e9;
+
+/// The level of each vertex, downwards, such that wires are nearly straight.
+pub(crate) fn levels(columns: &Columns) -> Vec<f64> {
+    let neighbours = columns.neighbours();
+    let mut at = vec![0.0; columns.vertices.len()];
+    let count = columns.layers.len();
+    let rooms = rooms(columns);
+    let settle = |layer: usize, at: &mut [f64], wish: &dyn Fn(usize, &[f64]) -> Wish| {
+        settle(&rooms, &columns.layers[layer], at, wish);
+    };
+    (0..count).for_each(|layer| settle(layer, &mut at, &|_, _| (0.0, 1.0)));
+    for round in 0..ROUNDS {
+        let both = round >= ROUNDS / 2;
+        let forth = round % 2 == 0;
+        for k in 0..count {
+            let layer = if forth { k } else { count - 1 - k };
+            settle(layer, &mut at, &|v, at| {
+                let before = mean(&neighbours[0][v], at);
+                let after = mean(&neighbours[1][v], at);
+                let wish = match (both, before, after) {
+                    (true, Some(a), Some(b)) => Some((a + b) / 2.0),
+                    (true, a, b) => a.or(b),
+                    (false, a, b) => {
+                        if forth {
+                            a
+                        } else {
+                            b
+                        }
+                    }
+                };
+                (wish.unwrap_or(at[v]), 1.0)
+            });
+        }
+    }
+    // what comes first stays, and the rest stands in line with it
+    for layer in 0..count {
+        settle(layer, &mut at, &|v, at| {
+            let wish = in_line(columns, &neighbours[0][v], at);
+            (wish.unwrap_or(at[v]), columns.weights[v])
+        });
+    }
+    for layer in (0..count).rev() {
+        settle(layer, &mut at, &|v, at| match (
+            &neighbours[0][v],
+            in_line(columns, &neighbours[1][v], at),
+        ) {
+            (before, Some(after)) if before.is_empty() => (after, 1.0),
+            _ => (at[v], HELD),
+        });
+    }
+    at.iter().map(|level| level.round()).collect()
+}
+
+/// The room of each vertex: what stands in line has that of its tallest, so that nothing bends it.
+fn rooms(columns: &Columns) -> Vec<Block> {
+    let mut rooms = columns.blocks.clone();
+    let passes = |v: usize| matches!(columns.vertices[v], Vertex::Pass(_));
+    let channels = 0..columns.nets.len();
+    for channel in channels.clone().chain(channels.rev()) {
+        for net in &columns.nets[channel] {
+            let ([a], [b]) = (net.left.as_slice(), net.right.as_slice()) else { continue };
+            if passes(*a) || passes(*b) {
+                continue;
+            }
+            let above = rooms[*a].above.max(rooms[*b].above);
+            let below = rooms[*a].below.max(rooms[*b].below);
+            for v in [*a, *b] {
+                rooms[v] = Block { above, below, ..rooms[v] };
+            }
+        }
+    }
+    rooms
+}
+
+/// The mean level of some vertices.
+fn mean(of: &[usize], at: &[f64]) -> Option<f64> {
+    (!of.is_empty()).then(|| of.iter().map(|v| at[*v]).sum::<f64>() / of.len() as f64)
+}
+
+/// The level of the heaviest of some vertices; that in the middle of several.
+fn in_line(columns: &Columns, of: &[usize], at: &[f64]) -> Option<f64> {
+    let most = of.iter().map(|v| columns.weights[*v]).fold(0.0, f64::max);
+    let heavy = of.iter().filter(|v| columns.weights[**v] >= most);
+    let mut levels: Vec<f64> = heavy.map(|v| at[*v]).collect();
+    levels.sort_by(f64::total_cmp);
+    let middle = levels.len() / 2;
+    match levels.len() {
+        0 => None,
+        n if n % 2 == 1 => Some(levels[middle]),
+        _ => Some((levels[middle - 1] + levels[middle]) / 2.0),
+    }
+}
+
+/// A level that a vertex wishes to have, and how much.
+type Wish = (f64, f64);
+
+/// Puts the vertices of a column as near to where they wish to be as their sizes and order allow,
+/// in the least squares: isotonic regression by pooling adjacent violators.
+fn settle(
+    rooms: &[Block],
+    vertices: &[usize],
+    at: &mut [f64],
+    wish: &dyn Fn(usize, &[f64]) -> Wish,
+) {
+    let mut offset = 0.0;
+    let mut offsets = Vec::with_capacity(vertices.len());
+    for (i, v) in vertices.iter().enumerate() {
+        if let Some(last) = i.checked_sub(1).map(|i| vertices[i]) {
+            offset += rooms[last].below + GAP + rooms[*v].above;
+        }
+        offsets.push(offset);
+    }
+    // pools of neighbours that touch: mean, weight, number
+    let mut pools: Vec<(f64, f64, usize)> = Vec::new();
+    for (v, offset) in vertices.iter().zip(&offsets) {
+        let (level, weight) = wish(*v, at);
+        let mut pool = (level - offset, weight, 1);
+        while let Some((mean, weight, count)) = pools.pop_if(|last| last.0 > pool.0) {
+            let sum = mean * weight + pool.0 * pool.1;
+            pool = (sum / (weight + pool.1), weight + pool.1, count + pool.2);
+        }
+        pools.push(pool);
+    }
+    let means = pools.iter().flat_map(|(mean, _, count)| std::iter::repeat_n(*mean, *count));
+    for ((v, offset), mean) in vertices.iter().zip(&offsets).zip(means) {
+        at[*v] = mean + offset;
+    }
+}
+
+/// The highest and the lowest level that anything of some columns takes up.
+pub(crate) fn extent(columns: &Columns, levels: &[f64], row: &Range<usize>) -> (f64, f64) {
+    let vertices = columns.layers[row.clone()].iter().flatten();
+    vertices.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+        let block = columns.blocks[*v];
+        (low.min(levels[*v] - block.above), high.max(levels[*v] + block.below))
+    })
+}
+
+/// Rows of columns, each at most so many pixels wide where that can be; a row ends behind places.
+pub(crate) fn rows(columns: &Columns, routes: &[Channel], most: f64) -> Vec<Range<usize>> {
+    let count = columns.layers.len();
+    let width =
+        |layer: usize| 2.0 * columns.half(layer) + routes.get(layer).map_or(0.0, Channel::width);
+    let all: f64 = (0..count).map(width).sum();
+    let most = all / (all / most).ceil() * UNEVEN;
+    let (mut rows, mut start, mut sum) = (Vec::new(), 0, 0.0);
+    let mut end_of_row = None;
+    for layer in 0..count {
+        sum += width(layer);
+        if sum > most
+            && let Some(end) = end_of_row.take()
+        {
+            rows.push(start..end);
+            start = end;
+            sum = (start..=layer).map(width).sum();
+        }
+        let places =
+            columns.layers[layer].iter().any(|v| matches!(columns.vertices[*v], Vertex::Place(_)));
+        // few wires may go on to the next row
+        if places && layer + 1 < count && columns.nets[layer].len() <= MOST_TURNING {
+            end_of_row = Some(layer + 1);
+        }
+    }
+    rows.push(start..count);
+    rows
+}

@@ -1,0 +1,89 @@
+//! What stands below a diagram: the scale of its temperatures, its controls.
+
+use lptn_plot::font::width;
+use lptn_plot::scene::{Align, Stroke, Text, rectangle};
+use lptn_plot::{FIELD, Ink, Scene};
+
+use crate::model::{Diagram, Target};
+
+/// Room that a legend takes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Size {
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+}
+
+/// The colours of a scale, side by side.
+pub(crate) const BAR: (f64, f64) = (8.0 * FIELD as f64, 12.0);
+
+/// The height of that with its texts.
+const SCALE: f64 = BAR.1 + 2.0 * LINE + 6.0;
+
+const SIZE: f64 = 12.0;
+const LINE: f64 = 18.0;
+
+/// Between the diagram and what is below it.
+const GAP: f64 = 22.0;
+
+/// The room for what stands below a diagram.
+pub(crate) fn legend(diagram: &Diagram) -> Size {
+    let lines = lines(diagram);
+    let captions = diagram.steady.iter().map(|steady| &steady.caption);
+    let widest = lines.iter().chain(captions).map(|text| width(text, SIZE, false));
+    let widest = widest.fold(0.0, f64::max);
+    let scale = if diagram.steady.is_some() { SCALE } else { 0.0 };
+    let height = scale + LINE * lines.len() as f64;
+    let scale_width = if scale > 0.0 { BAR.0 } else { 0.0 };
+    let height = if height > 0.0 { height + GAP } else { 0.0 };
+    Size { width: widest.max(scale_width), height }
+}
+
+/// Controls with what they switch.
+fn lines(diagram: &Diagram) -> Vec<String> {
+    let target = |target: &Target| match target {
+        Target::Link(i) => diagram.links[*i].name.clone(),
+        Target::Source(i) => diagram.sources[*i].name.clone(),
+    };
+    let controls = diagram.controls.iter().map(|control| {
+        let switched: Vec<String> = control.switches.iter().map(target).collect();
+        let does = if switched.is_empty() {
+            String::new()
+        } else {
+            format!(" switches {}", switched.join(", "))
+        };
+        let sense = &diagram.places[control.sense].name;
+        format!("control {}{does}: {}, felt at {sense}", control.name, control.rule)
+    });
+    controls.collect()
+}
+
+/// Draws it from its upper left corner.
+pub(crate) fn draw(scene: &mut Scene, diagram: &Diagram, (x, y): (f64, f64)) {
+    let mut y = y + GAP;
+    if let Some(steady) = &diagram.steady {
+        scale(scene, &steady.ends, &steady.caption, (x, y));
+        y += SCALE;
+    }
+    for text in lines(diagram) {
+        y += LINE;
+        scene.write(Text::new(text, (x, y - 5.0), SIZE, Ink::Faint));
+    }
+}
+
+/// A bar of colours with the temperatures at its ends, and a line of text below.
+pub(crate) fn scale(scene: &mut Scene, ends: &[String; 2], caption: &str, (x, y): (f64, f64)) {
+    let step = BAR.0 / FIELD as f64;
+    for i in 0..FIELD {
+        // a little wider, so that no paper shows between them
+        let over = if i + 1 < FIELD { 0.5 } else { 0.0 };
+        let part = rectangle((x + step * i as f64, y), (step + over, BAR.1), 0.0);
+        scene.put(part.filled(Ink::Field(i), 1.0));
+    }
+    scene.put(rectangle((x, y), BAR, 0.0).stroked(Stroke::solid(Ink::Frame, 1.0)));
+    for (text, at, align) in [(&ends[0], x, Align::Start), (&ends[1], x + BAR.0, Align::End)] {
+        let text = Text::new(text.clone(), (at, y + BAR.1 + LINE - 3.0), SIZE, Ink::Text);
+        scene.write(text.aligned(align));
+    }
+    let below = (x, y + BAR.1 + 2.0 * LINE - 1.0);
+    scene.write(Text::new(caption, below, SIZE, Ink::Faint));
+}

@@ -1,0 +1,30 @@
+//! Networks as pictures.
+//!
+//! A [`Diagram`] is a network as it is drawn: its nodes, boundaries, paths and sources with the
+//! words that stand beside them, many alike as one box where asked. [`scene`] lays it out and draws
+//! it with the usual symbols, [`dot`] and [`mermaid`] write it for other programs. A [`Field`] is
+//! the temperature of the cells of a grid, drawn slice by slice or written for ParaView.
+
+mod dot;
+mod field;
+mod groups;
+mod layout;
+mod legend;
+mod mermaid;
+mod model;
+mod picture;
+mod read;
+mod slice;
+mod symbols;
+mod vtk;
+mod words;
+
+pub use dot::dot;
+pub use field::{Cut, Field, NoSlice};
+pub use groups::{Grouping, MOST_PLACES};
+pub use mermaid::mermaid;
+pub use model::{Control, Diagram, Link, Place, Role, Steady, Supply, Target};
+pub use picture::{MOST_DRAWN, TooMany, scene};
+pub use read::{View, diagram};
+pub use slice::slice;
+pub use vtk::vtk;

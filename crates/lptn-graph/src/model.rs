@@ -1,0 +1,134 @@
+//! A network as it is drawn: what has a place, what lies between places, and the words beside it.
+
+use lptn_network::ConductorKind;
+
+/// A network as it is drawn.
+#[derive(Clone, Debug)]
+pub struct Diagram {
+    /// What it is called.
+    pub title: String,
+    /// Its nodes and boundaries, or groups of them.
+    pub places: Vec<Place>,
+    /// The paths between two places, those inside a group left out.
+    pub links: Vec<Link>,
+    /// The heat put in.
+    pub sources: Vec<Supply>,
+    /// What switches.
+    pub controls: Vec<Control>,
+    /// The steady state that is shown.
+    pub steady: Option<Steady>,
+    /// What stands as one box, in words.
+    pub grouped: Vec<String>,
+}
+
+/// A node or boundary, or several as one.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub role: Role,
+    /// What is known of its temperature, in words: `92.7 °C`.
+    pub temperature: Option<String>,
+    /// The mean of its temperatures in steady state, in K.
+    pub kelvin: Option<f64>,
+}
+
+/// What a place is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// A node with its capacity, `735 J/K`.
+    Node(String),
+    /// A node that stores nothing.
+    Junction,
+    /// A place with a given temperature.
+    Boundary,
+    /// Several nodes: what they are, `24 nodes`, and their capacity together unless they store
+    /// nothing.
+    Group(String, Option<String>),
+}
+
+/// A path between two places, or several of one kind.
+#[derive(Clone, Debug)]
+pub struct Link {
+    /// Its name; how many they are where they are several.
+    pub name: String,
+    /// The section it stands in.
+    pub kind: ConductorKind,
+    /// The place that positive heat leaves.
+    pub from: usize,
+    /// The place that positive heat enters.
+    pub to: usize,
+    /// Its resistance, `0.42 K/W`, or what else is known before a run.
+    pub value: Option<String>,
+    /// Whether heat goes with a fluid.
+    pub stream: bool,
+    /// Its heat in steady state in W, positive from `from` to `to`.
+    pub heat: Option<f64>,
+}
+
+/// Heat that is put into a place.
+#[derive(Clone, Debug)]
+pub struct Supply {
+    /// Its name, with the share that this place has of it.
+    pub name: String,
+    /// Where it goes.
+    pub into: usize,
+    /// How much it is, `220.6 W`, or that it changes.
+    pub value: String,
+    /// How much it is in steady state in W.
+    pub heat: Option<f64>,
+}
+
+/// A thermostat.
+#[derive(Clone, Debug)]
+pub struct Control {
+    /// Its name.
+    pub name: String,
+    /// The place whose temperature it feels.
+    pub sense: usize,
+    /// When it switches: `on above 85 °C, off below 75 °C`.
+    pub rule: String,
+    /// What it switches.
+    pub switches: Vec<Target>,
+}
+
+/// What a control switches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Target {
+    /// A path, by its position in [`Diagram::links`].
+    Link(usize),
+    /// A source, by its position in [`Diagram::sources`].
+    Source(usize),
+}
+
+/// The scales of a steady state.
+#[derive(Clone, Debug)]
+pub struct Steady {
+    /// The coldest and the hottest temperature in K.
+    pub span: [f64; 2],
+    /// The same in words.
+    pub ends: [String; 2],
+    /// That it is a steady state, and for which inputs where they change.
+    pub caption: String,
+    /// The largest heat flow in W; not negative.
+    pub most: f64,
+    /// The unit of power of 1000 in W that heat flows are written in, and its name.
+    pub heat_unit: (f64, String),
+    /// Decimals of heat flows.
+    pub decimals: usize,
+}
+
+impl Steady {
+    /// A heat flow in W in words, without its sign: `154.4 W`.
+    pub fn heat(&self, watts: f64) -> String {
+        let (scale, unit) = &self.heat_unit;
+        format!("{} {unit}", lptn_report::fixed(watts.abs() / scale, self.decimals))
+    }
+
+    /// Where a temperature in K lies, from 0, the coldest, to 1.
+    pub fn share(&self, kelvin: f64) -> f64 {
+        let [low, high] = self.span;
+        if high > low { ((kelvin - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 }
+    }
+}

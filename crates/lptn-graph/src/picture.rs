@@ -1,0 +1,336 @@
+//! Draws a diagram.
+
+use std::fmt;
+
+use lptn_network::ConductorKind;
+use lptn_plot::font::width;
+use lptn_plot::scene::{Align, Stroke, Text, circle, line, rectangle};
+use lptn_plot::{FIELD, Ink, Scene};
+use lptn_report::shortened;
+use lptn_units::Problem;
+
+use crate::layout::{Arranged, Block, Element, Point, arrange};
+use crate::legend;
+use crate::model::{Diagram, Link, Place, Role, Steady, Supply};
+use crate::symbols::{self, CAPACITY, HALF, REACH, SOURCE, WIRE};
+
+/// More boxes than this cannot be read in any picture.
+pub const MOST_DRAWN: usize = 600;
+
+/// A diagram has too many boxes for a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TooMany {
+    /// How many it has.
+    pub boxes: usize,
+}
+
+impl fmt::Display for TooMany {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} boxes are too many for one picture: at most {MOST_DRAWN} are drawn",
+            self.boxes
+        )
+    }
+}
+
+impl std::error::Error for TooMany {}
+
+impl Problem for TooMany {
+    fn code(&self) -> &'static str {
+        "graph::too_many"
+    }
+
+    fn help(&self) -> Option<String> {
+        Some("draw groups with --group, or give all of them to Graphviz with --format dot".into())
+    }
+}
+
+/// Sizes of letters: names, values, small print.
+const NAME: f64 = 13.0;
+const VALUE: f64 = 12.0;
+const SMALL: f64 = 11.0;
+
+/// From one line of text to the next.
+const LINE: f64 = 15.0;
+
+/// Around everything.
+const MARGIN: f64 = 24.0;
+
+/// Letters of a name that are shown; a reader that points at it sees all.
+const LETTERS: usize = 30;
+
+/// Rows of columns are as wide as this at most, in pixels.
+const MOST_WIDTH: f64 = 2000.0;
+
+/// The widest arrow of a heat flow.
+const WIDEST: f64 = 6.0;
+
+/// A diagram as a drawing.
+///
+/// # Errors
+/// [`TooMany`] for more than [`MOST_DRAWN`] boxes.
+pub fn scene(diagram: &Diagram) -> Result<Scene, TooMany> {
+    if diagram.places.len() > MOST_DRAWN {
+        return Err(TooMany { boxes: diagram.places.len() });
+    }
+    let places: Vec<Block> = diagram.places.iter().map(place_block).collect();
+    let ends = ends(diagram);
+    let links = diagram.links.iter().zip(&ends).map(|(link, (from, to))| Element {
+        block: link_block(link, diagram.steady.as_ref()),
+        from: Some(*from),
+        to: *to,
+    });
+    let sources = diagram.sources.iter().map(|source| Element {
+        block: source_block(source, diagram.steady.as_ref()),
+        from: None,
+        to: source.into,
+    });
+    let arranged = arrange(&places, &links.chain(sources).collect::<Vec<_>>(), MOST_WIDTH);
+    let head = if diagram.title.is_empty() { 0.0 } else { 30.0 };
+    let legend = legend::legend(diagram);
+    let wide = legend.width.max(width(&diagram.title, 16.0, true)).max(arranged.size.0);
+    let size = (wide + 2.0 * MARGIN, head + arranged.size.1 + legend.height + 2.0 * MARGIN);
+    let mut scene = Scene::new((size.0.ceil(), size.1.ceil()), diagram.title.clone());
+    let title = Text::new(diagram.title.clone(), (MARGIN, MARGIN + 12.0), 16.0, Ink::Text);
+    scene.write(title.bold());
+    let corner = (MARGIN + (wide - arranged.size.0) / 2.0, MARGIN + head);
+    Drawing { diagram, scene: &mut scene, corner }.draw(&arranged, &ends);
+    legend::draw(&mut scene, diagram, (MARGIN, size.1 - MARGIN - legend.height));
+    Ok(scene)
+}
+
+/// The places that should stand left and right of each path: heat goes to boundaries where there
+/// are sources, else from the first end to the second.
+fn ends(diagram: &Diagram) -> Vec<(usize, usize)> {
+    let boundary = |place: usize| diagram.places[place].role == Role::Boundary;
+    let turned = |link: &&Link| {
+        !link.stream && !diagram.sources.is_empty() && boundary(link.from) && !boundary(link.to)
+    };
+    let links = diagram.links.iter();
+    links
+        .map(|link| match Some(link).filter(turned) {
+            Some(_) => (link.to, link.from),
+            None => (link.from, link.to),
+        })
+        .collect()
+}
+
+/// The lines of text of a place.
+fn lines(place: &Place) -> Vec<(String, bool)> {
+    let mut lines = vec![(shortened(&place.name, LETTERS), true)];
+    if let Role::Group(words, _) = &place.role {
+        lines.push((words.clone(), false));
+    }
+    lines.extend(place.temperature.iter().map(|text| (text.clone(), false)));
+    lines
+}
+
+fn capacity(place: &Place) -> Option<&str> {
+    match &place.role {
+        Role::Node(capacity) | Role::Group(_, Some(capacity)) => Some(capacity),
+        _ => None,
+    }
+}
+
+/// Half the size of the box of a place.
+fn half_box(place: &Place) -> Point {
+    let lines = lines(place);
+    let widest =
+        lines.iter().map(|(text, bold)| width(text, if *bold { NAME } else { VALUE }, *bold));
+    let wide = widest.fold(34.0, f64::max) + 22.0;
+    ((wide / 2.0).ceil(), (LINE * lines.len() as f64 + 13.0) / 2.0)
+}
+
+fn place_block(place: &Place) -> Block {
+    let (pin, tall) = half_box(place);
+    let capacity = capacity(place);
+    let beside = capacity.map_or(0.0, |text| CAPACITY.1 + 7.0 + width(text, VALUE, false));
+    let below = match &place.role {
+        Role::Boundary => 9.0,
+        _ if capacity.is_some() => CAPACITY.0,
+        _ => 0.0,
+    };
+    Block { pin, half: pin.max(beside) + 4.0, above: tall, below: tall + below }
+}
+
+/// What stands below the symbol of a path: its value, and its kind where the symbol does not say
+/// it.
+fn below_link(link: &Link) -> Vec<String> {
+    let kind = (link.kind != ConductorKind::Resistor).then(|| link.kind.declaration().section);
+    let unknown = || kind.is_none().then(|| "not constant".to_owned());
+    link.value.clone().or_else(unknown).into_iter().chain(kind.map(str::to_owned)).collect()
+}
+
+fn link_block(link: &Link, steady: Option<&Steady>) -> Block {
+    let below = below_link(link);
+    let flow = steady.zip(link.heat).map(|(steady, heat)| steady.heat(heat));
+    element_block(&link.name, &below, (flow.as_deref(), HALF, REACH))
+}
+
+fn source_block(source: &Supply, steady: Option<&Steady>) -> Block {
+    let below = source_words(source, steady);
+    element_block(&source.name, &below, (None, SOURCE, SOURCE))
+}
+
+/// The value of a source; in steady state its heat where that is not the same.
+fn source_words(source: &Supply, steady: Option<&Steady>) -> Vec<String> {
+    let heat = steady.zip(source.heat).map(|(steady, heat)| {
+        let sign = if heat < 0.0 { "-" } else { "" };
+        format!("{sign}{}", steady.heat(heat))
+    });
+    match heat {
+        Some(heat) if source.value.starts_with('P') => vec![source.value.clone(), heat],
+        _ => vec![source.value.clone()],
+    }
+}
+
+/// The arrow of a heat flow and the gap before its words.
+const ARROW: f64 = 34.0;
+const ARROW_GAP: f64 = 6.0;
+
+fn element_block(
+    name: &str,
+    below: &[String],
+    (flow, pin, reach): (Option<&str>, f64, f64),
+) -> Block {
+    let name = width(&shortened(name, LETTERS), NAME, false);
+    let texts = below.iter().map(|text| width(text, VALUE, false));
+    let flow_width = flow.map_or(0.0, |text| ARROW + ARROW_GAP + width(text, VALUE, true));
+    let wide = texts.fold(name.max(flow_width), f64::max);
+    let lines = below.len() + usize::from(flow.is_some());
+    Block {
+        pin,
+        half: (wide / 2.0 + 6.0).max(pin + 6.0).ceil(),
+        above: reach + LINE + 3.0,
+        below: reach + LINE * lines as f64 + 3.0,
+    }
+}
+
+/// Puts a diagram on a page.
+struct Drawing<'a> {
+    diagram: &'a Diagram,
+    scene: &'a mut Scene,
+    corner: Point,
+}
+
+impl Drawing<'_> {
+    fn draw(&mut self, arranged: &Arranged, ends: &[(usize, usize)]) {
+        let (left, top) = self.corner;
+        let moved = |(x, y): Point| (x + left, y + top);
+        for wire in &arranged.wires {
+            // a little longer, so that corners are closed
+            let [(x, y), (u, v)] = wire.map(moved);
+            let over = WIRE / 2.0;
+            let (dx, dy) = if x < u { (over, 0.0) } else { (0.0, over) };
+            self.scene.put(line([(x - dx, y - dy), (u + dx, v + dy)]).stroked(symbols::pen()));
+        }
+        for dot in &arranged.dots {
+            self.scene.put(circle(moved(*dot), 2.8).filled(Ink::Text, 1.0));
+        }
+        let (links, sources) = arranged.elements.split_at(self.diagram.links.len());
+        for (i, (link, at)) in self.diagram.links.iter().zip(links).enumerate() {
+            // its own first end stands to the left unless it was turned once
+            let turned = arranged.reversed[i] != (ends[i].0 != link.from);
+            self.link(link, moved(*at), turned);
+        }
+        for (source, at) in self.diagram.sources.iter().zip(sources) {
+            self.source(source, moved(*at));
+        }
+        for (place, at) in self.diagram.places.iter().zip(&arranged.places) {
+            self.place(place, moved(*at));
+        }
+    }
+
+    /// Lines of text around a middle, the first with its base line at `y`.
+    fn below(&mut self, words: &[String], (x, y): Point) {
+        for (i, text) in words.iter().enumerate() {
+            let at = (x, y + LINE * i as f64);
+            let ink = if i == 0 { Ink::Text } else { Ink::Faint };
+            let size = if i == 0 { VALUE } else { SMALL };
+            self.scene.write(Text::new(text.clone(), at, size, ink).aligned(Align::Middle));
+        }
+    }
+
+    fn name(&mut self, name: &str, at: Point) {
+        let text = shortened(name, LETTERS);
+        self.scene.write(Text::new(text, at, NAME, Ink::Text).aligned(Align::Middle));
+    }
+
+    fn link(&mut self, link: &Link, (x, y): Point, turned: bool) {
+        match link.kind {
+            _ if link.stream => symbols::stream(self.scene, (x, y), !turned),
+            ConductorKind::Radiation => symbols::wave(self.scene, (x, y)),
+            _ => symbols::resistor(self.scene, (x, y)),
+        }
+        self.name(&link.name, (x, y - REACH - 6.0));
+        let words = below_link(link);
+        let first = y + REACH + LINE - 1.0;
+        self.below(&words, (x, first));
+        if let Some((steady, heat)) = self.diagram.steady.as_ref().zip(link.heat) {
+            // in the direction of the heat; of a stream in that of the fluid
+            let right = (heat >= 0.0) != turned;
+            self.flow(steady, (heat, right), (x, first + LINE * words.len() as f64));
+        }
+    }
+
+    /// An arrow as wide as a heat flow is large, with its number.
+    fn flow(&mut self, steady: &Steady, (heat, right): (f64, bool), (x, y): Point) {
+        let text = steady.heat(heat);
+        if heat == 0.0 {
+            let text = Text::new(text, (x, y), VALUE, Ink::Text).aligned(Align::Middle);
+            return self.scene.write(text.bold());
+        }
+        let start = x - (ARROW + ARROW_GAP + width(&text, VALUE, true)) / 2.0;
+        let share = if steady.most > 0.0 { heat.abs() / steady.most } else { 0.0 };
+        let level = y - 4.0;
+        let ends = [(start, level), (start + ARROW, level)];
+        let ends = if right { ends } else { [ends[1], ends[0]] };
+        symbols::arrow(self.scene, ends, (Ink::Limit, 1.0 + (WIDEST - 1.0) * share));
+        let at = (start + ARROW + ARROW_GAP, y);
+        self.scene.write(Text::new(text, at, VALUE, Ink::Text).bold());
+    }
+
+    fn source(&mut self, source: &Supply, (x, y): Point) {
+        symbols::source(self.scene, (x, y));
+        self.name(&source.name, (x, y - SOURCE - 6.0));
+        let words = source_words(source, self.diagram.steady.as_ref());
+        self.below(&words, (x, y + SOURCE + LINE - 1.0));
+    }
+
+    fn place(&mut self, place: &Place, (x, y): Point) {
+        let (half, tall) = half_box(place);
+        let ink = self.diagram.steady.as_ref().zip(place.kelvin).map(|(steady, kelvin)| {
+            Ink::Field((steady.share(kelvin) * (FIELD - 1) as f64).round() as usize)
+        });
+        let radius = if place.role == Role::Boundary { 0.0 } else { 8.0 };
+        let corner = (x - half, y - tall);
+        let size = (2.0 * half, 2.0 * tall);
+        if matches!(place.role, Role::Group(..)) {
+            let behind = rectangle((corner.0 + 4.0, corner.1 - 4.0), size, radius);
+            self.scene.put(behind.filled(Ink::Paper, 1.0).stroked(symbols::pen()));
+        }
+        let tip = place.name.clone();
+        self.scene.put(rectangle(corner, size, radius).filled(Ink::Paper, 1.0));
+        let frame = rectangle(corner, size, radius).tipped(tip);
+        self.scene.put(match ink {
+            Some(ink) => frame.filled(ink, 0.3).stroked(Stroke::solid(ink, 3.0)),
+            None => frame.filled(Ink::Grid, 0.5).stroked(symbols::pen()),
+        });
+        let lines = lines(place);
+        let first = y - LINE * (lines.len() as f64 - 1.0) / 2.0 + 4.5;
+        for (i, (text, bold)) in lines.into_iter().enumerate() {
+            let at = (x, first + LINE * i as f64);
+            let size = if bold { NAME } else { VALUE };
+            let text = Text::new(text, at, size, Ink::Text).aligned(Align::Middle);
+            self.scene.write(if bold { text.bold() } else { text });
+        }
+        if place.role == Role::Boundary {
+            symbols::hatching(self.scene, [x - half, x + half], y + tall + 1.5);
+        } else if let Some(capacity) = capacity(place) {
+            symbols::capacity(self.scene, (x, y + tall));
+            let at = (x + CAPACITY.1 + 5.0, y + tall + 18.0);
+            self.scene.write(Text::new(capacity, at, VALUE, Ink::Text));
+        }
+    }
+}
