@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// From the ground up: a crate may use only those before it.
-const ORDER: [&str; 15] = [
+const ORDER: [&str; 16] = [
     "lptn-units",
+    "lptn-plot",
     "lptn-laws",
     "lptn-network",
     "lptn-data",

@@ -2,7 +2,9 @@
 
 use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Bound, Item, Limit, LimitId, LimitSeverity, Network};
-use lptn_report::{Text, TextTable, duration, significant};
+use lptn_plot::figure::{Level, Panel};
+use lptn_plot::printed;
+use lptn_report::{TEMPERATURE, Text, TextTable, duration, significant};
 use lptn_solve::LimitSeen;
 use lptn_study::SiValue;
 use lptn_units::{Dimension, Type, Unit};
@@ -85,6 +87,26 @@ fn wanted(network: &Network, id: LimitId, unit: &Unit) -> String {
     let limit = &network.limits()[id.index()];
     let bound = number(bound(network, limit), limit.ty, unit);
     format!("{} {} {bound}", limit.text, limit.bound.field().key())
+}
+
+/// Marks the limits in the panels that show what they are of: temperatures, and columns by name.
+pub(crate) fn mark(panels: &mut [Panel], network: &Network, unit: &Unit) {
+    for id in network.limit_ids() {
+        let limit = &network.limits()[id.index()];
+        let value = bound(network, limit);
+        let of_temperatures = limit.ty.absolute && limit.ty.dimension == Dimension::TEMPERATURE;
+        let value = if of_temperatures { unit.from_si(value) } else { value };
+        let level = Level { name: printed(&wanted(network, id, unit)), value };
+        let shows = |panel: &&mut Panel| {
+            let named = panel.curves.iter().any(|curve| curve.name == limit.text);
+            if of_temperatures { panel.y.name == TEMPERATURE } else { named }
+        };
+        panels
+            .iter_mut()
+            .find(shows)
+            .into_iter()
+            .for_each(|panel| panel.limits.push(level.clone()));
+    }
 }
 
 /// What the quantity has to stay below or above, in SI units.

@@ -74,7 +74,7 @@ pub use lumping::{Biot, LumpCheck, Lumping, NotChecked, Stretch};
 pub use modes::{Mode, Modes};
 pub use parallel::{available_threads, in_parallel};
 pub use periodic::{CycleMethod, Periodic, PeriodicError};
-pub use selection::{RecordedNodes, Selection};
+pub use selection::{RecordedNodes, Selection, name_matches};
 pub use sense::Beyond;
 pub use sensitive_run::{
     Gradient, SensitiveError, SensitiveRun, sensitive_run, sensitive_run_observed,

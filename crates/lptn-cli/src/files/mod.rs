@@ -122,6 +122,35 @@ pub(crate) fn of_folder(
     Ok(paths)
 }
 
+/// Puts a file in the place of what stands there, if anything does, at once and whole.
+pub(crate) fn replace(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let cannot = |why: &str| {
+        let message = format!("cannot write {}: {why}", file.display());
+        Failure::new(Exit::Failed, Diagnostic::error("output::cannot_write", message))
+    };
+    let place = place_of(file).map_err(|error| cannot(&reason(&error)))?;
+    let name = place.file_name().map(|name| name.to_string_lossy().into_owned());
+    let (Some(folder), Some(name)) = (place.parent(), name) else {
+        return Err(cannot("it has no name"));
+    };
+    let folder = Folder::prepare_for_a_moment(folder.to_owned())?;
+    let mut files = folder.batch();
+    files.write(&name, |out| out.write_all(bytes))?;
+    files.commit(&[])
+}
+
+/// Where a file stands or is going to. A link stays a link: what it leads to is written.
+fn place_of(file: &Path) -> io::Result<PathBuf> {
+    match fs::canonicalize(file) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+            let folder = fs::canonicalize(folder.unwrap_or(Path::new(".")))?;
+            Ok(folder.join(file.file_name().unwrap_or_default()))
+        }
+        found => found,
+    }
+}
+
 /// Writes a file that is not there yet, whole or not at all; `exists` is the code where it is
 /// there.
 pub(crate) fn write_new(path: &Path, text: &str, exists: &'static str) -> Result<(), Failure> {

@@ -7,6 +7,7 @@ pub(crate) mod fit;
 pub(crate) mod materials;
 pub(crate) mod modes;
 pub(crate) mod new;
+pub(crate) mod plot;
 pub(crate) mod reduce;
 pub(crate) mod run;
 pub(crate) mod size;
@@ -42,6 +43,7 @@ macro_rules! verbs {
 
 verbs! {
     Run(run::RunArgs) => run::run,
+    Plot(plot::PlotArgs) => plot::plot,
     Steady(steady::SteadyArgs) => steady::steady,
     Modes(modes::ModesArgs) => modes::modes,
     Verify(verify::VerifyArgs) => verify::verify,

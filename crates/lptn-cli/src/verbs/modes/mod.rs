@@ -1,12 +1,14 @@
 //! `lptn modes`
 
 mod args;
+mod figure;
 
 pub(crate) use args::ModesArgs;
 
 use std::io;
 
 use lptn_network::{Network, Node};
+use lptn_plot::Figure;
 use lptn_report::{Json, Page, Rows, Text, TextTable, duration, fixed, shortened};
 use lptn_solve::{EventKind, Mode, Modes};
 use lptn_study::SiValue;
@@ -168,6 +170,10 @@ impl Page for View<'_> {
 
     fn rows(&self) -> Rows<'_> {
         self.modes.table(self.network()).into()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        if self.modes.modes().is_empty() { Vec::new() } else { vec![self.figure()] }
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::io;
 
+use lptn_plot::Figure;
 use lptn_reduce::{Bias, Definition, Deviation, Dynamics, FitError, LeastSquaresWindow, Pair};
 use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, duration, fixed, significant};
 use lptn_study::SiValue;
@@ -30,6 +31,10 @@ impl Page for View<'_> {
 
     fn rows(&self) -> Rows<'_> {
         self.reduction.table().into()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        self.reduction.dynamics.iter().map(|dynamics| self.figure(dynamics)).collect()
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

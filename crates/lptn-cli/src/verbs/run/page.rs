@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::io;
 
+use lptn_plot::Figure;
 use lptn_report::{
     Flow, Json, Page, Rows, Text, TextTable, decimals, duration, fixed, significant, sparkline,
 };
@@ -65,6 +66,10 @@ impl Page for Outcome<'_> {
             Some(study) => bands(self.solution.network(), &study.found, &self.job.unit).into(),
             None => (&self.table).into(),
         }
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        vec![self.figure()]
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -3,6 +3,7 @@
 mod args;
 mod changing;
 mod cooling;
+mod figure;
 mod page;
 mod write;
 

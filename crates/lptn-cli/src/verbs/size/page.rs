@@ -3,6 +3,7 @@
 use std::io;
 
 use lptn_netlist::{Goal, Requirement};
+use lptn_plot::Figure;
 use lptn_report::{Json, Page, Rows, Text, TextTable, plain, significant};
 use lptn_solve::Table;
 use lptn_study::{SiValue, Verdict};
@@ -54,6 +55,10 @@ impl Page for Answer<'_> {
             table.column(&r.text, r.ty.dimension.si_unit(), |()| margin);
         }
         table.done().into()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        vec![self.figure()]
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

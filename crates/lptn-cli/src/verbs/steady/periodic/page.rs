@@ -2,6 +2,7 @@
 
 use std::io;
 
+use lptn_plot::Figure;
 use lptn_report::{
     Json, Page, Rows, Text, TextTable, decimals, duration, fixed, prefix, significant,
 };
@@ -40,6 +41,10 @@ impl Page for View<'_> {
         found_section(&mut text, self);
         heat_over(text.section(), solution, self.period());
         text
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        vec![self.outcome.figure()]
     }
 
     /// Name, unit, value at the start, mean, extremes with their times, and swing of each column.
