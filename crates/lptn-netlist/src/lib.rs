@@ -84,7 +84,7 @@ mod write_back;
 
 pub use expand::{Derived, WrittenError, prove};
 pub use fit::{FitPlan, FitRecord, FitStudy, Observed, VariedName};
-pub use format::{Format, KeyDeclaration, Role, SectionDeclaration};
+pub use format::{KeyDeclaration, NetlistFormat, Role, SectionDeclaration};
 pub use include::Loader;
 pub use initial::InitialState;
 pub use lptn_data::{

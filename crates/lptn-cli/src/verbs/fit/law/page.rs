@@ -282,7 +282,13 @@ fn law(answer: &Answer, candidate: &LawFit) -> Value {
     let coefficient = |c: &Coefficient| {
         let shown = answer.data.unit.quantity(c.value, c.standard_error, c.dimension);
         let unit = c.dimension.si_unit();
-        json!({ "name": c.name, "value": c.value, "unit": unit, "standard_error": c.standard_error, "shown": shown })
+        json!({
+            "name": c.name,
+            "value": c.value,
+            "unit": unit,
+            "standard_error": c.standard_error,
+            "shown": shown,
+        })
     };
     let weighted = answer.data.points.deviation().is_some();
     json!({

@@ -90,7 +90,12 @@ impl Page for Answer<'_> {
         json.member("verdict", &verdict(self))?;
         json.member(
             "starts",
-            &json!({ "tried": starts.tried, "same": starts.same, "other": starts.other, "failed": starts.failed }),
+            &json!({
+                "tried": starts.tried,
+                "same": starts.same,
+                "other": starts.other,
+                "failed": starts.failed,
+            }),
         )?;
         json.member(
             "gradient",
