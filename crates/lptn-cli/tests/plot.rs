@@ -130,8 +130,9 @@ fn what_was_measured_stands_over_the_run_and_the_difference_below() {
     let marks = axis(&svg, "end", "y");
     let marks = marks.into_iter().filter(|mark| (0.4..0.6).contains(&mark.1));
     let marks: Vec<_> = marks.map(|(y, number)| (y - 0.36 * 11.0, number)).collect();
-    let dots = svg.lines().filter(|line| line.contains("f-series0") && line.starts_with("<path"));
-    let below = dots.last().unwrap().split('M').skip(1);
+    let mut dots =
+        svg.lines().filter(|line| line.contains("f-series0") && line.starts_with("<path"));
+    let below = dots.next_back().unwrap().split('M').skip(1);
     let left: Vec<f64> = below
         .map(|dot| dot.split(['a', ' ']).nth(1).unwrap().parse().unwrap())
         .map(|y| value(&marks, y))
