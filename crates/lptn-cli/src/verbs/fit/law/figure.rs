@@ -51,7 +51,8 @@ impl<'a> OverSpeed<'a> {
         (0..=POINTS).map(at).collect()
     }
 
-    /// What was measured at speeds in rad/s, in SI units, with standard errors where they are known.
+    /// What was measured at speeds in rad/s, in SI units, with standard errors where those are
+    /// known.
     pub(super) fn measured(
         &mut self,
         (name, place): (&str, usize),
