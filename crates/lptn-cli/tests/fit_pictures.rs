@@ -55,14 +55,14 @@ fn analytic_a_step_over_its_exponential_and_what_it_misses() {
     picture.says("&lt;bed&gt;");
     let (upper, lower) = ("temperature [°C]", "measured \u{2212} fit [K]");
     let dots = picture.dots(upper, "series0");
-    // 61 values, and the end of T_f with its interval
+    // the end of T_f with its interval, and 61 values
     assert_eq!(dots.len(), 62);
-    for (i, &(minutes, value)) in dots[..61].iter().enumerate() {
+    near(dots[0].1, 80.0, 100.0);
+    for (i, &(minutes, value)) in dots[1..].iter().enumerate() {
         let off = if i % 2 == 0 { 0.1 } else { -0.1 };
         near(minutes, 0.5 * i as f64, 30.0);
         near(value, 80.0 - 60.0 * f64::exp(-minutes / 10.0) + off, 60.0);
     }
-    near(dots[61].1, 80.0, 100.0);
     let lines = picture.lines(upper, "series0");
     let [curve, level] = &lines[..2] else { panic!("{lines:?}") };
     curve.iter().for_each(|&(t, value)| near(value, 80.0 - 60.0 * f64::exp(-t / 10.0), 300.0));
@@ -171,4 +171,104 @@ fn many_records_are_not_all_drawn() {
     picture.says("the first 12 of 14 records are drawn").says("r11.csv");
     assert_eq!(picture.panels.len(), 24);
     assert!(!picture.texts.iter().any(|text| text == "r12.csv"));
+}
+
+/// Analytic: records of one exponential with rise 20 K (rpm / 1000)^2 and t_RC 100 s, so the rises
+/// go with omega^2, t_RC is constant and P = 1000 J/K dT / t_RC. The dots are those of the CSV.
+#[test]
+fn analytic_rise_time_constant_and_power_over_speed() {
+    let folder = Folder::empty();
+    std::fs::create_dir(folder.path().join("records")).unwrap();
+    for thousands in 1..=7 {
+        let mut text = "t [s],ring [degC],case [degC]\n".to_owned();
+        for i in 0..400 {
+            let off = 0.05 * f64::from(i * 37 % 11 - 5);
+            let rise =
+                20.0 * f64::from(thousands * thousands) * (1.0 - f64::exp(-f64::from(i) / 100.0));
+            writeln!(text, "{i},{:.6},{:.6}", 25.0 + rise + off, 25.0 + 0.5 * rise - off).unwrap();
+        }
+        folder.write(&format!("records/{thousands}000rpm.csv"), &text);
+    }
+    let arguments = ["fit", "law", "records", "--capacity", "1 kJ/K"];
+    let picture = drawn(&folder, &arguments, 0);
+    let titles = ["temperature rise [K]", "time constant [min]", "dissipated power [W]"];
+    let named: Vec<&str> = picture.panels.iter().map(|panel| &*panel.title).collect();
+    assert_eq!(named, titles);
+    for text in ["speed [rpm]", "ring", "case", "mean of ring", "omega^n", "its 95 % band"] {
+        picture.says(text);
+    }
+    let [rises, times, powers] = titles.map(|title| picture.dots(title, "series0"));
+    for i in 0..7 {
+        let rise = 20.0 * (i as f64 + 1.0).powi(2);
+        near(rises[i].0, 1000.0 * (i as f64 + 1.0), 7000.0);
+        near(rises[i].1, rise, 2500.0);
+        assert!((times[i].1 * 60.0 - 100.0).abs() < 2.0, "{times:?}");
+        near(powers[i].1, 10.0 * rise, 50_000.0);
+    }
+    // the law is the best one's, 10 W (omega / (1000 rpm))^2, as the free exponent finds it
+    let law = &picture.lines(titles[2], "series0");
+    let law = law.iter().find(|line| line.len() > 100).unwrap();
+    law.iter().for_each(|&(rpm, power)| near(power, 2e-4 * rpm * rpm, 50_000.0));
+    // what is drawn is what the files hold
+    let file = folder.read("out/records/figure_8_time_constant.csv");
+    let rows: Vec<Vec<&str>> = file.lines().skip(1).map(|row| row.split(',').collect()).collect();
+    let second = picture.dots(titles[1], "series1");
+    for (row, (first, second)) in rows.iter().zip(times.iter().zip(&second)) {
+        let number = |i: usize| row[i].parse::<f64>().unwrap();
+        near(first.0, number(1), 7000.0);
+        near(first.1, number(2), 2.0);
+        near(second.1, number(5), 2.0);
+    }
+}
+
+/// The paper's three laws by hand: 58.8 K, 18.6 min and 222.9 W at 7000 rpm; with them C dT / t_RC
+/// is 140.1 W, and t_RC would have to be 11.7 min.
+#[test]
+fn the_papers_laws_contradict_each_other_in_a_picture() {
+    let arguments = [
+        "fit",
+        "law",
+        "--dT",
+        "0.0084 ± 0.0011 K/rpm",
+        "--t_RC",
+        "18.6 ± 3.8 min",
+        "--P",
+        "87 ± 15 uW/rpm^(5/3)",
+        "--capacity",
+        "2659 J/K",
+        "--over",
+        "1000 rpm to 7000 rpm",
+    ];
+    let picture = drawn(&Folder::empty(), &arguments, 1);
+    for (title, ink, expected) in [
+        ("temperature rise [K]", "series0", 58.8),
+        ("time constant [min]", "series1", 11.68),
+        ("dissipated power [W]", "series1", 140.1),
+    ] {
+        let lines = picture.lines(title, ink);
+        // a band goes there and back
+        let line = lines.iter().find(|line| line.len() == 121).unwrap();
+        near(line[120].1, expected, 300.0);
+    }
+    picture.says("C dT / P").says("C dT / t_RC").says("speed [rpm]");
+}
+
+/// Points of a file: the dots with one standard error, 8.74 and 0.5 W at 1000 rpm.
+#[test]
+fn points_are_drawn_with_their_errors() {
+    let folder = Folder::with(
+        "points.csv",
+        "omega [rpm],P [W],P_sd [W]\n1000,9.4,0.5\n2000,26.9,0.6\n3000,55.6,0.8\n4000,86.5,1\n\
+         5000,128,1.4\n6000,172,1.8\n7000,224,2.2\n",
+    );
+    let picture = drawn(&folder, &["fit", "law", "points.csv"], 0);
+    let title = "dissipated power [W]";
+    let dots = picture.dots(title, "series0");
+    near(dots[0].1, 9.4, 300.0);
+    near(dots[6].1, 224.0, 300.0);
+    let bar = |line: &&Vec<(f64, f64)>| {
+        line.len() == 6 && (line[0].1 - 221.8).abs() < 0.1 && (line[1].1 - 226.2).abs() < 0.1
+    };
+    assert_eq!(picture.lines(title, "series0").iter().filter(bar).count(), 1);
+    picture.says("bars: one standard error");
 }

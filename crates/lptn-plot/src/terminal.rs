@@ -241,7 +241,8 @@ impl Canvas {
             let name: String = name.chars().take(self.right).collect();
             Some((name, self.row(last.1), place))
         };
-        let mut names: Vec<_> = panel.curves.iter().enumerate().filter_map(end).collect();
+        let named = panel.curves.iter().enumerate().filter(|(_, curve)| !curve.name.is_empty());
+        let mut names: Vec<_> = named.filter_map(end).collect();
         names.sort_by_key(|name| name.1);
         names.dedup_by(|a, b| a.0 == b.0 && a.2 == b.2);
         names.truncate(self.rows);

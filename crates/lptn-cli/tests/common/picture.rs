@@ -8,6 +8,8 @@ pub struct Panel {
     pub title: String,
     /// Pixels and values of the marks of the axis upwards.
     marks: Vec<(f64, f64)>,
+    /// The same of the axis to the right, which panels below each other share.
+    across: Vec<(f64, f64)>,
     /// Centres of dots in pixels, with the ink.
     dots: Vec<(String, f64, f64)>,
     /// Points of lines in pixels, with the ink.
@@ -19,7 +21,6 @@ pub struct Panel {
 pub struct Picture {
     pub texts: Vec<String>,
     pub panels: Vec<Panel>,
-    marks: Vec<(f64, f64)>,
 }
 
 fn attribute<'a>(line: &'a str, name: &str) -> Option<&'a str> {
@@ -40,14 +41,19 @@ fn value(marks: &[(f64, f64)], at: f64) -> f64 {
 
 /// Points at which a path begins or a line of it ends.
 fn points(path: &str) -> Vec<(f64, f64)> {
-    let steps = path
-        .split_inclusive(['M', 'L', 'C', 'Z'])
-        .map(|s| s.trim_end_matches(['M', 'L', 'C', 'Z']));
-    let pair = |step: &str| {
-        let mut numbers = step.split(' ').filter_map(number);
-        Some((numbers.next()?, numbers.next()?))
-    };
-    steps.filter_map(pair).collect()
+    path.split(['M', 'L', 'Z']).filter_map(pair).collect()
+}
+
+fn pair(text: &str) -> Option<(f64, f64)> {
+    let (x, y) = text.split_once(' ')?;
+    Some((number(x)?, number(y)?))
+}
+
+/// The centre of a circle that begins at its left.
+fn centre(path: &str) -> Option<(f64, f64)> {
+    let (left, arc) = path.strip_prefix('M')?.split_once('a')?;
+    let (x, y) = pair(left)?;
+    Some((x + number(arc.split(' ').next()?)?, y))
 }
 
 impl Panel {
@@ -71,7 +77,7 @@ impl Picture {
                 // a text stands a third of its height below its mark
                 match (attribute(line, "text-anchor"), number(text)) {
                     (Some("end"), Some(value)) => next.marks.push((at("y") - 0.36 * 11.0, value)),
-                    (Some("middle"), Some(value)) => picture.marks.push((at("x"), value)),
+                    (Some("middle"), Some(value)) => next.across.push((at("x"), value)),
                     _ if line.contains("rotate(") => {
                         next.title = text.to_owned();
                         picture.panels.push(std::mem::take(&mut next));
@@ -84,18 +90,20 @@ impl Picture {
             };
             let ink = ink[2..].to_owned();
             match attribute(line, "d") {
-                Some(path) if path.contains('C') => {
-                    for dot in path.split('Z').map(points).filter(|dot| !dot.is_empty()) {
-                        let (x, top) = dot[0];
-                        let bottom = dot.iter().map(|p| p.1).fold(top, f64::max);
-                        panel.dots.push((ink.clone(), x, f64::midpoint(top, bottom)));
-                    }
+                Some(path) if path.contains('a') => {
+                    let dots = path.split('Z').filter_map(centre);
+                    panel.dots.extend(dots.map(|(x, y)| (ink.clone(), x, y)));
                 }
                 // not what leads to a name
                 Some(path) if attribute(line, "stroke-width") != Some("0.7") => {
                     panel.lines.push((ink, points(path)));
                 }
                 _ => {}
+            }
+        }
+        for i in (1..picture.panels.len()).rev() {
+            if picture.panels[i - 1].across.is_empty() {
+                picture.panels[i - 1].across = picture.panels[i].across.clone();
             }
         }
         picture
@@ -111,21 +119,21 @@ impl Picture {
         found.unwrap_or_else(|| panic!("{title}: {:?}", self.texts))
     }
 
-    fn valued(&self, panel: &Panel, (x, y): (f64, f64)) -> (f64, f64) {
-        (value(&self.marks, x), value(&panel.marks, y))
+    fn valued(panel: &Panel, (x, y): (f64, f64)) -> (f64, f64) {
+        (value(&panel.across, x), value(&panel.marks, y))
     }
 
     /// The dots of an ink in the panel with this title, in the units of its axes.
     pub fn dots(&self, title: &str, ink: &str) -> Vec<(f64, f64)> {
         let panel = self.panel(title);
         let dots = panel.dots.iter().filter(|dot| dot.0 == ink);
-        dots.map(|dot| self.valued(panel, (dot.1, dot.2))).collect()
+        dots.map(|dot| Self::valued(panel, (dot.1, dot.2))).collect()
     }
 
     /// The lines, bars and bands of an ink in the panel with this title.
     pub fn lines(&self, title: &str, ink: &str) -> Vec<Vec<(f64, f64)>> {
         let panel = self.panel(title);
         let lines = panel.lines.iter().filter(|line| line.0 == ink);
-        lines.map(|line| line.1.iter().map(|at| self.valued(panel, *at)).collect()).collect()
+        lines.map(|line| line.1.iter().map(|at| Self::valued(panel, *at)).collect()).collect()
     }
 }

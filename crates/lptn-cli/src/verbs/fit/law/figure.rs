@@ -4,8 +4,7 @@
 use lptn_fit::law::{Consistency, LawFit, LawOf, StatedLaw};
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Panel};
-use lptn_report::{fixed, plain};
-use lptn_units::statistics::NORMAL_95;
+use lptn_report::plain;
 
 use super::Answer;
 use super::laws::Stated;
@@ -52,18 +51,19 @@ impl<'a> OverSpeed<'a> {
         (0..=POINTS).map(at).collect()
     }
 
-    /// What was measured at speeds in rad/s, in SI units, with half the widths of 95 % intervals.
+    /// What was measured at speeds in rad/s, in SI units, with standard errors where those are
+    /// known.
     pub(super) fn measured(
         &mut self,
         (name, place): (&str, usize),
         speeds: &[f64],
-        (values, half): (&[f64], Option<Vec<f64>>),
+        (values, errors): (&[f64], Option<&[f64]>),
     ) {
         let (_, _, scale) = upward(self.of);
         let rows = speeds.iter().zip(values);
         let points = rows.map(|(speed, v)| (self.unit.0.from_si(*speed), v / scale)).collect();
-        let bars = half.unwrap_or_default();
-        let bars = bars.iter().zip(values).map(|(h, v)| ((v - h) / scale, (v + h) / scale));
+        let bars = errors.unwrap_or_default();
+        let bars = bars.iter().zip(values).map(|(e, v)| ((v - e) / scale, (v + e) / scale));
         let dots = Curve::line(name, points).within(bars.collect());
         self.put(dots.looks(Look::Dots), place);
     }
@@ -97,7 +97,9 @@ impl<'a> OverSpeed<'a> {
         let (name, unit, _) = upward(self.of);
         let x = Axis::linear("speed", &*self.unit.0.text);
         let mut panel = Panel::new(x, Axis::linear(name, unit));
+        // points over lines
         panel.curves = self.curves;
+        panel.curves.sort_by_key(|curve| curve.look == Look::Dots);
         let title = format!("{of}: {name} over speed");
         Figure { title, note: notes.join("\n"), panels: vec![panel] }
     }
@@ -106,8 +108,7 @@ impl<'a> OverSpeed<'a> {
 /// The power of the speed that was fitted to the rises, and one in proportion for comparison.
 pub(super) fn rise_laws(over: &mut OverSpeed<'_>, place: usize, found: &Consistency) -> String {
     let (middle, n) = (&found.at[1], found.rise);
-    let name = format!("omega^{}", fixed(n.value, 2));
-    over.power(&name, (Look::Line, place), (middle.speed, middle.rise, n.value));
+    over.power("omega^n", (Look::Line, place), (middle.speed, middle.rise, n.value));
     over.power("in proportion", (Look::Dashed, place), (middle.speed, middle.rise, 1.0));
     let exponent = with_error(n.value, n.standard_error);
     format!("line: omega^n with n = {exponent}; dashed: in proportion to the speed")
@@ -117,7 +118,7 @@ pub(super) fn rise_laws(over: &mut OverSpeed<'_>, place: usize, found: &Consiste
 pub(super) fn time_laws(over: &mut OverSpeed<'_>, place: usize, found: &Consistency) -> String {
     let (middle, n) = (&found.at[1], found.time_constant);
     let through = (middle.speed, middle.time_constant, n.value);
-    over.power(&format!("omega^{}", fixed(n.value, 2)), (Look::Dashed, place), through);
+    over.power("omega^n", (Look::Dashed, place), through);
     format!("dashed: omega^n with n = {}", with_error(n.value, n.standard_error))
 }
 
@@ -176,14 +177,13 @@ impl Answer {
         let (data, speeds) = (&self.data, self.data.points.speed());
         let range = ends(speeds);
         let (name, errors) = (plain(&data.name), data.errors.as_ref());
-        let half = |errors: &[f64]| errors.iter().map(|e| NORMAL_95 * e).collect::<Vec<_>>();
-        let bars = "bars: 95 %, 1.96 standard errors".to_owned();
+        let bars = "bars: one standard error".to_owned();
         let mut figures = Vec::new();
         let given = [(LawOf::Rise, &data.rise), (LawOf::TimeConstant, &data.time_constant)];
         for (i, (of, values)) in given.into_iter().enumerate() {
             let Some(values) = values else { continue };
             let mut over = OverSpeed::new(&data.unit, of, range);
-            over.measured((of.symbol(), 0), speeds, (values, errors.map(|e| half(&e[i]))));
+            over.measured((of.symbol(), 0), speeds, (values, errors.map(|e| &*e[i])));
             let laws = if of == LawOf::Rise { rise_laws } else { time_laws };
             let law = self.consistency.as_ref().map(|found| laws(&mut over, 0, found));
             let bars = errors.map(|_| bars.clone());
@@ -191,7 +191,7 @@ impl Answer {
         }
         let mut over = OverSpeed::new(&data.unit, LawOf::Power, range);
         let deviation = data.points.deviation();
-        let values = (data.points.power(), deviation.map(half));
+        let values = (data.points.power(), deviation);
         over.measured((&data.power_name, 0), speeds, values);
         let mut notes = power_laws(&mut over, self);
         notes.extend(deviation.map(|_| bars));
@@ -213,6 +213,7 @@ impl Stated {
             let band = |speed: f64| (value(law, speed), error * value(law, speed));
             over.law(law.of.symbol(), (Look::Line, 0), band);
             let mut notes = vec![format!("{} = {} as stated", law.of.symbol(), plain(&law.text))];
+            notes.extend(law.relative_error.map(|_| "band: \u{b1} as stated".to_owned()));
             if let Some((name, of)) = implied {
                 over.law(name, (Look::Dashed, 1), |speed| (of(speed), f64::NAN));
                 notes.push(format!("dashed: {name}, with which all three would hold"));

@@ -81,13 +81,13 @@ impl Drawn<'_> {
         Curve::line(&self.of.name, points).as_place(self.place)
     }
 
-    /// What was measured, and what the network computes at the same times.
+    /// What the network computes at the times of the record, and what was measured.
     fn curves(&self, misfit: &ColumnMisfit) -> [Curve; 2] {
         let shown = |values: &[f64]| -> Vec<f64> {
             values.iter().map(|kelvin| self.unit.from_si(*kelvin)).collect()
         };
         let [measured, modelled] = [&self.of.values, &misfit.modelled].map(|values| shown(values));
-        [self.curve(measured.into_iter()).looks(Look::Dots), self.curve(modelled.into_iter())]
+        [self.curve(modelled.into_iter()), self.curve(measured.into_iter()).looks(Look::Dots)]
     }
 
     fn residuals(&self, misfit: &ColumnMisfit) -> Curve {

@@ -106,11 +106,10 @@ impl Drawn<'_> {
         Curve::line(name, (0..=POINTS).map(point).collect()).as_place(self.place)
     }
 
-    /// What was measured, the exponential, a second one where it is asked for, and T_f.
+    /// The exponential, a second one where it is asked for, T_f, and what was measured.
     fn curves(&self) -> Vec<Curve> {
         let (fit, unit) = (self.fit(), self.unit());
-        let dots = measured(self.answer, self.column.column).as_place(self.place);
-        let mut curves = vec![dots, self.curve(self.name(), |t| unit.from_si(fit.at(t)))];
+        let mut curves = vec![self.curve(self.name(), |t| unit.from_si(fit.at(t)))];
         if let Some(two) = &fit.second.offer {
             let name = format!("{}, two exponentials", self.name());
             curves.push(self.curve(&name, |t| unit.from_si(two.at(t))).looks(Look::Dashed));
@@ -120,11 +119,12 @@ impl Drawn<'_> {
             let (low, high) = fit.settled.interval();
             let [settled, low, high] = [fit.settled.value, low, high].map(|t| unit.from_si(t));
             let name = format!("T_f of {}", self.name());
-            let level = Curve::line(&name, vec![(first, settled), (last, settled)]);
-            let end = Curve::line(&name, vec![(last, settled)]).within(vec![(low, high)]);
+            let level = Curve::line(name, vec![(first, settled), (last, settled)]);
+            let end = Curve::line("", vec![(last, settled)]).within(vec![(low, high)]);
             curves.push(level.looks(Look::Dashed).as_place(self.place));
             curves.push(end.looks(Look::Dots).as_place(self.place));
         }
+        curves.push(measured(self.answer, self.column.column).as_place(self.place));
         curves
     }
 
@@ -141,13 +141,14 @@ impl Drawn<'_> {
         let step = self.unit().scale;
         let rows = self.answer.request.record.time.iter().zip(&self.column.column.values);
         let missed = rows.map(|(&time, &kelvin)| (time, (kelvin - fit.at(time - first)) / step));
-        let dots = Curve::line(self.name(), missed.collect());
-        let mut curves = vec![dots.looks(Look::Dots).as_place(self.place)];
+        let dots = Curve::line(self.name(), missed.collect()).looks(Look::Dots);
+        let mut curves = Vec::new();
         if let Some(two) = &fit.second.offer {
             let name = format!("{}, two exponentials", self.name());
             let curve = self.curve(&name, |t| (two.at(t) - fit.at(t)) / step);
             curves.push(curve.looks(Look::Dashed));
         }
+        curves.push(dots.as_place(self.place));
         curves
     }
 

@@ -8,9 +8,9 @@ use super::Runs;
 use crate::verbs::fit::law::figure::{OverSpeed, mean, power_laws, rise_laws, time_laws};
 use crate::verbs::fit::law::page::ends;
 
-const BARS: &str = "bars: 95 % by the noise of each record";
+const BARS: &str = "bars: one standard error, by the noise of each record";
 
-/// The value of a run, and half the width of its 95 % interval.
+/// The value of a run, and its standard error.
 type Pick = fn(&RunFit) -> (f64, f64);
 
 impl Runs {
@@ -27,8 +27,8 @@ impl Runs {
     fn measured(&self, over: &mut OverSpeed<'_>, most: usize, pick: Pick) {
         let speeds: Vec<f64> = self.study.runs.iter().map(|run| run.1).collect();
         for (place, column) in self.columns().iter().take(most).enumerate() {
-            let (values, half): (Vec<f64>, Vec<f64>) = column.fits.iter().map(pick).unzip();
-            over.measured((&column.column, place), &speeds, (&values, Some(half)));
+            let (values, errors): (Vec<f64>, Vec<f64>) = column.fits.iter().map(pick).unzip();
+            over.measured((&column.column, place), &speeds, (&values, Some(&errors)));
         }
     }
 
@@ -44,7 +44,7 @@ impl Runs {
     /// Figure 7.
     fn rises(&self) -> Figure {
         let mut over = self.over(LawOf::Rise);
-        self.measured(&mut over, MOST_CURVES, |f| (f.power.rise.value, f.power.rise.half_width));
+        self.measured(&mut over, MOST_CURVES, |f| (f.power.rise.value, f.power.rise.random));
         let mut notes = vec![self.zero()];
         notes.extend(self.study.consistency.as_ref().map(|c| rise_laws(&mut over, 0, c)));
         self.drawn(over, notes)
@@ -53,7 +53,7 @@ impl Runs {
     /// Figure 8.
     fn time_constants(&self) -> Figure {
         let mut over = self.over(LawOf::TimeConstant);
-        self.measured(&mut over, MOST_CURVES, |f| (f.fit.tau.value, f.fit.tau.half_width));
+        self.measured(&mut over, MOST_CURVES, |f| (f.fit.tau.value, f.fit.tau.standard_error));
         for (place, column) in self.columns().iter().take(MOST_CURVES).enumerate() {
             mean(&mut over, (&column.column, place), self.study.time_constant(column));
         }
@@ -65,7 +65,7 @@ impl Runs {
     /// Figure 9.
     fn powers(&self) -> Figure {
         let mut over = self.over(LawOf::Power);
-        self.measured(&mut over, 1, |f| (f.power.power.value, f.power.power.half_width));
+        self.measured(&mut over, 1, |f| (f.power.power.value, f.power.power.random));
         let notes = power_laws(&mut over, &self.answer);
         self.drawn(over, notes)
     }
