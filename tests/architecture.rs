@@ -6,8 +6,8 @@ use std::process::Command;
 
 /// From the ground up: a crate may use only those before it.
 const ORDER: [&str; 17] = [
-    "lptn-plot",
     "lptn-units",
+    "lptn-plot",
     "lptn-laws",
     "lptn-network",
     "lptn-data",

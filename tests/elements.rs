@@ -9,6 +9,7 @@ mod support;
 
 use std::path::{Path, PathBuf};
 
+use lptn::laws::{Formula, Kind};
 use lptn::netlist::Netlist;
 use lptn::prelude::*;
 use lptn::units::{Unit, parse_quantity};
@@ -358,6 +359,19 @@ fn every_example_gives_what_its_closed_form_says() {
             let error = (found - expected).abs();
             assert!(error <= most, "{name}: {quantity} at {when} is {found}, not {expected}");
         }
+    }
+}
+
+#[test]
+fn every_law_stands_in_an_example() {
+    let mut laws = Vec::new();
+    for kind in Kind::ALL {
+        let name = kind.declaration().section;
+        let network = read(name, &page(name).1).network;
+        laws.extend(network.conductors().iter().map(|conductor| conductor.law.formula()));
+    }
+    for law in Formula::ALL {
+        assert!(laws.contains(law), "no example in docs/elements has the law {law:?}");
     }
 }
 

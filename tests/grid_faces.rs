@@ -5,7 +5,7 @@
 mod support;
 
 use lptn::netlist::Netlist;
-use lptn::network::{ConductorId, Flow, GridValue, Node};
+use lptn::network::{ConductorFlow, ConductorId, GridValue, Node};
 use lptn::prelude::*;
 use support::{close, column, parsed, settled};
 
@@ -264,7 +264,7 @@ skin = { from = "block.z1", to = "air", h = "50 W/(m^2 K)" }
     // 3 x 39 x 40 x 40 between cells, 1600 to the surface, 1600 to the air
     assert_eq!(network.conductors().len(), 187_200 + 3200);
     let conductance = |id: ConductorId| match network.flow(id) {
-        Flow::Conductance(g) => g,
+        ConductorFlow::Conductance(g) => g,
         other => panic!("{other:?}"),
     };
     let first = network.conductor_ids().next().unwrap();

@@ -5,9 +5,9 @@
 
 use std::path::{Path, PathBuf};
 
-use lptn::laws::{Field, Formula, Kind, Range};
+use lptn::laws::{FieldDeclaration, Formula, Kind, Range};
 use lptn::netlist::Netlist;
-use lptn::network::{ConductorId, Flow, Network};
+use lptn::network::{ConductorFlow, ConductorId, Network};
 use lptn::units::{parse_quantity, suggest};
 
 /// Every kind with each of its laws.
@@ -20,11 +20,11 @@ fn words((kind, law): (Kind, Formula)) -> String {
 }
 
 /// An example as it stands in a netlist, and as an expression with a factor.
-fn example(field: &Field) -> String {
+fn example(field: &FieldDeclaration) -> String {
     field.example.to_owned()
 }
 
-fn times(field: &Field, factor: &str) -> String {
+fn times(field: &FieldDeclaration, factor: &str) -> String {
     let number = si(field);
     match field.ty {
         ty if ty.absolute => format!("\"absolute({factor} * {number} [K])\""),
@@ -34,12 +34,12 @@ fn times(field: &Field, factor: &str) -> String {
 }
 
 /// The example in SI units.
-fn si(field: &Field) -> f64 {
+fn si(field: &FieldDeclaration) -> f64 {
     parse_quantity(field.example.trim_matches('"'), Some(field.ty)).unwrap().value
 }
 
 /// Two nodes of different temperatures, joined by a path of this kind and law.
-fn netlist((kind, law): (Kind, Formula), value: impl Fn(&Field) -> String) -> String {
+fn netlist((kind, law): (Kind, Formula), value: impl Fn(&FieldDeclaration) -> String) -> String {
     let (declared, section) = (law.declaration(), kind.declaration());
     let mut fields = vec!["from = \"a\", to = \"b\"".to_owned()];
     fields.extend(section.selector.map(|key| format!("{key} = \"{}\"", declared.name)));
@@ -96,6 +96,28 @@ fn every_law_belongs_to_a_kind_and_is_told_apart() {
 }
 
 #[test]
+fn every_law_and_kind_that_is_written_is_in_the_list() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/lptn-laws/src");
+    let listed: Vec<String> = Kind::ALL
+        .iter()
+        .map(|kind| format!("{kind:?}"))
+        .chain(Formula::ALL.iter().map(|law| format!("{law:?}")))
+        .collect();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let law = |line: &str| line.strip_prefix("impl Law for ").map(str::to_owned);
+        let kind = |line: &str| line.strip_prefix("pub(crate) const ").map(str::to_owned);
+        let kinds =
+            text.lines().filter(|line| line.contains(": KindDeclaration =")).filter_map(kind);
+        for name in text.lines().filter_map(law).chain(kinds) {
+            let name = name.split([' ', ':']).next().unwrap();
+            assert!(listed.iter().any(|known| known == name), "{}: {name}", path.display());
+        }
+    }
+}
+
+#[test]
 fn every_law_is_read_as_it_is_declared() {
     for of in all() {
         let netlist = read(&netlist(of, example));
@@ -114,9 +136,9 @@ fn every_law_is_read_as_it_is_declared() {
 #[test]
 fn every_law_is_the_same_when_it_is_written_and_read_again() {
     for of in all() {
-        for value in
-            [example as fn(&Field) -> String, |field| times(field, "p * (1 + dT / 1000 [K])")]
-        {
+        for value in [example as fn(&FieldDeclaration) -> String, |field| {
+            times(field, "p * (1 + dT / 1000 [K])")
+        }] {
             let first = read(&netlist(of, value));
             let again = read(&first.expanded());
             let [a, b] =
@@ -135,13 +157,13 @@ fn every_law_is_the_same_when_it_is_written_and_read_again() {
 fn heat(network: &Network, temperatures: [f64; 3]) -> [f64; 2] {
     let difference = temperatures[0] - temperatures[1];
     match network.flow(path(network)) {
-        Flow::Conductance(g) => [-g * difference, g * difference],
-        Flow::Radiation(gr) => {
+        ConductorFlow::Conductance(g) => [-g * difference, g * difference],
+        ConductorFlow::Radiation(gr) => {
             let q = 5.670_374_419e-8 * gr * (temperatures[0].powi(4) - temperatures[1].powi(4));
             [-q, q]
         }
-        Flow::Stream(rate) => [0.0, rate * difference],
-        Flow::Variable => {
+        ConductorFlow::Stream(rate) => [0.0, rate * difference],
+        ConductorFlow::Variable => {
             network.exchange(path(network), &mut network.evaluation(), &temperatures).unwrap()
         }
     }
@@ -178,8 +200,9 @@ fn every_law_knows_its_sensitivities() {
     let at = [350.0, 310.0, 293.15];
     for of in all() {
         for field in of.1.declaration().fields {
-            let one =
-                |own: &Field| if own.key == field.key { times(own, "p") } else { example(own) };
+            let one = |own: &FieldDeclaration| {
+                if own.key == field.key { times(own, "p") } else { example(own) }
+            };
             let network = read(&netlist(of, one)).network;
             let p = network.parameter_ids().next().unwrap();
             let mut found = vec![f64::NAN; 3];
@@ -206,8 +229,9 @@ fn every_field_refuses_what_is_out_of_its_range() {
                 Range::Positive | Range::Temperature => "-1",
                 Range::Fraction => "2",
             };
-            let one =
-                |own: &Field| if own.key == field.key { times(own, factor) } else { example(own) };
+            let one = |own: &FieldDeclaration| {
+                if own.key == field.key { times(own, factor) } else { example(own) }
+            };
             let rejected = lptn::parse("kinds.toml", &netlist(of, one)).unwrap_err();
             let codes: Vec<&str> = rejected.diagnostics.iter().map(|d| d.code).collect();
             let wanted = match field.range {
@@ -243,7 +267,7 @@ fn page(kind: Kind) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/elements").join(name)
 }
 
-fn unit(field: &Field) -> String {
+fn unit(field: &FieldDeclaration) -> String {
     match field.ty {
         ty if ty.absolute => "degC, K".to_owned(),
         ty if ty.is_scalar() => String::new(),

@@ -62,7 +62,7 @@ fn shipped_networks_say_what_their_cases_expect() {
 #[test]
 fn the_fan_is_sized_as_its_case_expects() {
     let (netlist, _) = shipped("fuel_cell_fan.toml");
-    let (network, study) = (&netlist.network, &netlist.sizes[0]);
+    let (network, study) = (&netlist.network, &netlist.studies.sizes[0]);
     let task = SizeTask {
         network,
         parameters: network.overrides(),

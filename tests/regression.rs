@@ -4,7 +4,7 @@ mod support;
 
 use lptn::network::{Area, ConductorKind, Context, Path};
 use lptn::prelude::*;
-use lptn::solve::{End, TransientError, Watch};
+use lptn::solve::{RunStatus, TransientError, Watch};
 use support::assembled;
 
 /// The ledger of a run that broke off held no heat of sources and boundaries at all.
@@ -19,7 +19,7 @@ fn ledger_of_a_broken_run_holds_what_was_done() {
     let error = Transient::until(Time(400.0)).every(Time(10.0)).solve(&assembled(b)).unwrap_err();
     let TransientError::Stopped { time, partial, .. } = error else { panic!("{error}") };
     assert!(time > 250.0 && time <= 300.0, "stopped at {time} s");
-    assert_eq!(partial.end(), End::Failed(time));
+    assert_eq!(partial.end(), RunStatus::Failed(time));
     let ledger = partial.ledger();
     let exact = (300_f64.powf(1.5) - (300.0 - time).powf(1.5)) * 2.0 / 3.0;
     assert!(

@@ -7,7 +7,7 @@ mod synthetic_records;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use lptn::fit::law::{Law, Run, RunReference, RunsSettings, RunsStudy};
+use lptn::fit::law::{LossLaw, Run, RunReference, RunsSettings, RunsStudy};
 use lptn::fit::step::{Capacity, Sensor};
 use lptn::netlist::{RecordQuery, read_record};
 
@@ -86,7 +86,7 @@ fn the_study_recovers_the_truth_within_its_own_errors() {
         .laws
         .candidates
         .iter()
-        .find(|c| matches!(c.law, Law::FreeExponent))
+        .find(|c| matches!(c.law, LossLaw::FreeExponent))
         .expect("it is standard");
     let n = free.fitted().and_then(|fit| fit.coefficient("n")).expect("an exponent");
     assert!((n.value - 5.0 / 3.0).abs() < 3.0 * n.standard_error.expect("an error"), "{n:?}");

@@ -9,7 +9,7 @@ use lptn::netlist::{
     Files, Netlist, RecordQuery, Rejected, parse_bytes, parse_with, read_record, read_sheet,
 };
 use lptn::prelude::*;
-use lptn::solve::{End, Proceed};
+use lptn::solve::{Proceed, RunStatus};
 use lptn::units::{
     Dimension, Expression, Scope, Symbol, Type, Unit, UnitError, format_number, parse_quantity,
     parse_value,
@@ -225,7 +225,7 @@ fn numbers(solution: &Solution) {
     let kelvin = Unit::parse("K").expect("a unit");
     let table = Table::of_solution(solution, &Selection::all(solution.network()), &kelvin);
     let meant = |name: &str| [".T", ".Q", ".P"].iter().any(|end| name.ends_with(end));
-    if solution.end() == End::Reached || !solution.times().is_empty() {
+    if solution.end() == RunStatus::Reached || !solution.times().is_empty() {
         for column in table.columns().iter().filter(|column| meant(&column.name)) {
             let wrong = column.values.iter().find(|value| !value.is_finite());
             assert!(wrong.is_none(), "{} is {wrong:?}", column.name);

@@ -1,7 +1,7 @@
 //! Elements that are more than a constant conductance: their heat and its derivatives, with places
 //! in the Jacobian.
 
-use lptn_network::{ConductorId, End, Flow, InputError, Network, Received, SourceId};
+use lptn_network::{ConductorFlow, ConductorId, End, InputError, Network, Received, SourceId};
 
 use crate::pattern::JacobianPattern;
 use crate::workspace::Workspace;
@@ -38,7 +38,7 @@ pub(crate) const NOWHERE: usize = usize::MAX;
 
 /// Which Jacobian is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum JacobianForm {
     /// The derivatives as they are.
     Exact,
     /// Symmetric: each conductor with the mean of its two derivatives. Newton's method converges
@@ -55,9 +55,9 @@ impl Element {
             network.conductors().iter().zip(network.conductor_ids()).filter_map(|(c, id)| {
                 let ends = vec![vertex(c.from), vertex(c.to)];
                 let (kind, variables) = match network.flow(id) {
-                    Flow::Conductance(_) | Flow::Radiation(_) => return None,
-                    Flow::Stream(mcp) => (Kind::Stream(mcp), ends.clone()),
-                    Flow::Variable => {
+                    ConductorFlow::Conductance(_) | ConductorFlow::Radiation(_) => return None,
+                    ConductorFlow::Stream(mcp) => (Kind::Stream(mcp), ends.clone()),
+                    ConductorFlow::Variable => {
                         (Kind::Conductor(id), network.conductor_variables(id).to_vec())
                     }
                 };
@@ -168,12 +168,12 @@ impl Element {
         &self,
         network: &Network,
         work: &mut Workspace,
-        form: Form,
+        form: JacobianForm,
         values: &mut [f64],
     ) -> Result<(), InputError> {
         self.evaluate_slopes(network, work)?;
         let slopes = &mut work.slopes;
-        if form == Form::Symmetric && self.shares.is_empty() {
+        if form == JacobianForm::Symmetric && self.shares.is_empty() {
             let g = self.symmetric_conductance(&slopes.ends);
             slopes.ends[0] = [-g, g];
             slopes.ends[1] = [g, -g];

@@ -22,7 +22,7 @@ mod tangent;
 mod workspace;
 
 pub use change::ChangeError;
-pub use element::Form;
+pub use element::JacobianForm;
 pub use error::AssemblyError;
 pub use pattern::JacobianPattern;
 pub use system::ThermalSystem;

@@ -1,6 +1,6 @@
 //! Whether balances have one solution at most, as far as the form of the network tells.
 
-use lptn_network::{End, Flow, Network};
+use lptn_network::{ConductorFlow, End, Network};
 
 use crate::system::ThermalSystem;
 
@@ -31,8 +31,8 @@ fn elements_are_monotone(network: &Network) -> bool {
     });
     let mut gets = vec![(0.0, 0.0); network.nodes().len()];
     let mut conductor = |(conductor, id): (&lptn_network::Conductor, _)| match network.flow(id) {
-        Flow::Conductance(_) | Flow::Radiation(_) => true,
-        Flow::Stream(rate) => {
+        ConductorFlow::Conductance(_) | ConductorFlow::Radiation(_) => true,
+        ConductorFlow::Stream(rate) => {
             let (from, to) = if rate < 0.0 {
                 (conductor.to, conductor.from)
             } else {
@@ -46,7 +46,7 @@ fn elements_are_monotone(network: &Network) -> bool {
             }
             true
         }
-        Flow::Variable => network.heat_rises(id),
+        ConductorFlow::Variable => network.heat_rises(id),
     };
     sources
         && network.conductors().iter().zip(network.conductor_ids()).all(&mut conductor)

@@ -1,9 +1,9 @@
 //! Radiation of constant exchange areas: many of them make up the heat of a hot plate, so they lie
 //! flat in memory.
 
-use lptn_network::{ConductorId, Flow, Network, Received};
+use lptn_network::{ConductorFlow, ConductorId, Network, Received};
 
-use crate::element::{Form, NOWHERE};
+use crate::element::{JacobianForm, NOWHERE};
 use crate::pattern::JacobianPattern;
 
 /// `q = sigma Gr (Ta^4 - Tb^4)` between two vertices.
@@ -22,7 +22,7 @@ impl Radiation {
     pub(crate) fn all_of(network: &Network) -> Vec<Self> {
         let vertex = |end| u32::try_from(network.vertex(end)).expect("ids are 32 bits wide");
         let radiation = |(c, id): (&lptn_network::Conductor, ConductorId)| match network.flow(id) {
-            Flow::Radiation(area) => {
+            ConductorFlow::Radiation(area) => {
                 let ends = [vertex(c.from), vertex(c.to)];
                 Some(Self { conductor: id, ends, area, slots: [NOWHERE; 4] })
             }
@@ -61,12 +61,12 @@ impl Radiation {
     /// Adds its derivatives to the values of the Jacobian. Towards an end that is given the exact
     /// one is symmetric; none is negative in the symmetric form, so that the matrix stays definite
     /// for an iterate below 0 K.
-    pub(crate) fn add_slopes(&self, temperature: &[f64], form: Form, values: &mut [f64]) {
+    pub(crate) fn add_slopes(&self, temperature: &[f64], form: JacobianForm, values: &mut [f64]) {
         let slope = |v: u32| {
             4.0 * lptn_laws::STEFAN_BOLTZMANN * self.area * temperature[v as usize].powi(3)
         };
         let [mut from, mut to] = self.ends.map(slope);
-        if form == Form::Symmetric {
+        if form == JacobianForm::Symmetric {
             if !self.slots.contains(&NOWHERE) {
                 from = 0.5 * (from + to);
                 to = from;
@@ -85,13 +85,13 @@ impl Radiation {
 mod tests {
     use lptn_network::{Area, ConductorKind, End, HeatCapacity, NetworkBuilder, Path, Temperature};
 
-    use crate::{Form, ThermalSystem};
+    use crate::{JacobianForm, ThermalSystem};
 
     const SIGMA: f64 = 5.670_374_419e-8;
 
     /// Jacobian at 1500 K and 900 K of a node of the first temperature that radiates over 2 m^2,
     /// one of the second over 1 m^2 to a boundary at 300 K.
-    fn jacobian(form: Form) -> Vec<f64> {
+    fn jacobian(form: JacobianForm) -> Vec<f64> {
         let mut b = NetworkBuilder::new();
         let [hot, warm] = ["hot", "warm"].map(|n| b.node(n, HeatCapacity(1.0), Temperature(900.0)));
         let sky = b.boundary("sky", Temperature(300.0));
@@ -118,7 +118,7 @@ mod tests {
     #[test]
     fn derivatives_of_fourth_powers() {
         let (hot, warm) = (4.0 * SIGMA * 1500.0_f64.powi(3), 4.0 * SIGMA * 900.0_f64.powi(3));
-        expect(&jacobian(Form::Exact), [-2.0 * hot, 2.0 * hot, 2.0 * warm, -3.0 * warm]);
+        expect(&jacobian(JacobianForm::Exact), [-2.0 * hot, 2.0 * hot, 2.0 * warm, -3.0 * warm]);
     }
 
     // The mean with the boundary's own slope made Newton's method fail on plates that glow.
@@ -126,6 +126,6 @@ mod tests {
     fn the_symmetric_form_is_exact_towards_a_boundary() {
         let (hot, warm) = (4.0 * SIGMA * 1500.0_f64.powi(3), 4.0 * SIGMA * 900.0_f64.powi(3));
         let mean = hot + warm;
-        expect(&jacobian(Form::Symmetric), [-mean, mean, mean, -mean - warm]);
+        expect(&jacobian(JacobianForm::Symmetric), [-mean, mean, mean, -mean - warm]);
     }
 }

@@ -1,8 +1,8 @@
 //! The sparse system `C dT/dt = q(t, T)` of a network.
 
-use lptn_network::{ConductorId, Flow, InputError, Network, NodeId};
+use lptn_network::{ConductorFlow, ConductorId, InputError, Network, NodeId};
 
-use crate::element::{Element, Form};
+use crate::element::{Element, JacobianForm};
 use crate::eliminate::{Elimination, Link, TooMany};
 use crate::error::AssemblyError;
 use crate::pattern::JacobianPattern;
@@ -255,7 +255,7 @@ impl ThermalSystem {
         &self,
         work: &mut Workspace,
         y: &[f64],
-        form: Form,
+        form: JacobianForm,
         values: &mut [f64],
     ) -> Result<(), InputError> {
         self.jacobian(values);
@@ -327,8 +327,8 @@ impl ThermalSystem {
 fn constant_links(network: &Network) -> Vec<Link> {
     let vertex = |end| u32::try_from(network.vertex(end)).expect("ids are 32 bits wide");
     let link = |(c, id): (&lptn_network::Conductor, _)| match network.flow(id) {
-        Flow::Conductance(g) => Some(Link { a: vertex(c.from), b: vertex(c.to), g }),
-        Flow::Radiation(_) | Flow::Stream(_) | Flow::Variable => None,
+        ConductorFlow::Conductance(g) => Some(Link { a: vertex(c.from), b: vertex(c.to), g }),
+        ConductorFlow::Radiation(_) | ConductorFlow::Stream(_) | ConductorFlow::Variable => None,
     };
     network.conductors().iter().zip(network.conductor_ids()).filter_map(link).collect()
 }

@@ -7,7 +7,7 @@ mod networks;
 #[path = "common/rational.rs"]
 mod rational;
 
-use lptn_assembly::{AssemblyError, Form, ThermalSystem};
+use lptn_assembly::{AssemblyError, JacobianForm, ThermalSystem};
 use lptn_network::{Conductance, End, HeatCapacity, HeatFlow, NetworkBuilder, Temperature};
 use networks::{Random, dense, system};
 use rational::{Rational, solved};
@@ -143,7 +143,7 @@ fn what_is_left_is_the_schur_complement() {
         {
             near(*found, exact, 400.0);
         }
-        let matrix = dense(&assembled, 0.0, &y, Form::Exact);
+        let matrix = dense(&assembled, 0.0, &y, JacobianForm::Exact);
         for column in 0..y.len() {
             let mut moved = states.clone();
             moved[column] += 1;

@@ -5,7 +5,7 @@
 #[path = "common/networks.rs"]
 mod networks;
 
-use lptn_assembly::{Form, ThermalSystem};
+use lptn_assembly::{JacobianForm, ThermalSystem};
 use lptn_network::{
     Conductance, ConductorId, ConductorKind, End, HeatCapacity, NetworkBuilder, ParameterId, Path,
     Temperature,
@@ -95,7 +95,7 @@ fn a_stream_has_the_slopes_of_its_direction() {
         let mut b = NetworkBuilder::new();
         let [x, y] = ["x", "y"].map(|n| b.node(n, HeatCapacity(1.0), Temperature(300.0)));
         stream(&mut b, "s", (x, y), quantity(rate));
-        dense(&system(b), 0.0, &[320.0, 300.0], Form::Exact)
+        dense(&system(b), 0.0, &[320.0, 300.0], JacobianForm::Exact)
     };
     assert_eq!(jacobian("5 W/K"), [[0.0, 0.0], [5.0, -5.0]]);
     assert_eq!(jacobian("-5 W/K"), [[-5.0, 5.0], [0.0, 0.0]]);
@@ -119,7 +119,7 @@ fn forms(add: &Add, ends: [&str; 2], y: &[f64]) -> [Vec<Vec<f64>>; 2] {
     add(&mut b, end(ends[0]), end(ends[1]));
     let system = system(b);
     assert!(system.is_symmetric());
-    [Form::Exact, Form::Symmetric].map(|form| dense(&system, 0.0, y, form))
+    [JacobianForm::Exact, JacobianForm::Symmetric].map(|form| dense(&system, 0.0, y, form))
 }
 
 fn close(found: f64, expected: f64) {
@@ -213,7 +213,7 @@ fn an_element_that_fails_is_named_by_every_question() {
     let errors = [
         system.flow(&mut work, &y, &mut out).unwrap_err(),
         system.boundary_heat(&mut work, &y, &mut out).unwrap_err(),
-        system.jacobian_at(&mut work, &y, Form::Exact, &mut values).unwrap_err(),
+        system.jacobian_at(&mut work, &y, JacobianForm::Exact, &mut values).unwrap_err(),
         system.received(&mut work, id).unwrap_err(),
     ];
     for error in errors {

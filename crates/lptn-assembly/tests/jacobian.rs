@@ -5,7 +5,7 @@
 #[path = "common/networks.rs"]
 mod networks;
 
-use lptn_assembly::{Form, ThermalSystem};
+use lptn_assembly::{JacobianForm, ThermalSystem};
 use lptn_network::{
     ConductorKind, End, Formula, HeatCapacity, Network, NetworkBuilder, NodeId, Path, Temperature,
 };
@@ -29,7 +29,7 @@ fn differences(system: &ThermalSystem, time: f64, y: &[f64], column: usize) -> V
 }
 
 fn check(system: &ThermalSystem, time: f64, y: &[f64]) {
-    let matrix = dense(system, time, y, Form::Exact);
+    let matrix = dense(system, time, y, JacobianForm::Exact);
     for column in 0..y.len() {
         let expected = differences(system, time, y, column);
         for row in 0..y.len() {
@@ -258,7 +258,7 @@ fn every_jacobian_is_finite_at_rest_reversed_and_without_flow() {
         states[3][0] = 300.0 + 1e-9;
         for time in [0.0, 1.0, 2.0] {
             for y in &states {
-                let matrix = dense(system, time, y, Form::Exact);
+                let matrix = dense(system, time, y, JacobianForm::Exact);
                 let heat = flow(system, time, y);
                 let all = matrix.iter().flatten().chain(&heat);
                 assert!(
@@ -278,7 +278,7 @@ fn the_symmetric_form_is_symmetric_and_never_warms_what_gives_heat() {
             return;
         }
         let y: Vec<f64> = system.unknowns().iter().map(|_| random.between(255.0, 520.0)).collect();
-        let matrix = dense(system, 2.0, &y, Form::Symmetric);
+        let matrix = dense(system, 2.0, &y, JacobianForm::Symmetric);
         for (i, row) in matrix.iter().enumerate() {
             for (j, value) in row.iter().enumerate() {
                 assert!(value.to_bits() == matrix[j][i].to_bits(), "{name} ({i}, {j})");

@@ -6,7 +6,7 @@ use lptn_report::{
     Format, Text, TextTable, TextTableOf, decimals, duration, fixed, prefix, significant,
 };
 use lptn_solve::{Balance, Term};
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use lptn_units::suggest;
 use serde_json::{Value, json};
 
@@ -174,7 +174,7 @@ fn place(network: &Network, term: &Term, end: End) -> String {
 /// `{ of, terms: [{ name, other, power, power_share, heat, heat_share }], power, heat, stored, .. }`,
 /// in SI, largest first.
 pub(crate) fn json(network: &Network, balance: &Balance) -> Value {
-    let scalar = Scalar::new;
+    let scalar = SiValue::new;
     let heat = |value: Option<f64>| value.map(|value| scalar(value, "J"));
     let share = |value: f64, all: f64| (all > 0.0).then(|| scalar(value / all, "1"));
     let (power, all) = (balance.power_turned_over(), balance.heat_turned_over());

@@ -24,7 +24,8 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
     let Some(problem) = verb.and_then(|verb| file_as_verb(verb).or_else(|| near_verb(verb))) else {
         error.exit();
     };
-    let console = Console::new(&Global { quiet: false, verbose: false, color: Color::Auto });
+    let global = Global { quiet: false, verbose: false, color: Color::Auto, plot: None };
+    let console = Console::new(&global);
     console.report(&Files::new(), &[problem]);
     Exit::Input
 }

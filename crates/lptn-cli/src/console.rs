@@ -3,9 +3,11 @@
 use std::io::{self, BufWriter, ErrorKind, IsTerminal as _, Write};
 
 use lptn_netlist::{Diagnostic, Files};
+use lptn_plot::Figure;
 use lptn_report::{Format, Page};
 
 use crate::diagnostics::render;
+use crate::drawing::Drawing;
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
 use crate::options::{Color, Global};
@@ -17,6 +19,7 @@ pub(crate) struct Console {
     pub(crate) verbose: bool,
     styled_results: bool,
     styled_messages: bool,
+    pub(crate) plot: Option<Drawing>,
 }
 
 impl Console {
@@ -31,6 +34,7 @@ impl Console {
             verbose: global.verbose,
             styled_results: styled(io::stdout().is_terminal()),
             styled_messages: styled(io::stderr().is_terminal()),
+            plot: global.plot.clone(),
         }
     }
 
@@ -40,9 +44,18 @@ impl Console {
         Ok(self.conclude(page, format))
     }
 
-    /// Writes a result in a format.
+    /// Writes a result in a format, and draws it where that was asked.
     pub(crate) fn page(&self, page: &dyn Page, format: Format) -> Result<(), Failure> {
-        self.write(|out| lptn_report::write(page, format, self.styled_results, out))
+        self.write(|out| lptn_report::write(page, format, self.styled_results, out))?;
+        self.plot.as_ref().map_or(Ok(()), |drawing| self.draw(&page.figures(), drawing))
+    }
+
+    /// Draws figures into a file or on the terminal.
+    pub(crate) fn draw(&self, figures: &[Figure], drawing: &Drawing) -> Result<(), Failure> {
+        let wrote = drawing
+            .draw(figures, self.styled_results, |bytes| self.write(|out| out.write_all(bytes)))?;
+        wrote.iter().for_each(|file| self.note(&format!("wrote  {file}")));
+        Ok(())
     }
 
     /// The exit code that belongs to an answer. Where that is no, the text says so; beside other

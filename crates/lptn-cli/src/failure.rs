@@ -32,6 +32,12 @@ impl Failure {
         Self::new(Exit::Input, Diagnostic::error("input::cannot_read", message).help(help))
     }
 
+    /// The same with another help, where one is about something else.
+    pub(crate) fn with_help(mut self, help: &str) -> Self {
+        self.diagnostics.iter_mut().for_each(|problem| problem.help = Some(help.into()));
+        self
+    }
+
     /// One diagnostic about a place in `files`.
     pub(crate) fn at(exit: Exit, files: Files, diagnostic: Diagnostic) -> Self {
         Self { exit, files, diagnostics: vec![diagnostic] }

@@ -2,9 +2,11 @@
 
 use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Bound, Item, Limit, LimitId, LimitSeverity, Network};
-use lptn_report::{Text, TextTable, duration, significant};
+use lptn_plot::figure::{Level, Panel};
+use lptn_plot::printed;
+use lptn_report::{TEMPERATURE, Text, TextTable, duration, significant};
 use lptn_solve::LimitSeen;
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use lptn_units::{Dimension, Type, Unit};
 use serde_json::{Map, Value, json};
 
@@ -87,6 +89,26 @@ fn wanted(network: &Network, id: LimitId, unit: &Unit) -> String {
     format!("{} {} {bound}", limit.text, limit.bound.field().key())
 }
 
+/// Marks the limits in the panels that show what they are of: temperatures, and columns by name.
+pub(crate) fn mark(panels: &mut [Panel], network: &Network, unit: &Unit) {
+    for id in network.limit_ids() {
+        let limit = &network.limits()[id.index()];
+        let value = bound(network, limit);
+        let of_temperatures = limit.ty.absolute && limit.ty.dimension == Dimension::TEMPERATURE;
+        let value = if of_temperatures { unit.from_si(value) } else { value };
+        let level = Level { name: printed(&wanted(network, id, unit)), value };
+        let shows = |panel: &&mut Panel| {
+            let named = panel.curves.iter().any(|curve| curve.name == limit.text);
+            if of_temperatures { panel.y.name == TEMPERATURE } else { named }
+        };
+        panels
+            .iter_mut()
+            .find(shows)
+            .into_iter()
+            .for_each(|panel| panel.limits.push(level.clone()));
+    }
+}
+
 /// What the quantity has to stay below or above, in SI units.
 fn bound(network: &Network, limit: &Limit) -> f64 {
     // it is constant and was evaluated when the network was built
@@ -135,9 +157,9 @@ fn number(value: f64, ty: Type, unit: &Unit) -> String {
 pub(crate) fn members(network: &Network, limits: &[Judged]) -> Option<Map<String, Value>> {
     let one = |judged: &Judged| {
         let limit = &network.limits()[judged.limit.index()];
-        let time = |time: Option<f64>| time.map(|time| Scalar::new(time, "s"));
+        let time = |time: Option<f64>| time.map(|time| SiValue::new(time, "s"));
         let scalar = |value: f64| {
-            (!value.is_nan()).then(|| Scalar::new(value, &limit.ty.dimension.si_unit()))
+            (!value.is_nan()).then(|| SiValue::new(value, &limit.ty.dimension.si_unit()))
         };
         let bound = bound(network, limit);
         let worst = match limit.bound {

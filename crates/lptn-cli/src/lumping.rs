@@ -4,7 +4,7 @@ use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Field, Item, Network, NodeId};
 use lptn_report::{Text, TextTable, duration, significant};
 use lptn_solve::{Biot, LumpCheck, Lumping, NotChecked, Stretch};
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
 use crate::words::count;
@@ -177,7 +177,7 @@ pub(crate) fn json(network: &Network, lumping: &Lumping) -> Value {
     for check in &lumping.checks {
         let mut node = Map::new();
         let mut scalar = |key: &str, value: f64, unit: &str| {
-            drop(node.insert(key.to_owned(), json!(Scalar::new(value, unit))))
+            drop(node.insert(key.to_owned(), json!(SiValue::new(value, unit))))
         };
         scalar("L_char", check.length, "m");
         if let Ok(biot) = check.biot {
@@ -199,7 +199,7 @@ pub(crate) fn json(network: &Network, lumping: &Lumping) -> Value {
         }
         nodes.insert(network.nodes()[check.node.index()].name.clone(), Value::Object(node));
     }
-    let time = |time: f64| Scalar::new(time, "s");
+    let time = |time: f64| SiValue::new(time, "s");
     let stretch = lumping.shortest.map(|s| json!({ "from": time(s.from), "to": time(s.to) }));
     json!({ "nodes": nodes, "without_length": lumping.without_length.len(), "shortest_stretch": stretch })
 }

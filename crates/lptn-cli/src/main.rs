@@ -11,6 +11,7 @@ mod command;
 mod console;
 mod diagnostics;
 mod doubts;
+mod drawing;
 mod exit;
 mod failure;
 mod files;

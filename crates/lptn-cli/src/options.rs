@@ -6,6 +6,8 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args as Arguments, ValueEnum};
 use lptn_report::Format;
 
+use crate::drawing::Drawing;
+
 /// The help of every command: examples, then what it does, then its options.
 pub(crate) const TEMPLATE: &str = "\
 {before-help}{about-with-newline}
@@ -27,6 +29,9 @@ pub(crate) struct Global {
     #[arg(help = "Use colours: auto, always or never; auto respects NO_COLOR")]
     #[arg(hide_default_value = true, hide_possible_values = true)]
     pub(crate) color: Color,
+    /// Draw the result: to a file that ends with .svg or .png, or - for the terminal
+    #[arg(long, global = true, value_name = "FILE")]
+    pub(crate) plot: Option<Drawing>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -6,8 +6,8 @@ use lptn_netlist::{Diagnostic, RunSettings, WrittenError, parse_file, prove};
 use lptn_network::{BuildErrors, Network, ParameterId};
 
 use crate::exit::Exit;
-use crate::failure::{Failure, reason};
-use crate::files::Folder;
+use crate::failure::Failure;
+use crate::files;
 use crate::input::Input;
 
 /// Without a run, the values are compared over this time in s.
@@ -107,27 +107,6 @@ fn is_protected(file: &str) -> bool {
 
 /// Replaces a netlist by another text.
 pub(crate) fn put(file: &Path, text: &str) -> Result<(), Failure> {
-    // a link stays a link: what it leads to is written
-    let place = std::fs::canonicalize(file).map_err(|error| cannot_write(file, &reason(&error)))?;
-    let name = place.file_name().map(|name| name.to_string_lossy().into_owned());
-    let (Some(folder), Some(name)) = (place.parent(), name) else {
-        return Err(cannot_write(file, "it has no name"));
-    };
-    let folder = Folder::prepare_for_a_moment(folder.to_owned()).map_err(as_it_was)?;
-    let mut files = folder.batch();
-    let written = files.write(&name, |out| out.write_all(text.as_bytes()));
-    written.and_then(|()| files.commit(&[])).map_err(as_it_was)
-}
-
-/// The help of a folder is about results.
-fn as_it_was(mut failure: Failure) -> Failure {
-    for problem in &mut failure.diagnostics {
-        problem.help = Some("the netlist is as it was: write the value into it by hand".into());
-    }
-    failure
-}
-
-fn cannot_write(file: &Path, why: &str) -> Failure {
-    let message = format!("cannot write {}: {why}", file.display());
-    Failure::new(Exit::Failed, Diagnostic::error("output::cannot_write", message))
+    let help = "the netlist is as it was: write the value into it by hand";
+    files::replace(file, text.as_bytes()).map_err(|failure| failure.with_help(help))
 }

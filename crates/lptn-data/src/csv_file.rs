@@ -7,7 +7,7 @@ use lptn_units::{Type, Unit};
 use crate::diagnostic::Diagnostic;
 use crate::file::Span;
 use crate::form::header;
-use crate::head::{Asked, Column, Head, Row, reader, row, value};
+use crate::head::{Asked, CsvColumn, Head, Row, reader, row, value};
 use crate::hints;
 use crate::limits::MOST_PROBLEMS;
 use crate::text::CsvText;
@@ -17,7 +17,7 @@ const EXAMPLE: &str = "t [s],speed [rpm]";
 
 /// Numbers in SI units, with the place of each.
 #[derive(Clone, Debug)]
-pub struct Points {
+pub struct PlacedNumbers {
     /// The numbers.
     pub numbers: Vec<f64>,
     /// Their type.
@@ -40,7 +40,7 @@ pub enum Places {
     Column(Arc<CsvFile>, usize),
 }
 
-impl Points {
+impl PlacedNumbers {
     /// Where a number stands.
     pub fn place(&self, index: usize) -> Span {
         let place = match &self.places {
@@ -132,9 +132,9 @@ impl CsvFile {
         name: &str,
         wanted: Option<Type>,
         ask: &Asked,
-    ) -> Result<Points, Vec<Diagnostic>> {
+    ) -> Result<PlacedNumbers, Vec<Diagnostic>> {
         let head = &self.head;
-        let Column { index, unit } =
+        let CsvColumn { index, unit } =
             head.numbers(name, wanted, ask).map_err(|problem| vec![problem])?;
         let mut numbers =
             Vec::with_capacity(self.text.bytes().filter(|&byte| byte == b'\n').count());
@@ -148,7 +148,7 @@ impl CsvFile {
         });
         let (whole, places) =
             (head.columns[index].place.clone(), Places::Column(Arc::clone(self), index));
-        let points = Points { numbers, ty: unit.ty, places, whole, unit: Some(unit) };
+        let points = PlacedNumbers { numbers, ty: unit.ty, places, whole, unit: Some(unit) };
         if problems.is_empty() { Ok(points) } else { Err(problems) }
     }
 

@@ -38,9 +38,9 @@ pub(crate) struct Head {
     pub(crate) place: Span,
 }
 
-/// A column of numbers.
+/// A column of numbers of a CSV file.
 #[derive(Debug)]
-pub struct Column {
+pub struct CsvColumn {
     /// Its position.
     pub index: usize,
     /// Its unit.
@@ -165,7 +165,7 @@ impl Head {
         name: &str,
         ty: Option<Type>,
         ask: &Asked,
-    ) -> Result<Column, Diagnostic> {
+    ) -> Result<CsvColumn, Diagnostic> {
         self.column(self.find(name, ask)?, ty, ask)
     }
 
@@ -176,7 +176,7 @@ impl Head {
         index: usize,
         wanted: Option<Type>,
         ask: &Asked,
-    ) -> Result<Column, Diagnostic> {
+    ) -> Result<CsvColumn, Diagnostic> {
         let header = &self.columns[index];
         let at = |problem: Diagnostic| ask.also(problem.at(header.place.clone(), ""));
         if self.codes.of_record && header.unit.is_none() {
@@ -191,7 +191,7 @@ impl Head {
         let ty = if kelvin && wanted.is_none() { Type::ABSOLUTE_TEMPERATURE } else { unit.ty };
         let unit = fit(Unit { ty, ..unit }, wanted)
             .map_err(|types| at(self.other_unit(header, types, ask)))?;
-        Ok(Column { index, unit })
+        Ok(CsvColumn { index, unit })
     }
 
     fn other_unit(

@@ -4,7 +4,7 @@
 //!
 //! A file is read in four ways, by the same header , numbers and checks of its form: as columns
 //! over time ([`read_record`]), as points without an order ([`read_sheet`]), one column after the
-//! other ([`CsvFile`]), or row by row without being held ([`Rows`]).
+//! other ([`CsvFile`]), or row by row without being held ([`CsvRows`]).
 //!
 //! Diagnostics stand here and not in a crate below: they point into texts, and nothing below this
 //! crate has one.
@@ -21,10 +21,10 @@ mod rows;
 mod text;
 mod words;
 
-pub use csv_file::{CsvFile, Places, Points};
+pub use csv_file::{CsvFile, PlacedNumbers, Places};
 pub use diagnostic::{Diagnostic, Label, Severity, arrange};
 pub use file::{CopyId, FileId, Files, Instance, Span, on_borders};
-pub use head::{Asked, Column, Wrong, fit};
+pub use head::{Asked, CsvColumn, Wrong, fit};
 pub use limits::{
     MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS, ReadError, Rejected, read_bytes, read_named, shorten,
 };
@@ -32,6 +32,6 @@ pub use record::{
     DataSheet, Record, RecordColumn, RecordName, RecordQuery, Saturation, read_record, read_sheet,
     read_text,
 };
-pub use rows::{Marks, Rows};
+pub use rows::{CsvRows, Marks};
 pub use text::CsvText;
 pub use words::{list, nearest};

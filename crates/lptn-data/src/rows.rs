@@ -5,7 +5,7 @@ use lptn_units::Type;
 use crate::diagnostic::Diagnostic;
 use crate::file::Span;
 use crate::form::header;
-use crate::head::{Asked, Column, Head, Row, Wrong, position, reader, row, value};
+use crate::head::{Asked, CsvColumn, Head, Row, Wrong, position, reader, row, value};
 use crate::hints;
 use crate::text::CsvText;
 use crate::words::nearest;
@@ -13,8 +13,8 @@ use crate::words::nearest;
 /// The place of every so manyeth row is kept; the others are counted from there.
 const STRIDE: usize = 256;
 
-/// A file, standing at a row.
-pub struct Rows<'s> {
+/// A CSV file, standing at a row.
+pub struct CsvRows<'s> {
     /// The columns.
     head: Head,
     /// What names the file.
@@ -31,7 +31,7 @@ pub struct Rows<'s> {
     skipped: Vec<usize>,
 }
 
-impl<'s> Rows<'s> {
+impl<'s> CsvRows<'s> {
     /// A file, standing before its first row; `example` is a header as it could be.
     ///
     /// # Errors
@@ -133,7 +133,7 @@ impl<'s> Rows<'s> {
     ///
     /// # Errors
     /// That it is not there, is there twice, or has another unit.
-    pub fn numbers(&self, name: &str, ty: Type) -> Result<Column, Diagnostic> {
+    pub fn numbers(&self, name: &str, ty: Type) -> Result<CsvColumn, Diagnostic> {
         self.head.numbers(name, Some(ty), &self.asked)
     }
 
@@ -146,7 +146,7 @@ impl<'s> Rows<'s> {
     ///
     /// # Errors
     /// Why it holds none.
-    pub fn number(&self, column: &Column) -> Result<f64, Wrong> {
+    pub fn number(&self, column: &CsvColumn) -> Result<f64, Wrong> {
         value(self.cell(column.index), &column.unit)
     }
 

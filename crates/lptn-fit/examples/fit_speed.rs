@@ -4,7 +4,7 @@
 //! `cargo run --release -p lptn-study --example fit_speed`, under `time` for the CPU.
 #![allow(clippy::print_stdout, reason = "an example")]
 
-use lptn_fit::network::{Measured, MeasuredRun, NetworkFitTask, Varied, fit_network};
+use lptn_fit::network::{MeasuredColumn, MeasuredRun, NetworkFitTask, Varied, fit_network};
 use lptn_netlist::parse;
 use lptn_network::Time;
 use lptn_solve::Transient;
@@ -32,12 +32,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let network = &netlist.network;
     let times: Vec<f64> = (0..7500).map(|k| 0.2 * f64::from(k)).collect();
     // another curve than the network's own, rounded to 0.1 K as by a logger
-    let column = |node: &str, lag: f64| -> Result<Measured, Box<dyn std::error::Error>> {
+    let column = |node: &str, lag: f64| -> Result<MeasuredColumn, Box<dyn std::error::Error>> {
         let rise = |t: f64| 66.0 * (1.0 - f64::exp(-t / 790.0)) + lag * (1.0 - f64::exp(-t / 25.0));
         let shown =
             |t: &f64| (10.0 * (25.5 + rise(*t) + 0.3 * (0.11 * t).sin())).round() / 10.0 + 273.15;
         let of = vec![(network.node(node)?, 1.0)];
-        Ok(Measured {
+        Ok(MeasuredColumn {
             name: node.into(),
             of,
             sigma: Some(0.1),

@@ -5,7 +5,8 @@
 
 use lptn_fit::least_squares::Side;
 use lptn_fit::network::{
-    Kind, Measured, MeasuredRun, NetworkFitError, NetworkFitTask, Varied, fit_network,
+    CombinationKind, MeasuredColumn, MeasuredRun, NetworkFitError, NetworkFitTask, Varied,
+    fit_network,
 };
 use lptn_netlist::{Netlist, parse};
 use lptn_network::Time;
@@ -73,7 +74,7 @@ fn record(netlist: &Netlist, (node, values): (&str, &[f64]), set: &[(&str, &str)
         parameters,
         settings: Transient::until(Time(1.0)),
         times: every_50_s(values.len()),
-        columns: vec![Measured {
+        columns: vec![MeasuredColumn {
             name: node.to_owned(),
             of: vec![(netlist.network.node(node).unwrap(), 1.0)],
             sigma: None,
@@ -217,7 +218,10 @@ fn power_resistance_and_capacity_are_not_to_be_had_from_temperatures_alone() {
     let terms: Vec<_> = determined.iter().map(|c| (c.kind, c.terms.clone())).collect();
     assert_eq!(
         terms,
-        [(Kind::Product, vec![(0, 1), (1, 1)]), (Kind::Product, vec![(1, 1), (2, 1)])]
+        [
+            (CombinationKind::Product, vec![(0, 1), (1, 1)]),
+            (CombinationKind::Product, vec![(1, 1), (2, 1)])
+        ]
     );
     near(determined[0].value, 67.2, 1e-6);
     near(determined[1].value, 810.0, 1e-6);
@@ -262,7 +266,7 @@ fn of_parallel_conductances_only_the_sum_is_determined() {
         let determined = known.unseparated[0].determined.as_ref().unwrap();
         assert_eq!(
             (determined[0].kind, determined[0].terms.as_slice()),
-            (Kind::Sum, [(0, 1), (2, 1)].as_slice())
+            (CombinationKind::Sum, [(0, 1), (2, 1)].as_slice())
         );
         near(determined[0].value, 3.290_761_676_329_814, 1e-6);
         let known = fit.parameters.iter().map(|p| p.standard_error.is_some()).collect::<Vec<_>>();
@@ -356,7 +360,7 @@ fn a_parameter_that_drifted_to_nothing_is_still_seen_to_be_undetermined() {
     let determined = known.unseparated[0].determined.as_ref().unwrap();
     assert_eq!(
         (determined[0].kind, determined[0].terms.as_slice()),
-        (Kind::Sum, [(0, 1), (1, -1)].as_slice())
+        (CombinationKind::Sum, [(0, 1), (1, -1)].as_slice())
     );
     near(determined[0].value, 0.5, 1e-6);
     assert!(known.determines(2) && fit.parameters[2].standard_error.is_some());

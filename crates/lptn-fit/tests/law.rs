@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use lptn_fit::law::{
-    ALIKE, Candidate, Fitted, Law, LawError, LawStudy, Outcome, Points, WrittenLaw,
+    ALIKE, Fitted, LawError, LawFit, LawStudy, LossLaw, Outcome, Points, WrittenLaw,
 };
 use lptn_units::{Dimension, parse_quantity};
 
@@ -35,7 +35,7 @@ fn near(value: f64, expected: f64, relative: f64) {
     assert!((value - expected).abs() <= relative * expected.abs(), "{value} is not {expected}");
 }
 
-fn of<'a>(study: &'a LawStudy, law: &str) -> &'a Candidate {
+fn of<'a>(study: &'a LawStudy, law: &str) -> &'a LawFit {
     study.candidates.iter().find(|c| c.law.to_string() == law).unwrap()
 }
 
@@ -45,7 +45,7 @@ fn fit<'a>(study: &'a LawStudy, law: &str) -> &'a Fitted {
 
 #[test]
 fn sums_of_powers_are_those_of_numpy() {
-    let study = LawStudy::new(points(), Law::standard());
+    let study = LawStudy::new(points(), LossLaw::standard());
     let single = fit(&study, "omega^(5/3)");
     near(single.coefficients[0].value * RPM.powf(5.0 / 3.0), 8.718965528610733e-5, 1e-10);
     near(
@@ -69,7 +69,7 @@ fn sums_of_powers_are_those_of_numpy() {
 
 #[test]
 fn the_free_exponent_is_that_of_scipy() {
-    let study = LawStudy::new(points(), Law::standard());
+    let study = LawStudy::new(points(), LossLaw::standard());
     let free = fit(&study, "omega^n");
     near(free.coefficient("P_top").unwrap().value, 223.52153200943403, 1e-7);
     near(free.coefficient("n").unwrap().value, 1.6715872234345928, 1e-7);
@@ -82,7 +82,7 @@ fn the_free_exponent_is_that_of_scipy() {
 #[test]
 fn standard_errors_weight_and_never_shrink() {
     let points = Points::new(speeds(), POWERS.to_vec(), Some(ERRORS.to_vec())).unwrap();
-    let study = LawStudy::new(points, Law::standard());
+    let study = LawStudy::new(points, LossLaw::standard());
     let single = fit(&study, "omega^(5/3)");
     near(single.coefficients[0].value * RPM.powf(5.0 / 3.0), 8.703230736635238e-5, 1e-10);
     near(
@@ -101,7 +101,7 @@ fn standard_errors_weight_and_never_shrink() {
     // errors ten times as large leave no dispersion, and the standard errors are those given
     let wide =
         Points::new(speeds(), POWERS.to_vec(), Some(ERRORS.map(|e| 10.0 * e).to_vec())).unwrap();
-    let study = LawStudy::new(wide, Law::standard());
+    let study = LawStudy::new(wide, LossLaw::standard());
     near(study.dispersion, 1.0, 0.0);
     let single = fit(&study, "omega^(5/3)");
     let alone: f64 =
@@ -116,7 +116,7 @@ fn standard_errors_weight_and_never_shrink() {
 
 #[test]
 fn the_verdict_says_by_how_much() {
-    let study = LawStudy::new(points(), Law::standard());
+    let study = LawStudy::new(points(), LossLaw::standard());
     assert_eq!(study.best().unwrap().law.to_string(), "omega^(5/3)");
     assert!(study.rivals().is_empty());
     assert_eq!(study.verdict(), "omega^(5/3) is best: the next, omega^n, is 3.2 AICc behind");
@@ -128,7 +128,7 @@ fn the_verdict_says_by_how_much() {
 
 #[test]
 fn a_negative_coefficient_is_said_and_never_wins() {
-    let study = LawStudy::new(points(), Law::standard());
+    let study = LawStudy::new(points(), LossLaw::standard());
     let both = of(&study, "omega + omega^(5/3)");
     assert!(both.fitted().unwrap().coefficients[0].value < 0.0);
     assert_eq!(both.remark().unwrap(), "a coefficient is negative");
@@ -145,7 +145,7 @@ fn laws_that_points_cannot_tell_apart_are_said() {
     let power =
         rpm.iter().zip(wave).map(|(n, w)| 87e-6 * f64::powf(*n, 5.0 / 3.0) + 3.0 * w).collect();
     let points = Points::new(rpm.iter().map(|n| n * RPM).collect(), power, None).unwrap();
-    let study = LawStudy::new(points, Law::standard());
+    let study = LawStudy::new(points, LossLaw::standard());
     let rivals: Vec<String> = study.rivals().iter().map(|c| c.law.to_string()).collect();
     assert!(!rivals.is_empty());
     assert!(study.rivals().iter().all(|c| study.behind(c).unwrap() < ALIKE));
@@ -156,7 +156,7 @@ fn laws_that_points_cannot_tell_apart_are_said() {
 fn too_few_points_are_said_and_not_hidden() {
     let few = |n: usize| Points::new(speeds()[..n].to_vec(), POWERS[..n].to_vec(), None).unwrap();
     // two points at one speed
-    let study = LawStudy::new(few(2), Law::standard());
+    let study = LawStudy::new(few(2), LossLaw::standard());
     let sum = of(&study, "omega + omega^3");
     assert!(matches!(sum.outcome, Outcome::TooFew { needed: 2, points: 2, speeds: 1 }));
     assert_eq!(sum.remark().unwrap(), "too few different speeds: 1 for 2 coefficients");
@@ -169,7 +169,7 @@ fn too_few_points_are_said_and_not_hidden() {
     assert!(study.best().is_none());
     assert_eq!(study.verdict(), "2 points are too few to choose a law");
     // a single point has a coefficient and no standard error
-    let alone = LawStudy::new(few(1), Law::standard());
+    let alone = LawStudy::new(few(1), LossLaw::standard());
     let one = fit(&alone, "omega");
     near(one.coefficients[0].value * RPM, 9.4 / 1000.0, 1e-12);
     assert!(one.coefficients[0].standard_error.is_none() && one.leave_one_out.is_none());
@@ -178,7 +178,7 @@ fn too_few_points_are_said_and_not_hidden() {
 #[test]
 fn points_without_noise_give_their_law_back() {
     let exact = SPEEDS.iter().map(|n| 0.003 * n + 2e-10 * n.powi(3)).collect();
-    let study = LawStudy::new(Points::new(speeds(), exact, None).unwrap(), Law::standard());
+    let study = LawStudy::new(Points::new(speeds(), exact, None).unwrap(), LossLaw::standard());
     assert_eq!(study.best().unwrap().law.to_string(), "omega + omega^3");
     let found = fit(&study, "omega + omega^3");
     near(found.coefficients[0].value * RPM, 0.003, 1e-10);
@@ -194,8 +194,8 @@ fn written(text: &str, starts: &[(&str, &str)]) -> Result<WrittenLaw, LawError> 
     WrittenLaw::new(text, &points(), &starts)
 }
 
-fn fit_written(text: &str, starts: &[(&str, &str)]) -> Candidate {
-    let law = Law::Written(Box::new(written(text, starts).unwrap()));
+fn fit_written(text: &str, starts: &[(&str, &str)]) -> LawFit {
+    let law = LossLaw::Written(Box::new(written(text, starts).unwrap()));
     LawStudy::new(points(), vec![law]).candidates.remove(0)
 }
 

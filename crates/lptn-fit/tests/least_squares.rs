@@ -3,8 +3,8 @@
 
 use lptn_fit::Spectrum;
 use lptn_fit::least_squares::{
-    Estimate, Evaluated, LeastSquaresError, Outcome, Prior, Residuals, Settings, Side, Stop,
-    minimise,
+    Evaluated, LeastSquaresError, LeastSquaresFit, Prior, Residuals, Settings, Side, Stop,
+    Termination, minimise,
 };
 use lptn_units::{Dual, Scalar};
 
@@ -100,7 +100,7 @@ fn agrees(what: &str, found: &[f64], expected: &[f64], tolerance: f64) {
     }
 }
 
-fn errors(found: &Estimate) -> Vec<f64> {
+fn errors(found: &LeastSquaresFit) -> Vec<f64> {
     let variance = found.squares / f64::from(u32::try_from(found.degrees_of_freedom()).unwrap());
     let covariance = found.covariance().unwrap().scaled(variance);
     (0..found.parameters.len()).map(|j| covariance.standard_error(j).unwrap()).collect()
@@ -158,7 +158,7 @@ const DECAY: [(f64, f64); 10] = [
     (12.0, 2.08),
 ];
 
-fn bounded(bounds: [(f64, f64); 3], start: [f64; 3]) -> Estimate {
+fn bounded(bounds: [(f64, f64); 3], start: [f64; 3]) -> LeastSquaresFit {
     let mut curve = Curve { model: decay, points: &DECAY, parameters: 3 };
     let settings = Settings { bounds: bounds.to_vec(), ..Settings::default() };
     let found = minimise(&mut curve, &start, &settings).unwrap();
@@ -299,7 +299,7 @@ fn where_the_model_has_no_value_the_step_is_shorter() {
     assert!(found.outcome.converged());
     agrees("ln", &found.parameters, &[(-2_f64).exp()], 1e-9);
     let nowhere = minimise(&mut curve, &[-5.0], &Settings::default()).unwrap();
-    assert_eq!(nowhere.outcome, Outcome::NotConverged(Stop::StartNotFinite));
+    assert_eq!(nowhere.outcome, Termination::NotConverged(Stop::StartNotFinite));
 }
 
 /// A model whose derivative has the wrong sign.
@@ -318,12 +318,12 @@ impl Residuals for Liar {
 #[test]
 fn a_search_that_gets_nowhere_says_so() {
     let lied = minimise(&mut Liar, &[1.0], &Settings::default()).unwrap();
-    assert_eq!(lied.outcome, Outcome::NotConverged(Stop::Stalled));
+    assert_eq!(lied.outcome, Termination::NotConverged(Stop::Stalled));
     let set = Certified::read(include_str!("nist/Hahn1.dat"));
     let mut curve = Curve { model: cubics, points: &set.points, parameters: 7 };
     let settings = Settings { iterations: 3, ..Settings::default() };
     let short = minimise(&mut curve, &set.starts[0], &settings).unwrap();
-    assert_eq!(short.outcome, Outcome::NotConverged(Stop::Iterations));
+    assert_eq!(short.outcome, Termination::NotConverged(Stop::Iterations));
     assert_eq!(short.iterations, 3);
 }
 

@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_assembly::ThermalSystem;
-use lptn_fit::step::{Capacity, Lack, ModelBias, Power, Reference, Sensor, StepError, StepFit};
+use lptn_fit::step::{
+    Capacity, Lack, ModelBias, Power, ReferenceTemperature, Sensor, StepError, StepFit,
+};
 use lptn_netlist::parse;
 use lptn_network::Time;
 use lptn_reduce::port;
@@ -42,13 +44,14 @@ fn the_papers_arithmetic() {
     near(fit.tau.value, 810.0, 1e-8);
     near(fit.initial.value, 25.5, 1e-8);
     near(fit.settled.value, 92.7, 1e-8);
-    let power = Power::new(&fit, C_EQ, &Reference::Initial, Sensor::default()).unwrap();
+    let power = Power::new(&fit, C_EQ, &ReferenceTemperature::Initial, Sensor::default()).unwrap();
     near(power.resistance.value, 0.3046, 1e-4);
     near(power.rise.value, 67.2, 1e-7);
     near(power.power.value, 220.6, 1e-4);
     near(power.power.value, 67.2 * 2659.0 / 810.0, 1e-7);
     // 58.8 K above the bed, as the fitted slope of 0.0084 K/rpm has it, are 12.5 % less
-    let bed = Power::new(&fit, C_EQ, &Reference::Value(92.7 - 58.8), Sensor::default()).unwrap();
+    let bed = Power::new(&fit, C_EQ, &ReferenceTemperature::Value(92.7 - 58.8), Sensor::default())
+        .unwrap();
     near(bed.power.value / power.power.value, 0.875, 1e-6);
     assert_eq!((power.reference.as_str(), bed.reference.as_str()), ("initial", "value"));
 }
@@ -85,7 +88,7 @@ fn random_and_systematic_errors_stand_apart() {
     let fit = StepFit::new(&t, &zigzag(&curve(&t, [25.5, 92.7, 810.0]), 0.1)).unwrap();
     let capacity = Capacity { value: 2659.0, deviation: 0.05 * 2659.0 };
     let sensor = Sensor { class: 3.0, gain: 0.0 };
-    let power = Power::new(&fit, capacity, &Reference::Initial, sensor).unwrap();
+    let power = Power::new(&fit, capacity, &ReferenceTemperature::Initial, sensor).unwrap();
     let (rise, tau) = (fit.settled.value - fit.initial.value, fit.tau.value);
     let gradient = [-2659.0 / tau, 2659.0 / tau, -2659.0 * rise / (tau * tau)];
     let covariance = |i: usize, j: usize| fit.covariance().between(i, j).unwrap();
@@ -98,7 +101,7 @@ fn random_and_systematic_errors_stand_apart() {
     near(power.rise.systematic, 0.0, 1e-12);
     // a rectangle of ± 3 K on two sensors: sqrt(2) 3 / sqrt(3) K
     let bed = vec![25.5; t.len()];
-    let column = Reference::Column { name: "bed".into(), times: &t, temperatures: &bed };
+    let column = ReferenceTemperature::Column { name: "bed".into(), times: &t, temperatures: &bed };
     let apart = Power::new(&fit, capacity, &column, sensor).unwrap();
     near(apart.rise.systematic, 6_f64.sqrt(), 1e-12);
     let offset = 6_f64.sqrt() * 2659.0 / tau;
@@ -114,20 +117,24 @@ fn the_mean_of_a_column_is_the_reference() {
     let mut bed: Vec<f64> = t.iter().map(|t| 25.5 + 8.0 * t / 1500.0).collect();
     bed[17] = f64::NAN;
     bed[283] = f64::NAN;
-    let column = Reference::Column { name: "mill_bed".into(), times: &t, temperatures: &bed };
+    let column =
+        ReferenceTemperature::Column { name: "mill_bed".into(), times: &t, temperatures: &bed };
     let power = Power::new(&fit, C_EQ, &column, Sensor::default()).unwrap();
     near(power.reference_temperature, 29.5, 1e-12);
     near(power.drift, 8.0, 1e-10);
     near(power.rise.value, 63.2, 1e-7);
     let empty = vec![f64::NAN; t.len()];
-    let column = Reference::Column { name: "empty".into(), times: &t, temperatures: &empty };
+    let column =
+        ReferenceTemperature::Column { name: "empty".into(), times: &t, temperatures: &empty };
     assert_eq!(
         Power::new(&fit, C_EQ, &column, Sensor::default()).unwrap_err().code(),
         "fit::no_reference"
     );
     let none = Capacity { value: 0.0, deviation: 0.0 };
     assert_eq!(
-        Power::new(&fit, none, &Reference::Initial, Sensor::default()).unwrap_err().code(),
+        Power::new(&fit, none, &ReferenceTemperature::Initial, Sensor::default())
+            .unwrap_err()
+            .code(),
         "fit::capacity"
     );
 }

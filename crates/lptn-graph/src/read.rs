@@ -3,14 +3,15 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use lptn_network::{
-    Acts, ConductorId, ConductorKind, ControlId, End, Evaluation, Flow, Item, Network, SourceId,
+    Acts, ConductorFlow, ConductorId, ConductorKind, ControlId, End, Evaluation, Item, Network,
+    SourceId,
 };
 use lptn_report::plain;
 use lptn_solve::SteadyState;
 use lptn_units::Unit;
 
 use crate::groups::{Group, Grouping, groups};
-use crate::model::{Control, Diagram, Link, Place, Role, Steady, Supply, Target};
+use crate::model::{Diagram, Link, Place, PlaceRole, Steady, Supply, Switching, Target};
 use crate::words::{self, Scale};
 
 /// How a network is looked at.
@@ -141,7 +142,7 @@ impl Reader<'_> {
         Some(nodes.chain(boundaries).collect())
     }
 
-    fn role(&self, group: &Group) -> Role {
+    fn role(&self, group: &Group) -> PlaceRole {
         let capacity = || {
             let sum: f64 = group.nodes.iter().map(|id| self.network.capacity(*id)).sum();
             let varies = group.nodes.iter().any(|id| self.network.enthalpy(*id).is_some());
@@ -151,9 +152,9 @@ impl Reader<'_> {
             })
         };
         match (&group.words, group.boundaries.is_empty()) {
-            (_, false) => Role::Boundary,
-            (Some(words), true) => Role::Group(words.clone(), capacity()),
-            (None, true) => capacity().map_or(Role::Junction, Role::Node),
+            (_, false) => PlaceRole::Boundary,
+            (Some(words), true) => PlaceRole::Group(words.clone(), capacity()),
+            (None, true) => capacity().map_or(PlaceRole::Junction, PlaceRole::Node),
         }
     }
 
@@ -231,11 +232,15 @@ impl Reader<'_> {
 
     /// The conductances of several paths add.
     fn value(&self, members: &[ConductorId]) -> Option<String> {
-        let flows: Vec<Flow> = members.iter().map(|id| self.network.flow(*id)).collect();
+        let flows: Vec<ConductorFlow> = members.iter().map(|id| self.network.flow(*id)).collect();
         let sum = flows.iter().try_fold(flows[0], |sum, flow| match (sum, flow) {
             _ if std::ptr::eq(flow, &flows[0]) => Some(sum),
-            (Flow::Conductance(a), Flow::Conductance(b)) => Some(Flow::Conductance(a + b)),
-            (Flow::Radiation(a), Flow::Radiation(b)) => Some(Flow::Radiation(a + b)),
+            (ConductorFlow::Conductance(a), ConductorFlow::Conductance(b)) => {
+                Some(ConductorFlow::Conductance(a + b))
+            }
+            (ConductorFlow::Radiation(a), ConductorFlow::Radiation(b)) => {
+                Some(ConductorFlow::Radiation(a + b))
+            }
             _ => None,
         });
         words::flow(sum?)
@@ -321,7 +326,7 @@ impl Reader<'_> {
         &self,
         id: ControlId,
         (links, sources): (&[Option<usize>], &[Vec<usize>]),
-    ) -> Control {
+    ) -> Switching {
         let network = self.network;
         let slot = network.control_slot(id);
         let mut switches: Vec<Target> = Vec::new();
@@ -339,7 +344,7 @@ impl Reader<'_> {
         switches.dedup();
         let (sense, rule) = self.rule(id);
         let name = plain(&network.name_of(Item::Control(id)));
-        Control { name, sense, rule, switches }
+        Switching { name, sense, rule, switches }
     }
 
     fn rule(&self, id: ControlId) -> (usize, String) {

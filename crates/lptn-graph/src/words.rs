@@ -1,6 +1,6 @@
 //! Quantities in a few words.
 
-use lptn_network::{Evaluation, Flow, Network, Value};
+use lptn_network::{ConductorFlow, Evaluation, Network, Value};
 use lptn_report::{decimals, fixed, prefix, significant};
 use lptn_units::Unit;
 
@@ -32,12 +32,12 @@ pub(crate) fn resistance(value: f64) -> String {
 }
 
 /// What is known of a path before a run.
-pub(crate) fn flow(flow: Flow) -> Option<String> {
+pub(crate) fn flow(flow: ConductorFlow) -> Option<String> {
     match flow {
-        Flow::Conductance(g) => Some(resistance(1.0 / g)),
-        Flow::Radiation(area) => Some(format!("{} m²", significant(area, DIGITS))),
-        Flow::Stream(rate) => Some(si(rate.abs(), "W/K")),
-        Flow::Variable => None,
+        ConductorFlow::Conductance(g) => Some(resistance(1.0 / g)),
+        ConductorFlow::Radiation(area) => Some(format!("{} m²", significant(area, DIGITS))),
+        ConductorFlow::Stream(rate) => Some(si(rate.abs(), "W/K")),
+        ConductorFlow::Variable => None,
     }
 }
 

@@ -104,6 +104,7 @@ fn lines(scene: &Scene) -> Vec<Box> {
                         last = to;
                     }
                 }
+                Step::Circle((x, y), r) => piece((x - r, y - r), (x + r, y + r)),
                 Step::Close => {}
             }
         }

@@ -8,7 +8,8 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 use crate::declare::{
-    Carries, Confidence, Extent, Field, Form, KindDeclaration, Law, LawDeclaration, Range,
+    Carries, Confidence, Extent, FieldDeclaration, Form, KindDeclaration, Law, LawDeclaration,
+    Range,
 };
 
 /// `[advection]`, as netlists declare it.
@@ -37,8 +38,11 @@ const fn flow(
     dimension: Dimension,
     meaning: &'static str,
     example: &'static str,
-) -> Field {
-    Field { range: Range::Finite, ..Field::new(key, Type::of(dimension), meaning, example) }
+) -> FieldDeclaration {
+    FieldDeclaration {
+        range: Range::Finite,
+        ..FieldDeclaration::new(key, Type::of(dimension), meaning, example)
+    }
 }
 
 /// A stream of a known capacity rate.
@@ -103,9 +107,9 @@ impl Law for VolumeFlow {
         equation: "Q_to = flow rho(flow_T) (h(T_from) - h(T_to))",
         fields: &[
             flow("flow", Dimension::VOLUME_FLOW, "volume flow of the fluid", "\"3 L/min\""),
-            Field {
+            FieldDeclaration {
                 range: Range::Temperature,
-                ..Field::new(
+                ..FieldDeclaration::new(
                     "flow_T",
                     Type::ABSOLUTE_TEMPERATURE,
                     "temperature at which the volume is measured",

@@ -10,7 +10,8 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 use crate::declare::{
-    Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration,
+    Carries, Confidence, Extent, FieldDeclaration, Form, Hints, KindDeclaration, Law,
+    LawDeclaration,
 };
 
 /// `[conduction]`, as netlists declare it.
@@ -31,19 +32,28 @@ pub(crate) const Conduction: KindDeclaration = KindDeclaration {
     surface: None,
 };
 
-const CONDUCTIVITY: Field = Field {
+const CONDUCTIVITY: FieldDeclaration = FieldDeclaration {
     hints: Hints::PROPERTY,
     property: true,
-    ..Field::new("k", Type::of(Dimension::CONDUCTIVITY), "thermal conductivity", "\"46.6 W/(m K)\"")
+    ..FieldDeclaration::new(
+        "k",
+        Type::of(Dimension::CONDUCTIVITY),
+        "thermal conductivity",
+        "\"46.6 W/(m K)\"",
+    )
 };
 
-const AREA: Field = Field {
+const AREA: FieldDeclaration = FieldDeclaration {
     hints: Hints::CONDUCTS,
-    ..Field::new("area", Type::of(Dimension::AREA), "area of a face", "\"0.2 m^2\"")
+    ..FieldDeclaration::new("area", Type::of(Dimension::AREA), "area of a face", "\"0.2 m^2\"")
 };
 
-const fn length(key: &'static str, meaning: &'static str, example: &'static str) -> Field {
-    Field::measure(key, Type::of(Dimension::LENGTH), meaning, example)
+const fn length(
+    key: &'static str,
+    meaning: &'static str,
+    example: &'static str,
+) -> FieldDeclaration {
+    FieldDeclaration::measure(key, Type::of(Dimension::LENGTH), meaning, example)
 }
 
 /// What the shapes have in common.

@@ -1,6 +1,6 @@
 //! `[contact]`: joints between solids, which obey the law of a film.
 
-use crate::declare::{KindDeclaration, Surface};
+use crate::declare::{KindDeclaration, SurfaceKind};
 
 /// `[contact]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
@@ -15,5 +15,5 @@ pub(crate) const Contact: KindDeclaration = KindDeclaration {
         ("A", "the area is `area`"),
     ],
     later: &[],
-    surface: Some(Surface::Touching),
+    surface: Some(SurfaceKind::Touching),
 };

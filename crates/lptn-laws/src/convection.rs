@@ -4,7 +4,8 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 use crate::declare::{
-    Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration, Surface,
+    Carries, Confidence, Extent, FieldDeclaration, Form, Hints, KindDeclaration, Law,
+    LawDeclaration, SurfaceKind,
 };
 
 /// `[convection]`, as netlists declare it.
@@ -24,7 +25,7 @@ pub(crate) const Convection: KindDeclaration = KindDeclaration {
         ("htc", "the film coefficient is `h`"),
     ],
     later: &["correlation"],
-    surface: Some(Surface::Wetted),
+    surface: Some(SurfaceKind::Wetted),
 };
 
 /// A film or a contact.
@@ -39,18 +40,18 @@ impl Law for Film {
         equation: "Q = h A (T_from - T_to)",
         kinds: &[Kind::Convection, Kind::Contact],
         fields: &[
-            Field {
+            FieldDeclaration {
                 hints: Hints::CONDUCTS,
-                ..Field::new(
+                ..FieldDeclaration::new(
                     "h",
                     Type::of(Dimension::FILM_COEFFICIENT),
                     "film coefficient",
                     "\"10 W/(m^2 K)\"",
                 )
             },
-            Field {
+            FieldDeclaration {
                 hints: Hints::CONDUCTS,
-                ..Field::new(
+                ..FieldDeclaration::new(
                     "area",
                     Type::of(Dimension::AREA),
                     "area of the surface",

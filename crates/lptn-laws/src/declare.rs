@@ -34,7 +34,7 @@ pub struct LawDeclaration {
     /// The kinds of path that obey it.
     pub kinds: &'static [Kind],
     /// What it takes. Two in a row with one key are given as a list of two.
-    pub fields: &'static [Field],
+    pub fields: &'static [FieldDeclaration],
     /// What the value of its formula means.
     pub carries: Carries,
     /// Whether its value depends on the temperatures of the ends even where all fields are
@@ -120,10 +120,10 @@ pub enum Confidence {
 
 /// A value that a law takes.
 #[derive(Clone, Copy, Debug)]
-pub struct Field {
+pub struct FieldDeclaration {
     /// Its key in a netlist.
     pub key: &'static str,
-    /// The range that its value has to lie in.
+    /// Its dimension, and whether it is an absolute temperature.
     pub ty: Type,
     /// Which numbers it may be.
     pub range: Range,
@@ -140,7 +140,7 @@ pub struct Field {
     pub property: bool,
 }
 
-impl Field {
+impl FieldDeclaration {
     /// A value above 0.
     pub const fn new(
         key: &'static str,
@@ -235,13 +235,13 @@ pub struct KindDeclaration {
     /// Keys that are decided but not supported yet.
     pub later: &'static [&'static str],
     /// Which surface of a body it is, if any.
-    pub surface: Option<Surface>,
+    pub surface: Option<SurfaceKind>,
 }
 
-/// A surface through which a body gives off heat. What convects also radiates: their areas are the
-/// same skin.
+/// How a surface of a body gives off heat. What convects also radiates: their areas are the same
+/// skin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Surface {
+pub enum SurfaceKind {
     /// It convects.
     Wetted,
     /// It touches another body.
@@ -262,8 +262,8 @@ impl Kind {
     }
 
     /// Its fields, each key once: those that all its laws take come first.
-    pub fn fields(self) -> Vec<&'static Field> {
-        let mut fields: Vec<&'static Field> = Vec::new();
+    pub fn fields(self) -> Vec<&'static FieldDeclaration> {
+        let mut fields: Vec<&'static FieldDeclaration> = Vec::new();
         for field in self.laws().flat_map(|law| law.declaration().fields) {
             if fields.iter().all(|known| known.key != field.key) {
                 fields.push(field);
@@ -276,7 +276,7 @@ impl Kind {
 
 impl Formula {
     /// Its field of this key.
-    pub fn field(self, key: &str) -> Option<&'static Field> {
+    pub fn field(self, key: &str) -> Option<&'static FieldDeclaration> {
         self.declaration().fields.iter().find(|field| field.key == key)
     }
 

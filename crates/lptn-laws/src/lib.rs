@@ -41,8 +41,8 @@ pub use advection::{advection_from, advection_to, stream_from, stream_to};
 pub use conduction::{cylinder, rod, slab, sphere};
 pub use convection::film;
 pub use declare::{
-    Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration, Range,
-    Surface,
+    Carries, Confidence, Extent, FieldDeclaration, Form, Hints, KindDeclaration, Law,
+    LawDeclaration, Range, SurfaceKind,
 };
 pub use list::{Formula, Kind};
 pub use lump::{biot, diffusion_time};

@@ -4,8 +4,8 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 use crate::declare::{
-    Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration, Range,
-    Surface,
+    Carries, Confidence, Extent, FieldDeclaration, Form, Hints, KindDeclaration, Law,
+    LawDeclaration, Range, SurfaceKind,
 };
 
 /// `[radiation]`, as netlists declare it.
@@ -22,23 +22,30 @@ pub(crate) const Radiation: KindDeclaration = KindDeclaration {
         ("h", "a film coefficient with an area belongs in [convection]"),
     ],
     later: &[],
-    surface: Some(Surface::Seen),
+    surface: Some(SurfaceKind::Seen),
 };
 
 const AREA: Type = Type::of(Dimension::AREA);
 
-const EMISSIVITY: Field =
-    Field { range: Range::Fraction, ..Field::new("emissivity", Type::SCALAR, "emissivity", "0.8") };
-
-const SEEN: Field = Field {
-    hints: Hints::CONDUCTS,
-    ..Field::new("area", AREA, "area that emissivity and view factor refer to", "\"0.2 m^2\"")
+const EMISSIVITY: FieldDeclaration = FieldDeclaration {
+    range: Range::Fraction,
+    ..FieldDeclaration::new("emissivity", Type::SCALAR, "emissivity", "0.8")
 };
 
-const VIEW_FACTOR: Field = Field {
+const SEEN: FieldDeclaration = FieldDeclaration {
+    hints: Hints::CONDUCTS,
+    ..FieldDeclaration::new(
+        "area",
+        AREA,
+        "area that emissivity and view factor refer to",
+        "\"0.2 m^2\"",
+    )
+};
+
+const VIEW_FACTOR: FieldDeclaration = FieldDeclaration {
     range: Range::Fraction,
     default: Some(1.0),
-    ..Field::new(
+    ..FieldDeclaration::new(
         "view_factor",
         Type::SCALAR,
         "view factor from the area to the other surface",
@@ -57,9 +64,9 @@ impl Law for ExchangeArea {
             emissivities in one.",
         equation: "Q = sigma Gr (T_from^4 - T_to^4)",
         kinds: &[Kind::Radiation],
-        fields: &[Field {
+        fields: &[FieldDeclaration {
             hints: Hints::CONDUCTS,
-            ..Field::new("Gr", AREA, "exchange area", "\"0.16 m^2\"")
+            ..FieldDeclaration::new("Gr", AREA, "exchange area", "\"0.16 m^2\"")
         }],
         carries: Carries::Radiation,
         reads_ends: false,

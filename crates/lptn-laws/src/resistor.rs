@@ -4,7 +4,8 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 use crate::declare::{
-    Carries, Confidence, Extent, Field, Form, Hints, KindDeclaration, Law, LawDeclaration,
+    Carries, Confidence, Extent, FieldDeclaration, Form, Hints, KindDeclaration, Law,
+    LawDeclaration,
 };
 
 /// `[resistor]`, as netlists declare it.
@@ -33,9 +34,14 @@ impl Law for Resistance {
         sentence: "The heat is the difference of the temperatures over a resistance.",
         equation: "Q = (T_from - T_to) / R",
         kinds: &[Kind::Resistor, Kind::Convection],
-        fields: &[Field {
+        fields: &[FieldDeclaration {
             hints: Hints::RESISTS,
-            ..Field::new("R", Type::of(Dimension::RESISTANCE), "thermal resistance", "\"0.3 K/W\"")
+            ..FieldDeclaration::new(
+                "R",
+                Type::of(Dimension::RESISTANCE),
+                "thermal resistance",
+                "\"0.3 K/W\"",
+            )
         }],
         carries: Carries::Conductance,
         reads_ends: false,
@@ -65,9 +71,14 @@ impl Law for Conductance {
         sentence: "The heat is a conductance times the difference of the temperatures.",
         equation: "Q = G (T_from - T_to)",
         kinds: &[Kind::Resistor],
-        fields: &[Field {
+        fields: &[FieldDeclaration {
             hints: Hints::CONDUCTS,
-            ..Field::new("G", Type::of(Dimension::CONDUCTANCE), "thermal conductance", "\"3 W/K\"")
+            ..FieldDeclaration::new(
+                "G",
+                Type::of(Dimension::CONDUCTANCE),
+                "thermal conductance",
+                "\"3 W/K\"",
+            )
         }],
         form: Form::Product,
         extent: Extent::Divided("G"),

@@ -5,7 +5,7 @@
 
 mod table;
 
-use lptn_laws::{Field, Formula};
+use lptn_laws::{FieldDeclaration, Formula};
 use lptn_units::{Dual, Scalar, parse_quantity};
 use table::{INPUTS, KELVIN, Law, laws};
 
@@ -78,7 +78,7 @@ fn declared_laws_have_their_derivatives() {
     let mut state = 1;
     for law in Formula::ALL {
         let fields = law.declaration().fields;
-        let number = |field: &Field| {
+        let number = |field: &FieldDeclaration| {
             parse_quantity(field.example.trim_matches('"'), Some(field.ty)).unwrap().value
         };
         for _ in 0..100 {

@@ -11,15 +11,13 @@ use lptn_units::Unit;
 use crate::adrift;
 use crate::csv_files::CsvFiles;
 use crate::describe::describe;
-use crate::fit::FitStudy;
 use crate::head::MISSING_FORMAT;
 use crate::initial::StateFile;
 use crate::names::{Names, ValueKind};
 use crate::raw::RawNetlist;
 use crate::run::RunPlan;
 use crate::scales::Scales;
-use crate::section;
-use crate::size::SizeStudy;
+use crate::section::{self, Studies};
 use crate::source_map::SourceMap;
 use crate::template::Structure;
 use crate::work::{Elaboration, LeftOut};
@@ -28,8 +26,7 @@ use crate::work::{Elaboration, LeftOut};
 pub(crate) struct Elaborated {
     pub(crate) network: Network,
     pub(crate) run: Option<RunPlan>,
-    pub(crate) sizes: Vec<SizeStudy>,
-    pub(crate) fits: Vec<FitStudy>,
+    pub(crate) studies: Studies,
     pub(crate) map: SourceMap,
     pub(crate) temperature_unit: Unit,
     pub(crate) structure: Arc<Structure>,
@@ -95,15 +92,14 @@ pub(crate) fn elaborate(
     work.start_the_others();
     work.limits();
     let run = work.run();
-    let sizes = work.sizes();
-    let fits = work.fits();
-    work.finish((run, sizes, fits), default)
+    let studies = Studies::read(&mut work);
+    work.finish((run, studies), default)
 }
 
 impl<'a> Elaboration<'a> {
     fn finish(
         mut self,
-        (run, sizes, fits): (Option<RunPlan>, Vec<SizeStudy>, Vec<FitStudy>),
+        (run, studies): (Option<RunPlan>, Studies),
         default: section::Default<'_>,
     ) -> (Option<Elaborated>, Found) {
         let substances = self.unused_substances();
@@ -141,8 +137,7 @@ impl<'a> Elaboration<'a> {
         let done = network.map(|network| Elaborated {
             network,
             run,
-            sizes,
-            fits,
+            studies,
             map,
             temperature_unit,
             structure,

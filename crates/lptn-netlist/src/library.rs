@@ -16,7 +16,7 @@ const TEXT: &str = include_str!("library.toml");
 
 /// One substance of the library. Values in SI units.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Record {
+pub struct LibrarySubstance {
     /// The name that netlists use.
     pub name: String,
     /// What it is, in words.
@@ -34,8 +34,8 @@ pub struct Record {
 }
 
 struct Library {
-    materials: Vec<Record>,
-    fluids: Vec<Record>,
+    materials: Vec<LibrarySubstance>,
+    fluids: Vec<LibrarySubstance>,
 }
 
 static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
@@ -50,24 +50,24 @@ static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
 });
 
 /// The solids, in the order of the library: steels, irons, light metals, copper alloys, plastics.
-pub fn materials() -> &'static [Record] {
+pub fn materials() -> &'static [LibrarySubstance] {
     &LIBRARY.materials
 }
 
 /// The fluids.
-pub fn fluids() -> &'static [Record] {
+pub fn fluids() -> &'static [LibrarySubstance] {
     &LIBRARY.fluids
 }
 
 /// The solid or fluid of this name.
-pub fn find(name: &str) -> Option<&'static Record> {
+pub fn find(name: &str) -> Option<&'static LibrarySubstance> {
     materials().iter().chain(fluids()).find(|record| record.name == name)
 }
 
-fn record(entry: &RawEntry) -> Option<Record> {
+fn record(entry: &RawEntry) -> Option<LibrarySubstance> {
     let RawKind::Table(table) = &entry.value.kind else { return None };
     let value = |key, ty| Some(parse_quantity(text(table, key)?, Some(ty)).ok()?.value);
-    Some(Record {
+    Some(LibrarySubstance {
         name: entry.key.clone(),
         title: text(table, "title")?.to_owned(),
         density: value("density", Type::of(Dimension::DENSITY)),

@@ -14,7 +14,6 @@ use lptn_units::Unit;
 
 use crate::csv_files::CsvFiles;
 use crate::elaborate::{Elaborated, elaborate};
-use crate::fit::{self, FitStudy};
 use crate::foreign;
 use crate::head;
 use crate::import;
@@ -23,8 +22,7 @@ use crate::initial::{self, InitialState, StateFile};
 use crate::plausible;
 use crate::raw::RawNetlist;
 use crate::run::{RUN, RunPlan};
-use crate::section;
-use crate::size::SizeStudy;
+use crate::section::{self, Studies};
 use crate::source_map::SourceMap;
 use crate::streams;
 use crate::syntax;
@@ -38,10 +36,8 @@ pub struct Netlist {
     pub network: Network,
     /// What to simulate; `None` without `[run]`.
     pub run: Option<RunSettings>,
-    /// What to size, in file order.
-    pub sizes: Vec<SizeStudy>,
-    /// What to find from records, in file order.
-    pub fits: Vec<FitStudy>,
+    /// What else is asked of it.
+    pub studies: Studies,
     /// Where each part of the network stands.
     pub source_map: SourceMap,
     /// The texts that places refer to.
@@ -217,7 +213,7 @@ fn included(
     let initial = raw.section(RUN.name).and_then(|run| run.get("initial"));
     let state =
         initial.map(|named| StateFile::read(&mut files, &named.value, loader.as_deref_mut()));
-    let long = import::files(&raw).chain(fit::files(&raw));
+    let long = import::files(&raw).chain(Studies::files(&raw));
     let csv = CsvFiles::read(&mut files, (&raw, section::format()), long, loader);
     let (done, mut found) = elaborate(&raw, &structure, &csv, state.as_ref());
     if include::any_error(&diagnostics) {
@@ -237,11 +233,9 @@ fn finish(
     (done, initial): (Elaborated, Option<InitialState>),
     mut diagnostics: Vec<Diagnostic>,
 ) -> Result<Netlist, Rejected> {
-    let Elaborated { network, run: plan, sizes, fits, map, temperature_unit, structure } = done;
+    let Elaborated { network, run: plan, studies, map, temperature_unit, structure } = done;
     let run = plan.as_ref().map(|plan| plan.settings(&network)).transpose();
-    let mut problems: Vec<Diagnostic> =
-        sizes.iter().filter_map(|size| size.check(&network)).collect();
-    problems.extend(fits.iter().flat_map(|fit| fit.check(&network)));
+    let mut problems = studies.check(&network);
     let run = run.unwrap_or_else(|more| {
         problems.extend(more);
         None
@@ -256,8 +250,7 @@ fn finish(
     let mut netlist = Netlist {
         network,
         run,
-        sizes,
-        fits,
+        studies,
         source_map: map,
         files,
         warnings: Vec::new(),

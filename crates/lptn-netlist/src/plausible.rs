@@ -4,7 +4,8 @@
 
 use lptn_data::Diagnostic;
 use lptn_network::{
-    ConductorId, End, Field, Flow, Item, Naming, Network, Substance, Value, ZERO_CELSIUS, slot,
+    ConductorFlow, ConductorId, End, Field, Item, Naming, Network, Substance, Value, ZERO_CELSIUS,
+    slot,
 };
 use lptn_units::format_six as short;
 
@@ -138,7 +139,7 @@ fn implausible(
 pub(crate) fn neighbours(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
     let mut extremes: Vec<Option<[(f64, ConductorId); 2]>> = vec![None; network.nodes().len()];
     for (id, conductor) in network.conductor_ids().zip(network.conductors()) {
-        let Flow::Conductance(conductance) = network.flow(id) else { continue };
+        let ConductorFlow::Conductance(conductance) = network.flow(id) else { continue };
         for end in [conductor.from, conductor.to] {
             let End::Node(node) = end else { continue };
             let this = (conductance, id);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lptn_data::{CsvFile, Diagnostic, Places, Points, fit};
+use lptn_data::{CsvFile, Diagnostic, PlacedNumbers, Places, fit};
 use lptn_units::{Expression, TableError, Type, Unit, parse_quantity, written_quantity};
 
 use crate::fields::{Fields, wrong_shape};
@@ -27,7 +27,7 @@ impl<'a> Elaboration<'a> {
         &mut self,
         fields: &Fields<'a>,
         axes: [Axis<'_>; 2],
-    ) -> Option<[Points; 2]> {
+    ) -> Option<[PlacedNumbers; 2]> {
         let [x, y] = axes;
         if fields.get("csv").is_none() {
             self.refuse_keys(fields, &["time", "value"], "names a column, but there is no `csv`");
@@ -88,14 +88,14 @@ impl<'a> Elaboration<'a> {
         file: &Arc<CsvFile>,
         axis: Axis<'_>,
         name: Option<(&str, &RawValue)>,
-    ) -> Option<Points> {
+    ) -> Option<PlacedNumbers> {
         let (name, raw) = name?;
         let place = Place { owner: &fields.owner, key: axis.column, raw };
         let points = file.column(name, axis.ty, &place.asked());
         points.map_err(|problems| self.problems.extend(problems)).ok()
     }
 
-    fn points(&mut self, fields: &Fields<'a>, axis: Axis<'_>) -> Option<Points> {
+    fn points(&mut self, fields: &Fields<'a>, axis: Axis<'_>) -> Option<PlacedNumbers> {
         let raw = self.require(fields, axis.list);
         let unit = fields.get(axis.unit).map(|raw| self.unit(fields, axis, raw));
         let raw = raw?;
@@ -126,7 +126,7 @@ impl<'a> Elaboration<'a> {
         }
         let (places, whole) = (Places::Items(places), raw.span.clone());
         let unit = unit.or_else(|| first_unit(items));
-        let points = Points { numbers, ty: of, places, whole, unit };
+        let points = PlacedNumbers { numbers, ty: of, places, whole, unit };
         (self.problems.len() == before).then_some(points)
     }
 
@@ -210,7 +210,7 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn report_points(
         &mut self,
         fields: &Fields<'a>,
-        (x, y): (&Points, &Points),
+        (x, y): (&PlacedNumbers, &PlacedNumbers),
         (arguments, error): (&str, &TableError),
     ) {
         let words = fields.owner.words();
@@ -244,7 +244,7 @@ fn first_unit(items: &[RawValue]) -> Option<Unit> {
     }
 }
 
-fn rising(words: &str, arguments: &str, x: &Points, index: usize) -> Diagnostic {
+fn rising(words: &str, arguments: &str, x: &PlacedNumbers, index: usize) -> Diagnostic {
     let repeated = x.numbers[index] >= x.numbers[index - 1];
     let says =
         if repeated { "the same stands twice" } else { "this one is below the one before it" };

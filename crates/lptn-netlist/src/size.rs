@@ -8,10 +8,11 @@ use crate::fields::{Fields, Owner};
 use crate::format::{Role, SectionDeclaration, key};
 use crate::place::{Given, Place, Text, Wanted};
 use crate::raw::{RawEntry, RawValue};
+use crate::study::{PathFrom, Study};
 use crate::toml_text::{TomlFields, key as toml_key, like, strings};
 use crate::work::Elaboration;
 
-pub(crate) const SIZE: SectionDeclaration = SectionDeclaration {
+const SIZE: SectionDeclaration = SectionDeclaration {
     name: "size",
     sentence: "A parameter to size: the least or largest value that keeps every requirement.",
     role: Role::Study,
@@ -126,9 +127,37 @@ impl SizeStudy {
         let mut scope = network.evaluation();
         Ok((self.from.at(&mut scope)?, self.to.at(&mut scope)?))
     }
+}
 
-    /// Its fields as they are written.
-    pub(crate) fn written(&self, network: &Network) -> TomlFields {
+impl Study for SizeStudy {
+    const SECTION: &'static SectionDeclaration = &SIZE;
+
+    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
+        work.elements(SIZE.name).iter().filter_map(|entry| work.size_study(entry)).collect()
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn check(&self, network: &Network) -> Vec<Diagnostic> {
+        let error = match self.range(network) {
+            Ok((from, to)) if from < to => return Vec::new(),
+            Ok(_) => {
+                let message =
+                    format!("`vary` of size `{}`: `from` has to be less than `to`", self.name);
+                let help = "write the least value as `from` and the largest as `to`; `minimise` or \
+                            `maximise` says which of them is the better end";
+                Diagnostic::error("netlist::size_range", message).help(help)
+            }
+            Err(error) => {
+                Diagnostic::error(error.code(), format!("`vary` of size `{}`: {error}", self.name))
+            }
+        };
+        vec![error.at(self.range_span.clone(), "")]
+    }
+
+    fn fields(&self, network: &Network, _: &PathFrom<'_>) -> TomlFields {
         let mut fields = TomlFields::default();
         fields.word(
             if self.goal == Goal::Minimise { "minimise" } else { "maximise" },
@@ -143,24 +172,6 @@ impl SizeStudy {
         fields.put("require", strings(self.requirements.iter().map(|r| r.text.as_str())));
         fields
     }
-
-    /// What is wrong with the range, if anything.
-    pub(crate) fn check(&self, network: &Network) -> Option<Diagnostic> {
-        let error = match self.range(network) {
-            Ok((from, to)) if from < to => return None,
-            Ok(_) => {
-                let message =
-                    format!("`vary` of size `{}`: `from` has to be less than `to`", self.name);
-                let help = "write the least value as `from` and the largest as `to`; `minimise` or \
-                            `maximise` says which of them is the better end";
-                Diagnostic::error("netlist::size_range", message).help(help)
-            }
-            Err(error) => {
-                Diagnostic::error(error.code(), format!("`vary` of size `{}`: {error}", self.name))
-            }
-        };
-        Some(error.at(self.range_span.clone(), ""))
-    }
 }
 
 impl<'a> Elaboration<'a> {
@@ -174,10 +185,6 @@ impl<'a> Elaboration<'a> {
     ) -> Option<Option<Value>> {
         let given = self.given_inside(&range.owner, (key, range.get(key)?), Wanted::like(ty));
         Some(given.map(Given::value))
-    }
-
-    pub(crate) fn sizes(&mut self) -> Vec<SizeStudy> {
-        self.elements(SIZE.name).iter().filter_map(|entry| self.size_study(entry)).collect()
     }
 
     fn size_study(&mut self, entry: &'a RawEntry) -> Option<SizeStudy> {

@@ -36,7 +36,7 @@ impl StateEnd {
 
 /// A state that is to be written.
 #[derive(Clone, Debug, PartialEq)]
-pub struct State<'a> {
+pub struct SavedState<'a> {
     /// What the network is called: its file without the ending.
     pub network: &'a str,
     /// Its title, if it has one.
@@ -64,7 +64,7 @@ pub struct StateControl<'a> {
     pub held: Option<f64>,
 }
 
-impl State<'_> {
+impl SavedState<'_> {
     /// Writes the file; every number reads back as the same `f64`.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use std::io;
 use std::path::Path;
 
 use lptn_netlist::{Netlist, Severity, parse, parse_with};
-use lptn_network::{Field, Flow, Formula, Item, Network};
+use lptn_network::{ConductorFlow, Field, Formula, Item, Network};
 
 const ELEMENTS: &str = include_str!("good/elements.toml");
 
@@ -151,12 +151,12 @@ fn surfaces_radiate_at_absolute_temperatures() {
         Item::Conductor(id) => network.flow(id),
         other => panic!("{other:?}"),
     };
-    let Flow::Radiation(grey) = flow("grey") else { panic!("{:?}", flow("grey")) };
+    let ConductorFlow::Radiation(grey) = flow("grey") else { panic!("{:?}", flow("grey")) };
     close(grey, 0.8 * 0.2);
     // two parallel plates: 1 / (1/e1 + 1/e2 - 1)
-    let Flow::Radiation(plates) = flow("plates") else { panic!("{:?}", flow("plates")) };
+    let ConductorFlow::Radiation(plates) = flow("plates") else { panic!("{:?}", flow("plates")) };
     close(plates, 0.01 / (1.0 / 0.8 + 1.0 / 0.4 - 1.0));
-    assert_eq!(flow("gap"), Flow::Radiation(0.01));
+    assert_eq!(flow("gap"), ConductorFlow::Radiation(0.01));
 }
 
 #[test]
@@ -166,7 +166,7 @@ fn streams_carry_heat_one_way() {
     let feed = 3e-3 / 60.0 * 888.0 * 2000.0;
     for (name, rate) in [("feed", feed), ("through", 0.02 * 2010.0), ("given", 12.0)] {
         let Item::Conductor(id) = network.item(name).unwrap() else { panic!("{name}") };
-        let Flow::Stream(found) = network.flow(id) else { panic!("{name}") };
+        let ConductorFlow::Stream(found) = network.flow(id) else { panic!("{name}") };
         close(found, rate);
     }
 }
@@ -226,8 +226,10 @@ fn numbers(netlist: &Netlist) -> Vec<(String, u64)> {
     for id in network.conductor_ids() {
         let name = network.conductors()[id.index()].name();
         let [from, to] = match network.flow(id) {
-            Flow::Conductance(x) | Flow::Radiation(x) | Flow::Stream(x) => [x, x],
-            Flow::Variable => network.exchange(id, &mut scope, &temperatures).unwrap(),
+            ConductorFlow::Conductance(x)
+            | ConductorFlow::Radiation(x)
+            | ConductorFlow::Stream(x) => [x, x],
+            ConductorFlow::Variable => network.exchange(id, &mut scope, &temperatures).unwrap(),
         };
         found.push((format!("{name} from"), from.to_bits()));
         found.push((name.into_owned(), to.to_bits()));
@@ -316,7 +318,7 @@ fn parameters_reach_every_kind_of_element() {
     let network = &netlist.network;
     close(network.parameter_value(network.parameter("P_base").unwrap()), 60.0);
     let Item::Conductor(grey) = network.item("grey").unwrap() else { panic!() };
-    assert_eq!(network.flow(grey), Flow::Radiation(0.5 * 0.2));
+    assert_eq!(network.flow(grey), ConductorFlow::Radiation(0.5 * 0.2));
     close(network.initial(network.node("store").unwrap()), 283.15);
 }
 
@@ -355,7 +357,7 @@ fn assignments_that_break_an_element_are_named() {
     );
     netlist.set(&["m=-2kg/s".into(), "d=1mm".into()]).unwrap();
     let Item::Conductor(s) = netlist.network.item("s").unwrap() else { panic!() };
-    assert_eq!(netlist.network.flow(s), Flow::Stream(-2.0 * 4181.0));
+    assert_eq!(netlist.network.flow(s), ConductorFlow::Stream(-2.0 * 4181.0));
 }
 
 #[test]

@@ -101,7 +101,7 @@ fn an_expansion_is_the_same_network_and_its_own_expansion() {
                     size.range(&netlist.network).unwrap(),
                 )
             };
-            netlist.sizes.iter().map(text).collect::<Vec<_>>()
+            netlist.studies.sizes.iter().map(text).collect::<Vec<_>>()
         };
         assert_eq!(sizes(&again), sizes(&original));
         let fits = |netlist: &Netlist| {
@@ -118,7 +118,7 @@ fn an_expansion_is_the_same_network_and_its_own_expansion() {
                     fit.records.iter().map(|record| record.record.time.clone()).collect();
                 (fit.name.clone(), columns, varied, plan.sigmas, records)
             };
-            netlist.fits.iter().map(text).collect::<Vec<_>>()
+            netlist.studies.fits.iter().map(text).collect::<Vec<_>>()
         };
         assert_eq!(fits(&again), fits(&original));
         assert_eq!(again.expanded(), text, "{}", path.display());

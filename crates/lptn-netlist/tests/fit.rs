@@ -32,7 +32,7 @@ const RPM: f64 = std::f64::consts::TAU / 60.0;
 #[test]
 fn analytic_bounds_priors_and_deviations_are_in_si() {
     let netlist = parse(FIT);
-    let [fit] = netlist.fits.as_slice() else { panic!("one fit") };
+    let [fit] = netlist.studies.fits.as_slice() else { panic!("one fit") };
     assert_eq!(fit.name, "block");
     let plan = fit.plan(&netlist.network, &netlist.overrides()).unwrap();
     let network = &netlist.network;
@@ -58,7 +58,7 @@ fn analytic_bounds_priors_and_deviations_are_in_si() {
 #[test]
 fn analytic_records_are_read_by_name_in_their_own_units() {
     let netlist = parse(FIT);
-    let fit = &netlist.fits[0];
+    let fit = &netlist.studies.fits[0];
     let [first, second] = fit.records.as_slice() else { panic!("two records") };
     assert_eq!((first.csv.as_str(), second.csv.as_str()), ("block_1000.csv", "block_2000.csv"));
     assert_eq!(second.record.time, [0.0, 60.0, 120.0]);
@@ -80,7 +80,7 @@ fn analytic_each_record_has_the_network_it_was_measured_on() {
     let mut netlist = parse(FIT);
     let omega = netlist.network.parameter("omega").unwrap();
     let run = |netlist: &Netlist, record: usize| {
-        let plan = netlist.fits[0].plan(&netlist.network, &netlist.overrides()).unwrap();
+        let plan = netlist.studies.fits[0].plan(&netlist.network, &netlist.overrides()).unwrap();
         netlist.network.with(&plan.parameters[record]).unwrap().parameter_value(omega)
     };
     near(run(&netlist, 0), 1000.0 * RPM);
@@ -94,7 +94,7 @@ fn analytic_each_record_has_the_network_it_was_measured_on() {
 #[test]
 fn what_is_observed_is_a_result_of_the_network() {
     let netlist = parse(FIT);
-    let fit = &netlist.fits[0];
+    let fit = &netlist.studies.fits[0];
     let steel = netlist.network.node("steel").unwrap();
     assert_eq!(fit.observed[0].end, Some(End::Node(steel)));
     assert_eq!((fit.observed[1].end, fit.observed[2].end), (None, None));

@@ -3,9 +3,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use lptn_netlist::library::{Record, find};
+use lptn_netlist::library::{LibrarySubstance, find};
 
-fn record(name: &str) -> &'static Record {
+fn record(name: &str) -> &'static LibrarySubstance {
     find(name).unwrap_or_else(|| panic!("no {name}"))
 }
 

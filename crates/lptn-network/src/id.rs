@@ -222,7 +222,7 @@ pub struct LawField {
 }
 
 impl std::ops::Deref for LawField {
-    type Target = lptn_laws::Field;
+    type Target = lptn_laws::FieldDeclaration;
 
     fn deref(&self) -> &Self::Target {
         &self.law.declaration().fields[usize::from(self.position)]

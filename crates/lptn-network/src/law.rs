@@ -186,7 +186,7 @@ impl Law {
 }
 
 /// What is wrong with a value of a field that may change during a run.
-fn impossible(field: &lptn_laws::Field, value: f64) -> Option<InputProblem> {
+fn impossible(field: &lptn_laws::FieldDeclaration, value: f64) -> Option<InputProblem> {
     const CONDUCTANCE: Type = Type::of(Dimension::CONDUCTANCE);
     const RESISTANCE: Type = Type::of(Dimension::RESISTANCE);
     match field.range {
@@ -253,7 +253,7 @@ impl<S: Scalar> At<'_, S> {
 
 /// How a conductor carries heat, as far as it is known before a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Flow {
+pub enum ConductorFlow {
     /// `q = G (T_from - T_to)` with this constant conductance in W/K.
     Conductance(f64),
     /// `q = sigma Gr (T_from^4 - T_to^4)` with this constant exchange area in m^2.

@@ -39,7 +39,7 @@ mod typed;
 mod value;
 
 pub use breakpoints::same_time;
-pub use builder::grid::Block;
+pub use builder::grid::GridBlock;
 pub use builder::substance::{NoMaterial, Properties};
 pub use builder::{NetworkBuilder, Path};
 pub use changing::Changing;
@@ -54,7 +54,7 @@ pub use id::{
     TableId,
 };
 pub use input_error::{InputError, InputProblem};
-pub use law::{Flow, Law, Received};
+pub use law::{ConductorFlow, Law, Received};
 pub use lptn_laws::{Carries, Formula, Kind as ConductorKind};
 pub use names::{UnknownName, is_name, is_path, list_of, list_of_names};
 pub use network::Network;

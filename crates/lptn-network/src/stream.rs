@@ -2,7 +2,7 @@
 
 use crate::id::{ConductorId, End, NodeId};
 use crate::input_error::InputError;
-use crate::law::{Flow, Received};
+use crate::law::{ConductorFlow, Received};
 use crate::network::Network;
 
 /// Where capacity rates are compared, in K.
@@ -69,7 +69,7 @@ impl Network {
         temperatures: &[f64],
         slopes: &mut Vec<Received>,
     ) -> Result<f64, InputError> {
-        if let Flow::Stream(rate) = self.flow(id) {
+        if let ConductorFlow::Stream(rate) = self.flow(id) {
             return Ok(rate);
         }
         self.exchange_slopes(id, scope, temperatures, slopes)?;

@@ -9,7 +9,7 @@ use lptn_network::{
     Enthalpy, Field, HeatCapacity, Item, MaterialId, Melting, NetworkBuilder, NoMaterial,
     Properties, Size, Temperature,
 };
-use lptn_units::{Dimension, Interpolation, Outside, Table, Table1, TableSymbol, Type};
+use lptn_units::{Dimension, Interpolation, LookupTable, Outside, Table1, TableSymbol, Type};
 
 fn steel(b: &mut NetworkBuilder) -> MaterialId {
     let k = Some(own(b, "50 [W/(m K)] - 0.02 [W/(m K^2)] * (T - absolute(300 [K]))"));
@@ -157,7 +157,7 @@ fn a_capacity_of_a_table_bends_at_its_points() {
         Interpolation::Linear,
         Outside::Hold,
     );
-    let table = Table::One(points.unwrap()).into();
+    let table = LookupTable::One(points.unwrap()).into();
     b.table(
         "c",
         TableSymbol {

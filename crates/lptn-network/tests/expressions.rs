@@ -5,11 +5,11 @@ mod common;
 
 use common::{celsius, cooled, near, quantity, time};
 use lptn_network::{
-    Block, ConductorKind, Context, Face, GridFace, GridValue, InputProblem, NetworkBuilder, Path,
-    Substance,
+    ConductorKind, Context, Face, GridBlock, GridFace, GridValue, InputProblem, NetworkBuilder,
+    Path, Substance,
 };
 use lptn_units::{
-    Dimension, Expression, Interpolation, Outside, Scope, Table, Table1, TableSymbol, Type,
+    Dimension, Expression, Interpolation, LookupTable, Outside, Scope, Table1, TableSymbol, Type,
 };
 
 fn ramp() -> TableSymbol {
@@ -17,7 +17,7 @@ fn ramp() -> TableSymbol {
         .unwrap();
     let arguments = vec![Type::of(Dimension::TIME)];
     TableSymbol {
-        table: Table::One(table).into(),
+        table: LookupTable::One(table).into(),
         arguments,
         ty: Type::of(Dimension::POWER),
         units: Vec::new(),
@@ -53,7 +53,7 @@ fn tables_are_called_by_their_names() {
 #[test]
 fn values_of_grids_have_names_in_results() {
     let mut b = NetworkBuilder::new();
-    let block = |cells: &[usize]| Block {
+    let block = |cells: &[usize]| GridBlock {
         size: ["0.6 m", "0.4 m", "0.2 m"].map(quantity),
         cells: cells.to_vec(),
         conductivity: ["1 W/(m K)", "1 W/(m K)", "1 W/(m K)"].map(quantity),

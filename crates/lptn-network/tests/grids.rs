@@ -6,13 +6,14 @@ mod common;
 
 use common::{celsius, codes, near, quantity};
 use lptn_network::{
-    Block, Conductance, ConductorKind, End, Face, Flow, Formula, GridFace, GridId, GridValue,
-    HeatFlow, Item, Network, NetworkBuilder, Path, Properties, Size, Substance, Temperature,
+    Conductance, ConductorFlow, ConductorKind, End, Face, Formula, GridBlock, GridFace, GridId,
+    GridValue, HeatFlow, Item, Network, NetworkBuilder, Path, Properties, Size, Substance,
+    Temperature,
 };
 
 /// 0.6 m x 0.4 m x 0.2 m, 8e6 J/(m^3 K) / 2, conductivity by axis.
-fn block(cells: &[usize]) -> Block {
-    Block {
+fn block(cells: &[usize]) -> GridBlock {
+    GridBlock {
         size: ["0.6 m", "0.4 m", "0.2 m"].map(quantity),
         cells: cells.to_vec(),
         conductivity: ["10 W/(m K)", "20 W/(m K)", "30 W/(m K)"].map(quantity),
@@ -217,7 +218,8 @@ fn every_law_is_shared_between_the_cells_of_a_face() {
         );
         let network = b.build().unwrap();
         for id in network.face_paths()[0].conductors() {
-            assert!(matches!(network.flow(id), Flow::Radiation(gr) if (gr - 0.01).abs() < 1e-15));
+            let flow = network.flow(id);
+            assert!(matches!(flow, ConductorFlow::Radiation(gr) if (gr - 0.01).abs() < 1e-15));
         }
     }
 }
@@ -292,7 +294,7 @@ fn a_grid_of_a_material() {
     let with = |density: bool, cp: bool| {
         let mut b = NetworkBuilder::new();
         let m = material(&mut b, density, cp);
-        b.grid("wall", Block { substance: Substance::Material(m), ..block(&[4, 2]) });
+        b.grid("wall", GridBlock { substance: Substance::Material(m), ..block(&[4, 2]) });
         b
     };
     let network = with(true, true).build().unwrap();
@@ -349,7 +351,7 @@ fn wrong_grids_and_joints_are_refused_once_for_the_whole() {
         b.connect("film", ConductorKind::Convection, (side(grid), air), path);
     });
     assert_eq!(many, ["network::law_values"]);
-    let joined = |other: Block| {
+    let joined = |other: GridBlock| {
         refused(&move |b, grid| {
             let other = b.grid("other", other.clone());
             b.connect(
@@ -362,7 +364,7 @@ fn wrong_grids_and_joints_are_refused_once_for_the_whole() {
     };
     assert_eq!(joined(block(&[7, 4])), [""; 0]);
     assert_eq!(joined(block(&[3, 3])), ["network::face_cells"]);
-    let sized = |size: [&str; 3]| Block { size: size.map(quantity), ..block(&[3, 4]) };
+    let sized = |size: [&str; 3]| GridBlock { size: size.map(quantity), ..block(&[3, 4]) };
     assert_eq!(joined(sized(["9 m", "0.4 m", "0.2 m"])), [""; 0]);
     assert_eq!(joined(sized(["0.6 m", "0.5 m", "0.2 m"])), ["network::face_sides"]);
     assert_eq!(joined(sized(["0.6 m", "0.4 m", "0.21 m"])), ["network::face_sides"]);
@@ -370,31 +372,31 @@ fn wrong_grids_and_joints_are_refused_once_for_the_whole() {
 
 #[test]
 fn wrong_values_of_a_block_are_refused_once() {
-    let one = |change: &dyn Fn(Block) -> Block| {
+    let one = |change: &dyn Fn(GridBlock) -> GridBlock| {
         let mut b = NetworkBuilder::new();
         b.grid("wall", change(block(&[3, 4])));
         codes(b)
     };
     let flat = |text: &'static str| {
-        move |b: Block| Block { size: ["0.6 m", text, "0.2 m"].map(quantity), ..b }
+        move |b: GridBlock| GridBlock { size: ["0.6 m", text, "0.2 m"].map(quantity), ..b }
     };
     assert_eq!(one(&flat("0 m")), ["network::not_positive"]);
-    let k = one(&|b| Block {
+    let k = one(&|b| GridBlock {
         conductivity: ["1 W/(m K)", "-1 W/(m K)", "1 W/(m K)"].map(quantity),
         ..b
     });
     assert_eq!(k, ["network::not_positive"]);
     assert_eq!(
-        one(&|b| Block { initial: Some(Temperature(-4.0).into()), ..b }),
+        one(&|b| GridBlock { initial: Some(Temperature(-4.0).into()), ..b }),
         ["network::below_absolute_zero"]
     );
-    assert_eq!(one(&|b| Block { initial: None, ..b }), ["network::no_initial_temperature"]);
+    assert_eq!(one(&|b| GridBlock { initial: None, ..b }), ["network::no_initial_temperature"]);
     let substance = |density: &str, cp: &str| Substance::Properties {
         density: quantity(density),
         cp: quantity(cp),
     };
     let of = |density: &'static str, cp: &'static str| {
-        one(&move |b| Block { substance: substance(density, cp), ..b })
+        one(&move |b| GridBlock { substance: substance(density, cp), ..b })
     };
     assert_eq!(of("-1 kg/m^3", "500 J/(kg K)"), ["network::not_positive"]);
     assert_eq!(of("1 kg/m^3", "-500 J/(kg K)"), ["network::not_positive"]);

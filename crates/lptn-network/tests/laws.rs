@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 
 use common::{all_near, celsius, cooled, link, near, own, power, quantity, time};
 use lptn_network::{
-    ConductorId, ConductorKind, Field, Flow, Formula, HeatCapacity, InputProblem, Item, Network,
-    NetworkBuilder, Path, Surface, Temperature,
+    ConductorFlow, ConductorId, ConductorKind, Field, Formula, HeatCapacity, InputProblem, Item,
+    Network, NetworkBuilder, Path, Surface, Temperature,
 };
 
 const SIGMA: f64 = 5.670_374_419e-8;
@@ -24,13 +24,13 @@ fn path(kind: ConductorKind, path: impl Fn(&mut NetworkBuilder) -> Path) -> (Net
     (b.build().unwrap(), id)
 }
 
-fn constant(kind: ConductorKind, of: impl Fn(&mut NetworkBuilder) -> Path) -> Flow {
+fn constant(kind: ConductorKind, of: impl Fn(&mut NetworkBuilder) -> Path) -> ConductorFlow {
     let (network, id) = path(kind, of);
     network.flow(id)
 }
 
-fn conductance(flow: Flow) -> f64 {
-    let Flow::Conductance(g) = flow else { panic!("{flow:?}") };
+fn conductance(flow: ConductorFlow) -> f64 {
+    let ConductorFlow::Conductance(g) = flow else { panic!("{flow:?}") };
     g
 }
 
@@ -69,7 +69,7 @@ fn constant_conductances() {
 fn exchange_areas() {
     let area = |exchange: Path| {
         let flow = constant(ConductorKind::Radiation, |_| exchange.clone());
-        let Flow::Radiation(area) = flow else { panic!("{flow:?}") };
+        let ConductorFlow::Radiation(area) = flow else { panic!("{flow:?}") };
         area
     };
     near(area(Path::radiation(quantity("0.3 m^2"))), 0.3);
@@ -85,7 +85,7 @@ fn exchange_areas() {
 fn constant_streams() {
     let rate = |of: &dyn Fn(&mut NetworkBuilder) -> Path| {
         let flow = constant(ConductorKind::Advection, |b| of(b));
-        let Flow::Stream(rate) = flow else { panic!("{flow:?}") };
+        let ConductorFlow::Stream(rate) = flow else { panic!("{flow:?}") };
         rate
     };
     near(rate(&|_| Path::stream(quantity("-7 W/K"))), -7.0);
@@ -148,7 +148,7 @@ fn conductances_of_temperatures() {
         ("1 [W/K] * (third.T - y.T) / 100 [K]", 0.2, vec![0, 1, 2]),
     ] {
         let (network, id) = of(text);
-        assert_eq!(network.flow(id), Flow::Variable, "{text}");
+        assert_eq!(network.flow(id), ConductorFlow::Variable, "{text}");
         assert_eq!(network.conductance(id), None);
         assert_eq!(network.conductor_variables(id), variables, "{text}");
         all_near(&received(&network, id, T), &[-40.0 * g, 40.0 * g]);

@@ -200,7 +200,7 @@ fn breakpoints_of_expressions() {
             Interpolation::Linear,
             Outside::Error,
         );
-        let table = lptn_units::Table::One(table.unwrap()).into();
+        let table = lptn_units::LookupTable::One(table.unwrap()).into();
         let arguments = vec![Type::of(Dimension::TIME)];
         b.table(
             "of_time",

@@ -23,16 +23,16 @@ fn heat(network: &Network, at: f64, nodes: &[f64]) -> Vec<f64> {
         let ends = [conductor.from, conductor.to].map(|end| network.vertex(end));
         let difference = temperatures[ends[0]] - temperatures[ends[1]];
         let received = match network.flow(id) {
-            lptn_network::Flow::Conductance(g) => [-g * difference, g * difference],
-            lptn_network::Flow::Radiation(gr) => {
+            lptn_network::ConductorFlow::Conductance(g) => [-g * difference, g * difference],
+            lptn_network::ConductorFlow::Radiation(gr) => {
                 let q = 5.670_374_419e-8
                     * gr
                     * (temperatures[ends[0]].powi(4) - temperatures[ends[1]].powi(4));
                 [-q, q]
             }
-            lptn_network::Flow::Stream(rate) if rate > 0.0 => [0.0, rate * difference],
-            lptn_network::Flow::Stream(rate) => [rate * difference, 0.0],
-            lptn_network::Flow::Variable => {
+            lptn_network::ConductorFlow::Stream(rate) if rate > 0.0 => [0.0, rate * difference],
+            lptn_network::ConductorFlow::Stream(rate) => [rate * difference, 0.0],
+            lptn_network::ConductorFlow::Variable => {
                 network.exchange(id, &mut scope, &temperatures).unwrap()
             }
         };

@@ -1,13 +1,24 @@
 //! Figures: what they show, how they are laid out, and how they are written.
 //!
-//! A [`Scene`] is a drawing of paths and texts; [`svg`] and [`png`] write one. What a colour means
-//! is said by an [`Ink`], and each [`Theme`] has a colour for it. Nothing here knows what a node is.
+//! A [`Figure`] says what is shown: curves with units, limits, moments. [`chart::scene`] lays it out
+//! as a [`Scene`], a drawing of paths and texts, which [`svg`] and [`png`] write; [`terminal`] draws
+//! it with characters. What a colour means is said by an [`Ink`], and each [`Theme`] has a colour
+//! for it. Nothing here knows what a node is.
 
+pub mod chart;
+pub mod figure;
 pub mod font;
 mod ink;
 pub mod png;
 pub mod scene;
 pub mod svg;
+pub mod terminal;
+mod thin;
+mod ticks;
 
+pub use figure::Figure;
 pub use ink::{FIELD, Ink, Rgb, SERIES, Theme, contrast};
+pub use png::PngError;
 pub use scene::Scene;
+pub use thin::thinned;
+pub use ticks::printed;

@@ -10,21 +10,16 @@ use crate::font;
 use crate::ink::{Ink, Theme};
 use crate::scene::{Align, Path, Scene, Shape, Step, Text};
 
-/// A drawing could not be written as PNG.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PngError {
-    /// Its width and height in pixels.
-    pub size: (u32, u32),
+lptn_units::errors! {
+/// Why a drawing was not written as PNG.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum PngError {
+    /// It has no pixels, or more than there is memory for.
+    Size { width: u32, height: u32 } = "plot::png_size",
+        format!("a picture of {width} x {height} pixels cannot be drawn"),
+        help "write it as SVG: a name that ends with .svg";
 }
-
-impl std::fmt::Display for PngError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (width, height) = self.size;
-        write!(f, "a picture of {width} x {height} pixels does not fit into memory")
-    }
 }
-
-impl std::error::Error for PngError {}
 
 /// A drawing as PNG on paper, `scale` of its pixels for one of the drawing's.
 ///
@@ -33,7 +28,7 @@ impl std::error::Error for PngError {}
 pub fn write(scene: &Scene, scale: f64) -> Result<Vec<u8>, PngError> {
     let pixels = |length: f64| (length * scale).ceil().clamp(0.0, 1e9) as u32;
     let size = (pixels(scene.size.0), pixels(scene.size.1));
-    let fails = || PngError { size };
+    let fails = || PngError::Size { width: size.0, height: size.1 };
     let mut canvas = Canvas {
         pixels: Pixmap::new(size.0, size.1).ok_or_else(fails)?,
         scale: Transform::from_scale(scale as f32, scale as f32),
@@ -65,12 +60,13 @@ impl Canvas {
                     a.0 as f32, a.1 as f32, b.0 as f32, b.1 as f32, c.0 as f32, c.1 as f32,
                 ),
                 Step::Close => builder.close(),
+                Step::Circle((x, y), r) => builder.push_circle(x as f32, y as f32, r as f32),
             }
         }
         let Some(outline) = builder.finish() else { return };
         if let Some(fill) = path.fill {
             let paint = paint(fill.ink, fill.opacity);
-            self.pixels.fill_path(&outline, &paint, FillRule::EvenOdd, self.scale, None);
+            self.pixels.fill_path(&outline, &paint, FillRule::Winding, self.scale, None);
         }
         if let Some(stroke) = path.stroke {
             let line = Line {
@@ -153,7 +149,7 @@ impl OutlineBuilder for Outline {
 
 #[cfg(test)]
 mod tests {
-    use super::write;
+    use super::{PngError, write};
     use crate::ink::Ink;
     use crate::scene::{Scene, rectangle};
 
@@ -170,6 +166,7 @@ mod tests {
 
     #[test]
     fn a_picture_without_pixels_is_an_error() {
-        assert_eq!(write(&Scene::new((0.0, 10.0), ""), 1.0).unwrap_err().size, (0, 10));
+        let error = write(&Scene::new((0.0, 10.0), ""), 1.0).unwrap_err();
+        assert_eq!(error, PngError::Size { width: 0, height: 10 });
     }
 }

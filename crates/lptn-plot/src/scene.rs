@@ -46,6 +46,8 @@ pub enum Step {
     Curve([(f64, f64); 3]),
     /// Back to where the piece began.
     Close,
+    /// A piece of its own: a circle by its centre and radius.
+    Circle((f64, f64), f64),
 }
 
 /// How a line is drawn.
@@ -231,6 +233,6 @@ pub fn rectangle((x, y): (f64, f64), (width, height): (f64, f64), radius: f64) -
 }
 
 /// A circle by its centre.
-pub fn circle((x, y): (f64, f64), radius: f64) -> Path {
-    rectangle((x - radius, y - radius), (2.0 * radius, 2.0 * radius), radius)
+pub fn circle(centre: (f64, f64), radius: f64) -> Path {
+    Path::new(vec![Step::Circle(centre, radius)])
 }

@@ -37,6 +37,10 @@ fn write_path(out: &mut String, path: &Path) -> fmt::Result {
                 write!(out, "C{}", points.join(" "))?;
             }
             Step::Close => out.push('Z'),
+            Step::Circle((x, y), r) => {
+                let (left, y, r, d) = (length(x - r), length(y), length(r), length(2.0 * r));
+                write!(out, "M{left} {y}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0Z")?;
+            }
         }
     }
     let mut classes = Vec::new();

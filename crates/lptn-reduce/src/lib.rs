@@ -30,5 +30,5 @@ pub use deviation::Deviation;
 pub use error::{FitError, ReduceError};
 pub use fit::{ExponentialFit, fit_exponential};
 pub use norton::{Inputs, NortonEquivalent, port, transfer_resistance};
-pub use reduction::{Dynamics, Reduction, ReductionOptions, TOLERANCE, Window};
+pub use reduction::{Dynamics, LeastSquaresWindow, Reduction, ReductionOptions, TOLERANCE};
 pub use step::{ResponseTerm, StepResponse};

@@ -29,7 +29,7 @@ pub struct ReductionOptions {
 
 /// The window of the least-squares definition, which begins with the step. Lengths in s.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Window {
+pub enum LeastSquaresWindow {
     /// As it was asked for.
     Given(f64),
     /// As long as the run.
@@ -38,7 +38,7 @@ pub enum Window {
     TimeConstants(f64),
 }
 
-impl Window {
+impl LeastSquaresWindow {
     /// Its length in s.
     pub fn length(self) -> f64 {
         let (Self::Given(length) | Self::Run(length) | Self::TimeConstants(length)) = self;
@@ -65,7 +65,7 @@ pub struct Dynamics {
     /// The step response of the port.
     pub step: StepResponse,
     /// The window of the least-squares definition.
-    pub window: Window,
+    pub window: LeastSquaresWindow,
     /// One pair a definition, in the order of [`Definition::ALL`].
     pub pairs: [Pair; 4],
     /// The pair to use.
@@ -143,9 +143,9 @@ impl Reduction {
     ) -> Result<Dynamics, ReduceError> {
         let slowest = step.slowest().tau;
         let window = match (options.window, &options.run) {
-            (Some(length), _) => Window::Given(length),
-            (None, Some(run)) => Window::Run(run.stop - run.start),
-            (None, None) => Window::TimeConstants(5.0 * slowest),
+            (Some(length), _) => LeastSquaresWindow::Given(length),
+            (None, Some(run)) => LeastSquaresWindow::Run(run.stop - run.start),
+            (None, None) => LeastSquaresWindow::TimeConstants(5.0 * slowest),
         };
         let (network, r) = (system.network(), self.norton.resistance);
         let capacities = Definition::ALL.map(|definition| match definition {

@@ -5,7 +5,7 @@ mod common;
 
 use common::{assembled, near, two_nodes};
 use lptn_network::{HeatCapacity, HeatFlow, NetworkBuilder, NodeId, Resistance, Temperature, Time};
-use lptn_reduce::{Definition, ReduceError, Reduction, ReductionOptions, Window};
+use lptn_reduce::{Definition, LeastSquaresWindow, ReduceError, Reduction, ReductionOptions};
 use lptn_solve::Transient;
 
 /// Printed values: capacity, half of its last digit, error in %, half of its last digit. Source:
@@ -103,7 +103,7 @@ fn check(r_int: f64, r_amb: f64, printed_tau: [f64; 2], printed: Printed) {
     near(dynamics.step.slowest().tau, exact.tau[0], 1e-12);
     near(dynamics.step.terms[1].tau, exact.tau[1], 1e-10);
     near(dynamics.step.terms[1].resistance, exact.r[1], 1e-8);
-    assert_eq!(dynamics.window, Window::Run(1500.0));
+    assert_eq!(dynamics.window, LeastSquaresWindow::Run(1500.0));
     for ((pair, capacity), printed) in
         dynamics.pairs.iter().zip(exact.capacities(1500.0)).zip(printed)
     {
@@ -335,9 +335,11 @@ fn the_window_is_that_of_the_question() {
     };
     let mut late = Transient::until(Time(1500.0));
     late.start = 400.0;
-    assert_eq!(window(Some(late.clone()), None), Window::Run(1100.0));
-    assert_eq!(window(Some(late), Some(30.0)), Window::Given(30.0));
-    let Window::TimeConstants(length) = window(None, None) else { panic!("no run, no window") };
+    assert_eq!(window(Some(late.clone()), None), LeastSquaresWindow::Run(1100.0));
+    assert_eq!(window(Some(late), Some(30.0)), LeastSquaresWindow::Given(30.0));
+    let LeastSquaresWindow::TimeConstants(length) = window(None, None) else {
+        panic!("no run, no window")
+    };
     near(length, 5.0 * 2659.0 / 3.25, 1e-12);
 }
 

@@ -1,11 +1,12 @@
-//! What a result looks like: terminal tables with sparklines, CSV, JSON.
+//! What a result looks like: terminal tables with sparklines, CSV, JSON, pictures.
 //!
 //! A command's answer is a [`Page`]: it gives a [`Text`] for reading, rows and an object for
-//! programs, and a format is one file that writes what it asks a page for. Nothing here solves
+//! programs and figures for looking at, and a format is one file that writes what it asks a page for. Nothing here solves
 //! anything, prints anything or knows where the text goes. In files every number is the shortest
 //! text that reads back as the same `f64`; in tables for reading, numbers are rounded and say their
 //! unit.
 
+mod columns;
 mod csv;
 mod format;
 mod heat;
@@ -13,9 +14,11 @@ mod json;
 mod layout;
 mod number;
 mod page;
+mod picture;
 mod sparkline;
 mod text;
 
+pub use columns::{MOST_CURVES, TEMPERATURE, panels};
 pub use csv::{write_csv, write_rows};
 pub use format::{Format, write};
 pub use heat::{Flow, balance};
@@ -25,5 +28,6 @@ pub use layout::{
 };
 pub use number::{Shortest, decimals, duration, fixed, prefix, significant};
 pub use page::{Page, Rows};
+pub use picture::Picture;
 pub use sparkline::sparkline;
 pub use text::{Block, Text, words};

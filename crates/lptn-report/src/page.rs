@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::io;
 
+use lptn_plot::Figure;
 use lptn_solve::Table;
 
 use crate::json::Json;
@@ -24,6 +25,11 @@ pub trait Page {
     /// # Errors
     /// What the stream reports.
     fn json(&self, json: &mut Json<'_>) -> io::Result<()>;
+
+    /// For looking at: what `--plot` draws. There is nothing unless this is given.
+    fn figures(&self) -> Vec<Figure> {
+        Vec::new()
+    }
 
     /// Why the answer is no, where the question has one: the text ends with it, and other formats
     /// have it said beside them.

@@ -2,7 +2,7 @@
 //! to rest.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{End, Flow, Network, NodeId};
+use lptn_network::{ConductorFlow, End, Network, NodeId};
 
 use crate::error::SteadyError;
 use crate::newton::{Newton, NewtonError};
@@ -142,7 +142,7 @@ fn exchanges(network: &Network) -> Vec<bool> {
         }
         let (End::Node(from), End::Node(to)) = (conductor.from, conductor.to) else { continue };
         match network.flow(id) {
-            Flow::Stream(rate) => {
+            ConductorFlow::Stream(rate) => {
                 let (from, to) = if rate < 0.0 { (to, from) } else { (from, to) };
                 flows[from.index()].1 += rate.abs();
                 flows[to.index()].0 += rate.abs();

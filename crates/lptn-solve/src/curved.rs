@@ -4,7 +4,7 @@
 //! missed without a trace, and the books would close all the same. So the inputs are looked at
 //! before the run, and no step is longer than what resolves them where it is.
 
-use lptn_assembly::{Form, ThermalSystem};
+use lptn_assembly::{JacobianForm, ThermalSystem};
 
 use crate::cells::{Stretch, stretches};
 use crate::times::Segment;
@@ -103,7 +103,7 @@ fn memory(system: &ThermalSystem, time: f64) -> f64 {
     let mean = start.iter().sum::<f64>() / start.len() as f64;
     start.resize(system.unknowns().len(), mean);
     let known = system.read_inputs(&mut work, time, time).is_ok()
-        && system.jacobian_at(&mut work, &start, Form::Exact, &mut values).is_ok();
+        && system.jacobian_at(&mut work, &start, JacobianForm::Exact, &mut values).is_ok();
     if !known {
         return f64::INFINITY;
     }

@@ -1,7 +1,7 @@
 //! A thermal system as the integrator sees it: `M y' = f` with M the capacities and f the heat
 //! flows.
 
-use lptn_assembly::{Form, ThermalSystem, Workspace};
+use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::{OdeSystem, Pattern, Retry};
 use lptn_network::Positions;
 
@@ -22,7 +22,7 @@ pub(crate) struct Heat<'a> {
     flow: Vec<f64>,
     books: Books,
     /// Which Jacobian is written.
-    form: Form,
+    form: JacobianForm,
     /// Comparisons of `t` keep the truth they have here while a segment lasts.
     segment: f64,
     /// The time at which inputs are held, and one inside its segment.
@@ -46,7 +46,8 @@ impl<'a> Heat<'a> {
         books: Books,
     ) -> Result<Self, NewtonError> {
         let pattern = Pattern::from_symbolic(system.pattern().symbolic());
-        let form = if system.is_symmetric() { Form::Symmetric } else { Form::Exact };
+        let form =
+            if system.is_symmetric() { JacobianForm::Symmetric } else { JacobianForm::Exact };
         let flow = vec![0.0; system.unknowns().len()];
         let (work, unfold) = (system.workspace(), Unfold::new(system)?);
         let gates = Gates::new(system);
@@ -266,11 +267,11 @@ impl OdeSystem for Heat<'_> {
     }
 
     fn symmetric(&self) -> bool {
-        self.form == Form::Symmetric
+        self.form == JacobianForm::Symmetric
     }
 
     fn leave_symmetry(&mut self) {
-        self.form = Form::Exact;
+        self.form = JacobianForm::Exact;
     }
 
     fn jacobian(&mut self, time: f64, y: &[f64], values: &mut [f64]) -> Result<(), Retry> {

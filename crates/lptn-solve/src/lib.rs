@@ -74,22 +74,22 @@ pub use lumping::{Biot, LumpCheck, Lumping, NotChecked, Stretch};
 pub use modes::{Mode, Modes};
 pub use parallel::{available_threads, in_parallel};
 pub use periodic::{CycleMethod, Periodic, PeriodicError};
-pub use selection::{Record, Selection};
+pub use selection::{RecordedNodes, Selection, name_matches};
 pub use sense::Beyond;
 pub use sensitive_run::{
     Gradient, SensitiveError, SensitiveRun, sensitive_run, sensitive_run_observed,
 };
 pub use settings::{Proceed, Progress, Transient};
 pub use settings_error::SettingsError;
-pub use solution::{End, Solution, SolutionError, Unbounded};
+pub use solution::{RunStatus, Solution, SolutionError, Unbounded};
 pub use state::State;
 pub use steady::{Others, SteadyState};
 pub use stiffness::Stiffness;
 pub use summary::{NodeSummary, Summary};
-pub use table::{Column, Label, Table, TableOf};
+pub use table::{Column, LabelColumn, Table, TableOf};
 pub use unsolved::Unsolved;
 pub use verification::{
-    Comparison, LEAST_TOLERANCE, NoReference, Reference, Verification, allowed_error,
+    LEAST_TOLERANCE, NoReference, Reference, RunComparison, Verification, allowed_error,
 };
 
 pub use watch::{Watch, Watched, first_there, top};

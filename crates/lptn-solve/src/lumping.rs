@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_laws::{Surface, biot, diffusion_time};
+use lptn_laws::{SurfaceKind, biot, diffusion_time};
 use lptn_network::{
     ConductorId, ConductorKind, End, Evaluation, Field, InputError, MaterialId, Network,
     NoMaterial, NodeId,
@@ -268,8 +268,8 @@ impl Body {
             let area = surface.area.ok_or(NotChecked::NoArea(id))?;
             conductance += surface.conductance;
             match system.network().conductors()[id.index()].kind.declaration().surface {
-                Some(Surface::Seen) => seen += area,
-                Some(Surface::Touching) => touching += area,
+                Some(SurfaceKind::Seen) => seen += area,
+                Some(SurfaceKind::Touching) => touching += area,
                 _ => skin += area,
             }
         }

@@ -7,7 +7,7 @@
 //! over shrinks (switched evolution relaxation; C. T. Kelley and D. E. Keyes, SIAM J. Numer. Anal.
 //! 35 (1998) 508), which ends where a network that stores heat in every node would.
 
-use lptn_assembly::{Form, ThermalSystem, Workspace};
+use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::linear::{self, Factorization};
 use lptn_integrate::{FactorError, Pattern};
 use lptn_network::InputError;
@@ -330,7 +330,8 @@ impl<'a> Newton<'a> {
         temperatures: &[f64],
     ) -> Result<(), NewtonError> {
         self.ready = false;
-        let jacobian = self.system.jacobian_at(work, temperatures, Form::Exact, &mut self.whole);
+        let jacobian =
+            self.system.jacobian_at(work, temperatures, JacobianForm::Exact, &mut self.whole);
         jacobian.map_err(NewtonError::Input)?;
         for (value, &slot) in self.values.iter_mut().zip(&self.slots) {
             *value = -self.whole[slot];

@@ -15,12 +15,12 @@ use crate::ledger::Ledger;
 use crate::limit::{LimitWatch, with_limits};
 use crate::reading::Reading;
 use crate::readings::Readings;
-use crate::selection::Record;
+use crate::selection::RecordedNodes;
 use crate::sensed::Sensed;
 use crate::sensitivity_rows::SensitivityRows;
 use crate::settings::Transient;
 use crate::settings_error::SettingsError;
-use crate::solution::{End, Solution};
+use crate::solution::{RunStatus, Solution};
 use crate::state::State;
 use crate::times::Segment;
 use crate::tracked::Tracked;
@@ -83,8 +83,8 @@ impl<'a> Recorder<'a> {
     ) -> Result<Self, TransientError> {
         let network = system.network();
         let mut recorded = match &settings.record {
-            Record::All => network.node_ids().collect(),
-            Record::Nodes(nodes) => nodes.clone(),
+            RecordedNodes::All => network.node_ids().collect(),
+            RecordedNodes::Nodes(nodes) => nodes.clone(),
         };
         recorded.sort_unstable();
         recorded.dedup();
@@ -342,12 +342,12 @@ impl<'a> Recorder<'a> {
         mut self,
         (ledger, balance): (Ledger, Option<Balance>),
         (statistics, events): (Statistics, Vec<Event>),
-        end: End,
+        end: RunStatus,
     ) -> Solution {
         let network = self.system.network();
         let time = match end {
-            End::Reached => self.span().1,
-            End::Interrupted(time) | End::Failed(time) => time,
+            RunStatus::Reached => self.span().1,
+            RunStatus::Interrupted(time) | RunStatus::Failed(time) => time,
         };
         let last = LastState::new(self.system, &self.work, (time, &self.state));
         let windows = self.windows.into_iter().filter_map(|w| w.into_seen(network, self.tolerance));

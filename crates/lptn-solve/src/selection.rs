@@ -6,7 +6,7 @@ use crate::quantity::Quantity;
 
 /// Which nodes a solution keeps.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Record {
+pub enum RecordedNodes {
     /// Every node: heat flows can be had from the solution.
     All,
     /// These nodes only, to save memory.
@@ -49,7 +49,7 @@ impl Selection {
             for (pattern, found) in
                 patterns.iter().zip(&mut found).filter(|(pattern, _)| asked(pattern))
             {
-                let fits = matches(pattern, &name);
+                let fits = name_matches(pattern, &name);
                 (*found, any) = (*found || fits, any || fits);
             }
             any
@@ -72,11 +72,11 @@ impl Selection {
     }
 
     /// What a run has to keep so that these columns can be had.
-    pub fn record(&self) -> Record {
+    pub fn record(&self) -> RecordedNodes {
         if self.quantities.iter().any(|q| q.needs_all()) {
-            return Record::All;
+            return RecordedNodes::All;
         }
-        Record::Nodes(self.nodes().collect())
+        RecordedNodes::Nodes(self.nodes().collect())
     }
 
     /// The nodes whose temperature is selected, in the order of the network.
@@ -106,7 +106,7 @@ fn named(network: &Network, patterns: &[String]) -> Option<Vec<Quantity>> {
 
 /// Whether `name` has the form of `pattern`. Greedy with one place to go back to, so linear but for
 /// the product of the two lengths.
-fn matches(pattern: &str, name: &str) -> bool {
+pub fn name_matches(pattern: &str, name: &str) -> bool {
     let (pattern, name) = (pattern.as_bytes(), name.as_bytes());
     let (mut p, mut n, mut star) = (0, 0, None);
     while n < name.len() {
@@ -131,17 +131,17 @@ fn matches(pattern: &str, name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::matches;
+    use super::name_matches;
 
     #[test]
     fn patterns_match_whole_names() {
-        assert!(matches("*.T", "steel.T"));
-        assert!(matches("s*l.?", "steel.T"));
-        assert!(matches("*", ""));
-        assert!(matches("*a*b*", "xxaxxbxx"));
-        assert!(matches("planet[1].*", "planet[1].gear.T"));
-        assert!(!matches("*.T", "internal.Q"));
-        assert!(!matches("steel", "steel.T"));
-        assert!(!matches("?", ""));
+        assert!(name_matches("*.T", "steel.T"));
+        assert!(name_matches("s*l.?", "steel.T"));
+        assert!(name_matches("*", ""));
+        assert!(name_matches("*a*b*", "xxaxxbxx"));
+        assert!(name_matches("planet[1].*", "planet[1].gear.T"));
+        assert!(!name_matches("*.T", "internal.Q"));
+        assert!(!name_matches("steel", "steel.T"));
+        assert!(!name_matches("?", ""));
     }
 }

@@ -6,7 +6,7 @@ use lptn_network::{LimitId, Network, NoTangents, NodeId, ParameterId};
 use crate::error::TransientError;
 use crate::settings::{Proceed, Progress, Transient};
 use crate::settings_error::SettingsError;
-use crate::solution::{End, Solution};
+use crate::solution::{RunStatus, Solution};
 
 /// By which part of itself a parameter is changed for a difference of runs. With the tolerances of
 /// fits (1e-7 K) the difference of two runs and the curvature between them leave about four digits.
@@ -74,7 +74,7 @@ pub fn sensitive_run_observed(
     let run = |system: &ThermalSystem, settings: &Transient| {
         let solution = settings.solve_observed(system, &mut |step| observer(step))?;
         match solution.end() {
-            End::Interrupted(_) => Err(SensitiveError::Interrupted),
+            RunStatus::Interrupted(_) => Err(SensitiveError::Interrupted),
             _ => Ok(solution),
         }
     };

@@ -5,7 +5,7 @@ use lptn_network::{End, Network, NodeId, OutputTimes, ParameterId, RunSettings, 
 
 use crate::curved::Curved;
 use crate::events::ControlState;
-use crate::selection::Record;
+use crate::selection::RecordedNodes;
 use crate::settings_error::SettingsError;
 use crate::times;
 use crate::watch::Watch;
@@ -24,7 +24,7 @@ pub struct Transient {
     /// times this, from 1e-3 to 1e-5 K (measured in the tests).
     pub tolerance: f64,
     /// What is kept.
-    pub record: Record,
+    pub record: RecordedNodes,
     /// Nodes to look at between the rows too.
     pub watch: Vec<Watch>,
     /// Windows of time over which means and extremes are taken; inside the run.
@@ -70,7 +70,7 @@ impl Transient {
             stop: stop.0,
             output: OutputTimes::Every(stop.0 / OutputTimes::USUAL_INTERVALS),
             tolerance: 1e-5,
-            record: Record::All,
+            record: RecordedNodes::All,
             watch: Vec::new(),
             windows: Vec::new(),
             balance: None,
@@ -120,7 +120,7 @@ impl Transient {
     /// Keeps only these nodes.
     #[must_use]
     pub fn record(mut self, nodes: &[NodeId]) -> Self {
-        self.record = Record::Nodes(nodes.to_vec());
+        self.record = RecordedNodes::Nodes(nodes.to_vec());
         self
     }
 

@@ -22,7 +22,7 @@ use crate::window::WindowSeen;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum End {
+pub enum RunStatus {
     /// It reached its stop.
     Reached,
     /// It was asked to end at this time in s; the rows up to then are whole.
@@ -66,7 +66,7 @@ pub struct Solution {
     pub(crate) last: LastState,
     pub(crate) ledger: Ledger,
     pub(crate) statistics: Statistics,
-    pub(crate) end: End,
+    pub(crate) end: RunStatus,
     pub(crate) tolerance: f64,
     pub(crate) remembered: f64,
     pub(crate) end_state: State,
@@ -266,7 +266,7 @@ impl Solution {
     }
 
     /// How the run ended.
-    pub fn end(&self) -> End {
+    pub fn end(&self) -> RunStatus {
         self.end
     }
 

@@ -6,7 +6,7 @@ use crate::balance::Books;
 use crate::error::{StopReason, TransientError};
 use crate::quadrature::GAUSS;
 use crate::recorder::Recorder;
-use crate::solution::{End, Solution};
+use crate::solution::{RunStatus, Solution};
 use crate::times::Segment;
 
 /// Evaluates every row; the ledger integrates between rows by the Gauss rule.
@@ -19,11 +19,11 @@ pub(crate) fn solve(
     let mut integrals = vec![0.0; books.integrals(system)];
     let stored = vec![0.0; system.network().nodes().len()];
     let (outcome, end) = match rows(&mut recorder, segments, (books, &mut integrals)) {
-        Ok(()) => (None, End::Reached),
-        Err((time, reason)) => (Some((time, reason)), End::Failed(time)),
+        Ok(()) => (None, RunStatus::Reached),
+        Err((time, reason)) => (Some((time, reason)), RunStatus::Failed(time)),
     };
     let last = match end {
-        End::Failed(time) => time,
+        RunStatus::Failed(time) => time,
         _ => recorder.span().1,
     };
     let closed = books.close(system, recorder.at_state((last, &[])), &integrals, (stored, 0.0));

@@ -1,6 +1,6 @@
 //! Steady state: directly for linear networks, by Newton's method for others.
 
-use lptn_assembly::{Form, ThermalSystem, Workspace};
+use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::{FactorError, Pattern};
 use lptn_network::{End, Evaluation, HeatOf, InputError, Network, NodeId, Positions, Received};
 
@@ -298,7 +298,7 @@ fn unsettled(
         return Ok(0.0);
     }
     let mut values = vec![0.0; system.pattern().entries()];
-    system.jacobian_at(work, unknowns, Form::Exact, &mut values)?;
+    system.jacobian_at(work, unknowns, JacobianForm::Exact, &mut values)?;
     let pattern = Pattern::from_symbolic(system.pattern().symbolic());
     // what leaves the network altogether for 1 K more of one unknown
     let out = |i| values[pattern.column(i)].iter().sum::<f64>().abs();

@@ -1,6 +1,6 @@
 //! How far the time constants of the nodes of a network are apart.
 
-use lptn_network::{End, Flow, Network, NodeId};
+use lptn_network::{ConductorFlow, End, Network, NodeId};
 
 /// The nodes that follow their surroundings fastest and slowest, each with its own time constant C
 /// / sum of G in s.
@@ -24,8 +24,8 @@ impl Stiffness {
         for (id, conductor) in network.conductor_ids().zip(network.conductors()) {
             let (ends, size) = match network.flow(id) {
                 // only the end that a stream flows into follows it
-                Flow::Stream(rate) if rate < 0.0 => (vec![conductor.from], -rate),
-                Flow::Stream(rate) => (vec![conductor.to], rate),
+                ConductorFlow::Stream(rate) if rate < 0.0 => (vec![conductor.from], -rate),
+                ConductorFlow::Stream(rate) => (vec![conductor.to], rate),
                 _ => (vec![conductor.from, conductor.to], network.conductance(id).unwrap_or(0.0)),
             };
             for end in ends {

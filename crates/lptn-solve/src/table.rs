@@ -29,7 +29,7 @@ impl Column {
 
 /// A column of words, such as the file that a row belongs to.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Label {
+pub struct LabelColumn {
     /// The name.
     pub name: String,
     /// One text a row.
@@ -39,7 +39,7 @@ pub struct Label {
 /// Columns of equal length with unique names; those of words stand before those of numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    labels: Vec<Label>,
+    labels: Vec<LabelColumn>,
     columns: Vec<Column>,
 }
 
@@ -56,7 +56,7 @@ impl<'a, T> TableOf<'a, T> {
     pub fn label(&mut self, name: impl Into<String>, cell: impl FnMut(&'a T) -> String) {
         self.table
             .labels
-            .push(Label { name: name.into(), cells: self.items.iter().map(cell).collect() });
+            .push(LabelColumn { name: name.into(), cells: self.items.iter().map(cell).collect() });
     }
 
     /// A column of numbers.
@@ -83,7 +83,7 @@ impl Table {
     }
 
     /// The columns of words.
-    pub fn labels(&self) -> &[Label] {
+    pub fn labels(&self) -> &[LabelColumn] {
         &self.labels
     }
 

@@ -8,7 +8,7 @@
 //! Jacobian times `dT/dp` (forward sensitivity analysis; A. C. Hindmarsh and R. Serban, User
 //! Documentation for CVODES, section 2.6).
 
-use lptn_assembly::{Form, ThermalSystem, Workspace};
+use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::Pattern;
 use lptn_network::{ParameterId, Tangents};
 
@@ -187,7 +187,8 @@ impl<'a> Tangent<'a> {
             return Ok(());
         }
         self.jacobian.resize(self.pattern.len(), 0.0);
-        let taken = self.system.jacobian_at(work, unfold.last(), Form::Exact, &mut self.jacobian);
+        let taken =
+            self.system.jacobian_at(work, unfold.last(), JacobianForm::Exact, &mut self.jacobian);
         taken.map_err(NewtonError::Input)
     }
 

@@ -17,7 +17,7 @@ use crate::readings::Readings;
 use crate::recorder::Recorder;
 use crate::settings::{Proceed, Progress, Transient};
 use crate::settings_error::SettingsError;
-use crate::solution::{End, Solution};
+use crate::solution::{RunStatus, Solution};
 use crate::state::{self, State};
 use crate::stateless;
 use crate::stepper::{Stepper, stepper};
@@ -219,18 +219,18 @@ impl<'a> Run<'a> {
             match outcome {
                 Ok(()) => {}
                 Err(Break::Interrupted) => {
-                    let end = End::Interrupted(self.integrator.time());
+                    let end = RunStatus::Interrupted(self.integrator.time());
                     return self.finish(end).map(Some);
                 }
                 Err(Break::Fold) => return Ok(None),
                 Err(Break::Failed(reason)) => {
                     let time = self.integrator.time();
-                    let partial = Box::new(self.finish(End::Failed(time))?);
+                    let partial = Box::new(self.finish(RunStatus::Failed(time))?);
                     return Err(TransientError::Stopped { time, reason, partial });
                 }
             }
         }
-        self.finish(End::Reached).map(Some)
+        self.finish(RunStatus::Reached).map(Some)
     }
 
     /// Integrates one segment; a row at its start is written with the inputs after the jump.
@@ -382,7 +382,7 @@ impl<'a> Run<'a> {
         Break::Failed(StopReason::Integrator { error, node })
     }
 
-    fn finish(mut self, end: End) -> Result<Solution, TransientError> {
+    fn finish(mut self, end: RunStatus) -> Result<Solution, TransientError> {
         let system = self.recorder.system();
         let mut stored = vec![0.0; system.network().nodes().len()];
         let changes = self.integrator.state().iter().zip(&self.initial).zip(system.capacity());

@@ -5,9 +5,9 @@ use lptn_network::Network;
 
 use crate::error::TransientError;
 use crate::exact::{Difference, ExactError, ExactSolution};
-use crate::selection::Record;
+use crate::selection::RecordedNodes;
 use crate::settings::{Proceed, Progress, Transient};
-use crate::solution::{End, Solution};
+use crate::solution::{RunStatus, Solution};
 use crate::table::Table;
 
 /// How far runs of a network are from its exact solution.
@@ -16,7 +16,7 @@ pub struct Verification {
     /// What they are compared with.
     pub reference: Reference,
     /// One comparison a run, the coarsest tolerance first.
-    pub comparisons: Vec<Comparison>,
+    pub comparisons: Vec<RunComparison>,
 }
 
 /// What runs are compared with.
@@ -54,7 +54,7 @@ pub enum NoReference {
 
 /// One run beside the reference.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
+pub struct RunComparison {
     /// Tolerance of the run in K.
     pub tolerance: f64,
     /// Where it differs most.
@@ -79,7 +79,7 @@ pub fn allowed_error(tolerance: f64) -> f64 {
     tolerance * if coarse { 10.0 } else { 50.0 }
 }
 
-impl Comparison {
+impl RunComparison {
     /// Whether the run can be as good as it has to be.
     pub fn passes(&self) -> bool {
         self.difference.largest <= self.allowed + self.reference_error
@@ -109,7 +109,7 @@ impl Verification {
         observer: &mut dyn FnMut(f64, Progress) -> Proceed,
     ) -> Result<Option<Self>, TransientError> {
         let runs = runs(system, settings, observer)?;
-        let whole = runs.iter().all(|run| run.end() == End::Reached);
+        let whole = runs.iter().all(|run| run.end() == RunStatus::Reached);
         Ok(whole.then(|| Self::of_runs(system, settings, &runs)))
     }
 
@@ -125,7 +125,7 @@ impl Verification {
     /// left out.
     pub fn against_exact(exact: &ExactSolution, runs: &[&Solution]) -> Self {
         let own = exact.own_error();
-        let compare = |run: &&Solution| Some(Comparison::new(run, exact.difference(run)?, own));
+        let compare = |run: &&Solution| Some(RunComparison::new(run, exact.difference(run)?, own));
         Self {
             reference: Reference::Exact {
                 states: exact.states(),
@@ -142,13 +142,16 @@ impl Verification {
             (runs.len() > 1).then(|| Difference::largest(coarse, |row| fine.row(row))).flatten();
         Self {
             reference: Reference::FinerRun { tolerance: fine.tolerance(), reason },
-            comparisons: difference.map(|d| Comparison::new(coarse, d, 0.0)).into_iter().collect(),
+            comparisons: difference
+                .map(|d| RunComparison::new(coarse, d, 0.0))
+                .into_iter()
+                .collect(),
         }
     }
 
     /// Whether every difference is allowed, and there is one to judge.
     pub fn passes(&self) -> bool {
-        !self.comparisons.is_empty() && self.comparisons.iter().all(Comparison::passes)
+        !self.comparisons.is_empty() && self.comparisons.iter().all(RunComparison::passes)
     }
 
     /// One row a run: `tolerance`, `difference` (the largest), `allowed`, `time` (of the largest
@@ -166,7 +169,7 @@ impl Verification {
     }
 }
 
-impl Comparison {
+impl RunComparison {
     fn new(run: &Solution, difference: Difference, reference_error: f64) -> Self {
         let tolerance = run.tolerance();
         Self { tolerance, difference, allowed: allowed_error(tolerance), reference_error }
@@ -181,13 +184,17 @@ fn runs(
     observer: &mut dyn FnMut(f64, Progress) -> Proceed,
 ) -> Result<Vec<Solution>, TransientError> {
     let mut run = |tolerance: f64| {
-        let settings =
-            Transient { tolerance, record: Record::All, watch: Vec::new(), ..settings.clone() };
+        let settings = Transient {
+            tolerance,
+            record: RecordedNodes::All,
+            watch: Vec::new(),
+            ..settings.clone()
+        };
         settings.solve_observed(system, &mut |progress| observer(tolerance, progress))
     };
     let fine = (0.01 * settings.tolerance).max(LEAST_TOLERANCE);
     let mut runs = vec![run(settings.tolerance)?];
-    if fine < settings.tolerance && runs[0].end() == End::Reached {
+    if fine < settings.tolerance && runs[0].end() == RunStatus::Reached {
         runs.push(run(fine)?);
     }
     Ok(runs)

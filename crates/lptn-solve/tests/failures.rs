@@ -10,7 +10,7 @@ use lptn_network::{
     AfterEnd, BuildErrorKind, Conductance, ConductorKind, Course, Formula, HeatCapacity,
     NetworkBuilder, NodeId, Path, Temperature, Time,
 };
-use lptn_solve::{End, Solution, Transient, TransientError};
+use lptn_solve::{RunStatus, Solution, Transient, TransientError};
 use lptn_units::{Dimension, Interpolation, Outside, Table1};
 
 /// A run that has to break off: the time, the message, what was computed before.
@@ -26,7 +26,7 @@ fn broken(system: &ThermalSystem, stop: f64) -> (f64, String, &'static str, Solu
                 partial.times().len() > 1 && partial.times().iter().all(|t| *t <= time),
                 "{time}"
             );
-            assert!(matches!(partial.end(), End::Failed(at) if (at - time).abs() <= 0.0));
+            assert!(matches!(partial.end(), RunStatus::Failed(at) if (at - time).abs() <= 0.0));
             for row in 0..partial.times().len() {
                 assert!(partial.row(row).iter().all(|t| t.is_finite()), "row {row}");
             }

@@ -6,7 +6,7 @@ use lptn_network::{
     ConductorKind, Context, End, Formula, HeatCapacity, HeatFlow, Input, NetworkBuilder, NodeId,
     Path, Properties, Resistance, Size, Temperature, Time,
 };
-use lptn_solve::{Lumping, NotChecked, Record, Solution, Transient};
+use lptn_solve::{Lumping, NotChecked, RecordedNodes, Solution, Transient};
 use lptn_units::parse_quantity;
 
 fn quantity(text: &str) -> Input {
@@ -136,7 +136,7 @@ fn the_largest_number_of_a_run_counts() {
     // where only another node was recorded, start and end are looked at
     let system = ThermalSystem::assemble(&plume().build().unwrap()).unwrap();
     let mut transient = Transient::until(Time(60.0));
-    transient.record = Record::Nodes(lumping.without_length.clone());
+    transient.record = RecordedNodes::Nodes(lumping.without_length.clone());
     let part = Lumping::of_run(&transient.solve(&system).unwrap());
     assert!((part.checks[0].biot.unwrap().number - biot.number).abs() < 1e-6 * biot.number);
 }

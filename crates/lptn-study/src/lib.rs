@@ -24,8 +24,8 @@ pub use compare::{
 pub use digest::{Hashing, sha256};
 pub use manifest::{Environment, FileHash, Manifest, ParameterRecord, RunEnd, Sundials};
 pub use moment::utc;
-pub use record::{LedgerRecord, Scalar, StatisticsRecord};
+pub use record::{LedgerRecord, SiValue, StatisticsRecord};
 pub use size::{
-    Coolant, Cooling, CoolingError, CoolingTask, Flow, SizeError, SizeTask, Sizing, Trial, Verdict,
-    requirement_margins, size,
+    Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask, SizeError, SizeTask, Sizing, Trial,
+    Verdict, requirement_margins, size,
 };

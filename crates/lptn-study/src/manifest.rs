@@ -1,10 +1,10 @@
 //! What made a result.
 
-use lptn_solve::{End, Solution};
+use lptn_solve::{RunStatus, Solution};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use crate::record::{LedgerRecord, Scalar, StatisticsRecord};
+use crate::record::{LedgerRecord, SiValue, StatisticsRecord};
 
 /// Everything that a run was made from and what came of it.
 #[derive(Clone, Debug, Serialize)]
@@ -22,11 +22,11 @@ pub struct Manifest {
     /// The parameters as they were resolved, in the order of the netlist.
     pub parameters: Map<String, Value>,
     /// Start of the run.
-    pub start: Scalar,
+    pub start: SiValue,
     /// The stop it was given.
-    pub stop: Scalar,
+    pub stop: SiValue,
     /// The tolerance of its temperatures in K.
-    pub tolerance: Scalar,
+    pub tolerance: SiValue,
     /// How it ended.
     pub end: RunEnd,
     /// Counters of the integrator.
@@ -108,7 +108,7 @@ pub struct RunEnd {
     /// `reached`, `interrupted` or `failed`.
     pub status: &'static str,
     /// The time up to which there are rows and heat.
-    pub time: Scalar,
+    pub time: SiValue,
     /// Why it ended early, as it was printed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
@@ -118,11 +118,11 @@ impl RunEnd {
     /// The end of `solution`, which was to run until `stop`, in s.
     pub fn of(solution: &Solution, stop: f64, message: Option<String>) -> Self {
         let (status, time) = match solution.end() {
-            End::Reached => ("reached", stop),
-            End::Interrupted(time) => ("interrupted", time),
-            End::Failed(time) => ("failed", time),
+            RunStatus::Reached => ("reached", stop),
+            RunStatus::Interrupted(time) => ("interrupted", time),
+            RunStatus::Failed(time) => ("failed", time),
         };
-        Self { status, time: Scalar::new(time, "s"), message }
+        Self { status, time: SiValue::new(time, "s"), message }
     }
 }
 
@@ -134,7 +134,7 @@ pub struct Environment {
     /// The name of the machine; empty if it has none.
     pub host: String,
     /// How long the run took.
-    pub wall_time: Scalar,
+    pub wall_time: SiValue,
 }
 
 impl Manifest {

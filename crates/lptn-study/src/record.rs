@@ -9,14 +9,14 @@ use serde_json::{Map, Value};
 
 /// A number with its unit, in SI.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Scalar {
+pub struct SiValue {
     /// The number in `unit`.
     pub value: f64,
     /// Its unit; `1` for a plain number.
     pub unit: String,
 }
 
-impl Scalar {
+impl SiValue {
     /// `value` in `unit`.
     pub fn new(value: f64, unit: &str) -> Self {
         Self { value, unit: unit.to_owned() }
@@ -40,13 +40,13 @@ pub struct LedgerRecord {
     /// Heat that each node stored.
     pub stored: Map<String, Value>,
     /// Heat turned over.
-    pub turned_over: Scalar,
+    pub turned_over: SiValue,
     /// Sources plus boundaries plus streams less stored.
-    pub residual: Scalar,
+    pub residual: SiValue,
     /// The residual over the heat turned over; `null` where none was.
-    pub relative_residual: Option<Scalar>,
+    pub relative_residual: Option<SiValue>,
     /// What the relative residual may be.
-    pub bound: Scalar,
+    pub bound: SiValue,
     /// Whether it is within that.
     pub closes: bool,
 }
@@ -64,10 +64,10 @@ impl LedgerRecord {
             boundaries: by_name(boundaries, &ledger.boundaries),
             streams: by_name(streams, &ledger.streams),
             stored: by_name(nodes, &ledger.stored),
-            turned_over: Scalar::new(ledger.turned_over, "J"),
-            residual: Scalar::new(ledger.residual(), "J"),
-            relative_residual: ledger.relative_residual().map(|r| Scalar::new(r, "1")),
-            bound: Scalar::new(ledger.bound, "1"),
+            turned_over: SiValue::new(ledger.turned_over, "J"),
+            residual: SiValue::new(ledger.residual(), "J"),
+            relative_residual: ledger.relative_residual().map(|r| SiValue::new(r, "1")),
+            bound: SiValue::new(ledger.bound, "1"),
             closes: ledger.closes(),
         }
     }
@@ -76,7 +76,7 @@ impl LedgerRecord {
 fn by_name<'a>(names: impl Iterator<Item = Cow<'a, str>>, heat: &[f64]) -> Map<String, Value> {
     names
         .zip(heat)
-        .map(|(name, &heat)| (name.into_owned(), Scalar::new(heat, "J").json()))
+        .map(|(name, &heat)| (name.into_owned(), SiValue::new(heat, "J").json()))
         .collect()
 }
 
@@ -106,7 +106,7 @@ impl StatisticsRecord {
         };
         let mut members: Map<String, Value> = counters.into_iter().map(member).collect();
         if let Some(time) = statistics.switched_to_lu {
-            members.insert("switched_to_lu".into(), Scalar::new(time, "s").json());
+            members.insert("switched_to_lu".into(), SiValue::new(time, "s").json());
         }
         Self(members)
     }

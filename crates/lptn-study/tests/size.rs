@@ -33,7 +33,7 @@ fn one_node(resistor: &str, power: &str, study: &str) -> Netlist {
 }
 
 fn solve(netlist: &Netlist) -> Result<Sizing, SizeError> {
-    let study = &netlist.sizes[0];
+    let study = &netlist.studies.sizes[0];
     size(&SizeTask {
         network: &netlist.network,
         parameters: netlist.overrides(),
@@ -181,7 +181,7 @@ fn margins_are_those_of_the_network_as_it_is() {
                  require = [\"inner.T <= 80 [degC]\", \"inner.T - outer.T < 6 [K]\"]";
     let netlist = chain("", study);
     let margins =
-        requirement_margins(&netlist.network, &netlist.sizes[0].requirements, 0.0).unwrap();
+        requirement_margins(&netlist.network, &netlist.studies.sizes[0].requirements, 0.0).unwrap();
     // G = 3 W/K, R_in = 0.05 K/W
     near(margins[0], 80.0 - (20.0 + 100.0 / 3.0 + 5.0), 1e-12);
     near(margins[1], 1.0, 1e-10);

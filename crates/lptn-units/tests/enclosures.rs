@@ -6,8 +6,8 @@
 use std::sync::Arc;
 
 use lptn_units::{
-    Dimension, Dual, Expression, Interpolation, Outside, Program, Scope, Symbol, Table, Table1,
-    Table2, TableSymbol, Taylor, Type,
+    Dimension, Dual, Expression, Interpolation, LookupTable, Outside, Program, Scope, Symbol,
+    Table1, Table2, TableSymbol, Taylor, Type,
 };
 
 /// `x` in slot 0, `a` in slot 1, and three tables.
@@ -26,13 +26,15 @@ impl Scope for Names {
     fn table(&self, name: &str) -> Option<TableSymbol> {
         let (x, y) = (vec![-4.0, -1.0, 0.5, 2.0, 5.0], vec![3.0, 1.0, 1.0, -2.0, 7.0]);
         let table = match name {
-            "lines" => Table::One(Table1::new(x, y, Interpolation::Linear, Outside::Hold).unwrap()),
+            "lines" => {
+                LookupTable::One(Table1::new(x, y, Interpolation::Linear, Outside::Hold).unwrap())
+            }
             "smooth" => {
-                Table::One(Table1::new(x, y, Interpolation::Pchip, Outside::Error).unwrap())
+                LookupTable::One(Table1::new(x, y, Interpolation::Pchip, Outside::Error).unwrap())
             }
             "map" => {
                 let values = vec![0.0, 4.0, -1.0, 10.0, 16.0, 3.0];
-                Table::Two(
+                LookupTable::Two(
                     Table2::new(vec![0.0, 1.0], vec![-1.0, 0.0, 2.0], values, Outside::Hold)
                         .unwrap(),
                 )

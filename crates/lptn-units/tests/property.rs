@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use lptn_units::{
-    Dimension, Expression, Interpolation, Outside, Rational, Scope, Symbol, Table, Table1,
+    Dimension, Expression, Interpolation, LookupTable, Outside, Rational, Scope, Symbol, Table1,
     TableSymbol, Type, Unit, format_number, parse_quantity, parse_value, suggest,
 };
 use proptest::prelude::*;
@@ -35,7 +35,7 @@ impl Scope for Nothing {
         let points =
             Table1::new(vec![0.0, 1.0], vec![0.0, 1.0], Interpolation::Linear, Outside::Error)
                 .unwrap();
-        let table = Arc::new(Table::One(points));
+        let table = Arc::new(LookupTable::One(points));
         (name == "loss").then_some(TableSymbol {
             table,
             arguments: vec![Type::SCALAR],

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-use lptn_units::{Interpolation, Outside, Table, Table1, Table2, TableError};
+use lptn_units::{Interpolation, LookupTable, Outside, Table1, Table2, TableError};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 
@@ -197,7 +197,7 @@ fn two_arguments_by_hand() {
     assert_eq!(held.value_and_slopes(-1.0, 1.0), Some((7.0, [0.0, 2.0])));
     assert_eq!(held.value_and_slopes(0.5, 9.0), Some((12.5, [7.0, 0.0])));
     assert_eq!(held.value_and_slopes(9.0, -9.0), Some((7.0, [0.0, 0.0])));
-    let table = Table::Two(held);
+    let table = LookupTable::Two(held);
     assert_eq!((table.knots(0), table.knots(1), table.knots(2)), (&x[..], &y[..], &[][..]));
     assert_eq!((table.dimension(), table.outside()), (2, Outside::Hold));
 }

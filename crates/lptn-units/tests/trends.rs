@@ -6,8 +6,8 @@
 use std::sync::Arc;
 
 use lptn_units::{
-    Expression, Interpolation, Outside, Program, Scope, Symbol, Table, Table1, Table2, TableSymbol,
-    Trend, Type,
+    Expression, Interpolation, LookupTable, Outside, Program, Scope, Symbol, Table1, Table2,
+    TableSymbol, Trend, Type,
 };
 
 /// `x` in slot 0 is the variable, `u` in slot 1 is held and not known, `n` in slot 2 is 3, `z` in
@@ -36,10 +36,10 @@ impl Scope for Names {
             _ => return None,
         };
         let table = if name == "map" {
-            Table::Two(Table2::new(vec![0.0, 1.0], vec![0.0, 1.0], y, Outside::Hold).unwrap())
+            LookupTable::Two(Table2::new(vec![0.0, 1.0], vec![0.0, 1.0], y, Outside::Hold).unwrap())
         } else {
             let knots = vec![0.0, 1.0, 2.0, 3.0];
-            Table::One(Table1::new(knots, y, Interpolation::Linear, Outside::Hold).unwrap())
+            LookupTable::One(Table1::new(knots, y, Interpolation::Linear, Outside::Hold).unwrap())
         };
         let arguments = vec![Type::SCALAR; table.dimension()];
         Some(TableSymbol { table: Arc::new(table), arguments, ty: Type::SCALAR, units: Vec::new() })

@@ -31,10 +31,12 @@
 
 pub use lptn_assembly as assembly;
 pub use lptn_fit as fit;
+pub use lptn_graph as graph;
 pub use lptn_integrate as integrate;
 pub use lptn_laws as laws;
 pub use lptn_netlist as netlist;
 pub use lptn_network as network;
+pub use lptn_plot as plot;
 pub use lptn_reduce as reduce;
 pub use lptn_report as report;
 pub use lptn_solve as solve;

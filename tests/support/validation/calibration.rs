@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use lptn::fit::network::{Measured, MeasuredRun, NetworkFit, NetworkFitTask, Varied, fit_network};
+use lptn::fit::network::{
+    MeasuredColumn, MeasuredRun, NetworkFit, NetworkFitTask, Varied, fit_network,
+};
 use lptn::network::End;
 use lptn::prelude::*;
 use lptn::solve::available_threads;
@@ -60,12 +62,12 @@ fn measured(case: &Case, calibration: &Calibration, model: &Model) -> Result<Mea
         let place = place.ok_or_else(|| format!("{} has no column `{name}`", calibration.data))?;
         Ok(table.1.iter().map(|row| row[place]).collect())
     };
-    let observe = |observation: &super::case::Observation| -> Result<Measured, Trouble> {
+    let observe = |observation: &super::case::Observation| -> Result<MeasuredColumn, Trouble> {
         let Some(End::Node(node)) = model.ends.get(&observation.node) else {
             return Err(format!("`{}` is not a node", observation.node).into());
         };
         let values = column(&observation.column)?.iter().map(|t| t + case.zero()).collect();
-        Ok(Measured {
+        Ok(MeasuredColumn {
             name: observation.column.clone(),
             of: vec![(*node, 1.0)],
             sigma: None,

@@ -10,7 +10,7 @@ use lptn::network::{
 };
 use lptn::prelude::*;
 use lptn::units::{
-    Dimension, Interpolation as Join, Outside, Table as Curve, Table1, TableSymbol, Type,
+    Dimension, Interpolation as Join, LookupTable as Curve, Outside, Table1, TableSymbol, Type,
 };
 
 use super::calibration;

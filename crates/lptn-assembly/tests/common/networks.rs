@@ -1,10 +1,11 @@
 //! Helpers for networks of elements that are more than a constant conductance.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used, reason = "each test file uses a part")]
 
-use lptn_assembly::{Form, ThermalSystem};
+use lptn_assembly::{JacobianForm, ThermalSystem};
 use lptn_network::{ConductorId, ConductorKind, Context, End, Input, NetworkBuilder, Path};
 use lptn_units::{
-    Dimension, Interpolation, Outside, Table, Table1, Table2, TableSymbol, Type, parse_quantity,
+    Dimension, Interpolation, LookupTable, Outside, Table1, Table2, TableSymbol, Type,
+    parse_quantity,
 };
 
 pub const SIGMA: f64 = 5.670_374_419e-8;
@@ -56,7 +57,7 @@ pub fn system(builder: NetworkBuilder) -> ThermalSystem {
 pub fn table(x: &[f64], y: &[f64], interp: Interpolation, types: (Type, Type)) -> TableSymbol {
     let table = Table1::new(x.to_vec(), y.to_vec(), interp, Outside::Error).unwrap();
     TableSymbol {
-        table: Table::One(table).into(),
+        table: LookupTable::One(table).into(),
         arguments: vec![types.0],
         ty: types.1,
         units: Vec::new(),
@@ -67,7 +68,7 @@ pub fn table(x: &[f64], y: &[f64], interp: Interpolation, types: (Type, Type)) -
 pub fn map(x: &[f64], y: &[f64], z: &[f64], types: (Type, Type, Type)) -> TableSymbol {
     let table = Table2::new(x.to_vec(), y.to_vec(), z.to_vec(), Outside::Error).unwrap();
     TableSymbol {
-        table: Table::Two(table).into(),
+        table: LookupTable::Two(table).into(),
         arguments: vec![types.0, types.1],
         ty: types.2,
         units: Vec::new(),
@@ -101,7 +102,7 @@ pub fn stream(
 }
 
 /// The Jacobian as a dense matrix, by rows.
-pub fn dense(system: &ThermalSystem, time: f64, y: &[f64], form: Form) -> Vec<Vec<f64>> {
+pub fn dense(system: &ThermalSystem, time: f64, y: &[f64], form: JacobianForm) -> Vec<Vec<f64>> {
     let mut work = system.workspace();
     system.read_inputs(&mut work, time, time).unwrap();
     let mut values = vec![f64::NAN; system.pattern().entries()];

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use lptn_netlist::Diagnostic;
-use lptn_study::{Environment, Scalar};
+use lptn_study::{Environment, SiValue};
 use lptn_units::Help;
 
 use crate::exit::Exit;
@@ -98,7 +98,7 @@ pub(crate) fn environment(wall_time: f64) -> Environment {
     Environment {
         written: lptn_study::utc(std::time::SystemTime::now()),
         host: host.trim().to_owned(),
-        wall_time: Scalar::new(wall_time, "s"),
+        wall_time: SiValue::new(wall_time, "s"),
     }
 }
 
@@ -120,6 +120,35 @@ pub(crate) fn of_folder(
     let mut paths: Vec<PathBuf> = paths.filter(is_one).collect();
     paths.sort_unstable();
     Ok(paths)
+}
+
+/// Puts a file in the place of what stands there, if anything does, at once and whole.
+pub(crate) fn replace(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let cannot = |why: &str| {
+        let message = format!("cannot write {}: {why}", file.display());
+        Failure::new(Exit::Failed, Diagnostic::error("output::cannot_write", message))
+    };
+    let place = place_of(file).map_err(|error| cannot(&reason(&error)))?;
+    let name = place.file_name().map(|name| name.to_string_lossy().into_owned());
+    let (Some(folder), Some(name)) = (place.parent(), name) else {
+        return Err(cannot("it has no name"));
+    };
+    let folder = Folder::prepare_for_a_moment(folder.to_owned())?;
+    let mut files = folder.batch();
+    files.write(&name, |out| out.write_all(bytes))?;
+    files.commit(&[])
+}
+
+/// Where a file stands or is going to. A link stays a link: what it leads to is written.
+fn place_of(file: &Path) -> io::Result<PathBuf> {
+    match fs::canonicalize(file) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+            let folder = fs::canonicalize(folder.unwrap_or(Path::new(".")))?;
+            Ok(folder.join(file.file_name().unwrap_or_default()))
+        }
+        found => found,
+    }
 }
 
 /// Writes a file that is not there yet, whole or not at all; `exists` is the code where it is

@@ -43,14 +43,15 @@ pub(super) fn temporary(name: &str, process: u32) -> String {
 }
 
 /// Whether this program calls a file so that is not whole yet: a result, the record of results, a
-/// netlist.
+/// netlist, a picture.
 pub(super) fn is_temporary(name: &str) -> bool {
     let parts = name
         .strip_prefix('.')
         .and_then(|rest| rest.strip_suffix(".tmp"))
         .and_then(|rest| rest.rsplit_once('.'));
     let Some((name, process)) = parts else { return false };
-    let ours = is_result(name) || name == COMMIT || name.ends_with(".toml");
+    let ends = [".toml", ".svg", ".png"].iter().any(|end| name.ends_with(end));
+    let ours = is_result(name) || name == COMMIT || ends;
     ours && process.parse::<u32>().is_ok()
 }
 
@@ -60,7 +61,7 @@ mod tests {
 
     #[test]
     fn only_our_own_temporaries_are_known_as_such() {
-        for name in [RESULT, COMMIT, "motor.toml"] {
+        for name in [RESULT, COMMIT, "motor.toml", "heat.svg"] {
             assert!(is_temporary(&temporary(name, 4_194_304)), "{name}");
         }
         for name in [

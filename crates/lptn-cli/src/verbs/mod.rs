@@ -8,6 +8,7 @@ pub(crate) mod graph;
 pub(crate) mod materials;
 pub(crate) mod modes;
 pub(crate) mod new;
+pub(crate) mod plot;
 pub(crate) mod reduce;
 pub(crate) mod run;
 pub(crate) mod size;
@@ -43,6 +44,7 @@ macro_rules! verbs {
 
 verbs! {
     Run(run::RunArgs) => run::run,
+    Plot(plot::PlotArgs) => plot::plot,
     Steady(steady::SteadyArgs) => steady::steady,
     Modes(modes::ModesArgs) => modes::modes,
     Verify(verify::VerifyArgs) => verify::verify,

@@ -83,7 +83,8 @@ impl Folder {
     /// The program, ready to run here.
     pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_lptn"));
-        command.args(arguments).current_dir(&self.path).env_remove("NO_COLOR").stdin(Stdio::null());
+        command.args(arguments).current_dir(&self.path).stdin(Stdio::null());
+        command.env_remove("NO_COLOR").env_remove("COLUMNS");
         command
     }
 

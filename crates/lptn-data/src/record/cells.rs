@@ -1,7 +1,7 @@
 //! Columns of numbers that are read row by row.
 
 use crate::diagnostic::Diagnostic;
-use crate::head::{Asked, Column, Head, Row, Wrong, value};
+use crate::head::{Asked, CsvColumn, Head, Row, Wrong, value};
 use crate::record::RecordColumn;
 
 /// Words for a value that was not measured.
@@ -38,15 +38,15 @@ impl Counted {
 pub(crate) struct Cells {
     pub(crate) head: Head,
     pub(crate) columns: Vec<RecordColumn>,
-    chosen: Vec<Column>,
+    chosen: Vec<CsvColumn>,
     /// By column.
     wrong: Vec<Counted>,
     lengths: Counted,
 }
 
 impl Cells {
-    pub(crate) fn new(head: Head, chosen: Vec<Column>) -> Self {
-        let column = |chosen: &Column| RecordColumn {
+    pub(crate) fn new(head: Head, chosen: Vec<CsvColumn>) -> Self {
+        let column = |chosen: &CsvColumn| RecordColumn {
             name: head.columns[chosen.index].name.clone(),
             unit: chosen.unit.clone(),
             values: Vec::new(),
@@ -74,7 +74,7 @@ impl Cells {
 
     /// Adds the values of a row in SI units: NaN for a gap, and in place of what is wrong.
     pub(crate) fn push(&mut self, row: &Row) {
-        for (i, Column { index, unit }) in self.chosen.iter().enumerate() {
+        for (i, CsvColumn { index, unit }) in self.chosen.iter().enumerate() {
             let value = value(row.cell(*index), unit).unwrap_or_else(|wrong| {
                 if !is_gap(row.cell(*index), wrong) {
                     self.wrong[i]

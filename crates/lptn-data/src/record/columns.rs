@@ -3,7 +3,7 @@
 use lptn_units::{Dimension, Type, Unit};
 
 use crate::diagnostic::Diagnostic;
-use crate::head::{Asked, Column, Head, Header, number};
+use crate::head::{Asked, CsvColumn, Head, Header, number};
 use crate::record::{RecordName, RecordQuery};
 
 const TIME: Type = Type::of(Dimension::TIME);
@@ -13,7 +13,7 @@ pub(crate) fn choose(
     head: &Head,
     first: Option<&csv::StringRecord>,
     query: &RecordQuery,
-) -> Result<(Column, Vec<Column>), Vec<Diagnostic>> {
+) -> Result<(CsvColumn, Vec<CsvColumn>), Vec<Diagnostic>> {
     let time = time(head, query.time.as_ref());
     let position = time.as_ref().map(|time| time.index).ok();
     let chosen = match query.columns.as_slice() {
@@ -56,7 +56,7 @@ pub(crate) fn all(
     (0..head.columns.len()).filter(move |&index| Some(index) != time && !words(index))
 }
 
-fn time(head: &Head, asked: Option<&RecordName>) -> Result<Column, Diagnostic> {
+fn time(head: &Head, asked: Option<&RecordName>) -> Result<CsvColumn, Diagnostic> {
     if let Some(asked) = asked {
         return named(head, &RecordName { ty: Some(TIME), ..asked.clone() });
     }
@@ -72,12 +72,12 @@ fn time(head: &Head, asked: Option<&RecordName>) -> Result<Column, Diagnostic> {
 }
 
 /// A column that is asked for by name.
-fn named(head: &Head, asked: &RecordName) -> Result<Column, Diagnostic> {
+fn named(head: &Head, asked: &RecordName) -> Result<CsvColumn, Diagnostic> {
     head.numbers(&asked.name, asked.ty, &Asked { words: String::new(), span: asked.span.clone() })
 }
 
 /// One of all columns.
-pub(crate) fn of_any(head: &Head, index: usize) -> Result<Column, Diagnostic> {
+pub(crate) fn of_any(head: &Head, index: usize) -> Result<CsvColumn, Diagnostic> {
     let (name, nobody) = (&head.columns[index].name, Asked::default());
     match head.columns[..index].iter().position(|header| header.name == *name) {
         Some(first) => Err(head.two_columns(first, index, &nobody)),

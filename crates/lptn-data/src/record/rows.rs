@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::form::header;
-use crate::head::{Asked, Column, Head, Row, Wrong, number, position, reader, row};
+use crate::head::{Asked, CsvColumn, Head, Row, Wrong, number, position, reader, row};
 use crate::hints;
 use crate::record::cells::{Cells, Counted, is_gap};
 use crate::record::columns::choose;
@@ -16,7 +16,7 @@ const EXAMPLE: &str = "t [s],ring [degC]";
 /// A record that is being read.
 struct Work<'t> {
     text: &'t CsvText,
-    time: Column,
+    time: CsvColumn,
     cells: Cells,
     record: Record,
     order: Order<'t>,
@@ -42,7 +42,7 @@ pub(crate) fn read(text: &CsvText, query: &RecordQuery) -> Result<Record, Vec<Di
 }
 
 impl<'t> Work<'t> {
-    fn new(text: &'t CsvText, cells: Cells, time: Column) -> Self {
+    fn new(text: &'t CsvText, cells: Cells, time: CsvColumn) -> Self {
         let comments = text.text.lines().filter_map(|line| line.strip_prefix('#'));
         let record = Record {
             file: text.file,

@@ -2,14 +2,14 @@
 
 use lptn_units::Dimension;
 
-use super::model::Law;
+use super::model::LossLaw;
 use crate::least_squares::Stop;
 
 /// A law and what came of fitting it.
 #[derive(Clone, Debug)]
-pub struct Candidate {
+pub struct LawFit {
     /// What was fitted.
-    pub law: Law,
+    pub law: LossLaw,
     /// What came of it.
     pub outcome: Outcome,
 }
@@ -82,8 +82,8 @@ pub struct Fitted {
 
 impl Fitted {
     /// Whether a coefficient is below 0: then a part of the loss would feed heat back, and another
-    /// sum fits as well as this one can without it. The exponent of [`Law::FreeExponent`] does not
-    /// count.
+    /// sum fits as well as this one can without it. The exponent of [`LossLaw::FreeExponent`] does
+    /// not count.
     pub fn negative(&self) -> bool {
         self.coefficients.iter().any(|c| c.value < 0.0 && !c.dimension.is_none())
     }
@@ -94,7 +94,7 @@ impl Fitted {
     }
 }
 
-impl Candidate {
+impl LawFit {
     /// The fit, if there is one.
     pub fn fitted(&self) -> Option<&Fitted> {
         match &self.outcome {
@@ -107,7 +107,7 @@ impl Candidate {
     /// without a negative coefficient. What a user writes may have coefficients of any sign.
     pub fn eligible(&self) -> bool {
         let fitted = self.fitted().filter(|fitted| fitted.aicc.is_some());
-        fitted.is_some_and(|fitted| matches!(self.law, Law::Written(_)) || !fitted.negative())
+        fitted.is_some_and(|fitted| matches!(self.law, LossLaw::Written(_)) || !fitted.negative())
     }
 
     /// Why there is nothing to show, or why it is not an answer; `None` where nothing has to be
@@ -115,7 +115,7 @@ impl Candidate {
     pub fn remark(&self) -> Option<String> {
         match &self.outcome {
             Outcome::Fitted(fitted)
-                if !matches!(self.law, Law::Written(_)) && fitted.negative() =>
+                if !matches!(self.law, LossLaw::Written(_)) && fitted.negative() =>
             {
                 Some("a coefficient is negative".to_owned())
             }

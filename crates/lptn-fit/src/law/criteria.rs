@@ -1,6 +1,6 @@
 //! How laws with different numbers of coefficients are compared.
 
-use super::candidate::{Candidate, Fitted};
+use super::candidate::{Fitted, LawFit};
 use super::points::Points;
 
 /// Root of the mean square of misses: the divisor is their number.
@@ -13,12 +13,12 @@ pub(crate) fn rms(misses: impl ExactSizeIterator<Item = f64>) -> f64 {
 /// freedom of the law with the most coefficients, at least 1 (K. P. Burnham, D. R. Anderson, Model
 /// Selection and Multimodel Inference, 2nd edition, Springer 2002, section 2.5). 1 without standard
 /// errors, where it is part of each fit.
-pub(crate) fn dispersion(candidates: &[Candidate], points: &Points) -> f64 {
+pub(crate) fn dispersion(candidates: &[LawFit], points: &Points) -> f64 {
     if points.deviation().is_none() {
         return 1.0;
     }
     let fits =
-        candidates.iter().filter_map(Candidate::fitted).filter(|fit| fit.degrees_of_freedom > 0);
+        candidates.iter().filter_map(LawFit::fitted).filter(|fit| fit.degrees_of_freedom > 0);
     let ratio = |fit: &Fitted| fit.squares / fit.degrees_of_freedom as f64;
     let general = fits.min_by(|a, b| {
         a.degrees_of_freedom.cmp(&b.degrees_of_freedom).then(ratio(a).total_cmp(&ratio(b)))

@@ -8,7 +8,7 @@
 //! between the laws that were fitted to each. [`RunsStudy`] begins with the records themselves.
 //!
 //! ```
-//! use lptn_fit::law::{Law, LawStudy, Points};
+//! use lptn_fit::law::{LawStudy, LossLaw, Points};
 //!
 //! // 87 uW/rpm^(5/3) and a disturbance of 1 W
 //! let rpm = std::f64::consts::TAU / 60.0;
@@ -16,7 +16,7 @@
 //! let noise = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0];
 //! let power = speeds.iter().zip(noise).map(|(n, w)| 87e-6 * f64::powf(*n, 5.0 / 3.0) + w).collect();
 //! let points = Points::new(speeds.map(|n| n * rpm).to_vec(), power, None)?;
-//! let study = LawStudy::new(points, Law::standard());
+//! let study = LawStudy::new(points, LossLaw::standard());
 //! assert_eq!(study.best().unwrap().law.to_string(), "omega^(5/3)");
 //! # Ok::<(), lptn_fit::law::LawError>(())
 //! ```
@@ -35,10 +35,10 @@ mod stated;
 mod study;
 mod written;
 
-pub use candidate::{Candidate, Coefficient, Fitted, Outcome};
+pub use candidate::{Coefficient, Fitted, LawFit, Outcome};
 pub use consistency::{AtSpeed, CLOSE, Consistency, Level, Measured, SIGNIFICANT, Significance};
 pub use error::LawError;
-pub use model::Law;
+pub use model::LossLaw;
 pub use points::{Points, Variable};
 pub use runs::{
     ColumnFits, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy, Systematic,

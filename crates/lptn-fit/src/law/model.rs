@@ -10,7 +10,7 @@ use super::written::WrittenLaw;
 
 /// A law of power over speed.
 #[derive(Clone, Debug)]
-pub enum Law {
+pub enum LossLaw {
     /// The sum of these powers of the speed, each with a coefficient. Their signs are left free:
     /// where a coefficient comes out negative, the best sum without negative coefficients is one of
     /// the shorter sums, which stands beside it.
@@ -21,7 +21,7 @@ pub enum Law {
     Written(Box<WrittenLaw>),
 }
 
-impl Law {
+impl LossLaw {
     /// omega, omega^(5/3) and omega^3, every sum of them, and a free exponent.
     pub fn standard() -> Vec<Self> {
         let exponents =
@@ -84,7 +84,7 @@ impl Law {
     }
 }
 
-impl fmt::Display for Law {
+impl fmt::Display for LossLaw {
     /// `omega + omega^3`, `omega^n`, or the law as written.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -3,14 +3,14 @@
 use lptn_solve::in_parallel;
 use lptn_units::statistics;
 
-use super::candidate::{Candidate, Outcome};
+use super::candidate::{LawFit, Outcome};
 use super::consistency::{Consistency, Measured};
 use super::error::LawError;
-use super::model::Law;
+use super::model::LossLaw;
 use super::points::Points;
 use super::solve;
 use super::study::LawStudy;
-use crate::step::{Capacity, Power, Reference, Sensor, StepError, StepFit};
+use crate::step::{Capacity, Power, ReferenceTemperature, Sensor, StepError, StepFit};
 
 /// A record at one speed.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,8 +50,8 @@ pub struct RunsSettings {
     pub sensor: Sensor,
     /// Whether every run counts the same, whatever the random error of its power.
     pub unweighted: bool,
-    /// The laws to fit; where it is empty, [`Law::standard`].
-    pub laws: Vec<Law>,
+    /// The laws to fit; where it is empty, [`LossLaw::standard`].
+    pub laws: Vec<LossLaw>,
     /// How many threads may work.
     pub threads: usize,
 }
@@ -67,7 +67,7 @@ pub enum RunsError {
     Step { run: String, column: String, error: Box<StepError> } = error.code(),
         format!("{run}, column `{column}`: {error}"), source error.as_ref(), help error.help();
     /// The powers could not become points of a law.
-    Law => LawError;
+    LossLaw => LawError;
 }
 }
 
@@ -142,7 +142,8 @@ impl RunsStudy {
         let random: Vec<f64> = first.iter().map(|f| f.power.power.random).collect();
         let weights = (!settings.unweighted).then(|| random.clone());
         let points = Points::new(speeds.clone(), power.clone(), weights)?;
-        let laws = if settings.laws.is_empty() { Law::standard() } else { settings.laws.clone() };
+        let laws =
+            if settings.laws.is_empty() { LossLaw::standard() } else { settings.laws.clone() };
         let rise: Vec<f64> = first.iter().map(|f| f.power.rise.value).collect();
         let time_constant: Vec<f64> = first.iter().map(|f| f.fit.tau.value).collect();
         let of_rise: Vec<f64> = first.iter().map(|f| f.power.rise.random).collect();
@@ -165,7 +166,7 @@ impl RunsStudy {
 
     /// The systematic errors of the coefficients of a law, in its order and in SI units: by fitting
     /// powers that are off by one standard deviation. `None` where the law was not fitted.
-    pub fn systematic(&self, candidate: &Candidate) -> Option<Vec<Systematic>> {
+    pub fn systematic(&self, candidate: &LawFit) -> Option<Vec<Systematic>> {
         let before = candidate.fitted()?;
         let first = &self.columns.first()?.fits;
         let capacity = self.settings.capacity;
@@ -219,11 +220,13 @@ fn fits(run: &Run, settings: &RunsSettings) -> Result<Vec<RunFit>, RunsError> {
         found.ok_or_else(|| RunsError::Column { run: run.name.clone(), column: column.clone() })
     };
     let reference = match &settings.reference {
-        RunReference::Initial => Reference::Initial,
-        RunReference::Value(kelvin) => Reference::Value(*kelvin),
-        RunReference::Column(name) => {
-            Reference::Column { name: name.clone(), times: &run.times, temperatures: find(name)? }
-        }
+        RunReference::Initial => ReferenceTemperature::Initial,
+        RunReference::Value(kelvin) => ReferenceTemperature::Value(*kelvin),
+        RunReference::Column(name) => ReferenceTemperature::Column {
+            name: name.clone(),
+            times: &run.times,
+            temperatures: find(name)?,
+        },
     };
     let fitted = |column: &String| {
         let failed = |error| {

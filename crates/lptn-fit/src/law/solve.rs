@@ -5,7 +5,7 @@ use lptn_integrate::dense;
 
 use super::candidate::{Coefficient, Fitted, Outcome};
 use super::criteria::rms;
-use super::model::Law;
+use super::model::LossLaw;
 use super::points::Points;
 use crate::Covariance;
 use crate::least_squares::{self, Residuals, Settings};
@@ -15,10 +15,10 @@ use crate::least_squares::{self, Residuals, Settings};
 const REFITS: usize = 500;
 
 /// Fits a law; without its criterion.
-pub(crate) fn fit(law: &Law, points: &Points) -> Outcome {
+pub(crate) fn fit(law: &LossLaw, points: &Points) -> Outcome {
     let (needed, speeds) = (law.count(), points.distinct_speeds());
     // what a user writes may use more than the speed
-    let speed_alone = points.variables().len() == 1 || !matches!(law, Law::Written(_));
+    let speed_alone = points.variables().len() == 1 || !matches!(law, LossLaw::Written(_));
     if points.len() < needed || (speed_alone && speeds < needed) {
         return Outcome::TooFew { needed, points: points.len(), speeds };
     }
@@ -38,7 +38,7 @@ struct Local {
 }
 
 impl Local {
-    fn new(law: &Law, points: &Points, p: &[f64]) -> Result<Self, Outcome> {
+    fn new(law: &LossLaw, points: &Points, p: &[f64]) -> Result<Self, Outcome> {
         let (mut values, mut rows) = (Vec::new(), Vec::new());
         for point in 0..points.len() {
             let found = law.evaluate(p, points, point);
@@ -87,8 +87,8 @@ impl Local {
 }
 
 /// Whether the derivatives by the coefficients are the same wherever these are.
-fn linear(law: &Law, points: &Points) -> bool {
-    let Law::Written(written) = law else { return matches!(law, Law::Powers(_)) };
+fn linear(law: &LossLaw, points: &Points) -> bool {
+    let LossLaw::Written(written) = law else { return matches!(law, LossLaw::Powers(_)) };
     let [first, .., last] = &written.starts()[..] else {
         return written.starts().first().is_some_and(|start| {
             same_slopes(
@@ -102,7 +102,7 @@ fn linear(law: &Law, points: &Points) -> bool {
     same_slopes(law, points, first, last)
 }
 
-fn same_slopes(law: &Law, points: &Points, one: &[f64], other: &[f64]) -> bool {
+fn same_slopes(law: &LossLaw, points: &Points, one: &[f64], other: &[f64]) -> bool {
     let (Ok(one), Ok(other)) = (Local::new(law, points, one), Local::new(law, points, other))
     else {
         return false;
@@ -114,11 +114,11 @@ fn same_slopes(law: &Law, points: &Points, one: &[f64], other: &[f64]) -> bool {
 }
 
 /// Where searches begin.
-fn starts(law: &Law, points: &Points) -> Vec<Vec<f64>> {
+fn starts(law: &LossLaw, points: &Points) -> Vec<Vec<f64>> {
     match law {
-        Law::Powers(exponents) => vec![vec![0.0; exponents.len()]],
-        Law::Written(written) => written.starts(),
-        Law::FreeExponent => {
+        LossLaw::Powers(exponents) => vec![vec![0.0; exponents.len()]],
+        LossLaw::Written(written) => written.starts(),
+        LossLaw::FreeExponent => {
             let top = points.largest_power().max(f64::MIN_POSITIVE);
             [1.0, 2.0, 0.0].iter().map(|n| vec![top, *n]).collect()
         }
@@ -126,7 +126,7 @@ fn starts(law: &Law, points: &Points) -> Vec<Vec<f64>> {
 }
 
 /// The best coefficients, or why there are none; `near` is where they are expected.
-fn search(law: &Law, points: &Points, near: Option<&[f64]>) -> Result<Vec<f64>, Outcome> {
+fn search(law: &LossLaw, points: &Points, near: Option<&[f64]>) -> Result<Vec<f64>, Outcome> {
     let starts = near.map_or_else(|| starts(law, points), |near| vec![near.to_vec()]);
     if linear(law, points) {
         let start = &starts[0];
@@ -147,7 +147,7 @@ fn search(law: &Law, points: &Points, near: Option<&[f64]>) -> Result<Vec<f64>, 
 }
 
 struct Search<'a> {
-    law: &'a Law,
+    law: &'a LossLaw,
     points: &'a Points,
 }
 
@@ -165,12 +165,12 @@ impl Residuals for Search<'_> {
     }
 }
 
-fn descend(law: &Law, points: &Points, start: &[f64]) -> Result<(f64, Vec<f64>), Outcome> {
+fn descend(law: &LossLaw, points: &Points, start: &[f64]) -> Result<(f64, Vec<f64>), Outcome> {
     Local::new(law, points, start)?;
     match least_squares::minimise(&mut Search { law, points }, start, &Settings::default()) {
         Ok(found) => match found.outcome {
-            least_squares::Outcome::Converged(_) => Ok((found.squares, found.parameters)),
-            least_squares::Outcome::NotConverged(stop) => Err(Outcome::NotConverged(stop)),
+            least_squares::Termination::Converged(_) => Ok((found.squares, found.parameters)),
+            least_squares::Termination::NotConverged(stop) => Err(Outcome::NotConverged(stop)),
         },
         Err(_) => Err(Outcome::NotDetermined),
     }
@@ -180,7 +180,7 @@ fn descend(law: &Law, points: &Points, start: &[f64]) -> Result<(f64, Vec<f64>),
 const DRIFT: f64 = 1e3;
 
 /// Everything about a law with these coefficients but its criterion.
-fn conclude(law: &Law, points: &Points, p: &[f64]) -> Outcome {
+fn conclude(law: &LossLaw, points: &Points, p: &[f64]) -> Outcome {
     let local = match Local::new(law, points, p) {
         Ok(local) => local,
         Err(outcome) => return outcome,
@@ -224,7 +224,7 @@ fn variance(squares: f64, degrees_of_freedom: usize, points: &Points) -> Option<
 }
 
 fn leave_one_out(
-    law: &Law,
+    law: &LossLaw,
     points: &Points,
     (p, local): (&[f64], &Local),
     inverse: &Covariance,

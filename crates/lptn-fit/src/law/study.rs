@@ -1,8 +1,8 @@
 //! Laws side by side.
 
-use super::candidate::{Candidate, Fitted, Outcome};
+use super::candidate::{Fitted, LawFit, Outcome};
 use super::criteria::{aicc, dispersion};
-use super::model::Law;
+use super::model::LossLaw;
 use super::points::Points;
 use super::solve;
 
@@ -16,7 +16,7 @@ pub struct LawStudy {
     /// What the laws were fitted to.
     pub points: Points,
     /// The laws: those that may be the answer by AICc, then the others.
-    pub candidates: Vec<Candidate>,
+    pub candidates: Vec<LawFit>,
     /// By how much the variance is larger than the standard errors given say, at least 1; see
     /// [`Fitted::aicc`](super::Fitted::aicc).
     pub dispersion: f64,
@@ -24,12 +24,12 @@ pub struct LawStudy {
 
 impl LawStudy {
     /// Fits every law to the points and ranks them.
-    pub fn new(points: Points, laws: Vec<Law>) -> Self {
-        let fitted = |law: Law| {
+    pub fn new(points: Points, laws: Vec<LossLaw>) -> Self {
+        let fitted = |law: LossLaw| {
             let outcome = solve::fit(&law, &points);
-            Candidate { law, outcome }
+            LawFit { law, outcome }
         };
-        let mut candidates: Vec<Candidate> = laws.into_iter().map(fitted).collect();
+        let mut candidates: Vec<LawFit> = laws.into_iter().map(fitted).collect();
         let dispersion = dispersion(&candidates, &points);
         for candidate in &mut candidates {
             if let Outcome::Fitted(fit) = &mut candidate.outcome {
@@ -42,43 +42,43 @@ impl LawStudy {
     }
 
     /// The law with the least AICc; `None` where no law has one.
-    pub fn best(&self) -> Option<&Candidate> {
+    pub fn best(&self) -> Option<&LawFit> {
         self.candidates.first().filter(|first| first.eligible())
     }
 
     /// By how much the AICc of a law is above that of the best.
-    pub fn behind(&self, candidate: &Candidate) -> Option<f64> {
-        let aicc = |candidate: &Candidate| candidate.fitted()?.aicc;
+    pub fn behind(&self, candidate: &LawFit) -> Option<f64> {
+        let aicc = |candidate: &LawFit| candidate.fitted()?.aicc;
         Some(aicc(candidate)? - aicc(self.best()?)?)
     }
 
     /// The laws other than the best that may be the answer too: less than [`ALIKE`] behind.
-    pub fn rivals(&self) -> Vec<&Candidate> {
+    pub fn rivals(&self) -> Vec<&LawFit> {
         let close =
-            |c: &&Candidate| c.eligible() && self.behind(c).is_some_and(|behind| behind < ALIKE);
+            |c: &&LawFit| c.eligible() && self.behind(c).is_some_and(|behind| behind < ALIKE);
         self.candidates.iter().skip(1).filter(close).collect()
     }
 
     /// The laws of one power with the standard exponents, best first: the kinds of loss by
     /// themselves.
-    pub fn single_powers(&self) -> Vec<&Candidate> {
+    pub fn single_powers(&self) -> Vec<&LawFit> {
         let single =
-            |c: &&Candidate| matches!(&c.law, Law::Powers(exponents) if exponents.len() == 1);
+            |c: &&LawFit| matches!(&c.law, LossLaw::Powers(exponents) if exponents.len() == 1);
         self.candidates.iter().filter(single).collect()
     }
 
     /// The law with the least root of the mean square of what it misses (the paper's choice).
-    pub fn least_rmse(&self) -> Option<&Candidate> {
+    pub fn least_rmse(&self) -> Option<&LawFit> {
         self.least(|fit| Some(fit.rmse))
     }
 
     /// The law that best foretells a point it was not fitted to.
-    pub fn least_leave_one_out(&self) -> Option<&Candidate> {
+    pub fn least_leave_one_out(&self) -> Option<&LawFit> {
         self.least(|fit| fit.leave_one_out)
     }
 
-    fn least(&self, of: impl Fn(&Fitted) -> Option<f64>) -> Option<&Candidate> {
-        let value = |c: &Candidate| c.fitted().and_then(&of).unwrap_or(f64::INFINITY);
+    fn least(&self, of: impl Fn(&Fitted) -> Option<f64>) -> Option<&LawFit> {
+        let value = |c: &LawFit| c.fitted().and_then(&of).unwrap_or(f64::INFINITY);
         let eligible = self.candidates.iter().filter(|c| c.eligible());
         eligible.filter(|c| value(c).is_finite()).min_by(|a, b| value(a).total_cmp(&value(b)))
     }
@@ -110,7 +110,7 @@ impl LawStudy {
 }
 
 /// Answers first, by AICc; then what was fitted, by its misses; then what was not.
-fn order(candidate: &Candidate) -> (u8, f64) {
+fn order(candidate: &LawFit) -> (u8, f64) {
     match candidate.fitted() {
         Some(fit) if candidate.eligible() => (0, fit.aicc.unwrap_or(f64::INFINITY)),
         Some(fit) => (1, fit.rmse),

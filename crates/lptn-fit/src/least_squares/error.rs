@@ -2,7 +2,7 @@
 
 lptn_units::errors! {
 /// Why the sum of squares could not be minimised. A search that ends without a minimum is an
-/// [`Outcome`](super::Outcome) and no error. Parameters are counted from 0.
+/// [`Termination`](super::Termination) and no error. Parameters are counted from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LeastSquaresError {
     /// The model asked for an end.

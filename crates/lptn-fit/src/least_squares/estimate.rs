@@ -52,7 +52,7 @@ impl Stop {
 
 /// How a search ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Outcome {
+pub enum Termination {
     /// At a minimum.
     Converged(Test),
     /// Elsewhere: the parameters are those of the lowest sum of squares that was seen, and no
@@ -60,7 +60,7 @@ pub enum Outcome {
     NotConverged(Stop),
 }
 
-impl Outcome {
+impl Termination {
     /// Whether it ended at a minimum.
     pub fn converged(self) -> bool {
         matches!(self, Self::Converged(_))
@@ -69,11 +69,11 @@ impl Outcome {
 
 /// Where a search ended. Residuals of priors stand behind those of the data.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Estimate {
+pub struct LeastSquaresFit {
     /// The parameters, in their order.
     pub parameters: Vec<f64>,
     /// How the search ended.
-    pub outcome: Outcome,
+    pub outcome: Termination,
     /// The bound that each parameter sits on. There the data ask for a value beyond the bound, or
     /// for none at all.
     pub on_bound: Vec<Option<Side>>,
@@ -94,7 +94,7 @@ pub struct Estimate {
     pub evaluations: usize,
 }
 
-impl Estimate {
+impl LeastSquaresFit {
     /// The parameters that sit on no bound.
     pub fn free(&self) -> Vec<usize> {
         (0..self.parameters.len()).filter(|&j| self.on_bound[j].is_none()).collect()

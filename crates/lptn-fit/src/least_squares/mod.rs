@@ -7,7 +7,7 @@
 //! the units of the parameters do not matter. Bounds are part of each step: it minimises the linear
 //! model inside the box and the region by an active set (P. B. Stark and R. L. Parker,
 //! Computational Statistics 10 (1995) 129), so a minimum on a bound is reached and
-//! [`Estimate::on_bound`] says which.
+//! [`LeastSquaresFit::on_bound`] says which.
 //!
 //! Only the triangular factor of `[J r]` is used; `J^T J` is never formed.
 //!
@@ -44,7 +44,7 @@ mod region;
 mod search;
 
 pub use error::LeastSquaresError;
-pub use estimate::{Estimate, Outcome, Side, Stop, Test};
+pub use estimate::{LeastSquaresFit, Side, Stop, Termination, Test};
 pub use search::minimise;
 
 /// Residuals, and their derivatives or nothing.

@@ -1,7 +1,7 @@
 //! The search for the minimum.
 
 use super::error::LeastSquaresError;
-use super::estimate::{Estimate, Outcome, Side, Stop, Test};
+use super::estimate::{LeastSquaresFit, Side, Stop, Termination, Test};
 use super::linear::Triangle;
 use super::region::{Region, Room, length};
 use super::{Evaluated, Residuals, Settings};
@@ -17,7 +17,7 @@ type Fallible<T> = Result<T, LeastSquaresError>;
 /// A start outside its bounds begins on them. The minimum is a local one. The tests are those of
 /// [`Settings`], each of the full step that leads to the minimum of the linear model inside the
 /// box, not of one that the trust region cut short; a search that none of them ends says so in
-/// [`Estimate::outcome`].
+/// [`LeastSquaresFit::outcome`].
 ///
 /// # Errors
 /// [`LeastSquaresError`]
@@ -25,7 +25,7 @@ pub fn minimise<P: Residuals>(
     problem: &mut P,
     start: &[f64],
     settings: &Settings,
-) -> Fallible<Estimate> {
+) -> Fallible<LeastSquaresFit> {
     check(problem.parameters(), start, settings)?;
     let mut search = Search { problem, settings, evaluations: 0, data: 0 };
     let clamped =
@@ -177,9 +177,14 @@ impl<P: Residuals> Search<'_, P> {
         parameters.iter().enumerate().map(room).collect()
     }
 
-    fn run(&mut self, start: Point) -> Fallible<Estimate> {
+    fn run(&mut self, start: Point) -> Fallible<LeastSquaresFit> {
         if !start.is_finite() {
-            return Ok(self.end(start, Outcome::NotConverged(Stop::StartNotFinite), f64::NAN, 0));
+            return Ok(self.end(
+                start,
+                Termination::NotConverged(Stop::StartNotFinite),
+                f64::NAN,
+                0,
+            ));
         }
         let mut scales = vec![0.0; start.parameters.len()];
         let mut here = self.place(start, &mut scales)?;
@@ -188,10 +193,10 @@ impl<P: Residuals> Search<'_, P> {
         let mut iterations = 0;
         let outcome = loop {
             if let Some(test) = self.at_minimum(&here) {
-                break Outcome::Converged(test);
+                break Termination::Converged(test);
             }
             if iterations == self.settings.iterations {
-                break Outcome::NotConverged(Stop::Iterations);
+                break Termination::NotConverged(Stop::Iterations);
             }
             let (next, ends) = match self.descend(&here, &scales, &mut radius)? {
                 Descent::Lower(next) => (next, false),
@@ -199,11 +204,11 @@ impl<P: Residuals> Search<'_, P> {
                 Descent::Stopped(stop) => break self.stopped(&here, stop),
             };
             if !next.is_finite() {
-                break Outcome::NotConverged(Stop::DerivativeNotFinite);
+                break Termination::NotConverged(Stop::DerivativeNotFinite);
             }
             let next = self.place(next, &mut scales)?;
             if ends && next.offset > 0.9 * here.offset {
-                break Outcome::Converged(Test::Cost);
+                break Termination::Converged(Test::Cost);
             }
             here = next;
             iterations += 1;
@@ -232,11 +237,11 @@ impl<P: Residuals> Search<'_, P> {
     }
 
     /// Where no step leads lower, a minimum whose residuals are rounding is one all the same.
-    fn stopped(&self, here: &Place, stop: Stop) -> Outcome {
+    fn stopped(&self, here: &Place, stop: Stop) -> Termination {
         if here.moves_less_than(1e-8) {
-            Outcome::Converged(Test::Step)
+            Termination::Converged(Test::Step)
         } else {
-            Outcome::NotConverged(stop)
+            Termination::NotConverged(stop)
         }
     }
 
@@ -282,8 +287,14 @@ impl<P: Residuals> Search<'_, P> {
         Ok(Trial { parameters, cut, length, predicted, lowered })
     }
 
-    fn end(&self, point: Point, outcome: Outcome, offset: f64, iterations: usize) -> Estimate {
-        Estimate {
+    fn end(
+        &self,
+        point: Point,
+        outcome: Termination,
+        offset: f64,
+        iterations: usize,
+    ) -> LeastSquaresFit {
+        LeastSquaresFit {
             parameters: point.parameters,
             outcome,
             on_bound: point.sides,

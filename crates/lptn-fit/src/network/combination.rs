@@ -12,7 +12,7 @@ const ACROSS: f64 = 1e-3;
 
 /// What a determined combination is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum CombinationKind {
     /// A product of powers.
     Product,
     /// A sum of multiples.

@@ -1,7 +1,7 @@
 //! What data determine of the parameters, and what they do not.
 
 use crate::Spectrum;
-use crate::network::combination::{Kind, combinations};
+use crate::network::combination::{CombinationKind, combinations};
 
 /// A parameter takes part in an undetermined direction if its share of it is larger than this.
 const SHARE: f64 = 1e-4;
@@ -18,7 +18,7 @@ const MOVED: f64 = 0.2;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Combination {
     /// Whether it is a product or a sum.
-    pub kind: Kind,
+    pub kind: CombinationKind,
     /// Place among the varied parameters, and exponent or factor.
     pub terms: Vec<(usize, i32)>,
     /// Its value in SI units.
@@ -213,9 +213,10 @@ impl Group {
         let products = self.members.iter().all(|&i| place.is_logarithmic(i));
         let sums = self.members.iter().all(|&i| (place.addable)(self.members[0], i));
         let mut determined = None;
-        for (kind, possible, directions) in
-            [(Kind::Product, products, &self.directions), (Kind::Sum, sums, &plain)]
-        {
+        for (kind, possible, directions) in [
+            (CombinationKind::Product, products, &self.directions),
+            (CombinationKind::Sum, sums, &plain),
+        ] {
             if !possible || determined.is_some() {
                 continue;
             }
@@ -242,14 +243,19 @@ impl Group {
 
     /// The parameters moved along a direction, as far as their combinations of this kind stay the
     /// same exactly.
-    fn moved(&self, place: &Place<'_>, kind: Kind, direction: &[f64]) -> Option<Vec<f64>> {
+    fn moved(
+        &self,
+        place: &Place<'_>,
+        kind: CombinationKind,
+        direction: &[f64],
+    ) -> Option<Vec<f64>> {
         let largest = direction.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
         let mut values = place.values.to_vec();
         for (&i, d) in self.members.iter().zip(direction) {
             let step = MOVED * d / largest;
             values[i] = match kind {
-                Kind::Product => values[i] * step.exp(),
-                Kind::Sum => values[i] + step * place.scales[i],
+                CombinationKind::Product => values[i] * step.exp(),
+                CombinationKind::Sum => values[i] + step * place.scales[i],
             };
         }
         values.iter().all(|v| v.is_finite()).then_some(values)
@@ -266,12 +272,16 @@ impl Group {
         each.sum::<f64>().sqrt()
     }
 
-    fn combination(&self, place: &Place<'_>, kind: Kind, c: &[i32]) -> Combination {
+    fn combination(&self, place: &Place<'_>, kind: CombinationKind, c: &[i32]) -> Combination {
         let terms: Vec<(usize, i32)> =
             self.members.iter().copied().zip(c.iter().copied()).filter(|(_, c)| *c != 0).collect();
         let value = match kind {
-            Kind::Product => terms.iter().map(|&(i, c)| place.values[i].powi(c)).product(),
-            Kind::Sum => terms.iter().map(|&(i, c)| place.values[i] * f64::from(c)).sum(),
+            CombinationKind::Product => {
+                terms.iter().map(|&(i, c)| place.values[i].powi(c)).product()
+            }
+            CombinationKind::Sum => {
+                terms.iter().map(|&(i, c)| place.values[i] * f64::from(c)).sum()
+            }
         };
         Combination { kind, terms, value }
     }
@@ -313,7 +323,7 @@ mod tests {
         identify(&place, &mut |p| Some(model(p))).unwrap()
     }
 
-    fn names(found: &Identifiability) -> Vec<(Kind, Vec<(usize, i32)>)> {
+    fn names(found: &Identifiability) -> Vec<(CombinationKind, Vec<(usize, i32)>)> {
         let all = found.unseparated.iter().flat_map(|group| group.determined.iter().flatten());
         all.map(|c| (c.kind, c.terms.clone())).collect()
     }
@@ -330,7 +340,10 @@ mod tests {
         assert_eq!((found.rank, found.unfelt.len()), (2, 0));
         assert_eq!(
             names(&found),
-            [(Kind::Product, vec![(0, 1), (1, 1)]), (Kind::Product, vec![(1, 1), (2, 1)])]
+            [
+                (CombinationKind::Product, vec![(0, 1), (1, 1)]),
+                (CombinationKind::Product, vec![(1, 1), (2, 1)])
+            ]
         );
         let values: Vec<f64> =
             found.unseparated[0].determined.iter().flatten().map(|c| c.value).collect();
@@ -351,7 +364,7 @@ mod tests {
                 cooled.iter().map(|e| (1.0 - e) * 7.0 / (p[0] + p[1])).collect()
             };
             let found = told(&values, model);
-            assert_eq!(names(&found), [(Kind::Sum, vec![(0, 1), (1, 1)])], "{values:?}");
+            assert_eq!(names(&found), [(CombinationKind::Sum, vec![(0, 1), (1, 1)])], "{values:?}");
             assert_eq!(found.unseparated[0].parameters, [0, 1]);
             assert!(found.determines(2) && !found.determines(0));
         }
@@ -368,7 +381,10 @@ mod tests {
         assert_eq!(found.unfelt, [4]);
         assert_eq!(
             names(&found),
-            [(Kind::Product, vec![(0, 1), (1, 1)]), (Kind::Sum, vec![(2, 1), (3, 1)])]
+            [
+                (CombinationKind::Product, vec![(0, 1), (1, 1)]),
+                (CombinationKind::Sum, vec![(2, 1), (3, 1)])
+            ]
         );
         assert_eq!(found.singular_values.len(), 5);
     }

@@ -22,13 +22,13 @@ mod plan;
 mod search;
 mod task;
 
-pub use combination::Kind;
+pub use combination::CombinationKind;
 pub use error::NetworkFitError;
 pub use fitted::{ColumnMisfit, FittedParameter, NetworkFit};
 pub use identify::{Combination, Identifiability, Unseparated};
 pub use lptn_network::Varied;
 pub use search::Starts;
-pub use task::{FitObserver, FitStage, Measured, MeasuredRun, NetworkFitTask};
+pub use task::{FitObserver, FitStage, MeasuredColumn, MeasuredRun, NetworkFitTask};
 
 use lptn_solve::{Gradient, Proceed};
 

@@ -5,13 +5,14 @@ use std::ops::Range;
 use lptn_assembly::ChangeError;
 use lptn_network::{Network, OutputTimes, ParameterId, Varied};
 use lptn_solve::{
-    Gradient, Record, SensitiveError, SensitiveRun, Transient, in_parallel, sensitive_run_observed,
+    Gradient, RecordedNodes, SensitiveError, SensitiveRun, Transient, in_parallel,
+    sensitive_run_observed,
 };
 
 use crate::least_squares::{self, LeastSquaresError, Residuals};
 use crate::network::coordinates::Coordinates;
 use crate::network::error::NetworkFitError;
-use crate::network::task::{FitObserver, FitStage, Measured, MeasuredRun, NetworkFitTask};
+use crate::network::task::{FitObserver, FitStage, MeasuredColumn, MeasuredRun, NetworkFitTask};
 
 /// The residuals of one column of one record.
 #[derive(Clone, Debug)]
@@ -236,7 +237,7 @@ fn settings(run: &MeasuredRun, rows: &[usize], tolerance: f64) -> Transient {
         stop,
         output: OutputTimes::At(between.collect()),
         tolerance,
-        record: Record::Nodes(run.nodes()),
+        record: RecordedNodes::Nodes(run.nodes()),
         watch: Vec::new(),
         windows: Vec::new(),
         balance: None,
@@ -274,7 +275,7 @@ fn measure(
 
 /// The rows of the measured temperature, or of its derivative.
 fn combined(
-    column: &Measured,
+    column: &MeasuredColumn,
     of_node: impl Fn(lptn_network::NodeId) -> Option<Vec<f64>>,
     skipped: usize,
 ) -> Vec<f64> {

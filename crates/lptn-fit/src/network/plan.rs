@@ -5,7 +5,7 @@ use lptn_network::{End, Network, NodeId, Time};
 use lptn_solve::Transient;
 
 use crate::network::error::NetworkFitError;
-use crate::network::task::{Measured, MeasuredRun, NetworkFitTask};
+use crate::network::task::{MeasuredColumn, MeasuredRun, NetworkFitTask};
 
 /// Searches that begin between the bounds, where the netlist does not say.
 const MORE_STARTS: usize = 4;
@@ -44,7 +44,7 @@ impl<'a> NetworkFitTask<'a> {
                     .record
                     .column(&observed.column)
                     .map_or_else(Vec::new, |c| c.values.clone());
-                Measured {
+                MeasuredColumn {
                     name: observed.column.clone(),
                     of: of[i].clone(),
                     sigma: plan.sigmas[i],

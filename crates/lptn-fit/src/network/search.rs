@@ -2,7 +2,7 @@
 
 use lptn_solve::{Gradient, SensitiveError};
 
-use crate::least_squares::{Estimate, Outcome, Settings, Stop, minimise};
+use crate::least_squares::{LeastSquaresFit, Settings, Stop, Termination, minimise};
 use crate::network::coordinates::Coordinates;
 use crate::network::error::NetworkFitError;
 use crate::network::model::Model;
@@ -38,7 +38,7 @@ pub struct Starts {
 
 /// Where the searches ended.
 pub(crate) struct Found<'a> {
-    pub(crate) estimate: Estimate,
+    pub(crate) estimate: LeastSquaresFit,
     /// Whether that is a minimum; why not.
     pub(crate) outcome: Result<(), Stop>,
     pub(crate) starts: Starts,
@@ -117,9 +117,9 @@ fn starts(task: &NetworkFitTask<'_>, coordinates: &Coordinates, own: &[f64]) -> 
 }
 
 /// The lowest minimum, or the lowest point where no search found one; how the others compare.
-fn best(ends: &[Estimate], model: &Model<'_>, tolerance: f64) -> (usize, Starts) {
+fn best(ends: &[LeastSquaresFit], model: &Model<'_>, tolerance: f64) -> (usize, Starts) {
     let floor = floor(model, tolerance);
-    let converged = |end: &Estimate| end.outcome.converged() || removable(end) <= floor;
+    let converged = |end: &LeastSquaresFit| end.outcome.converged() || removable(end) <= floor;
     let rank = |i: &usize| (!converged(&ends[*i]), ends[*i].squares);
     let order = |a: &usize, b: &usize| {
         let (a, b) = (rank(a), rank(b));
@@ -128,7 +128,7 @@ fn best(ends: &[Estimate], model: &Model<'_>, tolerance: f64) -> (usize, Starts)
     };
     let best = (0..ends.len()).min_by(order).unwrap_or(0);
     let least = ends[best].squares;
-    let is_same = |end: &&Estimate| end.squares <= least * (1.0 + SAME) + floor * floor;
+    let is_same = |end: &&LeastSquaresFit| end.squares <= least * (1.0 + SAME) + floor * floor;
     let minima = || ends.iter().filter(|end| converged(end));
     let (same, found) = (minima().filter(is_same).count(), minima().count());
     (best, Starts { tried: ends.len(), same, other: found - same, failed: ends.len() - found })
@@ -140,23 +140,23 @@ fn floor(model: &Model<'_>, tolerance: f64) -> f64 {
 }
 
 /// The root of the sum of squares that could still be removed.
-fn removable(end: &Estimate) -> f64 {
+fn removable(end: &LeastSquaresFit) -> f64 {
     end.offset * end.squares.sqrt()
 }
 
 /// A search that gets no further because what is left to remove is less than the errors of the runs
 /// is at its minimum.
-fn outcome(end: &Estimate, floor: f64, gradient: &Gradient) -> Result<(), Stop> {
+fn outcome(end: &LeastSquaresFit, floor: f64, gradient: &Gradient) -> Result<(), Stop> {
     /// Differences of runs are no more accurate than this.
     const DIFFERENCES: f64 = 1e-3;
     match end.outcome {
-        Outcome::Converged(_) => Ok(()),
-        Outcome::NotConverged(_) if removable(end) <= floor => Ok(()),
-        Outcome::NotConverged(Stop::Stalled)
+        Termination::Converged(_) => Ok(()),
+        Termination::NotConverged(_) if removable(end) <= floor => Ok(()),
+        Termination::NotConverged(Stop::Stalled)
             if *gradient != Gradient::Exact && end.offset <= DIFFERENCES =>
         {
             Ok(())
         }
-        Outcome::NotConverged(stop) => Err(stop),
+        Termination::NotConverged(stop) => Err(stop),
     }
 }

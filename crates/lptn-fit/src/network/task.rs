@@ -58,12 +58,12 @@ pub struct MeasuredRun {
     /// least one behind it.
     pub times: Vec<f64>,
     /// What was measured.
-    pub columns: Vec<Measured>,
+    pub columns: Vec<MeasuredColumn>,
 }
 
 /// A measured column.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
+pub struct MeasuredColumn {
     /// The name of the column in its file.
     pub name: String,
     /// The temperature that was measured: the sum of temperatures of nodes times these factors.
@@ -74,7 +74,7 @@ pub struct Measured {
     pub values: Vec<f64>,
 }
 
-impl Measured {
+impl MeasuredColumn {
     /// The standard deviation that residuals are divided by, in K.
     pub(crate) fn weight(&self) -> f64 {
         self.sigma.unwrap_or(1.0)

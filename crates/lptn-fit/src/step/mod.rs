@@ -22,8 +22,8 @@ use crate::noise::{Middle, Noise, resolution, student_95};
 
 pub use bias::{FittedValue, ModelBias};
 pub use error::{Lack, StepError};
-pub use power::{Capacity, Parted, Power, Reference, Sensor};
-pub use second::{Asked, TwoExponentials};
+pub use power::{Capacity, Parted, Power, ReferenceTemperature, Sensor};
+pub use second::{LikelihoodRatioTest, TwoExponentials};
 
 /// A record shorter than this many time constants extrapolates.
 pub const LONG_ENOUGH: f64 = 3.0;
@@ -80,7 +80,7 @@ pub struct StepFit {
     /// they say (in 86 of 100 records with a step of five deviations of slow noise).
     pub coarse: bool,
     /// Whether the residuals ask for a second exponential.
-    pub second: Asked,
+    pub second: LikelihoodRatioTest,
     /// What errors of derived quantities need.
     random: Random,
 }

@@ -29,7 +29,7 @@ pub struct Sensor {
 
 /// The zero of `dT`. The paper uses three: `T_i`, the bed at some time, and the bed's mean.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Reference<'a> {
+pub enum ReferenceTemperature<'a> {
     /// `T_i` of the fit: the same sensor.
     Initial,
     /// The mean of another column over the whole record.
@@ -88,7 +88,7 @@ impl Power {
     pub fn new(
         fit: &StepFit,
         capacity: Capacity,
-        reference: &Reference<'_>,
+        reference: &ReferenceTemperature<'_>,
         sensor: Sensor,
     ) -> Result<Self, StepError> {
         let positive =
@@ -142,11 +142,11 @@ struct Zero {
 }
 
 impl Zero {
-    fn new(fit: &StepFit, reference: &Reference<'_>) -> Result<Self, StepError> {
+    fn new(fit: &StepFit, reference: &ReferenceTemperature<'_>) -> Result<Self, StepError> {
         let (name, value, own, sensors) = match reference {
-            Reference::Initial => ("initial", fit.initial.value, true, 0.0),
-            Reference::Value(value) => ("value", *value, false, 1.0),
-            Reference::Column { name, times, temperatures } => {
+            ReferenceTemperature::Initial => ("initial", fit.initial.value, true, 0.0),
+            ReferenceTemperature::Value(value) => ("value", *value, false, 1.0),
+            ReferenceTemperature::Column { name, times, temperatures } => {
                 return Self::column(name, times, temperatures);
             }
         };

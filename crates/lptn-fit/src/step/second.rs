@@ -4,7 +4,7 @@ use lptn_reduce::ExponentialFit;
 use lptn_units::statistics;
 
 use super::{Estimated, Random};
-use crate::least_squares::{Estimate, Evaluated, Residuals, Settings, minimise};
+use crate::least_squares::{Evaluated, LeastSquaresFit, Residuals, Settings, minimise};
 use crate::noise::{Noise, orthonormal, stretches};
 
 /// A record is looked at through the means of some so many stretches.
@@ -15,9 +15,9 @@ const STRETCHES: usize = 400;
 /// two degrees of freedom, whose value would be 9.2).
 const THRESHOLD: f64 = 13.0;
 
-/// Whether the residuals ask for a second exponential.
+/// The likelihood ratio test of whether the residuals ask for a second exponential.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct LikelihoodRatioTest {
     /// Twice the logarithm of the ratio of the likelihoods with and without it, both with noise
     /// that is correlated as its residuals are: slow noise alone does not ask for it.
     pub ratio: f64,
@@ -41,8 +41,8 @@ pub struct TwoExponentials {
 }
 
 /// Compares one exponential with two, on means of stretches.
-pub(super) fn ask(times: &[f64], values: &[f64], one: &ExponentialFit) -> Asked {
-    let nothing = Asked { ratio: 0.0, threshold: THRESHOLD, offer: None };
+pub(super) fn ask(times: &[f64], values: &[f64], one: &ExponentialFit) -> LikelihoodRatioTest {
+    let nothing = LikelihoodRatioTest { ratio: 0.0, threshold: THRESHOLD, offer: None };
     let size = (times.len() / STRETCHES).max(1);
     let (few, means) = (stretches::means(times, size), stretches::means(values, size));
     let scale = values.iter().map(|v| (v - one.settled).abs()).fold(0.0, f64::max);
@@ -62,11 +62,15 @@ pub(super) fn ask(times: &[f64], values: &[f64], one: &ExponentialFit) -> Asked 
     let ratio = misfit(&residuals, &jacobian) - misfit(&two.residuals, &two.jacobian);
     let asked = ratio > THRESHOLD && distinct(&two, &few);
     let offer = asked.then(|| Two { times, values }.fitted(&two.parameters, 1e-6)).flatten();
-    Asked { ratio, threshold: THRESHOLD, offer: offer.and_then(|found| offered(times, &found)) }
+    LikelihoodRatioTest {
+        ratio,
+        threshold: THRESHOLD,
+        offer: offer.and_then(|found| offered(times, &found)),
+    }
 }
 
 /// Whether both parts can be seen: no time constant is on its bound, and they differ.
-fn distinct(found: &Estimate, times: &[f64]) -> bool {
+fn distinct(found: &LeastSquaresFit, times: &[f64]) -> bool {
     let (p, length) = (&found.parameters, times[times.len() - 1] - times[0]);
     let seen = |log: f64| log.exp() < 30.0 * length;
     found.outcome.converged()
@@ -76,7 +80,7 @@ fn distinct(found: &Estimate, times: &[f64]) -> bool {
         && found.on_bound.iter().all(Option::is_none)
 }
 
-fn offered(times: &[f64], found: &Estimate) -> Option<TwoExponentials> {
+fn offered(times: &[f64], found: &LeastSquaresFit) -> Option<TwoExponentials> {
     let noise = Noise::estimate(times, &found.residuals, &found.jacobian);
     if !distinct(found, times) {
         return None;
@@ -107,7 +111,7 @@ struct Two<'a> {
 impl Two<'_> {
     /// `T_f`, `A_1`, `A_2`, `ln t_1`, `ln t_2` by least squares. An offset of 1e-3
     /// changes the likelihood of 400 means by 4e-4.
-    fn fitted(&mut self, start: &[f64], gradient: f64) -> Option<Estimate> {
+    fn fitted(&mut self, start: &[f64], gradient: f64) -> Option<LeastSquaresFit> {
         let free = (f64::NEG_INFINITY, f64::INFINITY);
         let logs = ((0.1 * self.spacing()).ln(), (100.0 * self.length()).ln());
         let bounds = vec![free, free, free, logs, logs];

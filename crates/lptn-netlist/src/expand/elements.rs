@@ -82,7 +82,7 @@ impl Writer<'_> {
             fields.word("fluid", &self.name(Item::Fluid(fluid)));
         }
         let declared = law.formula().declaration();
-        let parts: Vec<(&lptn_laws::Field, &Value)> =
+        let parts: Vec<(&lptn_laws::FieldDeclaration, &Value)> =
             declared.fields.iter().zip(law.values()).collect();
         for same in parts.chunk_by(|(a, _), (b, _)| a.key == b.key) {
             self.part(&mut fields, same);
@@ -95,7 +95,7 @@ impl Writer<'_> {
     }
 
     /// The values of one key.
-    fn part(&self, fields: &mut TomlFields, same: &[(&lptn_laws::Field, &Value)]) {
+    fn part(&self, fields: &mut TomlFields, same: &[(&lptn_laws::FieldDeclaration, &Value)]) {
         let (field, first) = same[0];
         let material = self.material_of(first).filter(|_| field.property);
         match (material, same) {

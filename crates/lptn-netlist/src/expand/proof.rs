@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use lptn_network::{Flow, Item, Network};
+use lptn_network::{ConductorFlow, Item, Network};
 
 use crate::netlist::{Netlist, parse_file};
 
@@ -117,10 +117,12 @@ impl Facts {
         for id in network.conductor_ids() {
             let name = network.name_of(Item::Conductor(id));
             match network.flow(id) {
-                Flow::Conductance(number) | Flow::Radiation(number) | Flow::Stream(number) => {
+                ConductorFlow::Conductance(number)
+                | ConductorFlow::Radiation(number)
+                | ConductorFlow::Stream(number) => {
                     self.add("path", &name, number);
                 }
-                Flow::Variable => {
+                ConductorFlow::Variable => {
                     let heats =
                         network.exchange(id, &mut scope, temperatures).unwrap_or([f64::NAN; 2]);
                     heats.into_iter().for_each(|heat| self.add("path", &name, heat));

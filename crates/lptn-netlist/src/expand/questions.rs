@@ -1,11 +1,9 @@
 //! `[run]` and the studies: what is asked of the network.
 
 use super::Writer;
-use crate::fit::FIT;
 use crate::run::{OutputPlan, RUN};
 use crate::setting::Setting;
-use crate::size::SIZE;
-use crate::toml_text::{TomlFields, key, quantity, strings};
+use crate::toml_text::{TomlFields, quantity, strings};
 use lptn_network::{OutputTimes, RunSettings};
 use lptn_units::{Dimension, Type};
 
@@ -75,12 +73,7 @@ impl Writer<'_> {
     /// The studies.
     pub(super) fn studies(&mut self) {
         let (network, origin) = (self.network, self.origin);
-        for size in &origin.sizes {
-            self.section(&format!("{}.{}", SIZE.name, key(&size.name)), &size.written(network));
-        }
-        for fit in &origin.fits {
-            let fields = fit.written(network, &|file, path| self.path(file, path));
-            self.section(&format!("{}.{}", FIT.name, key(&fit.name)), &fields);
-        }
+        let studies = origin.studies.written(network, &|file, path| self.path(file, path));
+        studies.iter().for_each(|(heading, fields)| self.section(heading, fields));
     }
 }

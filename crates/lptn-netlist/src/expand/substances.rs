@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use lptn_network::{Lump, MaterialId, Value};
-use lptn_units::{Dimension, Table, Type};
+use lptn_units::{Dimension, LookupTable, Type};
 
 use super::Writer;
 use super::values::over_temperature;
@@ -81,7 +81,7 @@ impl Writer<'_> {
             && program.text() == format!("{key}(T)")
             && let [call] = program.table_calls()
             && self.name_of_table(&call.table).is_none()
-            && let Table::One(table) = &*call.table
+            && let LookupTable::One(table) = &*call.table
         {
             return over_temperature(table, ty);
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use lptn_network::{AfterEnd, Course, Evaluation, Item, Parameter, ParameterId, Signal, Value};
 use lptn_units::{
-    Dimension, Interpolation, Outside, Table, Table1, TableSymbol, Type, format_number,
+    Dimension, Interpolation, LookupTable, Outside, Table1, TableSymbol, Type, format_number,
 };
 
 use super::Writer;
@@ -58,9 +58,9 @@ impl Writer<'_> {
         let (network, mut fields) = (&self.network, TomlFields::default());
         for (name, symbol) in network.tables() {
             let written = match (&*symbol.table, self.map_of(&symbol.table)) {
-                (Table::One(table), _) => of_one(table, symbol).inline(),
-                (Table::Two(_), Some(raw)) => self.csv_map(raw),
-                (Table::Two(_), None) => continue,
+                (LookupTable::One(table), _) => of_one(table, symbol).inline(),
+                (LookupTable::Two(_), Some(raw)) => self.csv_map(raw),
+                (LookupTable::Two(_), None) => continue,
             };
             fields.put(name, written);
         }
@@ -68,7 +68,7 @@ impl Writer<'_> {
     }
 
     /// The line of a table of two arguments in the netlist that it comes from.
-    fn map_of(&self, table: &Arc<Table>) -> Option<&RawTable> {
+    fn map_of(&self, table: &Arc<LookupTable>) -> Option<&RawTable> {
         let known = &self.origin.network;
         let mut named = known.table_ids().zip(known.tables());
         let (id, _) = named.find(|(_, (_, symbol))| Arc::ptr_eq(&symbol.table, table))?;
@@ -107,7 +107,7 @@ impl Writer<'_> {
     }
 
     /// The name of a table of the network.
-    pub(super) fn name_of_table(&self, table: &Arc<Table>) -> Option<&str> {
+    pub(super) fn name_of_table(&self, table: &Arc<LookupTable>) -> Option<&str> {
         let mut named =
             self.network.tables().filter(|(_, symbol)| Arc::ptr_eq(&symbol.table, table));
         named.next().map(|(name, _)| name)

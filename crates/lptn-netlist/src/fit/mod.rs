@@ -3,18 +3,19 @@
 mod data;
 mod read;
 
-pub(crate) use data::files;
-
 use std::sync::Arc;
 
-use lptn_data::{Diagnostic, FileId, Record, Span};
+use lptn_data::{Diagnostic, Record, Span};
 use lptn_network::{End, Network, Parameters, Value, Varied};
 use lptn_units::{EvalError, Type};
 
 use crate::format::{Role, SectionDeclaration, key};
+use crate::raw::{RawNetlist, RawValue};
+use crate::study::{PathFrom, Study};
 use crate::toml_text::{TomlFields, key as toml_key, like, string, value};
+use crate::work::Elaboration;
 
-pub(crate) const FIT: SectionDeclaration = SectionDeclaration {
+const FIT: SectionDeclaration = SectionDeclaration {
     name: "fit",
     sentence: "Parameters to find from records.",
     role: Role::Study,
@@ -175,12 +176,86 @@ impl FitStudy {
         Ok(FitPlan { varied, sigmas: sigmas?, parameters })
     }
 
-    /// Its fields as they are written; `path` is how a file that a file names is named there.
-    pub(crate) fn written(
+    fn check_range(
         &self,
         network: &Network,
-        path: &dyn Fn(FileId, &str) -> String,
-    ) -> TomlFields {
+        (entry, varied): (&VariedName, &Varied),
+    ) -> Option<Diagnostic> {
+        let (name, fit) = (&entry.name, &self.name);
+        let at = |message: String| {
+            Diagnostic::error("netlist::fit_range", message).at(entry.span.clone(), "")
+        };
+        let (from, to) = varied.bounds;
+        if from >= to {
+            let message =
+                format!("`vary` of fit `{fit}`: `from` of `{name}` has to be less than `to`");
+            return Some(
+                at(message).help("write the least value as `from` and the largest as `to`"),
+            );
+        }
+        let start = network.parameter_value(varied.parameter);
+        if (from..=to).contains(&start) {
+            return None;
+        }
+        let ty = network.parameters()[varied.parameter.index()].ty;
+        let unit = if ty.absolute { "K".to_owned() } else { ty.dimension.si_unit() };
+        let start = lptn_units::format_short(start);
+        let message = format!(
+            "`vary` of fit `{fit}`: the range of `{name}` does not hold its own value, {start} \
+             {unit}, from which the search starts"
+        );
+        Some(
+            at(message)
+                .help("make the range wider, or give the parameter another value in [param]"),
+        )
+    }
+}
+
+impl Study for FitStudy {
+    const SECTION: &'static SectionDeclaration = &FIT;
+
+    fn files(raw: &RawNetlist) -> Vec<(&str, &RawValue)> {
+        data::files(raw)
+    }
+
+    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
+        work.fits()
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn check(&self, network: &Network) -> Vec<Diagnostic> {
+        let plan = match self.plan(network, &network.overrides()) {
+            Ok(plan) => plan,
+            Err(error) => {
+                let message = format!("fit `{}`: {error}", self.name);
+                return vec![Diagnostic::error(error.code(), message).at(self.span.clone(), "")];
+            }
+        };
+        let mut problems = Vec::new();
+        for (entry, varied) in self.varied.iter().zip(&plan.varied) {
+            problems.extend(self.check_range(network, (entry, varied)));
+        }
+        for (observed, sigma) in self.observed.iter().zip(&plan.sigmas) {
+            if sigma.is_some_and(|sigma| !(sigma > 0.0 && sigma.is_finite())) {
+                let message = format!(
+                    "the standard deviation of column `{}` has to be more than zero",
+                    observed.column
+                );
+                let problem =
+                    Diagnostic::error("netlist::fit_sigma", message).at(observed.span.clone(), "");
+                problems
+                    .push(problem.help(
+                        "write how far one sample scatters, for example `sigma = \"0.2 K\"`",
+                    ));
+            }
+        }
+        problems
+    }
+
+    fn fields(&self, network: &Network, path: &PathFrom<'_>) -> TomlFields {
         let ty = |name: &str| {
             let id = network.parameter(name).ok();
             id.map_or(Type::SCALAR, |id| network.parameters()[id.index()].ty)
@@ -233,69 +308,5 @@ impl FitStudy {
         let varied: Vec<String> = self.varied.iter().map(varied).collect();
         fields.put("vary", format!("{{ {} }}", varied.join(", ")));
         fields
-    }
-
-    /// What is wrong with the numbers.
-    pub(crate) fn check(&self, network: &Network) -> Vec<Diagnostic> {
-        let plan = match self.plan(network, &network.overrides()) {
-            Ok(plan) => plan,
-            Err(error) => {
-                let message = format!("fit `{}`: {error}", self.name);
-                return vec![Diagnostic::error(error.code(), message).at(self.span.clone(), "")];
-            }
-        };
-        let mut problems = Vec::new();
-        for (entry, varied) in self.varied.iter().zip(&plan.varied) {
-            problems.extend(self.check_range(network, (entry, varied)));
-        }
-        for (observed, sigma) in self.observed.iter().zip(&plan.sigmas) {
-            if sigma.is_some_and(|sigma| !(sigma > 0.0 && sigma.is_finite())) {
-                let message = format!(
-                    "the standard deviation of column `{}` has to be more than zero",
-                    observed.column
-                );
-                let problem =
-                    Diagnostic::error("netlist::fit_sigma", message).at(observed.span.clone(), "");
-                problems
-                    .push(problem.help(
-                        "write how far one sample scatters, for example `sigma = \"0.2 K\"`",
-                    ));
-            }
-        }
-        problems
-    }
-
-    fn check_range(
-        &self,
-        network: &Network,
-        (entry, varied): (&VariedName, &Varied),
-    ) -> Option<Diagnostic> {
-        let (name, fit) = (&entry.name, &self.name);
-        let at = |message: String| {
-            Diagnostic::error("netlist::fit_range", message).at(entry.span.clone(), "")
-        };
-        let (from, to) = varied.bounds;
-        if from >= to {
-            let message =
-                format!("`vary` of fit `{fit}`: `from` of `{name}` has to be less than `to`");
-            return Some(
-                at(message).help("write the least value as `from` and the largest as `to`"),
-            );
-        }
-        let start = network.parameter_value(varied.parameter);
-        if (from..=to).contains(&start) {
-            return None;
-        }
-        let ty = network.parameters()[varied.parameter.index()].ty;
-        let unit = if ty.absolute { "K".to_owned() } else { ty.dimension.si_unit() };
-        let start = lptn_units::format_short(start);
-        let message = format!(
-            "`vary` of fit `{fit}`: the range of `{name}` does not hold its own value, {start} \
-             {unit}, from which the search starts"
-        );
-        Some(
-            at(message)
-                .help("make the range wider, or give the parameter another value in [param]"),
-        )
     }
 }

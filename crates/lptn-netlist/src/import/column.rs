@@ -1,6 +1,6 @@
 //! The columns of an imported file, and what is wrong with its cells.
 
-use lptn_data::{Column, Diagnostic, MOST_PROBLEMS, Rows};
+use lptn_data::{CsvColumn, CsvRows, Diagnostic, MOST_PROBLEMS};
 use lptn_laws::Formula;
 use lptn_network::{End, Input};
 use lptn_units::{Dimension, Quantity, Type};
@@ -16,7 +16,7 @@ impl<'a> Elaboration<'a> {
         &mut self,
         import: Option<&Fields<'a>>,
         contents: &Contents,
-    ) -> Option<Rows<'a>> {
+    ) -> Option<CsvRows<'a>> {
         let fields = import?;
         fields.get(contents.key)?;
         let rows = self.opened(fields, contents);
@@ -26,12 +26,12 @@ impl<'a> Elaboration<'a> {
         rows
     }
 
-    fn opened(&mut self, fields: &Fields<'a>, contents: &Contents) -> Option<Rows<'a>> {
+    fn opened(&mut self, fields: &Fields<'a>, contents: &Contents) -> Option<CsvRows<'a>> {
         let (_, raw) = self.word(fields, contents.key)?;
         let asked = Place { owner: &fields.owner, key: contents.key, raw }.asked();
         let csv: &'a crate::csv_files::CsvFiles = self.csv;
         let text = csv.text(raw)?.map_err(Diagnostic::clone);
-        let rows = self.kept(text.and_then(|text| Rows::open(text, asked, contents.example)))?;
+        let rows = self.kept(text.and_then(|text| CsvRows::open(text, asked, contents.example)))?;
         let unknown = rows.unknown_columns(contents.columns);
         let known = unknown.is_empty();
         self.problems.extend(unknown);
@@ -39,27 +39,27 @@ impl<'a> Elaboration<'a> {
     }
 
     /// A column that has to be there.
-    pub(crate) fn required_column(&mut self, rows: &Rows<'_>, name: &str) -> Option<usize> {
+    pub(crate) fn required_column(&mut self, rows: &CsvRows<'_>, name: &str) -> Option<usize> {
         self.kept(rows.required(name))
     }
 
     /// A column that may be there.
-    pub(crate) fn optional_column(&mut self, rows: &Rows<'_>, name: &str) -> Option<usize> {
+    pub(crate) fn optional_column(&mut self, rows: &CsvRows<'_>, name: &str) -> Option<usize> {
         self.kept(rows.optional(name)).flatten()
     }
 
     /// A column of numbers that has to be there.
     pub(crate) fn number_column(
         &mut self,
-        rows: &Rows<'_>,
+        rows: &CsvRows<'_>,
         name: &str,
         ty: Type,
-    ) -> Option<Column> {
+    ) -> Option<CsvColumn> {
         self.kept(rows.numbers(name, ty))
     }
 
     /// The conductances or the resistances: one of the two.
-    pub(crate) fn law_column(&mut self, rows: &Rows<'_>) -> Option<(Column, Formula)> {
+    pub(crate) fn law_column(&mut self, rows: &CsvRows<'_>) -> Option<(CsvColumn, Formula)> {
         let (conductance, resistance) =
             (self.optional_column(rows, "G"), self.optional_column(rows, "R"));
         match (conductance, resistance) {
@@ -84,7 +84,7 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The number in a cell; a stand-in if it is wrong.
-    pub(crate) fn number(&mut self, rows: &mut Rows<'_>, column: &Column) -> Input {
+    pub(crate) fn number(&mut self, rows: &mut CsvRows<'_>, column: &CsvColumn) -> Input {
         let ty = column.unit.ty;
         if !rows.sound {
             return stand_in(ty); // what stands in which column cannot be told
@@ -101,7 +101,7 @@ impl<'a> Elaboration<'a> {
     /// The node or boundary that a cell names.
     pub(crate) fn end_of(
         &mut self,
-        rows: &mut Rows<'_>,
+        rows: &mut CsvRows<'_>,
         (key, index): (&str, usize),
     ) -> Option<End> {
         let name = rows.cell(index);
@@ -126,7 +126,7 @@ impl<'a> Elaboration<'a> {
     }
 
     /// Whether a row has a name; one without is left out.
-    pub(crate) fn is_named(&mut self, rows: &mut Rows<'_>, index: usize) -> bool {
+    pub(crate) fn is_named(&mut self, rows: &mut CsvRows<'_>, index: usize) -> bool {
         let named = !rows.cell(index).is_empty();
         if !named && rows.sound {
             self.refuse_row(rows, |rows| rows.no_name(index));
@@ -139,10 +139,10 @@ impl<'a> Elaboration<'a> {
 
     /// Goes to the next row, if there is one. A row that has more or fewer cells than the header is
     /// reported: something in it is not where it seems to be.
-    pub(crate) fn next_row(&mut self, rows: &mut Rows<'_>) -> bool {
+    pub(crate) fn next_row(&mut self, rows: &mut CsvRows<'_>) -> bool {
         let there = rows.step();
         if there && !rows.sound {
-            self.refuse_row(rows, Rows::wrong_length);
+            self.refuse_row(rows, CsvRows::wrong_length);
         }
         there
     }
@@ -150,8 +150,8 @@ impl<'a> Elaboration<'a> {
     /// Reports a problem of a row, up to so many of a file.
     fn refuse_row<'s>(
         &mut self,
-        rows: &mut Rows<'s>,
-        problem: impl FnOnce(&Rows<'s>) -> Diagnostic,
+        rows: &mut CsvRows<'s>,
+        problem: impl FnOnce(&CsvRows<'s>) -> Diagnostic,
     ) {
         rows.problems += 1;
         if rows.problems > MOST_PROBLEMS {
@@ -163,7 +163,7 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-fn two_laws(rows: &Rows<'_>, conductance: usize, resistance: usize) -> Diagnostic {
+fn two_laws(rows: &CsvRows<'_>, conductance: usize, resistance: usize) -> Diagnostic {
     let message = format!("{} have a column `G` and a column `R`", rows.asked.words);
     let problem = Diagnostic::error("netlist::two_laws", message)
         .at(rows.header(resistance), "`R` here")

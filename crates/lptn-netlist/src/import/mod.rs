@@ -3,7 +3,7 @@
 
 mod column;
 
-use lptn_data::{Column, Rows};
+use lptn_data::{CsvColumn, CsvRows};
 use lptn_network::{ConductorKind, Field, Path};
 use lptn_units::{Dimension, Type};
 
@@ -72,7 +72,7 @@ const SOURCES: Contents =
 
 /// The way back from the elements, the first of them given, to their rows.
 fn places(
-    rows: Rows<'_>,
+    rows: CsvRows<'_>,
     (kind, first): (Kind, usize),
     fields: &[(Field, Option<usize>)],
 ) -> Places {
@@ -111,7 +111,7 @@ impl<'a> Elaboration<'a> {
         };
         let first = self.builder.node_count();
         while self.next_row(&mut rows) {
-            let given = |column: &Column| !(rows.sound && rows.cell(column.index).is_empty());
+            let given = |column: &CsvColumn| !(rows.sound && rows.cell(column.index).is_empty());
             let (stores, starts) = (given(&capacity), initial.as_ref().is_some_and(given));
             let own =
                 initial.as_ref().filter(|_| starts).map(|column| self.number(&mut rows, column));

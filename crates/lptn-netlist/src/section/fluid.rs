@@ -7,7 +7,7 @@ use lptn_units::{Dimension, Quantity, Type, suggest};
 
 use crate::fields::Fields;
 use crate::format::{Role, SectionDeclaration, key};
-use crate::library::{self, Record};
+use crate::library::{self, LibrarySubstance};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawValue};
 use crate::section::keys::{CP, SOURCE_OF};
@@ -114,7 +114,7 @@ impl<'a> Elaboration<'a> {
         Some((known, name, raw))
     }
 
-    fn fluid_of_library(&mut self, record: &Record, cp: f64) -> KnownFluid {
+    fn fluid_of_library(&mut self, record: &LibrarySubstance, cp: f64) -> KnownFluid {
         let input = |value: f64, dimension| -> Input {
             Quantity { value, deviation: None, ty: Type::of(dimension) }.into()
         };

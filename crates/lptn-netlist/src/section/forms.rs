@@ -4,10 +4,26 @@ use lptn_data::Diagnostic;
 
 use crate::fields::Fields;
 
+/// Which forms are begun: those of which a key is given that no other form takes. A key that is
+/// given and stands in none of them begins the first form that takes it.
+pub(crate) fn begun(forms: &[&[&str]], given: impl Fn(&str) -> bool) -> Vec<usize> {
+    let own = |key: &str| forms.iter().filter(|form| form.contains(&key)).count() == 1;
+    let by_own = |&i: &usize| forms[i].iter().any(|key| own(key) && given(key));
+    let mut begun: Vec<usize> = (0..forms.len()).filter(by_own).collect();
+    for (i, form) in forms.iter().enumerate() {
+        let known = |key: &str| begun.iter().any(|&other| forms[other].contains(&key));
+        if form.iter().any(|key| given(key) && !known(key)) {
+            begun.push(i);
+        }
+    }
+    begun.sort_unstable();
+    begun
+}
+
 /// Exactly one form, and all of it.
 pub(crate) fn check_forms(fields: &Fields<'_>, forms: &[&[&str]]) -> Option<Diagnostic> {
-    let begun: Vec<&&[&str]> =
-        forms.iter().filter(|form| form.iter().any(|key| fields.get(key).is_some())).collect();
+    let begun = begun(forms, |key| fields.get(key).is_some());
+    let begun: Vec<&[&str]> = begun.into_iter().map(|form| forms[form]).collect();
     match begun.as_slice() {
         [] if fields.complete => Some(no_form(fields, forms)),
         [] => None,
@@ -43,10 +59,29 @@ fn half(fields: &Fields<'_>, form: &[&str], missing: &str) -> Option<Diagnostic>
     Some(fields.missing(missing, message))
 }
 
-fn two_forms(fields: &Fields<'_>, begun: &[&&[&str]]) -> Diagnostic {
+fn two_forms(fields: &Fields<'_>, begun: &[&[&str]]) -> Diagnostic {
     let both: Vec<String> = begun.iter().map(|form| words(form)).collect();
     let message = format!("has {} as well as {}", both[0], both[1..].join(" and "));
-    let keys = begun.iter().flat_map(|form| form.iter().copied());
+    let all = begun.concat();
+    let keys = all.iter().enumerate().filter(|(i, key)| !all[..*i].contains(key));
+    let keys = keys.map(|(_, key)| *key);
     let error = fields.several("netlist::two_laws", message, keys);
     error.help("keep one of them; two paths side by side are two elements")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::begun;
+
+    #[test]
+    fn a_key_that_two_forms_share_begins_neither_beside_one_of_their_own() {
+        let forms: [&[&str]; 3] = [&["R"], &["h", "area"], &["c", "n", "area"]];
+        let of = |given: &[&str]| begun(&forms, |key| given.contains(&key));
+        assert_eq!(of(&["h", "area"]), [1]);
+        assert_eq!(of(&["c", "area"]), [2]);
+        assert_eq!(of(&["area"]), [1]);
+        assert_eq!(of(&["R", "area"]), [0, 1]);
+        assert_eq!(of(&["h", "n", "area"]), [1, 2]);
+        assert!(of(&[]).is_empty());
+    }
 }

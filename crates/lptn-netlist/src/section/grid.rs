@@ -1,7 +1,7 @@
 //! `[grid]`: blocks that are cut into cells, and what ends at their faces.
 
 use lptn_data::Diagnostic;
-use lptn_network::{Block, Field, GridId, Input, Item, Substance};
+use lptn_network::{Field, GridBlock, GridId, Input, Item, Substance};
 use lptn_units::{Dimension, Type};
 
 use crate::fields::Fields;
@@ -151,7 +151,8 @@ impl<'a> Elaboration<'a> {
             initial.or_else(|| (!fields.complete).then(|| stand_in(Type::ABSOLUTE_TEMPERATURE)));
         let ((substance, conductivity), cells) = (substance?, cells?);
         let before = self.builder.sizes();
-        let block = Block { size: size?, cells: cells.clone(), conductivity, substance, initial };
+        let block =
+            GridBlock { size: size?, cells: cells.clone(), conductivity, substance, initial };
         let id = self.builder.grid(&entry.key, block);
         let item = Item::Grid(id);
         self.note_parts(before, item, GRID.name);

@@ -2,6 +2,9 @@
 
 use std::sync::LazyLock;
 
+use lptn_data::Diagnostic;
+use lptn_network::Network;
+
 use super::boundary::BOUNDARY;
 use super::capacitor::CAPACITOR;
 use super::control::CONTROL;
@@ -15,19 +18,68 @@ use super::path::PATHS;
 use super::signal::SIGNAL;
 use super::source::SOURCE;
 use super::table::TABLE;
-use crate::fit::FIT;
+use crate::fit::FitStudy;
 use crate::format::{Format, Role, SectionDeclaration};
 use crate::import::IMPORT;
 use crate::parameters::PARAM;
+use crate::raw::{RawNetlist, RawValue};
 use crate::run::RUN;
-use crate::size::SIZE;
+use crate::size::SizeStudy;
+use crate::study::{PathFrom, Study};
 use crate::template::{TEMPLATE, USE};
+use crate::toml_text::TomlFields;
+use crate::work::Elaboration;
 
 /// The sections before and behind those of paths, in the order in which they are named to people.
 static BEFORE: [&SectionDeclaration; 10] =
     [&PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &NODE, &GRID, &CAPACITOR, &BOUNDARY];
-static BEHIND: [&SectionDeclaration; 9] =
-    [&SOURCE, &CONTROL, &IMPORT, &LIMIT, &TEMPLATE, &USE, &RUN, &SIZE, &FIT];
+static BEHIND: [&SectionDeclaration; 7] =
+    [&SOURCE, &CONTROL, &IMPORT, &LIMIT, &TEMPLATE, &USE, &RUN];
+
+/// The studies that there are: where a netlist keeps those of a section, and the type of one.
+macro_rules! studies {
+    ($($(#[$words:meta])* $field:ident: $study:ty,)*) => {
+        const STUDIES: &[&SectionDeclaration] = &[$(<$study as Study>::SECTION),*];
+
+        /// The studies of a netlist.
+        #[derive(Clone, Debug)]
+        pub struct Studies { $($(#[$words])* pub $field: Vec<$study>,)* }
+
+        impl Studies {
+            /// The CSV files that they name, with their places.
+            pub(crate) fn files(raw: &RawNetlist) -> impl Iterator<Item = (&str, &RawValue)> {
+                std::iter::empty()$(.chain(<$study>::files(raw)))*
+            }
+
+            pub(crate) fn read(work: &mut Elaboration<'_>) -> Self {
+                Self { $($field: <$study>::read(work)),* }
+            }
+
+            pub(crate) fn check(&self, network: &Network) -> Vec<Diagnostic> {
+                let none = std::iter::empty();
+                none$(.chain(self.$field.iter().flat_map(|study| study.check(network))))*.collect()
+            }
+
+            /// The heading and the fields of each, as they are written.
+            pub(crate) fn written(
+                &self,
+                network: &Network,
+                path: &PathFrom<'_>,
+            ) -> Vec<(String, TomlFields)> {
+                let none = std::iter::empty();
+                none$(.chain(self.$field.iter().map(|study| study.written(network, path))))*
+                    .collect()
+            }
+        }
+    };
+}
+
+studies! {
+    /// What to size, in file order.
+    sizes: SizeStudy,
+    /// What to find from records, in file order.
+    fits: FitStudy,
+}
 
 /// What the format has for later.
 static LATER: [&SectionDeclaration; 1] = [&SectionDeclaration {
@@ -39,7 +91,8 @@ static LATER: [&SectionDeclaration; 1] = [&SectionDeclaration {
 
 static FORMAT: LazyLock<Format> = LazyLock::new(|| {
     let paths = PATHS.iter().map(|path| &path.section);
-    Format { sections: BEFORE.into_iter().chain(paths).chain(BEHIND).collect(), later: &LATER }
+    let sections = BEFORE.into_iter().chain(paths).chain(BEHIND).chain(STUDIES.iter().copied());
+    Format { sections: sections.collect(), later: &LATER }
 });
 
 /// All sections.

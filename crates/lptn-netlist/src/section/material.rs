@@ -6,7 +6,7 @@ use lptn_units::{Dimension, Quantity, Type, suggest};
 
 use crate::fields::Fields;
 use crate::format::{ABSOLUTE, Role, SectionDeclaration, key};
-use crate::library::{self, Record};
+use crate::library::{self, LibrarySubstance};
 use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawValue};
 use crate::section::fluid::FLUID;
@@ -224,7 +224,7 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-fn properties(record: &Record) -> Properties {
+fn properties(record: &LibrarySubstance) -> Properties {
     let input = |value: Option<f64>, dimension| {
         value.map(|value| Quantity { value, deviation: None, ty: Type::of(dimension) }.into())
     };

@@ -23,6 +23,6 @@ mod top;
 
 pub(crate) use control::{CONTROL, narrow};
 pub(crate) use default::{Default, Initial};
-pub use list::format;
+pub use list::{Studies, format};
 pub(crate) use node::NODE;
 pub(crate) use signal::SIGNAL;

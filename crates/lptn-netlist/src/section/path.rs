@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use lptn_data::{Diagnostic, list};
-use lptn_laws::{Field, Formula, Kind};
+use lptn_laws::{FieldDeclaration, Formula, Kind};
 use lptn_network::{FluidId, Input, Path};
 use lptn_units::{Quantity, Type};
 
@@ -11,7 +11,7 @@ use crate::fields::Fields;
 use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
 use crate::place::{Place, Wanted};
 use crate::raw::{RawKind, RawValue};
-use crate::section::forms::check_forms;
+use crate::section::forms::{begun, check_forms};
 use crate::section::keys::MATERIAL_OF;
 use crate::work::{Elaboration, stand_in};
 
@@ -33,7 +33,7 @@ impl PathSection {
 
 /// A value of a path.
 pub(crate) struct PathValue {
-    pub(crate) field: &'static Field,
+    pub(crate) field: &'static FieldDeclaration,
     /// How many of them a list may have.
     most: usize,
     /// The types of which it may be, where its unit chooses the law.
@@ -55,8 +55,11 @@ fn path_section(kind: Kind) -> PathSection {
         example: declared.example,
         elsewhere: declared.elsewhere,
     };
-    let value =
-        |field: &'static Field| PathValue { field, most: most(field.key), types: types(field.key) };
+    let value = |field: &'static FieldDeclaration| PathValue {
+        field,
+        most: most(field.key),
+        types: types(field.key),
+    };
     let values = kind.fields().into_iter().map(value).collect();
     PathSection { section, kind, groups: groups(kind), values }
 }
@@ -125,13 +128,14 @@ fn groups(kind: Kind) -> Vec<Group> {
 }
 
 /// What stands in the place of a field: nothing, a value, or as many as a list has.
-type Read = (&'static Field, Vec<Input>);
+type Read = (&'static FieldDeclaration, Vec<Input>);
 
 impl<'a> Elaboration<'a> {
     /// The law of a path with its values.
     pub(crate) fn path(&mut self, fields: &Fields<'a>, path: &'static PathSection) -> Option<Path> {
         let (groups, values) = (&path.groups, path.values.iter());
-        let law = match path.kind.declaration().selector {
+        let forms: Vec<&[&str]> = groups.iter().map(|group| group.keys.as_slice()).collect();
+        let group = match path.kind.declaration().selector {
             Some(selector) => {
                 self.check_property(fields, path);
                 let law = self.selected(fields, path, selector);
@@ -140,17 +144,14 @@ impl<'a> Elaboration<'a> {
                 let read = self.read(fields, own);
                 return self.complete(fields, law?, read, None);
             }
-            None => groups.iter().find(|group| group.keys.iter().any(|key| fields.has(key))),
+            None => begun(&forms, |key| fields.has(key)).first().map(|&first| &groups[first]),
         };
-        let forms: Vec<&[&str]> = groups.iter().map(|group| group.keys.as_slice()).collect();
         self.problems.extend(check_forms(fields, &forms));
         let fluid = fields.get("fluid").filter(|_| fields.known("fluid"));
         let fluid = fluid.map(|raw| self.used_fluid(fields, raw));
         let read = self.read(fields, values);
-        let begun =
-            groups.iter().filter(|group| group.keys.iter().any(|key| fields.get(key).is_some()));
-        let one = begun.count() == 1;
-        let law = of_values(&law?.laws, &read)?;
+        let one = begun(&forms, |key| fields.get(key).is_some()).len() == 1;
+        let law = of_values(&group?.laws, &read)?;
         let idle = law.declaration().idle.iter().filter(|_| one);
         idle.for_each(|(key, why)| self.refuse_keys(fields, &[key], why));
         let fluid = match fluid {
@@ -237,7 +238,7 @@ impl<'a> Elaboration<'a> {
 
     /// The value of a field of a path, which may depend on time and temperatures; a stand-in if it
     /// is wrong.
-    fn link(&mut self, fields: &Fields<'a>, field: &Field, raw: &'a RawValue) -> Input {
+    fn link(&mut self, fields: &Fields<'a>, field: &FieldDeclaration, raw: &'a RawValue) -> Input {
         self.input_at(fields, field.key, raw, Wanted::of_link(field.ty))
     }
 
@@ -307,7 +308,12 @@ impl<'a> Elaboration<'a> {
     }
 
     /// A field that this law needs beside those that chose it.
-    fn lacks(&mut self, fields: &Fields<'a>, law: Formula, field: Field) -> Option<Path> {
+    fn lacks(
+        &mut self,
+        fields: &Fields<'a>,
+        law: Formula,
+        field: FieldDeclaration,
+    ) -> Option<Path> {
         let first = law.declaration().fields[0].key;
         if fields.complete && !fields.has(field.key) && fields.has(first) && types(first).len() > 1
         {
@@ -342,7 +348,7 @@ fn types(key: &str) -> Vec<(Type, Formula)> {
 fn of_values(laws: &[Formula], read: &[Read]) -> Option<Formula> {
     let fits = |law: &&Formula| {
         read.iter().filter(|(_, values)| !values.is_empty()).all(|(field, values)| {
-            let own: Vec<&Field> =
+            let own: Vec<&FieldDeclaration> =
                 law.declaration().fields.iter().filter(|own| own.key == field.key).collect();
             own.is_empty()
                 || own.len() == values.len()
@@ -362,7 +368,7 @@ fn written(law: Formula) -> String {
 
 fn wrong_count(
     fields: &Fields<'_>,
-    (field, most): (&Field, usize),
+    (field, most): (&FieldDeclaration, usize),
     raw: &RawValue,
     count: usize,
 ) -> Diagnostic {

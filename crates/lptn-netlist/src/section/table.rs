@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use lptn_data::{Diagnostic, Points};
+use lptn_data::{Diagnostic, PlacedNumbers};
 use lptn_network::{Field, Input, Item, slot};
 use lptn_units::{
-    Expression, Interpolation, Outside, Scope, Symbol, Table, Table1, Table2, TableError,
+    Expression, Interpolation, LookupTable, Outside, Scope, Symbol, Table1, Table2, TableError,
     TableSymbol, Type, Unit,
 };
 
@@ -67,7 +67,7 @@ impl<'a> Elaboration<'a> {
         for entry in self.elements(TABLE.name) {
             match self.table(entry) {
                 Some(symbol) => {
-                    let two = matches!(*symbol.table, Table::Two(_));
+                    let two = matches!(*symbol.table, LookupTable::Two(_));
                     let id = self.builder.table(&entry.key, symbol);
                     self.map.insert(Item::Table(id), Field::Name, entry.key_span.clone());
                     if let (true, RawKind::Table(line)) = (two, &entry.value.kind) {
@@ -99,7 +99,7 @@ impl<'a> Elaboration<'a> {
         let (numbers, values) = (x.numbers.clone(), y.numbers.clone());
         match Table1::new(numbers, values, interpolation?, outside?) {
             Ok(table) => {
-                let table = Arc::new(Table::One(table));
+                let table = Arc::new(LookupTable::One(table));
                 Some(TableSymbol { table, arguments: vec![x.ty], ty: y.ty, units: units([&x, &y]) })
             }
             Err(error) => {
@@ -145,7 +145,7 @@ impl<'a> Elaboration<'a> {
         let values = self.kept(grid.fill(&value))?;
         match Table2::new(xs, ys, values, outside.filter(|_| linear)?) {
             Ok(table) => {
-                let table = Arc::new(Table::Two(table));
+                let table = Arc::new(LookupTable::Two(table));
                 let units = units([&x, &y, &value]);
                 Some(TableSymbol { table, arguments: vec![x.ty, y.ty], ty: value.ty, units })
             }
@@ -167,7 +167,7 @@ impl<'a> Elaboration<'a> {
         let inner = self.inner(&TABLE, fields.owner.inside(key), entry)?;
         let types = (Some(Type::ABSOLUTE_TEMPERATURE), Some(ty));
         let symbol = self.tabulated(&inner, types)?;
-        if let Table::One(table) = &*symbol.table
+        if let LookupTable::One(table) = &*symbol.table
             && let Some(value) = table.values().iter().find(|value| **value <= 0.0)
         {
             let message = format!(
@@ -209,8 +209,8 @@ impl Scope for OfTemperature<'_> {
 }
 
 /// The units that all of them are given in; none where one is not known.
-fn units<const N: usize>(points: [&Points; N]) -> Vec<Unit> {
-    let of = |points: &Points| match points.ty.is_scalar() && points.unit.is_none() {
+fn units<const N: usize>(points: [&PlacedNumbers; N]) -> Vec<Unit> {
+    let of = |points: &PlacedNumbers| match points.ty.is_scalar() && points.unit.is_none() {
         true => Unit::parse("1").ok(),
         false => points.unit.clone(),
     };
@@ -229,13 +229,13 @@ fn knots(numbers: &[f64]) -> Vec<f64> {
 struct Grid<'g> {
     fields: &'g Fields<'g>,
     file_header: &'g lptn_data::Span,
-    axes: [&'g Points; 2],
+    axes: [&'g PlacedNumbers; 2],
     knots: [&'g [f64]; 2],
 }
 
 impl Grid<'_> {
     /// The value at every point of the grid, row by row.
-    fn fill(&self, value: &Points) -> Result<Vec<f64>, Diagnostic> {
+    fn fill(&self, value: &PlacedNumbers) -> Result<Vec<f64>, Diagnostic> {
         let [xs, ys] = self.knots;
         let at = |axis: usize, row: usize| {
             let number = self.axes[axis].numbers[row];

@@ -11,7 +11,7 @@ use crate::value::{Input, Size, Value};
 
 /// What a grid is made from: see [`NetworkBuilder::grid`].
 #[derive(Clone, Debug)]
-pub struct Block {
+pub struct GridBlock {
     /// Its lengths along x, y and z; constant.
     pub size: [Input; 3],
     /// How many cells there are along x, and along y and z where it is divided there too: one to
@@ -51,7 +51,7 @@ impl NetworkBuilder {
     /// A cell is a node named `NAME[i,j,k]`, with as many indices as there are counts of cells,
     /// from 1; the path from it to the next one along x is `NAME.x[i,j,k]`. Faces are named
     /// `NAME.x0` to `NAME.z1`; see [`NetworkBuilder::surfaces`] and [`NetworkBuilder::connect`].
-    pub fn grid(&mut self, name: &str, block: Block) -> GridId {
+    pub fn grid(&mut self, name: &str, block: GridBlock) -> GridId {
         let id = GridId::from_len(self.parts.grids.len());
         let item = Item::Grid(id);
         let length = Type::of(Dimension::LENGTH);

@@ -7,7 +7,7 @@ use crate::enthalpy::Enthalpy;
 use crate::evaluation::{Evaluation, PASS, Slope};
 use crate::id::{ConductorId, Field, Item, NodeId, SourceId};
 use crate::input_error::{InputError, InputProblem};
-use crate::law::{At, Flow, Law, Received};
+use crate::law::{At, ConductorFlow, Law, Received};
 use crate::network::Network;
 use crate::parts::dependence::Dependence;
 use crate::parts::element::Conductor;
@@ -20,7 +20,7 @@ type Failed = (Field, InputProblem);
 
 impl Network {
     /// How a conductor carries heat.
-    pub fn flow(&self, id: ConductorId) -> Flow {
+    pub fn flow(&self, id: ConductorId) -> ConductorFlow {
         self.numbers.flows[id.index()]
     }
 
@@ -52,8 +52,8 @@ impl Network {
         self.numbers.enthalpy[id.index()].as_deref()
     }
 
-    /// The heat that the two ends of a [`Flow::Variable`] conductor receive in W, at the time of
-    /// `scope` and these temperatures of all vertices in K.
+    /// The heat that the two ends of a [`ConductorFlow::Variable`] conductor receive in W, at the
+    /// time of `scope` and these temperatures of all vertices in K.
     ///
     /// # Errors
     /// [`InputError`] if a value fails, or a conductance is negative or not finite.

@@ -17,7 +17,7 @@ use crate::error::{BuildError, BuildErrorKind, BuildErrors};
 use crate::evaluation::Evaluation;
 use crate::id::{ConductorId, Field, Item, NodeId, ParameterId};
 use crate::input_error::{InputError, InputProblem};
-use crate::law::Flow;
+use crate::law::ConductorFlow;
 use crate::names::UnknownName;
 use crate::numbers::Numbers;
 use crate::parameters::Parameters;
@@ -101,8 +101,10 @@ impl Network {
     /// Conductance of a conductor in W/K; `None` if it is not constant.
     pub fn conductance(&self, id: ConductorId) -> Option<f64> {
         match self.flow(id) {
-            Flow::Conductance(conductance) => Some(conductance),
-            Flow::Radiation(_) | Flow::Stream(_) | Flow::Variable => None,
+            ConductorFlow::Conductance(conductance) => Some(conductance),
+            ConductorFlow::Radiation(_) | ConductorFlow::Stream(_) | ConductorFlow::Variable => {
+                None
+            }
         }
     }
 

@@ -4,7 +4,7 @@ use lptn_laws::Carries;
 
 use crate::error::BuildErrorKind;
 use crate::id::{ConductorId, Field, Item};
-use crate::law::{At, Flow, Law};
+use crate::law::{At, ConductorFlow, Law};
 use crate::numbers::Work;
 use crate::parts::element::Conductor;
 use crate::slot;
@@ -12,9 +12,9 @@ use crate::value::Value;
 use lptn_laws::Range;
 
 impl Work<'_> {
-    pub(crate) fn flows(&mut self) -> Vec<Flow> {
+    pub(crate) fn flows(&mut self) -> Vec<ConductorFlow> {
         let conductors = &self.parts.conductors;
-        let mut flows: Vec<Flow> = Vec::with_capacity(conductors.len());
+        let mut flows: Vec<ConductorFlow> = Vec::with_capacity(conductors.len());
         for (i, conductor) in conductors.iter().enumerate() {
             let item = Item::Conductor(ConductorId::from_len(i));
             // in a grid thousands are alike
@@ -24,10 +24,10 @@ impl Work<'_> {
         flows
     }
 
-    fn flow(&mut self, item: Item, conductor: &Conductor) -> Flow {
+    fn flow(&mut self, item: Item, conductor: &Conductor) -> ConductorFlow {
         let law = &conductor.law;
         if let Some(conductance) = law.number() {
-            return Flow::Conductance(conductance);
+            return ConductorFlow::Conductance(conductance);
         }
         let errors_before = self.errors.len();
         let declared = law.formula().declaration();
@@ -38,13 +38,13 @@ impl Work<'_> {
         }
         self.check_order(item, law);
         if self.errors.len() > errors_before || self.parts.is_variable(conductor) {
-            return Flow::Variable;
+            return ConductorFlow::Variable;
         }
         let (slots, stack) = self.scope.plain();
         let number = At { slots, stack }.value(law).unwrap_or(f64::NAN);
         if law.is_stream() {
             let rate = self.capacity_rate(law, number);
-            return Flow::Stream(self.in_range(
+            return ConductorFlow::Stream(self.in_range(
                 item,
                 Field::law(law.formula(), 0),
                 rate,
@@ -55,8 +55,8 @@ impl Work<'_> {
         let last = Field::law(law.formula(), declared.fields.len() - 1);
         let number = self.in_range(item, last, number, Range::Positive);
         match declared.carries {
-            Carries::Radiation => Flow::Radiation(number),
-            _ => Flow::Conductance(number),
+            Carries::Radiation => ConductorFlow::Radiation(number),
+            _ => ConductorFlow::Conductance(number),
         }
     }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lptn_units::{Program, Table, Taylor};
+use lptn_units::{LookupTable, Program, Taylor};
 
 use crate::enthalpy::{Capacity, Enthalpy, Latent, NoCurve};
 use crate::error::BuildErrorKind;
@@ -28,7 +28,8 @@ fn edges(value: &Value, scope: &mut Evaluation) -> Vec<f64> {
     let mut edges = Vec::new();
     for program in value.programs() {
         for call in program.table_calls() {
-            let (lptn_units::Table::One(table), [argument]) = (&*call.table, &call.arguments[..])
+            let (lptn_units::LookupTable::One(table), [argument]) =
+                (&*call.table, &call.arguments[..])
             else {
                 continue;
             };
@@ -111,7 +112,7 @@ impl Capacity for Sum<'_, '_> {
 /// the same text, so each counts as itself.
 fn form(parts: &[Vec<&Value>], latent: &[Latent]) -> String {
     let program = |program: &Arc<Program>| {
-        let tables: Vec<*const Table> =
+        let tables: Vec<*const LookupTable> =
             program.table_calls().iter().map(|call| Arc::as_ptr(&call.table)).collect();
         format!("{:?} {tables:?}", program.text())
     };

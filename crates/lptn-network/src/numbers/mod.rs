@@ -12,7 +12,7 @@ use crate::enthalpy::Enthalpy;
 use crate::error::{BuildError, BuildErrorKind};
 use crate::evaluation::Evaluation;
 use crate::id::{CapacitorId, Field, FluidId, Item, NodeId, ParameterId, SourceId};
-use crate::law::Flow;
+use crate::law::ConductorFlow;
 use crate::numbers::content::Curves;
 use crate::parts::Parts;
 use crate::parts::element::Parameter;
@@ -29,7 +29,7 @@ pub(crate) struct Numbers {
     pub(crate) given: Vec<bool>,
     pub(crate) capacity: Vec<f64>,
     pub(crate) initial: Vec<f64>,
-    pub(crate) flows: Vec<Flow>,
+    pub(crate) flows: Vec<ConductorFlow>,
     /// Heat content of each node whose capacity is not constant.
     pub(crate) enthalpy: Vec<Option<Arc<Enthalpy>>>,
     /// Heat content of a kg of each fluid whose specific heat is not constant.

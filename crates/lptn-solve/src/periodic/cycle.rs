@@ -6,9 +6,9 @@ use lptn_network::{ControlId, OutputTimes};
 use super::error::PeriodicError;
 use super::secants::Shot;
 use crate::events::{ControlState, Event, EventKind};
-use crate::selection::Record;
+use crate::selection::RecordedNodes;
 use crate::settings::{Proceed, Progress, Transient};
-use crate::solution::{End, Solution};
+use crate::solution::{RunStatus, Solution};
 use crate::state::State;
 
 /// What watches and may interrupt.
@@ -83,7 +83,7 @@ impl<'a> Cycles<'a> {
     fn bare(&self, tolerance: f64) -> Transient {
         Transient {
             output: OutputTimes::At(Vec::new()),
-            record: Record::Nodes(Vec::new()),
+            record: RecordedNodes::Nodes(Vec::new()),
             watch: Vec::new(),
             windows: Vec::new(),
             balance: None,
@@ -112,7 +112,7 @@ impl<'a> Cycles<'a> {
             settings.solve_from(self.system, &from, self.observer).map_err(PeriodicError::Cycle)?;
         self.steps += solution.statistics().steps;
         self.flow_evaluations += solution.statistics().flow_evaluations;
-        if let End::Interrupted(_) = solution.end() {
+        if let RunStatus::Interrupted(_) = solution.end() {
             return Err(PeriodicError::Interrupted { cycles: self.count, residual: self.last });
         }
         self.count += 1;

@@ -1,7 +1,7 @@
 //! The search for a start that a cycle leads back to.
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::Flow;
+use lptn_network::ConductorFlow;
 
 use super::cycle::Cycles;
 use super::error::PeriodicError;
@@ -285,9 +285,9 @@ impl<'a, 'b> Search<'a, 'b> {
 /// capacity included.
 fn linear(system: &ThermalSystem) -> bool {
     let network = system.network();
-    let paths = network
-        .conductor_ids()
-        .all(|id| matches!(network.flow(id), Flow::Conductance(_) | Flow::Stream(_)));
+    let paths = network.conductor_ids().all(|id| {
+        matches!(network.flow(id), ConductorFlow::Conductance(_) | ConductorFlow::Stream(_))
+    });
     let sources = network.source_ids().all(|id| network.source_variables(id).is_empty());
     !network.has_events()
         && paths

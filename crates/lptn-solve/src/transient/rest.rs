@@ -10,7 +10,7 @@ use lptn_network::{OutputTimes, Positions};
 use crate::newton::{Newton, largest};
 use crate::readings::Readings;
 use crate::recorder::Recorder;
-use crate::selection::Record;
+use crate::selection::RecordedNodes;
 use crate::settings::Transient;
 use crate::state::State;
 use crate::times::{Segment, just_after};
@@ -85,7 +85,7 @@ impl<'a> Run<'a> {
             stop: segment.to,
             output: OutputTimes::At(vec![segment.to]),
             tolerance: TOLERANCE,
-            record: Record::Nodes(Vec::new()),
+            record: RecordedNodes::Nodes(Vec::new()),
             ..Transient::until(lptn_network::Time(segment.to))
         };
         let mut recorder =

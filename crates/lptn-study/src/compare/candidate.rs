@@ -4,8 +4,8 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
 use lptn_network::{InputError, LimitSeverity, Network};
 use lptn_solve::{
-    Beyond, End, NodeSummary, Others, OutputTimes, Proceed, Progress, Record, Solution,
-    SteadyError, SteadyState, Summary, Transient, TransientError, Unsolved, first_there,
+    Beyond, NodeSummary, Others, OutputTimes, Proceed, Progress, RecordedNodes, RunStatus,
+    Solution, SteadyError, SteadyState, Summary, Transient, TransientError, Unsolved, first_there,
 };
 use lptn_units::Class;
 
@@ -159,7 +159,7 @@ impl Candidate {
         let transient = transient(system, run, steady.as_ref())?;
         let solution = transient.solve_observed(system, observer);
         let solution = solution.map_err(|error| CompareError::Run(Box::new(error)))?;
-        if let End::Interrupted(time) = solution.end() {
+        if let RunStatus::Interrupted(time) = solution.end() {
             return Err(CompareError::Interrupted(time));
         }
         let ledger = solution.ledger();
@@ -206,7 +206,7 @@ fn transient(
     let watch = Summary::watches(system, run.start, &nodes, steady).map_err(CompareError::Start)?;
     Ok(Transient {
         output: OutputTimes::At(vec![run.stop]),
-        record: Record::Nodes(Vec::new()),
+        record: RecordedNodes::Nodes(Vec::new()),
         watch,
         ..Transient::of(network, run)
     })

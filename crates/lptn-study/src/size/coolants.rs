@@ -1,6 +1,6 @@
 //! Air and oil of the built-in library.
 
-use lptn_netlist::library::{self, Record};
+use lptn_netlist::library::{self, LibrarySubstance};
 
 use crate::size::cooling::Coolant;
 
@@ -19,7 +19,7 @@ impl Coolant {
         Self::record("gear_oil_vg220").map(|(oil, _)| oil)
     }
 
-    fn record(name: &str) -> Option<(Self, &'static Record)> {
+    fn record(name: &str) -> Option<(Self, &'static LibrarySubstance)> {
         let record = library::find(name)?;
         Some((Self { specific_heat: record.cp?, density: record.density? }, record))
     }

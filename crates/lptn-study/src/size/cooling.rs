@@ -25,7 +25,7 @@ pub struct Coolant {
 
 /// A flow of coolant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flow {
+pub struct CoolantFlow {
     /// Mass flow in kg/s.
     pub mass: f64,
     /// Volume flow in m^3/s where the coolant enters.
@@ -79,11 +79,11 @@ impl CoolingTask {
     /// The flow that takes the heat away while it warms by `rise`: `P = m cp rise`, the energy
     /// equation of a steady flow without work (Incropera et al.). `None` where the coolant would
     /// have to leave warmer than the limit.
-    pub fn flow(&self, coolant: Coolant) -> Option<Flow> {
+    pub fn flow(&self, coolant: Coolant) -> Option<CoolantFlow> {
         if self.rise > self.limit - self.ambient {
             return None;
         }
         let mass = self.power / (coolant.specific_heat * self.rise);
-        Some(Flow { mass, volume: mass / coolant.density })
+        Some(CoolantFlow { mass, volume: mass / coolant.density })
     }
 }

@@ -7,7 +7,7 @@ mod root;
 mod search;
 mod trial;
 
-pub use cooling::{Coolant, Cooling, CoolingError, CoolingTask, Flow};
+pub use cooling::{Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask};
 pub use error::SizeError;
 pub use search::{Sizing, Verdict, size};
 pub use trial::{SizeTask, Trial, requirement_margins};

@@ -56,6 +56,8 @@ pub struct Sizing {
     pub first_guess: Option<f64>,
     /// How many steady states were solved.
     pub solved: usize,
+    /// The places over the whole range that were looked at first, the best end of it first.
+    pub looked_at: Vec<Trial>,
 }
 
 impl Sizing {
@@ -96,7 +98,17 @@ pub fn size(task: &SizeTask<'_>) -> Result<Sizing, SizeError> {
     let sensitivity = search.sensitivity(task, &found.trial, closest);
     let Found { verdict, trial, breaks_again, first_guess } = found;
     let solved = search.trials.count();
-    Ok(Sizing { verdict, trial, closest, breaks_again, sensitivity, first_guess, solved })
+    let looked_at = search.scan;
+    Ok(Sizing {
+        verdict,
+        trial,
+        closest,
+        breaks_again,
+        sensitivity,
+        first_guess,
+        solved,
+        looked_at,
+    })
 }
 
 /// The places of the first look, the best end of the range first; the ends are exact.

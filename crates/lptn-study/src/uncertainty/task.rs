@@ -2,7 +2,7 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Network, NodeId, OutputTimes, Parameters};
-use lptn_solve::{End, Proceed, Record, Solution, Transient, TransientError, Watch};
+use lptn_solve::{Proceed, RecordedNodes, RunStatus, Solution, Transient, TransientError, Watch};
 
 use crate::uncertainty::answer::AnswerOf;
 use crate::uncertainty::error::UncertaintyError;
@@ -40,7 +40,7 @@ impl UncertaintyTask<'_> {
     /// The run with what has to be recorded and watched.
     pub(crate) fn watched(&self) -> Transient {
         let watch = self.nodes.iter().map(|&node| Watch { node, level: None }).collect();
-        let (record, windows) = (Record::Nodes(self.nodes.clone()), Vec::new());
+        let (record, windows) = (RecordedNodes::Nodes(self.nodes.clone()), Vec::new());
         Transient { record, watch, windows, balance: None, ..self.run.clone() }
     }
 
@@ -57,7 +57,7 @@ impl UncertaintyTask<'_> {
             self.solve(&system, rows, control).map_err(|error| NoSample::failed(&error))?;
         let ledger = solution.ledger();
         match solution.end() {
-            End::Interrupted(_) => Err(NoSample::Interrupted),
+            RunStatus::Interrupted(_) => Err(NoSample::Interrupted),
             _ if !ledger.closes() => Err(NoSample::ledger()),
             _ => Ok(Sample::of(&solution, rows)),
         }

@@ -3,7 +3,7 @@
 use super::function::Function;
 use super::program::{Arithmetic, Op, Operand, Program};
 use super::tree::Comparison;
-use crate::table::Table;
+use crate::table::LookupTable;
 use crate::taylor::Taylor;
 use crate::taylor::interval::Interval;
 
@@ -94,13 +94,13 @@ impl Run<'_> {
             Op::PoppedPower => power(self.pop(), accumulator),
             Op::Call(function) => call(function, accumulator),
             Op::Table(table) => match self.table(table) {
-                Some(Table::One(table)) => table.enclose(accumulator),
+                Some(LookupTable::One(table)) => table.enclose(accumulator),
                 _ => Taylor::unknown(),
             },
             Op::PoppedTable(table) => {
                 let first = self.pop();
                 match self.table(table) {
-                    Some(Table::Two(table)) => table.enclose([first, accumulator]),
+                    Some(LookupTable::Two(table)) => table.enclose([first, accumulator]),
                     _ => Taylor::unknown(),
                 }
             }
@@ -108,7 +108,7 @@ impl Run<'_> {
         }
     }
 
-    fn table(&self, index: usize) -> Option<&Table> {
+    fn table(&self, index: usize) -> Option<&LookupTable> {
         self.program.tables.get(index).map(|named| &*named.table)
     }
 }

@@ -8,7 +8,7 @@ use super::program::{Arithmetic, NamedTable, Op, Operand, Program};
 use super::tree::Comparison;
 use crate::format::rounded;
 use crate::scalar::Scalar;
-use crate::table::Table;
+use crate::table::LookupTable;
 use crate::unit::Unit;
 
 /// What can go wrong at run time.
@@ -301,8 +301,8 @@ impl Program {
     #[inline(never)]
     fn table<S: Scalar>(&self, index: usize, table: usize, argument: S) -> Result<S, EvalError> {
         let found = match &self.named(table).table.as_ref() {
-            Table::One(table) => table.value_and_slope(argument.value()),
-            Table::Two(_) => None,
+            LookupTable::One(table) => table.value_and_slope(argument.value()),
+            LookupTable::Two(_) => None,
         };
         match found {
             Some((value, slope)) => Ok(argument.chain(value, slope)),
@@ -319,8 +319,8 @@ impl Program {
     ) -> Result<S, EvalError> {
         let [x, y] = arguments;
         let found = match &self.named(table).table.as_ref() {
-            Table::Two(table) => table.value_and_slopes(x.value(), y.value()),
-            Table::One(_) => None,
+            LookupTable::Two(table) => table.value_and_slopes(x.value(), y.value()),
+            LookupTable::One(_) => None,
         };
         match found {
             Some((value, slopes)) => Ok(x.chain2(y, value, slopes)),

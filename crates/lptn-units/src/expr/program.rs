@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::function::Function;
 use super::tree::Comparison;
-use crate::table::Table;
+use crate::table::LookupTable;
 use crate::types::Type;
 use crate::unit::Unit;
 
@@ -61,7 +61,7 @@ pub(crate) enum Op {
 #[derive(Clone, Debug)]
 pub(crate) struct NamedTable {
     pub(crate) name: String,
-    pub(crate) table: Arc<Table>,
+    pub(crate) table: Arc<LookupTable>,
     /// Those of [`crate::TableSymbol::units`].
     pub(crate) units: Arc<[Unit]>,
 }
@@ -70,7 +70,7 @@ pub(crate) struct NamedTable {
 #[derive(Clone, Debug)]
 pub struct TableCall {
     /// The table that is called.
-    pub table: Arc<Table>,
+    pub table: Arc<LookupTable>,
     /// One program per argument. It loads the ordinary slots of its symbols, inside comparisons
     /// too, so that the roots of its value minus a knot are where the call crosses the knot.
     pub arguments: Vec<Program>,

@@ -3,7 +3,7 @@
 
 use super::function::Function;
 use super::program::{Arithmetic, Op, Operand, Program};
-use crate::table::Table;
+use crate::table::LookupTable;
 
 /// What is known of a value that depends on one variable: the range it stays in, and whether it
 /// goes one way.
@@ -225,7 +225,8 @@ impl Program {
 
     /// What a table of one argument makes of it.
     fn looked_up(&self, index: usize, argument: Trend) -> Trend {
-        let Some(Table::One(table)) = self.tables.get(index).map(|named| &*named.table) else {
+        let Some(LookupTable::One(table)) = self.tables.get(index).map(|named| &*named.table)
+        else {
             return Trend::UNKNOWN;
         };
         let values = table.values();

@@ -21,16 +21,16 @@ pub use error::TableError;
 pub use one::Table1;
 pub use two::Table2;
 
-/// A table of either kind.
+/// A tabulated function of one number or of two.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Table {
+pub enum LookupTable {
     /// A function of one number.
     One(Table1),
     /// A function of two numbers.
     Two(Table2),
 }
 
-impl Table {
+impl LookupTable {
     /// How many arguments it takes: 1 or 2.
     pub fn dimension(&self) -> usize {
         match self {
@@ -68,9 +68,9 @@ impl Table {
 #[derive(Clone, Debug)]
 pub struct TableSymbol {
     /// The numbers, in SI units.
-    pub table: Arc<Table>,
-    /// The type of each argument, as many as [`Table::dimension`]; one that is missing is a plain
-    /// number.
+    pub table: Arc<LookupTable>,
+    /// The type of each argument, as many as [`LookupTable::dimension`]; one that is missing is a
+    /// plain number.
     pub arguments: Vec<Type>,
     /// The type of the value.
     pub ty: Type,

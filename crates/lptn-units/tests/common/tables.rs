@@ -6,8 +6,8 @@
 use std::sync::Arc;
 
 use lptn_units::{
-    Dimension, EvalError, Expression, Interpolation, Outside, Problems, Program, Scope, Symbol,
-    Table, Table1, Table2, TableSymbol, Type, UnitError,
+    Dimension, EvalError, Expression, Interpolation, LookupTable, Outside, Problems, Program,
+    Scope, Symbol, Table1, Table2, TableSymbol, Type, UnitError,
 };
 
 pub(crate) const SPEED: Type = Type::of(Dimension::ANGULAR_VELOCITY);
@@ -31,8 +31,8 @@ pub(crate) const SLOTS: [f64; 7] = [50.0, 1.0, 320.0, 0.25, 2.5, 7.0, 410.0];
 /// 100 rad/s and 2 N m; `cp(T)`: 300 to 400 K held, plain numbers 1 to 2; `f(x)`, `g(x, y)`: the
 /// property's own.
 pub(crate) struct Names {
-    pub(crate) plain: Arc<Table>,
-    pub(crate) pair: Arc<Table>,
+    pub(crate) plain: Arc<LookupTable>,
+    pub(crate) pair: Arc<LookupTable>,
 }
 
 pub(crate) fn one(
@@ -40,12 +40,12 @@ pub(crate) fn one(
     y: &[f64],
     interpolation: Interpolation,
     outside: Outside,
-) -> Arc<Table> {
-    Arc::new(Table::One(Table1::new(x.to_vec(), y.to_vec(), interpolation, outside).unwrap()))
+) -> Arc<LookupTable> {
+    Arc::new(LookupTable::One(Table1::new(x.to_vec(), y.to_vec(), interpolation, outside).unwrap()))
 }
 
-pub(crate) fn two(x: &[f64], y: &[f64], z: &[f64], outside: Outside) -> Arc<Table> {
-    Arc::new(Table::Two(Table2::new(x.to_vec(), y.to_vec(), z.to_vec(), outside).unwrap()))
+pub(crate) fn two(x: &[f64], y: &[f64], z: &[f64], outside: Outside) -> Arc<LookupTable> {
+    Arc::new(LookupTable::Two(Table2::new(x.to_vec(), y.to_vec(), z.to_vec(), outside).unwrap()))
 }
 
 impl Default for Names {

@@ -12,7 +12,7 @@ use lptn_netlist::{Diagnostic, Files, Netlist, Severity};
 use lptn_network::{Network, NodeId};
 use lptn_report::{Json, Page, Text, duration, significant};
 use lptn_solve::{Lumping, Stiffness};
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use serde_json::{Value, json};
 
 use crate::console::Console;
@@ -199,8 +199,8 @@ impl Stiff {
 
     fn json(&self) -> Value {
         let one =
-            |(name, tau): &(String, f64)| json!({ "node": name, "tau": Scalar::new(*tau, "s") });
-        let ratio = Scalar::new(self.ratio, "1");
+            |(name, tau): &(String, f64)| json!({ "node": name, "tau": SiValue::new(*tau, "s") });
+        let ratio = SiValue::new(self.ratio, "1");
         json!({ "fastest": one(&self.fastest), "slowest": one(&self.slowest), "ratio": ratio })
     }
 }

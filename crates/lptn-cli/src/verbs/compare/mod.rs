@@ -1,6 +1,7 @@
 //! `lptn compare`
 
 mod args;
+mod figure;
 mod page;
 
 pub(crate) use args::CompareArgs;

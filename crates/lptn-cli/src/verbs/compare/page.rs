@@ -4,6 +4,7 @@ use std::io;
 use std::path::Path;
 
 use lptn_network::LimitSeverity;
+use lptn_plot::Figure;
 use lptn_report::{
     Align, Column, Json, Page, Rows, Text, TextTable, WIDTH, decimals, duration, fixed, plain,
     significant, stacked,
@@ -35,6 +36,10 @@ impl Page for Comparison {
         compare_table(&self.rows, &self.unit).into()
     }
 
+    fn figures(&self) -> Vec<Figure> {
+        vec![self.figure()]
+    }
+
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let warnings = self.warnings.iter().flat_map(|(files, list)| {
             list.iter().map(|diagnostic| diagnostics::json(files, diagnostic)).collect::<Vec<_>>()
@@ -53,7 +58,7 @@ impl Page for Comparison {
 
 /// The names of the candidates: their files without folder and ending, unless two would be the
 /// same.
-fn names(rows: &[CompareRow]) -> Vec<String> {
+pub(super) fn names(rows: &[CompareRow]) -> Vec<String> {
     let stem = |row: &CompareRow| {
         let stem = Path::new(&row.file).file_stem();
         plain(&stem.map_or_else(|| row.file.clone().into(), |stem| stem.to_string_lossy()))

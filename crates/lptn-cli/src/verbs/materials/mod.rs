@@ -7,9 +7,9 @@ pub(crate) use args::MaterialsArgs;
 use std::io;
 
 use lptn_netlist::Diagnostic;
-use lptn_netlist::library::{self, Record};
+use lptn_netlist::library::{self, LibrarySubstance};
 use lptn_report::{Json, Page, Rows, Text, TextTable, significant};
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use serde_json::{Value, json};
 
 use crate::console::Console;
@@ -28,15 +28,16 @@ pub(crate) fn materials(args: &MaterialsArgs, console: &Console) -> Result<Exit,
     console.show(&found, args.printed.format)
 }
 
-type Records = Vec<&'static Record>;
+type Records = Vec<&'static LibrarySubstance>;
 
-fn all(records: &'static [Record]) -> Records {
+fn all(records: &'static [LibrarySubstance]) -> Records {
     records.iter().collect()
 }
 
 fn one(name: &str) -> Result<(Records, Records), Failure> {
-    let of =
-        |records: &'static [Record]| records.iter().filter(|r| r.name == name).collect::<Records>();
+    let of = |records: &'static [LibrarySubstance]| {
+        records.iter().filter(|r| r.name == name).collect::<Records>()
+    };
     let found = (of(library::materials()), of(library::fluids()));
     if found.0.is_empty() && found.1.is_empty() {
         return Err(unknown(name));
@@ -96,7 +97,7 @@ impl Page for Found {
     }
 }
 
-fn table(title: &str, records: &[&Record]) -> TextTable {
+fn table(title: &str, records: &[&LibrarySubstance]) -> TextTable {
     TextTable::of(records)
         .left(title, |r| r.name.as_str())
         .right("kg/m^3", |r| number(r.density))
@@ -112,7 +113,7 @@ fn short(title: &str) -> String {
     title.split([',', ';', '(']).next().unwrap_or(title).trim().to_owned()
 }
 
-fn describe(record: &Record, text: &mut Text) {
+fn describe(record: &LibrarySubstance, text: &mut Text) {
     text.line(format!("{}: {}", record.name, record.title));
     text.section();
     let lines = [
@@ -127,7 +128,7 @@ fn describe(record: &Record, text: &mut Text) {
     text.sentence(&format!("{:22}", "source"), &record.source);
 }
 
-fn rows(materials: &[&Record], fluids: &[&Record]) -> Vec<Vec<String>> {
+fn rows(materials: &[&LibrarySubstance], fluids: &[&LibrarySubstance]) -> Vec<Vec<String>> {
     let heading = [
         "name",
         "kind",
@@ -139,7 +140,7 @@ fn rows(materials: &[&Record], fluids: &[&Record]) -> Vec<Vec<String>> {
         "source",
     ];
     let cell = |value: Option<f64>| value.map_or(String::new(), lptn_units::format_number);
-    let row = |kind: &str, r: &Record| {
+    let row = |kind: &str, r: &LibrarySubstance| {
         let numbers = [r.density, r.cp, r.k, r.temperature].map(cell);
         let words = [r.name.clone(), kind.to_owned()];
         words.into_iter().chain(numbers).chain([r.title.clone(), r.source.clone()]).collect()
@@ -150,9 +151,9 @@ fn rows(materials: &[&Record], fluids: &[&Record]) -> Vec<Vec<String>> {
         .collect()
 }
 
-fn members(records: &[&Record]) -> Value {
-    let scalar = |value: Option<f64>, unit: &str| value.map(|value| Scalar::new(value, unit));
-    let member = |record: &&Record| {
+fn members(records: &[&LibrarySubstance]) -> Value {
+    let scalar = |value: Option<f64>, unit: &str| value.map(|value| SiValue::new(value, unit));
+    let member = |record: &&LibrarySubstance| {
         let value = json!({
             "title": record.title,
             "density": scalar(record.density, "kg/m^3"),

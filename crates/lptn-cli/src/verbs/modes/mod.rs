@@ -1,15 +1,17 @@
 //! `lptn modes`
 
 mod args;
+mod figure;
 
 pub(crate) use args::ModesArgs;
 
 use std::io;
 
 use lptn_network::{Network, Node};
+use lptn_plot::Figure;
 use lptn_report::{Json, Page, Rows, Text, TextTable, duration, fixed, shortened};
 use lptn_solve::{EventKind, Mode, Modes};
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
 use crate::console::Console;
@@ -145,10 +147,10 @@ impl View<'_> {
     fn mode(&self, mode: &Mode) -> Value {
         let by_node = |values: &[f64]| -> Map<String, Value> {
             let named = self.network().nodes().iter().zip(values);
-            named.map(|(node, &x)| (node.name.clone(), json!(Scalar::new(x, "1")))).collect()
+            named.map(|(node, &x)| (node.name.clone(), json!(SiValue::new(x, "1")))).collect()
         };
         json!({
-            "tau": Scalar::new(mode.tau(), "s"),
+            "tau": SiValue::new(mode.tau(), "s"),
             "shape": by_node(&mode.shape),
             "participation": by_node(&mode.participation),
         })
@@ -170,11 +172,15 @@ impl Page for View<'_> {
         self.modes.table(self.network()).into()
     }
 
+    fn figures(&self) -> Vec<Figure> {
+        if self.modes.modes().is_empty() { Vec::new() } else { vec![self.figure()] }
+    }
+
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let modes: Vec<Value> = self.modes.modes().iter().map(|mode| self.mode(mode)).collect();
         self.input.head(json, &[])?;
         json.member("notes", &self.findings())?;
-        json.member("count", &Scalar::new(count_as_number(self.all), "1"))?;
+        json.member("count", &SiValue::new(count_as_number(self.all), "1"))?;
         json.member("modes", &modes)
     }
 }

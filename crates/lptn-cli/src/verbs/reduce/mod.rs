@@ -1,6 +1,7 @@
 //! `lptn reduce`
 
 mod args;
+mod figure;
 mod page;
 
 pub(crate) use args::ReduceArgs;

@@ -3,9 +3,10 @@
 use std::borrow::Cow;
 use std::io;
 
-use lptn_reduce::{Bias, Definition, Deviation, Dynamics, FitError, Pair, Window};
+use lptn_plot::Figure;
+use lptn_reduce::{Bias, Definition, Deviation, Dynamics, FitError, LeastSquaresWindow, Pair};
 use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, duration, fixed, significant};
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use serde_json::{Value, json};
 
 use super::View;
@@ -30,6 +31,10 @@ impl Page for View<'_> {
 
     fn rows(&self) -> Rows<'_> {
         self.reduction.table().into()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        self.reduction.dynamics.iter().map(|dynamics| self.figure(dynamics)).collect()
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -169,13 +174,15 @@ impl View<'_> {
         };
         let window = duration(dynamics.window.length(), 4);
         notes.push(match dynamics.window {
-            Window::Given(_) => format!("least_squares fits the response to a step over {window}"),
-            Window::Run(_) => {
+            LeastSquaresWindow::Given(_) => {
+                format!("least_squares fits the response to a step over {window}")
+            }
+            LeastSquaresWindow::Run(_) => {
                 format!(
                     "least_squares fits the response to a step over {window}, as long as the run"
                 )
             }
-            Window::TimeConstants(_) => {
+            LeastSquaresWindow::TimeConstants(_) => {
                 format!(
                     "without [run] no run is compared, and least_squares fits {window}, five times \
                     tau_1"
@@ -304,9 +311,9 @@ fn dynamics(dynamics: Option<&Dynamics>, json: &mut Json<'_>) -> io::Result<()> 
     json.member("recommended_by", if dynamics.recommended.by_run { "run" } else { "step" })?;
     json.member("tau_1", &scalar(dynamics.step.slowest().tau, "s"))?;
     let of = match dynamics.window {
-        Window::Given(_) => "given",
-        Window::Run(_) => "run",
-        Window::TimeConstants(_) => "five time constants",
+        LeastSquaresWindow::Given(_) => "given",
+        LeastSquaresWindow::Run(_) => "run",
+        LeastSquaresWindow::TimeConstants(_) => "five time constants",
     };
     json.member("window", &json!({ "value": dynamics.window.length(), "unit": "s", "from": of }))?;
     let kelvin = |value: f64| scalar(value, "K");
@@ -340,8 +347,8 @@ fn of_bias(bias: &Result<Bias, FitError>) -> Value {
     }
 }
 
-fn scalar(value: f64, unit: &str) -> Scalar {
-    Scalar::new(value, unit)
+fn scalar(value: f64, unit: &str) -> SiValue {
+    SiValue::new(value, unit)
 }
 
 fn named<'a>(names: impl Iterator<Item = Cow<'a, str>>, values: &[f64]) -> Value {

@@ -3,7 +3,7 @@
 use lptn_network::{ControlId, Network};
 use lptn_report::{Shortest, Text, TextTable, duration, fixed};
 use lptn_solve::{Event, EventKind, Solution};
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use serde_json::{Value, json};
 
 use crate::words::MOST_NODES;
@@ -29,7 +29,7 @@ pub(crate) fn json(solution: &Solution) -> Value {
     let state = |state: u8| json!({ "value": state, "unit": "1" });
     let one = |event: &Event| {
         json!({
-            "time": Scalar::new(event.time, "s"),
+            "time": SiValue::new(event.time, "s"),
             "kind": event.kind.word(),
             "name": event.kind.name(solution.network()),
             "before": state(event.before),

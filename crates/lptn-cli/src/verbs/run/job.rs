@@ -6,7 +6,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings, Span};
 use lptn_network::{End, InputError, InputProblem, Item, Network, NodeId};
 use lptn_solve::{
-    Record, Selection, Solution, SteadyError, SteadyState, StopReason, Summary, Transient,
+    RecordedNodes, Selection, Solution, SteadyError, SteadyState, StopReason, Summary, Transient,
     TransientError, Window,
 };
 use lptn_units::{Problem as _, Unit};
@@ -106,7 +106,7 @@ impl<'a> Job<'a> {
             let shown = shown(system.network(), selection, steady);
             watch = Summary::watches(system, self.settings.start, &shown, steady)
                 .map_err(TransientError::Start)?;
-            if let Record::Nodes(nodes) = &mut record {
+            if let RecordedNodes::Nodes(nodes) = &mut record {
                 nodes.extend(shown);
             }
         }

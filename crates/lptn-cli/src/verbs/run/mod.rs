@@ -2,6 +2,7 @@
 
 mod args;
 mod events;
+pub(crate) mod figure;
 mod gaps;
 pub(crate) mod job;
 mod next;
@@ -28,8 +29,23 @@ use crate::input::Input;
 
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
-    let job = Job::new(args, &input)?;
-    uncertainty::check(&args.uncertainty, &input)?;
+    let (result, folder) = outcome(args, &input, console)?;
+    if let Some(folder) = &folder {
+        result.write(&args.source.set, folder)?;
+    }
+    console.show(&result, result.job.format)?;
+    result.messages(folder.as_ref(), console);
+    Ok(result.conclude(console, folder.is_some()))
+}
+
+/// Runs a netlist, and gives the folder that its files are to be written to.
+pub(crate) fn outcome<'a>(
+    args: &RunArgs,
+    input: &'a Input,
+    console: &Console,
+) -> Result<(Outcome<'a>, Option<Folder>), Failure> {
+    let job = Job::new(args, input)?;
+    uncertainty::check(&args.uncertainty, input)?;
     let system = input.assemble()?;
     let folder = (!args.no_files).then(|| Folder::prepare(job.folder(args))).transpose()?;
     console.warn(&input.netlist.files, &input.netlist.warnings);
@@ -37,21 +53,16 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     let begun = Instant::now();
     let (solution, failure) = job.solve(&system, steady.as_ref().ok(), console)?;
     // what broke off or was interrupted is not asked how sure it is
-    let whole = matches!(solution.end(), lptn_solve::End::Reached);
+    let whole = matches!(solution.end(), lptn_solve::RunStatus::Reached);
     let uncertainty =
         if whole { uncertainty::study(&args.uncertainty, &job, console) } else { None };
     let wall_time = begun.elapsed().as_secs_f64();
     let lumping = Lumping::of_run(&solution);
     let table = Table::of_solution(&solution, &job.selection, &job.unit);
-    let (verbose, format) = (console.verbose, job.format);
+    let verbose = console.verbose;
     let result =
         Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, verbose };
-    if let Some(folder) = &folder {
-        result.write(&args.source.set, folder)?;
-    }
-    console.show(&result, format)?;
-    result.messages(folder.as_ref(), console);
-    Ok(result.conclude(console, folder.is_some()))
+    Ok((result, folder))
 }
 
 fn steady(system: &ThermalSystem, start: f64) -> Result<SteadyState, NoSteady> {

@@ -3,9 +3,9 @@
 use lptn_netlist::Diagnostic;
 use lptn_network::{Parameter, list_of_names};
 use lptn_report::{Format, WIDTH, duration, labelled, significant, words, write_csv, write_rows};
-use lptn_solve::{Beyond, End, Lumping, Solution, SteadyState, Table, Unbounded};
+use lptn_solve::{Beyond, Lumping, RunStatus, Solution, SteadyState, Table, Unbounded};
 use lptn_study::{
-    FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, Scalar, StatisticsRecord, Sundials,
+    FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, SiValue, StatisticsRecord, Sundials,
 };
 use serde_json::{Map, Value};
 
@@ -78,9 +78,9 @@ impl Outcome<'_> {
             arguments: files::arguments(),
             inputs: self.job.input.netlist.inputs().map(hash).collect(),
             parameters: self.parameters(set),
-            start: Scalar::new(settings.start, "s"),
-            stop: Scalar::new(settings.stop, "s"),
-            tolerance: Scalar::new(settings.tolerance, "K"),
+            start: SiValue::new(settings.start, "s"),
+            stop: SiValue::new(settings.stop, "s"),
+            tolerance: SiValue::new(settings.tolerance, "K"),
             end: RunEnd::of(&self.solution, settings.stop, self.ended_early()),
             statistics: StatisticsRecord::new(&self.solution),
             ledger: self.ledger(),
@@ -130,7 +130,9 @@ impl Outcome<'_> {
     pub(super) fn ended_early(&self) -> Option<String> {
         match (self.solution.end(), &self.failure) {
             (_, Some(problem)) => Some(problem.message.clone()),
-            (End::Interrupted(time), None) => Some(format!("interrupted at {}", duration(time, 4))),
+            (RunStatus::Interrupted(time), None) => {
+                Some(format!("interrupted at {}", duration(time, 4)))
+            }
             _ => None,
         }
     }
@@ -177,7 +179,7 @@ impl Outcome<'_> {
             console.warn(&self.job.input.netlist.files, &self.doubts());
         }
         console.warn(&self.job.input.netlist.files, &self.found());
-        if self.job.format == Format::Table && self.solution.end() == End::Reached {
+        if self.job.format == Format::Table && self.solution.end() == RunStatus::Reached {
             let command = next::after_run(self.job.input, self.steady.is_ok());
             command.iter().for_each(|command| console.note(&format!("next   {command}")));
         }

@@ -3,10 +3,11 @@
 use std::borrow::Cow;
 use std::io;
 
+use lptn_plot::Figure;
 use lptn_report::{
     Flow, Json, Page, Rows, Text, TextTable, decimals, duration, fixed, significant, sparkline,
 };
-use lptn_solve::{End, NodeSummary, Solution, SteadyError, Summary, first_there};
+use lptn_solve::{NodeSummary, RunStatus, Solution, SteadyError, Summary, first_there};
 use lptn_study::{RunEnd, StatisticsRecord};
 
 use super::job::NoSteady;
@@ -46,7 +47,7 @@ impl Page for Outcome<'_> {
         text.section().notes(self.uncertainty().into_iter().flat_map(uncertain));
         text.notes(notes(self, &nodes)).section();
         // where a run breaks off, the integrals and the state are not those of one time
-        if !matches!(self.solution.end(), End::Failed(_)) {
+        if !matches!(self.solution.end(), RunStatus::Failed(_)) {
             heat_over(&mut text, &self.solution, span.1 - span.0);
             if let Some(of) = self.solution.balance() {
                 balance::section(&mut text, network, (of, Some(span)));
@@ -65,6 +66,10 @@ impl Page for Outcome<'_> {
             Some(study) => bands(self.solution.network(), &study.found, &self.job.unit).into(),
             None => (&self.table).into(),
         }
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        vec![self.figure()]
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -90,8 +95,11 @@ impl Page for Outcome<'_> {
 /// the tolerance cannot tell from the start or from the end is there.
 fn include_rows(of: &Outcome<'_>, node: &mut NodeSummary) {
     let values = of.solution.temperature(node.node).unwrap_or_default();
-    node.end =
-        values.last().copied().filter(|_| of.solution.end() == End::Reached).unwrap_or(node.end);
+    node.end = values
+        .last()
+        .copied()
+        .filter(|_| of.solution.end() == RunStatus::Reached)
+        .unwrap_or(node.end);
     for (&time, &value) in of.solution.times().iter().zip(&values) {
         if value > node.peak.0 {
             node.peak = (value, time);
@@ -104,8 +112,8 @@ fn include_rows(of: &Outcome<'_>, node: &mut NodeSummary) {
 /// The time up to which there are rows: the stop, unless the run ended early.
 fn reached(of: &Outcome<'_>) -> f64 {
     match of.solution.end() {
-        End::Reached => of.job.settings.stop,
-        End::Interrupted(time) | End::Failed(time) => time,
+        RunStatus::Reached => of.job.settings.stop,
+        RunStatus::Interrupted(time) | RunStatus::Failed(time) => time,
     }
 }
 
@@ -207,7 +215,7 @@ fn notes(of: &Outcome<'_>, nodes: &[NodeSummary]) -> Vec<String> {
         Err(NoSteady::Network(SteadyError::NoBoundary { .. })) => {}
         Err(NoSteady::Network(error)) => notes.push(format!("steady is `-`: {error}")),
     }
-    let reached = of.solution.end() == End::Reached;
+    let reached = of.solution.end() == RunStatus::Reached;
     let switched = of.solution.statistics().switched_to_lu.filter(|_| reached);
     notes.extend(switched.map(|time| {
         format!(

@@ -1,23 +1,23 @@
 //! The state that a run leaves for another one to start from.
 
-use lptn_netlist::{State, StateControl, StateEnd};
+use lptn_netlist::{SavedState, StateControl, StateEnd};
 use lptn_report::duration;
-use lptn_solve::{End, Solution};
+use lptn_solve::{RunStatus, Solution};
 
 use crate::input::Input;
 
 /// The state at the end that a run reached.
-pub(crate) fn of<'a>(input: &'a Input, solution: &'a Solution) -> State<'a> {
+pub(crate) fn of<'a>(input: &'a Input, solution: &'a Solution) -> SavedState<'a> {
     let nodes = solution.network().nodes();
     let last = solution.last();
-    State {
+    SavedState {
         network: &input.text.stem,
         title: solution.network().title(),
         time: last.time,
         end: match solution.end() {
-            End::Reached => StateEnd::Reached,
-            End::Interrupted(_) => StateEnd::Interrupted,
-            End::Failed(_) => StateEnd::Failed,
+            RunStatus::Reached => StateEnd::Reached,
+            RunStatus::Interrupted(_) => StateEnd::Interrupted,
+            RunStatus::Failed(_) => StateEnd::Failed,
         },
         temperatures: nodes
             .iter()

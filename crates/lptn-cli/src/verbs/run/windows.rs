@@ -2,7 +2,7 @@
 
 use lptn_report::{Shortest, Text, TextTable, decimals, duration, fixed};
 use lptn_solve::{ColumnSeen, WindowSeen};
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use lptn_units::Unit;
 use serde_json::{Map, Value, json};
 
@@ -70,9 +70,9 @@ pub(crate) fn rows(windows: &[WindowSeen], unit: &Unit) -> Vec<Vec<String>> {
 /// Members by the window's name:
 /// `{ from, to, columns: { NAME: { mean, min, min_at, max, max_at } } }`, in SI.
 pub(crate) fn members(windows: &[WindowSeen]) -> Map<String, Value> {
-    let time = |time: f64| Scalar::new(time, "s");
+    let time = |time: f64| SiValue::new(time, "s");
     let column = |c: &ColumnSeen| {
-        let scalar = |value: f64| Scalar::new(value, &c.ty.dimension.si_unit());
+        let scalar = |value: f64| SiValue::new(value, &c.ty.dimension.si_unit());
         let member = json!({
             "mean": scalar(c.mean),
             "min": scalar(c.min.0),

@@ -5,7 +5,7 @@ use std::io;
 use lptn_netlist::Files;
 use lptn_report::{Json, Page, Rows, Text, TextTable, plain, significant};
 use lptn_solve::Table;
-use lptn_study::{Coolant, Cooling, CoolingTask, Flow, Scalar};
+use lptn_study::{Coolant, CoolantFlow, Cooling, CoolingTask, SiValue};
 use lptn_units::{Dimension, Type};
 use serde_json::{Map, json};
 
@@ -51,8 +51,8 @@ struct Answer<'a> {
     task: CoolingTask,
     cooling: Cooling,
     /// Properties and flow; the flow is `None` where the coolant would leave warmer than the limit.
-    air: Option<(Coolant, Option<Flow>)>,
-    oil: Option<(Coolant, Option<Flow>)>,
+    air: Option<(Coolant, Option<CoolantFlow>)>,
+    oil: Option<(Coolant, Option<CoolantFlow>)>,
 }
 
 impl Answer<'_> {
@@ -76,7 +76,7 @@ impl Answer<'_> {
     /// Name, value in SI units, unit; NaN for what there is not.
     fn values(&self) -> [(&'static str, f64, &'static str); 6] {
         let resistance = if self.feasible() { self.cooling.resistance } else { f64::NAN };
-        let flow = |of: Option<(Coolant, Option<Flow>)>| of.and_then(|(_, flow)| flow);
+        let flow = |of: Option<(Coolant, Option<CoolantFlow>)>| of.and_then(|(_, flow)| flow);
         let mass = |of| flow(of).map_or(f64::NAN, |flow| flow.mass);
         let volume = |of| flow(of).map_or(f64::NAN, |flow| flow.volume);
         [
@@ -140,11 +140,11 @@ impl Page for Answer<'_> {
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let member = |(name, value, unit): (&str, f64, &str)| {
-            (name.to_owned(), json!(Scalar::new(value, unit)))
+            (name.to_owned(), json!(SiValue::new(value, unit)))
         };
         diagnostics::head(json, None, (&Files::new(), &[]))?;
         json.member("values", &self.values().map(member).into_iter().collect::<Map<_, _>>())?;
-        json.member("margin", &Scalar::new(self.cooling.available, "K"))?;
+        json.member("margin", &SiValue::new(self.cooling.available, "K"))?;
         json.member("binding", &self.feasible().then_some("limit"))?;
         json.member("feasible", &self.feasible())
     }
@@ -154,7 +154,7 @@ impl Page for Answer<'_> {
     }
 }
 
-fn flow(of: Option<(Coolant, Option<Flow>)>) -> String {
+fn flow(of: Option<(Coolant, Option<CoolantFlow>)>) -> String {
     match of {
         None => "no properties".into(),
         Some((_, None)) => "would leave warmer than the limit".into(),
@@ -166,7 +166,7 @@ fn flow(of: Option<(Coolant, Option<Flow>)>) -> String {
     }
 }
 
-fn properties(of: Option<(Coolant, Option<Flow>)>) -> String {
+fn properties(of: Option<(Coolant, Option<CoolantFlow>)>) -> String {
     // of no use where there is no flow
     of.filter(|(_, flow)| flow.is_some()).map_or(String::new(), |(coolant, _)| {
         let (cp, rho) = (significant(coolant.specific_heat, 4), significant(coolant.density, 4));

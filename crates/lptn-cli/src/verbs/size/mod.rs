@@ -3,6 +3,7 @@
 mod args;
 mod changing;
 mod cooling;
+mod figure;
 mod page;
 mod write;
 
@@ -22,8 +23,8 @@ use crate::options::Source;
 pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
     let Some(file) = &args.file else { return cooling::cooling(args, console) };
     let input = Input::load(&Source { file: file.clone(), set: args.set.clone() })?;
-    let study =
-        STUDIES.find(&input, (&input.netlist.sizes, |study| &study.name), args.name.as_deref())?;
+    let sizes = &input.netlist.studies.sizes;
+    let study = STUDIES.find(&input, (sizes, |study| &study.name), args.name.as_deref())?;
     let parameter = parameter(&input, study)?;
     let unit = input.unit_of(parameter);
     if args.write {

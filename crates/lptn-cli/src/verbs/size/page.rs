@@ -3,9 +3,10 @@
 use std::io;
 
 use lptn_netlist::{Goal, Requirement};
+use lptn_plot::Figure;
 use lptn_report::{Json, Page, Rows, Text, TextTable, plain, significant};
 use lptn_solve::Table;
-use lptn_study::{Scalar, Verdict};
+use lptn_study::{SiValue, Verdict};
 use lptn_units::Unit;
 use serde_json::json;
 
@@ -56,16 +57,20 @@ impl Page for Answer<'_> {
         table.done().into()
     }
 
+    fn figures(&self) -> Vec<Figure> {
+        vec![self.figure()]
+    }
+
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let (network, sizing) = (&self.input.netlist.network, &self.sizing);
         let si = network.parameters()[self.parameter.index()].ty.dimension.si_unit();
         let requirement = |(r, &margin): (&Requirement, &f64)| {
-            let margin = Scalar::new(margin, &r.ty.dimension.si_unit());
+            let margin = SiValue::new(margin, &r.ty.dimension.si_unit());
             json!({ "requirement": r.text, "margin": margin })
         };
         let margins = self.study.requirements.iter().zip(&sizing.trial.margins);
-        let scalar = |value: f64| Scalar::new(value, &si);
-        let of_margin = |value: f64| Scalar::new(value, &self.closest_unit());
+        let scalar = |value: f64| SiValue::new(value, &si);
+        let of_margin = |value: f64| SiValue::new(value, &self.closest_unit());
         self.input.head(json, &[])?;
         json.member(
             "values",

@@ -57,7 +57,7 @@ fn proven(answer: &Answer<'_>) -> Option<String> {
 
 /// Whether a netlist stays inside the range of its study and keeps everything.
 fn keeps(answer: &Answer<'_>, netlist: &Netlist) -> Option<bool> {
-    let study = netlist.sizes.iter().find(|study| study.name == answer.study.name)?;
+    let study = netlist.studies.sizes.iter().find(|study| study.name == answer.study.name)?;
     let (from, to) = study.range(&netlist.network).ok()?;
     let value = netlist.network.parameter_value(netlist.network.parameter(&study.parameter).ok()?);
     let time = netlist.run.as_ref().map_or(0.0, |run| run.start);

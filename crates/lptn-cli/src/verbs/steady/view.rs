@@ -9,7 +9,7 @@ use lptn_report::{
     Json, Page, Rows, Text, TextTable, decimals, fixed, prefix, shortened, significant,
 };
 use lptn_solve::{Balance, Selection, SteadyState, Table};
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use lptn_units::Unit;
 use serde_json::{Map, json};
 
@@ -254,7 +254,7 @@ impl Page for View<'_> {
         let table = Table::of_steady(&netlist.network, self.steady, self.selection, &kelvin);
         let table = table.map_err(io::Error::other)?;
         let value =
-            |c: &lptn_solve::Column| (c.name.clone(), json!(Scalar::new(c.values[0], &c.unit)));
+            |c: &lptn_solve::Column| (c.name.clone(), json!(SiValue::new(c.values[0], &c.unit)));
         let found = self.doubts().into_iter().chain(sense::of_steady(netlist, self.steady));
         self.input.head(json, &found.collect::<Vec<_>>())?;
         json.member("values", &table.columns().iter().map(value).collect::<Map<_, _>>())?;

@@ -9,8 +9,8 @@ use std::io;
 use lptn_assembly::ThermalSystem;
 use lptn_network::Network;
 use lptn_report::{Json, Page, Rows, Text, TextTable, duration, shortened, significant};
-use lptn_solve::{Comparison, NoReference, Reference, Transient, TransientError, Verification};
-use lptn_study::Scalar;
+use lptn_solve::{NoReference, Reference, RunComparison, Transient, TransientError, Verification};
+use lptn_study::SiValue;
 use serde_json::{Value, json};
 
 use crate::console::Console;
@@ -69,7 +69,7 @@ impl View<'_> {
         &self.input.netlist.network
     }
 
-    fn node(&self, comparison: &Comparison) -> &str {
+    fn node(&self, comparison: &RunComparison) -> &str {
         &self.network().nodes()[comparison.difference.node.index()].name
     }
 
@@ -134,18 +134,18 @@ impl View<'_> {
         }
     }
 
-    fn worst(&self, comparison: &Comparison) -> Value {
+    fn worst(&self, comparison: &RunComparison) -> Value {
         json!({
-            "tolerance": Scalar::new(comparison.tolerance, "K"),
-            "difference": Scalar::new(comparison.difference.largest, "K"),
-            "allowed": Scalar::new(comparison.allowed, "K"),
+            "tolerance": SiValue::new(comparison.tolerance, "K"),
+            "difference": SiValue::new(comparison.difference.largest, "K"),
+            "allowed": SiValue::new(comparison.allowed, "K"),
             "node": self.node(comparison),
-            "time": Scalar::new(comparison.difference.time, "s"),
+            "time": SiValue::new(comparison.difference.time, "s"),
         })
     }
 
     fn reference_json(&self) -> Value {
-        let kelvin = |value: f64| Scalar::new(value, "K");
+        let kelvin = |value: f64| SiValue::new(value, "K");
         match &self.verification.reference {
             Reference::Exact { quadrature_error, own_error, .. } => json!({
                 "independent": true,

@@ -3,7 +3,8 @@
 use lptn_assembly::ThermalSystem;
 use lptn_network::{LimitId, OutputTimes};
 use lptn_solve::{
-    Gradient, LimitSeen, Record, SensitiveRun, Solution, Transient, limit_margins_at, sensitive_run,
+    Gradient, LimitSeen, RecordedNodes, SensitiveRun, Solution, Transient, limit_margins_at,
+    sensitive_run,
 };
 
 use crate::uncertainty::error::UncertaintyError;
@@ -37,7 +38,8 @@ pub(super) fn effects(
     }
     let ends = [task.run.start, task.run.stop];
     let output = OutputTimes::At(joined(&ends, seen.iter().map(|limit| limit.worst_at)));
-    let settings = Transient { output, record: Record::All, watch: Vec::new(), ..task.watched() };
+    let settings =
+        Transient { output, record: RecordedNodes::All, watch: Vec::new(), ..task.watched() };
     let run = sensitive_run(task.network, &settings, &ids(line.inputs))?;
     let all = |limit: &LimitSeen| {
         line.inputs.iter().map(|input| of_expression(task, &run, (limit, input))).collect()

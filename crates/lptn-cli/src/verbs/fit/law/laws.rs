@@ -7,7 +7,7 @@ use lptn_fit::law::{AtSpeed, Consistency, Exponent, LawError, LawOf, Significanc
 use lptn_fit::step::Capacity;
 use lptn_report::{Json, Page, Rows, Text, TextTable, fixed, significant};
 use lptn_solve::Table;
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use lptn_units::{Dimension, Type};
 use serde_json::{Value, json};
 
@@ -208,7 +208,7 @@ fn power(value: f64) -> String {
 pub(crate) fn members(found: &Consistency) -> Value {
     let exponent =
         |e: &Exponent| json!({ "value": e.value, "unit": "1", "standard_error": e.standard_error });
-    let scalar = Scalar::new;
+    let scalar = SiValue::new;
     let tested =
         |s: &Option<Significance>| s.map(|s| json!({ "z": s.z, "probability": s.probability }));
     let at = |at: &AtSpeed| {

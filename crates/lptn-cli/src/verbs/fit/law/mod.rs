@@ -10,7 +10,7 @@ mod shown;
 pub(crate) use args::LawArgs;
 
 use lptn_fit::law::{
-    Candidate, Consistency, Law, LawError, LawStudy, Measured, Outcome, Start, WrittenLaw,
+    Consistency, LawError, LawFit, LawStudy, LossLaw, Measured, Outcome, Start, WrittenLaw,
 };
 use lptn_fit::step::Capacity;
 use lptn_netlist::{Diagnostic, Files, Span};
@@ -56,24 +56,24 @@ impl Answer {
 
     /// A law of the user that has no coefficients although there are points enough, and why.
     fn not_fitted(&self) -> Option<(String, String)> {
-        let written = |c: &&Candidate| matches!(c.law, Law::Written(_)) && c.fitted().is_none();
-        let failed = |c: &&Candidate| !matches!(c.outcome, Outcome::TooFew { .. });
+        let written = |c: &&LawFit| matches!(c.law, LossLaw::Written(_)) && c.fitted().is_none();
+        let failed = |c: &&LawFit| !matches!(c.outcome, Outcome::TooFew { .. });
         let found = self.study.candidates.iter().find(|c| written(c) && failed(c))?;
         Some((found.law.to_string(), found.remark().unwrap_or_default()))
     }
 }
 
 /// The standard laws, and those of the command line.
-fn laws_to_fit(args: &LawArgs, data: &Data) -> Result<Vec<Law>, Failure> {
+fn laws_to_fit(args: &LawArgs, data: &Data) -> Result<Vec<LossLaw>, Failure> {
     let starts: Result<Vec<Start>, Failure> = args.start.iter().map(|text| start(text)).collect();
     let starts = starts?;
-    let mut laws = Law::standard();
+    let mut laws = LossLaw::standard();
     let mut known: Vec<String> = Vec::new();
     for text in &args.law {
         let law = WrittenLaw::new(text, &data.points, &starts)
             .map_err(|error| wrong_law("--law", text, &error))?;
         known.extend(law.coefficients().iter().map(|(name, _)| name.clone()));
-        laws.push(Law::Written(Box::new(law)));
+        laws.push(LossLaw::Written(Box::new(law)));
     }
     match starts.iter().find(|(name, _)| !known.contains(name)) {
         Some((name, _)) => {

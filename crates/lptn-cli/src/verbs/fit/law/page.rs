@@ -3,7 +3,7 @@
 use std::io;
 
 use lptn_fit::law::{
-    Candidate, Coefficient, Consistency, Exponent, Fitted, Law, LawStudy, SIGNIFICANT,
+    Coefficient, Consistency, Exponent, Fitted, LawFit, LawStudy, LossLaw, SIGNIFICANT,
 };
 use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, fixed, plain, significant};
 use lptn_solve::Table;
@@ -121,7 +121,7 @@ fn laws(answer: &Answer) -> TextTable {
 }
 
 /// The lines of a law: one for each coefficient.
-fn lines(answer: &Answer, candidate: &Candidate) -> Vec<Line> {
+fn lines(answer: &Answer, candidate: &LawFit) -> Vec<Line> {
     let Some(fit) = candidate.fitted() else {
         let remark = candidate.remark().unwrap_or_default();
         let law = plain(&candidate.law.to_string());
@@ -138,10 +138,10 @@ fn lines(answer: &Answer, candidate: &Candidate) -> Vec<Line> {
 }
 
 /// The terms of a sum below each other; another law on the first line.
-fn names(law: &Law, count: usize) -> Vec<String> {
+fn names(law: &LossLaw, count: usize) -> Vec<String> {
     let text = plain(&law.to_string());
     match law {
-        Law::Powers(_) => {
+        LossLaw::Powers(_) => {
             let terms = text.split(" + ").enumerate();
             terms
                 .map(|(i, term)| if i == 0 { term.to_owned() } else { format!("+ {term}") })
@@ -151,22 +151,22 @@ fn names(law: &Law, count: usize) -> Vec<String> {
     }
 }
 
-fn coefficient(answer: &Answer, candidate: &Candidate, fit: &Fitted, i: usize) -> String {
+fn coefficient(answer: &Answer, candidate: &LawFit, fit: &Fitted, i: usize) -> String {
     let c = &fit.coefficients[i];
     let unit = &answer.data.unit;
     let value = unit.quantity(c.value, c.standard_error, c.dimension);
     match (&candidate.law, i) {
-        (Law::Powers(_), _) => value,
-        (Law::FreeExponent, 0) => {
+        (LossLaw::Powers(_), _) => value,
+        (LossLaw::FreeExponent, 0) => {
             format!("{value} at {}", unit.speed(answer.data.points.largest_speed()))
         }
         _ => format!("{} = {value}", c.name),
     }
 }
 
-fn numbers(study: &LawStudy, candidate: &Candidate, fit: &Fitted) -> [String; 4] {
+fn numbers(study: &LawStudy, candidate: &LawFit, fit: &Fitted) -> [String; 4] {
     let least =
-        study.candidates.iter().filter_map(Candidate::fitted).map(|fit| fit.rmse).reduce(f64::min);
+        study.candidates.iter().filter_map(LawFit::fitted).map(|fit| fit.rmse).reduce(f64::min);
     let digits = |value: f64| fixed(value, decimals(least.unwrap_or(value), 3, 1));
     let behind = match study.behind(candidate) {
         Some(behind) if candidate.eligible() && behind == 0.0 => "best".to_owned(),
@@ -214,9 +214,8 @@ fn notes(study: &LawStudy, text: &mut Text) {
     if let [first, others @ ..] = &singles[..]
         && let Some(start) = first.fitted().and_then(|f| f.aicc)
     {
-        let behind = |c: &&Candidate| {
-            Some(format!("{} +{}", c.law, significant(c.fitted()?.aicc? - start, 3)))
-        };
+        let behind =
+            |c: &&LawFit| Some(format!("{} +{}", c.law, significant(c.fitted()?.aicc? - start, 3)));
         let others: Vec<String> = others.iter().filter_map(behind).collect();
         let all = others.join(", ");
         let alone = format!("{} is best of the single powers: AICc {all}", first.law);
@@ -268,9 +267,9 @@ fn claims(found: &Consistency) -> TextTable {
 }
 
 /// A law and one of its coefficients.
-type Row<'a> = (&'a Candidate, Option<(&'a Fitted, &'a Coefficient)>);
+type Row<'a> = (&'a LawFit, Option<(&'a Fitted, &'a Coefficient)>);
 
-fn law(answer: &Answer, candidate: &Candidate) -> Value {
+fn law(answer: &Answer, candidate: &LawFit) -> Value {
     let watts = |value: Option<f64>| value.map(|value| json!({ "value": value, "unit": "W" }));
     let Some(fit) = candidate.fitted() else {
         return json!({ "law": candidate.law.to_string(), "remark": candidate.remark() });

@@ -37,8 +37,8 @@ pub(crate) struct Answer<'a> {
 
 pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&Source { file: args.file.clone(), set: args.set.clone() })?;
-    let study =
-        STUDIES.find(&input, (&input.netlist.fits, |study| &study.name), args.name.as_deref())?;
+    let fits = &input.netlist.studies.fits;
+    let study = STUDIES.find(&input, (fits, |study| &study.name), args.name.as_deref())?;
     console.warn(&input.netlist.files, &input.netlist.warnings);
     let mut task = NetworkFitTask::of(&input.netlist, study, available_threads())
         .map_err(|error| failed(&input, study, &error))?;

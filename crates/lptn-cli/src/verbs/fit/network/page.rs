@@ -7,7 +7,7 @@ use lptn_fit::network::{ColumnMisfit, Combination, Unseparated};
 use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, differing, fixed, significant};
 use lptn_solve::Gradient;
 use lptn_solve::Table;
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
 use super::Answer;
@@ -74,7 +74,7 @@ impl Page for Answer<'_> {
         json.member("study", &self.study.name)?;
         json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
         json.member("parameters", &parameters)?;
-        json.member("rms", &Scalar::new(fit.rms, "K"))?;
+        json.member("rms", &SiValue::new(fit.rms, "K"))?;
         json.member("samples", &fit.samples())?;
         json.member("columns", &columns(self))?;
         json.member("correlation", &correlation)?;
@@ -253,9 +253,9 @@ fn columns(answer: &Answer<'_>) -> Value {
         json!({
             "record": run.name,
             "column": run.columns[misfit.column].name,
-            "rms": Scalar::new(misfit.rms, "K"),
-            "mean": Scalar::new(misfit.mean, "K"),
-            "sigma": misfit.sigma.map(|sigma| Scalar::new(sigma, "K")),
+            "rms": SiValue::new(misfit.rms, "K"),
+            "mean": SiValue::new(misfit.mean, "K"),
+            "sigma": misfit.sigma.map(|sigma| SiValue::new(sigma, "K")),
             "samples": misfit.samples,
             "effective_samples": misfit.effective,
         })
@@ -278,7 +278,7 @@ fn unseparated(answer: &Answer<'_>, group: &Unseparated) -> Value {
     let names: Vec<&str> = group.parameters.iter().map(|&i| answer.name(i)).collect();
     let one = |c: &Combination| {
         let unit = type_of(answer, c).map_or_else(String::new, |ty| ty.dimension.si_unit());
-        json!({ "combination": combination(answer, c), "value": Scalar::new(c.value, &unit) })
+        json!({ "combination": combination(answer, c), "value": SiValue::new(c.value, &unit) })
     };
     let determined: Option<Value> =
         group.determined.as_ref().map(|all| all.iter().map(one).collect());

@@ -1,7 +1,7 @@
 //! What a fit of a network says in words.
 
 use lptn_fit::least_squares::Side;
-use lptn_fit::network::{ColumnMisfit, Combination, Kind, Unseparated};
+use lptn_fit::network::{ColumnMisfit, Combination, CombinationKind, Unseparated};
 use lptn_netlist::Diagnostic;
 use lptn_report::significant;
 use lptn_units::{Rational, Type, Unit};
@@ -137,7 +137,7 @@ fn joined(words: &[String]) -> String {
 pub(crate) fn combination(answer: &Answer<'_>, combination: &Combination) -> String {
     let name = |i: usize| answer.name(i).to_owned();
     match combination.kind {
-        Kind::Product => {
+        CombinationKind::Product => {
             let power =
                 |(i, c): (usize, i32)| if c == 1 { name(i) } else { format!("{}^{c}", name(i)) };
             let side = |sign: i32| -> Vec<String> {
@@ -151,7 +151,7 @@ pub(crate) fn combination(answer: &Answer<'_>, combination: &Combination) -> Str
                 _ => format!("{above} / ({})", below.join(" ")),
             }
         }
-        Kind::Sum => {
+        CombinationKind::Sum => {
             let mut text = String::new();
             for &(i, c) in &combination.terms {
                 let sign = match (text.is_empty(), c < 0) {
@@ -171,7 +171,7 @@ pub(crate) fn combination(answer: &Answer<'_>, combination: &Combination) -> Str
 pub(crate) fn type_of(answer: &Answer<'_>, combination: &Combination) -> Option<Type> {
     let own =
         |i: usize| answer.task.network.parameters()[answer.task.parameters[i].parameter.index()].ty;
-    if combination.kind == Kind::Sum {
+    if combination.kind == CombinationKind::Sum {
         return combination.terms.first().map(|&(i, _)| own(i));
     }
     let mut dimension = Type::SCALAR.dimension;
@@ -188,8 +188,8 @@ pub(crate) fn value_of(answer: &Answer<'_>, combination: &Combination) -> String
         return significant(combination.value, DIGITS);
     };
     let unit = match combination.kind {
-        Kind::Sum => combination.terms.first().map(|&(i, _)| answer.units[i].clone()),
-        Kind::Product => Unit::parse(&ty.usual_unit()).ok(),
+        CombinationKind::Sum => combination.terms.first().map(|&(i, _)| answer.units[i].clone()),
+        CombinationKind::Product => Unit::parse(&ty.usual_unit()).ok(),
     };
     match unit {
         Some(unit) if unit.text != "1" => {

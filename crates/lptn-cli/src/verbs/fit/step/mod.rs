@@ -9,7 +9,7 @@ mod request;
 
 pub(crate) use args::StepArgs;
 
-use lptn_fit::step::{Capacity, Power, Reference as Zero, Sensor, StepError, StepFit};
+use lptn_fit::step::{Capacity, Power, ReferenceTemperature as Zero, Sensor, StepError, StepFit};
 use lptn_netlist::{Diagnostic, RecordColumn};
 
 use crate::console::Console;

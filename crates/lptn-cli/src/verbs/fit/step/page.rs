@@ -8,7 +8,7 @@ use lptn_report::{
     significant, stacked,
 };
 use lptn_solve::Table;
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
 use super::estimate::{to_error, with_error};
@@ -273,8 +273,8 @@ fn bias(answer: &Answer<'_>, text: &mut Text) {
     );
 }
 
-fn scalar(value: f64, unit: &str) -> Scalar {
-    Scalar::new(value, unit)
+fn scalar(value: f64, unit: &str) -> SiValue {
+    SiValue::new(value, unit)
 }
 
 fn estimated(number: &Estimated, unit: &str) -> Value {

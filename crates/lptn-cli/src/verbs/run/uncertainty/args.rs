@@ -3,7 +3,7 @@
 use clap::{Args as Arguments, ValueEnum};
 
 /// What the `±` of parameters do to the results.
-#[derive(Debug, Arguments)]
+#[derive(Debug, Default, Arguments)]
 #[command(next_help_heading = "Uncertainty")]
 pub(crate) struct UncertaintyArgs {
     /// Bands from every `±`, by linear or sobol

@@ -2,7 +2,7 @@
 
 use lptn_network::{Item, Network};
 use lptn_solve::Table;
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use lptn_study::uncertainty::{
     Answer, AnswerOf, Contribution, Discrepancy, Estimate, Lost, Uncertainty, UncertaintyMethod,
 };
@@ -111,8 +111,8 @@ pub(crate) fn parameters(network: &Network, found: &Uncertainty) -> Value {
     let one = |(i, input): (usize, &lptn_study::uncertainty::Uncertain)| {
         let ty = network.parameters()[input.parameter.index()].ty;
         let unit = ty.dimension.si_unit();
-        let value = Scalar::new(input.value, &unit);
-        let member = json!({ "value": value, "sd": Scalar::new(input.deviation, &unit) });
+        let value = SiValue::new(input.value, &unit);
+        let member = json!({ "value": value, "sd": SiValue::new(input.deviation, &unit) });
         (parameter(network, found, i), member)
     };
     Value::Object(found.inputs.iter().enumerate().map(one).collect())
@@ -147,10 +147,10 @@ fn differs(network: &Network, one: &Discrepancy) -> Value {
         AnswerOf::Margin(_) => unit_of(network, one.of),
         _ => "K".to_owned(),
     };
-    let scalar = |value: f64| Scalar::new(value, &unit);
+    let scalar = |value: f64| SiValue::new(value, &unit);
     let band = |(low, high): (f64, f64)| json!({ "low": scalar(low), "high": scalar(high) });
     let (name, part) = place(network, one.of);
-    let time = one.time.map(|time| Scalar::new(time, "s"));
+    let time = one.time.map(|time| SiValue::new(time, "s"));
     let part = if one.time.is_some() { "row" } else { part };
     json!({ "of": name, "part": part, "time": time, "linear": band(one.linear), "sampled": band(one.sampled) })
 }
@@ -166,7 +166,7 @@ fn place(network: &Network, of: AnswerOf) -> (String, &'static str) {
 fn of_answer(network: &Network, found: &Uncertainty, answer: &Answer) -> Value {
     let unit = unit_of(network, answer.of);
     let mut member = Map::new();
-    member.insert("value".into(), json!(Scalar::new(answer.value, &unit)));
+    member.insert("value".into(), json!(SiValue::new(answer.value, &unit)));
     member.insert("sd".into(), estimate(answer.deviation, &unit));
     member.insert("low".into(), estimate(answer.low, &unit));
     if let Some(median) = answer.median {
@@ -179,7 +179,7 @@ fn of_answer(network: &Network, found: &Uncertainty, answer: &Answer) -> Value {
     let part = |part: &Contribution| {
         let mut ranked = Map::new();
         ranked.insert("parameter".into(), json!(parameter(network, found, part.input)));
-        ranked.insert("effect".into(), json!(Scalar::new(part.effect, &unit)));
+        ranked.insert("effect".into(), json!(SiValue::new(part.effect, &unit)));
         ranked.insert("share".into(), estimate(part.share, "1"));
         ranked.extend(part.total.map(|total| ("total".to_owned(), estimate(total, "1"))));
         Value::Object(ranked)
@@ -189,7 +189,7 @@ fn of_answer(network: &Network, found: &Uncertainty, answer: &Answer) -> Value {
 }
 
 fn estimate(of: Estimate, unit: &str) -> Value {
-    let mut scalar = Scalar::new(of.value, unit).json();
+    let mut scalar = SiValue::new(of.value, unit).json();
     if let (Some(error), Value::Object(scalar)) = (of.error, &mut scalar) {
         scalar.insert("standard_error".into(), json!(error));
     }

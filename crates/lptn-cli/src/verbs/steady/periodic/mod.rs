@@ -11,7 +11,7 @@ use lptn_report::duration;
 use lptn_solve::{
     Beyond, CycleMethod, Lumping, Periodic, PeriodicError, Table, Transient, Window, WindowSeen,
 };
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use lptn_units::{Dimension, Problem as _};
 use serde_json::{Map, Value, json};
 
@@ -205,10 +205,10 @@ impl View<'_> {
     /// By column: start, mean, extremes and swing in SI.
     fn members(&self) -> Map<String, Value> {
         let unit = &self.outcome.job.unit;
-        let seconds = |time: f64| Scalar::new(time, "s");
+        let seconds = |time: f64| SiValue::new(time, "s");
         let columns = self.cycle().into_iter().flat_map(|cycle| &cycle.columns).zip(self.starts());
         let member = |(seen, start): (&lptn_solve::ColumnSeen, f64)| {
-            let scalar = |value: f64| Scalar::new(value, &seen.ty.dimension.si_unit());
+            let scalar = |value: f64| SiValue::new(value, &seen.ty.dimension.si_unit());
             let start = if seen.ty.absolute { unit.to_si(start) } else { start };
             let member = json!({
                 "start": scalar(start),
@@ -226,7 +226,7 @@ impl View<'_> {
 
     fn search(&self) -> Value {
         let found = self.found;
-        let kelvin = |value: f64| Scalar::new(value, "K");
+        let kelvin = |value: f64| SiValue::new(value, "K");
         json!({
             "method": match found.method {
                 CycleMethod::Modes => "modes",
@@ -239,7 +239,7 @@ impl View<'_> {
             "residual": kelvin(found.residual),
             "error": kelvin(found.error),
             "multiplier": found.multiplier,
-            "time_constant": self.slowest().map(|tau| Scalar::new(tau, "s")),
+            "time_constant": self.slowest().map(|tau| SiValue::new(tau, "s")),
         })
     }
 

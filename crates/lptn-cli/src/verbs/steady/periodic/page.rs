@@ -2,11 +2,12 @@
 
 use std::io;
 
+use lptn_plot::Figure;
 use lptn_report::{
     Json, Page, Rows, Text, TextTable, decimals, duration, fixed, prefix, significant,
 };
 use lptn_solve::{ColumnSeen, CycleMethod};
-use lptn_study::{Scalar, StatisticsRecord};
+use lptn_study::{SiValue, StatisticsRecord};
 use lptn_units::Dimension;
 
 use super::View;
@@ -42,6 +43,10 @@ impl Page for View<'_> {
         text
     }
 
+    fn figures(&self) -> Vec<Figure> {
+        vec![self.outcome.figure()]
+    }
+
     /// Name, unit, value at the start, mean, extremes with their times, and swing of each column.
     fn rows(&self) -> Rows<'_> {
         let heading =
@@ -64,8 +69,8 @@ impl Page for View<'_> {
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let (solution, settings) = (&self.found.solution, &self.outcome.job.settings);
         self.outcome.job.input.head(json, &[])?;
-        json.member("start", &Scalar::new(settings.start, "s"))?;
-        json.member("period", &Scalar::new(self.period(), "s"))?;
+        json.member("start", &SiValue::new(settings.start, "s"))?;
+        json.member("period", &SiValue::new(self.period(), "s"))?;
         json.member("columns", &self.members())?;
         json.member("search", &self.search())?;
         json.member("ledger", &self.outcome.ledger())?;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use lptn_fit::law::{
-    Candidate, ColumnFits, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy,
+    ColumnFits, LawFit, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy,
 };
 use lptn_fit::step::{Capacity, LONG_ENOUGH, Sensor};
 use lptn_netlist::{Diagnostic, Files};
@@ -293,7 +293,7 @@ impl Runs {
         }
     }
 
-    pub(crate) fn best(&self) -> Option<(&Candidate, &lptn_fit::law::Fitted)> {
+    pub(crate) fn best(&self) -> Option<(&LawFit, &lptn_fit::law::Fitted)> {
         let best = self.answer.study.best()?;
         Some((best, best.fitted()?))
     }

@@ -6,7 +6,7 @@ use std::io;
 use lptn_fit::law::{RunFit, Systematic};
 use lptn_report::{Format, Json, Page as _, write_csv};
 use lptn_solve::{Table, TableOf};
-use lptn_study::Scalar;
+use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
 use super::Runs;
@@ -130,7 +130,7 @@ fn runs(found: &Runs) -> Value {
             "T_i": number(f.fit.initial.value, "K", f.fit.initial.standard_error),
             "T_f": number(f.fit.settled.value, "K", f.fit.settled.standard_error),
             "t_RC": number(f.fit.tau.value, "s", f.fit.tau.standard_error),
-            "rms": Scalar::new(f.fit.rms, "K"),
+            "rms": SiValue::new(f.fit.rms, "K"),
             "dT": parted(f.power.rise, "K"),
             "R_eq": parted(f.power.resistance, "K/W"),
             "P_disp": parted(f.power.power, "W"),
@@ -139,7 +139,7 @@ fn runs(found: &Runs) -> Value {
     };
     let run = |(i, (name, speed)): (usize, &(String, f64))| {
         let columns = found.columns().iter().map(|of| (of.column.clone(), column(&of.fits[i])));
-        json!({ "run": name, "speed": Scalar::new(*speed, "rad/s"), "columns": columns.collect::<Map<_, _>>() })
+        json!({ "run": name, "speed": SiValue::new(*speed, "rad/s"), "columns": columns.collect::<Map<_, _>>() })
     };
     found.study.runs.iter().enumerate().map(run).collect()
 }

@@ -1,0 +1,92 @@
+//! Where a picture goes, and how wide a terminal is.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use lptn_netlist::Diagnostic;
+use lptn_plot::Figure;
+use lptn_report::{Picture, WIDTH};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files;
+
+/// Where a picture goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Drawing {
+    /// To the terminal, in characters.
+    Terminal,
+    /// To a file.
+    File(PathBuf, Picture),
+}
+
+impl FromStr for Drawing {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match Picture::of_name(text) {
+            _ if text == "-" => Ok(Self::Terminal),
+            Some(picture) => Ok(Self::File(text.into(), picture)),
+            None => Err("a picture's name ends with .svg or .png; - draws it here".into()),
+        }
+    }
+}
+
+impl Drawing {
+    /// Draws figures, and gives the file that was written.
+    pub(crate) fn draw(
+        &self,
+        figures: &[Figure],
+        styled: bool,
+        show: impl FnOnce(&[u8]) -> Result<(), Failure>,
+    ) -> Result<Option<String>, Failure> {
+        if figures.iter().all(|figure| figure.panels.is_empty()) {
+            return Err(nothing());
+        }
+        let (picture, file) = match self {
+            Self::Terminal => (Picture::Text, None),
+            Self::File(file, picture) => (*picture, Some(file)),
+        };
+        let bytes = picture
+            .draw(figures, (terminal_width(), styled))
+            .map_err(|error| Failure::of(&error))?;
+        let Some(file) = file else { return show(&bytes).map(|()| None) };
+        let help = "name another place for the picture";
+        files::replace(file, &bytes).map_err(|failure| failure.with_help(help))?;
+        Ok(Some(file.display().to_string()))
+    }
+}
+
+fn nothing() -> Failure {
+    let problem = Diagnostic::error("plot::nothing", "there is no picture of this answer");
+    let help = "run, steady --periodic, modes, reduce, size, compare and the fits have one";
+    Failure::new(Exit::Input, problem.help(help))
+}
+
+/// Columns of the terminal that results go to; of anything else those of [`WIDTH`].
+pub(crate) fn terminal_width() -> usize {
+    let told = std::env::var("COLUMNS").ok().and_then(|text| text.parse().ok());
+    told.or_else(asked).filter(|columns| *columns >= 20).unwrap_or(WIDTH)
+}
+
+#[cfg(unix)]
+fn asked() -> Option<usize> {
+    rustix::termios::tcgetwinsize(std::io::stdout()).ok().map(|size| usize::from(size.ws_col))
+}
+
+#[cfg(not(unix))]
+fn asked() -> Option<usize> {
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Drawing;
+
+    #[test]
+    fn a_name_without_a_known_end_is_refused() {
+        assert_eq!("-".parse(), Ok(Drawing::Terminal));
+        assert!("a.svg".parse::<Drawing>().is_ok());
+        assert!("a.pdf".parse::<Drawing>().unwrap_err().contains(".svg or .png"));
+    }
+}

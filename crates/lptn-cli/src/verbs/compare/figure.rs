@@ -1,0 +1,45 @@
+//! A comparison as a picture: how hot the candidates get, and what is left to their limits.
+
+use lptn_plot::Figure;
+use lptn_plot::figure::{Axis, Curve, Look, Moment, Panel};
+use lptn_study::{Candidate, CompareRow, LimitResult};
+
+use super::{Comparison, page};
+
+impl Comparison {
+    /// A line for each candidate, in the order of the table.
+    pub(super) fn figure(&self) -> Figure {
+        let names = page::names(&self.rows);
+        let candidates = || Axis::names("", names.clone());
+        let unit = &self.unit;
+        let mut hot = Panel::new(Axis::linear("temperature", &unit.text), candidates());
+        let kelvin = |of: &dyn Fn(&Candidate) -> Option<f64>| {
+            self.points(&|row| row.candidate().and_then(of).map(|kelvin| unit.from_si(kelvin)))
+        };
+        let peaks = kelvin(&|candidate| candidate.peak.map(|peak| peak.temperature));
+        let named = [("peak", peaks), ("steady", kelvin(&|candidate| candidate.steady))];
+        hot.curves = named.into_iter().filter_map(|(name, points)| dots(name, points)).collect();
+        let mut margins = Panel::new(Axis::linear("margin", "K"), candidates());
+        for name in CompareRow::limit_names(&self.rows) {
+            let margin = |limit: &LimitResult| {
+                (limit.is_temperature() && !limit.is_open()).then_some(limit.margin)
+            };
+            let points = self.points(&|row| row.limit(name).and_then(margin));
+            margins.curves.extend(dots(name, points));
+        }
+        margins.moments.push(Moment { name: "limit".into(), at: 0.0 });
+        let panels = [hot, margins].into_iter().filter(|panel| !panel.curves.is_empty());
+        let title = format!("{} candidates", self.rows.len());
+        Figure { title, note: String::new(), panels: panels.collect() }
+    }
+
+    /// The value of each row that has one, at its line.
+    fn points(&self, value: &dyn Fn(&CompareRow) -> Option<f64>) -> Vec<(f64, f64)> {
+        let lines = (0..).map(f64::from).zip(&self.rows);
+        lines.filter_map(|(line, row)| Some((value(row)?, line))).collect()
+    }
+}
+
+fn dots(name: &str, points: Vec<(f64, f64)>) -> Option<Curve> {
+    (!points.is_empty()).then(|| Curve::line(name, points).looks(Look::Dots))
+}

@@ -1,0 +1,174 @@
+//! Several figures in one: the same quantities share a panel.
+
+use lptn_plot::Figure;
+use lptn_plot::figure::{Axis, Curve, Look, Panel};
+
+use super::source::Source;
+
+/// Height of the panel of residuals.
+const RESIDUALS: f64 = 0.4;
+
+/// One figure of all sources. Where there are several runs, a curve is named by its run; below a
+/// panel that has measured and computed values of the same name stand their differences.
+pub(super) fn overlay(sources: Vec<Source>) -> Figure {
+    let runs = sources.iter().filter(|source| !source.measured).count();
+    let several = sources.len() > 1;
+    let mut whole = Figure::default();
+    let titles: Vec<&str> = sources.iter().map(|source| source.figure.title.as_str()).collect();
+    whole.title = titles.join(" \u{b7} ");
+    let mut measured = Vec::new();
+    for mut source in sources {
+        if several && (runs > 1 || source.measured) {
+            let name = if source.measured && runs <= 1 { "" } else { source.name.as_str() };
+            rename(&mut source.figure, name);
+        }
+        if !source.figure.note.is_empty() {
+            whole.note += &format!("{}\n", source.figure.note);
+        }
+        if source.measured {
+            measured.push(source.figure);
+        } else {
+            source.figure.panels.into_iter().for_each(|panel| join(&mut whole.panels, panel));
+        }
+    }
+    let computed = whole.panels.clone();
+    let measured: Vec<Panel> = measured.into_iter().flat_map(|figure| figure.panels).collect();
+    for panel in &measured {
+        join(&mut whole.panels, matched(panel, &computed));
+    }
+    with_residuals(&mut whole.panels, &computed, &measured);
+    whole
+}
+
+/// Names the curves by what they are of.
+fn rename(figure: &mut Figure, source: &str) {
+    if source.is_empty() {
+        return;
+    }
+    for curve in figure.panels.iter_mut().flat_map(|panel| &mut panel.curves) {
+        curve.name = format!("{source}: {}", curve.name);
+    }
+}
+
+fn is_same(a: &Panel, b: &Panel) -> bool {
+    a.x == b.x && a.y == b.y
+}
+
+/// Puts what a panel shows into the one of the same axes, or below them all.
+fn join(panels: &mut Vec<Panel>, panel: Panel) {
+    match panels.iter_mut().find(|other| is_same(other, &panel)) {
+        Some(other) => {
+            panel.curves.into_iter().for_each(|curve| add(&mut other.curves, curve));
+            for limit in panel.limits {
+                if !other.limits.contains(&limit) {
+                    other.limits.push(limit);
+                }
+            }
+            other.moments.extend(panel.moments);
+        }
+        None => panels.push(panel),
+    }
+}
+
+/// Adds a curve, unless it lies on one of the same thing in another run, such as the air around.
+fn add(curves: &mut Vec<Curve>, curve: Curve) {
+    let bare = |name: &str| name.rsplit(": ").next().map(str::to_owned);
+    let is_same =
+        |other: &&mut Curve| bare(&other.name) == bare(&curve.name) && other.points == curve.points;
+    match curves.iter_mut().find(is_same) {
+        Some(other) => other.name = bare(&curve.name).unwrap_or_default(),
+        None => curves.push(curve),
+    }
+}
+
+/// The same curve as it was computed, and its place.
+fn computed_of<'a>(name: &str, panel: &Panel, computed: &'a [Panel]) -> Option<(usize, &'a Curve)> {
+    let here = computed.iter().find(|other| is_same(other, panel))?;
+    let bare = name.rsplit(": ").next().unwrap_or(name);
+    here.curves.iter().enumerate().find(|(_, curve)| curve.name == bare)
+}
+
+/// What was measured has the ink of what was computed.
+fn matched(panel: &Panel, computed: &[Panel]) -> Panel {
+    let mut panel = panel.clone();
+    let places: Vec<Option<usize>> = panel
+        .curves
+        .iter()
+        .map(|curve| computed_of(&curve.name, &panel, computed).map(|(place, _)| place))
+        .collect();
+    for (curve, place) in panel.curves.iter_mut().zip(places) {
+        curve.place = place;
+    }
+    panel
+}
+
+fn with_residuals(panels: &mut Vec<Panel>, computed: &[Panel], measured: &[Panel]) {
+    for panel in measured {
+        let residual = |curve: &Curve| {
+            let (place, of) = computed_of(&curve.name, panel, computed)?;
+            let points = curve.points.iter().map(|&(x, y)| (x, y - at(&of.points, x)));
+            let line = Curve::line(&curve.name, points.collect());
+            Some(line.looks(Look::Dots).as_place(place))
+        };
+        let curves: Vec<Curve> = panel.curves.iter().filter_map(residual).collect();
+        let place = panels.iter().position(|other| is_same(other, panel));
+        if let (Some(place), false) = (place, curves.is_empty()) {
+            let unit = panel.y.unit.replace("degC", "K").replace("degF", "degR");
+            let axis = Axis::linear("measured \u{2212} run", unit);
+            let residuals = Panel { curves, share: RESIDUALS, ..Panel::new(panel.x.clone(), axis) };
+            panels.insert(place + 1, residuals);
+        }
+    }
+}
+
+/// The value of a curve between its points; nothing outside of them.
+fn at(points: &[(f64, f64)], x: f64) -> f64 {
+    let after = points.partition_point(|point| point.0 < x);
+    match (after.checked_sub(1).and_then(|before| points.get(before)), points.get(after)) {
+        (_, Some(&(next, value))) if next <= x => value,
+        (Some(&(x0, y0)), Some(&(x1, y1))) => y0 + (y1 - y0) * (x - x0) / (x1 - x0),
+        _ => f64::NAN,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use lptn_plot::Figure;
+    use lptn_plot::figure::{Axis, Curve, Look, Panel};
+
+    use super::{Source, at, overlay};
+
+    fn source(name: &str, measured: bool, curve: Curve) -> Source {
+        let mut panel = Panel::new(Axis::time(), Axis::linear("temperature", "degC"));
+        panel.curves.push(curve);
+        let figure = Figure { title: name.into(), note: String::new(), panels: vec![panel] };
+        Source { name: name.into(), measured, figure }
+    }
+
+    #[test]
+    fn a_value_between_points_is_on_the_line() {
+        let points = [(0.0, 1.0), (2.0, 5.0)];
+        assert!((at(&points, 0.5) - 2.0).abs() < 1e-12 && (at(&points, 2.0) - 5.0).abs() < 1e-12);
+        assert!(at(&points, 2.1).is_nan() && at(&points, -0.1).is_nan());
+    }
+
+    #[test]
+    fn what_was_measured_stands_over_the_run_with_the_differences_below() {
+        let run = Curve::line("steel", vec![(0.0, 20.0), (10.0, 40.0)]);
+        let record = Curve::line("steel", vec![(5.0, 33.0)]).looks(Look::Dots);
+        let whole = overlay(vec![source("motor", false, run), source("tc", true, record)]);
+        assert_eq!(whole.panels.len(), 2);
+        let upper: Vec<_> = whole.panels[0].curves.iter().map(|c| (&*c.name, c.place)).collect();
+        assert_eq!(upper, [("steel", None), ("steel", Some(0))]);
+        assert_eq!(whole.panels[1].y.unit, "K");
+        assert_eq!(whole.panels[1].curves[0].points, [(5.0, 3.0)]);
+    }
+
+    #[test]
+    fn curves_of_several_runs_are_named_by_them() {
+        let line = || Curve::line("steel", vec![(0.0, 20.0)]);
+        let whole = overlay(vec![source("small", false, line()), source("large", false, line())]);
+        let names: Vec<_> = whole.panels[0].curves.iter().map(|curve| &*curve.name).collect();
+        assert_eq!(names, ["small: steel", "large: steel"]);
+    }
+}

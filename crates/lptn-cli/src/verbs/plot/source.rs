@@ -1,0 +1,158 @@
+//! What is drawn: a run, what a run has written, or a record.
+
+use std::path::Path;
+
+use lptn_netlist::{Diagnostic, Record, RecordColumn, RecordQuery, read_record};
+use lptn_plot::Figure;
+use lptn_plot::figure::{Look, Moment};
+use lptn_report::{Format, panels};
+use lptn_solve::{Table, name_matches};
+use lptn_units::Unit;
+
+use super::PlotArgs;
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::names::{EVENTS, RESULT};
+use crate::input::{self, Input};
+use crate::options::{Scale, Shown};
+use crate::verbs::run::{self, RunArgs};
+
+/// One of the things that are drawn over each other.
+pub(super) struct Source {
+    /// What it is called beside others.
+    pub(super) name: String,
+    /// Whether it was measured.
+    pub(super) measured: bool,
+    pub(super) figure: Figure,
+}
+
+impl Source {
+    /// Reads a record or results, or runs a netlist, which has an exit code.
+    pub(super) fn of(
+        path: &Path,
+        args: &PlotArgs,
+        console: &Console,
+    ) -> Result<(Self, Exit), Failure> {
+        if path.is_dir() {
+            return Ok((Self::of_folder(path, args, console)?, Exit::Done));
+        }
+        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv")) {
+            let table = columns(path, args, console)?;
+            let mut figure = drawn(&table, &stem(path));
+            let curves = figure.panels.iter_mut().flat_map(|panel| &mut panel.curves);
+            curves.for_each(|curve| curve.look = Look::Dots);
+            return Ok((Self { name: stem(path), measured: true, figure }, Exit::Done));
+        }
+        Self::of_netlist(path, args, console)
+    }
+
+    fn of_netlist(
+        path: &Path,
+        args: &PlotArgs,
+        console: &Console,
+    ) -> Result<(Self, Exit), Failure> {
+        let source = crate::options::Source { file: path.into(), set: args.set.clone() };
+        let scale = Scale { temperature_unit: args.scale.temperature_unit.clone() };
+        let shown = Shown { format: Format::Csv, select: args.select.clone(), scale };
+        let args = RunArgs {
+            source,
+            shown,
+            balance: None,
+            tolerance: None,
+            output: None,
+            no_files: true,
+            uncertainty: run::uncertainty::args::UncertaintyArgs::default(),
+        };
+        let input = Input::load(&args.source)?;
+        let (outcome, _) = run::outcome(&args, &input, console)?;
+        outcome.messages(None, console);
+        let exit = outcome.conclude(console, false);
+        Ok((
+            Self { name: input.text.stem.clone(), measured: false, figure: outcome.figure() },
+            exit,
+        ))
+    }
+
+    fn of_folder(path: &Path, args: &PlotArgs, console: &Console) -> Result<Self, Failure> {
+        let result = path.join(RESULT);
+        if !result.is_file() {
+            return Err(no_result(path));
+        }
+        let mut figure = drawn(&columns(&result, args, console)?, &stem(path));
+        let moments = events(&path.join(EVENTS));
+        figure.panels.iter_mut().for_each(|panel| panel.moments.clone_from(&moments));
+        Ok(Self { name: stem(path), measured: false, figure })
+    }
+}
+
+fn no_result(path: &Path) -> Failure {
+    let message = format!("there is no {RESULT} in the folder {}", path.display());
+    let problem = Diagnostic::error("plot::no_result", message);
+    Failure::new(Exit::Input, problem.help("`lptn run FILE` writes one into out/NAME"))
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+fn drawn(table: &Table, title: &str) -> Figure {
+    let (panels, left_out) = panels(table);
+    let note = match left_out {
+        0 => String::new(),
+        _ => format!("{left_out} lower curves are not shown; --select chooses"),
+    };
+    Figure { title: title.into(), note, panels }
+}
+
+/// The columns of a CSV file that were asked for, over its times.
+fn columns(path: &Path, args: &PlotArgs, console: &Console) -> Result<Table, Failure> {
+    let scale = args.scale.temperature_unit.as_deref().unwrap_or("degC");
+    let scale = input::scale_of("--temperature-unit", scale)?;
+    let text = input::read(path)?;
+    let (record, files) = read_record(Path::new(&text.name), &text.bytes, &RecordQuery::default())?;
+    // our own results need no doubts
+    if path.file_name().is_none_or(|name| name != RESULT) {
+        console.warn(&files, &record.warnings);
+    }
+    let wanted = |column: &&RecordColumn| {
+        args.select.is_empty()
+            || args.select.iter().any(|pattern| name_matches(pattern, &column.name))
+    };
+    let chosen: Vec<&RecordColumn> = record.columns.iter().filter(wanted).collect();
+    if chosen.is_empty() {
+        return Err(no_column(&text.name, &record));
+    }
+    let rows: Vec<usize> = (0..record.time.len()).collect();
+    let mut table = Table::of(&rows);
+    table.column("time", "s", |row| record.time[*row]);
+    for column in chosen {
+        let unit = if column.unit.ty.absolute { &scale } else { &column.unit };
+        table.column(&column.name, &unit.text, |row| shown(column.values[*row], unit));
+    }
+    Ok(table.done())
+}
+
+fn shown(value: f64, unit: &Unit) -> f64 {
+    if value.is_finite() { unit.from_si(value) } else { f64::NAN }
+}
+
+fn no_column(name: &str, record: &Record) -> Failure {
+    let names: Vec<&str> = record.columns.iter().map(|column| column.name.as_str()).collect();
+    let problem = Diagnostic::error("select::no_match", format!("no column of {name} is selected"));
+    Failure::new(Exit::Input, problem.help(format!("it has {}", names.join(", "))))
+}
+
+/// What a run has written of its events; nothing where that cannot be read, since a picture does
+/// not depend on it.
+fn events(path: &Path) -> Vec<Moment> {
+    let Ok(text) = std::fs::read_to_string(path) else { return Vec::new() };
+    let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let moment = |row: &Vec<&str>| {
+        let [time, kind, name, _, after] = row[..] else { return None };
+        let what = run::figure::what(kind, after != "0");
+        Some(Moment { name: format!("{name} {what}"), at: time.parse().ok()? })
+    };
+    let moments: Vec<Moment> = rows.iter().filter_map(moment).collect();
+    if moments.len() > run::figure::MOST_EVENTS { Vec::new() } else { moments }
+}

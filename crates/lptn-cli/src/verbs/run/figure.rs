@@ -1,0 +1,90 @@
+//! A run as a picture: its columns over time, with limits, events and how sure it is.
+
+use lptn_network::Network;
+use lptn_plot::Figure;
+use lptn_plot::figure::{Curve, Moment, Panel};
+use lptn_report::{MOST_CURVES, TEMPERATURE, panels};
+use lptn_solve::Event;
+
+use super::outcome::Outcome;
+use crate::limits;
+
+/// More events than this would hide the curves.
+pub(crate) const MOST_EVENTS: usize = 24;
+
+impl Outcome<'_> {
+    /// The selected columns over time.
+    pub(crate) fn figure(&self) -> Figure {
+        let (network, unit) = (self.solution.network(), &self.job.unit);
+        let (mut panels, left_out) = panels(&self.table);
+        limits::mark(&mut panels, network, unit);
+        let moments = moments(network, self.solution.events());
+        for panel in &mut panels {
+            panel.moments.clone_from(&moments);
+            self.spread(panel);
+        }
+        let title = self.job.input.title();
+        Figure { title, note: self.note(left_out, moments.is_empty()), panels }
+    }
+
+    /// What is not shown.
+    fn note(&self, left_out: usize, no_moments: bool) -> String {
+        let mut notes = Vec::new();
+        if left_out > 0 {
+            notes.push(format!(
+                "the {MOST_CURVES} highest curves of {}; --select chooses others",
+                left_out + MOST_CURVES
+            ));
+        }
+        let events = self.solution.events().len();
+        if no_moments && events > 0 {
+            notes.push(format!("{events} events, which are not marked"));
+        }
+        notes.extend(self.ended_early());
+        if self.uncertainty().is_some() {
+            notes.push("bands of 95 %".into());
+        }
+        notes.join("; ")
+    }
+
+    /// Bands around the temperatures, where they are known.
+    fn spread(&self, panel: &mut Panel) {
+        let Some(study) = self.uncertainty().filter(|_| panel.y.name == TEMPERATURE) else {
+            return;
+        };
+        let network = self.solution.network();
+        let shown = |kelvin: &f64| self.job.unit.from_si(*kelvin);
+        for curve in &mut panel.curves {
+            let of = |node: usize| network.nodes()[node].name == curve.name;
+            let bands = study.found.bands.iter().find(|bands| of(bands.node.index()));
+            let Some(bands) = bands else { continue };
+            let times = study.found.times.iter().copied();
+            let points = times.zip(bands.value.iter().map(shown)).collect();
+            let sides = bands.low.iter().map(shown).zip(bands.high.iter().map(shown));
+            *curve = Curve::line(&curve.name, points).within(sides.collect());
+        }
+    }
+}
+
+/// What switched and which limits were broken, unless it is too much to be told apart.
+fn moments(network: &Network, events: &[Event]) -> Vec<Moment> {
+    if events.len() > MOST_EVENTS {
+        return Vec::new();
+    }
+    let moment = |event: &Event| {
+        let what = what(event.kind.word(), event.after != 0);
+        Moment { name: format!("{} {what}", event.kind.name(network)), at: event.time }
+    };
+    events.iter().map(moment).collect()
+}
+
+/// What an event of this kind did.
+pub(crate) fn what(kind: &str, after: bool) -> &'static str {
+    match (kind, after) {
+        ("limit", _) => "broken",
+        ("control", true) => "on",
+        ("control", false) => "off",
+        (_, true) => "holds",
+        (_, false) => "ceases to hold",
+    }
+}

@@ -1,0 +1,58 @@
+//! Sizing as a picture: what is left to every requirement over the range.
+
+use lptn_netlist::Requirement;
+use lptn_plot::Figure;
+use lptn_plot::figure::{Axis, Curve, Level, Moment, Panel};
+
+use super::Answer;
+
+/// A range that spans more than this is shown by its logarithms.
+const WIDE: f64 = 10.0;
+
+impl Answer<'_> {
+    /// The margins over the parameter, a panel for each unit; the answer is marked.
+    pub(super) fn figure(&self) -> Figure {
+        let unit = &self.unit;
+        let mut panels: Vec<Panel> = Vec::new();
+        for (i, requirement) in self.study.requirements.iter().enumerate() {
+            let axis = Axis::linear("margin", requirement.ty.dimension.si_unit());
+            let curve = self.curve(i, requirement);
+            match panels.iter_mut().find(|panel| panel.y == axis) {
+                Some(panel) => panel.curves.push(curve),
+                None => {
+                    let mut panel = Panel::new(self.across(), axis);
+                    panel.curves.push(curve);
+                    panels.push(panel);
+                }
+            }
+        }
+        let at = unit.from_si(self.sizing.trial.value);
+        let answer = if self.sizing.feasible() { "the answer" } else { "comes closest" };
+        for panel in &mut panels {
+            panel.limits.push(Level { name: "broken below".into(), value: 0.0 });
+            panel.moments.push(Moment { name: answer.into(), at });
+        }
+        let title = format!("{}: size {}", self.input.title(), self.study.name);
+        Figure { title, note: String::new(), panels }
+    }
+
+    /// The axis of the parameter; by logarithms where the range was looked at so.
+    fn across(&self) -> Axis {
+        let values = self.sizing.looked_at.iter().map(|trial| self.unit.from_si(trial.value));
+        let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(l, h), v| (l.min(v), h.max(v)));
+        let (name, unit) = (&self.study.parameter, &self.unit.text);
+        if low > 0.0 && high / low > WIDE {
+            Axis::log(name, unit)
+        } else {
+            Axis::linear(name, unit)
+        }
+    }
+
+    fn curve(&self, i: usize, requirement: &Requirement) -> Curve {
+        let mut trials: Vec<_> = self.sizing.looked_at.iter().collect();
+        trials.push(&self.sizing.trial);
+        trials.sort_by(|a, b| a.value.total_cmp(&b.value));
+        let points = trials.iter().map(|trial| (self.unit.from_si(trial.value), trial.margins[i]));
+        Curve::line(&requirement.text, points.collect())
+    }
+}

@@ -1,0 +1,235 @@
+//! Kind: command line. Pictures: `lptn plot`, and `--plot` of the other verbs.
+//!
+//! A value is read back from a picture by its axis: the numbers that stand at it and their places.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod common;
+
+use common::{Folder, Ran};
+
+/// One lump of 1000 J/K that 100 W heat and 10 W/K cool: 25 + 10 (1 - exp(-t / 100 s)) degC.
+const LUMP: &str = "format = 1
+title = 'A lump <script>alert(1)</script>'
+[node]
+lump = { C = '1000 J/K', T0 = '25 degC' }
+[boundary]
+air = { T = '25 degC' }
+[resistor]
+skin = { from = 'lump', to = 'air', G = '10 W/K' }
+[source]
+heat = { into = 'lump', P = '100 W' }
+[limit]
+hot = { of = 'lump.T', below = '30 degC', severity = 'warning' }
+[run]
+stop = '300 s'
+output = { every = '1 s' }
+";
+
+/// The rise of the lump in K.
+fn rise(time: f64) -> f64 {
+    10.0 * (1.0 - (-time / 100.0).exp())
+}
+
+/// A number of an attribute.
+fn attribute(line: &str, name: &str) -> Option<f64> {
+    let (_, rest) = line.split_once(&format!(" {name}=\""))?;
+    rest.split_once('"')?.0.parse().ok()
+}
+
+/// Numbers at one of the axes with their places: those of the left axis end at them, those of the
+/// lower one are around them.
+fn axis(svg: &str, anchor: &str, place: &str) -> Vec<(f64, f64)> {
+    let lines = svg.lines().filter(|line| line.contains(&format!("text-anchor=\"{anchor}\"")));
+    lines
+        .filter_map(|line| {
+            let text = line.split_once('>')?.1.split_once("</text>")?.0.replace('\u{2212}', "-");
+            Some((attribute(line, place)?, text.parse().ok()?))
+        })
+        .collect()
+}
+
+/// The value at a place between two marks.
+fn value(marks: &[(f64, f64)], place: f64) -> f64 {
+    let (a, b) = (marks[0], marks[marks.len() - 1]);
+    a.1 + (place - a.0) * (b.1 - a.1) / (b.0 - a.0)
+}
+
+/// The points of the curve that says this name.
+fn points(svg: &str, name: &str) -> Vec<(f64, f64)> {
+    let tip = format!("<title>{name}</title></path>");
+    let line = svg.lines().find(|line| line.ends_with(&tip) && line.contains("s-series")).unwrap();
+    let path = line.split_once("d=\"").unwrap().1.split_once('"').unwrap().0;
+    let point = |text: &str| {
+        let (x, y) = text.split_once(' ').unwrap();
+        (x.parse().unwrap(), y.parse().unwrap())
+    };
+    path.split(['M', 'L']).filter(|text| !text.is_empty()).map(point).collect()
+}
+
+#[test]
+fn a_curve_is_where_the_closed_form_is() {
+    let folder = Folder::with("lump.toml", LUMP);
+    let output = folder.run(&["plot", "lump.toml", "--select", "lump.T", "-o", "lump.svg"]);
+    assert_eq!(output.code, Some(0), "{}", output.err);
+    let svg = folder.read("lump.svg");
+    let (across, upward) = (axis(&svg, "middle", "x"), axis(&svg, "end", "y"));
+    // a digit's middle is at its mark, so 0.36 of its size above the line that it stands on
+    let upward: Vec<_> = upward.into_iter().map(|(y, number)| (y - 0.36 * 11.0, number)).collect();
+    let curve = points(&svg, "lump");
+    assert!(curve.len() > 100 && across.len() > 3 && upward.len() > 3, "{svg}");
+    // marks and points are rounded to a hundredth of a pixel, of which 10 K take some 270
+    for (x, y) in curve {
+        let (minutes, celsius) = (value(&across, x), value(&upward, y));
+        let expected = 25.0 + rise(60.0 * minutes);
+        assert!((celsius - expected).abs() < 0.01, "{minutes} min: {celsius}, not {expected}");
+    }
+    assert!(svg.contains(">time [min]<") && svg.contains(">temperature [°C]<"));
+    assert!(svg.contains(">lump.T below 30 °C<") && svg.contains(">hot broken<"));
+}
+
+#[test]
+fn no_text_of_a_netlist_is_markup() {
+    let folder = Folder::with("lump.toml", LUMP);
+    folder.run(&["plot", "lump.toml", "-o", "lump.svg"]);
+    let svg = folder.read("lump.svg");
+    assert!(!svg.contains("<script") && svg.contains("&lt;script&gt;"), "{svg}");
+}
+
+#[test]
+fn the_same_picture_has_the_same_bytes() {
+    let folder = Folder::with("lump.toml", LUMP);
+    for ending in ["svg", "png"] {
+        let name = |i: usize| format!("{i}.{ending}");
+        for i in 0..2 {
+            let output = folder.run(&["run", "lump.toml", "--no-files", "--plot", &name(i)]);
+            assert_eq!(output.code, Some(0), "{}", output.err);
+        }
+        let read = |i| std::fs::read(folder.path().join(name(i))).unwrap();
+        assert_eq!(read(0), read(1));
+    }
+    let png = std::fs::read(folder.path().join("0.png")).unwrap();
+    assert_eq!(png[..8], *b"\x89PNG\r\n\x1a\n");
+}
+
+/// The measured values are those of the closed form and 0.5 K, so that is what is left.
+#[test]
+fn what_was_measured_stands_over_the_run_and_the_difference_below() {
+    let folder = Folder::with("lump.toml", LUMP);
+    let mut record = "time [s],lump.T [degC]\n".to_owned();
+    for i in 0..30 {
+        let time = 10.0 * f64::from(i);
+        record += &format!("{time},{}\n", 25.5 + rise(time));
+    }
+    folder.write("measured.csv", &record);
+    let arguments = ["plot", "lump.toml", "measured.csv", "--select", "lump.T", "-o", "both.svg"];
+    let output = folder.run(&arguments);
+    assert_eq!(output.code, Some(0), "{}", output.err);
+    let svg = folder.read("both.svg");
+    assert!(svg.contains(">measured \u{2212} run [K]<"), "{svg}");
+    let marks = axis(&svg, "end", "y");
+    let marks = marks.into_iter().filter(|mark| (0.4..0.6).contains(&mark.1));
+    let marks: Vec<_> = marks.map(|(y, number)| (y - 0.36 * 11.0, number)).collect();
+    let dots = svg.lines().filter(|line| line.contains("f-series0") && line.starts_with("<path"));
+    let below = dots.last().unwrap().split('M').skip(1);
+    let left: Vec<f64> = below
+        .map(|dot| dot.split(['a', ' ']).nth(1).unwrap().parse().unwrap())
+        .map(|y| value(&marks, y))
+        .collect();
+    assert_eq!(left.len(), 30);
+    // the run is right to 1e-4 K, and its curve is straight between rows of 1 s
+    assert!(left.iter().all(|kelvin| (kelvin - 0.5).abs() < 5e-4), "{left:?}");
+}
+
+#[test]
+fn results_are_drawn_as_the_run_that_wrote_them() {
+    let folder = Folder::with("lump.toml", LUMP);
+    folder.run(&["run", "lump.toml"]);
+    folder.run(&["plot", "out/lump", "--select", "lump.T", "-o", "a.svg"]);
+    folder.run(&["plot", "lump.toml", "--select", "lump.T", "-o", "b.svg"]);
+    let (a, b) = (folder.read("a.svg"), folder.read("b.svg"));
+    // the limit is not among the results, and widens the axis of neither
+    assert_eq!(points(&a, "lump"), points(&b, "lump"));
+    assert!(a.contains(">hot broken<"), "{a}");
+}
+
+#[test]
+fn a_chart_keeps_to_the_width_of_the_terminal() {
+    let folder = Folder::with("lump.toml", LUMP);
+    for columns in [40, 80, 200] {
+        let arguments = ["plot", "lump.toml"];
+        let output = Ran::of(
+            folder.command(&arguments).env("COLUMNS", columns.to_string()).output().unwrap(),
+        );
+        let text = output.out;
+        let longest = text.lines().skip(1).map(|line| line.chars().count()).max().unwrap();
+        assert!(longest <= columns && longest > columns - 15, "{longest}: {text}");
+        assert!(!text.contains('\u{1b}'), "{text}");
+    }
+}
+
+#[test]
+fn every_verb_with_a_curve_has_a_picture() {
+    let folder = Folder::with_gearbox();
+    let size = "\n[size.cooling]\nminimise = \"G_out\"\n\
+                vary = { G_out = { from = \"1 W/K\", to = \"10 W/K\" } }\n\
+                require = [\"steel.T <= 80 [degC]\"]\n";
+    folder.write("size.toml", &format!("{}{size}", common::GEARBOX));
+    let verbs: [(&[&str], &str); 5] = [
+        (&["modes", "gearbox.toml"], ">time constant [s]<"),
+        (&["reduce", "gearbox.toml", "--port", "steel"], ">rise for 1 W [K/W]<"),
+        (&["compare", "gearbox.toml", "size.toml"], ">peak<"),
+        (&["size", "size.toml"], ">margin [K]<"),
+        (&["run", "gearbox.toml", "--no-files"], ">heat flow [W]<"),
+    ];
+    for (arguments, wanted) in verbs {
+        let mut arguments = arguments.to_vec();
+        arguments.extend(["--plot", "x.svg"]);
+        let output = folder.run(&arguments);
+        assert_eq!(output.code, Some(0), "{arguments:?}: {}", output.err);
+        assert!(output.err.contains("wrote  x.svg"), "{arguments:?}");
+        assert!(folder.read("x.svg").contains(wanted), "{arguments:?}");
+    }
+}
+
+#[test]
+fn what_cannot_be_drawn_is_said() {
+    let folder = Folder::with("lump.toml", LUMP);
+    let cases: [(&[&str], &str); 5] = [
+        (&["plot", "lump.toml", "-o", "x.pdf"], "ends with .svg or .png"),
+        (&["plot", "."], "there is no result.csv"),
+        (&["plot", "lump.toml", "--select", "lamp.T"], "lump.T"),
+        (&["steady", "lump.toml", "--plot", "x.svg"], "there is no picture of this answer"),
+        (&["plot", "lump.toml", "-o", "nowhere/x.svg"], "cannot write nowhere/x.svg"),
+    ];
+    for (arguments, wanted) in cases {
+        let Ran { code, err: text, .. } = folder.run(arguments);
+        assert!(matches!(code, Some(2 | 3)), "{arguments:?}: {text}");
+        assert!(text.contains(wanted), "{arguments:?}: {text}");
+    }
+    assert_eq!(folder.files(), ["lump.toml"]);
+}
+
+/// `LPTN_BLESS=1` draws them anew: look at them then.
+#[test]
+fn the_pictures_of_the_pages_are_what_their_commands_draw() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let pictures: [(&str, &[&str]); 3] = [
+        ("gearbox", &["gearbox.toml", "--select", "steel.T", "--select", "aluminium.T"]),
+        ("fan", &["gearbox_fan.toml", "--select", "*.T"]),
+        ("heaters", &["two_heaters.toml", "records/two_heaters.csv", "--select", "T?*"]),
+    ];
+    for (name, arguments) in pictures {
+        let path = root.join(format!("docs/pictures/{name}.svg"));
+        let folder = Folder::empty();
+        let mut command = folder.command(&["plot", "-o"]);
+        command.arg(folder.path().join("x.svg")).args(arguments);
+        let drawn = Ran::of(command.current_dir(root.join("networks")).output().unwrap());
+        assert_eq!(drawn.code, Some(0), "{}", drawn.err);
+        if std::env::var_os("LPTN_BLESS").is_some() {
+            std::fs::write(&path, folder.read("x.svg")).unwrap();
+        }
+        let expected = std::fs::read_to_string(&path).unwrap();
+        assert!(folder.read("x.svg") == expected, "{name}.svg is another picture now");
+    }
+}

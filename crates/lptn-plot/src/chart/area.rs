@@ -1,0 +1,53 @@
+//! Where a panel lies on the page, and how large its texts are.
+
+use crate::font::width;
+use crate::ticks::Ruler;
+
+/// Heights of texts: title, names, numbers.
+pub(crate) const TITLE: f64 = 15.0;
+pub(crate) const NAME: f64 = 12.0;
+pub(crate) const SMALL: f64 = 11.0;
+
+/// Where a panel's curves are drawn, and its two axes.
+#[derive(Debug)]
+pub(crate) struct Area {
+    pub(crate) left: f64,
+    pub(crate) right: f64,
+    pub(crate) top: f64,
+    pub(crate) bottom: f64,
+    pub(crate) x: Ruler,
+    pub(crate) y: Ruler,
+    /// Whether y grows downwards: a list of things is read from the top.
+    pub(crate) downward: bool,
+}
+
+impl Area {
+    pub(crate) fn x_at(&self, value: f64) -> f64 {
+        self.left + self.x.place(value) * (self.right - self.left)
+    }
+
+    pub(crate) fn y_at(&self, value: f64) -> f64 {
+        let place = self.y.place(value);
+        let place = if self.downward { 1.0 - place } else { place };
+        self.bottom - place * (self.bottom - self.top)
+    }
+
+    pub(crate) fn width(&self) -> f64 {
+        self.right - self.left
+    }
+}
+
+/// A text that is not wider than `room`, with an ellipsis where something is left out.
+pub(crate) fn shortened(text: &str, size: f64, room: f64) -> String {
+    if width(text, size, false) <= room {
+        return text.to_owned();
+    }
+    let mut short: String = text.to_owned();
+    while short.pop().is_some() {
+        let cut = format!("{}\u{2026}", short.trim_end());
+        if width(&cut, size, false) <= room {
+            return cut;
+        }
+    }
+    "\u{2026}".into()
+}

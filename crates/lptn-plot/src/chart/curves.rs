@@ -1,0 +1,124 @@
+//! Lines, dots, bands and bars of a panel.
+
+use super::area::Area;
+use crate::figure::{Curve, Look, Panel, Scale};
+use crate::ink::{Ink, SERIES};
+use crate::scene::{Dash, Path, Scene, Step, Stroke, circle, line, polygon};
+use crate::thin::thinned;
+
+/// Width of a curve.
+const LINE: f64 = 1.8;
+
+/// Radius of a dot, of one among few and of one among many.
+const DOTS: [f64; 2] = [3.0, 1.5];
+
+/// A dot for each so many pixels, where there are more.
+const PER_DOT: f64 = 3.0;
+
+/// The ink of the curve at a place of a panel.
+pub(super) fn ink(curve: &Curve, place: usize) -> Ink {
+    Ink::Series(curve.place.unwrap_or(place))
+}
+
+/// What is drawn of a panel: curves with what is around them.
+pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area) {
+    for (place, curve) in panel.curves.iter().enumerate() {
+        let ink = ink(curve, place);
+        spread(scene, curve, (panel, area), ink);
+        // the second round of colours is told apart by dashes
+        let second = curve.place.unwrap_or(place) >= SERIES;
+        let dash = if second || curve.look == Look::Dashed { Dash::Dashed } else { Dash::Solid };
+        let stroke = Stroke { ink, width: LINE, dash };
+        match curve.look {
+            Look::Line | Look::Dashed => lines(scene, curve, (panel, area), stroke),
+            Look::Dots => dots(scene, curve, (panel, area), ink),
+            Look::Stems => stems(scene, curve, (panel, area), ink),
+        }
+    }
+}
+
+type Place<'a> = (&'a Panel, &'a Area);
+
+/// Whether an axis has a place for a value.
+fn is_shown(value: f64, scale: &Scale) -> bool {
+    value.is_finite() && (*scale != Scale::Log || value > 0.0)
+}
+
+fn on_page((panel, area): Place<'_>, (x, y): (f64, f64)) -> Option<(f64, f64)> {
+    let shown = is_shown(x, &panel.x.scale) && is_shown(y, &panel.y.scale);
+    shown.then(|| (area.x_at(x), area.y_at(y)))
+}
+
+/// The points of a curve on the page, thinned there, where pixels are even; gaps are not finite.
+fn placed(points: &[(f64, f64)], place: Place<'_>) -> Vec<(f64, f64)> {
+    let gap = |(x, _): (f64, f64)| (if x.is_finite() { place.1.x_at(x) } else { x }, f64::NAN);
+    let on_page: Vec<_> =
+        points.iter().map(|&point| on_page(place, point).unwrap_or_else(|| gap(point))).collect();
+    let in_order = on_page.windows(2).all(|pair| pair[0].0 <= pair[1].0);
+    if in_order { thinned(&on_page, place.1.width() as usize) } else { on_page }
+}
+
+fn lines(scene: &mut Scene, curve: &Curve, place: Place<'_>, stroke: Stroke) {
+    let points = placed(&curve.points, place);
+    let pieces = points.split(|point| !point.1.is_finite());
+    let mut steps: Vec<Step> = Vec::new();
+    for piece in pieces.filter(|piece| !piece.is_empty()) {
+        steps.extend(line(piece.iter().copied()).steps);
+    }
+    if !steps.is_empty() {
+        scene.put(Path::new(steps).stroked(stroke).tipped(&curve.name));
+    }
+}
+
+fn dots(scene: &mut Scene, curve: &Curve, place: Place<'_>, ink: Ink) {
+    let most = (place.1.width() / PER_DOT) as usize;
+    let every = curve.points.len().div_ceil(most.max(1)).max(1);
+    let radius = DOTS[usize::from(curve.points.len() > most / 3)];
+    let shown = curve.points.iter().step_by(every).filter_map(|&point| on_page(place, point));
+    let steps: Vec<Step> = shown.flat_map(|at| circle(at, radius).steps).collect();
+    if !steps.is_empty() {
+        scene.put(Path::new(steps).filled(ink, 1.0).tipped(&curve.name));
+    }
+}
+
+fn stems(scene: &mut Scene, curve: &Curve, place: Place<'_>, ink: Ink) {
+    let foot = if place.0.y.scale == Scale::Log { place.1.y.range.0 } else { 0.0 };
+    for &(x, y) in &curve.points {
+        if let (Some(top), Some(foot)) = (on_page(place, (x, y)), on_page(place, (x, foot))) {
+            scene.put(line([foot, top]).stroked(Stroke::solid(ink, LINE)));
+            scene.put(circle(top, DOTS[0]).filled(ink, 1.0));
+        }
+    }
+}
+
+fn spread(scene: &mut Scene, curve: &Curve, place: Place<'_>, ink: Ink) {
+    if curve.spread.is_empty() {
+        return;
+    }
+    let side = |of: fn(&(f64, f64)) -> f64| -> Vec<(f64, f64)> {
+        let points = curve.points.iter().zip(&curve.spread);
+        points.map(|(point, spread)| (point.0, of(spread))).collect()
+    };
+    let (low, high) = (side(|spread| spread.0), side(|spread| spread.1));
+    if curve.look == Look::Dots || curve.look == Look::Stems {
+        return bars(scene, (&low, &high), place, ink);
+    }
+    let finite = |points: Vec<(f64, f64)>| points.into_iter().filter(|point| point.1.is_finite());
+    let upper = finite(placed(&high, place));
+    let lower: Vec<_> = finite(placed(&low, place)).collect();
+    scene.put(polygon(upper.chain(lower.into_iter().rev())).filled(ink, 0.18));
+}
+
+type Points<'a> = &'a [(f64, f64)];
+
+fn bars(scene: &mut Scene, (low, high): (Points<'_>, Points<'_>), place: Place<'_>, ink: Ink) {
+    let cap = 3.0;
+    for (&low, &high) in low.iter().zip(high) {
+        let (Some(a), Some(b)) = (on_page(place, low), on_page(place, high)) else { continue };
+        let mut steps = line([a, b]).steps;
+        for (x, y) in [a, b] {
+            steps.extend([Step::Move(x - cap, y), Step::Line(x + cap, y)]);
+        }
+        scene.put(Path::new(steps).stroked(Stroke::solid(ink, 1.2)));
+    }
+}

@@ -1,0 +1,101 @@
+//! Axes, grid lines, limits and moments of a panel.
+
+use super::area::{Area, NAME, SMALL, shortened};
+use super::range;
+use crate::figure::{Panel, Scale};
+use crate::font::width;
+use crate::ink::Ink;
+use crate::scene::{Align, Dash, Scene, Stroke, Text, line};
+
+/// Room for the numbers and the title of the axis to the right.
+pub(super) const ROOM_BELOW: f64 = 46.0;
+
+/// Least distance of the names of two moments.
+const APART: f64 = 14.0;
+
+/// Room above a panel for what is said of limits that are too far to be shown.
+pub(super) fn room_above(panel: &Panel) -> f64 {
+    let lines = range::far(panel).count();
+    lines.min(3) as f64 * (SMALL + 4.0)
+}
+
+/// Grid, axes and their numbers. Where the panel below has the same axis to the right, that one
+/// writes the numbers.
+pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area, shared: bool) {
+    let grid = Stroke::solid(Ink::Grid, 1.0);
+    let is_list = matches!(panel.y.scale, Scale::Names(_));
+    for (value, text) in &area.y.ticks {
+        let y = area.y_at(*value);
+        scene.put(line([(area.left, y), (area.right, y)]).stroked(grid));
+        let size = if is_list { NAME } else { SMALL };
+        let text = Text::new(text, (area.left - 7.0, y + 0.36 * size), size, Ink::Faint);
+        scene.write(text.aligned(Align::End));
+    }
+    for (value, text) in &area.x.ticks {
+        let x = area.x_at(*value);
+        scene.put(line([(x, area.top), (x, area.bottom)]).stroked(grid));
+        if !shared {
+            let text = Text::new(text, (x, area.bottom + SMALL + 5.0), SMALL, Ink::Faint);
+            scene.write(text.aligned(Align::Middle));
+        }
+    }
+    axes(scene, area);
+    titles(scene, area, shared);
+}
+
+fn axes(scene: &mut Scene, area: &Area) {
+    let frame = Stroke::solid(Ink::Frame, 1.0);
+    let corner = [(area.left, area.top), (area.left, area.bottom), (area.right, area.bottom)];
+    scene.put(line(corner).stroked(frame));
+}
+
+fn titles(scene: &mut Scene, area: &Area, shared: bool) {
+    let middle = f64::midpoint(area.top, area.bottom);
+    let title = shortened(&area.y.title, NAME, area.bottom - area.top + 2.0 * NAME);
+    let upward = Text::new(title, (NAME + 8.0, middle), NAME, Ink::Text);
+    scene.write(upward.aligned(Align::Middle).upward());
+    if !shared {
+        let middle = f64::midpoint(area.left, area.right);
+        let right = Text::new(&area.x.title, (middle, area.bottom + 36.0), NAME, Ink::Text);
+        scene.write(right.aligned(Align::Middle));
+    }
+}
+
+/// Limits and moments, over the curves.
+pub(super) fn marks(scene: &mut Scene, panel: &Panel, area: &Area) {
+    for limit in range::near(panel) {
+        let y = area.y_at(limit.value);
+        let stroke = Stroke { ink: Ink::Limit, width: 1.3, dash: Dash::Dashed };
+        scene.put(line([(area.left, y), (area.right, y)]).stroked(stroke).tipped(&limit.name));
+        let below = y - area.top < SMALL + 4.0;
+        let y = if below { y + SMALL + 2.0 } else { y - 4.0 };
+        scene.write(Text::new(&limit.name, (area.left + 6.0, y), SMALL, Ink::Limit));
+    }
+    for (i, limit) in range::far(panel).take(3).enumerate() {
+        let above = limit.value > f64::midpoint(area.y.range.0, area.y.range.1);
+        let way = if above { "above" } else { "below" };
+        let text = format!("{}, {way} what is shown", limit.name);
+        let y = area.top - 5.0 - i as f64 * (SMALL + 4.0);
+        scene.write(Text::new(text, (area.left + 6.0, y), SMALL, Ink::Limit));
+    }
+    moments(scene, panel, area);
+}
+
+fn moments(scene: &mut Scene, panel: &Panel, area: &Area) {
+    let mut last = f64::NEG_INFINITY;
+    for moment in &panel.moments {
+        let x = area.x_at(moment.at);
+        let stroke = Stroke { ink: Ink::Frame, width: 1.0, dash: Dash::Dotted };
+        let path = line([(x, area.top), (x, area.bottom)]).stroked(stroke);
+        scene.put(path.tipped(&moment.name));
+        let fits = width(&moment.name, SMALL, false) < area.bottom - area.top - 8.0;
+        if x - last < APART || !fits {
+            continue;
+        }
+        last = x;
+        // beside the line, where there is room
+        let x = if x - area.left < APART { x + SMALL } else { x - 4.0 };
+        let text = Text::new(&moment.name, (x, area.bottom - 6.0), SMALL, Ink::Faint);
+        scene.write(text.upward());
+    }
+}

@@ -1,0 +1,130 @@
+//! Lays out a figure as a drawing.
+
+mod area;
+mod curves;
+mod frame;
+mod labels;
+mod range;
+
+pub(crate) use labels::apart;
+pub(crate) use range::{across, upward};
+
+use area::{Area, NAME, SMALL, TITLE};
+
+use crate::figure::{Figure, Panel, Scale};
+use crate::font::width;
+use crate::ink::Ink;
+use crate::scene::{Scene, Text};
+use crate::ticks::Ruler;
+
+/// Room around everything.
+const MARGIN: f64 = 14.0;
+
+/// Height of an ordinary panel.
+const HEIGHT: f64 = 300.0;
+
+/// A number of the axis upwards for each so many pixels.
+const ROW: f64 = 38.0;
+
+/// Most of the width that names of curves may take.
+const NAMES: f64 = 0.3;
+
+/// Figures below each other as a drawing of this width in pixels; its height follows from their
+/// panels.
+pub fn scene(figures: &[Figure], width: f64) -> Scene {
+    let title = figures.first().map_or("", |figure| figure.title.as_str());
+    let mut shapes = Scene::new((width, 0.0), title);
+    let top = figures.iter().fold(0.0, |top, figure| draw(figure, (top, width), &mut shapes));
+    let mut scene = Scene::new((width, top + MARGIN / 2.0), title);
+    scene.shapes.extend(shapes.shapes.into_iter().skip(1));
+    scene
+}
+
+/// Draws a figure from `top` on, and gives where it ends.
+fn draw(figure: &Figure, (top, width): (f64, f64), scene: &mut Scene) -> f64 {
+    let mut top = header(figure, (top, width), scene);
+    let margins = (left_margin(figure), right_margin(figure, width));
+    for (i, panel) in figure.panels.iter().enumerate() {
+        let shared = figure.panels.get(i + 1).is_some_and(|next| next.x == panel.x);
+        let begin = top + frame::room_above(panel);
+        let vertical = (begin, begin + panel_height(panel));
+        let area = area(figure, panel, (margins.0, width - margins.1), vertical);
+        frame::draw(scene, panel, &area, shared);
+        frame::marks(scene, panel, &area);
+        curves::draw(scene, panel, &area);
+        labels::draw(scene, panel, &area, width - MARGIN);
+        top = area.bottom + if shared { MARGIN } else { frame::ROOM_BELOW };
+    }
+    top
+}
+
+fn panel_height(panel: &Panel) -> f64 {
+    match &panel.y.scale {
+        Scale::Names(names) => 22.0 * names.len() as f64 + 10.0,
+        _ => HEIGHT * panel.share,
+    }
+}
+
+fn area(
+    figure: &Figure,
+    panel: &Panel,
+    (left, right): (f64, f64),
+    (top, bottom): (f64, f64),
+) -> Area {
+    let sharing = figure.panels.iter().filter(|other| other.x == panel.x);
+    let across = range::across(sharing);
+    let x = Ruler::new(&panel.x, across, (right - left) / 80.0, false);
+    let y = Ruler::new(&panel.y, range::upward(panel), (bottom - top) / ROW, false);
+    let downward = matches!(panel.y.scale, Scale::Names(_));
+    Area { left, right, top, bottom, x, y, downward }
+}
+
+/// Title and note; gives where the panels begin.
+fn header(figure: &Figure, (top, page): (f64, f64), scene: &mut Scene) -> f64 {
+    let mut top = top + MARGIN;
+    let room = page - 2.0 * MARGIN;
+    for line in wrapped(&figure.title, TITLE, room, true) {
+        top += TITLE + 2.0;
+        scene.write(Text::new(line, (MARGIN, top), TITLE, Ink::Text).bold());
+    }
+    for line in figure.note.lines().flat_map(|line| wrapped(line, SMALL, room, false)) {
+        top += SMALL + 5.0;
+        scene.write(Text::new(line, (MARGIN, top), SMALL, Ink::Faint));
+    }
+    top + MARGIN
+}
+
+/// A text in lines that are not wider than `room` unless a word is.
+fn wrapped(text: &str, size: f64, room: f64, bold: bool) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if width(&format!("{line} {word}"), size, bold) <= room => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+fn left_margin(figure: &Figure) -> f64 {
+    let numbers = |panel: &Panel| {
+        let ruler = Ruler::new(&panel.y, range::upward(panel), panel_height(panel) / ROW, false);
+        let widths = ruler.ticks.iter().map(|(_, text)| width(text, SMALL, false));
+        widths.fold(0.0, f64::max) + if ruler.title.is_empty() { 0.0 } else { NAME + 8.0 }
+    };
+    MARGIN + 9.0 + figure.panels.iter().map(numbers).fold(0.0, f64::max)
+}
+
+fn right_margin(figure: &Figure, page: f64) -> f64 {
+    let names = figure.panels.iter().flat_map(|panel| &panel.curves);
+    let widest = names.map(|curve| width(&curve.name, NAME, false)).fold(0.0, f64::max);
+    let room = if widest > 0.0 { labels::GAP } else { 0.0 };
+    MARGIN + (widest + room).min(NAMES * page)
+}
+
+#[cfg(test)]
+#[path = "tests.rs"]
+mod tests;

@@ -1,0 +1,93 @@
+//! From where to where an axis goes.
+
+use crate::figure::{Look, Panel, Scale};
+
+/// A limit widens the axis by at most this share of what the curves take.
+const FAR: f64 = 1.5;
+
+/// Room above and below the curves, as a share of their range.
+const AIR: f64 = 0.05;
+
+type Range = (f64, f64);
+
+const NOTHING: Range = (f64::INFINITY, f64::NEG_INFINITY);
+
+fn with((low, high): Range, value: f64) -> Range {
+    if value.is_finite() { (low.min(value), high.max(value)) } else { (low, high) }
+}
+
+/// A range that is one: up to 1 where there is nothing.
+fn some((low, high): Range, logarithmic: bool) -> Range {
+    let lowest = if logarithmic { 0.1 } else { 0.0 };
+    if low <= high { (low, high) } else { (lowest, 1.0) }
+}
+
+/// The range to the right of panels that share it.
+pub(crate) fn across<'a>(panels: impl Iterator<Item = &'a Panel>) -> Range {
+    let (mut range, mut scale, mut dotted) = (NOTHING, &Scale::Linear, false);
+    for panel in panels {
+        scale = &panel.x.scale;
+        let logarithmic = *scale == Scale::Log;
+        dotted |= panel.curves.iter().any(|curve| matches!(curve.look, Look::Dots | Look::Stems));
+        let shown = |x: &f64| !logarithmic || *x > 0.0;
+        let points = panel.curves.iter().flat_map(|curve| &curve.points);
+        let moments = panel.moments.iter().map(|moment| moment.at);
+        let all = points.map(|point| point.0).chain(moments);
+        range = all.filter(shown).fold(range, with);
+    }
+    let range = some(range, *scale == Scale::Log);
+    // a dot on the edge would be cut in two; a record begins where it begins
+    if dotted && *scale != Scale::Time { aired(range, scale) } else { range }
+}
+
+/// A range with room at its ends.
+fn aired((low, high): Range, scale: &Scale) -> Range {
+    if *scale == Scale::Log {
+        let air = (high / low).powf(AIR);
+        return (low / air, high * air);
+    }
+    let air = AIR * (high - low);
+    (low - air, high + air)
+}
+
+/// The range upwards.
+pub(crate) fn upward(panel: &Panel) -> Range {
+    let curves = of_curves(panel);
+    let range = panel.limits.iter().filter(|limit| is_near(limit.value, curves));
+    let logarithmic = panel.y.scale == Scale::Log;
+    let all = range.fold(curves, |range, limit| with(range, limit.value));
+    aired(some(all, logarithmic), &panel.y.scale)
+}
+
+fn of_curves(panel: &Panel) -> Range {
+    let logarithmic = panel.y.scale == Scale::Log;
+    let shown = |y: &f64| !logarithmic || *y > 0.0;
+    let mut range = NOTHING;
+    for curve in &panel.curves {
+        let spread = curve.spread.iter().flat_map(|&(low, high)| [low, high]);
+        let all = curve.points.iter().map(|point| point.1).chain(spread);
+        range = all.filter(shown).fold(range, with);
+        if curve.look == Look::Stems && !logarithmic {
+            range = with(range, 0.0);
+        }
+    }
+    range
+}
+
+/// Whether a limit can be shown without making the curves flat. Where there are no curves, it can.
+fn is_near(limit: f64, (low, high): Range) -> bool {
+    let span = (high - low).max(1e-3 * high.abs());
+    low > high || (limit >= low - FAR * span && limit <= high + FAR * span)
+}
+
+/// Limits that are too far from the curves to be shown.
+pub(super) fn far(panel: &Panel) -> impl Iterator<Item = &crate::figure::Level> {
+    let curves = of_curves(panel);
+    panel.limits.iter().filter(move |limit| !is_near(limit.value, curves))
+}
+
+/// Limits that are shown.
+pub(super) fn near(panel: &Panel) -> impl Iterator<Item = &crate::figure::Level> {
+    let curves = of_curves(panel);
+    panel.limits.iter().filter(move |limit| is_near(limit.value, curves))
+}

@@ -1,0 +1,121 @@
+use super::area::shortened;
+use super::labels::apart;
+use super::{scene, wrapped};
+use crate::figure::{Axis, Curve, Figure, Level, Look, Moment, Panel};
+use crate::font::width;
+use crate::scene::{Scene, Shape};
+use crate::{png, svg};
+
+fn heating() -> Figure {
+    let rise = |tau: f64, by: f64| -> Vec<(f64, f64)> {
+        (0..=300)
+            .map(|i| 5.0 * f64::from(i))
+            .map(|t| (t, 25.0 + by * (1.0 - (-t / tau).exp())))
+            .collect()
+    };
+    let mut panel = Panel::new(Axis::time(), Axis::linear("temperature", "degC"));
+    let steel = rise(800.0, 60.0);
+    let spread = steel.iter().map(|(_, y)| (y - 2.0, y + 2.0)).collect();
+    panel.curves.push(Curve::line("steel", steel).within(spread));
+    panel.curves.push(Curve::line("aluminium", rise(810.0, 59.0)));
+    panel.curves.push(Curve::line("tc1", rise(790.0, 58.0)).looks(Look::Dots).as_place(0));
+    panel.limits.push(Level { name: "steel at most 90 °C".into(), value: 90.0 });
+    panel.limits.push(Level { name: "seal at most 400 °C".into(), value: 400.0 });
+    panel.moments.push(Moment { name: "fan on".into(), at: 600.0 });
+    let mut residuals = Panel::new(Axis::time(), Axis::linear("difference", "K"));
+    residuals.share = 0.35;
+    residuals.curves.push(Curve::line("steel", vec![(0.0, 0.1), (1500.0, -0.2)]));
+    Figure {
+        title: "Gearbox".into(),
+        note: "300 W for 25 min".into(),
+        panels: vec![panel, residuals],
+    }
+}
+
+fn texts(scene: &Scene) -> Vec<&str> {
+    let text = |shape: &'_ Shape| match shape {
+        Shape::Text(text) => Some(text.text.clone()),
+        Shape::Path(_) => None,
+    };
+    let found: Vec<String> = scene.shapes.iter().filter_map(text).collect();
+    found.leak().iter().map(String::as_str).collect()
+}
+
+#[test]
+fn a_figure_says_names_units_limits_and_moments() {
+    let scene = scene(&[heating()], 760.0);
+    let texts = texts(&scene);
+    for wanted in [
+        "Gearbox",
+        "time [min]",
+        "temperature [°C]",
+        "steel",
+        "aluminium",
+        "steel at most 90 °C",
+        "seal at most 400 °C, above what is shown",
+        "fan on",
+        "difference [K]",
+    ] {
+        assert!(texts.contains(&wanted), "{wanted}: {texts:?}");
+    }
+    // both panels have the time, the lower one writes it
+    assert_eq!(texts.iter().filter(|text| **text == "time [min]").count(), 1);
+    if let Some(folder) = std::env::var_os("LPTN_PICTURES") {
+        let folder = std::path::Path::new(&folder);
+        std::fs::write(folder.join("heating.svg"), svg::write(&scene)).unwrap();
+        std::fs::write(folder.join("heating.png"), png::write(&scene, 2.0).unwrap()).unwrap();
+    }
+}
+
+/// Everything that is drawn lies on the page.
+#[test]
+fn nothing_leaves_the_page() {
+    let scene = scene(&[heating()], 500.0);
+    for shape in &scene.shapes {
+        if let Shape::Text(text) = shape
+            && !text.upward
+        {
+            let wide = width(&text.text, text.size, text.bold);
+            let left = match text.align {
+                crate::scene::Align::Start => text.at.0,
+                crate::scene::Align::Middle => text.at.0 - wide / 2.0,
+                crate::scene::Align::End => text.at.0 - wide,
+            };
+            assert!(left >= 0.0 && left + wide <= 500.0, "{}", text.text);
+            assert!(text.at.1 <= scene.size.1, "{}", text.text);
+        }
+    }
+}
+
+#[test]
+fn a_figure_of_nothing_is_drawn() {
+    let none = Panel::new(Axis::time(), Axis::log("Z", "K/W"));
+    let mut gaps = none.clone();
+    gaps.curves.push(Curve::line("a", vec![(0.0, f64::NAN), (1.0, -1.0)]));
+    let figure = Figure { title: String::new(), note: String::new(), panels: vec![none, gaps] };
+    let text = svg::write(&scene(&[figure], 400.0));
+    assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+}
+
+/// Two that want the same place share it around it; the ends of the range hold.
+#[test]
+fn names_move_apart_and_stay_inside() {
+    assert_eq!(apart(&[10.0, 50.0], 12.0, (0.0, 100.0)), [10.0, 50.0]);
+    assert_eq!(apart(&[50.0, 50.0], 12.0, (0.0, 100.0)), [44.0, 56.0]);
+    assert_eq!(apart(&[99.0, 100.0], 12.0, (0.0, 100.0)), [88.0, 100.0]);
+    assert_eq!(apart(&[0.0, 1.0, 2.0], 12.0, (0.0, 100.0)), [0.0, 12.0, 24.0]);
+    assert_eq!(apart(&[80.0, 98.0, 99.0], 12.0, (0.0, 100.0)), [76.0, 88.0, 100.0]);
+}
+
+#[test]
+fn texts_keep_to_their_room() {
+    assert_eq!(wrapped("a line of words", 12.0, 40.0, false), ["a line", "of", "words"]);
+    let short = shortened("a_very_long_name_of_a_node", 12.0, 80.0);
+    assert!(short.ends_with('\u{2026}') && width(&short, 12.0, false) <= 80.0, "{short}");
+}
+
+#[test]
+fn a_figure_is_drawn_with_characters() {
+    let text = crate::terminal::write(&heating(), 80, false);
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+}

@@ -1,0 +1,137 @@
+//! The columns of a table as panels of a figure.
+
+use lptn_plot::figure::{Axis, Curve, Panel};
+use lptn_solve::{Column, Table};
+
+/// More curves than this cannot be told apart in one panel.
+pub const MOST_CURVES: usize = 12;
+
+/// What the axis of temperatures is called.
+pub const TEMPERATURE: &str = "temperature";
+
+/// The columns of a table over its first one: a panel for each unit, in the order in which they
+/// come, temperatures with the end `.T` of their names left out. Of too many columns in one panel
+/// those that reach highest stay; the second value says how many were left out.
+pub fn panels(table: &Table) -> (Vec<Panel>, usize) {
+    let Some((first, others)) = table.columns().split_first() else {
+        return (Vec::new(), 0);
+    };
+    let (mut panels, mut left_out) = (Vec::new(), 0);
+    let mut done: Vec<(Quantity, &str)> = Vec::new();
+    for column in others {
+        let key = (Quantity::of(column), column.unit.as_str());
+        if done.contains(&key) {
+            continue;
+        }
+        done.push(key);
+        let same = |other: &&Column| (Quantity::of(other), other.unit.as_str()) == key;
+        let all: Vec<&Column> = others.iter().filter(same).collect();
+        let shown = highest(&all);
+        left_out += all.len() - shown.len();
+        let name = key.0.name().unwrap_or(if all.len() == 1 { &column.name } else { "" });
+        let mut panel = Panel::new(across(first), Axis::linear(name, key.1));
+        shown.into_iter().for_each(|column| add(&mut panel.curves, curve(first, column)));
+        panels.push(panel);
+    }
+    let share = if panels.len() > 2 { 0.6 } else { 1.0 };
+    panels.iter_mut().for_each(|panel| panel.share = share);
+    (panels, left_out)
+}
+
+/// What the axis of a column is called.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Quantity {
+    Temperature,
+    HeatFlow,
+    Heat,
+    Other,
+}
+
+impl Quantity {
+    fn of(column: &Column) -> Self {
+        match column.unit.as_str() {
+            "degC" | "degF" | "degR" => Self::Temperature,
+            "K" if column.name.ends_with(".T") => Self::Temperature,
+            "W" => Self::HeatFlow,
+            "J" => Self::Heat,
+            _ => Self::Other,
+        }
+    }
+
+    fn name(self) -> Option<&'static str> {
+        match self {
+            Self::Temperature => Some(TEMPERATURE),
+            Self::HeatFlow => Some("heat flow"),
+            Self::Heat => Some("heat"),
+            Self::Other => None,
+        }
+    }
+}
+
+fn across(column: &Column) -> Axis {
+    if column.name == "time" && column.unit == "s" {
+        return Axis::time();
+    }
+    Axis::linear(&column.name, &column.unit)
+}
+
+/// The curve of a column, by the name of its node where it is a temperature.
+fn curve(first: &Column, column: &Column) -> Curve {
+    let name = column.name.strip_suffix(".T").unwrap_or(&column.name);
+    Curve::line(name, first.values.iter().copied().zip(column.values.iter().copied()).collect())
+}
+
+/// Adds a curve; one that lies on another takes its name along.
+fn add(curves: &mut Vec<Curve>, curve: Curve) {
+    match curves.iter_mut().find(|other| other.points == curve.points) {
+        Some(other) => other.name += &format!(", {}", curve.name),
+        None => curves.push(curve),
+    }
+}
+
+/// Those that reach highest, in the order of the table.
+fn highest<'a>(columns: &[&'a Column]) -> Vec<&'a Column> {
+    let peak = |column: &Column| {
+        let finite = column.values.iter().copied().filter(|value| value.is_finite());
+        finite.fold(f64::NEG_INFINITY, f64::max)
+    };
+    let mut places: Vec<usize> = (0..columns.len()).collect();
+    places.sort_by(|&a, &b| peak(columns[b]).total_cmp(&peak(columns[a])));
+    places.truncate(MOST_CURVES);
+    places.sort_unstable();
+    places.into_iter().map(|place| columns[place]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use lptn_solve::Table;
+
+    use super::panels;
+
+    #[test]
+    fn a_unit_has_a_panel_and_the_highest_columns_stay() {
+        let mut table = Table::of(&[0.0, 60.0]);
+        table.column("time", "s", |time| *time);
+        table.column("bed.Q", "W", |time| *time);
+        for i in 0..14 {
+            table.column(format!("n{i}.T"), "degC", move |time| f64::from(i) + time);
+        }
+        let (panels, left_out) = panels(&table.done());
+        let named: Vec<&str> = panels.iter().map(|panel| panel.y.name.as_str()).collect();
+        assert_eq!((named, left_out), (vec!["heat flow", "temperature"], 2));
+        assert_eq!(panels[0].curves[0].points, [(0.0, 0.0), (60.0, 60.0)]);
+        let temperatures: Vec<&str> =
+            panels[1].curves.iter().map(|curve| curve.name.as_str()).collect();
+        assert_eq!((temperatures.len(), temperatures[0]), (12, "n2"));
+    }
+
+    #[test]
+    fn curves_that_lie_on_each_other_are_one() {
+        let mut table = Table::of(&[0.0, 60.0]);
+        table.column("time", "s", |time| *time);
+        table.column("bed.T", "degC", |_| 25.0);
+        table.column("air.T", "degC", |_| 25.0);
+        let curves = panels(&table.done()).0.remove(0).curves;
+        assert_eq!((curves.len(), curves[0].name.as_str()), (1, "bed, air"));
+    }
+}
