@@ -54,7 +54,7 @@ fn close(found: &[f64], expected: &[f64]) {
 fn temperatures_and_heat_flows_are_those_of_the_closed_form() {
     let folder = Folder::with("two.toml", PARALLEL);
     let ran = folder.run(&["graph", "two.toml", "--steady", "-o", "two.svg"]);
-    assert_eq!((ran.code, ran.out.as_str()), (Some(0), "wrote  two.svg\n"), "{}", ran.err);
+    assert_eq!((ran.code, ran.err.as_str()), (Some(0), "wrote  two.svg\n"), "{}", ran.out);
     let text = folder.read("two.svg");
     for shown in ["hot", "32.0 °C", "20.0 °C", "6.00 W", "4.00 W", "2 K/W", "3 K/W", "100 J/K"] {
         assert!(text.contains(&format!(">{shown}</text>")), "{shown}:\n{text}");
@@ -76,8 +76,9 @@ fn without_steady_no_temperature_is_computed() {
 #[test]
 fn the_ending_decides_and_a_picture_stands_among_the_results() {
     let folder = Folder::with("two.toml", PARALLEL);
-    assert_eq!(folder.run(&["graph", "two.toml"]).out, "wrote  out/two/graph.svg\n");
-    for name in ["a.svg", "a.png", "a.dot", "a.gv", "a.mmd", "new/a.svg"] {
+    let said = "wrote  out/two/graph.svg\nnext   lptn graph two.toml --steady\n";
+    assert_eq!(folder.run(&["graph", "two.toml"]).err, said);
+    for name in ["a.svg", "a.png", "a.dot", "a.gv", "a.mmd"] {
         let ran = folder.run(&["graph", "two.toml", "-q", "-o", name]);
         assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""), "{name}");
     }
@@ -85,7 +86,7 @@ fn the_ending_decides_and_a_picture_stands_among_the_results() {
     assert_eq!(folder.read("a.dot"), folder.read("a.gv"));
     let piped = folder.run_with(&["graph", "-", "-o", "-"], PARALLEL);
     assert_eq!(piped.out, folder.read("a.svg"));
-    let files = ["a.dot", "a.gv", "a.mmd", "a.png", "a.svg", "new/a.svg", "out/two/graph.svg"];
+    let files = ["a.dot", "a.gv", "a.mmd", "a.png", "a.svg", "out/two/graph.svg"];
     assert_eq!(folder.files(), [&files[..], &["two.toml"]].concat());
 }
 
@@ -132,7 +133,7 @@ fn inputs_that_change_are_said_in_the_picture_too() {
 fn a_grid_is_written_for_paraview() {
     let folder = Folder::with("rod.toml", ROD);
     let ran = folder.run(&["graph", "rod.toml", "--format", "vtk"]);
-    assert_eq!((ran.code, ran.out.as_str()), (Some(0), "wrote  out/rod/rod.vtk\n"), "{}", ran.err);
+    assert_eq!((ran.code, ran.err.as_str()), (Some(0), "wrote  out/rod/rod.vtk\n"), "{}", ran.out);
     let text = folder.read("out/rod/rod.vtk");
     let mut lines = text.lines();
     assert_eq!(lines.next(), Some("# vtk DataFile Version 3.0"));
@@ -167,7 +168,7 @@ fn a_grid_is_written_with_the_places_of_its_cells() {
 fn a_slice_is_drawn_with_its_hottest_cell() {
     let folder = Folder::with("rod.toml", ROD);
     let ran = folder.run(&["graph", "rod.toml", "--slice", "z=5 cm"]);
-    assert_eq!(ran.out, "wrote  out/rod/rod_z1.svg\n", "{}", ran.err);
+    assert_eq!(ran.err, "wrote  out/rod/rod_z1.svg\n");
     let text = folder.read("out/rod/rod_z1.svg");
     assert!(text.contains("hottest here: 65.0 °C at rod[1,1,1]"), "{text}");
     assert!(text.contains("<title>rod[3,1,1]: 45.0 °C</title>"), "{text}");
@@ -190,7 +191,7 @@ fn what_cannot_be_drawn_is_said_before_anything_is_computed() {
         (&["rod.toml", "--format", "vtk", "--slice", "x=1"], "graph::format"),
         (&["two.toml", "-o", "two.jpg"], "graph::format"),
         (&["two.toml", "-o", "two.svg", "--format", "png"], "graph::format"),
-        (&["two.toml", "-o", "file/two.svg"], "output::cannot_create"),
+        (&["two.toml", "--plot", "two.svg"], "graph::format"),
         (&["two.toml", "--format", "jpg"], "possible values"),
         (&["two.toml", "--group", "--no-group"], "cannot be used with"),
     ] {
@@ -198,5 +199,23 @@ fn what_cannot_be_drawn_is_said_before_anything_is_computed() {
         assert_eq!((ran.code, ran.out.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.err);
         assert!(ran.err.contains(code), "{arguments:?}: {}", ran.err);
     }
+    let ran = folder.run(&["graph", "two.toml", "-o", "file/two.svg"]);
+    assert_eq!((ran.code, ran.out.as_str()), (Some(3), ""), "{}", ran.err);
+    assert!(ran.err.contains("output::cannot_write") && ran.err.contains("-o FILE"), "{}", ran.err);
     assert_eq!(folder.files(), ["file", "rod.toml", "two.toml"]);
+}
+
+/// `LPTN_BLESS=1` draws it anew: look at it then.
+#[test]
+fn the_picture_of_the_page_is_what_its_command_draws() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let path = root.join("docs/pictures/gearbox_graph.svg");
+    let folder = Folder::with_gearbox();
+    let ran = folder.run(&["graph", "gearbox.toml", "--steady", "-o", "x.svg"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    if std::env::var_os("LPTN_BLESS").is_some() {
+        std::fs::write(&path, folder.read("x.svg")).unwrap();
+    }
+    let expected = std::fs::read_to_string(&path).unwrap();
+    assert!(folder.read("x.svg") == expected, "gearbox_graph.svg is another picture now");
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::model::{Diagram, Link, Role, Target};
+use crate::model::{Diagram, Link, PlaceRole, Target};
 
 /// A diagram in the language DOT of Graphviz. Ids are generated; names and titles stand in quoted
 /// strings only.
@@ -15,10 +15,10 @@ pub fn dot(diagram: &Diagram) -> String {
     );
     for (i, place) in diagram.places.iter().enumerate() {
         let (shape, capacity) = match &place.role {
-            Role::Node(capacity) => ("", Some(capacity.clone())),
-            Role::Junction => (", style=\"rounded,dashed\"", None),
-            Role::Boundary => (", style=bold", None),
-            Role::Group(words, capacity) => {
+            PlaceRole::Node(capacity) => ("", Some(capacity.clone())),
+            PlaceRole::Junction => (", style=\"rounded,dashed\"", None),
+            PlaceRole::Boundary => (", style=bold", None),
+            PlaceRole::Group(words, capacity) => {
                 let words = capacity.iter().fold(words.clone(), |a, c| format!("{a}, {c}"));
                 (", peripheries=2", Some(words))
             }

@@ -10,7 +10,7 @@ pub(crate) const AXES: [char; 3] = ['x', 'y', 'z'];
 
 /// The temperatures of the cells of a grid.
 #[derive(Clone, Debug)]
-pub struct Field {
+pub struct GridField {
     /// The name of the grid.
     pub name: String,
     /// How many cells there are along x, y and z.
@@ -58,7 +58,7 @@ pub enum NoSlice {
         help format!("name a place from 0 to \"{axis}={}\"", words::si(*length, "m"));
 }}
 
-impl Field {
+impl GridField {
     /// The field of a grid from the temperatures of all nodes in K, those of a steady state at
     /// `time` in s.
     pub fn of(network: &Network, id: GridId, temperatures: &[f64], time: f64) -> Self {
@@ -146,11 +146,11 @@ impl Field {
 
 #[cfg(test)]
 pub(crate) mod tests {
-    use super::{Cut, Field, NoSlice};
+    use super::{Cut, GridField, NoSlice};
 
     /// 2 x 3 x 4 cells of 10, 20 and 5 mm; the temperature in K is 100 i + 10 j + k.
-    pub(crate) fn block() -> Field {
-        let mut field = Field {
+    pub(crate) fn block() -> GridField {
+        let mut field = GridField {
             name: "block".into(),
             cells: [2, 3, 4],
             axes: 3,

@@ -2,7 +2,7 @@
 //!
 //! A [`Diagram`] is a network as it is drawn: its nodes, boundaries, paths and sources with the
 //! words that stand beside them, many alike as one box where asked. [`scene`] lays it out and draws
-//! it with the usual symbols, [`dot`] and [`mermaid`] write it for other programs. A [`Field`] is
+//! it with the usual symbols, [`dot`] and [`mermaid`] write it for other programs. A [`GridField`] is
 //! the temperature of the cells of a grid, drawn slice by slice or written for ParaView.
 
 mod dot;
@@ -20,10 +20,10 @@ mod vtk;
 mod words;
 
 pub use dot::dot;
-pub use field::{Cut, Field, NoSlice};
+pub use field::{Cut, GridField, NoSlice};
 pub use groups::{Grouping, MOST_PLACES};
 pub use mermaid::mermaid;
-pub use model::{Control, Diagram, Link, Place, Role, Steady, Supply, Target};
+pub use model::{Diagram, Link, Place, PlaceRole, Steady, Supply, Switching, Target};
 pub use picture::{MOST_DRAWN, TooMany, scene};
 pub use read::{View, diagram};
 pub use slice::slice;

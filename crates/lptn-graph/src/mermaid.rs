@@ -1,7 +1,7 @@
 //! Writes a diagram for Mermaid.
 
 use crate::dot::{arrow, link_words, push};
-use crate::model::{Diagram, Role, Target};
+use crate::model::{Diagram, PlaceRole, Target};
 
 /// A diagram as a flowchart of Mermaid, which GitHub draws. Ids are generated; of names and titles
 /// every letter that could mean anything stands as its number.
@@ -9,13 +9,13 @@ pub fn mermaid(diagram: &Diagram) -> String {
     let mut out = format!("---\ntitle: {}\n---\nflowchart LR\n", yaml(&diagram.title));
     for (i, place) in diagram.places.iter().enumerate() {
         let more = match &place.role {
-            Role::Node(capacity) => Some(capacity.clone()),
-            Role::Junction | Role::Boundary => None,
-            Role::Group(words, _) => Some(words.clone()),
+            PlaceRole::Node(capacity) => Some(capacity.clone()),
+            PlaceRole::Junction | PlaceRole::Boundary => None,
+            PlaceRole::Group(words, _) => Some(words.clone()),
         };
         let [open, close] = match place.role {
-            Role::Boundary => ["[[", "]]"],
-            Role::Group(..) => ["[", "]"],
+            PlaceRole::Boundary => ["[[", "]]"],
+            PlaceRole::Group(..) => ["[", "]"],
             _ => ["(", ")"],
         };
         let lines = [Some(place.name.clone()), more, place.temperature.clone()];

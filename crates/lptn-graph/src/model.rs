@@ -14,7 +14,7 @@ pub struct Diagram {
     /// The heat put in.
     pub sources: Vec<Supply>,
     /// What switches.
-    pub controls: Vec<Control>,
+    pub controls: Vec<Switching>,
     /// The steady state that is shown.
     pub steady: Option<Steady>,
     /// What stands as one box, in words.
@@ -27,7 +27,7 @@ pub struct Place {
     /// Its name.
     pub name: String,
     /// What it is.
-    pub role: Role,
+    pub role: PlaceRole,
     /// What is known of its temperature, in words: `92.7 °C`.
     pub temperature: Option<String>,
     /// The mean of its temperatures in steady state, in K.
@@ -36,7 +36,7 @@ pub struct Place {
 
 /// What a place is.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Role {
+pub enum PlaceRole {
     /// A node with its capacity, `735 J/K`.
     Node(String),
     /// A node that stores nothing.
@@ -80,9 +80,9 @@ pub struct Supply {
     pub heat: Option<f64>,
 }
 
-/// A thermostat.
+/// A control and what it switches.
 #[derive(Clone, Debug)]
-pub struct Control {
+pub struct Switching {
     /// Its name.
     pub name: String,
     /// The place whose temperature it feels.

@@ -9,9 +9,9 @@ use lptn_plot::{FIELD, Ink, Scene};
 use lptn_report::shortened;
 use lptn_units::Problem;
 
-use crate::layout::{Arranged, Block, Element, Point, arrange};
+use crate::layout::{Arranged, Element, Point, Room, arrange};
 use crate::legend;
-use crate::model::{Diagram, Link, Place, Role, Steady, Supply};
+use crate::model::{Diagram, Link, Place, PlaceRole, Steady, Supply};
 use crate::symbols::{self, CAPACITY, HALF, REACH, SOURCE, WIRE};
 
 /// More boxes than this cannot be read in any picture.
@@ -74,7 +74,7 @@ pub fn scene(diagram: &Diagram) -> Result<Scene, TooMany> {
     if diagram.places.len() > MOST_DRAWN {
         return Err(TooMany { boxes: diagram.places.len() });
     }
-    let places: Vec<Block> = diagram.places.iter().map(place_block).collect();
+    let places: Vec<Room> = diagram.places.iter().map(place_block).collect();
     let ends = ends(diagram);
     let links = diagram.links.iter().zip(&ends).map(|(link, (from, to))| Element {
         block: link_block(link, diagram.steady.as_ref()),
@@ -103,7 +103,7 @@ pub fn scene(diagram: &Diagram) -> Result<Scene, TooMany> {
 /// The places that should stand left and right of each path: heat goes to boundaries where there
 /// are sources, else from the first end to the second.
 fn ends(diagram: &Diagram) -> Vec<(usize, usize)> {
-    let boundary = |place: usize| diagram.places[place].role == Role::Boundary;
+    let boundary = |place: usize| diagram.places[place].role == PlaceRole::Boundary;
     let turned = |link: &&Link| {
         !link.stream && !diagram.sources.is_empty() && boundary(link.from) && !boundary(link.to)
     };
@@ -119,7 +119,7 @@ fn ends(diagram: &Diagram) -> Vec<(usize, usize)> {
 /// The lines of text of a place.
 fn lines(place: &Place) -> Vec<(String, bool)> {
     let mut lines = vec![(shortened(&place.name, LETTERS), true)];
-    if let Role::Group(words, _) = &place.role {
+    if let PlaceRole::Group(words, _) = &place.role {
         lines.push((words.clone(), false));
     }
     lines.extend(place.temperature.iter().map(|text| (text.clone(), false)));
@@ -128,7 +128,7 @@ fn lines(place: &Place) -> Vec<(String, bool)> {
 
 fn capacity(place: &Place) -> Option<&str> {
     match &place.role {
-        Role::Node(capacity) | Role::Group(_, Some(capacity)) => Some(capacity),
+        PlaceRole::Node(capacity) | PlaceRole::Group(_, Some(capacity)) => Some(capacity),
         _ => None,
     }
 }
@@ -142,16 +142,16 @@ fn half_box(place: &Place) -> Point {
     ((wide / 2.0).ceil(), (LINE * lines.len() as f64 + 13.0) / 2.0)
 }
 
-fn place_block(place: &Place) -> Block {
+fn place_block(place: &Place) -> Room {
     let (pin, tall) = half_box(place);
     let capacity = capacity(place);
     let beside = capacity.map_or(0.0, |text| CAPACITY.1 + 7.0 + width(text, VALUE, false));
     let below = match &place.role {
-        Role::Boundary => 9.0,
+        PlaceRole::Boundary => 9.0,
         _ if capacity.is_some() => CAPACITY.0,
         _ => 0.0,
     };
-    Block { pin, half: pin.max(beside) + 4.0, above: tall, below: tall + below }
+    Room { pin, half: pin.max(beside) + 4.0, above: tall, below: tall + below }
 }
 
 /// What stands below the symbol of a path: its value, and its kind where the symbol does not say
@@ -162,13 +162,13 @@ fn below_link(link: &Link) -> Vec<String> {
     link.value.clone().or_else(unknown).into_iter().chain(kind.map(str::to_owned)).collect()
 }
 
-fn link_block(link: &Link, steady: Option<&Steady>) -> Block {
+fn link_block(link: &Link, steady: Option<&Steady>) -> Room {
     let below = below_link(link);
     let flow = steady.zip(link.heat).map(|(steady, heat)| steady.heat(heat));
     element_block(&link.name, &below, (flow.as_deref(), HALF, REACH))
 }
 
-fn source_block(source: &Supply, steady: Option<&Steady>) -> Block {
+fn source_block(source: &Supply, steady: Option<&Steady>) -> Room {
     let below = source_words(source, steady);
     element_block(&source.name, &below, (None, SOURCE, SOURCE))
 }
@@ -193,13 +193,13 @@ fn element_block(
     name: &str,
     below: &[String],
     (flow, pin, reach): (Option<&str>, f64, f64),
-) -> Block {
+) -> Room {
     let name = width(&shortened(name, LETTERS), NAME, false);
     let texts = below.iter().map(|text| width(text, VALUE, false));
     let flow_width = flow.map_or(0.0, |text| ARROW + ARROW_GAP + width(text, VALUE, true));
     let wide = texts.fold(name.max(flow_width), f64::max);
     let lines = below.len() + usize::from(flow.is_some());
-    Block {
+    Room {
         pin,
         half: (wide / 2.0 + 6.0).max(pin + 6.0).ceil(),
         above: reach + LINE + 3.0,
@@ -303,10 +303,10 @@ impl Drawing<'_> {
         let ink = self.diagram.steady.as_ref().zip(place.kelvin).map(|(steady, kelvin)| {
             Ink::Field((steady.share(kelvin) * (FIELD - 1) as f64).round() as usize)
         });
-        let radius = if place.role == Role::Boundary { 0.0 } else { 8.0 };
+        let radius = if place.role == PlaceRole::Boundary { 0.0 } else { 8.0 };
         let corner = (x - half, y - tall);
         let size = (2.0 * half, 2.0 * tall);
-        if matches!(place.role, Role::Group(..)) {
+        if matches!(place.role, PlaceRole::Group(..)) {
             let behind = rectangle((corner.0 + 4.0, corner.1 - 4.0), size, radius);
             self.scene.put(behind.filled(Ink::Paper, 1.0).stroked(symbols::pen()));
         }
@@ -325,7 +325,7 @@ impl Drawing<'_> {
             let text = Text::new(text, at, size, Ink::Text).aligned(Align::Middle);
             self.scene.write(if bold { text.bold() } else { text });
         }
-        if place.role == Role::Boundary {
+        if place.role == PlaceRole::Boundary {
             symbols::hatching(self.scene, [x - half, x + half], y + tall + 1.5);
         } else if let Some(capacity) = capacity(place) {
             symbols::capacity(self.scene, (x, y + tall));

@@ -11,7 +11,7 @@ use lptn_solve::SteadyState;
 use lptn_units::Unit;
 
 use crate::groups::{Group, Grouping, groups};
-use crate::model::{Control, Diagram, Link, Place, Role, Steady, Supply, Target};
+use crate::model::{Diagram, Link, Place, PlaceRole, Steady, Supply, Switching, Target};
 use crate::words::{self, Scale};
 
 /// How a network is looked at.
@@ -142,7 +142,7 @@ impl Reader<'_> {
         Some(nodes.chain(boundaries).collect())
     }
 
-    fn role(&self, group: &Group) -> Role {
+    fn role(&self, group: &Group) -> PlaceRole {
         let capacity = || {
             let sum: f64 = group.nodes.iter().map(|id| self.network.capacity(*id)).sum();
             let varies = group.nodes.iter().any(|id| self.network.enthalpy(*id).is_some());
@@ -152,9 +152,9 @@ impl Reader<'_> {
             })
         };
         match (&group.words, group.boundaries.is_empty()) {
-            (_, false) => Role::Boundary,
-            (Some(words), true) => Role::Group(words.clone(), capacity()),
-            (None, true) => capacity().map_or(Role::Junction, Role::Node),
+            (_, false) => PlaceRole::Boundary,
+            (Some(words), true) => PlaceRole::Group(words.clone(), capacity()),
+            (None, true) => capacity().map_or(PlaceRole::Junction, PlaceRole::Node),
         }
     }
 
@@ -326,7 +326,7 @@ impl Reader<'_> {
         &self,
         id: ControlId,
         (links, sources): (&[Option<usize>], &[Vec<usize>]),
-    ) -> Control {
+    ) -> Switching {
         let network = self.network;
         let slot = network.control_slot(id);
         let mut switches: Vec<Target> = Vec::new();
@@ -344,7 +344,7 @@ impl Reader<'_> {
         switches.dedup();
         let (sense, rule) = self.rule(id);
         let name = plain(&network.name_of(Item::Control(id)));
-        Control { name, sense, rule, switches }
+        Switching { name, sense, rule, switches }
     }
 
     fn rule(&self, id: ControlId) -> (usize, String) {

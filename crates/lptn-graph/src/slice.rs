@@ -6,7 +6,7 @@ use lptn_plot::{FIELD, Ink, Scene};
 use lptn_report::{plain, prefix, significant};
 use lptn_units::Unit;
 
-use crate::field::{AXES, Cut, Field};
+use crate::field::{AXES, Cut, GridField};
 use crate::legend::{BAR, scale};
 use crate::words::Scale;
 
@@ -25,7 +25,7 @@ const SIZE: f64 = 12.0;
 
 /// A slice of a field as a drawing: its cells coloured by their temperatures, on the scale of the
 /// whole grid.
-pub fn slice(field: &Field, cut: Cut, title: &str, unit: &Unit) -> Scene {
+pub fn slice(field: &GridField, cut: Cut, title: &str, unit: &Unit) -> Scene {
     let along: Vec<usize> = (0..3).filter(|axis| *axis != cut.axis).collect();
     let sheet = Sheet::of(field, cut, [along[0], along[1]]);
     let span = field.span();
@@ -47,7 +47,7 @@ pub fn slice(field: &Field, cut: Cut, title: &str, unit: &Unit) -> Scene {
 
 /// A slice on its way to the page.
 struct Sheet<'a> {
-    field: &'a Field,
+    field: &'a GridField,
     cut: Cut,
     /// The axes to the right and upwards.
     axes: [usize; 2],
@@ -57,7 +57,7 @@ struct Sheet<'a> {
 }
 
 impl<'a> Sheet<'a> {
-    fn of(field: &'a Field, cut: Cut, axes: [usize; 2]) -> Self {
+    fn of(field: &'a GridField, cut: Cut, axes: [usize; 2]) -> Self {
         let [right, up] = axes.map(|axis| field.size[axis]);
         let scale = (ROOM.0 / right).min(ROOM.1 / up);
         let (wide, tall) = (right * scale, up * scale);

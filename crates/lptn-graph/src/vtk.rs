@@ -5,14 +5,14 @@ use std::fmt::Write as _;
 use lptn_report::{Shortest, plain};
 use lptn_units::Unit;
 
-use crate::field::Field;
+use crate::field::GridField;
 
 /// Letters of a title that the format takes.
 const TITLE: usize = 200;
 
 /// A field as a legacy VTK file in ASCII (VTK File Formats, Kitware, "Simple legacy formats"): an
 /// image whose cells have a temperature in `unit`. x runs fastest.
-pub fn vtk(field: &Field, title: &str, unit: &Unit) -> String {
+pub fn vtk(field: &GridField, title: &str, unit: &Unit) -> String {
     let mut number = Shortest::new();
     let title: String = plain(title).chars().take(TITLE).collect();
     let points = field.cells.map(|cells| (cells + 1).to_string());

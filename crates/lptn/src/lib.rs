@@ -31,6 +31,7 @@
 
 pub use lptn_assembly as assembly;
 pub use lptn_fit as fit;
+pub use lptn_graph as graph;
 pub use lptn_integrate as integrate;
 pub use lptn_laws as laws;
 pub use lptn_netlist as netlist;

@@ -1,7 +1,7 @@
 //! Columns of places and of elements, and the nets in the channels between them.
 
 use super::rank::Ranks;
-use super::{Block, Element};
+use super::{Element, Room};
 
 /// What stands in a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +25,7 @@ pub(crate) struct Net {
 #[derive(Clone, Debug)]
 pub(crate) struct Columns {
     pub(crate) vertices: Vec<Vertex>,
-    pub(crate) blocks: Vec<Block>,
+    pub(crate) blocks: Vec<Room>,
     /// How much each holds on to its level.
     pub(crate) weights: Vec<f64>,
     /// The vertices of each column from top to bottom.
@@ -40,11 +40,11 @@ const PASS: f64 = 30.0;
 const MAIN: f64 = 1e6;
 
 /// Room that a wire on its way has.
-const WIRE: Block = Block { pin: 0.0, half: 0.0, above: 6.0, below: 6.0 };
+const WIRE: Room = Room { pin: 0.0, half: 0.0, above: 6.0, below: 6.0 };
 
 impl Columns {
     /// Every place and element in its column.
-    pub(crate) fn of(places: &[Block], elements: &[Element], ranks: &Ranks) -> Self {
+    pub(crate) fn of(places: &[Room], elements: &[Element], ranks: &Ranks) -> Self {
         // a source at the first place stands before it
         let first = usize::from(elements.iter().any(|e| e.from.is_none() && ranks.rank[e.to] == 0));
         let main = main_ways(places.len(), elements, ranks);
@@ -81,7 +81,7 @@ impl Columns {
         all
     }
 
-    fn add(&mut self, vertex: Vertex, block: Block, layer: usize) -> usize {
+    fn add(&mut self, vertex: Vertex, block: Room, layer: usize) -> usize {
         self.vertices.push(vertex);
         self.blocks.push(block);
         self.weights.push(if matches!(vertex, Vertex::Pass(_)) { PASS } else { 1.0 });

@@ -17,7 +17,7 @@ use columns::{Columns, Vertex};
 /// What something takes up around its pins, which are on a level left and right of its middle, in
 /// pixels.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Block {
+pub(crate) struct Room {
     /// From the middle to a pin.
     pub(crate) pin: f64,
     /// From the middle to its left and right ends.
@@ -31,7 +31,7 @@ pub(crate) struct Block {
 /// What lies between two places, or before one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Element {
-    pub(crate) block: Block,
+    pub(crate) block: Room,
     /// The place that should stand to its left; none for a source.
     pub(crate) from: Option<usize>,
     /// The place that should stand to its right.
@@ -63,7 +63,7 @@ pub(crate) struct Arranged {
 
 /// Arranges places and elements in columns; in rows of columns where one row would be wider than
 /// `most` pixels.
-pub(crate) fn arrange(places: &[Block], elements: &[Element], most: f64) -> Arranged {
+pub(crate) fn arrange(places: &[Room], elements: &[Element], most: f64) -> Arranged {
     let ranks = rank::ranks(places.len(), elements);
     let mut columns = Columns::of(places, elements, &ranks);
     order::reduce_crossings(&mut columns);
@@ -151,7 +151,7 @@ impl Row<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Arranged, Block, Element, arrange};
+    use super::{Arranged, Element, Room, arrange};
 
     /// Numbers in an order that is always the same (Marsaglia's xorshift, 2003).
     struct Chance(u64);
@@ -167,8 +167,8 @@ mod tests {
 
     type Box = [f64; 4];
 
-    fn boxes(places: &[Block], elements: &[Element], arranged: &Arranged) -> Vec<Box> {
-        let of = |block: &Block, (x, y): (f64, f64)| {
+    fn boxes(places: &[Room], elements: &[Element], arranged: &Arranged) -> Vec<Box> {
+        let of = |block: &Room, (x, y): (f64, f64)| {
             [x - block.half, x + block.half, y - block.above, y + block.below]
         };
         let places = places.iter().zip(&arranged.places).map(|(block, at)| of(block, *at));
@@ -189,15 +189,15 @@ mod tests {
         let mut chance = Chance(0x2545_f491_4f6c_dd1d);
         for _ in 0..60 {
             let count = 2 + chance.below(24);
-            let places: Vec<Block> = (0..count)
-                .map(|_| Block {
+            let places: Vec<Room> = (0..count)
+                .map(|_| Room {
                     pin: 30.0,
                     half: 40.0,
                     above: 20.0,
                     below: 20.0 + chance.below(40) as f64,
                 })
                 .collect();
-            let block = Block { pin: 24.0, half: 50.0, above: 25.0, below: 40.0 };
+            let block = Room { pin: 24.0, half: 50.0, above: 25.0, below: 40.0 };
             let links = (0..count + chance.below(count)).map(|_| {
                 let from = chance.below(count);
                 let to = (from + 1 + chance.below(count - 1)) % count;

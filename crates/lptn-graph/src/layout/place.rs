@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Block;
+use super::Room;
 use super::columns::{Columns, Vertex};
 use super::route::{Channel, MOST_TURNING};
 
@@ -71,7 +71,7 @@ pub(crate) fn levels(columns: &Columns) -> Vec<f64> {
 }
 
 /// The room of each vertex: what stands in line has that of its tallest, so that nothing bends it.
-fn rooms(columns: &Columns) -> Vec<Block> {
+fn rooms(columns: &Columns) -> Vec<Room> {
     let mut rooms = columns.blocks.clone();
     let passes = |v: usize| matches!(columns.vertices[v], Vertex::Pass(_));
     let channels = 0..columns.nets.len();
@@ -84,7 +84,7 @@ fn rooms(columns: &Columns) -> Vec<Block> {
             let above = rooms[*a].above.max(rooms[*b].above);
             let below = rooms[*a].below.max(rooms[*b].below);
             for v in [*a, *b] {
-                rooms[v] = Block { above, below, ..rooms[v] };
+                rooms[v] = Room { above, below, ..rooms[v] };
             }
         }
     }
@@ -116,7 +116,7 @@ type Wish = (f64, f64);
 /// Puts the vertices of a column as near to where they wish to be as their sizes and order allow,
 /// in the least squares: isotonic regression by pooling adjacent violators.
 fn settle(
-    rooms: &[Block],
+    rooms: &[Room],
     vertices: &[usize],
     at: &mut [f64],
     wish: &dyn Fn(usize, &[f64]) -> Wish,

@@ -90,11 +90,11 @@ fn draw_near(rank: &mut [usize], into: &[Vec<usize>]) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Block, Element};
+    use super::super::{Element, Room};
     use super::ranks;
 
     fn elements(pairs: &[(usize, usize)]) -> Vec<Element> {
-        let block = Block::default();
+        let block = Room::default();
         pairs.iter().map(|&(a, b)| Element { block, from: Some(a), to: b }).collect()
     }
 

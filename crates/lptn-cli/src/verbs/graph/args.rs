@@ -20,14 +20,14 @@ Examples:
 pub(crate) struct GraphArgs {
     #[command(flatten)]
     pub(crate) source: Source,
-    /// Write svg, png, dot or mermaid; of a grid svg, png, vtk or csv
+    /// Write svg, png, dot, mermaid; of a grid vtk or csv
     #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
     #[arg(value_parser = one_of(&Kind::ALL, Kind::key))]
     pub(crate) format: Option<Kind>,
-    /// Write this file, whose ending says the format; - is stdout
+    /// Write this file by its ending; - is stdout
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
-    /// Show the temperatures and heat flows at which it settles
+    /// Show temperatures and heat flows where it settles
     #[arg(long)]
     pub(crate) steady: bool,
     /// Draw each grid, instance and family as one box

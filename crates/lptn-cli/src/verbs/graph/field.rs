@@ -1,6 +1,6 @@
 //! The temperatures in a grid.
 
-use lptn_graph::{Field, NoSlice};
+use lptn_graph::{GridField, NoSlice};
 use lptn_netlist::{Diagnostic, Files, Span};
 use lptn_network::GridId;
 use lptn_report::Shortest;
@@ -29,14 +29,14 @@ pub(super) fn written(
     let network = &input.netlist.network;
     let name = &network.grids()[id.index()].name;
     // what is asked for is looked at before anything is computed
-    let shape = Field::of(network, id, &vec![0.0; network.nodes().len()], 0.0);
+    let shape = GridField::of(network, id, &vec![0.0; network.nodes().len()], 0.0);
     let cut = match &args.field.slice {
         Some(text) => Some(shape.cut(text).map_err(|error| no_slice(text, &error))?),
         None if kind.is_of_grid() => None,
         None => return Err(which_slice(name, &shape)),
     };
     let steady = super::solve(input, unit, console)?;
-    let field = Field::of(network, id, &steady.temperatures, steady.time);
+    let field = GridField::of(network, id, &steady.temperatures, steady.time);
     let title = input.title();
     let ending = kind.ending();
     Ok(match (kind, cut) {
@@ -53,7 +53,7 @@ pub(super) fn written(
 }
 
 /// A line a cell: its name, the place of its middle, its temperature.
-fn csv(field: &Field, unit: &Unit) -> String {
+fn csv(field: &GridField, unit: &Unit) -> String {
     let mut number = Shortest::new();
     let mut out = format!("cell,x [m],y [m],z [m],T [{}]\n", unit.text);
     for at in field.places() {
@@ -95,7 +95,7 @@ fn grid(input: &Input, name: Option<&str>) -> Result<GridId, Failure> {
     Err(Failure::new(Exit::Input, problem))
 }
 
-fn which_slice(name: &str, shape: &Field) -> Failure {
+fn which_slice(name: &str, shape: &GridField) -> Failure {
     let message = format!("which slice of `{name}` is to be drawn?");
     let layers = shape.cells[2];
     let help =

@@ -26,6 +26,10 @@ use crate::input::{self, Input};
 const SCALE: f64 = 2.0;
 
 pub(crate) fn graph(args: &GraphArgs, console: &Console) -> Result<Exit, Failure> {
+    if console.plot.is_some() {
+        let problem = Diagnostic::error("graph::format", "--plot draws curves, not the network");
+        return Err(Failure::new(Exit::Input, problem.help("write -o FILE in its place")));
+    }
     let (kind, place) =
         kind::wanted(args.format, args.output.as_deref(), args.field.slice.is_some())?;
     let input = Input::load(&args.source)?;
@@ -100,10 +104,7 @@ fn picture(kind: Kind, scene: &Scene) -> Result<Vec<u8>, Failure> {
     if kind != Kind::Png {
         return Ok(svg::write(scene).into_bytes());
     }
-    png::write(scene, SCALE).map_err(|error| {
-        let problem = Diagnostic::error("graph::picture", error.to_string());
-        Failure::new(Exit::Failed, problem.help("write svg, which may be as large as it likes"))
-    })
+    png::write(scene, SCALE).map_err(|error| Failure::of(&error))
 }
 
 /// What stands as one box, and how to have it otherwise.
