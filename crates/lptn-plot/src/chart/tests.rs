@@ -126,13 +126,9 @@ fn no_dot_that_sticks_out_is_lost() {
         Shape::Path(path) => Some(&path.steps),
         Shape::Text(_) => None,
     });
-    let dot = |pair: &[Step]| match *pair {
-        [Step::Line(..), Step::Curve([(_, top), ..])] => Some(top),
-        _ => None,
-    };
-    let top = |steps: &Vec<Step>| -> Vec<f64> { steps.windows(2).filter_map(dot).collect() };
-    let dots: Vec<f64> = paths.flat_map(top).collect();
-    assert_eq!(dots.iter().filter(|top| **top < 25.0).count(), 1, "{dots:?}");
+    let dot = |step: &Step| if let Step::Circle((_, y), _) = *step { Some(y) } else { None };
+    let dots: Vec<f64> = paths.flatten().filter_map(dot).collect();
+    assert_eq!(dots.iter().filter(|y| **y < 100.0).count(), 1, "{dots:?}");
     assert!((100..1000).contains(&dots.len()), "{}", dots.len());
 }
 
