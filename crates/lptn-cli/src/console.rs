@@ -1,13 +1,14 @@
 //! Where text goes: results to stdout, everything else to stderr.
 
 use std::io::{self, BufWriter, ErrorKind, IsTerminal as _, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use lptn_netlist::{Diagnostic, Files};
 use lptn_plot::Figure;
 use lptn_report::{Format, Page};
 
 use crate::diagnostics::render;
-use crate::drawing::Drawing;
+use crate::drawing::{self, Drawing};
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
 use crate::options::{Color, Global};
@@ -20,6 +21,7 @@ pub(crate) struct Console {
     styled_results: bool,
     styled_messages: bool,
     pub(crate) plot: Option<Drawing>,
+    drawn: AtomicBool,
 }
 
 impl Console {
@@ -35,6 +37,7 @@ impl Console {
             styled_results: styled(io::stdout().is_terminal()),
             styled_messages: styled(io::stderr().is_terminal()),
             plot: global.plot.clone(),
+            drawn: AtomicBool::new(false),
         }
     }
 
@@ -46,6 +49,9 @@ impl Console {
 
     /// Writes a result in a format, and draws it where that was asked.
     pub(crate) fn page(&self, page: &dyn Page, format: Format) -> Result<(), Failure> {
+        if self.plot == Some(Drawing::Terminal) && format != Format::Table {
+            return Err(drawing::not_here());
+        }
         self.write(|out| lptn_report::write(page, format, self.styled_results, out))?;
         self.plot.as_ref().map_or(Ok(()), |drawing| self.draw(&page.figures(), drawing))
     }
@@ -54,6 +60,7 @@ impl Console {
     pub(crate) fn draw(&self, figures: &[Figure], drawing: &Drawing) -> Result<(), Failure> {
         let wrote = drawing
             .draw(figures, self.styled_results, |bytes| self.write(|out| out.write_all(bytes)))?;
+        self.drawn.store(true, Ordering::Relaxed);
         wrote.iter().for_each(|file| self.note(&format!("wrote  {file}")));
         Ok(())
     }
@@ -86,6 +93,11 @@ impl Console {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Whether a picture that was asked for is due still.
+    pub(crate) fn owes_a_picture(&self) -> bool {
+        self.plot.is_some() && !self.drawn.load(Ordering::Relaxed)
     }
 
     /// Something worth knowing beside the result; left out when quiet.

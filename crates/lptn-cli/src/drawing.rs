@@ -57,9 +57,17 @@ impl Drawing {
     }
 }
 
-fn nothing() -> Failure {
+/// A chart would stand between numbers that a program reads.
+pub(crate) fn not_here() -> Failure {
+    let message = "`--plot -` draws below a table, and another format was asked for";
+    let problem = Diagnostic::error("plot::not_here", message);
+    Failure::new(Exit::Input, problem.help("leave --format out, or name a file: --plot heat.svg"))
+}
+
+pub(crate) fn nothing() -> Failure {
     let problem = Diagnostic::error("plot::nothing", "there is no picture of this answer");
-    let help = "run, steady --periodic, modes, reduce, size, compare and the fits have one";
+    let help = "run, steady --periodic, modes, reduce, size, compare and the fits have one; \
+                `lptn graph` draws the network";
     Failure::new(Exit::Input, problem.help(help))
 }
 

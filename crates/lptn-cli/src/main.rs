@@ -58,7 +58,12 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
             console.message(&command::help());
             Ok(Exit::Input)
         }
-        Some(verb) => verb.run(console),
+        Some(verb) => match verb.run(console)? {
+            exit if exit != Exit::Interrupted && console.owes_a_picture() => {
+                Err(drawing::nothing())
+            }
+            exit => Ok(exit),
+        },
     }
 }
 

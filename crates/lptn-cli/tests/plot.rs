@@ -196,11 +196,13 @@ fn every_verb_with_a_curve_has_a_picture() {
 #[test]
 fn what_cannot_be_drawn_is_said() {
     let folder = Folder::with("lump.toml", LUMP);
-    let cases: [(&[&str], &str); 5] = [
+    let cases: [(&[&str], &str); 7] = [
         (&["plot", "lump.toml", "-o", "x.pdf"], "ends with .svg or .png"),
         (&["plot", "."], "there is no result.csv"),
         (&["plot", "lump.toml", "--select", "lamp.T"], "lump.T"),
         (&["steady", "lump.toml", "--plot", "x.svg"], "there is no picture of this answer"),
+        (&["units", "3 W", "--plot", "x.svg"], "there is no picture of this answer"),
+        (&["run", "lump.toml", "--no-files", "--format", "csv", "--plot", "-"], "below a table"),
         (&["plot", "lump.toml", "-o", "nowhere/x.svg"], "cannot write nowhere/x.svg"),
     ];
     for (arguments, wanted) in cases {

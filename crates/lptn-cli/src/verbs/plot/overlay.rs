@@ -166,9 +166,13 @@ mod tests {
 
     #[test]
     fn curves_of_several_runs_are_named_by_them() {
-        let line = || Curve::line("steel", vec![(0.0, 20.0)]);
-        let whole = overlay(vec![source("small", false, line()), source("large", false, line())]);
+        let line = |y| Curve::line("steel", vec![(0.0, y)]);
+        let whole =
+            overlay(vec![source("small", false, line(20.0)), source("large", false, line(30.0))]);
         let names: Vec<_> = whole.panels[0].curves.iter().map(|curve| &*curve.name).collect();
         assert_eq!(names, ["small: steel", "large: steel"]);
+        let air = || source("a", false, Curve::line("air", vec![(0.0, 25.0)]));
+        let names = overlay(vec![air(), air()]).panels.remove(0).curves;
+        assert_eq!((names.len(), names[0].name.as_str()), (1, "air"));
     }
 }
