@@ -14,7 +14,7 @@ Examples:
 /// Simulates lumped-parameter thermal networks
 #[derive(Debug, Parser)]
 #[command(name = "lptn", before_help = EXAMPLES, help_template = TEMPLATE)]
-#[command(disable_version_flag = true, term_width = 80)]
+#[command(disable_version_flag = true)]
 pub(crate) struct Args {
     /// Print the versions of lptn and of the SUNDIALS it runs with
     #[arg(short = 'V', long)]

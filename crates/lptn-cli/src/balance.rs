@@ -171,8 +171,8 @@ fn place(network: &Network, term: &Term, end: End) -> String {
     }
 }
 
-/// `{ of, terms: [{ name, other, power, power_share, heat, heat_share }], power, heat, stored, .. }`,
-/// in SI, largest first.
+/// `{ of, terms, power, heat, stored, .. }` with a term
+/// `{ name, other, power, power_share, heat, heat_share }` each, in SI, largest first.
 pub(crate) fn json(network: &Network, balance: &Balance) -> Value {
     let scalar = SiValue::new;
     let heat = |value: Option<f64>| value.map(|value| scalar(value, "J"));

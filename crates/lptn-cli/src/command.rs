@@ -2,16 +2,30 @@
 
 use std::path::Path;
 
-use clap::CommandFactory as _;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{CommandFactory as _, FromArgMatches as _};
 use lptn_netlist::{Diagnostic, Files};
 use lptn_units::suggest;
 
 use crate::args::Args;
 use crate::console::Console;
+use crate::drawing::terminal_width;
 use crate::exit::Exit;
 use crate::input::quoted;
 use crate::options::{Color, Global};
+
+/// Longer lines are hard to read, however wide the terminal is.
+const WIDEST_HELP: usize = 100;
+
+/// The parser, with help as wide as the terminal.
+fn command() -> clap::Command {
+    Args::command().term_width(terminal_width().min(WIDEST_HELP))
+}
+
+/// What the command line asks for.
+pub(crate) fn parsed() -> Result<Args, clap::Error> {
+    Args::from_arg_matches(&command().try_get_matches()?)
+}
 
 /// Prints why a command line cannot be understood, or the help that it asks for.
 pub(crate) fn refuse(error: &clap::Error) -> Exit {
@@ -53,7 +67,7 @@ fn near_verb(word: &str) -> Option<Diagnostic> {
 
 /// The help of the program.
 pub(crate) fn help() -> String {
-    Args::command().render_help().to_string()
+    command().render_help().to_string()
 }
 
 #[cfg(test)]

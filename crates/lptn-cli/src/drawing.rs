@@ -69,14 +69,8 @@ pub(crate) fn terminal_width() -> usize {
     told.or_else(asked).filter(|columns| *columns >= 20).unwrap_or(WIDTH)
 }
 
-#[cfg(unix)]
 fn asked() -> Option<usize> {
-    rustix::termios::tcgetwinsize(std::io::stdout()).ok().map(|size| usize::from(size.ws_col))
-}
-
-#[cfg(not(unix))]
-fn asked() -> Option<usize> {
-    None
+    terminal_size::terminal_size_of(std::io::stdout()).map(|(width, _)| usize::from(width.0))
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use lptn_assembly::{AssemblyError, ThermalSystem};
 use lptn_netlist::{
-    Diagnostic, Files, MOST_BYTES, Netlist, ReadError, Rejected, Span, parse_bytes, parse_file,
-    similar_file,
+    Diagnostic, Files, MOST_BYTES, Netlist, ReadError, Rejected, RunTime, Span, parse_bytes,
+    parse_file, similar_file,
 };
 use lptn_network::{InputError, Item, ParameterId};
 use lptn_report::{Json, Text, plain};
@@ -15,7 +15,7 @@ use lptn_units::{Dimension, Problem, Quantity, Type, Unit, UnitError, parse_quan
 use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
-use crate::options::Source;
+use crate::options::{Source, Times};
 use crate::words::counts;
 
 /// What a netlist from stdin is called.
@@ -88,6 +88,17 @@ impl Input {
         let mut netlist = parse(&text)?;
         netlist.set(&source.set)?;
         Ok(Self { text, netlist })
+    }
+
+    /// Gives the run other times.
+    pub(crate) fn set_times(&mut self, times: &Times) -> Result<(), Failure> {
+        let given = [(RunTime::Stop, &times.stop), (RunTime::Every, &times.every)];
+        for (which, text) in given {
+            let Some(text) = text else { continue };
+            let time = quantity(which.option(), text, Type::of(Dimension::TIME))?;
+            self.netlist.set_run_time(which, text, time.value)?;
+        }
+        Ok(())
     }
 
     /// What the network is called: its title, else the name of its file.

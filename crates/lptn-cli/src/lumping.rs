@@ -201,5 +201,9 @@ pub(crate) fn json(network: &Network, lumping: &Lumping) -> Value {
     }
     let time = |time: f64| SiValue::new(time, "s");
     let stretch = lumping.shortest.map(|s| json!({ "from": time(s.from), "to": time(s.to) }));
-    json!({ "nodes": nodes, "without_length": lumping.without_length.len(), "shortest_stretch": stretch })
+    json!({
+        "nodes": nodes,
+        "without_length": lumping.without_length.len(),
+        "shortest_stretch": stretch,
+    })
 }

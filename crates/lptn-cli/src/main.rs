@@ -30,15 +30,13 @@ mod written;
 
 use std::process::ExitCode;
 
-use clap::Parser as _;
-
 use args::Args;
 use console::Console;
 use exit::Exit;
 use failure::Failure;
 
 fn main() -> ExitCode {
-    let args = match Args::try_parse() {
+    let args = match command::parsed() {
         Ok(args) => args,
         Err(error) => return ExitCode::from(command::refuse(&error) as u8),
     };

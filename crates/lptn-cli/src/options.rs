@@ -52,6 +52,17 @@ pub(crate) struct Source {
     pub(crate) set: Vec<String>,
 }
 
+/// Times of the run in place of those of the netlist.
+#[derive(Clone, Debug, Default, Arguments)]
+pub(crate) struct Times {
+    /// End the run after this time, such as 2h
+    #[arg(long, value_name = "TIME")]
+    pub(crate) stop: Option<String>,
+    /// Write a row every so often, such as 10s
+    #[arg(long, value_name = "TIME")]
+    pub(crate) every: Option<String>,
+}
+
 /// How a result is printed, of a verb that writes no files unless it is asked to.
 #[derive(Debug, Arguments)]
 pub(crate) struct Printed {

@@ -14,9 +14,9 @@ pub(crate) const SYMMETRIC_ATTEMPTS: c_int = 3;
 pub(crate) const ATTEMPTS: c_int = 10;
 
 /// Steps over which failures are counted. A matrix that makes Newton's method diverge above some
-/// step size is not a failure of any one step: the step shrinks by four, succeeds, grows, fails. That
-/// is one failure in three steps (measured on a stream with the Jacobian 0); radiating plates with
-/// symmetrised Jacobians stay below one in ten.
+/// step size is not a failure of any one step: the step shrinks by four, succeeds, grows, fails.
+/// That is one failure in three steps (measured on a stream with the Jacobian 0); radiating plates
+/// with symmetrised Jacobians stay below one in ten.
 const WINDOW: u64 = 60;
 
 /// Failures in a window that give the symmetric values up.

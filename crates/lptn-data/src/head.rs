@@ -91,7 +91,8 @@ pub(crate) fn row(cells: csv::StringRecord, text: &str) -> Row {
 pub(crate) fn line(text: &str, from: usize) -> std::ops::Range<usize> {
     let mut start = from.min(text.len());
     if start == 0 && text.starts_with('\u{feff}') {
-        start = '\u{feff}'.len_utf8(); // the reader leaves out a mark at the beginning, and only there
+        // the reader leaves out a mark at the beginning, and only there
+        start = '\u{feff}'.len_utf8();
     }
     // the reader notes where it looked for a record, not where it found one
     let ends = ['\r', '\n'];

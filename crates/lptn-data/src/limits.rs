@@ -73,7 +73,8 @@ lptn_units::errors! {
 #[derive(Debug)]
 pub enum ReadError {
     /// The file could not be read.
-    Io { path: PathBuf, error: io::Error } = "io::error", format!("cannot read {}: {error}", path.display()), source error;
+    Io { path: PathBuf, error: io::Error } = "io::error",
+        format!("cannot read {}: {error}", path.display()), source error;
     /// Its content cannot be used.
     Rejected => Rejected;
 }

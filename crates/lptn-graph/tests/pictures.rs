@@ -104,7 +104,13 @@ fn lines(scene: &Scene) -> Vec<Box> {
                         last = to;
                     }
                 }
-                Step::Circle((x, y), r) => piece((x - r, y - r), (x + r, y + r)),
+                Step::Circle((x, y), r) => {
+                    let at = |i: i32| {
+                        let angle = std::f64::consts::TAU * f64::from(i) / 32.0;
+                        (x + r * angle.cos(), y + r * angle.sin())
+                    };
+                    (0..32).for_each(|i| piece(at(i), at(i + 1)));
+                }
                 Step::Close => {}
             }
         }

@@ -63,8 +63,8 @@ impl Law for CapacityRate {
         area: &[],
         extent: Extent::Whole,
         validity: "The stream leaves each node at the temperature of that node.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation \
-            1.11e",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
+            equation 1.11e",
         idle: &[("flow_T", "belongs to a volume flow of a fluid")],
         confidence: Confidence::High,
     };
@@ -86,8 +86,8 @@ impl Law for MassFlow {
         fields: &[flow("flow", Dimension::MASS_FLOW, "mass flow of the fluid", "\"0.05 kg/s\"")],
         carries: Carries::MassFlow,
         idle: &[("flow_T", "has no effect: `flow` is a mass flow")],
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation \
-            1.11d",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
+            equation 1.11d",
         ..CapacityRate::DECLARATION
     };
 

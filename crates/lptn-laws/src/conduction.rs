@@ -142,8 +142,8 @@ impl Law for Slab {
         area: &["area"],
         extent: Extent::Divided("area"),
         validity: "Heat in one direction: edges are insulated or far away.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation \
-            3.6",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
+            equation 3.6",
         ..BODY
     };
 
@@ -170,8 +170,8 @@ impl Law for Cylinder {
         ordered: Some(["r_in", "r_out"]),
         extent: Extent::Divided("length"),
         validity: "Heat that flows radially only: ends are insulated or the cylinder is long.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation \
-            3.28",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
+            equation 3.28",
         ..BODY
     };
 
@@ -196,8 +196,8 @@ impl Law for Sphere {
         ],
         ordered: Some(["r_in", "r_out"]),
         validity: "Heat that flows radially.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation \
-            3.36",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
+            equation 3.36",
         ..BODY
     };
 
@@ -221,8 +221,8 @@ impl Law for Rod {
             length("length", "length", "\"0.3 m\""),
         ],
         validity: "The skin is insulated.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation \
-            3.6",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
+            equation 3.6",
         ..BODY
     };
 

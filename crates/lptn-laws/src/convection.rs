@@ -66,8 +66,8 @@ impl Law for Film {
         area: &["area"],
         extent: Extent::Divided("area"),
         validity: "By definition of h, which is that of the whole area.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations \
-            1.3a, 3.9 and 3.20",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
+            equations 1.3a, 3.9 and 3.20",
         idle: &[],
         confidence: Confidence::High,
     };

@@ -13,13 +13,16 @@
 //! difference of two large numbers.
 //!
 //! ```
-//! use lptn_laws::{effective_emissivity_parallel_plates, radiation_conductance, radiation_exchange_area};
+//! use lptn_laws::{
+//!     effective_emissivity_parallel_plates, radiation_conductance, radiation_exchange_area,
+//! };
 //! use lptn_units::Dual;
 //!
 //! let emissivity = effective_emissivity_parallel_plates(0.8, 0.9);
 //! let gr = radiation_exchange_area(emissivity, 0.25, 1.0); // m^2
 //!
-//! // Heat from a plate of 350 K to one of 300 K, in W, and how it changes with either temperature, in W/K.
+//! // Heat from a plate of 350 K to one of 300 K, in W, and how it changes with either temperature,
+//! // in W/K.
 //! let (t_from, t_to) = (Dual::<2>::variable(350.0, 0), Dual::<2>::variable(300.0, 1));
 //! let heat = radiation_conductance(Dual::constant(gr), t_from, t_to) * (t_from - t_to);
 //! assert!((heat.value - 5.670374419e-8 * gr * (350f64.powi(4) - 300f64.powi(4))).abs() < 1e-12);

@@ -40,7 +40,9 @@ macro_rules! declare {
             /// Its value, as [`Law::value`].
             #[inline]
             pub fn value<S: Scalar>(self, values: &[S], ends: [S; 2]) -> S {
-                match self { $($(Self::$law => <crate::$module::$law as Law>::value(values, ends),)*)* }
+                match self {
+                    $($(Self::$law => <crate::$module::$law as Law>::value(values, ends),)*)*
+                }
             }
         }
     };

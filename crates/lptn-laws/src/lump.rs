@@ -14,7 +14,7 @@ use lptn_units::Scalar;
 /// edition, equations 5.9 and 5.10.
 ///
 /// ```
-/// // example 5.1: a thermocouple bead, a sphere of 0.706 mm, whose volume over surface is a sixth of that
+/// // example 5.1: a thermocouple bead, a sphere of 0.706 mm; volume over surface is a sixth
 /// let bead = lptn_laws::biot(400.0, 0.706e-3 / 6.0, 20.0);
 /// assert!((bead - 2.35e-3).abs() < 5e-6);
 /// ```

@@ -75,8 +75,8 @@ impl Law for ExchangeArea {
         area: &[],
         extent: Extent::Divided("Gr"),
         validity: "Nothing absorbs between the surfaces.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations \
-            1.8 and 1.9",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
+            equations 1.8 and 1.9",
         idle: &[("view_factor", "has no effect: `Gr` includes it")],
         confidence: Confidence::High,
     };
@@ -102,8 +102,8 @@ impl Law for GreySurfaces {
         extent: Extent::Divided("area"),
         validity: "Exact for e = 1 (black surfaces) and for F = 1 (an enclosure of two); else what \
             is reflected is taken to leave.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations \
-            13.17 and 13.18",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
+            equations 13.17 and 13.18",
         ..ExchangeArea::DECLARATION
     };
 
@@ -124,8 +124,8 @@ impl Law for ParallelPlates {
         fields: &[EMISSIVITY, EMISSIVITY, SEEN, VIEW_FACTOR],
         form: Form::Other,
         validity: "The gap is small against the plates.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation \
-            13.19 (table 13.3)",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
+            equation 13.19 (table 13.3)",
         ..GreySurfaces::DECLARATION
     };
 

@@ -50,8 +50,8 @@ impl Law for Resistance {
         area: &[],
         extent: Extent::Multiplied("R"),
         validity: "By definition.",
-        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation \
-            3.6",
+        source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
+            equation 3.6",
         idle: &[],
         confidence: Confidence::High,
     };

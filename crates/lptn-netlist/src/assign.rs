@@ -29,8 +29,8 @@ impl Netlist {
     /// an error nothing is changed.
     ///
     /// # Errors
-    /// [`Rejected`] with every problem: a text that is not an assignment, an unknown parameter, a wrong
-    /// unit, or what the new values break in the network or in `[run]`.
+    /// [`Rejected`] with every problem: a text that is not an assignment, an unknown parameter, a
+    /// wrong unit, or what the new values break in the network or in `[run]`.
     pub fn set(&mut self, assignments: &[String]) -> Result<(), Rejected> {
         let mut files = self.files.clone();
         let file = files.add(FILE, assignments.join("\n"));

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use lptn_data::{CsvFile, CsvText, Diagnostic, Files, Span};
 
-use crate::format::{Format, Role};
+use crate::format::{NetlistFormat, Role};
 use crate::include::Loader;
 use crate::near_file::NamedFile;
 use crate::raw::{RawKind, RawNetlist, RawTable, RawValue};
@@ -36,7 +36,7 @@ impl CsvFiles {
     /// `[import]` and `[fit]`, which are given, through the loader that reads what it includes.
     pub(crate) fn read<'r>(
         files: &mut Files,
-        (raw, format): (&RawNetlist, &Format),
+        (raw, format): (&RawNetlist, &NetlistFormat),
         long: impl Iterator<Item = (&'r str, &'r RawValue)>,
         mut loader: Option<&mut Loader<'_>>,
     ) -> Self {

@@ -3,7 +3,7 @@
 
 use lptn_data::{Diagnostic, FileId, Span};
 
-use crate::format::Format;
+use crate::format::NetlistFormat;
 
 /// The file is not a netlist at all.
 pub(crate) const CODE: &str = "netlist::not_a_netlist";
@@ -19,7 +19,7 @@ const NEW: &str = "a netlist is a TOML file; `lptn new NAME` writes one to start
 /// What a text is that is not TOML, if it is plainly something else; so many of its lines are
 /// broken.
 pub(crate) fn recognise(
-    (name, format): (&str, &Format),
+    (name, format): (&str, &NetlistFormat),
     (file, text): (FileId, &str),
     broken: usize,
 ) -> Option<Diagnostic> {
@@ -69,7 +69,7 @@ fn json_help(text: &str) -> String {
 }
 
 /// The heading of a section that there is.
-fn is_heading(line: &str, format: &Format) -> bool {
+fn is_heading(line: &str, format: &NetlistFormat) -> bool {
     let inner = line.split('#').next().unwrap_or_default().trim().trim_matches(['[', ']']).trim();
     line.starts_with('[') && format.has(inner.split('.').next().unwrap_or_default().trim())
 }

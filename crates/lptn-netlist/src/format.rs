@@ -120,14 +120,14 @@ pub(crate) const ABSOLUTE: &str = "absolute temperature";
 
 /// All sections, in the order in which they are named to people.
 #[derive(Debug)]
-pub struct Format {
+pub struct NetlistFormat {
     /// The sections there are.
     pub sections: Vec<&'static SectionDeclaration>,
     /// Sections that the format has for later.
     pub later: &'static [&'static SectionDeclaration],
 }
 
-impl Format {
+impl NetlistFormat {
     /// Whether there is a section of this name.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.sections.iter().any(|section| section.name == name)

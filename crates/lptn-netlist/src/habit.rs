@@ -4,7 +4,7 @@
 use lptn_data::{Diagnostic, FileId, Span};
 use lptn_units::parse_quantity;
 
-use crate::format::Format;
+use crate::format::NetlistFormat;
 use crate::toml_1_1::string_length;
 
 /// Longer lines were not written by hand.
@@ -13,7 +13,7 @@ const LONGEST: usize = 2000;
 /// Explains a broken line by the first habit found in it.
 pub(crate) fn explain(
     (start, line): &(usize, &str),
-    (file, format): (FileId, &Format),
+    (file, format): (FileId, &NetlistFormat),
     message: &str,
 ) -> Option<Diagnostic> {
     if line.len() > LONGEST {
@@ -71,7 +71,7 @@ impl<'a> Value<'a> {
         }
     }
 
-    fn explain(&self, message: &str, format: &Format) -> Option<Diagnostic> {
+    fn explain(&self, message: &str, format: &NetlistFormat) -> Option<Diagnostic> {
         if self.text.starts_with(['"', '\'', '{', '[']) || self.text.is_empty() {
             return None;
         }
@@ -88,7 +88,7 @@ impl<'a> Value<'a> {
     }
 
     /// `R = 0,35`, with the unit of the field where none is written.
-    fn decimal_comma(&self, format: &Format) -> Option<Diagnostic> {
+    fn decimal_comma(&self, format: &NetlistFormat) -> Option<Diagnostic> {
         let example = format.example(self.key).unwrap_or_default().trim_matches('"');
         let unit = example.split_once(' ').map_or("", |(_, unit)| unit);
         let number = self.text.trim_end_matches(|c: char| !c.is_ascii_digit());

@@ -8,7 +8,7 @@ use lptn_data::{Diagnostic, FileId, Files, MOST_BYTES, Severity, Span};
 
 use crate::duplicate;
 use crate::fields::wrong_shape;
-use crate::format::{Format, Role};
+use crate::format::{NetlistFormat, Role};
 use crate::head::check_head;
 use crate::near_file::NamedFile;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
@@ -43,7 +43,7 @@ pub(crate) struct Merged {
 
 /// Puts what a netlist includes in front of its own entries; without `include` nothing is done.
 pub(crate) fn merge(
-    (files, format): (&mut Files, &Format),
+    (files, format): (&mut Files, &NetlistFormat),
     raw: RawNetlist,
     (path, file): (&Path, FileId),
     loader: Option<&mut Loader<'_>>,
@@ -72,7 +72,7 @@ pub(crate) fn merge(
 
 struct Work<'a, 'l> {
     files: &'a mut Files,
-    format: &'a Format,
+    format: &'a NetlistFormat,
     loader: Option<&'a mut Loader<'l>>,
     /// The files that are open: each includes the next.
     stack: Vec<(PathBuf, FileId)>,

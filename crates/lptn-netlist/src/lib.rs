@@ -62,6 +62,7 @@ mod raw;
 mod reading;
 mod result_names;
 mod run;
+mod run_times;
 mod scales;
 mod scope;
 mod section;
@@ -83,7 +84,7 @@ mod write_back;
 
 pub use expand::{Derived, WrittenError, prove};
 pub use fit::{FitPlan, FitRecord, FitStudy, Observed, VariedName};
-pub use format::{Format, KeyDeclaration, Role, SectionDeclaration};
+pub use format::{KeyDeclaration, NetlistFormat, Role, SectionDeclaration};
 pub use include::Loader;
 pub use initial::InitialState;
 pub use lptn_data::{
@@ -95,6 +96,7 @@ pub use lptn_network::{RunSettings, WindowSettings};
 pub use near_file::similar_file;
 pub use netlist::{Netlist, parse, parse_bytes, parse_file, parse_raw, parse_with, read};
 pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
+pub use run_times::RunTime;
 pub use section::{Studies, format};
 pub use size::{Goal, Requirement, SizeStudy};
 pub use source_map::SourceMap;

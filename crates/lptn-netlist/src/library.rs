@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 use lptn_data::Files;
 use lptn_units::{Dimension, Type, parse_quantity};
 
-use crate::format::Format;
+use crate::format::NetlistFormat;
 use crate::raw::{RawEntry, RawKind, RawTable};
 use crate::syntax;
 
@@ -41,7 +41,7 @@ struct Library {
 static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
     let mut files = Files::new();
     let file = files.add("library.toml", TEXT);
-    let (raw, _) = syntax::read(&files, file, &Format { sections: Vec::new(), later: &[] });
+    let (raw, _) = syntax::read(&files, file, &NetlistFormat { sections: Vec::new(), later: &[] });
     let section = |name: &str| match raw.top.get(name).map(|entry| &entry.value.kind) {
         Some(RawKind::Table(table)) => table.entries.iter().filter_map(record).collect(),
         _ => Vec::new(),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use lptn_data::Span;
 use lptn_units::Expression;
 
-use crate::format::Format;
+use crate::format::NetlistFormat;
 use crate::grid_part::KnownGrid;
 use crate::raw::{RawEntry, RawKind, RawNetlist};
 use crate::template::Structure;
@@ -84,7 +84,7 @@ const MOST_SEARCHES: usize = 100;
 const MOST_LOOKS: usize = 4_000_000;
 
 impl Names {
-    pub(crate) fn of(raw: &RawNetlist, structure: &Arc<Structure>, format: &Format) -> Self {
+    pub(crate) fn of(raw: &RawNetlist, structure: &Arc<Structure>, format: &NetlistFormat) -> Self {
         let mut names = Self { structure: Arc::clone(structure), ..Self::default() };
         for kind in ValueKind::ALL {
             let entries = raw.elements(kind.section()).iter();

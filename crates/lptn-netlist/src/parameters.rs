@@ -72,7 +72,8 @@ impl<'a> Elaboration<'a> {
     ) -> Pending<'a> {
         let owner = Owner::element(kind.word(), &entry.key);
         if let (RawKind::Table(_), true) = (&entry.value.kind, kind == ValueKind::Signal) {
-            return Pending { entry, owner, text: None, uses: Vec::new() }; // its points are read later
+            // its points are read later
+            return Pending { entry, owner, text: None, uses: Vec::new() };
         }
         let place = Place { owner: &owner, key: "", raw: &entry.value };
         let wanted = self.names.structure.type_of(&entry.key).cloned();

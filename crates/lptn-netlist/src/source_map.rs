@@ -21,7 +21,8 @@ pub struct SourceMap {
     conductor_count: usize,
     /// The section of each path that ends at a face.
     face_paths: Vec<&'static str>,
-    /// Nodes and conductors that are parts of grids and of paths to faces, by their indices, in order.
+    /// Nodes and conductors that are parts of grids and of paths to faces, by their indices, in
+    /// order.
     inner_nodes: Vec<(Range<usize>, Item)>,
     inner_conductors: Vec<(Range<usize>, Item)>,
     /// The beginning of the file.
@@ -82,8 +83,8 @@ impl SourceMap {
         self.get(Item::Parameter(id), Field::Value)
     }
 
-    /// The places of values that carry `±` although they are not parameters: nothing varies them. In
-    /// the order of the files, each text once.
+    /// The places of values that carry `±` although they are not parameters: nothing varies them.
+    /// In the order of the files, each text once.
     pub fn deviations_elsewhere(&self, files: &Files) -> Vec<Span> {
         let no_parameter = |(item, field): &(Item, Field)| {
             !matches!(item, Item::Parameter(_)) && *field != Field::Name

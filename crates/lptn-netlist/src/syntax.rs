@@ -6,13 +6,17 @@ use toml::de::{DeArray, DeTable, DeValue};
 use lptn_data::{Diagnostic, FileId, Files, Span, arrange};
 
 use crate::foreign;
-use crate::format::Format;
+use crate::format::NetlistFormat;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::syntax_error;
 use crate::toml_1_1;
 
 /// Reads the text of a file. The tree holds what could be read, whatever is wrong elsewhere.
-pub(crate) fn read(files: &Files, file: FileId, format: &Format) -> (RawNetlist, Vec<Diagnostic>) {
+pub(crate) fn read(
+    files: &Files,
+    file: FileId,
+    format: &NetlistFormat,
+) -> (RawNetlist, Vec<Diagnostic>) {
     let text = files.text(file);
     let (tree, errors) = DeTable::parse_recoverable(text);
     let mut reader = Reader { file, text, newer: Vec::new() };
@@ -47,7 +51,8 @@ impl Reader<'_> {
                 value: self.value(value),
             })
             .collect();
-        entries.sort_by_key(|entry| entry.key_span.range.start); // the tree is in the order of the names
+        // the tree is in the order of the names
+        entries.sort_by_key(|entry| entry.key_span.range.start);
         let span = Span::new(self.file, range);
         let written = self.text.get(span.range.clone()).unwrap_or("");
         if written.starts_with('{') {

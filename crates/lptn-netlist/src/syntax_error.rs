@@ -8,7 +8,7 @@ use toml::de::Error;
 use lptn_data::{Diagnostic, FileId, Span, on_borders};
 
 use crate::duplicate;
-use crate::format::Format;
+use crate::format::NetlistFormat;
 use crate::habit;
 use crate::raw::RawTable;
 
@@ -25,7 +25,7 @@ const MOST_ERRORS: usize = 200;
 /// in the line.
 pub(crate) fn explain(
     errors: &[Error],
-    (file, format): (FileId, &Format),
+    (file, format): (FileId, &NetlistFormat),
     text: &str,
     top: &RawTable,
 ) -> Vec<Diagnostic> {

@@ -9,7 +9,7 @@ use lptn_network::{
 use lptn_units::{Quantity, Type};
 
 use crate::csv_files::CsvFiles;
-use crate::format::Format;
+use crate::format::NetlistFormat;
 use crate::initial::StateFile;
 use crate::names::Names;
 use crate::raw::{RawEntry, RawNetlist};
@@ -21,7 +21,7 @@ use crate::template::Structure;
 pub(crate) struct Elaboration<'a> {
     pub(crate) raw: &'a RawNetlist,
     /// The sections there are.
-    pub(crate) format: &'static Format,
+    pub(crate) format: &'static NetlistFormat,
     /// What templates made of it.
     pub(crate) structure: &'a Structure,
     pub(crate) csv: &'a CsvFiles,

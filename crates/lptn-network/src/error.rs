@@ -77,15 +77,20 @@ lptn_units::problems! {
 #[derive(Clone, Debug)]
 pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// Two items of one name space have the same name: the first, and the one that took it again.
-    DuplicateName { first: Item, second: Item } = "network::duplicate_name", at Some((*second, Field::Name)),
+    DuplicateName { first: Item, second: Item } = "network::duplicate_name",
+        at Some((*second, Field::Name)),
         says match (say.kind(*first), say.kind(*second)) {
             (a, b) if a == b => format!("two {a}s are named `{}`", say.name),
             (a, b) => format!("the name `{}` is taken twice: by a {a} and by a {b}", say.name),
         }, help Some(unused_name(*first, say.name));
     /// A name that stands for something inside another item, the whole, or for one of its results.
-    NameInside { item: Item, whole: Item } = "network::duplicate_name", at Some((*item, Field::Name)),
+    NameInside { item: Item, whole: Item } = "network::duplicate_name",
+        at Some((*item, Field::Name)),
         says inside(say, *item, *whole),
-        help Some(format!("rename one of them, for example `{}`", say.name.replace(['.', '[', ','], "_").replace(']', "")));
+        help Some(format!(
+            "rename one of them, for example `{}`",
+            say.name.replace(['.', '[', ','], "_").replace(']', "")
+        ));
     /// A name that is not `[A-Za-z_][A-Za-z0-9_]*`.
     BadName { item: Item } = "network::bad_name", at Some((*item, Field::Name)),
         says format!("{} has a name that cannot be used", say.item(*item)),
@@ -95,52 +100,83 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
         says format!("{} has a name with a meaning of its own in expressions", say.item(*item)),
         help Some(format!("choose another name, for example `{}_1`", say.name));
     /// A value of the wrong type.
-    WrongType { item: Item, field: Field, wanted: Type, found: Type } = "network::wrong_type", at Some((*item, *field)),
+    WrongType { item: Item, field: Field, wanted: Type, found: Type } = "network::wrong_type",
+        at Some((*item, *field)),
         says format!("{} must be {wanted}, got {found}", say.field(*item, *field)), help None;
     /// A value that has to be finite and more than zero, but is not.
-    NotPositive { item: Item, field: Field, value: f64 } = "network::not_positive", at Some((*item, *field)),
+    NotPositive { item: Item, field: Field, value: f64 } = "network::not_positive",
+        at Some((*item, *field)),
         says match value.is_finite() {
-            true => format!("{} must be more than zero, got {}", say.field(*item, *field), in_unit(*value, *field)),
+            true => format!(
+                "{} must be more than zero, got {}",
+                say.field(*item, *field), in_unit(*value, *field)
+            ),
             false => format!("{} must be finite, got {value}", say.field(*item, *field)),
         }, help text(not_positive(*field, *value));
     /// A value that may be zero, but not less.
-    Negative { item: Item, field: Field, value: f64 } = "network::negative", at Some((*item, *field)),
-        says format!("{} must not be negative, got {}", say.field(*item, *field), in_unit(*value, *field)),
-        help (*field == Field::MinDwell).then(|| "leave it out where it may switch again at once".to_owned());
+    Negative { item: Item, field: Field, value: f64 } = "network::negative",
+        at Some((*item, *field)),
+        says format!(
+            "{} must not be negative, got {}",
+            say.field(*item, *field), in_unit(*value, *field)
+        ),
+        help (*field == Field::MinDwell)
+            .then(|| "leave it out where it may switch again at once".to_owned());
     /// A value that has to be finite, but is not.
-    NotFinite { item: Item, field: Field, value: f64 } = "network::not_finite", at Some((*item, *field)),
+    NotFinite { item: Item, field: Field, value: f64 } = "network::not_finite",
+        at Some((*item, *field)),
         says format!("{} must be finite, got {value}", say.field(*item, *field)),
         help text("something is divided by zero, or a number is too large");
     /// An absolute temperature below 0 K.
-    BelowAbsoluteZero { item: Item, field: Field, value: f64 } = "network::below_absolute_zero", at Some((*item, *field)),
-        says format!("{} is below absolute zero: {} K", say.field(*item, *field), format_short(*value)),
+    BelowAbsoluteZero { item: Item, field: Field, value: f64 } = "network::below_absolute_zero",
+        at Some((*item, *field)),
+        says format!(
+            "{} is below absolute zero: {} K",
+            say.field(*item, *field), format_short(*value)
+        ),
         help text("0 K is -273.15 degC");
     /// A field that has to be constant depends on `t`.
-    DependsOnTime { item: Item, field: Field } = "network::depends_on_time", at Some((*item, *field)),
-        says format!("{} has to be constant, but depends on the time `t`", say.field(*item, *field)),
+    DependsOnTime { item: Item, field: Field } = "network::depends_on_time",
+        at Some((*item, *field)),
+        says format!(
+            "{} has to be constant, but depends on the time `t`",
+            say.field(*item, *field)
+        ),
         help text("sources, boundaries and the values of conductors may depend on `t`; a parameter \
             that should is a [signal]");
     /// A field that has to be known before any result depends on the temperature of a node or
     /// boundary.
-    DependsOnResult { item: Item, field: Field } = "network::depends_on_result", at Some((*item, *field)),
-        says format!("{} cannot depend on the temperature of a node or boundary", say.field(*item, *field)),
+    DependsOnResult { item: Item, field: Field } = "network::depends_on_result",
+        at Some((*item, *field)),
+        says format!(
+            "{} cannot depend on the temperature of a node or boundary",
+            say.field(*item, *field)
+        ),
         help text("sources, conductors and limits may depend on temperatures; a capacity and a \
             property of a material may depend on their own `T`");
     /// A comparison whose sides are not linear in `t`: the time at which it changes is not known
     /// beforehand.
-    ComparisonNotLinear { item: Item, field: Field } = "network::comparison_not_linear", at Some((*item, *field)),
-        says format!("{} compares something that is not linear in the time `t`", say.field(*item, *field)),
+    ComparisonNotLinear { item: Item, field: Field } = "network::comparison_not_linear",
+        at Some((*item, *field)),
+        says format!(
+            "{} compares something that is not linear in the time `t`",
+            say.field(*item, *field)
+        ),
         help text("compare `t` itself, for example `if(t < 300 [s], 0 [W], 100 [W])`");
     /// A comparison of a temperature where its change cannot be followed: in a property, or for
     /// equality.
-    ComparesTemperature { item: Item, field: Field } = "network::compares_temperature", at Some((*item, *field)),
-        says format!("{} compares temperatures, or what switches, where the change cannot be \
-            followed", say.field(*item, *field)),
+    ComparesTemperature { item: Item, field: Field } = "network::compares_temperature",
+        at Some((*item, *field)),
+        says format!(
+            "{} compares temperatures, or what switches, where the change cannot be followed",
+            say.field(*item, *field)
+        ),
         help text("sources and paths may compare temperatures, with `<` or `>`; elsewhere write a \
             smooth change, for example `0.5 * (1 + tanh((T - 80 [degC]) / 1 [K]))`, or a [table]");
     /// The threshold at which a control switches on lies beyond that at which it switches off, or
     /// both are one.
-    ThresholdsCrossed { control: ControlId, fields: [Field; 2], on: f64, off: f64 } = "network::thresholds_crossed",
+    ThresholdsCrossed { control: ControlId, fields: [Field; 2], on: f64, off: f64 } =
+        "network::thresholds_crossed",
         at Some((Item::Control(*control), fields[0])),
         says crossed(&say.item(Item::Control(*control)), *fields, (*on, *off)),
         help Some(match fields {
@@ -148,15 +184,21 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             [a, b] => format!("make `{}` lower than `{}`", a.key(), b.key()),
         });
     /// A control of which nothing says when it switches.
-    NoThermostat { control: ControlId } = "network::no_thermostat", at Some((Item::Control(*control), Field::Name)),
+    NoThermostat { control: ControlId } = "network::no_thermostat",
+        at Some((Item::Control(*control), Field::Name)),
         says format!("nothing says when control `{}` switches", say.name),
         help text("write `sense`, `on_above` and `off_below`, or `on_below` and `off_above`");
     /// A share, such as an emissivity, that is not above 0 and at most 1.
-    NotAFraction { item: Item, field: Field, value: f64 } = "network::not_a_fraction", at Some((*item, *field)),
-        says format!("{} must be above 0 and at most 1, got {}", say.field(*item, *field), format_short(*value)),
+    NotAFraction { item: Item, field: Field, value: f64 } = "network::not_a_fraction",
+        at Some((*item, *field)),
+        says format!(
+            "{} must be above 0 and at most 1, got {}",
+            say.field(*item, *field), format_short(*value)
+        ),
         help text("it is a part of a whole: write `0.8` for 80 %");
     /// An outer radius that is not larger than the inner one, in m.
-    Radii { item: Item, fields: [Field; 2], inner: f64, outer: f64 } = "network::radii", at Some((*item, fields[1])),
+    Radii { item: Item, fields: [Field; 2], inner: f64, outer: f64 } = "network::radii",
+        at Some((*item, fields[1])),
         says format!(
             "{}, {} m, must be larger than its `{}`, {} m",
             say.field(*item, fields[1]), format_short(*outer), fields[0].key(), format_short(*inner)
@@ -166,14 +208,16 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             false => format!("exchange `{}` and `{}`", fields[0].key(), fields[1].key()),
         });
     /// A path without one value for each field of its law, or with a fluid where it has none.
-    LawValues { item: Item, formula: Formula } = "network::law_values", at Some((*item, Field::Name)),
+    LawValues { item: Item, formula: Formula } = "network::law_values",
+        at Some((*item, Field::Name)),
         says format!(
             "{} needs one value for each field of the law `{}`, and a fluid only where it has one",
             say.item(*item), formula.declaration().name
         ),
         help Some(format!("its fields are {}", keys(*formula)));
     /// A liquidus below the solidus, in K.
-    Melting { item: Item, solidus: f64, liquidus: f64 } = "network::melting", at Some((*item, Field::Liquidus)),
+    Melting { item: Item, solidus: f64, liquidus: f64 } = "network::melting",
+        at Some((*item, Field::Liquidus)),
         says format!(
             "`liquidus` of {}, {} K, is below its `solidus`, {} K",
             say.item(*item), format_short(*liquidus), format_short(*solidus)
@@ -181,17 +225,29 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
         help text("exchange `solidus` and `liquidus`");
     /// A node of which a part is said to be molten at its start, but that does not melt at just
     /// that temperature.
-    NotMelting { node: NodeId, temperature: f64 } = "network::not_melting", at Some((Item::Node(*node), Field::Initial)),
-        says format!("`{}` is to start partly molten, but does not melt at just {temperature} K", say.name),
+    NotMelting { node: NodeId, temperature: f64 } = "network::not_melting",
+        at Some((Item::Node(*node), Field::Initial)),
+        says format!(
+            "`{}` is to start partly molten, but does not melt at just {temperature} K",
+            say.name
+        ),
         help text("give the material the solidus and liquidus of the run that wrote the state, or \
             leave the share out");
     /// Shares of a source that are negative or do not sum to 1.
-    Shares { source: SourceId, sum: f64 } = "network::shares", at Some((Item::Source(*source), Field::Into)),
-        says format!("the shares of {} must sum to 1, got {}", say.item(Item::Source(*source)), format_short(*sum)),
+    Shares { source: SourceId, sum: f64 } = "network::shares",
+        at Some((Item::Source(*source), Field::Into)),
+        says format!(
+            "the shares of {} must sum to 1, got {}",
+            say.item(Item::Source(*source)), format_short(*sum)
+        ),
         help text("make the shares sum to 1");
     /// A source of several nodes whose heat depends on `T`, which could be any of theirs.
-    WhichTemperature { source: SourceId } = "network::which_temperature", at Some((Item::Source(*source), Field::Power)),
-        says format!("`P` of {} depends on `T`, but it heats several nodes", say.item(Item::Source(*source))),
+    WhichTemperature { source: SourceId } = "network::which_temperature",
+        at Some((Item::Source(*source), Field::Power)),
+        says format!(
+            "`P` of {} depends on `T`, but it heats several nodes",
+            say.item(Item::Source(*source))
+        ),
         help text("name the node, for example `steel.T`");
     /// A capacity that is not known and positive at the start of its node.
     CapacityUnknown { node: NodeId, temperature: f64 } = "network::capacity_unknown",
@@ -203,11 +259,18 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
         help text("let the table or expression reach `T0` and stay positive there");
     /// A capacity that changes so quickly with temperature that its integral cannot be followed.
     TooQuick { item: Item, field: Field } = "network::capacity_too_quick", at Some((*item, *field)),
-        says format!("{} changes too quickly with temperature to be integrated", say.field(*item, *field)),
+        says format!(
+            "{} changes too quickly with temperature to be integrated",
+            say.field(*item, *field)
+        ),
         help text("write its mean in place of what swings, or a [table] of its values");
     /// A property of a fluid that is not known and positive where it is needed.
-    FluidUnknown { fluid: FluidId, field: Field } = "network::fluid_unknown", at Some((Item::Fluid(*fluid), *field)),
-        says format!("{} is not known and positive at any usual temperature", say.field(Item::Fluid(*fluid), *field)),
+    FluidUnknown { fluid: FluidId, field: Field } = "network::fluid_unknown",
+        at Some((Item::Fluid(*fluid), *field)),
+        says format!(
+            "{} is not known and positive at any usual temperature",
+            say.field(Item::Fluid(*fluid), *field)
+        ),
         help None;
     /// A period that ends before the last point of its signal, in s.
     PeriodTooShort { signal: SignalId, period: f64, span: f64 } = "network::period_too_short",
@@ -219,10 +282,16 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
         help Some(format!("write `period = \"{span} s\"` or more"));
     /// Points of a signal that are not as many times as values, one at least, finite, the times
     /// rising.
-    SignalPoints { signal: SignalId } = "network::signal_points", at Some((Item::Signal(*signal), Field::Value)),
-        says format!("the points of `{}` are not rising times with one finite value each", say.name), help None;
+    SignalPoints { signal: SignalId } = "network::signal_points",
+        at Some((Item::Signal(*signal), Field::Value)),
+        says format!(
+            "the points of `{}` are not rising times with one finite value each",
+            say.name
+        ),
+        help None;
     /// An expression that could not be evaluated.
-    Evaluation { item: Item, field: Field, error: EvalError } = error.code(), at Some((*item, *field)),
+    Evaluation { item: Item, field: Field, error: EvalError } = error.code(),
+        at Some((*item, *field)),
         says match error {
             EvalError::NotFinite { value, .. } => {
                 format!("{} comes out as {value}, which is not finite", say.field(*item, *field))
@@ -230,11 +299,13 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             _ => format!("{}: {error}", say.field(*item, *field)),
         }, help evaluation(error);
     /// A conductor whose two ends are the same node.
-    SelfLink { conductor: ConductorId } = "network::self_link", at Some((Item::Conductor(*conductor), Field::To)),
+    SelfLink { conductor: ConductorId } = "network::self_link",
+        at Some((Item::Conductor(*conductor), Field::To)),
         says format!("{} leads from a place to itself", say.item(Item::Conductor(*conductor))),
         help text("a path leads from one node to another: name two different ends");
     /// A source that heats a boundary, where it has no effect.
-    SourceIntoBoundary { source: SourceId } = "network::source_into_boundary", at Some((Item::Source(*source), Field::Into)),
+    SourceIntoBoundary { source: SourceId } = "network::source_into_boundary",
+        at Some((Item::Source(*source), Field::Into)),
         says format!("{} heats a boundary", say.item(Item::Source(*source))),
         help text("a boundary keeps its temperature whatever flows in: name a node");
     /// A node without capacity that is not declared massless.
@@ -245,11 +316,13 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
              massless = true }}`", say.name
         ));
     /// A node declared massless that has a capacity.
-    MasslessWithCapacity { node: NodeId } = "network::massless_with_capacity", at Some((Item::Node(*node), Field::Name)),
+    MasslessWithCapacity { node: NodeId } = "network::massless_with_capacity",
+        at Some((Item::Node(*node), Field::Name)),
         says format!("node `{}` is massless but has a capacity", say.name),
         help text("remove `massless = true`, or the capacity");
     /// A node with capacity but without a temperature at the start.
-    NoInitialTemperature { node: NodeId } = "network::no_initial_temperature", at Some((Item::Node(*node), Field::Name)),
+    NoInitialTemperature { node: NodeId } = "network::no_initial_temperature",
+        at Some((Item::Node(*node), Field::Name)),
         says format!("{} has no temperature at the start", say.item(Item::Node(*node))),
         help text("add `T0 = \"25 degC\"` to the node, or to [default] for every node");
     /// Nodes that together reach neither a capacity nor a boundary: their temperatures are not
@@ -257,7 +330,8 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     FloatingIsland { nodes: Vec<NodeId>, names: Vec<String> } = "network::floating_island",
         at nodes.first().map(|node| (Item::Node(*node), Field::Name)),
         says format!(
-            "the temperature of {} is not determined: no boundary and no capacity is connected", list_of_names(names)
+            "the temperature of {} is not determined: no boundary and no capacity is connected",
+            list_of_names(names)
         ),
         help text("connect one of them to a boundary, or give one of them a capacity");
     /// An element names a node, boundary or end that is not of this builder.
@@ -269,37 +343,50 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// A network without any node, and without a path between boundaries.
     Empty = "network::empty", at None, says "the network has no node".to_owned(), help None;
     /// Counts of cells that are not one to three, each at least 1.
-    GridCells { grid: GridId, counts: Vec<usize> } = "network::grid_cells", at Some((Item::Grid(*grid), Field::Cells)),
-        says format!("`cells` of `{}` must be one to three counts of at least 1, got {counts:?}", say.name),
+    GridCells { grid: GridId, counts: Vec<usize> } = "network::grid_cells",
+        at Some((Item::Grid(*grid), Field::Cells)),
+        says format!(
+            "`cells` of `{}` must be one to three counts of at least 1, got {counts:?}",
+            say.name
+        ),
         help text("give one to three whole numbers, along x, y and z: `cells = [20, 10, 1]`");
     /// More than [`MOST_CELLS`](crate::MOST_CELLS) cells.
-    GridTooLarge { grid: GridId, counts: Vec<usize> } = "network::grid_too_large", at Some((Item::Grid(*grid), Field::Cells)),
+    GridTooLarge { grid: GridId, counts: Vec<usize> } = "network::grid_too_large",
+        at Some((Item::Grid(*grid), Field::Cells)),
         says format!(
             "`{}` has {} = {:.3e} cells, more than {MOST_CELLS}",
             say.name, by(counts), counts.iter().map(|&count| count as f64).product::<f64>()
         ),
         help text("make the cells larger: half as many along each axis have four times the error");
     /// A grid of a material that lacks a property.
-    NoProperty { item: Item, field: Field } = "network::no_property", at Some((*item, Field::Material)),
+    NoProperty { item: Item, field: Field } = "network::no_property",
+        at Some((*item, Field::Material)),
         says format!("the material of `{}` has no `{}`", say.name, field.key()), help None;
     /// A stream that ends at a face of a grid, which it cannot mix with.
     StreamIntoFace { item: Item } = "network::stream_into_face", at Some((*item, Field::To)),
         says format!("the stream `{}` ends at a face, which is solid", say.name),
         help text("let the stream pass a node, and join that to the face by a [convection]");
     /// Two faces that are joined but not divided in the same way: cells of each along its two axes.
-    FaceCells { item: Item, faces: [GridFace; 2], names: [String; 2], cells: [[usize; 2]; 2] } = "network::face_cells",
+    FaceCells { item: Item, faces: [GridFace; 2], names: [String; 2], cells: [[usize; 2]; 2] } =
+        "network::face_cells",
         at Some((*item, Field::To)),
         says format!(
-            "`{}` joins `{}` of {} cells to `{}` of {} cells", say.name, names[0], by(&cells[0]), names[1], by(&cells[1])
+            "`{}` joins `{}` of {} cells to `{}` of {} cells",
+            say.name, names[0], by(&cells[0]), names[1], by(&cells[1])
         ),
         help text("divide both in the same way along the face");
     /// Two faces that are joined but not of the same size: lengths of each along its two axes in m.
-    FaceSides { item: Item, faces: [GridFace; 2], names: [String; 2], sides: [[f64; 2]; 2] } = "network::face_sides",
+    FaceSides { item: Item, faces: [GridFace; 2], names: [String; 2], sides: [[f64; 2]; 2] } =
+        "network::face_sides",
         at Some((*item, Field::To)),
-        says format!("`{}` joins `{}`, {}, to `{}`, {}", say.name, names[0], area(sides[0]), names[1], area(sides[1])),
+        says format!(
+            "`{}` joins `{}`, {}, to `{}`, {}",
+            say.name, names[0], area(sides[0]), names[1], area(sides[1])
+        ),
         help text("two faces that touch have the same lengths: check `size` of both");
     /// A path whose area is not that of the face it ends at, in m^2.
-    FaceArea { item: Item, given: f64, face: GridFace, name: String, area: f64 } = "network::face_area",
+    FaceArea { item: Item, given: f64, face: GridFace, name: String, area: f64 } =
+        "network::face_area",
         at Field::of_law("area").map(|field| (*item, field)),
         says format!(
             "the area of `{}`, {} m^2, is not that of the face `{name}`, {} m^2",

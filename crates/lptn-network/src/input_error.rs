@@ -32,15 +32,16 @@ pub enum InputProblem {
     Evaluation(error: Box<EvalError>) = INPUT, format!("cannot be evaluated: {error}"),
         source error.as_ref(), help Problem::help(error);
     /// A conductance below 0 W/K.
-    NegativeConductance(value: f64) = INPUT, format!("makes a negative conductance: {} W/K", format_number(*value)),
+    NegativeConductance(value: f64) = INPUT,
+        format!("makes a negative conductance: {} W/K", format_number(*value)),
         help "keep it positive: `max(x, 0 [W/K])` with its own unit";
     /// A signal was read before its first point; times in s.
-    BeforeSignal { time: f64, first: f64 } = INPUT, format!("is not known at {time} s: its first \
-        point is at {first} s"),
+    BeforeSignal { time: f64, first: f64 } = INPUT,
+        format!("is not known at {time} s: its first point is at {first} s"),
         help format!("begin the signal earlier, or the run at `start = \"{first} s\"`");
     /// A signal was read after its last point; times in s.
-    AfterSignal { time: f64, last: f64 } = INPUT, format!("is not known at {time} s: its last \
-        point is at {last} s"),
+    AfterSignal { time: f64, last: f64 } = INPUT,
+        format!("is not known at {time} s: its last point is at {last} s"),
         help "write `after_end = \"hold\"` or `after_end = \"repeat\"` in the signal, or stop the \
             run there";
     /// A signal that is repeated so often that a run would have to stop at this many points.
@@ -58,7 +59,11 @@ pub enum InputProblem {
         help "add `density` to the fluid, or give a mass flow";
     /// A fluid outside the temperatures in K for which its specific heat is known and positive.
     OutsideFluid { temperature: f64, range: (f64, f64) } = INPUT,
-        format!("is asked for at {temperature} K, but is known from {} to {} K only", range.0, range.1), help FURTHER;
+        format!(
+            "is asked for at {temperature} K, but is known from {} to {} K only",
+            range.0, range.1
+        ),
+        help FURTHER;
     /// The threshold in K at which a control switches on lies beyond that at which it switches off.
     ThresholdsCrossed { on: f64, off: f64 } = INPUT,
         format!(

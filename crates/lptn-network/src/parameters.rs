@@ -109,10 +109,11 @@ lptn_units::errors! {
 #[derive(Clone, Debug)]
 pub enum ParameterError {
     /// There is no such parameter.
-    Unknown(unknown: UnknownName) = "network::unknown_parameter", format!("no parameter: {unknown}"), source unknown;
+    Unknown(unknown: UnknownName) = "network::unknown_parameter",
+        format!("no parameter: {unknown}"), source unknown;
     /// The text is not a quantity of the type of this parameter.
-    Unit { name: String, ty: Type, error: Box<UnitError> } = error.code(), format!("`{name}`: \
-        {error}"),
+    Unit { name: String, ty: Type, error: Box<UnitError> } = error.code(),
+        format!("`{name}`: {error}"),
         source error.as_ref(), help error.help();
 }
 }

@@ -2,7 +2,7 @@
 
 use std::iter::repeat_n;
 
-use crate::chart::{across, apart, upward};
+use crate::chart::{across, apart, in_lines, upward};
 use crate::figure::{Curve, Figure, Look, Panel, Scale};
 use crate::ink::SERIES;
 use crate::ticks::Ruler;
@@ -23,11 +23,12 @@ const COLOURS: [u8; SERIES] = [34, 33, 36, 35, 95, 32, 37, 31];
 pub fn write(figure: &Figure, columns: usize, styled: bool) -> String {
     let mut out = String::new();
     let bold = |text: &str| if styled { format!("\u{1b}[1m{text}\u{1b}[0m") } else { text.into() };
-    if !figure.title.is_empty() {
-        out += &format!("{}\n", bold(&plain(&figure.title)));
+    let fits = |line: &str| line.chars().count() <= columns;
+    for line in in_lines(&figure.title, fits) {
+        out += &format!("{}\n", bold(&plain(&line)));
     }
-    for line in figure.note.lines() {
-        out += &format!("{}\n", plain(line));
+    for line in figure.note.lines().flat_map(|line| in_lines(line, fits)) {
+        out += &format!("{}\n", plain(&line));
     }
     let left = figure.panels.iter().map(|panel| numbers(&ruler(panel))).max().unwrap_or(0);
     let right = figure.panels.iter().map(names).max().unwrap_or(0).min(NAMES).min(columns / 3);
@@ -312,7 +313,7 @@ mod tests {
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines[..3], ["hot\u{FFFD}[31m", "", "T [°C] over time [min]"]);
         let ends = lines.iter().position(|line| line.ends_with(" steel")).expect("a name");
-        let begins = lines.iter().position(|line| line.contains("│⠤")).expect("a beginning");
+        let begins = lines.iter().position(|line| line.contains("┤⠤")).expect("a beginning");
         assert!(ends < begins, "{text}");
         assert_eq!(lines.iter().filter(|line| line.contains('╌')).count(), 1, "{text}");
         assert!(lines.iter().all(|line| line.chars().count() <= 40), "{text}");

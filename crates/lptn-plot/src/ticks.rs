@@ -52,7 +52,10 @@ fn linear(axis: &Axis, range: (f64, f64), count: f64, whole: bool) -> Ruler {
     let step = round_step((high - low) / count.max(1.0));
     let (first, last) = ((low / step - 1e-9).floor(), (high / step + 1e-9).ceil());
     let range = if whole { (first * step, last * step) } else { (low, high) };
-    Ruler { range, ticks: marks(range, step), title: title(&axis.name, &axis.unit), log: false }
+    // one number alone does not tell how large a distance is
+    let steps = [step, round_step(0.4 * step), round_step(0.1 * step)].map(|s| marks(range, s));
+    let ticks = steps.into_iter().find(|ticks| ticks.len() > 1).unwrap_or_default();
+    Ruler { range, ticks, title: title(&axis.name, &axis.unit), log: false }
 }
 
 /// Multiples of a step inside a range.
@@ -197,6 +200,7 @@ mod tests {
         assert_eq!(title, "heat [W/m\u{b2}]");
         assert_eq!(texts(&axis, (0.0, 3e7), 3.0).0, ["0", "1e7", "2e7", "3e7"]);
         assert_eq!(texts(&axis, (5.0, 5.0), 2.0).0, ["4.5", "5.0", "5.5"]);
+        assert_eq!(texts(&axis, (-0.3, 0.31), 2.0).0, ["\u{2212}0.2", "0.0", "0.2"]);
         assert_eq!(printed("degC"), "°C");
     }
 

@@ -10,11 +10,12 @@ lptn_units::errors! {
 #[derive(Debug)]
 pub enum ReduceError {
     /// No node has the name of the port.
-    UnknownPort(unknown: UnknownName) = "reduce::unknown_port", format!("no node is named `{}`", unknown.name),
+    UnknownPort(unknown: UnknownName) = "reduce::unknown_port",
+        format!("no node is named `{}`", unknown.name),
         help unknown.suggestion.as_ref().map(|name| format!("did you mean `{name}`?"));
     /// The port is a boundary: its temperature is given, whatever heat goes in.
-    BoundaryPort { name: String } = "reduce::boundary_port", format!("`{name}` is a boundary and \
-        cannot be a port"),
+    BoundaryPort { name: String } = "reduce::boundary_port",
+        format!("`{name}` is a boundary and cannot be a port"),
         help "choose a node: a boundary keeps its temperature whatever heat it gets";
     /// No path leads from the port and the nodes joined to it to a boundary: heat put in there is
     /// never given away.
@@ -25,8 +26,9 @@ pub enum ReduceError {
     /// The network is not linear with constant coefficients; the name of the first item that makes
     /// it so.
     NotLinear { name: String } = "reduce::not_linear",
-        format!("`{name}` is more than a constant: only linear networks have one equivalent \
-            resistance"),
+        format!(
+            "`{name}` is more than a constant: only linear networks have one equivalent resistance"
+        ),
         help format!(
             "put a constant conductance, capacity or heat in place of `{name}`, as it is in steady \
              state: `lptn steady`"
@@ -41,14 +43,16 @@ pub enum ReduceError {
     /// The conductances span more than the numbers can hold.
     Factorization(error: FactorError) = "reduce::singular",
         format!("the conductances cannot be factorised: {error}"), source error,
-        help "replace the largest conductances by merging the nodes they join", class Class::Numbers;
+        help "replace the largest conductances by merging the nodes they join",
+        class Class::Numbers;
     /// The modes at the port could not be computed.
-    Modes = "reduce::modes", "the time constants at the port cannot be computed", class Class::Numbers;
+    Modes = "reduce::modes", "the time constants at the port cannot be computed",
+        class Class::Numbers;
     /// A run of the network or of its equivalent failed.
     Run => TransientError;
     /// The equivalent network could not be built; the text says why.
-    Equivalent(why: String) = "reduce::equivalent", format!("the equivalent network cannot be \
-        built: {why}"), class Class::Numbers;
+    Equivalent(why: String) = "reduce::equivalent",
+        format!("the equivalent network cannot be built: {why}"), class Class::Numbers;
     /// The window in s of the least-squares definition is not a positive time, or too short to see
     /// the port warm.
     Window(window: f64) = "reduce::window",
@@ -72,14 +76,15 @@ pub enum FitError {
         format!("an exponential has three numbers to fit, and the record has {points} points"),
         help "four samples or more give a curve with an error";
     /// The times do not ascend, or a value is not finite.
-    NotARecord = "fit::not_a_record", "the times of the record do not ascend, or a value is not a \
-        number";
+    NotARecord = "fit::not_a_record",
+        "the times of the record do not ascend, or a value is not a number";
     /// The temperature does not change.
     Flat = "fit::flat", "the temperature of the record does not change",
         help "name the columns that change: --column NAME";
     /// The best exponential is a straight line or a jump: the record does not say what its time
     /// constant is. The search ended at this one, in s.
     NoCurvature { tau: f64 } = "fit::no_curvature",
-        format!("the record shows no time constant: the search ended at {tau:.1e} s"), class Class::Numbers;
+        format!("the record shows no time constant: the search ended at {tau:.1e} s"),
+        class Class::Numbers;
 }
 }

@@ -28,10 +28,12 @@ pub enum SteadyError {
     Unsolved => Unsolved as Class::of_numbers;
     /// The conductances span more than the numbers can hold.
     Factorization(error: FactorError) = "steady::singular",
-        format!("the conductances cannot be factorised: {error}"), source error, help MERGE, class Class::Numbers;
+        format!("the conductances cannot be factorised: {error}"), source error, help MERGE,
+        class Class::Numbers;
     /// More heat is taken out than there is: a linear network goes below 0 K, a real one does not.
     /// The first such node and its temperature in K.
-    BelowAbsoluteZero { name: String, temperature: f64 } = "solve::below_absolute_zero", cold(name, *temperature),
+    BelowAbsoluteZero { name: String, temperature: f64 } = "solve::below_absolute_zero",
+        cold(name, *temperature),
         help COLD, class Class::Numbers;
     /// Whatever the positions of controls and comparisons, in their steady state something has to
     /// switch: its names, and how many positions were tried.
@@ -41,11 +43,13 @@ pub enum SteadyError {
              something has to switch, among it {}",
             list_of(names, "things")
         ),
-        help "run the network over time, `lptn run`: it shows how often it switches, and the means", class Class::No;
+        help "run the network over time, `lptn run`: it shows how often it switches, and the means",
+        class Class::No;
     /// The solution does not balance: heat in and heat out differ by `residual` of the heat turned
     /// over.
     Unbalanced { residual: f64 } = "steady::unbalanced",
-        format!("heat in and heat out differ by {residual:.1e} of the heat turned over"), help MERGE, class Class::Numbers;
+        format!("heat in and heat out differ by {residual:.1e} of the heat turned over"),
+        help MERGE, class Class::Numbers;
 }
 }
 
@@ -71,7 +75,8 @@ pub enum TransientError {
     /// The balances of massless nodes could not be set up.
     Start => Unsolved as Class::of_numbers;
     /// The integrator could not be set up or read.
-    Integrator(error: IntegrateError) = "run::integrator", format!("the integrator failed: {error}"), source error,
+    Integrator(error: IntegrateError) = "run::integrator",
+        format!("the integrator failed: {error}"), source error,
         class Class::Numbers;
     /// The run broke off at this time in s; what was computed before is whole.
     Stopped { time: f64, reason: StopReason, partial: Box<Solution> } = reason.code(),
@@ -92,7 +97,8 @@ pub enum StopReason {
     /// The balances of massless nodes have no solution.
     Unsolved => Unsolved;
     /// A node fell below 0 K: the first such node and its temperature in K.
-    BelowAbsoluteZero { name: String, temperature: f64 } = "solve::below_absolute_zero", cold(name, *temperature),
+    BelowAbsoluteZero { name: String, temperature: f64 } = "solve::below_absolute_zero",
+        cold(name, *temperature),
         help COLD;
     /// A comparison of temperatures changes again and again between two rows: with either truth the
     /// temperatures go to where it is the other one. The element and field it stands in, in words
@@ -110,18 +116,21 @@ pub enum StopReason {
     Restless { names: Vec<String> } = "run::restless",
         match names.as_slice() {
             [one] => format!("`{one}` switches back and forth at this very moment"),
-            several => format!("{} switch back and forth at this very moment", list_of(several, "things")),
+            several => format!(
+                "{} switch back and forth at this very moment",
+                list_of(several, "things")
+            ),
         },
         help "switching changes at once what is compared: let a control feel a node with a \
             capacity, or give it a `min_dwell`";
     /// More events than a run may have.
-    TooManyEvents { count: usize } = "run::too_many_events", format!("{count} events, more than a \
-        run may have"),
+    TooManyEvents { count: usize } = "run::too_many_events",
+        format!("{count} events, more than a run may have"),
         help "what switches this often is better replaced by its mean, or made slower by \
             `min_dwell`";
     /// The network switches, but has no node with a capacity.
-    NothingSwitches = "run::no_capacity", "controls and comparisons of temperatures need a node \
-        with a capacity",
+    NothingSwitches = "run::no_capacity",
+        "controls and comparisons of temperatures need a node with a capacity",
         help "give the nodes that are felt a capacity";
     /// The integrator gave up; the node with the largest error, where that is known.
     Integrator { error: IntegrateError, node: Option<String> } = "run::integrator",

@@ -11,8 +11,8 @@ pub enum SettingsError {
     Interval { start: f64, stop: f64 } = "run::settings",
         format!("a run must stop after it starts, got {start} s to {stop} s");
     /// The tolerance is not positive and finite.
-    Tolerance(value: f64) = "run::settings", format!("the tolerance must be a positive number of \
-        K, got {value}");
+    Tolerance(value: f64) = "run::settings",
+        format!("the tolerance must be a positive number of K, got {value}");
     /// An output time in s is outside the run or not after the one before it.
     OutputTime(time: f64) = "run::settings",
         format!("the output time {time} s is outside the run or not after the one before it");
@@ -43,15 +43,16 @@ pub enum SettingsError {
              fewer columns"
         );
     /// The distance between outputs in s is not positive, or so small that there would be too many.
-    OutputEvery(every: f64) = "run::settings", format!("outputs every {every} s are none, or more \
-        than 10 million");
+    OutputEvery(every: f64) = "run::settings",
+        format!("outputs every {every} s are none, or more than 10 million");
     /// The state to begin with is one of another network, or not finite.
     State = "run::settings", "the state to begin with is not one of this network";
     /// The library was built without an integrator.
     NoIntegrator = "run::settings", "this build has no integrator for runs over time",
         help "build lptn with its feature `cvodes`";
     /// Sensitivities are asked for that do not exist or are not to be had.
-    Sensitivity(refusal: NoTangents) = "run::settings", format!("no exact sensitivities: {refusal}"),
+    Sensitivity(refusal: NoTangents) = "run::settings",
+        format!("no exact sensitivities: {refusal}"),
         source refusal;
 }
 }

@@ -36,8 +36,8 @@ lptn_units::errors! {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SolutionError {
     /// The temperatures of this node were not kept.
-    NotRecorded { name: String } = "solve::not_recorded", format!("the run kept no temperatures of \
-        node `{name}`"),
+    NotRecorded { name: String } = "solve::not_recorded",
+        format!("the run kept no temperatures of node `{name}`"),
         help "name the node in `Transient::record`, or leave that out to keep all of them";
 }
 }
@@ -121,7 +121,8 @@ impl Solution {
     /// # Errors
     /// As [`Solution::series`].
     pub fn at_end(&self, node: NodeId) -> Result<f64, SolutionError> {
-        Ok(self.series(node)?.last().copied().unwrap_or(f64::NAN)) // there is a row at the start at least
+        // there is a row at the start at least
+        Ok(self.series(node)?.last().copied().unwrap_or(f64::NAN))
     }
 
     /// How the temperature of a node changes with a parameter, over the rows in K per SI unit of

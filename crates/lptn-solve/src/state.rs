@@ -8,11 +8,11 @@ use crate::unfold::carried;
 /// The state of a network at one time: everything that its future depends on beside its inputs.
 ///
 /// For every node with capacity it holds what an integrator carries, in K, in the order of
-/// [`ThermalSystem::states`]: the temperature of a node with a constant capacity; for one whose capacity depends on its
-/// temperature `T0 + H / C0` with H the heat content over that at the start of the network in J, T0
-/// the temperature and C0 the capacity there, since a node that melts at one temperature is not
-/// told by that temperature. The state at the end of a run also knows which of several solutions
-/// each massless node has.
+/// [`ThermalSystem::states`]: the temperature of a node with a constant capacity; for one whose
+/// capacity depends on its temperature `T0 + H / C0` with H the heat content over that at the start
+/// of the network in J, T0 the temperature and C0 the capacity there, since a node that melts at
+/// one temperature is not told by that temperature. The state at the end of a run also knows which
+/// of several solutions each massless node has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
     carried: Vec<f64>,

@@ -25,8 +25,8 @@ pub enum Unsolved {
              follows it meanwhile"
         );
     /// The numbers could not be factorised.
-    Factorization(error: FactorError) = "solve::singular", format!("the balances cannot be \
-        factorised: {error}"),
+    Factorization(error: FactorError) = "solve::singular",
+        format!("the balances cannot be factorised: {error}"),
         source error;
     /// Heat in and out are equal at the temperatures found, but the least disturbance leads away
     /// from them.

@@ -17,9 +17,9 @@ pub struct Dimension {
 pub(crate) const BASE_UNITS: [&str; 6] = ["m", "kg", "s", "K", "A", "rad"];
 
 macro_rules! dimensions {
-    ($($(#[$doc:meta])* $name:ident = [$l:literal, $m:literal, $t:literal, $k:literal, $a:literal, $r:literal];)*) => {
+    ($($(#[$doc:meta])* $name:ident = [$($exponent:literal),*];)*) => {
         impl Dimension {
-            $($(#[$doc])* pub const $name: Self = Self::integers([$l, $m, $t, $k, $a, $r]);)*
+            $($(#[$doc])* pub const $name: Self = Self::integers([$($exponent),*]);)*
         }
     };
 }

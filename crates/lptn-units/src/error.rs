@@ -30,10 +30,11 @@ pub enum UnitErrorKind {
         help "write a quantity such as \"0.3 K/W\" or an expression such as \"2 * G\"";
     /// Something else was due here; both in words.
     Syntax { wanted: &'static str, found: String } = "units::syntax",
-        format!("expected {wanted}, found {found}"), help syntax_help(wanted, found).map(str::to_owned);
+        format!("expected {wanted}, found {found}"),
+        help syntax_help(wanted, found).map(str::to_owned);
     /// The number, or the number in SI units, does not fit into an `f64`.
-    OutOfRange { number: String } = "units::out_of_range", format!("number `{number}` is out of \
-        range");
+    OutOfRange { number: String } = "units::out_of_range",
+        format!("number `{number}` is out of range");
     /// `nan` or `inf`.
     NotFinite { text: String } = "units::not_finite", format!("`{text}` is not a finite number"),
         help "leave the field out if there is no such value";
@@ -46,7 +47,8 @@ pub enum UnitErrorKind {
     DigitGroups { fix: Option<String> } = "units::digit_groups", "number with its digits in groups",
         help fix.as_deref().map_or_else(|| "write the digits without separators".to_owned(), write);
     /// `7.7*10^-3 K/W` for `7.7e-3 K/W`.
-    PowerOfTen { fix: String } = "units::power_of_ten", "a power of ten is part of a number", help write(fix);
+    PowerOfTen { fix: String } = "units::power_of_ten", "a power of ten is part of a number",
+        help write(fix);
     /// `2 P` for `2 * P`: the parameter that stands in the place of a unit.
     MissingOperator { name: String, fix: String } = "units::missing_operator",
         format!("`{name}` is a parameter, not a unit"), help write(fix);
@@ -54,10 +56,11 @@ pub enum UnitErrorKind {
     TooDeep { limit: usize } = "units::too_deep", format!("nested more than {limit} deep");
     /// No unit has this name; the string with the unit that was probably meant.
     UnknownUnit { name: String, fix: Option<String> } = "units::unknown_unit",
-        format!("unknown unit `{name}`"), help fix.as_deref().map(|fix| format!("did you mean \"{fix}\"?"));
+        format!("unknown unit `{name}`"),
+        help fix.as_deref().map(|fix| format!("did you mean \"{fix}\"?"));
     /// A product after a division bar without brackets: `J/kg K`.
-    AmbiguousProduct { fix: Option<String> } = "units::ambiguous_product", "product after `/` \
-        needs brackets",
+    AmbiguousProduct { fix: Option<String> } = "units::ambiguous_product",
+        "product after `/` needs brackets",
         help fix.as_deref().map(write);
     /// An exponent that cannot be read or does not fit, as written, or the power it belongs to.
     Exponent { text: String } = "units::exponent", format!("exponent `{text}` cannot be used"),
@@ -103,24 +106,28 @@ pub enum UnitErrorKind {
     /// value.
     PercentDeviation { points: String, part: String } = "units::percent_deviation",
         "a deviation in percent that reads in two ways",
-        help format!("write \"{part}\" for a part of the value, or \"{points}\" for percentage \
-            points");
+        help format!(
+            "write \"{part}\" for a part of the value, or \"{points}\" for percentage points"
+        );
     /// A deviation without a unit behind a value that has one: `5 kW ± 1`.
     BareDeviation { fix: String } = "units::bare_number",
         "the deviation has no unit, but the value has one", help write(fix);
     /// A fraction in the place of a number: `3/8 in`, `1 1/2 in`.
-    Fraction { fix: String } = "units::fraction", "fraction in the place of a number", help write(fix);
+    Fraction { fix: String } = "units::fraction", "fraction in the place of a number",
+        help write(fix);
     /// `2 * m` while `m` is both a unit and a parameter.
     TwoReadings { name: String, quantity: String, expression: String } = "units::two_readings",
         format!("`{name}` is a unit and also a parameter, so that this reads in two ways"),
-        help format!("write \"{quantity}\" for the quantity or \"{expression}\" for the expression");
+        help format!(
+            "write \"{quantity}\" for the quantity or \"{expression}\" for the expression"
+        );
     /// A unit without brackets in an expression.
-    UnbracketedUnit { fix: String } = "units::unbracketed_unit", "unit without brackets in an \
-        expression",
+    UnbracketedUnit { fix: String } = "units::unbracketed_unit",
+        "unit without brackets in an expression",
         help write(fix);
     /// A bracket that follows neither a number nor, without space, a name.
-    MisplacedBracket { fix: String } = "units::misplaced_bracket", "unit in brackets may only \
-        follow a number",
+    MisplacedBracket { fix: String } = "units::misplaced_bracket",
+        "unit in brackets may only follow a number",
         help write(fix);
     /// No parameter, signal, node ... has this name; the nearest in scope.
     UnknownName { name: String, suggestion: Option<String> } = "units::unknown_name",
@@ -134,13 +141,15 @@ pub enum UnitErrorKind {
     /// `-2^2`, which some read as 4 and some as -4: the power negated, and the negative number
     /// raised.
     AmbiguousSign { negated: String, raised: String } = "units::ambiguous_sign",
-        "signed number with a power reads in two ways", help format!("write \"{negated}\" or \"{raised}\"");
+        "signed number with a power reads in two ways",
+        help format!("write \"{negated}\" or \"{raised}\"");
     /// `a < b < c`.
     ChainedComparison = "units::chained_comparison", "comparison of a comparison",
         help "write \"if(a < b, if(b < c, x, y), y)\"";
     /// The two sides of `+`, `-`, a comparison, or two arguments, are of different types. The fix
     /// is for the part in question.
-    Operands { operation: &'static str, left: Box<Type>, right: Box<Type>, fix: Option<String> } = "units::operands",
+    Operands { operation: &'static str, left: Box<Type>, right: Box<Type>, fix: Option<String> } =
+        "units::operands",
         format!("{operation} needs values of one kind, got {} and {}", got(left), got(right)),
         help match fix {
             _ if left.differs_by_radians(**right) => turning(fix),
@@ -153,14 +162,16 @@ pub enum UnitErrorKind {
         format!("an absolute temperature cannot be {operation}"), help write(fix);
     /// A function argument of the wrong type; what it takes, in words, and the string with the
     /// argument made a plain number by a scale of its own kind.
-    Argument { function: &'static str, wanted: &'static str, found: Box<Type>, example: Option<String> } =
-        "units::argument", format!("`{function}` takes {wanted}, got {}", got(found)),
+    Argument {
+        function: &'static str, wanted: &'static str, found: Box<Type>, example: Option<String>
+    } = "units::argument", format!("`{function}` takes {wanted}, got {}", got(found)),
         help example.as_ref().map(|example| {
             format!("divide it by {}, for example \"{example}\"", found.with_article())
         });
     /// A table called with a wrong number of arguments, or used without any; the fix has names in
     /// scope that are of the right kind.
-    TableArity { table: String, wanted: Vec<Type>, found: usize, fix: Option<String> } = "units::arity", {
+    TableArity { table: String, wanted: Vec<Type>, found: usize, fix: Option<String> } =
+        "units::arity", {
             let count = if wanted.len() == 1 { "one argument" } else { "two arguments" };
             format!("table `{table}` takes {count}, {}, got {found}", kinds(wanted))
         },
@@ -169,8 +180,10 @@ pub enum UnitErrorKind {
             None => format!("write `{table}(..)` with {} between the brackets", kinds(wanted)),
         };
     /// An argument of a table, counted from 0, of the wrong type.
-    TableArgument { table: String, argument: usize, wanted: Box<Type>, found: Box<Type>, fix: Option<String> } =
-        "units::argument", format!("table `{table}` takes {}, got {}", wanted.with_article(), got(found)),
+    TableArgument {
+        table: String, argument: usize, wanted: Box<Type>, found: Box<Type>, fix: Option<String>
+    } = "units::argument",
+        format!("table `{table}` takes {}, got {}", wanted.with_article(), got(found)),
         help match fix {
             Some(fix) => write(fix),
             None => unit_wanted("argument", wanted),
@@ -181,7 +194,8 @@ pub enum UnitErrorKind {
         format!("`{name}` is not a table and takes no arguments"), help write(fix);
     /// A variable exponent on a base that has a dimension; the power with a plain base.
     VariableExponent { base: Type, fix: String } = "units::exponent",
-        format!("power of a {} needs a constant exponent such as 2 or (5/3)", noun(base)), help write(fix);
+        format!("power of a {} needs a constant exponent such as 2 or (5/3)", noun(base)),
+        help write(fix);
     /// An exponent that has a dimension.
     ExponentDimension { found: Type } = "units::exponent",
         format!("exponent must be a plain number, got {}", got(found)),
@@ -189,7 +203,8 @@ pub enum UnitErrorKind {
     /// A comparison where a value is due; the comparison inside an `if`.
     TruthValue { fix: String } = "units::truth", "comparison used as a value", help write(fix);
     /// A value where a comparison is due; the value compared with something.
-    TruthWanted { fix: String } = "units::truth", "first argument of `if` must be a comparison", help write(fix);
+    TruthWanted { fix: String } = "units::truth", "first argument of `if` must be a comparison",
+        help write(fix);
 }
 }
 

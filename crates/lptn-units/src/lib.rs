@@ -14,7 +14,8 @@
 //! let resistance = parse_quantity("0.42 degC/W", Some(Type::of(Dimension::RESISTANCE)))?;
 //! assert_eq!(resistance.value, 0.42); // K/W: inside a compound unit a temperature is a difference
 //!
-//! let mistake = parse_quantity("12 W/m2K", Some(Type::of(Dimension::FILM_COEFFICIENT))).unwrap_err();
+//! let film = Some(Type::of(Dimension::FILM_COEFFICIENT));
+//! let mistake = parse_quantity("12 W/m2K", film).unwrap_err();
 //! assert_eq!(mistake.help().as_deref(), Some("did you mean \"12 W/(m^2 K)\"?"));
 //! # Ok::<(), lptn_units::UnitError>(())
 //! ```

@@ -163,7 +163,8 @@ impl Help for Option<String> {
 ///     #[derive(Debug)]
 ///     pub enum DoorError {
 ///         /// It does not open.
-///         Stuck { after: u32 } = "door::stuck", format!("stuck since day {after}"), help "oil its hinges";
+///         Stuck { after: u32 } = "door::stuck", format!("stuck since day {after}"),
+///             help "oil its hinges";
 ///         /// Its sign cannot be written.
 ///         Sign(error: std::fmt::Error) = "door::sign", format!("no sign: {error}"), source error;
 ///     }
@@ -195,29 +196,38 @@ macro_rules! errors {
                 $(#[$doc:meta])*
                 $variant:ident $(($($arg:ident: $arg_ty:ty),*))? $({ $($field:ident: $ty:ty),* })?
                     $(=> $inner:ty $(as $own:path)?)?
-                    $(= $code:expr, $says:expr $(, source $source:expr)? $(, help $help:expr)? $(, class $class:expr)?)?;
+                    $(= $code:expr, $says:expr $(, source $source:expr)? $(, help $help:expr)?
+                        $(, class $class:expr)?)?;
             )*
         }
     ) => {
         $(#[$meta])*
         #[allow(missing_docs, reason = "what each says tells what its fields are; all in SI units")]
-        pub enum $name { $($(#[$doc])* $variant $(($($arg_ty),*))? $({ $($field: $ty),* })? $(($inner))?,)* }
+        pub enum $name {
+            $($(#[$doc])* $variant $(($($arg_ty),*))? $({ $($field: $ty),* })? $(($inner))?,)*
+        }
 
         #[allow(unused_variables, reason = "each takes the fields that it needs")]
         impl $name {
             /// The stable code, as diagnostics print it.
             pub fn code(&self) -> &'static str {
                 match self {
-                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? $(($crate::bound!(inner $inner)))? =>
-                        { $($code)? $(<$inner as $crate::Problem>::code(inner))? })*
+                    $(Self::$variant $(($($arg),*))? $({ $($field),* })?
+                        $(($crate::bound!(inner $inner)))? => {
+                            $($code)?
+                            $(<$inner as $crate::Problem>::code(inner))?
+                        })*
                 }
             }
 
             /// What to do about it, in words that can be pasted where possible.
             pub fn help(&self) -> Option<String> {
                 match self {
-                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? $(($crate::bound!(inner $inner)))? =>
-                        { $($crate::help_of!($($help)?))? $(<$inner as $crate::Problem>::help(inner))? })*
+                    $(Self::$variant $(($($arg),*))? $({ $($field),* })?
+                        $(($crate::bound!(inner $inner)))? => {
+                            $($crate::help_of!($($help)?))?
+                            $(<$inner as $crate::Problem>::help(inner))?
+                        })*
                 }
             }
         }
@@ -226,8 +236,11 @@ macro_rules! errors {
             #[allow(unused_variables, reason = "each takes the fields that it needs")]
             fn fmt(&self, f: &mut ::std::fmt::Formatter<'_>) -> ::std::fmt::Result {
                 match self {
-                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? $(($crate::bound!(inner $inner)))? =>
-                        { $(::std::write!(f, "{}", $says))? $(<$inner as ::std::fmt::Display>::fmt(inner, f))? })*
+                    $(Self::$variant $(($($arg),*))? $({ $($field),* })?
+                        $(($crate::bound!(inner $inner)))? => {
+                            $(::std::write!(f, "{}", $says))?
+                            $(<$inner as ::std::fmt::Display>::fmt(inner, f))?
+                        })*
                 }
             }
         }
@@ -236,8 +249,11 @@ macro_rules! errors {
             #[allow(unused_variables, reason = "each takes the fields that it needs")]
             fn source(&self) -> Option<&(dyn ::std::error::Error + 'static)> {
                 match self {
-                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? $(($crate::bound!(inner $inner)))? =>
-                        { $($crate::source_of!($($source)?))? $(<$inner as ::std::error::Error>::source(inner))? })*
+                    $(Self::$variant $(($($arg),*))? $({ $($field),* })?
+                        $(($crate::bound!(inner $inner)))? => {
+                            $($crate::source_of!($($source)?))?
+                            $(<$inner as ::std::error::Error>::source(inner))?
+                        })*
                 }
             }
         }
@@ -260,8 +276,11 @@ macro_rules! errors {
             #[allow(unused_variables, reason = "each takes the fields that it needs")]
             fn class(&self) -> $crate::Class {
                 match self {
-                    $(Self::$variant $(($($arg),*))? $({ $($field),* })? $(($crate::bound!(inner $inner)))? =>
-                        { $($crate::class_of!($($class)?))? $($crate::class_in!(inner $(, $own)?))? })*
+                    $(Self::$variant $(($($arg),*))? $({ $($field),* })?
+                        $(($crate::bound!(inner $inner)))? => {
+                            $($crate::class_of!($($class)?))?
+                            $($crate::class_in!(inner $(, $own)?))?
+                        })*
                 }
             }
         }
@@ -336,7 +355,8 @@ macro_rules! help_of {
 ///     pub enum Problem for |name: &str| at u32 {
 ///         /// It does not open.
 ///         Stuck { after: u32 } = "door::stuck", at Some(*after),
-///             says format!("door `{name}` is stuck since day {after}"), help Some("oil its hinges".to_owned());
+///             says format!("door `{name}` is stuck since day {after}"),
+///             help Some("oil its hinges".to_owned());
 ///     }
 /// }
 ///

@@ -52,8 +52,9 @@ pub fn parse_value(
 
 /// `nan` and `inf` are not names.
 fn is_word(text: &str, error: &UnitError) -> bool {
-    let word = text.trim();
-    matches!(&error.kind, UnitErrorKind::NotFinite { text } if word.trim_start_matches(['+', '-']).eq_ignore_ascii_case(text))
+    let word = text.trim().trim_start_matches(['+', '-']);
+    let UnitErrorKind::NotFinite { text } = &error.kind else { return false };
+    word.eq_ignore_ascii_case(text)
 }
 
 fn settle(

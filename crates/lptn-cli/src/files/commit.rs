@@ -69,7 +69,8 @@ impl Commit {
     }
 
     fn json(&self) -> Value {
-        json!({ "format": 1, "process": self.process, "rename": self.rename, "remove": self.remove })
+        let Self { process, rename, remove, .. } = self;
+        json!({ "format": 1, "process": process, "rename": rename, "remove": remove })
     }
 
     /// The record; `None` if it is not one, or if it names what is not a result.

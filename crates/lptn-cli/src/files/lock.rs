@@ -84,7 +84,8 @@ fn is_at(file: &File, path: &Path) -> bool {
     {
         use std::os::unix::fs::MetadataExt as _;
         let identity = |metadata: &fs::Metadata| (metadata.dev(), metadata.ino());
-        matches!((file.metadata(), fs::metadata(path)), (Ok(a), Ok(b)) if identity(&a) == identity(&b))
+        let both = (file.metadata(), fs::metadata(path));
+        matches!(both, (Ok(a), Ok(b)) if identity(&a) == identity(&b))
     }
     #[cfg(not(unix))]
     {

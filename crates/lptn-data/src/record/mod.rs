@@ -9,12 +9,13 @@
 //! | an empty cell, `NaN`, `NA`, `N/A`, `null`, dashes | a gap: NaN, counted in a warning |
 //! | a last line that breaks off | left out, with a warning |
 //! | the same line twice in a row | dropped, with a warning |
-//! | the same time with other values, a time below the one before it, a row without a time | an error with both lines |
+//! | a time twice with other values, below the one before it, or none | an error with both lines |
 //! | more than 5 times the usual time between two rows | a warning |
-//! | a header without unit, a unit in a cell, text among numbers, another separator, a decimal comma | an error |
+//! | a header without unit, a unit in a cell, text among numbers | an error |
+//! | another separator, a decimal comma | an error |
 //! | a value below absolute zero | an error |
 //! | a jump by 273.15 K, or to 1.8 times the value + 32 | a warning: the unit seems to change |
-//! | an extreme value held after a steep rise or fall | a warning: the sensor seems to be at its end |
+//! | an extreme value held after a steep rise or fall | a warning: the sensor may be at its end |
 //! | a column that does not change | a warning |
 
 mod cells;

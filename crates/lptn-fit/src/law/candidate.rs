@@ -88,6 +88,16 @@ impl Fitted {
         self.coefficients.iter().any(|c| c.value < 0.0 && !c.dimension.is_none())
     }
 
+    /// The standard error of a quantity with these derivatives by the coefficients; NaN where they
+    /// have none.
+    pub(crate) fn propagated(&self, slopes: &[f64]) -> f64 {
+        let error = |i: usize| slopes[i] * self.coefficients[i].standard_error.unwrap_or(f64::NAN);
+        let terms = (0..slopes.len()).flat_map(|i| (0..slopes.len()).map(move |j| (i, j)));
+        let variance: f64 = terms.map(|(i, j)| self.correlation[i][j] * error(i) * error(j)).sum();
+        // max would hide what is not known
+        if variance < 0.0 { 0.0 } else { variance.sqrt() }
+    }
+
     /// The coefficient of this name.
     pub fn coefficient(&self, name: &str) -> Option<&Coefficient> {
         self.coefficients.iter().find(|coefficient| coefficient.name == name)

@@ -22,26 +22,29 @@ pub enum LawError {
         help "leave out points at rest, and give speeds as positive numbers";
     /// A power, rise or time constant that is not a number, or not above 0 where its logarithm is
     /// needed.
-    Power { point: usize } = "fit::law_power", format!("a value of point {} is out of range", point + 1);
+    Power { point: usize } = "fit::law_power",
+        format!("a value of point {} is out of range", point + 1);
     /// A standard error in W that is not above 0, or not a number.
     Deviation { point: usize, value: f64 } = "fit::law_deviation",
         format!("the standard error of point {} is {value} W, which is not above 0", point + 1),
         help "leave the column out for a fit without weights";
     /// A law that cannot be read, or whose units do not fit.
-    Units { law: String, errors: Problems<UnitError> } = Problem::code(errors), errors, source errors,
+    Units { law: String, errors: Problems<UnitError> } = Problem::code(errors), errors,
+        source errors,
         help Problem::help(errors);
     /// A law without a coefficient.
-    NoCoefficient { law: String } = "fit::law_no_coefficient", format!("`{law}` has no coefficient \
-        that could be fitted"),
+    NoCoefficient { law: String } = "fit::law_no_coefficient",
+        format!("`{law}` has no coefficient that could be fitted"),
         help "names that are not columns are coefficients: \"a * omega\"";
     /// A law with more coefficients than there may be.
     ManyCoefficients { law: String, count: usize } = "fit::law_many_coefficients",
         format!("`{law}` has {count} coefficients; at most {MOST} can be fitted");
     /// A coefficient whose unit the law leaves open.
-    OpenUnit { law: String, name: String } = "fit::law_open_unit", format!("`{law}` leaves the \
-        unit of `{name}` open"),
-        help format!("give it a start value with its unit, for example --start \"{name} = 20 \
-            mW/rpm\"");
+    OpenUnit { law: String, name: String } = "fit::law_open_unit",
+        format!("`{law}` leaves the unit of `{name}` open"),
+        help format!(
+            "give it a start value with its unit, for example --start \"{name} = 20 mW/rpm\""
+        );
     /// A start value for a name that is not a coefficient of any law.
     Start { name: String } = "fit::law_start", format!("no law has a coefficient `{name}`");
     /// A law of speed that is not of the dimension it has to be, times a power of the speed.
@@ -50,8 +53,8 @@ pub enum LawError {
         help match *of {
             "dT" => "write for example \"0.0084 ± 0.0011 K/rpm\", or \"0.0084 [K/rpm] * omega\"",
             "t_RC" => "write for example \"18.6 ± 3.8 min\", or \"20 [min] - 0.5 [s/rpm] * omega\"",
-            _ => "write for example \"87 ± 15 uW/rpm^(5/3)\", or \"87 [uW/rpm^(5/3)] * \
-                omega^(5/3)\"",
+            _ => "write for example \"87 ± 15 uW/rpm^(5/3)\", or \
+                \"87 [uW/rpm^(5/3)] * omega^(5/3)\"",
         };
     /// A law that has no positive value at a speed, in rad/s, of the range.
     NotPositive { of: &'static str, speed: f64 } = "fit::law_not_positive",

@@ -14,7 +14,8 @@
 //! let rpm = std::f64::consts::TAU / 60.0;
 //! let speeds = [1000.0, 2000.0, 3000.0, 4000.0, 5000.0, 6000.0, 7000.0];
 //! let noise = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0];
-//! let power = speeds.iter().zip(noise).map(|(n, w)| 87e-6 * f64::powf(*n, 5.0 / 3.0) + w).collect();
+//! let power = |(n, w): (&f64, f64)| 87e-6 * n.powf(5.0 / 3.0) + w;
+//! let power = speeds.iter().zip(noise).map(power).collect();
 //! let points = Points::new(speeds.map(|n| n * rpm).to_vec(), power, None)?;
 //! let study = LawStudy::new(points, LossLaw::standard());
 //! assert_eq!(study.best().unwrap().law.to_string(), "omega^(5/3)");

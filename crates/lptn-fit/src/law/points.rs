@@ -132,6 +132,13 @@ impl Points {
         Self { power, ..self.clone() }
     }
 
+    /// Other speeds in rad/s, at which nothing else is known.
+    pub(crate) fn at_speeds(&self, speeds: &[f64]) -> Self {
+        let speed = Variable { values: speeds.to_vec(), ..self.variables[0].clone() };
+        let (variables, power) = (vec![speed], vec![f64::NAN; speeds.len()]);
+        Self { variables, power, deviation: None, top: self.top }
+    }
+
     /// All points but one.
     pub(crate) fn without(&self, point: usize) -> Self {
         let left = |list: &[f64]| {

@@ -61,8 +61,8 @@ lptn_units::errors! {
 #[derive(Debug)]
 pub enum RunsError {
     /// A run has no such column.
-    Column { run: String, column: String } = "record::no_column", format!("{run} has no column \
-        `{column}`");
+    Column { run: String, column: String } = "record::no_column",
+        format!("{run} has no column `{column}`");
     /// A column of a run could not be fitted.
     Step { run: String, column: String, error: Box<StepError> } = error.code(),
         format!("{run}, column `{column}`: {error}"), source error.as_ref(), help error.help();

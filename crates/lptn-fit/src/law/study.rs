@@ -5,6 +5,7 @@ use super::criteria::{aicc, dispersion};
 use super::model::LossLaw;
 use super::points::Points;
 use super::solve;
+use crate::noise::student_95;
 
 /// Laws whose criteria differ by less than this cannot be told apart (K. P. Burnham, D. R.
 /// Anderson, Model Selection and Multimodel Inference, 2nd edition, Springer 2002, section 2.6).
@@ -81,6 +82,24 @@ impl LawStudy {
         let value = |c: &LawFit| c.fitted().and_then(&of).unwrap_or(f64::INFINITY);
         let eligible = self.candidates.iter().filter(|c| c.eligible());
         eligible.filter(|c| value(c).is_finite()).min_by(|a, b| value(a).total_cmp(&value(b)))
+    }
+
+    /// What a law says at speeds in rad/s, in W, and half the width of its 95 % interval, which is
+    /// NaN where no point is left over to tell. `None` where the law was not fitted, has no value
+    /// at one of the speeds, or may use more than the speed.
+    pub fn along(&self, law: &LawFit, speeds: &[f64]) -> Option<Vec<(f64, f64)>> {
+        let fit = law.fitted()?;
+        if matches!(law.law, LossLaw::Written(_)) && self.points.variables().len() > 1 {
+            return None;
+        }
+        let points = self.points.at_speeds(speeds);
+        let p: Vec<f64> = fit.coefficients.iter().map(|c| c.value).collect();
+        let student = student_95((fit.degrees_of_freedom as f64).max(1.0));
+        let at = |point: usize| {
+            let (value, slopes) = law.law.evaluate(&p, &points, point).ok()?;
+            value.is_finite().then(|| (value, student * fit.propagated(&slopes)))
+        };
+        (0..speeds.len()).map(at).collect()
     }
 
     /// The answer in one sentence.

@@ -18,7 +18,10 @@ pub enum NetworkFitError {
     /// A record, its first and last time in s, begins before its run, whose start is in s, or has
     /// no row behind the start.
     Times { record: String, span: (f64, f64), start: f64 } = "fit::record_times",
-        format!("{record}: rows from {} s to {} s do not fit a run that starts at {start} s", span.0, span.1),
+        format!(
+            "{record}: rows from {} s to {} s do not fit a run that starts at {start} s",
+            span.0, span.1
+        ),
         help format!(
             "the times of a record are times of the run, which begins at {start} s: set `start` in \
              [run] to the time at which the network stood as `T0` says, or take the rows before it \
@@ -36,9 +39,12 @@ pub enum NetworkFitError {
         match &**error {
             SensitiveError::Change(ChangeError::Network(_)) => "fit::network",
             SensitiveError::Interrupted => "fit::interrupted",
-            SensitiveError::Run(_) | SensitiveError::Change(ChangeError::Assembly(_)) => error.code(),
+            SensitiveError::Run(_) | SensitiveError::Change(ChangeError::Assembly(_)) => {
+                error.code()
+            }
         },
-        format!("{record}: there is no run with the parameters' own values: {error}"), source error.as_ref(),
+        format!("{record}: there is no run with the parameters' own values: {error}"),
+        source error.as_ref(),
         class match &**error {
             SensitiveError::Run(_) => Class::Numbers,
             _ => Class::Input,

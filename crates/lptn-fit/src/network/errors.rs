@@ -92,6 +92,7 @@ impl<'a> Errors<'a> {
             rms: mean(&|residual| residual * residual).sqrt(),
             mean: mean(&|residual| residual),
             sigma: measured.sigma,
+            modelled: self.at_end.modelled[block.rows.clone()].to_vec(),
         }
     }
 

@@ -66,6 +66,8 @@ pub struct ColumnMisfit {
     pub mean: f64,
     /// Standard deviation of one value as it was given, in K.
     pub sigma: Option<f64>,
+    /// What the model says at each time of the record, in K.
+    pub modelled: Vec<f64>,
 }
 
 impl NetworkFit {

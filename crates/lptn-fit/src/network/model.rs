@@ -21,6 +21,8 @@ pub(crate) struct Block {
     pub(crate) column: usize,
     /// Where its residuals stand.
     pub(crate) range: Range<usize>,
+    /// Where its rows stand, with those in which nothing was measured.
+    pub(crate) rows: Range<usize>,
 }
 
 /// Residuals over their standard deviations, and their derivatives one parameter after the other,
@@ -28,6 +30,8 @@ pub(crate) struct Block {
 #[derive(Clone, Debug)]
 pub(crate) struct Evaluated {
     pub(crate) values: Vec<f64>,
+    /// The temperatures in every row of every block.
+    pub(crate) modelled: Vec<f64>,
     pub(crate) residuals: Vec<f64>,
     pub(crate) jacobian: Vec<f64>,
 }
@@ -148,6 +152,7 @@ impl<'a> Model<'a> {
         let priors = self.priors();
         let mut residuals: Vec<f64> = Vec::with_capacity(data + priors.len());
         runs.iter().for_each(|run| residuals.extend_from_slice(&run.residuals));
+        let modelled = runs.iter().flat_map(|run| &run.modelled).copied().collect();
         residuals.extend(priors.iter().map(|&(i, known, sigma)| (values[i] - known) / sigma));
         let mut jacobian = Vec::with_capacity(residuals.len() * count);
         for j in 0..count {
@@ -158,7 +163,7 @@ impl<'a> Model<'a> {
             jacobian
                 .extend(priors.iter().map(|&(i, _, sigma)| if i == j { 1.0 / sigma } else { 0.0 }));
         }
-        Evaluated { values: values.to_vec(), residuals, jacobian }
+        Evaluated { values: values.to_vec(), modelled, residuals, jacobian }
     }
 
     /// Place, value and standard deviation of what is known beforehand.
@@ -201,6 +206,7 @@ impl NetworkFitTask<'_> {
 
 /// The residuals of one record, and their derivatives one parameter after the other.
 struct Measure {
+    modelled: Vec<f64>,
     residuals: Vec<f64>,
     jacobian: Vec<f64>,
     gradient: Gradient,
@@ -216,12 +222,13 @@ fn chosen(count: usize, most: usize) -> Vec<usize> {
 
 fn blocks(task: &NetworkFitTask<'_>, rows: &[Vec<usize>]) -> Vec<Block> {
     let mut blocks = Vec::new();
-    let mut from = 0;
+    let (mut from, mut first) = (0, 0);
     for (run, measured) in task.runs.iter().enumerate() {
         for (column, values) in measured.columns.iter().enumerate() {
             let count = rows[run].iter().filter(|&&row| !values.values[row].is_nan()).count();
-            blocks.push(Block { run, column, range: from..from + count });
-            from += count;
+            let all = first..first + rows[run].len();
+            blocks.push(Block { run, column, range: from..from + count, rows: all.clone() });
+            (from, first) = (from + count, all.end);
         }
     }
     blocks
@@ -253,15 +260,16 @@ fn measure(
     let solution = &found.solution;
     // the run has one more row where the record does not begin at its start
     let skipped = solution.times().len() - rows.len();
-    let (residuals, jacobian) = (Vec::new(), Vec::new());
-    let mut measure = Measure { residuals, jacobian, gradient: found.gradient };
+    let (modelled, residuals, jacobian) = (Vec::new(), Vec::new(), Vec::new());
+    let mut measure = Measure { modelled, residuals, jacobian, gradient: found.gradient };
     for column in &run.columns {
         let model = combined(column, |node| solution.temperature(node), skipped);
         let misses = rows
             .iter()
-            .zip(model)
+            .zip(&model)
             .map(|(&row, model)| (model - column.values[row]) / column.weight());
         measure.residuals.extend(misses.filter(|residual| !residual.is_nan()));
+        measure.modelled.extend_from_slice(&model);
     }
     for &id in ids {
         for column in &run.columns {

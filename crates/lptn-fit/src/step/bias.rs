@@ -45,6 +45,8 @@ pub struct ModelBias {
     pub resistance: f64,
     /// Root of the mean square of what one exponential misses of the network's answer, in K.
     pub rms: f64,
+    /// The network's own answer: times of the record in s, and the port in K.
+    pub answer: Vec<(f64, f64)>,
 }
 
 /// What the port does.
@@ -57,6 +59,8 @@ struct PortFit {
     first: f64,
     /// Whether that is after the start.
     cut: bool,
+    /// Times of the record in s, and the port in K.
+    answer: Vec<(f64, f64)>,
 }
 
 impl ModelBias {
@@ -97,6 +101,7 @@ impl ModelBias {
             capacity,
             resistance,
             rms: fit.rms,
+            answer: port_fit.answer,
         })
     }
 }
@@ -111,6 +116,7 @@ impl PortFit {
         let few = || StepError::Fit(FitError::TooFew { points: times.len() });
         let rows: Vec<f64> = times.iter().map(|t| t - begin + run.start).collect();
         let (&first, &stop) = rows.first().zip(rows.last()).ok_or_else(few)?;
+        let begun = begin - run.start;
         let run = Transient { stop, output: OutputTimes::At(rows), ..run.clone() };
         let solution =
             run.record(&[port]).solve(system).map_err(|e| StepError::Model(ReduceError::Run(e)))?;
@@ -121,6 +127,8 @@ impl PortFit {
         let (&start, &at_first) =
             temperatures.first().zip(temperatures.get(skipped)).ok_or_else(few)?;
         let fit = fit_exponential(&times, &temperatures[skipped..]).map_err(StepError::Fit)?;
-        Ok(Self { start, fit, first: at_first, cut: skipped > 0 })
+        let record = times.iter().map(|t| t + first + begun);
+        let answer = record.zip(temperatures[skipped..].iter().copied()).collect();
+        Ok(Self { start, fit, first: at_first, cut: skipped > 0, answer })
     }
 }

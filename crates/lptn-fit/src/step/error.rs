@@ -32,8 +32,8 @@ lptn_units::errors! {
 #[derive(Debug)]
 pub enum StepError {
     /// Times and values are not as many.
-    Length { times: usize, values: usize } = "fit::not_a_record", format!("there are {times} times \
-        and {values} values");
+    Length { times: usize, values: usize } = "fit::not_a_record",
+        format!("there are {times} times and {values} values");
     /// Too few samples, not a record, a constant column, or one without curvature.
     Fit(error: FitError) = error.code(), error, source error,
         help match error {
@@ -51,12 +51,13 @@ pub enum StepError {
         help format!("leave {from} s to {to} s out of the record");
     /// The record does not tell `T_i`, `T_f` and `t_RC`: the time constant in s at which it does
     /// not, and what is missing.
-    Undetermined { tau: f64, lack: Lack } = "fit::undetermined", lack.explain(*tau), help lack.help(), class Class::Numbers;
+    Undetermined { tau: f64, lack: Lack } = "fit::undetermined", lack.explain(*tau),
+        help lack.help(), class Class::Numbers;
     /// The reference column has no samples.
     Reference = "fit::no_reference", "the reference column has no samples";
     /// The capacity in J/K or its deviation is not a positive number.
-    Capacity(value: f64) = "fit::capacity", format!("the capacity has to be positive, got {value} \
-        J/K"),
+    Capacity(value: f64) = "fit::capacity",
+        format!("the capacity has to be positive, got {value} J/K"),
         help "write for example --capacity \"2659 J/K ± 5 %\"";
     /// The model has no equivalent at the port, or its run failed.
     Model => ReduceError;

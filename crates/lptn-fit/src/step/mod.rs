@@ -179,6 +179,12 @@ impl StepFit {
         self.length / self.tau.value
     }
 
+    /// The curve at a time in s from the record's first, in K.
+    pub fn at(&self, time: f64) -> f64 {
+        let (from, to) = (self.initial.value, self.settled.value);
+        to + (from - to) * (-time / self.tau.value).exp()
+    }
+
     /// Whether the record is so short that `T_f` and `t_RC` are extrapolated.
     pub fn extrapolates(&self) -> bool {
         self.time_constants() < LONG_ENOUGH

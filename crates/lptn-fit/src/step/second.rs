@@ -40,6 +40,15 @@ pub struct TwoExponentials {
     pub rms: f64,
 }
 
+impl TwoExponentials {
+    /// The curve at a time in s from the record's first, in K.
+    pub fn at(&self, time: f64) -> f64 {
+        let parts = self.amplitudes.iter().zip(&self.taus);
+        let sum: f64 = parts.map(|(a, tau)| a.value * (-time / tau.value).exp()).sum();
+        self.settled.value + sum
+    }
+}
+
 /// Compares one exponential with two, on means of stretches.
 pub(super) fn ask(times: &[f64], values: &[f64], one: &ExponentialFit) -> LikelihoodRatioTest {
     let nothing = LikelihoodRatioTest { ratio: 0.0, threshold: THRESHOLD, offer: None };

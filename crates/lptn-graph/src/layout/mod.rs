@@ -67,7 +67,8 @@ pub(crate) fn arrange(places: &[Room], elements: &[Element], most: f64) -> Arran
     let ranks = rank::ranks(places.len(), elements);
     let mut columns = Columns::of(places, elements, &ranks);
     order::reduce_crossings(&mut columns);
-    let levels = place::levels(&columns);
+    let mut levels = place::levels(&columns);
+    route::pull_apart(&columns, &mut levels);
     let routes: Vec<route::Channel> =
         (0..columns.nets.len()).map(|channel| route::channel(&columns, &levels, channel)).collect();
     let mut arranged = Arranged {

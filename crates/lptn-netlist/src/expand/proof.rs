@@ -13,8 +13,8 @@ lptn_units::errors! {
 #[derive(Clone, Debug)]
 pub enum WrittenError {
     /// It is not read; the first reason.
-    Rejected { reason: String } = "netlist::written", format!("the netlist to be written would not \
-        be read: {reason}");
+    Rejected { reason: String } = "netlist::written",
+        format!("the netlist to be written would not be read: {reason}");
     /// It is read as another network; what differs, such as "node `steel`".
     Differs { what: String } = "netlist::written",
         format!("the netlist to be written would be read as another network: {what} differs");

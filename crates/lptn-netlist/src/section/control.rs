@@ -77,7 +77,8 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn thermostats(&mut self, declared: Vec<(ControlId, &'a RawEntry)>) {
         for (id, entry) in declared {
             if self.thermostat(id, entry).is_none() {
-                self.left_out.items.insert(Item::Control(id)); // what is wrong with it has been reported
+                // what is wrong with it has been reported
+                self.left_out.items.insert(Item::Control(id));
             }
         }
     }

@@ -19,7 +19,7 @@ use super::signal::SIGNAL;
 use super::source::SOURCE;
 use super::table::TABLE;
 use crate::fit::FitStudy;
-use crate::format::{Format, Role, SectionDeclaration};
+use crate::format::{NetlistFormat, Role, SectionDeclaration};
 use crate::import::IMPORT;
 use crate::parameters::PARAM;
 use crate::raw::{RawNetlist, RawValue};
@@ -89,13 +89,13 @@ static LATER: [&SectionDeclaration; 1] = [&SectionDeclaration {
     ..SectionDeclaration::NEW
 }];
 
-static FORMAT: LazyLock<Format> = LazyLock::new(|| {
+static FORMAT: LazyLock<NetlistFormat> = LazyLock::new(|| {
     let paths = PATHS.iter().map(|path| &path.section);
     let sections = BEFORE.into_iter().chain(paths).chain(BEHIND).chain(STUDIES.iter().copied());
-    Format { sections: sections.collect(), later: &LATER }
+    NetlistFormat { sections: sections.collect(), later: &LATER }
 });
 
 /// All sections.
-pub fn format() -> &'static Format {
+pub fn format() -> &'static NetlistFormat {
     &FORMAT
 }

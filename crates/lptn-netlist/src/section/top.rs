@@ -4,7 +4,7 @@ use lptn_data::{Diagnostic, Span, list};
 use lptn_units::suggest;
 
 use crate::fields::wrong_shape;
-use crate::format::{Format, TOP_KEYS};
+use crate::format::{NetlistFormat, TOP_KEYS};
 use crate::head::{check_format, misplaced_format, missing_format};
 use crate::raw::{RawEntry, RawKind};
 use crate::work::Elaboration;
@@ -100,7 +100,7 @@ const OTHER_NAMES: [(&str, &str); 16] = [
     ("solver", "run"),
 ];
 
-fn unknown(entry: &RawEntry, format: &Format) -> Diagnostic {
+fn unknown(entry: &RawEntry, format: &NetlistFormat) -> Diagnostic {
     let (name, place) = (entry.key.as_str(), entry.key_span.clone());
     let is_table = matches!(entry.value.kind, RawKind::Table(_) | RawKind::Array(_));
     if format.later.iter().any(|section| section.name == name) {

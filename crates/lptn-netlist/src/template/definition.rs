@@ -6,7 +6,7 @@ use lptn_units::{RESERVED, Type, Unit, parse_quantity};
 
 use super::{TEMPLATE, USE};
 use crate::fields::{Fields, Owner, wrong_shape};
-use crate::format::{Format, SectionDeclaration, key};
+use crate::format::{NetlistFormat, SectionDeclaration, key};
 use crate::names::ValueKind;
 use crate::place::Place;
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
@@ -63,7 +63,7 @@ impl<'r> Template<'r> {
     /// Reads a template and reports what is wrong with it.
     pub(super) fn read(
         entry: &'r RawEntry,
-        format: &Format,
+        format: &NetlistFormat,
         problems: &mut Vec<Diagnostic>,
     ) -> Self {
         let mut template = Self {
@@ -88,7 +88,7 @@ impl<'r> Template<'r> {
         template
     }
 
-    fn part(&mut self, part: &'r RawEntry, format: &Format, problems: &mut Vec<Diagnostic>) {
+    fn part(&mut self, part: &'r RawEntry, format: &NetlistFormat, problems: &mut Vec<Diagnostic>) {
         let words = format!("`{}` of template `{}`", part.key, self.name());
         if part.key == PORT {
             return self.ports(part, problems);
@@ -238,7 +238,7 @@ fn no_table(words: &str, value: &RawValue, kind: &RawKind) -> Diagnostic {
     )
 }
 
-fn unknown_part(template: &str, part: &RawEntry, format: &Format) -> Diagnostic {
+fn unknown_part(template: &str, part: &RawEntry, format: &NetlistFormat) -> Diagnostic {
     let key = part.key.as_str();
     if format.is_outside_templates(key) {
         let message = format!("`[{key}]` cannot stand in template `{template}`");

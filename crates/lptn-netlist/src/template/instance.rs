@@ -7,7 +7,7 @@ use super::plan::{MOST_INSTANCES, Plan, of_instance, plan};
 use super::structure::{Connection, Inside, Instance, Structure, Used};
 use lptn_data::{CopyId, Diagnostic, Files, Span};
 
-use crate::format::{Format, Role};
+use crate::format::{NetlistFormat, Role};
 use crate::names::ValueKind;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::template::USE;
@@ -21,7 +21,7 @@ struct Around {
 /// Puts the elements of instances behind those of the file.
 pub(super) struct Maker<'r, 'w> {
     files: &'w mut Files,
-    format: &'w Format,
+    format: &'w NetlistFormat,
     templates: &'r [Template<'r>],
     /// How many instances one of each template makes.
     sizes: &'w [usize],
@@ -36,7 +36,7 @@ pub(super) struct Maker<'r, 'w> {
 
 impl<'r, 'w> Maker<'r, 'w> {
     pub(super) fn new(
-        (files, format): (&'w mut Files, &'w Format),
+        (files, format): (&'w mut Files, &'w NetlistFormat),
         (templates, sizes): (&'r [Template<'r>], &'w [usize]),
         raw: &'w mut RawNetlist,
     ) -> Self {
@@ -221,7 +221,7 @@ impl<'r, 'w> Maker<'r, 'w> {
 }
 
 /// The elements of the file by name, each with its section.
-fn elements(raw: &RawNetlist, format: &Format) -> HashMap<String, (String, Span)> {
+fn elements(raw: &RawNetlist, format: &NetlistFormat) -> HashMap<String, (String, Span)> {
     let known = |name: &str| format.role(name).is_none_or(|role| role == Role::Element);
     let sections = raw.top.entries.iter().filter(|section| known(&section.key));
     let elements = sections.filter_map(|section| match &section.value.kind {

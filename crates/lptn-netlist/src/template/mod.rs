@@ -19,7 +19,7 @@ use std::sync::Arc;
 
 use lptn_data::{Diagnostic, Files, Severity};
 
-use crate::format::{Format, Role, SectionDeclaration, key};
+use crate::format::{NetlistFormat, Role, SectionDeclaration, key};
 use crate::include::any_error;
 use crate::raw::{RawEntry, RawKind, RawNetlist};
 use definition::Template;
@@ -100,7 +100,7 @@ pub(crate) struct Expanded {
 }
 
 /// Puts elements in the place of every use.
-pub(crate) fn expand(files: &mut Files, mut raw: RawNetlist, format: &Format) -> Expanded {
+pub(crate) fn expand(files: &mut Files, mut raw: RawNetlist, format: &NetlistFormat) -> Expanded {
     let (main, mut problems) = (raw.top.span.file, Vec::new());
     let (written, uses) = (take(&mut raw, TEMPLATE.name), take(&mut raw, USE.name));
     let mut templates: Vec<Template<'_>> =

@@ -15,7 +15,8 @@ impl NetworkBuilder {
     pub fn signal(&mut self, name: &str, ty: Type, course: Course) -> SignalId {
         let sound = course.is_sound();
         let constant = Course::Expression(Value::Constant(f64::NAN));
-        let course = if sound { course } else { constant }; // nothing reads it: the network is refused
+        // nothing reads the constant: the network is refused
+        let course = if sound { course } else { constant };
         let layout = Arc::make_mut(&mut self.parts.layout);
         let id = layout.add_signal(Signal {
             name: name.to_owned(),

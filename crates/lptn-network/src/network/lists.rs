@@ -33,7 +33,8 @@ macro_rules! lists {
 }
 
 lists! {
-    "parameters; a parameter uses only those before it" parameters: Parameter, parameter_ids: ParameterId;
+    "parameters; a parameter uses only those before it"
+        parameters: Parameter, parameter_ids: ParameterId;
     "nodes" nodes: Node, node_ids: NodeId;
     "boundaries" boundaries: Boundary, boundary_ids: BoundaryId;
     "capacitors" capacitors: Capacitor, capacitor_ids: CapacitorId;
@@ -42,7 +43,8 @@ lists! {
     "limits" limits: Limit, limit_ids: LimitId;
     "reports" reports: Report, report_ids: ReportId;
     "controls" controls: Control, control_ids: ControlId;
-    "comparisons of temperatures whose truth is held between events" switches: Switch, switch_ids: SwitchId;
+    "comparisons of temperatures whose truth is held between events"
+        switches: Switch, switch_ids: SwitchId;
     "materials" materials: Material, material_ids: MaterialId;
     "fluids" fluids: Fluid, fluid_ids: FluidId;
     "grids" grids: Grid, grid_ids: GridId;

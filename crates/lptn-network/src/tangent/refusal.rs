@@ -16,17 +16,24 @@ pub enum NoTangents for |say: &dyn Fn(Item, &str) -> String| at Item {
     /// It switches: the times of events move with the parameters. The first control, or what a
     /// comparison of temperatures stands in.
     Events { item: Item } = "sensitivity::events", at Some(*item),
-        says format!("{} switches, at times that move with the parameters", say(*item, "the network")), help None;
+        says format!(
+            "{} switches, at times that move with the parameters",
+            say(*item, "the network")
+        ),
+        help None;
     /// An input jumps at a time that moves with a parameter.
     MovingJump { item: Item } = "sensitivity::moving_jump", at Some(*item),
-        says format!("{} jumps at a time that moves with a parameter", say(*item, "an input")), help None;
+        says format!("{} jumps at a time that moves with a parameter", say(*item, "an input")),
+        help None;
     /// A massless node leaps from one solution of its balance to another, at a time that moves with
     /// the parameters. A run finds that, not the form of the network.
     Leaps = "sensitivity::leaps", at None,
-        says "a massless node leaps, at a time that moves with the parameters".to_owned(), help None;
+        says "a massless node leaps, at a time that moves with the parameters".to_owned(),
+        help None;
     /// How a node melts changes by more than its size.
     Melting { node: NodeId } = "sensitivity::melting", at Some(Item::Node(*node)),
-        says format!("how {} melts depends on a parameter", say(Item::Node(*node), "a node")), help None;
+        says format!("how {} melts depends on a parameter", say(Item::Node(*node), "a node")),
+        help None;
     /// The specific heat of a fluid depends on its temperature and on a parameter.
     Fluid { fluid: FluidId } = "sensitivity::fluid", at Some(Item::Fluid(*fluid)),
         says format!(

@@ -12,7 +12,7 @@ const LINE: f64 = 1.8;
 /// Radius of a dot, of one among few and of one among many.
 const DOTS: [f64; 2] = [3.0, 1.5];
 
-/// A dot for each so many pixels, where there are more.
+/// Where there are very many dots they are thinned in stretches of so many pixels.
 const PER_DOT: f64 = 3.0;
 
 /// The ink of the curve at a place of a panel.
@@ -49,17 +49,18 @@ fn on_page((panel, area): Place<'_>, (x, y): (f64, f64)) -> Option<(f64, f64)> {
     shown.then(|| (area.x_at(x), area.y_at(y)))
 }
 
-/// The points of a curve on the page, thinned there, where pixels are even; gaps are not finite.
-fn placed(points: &[(f64, f64)], place: Place<'_>) -> Vec<(f64, f64)> {
+/// The points of a curve on the page, thinned there to what so many stretches of its width show;
+/// gaps are not finite.
+fn placed(points: &[(f64, f64)], place: Place<'_>, stretches: usize) -> Vec<(f64, f64)> {
     let gap = |(x, _): (f64, f64)| (if x.is_finite() { place.1.x_at(x) } else { x }, f64::NAN);
     let on_page: Vec<_> =
         points.iter().map(|&point| on_page(place, point).unwrap_or_else(|| gap(point))).collect();
     let in_order = on_page.windows(2).all(|pair| pair[0].0 <= pair[1].0);
-    if in_order { thinned(&on_page, place.1.width() as usize) } else { on_page }
+    if in_order { thinned(&on_page, stretches) } else { on_page }
 }
 
 fn lines(scene: &mut Scene, curve: &Curve, place: Place<'_>, stroke: Stroke) {
-    let points = placed(&curve.points, place);
+    let points = placed(&curve.points, place, place.1.width() as usize);
     let pieces = points.split(|point| !point.1.is_finite());
     let mut steps: Vec<Step> = Vec::new();
     for piece in pieces.filter(|piece| !piece.is_empty()) {
@@ -70,11 +71,11 @@ fn lines(scene: &mut Scene, curve: &Curve, place: Place<'_>, stroke: Stroke) {
     }
 }
 
+/// Of very many dots those that stick out stay.
 fn dots(scene: &mut Scene, curve: &Curve, place: Place<'_>, ink: Ink) {
     let most = (place.1.width() / PER_DOT) as usize;
-    let every = curve.points.len().div_ceil(most.max(1)).max(1);
     let radius = DOTS[usize::from(curve.points.len() > most / 3)];
-    let shown = curve.points.iter().step_by(every).filter_map(|&point| on_page(place, point));
+    let shown = placed(&curve.points, place, most).into_iter().filter(|at| at.1.is_finite());
     let steps: Vec<Step> = shown.flat_map(|at| circle(at, radius).steps).collect();
     if !steps.is_empty() {
         scene.put(Path::new(steps).filled(ink, 1.0).tipped(&curve.name));
@@ -104,8 +105,9 @@ fn spread(scene: &mut Scene, curve: &Curve, place: Place<'_>, ink: Ink) {
         return bars(scene, (&low, &high), place, ink);
     }
     let finite = |points: Vec<(f64, f64)>| points.into_iter().filter(|point| point.1.is_finite());
-    let upper = finite(placed(&high, place));
-    let lower: Vec<_> = finite(placed(&low, place)).collect();
+    let pixels = place.1.width() as usize;
+    let upper = finite(placed(&high, place, pixels));
+    let lower: Vec<_> = finite(placed(&low, place, pixels)).collect();
     scene.put(polygon(upper.chain(lower.into_iter().rev())).filled(ink, 0.18));
 }
 

@@ -96,13 +96,15 @@ fn header(figure: &Figure, (top, page): (f64, f64), scene: &mut Scene) -> f64 {
 
 /// A text in lines that are not wider than `room` unless a word is.
 fn wrapped(text: &str, size: f64, room: f64, bold: bool) -> Vec<String> {
+    in_lines(text, |line| width(line, size, bold) <= room)
+}
+
+/// A text in lines that fit, unless a word does not.
+pub(crate) fn in_lines(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {
-            Some(line) if width(&format!("{line} {word}"), size, bold) <= room => {
-                line.push(' ');
-                line.push_str(word);
-            }
+            Some(line) if fits(&format!("{line} {word}")) => *line = format!("{line} {word}"),
             _ => lines.push(word.to_owned()),
         }
     }

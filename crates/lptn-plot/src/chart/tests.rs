@@ -3,7 +3,7 @@ use super::labels::apart;
 use super::{scene, wrapped};
 use crate::figure::{Axis, Curve, Figure, Level, Look, Moment, Panel};
 use crate::font::width;
-use crate::scene::{Scene, Shape};
+use crate::scene::{Scene, Shape, Step};
 use crate::{png, svg};
 
 fn heating() -> Figure {
@@ -114,8 +114,32 @@ fn texts_keep_to_their_room() {
     assert!(short.ends_with('\u{2026}') && width(&short, 12.0, false) <= 80.0, "{short}");
 }
 
+/// Of 100000 measured values the one that is wrong is seen, and the file stays small.
+#[test]
+fn no_dot_that_sticks_out_is_lost() {
+    let value = |i: u32| if i == 54_321 { 7.0 } else { 0.01 * f64::from(i % 7) };
+    let points: Vec<(f64, f64)> = (0..100_000).map(|i| (f64::from(i), value(i))).collect();
+    let mut panel = Panel::new(Axis::time(), Axis::linear("difference", "K"));
+    panel.curves.push(Curve::line("ring", points).looks(Look::Dots));
+    let scene = scene(&[Figure { panels: vec![panel], ..Figure::default() }], 760.0);
+    let paths = scene.shapes.iter().filter_map(|shape| match shape {
+        Shape::Path(path) => Some(&path.steps),
+        Shape::Text(_) => None,
+    });
+    let dot = |pair: &[Step]| match *pair {
+        [Step::Line(..), Step::Curve([(_, top), ..])] => Some(top),
+        _ => None,
+    };
+    let top = |steps: &Vec<Step>| -> Vec<f64> { steps.windows(2).filter_map(dot).collect() };
+    let dots: Vec<f64> = paths.flat_map(top).collect();
+    assert_eq!(dots.iter().filter(|top| **top < 25.0).count(), 1, "{dots:?}");
+    assert!((100..1000).contains(&dots.len()), "{}", dots.len());
+}
+
 #[test]
 fn a_figure_is_drawn_with_characters() {
-    let text = crate::terminal::write(&heating(), 80, false);
+    let mut figure = heating();
+    figure.note = "what a reader has to know beside it ".repeat(5);
+    let text = crate::terminal::write(&figure, 80, false);
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
 }

@@ -72,20 +72,23 @@ pub enum ExactError {
     Value(error: EvalError) = "solve::input", error, source error, help Problem::help(error);
     /// It is not linear with constant coefficients; the name of the first item that makes it so.
     NotLinear { name: String } = "exact::not_linear",
-        format!("`{name}` makes the network more than constant capacities and conductances"), help CONSTANTS;
+        format!("`{name}` makes the network more than constant capacities and conductances"),
+        help CONSTANTS;
     /// It switches at times that are not known beforehand; the name of the first control or
     /// comparison.
     Switches { name: String } = "exact::switches",
         format!("`{name}` switches at times that depend on the temperatures"), help CONSTANTS;
     /// The conductances of the massless nodes span more than the numbers can hold.
-    Singular = "exact::singular", "the conductances of the massless nodes span more than the \
-        numbers can hold",
+    Singular = "exact::singular",
+        "the conductances of the massless nodes span more than the numbers can hold",
         help MERGE, class Class::Numbers;
     /// The eigenvalues were not found.
-    Modes = "exact::modes", "the eigenvalues of the network were not found", help MERGE, class Class::Numbers;
+    Modes = "exact::modes", "the eigenvalues of the network were not found", help MERGE,
+        class Class::Numbers;
     /// An input changes too fast for any series; where the attempt was given up, in s.
     Quadrature { time: f64 } = "exact::quadrature",
-        format!("an input changes too fast at {time} s to be integrated"), help MERGE, class Class::Numbers;
+        format!("an input changes too fast at {time} s to be integrated"), help MERGE,
+        class Class::Numbers;
 }
 }
 

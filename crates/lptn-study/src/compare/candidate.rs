@@ -67,7 +67,8 @@ pub enum CompareError {
         ), class Class::Numbers;
     /// Its run was interrupted at this time in s: peaks and limits of a part would read like those
     /// of the whole.
-    Interrupted(time: f64) = "run::interrupted", format!("the run was interrupted at {time} s"), class Class::Interrupted;
+    Interrupted(time: f64) = "run::interrupted", format!("the run was interrupted at {time} s"),
+        class Class::Interrupted;
 }
 }
 

@@ -50,8 +50,8 @@ pub enum CoolingError {
     Power(power: f64) = "size::power", format!("the power has to be more than 0 W, got {power} W"),
         help "write for example --power \"223 W\"";
     /// The rise in K is not positive and finite.
-    Rise(rise: f64) = "size::rise", format!("the rise of the coolant has to be more than 0 K, got \
-        {rise} K"),
+    Rise(rise: f64) = "size::rise",
+        format!("the rise of the coolant has to be more than 0 K, got {rise} K"),
         help "write for example --rise \"10 K\"";
 }
 }

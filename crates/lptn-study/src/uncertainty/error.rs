@@ -30,11 +30,15 @@ pub enum UncertaintyError {
         help "write fewer rows or samples, or fewer columns with `--select 'steel.T'`";
     /// So few samples have a result that nothing can be said; why the others have none.
     TooFew(lost: Vec<Lost>) = "uncertainty::too_few",
-        lost.iter().fold("too few samples have a result".to_owned(), |text, lost| format!("{text}; {lost}")),
-        help "make the `±` smaller: most of what it allows is not a network that runs", class Class::Numbers;
+        lost.iter().fold("too few samples have a result".to_owned(), |text, lost| {
+            format!("{text}; {lost}")
+        }),
+        help "make the `±` smaller: most of what it allows is not a network that runs",
+        class Class::Numbers;
     /// There is no network a little beside the parameters' values.
     Network(errors: BuildErrors) = "uncertainty::network",
-        format!("there is no network beside the values: {errors}"), source errors, class Class::Numbers;
+        format!("there is no network beside the values: {errors}"), source errors,
+        class Class::Numbers;
     /// The network itself cannot be assembled.
     Assembly => AssemblyError as Class::of_numbers;
     /// The run itself, with every parameter at its value, fails.
@@ -42,7 +46,8 @@ pub enum UncertaintyError {
     /// A limit has no value beside the run.
     Limit => InputError as Class::of_numbers;
     /// It was interrupted.
-    Interrupted = "uncertainty::interrupted", "the sampling was interrupted", class Class::Interrupted;
+    Interrupted = "uncertainty::interrupted", "the sampling was interrupted",
+        class Class::Interrupted;
 }
 }
 

@@ -144,7 +144,8 @@ impl Parser<'_> {
     /// `x**2`.
     fn after_star(&self) -> bool {
         let here = self.here().start;
-        matches!(self.before(), Some((Token::Operator(Operator::Multiply), star)) if star.end == here)
+        let before = self.before();
+        matches!(before, Some((Token::Operator(Operator::Multiply), star)) if star.end == here)
     }
 
     /// A number, with the unit that may follow it.

@@ -18,7 +18,8 @@ pub enum TableError {
         help "sort the points by their argument, each argument once";
     /// An argument or a value is infinite or not a number: the point, or the value in a table of
     /// two arguments.
-    NotFinite { index: usize } = "units::table_not_finite", format!("number {} is not finite", index + 1),
+    NotFinite { index: usize } = "units::table_not_finite",
+        format!("number {} is not finite", index + 1),
         help "leave out points that have no value";
     /// One list of arguments of a table of two is wrong: 0 for `x`, 1 for `y`.
     Argument { argument: usize, error: Box<TableError> } = error.code(),

@@ -9,7 +9,8 @@ use super::error::{check_finite, check_knots};
 /// ```
 /// use lptn_units::{Outside, Table2};
 ///
-/// let map = Table2::new(vec![0.0, 1.0], vec![0.0, 2.0], vec![0.0, 4.0, 10.0, 16.0], Outside::Error)?;
+/// let (x, y) = (vec![0.0, 1.0], vec![0.0, 2.0]);
+/// let map = Table2::new(x, y, vec![0.0, 4.0, 10.0, 16.0], Outside::Error)?;
 /// assert_eq!(map.value_and_slopes(0.5, 1.0), Some((7.5, [11.0, 2.5])));
 /// assert_eq!(map.value_and_slopes(0.5, 3.0), None);
 /// # Ok::<(), lptn_units::TableError>(())

@@ -1,6 +1,7 @@
 //! `lptn fit`: what records of measured temperatures tell. Each of its verbs is a module.
 
 mod args;
+mod figure;
 mod law;
 mod network;
 mod step;

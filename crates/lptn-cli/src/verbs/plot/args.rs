@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args as Arguments;
 
 use crate::drawing::Drawing;
-use crate::options::{Scale, TEMPLATE};
+use crate::options::{Scale, TEMPLATE, Times};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -30,6 +30,8 @@ pub(crate) struct PlotArgs {
     /// Keep columns like '*.T'; may be repeated
     #[arg(long, value_name = "PATTERN")]
     pub(crate) select: Vec<String>,
+    #[command(flatten)]
+    pub(crate) times: Times,
     #[command(flatten)]
     pub(crate) scale: Scale,
 }

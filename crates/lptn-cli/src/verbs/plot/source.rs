@@ -57,6 +57,7 @@ impl Source {
         let shown = Shown { format: Format::Csv, select: args.select.clone(), scale };
         let args = RunArgs {
             source,
+            times: args.times.clone(),
             shown,
             balance: None,
             tolerance: None,
@@ -64,7 +65,8 @@ impl Source {
             no_files: true,
             uncertainty: run::uncertainty::args::UncertaintyArgs::default(),
         };
-        let input = Input::load(&args.source)?;
+        let mut input = Input::load(&args.source)?;
+        input.set_times(&args.times)?;
         let (outcome, _) = run::outcome(&args, &input, console)?;
         outcome.messages(None, console);
         let exit = outcome.conclude(console, false);

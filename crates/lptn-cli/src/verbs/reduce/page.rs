@@ -305,7 +305,10 @@ fn dynamics(dynamics: Option<&Dynamics>, json: &mut Json<'_>) -> io::Result<()> 
         dynamics.pairs.iter().map(|pair| (pair.definition.key().to_owned(), value(pair))).collect()
     };
     json.member("C_eq", &by_name(&|pair| json!(scalar(pair.capacity, "J/K"))))?;
-    let errors = |pair: &lptn_reduce::Pair| json!({ "step": error(&pair.step), "run": pair.run.as_ref().map(error) });
+    let errors = |pair: &lptn_reduce::Pair| {
+        let run = pair.run.as_ref().map(error);
+        json!({ "step": error(&pair.step), "run": run })
+    };
     json.member("errors", &by_name(&errors))?;
     json.member("recommended", dynamics.recommended.definition.key())?;
     json.member("recommended_by", if dynamics.recommended.by_run { "run" } else { "step" })?;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args as Arguments;
 
 use super::uncertainty::args::UncertaintyArgs;
-use crate::options::{Shown, Source, TEMPLATE};
+use crate::options::{Shown, Source, TEMPLATE, Times};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -20,6 +20,8 @@ Examples:
 pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) source: Source,
+    #[command(flatten)]
+    pub(crate) times: Times,
     #[command(flatten)]
     pub(crate) shown: Shown,
     /// Show the heat into and out of a node or boundary, largest path first

@@ -28,7 +28,8 @@ use crate::files::Folder;
 use crate::input::Input;
 
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
-    let input = Input::load(&args.source)?;
+    let mut input = Input::load(&args.source)?;
+    input.set_times(&args.times)?;
     let (result, folder) = outcome(args, &input, console)?;
     if let Some(folder) = &folder {
         result.write(&args.source.set, folder)?;

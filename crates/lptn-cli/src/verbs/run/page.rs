@@ -142,8 +142,8 @@ fn temperatures(of: &Outcome<'_>, nodes: &[NodeSummary]) -> TextTable {
         .into()
 }
 
-/// What is not a temperature of a node: every report, the values of grids, and the other columns that
-/// were asked for by name.
+/// What is not a temperature of a node: every report, the values of grids, and the other columns
+/// that were asked for by name.
 fn columns(of: &Outcome<'_>, text: &mut Text) {
     let network = of.solution.network();
     let is_report = |name: &str| network.reports().iter().any(|report| report.name == name);

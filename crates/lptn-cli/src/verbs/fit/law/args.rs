@@ -87,7 +87,12 @@ pub(crate) struct RecordsArgs {
 #[command(next_help_heading = "Three laws without points")]
 pub(crate) struct StatedArgs {
     /// The law of the temperature rise: "0.0084 ± 0.0011 K/rpm", or an expression in omega
-    #[arg(long = "dT", value_name = "LAW", allow_hyphen_values = true, requires_all = ["time_constant_law", "power_law", "over"])]
+    #[arg(
+        long = "dT",
+        value_name = "LAW",
+        allow_hyphen_values = true,
+        requires_all = ["time_constant_law", "power_law", "over"]
+    )]
     pub(crate) rise_law: Option<String>,
     /// The law of the time constant: "18.6 ± 3.8 min"
     #[arg(long = "t_RC", value_name = "LAW", allow_hyphen_values = true, requires = "rise_law")]

@@ -5,6 +5,7 @@ use std::io;
 
 use lptn_fit::law::{AtSpeed, Consistency, Exponent, LawError, LawOf, Significance, StatedLaw};
 use lptn_fit::step::Capacity;
+use lptn_plot::Figure;
 use lptn_report::{Json, Page, Rows, Text, TextTable, fixed, significant};
 use lptn_solve::Table;
 use lptn_study::SiValue;
@@ -41,10 +42,10 @@ pub(crate) fn laws(
 }
 
 /// Three laws and how they go together.
-struct Stated {
-    laws: [StatedLaw; 3],
-    found: Consistency,
-    unit: SpeedUnit,
+pub(super) struct Stated {
+    pub(super) laws: [StatedLaw; 3],
+    pub(super) found: Consistency,
+    pub(super) unit: SpeedUnit,
 }
 
 impl Page for Stated {
@@ -74,6 +75,10 @@ impl Page for Stated {
         table.column("P", "W", |at| at.power);
         table.column("t_RC_needed", "s", |at| at.needed);
         table.done().into()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        self.pictures()
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

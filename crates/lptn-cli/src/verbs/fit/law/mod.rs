@@ -1,6 +1,7 @@
 //! `lptn fit law`
 
 mod args;
+mod figure;
 mod laws;
 mod page;
 mod points;

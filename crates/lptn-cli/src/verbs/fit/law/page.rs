@@ -5,6 +5,7 @@ use std::io;
 use lptn_fit::law::{
     Coefficient, Consistency, Exponent, Fitted, LawFit, LawStudy, LossLaw, SIGNIFICANT,
 };
+use lptn_plot::Figure;
 use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, fixed, plain, significant};
 use lptn_solve::Table;
 use serde_json::{Value, json};
@@ -73,6 +74,10 @@ impl Page for Answer {
         column("squares", squares, &|f, _| Some(f.squares));
         column("aicc", "1", &|f, _| f.aicc);
         table.done().into()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        self.pictures()
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -151,7 +156,7 @@ fn names(law: &LossLaw, count: usize) -> Vec<String> {
     }
 }
 
-fn coefficient(answer: &Answer, candidate: &LawFit, fit: &Fitted, i: usize) -> String {
+pub(super) fn coefficient(answer: &Answer, candidate: &LawFit, fit: &Fitted, i: usize) -> String {
     let c = &fit.coefficients[i];
     let unit = &answer.data.unit;
     let value = unit.quantity(c.value, c.standard_error, c.dimension);
@@ -277,7 +282,13 @@ fn law(answer: &Answer, candidate: &LawFit) -> Value {
     let coefficient = |c: &Coefficient| {
         let shown = answer.data.unit.quantity(c.value, c.standard_error, c.dimension);
         let unit = c.dimension.si_unit();
-        json!({ "name": c.name, "value": c.value, "unit": unit, "standard_error": c.standard_error, "shown": shown })
+        json!({
+            "name": c.name,
+            "value": c.value,
+            "unit": unit,
+            "standard_error": c.standard_error,
+            "shown": shown,
+        })
     };
     let weighted = answer.data.points.deviation().is_some();
     json!({

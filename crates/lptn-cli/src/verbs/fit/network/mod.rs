@@ -1,6 +1,7 @@
 //! `lptn fit network`
 
 mod args;
+mod figure;
 mod interrupted;
 mod page;
 mod words;
@@ -54,11 +55,10 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
     };
     if let Some(stop) = fit.not_converged {
         let message = format!("fit `{}` did not converge: {}", study.name, stop.text());
-        let problem = Diagnostic::error("fit::not_converged", message).at(study.span.clone(), "").help(
-            "give the parameters start values nearer to what is expected, and bounds with `from` \
-             and `to`",
-        );
-        return Err(input.refused(Exit::Failed, problem));
+        let problem = Diagnostic::error("fit::not_converged", message).at(study.span.clone(), "");
+        let help = "give the parameters start values nearer to what is expected, and bounds with \
+            `from` and `to`";
+        return Err(input.refused(Exit::Failed, problem.help(help)));
     }
     let units = task.parameters.iter().map(|varied| input.unit_of(varied.parameter)).collect();
     let mut answer = Answer { input: &input, study, task, units, fit, doubts: Vec::new() };

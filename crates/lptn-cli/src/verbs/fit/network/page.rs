@@ -4,6 +4,7 @@ use std::io;
 
 use lptn_fit::least_squares::Side;
 use lptn_fit::network::{ColumnMisfit, Combination, Unseparated};
+use lptn_plot::Figure;
 use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, differing, fixed, significant};
 use lptn_solve::Gradient;
 use lptn_solve::Table;
@@ -56,6 +57,10 @@ impl Page for Answer<'_> {
         table.done().into()
     }
 
+    fn figures(&self) -> Vec<Figure> {
+        self.pictures()
+    }
+
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let (netlist, fit) = (&self.input.netlist, &self.fit);
         let warnings = [netlist.warnings.as_slice(), &self.doubts].concat();
@@ -85,7 +90,12 @@ impl Page for Answer<'_> {
         json.member("verdict", &verdict(self))?;
         json.member(
             "starts",
-            &json!({ "tried": starts.tried, "same": starts.same, "other": starts.other, "failed": starts.failed }),
+            &json!({
+                "tried": starts.tried,
+                "same": starts.same,
+                "other": starts.other,
+                "failed": starts.failed,
+            }),
         )?;
         json.member(
             "gradient",

@@ -3,6 +3,7 @@
 mod args;
 mod doubts;
 mod estimate;
+mod figure;
 mod model;
 mod page;
 mod request;

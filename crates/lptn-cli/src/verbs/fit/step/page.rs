@@ -3,6 +3,7 @@
 use std::io;
 
 use lptn_fit::step::{Estimated, FittedValue, Parted, Power, TwoExponentials};
+use lptn_plot::Figure;
 use lptn_report::{
     Align, Column as TextColumn, Json, Page, Rows, Text, TextTable, WIDTH, plain, shortened,
     significant, stacked,
@@ -60,6 +61,10 @@ impl Page for Answer<'_> {
             parted("P_disp", "W", |power| &power.power);
         }
         table.done().into()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        vec![self.figure()]
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -152,7 +152,8 @@ fn differs(network: &Network, one: &Discrepancy) -> Value {
     let (name, part) = place(network, one.of);
     let time = one.time.map(|time| SiValue::new(time, "s"));
     let part = if one.time.is_some() { "row" } else { part };
-    json!({ "of": name, "part": part, "time": time, "linear": band(one.linear), "sampled": band(one.sampled) })
+    let (linear, sampled) = (band(one.linear), band(one.sampled));
+    json!({ "of": name, "part": part, "time": time, "linear": linear, "sampled": sampled })
 }
 
 fn place(network: &Network, of: AnswerOf) -> (String, &'static str) {

@@ -1,5 +1,6 @@
 //! `lptn fit law FOLDER`: from records to a law.
 
+mod figure;
 mod folder;
 mod output;
 
@@ -12,6 +13,7 @@ use lptn_fit::law::{
 };
 use lptn_fit::step::{Capacity, LONG_ENOUGH, Sensor};
 use lptn_netlist::{Diagnostic, Files};
+use lptn_plot::Figure;
 use lptn_report::{
     Json, Page, Rows, Text, TextTable, WIDTH, duration, fixed, labelled, significant, words,
 };
@@ -317,6 +319,10 @@ impl Page for Runs {
 
     fn rows(&self) -> Rows<'_> {
         output::power(self).into()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        self.pictures()
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

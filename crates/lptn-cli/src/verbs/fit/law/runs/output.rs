@@ -114,7 +114,10 @@ pub(crate) fn power(found: &Runs) -> Table {
 pub(crate) fn json(found: &Runs, json: &mut Json<'_>) -> io::Result<()> {
     found.answer.json(json)?;
     json.member("runs", &runs(found))?;
-    let part = |e: &Systematic| json!({ "capacity": e.capacity, "offset": e.offset, "gain": e.gain, "total": e.total() });
+    let part = |e: &Systematic| {
+        let total = e.total();
+        json!({ "capacity": e.capacity, "offset": e.offset, "gain": e.gain, "total": total })
+    };
     let systematic = found.best().and_then(|(best, fit)| {
         let named = fit.coefficients.iter().zip(found.study.systematic(best)?);
         Some(named.map(|(c, e)| (c.name.clone(), part(&e))).collect::<Map<String, Value>>())
@@ -122,10 +125,20 @@ pub(crate) fn json(found: &Runs, json: &mut Json<'_>) -> io::Result<()> {
     json.member("systematic", &systematic)
 }
 
+fn number(value: f64, unit: &str, error: f64) -> Value {
+    json!({ "value": value, "unit": unit, "standard_error": error })
+}
+
 fn runs(found: &Runs) -> Value {
-    let number = |value: f64, unit: &str, error: f64| json!({ "value": value, "unit": unit, "standard_error": error });
     let column = |f: &RunFit| {
-        let parted = |p: lptn_fit::step::Parted, unit: &str| json!({ "value": p.value, "unit": unit, "standard_error": p.random, "systematic": p.systematic });
+        let parted = |p: lptn_fit::step::Parted, unit: &str| {
+            json!({
+                "value": p.value,
+                "unit": unit,
+                "standard_error": p.random,
+                "systematic": p.systematic,
+            })
+        };
         json!({
             "T_i": number(f.fit.initial.value, "K", f.fit.initial.standard_error),
             "T_f": number(f.fit.settled.value, "K", f.fit.settled.standard_error),
@@ -139,7 +152,8 @@ fn runs(found: &Runs) -> Value {
     };
     let run = |(i, (name, speed)): (usize, &(String, f64))| {
         let columns = found.columns().iter().map(|of| (of.column.clone(), column(&of.fits[i])));
-        json!({ "run": name, "speed": SiValue::new(*speed, "rad/s"), "columns": columns.collect::<Map<_, _>>() })
+        let columns: Map<_, _> = columns.collect();
+        json!({ "run": name, "speed": SiValue::new(*speed, "rad/s"), "columns": columns })
     };
     found.study.runs.iter().enumerate().map(run).collect()
 }

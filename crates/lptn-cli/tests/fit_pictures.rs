@@ -1,0 +1,174 @@
+//! The pictures of the fits: what `--plot` draws is what was measured and fitted.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod common;
+#[path = "common/picture.rs"]
+mod picture;
+
+use std::fmt::Write as _;
+
+use common::Folder;
+use picture::Picture;
+
+/// A pixel in the file is exact to 0.005, and an axis has some 100 to 600 of them.
+const READ: f64 = 2e-4;
+
+#[track_caller]
+fn near(found: f64, expected: f64, range: f64) {
+    assert!((found - expected).abs() <= READ * range, "{found} is not {expected}");
+}
+
+/// Draws, and sees that the same bytes come twice.
+fn drawn(folder: &Folder, arguments: &[&str], code: i32) -> Picture {
+    let draw = |file: &str| {
+        let all = [arguments, &["--plot", file]].concat();
+        folder.run(&all).exits(code).says(&format!("wrote  {file}"));
+        folder.read(file)
+    };
+    let first = draw("x.svg");
+    assert_eq!(first, draw("y.svg"));
+    let text = folder.run(&[arguments, &["--plot", "-", "--quiet"]].concat()).exits(code).out;
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    Picture::read(&first)
+}
+
+/// `T = 20 degC + 60 K (1 - exp(-t / 600 s))`, and a ripple that is +-0.1 K in turn.
+fn heating(ripple: f64) -> String {
+    let mut text = "t [s],ring [degC],<bed> [degC]\n".to_owned();
+    for i in 0..=60 {
+        let t = 30.0 * f64::from(i);
+        let off = if i % 2 == 0 { ripple } else { -ripple };
+        let ring = 80.0 - 60.0 * f64::exp(-t / 600.0) + off;
+        let bed = 50.0 - 20.0 * f64::exp(-t / 500.0);
+        writeln!(text, "{t},{ring:.9},{bed:.9}").unwrap();
+    }
+    text
+}
+
+/// Analytic: the curve of a closed-form exponential is the record, T_f is 80 degC, and what is
+/// missed is the ripple.
+#[test]
+fn analytic_a_step_over_its_exponential_and_what_it_misses() {
+    let folder = Folder::with("record.csv", &heating(0.1));
+    let picture = drawn(&folder, &["fit", "step", "record.csv"], 0);
+    picture.says("time [min]").says("record.csv").says("T_f of ring").says("t_RC 60");
+    picture.says("&lt;bed&gt;");
+    let (upper, lower) = ("temperature [°C]", "measured \u{2212} fit [K]");
+    let dots = picture.dots(upper, "series0");
+    // 61 values, and the end of T_f with its interval
+    assert_eq!(dots.len(), 62);
+    for (i, &(minutes, value)) in dots[..61].iter().enumerate() {
+        let off = if i % 2 == 0 { 0.1 } else { -0.1 };
+        near(minutes, 0.5 * i as f64, 30.0);
+        near(value, 80.0 - 60.0 * f64::exp(-minutes / 10.0) + off, 60.0);
+    }
+    near(dots[61].1, 80.0, 100.0);
+    let lines = picture.lines(upper, "series0");
+    let [curve, level] = &lines[..2] else { panic!("{lines:?}") };
+    curve.iter().for_each(|&(t, value)| near(value, 80.0 - 60.0 * f64::exp(-t / 10.0), 300.0));
+    level.iter().for_each(|&(_, value)| near(value, 80.0, 100.0));
+    let missed = picture.dots(lower, "series0");
+    assert_eq!(missed.len(), 61);
+    for (i, (_, value)) in missed.iter().enumerate().skip(10) {
+        let off = if i % 2 == 0 { 0.1 } else { -0.1 };
+        assert!((value - off).abs() < 0.02, "{value} at {i}");
+    }
+}
+
+/// Analytic: without a ripple nothing is missed beyond the rounding of the record.
+#[test]
+fn analytic_an_exact_exponential_leaves_nothing() {
+    let folder = Folder::with("record.csv", &heating(0.0));
+    let picture = drawn(&folder, &["fit", "step", "record.csv", "--column", "ring"], 0);
+    for (_, value) in picture.dots("measured \u{2212} fit [K]", "series0") {
+        assert!(value.abs() < 1e-6, "{value}");
+    }
+}
+
+/// A column without a fit is still shown, and so is the network it is compared with.
+#[test]
+fn a_column_without_a_fit_and_a_model_are_drawn() {
+    let folder = Folder::with_gearbox();
+    let mut text = "t [s],ring [degC],noise [degC]\n".to_owned();
+    for i in 0..=50 {
+        let (t, noise) = (30.0 * f64::from(i), 20.0 + f64::from(i * 37 % 11));
+        writeln!(text, "{t},{:.6},{noise}", 92.7 - 67.2 * f64::exp(-t / 810.0)).unwrap();
+    }
+    folder.write("record.csv", &text);
+    let arguments = ["fit", "step", "record.csv", "--model", "gearbox.toml", "--port", "steel"];
+    let picture = drawn(&folder, &arguments, 3);
+    picture.says("noise: no fit (fit::undetermined)").says("steel of gearbox");
+    assert_eq!(picture.dots("temperature [°C]", "series1").len(), 51);
+    let run = folder.run(&["run", "gearbox.toml", "--format", "csv", "--no-files"]).exits(0);
+    let (headers, rows) = common::csv(&run.out);
+    let steel = headers.iter().position(|name| name.starts_with("steel.T")).unwrap();
+    let model = &picture.lines("temperature [°C]", "series2")[0];
+    assert_eq!(model.len(), 51);
+    for &(minutes, value) in model {
+        let row = rows.iter().find(|row| (row[0] - 60.0 * minutes).abs() < 1.0).unwrap();
+        near(value, row[steel], 200.0);
+    }
+}
+
+/// Two records of a body with known parameters: `T = 20 degC + rise (1 - exp(-t / 600 s))` and
+/// steps of +-0.1 K; the second leaves out every third value.
+fn body() -> Folder {
+    let folder = Folder::with(
+        "body.toml",
+        "format = 1\ntitle = \"Body\"\n\n[param]\nR = \"0.2 K/W\"\nC = \"2 kJ/K\"\n\n[node]\nbody = \
+         { C = \"C\", T0 = \"20 degC\" }\n\n[boundary]\nair = { T = \"20 degC\" }\n\n[resistor]\nskin = \
+         { from = \"body\", to = \"air\", R = \"R\" }\n\n[source]\nheat = { into = \"body\", P = \
+         \"200 W\" }\n\n[fit.heating]\ndata = [{ csv = \"a.csv\" }, { csv = \"b.csv\" }]\ncolumn \
+         = { ring = \"body.T\" }\nsigma = \"0.1 K\"\nvary = [\"R\", \"C\"]\n",
+    );
+    for (name, gaps) in [("a.csv", false), ("b.csv", true)] {
+        let mut text = "t [s],ring [degC]\n".to_owned();
+        for i in 0..=60 {
+            let t = 30.0 * f64::from(i);
+            let off = if i % 2 == 0 { 0.1 } else { -0.1 };
+            let value = 80.0 - 60.0 * f64::exp(-t / 600.0) + off;
+            let cell = if gaps && i % 3 == 1 { String::new() } else { format!("{value:.9}") };
+            writeln!(text, "{t},{cell}").unwrap();
+        }
+        folder.write(name, &text);
+    }
+    folder
+}
+
+/// Analytic: R is 60 K / 200 W and R C is 600 s, so the line is the closed form also where nothing
+/// was measured, and what is missed is the ripple, half of 2 sigma.
+#[test]
+fn analytic_records_over_the_fitted_network() {
+    let picture = drawn(&body(), &["fit", "network", "body.toml"], 0);
+    let (upper, lower) = ("temperature [°C]", "measured \u{2212} fitted [K]");
+    for text in ["time [min]", "ring", "a.csv", "b.csv", "sigma 0.1 K", "bands: 0 \u{b1} 2 sigma"] {
+        picture.says(text);
+    }
+    assert_eq!(picture.panels.len(), 4);
+    assert_eq!(picture.dots(upper, "series0").len(), 61);
+    let line = &picture.lines(upper, "series0")[0];
+    assert_eq!(line.len(), 61);
+    line.iter().for_each(|&(t, value)| near(value, 80.0 - 60.0 * f64::exp(-t / 10.0), 300.0));
+    let second = &picture.panels[3];
+    assert_eq!((&*second.title, second.count("series0")), (lower, 41));
+    for (i, (_, value)) in picture.dots(lower, "series0").iter().enumerate().skip(10) {
+        let off = if i % 2 == 0 { 0.1 } else { -0.1 };
+        assert!((value - off).abs() < 0.02, "{value} at {i}");
+    }
+    let band = &picture.lines(lower, "series0")[0];
+    band.iter().for_each(|(_, value)| near(value.abs(), 0.2, 10.0));
+}
+
+/// Of many records the first twelve are drawn, and the picture says so.
+#[test]
+fn many_records_are_not_all_drawn() {
+    let folder = body();
+    let names: Vec<String> = (0..14).map(|i| format!("{{ csv = \"r{i}.csv\" }}")).collect();
+    (0..14).for_each(|i| folder.write(&format!("r{i}.csv"), &folder.read("a.csv")));
+    let both = "{ csv = \"a.csv\" }, { csv = \"b.csv\" }";
+    folder.write("many.toml", &folder.read("body.toml").replace(both, &names.join(", ")));
+    let picture = drawn(&folder, &["fit", "network", "many.toml", "--starts", "0"], 0);
+    picture.says("the first 12 of 14 records are drawn").says("r11.csv");
+    assert_eq!(picture.panels.len(), 24);
+    assert!(!picture.texts.iter().any(|text| text == "r12.csv"));
+}

@@ -1,0 +1,75 @@
+//! Kind: command line. `--stop` and `--every`: other times for a run, held to what the file is.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod common;
+
+use common::{Folder, csv};
+
+/// One lump of 1000 J/K that 100 W heat and 10 W/K cool, with a window over its first minute.
+const LUMP: &str = "format = 1
+[node]
+lump = { C = '1000 J/K', T0 = '25 degC' }
+[boundary]
+air = { T = '25 degC' }
+[resistor]
+skin = { from = 'lump', to = 'air', G = '10 W/K' }
+[source]
+heat = { into = 'lump', P = '100 W' }
+[run]
+stop = '300 s'
+output = { at = ['0 s', '10 s'] }
+window = { first = { from = '0 s', to = '1 min' } }
+";
+
+#[test]
+fn rows_come_at_the_times_that_were_asked_for() {
+    let folder = Folder::with("lump.toml", LUMP);
+    let ran = folder.run(&[
+        "run",
+        "lump.toml",
+        "--no-files",
+        "--format",
+        "csv",
+        "--select",
+        "lump.T",
+        "--stop",
+        "10 min",
+        "--every",
+        "5min",
+    ]);
+    let (_, rows) = csv(&ran.exits(0).out);
+    assert_eq!(rows.len(), 3);
+    for (row, time) in rows.iter().zip([0.0, 300.0, 600.0_f64]) {
+        let expected = 25.0 + 10.0 * (1.0 - (-time / 100.0).exp());
+        assert!((row[0] - time).abs() < 1e-9 && (row[1] - expected).abs() < 1e-4, "{row:?}");
+    }
+}
+
+#[test]
+fn times_that_do_not_fit_are_refused_by_their_option() {
+    let folder = Folder::with("lump.toml", LUMP);
+    let cases = [
+        (["--stop", "0 s"], "netlist::run_stop", " --> --stop:1:1"),
+        (["--stop", "30 s"], "netlist::", "lump.toml:13"),
+        (["--stop", "2 K"], "units::dimension", " --> --stop:1:1"),
+        (["--every", "1 us"], "netlist::too_many_rows", " --> --every:1:1"),
+    ];
+    for (option, code, place) in cases {
+        let arguments = [&["run", "lump.toml", "--no-files"], &option[..]].concat();
+        folder.run(&arguments).exits(2).says(code).says(place);
+    }
+}
+
+#[test]
+fn help_keeps_to_the_width_of_the_terminal() {
+    let folder = Folder::empty();
+    for (columns, widest) in [("60", 60), ("80", 80), ("200", 100)] {
+        for verb in ["run", "plot", "fit", "size"] {
+            let mut command = folder.command(&["help", verb]);
+            let ran = common::Ran::of(command.env("COLUMNS", columns).output().unwrap()).exits(0);
+            let longest = ran.out.lines().map(|line| line.chars().count()).max().unwrap();
+            assert!(longest <= widest, "{verb} at {columns}: {longest}");
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! `--stop` and `--every`: other times for a run, checked like those of the file.
+
+use lptn_data::{Rejected, Span};
+use lptn_network::Value;
+
+use crate::netlist::Netlist;
+use crate::run::OutputPlan;
+use crate::setting::Setting;
+
+/// A time of a run that may be given anew.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunTime {
+    /// When it ends.
+    Stop,
+    /// The time between two rows; rows at times of their own are given up for it.
+    Every,
+}
+
+impl RunTime {
+    /// The option of the command line.
+    pub fn option(self) -> &'static str {
+        match self {
+            Self::Stop => "--stop",
+            Self::Every => "--every",
+        }
+    }
+}
+
+impl Netlist {
+    /// Gives the run another time of `seconds`, written as `text`. Nothing is changed on an error,
+    /// nor without a `[run]`.
+    ///
+    /// # Errors
+    /// [`Rejected`] if the time breaks something of `[run]`: a run that ends before it begins, a
+    /// window or a row that lies outside of it, a signal that ends earlier, too many rows.
+    pub fn set_run_time(
+        &mut self,
+        which: RunTime,
+        text: &str,
+        seconds: f64,
+    ) -> Result<(), Rejected> {
+        let Some(mut plan) = self.plan.clone() else { return Ok(()) };
+        let mut files = self.files.clone();
+        let file = files.add(which.option(), text);
+        let setting = Setting {
+            value: Value::Constant(seconds),
+            span: Span::new(file, 0..text.len()),
+            words: format!("`{}`", which.option()),
+            unit: "s".into(),
+            help: format!("write it like this: {} \"10 min\"", which.option()),
+        };
+        match which {
+            RunTime::Stop => plan.stop = setting,
+            RunTime::Every => plan.output = Some(OutputPlan::Every(setting)),
+        }
+        let run = plan.settings(&self.network);
+        let run = run.map_err(|diagnostics| Rejected::arranged(files.clone(), diagnostics, 0))?;
+        (self.plan, self.run, self.files) = (Some(plan), Some(run), files);
+        Ok(())
+    }
+}
