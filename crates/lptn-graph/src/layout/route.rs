@@ -113,7 +113,7 @@ pub(super) fn pull_apart(columns: &Columns, levels: &mut [f64]) {
 
 impl Channel {
     /// The net, and the level of its pin to the right, of a wire that lies upon another one.
-    fn upon(&self) -> Option<(usize, f64)> {
+    pub(super) fn upon(&self) -> Option<(usize, f64)> {
         let bent = || self.wires.iter().filter(|wire| !wire.is_straight());
         bent().find_map(|wire| {
             let others = bent().filter(|other| other.net != wire.net && other.track > wire.track);
