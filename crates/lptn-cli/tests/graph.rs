@@ -65,6 +65,26 @@ fn temperatures_and_heat_flows_are_those_of_the_closed_form() {
     assert!(ran.out.contains("n1 -->|\"far<br/>3 K/W<br/>4.00 W\"| n2"), "{}", ran.out);
 }
 
+/// 2 W/K flow from the inlet into the pot, written as a negative rate from the pot, and on to the
+/// drain. 2 W/K (60 degC - T) = (T - 20 degC) / 0.5 K/W: T is 40 degC, and each stream brings 40 W.
+#[test]
+fn a_stream_is_drawn_the_way_it_flows() {
+    let text = "format = 1\n[node]\npot = { C = \"100 J/K\", T0 = \"20 degC\" }\n[boundary]\n\
+                inlet = { T = \"60 degC\" }\nair = { T = \"20 degC\" }\ndrain = { T = \"20 degC\" \
+                }\n[advection]\nfeed = { from = \"pot\", to = \"inlet\", mcp = \"-2 W/K\" }\n\
+                waste = { from = \"pot\", to = \"drain\", mcp = \"2 W/K\" }\n[resistor]\nskin = { \
+                from = \"pot\", to = \"air\", R = \"0.5 K/W\" }\n";
+    let folder = Folder::with("pot.toml", text);
+    let ran = folder.run(&["graph", "pot.toml", "--steady", "--format", "mermaid"]);
+    assert!(
+        ran.out.contains("n2 ==>|\"feed<br/>2 W/K<br/>40.00 W\"| n1"),
+        "{}{}",
+        ran.out,
+        ran.err
+    );
+    assert!(ran.out.contains("n1 ==>|\"waste<br/>2 W/K<br/>40.00 W\"| n4"), "{}", ran.out);
+}
+
 #[test]
 fn without_steady_no_temperature_is_computed() {
     let folder = Folder::with("two.toml", PARALLEL);

@@ -179,7 +179,11 @@ impl Reader<'_> {
             let conductor = &self.network.conductors()[id.index()];
             (self.at(conductor.from), self.at(conductor.to), conductor.kind)
         };
-        let between = |(from, to, kind): Ends| (from.min(to), from.max(to), kind);
+        // streams one way and the other are two
+        let between = |(from, to, kind): Ends| match kind {
+            ConductorKind::Advection => (from, to, kind),
+            _ => (from.min(to), from.max(to), kind),
+        };
         let mut units: BTreeMap<Ends, BTreeSet<Item>> = BTreeMap::new();
         for id in self.network.conductor_ids() {
             units.entry(between(ends(id))).or_default().insert(self.unit(id));
@@ -209,10 +213,15 @@ impl Reader<'_> {
         let conductor = |id: ConductorId| &self.network.conductors()[id.index()];
         let sign = |id: ConductorId| if self.at(conductor(id).from) == from { 1.0 } else { -1.0 };
         let first = members[0];
+        let back = conductor(first).law.is_stream() && members.iter().all(|id| self.runs_back(*id));
         let heat = self.view.steady.map(|steady| {
-            let heats = members.iter().map(|id| sign(*id) * steady.conductor_heat[id.index()]);
-            heats.sum::<f64>()
+            let heat = |id: &ConductorId| match back {
+                true => steady.received[id.index()][0],
+                false => sign(*id) * steady.conductor_heat[id.index()],
+            };
+            members.iter().map(heat).sum::<f64>()
         });
+        let (from, to) = if back { (to, from) } else { (from, to) };
         Link {
             name: self.link_name(members),
             kind: conductor(first).kind,
@@ -221,6 +230,18 @@ impl Reader<'_> {
             value: self.value(members),
             stream: conductor(first).law.is_stream(),
             heat: heat.map(|heat| if heat.abs() > NOISE { heat } else { 0.0 }),
+        }
+    }
+
+    /// Whether a stream flows from its second end to its first.
+    fn runs_back(&self, id: ConductorId) -> bool {
+        match (self.network.flow(id), self.view.steady) {
+            (ConductorFlow::Stream(rate), _) => rate < 0.0,
+            (_, Some(steady)) => {
+                let [back, on] = steady.received[id.index()];
+                back.abs() > on.abs()
+            }
+            _ => false,
         }
     }
 

@@ -67,7 +67,8 @@ pub(crate) fn arrange(places: &[Room], elements: &[Element], most: f64) -> Arran
     let ranks = rank::ranks(places.len(), elements);
     let mut columns = Columns::of(places, elements, &ranks);
     order::reduce_crossings(&mut columns);
-    let levels = place::levels(&columns);
+    let mut levels = place::levels(&columns);
+    route::pull_apart(&columns, &mut levels);
     let routes: Vec<route::Channel> =
         (0..columns.nets.len()).map(|channel| route::channel(&columns, &levels, channel)).collect();
     let mut arranged = Arranged {
@@ -151,7 +152,8 @@ impl Row<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Arranged, Element, Room, arrange};
+    use super::columns::Columns;
+    use super::{Arranged, Element, Room, arrange, place, rank, route};
 
     /// Numbers in an order that is always the same (Marsaglia's xorshift, 2003).
     struct Chance(u64);
@@ -182,6 +184,17 @@ mod tests {
         a[0] < b[1] - SLACK && b[0] < a[1] - SLACK && a[2] < b[3] - SLACK && b[2] < a[3] - SLACK
     }
 
+    /// A wire that lies upon another one, by its channel, net and level.
+    fn upon(places: &[Room], elements: &[Element]) -> Option<(usize, (usize, f64))> {
+        let ranks = rank::ranks(places.len(), elements);
+        let mut columns = Columns::of(places, elements, &ranks);
+        super::order::reduce_crossings(&mut columns);
+        let mut levels = place::levels(&columns);
+        route::pull_apart(&columns, &mut levels);
+        (0..columns.nets.len())
+            .find_map(|i| Some((i, route::channel(&columns, &levels, i).upon()?)))
+    }
+
     /// Nothing stands upon anything, no wire goes through the words above and below an element, and
     /// everything is on the page, whatever the network.
     #[test]
@@ -207,6 +220,7 @@ mod tests {
             elements.push(Element { block, from: None, to: chance.below(count) });
             let most = if chance.below(2) == 0 { 800.0 } else { 1e9 };
             let arranged = arrange(&places, &elements, most);
+            assert_eq!(upon(&places, &elements), None);
             let boxes = boxes(&places, &elements, &arranged);
             for (i, a) in boxes.iter().enumerate() {
                 assert!(a[0] > -0.01 && a[1] < arranged.size.0 + 0.01, "{a:?} {:?}", arranged.size);

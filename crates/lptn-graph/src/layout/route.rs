@@ -93,7 +93,38 @@ pub(crate) fn channel(columns: &Columns, levels: &[f64], channel: usize) -> Chan
     Channel { wires, tracks }
 }
 
+/// How far a vertex is moved whose wire would lie upon another; twice that is less than the gap
+/// between two neighbours of a column.
+const NUDGE: f64 = 6.0;
+
+/// Moves vertices by a little where two wires have to pass each other on the same levels: drawn
+/// upon each other they would look joined.
+pub(super) fn pull_apart(columns: &Columns, levels: &mut [f64]) {
+    for number in 0..columns.nets.len() {
+        for _ in 0..2 {
+            let Some((net, level)) = channel(columns, levels, number).upon() else { break };
+            let pins = columns.nets[number][net].right.iter();
+            let moved: Vec<usize> =
+                pins.copied().filter(|v| (levels[*v] - level).abs() < SAME).collect();
+            moved.into_iter().for_each(|v| levels[v] += NUDGE);
+        }
+    }
+}
+
 impl Channel {
+    /// The net, and the level of its pin to the right, of a wire that lies upon another one.
+    pub(super) fn upon(&self) -> Option<(usize, f64)> {
+        let bent = || self.wires.iter().filter(|wire| !wire.is_straight());
+        bent().find_map(|wire| {
+            let others = bent().filter(|other| other.net != wire.net && other.track > wire.track);
+            let mut levels = others.flat_map(|other| &other.left);
+            levels.find_map(|y| {
+                let pin = wire.right.iter().find(|pin| (*pin - y).abs() < SAME);
+                pin.map(|pin| (wire.net, *pin))
+            })
+        })
+    }
+
     /// Its width in pixels.
     pub(crate) fn width(&self) -> f64 {
         TRACK * (self.tracks as f64 + 1.0)
@@ -202,5 +233,29 @@ impl Channel {
             out.wires.extend(levels().map(|y| [(at.0, y), (x, y)]));
             out.dots.extend(levels().filter(|y| *y < bottom).map(|y| (at.0, y)));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Room;
+    use super::super::columns::{Columns, Net, Vertex};
+    use super::{channel, pull_apart};
+
+    /// Two wires change places: one of them has to be moved.
+    #[test]
+    fn wires_that_change_places_do_not_lie_upon_each_other() {
+        let net = |left: usize, right: usize| Net { left: vec![left], right: vec![right] };
+        let columns = Columns {
+            vertices: (0..4).map(Vertex::Place).collect(),
+            blocks: vec![Room::default(); 4],
+            weights: vec![1.0; 4],
+            layers: vec![vec![0, 1], vec![2, 3]],
+            nets: vec![vec![net(0, 3), net(1, 2)]],
+        };
+        let mut levels = vec![0.0, 50.0, 0.0, 50.0];
+        assert!(channel(&columns, &levels, 0).upon().is_some());
+        pull_apart(&columns, &mut levels);
+        assert!(channel(&columns, &levels, 0).upon().is_none(), "{levels:?}");
     }
 }
