@@ -1,12 +1,13 @@
 //! Kind: command line. Pictures: `lptn plot`, and `--plot` of the other verbs.
 //!
-//! A value is read back from a picture by its axis: the numbers that stand at it and their places.
-
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod common;
+#[path = "common/picture.rs"]
+mod picture;
 
 use common::{Folder, Ran};
+use picture::Picture;
 
 /// One lump of 1000 J/K that 100 W heat and 10 W/K cool: 25 + 10 (1 - exp(-t / 100 s)) degC.
 const LUMP: &str = "format = 1
@@ -26,45 +27,12 @@ stop = '300 s'
 output = { every = '1 s' }
 ";
 
+/// The title of the axis of temperatures.
+const TEMPERATURE: &str = "temperature [°C]";
+
 /// The rise of the lump in K.
 fn rise(time: f64) -> f64 {
     10.0 * (1.0 - (-time / 100.0).exp())
-}
-
-/// A number of an attribute.
-fn attribute(line: &str, name: &str) -> Option<f64> {
-    let (_, rest) = line.split_once(&format!(" {name}=\""))?;
-    rest.split_once('"')?.0.parse().ok()
-}
-
-/// Numbers at one of the axes with their places: those of the left axis end at them, those of the
-/// lower one are around them.
-fn axis(svg: &str, anchor: &str, place: &str) -> Vec<(f64, f64)> {
-    let lines = svg.lines().filter(|line| line.contains(&format!("text-anchor=\"{anchor}\"")));
-    lines
-        .filter_map(|line| {
-            let text = line.split_once('>')?.1.split_once("</text>")?.0.replace('\u{2212}', "-");
-            Some((attribute(line, place)?, text.parse().ok()?))
-        })
-        .collect()
-}
-
-/// The value at a place between two marks.
-fn value(marks: &[(f64, f64)], place: f64) -> f64 {
-    let (a, b) = (marks[0], marks[marks.len() - 1]);
-    a.1 + (place - a.0) * (b.1 - a.1) / (b.0 - a.0)
-}
-
-/// The points of the curve that says this name.
-fn points(svg: &str, name: &str) -> Vec<(f64, f64)> {
-    let tip = format!("<title>{name}</title></path>");
-    let line = svg.lines().find(|line| line.ends_with(&tip) && line.contains("s-series")).unwrap();
-    let path = line.split_once("d=\"").unwrap().1.split_once('"').unwrap().0;
-    let point = |text: &str| {
-        let (x, y) = text.split_once(' ').unwrap();
-        (x.parse().unwrap(), y.parse().unwrap())
-    };
-    path.split(['M', 'L']).filter(|text| !text.is_empty()).map(point).collect()
 }
 
 #[test]
@@ -72,20 +40,15 @@ fn a_curve_is_where_the_closed_form_is() {
     let folder = Folder::with("lump.toml", LUMP);
     let output = folder.run(&["plot", "lump.toml", "--select", "lump.T", "-o", "lump.svg"]);
     assert_eq!(output.code, Some(0), "{}", output.err);
-    let svg = folder.read("lump.svg");
-    let (across, upward) = (axis(&svg, "middle", "x"), axis(&svg, "end", "y"));
-    // a digit's middle is at its mark, so 0.36 of its size above the line that it stands on
-    let upward: Vec<_> = upward.into_iter().map(|(y, number)| (y - 0.36 * 11.0, number)).collect();
-    let curve = points(&svg, "lump");
-    assert!(curve.len() > 100 && across.len() > 3 && upward.len() > 3, "{svg}");
+    let picture = Picture::read(&folder.read("lump.svg"));
+    let curve = picture.lines(TEMPERATURE, "series0").remove(0);
+    assert!(curve.len() > 100, "{curve:?}");
     // marks and points are rounded to a hundredth of a pixel, of which 10 K take some 270
-    for (x, y) in curve {
-        let (minutes, celsius) = (value(&across, x), value(&upward, y));
+    for (minutes, celsius) in curve {
         let expected = 25.0 + rise(60.0 * minutes);
         assert!((celsius - expected).abs() < 0.01, "{minutes} min: {celsius}, not {expected}");
     }
-    assert!(svg.contains(">time [min]<") && svg.contains(">temperature [°C]<"));
-    assert!(svg.contains(">lump.T below 30 °C<") && svg.contains(">hot broken<"));
+    picture.says("time [min]").says("lump.T below 30 °C").says("hot broken");
 }
 
 #[test]
@@ -125,21 +88,11 @@ fn what_was_measured_stands_over_the_run_and_the_difference_below() {
     let arguments = ["plot", "lump.toml", "measured.csv", "--select", "lump.T", "-o", "both.svg"];
     let output = folder.run(&arguments);
     assert_eq!(output.code, Some(0), "{}", output.err);
-    let svg = folder.read("both.svg");
-    assert!(svg.contains(">measured \u{2212} run [K]<"), "{svg}");
-    let marks = axis(&svg, "end", "y");
-    let marks = marks.into_iter().filter(|mark| (0.4..0.6).contains(&mark.1));
-    let marks: Vec<_> = marks.map(|(y, number)| (y - 0.36 * 11.0, number)).collect();
-    let mut dots =
-        svg.lines().filter(|line| line.contains("f-series0") && line.starts_with("<path"));
-    let below = dots.next_back().unwrap().split('M').skip(1);
-    let left: Vec<f64> = below
-        .map(|dot| dot.split(['a', ' ']).nth(1).unwrap().parse().unwrap())
-        .map(|y| value(&marks, y))
-        .collect();
-    assert_eq!(left.len(), 30);
+    let picture = Picture::read(&folder.read("both.svg"));
+    let left = picture.dots("measured \u{2212} run [K]", "series0");
+    assert_eq!((left.len(), picture.dots(TEMPERATURE, "series0").len()), (30, 30));
     // the run is right to 1e-4 K, and its curve is straight between rows of 1 s
-    assert!(left.iter().all(|kelvin| (kelvin - 0.5).abs() < 5e-4), "{left:?}");
+    assert!(left.iter().all(|(_, kelvin)| (kelvin - 0.5).abs() < 5e-4), "{left:?}");
 }
 
 #[test]
@@ -148,10 +101,11 @@ fn results_are_drawn_as_the_run_that_wrote_them() {
     folder.run(&["run", "lump.toml"]);
     folder.run(&["plot", "out/lump", "--select", "lump.T", "-o", "a.svg"]);
     folder.run(&["plot", "lump.toml", "--select", "lump.T", "-o", "b.svg"]);
-    let (a, b) = (folder.read("a.svg"), folder.read("b.svg"));
+    let [a, b] = ["a.svg", "b.svg"].map(|name| Picture::read(&folder.read(name)));
+    let line = |picture: &Picture| picture.lines(TEMPERATURE, "series0").remove(0);
     // the limit is not among the results, and widens the axis of neither
-    assert_eq!(points(&a, "lump"), points(&b, "lump"));
-    assert!(a.contains(">hot broken<"), "{a}");
+    assert_eq!(line(&a), line(&b));
+    a.says("hot broken");
 }
 
 #[test]

@@ -1,5 +1,10 @@
 //! Reads a picture back: what its dots and lines say in the units of the axes.
-#![allow(unreachable_pub, clippy::unwrap_used, reason = "a part of tests")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    clippy::unwrap_used,
+    reason = "each test file uses a part of it"
+)]
 
 /// A panel of a picture.
 #[derive(Debug, Default)]
@@ -78,7 +83,8 @@ impl Picture {
                 match (attribute(line, "text-anchor"), number(text)) {
                     (Some("end"), Some(value)) => next.marks.push((at("y") - 0.36 * 11.0, value)),
                     (Some("middle"), Some(value)) => next.across.push((at("x"), value)),
-                    _ if line.contains("rotate(") => {
+                    // what happened at a moment is written upwards too, from its beginning on
+                    (Some("middle"), None) if line.contains("rotate(") => {
                         next.title = text.to_owned();
                         picture.panels.push(std::mem::take(&mut next));
                     }
