@@ -1,4 +1,5 @@
-//! Kind: command line. `--stop` and `--every`: other times for a run, held to what the file is.
+//! Kind: command line. `--stop` and `--every`: other times for a run, held to what the file is; the
+//! width of help, and manual pages.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -58,6 +59,22 @@ fn times_that_do_not_fit_are_refused_by_their_option() {
     for (option, code, place) in cases {
         let arguments = [&["run", "lump.toml", "--no-files"], &option[..]].concat();
         folder.run(&arguments).exits(2).says(code).says(place);
+    }
+}
+
+/// Every verb that the help names has a page with its options.
+#[test]
+fn every_verb_has_a_manual_page() {
+    let folder = Folder::empty();
+    folder.run(&["man", "pages"]).exits(0).says("wrote  ");
+    let help = folder.run(&["help"]).out;
+    let verbs = help.split_once("Commands:").unwrap().1.split_once("Options:").unwrap().0;
+    let names = verbs.lines().filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
+    let names: Vec<&str> = names.filter(|name| !name.is_empty() && *name != "help").collect();
+    assert!(names.len() > 15, "{names:?}");
+    for name in names {
+        let page = folder.read(&format!("pages/lptn-{name}.1"));
+        assert!(page.contains(".SH OPTIONS") && page.contains("quiet"), "{name}: {page}");
     }
 }
 

@@ -5,6 +5,7 @@ pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod fit;
 pub(crate) mod graph;
+pub(crate) mod man;
 pub(crate) mod materials;
 pub(crate) mod modes;
 pub(crate) mod new;
@@ -58,4 +59,5 @@ verbs! {
     Units(units::UnitsArgs) => units::units,
     Materials(materials::MaterialsArgs) => materials::materials,
     Completions(completions::CompletionsArgs) => completions::completions,
+    Man(man::ManArgs) => man::man,
 }
