@@ -6,7 +6,7 @@ use crate::ink::Theme;
 use crate::scene::{Align, Dash, Path, Scene, Shape, Step, Text};
 
 /// A drawing as SVG with the colours of paper. Each line has the class `s-KEY` and each area and
-/// text `f-KEY` of its [`Ink`], by which a page that shows it may give it other colours.
+/// text `f-KEY` of its [`Ink`](crate::Ink), by which a page that shows it may give it other colours.
 pub fn write(scene: &Scene) -> String {
     let (width, height) = (length(scene.size.0), length(scene.size.1));
     let mut out = format!(
