@@ -90,7 +90,9 @@ fn wanted(network: &Network, id: LimitId, unit: &Unit) -> String {
 }
 
 /// Marks the limits in the panels that show what they are of: temperatures, and columns by name.
-pub(crate) fn mark(panels: &mut [Panel], network: &Network, unit: &Unit) {
+/// Gives how many are of something that no panel shows.
+pub(crate) fn mark(panels: &mut [Panel], network: &Network, unit: &Unit) -> usize {
+    let mut left_out = 0;
     for id in network.limit_ids() {
         let limit = &network.limits()[id.index()];
         let value = bound(network, limit);
@@ -101,12 +103,23 @@ pub(crate) fn mark(panels: &mut [Panel], network: &Network, unit: &Unit) {
             let named = panel.curves.iter().any(|curve| curve.name == limit.text);
             if of_temperatures { panel.y.name == TEMPERATURE } else { named }
         };
-        panels
-            .iter_mut()
-            .find(shows)
-            .into_iter()
-            .for_each(|panel| panel.limits.push(level.clone()));
+        match panels.iter_mut().find(shows) {
+            Some(panel) => panel.limits.push(level),
+            None => left_out += 1,
+        }
     }
+    left_out
+}
+
+/// Which limits were broken, by how much and when: rows may miss it.
+pub(crate) fn broken(network: &Network, limits: &[Judged], unit: &Unit) -> Vec<String> {
+    let said = |judged: &Judged| {
+        let limit = &network.limits()[judged.limit.index()];
+        let by = number(-judged.margin, limit.margin_type(), unit);
+        let at = judged.worst_at.map_or(String::new(), |time| format!(" at {}", duration(time, 3)));
+        format!("{} broken by {by}{at}", limit.name)
+    };
+    limits.iter().filter(|judged| judged.is_broken()).map(said).collect()
 }
 
 /// What the quantity has to stay below or above, in SI units.

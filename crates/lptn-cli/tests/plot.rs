@@ -104,8 +104,43 @@ fn results_are_drawn_as_the_run_that_wrote_them() {
     let [a, b] = ["a.svg", "b.svg"].map(|name| Picture::read(&folder.read(name)));
     let line = |picture: &Picture| picture.lines(TEMPERATURE, "series0").remove(0);
     // the limit is not among the results, and widens the axis of neither
-    assert_eq!(line(&a), line(&b));
+    let (a_line, b_line) = (line(&a), line(&b));
+    assert_eq!(a_line.len(), b_line.len());
+    let same = |(a, b): (&(f64, f64), &(f64, f64))| (a.0 - b.0).hypot(a.1 - b.1) < 1e-9;
+    assert!(a_line.iter().zip(&b_line).all(same));
     a.says("hot broken");
+}
+
+/// Found by use: a last number that was cut off, -55.7 to -5, was drawn without a word.
+#[test]
+fn results_that_were_cut_off_are_not_drawn_in_silence() {
+    let folder = Folder::with("lump.toml", LUMP);
+    folder.run(&["run", "lump.toml"]).exits(0);
+    assert!(!folder.run(&["plot", "out/lump"]).exits(0).err.contains("manifest"));
+    let whole = folder.read("out/lump/result.csv");
+    folder.write("out/lump/result.csv", &whole[..whole.len() - 3]);
+    folder.run(&["plot", "out/lump"]).exits(0).says("plot::not_as_written");
+}
+
+/// Found by use: rows of 100 s miss a pulse of 10 s, and with it that the limit was broken.
+#[test]
+fn a_limit_that_was_broken_between_rows_is_said() {
+    let pulse = LUMP
+        .replace("P = '100 W'", "P = \"100 [W] * if(t < 40 [s], 1, 0)\"")
+        .replace("every = '1 s'", "every = '300 s'")
+        .replace("below = '30 degC'", "below = '28 degC'");
+    let folder = Folder::with("lump.toml", &pulse);
+    // 10 K (1 - exp(-0.4)) = 3.297 K at 40 s, 0.297 K too much
+    folder.run(&["plot", "lump.toml"]).exits(0).prints("hot broken by 0.2968 K at 40 s");
+}
+
+#[test]
+fn designs_of_one_name_are_named_by_their_paths() {
+    let folder = Folder::with("lump.toml", LUMP);
+    folder.run(&["run", "lump.toml"]);
+    let other = ["plot", "lump.toml", "out/lump", "--set", "x=1", "--select", "lump.T"];
+    folder.write("lump.toml", &format!("{LUMP}[param]\nx = 1\n").replace("100 W", "50 W"));
+    folder.run(&other).exits(0).prints("lump.toml: lump").prints("out/lump: lump");
 }
 
 #[test]
@@ -150,13 +185,17 @@ fn every_verb_with_a_curve_has_a_picture() {
 #[test]
 fn what_cannot_be_drawn_is_said() {
     let folder = Folder::with("lump.toml", LUMP);
-    let cases: [(&[&str], &str); 7] = [
+    std::fs::create_dir(folder.path().join("folder.svg")).unwrap();
+    folder.write("record.csv", "time [s],a [degC]\n0,1\n1,2\n");
+    let cases: [(&[&str], &str); 9] = [
         (&["plot", "lump.toml", "-o", "x.pdf"], "ends with .svg or .png"),
         (&["plot", "."], "there is no result.csv"),
         (&["plot", "lump.toml", "--select", "lamp.T"], "lump.T"),
         (&["steady", "lump.toml", "--plot", "x.svg"], "there is no picture of this answer"),
         (&["units", "3 W", "--plot", "x.svg"], "there is no picture of this answer"),
         (&["run", "lump.toml", "--no-files", "--format", "csv", "--plot", "-"], "below a table"),
+        (&["plot", "record.csv", "--stop", "5s"], "--stop changes a run"),
+        (&["plot", "lump.toml", "-o", "folder.svg"], "what stands there is not a file"),
         (&["plot", "lump.toml", "-o", "nowhere/x.svg"], "cannot write nowhere/x.svg"),
     ];
     for (arguments, wanted) in cases {
@@ -164,7 +203,7 @@ fn what_cannot_be_drawn_is_said() {
         assert!(matches!(code, Some(2 | 3)), "{arguments:?}: {text}");
         assert!(text.contains(wanted), "{arguments:?}: {text}");
     }
-    assert_eq!(folder.files(), ["lump.toml"]);
+    assert_eq!(folder.files(), ["lump.toml", "record.csv"]);
 }
 
 /// `LPTN_BLESS=1` draws them anew: look at them then.

@@ -2,7 +2,7 @@
 
 use std::iter::repeat_n;
 
-use crate::chart::{across, apart, in_lines, upward};
+use crate::chart::{across, apart, far, in_lines, upward};
 use crate::figure::{Curve, Figure, Look, Panel, Scale};
 use crate::ink::SERIES;
 use crate::ticks::Ruler;
@@ -117,6 +117,9 @@ impl Canvas {
             if (0.0..=1.0).contains(&place) {
                 let row = self.row(limit.value);
                 let name = format!("╌╌ {} ", plain(&limit.name));
+                // a number that is cut would be another one
+                let fits = name.chars().count() <= self.columns;
+                let name = if fits { name } else { String::new() };
                 let signs = name.chars().chain(repeat_n('╌', self.columns)).take(self.columns);
                 signs.enumerate().for_each(|(i, sign)| self.sign((row, i), sign));
             }
@@ -208,6 +211,7 @@ impl Canvas {
             "" => format!("{}\n", plain(&self.x.title)),
             title => format!("{} over {}\n", plain(title), plain(&self.x.title)),
         };
+        far(panel).iter().for_each(|text| out += &format!("{}\n", plain(text)));
         let names = self.names(panel);
         for row in 0..self.rows {
             let cells = &self.cells[row * self.columns..(row + 1) * self.columns];

@@ -38,12 +38,11 @@ impl Ruler {
 
 /// A range that is not empty around what may be one value.
 fn opened((low, high): (f64, f64)) -> (f64, f64) {
-    let around = 1e-9_f64.max(1e-9 * low.abs().max(high.abs()));
-    if high - low > around {
+    if high - low > 1e-12 * low.abs().max(high.abs()) {
         return (low, high);
     }
     let middle = f64::midpoint(low, high);
-    let half = if middle.abs() > 1.0 { 0.5 } else { 0.5 * middle.abs().max(around) };
+    let half = if middle.abs() > 1.0 || middle.abs() < 1e-300 { 0.5 } else { 0.5 * middle.abs() };
     (middle - half, middle + half)
 }
 
@@ -60,30 +59,54 @@ fn linear(axis: &Axis, range: (f64, f64), count: f64, whole: bool) -> Ruler {
 
 /// Multiples of a step inside a range.
 fn marks((low, high): (f64, f64), step: f64) -> Vec<(f64, String)> {
-    let decimals = (-(step.log10() + 1e-9).floor()).clamp(0.0, 12.0) as usize;
+    let notation = Notation::of(low.abs().max(high.abs()), step);
     let margin = 1e-6;
     let (first, last) = ((low / step - margin).ceil(), (high / step + margin).floor());
     let mut ticks = Vec::new();
     let mut at = first;
     while at <= last && ticks.len() < 1000 {
-        ticks.push((at * step, number(at * step, decimals)));
+        ticks.push((at * step, notation.text(at * step)));
         at += 1.0;
     }
     ticks
 }
 
-/// A number with this many decimals and the sign of typography; large and tiny ones with a power of
-/// ten.
-fn number(value: f64, decimals: usize) -> String {
-    let text = if value.abs() >= 1e6 || decimals > 5 {
-        let text = format!("{value:.2e}");
-        let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
-        format!("{}e{power}", digits.trim_end_matches('0').trim_end_matches('.'))
-    } else {
-        format!("{value:.decimals$}")
-    };
-    let is_zero = text.bytes().all(|c| matches!(c, b'-' | b'0' | b'.'));
-    if is_zero { text.trim_start_matches('-').into() } else { text.replace('-', "\u{2212}") }
+/// How the numbers of an axis are written: with as many digits as tell its marks apart.
+struct Notation {
+    decimals: usize,
+    /// A power of ten that all share.
+    power: Option<i32>,
+}
+
+impl Notation {
+    /// For numbers up to `largest` that are multiples of `step`.
+    fn of(largest: f64, step: f64) -> Self {
+        let (high, low) = (exponent(largest), exponent(step));
+        let decimals = |digits: i32| usize::try_from(digits).unwrap_or(0);
+        if high <= 6 && low >= -6 || (0..=3).contains(&high) && low >= -9 {
+            return Self { decimals: decimals(-low), power: None };
+        }
+        Self { decimals: decimals(high - low), power: Some(high) }
+    }
+
+    /// A number, with the sign of typography.
+    fn text(&self, value: f64) -> String {
+        let decimals = self.decimals;
+        let text = match self.power {
+            Some(power) => format!("{:.decimals$}", value / 10_f64.powi(power)),
+            None => format!("{value:.decimals$}"),
+        };
+        if text.bytes().all(|c| matches!(c, b'-' | b'0' | b'.')) {
+            return if self.power.is_some() { "0".into() } else { text.replace('-', "") };
+        }
+        let power = self.power.map_or(String::new(), |power| format!("e{power}"));
+        format!("{text}{power}").replace('-', "\u{2212}")
+    }
+}
+
+/// The power of ten of a number.
+fn exponent(value: f64) -> i32 {
+    (value.log10() + 1e-9).floor().clamp(-300.0, 300.0) as i32
 }
 
 /// The least of 1, 2 and 5 times a power of ten that is not below.
@@ -113,11 +136,11 @@ fn log(axis: &Axis, (low, high): (f64, f64), count: f64) -> Ruler {
 }
 
 fn short(value: f64) -> String {
-    let power = value.log10().floor();
-    if (-3.0..5.0).contains(&power) {
-        return number(value, (-power).max(0.0) as usize);
+    let power = exponent(value);
+    if (-3..5).contains(&power) {
+        return Notation::of(value, 10_f64.powi(power)).text(value);
     }
-    number(value, 12)
+    format!("{}e{power}", (value / 10_f64.powi(power)).round()).replace('-', "\u{2212}")
 }
 
 /// Seconds in the units in which people tell times, with the steps that divide each.
@@ -202,6 +225,29 @@ mod tests {
         assert_eq!(texts(&axis, (5.0, 5.0), 2.0).0, ["4.5", "5.0", "5.5"]);
         assert_eq!(texts(&axis, (-0.3, 0.31), 2.0).0, ["\u{2212}0.2", "0.0", "0.2"]);
         assert_eq!(printed("degC"), "°C");
+    }
+
+    /// Marks of one text would say that nothing changes.
+    #[test]
+    fn marks_are_told_apart() {
+        for range in [
+            (999_000.0, 1_001_000.0),
+            (1e6, 1_000_900.0),
+            (20.0, 20.000_004),
+            (-273.15, -273.149_999_9),
+            (1e-12, 3e-12),
+            (-3e-12, 3e-12),
+            (1e9, 1e9 + 50.0),
+        ] {
+            let (mut found, _) = texts(&Axis::linear("heat", "W"), range, 5.0);
+            let value = |text: &String| text.replace('\u{2212}', "-").parse::<f64>().unwrap();
+            let span = range.1 - range.0;
+            let inside = |v: f64| v >= range.0 - 1e-3 * span && v <= range.1 + 1e-3 * span;
+            assert!(found.len() >= 3 && found.iter().map(value).all(inside), "{found:?}");
+            let count = found.len();
+            found.dedup();
+            assert_eq!(found.len(), count, "{found:?}");
+        }
     }
 
     #[test]

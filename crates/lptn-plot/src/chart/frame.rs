@@ -2,7 +2,7 @@
 
 use super::area::{Area, NAME, SMALL, shortened};
 use super::range;
-use crate::figure::{Panel, Scale};
+use crate::figure::{Level, Panel, Scale};
 use crate::font::width;
 use crate::ink::Ink;
 use crate::scene::{Align, Dash, Scene, Stroke, Text, line};
@@ -10,13 +10,15 @@ use crate::scene::{Align, Dash, Scene, Stroke, Text, line};
 /// Room for the numbers and the title of the axis to the right.
 pub(super) const ROOM_BELOW: f64 = 46.0;
 
+/// Lines for limits that are too far to be shown.
+const FAR: usize = 3;
+
 /// Least distance of the names of two moments.
 const APART: f64 = 14.0;
 
 /// Room above a panel for what is said of limits that are too far to be shown.
 pub(super) fn room_above(panel: &Panel) -> f64 {
-    let lines = range::far(panel).count();
-    lines.min(3) as f64 * (SMALL + 4.0)
+    far(panel).len() as f64 * (SMALL + 4.0)
 }
 
 /// Grid, axes and their numbers. Where the panel below has the same axis to the right, that one
@@ -28,6 +30,7 @@ pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area, shared: bool) 
         let y = area.y_at(*value);
         scene.put(line([(area.left, y), (area.right, y)]).stroked(grid));
         let size = if is_list { NAME } else { SMALL };
+        let text = shortened(text, size, area.left - 7.0);
         let text = Text::new(text, (area.left - 7.0, y + 0.36 * size), size, Ink::Faint);
         scene.write(text.aligned(Align::End));
     }
@@ -71,14 +74,27 @@ pub(super) fn marks(scene: &mut Scene, panel: &Panel, area: &Area) {
         let y = if below { y + SMALL + 2.0 } else { y - 4.0 };
         scene.write(Text::new(&limit.name, (area.left + 6.0, y), SMALL, Ink::Limit));
     }
-    for (i, limit) in range::far(panel).take(3).enumerate() {
-        let above = limit.value > f64::midpoint(area.y.range.0, area.y.range.1);
-        let way = if above { "above" } else { "below" };
-        let text = format!("{}, {way} what is shown", limit.name);
+    for (i, text) in far(panel).into_iter().enumerate() {
         let y = area.top - 5.0 - i as f64 * (SMALL + 4.0);
         scene.write(Text::new(text, (area.left + 6.0, y), SMALL, Ink::Limit));
     }
     moments(scene, panel, area);
+}
+
+/// What is said of limits that are too far to be shown.
+pub(crate) fn far(panel: &Panel) -> Vec<String> {
+    let (low, high) = range::upward(panel);
+    let text = |limit: &Level| {
+        let way = if limit.value > f64::midpoint(low, high) { "above" } else { "below" };
+        format!("{}, {way} what is shown", limit.name)
+    };
+    let mut texts: Vec<String> = range::far(panel).map(text).collect();
+    if texts.len() > FAR {
+        let more = texts.len() - FAR + 1;
+        texts.truncate(FAR - 1);
+        texts.push(format!("and {more} more limits beyond what is shown"));
+    }
+    texts
 }
 
 fn moments(scene: &mut Scene, panel: &Panel, area: &Area) {

@@ -4,7 +4,7 @@ use super::area::{Area, NAME, shortened};
 use super::curves;
 use crate::figure::{Panel, Scale};
 use crate::ink::Ink;
-use crate::scene::{Scene, Stroke, Text, circle, line};
+use crate::scene::{Dash, Scene, Stroke, Text, circle, line};
 
 /// Room between a curve's end and its name.
 pub(super) const GAP: f64 = 14.0;
@@ -54,13 +54,14 @@ pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area, right: f64) {
 }
 
 fn connect(scene: &mut Scene, label: &Label<'_>, (edge, x): (f64, f64)) {
-    let moved = (label.y - label.end.1).abs() > 2.0;
-    let short = edge - label.end.0 > 2.0;
-    if moved || short {
-        let stroke = Stroke::solid(label.ink, 0.7);
-        let elbow = edge.max(label.end.0) + 2.0;
-        let path = line([label.end, (elbow, label.end.1), (x - 3.0, label.y)]);
-        scene.put(path.stroked(stroke));
+    let from = (edge.max(label.end.0) + 2.0, label.end.1);
+    if edge - label.end.0 > 2.0 {
+        // grey and dotted, or it would look as if the curve went on
+        let stroke = Stroke { ink: Ink::Frame, width: 0.7, dash: Dash::Dotted };
+        scene.put(line([label.end, from]).stroked(stroke));
+    }
+    if (label.y - label.end.1).abs() > 2.0 {
+        scene.put(line([from, (x - 3.0, label.y)]).stroked(Stroke::solid(label.ink, 0.7)));
     }
 }
 

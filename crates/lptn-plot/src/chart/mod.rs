@@ -6,6 +6,7 @@ mod frame;
 mod labels;
 mod range;
 
+pub(crate) use frame::far;
 pub(crate) use labels::apart;
 pub(crate) use range::{across, upward};
 
@@ -16,6 +17,9 @@ use crate::font::width;
 use crate::ink::Ink;
 use crate::scene::{Scene, Text};
 use crate::ticks::Ruler;
+
+/// Most room for what stands at the axis upwards.
+const WIDEST: f64 = 240.0;
 
 /// Room around everything.
 const MARGIN: f64 = 14.0;
@@ -117,7 +121,7 @@ fn left_margin(figure: &Figure) -> f64 {
         let widths = ruler.ticks.iter().map(|(_, text)| width(text, SMALL, false));
         widths.fold(0.0, f64::max) + if ruler.title.is_empty() { 0.0 } else { NAME + 8.0 }
     };
-    MARGIN + 9.0 + figure.panels.iter().map(numbers).fold(0.0, f64::max)
+    MARGIN + 9.0 + figure.panels.iter().map(numbers).fold(0.0, f64::max).min(WIDEST)
 }
 
 fn right_margin(figure: &Figure, page: f64) -> f64 {

@@ -10,10 +10,14 @@ use crate::console::Console;
 use crate::drawing::Drawing;
 use crate::exit::Exit;
 use crate::failure::Failure;
+use lptn_netlist::{Diagnostic, RunTime};
 use overlay::overlay;
 use source::Source;
 
 pub(crate) fn plot(args: &PlotArgs, console: &Console) -> Result<Exit, Failure> {
+    if !args.sources.iter().any(|path| source::is_netlist(path)) {
+        nothing_to_run(args)?;
+    }
     let mut exit = Exit::Done;
     let mut sources = Vec::new();
     for path in &args.sources {
@@ -25,4 +29,18 @@ pub(crate) fn plot(args: &PlotArgs, console: &Console) -> Result<Exit, Failure> 
     let drawing = args.output.as_ref().or(console.plot.as_ref()).unwrap_or(&here);
     console.draw(&[overlay(sources)], drawing)?;
     Ok(exit)
+}
+
+/// Refuses what only a run could do.
+fn nothing_to_run(args: &PlotArgs) -> Result<(), Failure> {
+    let times = &args.times;
+    let given = [
+        ("--set", !args.set.is_empty()),
+        (RunTime::Stop.option(), times.stop.is_some()),
+        (RunTime::Every.option(), times.every.is_some()),
+    ];
+    let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
+    let message = format!("{option} changes a run, and no netlist is among the files");
+    let problem = Diagnostic::error("plot::no_netlist", message);
+    Err(Failure::new(Exit::Input, problem.help("name the netlist instead of its results")))
 }

@@ -2,6 +2,7 @@
 
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Panel};
+use lptn_report::plain;
 
 use super::source::Source;
 
@@ -13,8 +14,10 @@ const RESIDUALS: f64 = 0.4;
 pub(super) fn overlay(sources: Vec<Source>) -> Figure {
     let runs = sources.iter().filter(|source| !source.measured).count();
     let several = sources.len() > 1;
+    let sources = named_apart(sources);
     let mut whole = Figure::default();
-    let titles: Vec<&str> = sources.iter().map(|source| source.figure.title.as_str()).collect();
+    let mut titles: Vec<&str> = sources.iter().map(|source| source.figure.title.as_str()).collect();
+    titles.dedup();
     whole.title = titles.join(" \u{b7} ");
     let mut measured = Vec::new();
     for mut source in sources {
@@ -38,6 +41,17 @@ pub(super) fn overlay(sources: Vec<Source>) -> Figure {
     }
     with_residuals(&mut whole.panels, &computed, &measured);
     whole
+}
+
+/// Names those of one name by their paths.
+fn named_apart(mut sources: Vec<Source>) -> Vec<Source> {
+    let names: Vec<String> = sources.iter().map(|source| source.name.clone()).collect();
+    for source in &mut sources {
+        if names.iter().filter(|name| **name == source.name).count() > 1 {
+            source.name = plain(&source.path.display().to_string());
+        }
+    }
+    sources
 }
 
 /// Names the curves by what they are of.
@@ -107,7 +121,10 @@ fn with_residuals(panels: &mut Vec<Panel>, computed: &[Panel], measured: &[Panel
         let residual = |curve: &Curve| {
             let (place, of) = computed_of(&curve.name, panel, computed)?;
             let points = curve.points.iter().map(|&(x, y)| (x, y - at(&of.points, x)));
-            let line = Curve::line(&curve.name, points.collect());
+            let points: Vec<(f64, f64)> = points.collect();
+            // a record of another time leaves nothing to compare
+            points.iter().find(|point| point.1.is_finite())?;
+            let line = Curve::line(&curve.name, points);
             Some(line.looks(Look::Dots).as_place(place))
         };
         let curves: Vec<Curve> = panel.curves.iter().filter_map(residual).collect();
@@ -142,7 +159,7 @@ mod tests {
         let mut panel = Panel::new(Axis::time(), Axis::linear("temperature", "degC"));
         panel.curves.push(curve);
         let figure = Figure { title: name.into(), note: String::new(), panels: vec![panel] };
-        Source { name: name.into(), measured, figure }
+        Source { name: name.into(), path: name.into(), measured, figure }
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! What is drawn: a run, what a run has written, or a record.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use lptn_netlist::{Diagnostic, Record, RecordColumn, RecordQuery, read_record};
+use lptn_netlist::{Diagnostic, Files, Record, RecordColumn, RecordQuery, read_record};
 use lptn_plot::Figure;
 use lptn_plot::figure::{Look, Moment};
 use lptn_report::{Format, panels};
@@ -13,7 +13,7 @@ use super::PlotArgs;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::names::{EVENTS, RESULT};
+use crate::files::names::{EVENTS, MANIFEST, RESULT};
 use crate::input::{self, Input};
 use crate::options::{Scale, Shown};
 use crate::verbs::run::{self, RunArgs};
@@ -22,6 +22,8 @@ use crate::verbs::run::{self, RunArgs};
 pub(super) struct Source {
     /// What it is called beside others.
     pub(super) name: String,
+    /// Where it comes from: two of one name are told apart by it.
+    pub(super) path: PathBuf,
     /// Whether it was measured.
     pub(super) measured: bool,
     pub(super) figure: Figure,
@@ -37,12 +39,13 @@ impl Source {
         if path.is_dir() {
             return Ok((Self::of_folder(path, args, console)?, Exit::Done));
         }
-        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv")) {
+        if is_record(path) {
             let table = columns(path, args, console)?;
             let mut figure = drawn(&table, &stem(path));
             let curves = figure.panels.iter_mut().flat_map(|panel| &mut panel.curves);
             curves.for_each(|curve| curve.look = Look::Dots);
-            return Ok((Self { name: stem(path), measured: true, figure }, Exit::Done));
+            let source = Self { name: stem(path), path: path.into(), measured: true, figure };
+            return Ok((source, Exit::Done));
         }
         Self::of_netlist(path, args, console)
     }
@@ -71,7 +74,12 @@ impl Source {
         outcome.messages(None, console);
         let exit = outcome.conclude(console, false);
         Ok((
-            Self { name: input.text.stem.clone(), measured: false, figure: outcome.figure() },
+            Self {
+                name: input.text.stem.clone(),
+                path: path.into(),
+                measured: false,
+                figure: outcome.figure(),
+            },
             exit,
         ))
     }
@@ -81,17 +89,44 @@ impl Source {
         if !result.is_file() {
             return Err(no_result(path));
         }
+        as_it_was_written(path, &result, console);
         let mut figure = drawn(&columns(&result, args, console)?, &stem(path));
         let moments = events(&path.join(EVENTS));
         figure.panels.iter_mut().for_each(|panel| panel.moments.clone_from(&moments));
-        Ok(Self { name: stem(path), measured: false, figure })
+        Ok(Self { name: stem(path), path: path.into(), measured: false, figure })
     }
+}
+
+fn is_record(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
+}
+
+/// Whether a path is neither results nor a record.
+pub(super) fn is_netlist(path: &Path) -> bool {
+    !path.is_dir() && !is_record(path)
 }
 
 fn no_result(path: &Path) -> Failure {
     let message = format!("there is no {RESULT} in the folder {}", path.display());
     let problem = Diagnostic::error("plot::no_result", message);
     Failure::new(Exit::Input, problem.help("`lptn run FILE` writes one into out/NAME"))
+}
+
+/// Warns where results are not those that their manifest speaks of: one that was cut off reads as
+/// another.
+fn as_it_was_written(folder: &Path, result: &Path, console: &Console) {
+    let manifest = std::fs::read_to_string(folder.join(MANIFEST)).unwrap_or_default();
+    let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap_or_default();
+    let files = manifest["results"].as_array().map_or(&[][..], Vec::as_slice);
+    let written = files.iter().find(|file| file["name"] == RESULT).map(|file| &file["sha256"]);
+    let found = std::fs::read(result).map(|bytes| lptn_study::sha256(&bytes)).ok();
+    let message = match (written, found) {
+        (Some(written), Some(found)) if written.as_str() == Some(found.as_str()) => return,
+        (Some(_), _) => format!("{} is not the file that its run has written", result.display()),
+        (None, _) => format!("no {MANIFEST} says whether {} is whole", result.display()),
+    };
+    let problem = Diagnostic::warning("plot::not_as_written", message);
+    console.warn(&Files::new(), &[problem.help("`lptn run FILE` writes it again")]);
 }
 
 fn stem(path: &Path) -> String {
@@ -109,8 +144,8 @@ fn drawn(table: &Table, title: &str) -> Figure {
 
 /// The columns of a CSV file that were asked for, over its times.
 fn columns(path: &Path, args: &PlotArgs, console: &Console) -> Result<Table, Failure> {
-    let scale = args.scale.temperature_unit.as_deref().unwrap_or("degC");
-    let scale = input::scale_of("--temperature-unit", scale)?;
+    let scale = args.scale.temperature_unit.as_deref();
+    let scale = scale.map(|scale| input::scale_of("--temperature-unit", scale)).transpose()?;
     let text = input::read(path)?;
     let (record, files) = read_record(Path::new(&text.name), &text.bytes, &RecordQuery::default())?;
     // our own results need no doubts
@@ -129,7 +164,8 @@ fn columns(path: &Path, args: &PlotArgs, console: &Console) -> Result<Table, Fai
     let mut table = Table::of(&rows);
     table.column("time", "s", |row| record.time[*row]);
     for column in chosen {
-        let unit = if column.unit.ty.absolute { &scale } else { &column.unit };
+        let scale = scale.as_ref().filter(|_| column.unit.ty.absolute);
+        let unit = scale.unwrap_or(&column.unit);
         table.column(&column.name, &unit.text, |row| shown(column.values[*row], unit));
     }
     Ok(table.done())

@@ -8,6 +8,7 @@ use lptn_solve::Event;
 
 use super::outcome::Outcome;
 use crate::limits;
+use crate::words::count;
 
 /// More events than this would hide the curves.
 pub(crate) const MOST_EVENTS: usize = 24;
@@ -17,18 +18,18 @@ impl Outcome<'_> {
     pub(crate) fn figure(&self) -> Figure {
         let (network, unit) = (self.solution.network(), &self.job.unit);
         let (mut panels, left_out) = panels(&self.table);
-        limits::mark(&mut panels, network, unit);
+        let undrawn = limits::mark(&mut panels, network, unit);
         let moments = moments(network, self.solution.events());
         for panel in &mut panels {
             panel.moments.clone_from(&moments);
             self.spread(panel);
         }
         let title = self.job.input.title();
-        Figure { title, note: self.note(left_out, moments.is_empty()), panels }
+        Figure { title, note: self.note((left_out, undrawn), moments.is_empty()), panels }
     }
 
     /// What is not shown.
-    fn note(&self, left_out: usize, no_moments: bool) -> String {
+    fn note(&self, (left_out, undrawn): (usize, usize), no_moments: bool) -> String {
         let mut notes = Vec::new();
         if left_out > 0 {
             notes.push(format!(
@@ -36,10 +37,18 @@ impl Outcome<'_> {
                 left_out + MOST_CURVES
             ));
         }
+        if undrawn > 0 {
+            notes.push(format!("{} of no curve that is shown", count(undrawn, "limit")));
+        }
         let events = self.solution.events().len();
         if no_moments && events > 0 {
             notes.push(format!("{events} events, which are not marked"));
         }
+        if events > self.table.rows() {
+            notes.push("more happens between rows than they show: --every writes more".into());
+        }
+        let (network, unit) = (self.solution.network(), &self.job.unit);
+        notes.extend(limits::broken(network, &self.limits(), unit));
         notes.extend(self.ended_early());
         if self.uncertainty().is_some() {
             notes.push("bands of 95 %".into());

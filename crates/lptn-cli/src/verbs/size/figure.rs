@@ -29,7 +29,7 @@ impl Answer<'_> {
         let at = unit.from_si(self.sizing.trial.value);
         let answer = if self.sizing.feasible() { "the answer" } else { "comes closest" };
         for panel in &mut panels {
-            panel.limits.push(Level { name: "broken below".into(), value: 0.0 });
+            panel.limits.push(Level { name: "margin 0: broken below it".into(), value: 0.0 });
             panel.moments.push(Moment { name: answer.into(), at });
         }
         let title = format!("{}: size {}", self.input.title(), self.study.name);
