@@ -5,6 +5,7 @@ use lptn_plot::figure::{Axis, Curve, Look, Moment, Panel};
 use lptn_study::{Candidate, CompareRow, LimitResult};
 
 use super::{Comparison, page};
+use crate::words::count;
 
 impl Comparison {
     /// A line for each candidate, in the order of the table.
@@ -29,7 +30,7 @@ impl Comparison {
         }
         margins.moments.push(Moment { name: "limit".into(), at: 0.0 });
         let panels = [hot, margins].into_iter().filter(|panel| !panel.curves.is_empty());
-        let title = format!("{} candidates", self.rows.len());
+        let title = count(self.rows.len(), "candidate");
         Figure { title, note: String::new(), panels: panels.collect() }
     }
 
