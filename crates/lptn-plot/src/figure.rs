@@ -123,7 +123,19 @@ impl Axis {
     }
 }
 
+impl Scale {
+    /// Whether it has a place for a value.
+    pub fn shows(&self, value: f64) -> bool {
+        value.is_finite() && (*self != Self::Log || value > 0.0)
+    }
+}
+
 impl Panel {
+    /// Whether both axes have a place for a point.
+    pub fn shows(&self, (x, y): (f64, f64)) -> bool {
+        self.x.scale.shows(x) && self.y.scale.shows(y)
+    }
+
     /// A panel without anything in it.
     pub fn new(x: Axis, y: Axis) -> Self {
         Self { x, y, curves: Vec::new(), limits: Vec::new(), moments: Vec::new(), share: 1.0 }

@@ -151,10 +151,9 @@ impl Canvas {
     }
 
     fn curve(&mut self, panel: &Panel, curve: &Curve, place: usize) {
-        let shown = |v: f64, scale: &Scale| v.is_finite() && (*scale != Scale::Log || v > 0.0);
         let mut last: Option<(f64, f64)> = None;
         for &(x, y) in &curve.points {
-            if !shown(x, &panel.x.scale) || !shown(y, &panel.y.scale) {
+            if !panel.shows((x, y)) {
                 last = None;
                 continue;
             }
@@ -237,8 +236,7 @@ impl Canvas {
     /// Names of curves with their rows and colours.
     fn names(&self, panel: &Panel) -> Vec<(String, usize, usize)> {
         let end = |(place, curve): (usize, &Curve)| {
-            let shown = |&&(x, y): &&(f64, f64)| x.is_finite() && y.is_finite();
-            let last = curve.points.iter().rev().find(shown)?;
+            let last = curve.points.iter().rev().find(|point| panel.shows(**point))?;
             let place = curve.place.unwrap_or(place);
             let mark = if self.marked(curve) { MARKS[place % MARKS.len()] } else { ' ' };
             let name = format!("{mark} {}", plain(&curve.name)).trim_start().to_owned();

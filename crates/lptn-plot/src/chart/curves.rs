@@ -39,14 +39,8 @@ pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area) {
 
 type Place<'a> = (&'a Panel, &'a Area);
 
-/// Whether an axis has a place for a value.
-fn is_shown(value: f64, scale: &Scale) -> bool {
-    value.is_finite() && (*scale != Scale::Log || value > 0.0)
-}
-
 fn on_page((panel, area): Place<'_>, (x, y): (f64, f64)) -> Option<(f64, f64)> {
-    let shown = is_shown(x, &panel.x.scale) && is_shown(y, &panel.y.scale);
-    shown.then(|| (area.x_at(x), area.y_at(y)))
+    panel.shows((x, y)).then(|| (area.x_at(x), area.y_at(y)))
 }
 
 /// The points of a curve on the page, thinned there to what so many stretches of its width show;

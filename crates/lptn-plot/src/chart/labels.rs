@@ -69,15 +69,9 @@ fn connect(scene: &mut Scene, label: &Label<'_>, (edge, x): (f64, f64)) {
 fn ends<'a>(panel: &'a Panel, area: &Area) -> Vec<Label<'a>> {
     let mut labels: Vec<Label<'a>> = Vec::new();
     for (place, curve) in panel.curves.iter().enumerate() {
-        let shown = |&&(x, y): &&(f64, f64)| {
-            let positive = |v: f64, scale: &Scale| *scale != Scale::Log || v > 0.0;
-            (x.is_finite() && y.is_finite())
-                && positive(x, &panel.x.scale)
-                && positive(y, &panel.y.scale)
-        };
         let ink = curves::ink(curve, place);
         let known = labels.iter().any(|label| label.name == curve.name && label.ink == ink);
-        let last = curve.points.iter().rev().find(shown);
+        let last = curve.points.iter().rev().find(|point| panel.shows(**point));
         if let (Some(&(x, y)), false, false) = (last, known, curve.name.is_empty()) {
             let end = (area.x_at(x), area.y_at(y));
             labels.push(Label { name: &curve.name, ink, end, y: end.1 });

@@ -27,13 +27,11 @@ pub(crate) fn across<'a>(panels: impl Iterator<Item = &'a Panel>) -> Range {
     let (mut range, mut scale, mut dotted) = (NOTHING, &Scale::Linear, false);
     for panel in panels {
         scale = &panel.x.scale;
-        let logarithmic = *scale == Scale::Log;
         dotted |= panel.curves.iter().any(|curve| matches!(curve.look, Look::Dots | Look::Stems));
-        let shown = |x: &f64| !logarithmic || *x > 0.0;
         let points = panel.curves.iter().flat_map(|curve| &curve.points);
         let moments = panel.moments.iter().map(|moment| moment.at);
         let all = points.map(|point| point.0).chain(moments);
-        range = all.filter(shown).fold(range, with);
+        range = all.filter(|x| scale.shows(*x)).fold(range, with);
     }
     let range = some(range, *scale == Scale::Log);
     // a dot on the edge would be cut in two; a record begins where it begins
@@ -60,16 +58,13 @@ pub(crate) fn upward(panel: &Panel) -> Range {
 }
 
 fn of_curves(panel: &Panel) -> Range {
-    let logarithmic = panel.y.scale == Scale::Log;
-    let shown = |y: &f64| !logarithmic || *y > 0.0;
     let mut range = NOTHING;
     for curve in &panel.curves {
         let spread = curve.spread.iter().flat_map(|&(low, high)| [low, high]);
         let all = curve.points.iter().map(|point| point.1).chain(spread);
-        range = all.filter(shown).fold(range, with);
-        if curve.look == Look::Stems && !logarithmic {
-            range = with(range, 0.0);
-        }
+        // stems stand on zero
+        let foot = (curve.look == Look::Stems).then_some(0.0);
+        range = all.chain(foot).filter(|y| panel.y.scale.shows(*y)).fold(range, with);
     }
     range
 }
