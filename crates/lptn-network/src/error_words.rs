@@ -148,7 +148,7 @@ pub(crate) fn evaluation(error: &EvalError) -> Option<String> {
             "a negative number has no such power; use `abs(..)` if the sign does not count"
         }
         EvalError::Domain { .. } => "check the sign of its argument",
-        EvalError::OutsideTable { .. } => return error.help().map(str::to_owned),
+        EvalError::OutsideTable { .. } => return error.help(),
         _ => return None,
     };
     Some(help.to_owned())

@@ -1,10 +1,11 @@
 //! Temperatures over time.
 
+mod failed;
 mod fold;
 mod rest;
 
 use lptn_assembly::ThermalSystem;
-use lptn_integrate::{FactorError, IntegrateError, Statistics, Step};
+use lptn_integrate::{Statistics, Step};
 use lptn_network::NoTangents;
 
 use crate::balance::Books;
@@ -12,7 +13,6 @@ use crate::curved::Curved;
 use crate::error::{StopReason, TransientError};
 use crate::events::{Switching, Trouble, find_crossings};
 use crate::heat::Heat;
-use crate::newton::NewtonError;
 use crate::readings::Readings;
 use crate::recorder::Recorder;
 use crate::settings::{Proceed, Progress, Transient};
@@ -104,15 +104,6 @@ impl Transient {
         Run::new(recorder, (segments[0], curved), (self, care), from)?.through(&segments, observer)
     }
 }
-
-/// Steps shorter than this part of the run, each after others that were refused, get nowhere ..
-const CRAWL: f64 = 1e-9;
-
-/// .. if there are so many of them. The first step of a segment may be one of them by chance.
-const PATIENCE: usize = 8;
-
-/// The same in front of the end of a branch.
-const FOLD_PATIENCE: usize = 400;
 
 /// How well the times have to be known at which massless nodes leap.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -338,48 +329,6 @@ impl<'a> Run<'a> {
         };
         let changed = switching.positions != before;
         switched.map_err(Break::Failed).map(|()| changed)
-    }
-
-    /// Breaks off a run that only creeps up to where its heat can be had no longer, with ever
-    /// smaller steps.
-    fn check_crawl(&mut self, step: f64) -> Result<(), Break> {
-        let (start, stop) = self.recorder.span();
-        let refused = self.integrator.system_mut().refused.take();
-        // a fold is approached in short steps before it is leapt over
-        let patience = match refused {
-            Some(NewtonError::Fold { .. }) => FOLD_PATIENCE,
-            _ => PATIENCE,
-        };
-        if step >= CRAWL * (stop - start) {
-            self.crawled = 0;
-            return Ok(());
-        }
-        self.crawled += usize::from(refused.is_some());
-        match refused {
-            Some(failure) if self.crawled >= patience => Err(Break::Failed(self.reason(failure))),
-            _ => Ok(()),
-        }
-    }
-
-    fn reason(&self, failure: NewtonError) -> StopReason {
-        match failure {
-            NewtonError::Input(input) => StopReason::Input(input),
-            other => StopReason::Unsolved(Unsolved::new(self.recorder.system(), other)),
-        }
-    }
-
-    /// The reason of a failure: what the system knows goes before what the integrator says.
-    fn failed(&mut self, error: IntegrateError) -> Break {
-        if let Some(failure) = self.integrator.system_mut().failure.take() {
-            return Break::Failed(self.reason(failure));
-        }
-        if let IntegrateError::Linear { cause: FactorError::Singular { index: unknown }, .. } =
-            error
-        {
-            return Break::Failed(self.reason(NewtonError::Singular { unknown }));
-        }
-        let node = error.component().map(|state| self.recorder.state_name(state));
-        Break::Failed(StopReason::Integrator { error, node })
     }
 
     fn finish(mut self, end: RunStatus) -> Result<Solution, TransientError> {

@@ -21,6 +21,7 @@
 //! ```
 
 mod bracket;
+mod declare_errors;
 mod deviation;
 mod dimension;
 mod dual;
@@ -47,6 +48,7 @@ mod unit_parser;
 mod unit_table;
 mod value;
 
+pub use declare_errors::Help;
 pub use dimension::Dimension;
 pub use dual::Dual;
 pub use error::{UnitError, UnitErrorKind};
@@ -55,7 +57,7 @@ pub use expr::{
     TableCall, Trend, is_function,
 };
 pub use format::{number as format_number, short as format_short, six as format_six};
-pub use problems::{Class, Help, Problem, Problems};
+pub use problems::{Class, Problem, Problems};
 pub use quantity::{Quantity, WrittenQuantity, kelvin_alone, parse_quantity, written_quantity};
 pub use rational::Rational;
 pub use scalar::Scalar;

@@ -21,22 +21,25 @@ mod model;
 mod plan;
 mod search;
 mod task;
+mod undetermined;
 
 pub use combination::CombinationKind;
 pub use error::NetworkFitError;
 pub use fitted::{ColumnMisfit, FittedParameter, NetworkFit};
-pub use identify::{Combination, Identifiability, Unseparated};
+pub use identify::Identifiability;
 pub use lptn_network::Varied;
 pub use search::Starts;
 pub use task::{FitObserver, FitStage, MeasuredColumn, MeasuredRun, NetworkFitTask};
+pub use undetermined::{Combination, Unseparated};
 
 use lptn_solve::{Gradient, Proceed};
 
 use crate::network::coordinates::Coordinates;
 use crate::network::errors::Errors;
-use crate::network::identify::{Place, identify};
+use crate::network::identify::identify;
 use crate::network::model::{Evaluated, Model};
 use crate::network::search::{Found, search};
+use crate::network::undetermined::Place;
 
 /// The size of a temperature as a parameter, in K: its zero says nothing.
 const TEMPERATURE: f64 = 10.0;

@@ -15,6 +15,7 @@ mod list;
 mod material;
 mod node;
 mod path;
+mod path_law;
 mod property;
 mod signal;
 mod source;

@@ -5,6 +5,7 @@ pub(crate) mod face_path;
 pub(crate) mod grid;
 pub(crate) mod lookup;
 pub(crate) mod numbered;
+mod register;
 pub(crate) mod result;
 pub(crate) mod signal;
 pub(crate) mod substance;
@@ -12,9 +13,7 @@ pub(crate) mod substance;
 use std::sync::Arc;
 
 use lptn_laws::{Formula, Kind};
-use lptn_units::{
-    Dimension, Expression, Problems, Program, RESERVED, TableSymbol, Type, UnitError,
-};
+use lptn_units::{Dimension, Expression, Problems, Program, TableSymbol, Type, UnitError};
 
 use crate::error::{BuildError, BuildErrorKind, BuildErrors};
 use crate::id::{
@@ -22,12 +21,10 @@ use crate::id::{
     TableId,
 };
 use crate::law::Law;
-use crate::names::is_path;
 use crate::network::Network;
 use crate::numbers::Numbers;
 use crate::parts::Parts;
 use crate::parts::element::{Boundary, Capacitor, Node, Parameter, Source};
-use crate::parts::label::is_numbered;
 use crate::parts::result::{Bound, Limit, LimitSeverity};
 use crate::parts::whole;
 use crate::scope::{Context, NetworkScope};
@@ -352,50 +349,5 @@ impl NetworkBuilder {
             self.error(name, BuildErrorKind::WrongType { item, field, wanted, found: input.ty });
         }
         input.value
-    }
-
-    pub(crate) fn register(&mut self, name: &str, item: Item) {
-        self.check_name(name, item);
-        match self.parts.item(name) {
-            Some(first) => self.duplicate(name, first, item),
-            None => self.parts.names.insert(name, item),
-        }
-    }
-
-    pub(crate) fn register_value(&mut self, name: &str, item: Item) {
-        self.check_name(name, item);
-        match self.parts.value_names.get(name) {
-            Some(&first) => self.duplicate(name, first, item),
-            None => drop(self.parts.value_names.insert(name.to_owned(), item)),
-        }
-    }
-
-    pub(crate) fn check_end(&mut self, name: &str, item: Item, end: End) {
-        if !self.knows(end) {
-            self.error(name, BuildErrorKind::ForeignId { item });
-        }
-    }
-
-    pub(crate) fn knows(&self, end: End) -> bool {
-        match end {
-            End::Node(id) => id.index() < self.parts.nodes.len(),
-            End::Boundary(id) => id.index() < self.parts.boundaries.len(),
-        }
-    }
-
-    pub(crate) fn check_name(&mut self, name: &str, item: Item) {
-        if !is_path(name) {
-            self.error(name, BuildErrorKind::BadName { item });
-        } else if is_numbered(name) || RESERVED.contains(&name) {
-            self.error(name, BuildErrorKind::ReservedName { item });
-        }
-    }
-
-    fn duplicate(&mut self, name: &str, first: Item, second: Item) {
-        self.error(name, BuildErrorKind::DuplicateName { first, second });
-    }
-
-    pub(crate) fn error(&mut self, name: &str, kind: BuildErrorKind) {
-        self.errors.push(BuildError { kind, name: name.to_owned() });
     }
 }

@@ -6,6 +6,7 @@ mod codegen;
 mod degree;
 mod enclose;
 mod eval;
+mod eval_error;
 mod fix;
 mod fold;
 mod function;
@@ -29,7 +30,7 @@ use crate::types::Type;
 use tree::{Node, Tree};
 
 pub use degree::Degree;
-pub use eval::EvalError;
+pub use eval_error::EvalError;
 pub use function::is_function;
 pub use program::{Program, TableCall};
 pub use scope::{RESERVED, Scope, Symbol};

@@ -1,0 +1,100 @@
+//! Which law of a path its values choose, and what is wrong where they choose none.
+
+use lptn_data::Diagnostic;
+use lptn_laws::{FieldDeclaration, Formula};
+use lptn_network::Input;
+use lptn_units::Type;
+
+use crate::fields::Fields;
+use crate::raw::RawValue;
+
+/// What stands in the place of a field: nothing, a value, or as many as a list has.
+pub(super) type Read = (&'static FieldDeclaration, Vec<Input>);
+
+/// How many values a key may have in a list.
+pub(super) fn most(key: &str) -> usize {
+    let count =
+        |law: &Formula| law.declaration().fields.iter().filter(|field| field.key == key).count();
+    Formula::ALL.iter().map(count).max().unwrap_or(1)
+}
+
+/// The types that a key has in the laws of streams and the like, where one key chooses the law by
+/// its unit.
+pub(super) fn types(key: &str) -> Vec<(Type, Formula)> {
+    let mut types: Vec<(Type, Formula)> = Vec::new();
+    for law in Formula::ALL {
+        if let Some(field) =
+            law.field(key).filter(|field| types.iter().all(|(ty, _)| *ty != field.ty))
+        {
+            types.push((field.ty, *law));
+        }
+    }
+    types
+}
+
+/// The law of a group that takes as many values of these types.
+pub(super) fn of_values(laws: &[Formula], read: &[Read]) -> Option<Formula> {
+    let fits = |law: &&Formula| {
+        read.iter().filter(|(_, values)| !values.is_empty()).all(|(field, values)| {
+            let own: Vec<&FieldDeclaration> =
+                law.declaration().fields.iter().filter(|own| own.key == field.key).collect();
+            own.is_empty()
+                || own.len() == values.len()
+                    && own.iter().zip(values).all(|(own, v)| v.ty().conforms_to(own.ty))
+        })
+    };
+    laws.iter().find(fits).copied()
+}
+
+/// `flow = "3 L/min"` with `flow_T = "20 degC"`
+pub(super) fn written(law: Formula) -> String {
+    let fields = law.declaration().fields.iter();
+    let all: Vec<String> =
+        fields.map(|field| format!("`{} = {}`", field.key, field.example)).collect();
+    all.join(" with ")
+}
+
+pub(super) fn wrong_count(
+    fields: &Fields<'_>,
+    (field, most): (&FieldDeclaration, usize),
+    raw: &RawValue,
+    count: usize,
+) -> Diagnostic {
+    let message = format!("{} has {count} values", fields.owner.field(field.key));
+    let laws = Formula::ALL.iter().filter(|law| {
+        law.declaration().fields.iter().filter(|own| own.key == field.key).count() == most
+    });
+    let of = laws.map(|law| law.declaration().name.replace('_', " ")).next().unwrap_or_default();
+    let list = vec![field.example; most].join(", ");
+    let count_of_list = if most == 2 { "two".to_owned() } else { most.to_string() };
+    Diagnostic::wrong(
+        "netlist::emissivities",
+        message,
+        &raw.span,
+        format!(
+            "give one for the exchange as a whole, `{}`, or {count_of_list} for {of}, `{} = \
+             [{list}]`",
+            fields.sample(field.key),
+            field.key
+        ),
+    )
+}
+
+pub(super) fn without(fields: &Fields<'_>, law: Formula, key: &str) -> Diagnostic {
+    let first = law.declaration().fields[0];
+    let is = first.ty.with_article();
+    let message = format!("{} is {is} without `{key}`", fields.owner.field(first.key));
+    let span = fields.get(first.key).map_or(fields.place, |raw| &raw.span);
+    let meaning = law.field(key).map_or("", |field| field.meaning);
+    let others: Vec<String> = types(first.key)
+        .iter()
+        .filter(|(ty, _)| *ty != first.ty)
+        .map(|(ty, _)| ty.with_article())
+        .collect();
+    Diagnostic::wrong(
+        "netlist::flow_temperature",
+        message,
+        span,
+        format!("give the {meaning}, `{}`, or {}", fields.sample(key), others.join(" or ")),
+    )
+}

@@ -1,0 +1,61 @@
+//! Why a run breaks off.
+
+use lptn_integrate::{FactorError, IntegrateError};
+
+use super::{Break, Run};
+use crate::error::StopReason;
+use crate::newton::NewtonError;
+use crate::unsolved::Unsolved;
+
+/// Steps shorter than this part of the run, each after others that were refused, get nowhere ..
+const CRAWL: f64 = 1e-9;
+
+/// .. if there are so many of them. The first step of a segment may be one of them by chance.
+const PATIENCE: usize = 8;
+
+/// The same in front of the end of a branch.
+const FOLD_PATIENCE: usize = 400;
+
+impl Run<'_> {
+    /// Breaks off a run that only creeps up to where its heat can be had no longer, with ever
+    /// smaller steps.
+    pub(super) fn check_crawl(&mut self, step: f64) -> Result<(), Break> {
+        let (start, stop) = self.recorder.span();
+        let refused = self.integrator.system_mut().refused.take();
+        // a fold is approached in short steps before it is leapt over
+        let patience = match refused {
+            Some(NewtonError::Fold { .. }) => FOLD_PATIENCE,
+            _ => PATIENCE,
+        };
+        if step >= CRAWL * (stop - start) {
+            self.crawled = 0;
+            return Ok(());
+        }
+        self.crawled += usize::from(refused.is_some());
+        match refused {
+            Some(failure) if self.crawled >= patience => Err(Break::Failed(self.reason(failure))),
+            _ => Ok(()),
+        }
+    }
+
+    fn reason(&self, failure: NewtonError) -> StopReason {
+        match failure {
+            NewtonError::Input(input) => StopReason::Input(input),
+            other => StopReason::Unsolved(Unsolved::new(self.recorder.system(), other)),
+        }
+    }
+
+    /// The reason of a failure: what the system knows goes before what the integrator says.
+    pub(super) fn failed(&mut self, error: IntegrateError) -> Break {
+        if let Some(failure) = self.integrator.system_mut().failure.take() {
+            return Break::Failed(self.reason(failure));
+        }
+        if let IntegrateError::Linear { cause: FactorError::Singular { index: unknown }, .. } =
+            error
+        {
+            return Break::Failed(self.reason(NewtonError::Singular { unknown }));
+        }
+        let node = error.component().map(|state| self.recorder.state_name(state));
+        Break::Failed(StopReason::Integrator { error, node })
+    }
+}
