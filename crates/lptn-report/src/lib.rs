@@ -16,6 +16,7 @@ mod number;
 mod page;
 mod picture;
 mod sparkline;
+mod style;
 mod text;
 
 pub use columns::{MOST_CURVES, TEMPERATURE, panels};
@@ -30,4 +31,5 @@ pub use number::{Shortest, decimals, duration, fixed, prefix, significant};
 pub use page::{Page, Rows};
 pub use picture::Picture;
 pub use sparkline::sparkline;
+pub use style::Style;
 pub use text::{Block, Text, words};

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use crate::layout::{TextTable, WIDTH, labelled};
+use crate::style::Style;
 
 /// What a person reads of a result, from the title to the verdict.
 #[derive(Clone, Debug, Default)]
@@ -17,6 +18,8 @@ pub enum Block {
     Title(String),
     /// A line as it is.
     Line(String),
+    /// A line that means something by itself.
+    Marked(Style, String),
     /// A table.
     Table(TextTable),
     /// A label, and what stands behind it, in pieces that are not broken.
@@ -54,6 +57,11 @@ impl Text {
     /// Adds a line.
     pub fn line(&mut self, line: impl Into<String>) -> &mut Self {
         self.add(Block::Line(line.into()))
+    }
+
+    /// Adds a line that means something by itself.
+    pub fn marked(&mut self, style: Style, line: impl Into<String>) -> &mut Self {
+        self.add(Block::Marked(style, line.into()))
     }
 
     /// Adds lines.
@@ -123,8 +131,9 @@ pub(crate) fn write(text: &Text, styled: bool, out: &mut dyn Write) -> io::Resul
 
 fn lines(block: &Block, styled: bool) -> Vec<String> {
     match block {
-        Block::Title(title) if styled => vec![format!("\u{1b}[1m{title}\u{1b}[0m")],
-        Block::Title(line) | Block::Line(line) => vec![line.clone()],
+        Block::Title(title) => vec![Style::Title.paint(title, styled)],
+        Block::Marked(style, line) => vec![style.paint(line, styled)],
+        Block::Line(line) => vec![line.clone()],
         Block::Table(table) => table.clone().lines(WIDTH),
         Block::Labelled(label, pieces) => labelled(label, pieces, WIDTH),
     }

@@ -3,6 +3,7 @@
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;
+pub(crate) mod explain;
 pub(crate) mod fit;
 pub(crate) mod graph;
 pub(crate) mod man;
@@ -55,6 +56,7 @@ verbs! {
     Reduce(reduce::ReduceArgs) => reduce::reduce,
     Graph(graph::GraphArgs) => graph::graph,
     Check(check::CheckArgs) => check::check,
+    Explain(explain::ExplainArgs) => explain::explain,
     New(new::NewArgs) => new::new,
     Units(units::UnitsArgs) => units::units,
     Materials(materials::MaterialsArgs) => materials::materials,
