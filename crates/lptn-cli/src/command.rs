@@ -38,7 +38,8 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
     let Some(problem) = verb.and_then(|verb| file_as_verb(verb).or_else(|| near_verb(verb))) else {
         error.exit();
     };
-    let global = Global { quiet: false, verbose: false, color: Color::Auto, plot: None };
+    let global =
+        Global { quiet: false, verbose: false, color: Color::Auto, plot: None, report: None };
     let console = Console::new(&global);
     console.report(&Files::new(), &[problem]);
     Exit::Input

@@ -23,8 +23,8 @@ pub fn dot(diagram: &Diagram) -> String {
                 (", peripheries=2", Some(words))
             }
         };
-        let lines = [Some(place.name.clone()), capacity, place.temperature.clone()];
-        let label = quoted(&lines.into_iter().flatten().collect::<Vec<_>>());
+        let lines = [place.name.clone()].into_iter().chain(capacity);
+        let label = quoted(&lines.chain(diagram.state_of(place)).collect::<Vec<_>>());
         push(&mut out, format_args!("  n{} [label={label}{shape}];\n", i + 1));
     }
     for (i, source) in diagram.sources.iter().enumerate() {
@@ -48,8 +48,8 @@ pub(crate) fn push(out: &mut String, text: std::fmt::Arguments<'_>) {
 /// The words beside a path: its name, its value or kind, its heat.
 pub(crate) fn link_words(diagram: &Diagram, link: &Link) -> Vec<String> {
     let value = link.value.clone().unwrap_or_else(|| link.kind.declaration().section.to_owned());
-    let heat = diagram.steady.as_ref().zip(link.heat);
-    let heat = heat.map(|(steady, heat)| steady.heat(heat));
+    let heat = diagram.scales.as_ref().zip(link.heat);
+    let heat = heat.map(|(scales, heat)| scales.heat(heat));
     [Some(link.name.clone()), Some(value), heat].into_iter().flatten().collect()
 }
 

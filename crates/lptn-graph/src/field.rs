@@ -1,6 +1,7 @@
 //! The temperature in a grid, and slices through it.
 
 use lptn_network::{GridId, Network};
+use lptn_solve::Snapshot;
 use lptn_units::{Dimension, Type, UnitError, parse_quantity};
 
 use crate::words;
@@ -59,9 +60,8 @@ pub enum NoSlice {
 }}
 
 impl GridField {
-    /// The field of a grid from the temperatures of all nodes in K, those of a steady state at
-    /// `time` in s.
-    pub fn of(network: &Network, id: GridId, temperatures: &[f64], time: f64) -> Self {
+    /// The field of a grid in a state; its temperatures are NaN without one.
+    pub fn of(network: &Network, id: GridId, state: Option<&Snapshot>) -> Self {
         let grid = &network.grids()[id.index()];
         let mut scope = network.evaluation();
         let mut length =
@@ -71,8 +71,11 @@ impl GridField {
             cells: grid.cells,
             axes: grid.axes,
             size: [length(0), length(1), length(2)],
-            kelvin: grid.nodes().map(|id| temperatures[id.index()]).collect(),
-            caption: words::caption(network, time),
+            kelvin: grid
+                .nodes()
+                .map(|id| state.map_or(f64::NAN, |state| state.temperatures[id.index()]))
+                .collect(),
+            caption: state.map_or(String::new(), |state| words::caption(network, state)),
         }
     }
 

@@ -28,10 +28,10 @@ const GAP: f64 = 22.0;
 /// The room for what stands below a diagram.
 pub(crate) fn legend(diagram: &Diagram) -> Size {
     let lines = lines(diagram);
-    let captions = diagram.steady.iter().map(|steady| &steady.caption);
+    let captions = diagram.scales.iter().map(|scales| &scales.caption);
     let widest = lines.iter().chain(captions).map(|text| width(text, SIZE, false));
     let widest = widest.fold(0.0, f64::max);
-    let scale = if diagram.steady.is_some() { SCALE } else { 0.0 };
+    let scale = if diagram.scales.is_some() { SCALE } else { 0.0 };
     let height = scale + LINE * lines.len() as f64;
     let scale_width = if scale > 0.0 { BAR.0 } else { 0.0 };
     let height = if height > 0.0 { height + GAP } else { 0.0 };
@@ -60,8 +60,8 @@ fn lines(diagram: &Diagram) -> Vec<String> {
 /// Draws it from its upper left corner.
 pub(crate) fn draw(scene: &mut Scene, diagram: &Diagram, (x, y): (f64, f64)) {
     let mut y = y + GAP;
-    if let Some(steady) = &diagram.steady {
-        scale(scene, &steady.ends, &steady.caption, (x, y));
+    if let Some(scales) = &diagram.scales {
+        scale(scene, &scales.ends, &scales.caption, (x, y));
         y += SCALE;
     }
     for text in lines(diagram) {

@@ -24,7 +24,7 @@ pub use dot::dot;
 pub use field::{Cut, GridField, NoSlice};
 pub use groups::{Grouping, MOST_PLACES};
 pub use mermaid::mermaid;
-pub use model::{Diagram, Link, Place, PlaceRole, Steady, Supply, Switching, Target};
+pub use model::{Diagram, Link, Place, PlaceRole, Scales, Supply, Switching, Target};
 pub use picture::{MOST_DRAWN, TooMany, scene};
 pub use read::{View, diagram};
 pub use slice::slice;

@@ -18,8 +18,8 @@ pub fn mermaid(diagram: &Diagram) -> String {
             PlaceRole::Group(..) => ["[", "]"],
             _ => ["(", ")"],
         };
-        let lines = [Some(place.name.clone()), more, place.temperature.clone()];
-        let label = quoted(&lines.into_iter().flatten().collect::<Vec<_>>());
+        let lines = [place.name.clone()].into_iter().chain(more);
+        let label = quoted(&lines.chain(diagram.state_of(place)).collect::<Vec<_>>());
         push(&mut out, format_args!("  n{}{open}{label}{close}\n", i + 1));
     }
     for (i, source) in diagram.sources.iter().enumerate() {

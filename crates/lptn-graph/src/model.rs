@@ -15,8 +15,8 @@ pub struct Diagram {
     pub sources: Vec<Supply>,
     /// What switches.
     pub controls: Vec<Switching>,
-    /// The steady state that is shown.
-    pub steady: Option<Steady>,
+    /// The scales of the state that is shown.
+    pub scales: Option<Scales>,
     /// What stands as one box, in words.
     pub grouped: Vec<String>,
 }
@@ -30,8 +30,11 @@ pub struct Place {
     pub role: PlaceRole,
     /// What is known of its temperature, in words: `92.7 °C`.
     pub temperature: Option<String>,
-    /// The mean of its temperatures in steady state, in K.
+    /// The mean of its temperatures in the state that is shown, in K.
     pub kelvin: Option<f64>,
+    /// The heat that it stores there in W, negative if it gives it back; `None` where nothing can
+    /// be stored, or nothing is any more.
+    pub stored: Option<f64>,
 }
 
 /// What a place is.
@@ -46,6 +49,21 @@ pub enum PlaceRole {
     /// Several nodes: what they are, `24 nodes`, and their capacity together unless they store
     /// nothing.
     Group(String, Option<String>),
+}
+
+impl Diagram {
+    /// What is known of the state of a place, a line each.
+    pub fn state_of(&self, place: &Place) -> Vec<String> {
+        let stored = self.scales.as_ref().and_then(|scales| scales.stored(place));
+        place.temperature.iter().cloned().chain(stored).collect()
+    }
+}
+
+impl PlaceRole {
+    /// Whether it has a capacity.
+    pub fn stores(&self) -> bool {
+        matches!(self, Self::Node(_) | Self::Group(_, Some(_)))
+    }
 }
 
 /// A path between two places, or several of one kind.
@@ -63,7 +81,7 @@ pub struct Link {
     pub value: Option<String>,
     /// Whether heat goes with a fluid.
     pub stream: bool,
-    /// Its heat in steady state in W, positive from `from` to `to`.
+    /// Its heat in the state that is shown in W, positive from `from` to `to`.
     pub heat: Option<f64>,
 }
 
@@ -76,7 +94,7 @@ pub struct Supply {
     pub into: usize,
     /// How much it is, `220.6 W`, or that it changes.
     pub value: String,
-    /// How much it is in steady state in W.
+    /// How much it is in the state that is shown in W.
     pub heat: Option<f64>,
 }
 
@@ -102,14 +120,14 @@ pub enum Target {
     Source(usize),
 }
 
-/// The scales of a steady state.
+/// What the numbers of a state are shown by.
 #[derive(Clone, Debug)]
-pub struct Steady {
+pub struct Scales {
     /// The coldest and the hottest temperature in K.
     pub span: [f64; 2],
     /// The same in words.
     pub ends: [String; 2],
-    /// That it is a steady state, and for which inputs where they change.
+    /// That it is a steady state, and for which inputs where they change; else its time.
     pub caption: String,
     /// The largest heat flow in W; not negative.
     pub most: f64,
@@ -119,11 +137,18 @@ pub struct Steady {
     pub decimals: usize,
 }
 
-impl Steady {
+impl Scales {
     /// A heat flow in W in words, without its sign: `154.4 W`.
     pub fn heat(&self, watts: f64) -> String {
         let (scale, unit) = &self.heat_unit;
         format!("{} {unit}", lptn_report::fixed(watts.abs() / scale, self.decimals))
+    }
+
+    /// What a place stores or gives back, in words: `stores 12.1 W`.
+    pub fn stored(&self, place: &Place) -> Option<String> {
+        let watts = place.stored?;
+        let does = if watts < 0.0 { "releases" } else { "stores" };
+        Some(format!("{does} {}", self.heat(watts)))
     }
 
     /// Where a temperature in K lies, from 0, the coldest, to 1.

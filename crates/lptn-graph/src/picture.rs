@@ -11,7 +11,7 @@ use lptn_units::Problem;
 
 use crate::layout::{Arranged, Element, Point, Room, arrange};
 use crate::legend;
-use crate::model::{Diagram, Link, Place, PlaceRole, Steady, Supply};
+use crate::model::{Diagram, Link, Place, PlaceRole, Scales, Supply};
 use crate::symbols::{self, CAPACITY, HALF, REACH, SOURCE, WIRE};
 
 /// More boxes than this cannot be read in any picture.
@@ -74,15 +74,16 @@ pub fn scene(diagram: &Diagram) -> Result<Scene, TooMany> {
     if diagram.places.len() > MOST_DRAWN {
         return Err(TooMany { boxes: diagram.places.len() });
     }
-    let places: Vec<Room> = diagram.places.iter().map(place_block).collect();
+    let places: Vec<Room> =
+        diagram.places.iter().map(|place| place_block(diagram, place)).collect();
     let ends = ends(diagram);
     let links = diagram.links.iter().zip(&ends).map(|(link, (from, to))| Element {
-        block: link_block(link, diagram.steady.as_ref()),
+        block: link_block(link, diagram.scales.as_ref()),
         from: Some(*from),
         to: *to,
     });
     let sources = diagram.sources.iter().map(|source| Element {
-        block: source_block(source, diagram.steady.as_ref()),
+        block: source_block(source, diagram.scales.as_ref()),
         from: None,
         to: source.into,
     });
@@ -117,12 +118,12 @@ fn ends(diagram: &Diagram) -> Vec<(usize, usize)> {
 }
 
 /// The lines of text of a place.
-fn lines(place: &Place) -> Vec<(String, bool)> {
+fn lines(diagram: &Diagram, place: &Place) -> Vec<(String, bool)> {
     let mut lines = vec![(shortened(&place.name, LETTERS), true)];
     if let PlaceRole::Group(words, _) = &place.role {
         lines.push((words.clone(), false));
     }
-    lines.extend(place.temperature.iter().map(|text| (text.clone(), false)));
+    lines.extend(diagram.state_of(place).into_iter().map(|text| (text, false)));
     lines
 }
 
@@ -134,16 +135,16 @@ fn capacity(place: &Place) -> Option<&str> {
 }
 
 /// Half the size of the box of a place.
-fn half_box(place: &Place) -> Point {
-    let lines = lines(place);
+fn half_box(diagram: &Diagram, place: &Place) -> Point {
+    let lines = lines(diagram, place);
     let widest =
         lines.iter().map(|(text, bold)| width(text, if *bold { NAME } else { VALUE }, *bold));
     let wide = widest.fold(34.0, f64::max) + 22.0;
     ((wide / 2.0).ceil(), (LINE * lines.len() as f64 + 13.0) / 2.0)
 }
 
-fn place_block(place: &Place) -> Room {
-    let (pin, tall) = half_box(place);
+fn place_block(diagram: &Diagram, place: &Place) -> Room {
+    let (pin, tall) = half_box(diagram, place);
     let capacity = capacity(place);
     let beside = capacity.map_or(0.0, |text| CAPACITY.1 + 7.0 + width(text, VALUE, false));
     let below = match &place.role {
@@ -162,22 +163,22 @@ fn below_link(link: &Link) -> Vec<String> {
     link.value.clone().or_else(unknown).into_iter().chain(kind.map(str::to_owned)).collect()
 }
 
-fn link_block(link: &Link, steady: Option<&Steady>) -> Room {
+fn link_block(link: &Link, scales: Option<&Scales>) -> Room {
     let below = below_link(link);
-    let flow = steady.zip(link.heat).map(|(steady, heat)| steady.heat(heat));
+    let flow = scales.zip(link.heat).map(|(scales, heat)| scales.heat(heat));
     element_block(&link.name, &below, (flow.as_deref(), HALF, REACH))
 }
 
-fn source_block(source: &Supply, steady: Option<&Steady>) -> Room {
-    let below = source_words(source, steady);
+fn source_block(source: &Supply, scales: Option<&Scales>) -> Room {
+    let below = source_words(source, scales);
     element_block(&source.name, &below, (None, SOURCE, SOURCE))
 }
 
-/// The value of a source; in steady state its heat where that is not the same.
-fn source_words(source: &Supply, steady: Option<&Steady>) -> Vec<String> {
-    let heat = steady.zip(source.heat).map(|(steady, heat)| {
+/// The value of a source; in the state that is shown its heat where that is not the same.
+fn source_words(source: &Supply, scales: Option<&Scales>) -> Vec<String> {
+    let heat = scales.zip(source.heat).map(|(scales, heat)| {
         let sign = if heat < 0.0 { "-" } else { "" };
-        format!("{sign}{}", steady.heat(heat))
+        format!("{sign}{}", scales.heat(heat))
     });
     match heat {
         Some(heat) if source.value.starts_with('P') => vec![source.value.clone(), heat],
@@ -267,22 +268,22 @@ impl Drawing<'_> {
         let words = below_link(link);
         let first = y + REACH + LINE - 1.0;
         self.below(&words, (x, first));
-        if let Some((steady, heat)) = self.diagram.steady.as_ref().zip(link.heat) {
+        if let Some((scales, heat)) = self.diagram.scales.as_ref().zip(link.heat) {
             // in the direction of the heat; of a stream in that of the fluid
             let right = (heat >= 0.0) != turned;
-            self.flow(steady, (heat, right), (x, first + LINE * words.len() as f64));
+            self.flow(scales, (heat, right), (x, first + LINE * words.len() as f64));
         }
     }
 
     /// An arrow as wide as a heat flow is large, with its number.
-    fn flow(&mut self, steady: &Steady, (heat, right): (f64, bool), (x, y): Point) {
-        let text = steady.heat(heat);
+    fn flow(&mut self, scales: &Scales, (heat, right): (f64, bool), (x, y): Point) {
+        let text = scales.heat(heat);
         if heat == 0.0 {
             let text = Text::new(text, (x, y), VALUE, Ink::Text).aligned(Align::Middle);
             return self.scene.write(text.bold());
         }
         let start = x - (ARROW + ARROW_GAP + width(&text, VALUE, true)) / 2.0;
-        let share = if steady.most > 0.0 { heat.abs() / steady.most } else { 0.0 };
+        let share = if scales.most > 0.0 { heat.abs() / scales.most } else { 0.0 };
         let level = y - 4.0;
         let ends = [(start, level), (start + ARROW, level)];
         let ends = if right { ends } else { [ends[1], ends[0]] };
@@ -294,14 +295,14 @@ impl Drawing<'_> {
     fn source(&mut self, source: &Supply, (x, y): Point) {
         symbols::source(self.scene, (x, y));
         self.name(&source.name, (x, y - SOURCE - 6.0));
-        let words = source_words(source, self.diagram.steady.as_ref());
+        let words = source_words(source, self.diagram.scales.as_ref());
         self.below(&words, (x, y + SOURCE + LINE - 1.0));
     }
 
     fn place(&mut self, place: &Place, (x, y): Point) {
-        let (half, tall) = half_box(place);
-        let ink = self.diagram.steady.as_ref().zip(place.kelvin).map(|(steady, kelvin)| {
-            Ink::Field((steady.share(kelvin) * (FIELD - 1) as f64).round() as usize)
+        let (half, tall) = half_box(self.diagram, place);
+        let ink = self.diagram.scales.as_ref().zip(place.kelvin).map(|(scales, kelvin)| {
+            Ink::Field((scales.share(kelvin) * (FIELD - 1) as f64).round() as usize)
         });
         let radius = if place.role == PlaceRole::Boundary { 0.0 } else { 8.0 };
         let corner = (x - half, y - tall);
@@ -317,7 +318,7 @@ impl Drawing<'_> {
             Some(ink) => frame.filled(ink, 0.3).stroked(Stroke::solid(ink, 3.0)),
             None => frame.filled(Ink::Grid, 0.5).stroked(symbols::pen()),
         });
-        let lines = lines(place);
+        let lines = lines(self.diagram, place);
         let first = y - LINE * (lines.len() as f64 - 1.0) / 2.0 + 4.5;
         for (i, (text, bold)) in lines.into_iter().enumerate() {
             let at = (x, first + LINE * i as f64);

@@ -7,11 +7,11 @@ use lptn_network::{
     SourceId,
 };
 use lptn_report::plain;
-use lptn_solve::SteadyState;
+use lptn_solve::Snapshot;
 use lptn_units::Unit;
 
 use crate::groups::{Group, Grouping, groups};
-use crate::model::{Diagram, Link, Place, PlaceRole, Steady, Supply, Switching, Target};
+use crate::model::{Diagram, Link, Place, PlaceRole, Scales, Supply, Switching, Target};
 use crate::words::{self, Scale};
 
 /// How a network is looked at.
@@ -23,38 +23,41 @@ pub struct View<'a> {
     pub grouping: Grouping,
     /// The scale of its temperatures.
     pub unit: &'a Unit,
-    /// The steady state that is shown.
-    pub steady: Option<&'a SteadyState>,
+    /// The state that is shown.
+    pub state: Option<&'a Snapshot>,
 }
 
 /// A network as it is drawn. Values that do not depend on time or temperatures are given as
 /// numbers.
 pub fn diagram(network: &Network, view: &View<'_>) -> Diagram {
     let groups = groups(network, view.grouping);
-    let span = view.steady.map_or([0.0, 100.0], span);
+    let span = view.state.map_or([0.0, 100.0], span);
     let reader = Reader {
         network,
         view: *view,
         scale: Scale::new(view.unit, span[1] - span[0]),
         place: places_of(network, &groups),
         alone: groups.iter().map(|group| group.words.is_none()).collect(),
+        stored: view.state.filter(|state| !state.settled).map(|state| state.stored(network)),
     };
     let (links, link_of) = reader.links();
     let (sources, source_of) = reader.sources();
     let target = (&link_of[..], &source_of[..]);
     let controls = network.control_ids().map(|id| reader.control(id, target)).collect();
-    let steady = view.steady.map(|state| {
+    let places: Vec<Place> = groups.iter().map(|group| reader.group(group)).collect();
+    let scales = view.state.map(|state| {
         let flows = links.iter().filter_map(|link| link.heat);
         let flows = flows.chain(sources.iter().filter_map(|source| source.heat));
-        reader.steady(state, span, flows.map(f64::abs).fold(0.0, f64::max))
+        let flows = flows.chain(places.iter().filter_map(|place| place.stored));
+        reader.scales(state, span, flows.map(f64::abs).fold(0.0, f64::max))
     });
     Diagram {
         title: plain(view.title),
-        places: groups.iter().map(|group| reader.group(group)).collect(),
+        places,
         links,
         sources,
         controls,
-        steady,
+        scales,
         grouped: groups
             .iter()
             .filter_map(|group| Some(format!("{}: {}", group.name, group.words.as_ref()?)))
@@ -68,8 +71,8 @@ const MOST_APART: usize = 3;
 /// Heat flows below this, in W, are what rounding left over.
 const NOISE: f64 = 1e-9;
 
-fn span(steady: &SteadyState) -> [f64; 2] {
-    let all = || steady.temperatures.iter().chain(&steady.boundary_temperatures).copied();
+fn span(state: &Snapshot) -> [f64; 2] {
+    let all = || state.temperatures.iter().chain(&state.boundary_temperatures).copied();
     [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)]
 }
 
@@ -91,6 +94,8 @@ struct Reader<'a> {
     scale: Scale<'a>,
     place: Vec<usize>,
     alone: Vec<bool>,
+    /// What each node stores, in W.
+    stored: Option<Vec<f64>>,
 }
 
 /// Several conductors that become one path.
@@ -106,13 +111,13 @@ impl Reader<'_> {
         self.place[self.network.vertex(end)]
     }
 
-    fn steady(&self, state: &SteadyState, span: [f64; 2], most: f64) -> Steady {
-        let caption = words::caption(self.network, state.time);
+    fn scales(&self, state: &Snapshot, span: [f64; 2], most: f64) -> Scales {
+        let caption = words::caption(self.network, state);
         let most = if most > NOISE { most } else { 0.0 };
         let heat_unit = words::unit_of(most, "W");
         let decimals = lptn_report::decimals(most / heat_unit.0, 4, 0).min(4);
         let ends = span.map(|kelvin| self.scale.text(kelvin));
-        Steady { span, ends, caption, most, heat_unit, decimals }
+        Scales { span, ends, caption, most, heat_unit, decimals }
     }
 
     fn group(&self, group: &Group) -> Place {
@@ -132,13 +137,15 @@ impl Reader<'_> {
                 )
             }),
         };
-        Place { name: plain(&group.name), role: self.role(group), temperature, kelvin }
+        let (role, name) = (self.role(group), plain(&group.name));
+        let stored = self.stored(group).filter(|_| role.stores());
+        Place { name, role, temperature, kelvin, stored }
     }
 
     fn temperatures(&self, group: &Group) -> Option<Vec<f64>> {
-        let steady = self.view.steady?;
-        let nodes = group.nodes.iter().map(|id| steady.temperatures[id.index()]);
-        let boundaries = group.boundaries.iter().map(|id| steady.boundary_temperatures[id.index()]);
+        let state = self.view.state?;
+        let nodes = group.nodes.iter().map(|id| state.temperatures[id.index()]);
+        let boundaries = group.boundaries.iter().map(|id| state.boundary_temperatures[id.index()]);
         Some(nodes.chain(boundaries).collect())
     }
 
@@ -158,10 +165,16 @@ impl Reader<'_> {
         }
     }
 
-    /// Where values are read: the time of the steady state, else the beginning.
+    /// What the nodes of a group store together, unless the state has settled.
+    fn stored(&self, group: &Group) -> Option<f64> {
+        let stored = self.stored.as_ref()?;
+        Some(group.nodes.iter().map(|id| stored[id.index()]).sum())
+    }
+
+    /// Where values are read: the time of the state, else the beginning.
     fn scope(&self) -> Evaluation {
         let mut scope = self.network.evaluation();
-        let time = self.view.steady.map_or(0.0, |steady| steady.time);
+        let time = self.view.state.map_or(0.0, |state| state.time);
         scope.set_time(time, time);
         scope
     }
@@ -214,10 +227,10 @@ impl Reader<'_> {
         let sign = |id: ConductorId| if self.at(conductor(id).from) == from { 1.0 } else { -1.0 };
         let first = members[0];
         let back = conductor(first).law.is_stream() && members.iter().all(|id| self.runs_back(*id));
-        let heat = self.view.steady.map(|steady| {
+        let heat = self.view.state.map(|state| {
             let heat = |id: &ConductorId| match back {
-                true => steady.received[id.index()][0],
-                false => sign(*id) * steady.conductor_heat[id.index()],
+                true => state.received[id.index()][0],
+                false => sign(*id) * state.received[id.index()][1],
             };
             members.iter().map(heat).sum::<f64>()
         });
@@ -235,10 +248,10 @@ impl Reader<'_> {
 
     /// Whether a stream flows from its second end to its first.
     fn runs_back(&self, id: ConductorId) -> bool {
-        match (self.network.flow(id), self.view.steady) {
+        match (self.network.flow(id), self.view.state) {
             (ConductorFlow::Stream(rate), _) => rate < 0.0,
-            (_, Some(steady)) => {
-                let [back, on] = steady.received[id.index()];
+            (_, Some(state)) => {
+                let [back, on] = state.received[id.index()];
                 back.abs() > on.abs()
             }
             _ => false,
@@ -309,8 +322,8 @@ impl Reader<'_> {
     }
 
     fn supply(&self, into: usize, members: &[(SourceId, f64)]) -> Supply {
-        let heat = self.view.steady.map(|steady| {
-            members.iter().map(|(id, share)| steady.source_heat[id.index()] * share).sum()
+        let heat = self.view.state.map(|state| {
+            members.iter().map(|(id, share)| state.source_heat[id.index()] * share).sum()
         });
         let name = |id: SourceId| plain(&self.network.name_of(Item::Source(id)));
         let name = match members {

@@ -2,6 +2,7 @@
 
 use lptn_network::{ConductorFlow, Evaluation, Network, Value};
 use lptn_report::{decimals, fixed, prefix, significant};
+use lptn_solve::Snapshot;
 use lptn_units::Unit;
 
 /// Digits of values.
@@ -83,11 +84,13 @@ fn family(name: &str) -> String {
     out
 }
 
-/// What a picture of a steady state says of it: a reader of the picture sees no warning.
-pub(crate) fn caption(network: &Network, time: f64) -> String {
-    match network.changing_inputs().is_empty() {
-        true => "steady state".to_owned(),
-        false => format!("steady state for the inputs at {}", lptn_report::duration(time, 4)),
+/// What a picture of a state says of it: a reader of the picture sees no warning.
+pub(crate) fn caption(network: &Network, state: &Snapshot) -> String {
+    let time = || lptn_report::duration(state.time, 4);
+    match (state.settled, network.changing_inputs().is_empty()) {
+        (true, true) => "steady state".to_owned(),
+        (true, false) => format!("steady state for the inputs at {}", time()),
+        (false, _) => format!("at {}", time()),
     }
 }
 

@@ -46,7 +46,7 @@ fn drawn(netlist: &Netlist, steady: bool, grouping: Grouping) -> Diagram {
     // some cycle: they are drawn without
     let steady = steady.then(|| SteadyState::solve(&system, 0.0).ok()).flatten();
     let title = network.title().unwrap_or("untitled");
-    diagram(network, &View { title, grouping, unit: &unit, steady: steady.as_ref() })
+    diagram(network, &View { title, grouping, unit: &unit, state: steady.as_deref() })
 }
 
 type Box = [f64; 4];

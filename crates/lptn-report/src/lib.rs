@@ -1,8 +1,9 @@
 //! What a result looks like: terminal tables with sparklines, CSV, JSON, pictures.
 //!
 //! A command's answer is a [`Page`]: it gives a [`Text`] for reading, rows and an object for
-//! programs and figures for looking at, and a format is one file that writes what it asks a page for. Nothing here solves
-//! anything, prints anything or knows where the text goes. In files every number is the shortest
+//! programs and figures for looking at, and a format is one file that writes what it asks a page
+//! for. A [`Report`] is all of a page as a document. Nothing here solves anything, prints anything
+//! or knows where the text goes. In files every number is the shortest
 //! text that reads back as the same `f64`; in tables for reading, numbers are rounded and say their
 //! unit.
 
@@ -15,6 +16,7 @@ mod layout;
 mod number;
 mod page;
 mod picture;
+mod report;
 mod sparkline;
 mod style;
 mod text;
@@ -30,6 +32,7 @@ pub use layout::{
 pub use number::{Shortest, decimals, duration, fixed, prefix, significant};
 pub use page::{Page, Rows};
 pub use picture::Picture;
+pub use report::{Claim, Piece, Report, Section, Standing};
 pub use sparkline::sparkline;
 pub use style::Style;
 pub use text::{Block, Text, words};

@@ -39,6 +39,7 @@ mod sensitive_run;
 mod sensitivity_rows;
 mod settings;
 mod settings_error;
+mod snapshot;
 mod solution;
 mod stability;
 mod state;
@@ -81,6 +82,7 @@ pub use sensitive_run::{
 };
 pub use settings::{Proceed, Progress, Transient};
 pub use settings_error::SettingsError;
+pub use snapshot::Snapshot;
 pub use solution::{RunStatus, Solution, SolutionError, Unbounded};
 pub use state::State;
 pub use steady::{Others, SteadyState};

@@ -1,5 +1,7 @@
 //! The result of a transient.
 
+use std::ops::Range;
+
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::Statistics;
 use lptn_network::{
@@ -16,6 +18,7 @@ use crate::limit::LimitSeen;
 use crate::quantity::Quantity;
 use crate::reading::Reading;
 use crate::sensitivity_rows::SensitivityRows;
+use crate::snapshot::Snapshot;
 use crate::state::State;
 use crate::watch::Watched;
 use crate::window::WindowSeen;
@@ -192,13 +195,19 @@ impl Solution {
     /// Visits every row in order. Inputs and heat could be read there during the run, so they can
     /// be again; a row at which that should fail has no values (NaN), for columns have to be of one
     /// length.
-    pub(crate) fn replay(&self, mut visit: impl FnMut(&mut Replay<'_>)) {
+    pub(crate) fn replay(&self, visit: impl FnMut(&mut Replay<'_>)) {
+        self.replay_rows(0..self.times.len(), visit);
+    }
+
+    /// The same for some of the rows.
+    pub(crate) fn replay_rows(&self, rows: Range<usize>, mut visit: impl FnMut(&mut Replay<'_>)) {
         let (work, reading) = (self.system.workspace(), Reading::new(&self.system));
         let mut at = Replay { system: &self.system, work, reading, known: true };
         let mut nodes = vec![f64::NAN; self.network().nodes().len()];
-        for (row, (&time, &segment)) in self.times.iter().zip(&self.segments).enumerate() {
+        for row in rows.clone() {
+            let (time, segment) = (self.times[row], self.segments[row]);
             if let Some(&at_row) = self.row_positions.get(row)
-                && (row == 0 || self.row_positions[row - 1] != at_row)
+                && (row == rows.start || self.row_positions[row - 1] != at_row)
             {
                 at.work.set_positions(&self.positions[at_row as usize]);
             }
@@ -340,6 +349,16 @@ impl Replay<'_> {
     /// The workspace of this row.
     pub(crate) fn work(&mut self) -> &mut Workspace {
         &mut self.work
+    }
+
+    /// Everything at this row, whose time in s is given; `None` if it cannot be evaluated.
+    pub(crate) fn snapshot(&mut self, time: f64) -> Option<Snapshot> {
+        let mut unknowns = vec![0.0; self.system.unknowns().len()];
+        self.system.unknown_temperatures(self.system.node_temperatures(&self.work), &mut unknowns);
+        let taken = self
+            .known
+            .then(|| Snapshot::of_workspace(self.system, &mut self.work, &unknowns, (time, false)));
+        taken?.ok()
     }
 
     fn received(&mut self, id: ConductorId) -> Received {

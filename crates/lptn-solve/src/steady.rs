@@ -2,16 +2,15 @@
 
 use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::{FactorError, Pattern};
-use lptn_network::{End, Evaluation, HeatOf, InputError, Network, NodeId, Positions, Received};
+use lptn_network::{InputError, Network, NodeId, Positions};
 
 use crate::adiabatic::{self, Island};
-use crate::balance::Balance;
 use crate::conductances::Conductances;
 use crate::error::SteadyError;
 use crate::events::find_consistent;
 use crate::limit;
 use crate::newton::{Newton, NewtonError, SMALL};
-use crate::quantity::Quantity;
+use crate::snapshot::Snapshot;
 use crate::times::just_after;
 use crate::transient::rest;
 use crate::unsolved::Unsolved;
@@ -19,24 +18,13 @@ use crate::unsolved::Unsolved;
 /// The temperatures at which nothing is stored any more.
 #[derive(Clone, Debug)]
 pub struct SteadyState {
-    /// Temperature of each node in K.
-    pub temperatures: Vec<f64>,
-    /// Temperature of each boundary in K.
-    pub boundary_temperatures: Vec<f64>,
+    /// Its temperatures and heat flows, with the time at which its inputs were read. A steady state
+    /// lends its fields.
+    pub state: Snapshot,
     /// Heat flow of each conductor in W, positive from `from` to `to`: what `to` receives.
     pub conductor_heat: Vec<f64>,
-    /// Heat that the two ends of each conductor receive in W: equal and opposite but for a stream.
-    pub received: Vec<Received>,
-    /// Heat of each source in W.
-    pub source_heat: Vec<f64>,
-    /// Heat that each boundary gives to the network in W.
-    pub boundary_heat: Vec<f64>,
     /// Heat that each stream brings to its two ends together in W, in the order of the conductors.
     pub stream_heat: Vec<f64>,
-    /// The time in s at which its inputs were read.
-    pub time: f64,
-    /// Which controls are on and which comparisons hold.
-    pub positions: Positions,
     /// The nodes that no path leads from to a boundary: their temperatures follow from the energy
     /// at their start.
     pub adiabatic: Vec<NodeId>,
@@ -66,6 +54,14 @@ const SAME: f64 = 1e-5;
 /// How far heat in and heat out of a steady state may differ, relative to the heat turned over.
 const BALANCE: f64 = 1e-9;
 
+impl std::ops::Deref for SteadyState {
+    type Target = Snapshot;
+
+    fn deref(&self) -> &Snapshot {
+        &self.state
+    }
+}
+
 impl std::ops::Index<NodeId> for SteadyState {
     type Output = f64;
 
@@ -79,11 +75,6 @@ impl std::ops::Index<NodeId> for SteadyState {
 }
 
 impl SteadyState {
-    /// The heat balance of a node or boundary.
-    pub fn balance(&self, network: &Network, of: End) -> Balance {
-        Balance::of_flows(network, of, &self.received, &self.source_heat)
-    }
-
     /// The margin of each limit in SI units, positive while it is kept, zero where a temperature
     /// passes it by rounding only; `t` in the limits is `time` in s, that of the steady state's
     /// inputs.
@@ -127,7 +118,7 @@ impl SteadyState {
             (Err(error), None) => Err(error),
             (Ok(found), Some(reached)) if found.is_near(&reached) => Ok(found),
             (Ok(found), Some(reached)) => {
-                Ok(Self { others: Others::At(found.temperatures), ..reached })
+                Ok(Self { others: Others::At(found.state.temperatures), ..reached })
             }
             (Err(_), Some(reached)) => Ok(reached),
         }
@@ -184,9 +175,7 @@ impl SteadyState {
             balanced(system, &mut work, &islands, start)?
         };
         system.recover(&mut work, &unknowns);
-        let mut steady = Self::from_workspace(system, &mut work, &unknowns)?;
-        steady.time = time;
-        steady.positions.clone_from(positions);
+        let mut steady = Self::from_workspace(system, &mut work, &unknowns, time)?;
         steady.adiabatic = islands.into_iter().flat_map(|island| island.nodes).collect();
         let rest = rounding(system, &steady) + unsettled(system, &mut work, &unknowns)?;
         if steady.imbalance().abs() > BALANCE * steady.turned_over() + rest {
@@ -202,70 +191,18 @@ impl SteadyState {
         system: &ThermalSystem,
         work: &mut Workspace,
         unknowns: &[f64],
+        time: f64,
     ) -> Result<Self, InputError> {
-        let network = system.network();
-        let mut boundary_heat = vec![0.0; network.boundaries().len()];
-        system.boundary_heat(work, unknowns, &mut boundary_heat)?;
         let mut stream_heat = vec![0.0; system.streams().len()];
         system.stream_heat(work, &mut stream_heat)?;
-        let received: Result<Vec<Received>, InputError> =
-            network.conductor_ids().map(|id| system.received(work, id)).collect();
-        let received = received?;
+        let state = Snapshot::of_workspace(system, work, unknowns, (time, true))?;
         Ok(Self {
-            temperatures: system.node_temperatures(work).to_vec(),
-            boundary_temperatures: system.boundary_temperatures(work).to_vec(),
-            conductor_heat: received.iter().map(|[_, to]| *to).collect(),
-            received,
-            source_heat: system.source_powers(work).to_vec(),
-            boundary_heat,
+            conductor_heat: state.received.iter().map(|[_, to]| *to).collect(),
+            state,
             stream_heat,
-            time: 0.0,
-            positions: Positions::default(),
             adiabatic: Vec::new(),
             others: Others::None,
         })
-    }
-
-    /// The place where expressions of results (limits, requirements, reports) find this state.
-    pub fn evaluation(&self, network: &Network) -> Evaluation {
-        let mut scope = network.evaluation();
-        scope.set_positions(&self.positions);
-        scope.set_time(self.time, just_after(self.time));
-        scope.set_temperatures(&self.temperatures, &self.boundary_temperatures);
-        let heats: Vec<f64> = network.named_heats().map(|heat| self.heat(network, heat)).collect();
-        scope.set_heats(&heats);
-        scope
-    }
-
-    fn heat(&self, network: &Network, heat: HeatOf) -> f64 {
-        match heat {
-            HeatOf::Conductor(id) | HeatOf::ReceivedTo(id) => self.received[id.index()][1],
-            HeatOf::ReceivedFrom(id) => self.received[id.index()][0],
-            HeatOf::Source(id) => self.source_heat[id.index()],
-            HeatOf::Boundary(id) => self.boundary_heat[id.index()],
-            HeatOf::FacePath(id) => {
-                let parts = network.face_paths()[id.index()].conductors();
-                parts.map(|part| self.received[part.index()][1]).sum()
-            }
-        }
-    }
-
-    /// One quantity in SI units; `scope` is [`SteadyState::evaluation`].
-    pub(crate) fn value(
-        &self,
-        network: &Network,
-        quantity: Quantity,
-        scope: &mut Evaluation,
-    ) -> Result<f64, InputError> {
-        match quantity {
-            Quantity::Node(id) => Ok(self.temperatures[id.index()]),
-            Quantity::Grid(value) => Ok(network.grid_value(value, &self.temperatures)),
-            Quantity::BoundaryTemperature(id) => Ok(self.boundary_temperatures[id.index()]),
-            Quantity::Heat(heat) => Ok(self.heat(network, heat)),
-            Quantity::Signal(id) => Ok(scope.signal(id)),
-            Quantity::Control(id) => Ok(scope.control(id)),
-            Quantity::Report(id) => network.report_value(id, scope),
-        }
     }
 
     /// Heat of all sources, boundaries and streams in W: zero but for rounding.

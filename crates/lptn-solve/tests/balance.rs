@@ -302,7 +302,7 @@ fn tables_over_temperature_are_left_with_a_name() {
     let g = link(&b, "g(T_from)");
     b.resistor("wall", node, room, Path::conductance(g));
     b.source("heater", node, quantity("100 W"));
-    let error = SteadyState::solve(&system(b), 0.0).map(|s| s.temperatures).unwrap_err();
+    let error = SteadyState::solve(&system(b), 0.0).map(|s| s.state.temperatures).unwrap_err();
     assert_eq!(error.code(), "solve::input");
     assert!(error.to_string().contains("`wall`") && error.to_string().contains("`g`"), "{error}");
 }

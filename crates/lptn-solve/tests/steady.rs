@@ -19,7 +19,7 @@ fn steady(system: &ThermalSystem) -> SteadyState {
 
 fn refused(system: &ThermalSystem) -> SteadyError {
     let found = SteadyState::solve(system, 0.0);
-    found.map(|s| s.temperatures).expect_err("there is no steady state to report")
+    found.map(|s| s.state.temperatures).expect_err("there is no steady state to report")
 }
 
 /// A chain of nodes that radiate to each other and lose heat to two boundaries.
@@ -47,10 +47,10 @@ fn glowing(starts: &[f64]) -> ThermalSystem {
 #[test]
 fn the_start_does_not_matter() {
     let mut random = Random(3);
-    let reference = steady(&glowing(&[300.0; 9])).temperatures;
+    let reference = steady(&glowing(&[300.0; 9])).state.temperatures;
     for _ in 0..30 {
         let starts: Vec<f64> = (0..9).map(|_| random.between(50.0, 2000.0)).collect();
-        let found = steady(&glowing(&starts)).temperatures;
+        let found = steady(&glowing(&starts)).state.temperatures;
         for (a, b) in found.iter().zip(&reference) {
             assert!((a - b).abs() < 1e-8, "{found:?} {reference:?} from {starts:?}");
         }
@@ -67,7 +67,7 @@ fn strong_radiation_is_found_from_cold_and_from_absolute_zero() {
         b.source("fire", ball, HeatFlow(SIGMA * 5000.0_f64.powi(4)));
         radiation(&mut b, "inner", (ball, skin), "1 m^2");
         radiation(&mut b, "outer", (skin, space), "1 m^2");
-        let found = steady(&system(b)).temperatures;
+        let found = steady(&system(b)).state.temperatures;
         assert!((found[1] - 5000.0).abs() < 1e-8, "{found:?} from {start}");
         assert!((found[0] - 5000.0 * 2.0_f64.powf(0.25)).abs() < 1e-8, "{found:?} from {start}");
     }
@@ -82,7 +82,7 @@ fn a_network_at_one_temperature_is_at_rest() {
     radiation(&mut b, "inner", (a, c), "1 m^2");
     radiation(&mut b, "outer", (c, room), "3 m^2");
     stream(&mut b, "in", (room, c), quantity("7 W/K"));
-    let found = steady(&system(b)).temperatures;
+    let found = steady(&system(b)).state.temperatures;
     assert!(found.iter().all(|t| (t - 300.1).abs() < 1e-9), "{found:?}");
 }
 
@@ -188,7 +188,7 @@ fn an_unstable_loop_of_nodes_that_act_on_each_other_is_found_out() {
             let p = power(&b, &format!("-{gain} * ({}.T - absolute(300 [K]))", names[(i + 2) % 3]));
             b.source(&format!("p{i}"), *id, p);
         }
-        let found = SteadyState::solve(&system(b), 0.0).map(|s| s.temperatures);
+        let found = SteadyState::solve(&system(b), 0.0).map(|s| s.state.temperatures);
         assert_eq!(found.is_ok(), stable, "{gain}: {found:?}");
     }
 }
@@ -217,7 +217,7 @@ fn a_closed_loop_of_streams_mixes_to_its_mean() {
         stream(&mut b, &format!("s{i}"), (nodes[i], nodes[(i + 1) % 3]), quantity("5 W/K"));
     }
     let mean = starts.iter().zip(capacities).map(|(t, c)| t * c).sum::<f64>() / 450.0;
-    let found = steady(&system(b)).temperatures;
+    let found = steady(&system(b)).state.temperatures;
     assert!(found.iter().all(|t| (t - mean).abs() < 1e-8), "{found:?} {mean}");
 }
 
@@ -275,7 +275,7 @@ fn counterflow_cells_have_the_effectiveness_of_their_number() {
     // (n - i) q / m
     let a = g / m;
     let d = 100.0 / (1.0 + a * f64::from(n + 1));
-    let found = steady(&system(b)).temperatures;
+    let found = steady(&system(b)).state.temperatures;
     for i in 0..n as usize {
         let exact = 400.0 - (i as f64 + 1.0) * a * d;
         assert!(
@@ -335,7 +335,7 @@ fn an_island_with_a_source_that_ends_by_itself_rests() {
     radiation(&mut b, "ac", (a, c), "0.02 m^2");
     let p = power(&b, "2 [W/K] * (absolute(350 [K]) - T)");
     b.source("heater", a, p);
-    let found = steady(&system(b)).temperatures;
+    let found = steady(&system(b)).state.temperatures;
     assert!(found.iter().all(|t| (t - 350.0).abs() < 1e-6), "{found:?}");
 }
 
@@ -350,7 +350,7 @@ fn an_island_whose_capacity_grows_manyfold_rests_where_its_energy_leads() {
     b.resistor("ac", a, c, Conductance(1.0));
     let end =
         root(300.0, 900.0, |t| 500.0 * (((t - 300.0) / 50.0).exp() - 1.0) + 100.0 * (t - 900.0));
-    let found = steady(&system(b)).temperatures;
+    let found = steady(&system(b)).state.temperatures;
     assert!(found.iter().all(|t| (t - end).abs() < 1e-7), "{found:?} {end}");
 }
 
@@ -377,7 +377,7 @@ fn an_island_that_melts_in_part_rests_at_the_melting_point() {
         b.resistor("ac", a, c, Conductance(1.0));
         // over 10 K: 2000 (T - 300) + 20000 (T - 330) = 1000 (450 - T)
         let exact = if exact.is_nan() { (450e3 + 600e3 + 6.6e6) / 23e3 } else { exact };
-        let found = steady(&system(b)).temperatures;
+        let found = steady(&system(b)).state.temperatures;
         assert!(found.iter().all(|t| (t - exact).abs() < 1e-8), "{found:?} {exact}");
     }
 }

@@ -34,6 +34,13 @@ macro_rules! verbs {
         }
 
         impl Verb {
+            /// What it is called on the command line.
+            pub(crate) fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$Verb(_) => stringify!($($does)::*).split("::").next().unwrap_or("").trim(),)*
+                }
+            }
+
             /// Does it.
             pub(crate) fn run(&self, console: &Console) -> Result<Exit, Failure> {
                 match self {

@@ -60,7 +60,7 @@ pub fn results_of(netlist: &Netlist) -> Result<Results, String> {
     let mut found = of_solution(&solution);
     if let Ok(steady) = SteadyState::solve(&system, run.start) {
         let temperatures =
-            network.nodes().iter().map(|node| node.name.clone()).zip(steady.temperatures);
+            network.nodes().iter().map(|node| node.name.clone()).zip(steady.state.temperatures);
         found.steady = temperatures.collect();
     }
     Ok(found)

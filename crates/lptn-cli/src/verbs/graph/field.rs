@@ -29,14 +29,14 @@ pub(super) fn written(
     let network = &input.netlist.network;
     let name = &network.grids()[id.index()].name;
     // what is asked for is looked at before anything is computed
-    let shape = GridField::of(network, id, &vec![0.0; network.nodes().len()], 0.0);
+    let shape = GridField::of(network, id, None);
     let cut = match &args.field.slice {
         Some(text) => Some(shape.cut(text).map_err(|error| no_slice(text, &error))?),
         None if kind.is_of_grid() => None,
         None => return Err(which_slice(name, &shape)),
     };
     let steady = super::solve(input, unit, console)?;
-    let field = GridField::of(network, id, &steady.temperatures, steady.time);
+    let field = GridField::of(network, id, Some(&steady));
     let title = input.title();
     let ending = kind.ending();
     Ok(match (kind, cut) {

@@ -81,7 +81,7 @@ fn diagram(
     };
     let steady = if args.steady { Some(solve(input, unit, console)?) } else { None };
     let title = input.title();
-    let view = View { title: &title, grouping, unit, steady: steady.as_ref() };
+    let view = View { title: &title, grouping, unit, state: steady.as_deref() };
     Ok(lptn_graph::diagram(&input.netlist.network, &view))
 }
 

@@ -41,10 +41,12 @@ pub(crate) struct Job<'a> {
     pub(crate) unit: Unit,
     pub(crate) format: Format,
     pub(crate) balance: Option<End>,
+    /// What was set on the command line.
+    pub(crate) set: &'a [String],
 }
 
 impl<'a> Job<'a> {
-    pub(crate) fn new(args: &RunArgs, input: &'a Input) -> Result<Self, Failure> {
+    pub(crate) fn new(args: &'a RunArgs, input: &'a Input) -> Result<Self, Failure> {
         let netlist = &input.netlist;
         let mut settings = netlist.run.clone().ok_or_else(|| no_run(input))?;
         if let Some(text) = &args.tolerance {
@@ -55,7 +57,16 @@ impl<'a> Job<'a> {
         let chosen = !(args.shown.select.is_empty() && settings.select.is_empty());
         let format = args.shown.format;
         let balance = balance::end(netlist, args.balance.as_deref(), format)?;
-        Ok(Self { input, settings, selection, chosen, unit, format, balance })
+        Ok(Self {
+            input,
+            settings,
+            selection,
+            chosen,
+            unit,
+            format,
+            balance,
+            set: &args.source.set,
+        })
     }
 
     pub(crate) fn folder(&self, args: &RunArgs) -> PathBuf {

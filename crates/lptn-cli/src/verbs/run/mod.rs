@@ -8,6 +8,7 @@ pub(crate) mod job;
 mod next;
 pub(crate) mod outcome;
 pub(crate) mod page;
+mod report;
 mod state;
 pub(crate) mod uncertainty;
 mod windows;
@@ -32,7 +33,8 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     input.set_times(&args.times)?;
     let (result, folder) = outcome(args, &input, console)?;
     if let Some(folder) = &folder {
-        result.write(&args.source.set, folder)?;
+        result.write(folder)?;
+        console.results_in(folder.path());
     }
     console.show(&result, result.job.format)?;
     result.messages(folder.as_ref(), console);
@@ -41,7 +43,7 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
 
 /// Runs a netlist, and gives the folder that its files are to be written to.
 pub(crate) fn outcome<'a>(
-    args: &RunArgs,
+    args: &'a RunArgs,
     input: &'a Input,
     console: &Console,
 ) -> Result<(Outcome<'a>, Option<Folder>), Failure> {
