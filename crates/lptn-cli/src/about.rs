@@ -7,8 +7,8 @@ use lptn_laws::Confidence;
 use lptn_netlist::Netlist;
 use lptn_network::{Field, Item, Network, ParameterId};
 use lptn_report::{Claim, Piece, Report, Section, Text, TextTable, plain, significant};
-use lptn_solve::{Lumping, SteadyState};
-use lptn_study::{FileHash, Manifest, Sundials};
+use lptn_solve::{Lumping, Snapshot};
+use lptn_study::{FileHash, Sundials};
 use lptn_units::Unit;
 use serde_json::Value;
 
@@ -25,14 +25,32 @@ pub(crate) struct Sensitivities {
     pub(crate) values: Vec<Option<f64>>,
 }
 
+/// What a verb knows of a network beside its answer.
+#[derive(Default)]
+pub(crate) struct Known<'a> {
+    /// How it trusts its answer.
+    pub(crate) claims: Vec<Claim>,
+    /// The network at instants, each under a heading.
+    pub(crate) states: Vec<(String, Snapshot)>,
+    /// The scale of temperatures, where that is not the one of the netlist.
+    pub(crate) unit: Option<&'a Unit>,
+    pub(crate) sensitivities: Option<Sensitivities>,
+}
+
 /// What is known of a network beside the answer of a verb.
-pub(crate) fn about(input: &Input, sensitivities: Option<&Sensitivities>) -> Report {
-    let mut sections = Vec::new();
-    sections.extend(drawing(input, None));
-    sections.extend(parameters(input, sensitivities));
+pub(crate) fn about(input: &Input, known: Known<'_>) -> Report {
+    let unit = known.unit.unwrap_or(&input.netlist.temperature_unit);
+    let states =
+        known.states.iter().map(|(title, state)| drawing(input, (title, unit), Some(state)));
+    let mut sections: Vec<Section> = states.flatten().collect();
+    if sections.is_empty() {
+        sections.extend(drawing(input, ("Network", unit), None));
+    }
+    sections.extend(parameters(input, known.sensitivities.as_ref()));
     sections.push(made_from(&hashes(&input.netlist)));
-    let name = input.text.stem.clone();
-    Report { name, title: String::new(), claims: vec![linearity(input)], sections }
+    let mut claims = known.claims;
+    claims.push(linearity(input));
+    Report { name: input.text.stem.clone(), title: String::new(), claims, sections }
 }
 
 /// Every file that a netlist was read from.
@@ -43,17 +61,6 @@ pub(crate) fn hashes(netlist: &Netlist) -> Vec<FileHash> {
     };
     netlist.inputs().map(hash).collect()
 }
-
-/// Shows a steady state in the place of the bare network.
-pub(crate) fn settle(report: &mut Report, input: &Input, (steady, unit): (&SteadyState, &Unit)) {
-    let place = report.sections.iter().position(|section| section.title == NETWORK);
-    if let (Some(place), Some(drawing)) = (place, drawing(input, Some((steady, unit)))) {
-        report.sections[place] = drawing;
-    }
-}
-
-/// The heading of the drawing.
-const NETWORK: &str = "Network";
 
 /// Whether the network is linear.
 fn linearity(input: &Input) -> Claim {
@@ -101,8 +108,7 @@ fn are(nodes: usize) -> String {
 }
 
 /// The manifest of a run but for what changes from run to run.
-pub(crate) fn manifest(manifest: &Manifest) -> Option<Section> {
-    let mut value = serde_json::to_value(manifest).ok()?;
+pub(crate) fn manifest(mut value: Value) -> Option<Section> {
     let members = value.as_object_mut()?;
     for key in ["environment", "results"] {
         members.shift_remove(key);
@@ -135,15 +141,17 @@ fn is_deep(value: &Value) -> bool {
     value.as_object().is_some_and(|members| !members.is_empty())
 }
 
-/// The network as a drawing, with a steady state on it where there is one.
-fn drawing(input: &Input, state: Option<(&SteadyState, &Unit)>) -> Option<Section> {
-    let unit = state.map_or(&input.netlist.temperature_unit, |(_, unit)| unit);
-    let steady = state.map(|(steady, _)| steady);
-    let view = View { title: "", grouping: Grouping::Auto, unit, steady };
+/// The network as a drawing, with temperatures and heat flows of an instant on it.
+fn drawing(
+    input: &Input,
+    (title, unit): (&str, &Unit),
+    state: Option<&Snapshot>,
+) -> Option<Section> {
+    let view = View { title: "", grouping: Grouping::Auto, unit, state };
     let diagram = diagram(&input.netlist.network, &view);
     let scene = lptn_graph::scene(&diagram).ok()?;
     let caption = diagram.grouped.join("; ");
-    Some(Section::of(NETWORK, Piece::Drawing(scene, caption)))
+    Some(Section::of(title, Piece::Drawing(scene, caption)))
 }
 
 fn parameters(input: &Input, sensitivities: Option<&Sensitivities>) -> Option<Section> {

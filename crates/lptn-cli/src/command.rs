@@ -40,7 +40,7 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
     };
     let global =
         Global { quiet: false, verbose: false, color: Color::Auto, plot: None, report: None };
-    let console = Console::new(&global);
+    let console = Console::new(&global, None);
     console.report(&Files::new(), &[problem]);
     Exit::Input
 }

@@ -1,12 +1,12 @@
 //! Where text goes: results to stdout, everything else to stderr.
 
 use std::io::{self, BufWriter, ErrorKind, IsTerminal as _, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use lptn_netlist::{Diagnostic, Files};
 use lptn_plot::Figure;
-use lptn_report::{Format, Page};
+use lptn_report::{Format, Page, Report};
 
 use crate::diagnostics::render;
 use crate::drawing::{self, Drawing};
@@ -28,7 +28,7 @@ pub(crate) struct Console {
 }
 
 impl Console {
-    pub(crate) fn new(global: &Global) -> Self {
+    pub(crate) fn new(global: &Global, report: Option<Option<PathBuf>>) -> Self {
         let styled = |terminal: bool| match global.color {
             Color::Always => true,
             Color::Never => false,
@@ -41,7 +41,7 @@ impl Console {
             styled_messages: styled(io::stderr().is_terminal()),
             plot: global.plot.clone(),
             drawn: AtomicBool::new(false),
-            reporting: global.report.clone().map(Reporting::into),
+            reporting: report.map(Reporting::into),
         }
     }
 
@@ -57,10 +57,17 @@ impl Console {
             return Err(drawing::not_here());
         }
         self.write(|out| lptn_report::write(page, format, self.styled_results, out))?;
-        if let Some(reporting) = &self.reporting {
-            reporting.add(page);
+        if self.reports() {
+            self.add_report(Report::of(page));
         }
         self.plot.as_ref().map_or(Ok(()), |drawing| self.draw(&page.figures(), drawing))
+    }
+
+    /// Adds to the report that was asked for.
+    pub(crate) fn add_report(&self, report: Report) {
+        if let Some(reporting) = &self.reporting {
+            reporting.add(report);
+        }
     }
 
     /// Whether a report was asked for.

@@ -43,7 +43,8 @@ fn main() -> ExitCode {
         Ok(args) => args,
         Err(error) => return ExitCode::from(command::refuse(&error) as u8),
     };
-    let console = Console::new(&args.global);
+    let report = args.verb.as_ref().and_then(Verb::report).or(args.global.report.clone());
+    let console = Console::new(&args.global, report);
     let outcome = panic_net::caught(|| dispatch(&args, &console));
     let refused = |failure: Failure| {
         console.report(&failure.files, &failure.diagnostics);

@@ -85,7 +85,7 @@ pub(crate) struct NoFiles {
 }
 
 /// The scale in which temperatures are shown.
-#[derive(Debug, Arguments)]
+#[derive(Debug, Default, Arguments)]
 pub(crate) struct Scale {
     /// Show temperatures in degC, K, degF or degR
     #[arg(long, value_name = "UNIT")]

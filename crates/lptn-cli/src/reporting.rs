@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use lptn_netlist::{Diagnostic, Files};
-use lptn_report::{Page, Piece, Report, Section};
+use lptn_report::{Piece, Report, Section};
 
 use crate::diagnostics::render;
 use crate::exit::Exit;
@@ -41,13 +41,8 @@ impl Reporting {
         self.known().folder = Some(folder.to_owned());
     }
 
-    /// Adds a page below those that are there.
-    pub(crate) fn add(&self, page: &dyn Page) {
-        self.add_report(Report::of(page));
-    }
-
     /// Adds what another report says.
-    pub(crate) fn add_report(&self, report: Report) {
+    pub(crate) fn add(&self, report: Report) {
         match &mut self.known().report {
             Some(first) => {
                 first.claims.extend(report.claims);

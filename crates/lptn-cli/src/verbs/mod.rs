@@ -12,11 +12,14 @@ pub(crate) mod modes;
 pub(crate) mod new;
 pub(crate) mod plot;
 pub(crate) mod reduce;
+pub(crate) mod report;
 pub(crate) mod run;
 pub(crate) mod size;
 pub(crate) mod steady;
 pub(crate) mod units;
 pub(crate) mod verify;
+
+use std::path::PathBuf;
 
 use clap::Subcommand;
 
@@ -34,6 +37,14 @@ macro_rules! verbs {
         }
 
         impl Verb {
+            /// Where the report goes that it is there to write.
+            pub(crate) fn report(&self) -> Option<Option<PathBuf>> {
+                match self {
+                    Self::Report(args) => Some(args.output.clone()),
+                    _ => None,
+                }
+            }
+
             /// What it is called on the command line.
             pub(crate) fn name(&self) -> &'static str {
                 match self {
@@ -54,6 +65,7 @@ macro_rules! verbs {
 verbs! {
     Run(run::RunArgs) => run::run,
     Plot(plot::PlotArgs) => plot::plot,
+    Report(report::ReportArgs) => report::report,
     Steady(steady::SteadyArgs) => steady::steady,
     Modes(modes::ModesArgs) => modes::modes,
     Verify(verify::VerifyArgs) => verify::verify,

@@ -12,7 +12,7 @@ use lptn_study::SiValue;
 use serde_json::{Value, json};
 
 use super::View;
-use crate::about;
+use crate::about::{self, Known};
 use crate::words::count;
 
 impl Page for View<'_> {
@@ -41,7 +41,7 @@ impl Page for View<'_> {
     }
 
     fn more(&self) -> Report {
-        about::about(self.input, None)
+        about::about(self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

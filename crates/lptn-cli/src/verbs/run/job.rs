@@ -9,7 +9,7 @@ use lptn_solve::{
     RecordedNodes, Selection, Solution, SteadyError, SteadyState, StopReason, Summary, Transient,
     TransientError, Window,
 };
-use lptn_units::{Problem as _, Unit};
+use lptn_units::{Dimension, Problem as _, Type, Unit};
 
 use super::args::RunArgs;
 use crate::console::Console;
@@ -20,7 +20,7 @@ use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
 use crate::words::MOST_NODES;
 use crate::{balance, select};
-use lptn_report::Format;
+use lptn_report::{Format, duration};
 
 /// Why there is no steady state to show.
 #[derive(Debug)]
@@ -41,6 +41,10 @@ pub(crate) struct Job<'a> {
     pub(crate) unit: Unit,
     pub(crate) format: Format,
     pub(crate) balance: Option<End>,
+    /// Times in s at which the report draws the network.
+    pub(crate) at: Vec<f64>,
+    /// Whether every node is recorded, whatever is selected.
+    pub(crate) whole: bool,
     /// What was set on the command line.
     pub(crate) set: &'a [String],
 }
@@ -57,7 +61,11 @@ impl<'a> Job<'a> {
         let chosen = !(args.shown.select.is_empty() && settings.select.is_empty());
         let format = args.shown.format;
         let balance = balance::end(netlist, args.balance.as_deref(), format)?;
+        let at = times(&args.at, &settings)?;
+        let whole = false;
         Ok(Self {
+            at,
+            whole,
             input,
             settings,
             selection,
@@ -112,6 +120,9 @@ impl<'a> Job<'a> {
         steady: Option<&SteadyState>,
     ) -> Result<Transient, TransientError> {
         let (mut record, mut watch) = (self.selection.record(), Vec::new());
+        if self.whole {
+            record = RecordedNodes::All;
+        }
         if self.format == Format::Table {
             let selection = Some(&self.selection).filter(|_| self.chosen);
             let shown = shown(system.network(), selection, steady);
@@ -133,6 +144,20 @@ impl<'a> Job<'a> {
             ..lptn_solve::Transient::of(system.network(), &self.settings)
         })
     }
+}
+
+/// Times of the run that an option names.
+fn times(given: &[String], settings: &RunSettings) -> Result<Vec<f64>, Failure> {
+    let time = |text: &String| {
+        let time = input::quantity("--at", text, Type::of(Dimension::TIME))?.value;
+        if (settings.start..=settings.stop).contains(&time) {
+            return Ok(time);
+        }
+        let (from, to) = (duration(settings.start, 4), duration(settings.stop, 4));
+        let message = format!("--at {text} is not a time of the run, which is from {from} to {to}");
+        Err(Failure::new(Exit::Input, Diagnostic::error("run::settings", message)))
+    };
+    given.iter().map(time).collect()
 }
 
 /// What broke a run off, with the place of the input that did.

@@ -47,7 +47,7 @@ pub(crate) fn outcome<'a>(
     input: &'a Input,
     console: &Console,
 ) -> Result<(Outcome<'a>, Option<Folder>), Failure> {
-    let job = Job::new(args, input)?;
+    let job = Job { whole: console.reports(), ..Job::new(args, input)? };
     uncertainty::check(&args.uncertainty, input)?;
     let system = input.assemble()?;
     let folder = (!args.no_files).then(|| Folder::prepare(job.folder(args))).transpose()?;

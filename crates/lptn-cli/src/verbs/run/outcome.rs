@@ -135,7 +135,7 @@ impl Outcome<'_> {
     }
 
     /// What the rows show to be wrong with reports, and with nodes that are not lumps.
-    pub(super) fn found(&self) -> Vec<Diagnostic> {
+    pub(crate) fn found(&self) -> Vec<Diagnostic> {
         let netlist = &self.job.input.netlist;
         let certain = self.uncertainty().map_or_else(Vec::new, |_| elsewhere(netlist));
         let lumps = lumping::warnings(netlist, &self.lumping);

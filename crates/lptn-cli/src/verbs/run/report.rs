@@ -2,10 +2,10 @@
 
 use lptn_network::{NodeId, ParameterId};
 use lptn_report::{Claim, Report, duration, significant};
-use lptn_solve::{Gradient, Transient, Watch, sensitive_run};
+use lptn_solve::{Gradient, Snapshot, Transient, Watch, sensitive_run};
 
 use super::outcome::{Outcome, not_bounded, weak_ledger};
-use crate::about::{self, Sensitivities};
+use crate::about::{self, Known, Sensitivities};
 use crate::limits;
 
 /// With more numbers than this, nodes times parameters, sensitivities take longer than the run.
@@ -14,15 +14,33 @@ const MOST_TANGENTS: usize = 2000;
 impl Outcome<'_> {
     /// The sections of a report and its claims.
     pub(super) fn report(&self) -> Report {
-        let sensitivities = self.sensitivities();
-        let mut report = about::about(self.job.input, sensitivities.as_ref());
-        report.claims.splice(0..0, self.claims());
-        if let Ok(steady) = &self.steady {
-            about::settle(&mut report, self.job.input, (steady, &self.job.unit));
-        }
+        let known = Known {
+            claims: self.claims(),
+            states: self.states(),
+            unit: Some(&self.job.unit),
+            sensitivities: self.sensitivities(),
+        };
+        let mut report = about::about(self.job.input, known);
         let manifest = self.manifest(Vec::new());
-        report.sections.extend(about::manifest(&manifest));
+        report.sections.extend(serde_json::to_value(&manifest).ok().and_then(about::manifest));
         report
+    }
+
+    /// The network at the times that were asked for, else at the end, and where it settles.
+    fn states(&self) -> Vec<(String, Snapshot)> {
+        let times = self.solution.times();
+        let at = |time: &f64| self.solution.row_at(*time);
+        let mut rows: Vec<usize> = self.job.at.iter().filter_map(at).collect();
+        if rows.is_empty() {
+            rows.extend(times.len().checked_sub(1));
+        }
+        let one = |row: usize| {
+            let title = format!("At {}", duration(times[row], 4));
+            Some((title, self.solution.snapshot(row)?))
+        };
+        let settled = self.steady.as_ref().ok();
+        let settled = settled.map(|steady| ("Where it settles".to_owned(), steady.state.clone()));
+        rows.into_iter().filter_map(one).chain(settled).collect()
     }
 
     fn claims(&self) -> Vec<Claim> {

@@ -11,7 +11,7 @@ use lptn_units::Unit;
 use serde_json::json;
 
 use super::Answer;
-use crate::about;
+use crate::about::{self, Known};
 use crate::words::spaced;
 
 /// Digits of a value that is shown.
@@ -63,7 +63,7 @@ impl Page for Answer<'_> {
     }
 
     fn more(&self) -> Report {
-        about::about(self.input, None)
+        about::about(self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -14,7 +14,7 @@ use lptn_study::SiValue;
 use lptn_units::Unit;
 use serde_json::{Map, json};
 
-use crate::about;
+use crate::about::{self, Known};
 use crate::console::Console;
 use crate::doubts::{adiabatic, inputs_vary, others};
 use crate::input::Input;
@@ -210,7 +210,6 @@ impl View<'_> {
 
     /// What a report says besides.
     fn report(&self) -> Report {
-        let mut report = about::about(self.input, None);
         let (network, unit) = (&self.input.netlist.network, self.unit);
         let (imbalance, moved) = (self.steady.imbalance(), self.steady.turned_over());
         let books = match moved > 0.0 {
@@ -219,10 +218,9 @@ impl View<'_> {
         };
         let books = format!("heat in and heat out differ by {books} of the heat turned over");
         let own = [Claim::checked(true, books)].into_iter().chain(about::laws(network));
-        let own: Vec<Claim> = own.chain(limits::claims(network, self.limits, unit)).collect();
-        report.claims.splice(0..0, own);
-        about::settle(&mut report, self.input, (self.steady, unit));
-        report
+        let claims = own.chain(limits::claims(network, self.limits, unit)).collect();
+        let states = vec![("Where it settles".to_owned(), self.steady.state.clone())];
+        about::about(self.input, Known { claims, states, unit: Some(unit), sensitivities: None })
     }
 
     /// What to know before this is believed.

@@ -13,7 +13,7 @@ use lptn_solve::{NoReference, Reference, RunComparison, Transient, TransientErro
 use lptn_study::SiValue;
 use serde_json::{Value, json};
 
-use crate::about;
+use crate::about::{self, Known};
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -177,7 +177,7 @@ impl Page for View<'_> {
     }
 
     fn more(&self) -> Report {
-        about::about(self.input, None)
+        about::about(self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -15,7 +15,7 @@ use serde_json::{Map, Value, json};
 
 use super::Answer;
 use super::words::{combination, state, type_of, verdict};
-use crate::about;
+use crate::about::{self, Known};
 use crate::diagnostics;
 use crate::words::{count, symbol};
 
@@ -65,7 +65,7 @@ impl Page for Answer<'_> {
     }
 
     fn more(&self) -> Report {
-        about::about(self.input, None)
+        about::about(self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -50,6 +50,8 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
         balance: balance::end(netlist, args.balance.as_deref(), args.shown.format)?,
         input: &input,
         set: &args.source.set,
+        at: Vec::new(),
+        whole: console.reports(),
     };
     let system = input.assemble()?;
     let folder = args.cycle.output.clone().map(Folder::prepare).transpose()?;
