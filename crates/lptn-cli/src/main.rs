@@ -15,6 +15,7 @@ mod doubts;
 mod drawing;
 mod exit;
 mod failure;
+mod families;
 mod files;
 mod input;
 mod interrupt;
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
     let outcome = panic_net::caught(|| dispatch(&args, &console));
     let refused = |failure: Failure| {
         console.report(&failure.files, &failure.diagnostics);
+        console.offer_explanation(&failure.diagnostics);
         failure.exit
     };
     let known = outcome.is_ok();

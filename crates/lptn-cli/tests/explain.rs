@@ -157,3 +157,23 @@ fn a_code_is_explained_and_a_near_one_is_suggested() {
     let csv = folder.run(&["explain", "--format", "csv"]).exits(0);
     csv.prints("code,summary\n").prints("\nnetwork::empty,A network without a node.\n");
 }
+
+/// Only those who look on are told where to read more and what to type next.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_is_told_where_to_read_more() {
+    let folder = Folder::empty();
+    let piped = folder.run(&["run", "missing.toml"]).exits(2);
+    assert!(!piped.err.contains("lptn explain"), "{}", piped.err);
+    let on_terminal = |arguments: &str| {
+        let mut script = std::process::Command::new("script");
+        let command = format!("'{}' {arguments}", env!("CARGO_BIN_EXE_lptn"));
+        script.args(["-qec", &command, "/dev/null"]).current_dir(folder.path());
+        Ran::of(script.stdin(std::process::Stdio::null()).output().unwrap()).out
+    };
+    let said = on_terminal("run missing.toml");
+    assert_eq!(said.matches("explain  lptn explain input::cannot_read").count(), 1, "{said}");
+    assert!(!on_terminal("run missing.toml -q").contains("lptn explain"));
+    assert!(on_terminal("new motor").contains("next   lptn run motor.toml"));
+    assert!(on_terminal("check motor.toml").contains("stiffness: "));
+}

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use lptn_report::{Json, Page, Rows, Style, Text, TextTable};
+use lptn_report::{Json, Page, Rows, Standing, Text, TextTable};
 use serde_json::{Value, json};
 
 use super::codes::{Code, Part};
@@ -64,8 +64,8 @@ fn mark(line: &str, text: &mut Text) {
     let (sign, rest) = line.split_at_checked(1).unwrap_or((" ", line));
     let line = format!("{sign}   {rest}").trim_end().to_owned();
     match sign {
-        "-" => text.marked(Style::Bad, line),
-        "+" => text.marked(Style::Good, line),
+        "-" => text.marked(Standing::Fails, line),
+        "+" => text.marked(Standing::Holds, line),
         _ => text.line(line),
     };
 }
