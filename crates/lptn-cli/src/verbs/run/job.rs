@@ -71,28 +71,7 @@ impl<'a> Job<'a> {
     ) -> Result<(Solution, Option<Diagnostic>), Failure> {
         let transient =
             self.transient(system, steady).map_err(|error| failed(self.input, &error))?;
-        let interrupt = Interrupt::listen();
-        let mut line = ProgressLine::new(console.quiet);
-        let outcome = transient.solve_observed(system, &mut |progress| {
-            line.update(progress);
-            interrupt.control()
-        });
-        line.clear();
-        match outcome {
-            Ok(solution) => Ok((solution, None)),
-            Err(error) => {
-                let problem = explain(self.input, &error);
-                match error {
-                    // nothing was computed, and nothing could be: the question does not fit the
-                    // network
-                    TransientError::Stopped { reason: StopReason::NothingSwitches, .. } => {
-                        Err(failed(self.input, &error))
-                    }
-                    TransientError::Stopped { partial, .. } => Ok((*partial, Some(problem))),
-                    error => Err(failed(self.input, &error)),
-                }
-            }
-        }
+        observed(self.input, (system, &transient), console)
     }
 
     fn transient(
@@ -121,6 +100,36 @@ impl<'a> Job<'a> {
             balance: self.balance,
             ..lptn_solve::Transient::of(system.network(), &self.settings)
         })
+    }
+}
+
+/// Runs to the stop, to the first failure or to Ctrl-C, and shows how far it is.
+pub(crate) fn observed(
+    input: &Input,
+    (system, transient): (&ThermalSystem, &Transient),
+    console: &Console,
+) -> Result<(Solution, Option<Diagnostic>), Failure> {
+    let interrupt = Interrupt::listen();
+    let mut line = ProgressLine::new(console.quiet);
+    let outcome = transient.solve_observed(system, &mut |progress| {
+        line.update(progress);
+        interrupt.control()
+    });
+    line.clear();
+    match outcome {
+        Ok(solution) => Ok((solution, None)),
+        Err(error) => {
+            let problem = explain(input, &error);
+            match error {
+                // nothing was computed, and nothing could be: the question does not fit the
+                // network
+                TransientError::Stopped { reason: StopReason::NothingSwitches, .. } => {
+                    Err(failed(input, &error))
+                }
+                TransientError::Stopped { partial, .. } => Ok((*partial, Some(problem))),
+                error => Err(failed(input, &error)),
+            }
+        }
     }
 }
 
