@@ -29,10 +29,8 @@ hot = { of = 'lump.T', below = '30 degC', severity = 'warning' }
 stop = '300 s'
 output = { every = '1 s' }
 [size.heat]
-vary = 'P'
-from = '1 W'
-to = '1 kW'
-goal = 'max'
+maximise = 'P'
+vary = { P = { from = '1 W', to = '1 kW' } }
 require = ['lump.T <= 60 [degC]']
 ";
 
@@ -156,7 +154,7 @@ fn the_network_is_drawn_at_the_times_that_are_asked_for() {
     assert!(page.contains(">31.3 °C<") && page.contains(">63.2"), "{page}");
     let ran = folder.run(&[&command[..], &["1h"]].concat());
     assert_eq!(ran.code, Some(2));
-    assert!(ran.err.contains("--at 1h is not a time of the run, which is from 0"), "{}", ran.err);
+    assert!(ran.err.contains("--at 1h is outside of the run, which goes from 0"), "{}", ran.err);
 }
 
 #[test]

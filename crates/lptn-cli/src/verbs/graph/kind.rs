@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use lptn_netlist::Diagnostic;
 
+use super::args::GraphArgs;
 use crate::exit::Exit;
 use crate::failure::Failure;
 
@@ -62,13 +63,9 @@ impl Kind {
     }
 }
 
-/// What is written and where, by `--format` and `-o`; `sliced` where a slice is asked for.
-pub(super) fn wanted(
-    format: Option<Kind>,
-    output: Option<&Path>,
-    sliced: bool,
-) -> Result<(Kind, Place), Failure> {
-    let (kind, place) = match (format, output) {
+/// What is written and where, by `--format` and `-o`.
+pub(super) fn wanted(args: &GraphArgs) -> Result<(Kind, Place), Failure> {
+    let (kind, place) = match (args.format, args.output.as_deref()) {
         (format, None) => {
             let kind = format.unwrap_or(Kind::Svg);
             (kind, if kind.is_piped() { Place::Stdout } else { Place::Results })
@@ -87,12 +84,22 @@ pub(super) fn wanted(
             (kind, Place::File(path.to_owned()))
         }
     };
-    if sliced && !matches!(kind, Kind::Svg | Kind::Png) {
-        let message = format!("a slice is a picture, and {} holds the whole grid", kind.key());
-        let problem = Diagnostic::error("graph::format", message);
-        return Err(refused(problem.help("leave --slice out, or write svg or png")));
+    if matches!(kind, Kind::Svg | Kind::Png) {
+        return Ok((kind, place));
     }
-    Ok((kind, place))
+    let whole = if kind.is_of_grid() { "the whole grid" } else { "the network" };
+    let only_a_picture = [
+        (args.field.slice.is_some(), "a slice", "--slice"),
+        (args.sankey, "a Sankey diagram", "--sankey"),
+    ];
+    match only_a_picture.into_iter().find(|(asked, ..)| *asked) {
+        Some((_, what, option)) => {
+            let message = format!("{what} is a picture, and {} holds {whole}", kind.key());
+            let problem = Diagnostic::error("graph::format", message);
+            Err(refused(problem.help(format!("leave {option} out, or write svg or png"))))
+        }
+        None => Ok((kind, place)),
+    }
 }
 
 fn refused(problem: Diagnostic) -> Failure {
