@@ -14,6 +14,7 @@ mod heat;
 mod json;
 mod layout;
 mod number;
+mod of_page;
 mod page;
 mod picture;
 mod report;
@@ -29,6 +30,7 @@ pub use layout::{
     Align, Column, TextTable, TextTableOf, WIDTH, differing, labelled, plain, shortened, stacked,
 };
 pub use number::{Shortest, decimals, duration, fixed, prefix, significant};
+pub use of_page::report_of;
 pub use page::{Page, Rows};
 pub use picture::Picture;
 pub use report::{Claim, Piece, Report, Section, Standing};
