@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// From the ground up: a crate may use only those before it.
-const ORDER: [&str; 17] = [
+const ORDER: [&str; 18] = [
     "lptn-units",
     "lptn-plot",
     "lptn-laws",
@@ -20,6 +20,7 @@ const ORDER: [&str; 17] = [
     "lptn-fit",
     "lptn-study",
     "lptn-report",
+    "lptn-html",
     "lptn-graph",
     "lptn",
     "lptn-cli",

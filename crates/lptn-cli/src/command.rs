@@ -38,8 +38,9 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
     let Some(problem) = verb.and_then(|verb| file_as_verb(verb).or_else(|| near_verb(verb))) else {
         error.exit();
     };
-    let global = Global { quiet: false, verbose: false, color: Color::Auto, plot: None };
-    let console = Console::new(&global);
+    let global =
+        Global { quiet: false, verbose: false, color: Color::Auto, plot: None, report: None };
+    let console = Console::new(&global, None);
     console.report(&Files::new(), &[problem]);
     Exit::Input
 }

@@ -1,17 +1,19 @@
 //! Where text goes: results to stdout, everything else to stderr.
 
 use std::io::{self, BufWriter, ErrorKind, IsTerminal as _, Write};
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use lptn_netlist::{Diagnostic, Files};
 use lptn_plot::Figure;
-use lptn_report::{Format, Page};
+use lptn_report::{Format, Page, Report};
 
 use crate::diagnostics::render;
 use crate::drawing::{self, Drawing};
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
 use crate::options::{Color, Global};
+use crate::reporting::{self, Reporting};
 
 /// The two streams of a command.
 #[derive(Debug)]
@@ -22,10 +24,11 @@ pub(crate) struct Console {
     styled_messages: bool,
     pub(crate) plot: Option<Drawing>,
     drawn: AtomicBool,
+    reporting: Option<Reporting>,
 }
 
 impl Console {
-    pub(crate) fn new(global: &Global) -> Self {
+    pub(crate) fn new(global: &Global, report: Option<Option<PathBuf>>) -> Self {
         let styled = |terminal: bool| match global.color {
             Color::Always => true,
             Color::Never => false,
@@ -38,6 +41,7 @@ impl Console {
             styled_messages: styled(io::stderr().is_terminal()),
             plot: global.plot.clone(),
             drawn: AtomicBool::new(false),
+            reporting: report.map(Reporting::into),
         }
     }
 
@@ -53,7 +57,38 @@ impl Console {
             return Err(drawing::not_here());
         }
         self.write(|out| lptn_report::write(page, format, self.styled_results, out))?;
+        if self.reports() {
+            self.add_report(lptn_report::report_of(page));
+        }
         self.plot.as_ref().map_or(Ok(()), |drawing| self.draw(&page.figures(), drawing))
+    }
+
+    /// Adds to the report that was asked for.
+    pub(crate) fn add_report(&self, report: Report) {
+        if let Some(reporting) = &self.reporting {
+            reporting.add(report);
+        }
+    }
+
+    /// Whether a report was asked for.
+    pub(crate) fn reports(&self) -> bool {
+        self.reporting.is_some()
+    }
+
+    /// The folder of the results, which the report goes into unless it has a place of its own.
+    pub(crate) fn results_in(&self, folder: &Path) {
+        self.reporting.iter().for_each(|reporting| reporting.beside(folder));
+    }
+
+    /// Writes the report that was asked for. Where the verb failed it may have nothing to say.
+    pub(crate) fn write_report(&self, verb: &str, known: bool) -> Result<(), Failure> {
+        let Some(reporting) = &self.reporting else { return Ok(()) };
+        match reporting.finish(verb)? {
+            Some(file) => self.note(&format!("wrote  {file}")),
+            None if known => return Err(reporting::nothing()),
+            None => {}
+        }
+        Ok(())
     }
 
     /// Draws figures into a file or on the terminal.
@@ -119,6 +154,7 @@ impl Console {
             .iter()
             .map(|diagnostic| render(files, diagnostic, self.styled_messages))
             .collect();
+        self.reporting.iter().for_each(|reporting| reporting.say(files, diagnostics));
         if !texts.is_empty() {
             self.message(&texts.join("\n\n"));
         }
@@ -126,8 +162,10 @@ impl Console {
 
     /// Warnings beside a result.
     pub(crate) fn warn(&self, files: &Files, warnings: &[Diagnostic]) {
-        if !self.quiet {
-            self.report(files, warnings);
+        match &self.reporting {
+            _ if !self.quiet => self.report(files, warnings),
+            Some(reporting) => reporting.say(files, warnings),
+            None => {}
         }
     }
 

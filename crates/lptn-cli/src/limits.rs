@@ -4,7 +4,7 @@ use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Bound, Item, Limit, LimitId, LimitSeverity, Network};
 use lptn_plot::figure::{Level, Panel};
 use lptn_plot::printed;
-use lptn_report::{TEMPERATURE, Text, TextTable, duration, significant};
+use lptn_report::{Claim, TEMPERATURE, Text, TextTable, duration, significant};
 use lptn_solve::LimitSeen;
 use lptn_study::SiValue;
 use lptn_units::{Dimension, Type, Unit};
@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::words::spaced;
+use crate::words::{count, spaced};
 
 /// Digits of a margin.
 const DIGITS: usize = 4;
@@ -120,6 +120,19 @@ pub(crate) fn broken(network: &Network, limits: &[Judged], unit: &Unit) -> Vec<S
         format!("{} broken by {by}{at}", limit.name)
     };
     limits.iter().filter(|judged| judged.is_broken()).map(said).collect()
+}
+
+/// Whether limits are kept, for a report.
+pub(crate) fn claims(network: &Network, limits: &[Judged], unit: &Unit) -> Vec<Claim> {
+    let open = limits.iter().filter(|judged| judged.is_open()).count();
+    let broken = broken(network, limits, unit);
+    let kept = limits.len() - open - broken.len();
+    let told = |n: usize, what: &str| format!("{} {what}", count(n, "limit"));
+    let mut claims: Vec<Claim> =
+        broken.into_iter().map(|broken| Claim::checked(false, broken)).collect();
+    claims.extend((kept > 0).then(|| Claim::checked(true, told(kept, "kept"))));
+    claims.extend((open > 0).then(|| Claim::open(told(open, "not judged"))));
+    claims
 }
 
 /// What the quantity has to stay below or above, in SI units.

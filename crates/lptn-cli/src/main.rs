@@ -5,6 +5,7 @@
 //! and ends with one of the codes of [`exit`]. A fault of the program itself is one of them too:
 //! see [`panic_net`].
 
+mod about;
 mod args;
 mod balance;
 mod command;
@@ -22,6 +23,7 @@ mod lumping;
 mod options;
 mod panic_net;
 mod progress;
+mod reporting;
 mod select;
 mod sense;
 mod verbs;
@@ -34,18 +36,26 @@ use args::Args;
 use console::Console;
 use exit::Exit;
 use failure::Failure;
+use verbs::Verb;
 
 fn main() -> ExitCode {
     let args = match command::parsed() {
         Ok(args) => args,
         Err(error) => return ExitCode::from(command::refuse(&error) as u8),
     };
-    let console = Console::new(&args.global);
+    let report = args.verb.as_ref().and_then(Verb::report).or(args.global.report.clone());
+    let console = Console::new(&args.global, report);
     let outcome = panic_net::caught(|| dispatch(&args, &console));
-    let exit = outcome.unwrap_or_else(|failure| {
+    let refused = |failure: Failure| {
         console.report(&failure.files, &failure.diagnostics);
         failure.exit
-    });
+    };
+    let known = outcome.is_ok();
+    let mut exit = outcome.unwrap_or_else(refused);
+    let verb = args.verb.as_ref().map_or("", Verb::name);
+    if let Err(failure) = console.write_report(verb, known) {
+        exit = refused(failure);
+    }
     ExitCode::from(exit as u8)
 }
 

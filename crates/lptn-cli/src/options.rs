@@ -32,6 +32,9 @@ pub(crate) struct Global {
     /// Draw the result: to a file that ends with .svg or .png, or - for the terminal
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) plot: Option<Drawing>,
+    /// Write the result as one HTML page, among the results or to =FILE
+    #[arg(long, global = true, value_name = "FILE", num_args = 0..=1, require_equals = true)]
+    pub(crate) report: Option<Option<PathBuf>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -82,7 +85,7 @@ pub(crate) struct NoFiles {
 }
 
 /// The scale in which temperatures are shown.
-#[derive(Debug, Arguments)]
+#[derive(Debug, Default, Arguments)]
 pub(crate) struct Scale {
     /// Show temperatures in degC, K, degF or degR
     #[arg(long, value_name = "UNIT")]

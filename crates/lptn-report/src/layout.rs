@@ -190,6 +190,11 @@ impl TextTable {
         rooms.into_iter().for_each(|(i, room)| self.columns[i].shorten(room));
     }
 
+    /// Its columns.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
     /// The number of rows.
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, |column| column.cells.len())

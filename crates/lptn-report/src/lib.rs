@@ -1,8 +1,9 @@
 //! What a result looks like: terminal tables with sparklines, CSV, JSON, pictures.
 //!
 //! A command's answer is a [`Page`]: it gives a [`Text`] for reading, rows and an object for
-//! programs and figures for looking at, and a format is one file that writes what it asks a page for. Nothing here solves
-//! anything, prints anything or knows where the text goes. In files every number is the shortest
+//! programs and figures for looking at, and a format is one file that writes what it asks a page
+//! for. A [`Report`] is all of a page as a document. Nothing here solves anything, prints anything
+//! or knows where the text goes. In files every number is the shortest
 //! text that reads back as the same `f64`; in tables for reading, numbers are rounded and say their
 //! unit.
 
@@ -13,8 +14,10 @@ mod heat;
 mod json;
 mod layout;
 mod number;
+mod of_page;
 mod page;
 mod picture;
+mod report;
 mod sparkline;
 mod text;
 
@@ -27,7 +30,9 @@ pub use layout::{
     Align, Column, TextTable, TextTableOf, WIDTH, differing, labelled, plain, shortened, stacked,
 };
 pub use number::{Shortest, decimals, duration, fixed, prefix, significant};
+pub use of_page::report_of;
 pub use page::{Page, Rows};
 pub use picture::Picture;
+pub use report::{Claim, Piece, Report, Section, Standing};
 pub use sparkline::sparkline;
 pub use text::{Block, Text, words};

@@ -7,6 +7,7 @@ use lptn_plot::Figure;
 use lptn_solve::Table;
 
 use crate::json::Json;
+use crate::report::Report;
 use crate::text::Text;
 
 /// What a command has to say, for readers and for programs. Each format asks only for what it
@@ -29,6 +30,12 @@ pub trait Page {
     /// For looking at: what `--plot` draws. There is nothing unless this is given.
     fn figures(&self) -> Vec<Figure> {
         Vec::new()
+    }
+
+    /// What a report shows besides: how far the result can be trusted, and further sections. Its
+    /// title is that of the text.
+    fn more(&self) -> Report {
+        Report::default()
     }
 
     /// Why the answer is no, where the question has one: the text ends with it, and other formats

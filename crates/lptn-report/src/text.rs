@@ -88,7 +88,8 @@ impl Text {
         self.add(Block::Labelled(label.to_owned(), pieces))
     }
 
-    fn add(&mut self, block: Block) -> &mut Self {
+    /// Adds a block.
+    pub(crate) fn add(&mut self, block: Block) -> &mut Self {
         match self.sections.last_mut() {
             Some(section) => section.push(block),
             None => self.sections.push(vec![block]),

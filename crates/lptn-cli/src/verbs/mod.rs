@@ -11,11 +11,14 @@ pub(crate) mod modes;
 pub(crate) mod new;
 pub(crate) mod plot;
 pub(crate) mod reduce;
+pub(crate) mod report;
 pub(crate) mod run;
 pub(crate) mod size;
 pub(crate) mod steady;
 pub(crate) mod units;
 pub(crate) mod verify;
+
+use std::path::PathBuf;
 
 use clap::Subcommand;
 
@@ -33,6 +36,21 @@ macro_rules! verbs {
         }
 
         impl Verb {
+            /// Where the report goes that it is there to write.
+            pub(crate) fn report(&self) -> Option<Option<PathBuf>> {
+                match self {
+                    Self::Report(args) => Some(args.output.clone()),
+                    _ => None,
+                }
+            }
+
+            /// What it is called on the command line.
+            pub(crate) fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$Verb(_) => stringify!($($does)::*).split("::").next().unwrap_or("").trim(),)*
+                }
+            }
+
             /// Does it.
             pub(crate) fn run(&self, console: &Console) -> Result<Exit, Failure> {
                 match self {
@@ -46,6 +64,7 @@ macro_rules! verbs {
 verbs! {
     Run(run::RunArgs) => run::run,
     Plot(plot::PlotArgs) => plot::plot,
+    Report(report::ReportArgs) => report::report,
     Steady(steady::SteadyArgs) => steady::steady,
     Modes(modes::ModesArgs) => modes::modes,
     Verify(verify::VerifyArgs) => verify::verify,

@@ -16,7 +16,7 @@ const DOTS: [f64; 2] = [3.0, 1.5];
 const PER_DOT: f64 = 3.0;
 
 /// The ink of the curve at a place of a panel.
-pub(super) fn ink(curve: &Curve, place: usize) -> Ink {
+pub fn ink(curve: &Curve, place: usize) -> Ink {
     Ink::Series(curve.place.unwrap_or(place))
 }
 

@@ -6,6 +6,7 @@ mod frame;
 mod labels;
 mod range;
 
+pub use curves::ink;
 pub(crate) use frame::far;
 pub(crate) use labels::apart;
 pub(crate) use range::{across, upward};
@@ -60,6 +61,15 @@ fn draw(figure: &Figure, (top, width): (f64, f64), scene: &mut Scene) -> f64 {
         top = area.bottom + if shared { MARGIN } else { frame::ROOM_BELOW };
     }
     top
+}
+
+/// The ranges of a panel of a figure, to the right and upwards.
+pub fn ranges(figure: &Figure, panel: &Panel) -> [(f64, f64); 2] {
+    let sharing = figure.panels.iter().filter(|other| other.x == panel.x);
+    let across = range::across(sharing);
+    // what may be one value is opened as for the picture
+    let opened = |axis, range| Ruler::new(axis, range, 2.0, false).range;
+    [opened(&panel.x, across), opened(&panel.y, range::upward(panel))]
 }
 
 fn panel_height(panel: &Panel) -> f64 {

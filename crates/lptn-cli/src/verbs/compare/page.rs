@@ -6,12 +6,13 @@ use std::path::Path;
 use lptn_network::LimitSeverity;
 use lptn_plot::Figure;
 use lptn_report::{
-    Align, Column, Json, Page, Rows, Text, TextTable, WIDTH, decimals, duration, fixed, plain,
-    significant, stacked,
+    Align, Column, Json, Page, Report, Rows, Text, TextTable, WIDTH, decimals, duration, fixed,
+    plain, significant, stacked,
 };
 use lptn_study::{Candidate, CompareRow, LimitResult, compare_table};
 
 use super::Comparison;
+use crate::about;
 use crate::diagnostics;
 use crate::exit::Exit;
 use crate::words::{count, spaced};
@@ -38,6 +39,10 @@ impl Page for Comparison {
 
     fn figures(&self) -> Vec<Figure> {
         vec![self.figure()]
+    }
+
+    fn more(&self) -> Report {
+        about::of_command(&[])
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -4,15 +4,15 @@ use lptn_netlist::{Diagnostic, RunSettings};
 use lptn_network::Network;
 use lptn_report::duration;
 use lptn_solve::{RunStatus, Snapshot, Solution, SteadyState, Transient};
-use lptn_units::{Dimension, Type, Unit};
+use lptn_units::Unit;
 
 use super::args::GraphArgs;
 use crate::console::Console;
 use crate::doubts::{adiabatic, inputs_vary, others};
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::input::{Input, quantity};
-use crate::verbs::run::job::{no_run, observed};
+use crate::input::Input;
+use crate::verbs::run::job::{no_run, observed, time_of_run};
 use crate::verbs::run::outcome::{does_not_close, doubts};
 use crate::verbs::steady::failed;
 
@@ -43,11 +43,8 @@ fn steady(input: &Input, unit: &Unit, console: &Console) -> Result<SteadyState, 
 
 /// The row of the run at or before a time.
 fn at(text: &str, input: &Input, console: &Console) -> Result<Snapshot, Failure> {
-    let time = quantity("--at", text, Type::of(Dimension::TIME))?.value;
     let settings = input.netlist.run.as_ref().ok_or_else(|| no_run(input))?;
-    if !(settings.start..=settings.stop).contains(&time) {
-        return Err(outside(text, settings));
-    }
+    let time = time_of_run(text, settings)?;
     let system = input.assemble()?;
     let transient = Transient::of(system.network(), settings);
     let (solution, broken) = observed(input, (&system, &transient), console)?;
@@ -79,12 +76,4 @@ fn check(input: &Input, solution: &Solution, broken: Option<Diagnostic>) -> Resu
         true => Ok(()),
         false => Err(input.refused(Exit::Failed, does_not_close(solution))),
     }
-}
-
-fn outside(text: &str, settings: &RunSettings) -> Failure {
-    let [start, stop] = [settings.start, settings.stop].map(|time| duration(time, 6));
-    let message = format!("--at {text} is outside of the run, which goes from {start} to {stop}");
-    let problem = Diagnostic::error("graph::time", message);
-    let help = format!("name a time from {start} to {stop}, or give [run] another `stop`");
-    Failure::new(Exit::Input, problem.help(help))
 }

@@ -9,11 +9,12 @@ use std::io;
 
 use lptn_network::{Network, Node};
 use lptn_plot::Figure;
-use lptn_report::{Json, Page, Rows, Text, TextTable, duration, fixed, shortened};
+use lptn_report::{Json, Page, Report, Rows, Text, TextTable, duration, fixed, shortened};
 use lptn_solve::{EventKind, Mode, Modes};
 use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
+use crate::about::{self, Known};
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -174,6 +175,10 @@ impl Page for View<'_> {
 
     fn figures(&self) -> Vec<Figure> {
         if self.modes.modes().is_empty() { Vec::new() } else { vec![self.figure()] }
+    }
+
+    fn more(&self) -> Report {
+        about::about(self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

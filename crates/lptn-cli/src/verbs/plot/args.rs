@@ -15,7 +15,7 @@ Examples:
   lptn plot small.toml large.toml --select '*.T'";
 
 /// Draw runs, results and measured records over time
-#[derive(Debug, Arguments)]
+#[derive(Debug, Default, Arguments)]
 #[command(before_help = EXAMPLES, help_template = TEMPLATE)]
 pub(crate) struct PlotArgs {
     /// Netlists, folders of results and CSV files; all into one picture

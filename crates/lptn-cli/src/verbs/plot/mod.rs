@@ -2,7 +2,7 @@
 
 mod args;
 mod overlay;
-mod source;
+pub(crate) mod source;
 
 pub(crate) use args::PlotArgs;
 

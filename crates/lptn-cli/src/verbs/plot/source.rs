@@ -65,6 +65,7 @@ impl Source {
             balance: None,
             tolerance: None,
             output: None,
+            at: Vec::new(),
             no_files: true,
             uncertainty: run::uncertainty::args::UncertaintyArgs::default(),
         };
@@ -85,16 +86,26 @@ impl Source {
     }
 
     fn of_folder(path: &Path, args: &PlotArgs, console: &Console) -> Result<Self, Failure> {
-        let result = path.join(RESULT);
-        if !result.is_file() {
-            return Err(no_result(path));
-        }
-        as_it_was_written(path, &result, console);
-        let mut figure = drawn(&columns(&result, args, console)?, &stem(path));
-        let moments = events(&path.join(EVENTS));
-        figure.panels.iter_mut().for_each(|panel| panel.moments.clone_from(&moments));
+        let figure = selected(path, args, console)?;
         Ok(Self { name: stem(path), path: path.into(), measured: false, figure })
     }
+}
+
+/// The columns of results over time, as their run wrote them.
+pub(crate) fn of_folder(path: &Path, console: &Console) -> Result<Figure, Failure> {
+    selected(path, &PlotArgs::default(), console)
+}
+
+fn selected(path: &Path, args: &PlotArgs, console: &Console) -> Result<Figure, Failure> {
+    let result = path.join(RESULT);
+    if !result.is_file() {
+        return Err(no_result(path));
+    }
+    as_it_was_written(path, &result, console);
+    let mut figure = drawn(&columns(&result, args, console)?, &stem(path));
+    let moments = events(&path.join(EVENTS));
+    figure.panels.iter_mut().for_each(|panel| panel.moments.clone_from(&moments));
+    Ok(figure)
 }
 
 fn is_record(path: &Path) -> bool {

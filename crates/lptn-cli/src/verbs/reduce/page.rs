@@ -5,11 +5,14 @@ use std::io;
 
 use lptn_plot::Figure;
 use lptn_reduce::{Bias, Definition, Deviation, Dynamics, FitError, LeastSquaresWindow, Pair};
-use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, duration, fixed, significant};
+use lptn_report::{
+    Json, Page, Report, Rows, Text, TextTable, decimals, duration, fixed, significant,
+};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
 
 use super::View;
+use crate::about::{self, Known};
 use crate::words::count;
 
 impl Page for View<'_> {
@@ -35,6 +38,10 @@ impl Page for View<'_> {
 
     fn figures(&self) -> Vec<Figure> {
         self.reduction.dynamics.iter().map(|dynamics| self.figure(dynamics)).collect()
+    }
+
+    fn more(&self) -> Report {
+        about::about(self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

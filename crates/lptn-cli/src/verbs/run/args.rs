@@ -36,6 +36,9 @@ pub(crate) struct RunArgs {
     /// Write no files
     #[arg(long)]
     pub(crate) no_files: bool,
+    /// Draw the network in the report as it is then; may be repeated
+    #[arg(long, value_name = "TIME", requires = "report")]
+    pub(crate) at: Vec<String>,
     #[command(flatten)]
     pub(crate) uncertainty: UncertaintyArgs,
 }

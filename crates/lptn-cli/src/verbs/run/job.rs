@@ -9,7 +9,7 @@ use lptn_solve::{
     RecordedNodes, Selection, Solution, SteadyError, SteadyState, StopReason, Summary, Transient,
     TransientError, Window,
 };
-use lptn_units::{Problem as _, Unit};
+use lptn_units::{Dimension, Problem as _, Type, Unit};
 
 use super::args::RunArgs;
 use crate::console::Console;
@@ -20,7 +20,7 @@ use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
 use crate::words::MOST_NODES;
 use crate::{balance, select};
-use lptn_report::Format;
+use lptn_report::{Format, duration};
 
 /// Why there is no steady state to show.
 #[derive(Debug)]
@@ -41,10 +41,16 @@ pub(crate) struct Job<'a> {
     pub(crate) unit: Unit,
     pub(crate) format: Format,
     pub(crate) balance: Option<End>,
+    /// Times in s at which the report draws the network.
+    pub(crate) at: Vec<f64>,
+    /// Whether every node is recorded, whatever is selected.
+    pub(crate) whole: bool,
+    /// What was set on the command line.
+    pub(crate) set: &'a [String],
 }
 
 impl<'a> Job<'a> {
-    pub(crate) fn new(args: &RunArgs, input: &'a Input) -> Result<Self, Failure> {
+    pub(crate) fn new(args: &'a RunArgs, input: &'a Input) -> Result<Self, Failure> {
         let netlist = &input.netlist;
         let mut settings = netlist.run.clone().ok_or_else(|| no_run(input))?;
         if let Some(text) = &args.tolerance {
@@ -55,7 +61,21 @@ impl<'a> Job<'a> {
         let chosen = !(args.shown.select.is_empty() && settings.select.is_empty());
         let format = args.shown.format;
         let balance = balance::end(netlist, args.balance.as_deref(), format)?;
-        Ok(Self { input, settings, selection, chosen, unit, format, balance })
+        let at = args.at.iter().map(|text| time_of_run(text, &settings));
+        let at = at.collect::<Result<_, _>>()?;
+        let whole = false;
+        Ok(Self {
+            at,
+            whole,
+            input,
+            settings,
+            selection,
+            chosen,
+            unit,
+            format,
+            balance,
+            set: &args.source.set,
+        })
     }
 
     pub(crate) fn folder(&self, args: &RunArgs) -> PathBuf {
@@ -80,6 +100,9 @@ impl<'a> Job<'a> {
         steady: Option<&SteadyState>,
     ) -> Result<Transient, TransientError> {
         let (mut record, mut watch) = (self.selection.record(), Vec::new());
+        if self.whole {
+            record = RecordedNodes::All;
+        }
         if self.format == Format::Table {
             let selection = Some(&self.selection).filter(|_| self.chosen);
             let shown = shown(system.network(), selection, steady);
@@ -131,6 +154,18 @@ pub(crate) fn observed(
             }
         }
     }
+}
+
+/// A time of the run that `--at` names, in s.
+pub(crate) fn time_of_run(text: &str, settings: &RunSettings) -> Result<f64, Failure> {
+    let time = input::quantity("--at", text, Type::of(Dimension::TIME))?.value;
+    if (settings.start..=settings.stop).contains(&time) {
+        return Ok(time);
+    }
+    let [start, stop] = [settings.start, settings.stop].map(|time| duration(time, 6));
+    let message = format!("--at {text} is outside of the run, which goes from {start} to {stop}");
+    let help = format!("name a time from {start} to {stop}, or give [run] another `stop`");
+    Err(Failure::new(Exit::Input, Diagnostic::error("run::time", message).help(help)))
 }
 
 /// What broke a run off, with the place of the input that did.

@@ -8,6 +8,7 @@ pub(crate) mod job;
 mod next;
 pub(crate) mod outcome;
 pub(crate) mod page;
+mod report;
 mod state;
 pub(crate) mod uncertainty;
 mod windows;
@@ -32,7 +33,8 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     input.set_times(&args.times)?;
     let (result, folder) = outcome(args, &input, console)?;
     if let Some(folder) = &folder {
-        result.write(&args.source.set, folder)?;
+        result.write(folder)?;
+        console.results_in(folder.path());
     }
     console.show(&result, result.job.format)?;
     result.messages(folder.as_ref(), console);
@@ -41,11 +43,11 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
 
 /// Runs a netlist, and gives the folder that its files are to be written to.
 pub(crate) fn outcome<'a>(
-    args: &RunArgs,
+    args: &'a RunArgs,
     input: &'a Input,
     console: &Console,
 ) -> Result<(Outcome<'a>, Option<Folder>), Failure> {
-    let job = Job::new(args, input)?;
+    let job = Job { whole: console.reports(), ..Job::new(args, input)? };
     uncertainty::check(&args.uncertainty, input)?;
     let system = input.assemble()?;
     let folder = (!args.no_files).then(|| Folder::prepare(job.folder(args))).transpose()?;

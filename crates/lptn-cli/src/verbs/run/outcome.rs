@@ -13,6 +13,7 @@ use super::gaps::gaps;
 use super::job::{Job, NoSteady};
 use super::uncertainty::{Study, elsewhere, files as uncertain};
 use super::{events, next, state, windows};
+use crate::about;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -41,7 +42,7 @@ pub(crate) struct Outcome<'a> {
 
 impl Outcome<'_> {
     /// Writes the files: all of them take their places together, the manifest last.
-    pub(crate) fn write(&self, set: &[String], folder: &Folder) -> Result<(), Failure> {
+    pub(crate) fn write(&self, folder: &Folder) -> Result<(), Failure> {
         let mut files = folder.batch();
         files.write(RESULT, |out| write_csv(&self.table, out))?;
         let state = state::of(self.job.input, &self.solution);
@@ -60,24 +61,20 @@ impl Outcome<'_> {
             let ranking = uncertain::ranking(network, &study.found);
             files.write(RANKING, |out| write_csv(&ranking, out))?;
         }
-        let manifest = self.manifest(set, files.written().to_vec());
+        let manifest = self.manifest(files.written().to_vec());
         files.write(MANIFEST, |out| out.write_all(manifest.text()?.as_bytes()))?;
         files.commit(&[EVENTS, WINDOWS, UNCERTAINTY, RANKING])
     }
 
-    fn manifest(&self, set: &[String], results: Vec<FileHash>) -> Manifest {
+    pub(super) fn manifest(&self, results: Vec<FileHash>) -> Manifest {
         let settings = &self.job.settings;
-        let hash = |(name, text): (&str, &str)| FileHash {
-            name: name.to_owned(),
-            sha256: lptn_study::sha256(text.as_bytes()),
-        };
         Manifest {
             format: 1,
             lptn: env!("CARGO_PKG_VERSION").to_owned(),
             sundials: Sundials::linked(),
             arguments: files::arguments(),
-            inputs: self.job.input.netlist.inputs().map(hash).collect(),
-            parameters: self.parameters(set),
+            inputs: about::hashes(&self.job.input.netlist),
+            parameters: self.parameters(),
             start: SiValue::new(settings.start, "s"),
             stop: SiValue::new(settings.stop, "s"),
             tolerance: SiValue::new(settings.tolerance, "K"),
@@ -96,8 +93,8 @@ impl Outcome<'_> {
         }
     }
 
-    fn parameters(&self, set: &[String]) -> Map<String, Value> {
-        let network = self.solution.network();
+    fn parameters(&self) -> Map<String, Value> {
+        let (network, set) = (self.solution.network(), self.job.set);
         let set = |name: &str| {
             let mut assigned = set.iter().filter_map(|text| text.split_once('='));
             assigned.find(|(left, _)| left.trim() == name).map(|(_, right)| right.trim().to_owned())
@@ -138,7 +135,7 @@ impl Outcome<'_> {
     }
 
     /// What the rows show to be wrong with reports, and with nodes that are not lumps.
-    pub(super) fn found(&self) -> Vec<Diagnostic> {
+    pub(crate) fn found(&self) -> Vec<Diagnostic> {
         let netlist = &self.job.input.netlist;
         let certain = self.uncertainty().map_or_else(Vec::new, |_| elsewhere(netlist));
         let lumps = lumping::warnings(netlist, &self.lumping);

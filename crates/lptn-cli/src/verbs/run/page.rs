@@ -5,7 +5,8 @@ use std::io;
 
 use lptn_plot::Figure;
 use lptn_report::{
-    Flow, Json, Page, Rows, Text, TextTable, decimals, duration, fixed, significant, sparkline,
+    Flow, Json, Page, Report, Rows, Text, TextTable, decimals, duration, fixed, significant,
+    sparkline,
 };
 use lptn_solve::{NodeSummary, RunStatus, Solution, SteadyError, Summary, first_there};
 use lptn_study::{RunEnd, StatisticsRecord};
@@ -70,6 +71,10 @@ impl Page for Outcome<'_> {
 
     fn figures(&self) -> Vec<Figure> {
         vec![self.figure()]
+    }
+
+    fn more(&self) -> Report {
+        self.report()
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

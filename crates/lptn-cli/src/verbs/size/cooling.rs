@@ -3,13 +3,14 @@
 use std::io;
 
 use lptn_netlist::Files;
-use lptn_report::{Json, Page, Rows, Text, TextTable, plain, significant};
+use lptn_report::{Json, Page, Report, Rows, Text, TextTable, plain, significant};
 use lptn_solve::Table;
 use lptn_study::{Coolant, CoolantFlow, Cooling, CoolingTask, SiValue};
 use lptn_units::{Dimension, Type};
 use serde_json::{Map, json};
 
 use super::args::{CoolingArgs, SizeArgs};
+use crate::about;
 use crate::console::Console;
 use crate::diagnostics;
 use crate::exit::Exit;
@@ -136,6 +137,10 @@ impl Page for Answer<'_> {
         let values = self.values().into_iter();
         values.for_each(|(name, value, unit)| table.column(name, unit, |()| value));
         table.done().into()
+    }
+
+    fn more(&self) -> Report {
+        about::of_command(&[])
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

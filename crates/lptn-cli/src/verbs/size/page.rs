@@ -4,13 +4,14 @@ use std::io;
 
 use lptn_netlist::{Goal, Requirement};
 use lptn_plot::Figure;
-use lptn_report::{Json, Page, Rows, Text, TextTable, plain, significant};
+use lptn_report::{Json, Page, Report, Rows, Text, TextTable, plain, significant};
 use lptn_solve::Table;
 use lptn_study::{SiValue, Verdict};
 use lptn_units::Unit;
 use serde_json::json;
 
 use super::Answer;
+use crate::about::{self, Known};
 use crate::words::spaced;
 
 /// Digits of a value that is shown.
@@ -59,6 +60,10 @@ impl Page for Answer<'_> {
 
     fn figures(&self) -> Vec<Figure> {
         vec![self.figure()]
+    }
+
+    fn more(&self) -> Report {
+        about::about(self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -6,13 +6,15 @@ use std::io;
 use lptn_netlist::Diagnostic;
 use lptn_network::{ConductorId, FacePathId, GridValue, HeatOf, Item, Network, NodeId};
 use lptn_report::{
-    Json, Page, Rows, Text, TextTable, decimals, fixed, prefix, shortened, significant,
+    Claim, Json, Page, Report, Rows, Text, TextTable, decimals, fixed, prefix, shortened,
+    significant,
 };
 use lptn_solve::{Balance, Selection, SteadyState, Table};
 use lptn_study::SiValue;
 use lptn_units::Unit;
 use serde_json::{Map, json};
 
+use crate::about::{self, Known};
 use crate::console::Console;
 use crate::doubts::{adiabatic, inputs_vary, others};
 use crate::input::Input;
@@ -206,6 +208,21 @@ impl View<'_> {
         }
     }
 
+    /// What a report says besides.
+    fn report(&self) -> Report {
+        let (network, unit) = (&self.input.netlist.network, self.unit);
+        let (imbalance, moved) = (self.steady.imbalance(), self.steady.turned_over());
+        let books = match moved > 0.0 {
+            true => significant(imbalance.abs() / moved, 2),
+            false => "0".into(),
+        };
+        let books = format!("heat in and heat out differ by {books} of the heat turned over");
+        let own = [Claim::checked(true, books)].into_iter().chain(about::laws(network));
+        let claims = own.chain(limits::claims(network, self.limits, unit)).collect();
+        let states = vec![("Where it settles".to_owned(), self.steady.state.clone())];
+        about::about(self.input, Known { claims, states, unit: Some(unit), sensitivities: None })
+    }
+
     /// What to know before this is believed.
     pub(super) fn doubts(&self) -> Vec<Diagnostic> {
         let netlist = &self.input.netlist;
@@ -246,6 +263,10 @@ impl Page for View<'_> {
 
     fn rows(&self) -> Rows<'_> {
         self.table.into()
+    }
+
+    fn more(&self) -> Report {
+        self.report()
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

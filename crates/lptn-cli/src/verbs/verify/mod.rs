@@ -8,11 +8,12 @@ use std::io;
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::Network;
-use lptn_report::{Json, Page, Rows, Text, TextTable, duration, shortened, significant};
+use lptn_report::{Json, Page, Report, Rows, Text, TextTable, duration, shortened, significant};
 use lptn_solve::{NoReference, Reference, RunComparison, Transient, TransientError, Verification};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
 
+use crate::about::{self, Known};
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -173,6 +174,10 @@ impl Page for View<'_> {
 
     fn rows(&self) -> Rows<'_> {
         self.verification.table(self.network()).into()
+    }
+
+    fn more(&self) -> Report {
+        about::about(self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -6,13 +6,14 @@ use lptn_fit::law::{
     Coefficient, Consistency, Exponent, Fitted, LawFit, LawStudy, LossLaw, SIGNIFICANT,
 };
 use lptn_plot::Figure;
-use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, fixed, plain, significant};
+use lptn_report::{Json, Page, Report, Rows, Text, TextTable, decimals, fixed, plain, significant};
 use lptn_solve::Table;
 use serde_json::{Value, json};
 
 use super::laws::{sections, verdict};
 use super::shown::with_error;
 use super::{Answer, laws};
+use crate::about;
 use crate::diagnostics;
 
 impl Page for Answer {
@@ -78,6 +79,10 @@ impl Page for Answer {
 
     fn figures(&self) -> Vec<Figure> {
         self.pictures()
+    }
+
+    fn more(&self) -> Report {
+        about::of_command(&[])
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -5,7 +5,9 @@ use std::io;
 use lptn_fit::least_squares::Side;
 use lptn_fit::network::{ColumnMisfit, Combination, Unseparated};
 use lptn_plot::Figure;
-use lptn_report::{Json, Page, Rows, Text, TextTable, decimals, differing, fixed, significant};
+use lptn_report::{
+    Json, Page, Report, Rows, Text, TextTable, decimals, differing, fixed, significant,
+};
 use lptn_solve::Gradient;
 use lptn_solve::Table;
 use lptn_study::SiValue;
@@ -13,6 +15,7 @@ use serde_json::{Map, Value, json};
 
 use super::Answer;
 use super::words::{combination, state, type_of, verdict};
+use crate::about::{self, Known};
 use crate::diagnostics;
 use crate::words::{count, symbol};
 
@@ -59,6 +62,10 @@ impl Page for Answer<'_> {
 
     fn figures(&self) -> Vec<Figure> {
         self.pictures()
+    }
+
+    fn more(&self) -> Report {
+        about::about(self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

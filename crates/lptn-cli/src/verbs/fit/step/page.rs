@@ -5,8 +5,8 @@ use std::io;
 use lptn_fit::step::{Estimated, FittedValue, Parted, Power, TwoExponentials};
 use lptn_plot::Figure;
 use lptn_report::{
-    Align, Column as TextColumn, Json, Page, Rows, Text, TextTable, WIDTH, plain, shortened,
-    significant, stacked,
+    Align, Column as TextColumn, Json, Page, Report, Rows, Text, TextTable, WIDTH, plain,
+    shortened, significant, stacked,
 };
 use lptn_solve::Table;
 use lptn_study::SiValue;
@@ -16,6 +16,7 @@ use super::estimate::{to_error, with_error};
 use super::model::Model;
 use super::request::Reference;
 use super::{Answer, Column};
+use crate::about;
 use crate::diagnostics;
 
 impl Page for Answer<'_> {
@@ -65,6 +66,10 @@ impl Page for Answer<'_> {
 
     fn figures(&self) -> Vec<Figure> {
         vec![self.figure()]
+    }
+
+    fn more(&self) -> Report {
+        about::of_command(&[])
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -49,6 +49,9 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
         format: args.shown.format,
         balance: balance::end(netlist, args.balance.as_deref(), args.shown.format)?,
         input: &input,
+        set: &args.source.set,
+        at: Vec::new(),
+        whole: console.reports(),
     };
     let system = input.assemble()?;
     let folder = args.cycle.output.clone().map(Folder::prepare).transpose()?;
@@ -66,7 +69,8 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
         Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, verbose };
     let view = View { outcome: &outcome, found: &found };
     if let Some(folder) = &folder {
-        outcome.write(&args.source.set, folder)?;
+        outcome.write(folder)?;
+        console.results_in(folder.path());
     }
     console.show(&view, args.shown.format)?;
     let beyond = Beyond::of_run(&outcome.solution).map(|beyond| sense::warning(netlist, &beyond));

@@ -4,7 +4,7 @@ use std::io;
 
 use lptn_plot::Figure;
 use lptn_report::{
-    Json, Page, Rows, Text, TextTable, decimals, duration, fixed, prefix, significant,
+    Json, Page, Report, Rows, Text, TextTable, decimals, duration, fixed, prefix, significant,
 };
 use lptn_solve::{ColumnSeen, CycleMethod};
 use lptn_study::{SiValue, StatisticsRecord};
@@ -64,6 +64,10 @@ impl Page for View<'_> {
             rows.push(row);
         }
         Rows::Words(rows)
+    }
+
+    fn more(&self) -> Report {
+        self.outcome.more()
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -15,7 +15,7 @@ use lptn_fit::step::{Capacity, LONG_ENOUGH, Sensor};
 use lptn_netlist::{Diagnostic, Files};
 use lptn_plot::Figure;
 use lptn_report::{
-    Json, Page, Rows, Text, TextTable, WIDTH, duration, fixed, labelled, significant, words,
+    Json, Page, Report, Rows, Text, TextTable, WIDTH, duration, fixed, labelled, significant, words,
 };
 use lptn_solve::available_threads;
 use lptn_study::FileHash;
@@ -27,6 +27,7 @@ use super::args::LawArgs;
 use super::points::Data;
 use super::shown::with_error;
 use super::{Answer, laws_to_fit};
+use crate::about;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -323,6 +324,10 @@ impl Page for Runs {
 
     fn figures(&self) -> Vec<Figure> {
         self.pictures()
+    }
+
+    fn more(&self) -> Report {
+        about::of_command(&self.inputs)
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

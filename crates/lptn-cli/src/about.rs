@@ -1,0 +1,238 @@
+//! What every report says of a netlist: its network, its parameters, and what it was read from.
+
+use std::collections::BTreeSet;
+
+use lptn_graph::{Grouping, View, diagram};
+use lptn_laws::Confidence;
+use lptn_netlist::Netlist;
+use lptn_network::{Field, Item, Network, ParameterId};
+use lptn_report::{Claim, Piece, Report, Section, Text, TextTable, plain, significant};
+use lptn_solve::{Lumping, Snapshot};
+use lptn_study::{FileHash, Sundials};
+use lptn_units::Unit;
+use serde_json::Value;
+
+use crate::files;
+use crate::input::{Input, quoted};
+use crate::words::{count, difference, spaced};
+
+/// How an answer changes with a parameter.
+pub(crate) struct Sensitivities {
+    /// What changes: `steel at 25 min`.
+    pub(crate) of: String,
+    /// In K for one percent more of each parameter, for 1 K more of a temperature; `None` where
+    /// that is not known.
+    pub(crate) values: Vec<Option<f64>>,
+}
+
+/// What a verb knows of a network beside its answer.
+#[derive(Default)]
+pub(crate) struct Known<'a> {
+    /// How it trusts its answer.
+    pub(crate) claims: Vec<Claim>,
+    /// The network at instants, each under a heading.
+    pub(crate) states: Vec<(String, Snapshot)>,
+    /// The scale of temperatures, where that is not the one of the netlist.
+    pub(crate) unit: Option<&'a Unit>,
+    pub(crate) sensitivities: Option<Sensitivities>,
+}
+
+/// What is known of a network beside the answer of a verb.
+pub(crate) fn about(input: &Input, known: Known<'_>) -> Report {
+    let unit = known.unit.unwrap_or(&input.netlist.temperature_unit);
+    let states =
+        known.states.iter().map(|(title, state)| drawing(input, (title, unit), Some(state)));
+    let mut sections: Vec<Section> = states.flatten().collect();
+    if sections.is_empty() {
+        sections.extend(drawing(input, ("Network", unit), None));
+    }
+    sections.extend(parameters(input, known.sensitivities.as_ref()));
+    sections.push(made_from(&hashes(&input.netlist)));
+    let mut claims = known.claims;
+    claims.push(linearity(input));
+    Report { name: input.text.stem.clone(), title: String::new(), claims, sections }
+}
+
+/// Every file that a netlist was read from.
+pub(crate) fn hashes(netlist: &Netlist) -> Vec<FileHash> {
+    let hash = |(name, text): (&str, &str)| FileHash {
+        name: name.to_owned(),
+        sha256: lptn_study::sha256(text.as_bytes()),
+    };
+    netlist.inputs().map(hash).collect()
+}
+
+/// Whether the network is linear.
+fn linearity(input: &Input) -> Claim {
+    let linear = input.assemble().is_ok_and(|system| system.is_linear());
+    Claim::open(match (linear, input.netlist.network.has_events()) {
+        (true, false) => "linear: temperatures rise in proportion to heat",
+        (true, true) => "linear between switches",
+        (false, _) => "not linear: what holds at one load need not hold at another",
+    })
+}
+
+/// Whether every law stayed where it is known: elsewhere there is no result.
+pub(crate) fn laws(network: &Network) -> Vec<Claim> {
+    let laws = network.conductors().iter().map(|conductor| conductor.law.formula().declaration());
+    let unsure = laws.filter(|law| law.confidence == Confidence::Medium).map(|law| law.name);
+    let names: BTreeSet<&str> = unsure.collect();
+    let kept = "no table, fluid or capacity left the range it is given for";
+    let mut claims = vec![Claim::checked(true, kept)];
+    if !names.is_empty() {
+        let names: Vec<String> = names.into_iter().map(|name| name.replace('_', " ")).collect();
+        claims.push(Claim::open(format!("unverified constants: {}", names.join(", "))));
+    }
+    claims
+}
+
+/// Whether nodes are lumps.
+pub(crate) fn lumps(lumping: &Lumping) -> Claim {
+    let (thick, slow) = (lumping.too_thick().len(), lumping.too_slow().len());
+    let checked = lumping.checks.iter().filter(|check| check.biot.is_ok()).count();
+    match (thick + slow, checked) {
+        (0, 0) => Claim::open("no Biot number checked: no node has an L_char"),
+        (0, n) => {
+            let others = lumping.without_length.len();
+            let rest = if others > 0 { format!(", {others} not checked") } else { String::new() };
+            Claim::checked(true, format!("Biot numbers below 0.1: {}{rest}", count(n, "node")))
+        }
+        _ => {
+            Claim::checked(false, format!("{} not a lump, see the messages", are(thick.max(slow))))
+        }
+    }
+}
+
+fn are(nodes: usize) -> String {
+    if nodes == 1 { "1 node is".into() } else { format!("{nodes} nodes are") }
+}
+
+/// The manifest of a run but for what changes from run to run.
+pub(crate) fn manifest(mut value: Value) -> Option<Section> {
+    let members = value.as_object_mut()?;
+    for key in ["environment", "results"] {
+        members.shift_remove(key);
+    }
+    let mut text = String::new();
+    lines(&value, 0, &mut text);
+    Some(Section::of("Manifest", Piece::Verbatim(text)).folded())
+}
+
+/// JSON with a line for each member, and on one line what holds no further objects.
+fn lines(value: &Value, depth: usize, out: &mut String) {
+    let Some(members) = value.as_object().filter(|all| all.values().any(is_deep)) else {
+        return *out += &value.to_string();
+    };
+    *out += "{\n";
+    for (i, (key, member)) in members.iter().enumerate() {
+        let comma = if i > 0 { ",\n" } else { "" };
+        *out += &format!(
+            "{comma}{:indent$}{}: ",
+            "",
+            Value::from(key.as_str()),
+            indent = 2 * depth + 2
+        );
+        lines(member, depth + 1, out);
+    }
+    *out += &format!("\n{:indent$}}}", "", indent = 2 * depth);
+}
+
+fn is_deep(value: &Value) -> bool {
+    value.as_object().is_some_and(|members| !members.is_empty())
+}
+
+/// The network as a drawing, with temperatures and heat flows of an instant on it.
+fn drawing(
+    input: &Input,
+    (title, unit): (&str, &Unit),
+    state: Option<&Snapshot>,
+) -> Option<Section> {
+    let view = View { title: "", grouping: Grouping::Auto, unit, state };
+    let diagram = diagram(&input.netlist.network, &view);
+    let mut pieces = Vec::new();
+    if let Ok(scene) = lptn_graph::scene(&diagram) {
+        pieces.push(Piece::Drawing(scene, diagram.grouped.join("; ")));
+    }
+    if let Some(Ok(scene)) = state.map(|_| lptn_graph::sankey(&diagram)) {
+        pieces.push(Piece::Drawing(scene, String::new()));
+    }
+    let shown = !pieces.is_empty();
+    shown.then(|| Section { title: title.to_owned(), pieces, folded: false })
+}
+
+fn parameters(input: &Input, sensitivities: Option<&Sensitivities>) -> Option<Section> {
+    let network = &input.netlist.network;
+    let ids: Vec<ParameterId> = network.parameter_ids().collect();
+    if ids.is_empty() {
+        return None;
+    }
+    let of = |id: &ParameterId| &network.parameters()[id.index()];
+    let shown = |id: ParameterId, value: f64| {
+        let unit = input.unit_of(id);
+        format!("{}{}", significant(unit.from_si(value), 6), spaced(&unit.text))
+    };
+    let deviation = |id: &ParameterId| {
+        let deviation = input.netlist.overrides().deviation(*id).or(of(id).deviation);
+        let unit = input.unit_of(*id);
+        let text = unit.text.as_str();
+        let text = if of(id).ty.absolute { difference(&unit) } else { text };
+        deviation.map_or(String::new(), |si| {
+            format!("{}{}", significant(si / unit.scale, 3), spaced(text))
+        })
+    };
+    let mut table = TextTable::of(&ids)
+        .left("parameter", |id| of(id).name.as_str())
+        .right("value", |id| shown(*id, network.parameter_value(*id)))
+        .left("as it is written", |id| written(input, *id));
+    if ids.iter().any(|id| !deviation(id).is_empty()) {
+        table = table.right("\u{b1}, one standard deviation", deviation);
+    }
+    if let Some(found) = sensitivities {
+        let value = |id: &ParameterId| {
+            found.values[id.index()].map_or("-".into(), |kelvin| format!("{kelvin:+.3}"))
+        };
+        table = table.right("+1 % changes it by [K]", value);
+    }
+    let mut text = Text::new();
+    text.table(table);
+    if let Some(found) = sensitivities {
+        let of = &found.of;
+        text.line(format!("The last column is about {of}; of a temperature it is for 1 K more."));
+    }
+    Some(Section::of("Parameters", Piece::Text(text)))
+}
+
+/// The text of a parameter's value with the comment behind it, or that it was set.
+fn written(input: &Input, id: ParameterId) -> String {
+    let netlist = &input.netlist;
+    let Some(span) = netlist.source_map.get(Item::Parameter(id), Field::Value) else {
+        return String::new();
+    };
+    let text = netlist.files.text(span.file);
+    let rest = text[span.range.end..].lines().next().unwrap_or_default();
+    let comment = rest.split_once('#').map_or("", |(_, comment)| comment.trim());
+    let value = netlist.files.at(&span).trim_matches(['"', '\'']);
+    match comment {
+        "" => plain(value),
+        comment => plain(&format!("{value} ({comment})")),
+    }
+}
+
+/// What is known of an answer that is not about a netlist.
+pub(crate) fn of_command(files: &[FileHash]) -> Report {
+    Report { sections: vec![made_from(files)], ..Report::default() }
+}
+
+/// The files that were read, with their hashes, and the command.
+fn made_from(read: &[FileHash]) -> Section {
+    let mut text = Text::new();
+    if !read.is_empty() {
+        let table = TextTable::of(read).left("file", |file| plain(&file.name));
+        text.table(table.left("SHA-256", |file| file.sha256.as_str()));
+    }
+    let words: Vec<String> = files::arguments().iter().map(|word| quoted(word)).collect();
+    text.section().sentence("command:", &plain(&format!("lptn {}", words.join(" "))));
+    let (own, sundials) = (env!("CARGO_PKG_VERSION"), Sundials::linked().version);
+    text.sentence("lptn:", &format!("{own}, SUNDIALS {sundials}"));
+    Section::of("What it was made from", Piece::Text(text)).folded()
+}

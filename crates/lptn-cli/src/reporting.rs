@@ -1,0 +1,97 @@
+//! `--report`: results as a page that can be sent to a colleague.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use lptn_netlist::{Diagnostic, Files};
+use lptn_report::{Piece, Report, Section};
+
+use crate::diagnostics::render;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files;
+
+/// A report that was asked for, as far as it is known.
+#[derive(Debug, Default)]
+pub(crate) struct Reporting {
+    /// The file; without one it stands among the results.
+    file: Option<PathBuf>,
+    known: Mutex<Known>,
+}
+
+#[derive(Debug, Default)]
+struct Known {
+    report: Option<Report>,
+    messages: Vec<String>,
+    folder: Option<PathBuf>,
+}
+
+impl Reporting {
+    /// A report that goes into a file, or among the results.
+    pub(crate) fn into(file: Option<PathBuf>) -> Self {
+        Self { file, ..Self::default() }
+    }
+
+    fn known(&self) -> MutexGuard<'_, Known> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Results go to this folder.
+    pub(crate) fn beside(&self, folder: &Path) {
+        self.known().folder = Some(folder.to_owned());
+    }
+
+    /// Adds what another report says.
+    pub(crate) fn add(&self, report: Report) {
+        match &mut self.known().report {
+            Some(first) => {
+                first.claims.extend(report.claims);
+                first.sections.extend(report.sections);
+            }
+            none => *none = Some(report),
+        }
+    }
+
+    /// Takes note of what was said beside the result.
+    pub(crate) fn say(&self, files: &Files, diagnostics: &[Diagnostic]) {
+        let said = diagnostics.iter().map(|diagnostic| render(files, diagnostic, false));
+        self.known().messages.extend(said);
+    }
+
+    /// Writes the report of a verb, and gives the file's name; `None` where there is nothing to
+    /// report.
+    pub(crate) fn finish(&self, verb: &str) -> Result<Option<String>, Failure> {
+        let mut known = self.known();
+        let Some(mut report) = known.report.take() else { return Ok(None) };
+        let messages = std::mem::take(&mut known.messages);
+        if !messages.is_empty() {
+            let section = Section::of("Messages", Piece::Verbatim(messages.join("\n\n")));
+            // what was said of the result stands before what it was made from
+            let place = report.sections.iter().position(|section| section.folded);
+            report.sections.insert(place.unwrap_or(report.sections.len()), section);
+        }
+        let name = match verb {
+            "run" | "report" => "report.html".to_owned(),
+            verb => format!("{verb}.html"),
+        };
+        let usual = || {
+            let out = || Path::new("out").join(&report.name);
+            known.folder.clone().unwrap_or_else(out).join(name)
+        };
+        let file = self.file.clone().unwrap_or_else(usual);
+        write(&file, &report)?;
+        Ok(Some(file.display().to_string()))
+    }
+}
+
+fn write(file: &Path, report: &Report) -> Result<(), Failure> {
+    let help = "name another place: --report=FILE";
+    let page = lptn_html::write(report);
+    files::replace(file, page.as_bytes()).map_err(|failure| failure.with_help(help))
+}
+
+/// A verb that answers with something else than a result.
+pub(crate) fn nothing() -> Failure {
+    let problem = Diagnostic::error("report::nothing", "there is no report of this answer");
+    Failure::new(Exit::Input, problem.help("every verb that prints a result has one"))
+}

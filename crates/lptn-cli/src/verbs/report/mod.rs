@@ -1,0 +1,98 @@
+//! `lptn report`: the page of a run that has been made.
+//!
+//! The run is made once more as its manifest says, and has to give the same bytes. Where its files
+//! are no longer what they were, the page shows what is in the folder, and says so.
+
+mod args;
+
+use std::path::Path;
+
+pub(crate) use args::ReportArgs;
+use clap::Parser as _;
+use lptn_netlist::Diagnostic;
+use lptn_report::{Claim, Piece, Section, write_csv};
+use serde_json::Value;
+
+use super::Verb;
+use super::plot::source::of_folder;
+use super::run::{self, RunArgs};
+use crate::about;
+use crate::args::Args;
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::names::{MANIFEST, RESULT};
+use crate::input::Input;
+
+pub(crate) fn report(args: &ReportArgs, console: &Console) -> Result<Exit, Failure> {
+    let folder = &args.folder;
+    let figure = of_folder(folder, console)?;
+    console.results_in(folder);
+    let manifest = std::fs::read_to_string(folder.join(MANIFEST)).unwrap_or_default();
+    let manifest: Value = serde_json::from_str(&manifest).unwrap_or_default();
+    let outcome = match changed(&manifest) {
+        Some(why) => Err(why),
+        None => again(&manifest, folder, console)?,
+    };
+    match outcome {
+        Ok(same) => {
+            let message = format!("{RESULT} is not what its run gives now");
+            let problem = Diagnostic::error("report::differs", message);
+            let help = "it was written by another version of lptn, or changed since";
+            if same { Ok(Exit::Done) } else { Err(Failure::new(Exit::No, problem.help(help))) }
+        }
+        Err(why) => {
+            let mut report = about::of_command(&[]);
+            report.title.clone_from(&figure.title);
+            report.claims.push(Claim::open(format!("as it was written; not run again: {why}")));
+            report.sections.insert(0, Section::of("", Piece::Figure(figure)));
+            report.sections.extend(about::manifest(manifest));
+            console.add_report(report);
+            Ok(Exit::Done)
+        }
+    }
+}
+
+/// Why a run cannot be made again.
+fn changed(manifest: &Value) -> Option<String> {
+    let Some(inputs) = manifest["inputs"].as_array().filter(|inputs| !inputs.is_empty()) else {
+        return Some(format!("no {MANIFEST} says how"));
+    };
+    inputs.iter().find_map(|input| {
+        let name = input["name"].as_str()?;
+        let Ok(bytes) = std::fs::read(name) else { return Some(format!("{name} is not here")) };
+        let same = input["sha256"].as_str() == Some(&lptn_study::sha256(&bytes));
+        (!same).then(|| format!("{name} has changed since"))
+    })
+}
+
+/// Makes a run again, adds it to the report, and tells whether its bytes are the same; or why it is
+/// no run.
+fn again(
+    manifest: &Value,
+    folder: &Path,
+    console: &Console,
+) -> Result<Result<bool, String>, Failure> {
+    let words = manifest["arguments"].as_array().map_or(&[][..], Vec::as_slice);
+    let words = std::iter::once("lptn").chain(words.iter().filter_map(Value::as_str));
+    let Ok(Args { verb: Some(Verb::Run(args)), .. }) = Args::try_parse_from(words) else {
+        return Ok(Err("its command is not `lptn run`".into()));
+    };
+    let args = RunArgs { no_files: true, output: None, ..args };
+    let mut input = Input::load(&args.source)?;
+    input.set_times(&args.times)?;
+    let (outcome, _) = run::outcome(&args, &input, console)?;
+    let mut bytes = Vec::new();
+    let written = write_csv(&outcome.table, &mut bytes);
+    let there = std::fs::read(folder.join(RESULT)).unwrap_or_default();
+    let same = written.is_ok() && there == bytes;
+    let mut report = lptn_report::report_of(&outcome);
+    let text = match same {
+        true => format!("run again: {RESULT} has the same bytes"),
+        false => format!("run again: {RESULT} has other bytes"),
+    };
+    report.claims.insert(0, Claim::checked(same, text));
+    console.warn(&input.netlist.files, &outcome.found());
+    console.add_report(report);
+    Ok(Ok(same))
+}

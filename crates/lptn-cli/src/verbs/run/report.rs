@@ -1,0 +1,113 @@
+//! What the report of a run says besides: how far it can be trusted, and where the heat goes.
+
+use lptn_network::{NodeId, ParameterId};
+use lptn_report::{Claim, Report, duration, significant};
+use lptn_solve::{Gradient, Snapshot, Transient, Watch, sensitive_run};
+
+use super::outcome::{Outcome, not_bounded, weak_ledger};
+use crate::about::{self, Known, Sensitivities};
+use crate::limits;
+
+/// With more numbers than this, nodes times parameters, sensitivities take longer than the run.
+const MOST_TANGENTS: usize = 2000;
+
+impl Outcome<'_> {
+    /// The sections of a report and its claims.
+    pub(super) fn report(&self) -> Report {
+        let known = Known {
+            claims: self.claims(),
+            states: self.states(),
+            unit: Some(&self.job.unit),
+            sensitivities: self.sensitivities(),
+        };
+        let mut report = about::about(self.job.input, known);
+        let manifest = self.manifest(Vec::new());
+        report.sections.extend(serde_json::to_value(&manifest).ok().and_then(about::manifest));
+        report
+    }
+
+    /// The network at the times that were asked for, else at the end, and where it settles.
+    fn states(&self) -> Vec<(String, Snapshot)> {
+        let times = self.solution.times();
+        let at = |time: &f64| self.solution.row_at(*time);
+        let mut rows: Vec<usize> = self.job.at.iter().filter_map(at).collect();
+        if rows.is_empty() {
+            rows.extend(times.len().checked_sub(1));
+        }
+        let one = |row: usize| {
+            let title = format!("At {}", duration(times[row], 4));
+            Some((title, self.solution.snapshot(row)?))
+        };
+        let settled = self.steady.as_ref().ok();
+        let settled = settled.map(|steady| ("Where it settles".to_owned(), steady.state.clone()));
+        rows.into_iter().filter_map(one).chain(settled).collect()
+    }
+
+    fn claims(&self) -> Vec<Claim> {
+        let ledger = self.solution.ledger();
+        let books = match ledger.relative_residual() {
+            Some(residual) => format!(
+                "the books close to {} of the heat turned over, {} allowed",
+                significant(residual.abs(), 2),
+                significant(ledger.bound, 2)
+            ),
+            None => "no heat was turned over".into(),
+        };
+        let bound = match not_bounded(&self.solution) {
+            None => Claim::checked(
+                true,
+                format!(
+                    "temperatures within about {} K of the exact solution of this network",
+                    significant(self.solution.tolerance(), 2)
+                ),
+            ),
+            Some(why) => Claim::open(why),
+        };
+        let mut claims = vec![Claim::checked(ledger.closes(), books), bound];
+        claims.extend(weak_ledger(&self.solution).map(Claim::open));
+        claims.extend(about::laws(self.solution.network()));
+        claims.push(about::lumps(&self.lumping));
+        claims.extend(self.ended_early().map(|why| Claim::checked(false, why)));
+        let (network, unit) = (self.solution.network(), &self.job.unit);
+        claims.extend(limits::claims(network, &self.limits(), unit));
+        claims
+    }
+
+    /// How the hottest node changes with each parameter: its end, or its peak where something
+    /// switches, since then what is at one time depends on when that happened.
+    fn sensitivities(&self) -> Option<Sensitivities> {
+        let (network, settings) = (self.solution.network(), &self.job.settings);
+        let ids: Vec<ParameterId> = network.parameter_ids().collect();
+        let small = ids.len() * network.nodes().len() <= MOST_TANGENTS;
+        if ids.is_empty() || !small || self.ended_early().is_some() {
+            return None;
+        }
+        let node = self.hottest()?;
+        let watch = vec![Watch { node, level: None }];
+        let transient = Transient { watch, ..Transient::of(network, settings) };
+        let run = sensitive_run(network, &transient, &ids).ok()?;
+        let one = |&id: &ParameterId| {
+            let slope = match run.gradient {
+                Gradient::Exact => *run.sensitivity(id, node)?.last()?,
+                Gradient::Differences(_) => run.peak(id, node)?,
+            };
+            let absolute = network.parameters()[id.index()].ty.absolute;
+            let step = if absolute { 1.0 } else { 0.01 * network.parameter_value(id) };
+            Some(slope * step).filter(|kelvin| kelvin.is_finite())
+        };
+        let name = &network.nodes()[node.index()].name;
+        let of = match run.gradient {
+            Gradient::Exact => format!("{name} at {}", duration(settings.stop, 4)),
+            Gradient::Differences(_) => format!("the peak of {name}"),
+        };
+        Some(Sensitivities { of, values: ids.iter().map(one).collect() })
+    }
+
+    /// The hottest of the recorded nodes at the end.
+    fn hottest(&self) -> Option<NodeId> {
+        let last = |node| self.solution.at_end(node).ok();
+        let nodes = self.solution.recorded().iter().copied();
+        let known = nodes.filter_map(|node| Some((node, last(node)?)));
+        known.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(node, _)| node)
+    }
+}

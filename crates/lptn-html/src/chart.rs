@@ -1,0 +1,109 @@
+//! Curves: a picture of them, and their values for the script.
+
+use lptn_plot::chart::{ink, ranges, scene};
+use lptn_plot::figure::{Axis, Curve, Look, Panel, Scale};
+use lptn_plot::svg::{self, escaped};
+use lptn_plot::{Figure, SERIES, printed};
+use serde_json::{Value, json};
+
+/// Width of a picture in CSS pixels.
+const WIDTH: f64 = 760.0;
+
+/// Writes a figure; its curves can be zoomed into unless an axis has names instead of values.
+pub(crate) fn write(out: &mut String, figure: &Figure) {
+    let still = Figure { title: String::new(), note: String::new(), panels: figure.panels.clone() };
+    let picture = svg::write(&scene(&[still], WIDTH));
+    *out += "<figure class=\"chart\">\n";
+    if !figure.title.is_empty() {
+        *out += &format!("<h2>{}</h2>\n", escaped(&figure.title));
+    }
+    if figure.panels.iter().all(is_zoomable) {
+        // the end of a script is the only thing that could end it
+        let values = values(figure).to_string().replace('<', "\\u003c");
+        *out += &format!("<script type=\"application/json\">{values}</script>\n");
+        *out += "<div class=\"live\"></div>\n";
+    }
+    *out += &format!("<div class=\"still\">{picture}</div>\n");
+    for note in figure.note.lines() {
+        *out += &format!("<figcaption>{}</figcaption>\n", escaped(note));
+    }
+    *out += "</figure>\n";
+}
+
+/// Whether places on both axes are values, and lines go to the right.
+fn is_zoomable(panel: &Panel) -> bool {
+    let has_names = |axis: &Axis| matches!(axis.scale, Scale::Names(_));
+    !has_names(&panel.x)
+        && !has_names(&panel.y)
+        && panel.curves.iter().all(|curve| is_cloud(curve) || is_sorted(curve))
+}
+
+fn is_cloud(curve: &Curve) -> bool {
+    matches!(curve.look, Look::Dots | Look::Stems)
+}
+
+fn is_sorted(curve: &Curve) -> bool {
+    curve.points.is_sorted_by(|a, b| a.0 <= b.0)
+}
+
+/// The figure as the script reads it. Curves over the same places share them.
+fn values(figure: &Figure) -> Value {
+    let mut places: Vec<Vec<f64>> = Vec::new();
+    let panels: Vec<Value> =
+        figure.panels.iter().map(|panel| of_panel(figure, panel, &mut places)).collect();
+    json!({"panels": panels, "places": places})
+}
+
+fn of_panel(figure: &Figure, panel: &Panel, places: &mut Vec<Vec<f64>>) -> Value {
+    let [across, upward] = ranges(figure, panel);
+    let curves = panel.curves.iter().enumerate();
+    let curves: Vec<Value> =
+        curves.map(|(i, curve)| of_curve((curve, i), &panel.x, places)).collect();
+    let limits = panel.limits.iter().map(|limit| json!({"name": limit.name, "at": limit.value}));
+    let moments = panel.moments.iter().map(|moment| json!({"name": moment.name, "at": moment.at}));
+    json!({
+        "x": axis(&panel.x, across),
+        "y": axis(&panel.y, upward),
+        "share": panel.share,
+        "curves": curves,
+        "limits": limits.collect::<Vec<_>>(),
+        "moments": moments.collect::<Vec<_>>(),
+    })
+}
+
+fn axis(axis: &Axis, (low, high): (f64, f64)) -> Value {
+    let scale = match axis.scale {
+        Scale::Linear | Scale::Names(_) => "linear",
+        Scale::Log => "log",
+        Scale::Time => "time",
+    };
+    let unit = if matches!(axis.unit.as_str(), "1" | "-") { "" } else { &axis.unit };
+    json!({"name": axis.name, "unit": printed(unit), "scale": scale, "range": [low, high]})
+}
+
+/// Values that are not finite interrupt a curve: JSON has `null` for them. Points without a place
+/// of their own on the axis are left out.
+fn of_curve((curve, at): (&Curve, usize), across: &Axis, places: &mut Vec<Vec<f64>>) -> Value {
+    let mut order: Vec<usize> =
+        (0..curve.points.len()).filter(|&i| across.scale.shows(curve.points[i].0)).collect();
+    order.sort_by(|&a, &b| curve.points[a].0.total_cmp(&curve.points[b].0));
+    let x: Vec<f64> = order.iter().map(|&i| curve.points[i].0).collect();
+    let place = places.iter().position(|known| *known == x).unwrap_or_else(|| {
+        places.push(x);
+        places.len() - 1
+    });
+    let look = ["line", "dashed", "dots", "stems"][curve.look as usize];
+    let mut value = json!({
+        "name": curve.name,
+        "look": look,
+        "ink": ink(curve, at).key(),
+        "again": curve.place.unwrap_or(at) >= SERIES,
+        "x": place,
+        "y": order.iter().map(|&i| curve.points[i].1).collect::<Vec<f64>>(),
+    });
+    if !curve.spread.is_empty() {
+        value["low"] = order.iter().map(|&i| curve.spread[i].0).collect();
+        value["high"] = order.iter().map(|&i| curve.spread[i].1).collect();
+    }
+    value
+}

@@ -1,0 +1,62 @@
+//! Lines, sentences and tables.
+
+use lptn_plot::svg::escaped;
+use lptn_report::{Align, Block, Column, Text, TextTable};
+
+/// Writes a text, a paragraph for each of its lines.
+pub(crate) fn write(out: &mut String, text: &Text) {
+    for section in text.sections() {
+        *out += "<div class=\"part\">\n";
+        section.iter().for_each(|part| block(out, part));
+        *out += "</div>\n";
+    }
+}
+
+fn block(out: &mut String, block: &Block) {
+    match block {
+        Block::Title(title) => *out += &format!("<h3>{}</h3>\n", escaped(title)),
+        Block::Line(lines) if lines.contains('\n') => verbatim(out, lines),
+        Block::Line(line) => *out += &format!("<p>{}</p>\n", escaped(line)),
+        Block::Table(of) => table(out, of),
+        Block::Labelled(label, pieces) => {
+            let (label, text) = (escaped(label.trim()), escaped(&pieces.join(" ")));
+            *out += &format!("<p><span class=\"label\">{label}</span> {text}</p>\n");
+        }
+    }
+}
+
+/// Whether a text is a small curve of blocks.
+fn is_spark(text: &str) -> bool {
+    !text.is_empty() && text.chars().all(|c| ('\u{2581}'..='\u{2588}').contains(&c))
+}
+
+/// A text whose lines stay as they are.
+pub(crate) fn verbatim(out: &mut String, lines: &str) {
+    let lines: Vec<String> = lines.lines().map(escaped).collect();
+    *out += &format!("<pre>{}</pre>\n", lines.join("\n"));
+}
+
+fn table(out: &mut String, table: &TextTable) {
+    let class = |column: &Column| match column.align {
+        Align::Right => " class=\"number\"",
+        Align::Left if column.cells.iter().all(|cell| is_spark(cell)) => " class=\"spark\"",
+        Align::Left => "",
+    };
+    *out += "<div class=\"table\"><table>\n";
+    if table.columns().iter().any(|column| !column.title.is_empty()) {
+        *out += "<thead><tr>";
+        for column in table.columns() {
+            *out += &format!("<th{}>{}</th>", class(column), escaped(&column.title));
+        }
+        *out += "</tr></thead>\n";
+    }
+    *out += "<tbody>\n";
+    for row in 0..table.rows() {
+        *out += "<tr>";
+        for column in table.columns() {
+            *out += &format!("<td{}>{}</td>", class(column), escaped(&column.cells[row]));
+        }
+        *out += "</tr>\n";
+    }
+    *out += "</tbody></table></div>\n";
+}
