@@ -75,28 +75,28 @@ impl HeatFlows {
         let mut all = Self { bars: bars.collect(), bands: Vec::new() };
         for source in &diagram.sources {
             let heat = source.heat.unwrap_or(0.0);
-            all.from_outside(Bar::new(source.name.clone(), BarRole::Source), source.into, heat);
+            all.own_bar(Bar::new(source.name.clone(), BarRole::Source), source.into, heat);
         }
         for link in &diagram.links {
             let heat = link.heat.unwrap_or(0.0);
             if link.stream {
                 let stream = || Bar::new(link.name.clone(), BarRole::Stream);
-                all.from_outside(stream(), link.to, heat);
-                all.from_outside(stream(), link.from, link.against);
+                all.own_bar(stream(), link.to, heat);
+                all.own_bar(stream(), link.from, link.against);
             } else {
                 all.band(link.name.clone(), (link.from, link.to), heat);
             }
         }
         for (i, place) in diagram.places.iter().enumerate() {
             let name = format!("streams in {}", place.name);
-            all.from_outside(Bar::new(name, BarRole::Stream), i, place.within);
+            all.own_bar(Bar::new(name, BarRole::Stream), i, place.within);
         }
         all.store(diagram);
         all.without_dust()
     }
 
-    /// Heat from something of its own to a place; to it where it is negative.
-    fn from_outside(&mut self, bar: Bar, place: usize, heat: f64) {
+    /// Heat from a bar of its own to a place, or to that bar where it is negative.
+    fn own_bar(&mut self, bar: Bar, place: usize, heat: f64) {
         if heat != 0.0 {
             self.bars.push(bar);
             let own = self.bars.len() - 1;

@@ -77,7 +77,8 @@ pub fn sankey(diagram: &Diagram) -> Result<Scene, NoSankey> {
     }
     let placed = place(&flows);
     let (flows, placed) = (&flows, &placed);
-    let mut drawing = Drawing { diagram, scales, flows, placed, x: Vec::new(), named: true };
+    let mut drawing =
+        Drawing { diagram, scales, flows, placed, x: Vec::new(), free: Vec::new(), named: true };
     let mut wide = drawing.columns();
     if wide > MOST_WIDTH {
         drawing.named = false;
@@ -102,8 +103,10 @@ struct Drawing<'a> {
     scales: &'a Scales,
     flows: &'a HeatFlows,
     placed: &'a Placed,
-    /// The left side of each column of bars.
+    /// The left side of each column of bars, and where the room between the words there and the
+    /// names before it has its middle.
     x: Vec<f64>,
+    free: Vec<f64>,
     /// Whether bands bear the names of their paths.
     named: bool,
 }
@@ -126,11 +129,12 @@ impl Drawing<'_> {
         }
         let mut x = MARGIN;
         self.x.clear();
-        for column in 0..self.placed.columns {
+        self.free.clear();
+        for (column, words) in words.iter().enumerate() {
+            let names = names.get(column + 1).copied();
+            let gap = names.map_or(*words, |names| (words + names + BEND).max(LEAST_GAP));
             self.x.push(x);
-            let next = names.get(column + 1);
-            let gap =
-                next.map_or(words[column], |names| (words[column] + names + BEND).max(LEAST_GAP));
+            self.free.push(x + BAR + (words + gap - names.unwrap_or(0.0)) / 2.0);
             x += BAR + gap;
         }
         x - MARGIN
@@ -229,15 +233,28 @@ impl Drawing<'_> {
         Path::new(begin.chain(turn).chain([Step::Close]).collect())
     }
 
-    /// Points to the left, in the middle of a band that leads there.
+    /// Points to the left, where no words are, upon a band that leads there.
     fn arrow(&self, scene: &mut Scene, band: &PlacedBand, top: f64) {
-        let Some(level) = band.levels.first() else { return };
-        let (x, y) = (self.x[band.column] + BAR + 4.0, top + level);
-        let half = (band.width / 2.0).clamp(3.0, 7.0);
-        scene.put(
-            polygon([(x, y), (x + half, y - half), (x + half, y + half)]).filled(Ink::Text, 1.0),
-        );
+        let &[first, second, ..] = band.levels.as_slice() else { return };
+        let x = self.free[band.column];
+        let (from, to) = (self.x[band.column] + BAR, self.x[band.column + 1]);
+        let level = top + first + (second - first) * bent((x - from) / (to - from));
+        let half = (band.width / 2.0).clamp(4.0, 7.0);
+        let head = [(x - half, level), (x + half, level - half), (x + half, level + half)];
+        scene.put(polygon(head).filled(Ink::Text, 1.0));
     }
+}
+
+/// How much of its way down a curve between two levels has made at a share of its way to the right:
+/// that of [`along`].
+fn bent(share: f64) -> f64 {
+    let right = |t: f64| 1.5 * t * (1.0 - t) + t.powi(3);
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..40 {
+        let middle = (low + high) / 2.0;
+        if right(middle) < share { low = middle } else { high = middle }
+    }
+    low * low * (3.0 - 2.0 * low)
 }
 
 /// A curve from the first of some points through the others, level at each.

@@ -34,7 +34,7 @@ pub(crate) struct GraphArgs {
     /// Show them at a time of the run, such as 10min
     #[arg(long, value_name = "TIME", conflicts_with = "steady")]
     pub(crate) at: Option<String>,
-    /// Draw the heat flows as bands, as wide as they are large
+    /// Draw heat flows as bands of their width
     #[arg(long)]
     pub(crate) sankey: bool,
     /// Draw each grid, instance and family as one box
@@ -55,6 +55,15 @@ impl GraphArgs {
     /// Whether temperatures and heat flows are shown.
     pub(super) fn shows_state(&self) -> bool {
         self.steady || self.sankey || self.at.is_some()
+    }
+
+    /// What can be nothing but a picture, and the option that asks for it.
+    pub(super) fn only_a_picture(&self) -> Option<[&'static str; 2]> {
+        match (&self.field.slice, self.sankey) {
+            (Some(_), _) => Some(["a slice", "--slice"]),
+            (None, true) => Some(["a Sankey diagram", "--sankey"]),
+            (None, false) => None,
+        }
     }
 }
 

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use lptn_netlist::Diagnostic;
 
-use super::args::GraphArgs;
 use crate::exit::Exit;
 use crate::failure::Failure;
 
@@ -63,9 +62,14 @@ impl Kind {
     }
 }
 
-/// What is written and where, by `--format` and `-o`.
-pub(super) fn wanted(args: &GraphArgs) -> Result<(Kind, Place), Failure> {
-    let (kind, place) = match (args.format, args.output.as_deref()) {
+/// What is written and where, by `--format` and `-o`; `only` says what can be nothing but a picture,
+/// and by which option it is asked for.
+pub(super) fn wanted(
+    format: Option<Kind>,
+    output: Option<&Path>,
+    only: Option<[&str; 2]>,
+) -> Result<(Kind, Place), Failure> {
+    let (kind, place) = match (format, output) {
         (format, None) => {
             let kind = format.unwrap_or(Kind::Svg);
             (kind, if kind.is_piped() { Place::Stdout } else { Place::Results })
@@ -84,21 +88,14 @@ pub(super) fn wanted(args: &GraphArgs) -> Result<(Kind, Place), Failure> {
             (kind, Place::File(path.to_owned()))
         }
     };
-    if matches!(kind, Kind::Svg | Kind::Png) {
-        return Ok((kind, place));
-    }
-    let whole = if kind.is_of_grid() { "the whole grid" } else { "the network" };
-    let only_a_picture = [
-        (args.field.slice.is_some(), "a slice", "--slice"),
-        (args.sankey, "a Sankey diagram", "--sankey"),
-    ];
-    match only_a_picture.into_iter().find(|(asked, ..)| *asked) {
-        Some((_, what, option)) => {
+    match only.filter(|_| !matches!(kind, Kind::Svg | Kind::Png)) {
+        None => Ok((kind, place)),
+        Some([what, option]) => {
+            let whole = if kind.is_of_grid() { "the whole grid" } else { "the network" };
             let message = format!("{what} is a picture, and {} holds {whole}", kind.key());
             let problem = Diagnostic::error("graph::format", message);
             Err(refused(problem.help(format!("leave {option} out, or write svg or png"))))
         }
-        None => Ok((kind, place)),
     }
 }
 

@@ -27,7 +27,7 @@ pub(crate) fn graph(args: &GraphArgs, console: &Console) -> Result<Exit, Failure
         let problem = Diagnostic::error("graph::format", "--plot draws curves, not the network");
         return Err(Failure::new(Exit::Input, problem.help("write -o FILE in its place")));
     }
-    let (kind, place) = kind::wanted(args)?;
+    let (kind, place) = kind::wanted(args.format, args.output.as_deref(), args.only_a_picture())?;
     let input = Input::load(&args.source)?;
     let unit = input::temperature_unit(args.scale.temperature_unit.as_deref(), &input.netlist)?;
     console.warn(&input.netlist.files, &input.netlist.warnings);
