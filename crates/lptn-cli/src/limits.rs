@@ -4,7 +4,7 @@ use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Bound, Item, Limit, LimitId, LimitSeverity, Network};
 use lptn_plot::figure::{Level, Panel};
 use lptn_plot::printed;
-use lptn_report::{Claim, TEMPERATURE, Text, TextTable, duration, significant};
+use lptn_report::{Claim, Standing, TEMPERATURE, Text, TextTable, duration, significant};
 use lptn_solve::LimitSeen;
 use lptn_study::SiValue;
 use lptn_units::{Dimension, Type, Unit};
@@ -12,6 +12,7 @@ use serde_json::{Map, Value, json};
 
 use crate::console::Console;
 use crate::exit::Exit;
+use crate::families::{self, Row};
 use crate::words::{count, spaced};
 
 /// Digits of a margin.
@@ -50,6 +51,26 @@ impl Judged {
         self.margin.is_nan()
     }
 
+    /// Its name, and what has to be the same in a family: whether it is judged, of which severity
+    /// and of which kind of quantity.
+    fn family(&self, limit: &Limit) -> (String, u8) {
+        let bits = [
+            self.is_open(),
+            limit.severity == LimitSeverity::Error,
+            limit.bound == Bound::Below,
+            limit.ty.absolute,
+        ];
+        (limit.name.clone(), bits.iter().fold(0, |kind, bit| 2 * kind + u8::from(*bit)))
+    }
+
+    fn standing(&self) -> Standing {
+        match (self.is_open(), self.is_broken()) {
+            (true, _) => Standing::Open,
+            (false, true) => Standing::Fails,
+            (false, false) => Standing::Holds,
+        }
+    }
+
     fn is_broken(&self) -> bool {
         self.margin < 0.0
     }
@@ -64,22 +85,31 @@ pub(crate) struct Judgement<'a> {
     pub(crate) limits: &'a [Judged],
 }
 
-/// A section with a line for each limit; nothing without limits.
-pub(crate) fn section(text: &mut Text, network: &Network, limits: &[Judged], unit: &Unit) {
+/// A section with a line for each limit, and for each large family where they are to `fold`;
+/// nothing without limits.
+pub(crate) fn section(
+    text: &mut Text,
+    network: &Network,
+    limits: &[Judged],
+    unit: &Unit,
+    fold: bool,
+) {
     if limits.is_empty() {
         return;
     }
     let of = |judged: &Judged| &network.limits()[judged.limit.index()];
-    let mut table = TextTable::of(limits)
-        .left("limit", |j| of(j).name.as_str())
-        .left("wanted", |j| wanted(network, j.limit, unit))
+    let rows = families::folded(limits.to_vec(), fold, |j| j.family(of(j)), |j| -j.margin);
+    let table = TextTable::of(&rows).left("limit", |row| row.name.as_str());
+    let mut table = families::members(table, &rows, "worst")
+        .left("wanted", |row| wanted(network, row.item.limit, unit))
         .names()
-        .right("margin", |j| margin(j, of(j), unit));
+        .right("margin", |row| margin(&row.item, of(&row.item), unit));
     if limits.iter().any(|judged| judged.worst_at.is_some()) {
-        table =
-            table.right("least at", |j| j.worst_at.map_or("-".into(), |time| duration(time, 3)));
+        let time = |row: &Row<Judged>| row.item.worst_at.map(|time| duration(time, 3));
+        table = table.right("least at", move |row| time(row).unwrap_or_else(|| "-".into()));
     }
-    text.section().table(table.left("", |j| verdict(j, of(j))));
+    let table = table.left("", |row| verdict(&row.item, of(&row.item)));
+    text.section().table(table.judged(|row| row.item.standing()));
 }
 
 /// "steel.T below 110 degC".

@@ -15,6 +15,7 @@ mod doubts;
 mod drawing;
 mod exit;
 mod failure;
+mod families;
 mod files;
 mod input;
 mod interrupt;
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
     let outcome = panic_net::caught(|| dispatch(&args, &console));
     let refused = |failure: Failure| {
         console.report(&failure.files, &failure.diagnostics);
+        console.offer_explanation(&failure.diagnostics);
         failure.exit
     };
     let known = outcome.is_ok();
@@ -68,6 +70,7 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
             console.message(&command::help());
             Ok(Exit::Input)
         }
+        Some(verb) if console.plot.is_some() && !verb.is_drawn() => Err(drawing::nothing()),
         Some(verb) => match verb.run(console)? {
             exit if exit != Exit::Interrupted && console.owes_a_picture() => {
                 Err(drawing::nothing())

@@ -14,7 +14,7 @@ use super::job::{Job, NoSteady};
 use super::uncertainty::{Study, elsewhere, files as uncertain};
 use super::{events, next, state, windows};
 use crate::about;
-use crate::console::Console;
+use crate::console::{Console, Detail};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::Folder;
@@ -37,7 +37,7 @@ pub(crate) struct Outcome<'a> {
     /// The selected columns, in the unit that is shown.
     pub(crate) table: Table,
     /// Whether more is told of the solver.
-    pub(crate) verbose: bool,
+    pub(crate) detail: Detail,
 }
 
 impl Outcome<'_> {
@@ -148,6 +148,11 @@ impl Outcome<'_> {
         doubts(&self.solution)
     }
 
+    /// Whether large families are shown as one row.
+    pub(crate) fn folds(&self) -> bool {
+        !self.job.chosen && self.detail < Detail::Verbose
+    }
+
     /// What is worth knowing beside the result, on stderr.
     pub(crate) fn messages(&self, folder: Option<&Folder>, console: &Console) {
         if let Some(folder) = folder {
@@ -172,7 +177,7 @@ impl Outcome<'_> {
         console.warn(&self.job.input.netlist.files, &self.found());
         if self.job.format == Format::Table && self.solution.end() == RunStatus::Reached {
             let command = next::after_run(self.job.input, self.steady.is_ok());
-            command.iter().for_each(|command| console.note(&format!("next   {command}")));
+            command.iter().for_each(|command| console.hint(&format!("next   {command}")));
         }
     }
 

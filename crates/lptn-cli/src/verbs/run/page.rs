@@ -15,9 +15,10 @@ use super::job::NoSteady;
 use super::outcome::{Outcome, not_bounded, weak_ledger};
 use super::uncertainty::files::bands;
 use super::{events, state, uncertainty, windows};
+use crate::console::Detail;
 use crate::doubts::others;
 use crate::words::MOST_NODES;
-use crate::{balance, limits, lumping};
+use crate::{balance, families, limits, lumping};
 
 /// Characters of a curve.
 const CURVE: usize = 16;
@@ -37,7 +38,7 @@ impl Page for Outcome<'_> {
         if !nodes.is_empty() {
             text.section().table(temperatures(self, &nodes));
         }
-        limits::section(&mut text, network, &self.limits(), &self.job.unit);
+        limits::section(&mut text, network, &self.limits(), &self.job.unit, self.folds());
         if let Some(study) = self.uncertainty() {
             uncertainty::text::sections(&mut text, network, (study, &self.job.unit));
         }
@@ -55,8 +56,8 @@ impl Page for Outcome<'_> {
             }
         }
         let label = format!("{:1$}", "lumping:", over(span.1 - span.0).len() + 2);
-        lumping::lines(&mut text, network, (&self.lumping, &label, self.verbose));
-        if self.verbose {
+        lumping::lines(&mut text, network, (&self.lumping, &label, self.detail));
+        if self.detail == Detail::Verbose {
             text.labelled("solver: ", solver(self));
         }
         text
@@ -133,16 +134,18 @@ fn temperatures(of: &Outcome<'_>, nodes: &[NodeSummary]) -> TextTable {
     let number = |kelvin: f64| fixed(unit.from_si(kelvin), digits);
     let network = of.solution.network();
     let end = duration(reached(of), 4);
-    TextTable::of(nodes)
-        .left(format!("T [{}]", unit.text), |n| network.nodes()[n.node.index()].name.as_str())
-        .right("start", |n| number(n.start))
-        .right(end.as_str(), |n| number(n.end))
-        .right("peak", |n| number(n.peak.0))
-        .right("at", |n| duration(n.peak.1, 3))
+    let name = |n: &NodeSummary| (network.nodes()[n.node.index()].name.clone(), 0);
+    let rows = families::folded(nodes.to_vec(), of.folds(), name, |n| n.peak.0);
+    let table = TextTable::of(&rows).left(format!("T [{}]", unit.text), |row| row.name.as_str());
+    families::members(table, &rows, "hottest")
+        .right("start", |row| number(row.item.start))
+        .right(end.as_str(), |row| number(row.item.end))
+        .right("peak", |row| number(row.item.peak.0))
+        .right("at", |row| duration(row.item.peak.1, 3))
         .optional()
-        .right("steady", |n| n.steady.map_or("-".into(), number))
-        .right("95 % after", |n| time_to_95(of, n))
-        .left(format!("{} to {end}", start_of_curve(settings.start)), |n| curve(of, n))
+        .right("steady", |row| row.item.steady.map_or("-".into(), number))
+        .right("95 % after", |row| time_to_95(of, &row.item))
+        .left(format!("{} to {end}", start_of_curve(settings.start)), |row| curve(of, &row.item))
         .optional()
         .into()
 }

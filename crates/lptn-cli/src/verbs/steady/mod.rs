@@ -13,7 +13,7 @@ use lptn_solve::{Selection, SteadyError, SteadyState, Table};
 use lptn_units::Unit;
 use view::View;
 
-use crate::console::Console;
+use crate::console::{Console, Detail};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Input};
@@ -45,6 +45,7 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
         limits: &limits,
         balance: balance.as_ref(),
         all: args.shown.select.is_empty(),
+        fold: args.shown.select.is_empty() && console.detail < Detail::Verbose,
     };
     console.show(&view, args.shown.format)?;
     if args.shown.format == Format::Table {

@@ -64,9 +64,9 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
     let (failure, uncertainty) = (None, None);
     let steady = Err(NoSteady::Inputs);
     let table = Table::of_solution(&solution, &job.selection, &job.unit);
-    let verbose = console.verbose;
+    let detail = console.detail;
     let outcome =
-        Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, verbose };
+        Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, detail };
     let view = View { outcome: &outcome, found: &found };
     if let Some(folder) = &folder {
         outcome.write(folder)?;

@@ -33,7 +33,8 @@ impl Page for View<'_> {
         temperature_section(&mut text, self, temperatures);
         flow_section(&mut text, flows);
         other_section(&mut text, self, &others);
-        limits::section(&mut text, network, &self.outcome.limits(), &job.unit);
+        let fold = self.outcome.folds();
+        limits::section(&mut text, network, &self.outcome.limits(), &job.unit, fold);
         if let Some(of) = solution.balance() {
             let times = Some((job.settings.start, job.settings.stop));
             balance::section(&mut text, network, (of, times));

@@ -4,7 +4,7 @@
 use std::io;
 
 use lptn_fit::law::{RunFit, Systematic};
-use lptn_report::{Format, Json, Page as _, write_csv};
+use lptn_report::{Format, Json, Look, Page as _, write_csv};
 use lptn_solve::{Table, TableOf};
 use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
@@ -24,7 +24,9 @@ pub(crate) fn write(found: &Runs, folder: &Folder) -> Result<(), Failure> {
     {
         files.write(name, |out| write_csv(&table, out))?;
     }
-    files.write(LAWS, |mut out| lptn_report::write(&found.answer, Format::Csv, false, &mut out))?;
+    files.write(LAWS, |mut out| {
+        lptn_report::write(&found.answer, Format::Csv, Look::PLAIN, &mut out)
+    })?;
     let text = json!({
         "format": 1,
         "lptn": env!("CARGO_PKG_VERSION"),
