@@ -149,9 +149,15 @@ fn drawing(
 ) -> Option<Section> {
     let view = View { title: "", grouping: Grouping::Auto, unit, state };
     let diagram = diagram(&input.netlist.network, &view);
-    let scene = lptn_graph::scene(&diagram).ok()?;
-    let caption = diagram.grouped.join("; ");
-    Some(Section::of(title, Piece::Drawing(scene, caption)))
+    let mut pieces = Vec::new();
+    if let Ok(scene) = lptn_graph::scene(&diagram) {
+        pieces.push(Piece::Drawing(scene, diagram.grouped.join("; ")));
+    }
+    if let Some(Ok(scene)) = state.map(|_| lptn_graph::sankey(&diagram)) {
+        pieces.push(Piece::Drawing(scene, String::new()));
+    }
+    let shown = !pieces.is_empty();
+    shown.then(|| Section { title: title.to_owned(), pieces, folded: false })
 }
 
 fn parameters(input: &Input, sensitivities: Option<&Sensitivities>) -> Option<Section> {

@@ -78,7 +78,7 @@ impl Console {
         }
         self.write(|out| lptn_report::write(page, format, self.look(), out))?;
         if self.reports() {
-            self.add_report(Report::of(page));
+            self.add_report(lptn_report::report_of(page));
         }
         self.plot.as_ref().map_or(Ok(()), |drawing| self.draw(&page.figures(), drawing))
     }

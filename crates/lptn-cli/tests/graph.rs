@@ -22,6 +22,9 @@ far = { from = \"air\", to = \"hot\", R = \"3 K/W\" }
 loss = { into = \"hot\", P = \"10 W\" }
 ";
 
+/// 300 rows, one every 2 s.
+const RUN: &str = "[run]\nstop = \"10 min\"\n";
+
 /// 10 W through a rod of 10 W/(m K) and 0.01 m^2: 100 K/m. Its cold end is 10 K above the air,
 /// 10 W / (100 W/(m^2 K) 0.01 m^2), so the middles of its cells are at 65, 55, 45 and 35 degC.
 const ROD: &str = "\
@@ -83,6 +86,71 @@ fn a_stream_is_drawn_the_way_it_flows() {
         ran.err
     );
     assert!(ran.out.contains("n1 ==>|\"waste<br/>2 W/K<br/>40.00 W\"| n4"), "{}", ran.out);
+}
+
+/// 100 J/K on 1.2 K/W: after 2 min the rise is 12 K (1 - 1/e), and 10 W / e are stored.
+#[test]
+fn a_time_of_the_run_is_drawn() {
+    let folder = Folder::with("two.toml", &(PARALLEL.to_owned() + RUN));
+    let ran = folder.run(&["graph", "two.toml", "--at", "2min", "-o", "two.svg"]);
+    assert_eq!((ran.code, ran.err.as_str()), (Some(0), "wrote  two.svg\n"), "{}", ran.out);
+    let text = folder.read("two.svg");
+    for shown in ["27.59 °C", "stores 3.68 W", "3.79 W", "2.53 W", "at 2 min"] {
+        assert!(text.contains(&format!(">{shown}</text>")), "{shown}:\n{text}");
+    }
+    let ran = folder.run(&["graph", "two.toml", "--at", "121s", "--format", "mermaid"]);
+    assert_eq!(ran.err, "at     2 min, the row before 2.01667 min\n");
+    assert!(
+        ran.out.contains("n1(\"hot<br/>100 J/K<br/>27.59 °C<br/>stores 3.68 W\")"),
+        "{}",
+        ran.out
+    );
+}
+
+#[test]
+fn bands_are_as_wide_as_heat_flows() {
+    let folder = Folder::with("two.toml", &(PARALLEL.to_owned() + RUN));
+    let ran = folder.run(&["graph", "two.toml", "--sankey"]);
+    assert_eq!(
+        (ran.code, ran.err.as_str()),
+        (Some(0), "wrote  out/two/sankey.svg\n"),
+        "{}",
+        ran.out
+    );
+    let text = folder.read("out/two/sankey.svg");
+    for shown in ["10.00 W, 32.0 °C", "10.00 W, 20.0 °C", "near 6.00 W", "steady state"] {
+        assert!(text.contains(&format!(">{shown}</text>")), "{shown}:\n{text}");
+    }
+    for tip in ["near 6.00 W", "far 4.00 W", "loss 10.00 W", "hot 10.00 W, 32.0 °C"] {
+        assert!(text.contains(&format!("<title>{tip}</title>")), "{tip}:\n{text}");
+    }
+    let ran = folder.run(&["graph", "two.toml", "--sankey", "--at", "2min", "-o", "-"]);
+    for tip in ["near 3.79 W", "far 2.53 W", "stored in hot 3.68 W"] {
+        assert!(ran.out.contains(&format!("<title>{tip}</title>")), "{tip}:\n{}", ran.out);
+    }
+    let cold = PARALLEL.replace("10 W", "0 W");
+    folder.write("cold.toml", &cold);
+    let ran = folder.run(&["graph", "cold.toml", "--sankey"]);
+    assert_eq!(ran.code, Some(2), "{}", ran.err);
+    assert!(ran.err.contains("graph::no_heat"), "{}", ran.err);
+}
+
+#[test]
+fn a_slice_is_drawn_at_a_time_of_the_run() {
+    let folder = Folder::with("rod.toml", &(ROD.to_owned() + RUN));
+    let ran = folder.run(&["graph", "rod.toml", "--slice", "z=1", "--at", "0s", "-o", "-"]);
+    assert!(ran.out.contains("<title>rod[3,1,1]: 20.0 °C</title>"), "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains(">at 0 s; hottest here: 20.0 °C at rod[1,1,1]</text>"), "{}", ran.out);
+}
+
+#[test]
+fn a_run_that_breaks_off_is_not_drawn() {
+    // 1 / 0 W after a minute
+    let text = PARALLEL.replace("P = \"10 W\"", "P = \"10 [W] / (1 - t / 60 [s])\"") + RUN;
+    let folder = Folder::with("two.toml", &text);
+    let ran = folder.run(&["graph", "two.toml", "--at", "30s", "-o", "two.svg"]);
+    assert_eq!(ran.code, Some(3), "{}", ran.err);
+    assert_eq!(folder.files(), ["two.toml"]);
 }
 
 #[test]
@@ -198,6 +266,7 @@ fn a_slice_is_drawn_with_its_hottest_cell() {
 fn what_cannot_be_drawn_is_said_before_anything_is_computed() {
     let folder = Folder::with("rod.toml", ROD);
     folder.write("two.toml", PARALLEL);
+    folder.write("run.toml", &(PARALLEL.to_owned() + RUN));
     folder.write("file", "");
     for (arguments, code) in [
         (&["rod.toml", "--slice", "z=2"][..], "graph::slice"),
@@ -212,6 +281,15 @@ fn what_cannot_be_drawn_is_said_before_anything_is_computed() {
         (&["two.toml", "-o", "two.jpg"], "graph::format"),
         (&["two.toml", "-o", "two.svg", "--format", "png"], "graph::format"),
         (&["two.toml", "--plot", "two.svg"], "graph::format"),
+        (&["two.toml", "--sankey", "--format", "dot"], "a Sankey diagram is a picture"),
+        (&["two.toml", "--sankey", "-o", "two.mmd"], "leave --sankey out, or write svg or png"),
+        (&["two.toml", "--sankey", "--format", "vtk"], "graph::format"),
+        (&["rod.toml", "--sankey", "--slice", "x=1"], "cannot be used with"),
+        (&["two.toml", "--at", "1min"], "run::no_run"),
+        (&["run.toml", "--at", "11min"], "outside of the run, which goes from 0 s to 10 min"),
+        (&["run.toml", "--at", "3K"], "units::dimension"),
+        (&["run.toml", "--at", "soon"], "--at"),
+        (&["run.toml", "--at", "1min", "--steady"], "cannot be used with"),
         (&["two.toml", "--format", "jpg"], "possible values"),
         (&["two.toml", "--group", "--no-group"], "cannot be used with"),
     ] {
@@ -222,20 +300,25 @@ fn what_cannot_be_drawn_is_said_before_anything_is_computed() {
     let ran = folder.run(&["graph", "two.toml", "-o", "file/two.svg"]);
     assert_eq!((ran.code, ran.out.as_str()), (Some(3), ""), "{}", ran.err);
     assert!(ran.err.contains("output::cannot_write") && ran.err.contains("-o FILE"), "{}", ran.err);
-    assert_eq!(folder.files(), ["file", "rod.toml", "two.toml"]);
+    assert_eq!(folder.files(), ["file", "rod.toml", "run.toml", "two.toml"]);
 }
 
-/// `LPTN_BLESS=1` draws it anew: look at it then.
+/// `LPTN_BLESS=1` draws them anew: look at them then.
 #[test]
-fn the_picture_of_the_page_is_what_its_command_draws() {
+fn the_pictures_of_the_page_are_what_its_commands_draw() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let path = root.join("docs/pictures/gearbox_graph.svg");
-    let folder = Folder::with_gearbox();
-    let ran = folder.run(&["graph", "gearbox.toml", "--steady", "-o", "x.svg"]);
-    assert_eq!(ran.code, Some(0), "{}", ran.err);
-    if std::env::var_os("LPTN_BLESS").is_some() {
-        std::fs::write(&path, folder.read("x.svg")).unwrap();
+    for (name, arguments) in [
+        ("gearbox_graph.svg", &["--steady"][..]),
+        ("gearbox_sankey.svg", &["--sankey", "--at", "5min"]),
+    ] {
+        let path = root.join("docs/pictures").join(name);
+        let folder = Folder::with_gearbox();
+        let ran = folder.run(&[&["graph", "gearbox.toml", "-o", "x.svg"], arguments].concat());
+        assert_eq!(ran.code, Some(0), "{}", ran.err);
+        if std::env::var_os("LPTN_BLESS").is_some() {
+            std::fs::write(&path, folder.read("x.svg")).unwrap();
+        }
+        let expected = std::fs::read_to_string(&path).unwrap();
+        assert!(folder.read("x.svg") == expected, "{name} is another picture now");
     }
-    let expected = std::fs::read_to_string(&path).unwrap();
-    assert!(folder.read("x.svg") == expected, "gearbox_graph.svg is another picture now");
 }

@@ -4,7 +4,7 @@ use lptn_plot::font::width;
 use lptn_plot::scene::{Align, Stroke, Text, rectangle};
 use lptn_plot::{FIELD, Ink, Scene};
 
-use crate::model::{Diagram, Target};
+use crate::model::{Diagram, Scales, Target};
 
 /// Room that a legend takes.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,19 +23,21 @@ const SIZE: f64 = 12.0;
 const LINE: f64 = 18.0;
 
 /// Between the diagram and what is below it.
-const GAP: f64 = 22.0;
+pub(crate) const GAP: f64 = 22.0;
 
 /// The room for what stands below a diagram.
 pub(crate) fn legend(diagram: &Diagram) -> Size {
     let lines = lines(diagram);
-    let captions = diagram.scales.iter().map(|scales| &scales.caption);
-    let widest = lines.iter().chain(captions).map(|text| width(text, SIZE, false));
-    let widest = widest.fold(0.0, f64::max);
-    let scale = if diagram.scales.is_some() { SCALE } else { 0.0 };
-    let height = scale + LINE * lines.len() as f64;
-    let scale_width = if scale > 0.0 { BAR.0 } else { 0.0 };
-    let height = if height > 0.0 { height + GAP } else { 0.0 };
-    Size { width: widest.max(scale_width), height }
+    let widest = lines.iter().map(|text| width(text, SIZE, false)).fold(0.0, f64::max);
+    let scale = diagram.scales.as_ref().map_or(Size::default(), scale_size);
+    let gap = if scale.height == 0.0 && !lines.is_empty() { GAP } else { 0.0 };
+    let height = gap + scale.height + LINE * lines.len() as f64;
+    Size { width: widest.max(scale.width), height }
+}
+
+/// The room for a scale and its caption below a drawing.
+pub(crate) fn scale_size(scales: &Scales) -> Size {
+    Size { width: width(&scales.caption, SIZE, false).max(BAR.0), height: GAP + SCALE }
 }
 
 /// Controls with what they switch.

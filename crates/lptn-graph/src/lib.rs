@@ -2,7 +2,8 @@
 //!
 //! A [`Diagram`] is a network as it is drawn: its nodes, boundaries, paths and sources with the
 //! words that stand beside them, many alike as one box where asked. [`scene`] lays it out and draws
-//! it with the usual symbols, [`dot()`] and [`mermaid()`] write it for other programs. A
+//! it with the usual symbols, [`sankey()`] draws its heat flows as bands, [`dot()`] and [`mermaid()`]
+//! write it for other programs. A
 //! [`GridField`] is the temperature of the cells of a grid, drawn slice by slice or written for
 //! ParaView.
 
@@ -15,6 +16,7 @@ mod mermaid;
 mod model;
 mod picture;
 mod read;
+mod sankey;
 mod slice;
 mod symbols;
 mod vtk;
@@ -27,5 +29,6 @@ pub use mermaid::mermaid;
 pub use model::{Diagram, Link, Place, PlaceRole, Scales, Supply, Switching, Target};
 pub use picture::{MOST_DRAWN, TooMany, scene};
 pub use read::{View, diagram};
+pub use sankey::{Band, Bar, BarRole, HeatFlows, NoSankey, sankey};
 pub use slice::slice;
 pub use vtk::vtk;

@@ -35,6 +35,8 @@ pub struct Place {
     /// The heat that it stores there in W, negative if it gives it back; `None` where nothing can
     /// be stored, or nothing is any more.
     pub stored: Option<f64>,
+    /// Of several the heat that streams between them bring there, in W, positive into them.
+    pub within: f64,
 }
 
 /// What a place is.
@@ -83,6 +85,9 @@ pub struct Link {
     pub stream: bool,
     /// Its heat in the state that is shown in W, positive from `from` to `to`.
     pub heat: Option<f64>,
+    /// Of several streams that run both ways the heat in W that `from` receives of those that run
+    /// against the others.
+    pub against: f64,
 }
 
 /// Heat that is put into a place.

@@ -69,23 +69,29 @@ function series(panel) {
 }
 
 // the range upwards: as in the picture where everything is shown, else what fits the part
-function upward(panel, places) {
-  const log = panel.y.scale == "log";
-  return (u, low, high) => {
-    const [from, to] = panel.x.range;
-    const x = u.scales.x;
-    if (x.min == null || (x.min <= from && x.max >= to)) return panel.y.range;
-    panel.curves.forEach((curve, k) => {
-      if (!curve.low || !u.series[k + 1].show) return;
-      places[curve.x].forEach((at, i) => {
-        if (at < x.min || at > x.max || curve.low[i] == null || curve.high[i] == null) return;
-        low = low == null ? curve.low[i] : Math.min(low, curve.low[i]);
-        high = high == null ? curve.high[i] : Math.max(high, curve.high[i]);
-      });
+function upward(u, panel, places) {
+  const { min, max } = u.scales.x, [from, to] = panel.x.range, log = panel.y.scale == "log";
+  if (min <= from && max >= to) return panel.y.range;
+  let low = Infinity, high = -Infinity;
+  panel.curves.forEach((curve, k) => {
+    if (!u.series[k + 1].show) return;
+    places[curve.x].forEach((at, i) => {
+      if (at < min || at > max) return;
+      for (const values of [curve.y, curve.low, curve.high]) {
+        const value = values && values[i];
+        if (value == null || (log && value <= 0)) continue;
+        low = Math.min(low, value);
+        high = Math.max(high, value);
+      }
     });
-    if (low == null) return panel.y.range;
-    return log ? uPlot.rangeLog(low, high, 10, false) : uPlot.rangeNum(low, high, 0.06, false);
-  };
+  });
+  if (low > high) return panel.y.range;
+  return log ? uPlot.rangeLog(low, high, 10, false) : uPlot.rangeNum(low, high, 0.06, false);
+}
+
+function fit(u, panel, places) {
+  const [min, max] = upward(u, panel, places);
+  u.setScale("y", { min, max });
 }
 
 function across(panel) {
@@ -204,12 +210,14 @@ function plot(panel, places, host, key, [width, first, last]) {
     axes: axes(panel, width, last),
     scales: {
       x: { time: false, distr: panel.x.scale == "log" ? 3 : 1, range: across(panel) },
-      y: { distr: panel.y.scale == "log" ? 3 : 1, range: upward(panel, places) },
+      y: { distr: panel.y.scale == "log" ? 3 : 1, auto: false, range: panel.y.range },
     },
     cursor: { sync: { key }, drag: { x: true, y: false }, points: { size: 6 } },
     hooks: {
       drawAxes: [u => spreads(u, panel, places)],
       draw: [u => marks(u, panel, first)],
+      setScale: [(u, key) => key == "x" && fit(u, panel, places)],
+      setSeries: [(u, k) => k != null && u.status && fit(u, panel, places)],
     },
   }, aligned(panel, places), host);
 }

@@ -1,7 +1,7 @@
 //! Reports as HTML: one file that a browser opens from disk, that asks no network for anything, and
 //! that can be printed and sent by mail.
 //!
-//! [`write`] makes it of a [`Report`](lptn_report::Report). Curves are drawn twice: as a picture,
+//! [`write()`] makes it of a [`Report`](lptn_report::Report). Curves are drawn twice: as a picture,
 //! which is what is printed and what browsers without scripts show, and by a script over the same
 //! values, to zoom into. Texts of the report can only become text: everything is escaped where it
 //! is written, and the page allows no script but its own, which it names by its hash.

@@ -21,6 +21,9 @@ pub fn write(report: &Report) -> String {
     out
 }
 
+/// To which part of its size a drawing is made smaller to fit the page.
+const SMALLEST: f64 = 0.8;
+
 const BUTTON: &str = "<button id=\"theme\" type=\"button\" hidden>light or dark</button>";
 
 fn head(title: &str) -> String {
@@ -68,7 +71,11 @@ fn piece(out: &mut String, piece: &Piece) {
         Piece::Figure(figure) => chart::write(out, figure),
         Piece::Drawing(scene, caption) => {
             let (drawing, caption) = (svg::write(scene), escaped(caption));
-            *out += &format!("<figure class=\"drawing\">\n<div>{drawing}</div>\n");
+            // on a narrow screen it is scrolled rather than made too small to read
+            let least = (SMALLEST * scene.size.0).round();
+            *out += "<figure class=\"drawing\">\n<div>";
+            *out += &drawing.replacen("<svg ", &format!("<svg style=\"min-width:{least}px\" "), 1);
+            *out += "</div>\n";
             *out += &format!("<figcaption>{caption}</figcaption>\n</figure>\n");
         }
         Piece::Verbatim(lines) => text::verbatim(out, lines),

@@ -3,7 +3,7 @@
 /// The hashes of the scripts as `Content-Security-Policy` writes them; a test holds them.
 const SCRIPTS: [&str; 2] = [
     "sha256-RAis6RoYtIiJmBceEi2mW5qyhxHDDxmmpZFJHFqCyvE=",
-    "sha256-C3l+aGWdKRiSt5IH4FDqI+CacNzPWiq642n2aixyuJE=",
+    "sha256-gPWP5r3dcTTgLoBIjs9SgbfsDi5OEeHCHVbwQIApSsU=",
 ];
 
 /// The policy: nothing is loaded from anywhere.

@@ -2,8 +2,7 @@
 
 use lptn_plot::{Figure, Scene};
 
-use crate::page::Page;
-use crate::text::{Block, Text};
+use crate::text::Text;
 
 /// What a document says of a result: first how far it can be trusted, then what it is.
 #[derive(Clone, Debug, Default)]
@@ -86,39 +85,4 @@ impl Claim {
     pub fn open(text: impl Into<String>) -> Self {
         Self { standing: Standing::Open, text: text.into() }
     }
-}
-
-impl Report {
-    /// What a page shows, with all that it has for a report besides.
-    pub fn of(page: &dyn Page) -> Self {
-        let (title, text) = titled(&page.text());
-        let mut report = Self { title, ..page.more() };
-        report.claims.extend(page.no().map(|no| Claim::checked(false, no)));
-        let mut own: Vec<Section> = Vec::new();
-        for mut figure in page.figures().into_iter().filter(|figure| !figure.panels.is_empty()) {
-            if figure.title == report.title {
-                figure.title = String::new();
-            }
-            own.push(Section::of("", Piece::Figure(figure)));
-        }
-        own.push(Section::of("Results", Piece::Text(text)));
-        report.sections.splice(0..0, own);
-        report
-    }
-}
-
-/// A text without its title, and that.
-fn titled(text: &Text) -> (String, Text) {
-    let mut title = String::new();
-    let mut rest = Text::new();
-    for section in text.sections() {
-        rest.section();
-        for block in section {
-            match block {
-                Block::Title(own) if title.is_empty() => title.clone_from(own),
-                block => drop(rest.add(block.clone())),
-            }
-        }
-    }
-    (title, rest)
 }

@@ -1,11 +1,10 @@
 //! The state of a network at one instant.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{End, Evaluation, HeatOf, InputError, Network, Positions, Received, same_time};
+use lptn_network::{End, Evaluation, HeatOf, InputError, Network, Positions, Received};
 
 use crate::balance::Balance;
 use crate::quantity::Quantity;
-use crate::solution::Solution;
 use crate::times::just_after;
 
 /// Temperatures and heat flows at one instant, of a steady state or of a run.
@@ -117,28 +116,5 @@ impl Snapshot {
             Quantity::Control(id) => Ok(scope.control(id)),
             Quantity::Report(id) => network.report_value(id, scope),
         }
-    }
-}
-
-impl Solution {
-    /// Temperatures and heat flows at a row; `None` unless every node was recorded.
-    ///
-    /// # Panics
-    /// For a row that there is not.
-    pub fn snapshot(&self, row: usize) -> Option<Snapshot> {
-        let mut found = None;
-        if self.is_whole() {
-            self.replay_rows(row..row + 1, |at| found = at.snapshot(self.times[row]));
-        }
-        found
-    }
-
-    /// The row at or before a time in s; times that differ by rounding are one. `None` outside of
-    /// the rows.
-    pub fn row_at(&self, time: f64) -> Option<usize> {
-        let (first, last) = (*self.times.first()?, *self.times.last()?);
-        let rounding = same_time(first, last);
-        let after = self.times.partition_point(|&known| known <= time + rounding);
-        after.checked_sub(1).filter(|_| time <= last + rounding)
     }
 }

@@ -6,7 +6,7 @@ use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::Statistics;
 use lptn_network::{
     BoundaryId, ConductorId, ControlId, HeatOf, Network, NodeId, ParameterId, Positions, Received,
-    ReportId, SignalId, SourceId,
+    ReportId, SignalId, SourceId, same_time,
 };
 
 use crate::balance::Balance;
@@ -179,6 +179,27 @@ impl Solution {
     /// A report over the rows in SI units; NaN unless every node was recorded.
     pub fn report(&self, id: ReportId) -> Vec<f64> {
         self.values(Quantity::Report(id))
+    }
+
+    /// Temperatures and heat flows at a row; `None` unless every node was recorded.
+    ///
+    /// # Panics
+    /// For a row that there is not.
+    pub fn snapshot(&self, row: usize) -> Option<Snapshot> {
+        let mut found = None;
+        if self.is_whole() {
+            self.replay_rows(row..row + 1, |at| found = at.snapshot(self.times[row]));
+        }
+        found
+    }
+
+    /// The row at or before a time in s; times that differ by rounding are one. `None` outside of
+    /// the rows.
+    pub fn row_at(&self, time: f64) -> Option<usize> {
+        let (first, last) = (*self.times.first()?, *self.times.last()?);
+        let rounding = same_time(first, last);
+        let after = self.times.partition_point(|&known| known <= time + rounding);
+        after.checked_sub(1).filter(|_| time <= last + rounding)
     }
 
     fn values(&self, quantity: Quantity) -> Vec<f64> {

@@ -1,5 +1,6 @@
 //! Columns of places and of elements, and the nets in the channels between them.
 
+use super::order::Neighbours;
 use super::rank::Ranks;
 use super::{Element, Room};
 
@@ -129,7 +130,7 @@ impl Columns {
     }
 
     /// For each vertex those it is joined to in the columns before and after its own.
-    pub(crate) fn neighbours(&self) -> [Vec<Vec<usize>>; 2] {
+    pub(crate) fn neighbours(&self) -> Neighbours {
         let mut before = vec![Vec::new(); self.vertices.len()];
         let mut after = before.clone();
         for net in self.nets.iter().flatten() {

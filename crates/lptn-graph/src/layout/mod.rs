@@ -7,9 +7,9 @@
 //! wires at a place are one net, which branches as in a circuit diagram.
 
 mod columns;
-mod order;
-mod place;
-mod rank;
+pub(crate) mod order;
+pub(crate) mod place;
+pub(crate) mod rank;
 mod route;
 
 use columns::{Columns, Vertex};
@@ -66,7 +66,8 @@ pub(crate) struct Arranged {
 pub(crate) fn arrange(places: &[Room], elements: &[Element], most: f64) -> Arranged {
     let ranks = rank::ranks(places.len(), elements);
     let mut columns = Columns::of(places, elements, &ranks);
-    order::reduce_crossings(&mut columns);
+    let neighbours = columns.neighbours();
+    order::reduce_crossings(&mut columns.layers, &neighbours);
     let mut levels = place::levels(&columns);
     route::pull_apart(&columns, &mut levels);
     let routes: Vec<route::Channel> =
@@ -188,7 +189,8 @@ mod tests {
     fn upon(places: &[Room], elements: &[Element]) -> Option<(usize, (usize, f64))> {
         let ranks = rank::ranks(places.len(), elements);
         let mut columns = Columns::of(places, elements, &ranks);
-        super::order::reduce_crossings(&mut columns);
+        let neighbours = columns.neighbours();
+        super::order::reduce_crossings(&mut columns.layers, &neighbours);
         let mut levels = place::levels(&columns);
         route::pull_apart(&columns, &mut levels);
         (0..columns.nets.len())

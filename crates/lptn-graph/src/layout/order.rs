@@ -1,34 +1,34 @@
 //! Order in the columns, such that few wires cross.
 
-use super::columns::Columns;
-
 /// How often all columns are gone through.
 const SWEEPS: usize = 12;
 
+/// For each vertex those it is joined to in the columns before and after its own.
+pub(crate) type Neighbours = [Vec<Vec<usize>>; 2];
+
 /// Orders every column by the mean position of what its vertices are joined to; the best order that
 /// is met stays.
-pub(crate) fn reduce_crossings(columns: &mut Columns) {
-    let neighbours = columns.neighbours();
-    let mut best = (crossings(columns, &neighbours[1]), columns.layers.clone());
+pub(crate) fn reduce_crossings(layers: &mut Vec<Vec<usize>>, neighbours: &Neighbours) {
+    let mut best = (crossings(layers, &neighbours[1]), layers.clone());
     for sweep in 0..SWEEPS {
         let forth = sweep % 2 == 0;
-        let count = columns.layers.len();
+        let count = layers.len();
         for k in 0..count {
             let layer = if forth { k } else { count - 1 - k };
-            sort(columns, layer, &neighbours[usize::from(!forth)]);
+            sort(layers, layer, &neighbours[usize::from(!forth)]);
         }
-        let found = crossings(columns, &neighbours[1]);
+        let found = crossings(layers, &neighbours[1]);
         if found < best.0 {
-            best = (found, columns.layers.clone());
+            best = (found, layers.clone());
         }
     }
-    columns.layers = best.1;
+    *layers = best.1;
 }
 
 /// Where each vertex stands in its column, from 0, the first, to 1.
-fn positions(columns: &Columns) -> Vec<f64> {
-    let mut at = vec![0.0; columns.vertices.len()];
-    for layer in &columns.layers {
+fn positions(layers: &[Vec<usize>], count: usize) -> Vec<f64> {
+    let mut at = vec![0.0; count];
+    for layer in layers {
         for (i, v) in layer.iter().enumerate() {
             at[*v] = (i as f64 + 0.5) / layer.len() as f64;
         }
@@ -36,24 +36,24 @@ fn positions(columns: &Columns) -> Vec<f64> {
     at
 }
 
-fn sort(columns: &mut Columns, layer: usize, joined: &[Vec<usize>]) {
-    let at = positions(columns);
+fn sort(layers: &mut [Vec<usize>], layer: usize, joined: &[Vec<usize>]) {
+    let at = positions(layers, joined.len());
     let wish = |v: usize| match joined[v].as_slice() {
         [] => at[v],
         all => all.iter().map(|other| at[*other]).sum::<f64>() / all.len() as f64,
     };
-    columns.layers[layer].sort_by(|a, b| wish(*a).total_cmp(&wish(*b)));
+    layers[layer].sort_by(|a, b| wish(*a).total_cmp(&wish(*b)));
 }
 
 /// How many pairs of wires cross.
-fn crossings(columns: &Columns, after: &[Vec<usize>]) -> usize {
-    let mut at = vec![0; columns.vertices.len()];
-    for layer in &columns.layers {
+fn crossings(layers: &[Vec<usize>], after: &[Vec<usize>]) -> usize {
+    let mut at = vec![0; after.len()];
+    for layer in layers {
         for (i, v) in layer.iter().enumerate() {
             at[*v] = i;
         }
     }
-    columns.layers.iter().map(|layer| inversions(layer, after, &at)).sum()
+    layers.iter().map(|layer| inversions(layer, after, &at)).sum()
 }
 
 /// Pairs of wires behind a column whose ends stand in the other order than their beginnings.

@@ -111,11 +111,11 @@ fn in_line(columns: &Columns, of: &[usize], at: &[f64]) -> Option<f64> {
 }
 
 /// A level that a vertex wishes to have, and how much.
-type Wish = (f64, f64);
+pub(crate) type Wish = (f64, f64);
 
 /// Puts the vertices of a column as near to where they wish to be as their sizes and order allow,
 /// in the least squares: isotonic regression by pooling adjacent violators.
-fn settle(
+pub(crate) fn settle(
     rooms: &[Room],
     vertices: &[usize],
     at: &mut [f64],

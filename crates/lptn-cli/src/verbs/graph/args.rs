@@ -10,6 +10,7 @@ use crate::options::{NoFiles, Scale, Source, TEMPLATE, one_of};
 const EXAMPLES: &str = "\
 Examples:
   lptn graph motor.toml --steady
+  lptn graph motor.toml --sankey --at 10min
   lptn graph motor.toml -o motor.png
   lptn graph motor.toml --format mermaid
   lptn graph wall.toml --slice z=1";
@@ -30,6 +31,12 @@ pub(crate) struct GraphArgs {
     /// Show temperatures and heat flows where it settles
     #[arg(long)]
     pub(crate) steady: bool,
+    /// Show them at a time of the run, such as 10min
+    #[arg(long, value_name = "TIME", conflicts_with = "steady")]
+    pub(crate) at: Option<String>,
+    /// Draw heat flows as bands of their width
+    #[arg(long)]
+    pub(crate) sankey: bool,
     /// Draw each grid, instance and family as one box
     #[arg(long, conflicts_with = "no_group")]
     pub(crate) group: bool,
@@ -44,14 +51,30 @@ pub(crate) struct GraphArgs {
     _no_files: NoFiles,
 }
 
+impl GraphArgs {
+    /// Whether temperatures and heat flows are shown.
+    pub(super) fn shows_state(&self) -> bool {
+        self.steady || self.sankey || self.at.is_some()
+    }
+
+    /// What can be nothing but a picture, and the option that asks for it.
+    pub(super) fn only_a_picture(&self) -> Option<[&'static str; 2]> {
+        match (&self.field.slice, self.sankey) {
+            (Some(_), _) => Some(["a slice", "--slice"]),
+            (None, true) => Some(["a Sankey diagram", "--sankey"]),
+            (None, false) => None,
+        }
+    }
+}
+
 /// The temperatures in a grid.
 #[derive(Debug, Arguments)]
 #[command(next_help_heading = "Grids")]
 pub(crate) struct FieldArgs {
     /// Draw a layer of cells by number or place: z=3, "z=5 mm"
-    #[arg(long, value_name = "AXIS=PLACE", conflicts_with_all = ["group", "no_group", "steady"])]
+    #[arg(long, value_name = "AXIS=PLACE", conflicts_with_all = ["group", "no_group", "steady", "sankey"])]
     pub(crate) slice: Option<String>,
     /// Of several grids take this one
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", conflicts_with = "sankey")]
     pub(crate) grid: Option<String>,
 }

@@ -9,6 +9,7 @@ use lptn_units::{Problem as _, Unit};
 use super::args::GraphArgs;
 use super::kind::Kind;
 use super::picture;
+use super::state::state;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
@@ -35,8 +36,8 @@ pub(super) fn written(
         None if kind.is_of_grid() => None,
         None => return Err(which_slice(name, &shape)),
     };
-    let steady = super::solve(input, unit, console)?;
-    let field = GridField::of(network, id, Some(&steady));
+    let state = state(args, (input, unit, console))?;
+    let field = GridField::of(network, id, Some(&state));
     let title = input.title();
     let ending = kind.ending();
     Ok(match (kind, cut) {

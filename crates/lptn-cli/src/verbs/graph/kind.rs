@@ -62,11 +62,12 @@ impl Kind {
     }
 }
 
-/// What is written and where, by `--format` and `-o`; `sliced` where a slice is asked for.
+/// What is written and where, by `--format` and `-o`; `only` says what can be nothing but a picture,
+/// and by which option it is asked for.
 pub(super) fn wanted(
     format: Option<Kind>,
     output: Option<&Path>,
-    sliced: bool,
+    only: Option<[&str; 2]>,
 ) -> Result<(Kind, Place), Failure> {
     let (kind, place) = match (format, output) {
         (format, None) => {
@@ -87,12 +88,15 @@ pub(super) fn wanted(
             (kind, Place::File(path.to_owned()))
         }
     };
-    if sliced && !matches!(kind, Kind::Svg | Kind::Png) {
-        let message = format!("a slice is a picture, and {} holds the whole grid", kind.key());
-        let problem = Diagnostic::error("graph::format", message);
-        return Err(refused(problem.help("leave --slice out, or write svg or png")));
+    match only.filter(|_| !matches!(kind, Kind::Svg | Kind::Png)) {
+        None => Ok((kind, place)),
+        Some([what, option]) => {
+            let whole = if kind.is_of_grid() { "the whole grid" } else { "the network" };
+            let message = format!("{what} is a picture, and {} holds {whole}", kind.key());
+            let problem = Diagnostic::error("graph::format", message);
+            Err(refused(problem.help(format!("leave {option} out, or write svg or png"))))
+        }
     }
-    Ok((kind, place))
 }
 
 fn refused(problem: Diagnostic) -> Failure {

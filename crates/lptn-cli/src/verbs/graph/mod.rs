@@ -4,20 +4,17 @@ mod args;
 mod field;
 mod kind;
 mod output;
+mod state;
 
 pub(crate) use args::GraphArgs;
 
 use kind::Kind;
 use lptn_graph::{Diagram, Grouping, View};
-use lptn_netlist::{Diagnostic, RunSettings};
-use lptn_network::Network;
+use lptn_netlist::Diagnostic;
 use lptn_plot::{Scene, png, svg};
-use lptn_solve::SteadyState;
 use lptn_units::Unit;
 
-use super::steady::failed;
 use crate::console::Console;
-use crate::doubts::{adiabatic, inputs_vary, others};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Input};
@@ -30,8 +27,7 @@ pub(crate) fn graph(args: &GraphArgs, console: &Console) -> Result<Exit, Failure
         let problem = Diagnostic::error("graph::format", "--plot draws curves, not the network");
         return Err(Failure::new(Exit::Input, problem.help("write -o FILE in its place")));
     }
-    let (kind, place) =
-        kind::wanted(args.format, args.output.as_deref(), args.field.slice.is_some())?;
+    let (kind, place) = kind::wanted(args.format, args.output.as_deref(), args.only_a_picture())?;
     let input = Input::load(&args.source)?;
     let unit = input::temperature_unit(args.scale.temperature_unit.as_deref(), &input.netlist)?;
     console.warn(&input.netlist.files, &input.netlist.warnings);
@@ -41,7 +37,7 @@ pub(crate) fn graph(args: &GraphArgs, console: &Console) -> Result<Exit, Failure
         network(args, kind, (&input, &unit, console))?
     };
     output::put(&bytes, (&place, &name), &input, console)?;
-    let plain = !args.steady && !field::is_wanted(args, kind);
+    let plain = !args.shows_state() && !field::is_wanted(args, kind);
     if let (true, Some(file)) = (plain, input.typed()) {
         console.hint(&format!("next   lptn graph {file} --steady"));
     }
@@ -58,6 +54,10 @@ fn network(
     let bytes = match kind {
         Kind::Dot => lptn_graph::dot(&diagram).into_bytes(),
         Kind::Mermaid => lptn_graph::mermaid(&diagram).into_bytes(),
+        _ if args.sankey => {
+            let scene = lptn_graph::sankey(&diagram);
+            picture(kind, &scene.map_err(|error| Failure::of(&error))?)?
+        }
         _ => {
             let scene = lptn_graph::scene(&diagram);
             picture(kind, &scene.map_err(|error| Failure::of(&error))?)?
@@ -66,7 +66,8 @@ fn network(
     if !diagram.grouped.is_empty() {
         console.note(&grouped(&diagram, args.group));
     }
-    Ok((bytes, format!("graph.{}", kind.ending())))
+    let name = if args.sankey { "sankey" } else { "graph" };
+    Ok((bytes, format!("{name}.{}", kind.ending())))
 }
 
 fn diagram(
@@ -79,24 +80,13 @@ fn diagram(
         (_, true) => Grouping::No,
         _ => Grouping::Auto,
     };
-    let steady = if args.steady { Some(solve(input, unit, console)?) } else { None };
+    let state = match args.shows_state() {
+        true => Some(state::state(args, (input, unit, console))?),
+        false => None,
+    };
     let title = input.title();
-    let view = View { title: &title, grouping, unit, state: steady.as_deref() };
+    let view = View { title: &title, grouping, unit, state: state.as_ref() };
     Ok(lptn_graph::diagram(&input.netlist.network, &view))
-}
-
-/// The steady state, with what to know before it is believed.
-fn solve(input: &Input, unit: &Unit, console: &Console) -> Result<SteadyState, Failure> {
-    let netlist = &input.netlist;
-    let network: &Network = &netlist.network;
-    let system = input.assemble()?;
-    let start = netlist.run.as_ref().map_or(0.0, |run: &RunSettings| run.start);
-    let steady = SteadyState::solve(&system, start).map_err(|error| failed(input, &error))?;
-    let vary = inputs_vary(input, &steady, &[]);
-    let doubts = [vary, adiabatic(network, &steady), others(network, &steady, unit)];
-    let doubts: Vec<Diagnostic> = doubts.into_iter().flatten().collect();
-    console.warn(&netlist.files, &doubts);
-    Ok(steady)
 }
 
 /// A drawing as a picture.

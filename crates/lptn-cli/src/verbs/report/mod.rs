@@ -10,7 +10,7 @@ use std::path::Path;
 pub(crate) use args::ReportArgs;
 use clap::Parser as _;
 use lptn_netlist::Diagnostic;
-use lptn_report::{Claim, Piece, Report, Section, write_csv};
+use lptn_report::{Claim, Piece, Section, write_csv};
 use serde_json::Value;
 
 use super::Verb;
@@ -86,7 +86,7 @@ fn again(
     let written = write_csv(&outcome.shown_table(), &mut bytes);
     let there = std::fs::read(folder.join(RESULT)).unwrap_or_default();
     let same = written.is_ok() && there == bytes;
-    let mut report = Report::of(&outcome);
+    let mut report = lptn_report::report_of(&outcome);
     let text = match same {
         true => format!("run again: {RESULT} has the same bytes"),
         false => format!("run again: {RESULT} has other bytes"),

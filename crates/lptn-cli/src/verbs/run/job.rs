@@ -62,7 +62,8 @@ impl<'a> Job<'a> {
         let chosen = !(args.shown.select.is_empty() && settings.select.is_empty());
         let format = args.shown.format;
         let balance = balance::end(netlist, args.balance.as_deref(), format)?;
-        let at = times(&args.at, &settings)?;
+        let at = args.at.iter().map(|text| time_of_run(text, &settings));
+        let at = at.collect::<Result<_, _>>()?;
         let whole = false;
         Ok(Self {
             at,
@@ -92,28 +93,7 @@ impl<'a> Job<'a> {
     ) -> Result<(Solution, Option<Diagnostic>), Failure> {
         let transient =
             self.transient(system, steady).map_err(|error| failed(self.input, &error))?;
-        let interrupt = Interrupt::listen();
-        let mut line = ProgressLine::new(console.quiet);
-        let outcome = transient.solve_observed(system, &mut |progress| {
-            line.update(progress);
-            interrupt.control()
-        });
-        line.clear();
-        match outcome {
-            Ok(solution) => Ok((solution, None)),
-            Err(error) => {
-                let problem = explain(self.input, &error);
-                match error {
-                    // nothing was computed, and nothing could be: the question does not fit the
-                    // network
-                    TransientError::Stopped { reason: StopReason::NothingSwitches, .. } => {
-                        Err(failed(self.input, &error))
-                    }
-                    TransientError::Stopped { partial, .. } => Ok((*partial, Some(problem))),
-                    error => Err(failed(self.input, &error)),
-                }
-            }
-        }
+        observed(self.input, (system, &transient), console)
     }
 
     fn transient(
@@ -148,18 +128,46 @@ impl<'a> Job<'a> {
     }
 }
 
-/// Times of the run that an option names.
-fn times(given: &[String], settings: &RunSettings) -> Result<Vec<f64>, Failure> {
-    let time = |text: &String| {
-        let time = input::quantity("--at", text, Type::of(Dimension::TIME))?.value;
-        if (settings.start..=settings.stop).contains(&time) {
-            return Ok(time);
+/// Runs to the stop, to the first failure or to Ctrl-C, and shows how far it is.
+pub(crate) fn observed(
+    input: &Input,
+    (system, transient): (&ThermalSystem, &Transient),
+    console: &Console,
+) -> Result<(Solution, Option<Diagnostic>), Failure> {
+    let interrupt = Interrupt::listen();
+    let mut line = ProgressLine::new(console.quiet);
+    let outcome = transient.solve_observed(system, &mut |progress| {
+        line.update(progress);
+        interrupt.control()
+    });
+    line.clear();
+    match outcome {
+        Ok(solution) => Ok((solution, None)),
+        Err(error) => {
+            let problem = explain(input, &error);
+            match error {
+                // nothing was computed, and nothing could be: the question does not fit the
+                // network
+                TransientError::Stopped { reason: StopReason::NothingSwitches, .. } => {
+                    Err(failed(input, &error))
+                }
+                TransientError::Stopped { partial, .. } => Ok((*partial, Some(problem))),
+                error => Err(failed(input, &error)),
+            }
         }
-        let (from, to) = (duration(settings.start, 4), duration(settings.stop, 4));
-        let message = format!("--at {text} is not a time of the run, which is from {from} to {to}");
-        Err(Failure::new(Exit::Input, Diagnostic::error("run::settings", message)))
-    };
-    given.iter().map(time).collect()
+    }
+}
+
+/// A time of the run that `--at` names, in s.
+pub(crate) fn time_of_run(text: &str, settings: &RunSettings) -> Result<f64, Failure> {
+    let time = input::quantity("--at", text, Type::of(Dimension::TIME))?.value;
+    if (settings.start..=settings.stop).contains(&time) {
+        return Ok(time);
+    }
+    let [start, stop] = [settings.start, settings.stop].map(|time| duration(time, 6));
+    let message = format!("--at {text} is outside of the run, which goes from {start} to {stop}");
+    let help = format!("name a time from {start} to {stop}, or give [run] another `stop`");
+    Err(Failure::new(Exit::Input, Diagnostic::error("run::time", message).help(help)))
 }
 
 /// What broke a run off, with the place of the input that did.

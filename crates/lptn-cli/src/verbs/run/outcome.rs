@@ -147,13 +147,7 @@ impl Outcome<'_> {
 
     /// What a reader should know of the numbers; the table says it in its notes.
     pub(super) fn doubts(&self) -> Vec<Diagnostic> {
-        let bound = not_bounded(&self.solution);
-        let ledger = weak_ledger(&self.solution);
-        let warning = |code, text: Option<String>| text.map(|text| Diagnostic::warning(code, text));
-        [warning("run::error_not_bounded", bound), warning("run::weak_ledger", ledger)]
-            .into_iter()
-            .flatten()
-            .collect()
+        doubts(&self.solution)
     }
 
     /// The rows with their times in the unit that was asked for.
@@ -250,7 +244,15 @@ impl Outcome<'_> {
     }
 }
 
-fn does_not_close(solution: &Solution) -> Diagnostic {
+/// What a reader should know of the numbers of a run.
+pub(crate) fn doubts(solution: &Solution) -> Vec<Diagnostic> {
+    let warning = |code, text: Option<String>| text.map(|text| Diagnostic::warning(code, text));
+    let bound = warning("run::error_not_bounded", not_bounded(solution));
+    bound.into_iter().chain(warning("run::weak_ledger", weak_ledger(solution))).collect()
+}
+
+/// That the books of a run do not close.
+pub(crate) fn does_not_close(solution: &Solution) -> Diagnostic {
     let ledger = solution.ledger();
     let residual = ledger.relative_residual().unwrap_or(f64::NAN);
     let message = format!(

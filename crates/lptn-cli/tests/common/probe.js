@@ -1,0 +1,74 @@
+// Looks at a page from inside: what is drawn, what zoom and legend do, and how readable it is.
+(async () => {
+// the charts draw when a script has come to rest
+const rest = () => new Promise(done => setTimeout(done, 0));
+const found = { ready: document.documentElement.dataset.ready, charts: [], contrast: {}, wide: [] };
+
+const channel = value => {
+  value /= 255;
+  return value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
+};
+const luminance = ([r, g, b]) => 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
+const rgb = text => (text.match(/[\d.]+/g) || []).map(Number);
+const contrast = (a, b) => {
+  const [x, y] = [luminance(a) + 0.05, luminance(b) + 0.05];
+  return Math.max(x, y) / Math.min(x, y);
+};
+const paper = element => {
+  for (let at = element; at; at = at.parentElement) {
+    const colour = rgb(getComputedStyle(at).backgroundColor);
+    if (colour.length == 3) return colour;
+  }
+  return [255, 255, 255];
+};
+const texts = () => Array.from(document.body.querySelectorAll("*")).filter(element =>
+  !["SCRIPT", "STYLE"].includes(element.tagName) && element.getClientRects().length &&
+  Array.from(element.childNodes).some(node => node.nodeType == 3 && node.textContent.trim()));
+
+for (const theme of ["light", "dark"]) {
+  document.documentElement.dataset.theme = theme;
+  let least = [21, ""];
+  for (const element of texts()) {
+    const style = getComputedStyle(element);
+    const colour = rgb(element.namespaceURI.endsWith("svg") ? style.fill : style.color);
+    const value = contrast(colour.slice(0, 3), paper(element.closest("svg") ? document.body : element));
+    if (value < least[0]) least = [value, element.textContent.trim().slice(0, 40)];
+  }
+  found.contrast[theme] = least;
+}
+found.wide = texts()
+  .filter(element => !element.closest(".table, .drawing, pre, .live") &&
+    element.getBoundingClientRect().right > document.documentElement.clientWidth + 1)
+  .map(element => element.textContent.trim().slice(0, 40));
+
+for (const figure of lptn.figures) {
+  for (const chart of figure.charts) {
+    const x = chart.data[0], of = chart.series.length - 1;
+    const seen = { rows: x.length, data: chart.data.map(column => Array.from(column)) };
+    seen.before = [chart.scales.x.min, chart.scales.x.max, chart.scales.y.min, chart.scales.y.max];
+    const middle = x[Math.floor(x.length / 2)], end = x[x.length - 1];
+    chart.setScale("x", { min: middle, max: end });
+    await rest();
+    seen.zoomed = [chart.scales.x.min, chart.scales.x.max, chart.scales.y.min, chart.scales.y.max];
+    chart.setScale("x", { min: x[0], max: end });
+    await rest();
+    seen.again = [chart.scales.x.min, chart.scales.x.max, chart.scales.y.min, chart.scales.y.max];
+    const label = chart.root.querySelectorAll(".u-legend .u-series")[of].querySelector("th");
+    label.click();
+    seen.hidden = chart.series.map(series => series.show);
+    label.click();
+    seen.shown = chart.series.map(series => series.show);
+    const begun = performance.now();
+    for (let i = 0; i < 20; i++) {
+      chart.setScale("x", { min: x[0], max: i % 2 ? end : middle });
+      await rest();
+    }
+    seen.took = (performance.now() - begun) / 20;
+    found.charts.push(seen);
+  }
+}
+const out = document.createElement("pre");
+out.id = "probe";
+out.textContent = JSON.stringify(found);
+document.body.append(out);
+})();

@@ -1,0 +1,147 @@
+//! The heat of a diagram as bars and bands between them.
+
+use crate::model::Diagram;
+
+/// Flows below this share of the largest are not shown.
+const LEAST: f64 = 1e-9;
+
+/// The heat of a state: where it comes from, where it goes through, where it stays.
+#[derive(Clone, Debug, Default)]
+pub struct HeatFlows {
+    /// What heat comes from, goes through or ends in: in the order of the diagram its places, then
+    /// its sources, then its streams, then what was stored and what is.
+    pub bars: Vec<Bar>,
+    /// What flows from one bar to another.
+    pub bands: Vec<Band>,
+}
+
+/// What heat comes from, goes through or ends in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bar {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub role: BarRole,
+    /// The heat in W that bands bring.
+    pub into: f64,
+    /// The heat in W that bands take away. At every place but a boundary it is what they bring.
+    pub out: f64,
+}
+
+/// What a bar is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BarRole {
+    /// A node, a boundary or a group, by its position in [`Diagram::places`].
+    Place(usize),
+    /// A source, or what it takes where it cools.
+    Source,
+    /// The fluid of a stream: what it brings and what it carries away.
+    Stream,
+    /// Heat that capacities had and give back.
+    Released,
+    /// Heat that capacities take.
+    Stored,
+}
+
+/// Heat that flows from one bar to another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Band {
+    /// The path, source or stream that brings it.
+    pub name: String,
+    /// Where it comes from, a position in [`HeatFlows::bars`].
+    pub from: usize,
+    /// Where it goes, a position in [`HeatFlows::bars`].
+    pub to: usize,
+    /// How much it is in W, above zero.
+    pub heat: f64,
+}
+
+impl Bar {
+    fn new(name: impl Into<String>, role: BarRole) -> Self {
+        Self { name: name.into(), role, into: 0.0, out: 0.0 }
+    }
+
+    /// The heat in W that goes through it, or that it gives or takes: the larger side.
+    pub fn heat(&self) -> f64 {
+        self.into.max(self.out)
+    }
+}
+
+impl HeatFlows {
+    /// The heat flows of a diagram; none where it shows no state.
+    pub fn of(diagram: &Diagram) -> Self {
+        let places = diagram.places.iter().enumerate();
+        let bars = places.map(|(i, place)| Bar::new(place.name.clone(), BarRole::Place(i)));
+        let mut all = Self { bars: bars.collect(), bands: Vec::new() };
+        for source in &diagram.sources {
+            let heat = source.heat.unwrap_or(0.0);
+            all.own_bar(Bar::new(source.name.clone(), BarRole::Source), source.into, heat);
+        }
+        for link in &diagram.links {
+            let heat = link.heat.unwrap_or(0.0);
+            if link.stream {
+                let stream = || Bar::new(link.name.clone(), BarRole::Stream);
+                all.own_bar(stream(), link.to, heat);
+                all.own_bar(stream(), link.from, link.against);
+            } else {
+                all.band(link.name.clone(), (link.from, link.to), heat);
+            }
+        }
+        for (i, place) in diagram.places.iter().enumerate() {
+            let name = format!("streams in {}", place.name);
+            all.own_bar(Bar::new(name, BarRole::Stream), i, place.within);
+        }
+        all.store(diagram);
+        all.without_dust()
+    }
+
+    /// Heat from a bar of its own to a place, or to that bar where it is negative.
+    fn own_bar(&mut self, bar: Bar, place: usize, heat: f64) {
+        if heat != 0.0 {
+            self.bars.push(bar);
+            let own = self.bars.len() - 1;
+            self.band(self.bars[own].name.clone(), (own, place), heat);
+        }
+    }
+
+    /// Heat from one bar to another, or back where it is negative.
+    fn band(&mut self, name: String, (from, to): (usize, usize), heat: f64) {
+        let (from, to) = if heat < 0.0 { (to, from) } else { (from, to) };
+        self.bands.push(Band { name, from, to, heat: heat.abs() });
+    }
+
+    /// What places store goes to one bar, and what they release comes from another.
+    fn store(&mut self, diagram: &Diagram) {
+        let (released, stored) = (self.bars.len(), self.bars.len() + 1);
+        self.bars.push(Bar::new("released", BarRole::Released));
+        self.bars.push(Bar::new("stored", BarRole::Stored));
+        for (i, place) in diagram.places.iter().enumerate() {
+            match place.stored.unwrap_or(0.0) {
+                heat if heat < 0.0 => {
+                    self.band(format!("released by {}", place.name), (released, i), -heat);
+                }
+                heat => self.band(format!("stored in {}", place.name), (i, stored), heat),
+            }
+        }
+    }
+
+    /// Only what can be seen, with the sums of every bar.
+    fn without_dust(mut self) -> Self {
+        let most = self.bands.iter().map(|band| band.heat).fold(0.0, f64::max);
+        self.bands.retain(|band| band.heat > LEAST * most);
+        for band in &self.bands {
+            self.bars[band.from].out += band.heat;
+            self.bars[band.to].into += band.heat;
+        }
+        let mut at = vec![0; self.bars.len()];
+        let mut kept = Vec::new();
+        for (i, bar) in self.bars.into_iter().enumerate() {
+            at[i] = kept.len();
+            kept.extend(Some(bar).filter(|bar| bar.heat() > 0.0));
+        }
+        for band in &mut self.bands {
+            (band.from, band.to) = (at[band.from], at[band.to]);
+        }
+        Self { bars: kept, bands: self.bands }
+    }
+}

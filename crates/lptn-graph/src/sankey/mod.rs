@@ -1,0 +1,270 @@
+//! The heat flows of a state as a Sankey diagram: bars that heat comes from, goes through and ends
+//! in, and between them bands as wide as heat flows.
+
+mod flows;
+mod place;
+
+use lptn_plot::font::width;
+use lptn_plot::scene::{Align, Path, Step, Text, polygon, rectangle};
+use lptn_plot::{FIELD, Ink, Scene};
+use lptn_report::shortened;
+
+pub use flows::{Band, Bar, BarRole, HeatFlows};
+
+use crate::groups::MOST_PLACES;
+use crate::legend;
+use crate::model::{Diagram, Scales};
+use place::{LABEL, Placed, PlacedBand, place};
+
+lptn_units::errors! {
+/// There is no Sankey diagram.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoSankey {
+    /// No heat flows are known.
+    NoState = "graph::no_state",
+        "the heat flows of the network are not known",
+        help "draw a steady state, or a time of a run";
+    /// Nothing flows.
+    NoHeat = "graph::no_heat",
+        "no heat flows in this state: everything is at one temperature, and no source is on",
+        help "draw another time, --at 10min, or look at the inputs with `lptn check`";
+    /// More bars than can be read.
+    TooMany { bars: usize } = "graph::too_many",
+        format!("{bars} bars are too many for one picture: at most {MOST_PLACES} are drawn"),
+        help "draw groups with --group";
+}}
+
+/// Sizes of letters: names, numbers, names of bands.
+const NAME: f64 = 13.0;
+const VALUE: f64 = 12.0;
+const SMALL: f64 = 11.0;
+
+/// Letters of a name that are shown; a reader that points at it sees all.
+const LETTERS: usize = 26;
+
+/// The width of a bar.
+const BAR: f64 = 12.0;
+
+/// Between a bar and its name.
+const BESIDE: f64 = 6.0;
+
+/// The least room between two columns of bars, and what bands need there to bend.
+const LEAST_GAP: f64 = 120.0;
+const BEND: f64 = 34.0;
+
+/// Around everything.
+const MARGIN: f64 = 24.0;
+
+/// A picture that would be wider than this, in pixels, has no names beside its bands.
+const MOST_WIDTH: f64 = 2000.0;
+
+/// A band that is narrower than this has no room for its name.
+const NAMED: f64 = 13.0;
+
+/// The heat flows of a diagram as a drawing. Heat flows from left to right, but for bands that
+/// would close a circle, which bear an arrow.
+///
+/// # Errors
+/// [`NoSankey`] where no state is shown, where nothing flows in it, and for more than
+/// [`MOST_PLACES`] bars.
+pub fn sankey(diagram: &Diagram) -> Result<Scene, NoSankey> {
+    let scales = diagram.scales.as_ref().ok_or(NoSankey::NoState)?;
+    let flows = HeatFlows::of(diagram);
+    match flows.bars.len() {
+        0 => return Err(NoSankey::NoHeat),
+        bars if bars > MOST_PLACES => return Err(NoSankey::TooMany { bars }),
+        _ => {}
+    }
+    let placed = place(&flows);
+    let (flows, placed) = (&flows, &placed);
+    let mut drawing =
+        Drawing { diagram, scales, flows, placed, x: Vec::new(), free: Vec::new(), named: true };
+    let mut wide = drawing.columns();
+    if wide > MOST_WIDTH {
+        drawing.named = false;
+        wide = drawing.columns();
+    }
+    let head = if diagram.title.is_empty() { 0.0 } else { 40.0 };
+    let legend = legend::scale_size(scales);
+    let wide = wide.max(width(&diagram.title, 16.0, true)).max(legend.width);
+    let size = (wide + 2.0 * MARGIN, head + placed.height + legend.height + 2.0 * MARGIN);
+    let mut scene = Scene::new((size.0.ceil(), size.1.ceil()), diagram.title.clone());
+    let title = Text::new(diagram.title.clone(), (MARGIN, MARGIN + 12.0), 16.0, Ink::Text);
+    scene.write(title.bold());
+    drawing.draw(&mut scene, MARGIN + head);
+    let corner = (MARGIN, size.1 - MARGIN - legend.height + legend::GAP);
+    legend::scale(&mut scene, &scales.ends, &scales.caption, corner);
+    Ok(scene)
+}
+
+/// Puts bars and bands on a page.
+struct Drawing<'a> {
+    diagram: &'a Diagram,
+    scales: &'a Scales,
+    flows: &'a HeatFlows,
+    placed: &'a Placed,
+    /// The left side of each column of bars, and where the room between the words there and the
+    /// names before it has its middle.
+    x: Vec<f64>,
+    free: Vec<f64>,
+    /// Whether bands bear the names of their paths.
+    named: bool,
+}
+
+impl Drawing<'_> {
+    /// Finds the places of the columns, and how wide all of it is: beside each bar there is room
+    /// for its words, and before the next column for the names of the bands that end there.
+    fn columns(&mut self) -> f64 {
+        let mut words = vec![0.0_f64; self.placed.columns];
+        let mut names = vec![0.0_f64; self.placed.columns];
+        for (i, bar) in self.placed.bars.iter().enumerate() {
+            let [name, value] = self.words(i);
+            let wide = width(&name, NAME, true).max(width(&value, VALUE, false));
+            words[bar.column] = words[bar.column].max(wide + BESIDE);
+        }
+        for (i, band) in self.placed.bands.iter().enumerate() {
+            let column = band.column + band.levels.len() - 1;
+            let name = self.name(i).map_or(0.0, |text| width(&text, SMALL, false) + BESIDE);
+            names[column] = names[column].max(name);
+        }
+        let mut x = MARGIN;
+        self.x.clear();
+        self.free.clear();
+        for (column, words) in words.iter().enumerate() {
+            let names = names.get(column + 1).copied();
+            let gap = names.map_or(*words, |names| (words + names + BEND).max(LEAST_GAP));
+            self.x.push(x);
+            self.free.push(x + BAR + (words + gap - names.unwrap_or(0.0)) / 2.0);
+            x += BAR + gap;
+        }
+        x - MARGIN
+    }
+
+    /// The name of a bar; its heat, and what more there is to know of it.
+    fn words(&self, bar: usize) -> [String; 2] {
+        let bar = &self.flows.bars[bar];
+        let more = match bar.role {
+            BarRole::Place(i) => self.diagram.places[i].temperature.as_deref(),
+            BarRole::Source if bar.into > 0.0 => Some("taken out"),
+            BarRole::Stream if bar.into > 0.0 => Some("carried away"),
+            BarRole::Stream => Some("brought along"),
+            _ => None,
+        };
+        let heat = self.scales.heat(bar.heat());
+        let value = more.map_or_else(|| heat.clone(), |more| format!("{heat}, {more}"));
+        [shortened(&bar.name, LETTERS), value]
+    }
+
+    /// What stands at the end of a band: the name of its path, and its heat unless a bar says it.
+    fn name(&self, band: usize) -> Option<String> {
+        let (placed, band) = (&self.placed.bands[band], &self.flows.bands[band]);
+        if !self.named || placed.width < NAMED {
+            return None;
+        }
+        let place = |bar: usize| matches!(self.flows.bars[bar].role, BarRole::Place(_));
+        let path = place(band.from) && place(band.to);
+        let alone = |bar: usize, end: fn(&Band) -> usize| {
+            self.flows.bands.iter().filter(|other| end(other) == bar).count() == 1
+        };
+        let told = alone(band.from, |band| band.from) || alone(band.to, |band| band.to);
+        let words = [
+            path.then(|| shortened(&band.name, LETTERS)),
+            (!told).then(|| self.scales.heat(band.heat)),
+        ];
+        let words: Vec<String> = words.into_iter().flatten().collect();
+        (!words.is_empty()).then(|| words.join(" "))
+    }
+
+    /// The colour of a bar: that of its temperature.
+    fn ink(&self, bar: usize) -> Ink {
+        let kelvin = match self.flows.bars[bar].role {
+            BarRole::Place(i) => self.diagram.places[i].kelvin,
+            _ => None,
+        };
+        kelvin.map_or(Ink::Frame, |kelvin| {
+            Ink::Field((self.scales.share(kelvin) * (FIELD - 1) as f64).round() as usize)
+        })
+    }
+
+    fn draw(&self, scene: &mut Scene, top: f64) {
+        for (placed, band) in self.placed.bands.iter().zip(&self.flows.bands) {
+            let tip = format!("{} {}", band.name, self.scales.heat(band.heat));
+            let path = self.band(placed, top).filled(self.ink(band.from), 0.32);
+            scene.put(path.tipped(tip));
+        }
+        for (i, bar) in self.placed.bars.iter().enumerate() {
+            let corner = (self.x[bar.column], top + bar.middle - bar.half);
+            let path = rectangle(corner, (BAR, 2.0 * bar.half), 0.0);
+            let tip = format!("{} {}", self.flows.bars[i].name, self.words(i)[1]);
+            scene.put(path.filled(self.ink(i), 1.0).tipped(tip));
+        }
+        for (i, bar) in self.placed.bars.iter().enumerate() {
+            let at = (self.x[bar.column] + BAR + BESIDE, top + bar.middle);
+            let [name, value] = self.words(i);
+            scene.write(Text::new(name, (at.0, at.1 - 3.0), NAME, Ink::Text).bold());
+            let below = at.1 + LABEL / 2.0 - 5.0;
+            scene.write(Text::new(value, (at.0, below), VALUE, Ink::Text));
+        }
+        for (i, placed) in self.placed.bands.iter().enumerate() {
+            let (Some(name), Some(level)) = (self.name(i), placed.levels.last()) else { continue };
+            let x = self.x[placed.column + placed.levels.len() - 1] - BESIDE;
+            let text = Text::new(name, (x, top + level + 4.0), SMALL, Ink::Text);
+            scene.write(text.aligned(Align::End));
+        }
+        let reversed = self.placed.bands.iter().filter(|band| band.reversed);
+        reversed.for_each(|band| self.arrow(scene, band, top));
+    }
+
+    /// Its outline: along its upper edge, and back along the lower one.
+    fn band(&self, band: &PlacedBand, top: f64) -> Path {
+        let half = band.width / 2.0;
+        let mut points = Vec::new();
+        let last = band.levels.len() - 1;
+        for (i, level) in band.levels.iter().enumerate() {
+            let x = self.x[band.column + i];
+            let sides = [x, x + BAR].into_iter().enumerate();
+            let seen = sides.filter(|(side, _)| !(i == 0 && *side == 0 || i == last && *side == 1));
+            points.extend(seen.map(|(_, x)| (x, top + level)));
+        }
+        let edge = |side: f64| points.iter().map(move |(x, y)| (*x, y + side * half));
+        let (upper, lower): (Vec<_>, Vec<_>) = (edge(-1.0).collect(), edge(1.0).rev().collect());
+        let begin = [Step::Move(upper[0].0, upper[0].1)].into_iter().chain(along(&upper));
+        let turn = [Step::Line(lower[0].0, lower[0].1)].into_iter().chain(along(&lower));
+        Path::new(begin.chain(turn).chain([Step::Close]).collect())
+    }
+
+    /// Points to the left, where no words are, upon a band that leads there.
+    fn arrow(&self, scene: &mut Scene, band: &PlacedBand, top: f64) {
+        let &[first, second, ..] = band.levels.as_slice() else { return };
+        let x = self.free[band.column];
+        let (from, to) = (self.x[band.column] + BAR, self.x[band.column + 1]);
+        let level = top + first + (second - first) * bent((x - from) / (to - from));
+        let half = (band.width / 2.0).clamp(4.0, 7.0);
+        let head = [(x - half, level), (x + half, level - half), (x + half, level + half)];
+        scene.put(polygon(head).filled(Ink::Text, 1.0));
+    }
+}
+
+/// How much of its way down a curve between two levels has made at a share of its way to the right:
+/// that of [`along`].
+fn bent(share: f64) -> f64 {
+    let right = |t: f64| 1.5 * t * (1.0 - t) + t.powi(3);
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..40 {
+        let middle = (low + high) / 2.0;
+        if right(middle) < share { low = middle } else { high = middle }
+    }
+    low * low * (3.0 - 2.0 * low)
+}
+
+/// A curve from the first of some points through the others, level at each.
+fn along(points: &[(f64, f64)]) -> impl Iterator<Item = Step> {
+    points.windows(2).map(|pair| {
+        let [(u, v), (x, y)] = [pair[0], pair[1]];
+        let middle = (u + x) / 2.0;
+        match v.to_bits() == y.to_bits() {
+            true => Step::Line(x, y),
+            false => Step::Curve([(middle, v), (middle, y), (x, y)]),
+        }
+    })
+}

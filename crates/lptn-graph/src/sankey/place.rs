@@ -1,0 +1,319 @@
+//! Where the bars stand, and where the bands leave and reach them.
+
+use super::flows::HeatFlows;
+use crate::layout::order::{Neighbours, reduce_crossings};
+use crate::layout::place::settle;
+use crate::layout::rank::{Ranks, ranks};
+use crate::layout::{Element, Room};
+
+/// Pixels of all the heat in the column that has most.
+const TALL: f64 = 260.0;
+
+/// The least width of a band, and height of a bar, in pixels.
+const HAIR: f64 = 0.8;
+
+/// Room that the two lines beside a bar take.
+pub(crate) const LABEL: f64 = 34.0;
+
+/// Around a band on its way through a column.
+const BESIDE: f64 = 2.0;
+
+/// Between parts of the picture that no band joins.
+const APART: f64 = 24.0;
+
+/// How much more what stands in line holds on to its level than what does not.
+const HELD: f64 = 1e6;
+
+/// How often bars are drawn towards what they are joined to.
+const ROUNDS: usize = 40;
+
+/// Where everything stands. Levels are in pixels downwards from the highest.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Placed {
+    pub(crate) bars: Vec<PlacedBar>,
+    pub(crate) bands: Vec<PlacedBand>,
+    pub(crate) columns: usize,
+    pub(crate) height: f64,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PlacedBar {
+    pub(crate) column: usize,
+    pub(crate) middle: f64,
+    pub(crate) half: f64,
+}
+
+/// A band from left to right.
+#[derive(Clone, Debug)]
+pub(crate) struct PlacedBand {
+    /// Where it begins.
+    pub(crate) column: usize,
+    /// Its middle in each column from there to its end.
+    pub(crate) levels: Vec<f64>,
+    pub(crate) width: f64,
+    /// Whether its heat flows from right to left: it closes a circle.
+    pub(crate) reversed: bool,
+}
+
+/// A piece of a band between two neighbouring columns: its vertices, and how far below their
+/// middles it is.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    band: usize,
+    ends: [usize; 2],
+    offsets: [f64; 2],
+}
+
+/// Bars, then the bands on their way through columns, as vertices of a layered graph.
+struct Layers {
+    layers: Vec<Vec<usize>>,
+    /// For each vertex half its height, and its room.
+    halves: Vec<f64>,
+    rooms: Vec<Room>,
+    /// In pixels, by band.
+    widths: Vec<f64>,
+    /// From left to right, band by band.
+    pieces: Vec<Piece>,
+}
+
+pub(crate) fn place(flows: &HeatFlows) -> Placed {
+    let elements = flows.bands.iter().map(|band| {
+        let block = Room::default();
+        Element { block, from: Some(band.from), to: band.to }
+    });
+    let ranks = ranks(flows.bars.len(), &elements.collect::<Vec<_>>());
+    let mut layers = Layers::new(flows, &ranks);
+    let neighbours = layers.neighbours();
+    reduce_crossings(&mut layers.layers, &neighbours);
+    let part = parts(&neighbours);
+    layers.layers.iter_mut().for_each(|layer| layer.sort_by_key(|vertex| part[*vertex]));
+    layers.join();
+    let mut levels = layers.levels();
+    layers.stack(&mut levels, &part);
+    layers.placed(&ranks, &levels)
+}
+
+/// For each vertex the part it belongs to, which no band joins to another; numbered in the order of
+/// the vertices.
+fn parts(neighbours: &Neighbours) -> Vec<usize> {
+    let mut part = vec![usize::MAX; neighbours[0].len()];
+    let mut count = 0;
+    for first in 0..part.len() {
+        if part[first] != usize::MAX {
+            continue;
+        }
+        let mut open = vec![first];
+        while let Some(vertex) = open.pop() {
+            if part[vertex] == usize::MAX {
+                part[vertex] = count;
+                open.extend(neighbours.iter().flat_map(|side| &side[vertex]));
+            }
+        }
+        count += 1;
+    }
+    part
+}
+
+impl Layers {
+    fn new(flows: &HeatFlows, ranks: &Ranks) -> Self {
+        let count = ranks.rank.iter().max().map_or(0, |last| last + 1);
+        let mut layers = vec![Vec::new(); count];
+        let mut heat = vec![0.0; count];
+        for (bar, &rank) in ranks.rank.iter().enumerate() {
+            layers[rank].push(bar);
+            heat[rank] += flows.bars[bar].heat();
+        }
+        let mut vertices = flows.bars.len();
+        let mut pieces = Vec::new();
+        for (i, (band, reversed)) in flows.bands.iter().zip(&ranks.reversed).enumerate() {
+            let (left, right) = if *reversed { (band.to, band.from) } else { (band.from, band.to) };
+            let mut last = left;
+            for column in ranks.rank[left] + 1..ranks.rank[right] {
+                layers[column].push(vertices);
+                heat[column] += band.heat;
+                pieces.push(Piece { band: i, ends: [last, vertices], offsets: [0.0; 2] });
+                last = vertices;
+                vertices += 1;
+            }
+            pieces.push(Piece { band: i, ends: [last, right], offsets: [0.0; 2] });
+        }
+        let scale = TALL / heat.into_iter().fold(f64::MIN_POSITIVE, f64::max);
+        let widths = flows.bands.iter().map(|band| (scale * band.heat).max(HAIR)).collect();
+        let mut all = Self { layers, halves: Vec::new(), rooms: Vec::new(), widths, pieces };
+        all.make_room(flows.bars.len(), vertices);
+        all
+    }
+
+    /// Each vertex is as high as the bands at its larger side are wide.
+    fn make_room(&mut self, bars: usize, vertices: usize) {
+        let mut sides = vec![[0.0; 2]; vertices];
+        for piece in &self.pieces {
+            sides[piece.ends[0]][1] += self.widths[piece.band];
+            sides[piece.ends[1]][0] += self.widths[piece.band];
+        }
+        self.halves = sides.iter().map(|[left, right]| f64::max(*left, *right) / 2.0).collect();
+        let room = |(vertex, half): (usize, &f64)| {
+            let reach = if vertex < bars { half.max(LABEL / 2.0) } else { half + BESIDE };
+            Room { above: reach, below: reach, ..Room::default() }
+        };
+        self.rooms = self.halves.iter().enumerate().map(room).collect();
+    }
+
+    fn neighbours(&self) -> Neighbours {
+        let mut found = [vec![Vec::new(); self.halves.len()], vec![Vec::new(); self.halves.len()]];
+        for Piece { ends: [left, right], .. } in &self.pieces {
+            found[0][*right].push(*left);
+            found[1][*left].push(*right);
+        }
+        found
+    }
+
+    /// Joins the bands to both sides of every vertex in the order of what they come from.
+    fn join(&mut self) {
+        let mut at = vec![0; self.halves.len()];
+        for layer in &self.layers {
+            layer.iter().enumerate().for_each(|(i, vertex)| at[*vertex] = i);
+        }
+        for side in [0, 1] {
+            let mut order: Vec<usize> = (0..self.pieces.len()).collect();
+            order.sort_by_key(|i| at[self.pieces[*i].ends[1 - side]]);
+            let mut sums = vec![0.0; self.halves.len()];
+            for i in &order {
+                let (vertex, width) = self.end(*i, side);
+                self.pieces[*i].offsets[side] = sums[vertex] + width / 2.0;
+                sums[vertex] += width;
+            }
+            for i in order {
+                let (vertex, _) = self.end(i, side);
+                self.pieces[i].offsets[side] -= sums[vertex] / 2.0;
+            }
+        }
+    }
+
+    fn end(&self, piece: usize, side: usize) -> (usize, f64) {
+        let piece = self.pieces[piece];
+        (piece.ends[side], self.widths[piece.band])
+    }
+
+    /// The middle of each vertex, such that wide bands are nearly straight.
+    fn levels(&self) -> Vec<f64> {
+        let joined = self.joined();
+        let count = self.layers.len();
+        let mut at = vec![0.0; self.halves.len()];
+        let mut settle = |layer: usize, held: f64, wish: &dyn Fn(usize, &[f64]) -> Option<f64>| {
+            settle(&self.rooms, &self.layers[layer], &mut at, &|vertex, at| {
+                let weight = 1.0 + self.halves[vertex];
+                wish(vertex, at).map_or((at[vertex], weight), |level| (level, held * weight))
+            });
+        };
+        (0..count).for_each(|layer| settle(layer, 1.0, &|_, _| None));
+        for round in 0..ROUNDS {
+            let sides = if round < ROUNDS / 2 { round % 2..round % 2 + 1 } else { 0..2 };
+            for k in 0..count {
+                let layer = if round % 2 == 0 { k } else { count - 1 - k };
+                settle(layer, 1.0, &|vertex, at| {
+                    self.mean(joined[vertex][sides.clone()].iter().flatten(), vertex, at)
+                });
+            }
+        }
+        // what is nearly straight becomes straight: wide bands from the left, then what stands first
+        let main = |vertex: usize, side: usize| -> Option<usize> {
+            let width = |i: &&usize| self.widths[self.pieces[**i].band];
+            joined[vertex][side].iter().max_by(|a, b| width(a).total_cmp(&width(b))).copied()
+        };
+        for layer in 0..count {
+            settle(layer, HELD, &|vertex, at| {
+                let piece = main(vertex, 0)?;
+                let mutual = main(self.pieces[piece].ends[0], 1) == Some(piece);
+                mutual.then(|| self.straight(piece, vertex, at).0)
+            });
+        }
+        for layer in (0..count).rev() {
+            settle(layer, HELD, &|vertex, at| {
+                let piece = main(vertex, 1).filter(|_| joined[vertex][0].is_empty())?;
+                Some(self.straight(piece, vertex, at).0)
+            });
+        }
+        at
+    }
+
+    /// For each vertex the pieces to its left and to its right.
+    fn joined(&self) -> Vec<[Vec<usize>; 2]> {
+        let mut joined = vec![[Vec::new(), Vec::new()]; self.halves.len()];
+        for (i, piece) in self.pieces.iter().enumerate() {
+            joined[piece.ends[0]][1].push(i);
+            joined[piece.ends[1]][0].push(i);
+        }
+        joined
+    }
+
+    /// Where the middle of a vertex would have to be for these pieces to be straight; wide ones
+    /// decide.
+    fn mean<'a>(
+        &self,
+        pieces: impl Iterator<Item = &'a usize>,
+        vertex: usize,
+        at: &[f64],
+    ) -> Option<f64> {
+        let (sum, weight) = pieces.fold((0.0, 0.0), |(sum, weight), i| {
+            let (level, width) = self.straight(*i, vertex, at);
+            (sum + width.powi(2) * level, weight + width.powi(2))
+        });
+        (weight > 0.0).then(|| sum / weight)
+    }
+
+    /// Where the middle of a vertex would have to be for a piece to be straight, and how wide it is.
+    fn straight(&self, piece: usize, vertex: usize, at: &[f64]) -> (f64, f64) {
+        let Piece { band, ends, offsets } = self.pieces[piece];
+        let own = usize::from(ends[1] == vertex);
+        (at[ends[1 - own]] + offsets[1 - own] - offsets[own], self.widths[band])
+    }
+
+    /// Puts parts below each other, so that no room is left between them.
+    fn stack(&self, at: &mut [f64], part: &[usize]) {
+        let count = part.iter().max().map_or(0, |last| last + 1);
+        let mut ends = vec![(f64::INFINITY, f64::NEG_INFINITY); count];
+        for (vertex, room) in self.rooms.iter().enumerate() {
+            let (high, low) = &mut ends[part[vertex]];
+            *high = high.min(at[vertex] - room.above);
+            *low = low.max(at[vertex] + room.below);
+        }
+        let mut next = 0.0;
+        let shifts = ends.iter().map(|(high, low)| {
+            let shift = next - high;
+            next += low - high + APART;
+            shift
+        });
+        let shifts: Vec<f64> = shifts.collect();
+        at.iter_mut().zip(part).for_each(|(level, part)| *level += shifts[*part]);
+    }
+
+    fn placed(&self, ranks: &Ranks, at: &[f64]) -> Placed {
+        let reach = |sign: f64| {
+            let ends = at.iter().zip(&self.rooms).map(move |(at, room)| sign * at + room.above);
+            ends.fold(f64::NEG_INFINITY, f64::max)
+        };
+        let top = -reach(-1.0);
+        let bar = |(bar, column): (usize, &usize)| PlacedBar {
+            column: *column,
+            middle: at[bar] - top,
+            half: self.halves[bar],
+        };
+        let mut bands: Vec<PlacedBand> = Vec::new();
+        for Piece { band, ends, offsets } in &self.pieces {
+            let level = |end: usize| at[ends[end]] + offsets[end] - top;
+            if *band == bands.len() {
+                let (width, reversed) = (self.widths[*band], ranks.reversed[*band]);
+                let column = ranks.rank[ends[0]];
+                bands.push(PlacedBand { column, levels: vec![level(0)], width, reversed });
+            }
+            bands[*band].levels.push(level(1));
+        }
+        Placed {
+            bars: ranks.rank.iter().enumerate().map(bar).collect(),
+            bands,
+            columns: self.layers.len(),
+            height: reach(1.0) - top,
+        }
+    }
+}
