@@ -7,6 +7,7 @@
 //! text that reads back as the same `f64`; in tables for reading, numbers are rounded and say their
 //! unit.
 
+mod clock;
 mod colour;
 mod columns;
 mod csv;
@@ -23,6 +24,7 @@ mod report;
 mod sparkline;
 mod text;
 
+pub use clock::{Clock, TimeUnit};
 pub use colour::Look;
 pub use columns::{MOST_CURVES, TEMPERATURE, panels};
 pub use csv::{write_csv, write_rows};
