@@ -18,7 +18,7 @@ use crate::options::{Color, Global};
 const WIDEST_HELP: usize = 100;
 
 /// The parser, with help as wide as the terminal.
-fn command() -> clap::Command {
+pub(crate) fn command() -> clap::Command {
     Args::command().term_width(terminal_width().min(WIDEST_HELP))
 }
 

@@ -34,13 +34,14 @@ impl Page for View<'_> {
         flow_section(&mut text, flows);
         other_section(&mut text, self, &others);
         let fold = self.outcome.folds();
-        limits::section(&mut text, network, &self.outcome.limits(), &job.unit, fold);
+        let limits = self.outcome.limits();
+        limits::section(&mut text, &self.outcome.judgement(&limits), fold);
         if let Some(of) = solution.balance() {
             let times = Some((job.settings.start, job.settings.stop));
             balance::section(&mut text, network, (of, times));
         }
         found_section(&mut text, self);
-        heat_over(text.section(), solution, self.period());
+        heat_over(text.section(), solution, (self.period(), job.clock));
         text
     }
 
