@@ -101,7 +101,7 @@ fn times_are_shown_in_the_unit_that_is_asked_for() {
     let (headers, rows) = csv(&minutes.out);
     let (_, in_seconds) = csv(&seconds.out);
     assert_eq!(headers[0], "time [min]");
-    assert_eq!(rows.last().unwrap()[0], 25.0);
+    assert!((rows.last().unwrap()[0] - 25.0).abs() < 1e-12);
     for (row, other) in rows.iter().zip(&in_seconds) {
         assert!((60.0 * row[0] - other[0]).abs() < 1e-9 && row[1..] == other[1..]);
     }
