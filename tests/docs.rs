@@ -8,41 +8,13 @@ mod support;
 
 use std::path::{Path, PathBuf};
 
-use pages::{blocks, lines, pages};
-
-/// What fragments may refer to.
-const BASE: &str = "format = 1\n[default]\nT0 = \"20 degC\"\n[node]\nbase_node = { C = \"1 kJ/K\" \
-    }\n\
-                    [boundary]\nbase_air = { T = \"20 degC\" }\n[resistor]\n\
-                    base_path = { from = \"base_node\", to = \"base_air\", R = \"1 K/W\" }\n";
+use pages::{blocks, completed, lines, pages};
 
 fn all_pages() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut pages = pages(root);
     pages.extend(["ARCHITECTURE.md", "CHANGELOG.md"].map(|name| root.join(name)));
     pages
-}
-
-/// The base with the fragment's lines put under the headings that both have.
-fn completed(fragment: &str) -> String {
-    let mut sections: Vec<(String, String)> = Vec::new();
-    for line in BASE.lines().chain(std::iter::once("")).chain(fragment.lines()) {
-        let heading = if line.starts_with('[') { Some(line.to_owned()) } else { None };
-        match heading {
-            Some(heading) if !sections.iter().any(|(known, _)| *known == heading) => {
-                sections.push((heading, String::new()));
-            }
-            Some(heading) => {
-                let at =
-                    sections.iter().position(|(known, _)| *known == heading).expect("just found");
-                let section = sections.remove(at);
-                sections.push(section); // what follows belongs to it
-            }
-            None if sections.is_empty() => sections.push((String::new(), format!("{line}\n"))),
-            None => sections.last_mut().expect("not empty").1.push_str(&format!("{line}\n")),
-        }
-    }
-    sections.iter().map(|(heading, body)| format!("{heading}\n{body}")).collect()
 }
 
 #[test]

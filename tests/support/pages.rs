@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 /// README and everything below `docs`, sorted; `root` is the folder of the project.
 pub fn pages(root: &Path) -> Vec<PathBuf> {
     let mut pages = vec![root.join("README.md")];
-    for folder in ["docs", "docs/elements"] {
+    for folder in ["docs", "docs/codes", "docs/elements"] {
         let docs = std::fs::read_dir(root.join(folder)).expect("the folder of documentation");
         pages.extend(docs.map(|entry| entry.expect("an entry").path()));
     }
@@ -47,4 +47,32 @@ pub fn blocks(lines: &[String]) -> Vec<Block> {
 /// The lines of a page.
 pub fn lines(page: &Path) -> Vec<String> {
     std::fs::read_to_string(page).expect("a page").lines().map(str::to_owned).collect()
+}
+
+/// What fragments may refer to.
+const BASE: &str = "format = 1\n[default]\nT0 = \"20 degC\"\n[node]\nbase_node = { C = \"1 kJ/K\" \
+    }\n\
+                    [boundary]\nbase_air = { T = \"20 degC\" }\n[resistor]\n\
+                    base_path = { from = \"base_node\", to = \"base_air\", R = \"1 K/W\" }\n";
+
+/// The base with the fragment's lines put under the headings that both have.
+pub fn completed(fragment: &str) -> String {
+    let mut sections: Vec<(String, String)> = Vec::new();
+    for line in BASE.lines().chain(std::iter::once("")).chain(fragment.lines()) {
+        let heading = if line.starts_with('[') { Some(line.to_owned()) } else { None };
+        match heading {
+            Some(heading) if !sections.iter().any(|(known, _)| *known == heading) => {
+                sections.push((heading, String::new()));
+            }
+            Some(heading) => {
+                let at =
+                    sections.iter().position(|(known, _)| *known == heading).expect("just found");
+                let section = sections.remove(at);
+                sections.push(section); // what follows belongs to it
+            }
+            None if sections.is_empty() => sections.push((String::new(), format!("{line}\n"))),
+            None => sections.last_mut().expect("not empty").1.push_str(&format!("{line}\n")),
+        }
+    }
+    sections.iter().map(|(heading, body)| format!("{heading}\n{body}")).collect()
 }

@@ -18,7 +18,7 @@ use crate::options::{Color, Global};
 const WIDEST_HELP: usize = 100;
 
 /// The parser, with help as wide as the terminal.
-fn command() -> clap::Command {
+pub(crate) fn command() -> clap::Command {
     Args::command().term_width(terminal_width().min(WIDEST_HELP))
 }
 
@@ -35,9 +35,10 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
         }
         _ => None,
     };
-    let Some(problem) = verb.and_then(|verb| file_as_verb(verb).or_else(|| near_verb(verb))) else {
-        error.exit();
-    };
+    let problem = verb.and_then(|verb| {
+        file_as_verb(verb).or_else(|| near_verb(verb)).or_else(|| path_as_verb(verb))
+    });
+    let Some(problem) = problem else { error.exit() };
     let global =
         Global { quiet: false, verbose: false, color: Color::Auto, plot: None, report: None };
     let console = Console::new(&global, None);
@@ -53,9 +54,20 @@ fn file_as_verb(word: &str) -> Option<Diagnostic> {
         "csv" => ("CSV file", "fit step"),
         _ => return None,
     };
+    Some(verb_is_due(word, is, verb))
+}
+
+/// Something that is there in the place of a verb.
+fn path_as_verb(word: &str) -> Option<Diagnostic> {
+    let found = std::fs::metadata(word).ok()?;
+    let (is, verb) = if found.is_dir() { ("folder", "report") } else { ("file", "run") };
+    Some(verb_is_due(word, is, verb))
+}
+
+fn verb_is_due(word: &str, is: &str, verb: &str) -> Diagnostic {
     let message = format!("{word} is a {is}, and a verb is due: what is to be done with it?");
     let help = format!("`lptn {verb} {}`, or another verb: `lptn help` lists them", quoted(word));
-    Some(Diagnostic::error("input::no_verb", message).help(help))
+    Diagnostic::error("input::no_verb", message).help(help)
 }
 
 /// A word that is nearly a verb.
@@ -63,7 +75,9 @@ fn near_verb(word: &str) -> Option<Diagnostic> {
     let command = Args::command();
     let near = suggest(word, command.get_subcommands().map(clap::Command::get_name))?;
     let problem = Diagnostic::error("input::no_verb", format!("there is no verb `{word}`"));
-    Some(problem.help(format!("did you mean `lptn {near}`?")))
+    let help =
+        if std::env::args().nth(1).is_some_and(|word| word == "help") { "help " } else { "" };
+    Some(problem.help(format!("did you mean `lptn {help}{near}`?")))
 }
 
 /// The help of the program.

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use lptn_netlist::{Diagnostic, Files};
 use lptn_plot::Figure;
-use lptn_report::{Format, Page, Report};
+use lptn_report::{Format, Look, Page, Report};
 
 use crate::diagnostics::render;
 use crate::drawing::{self, Drawing};
@@ -15,6 +15,17 @@ use crate::failure::{Failure, reason};
 use crate::options::{Color, Global};
 use crate::reporting::{self, Reporting};
 
+/// How much a result tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Detail {
+    /// What was asked, as scripts and logs read it.
+    Brief,
+    /// Also what was not checked, for those who look on.
+    Usual,
+    /// Everything that is known.
+    Verbose,
+}
+
 /// The two streams of a command.
 #[derive(Debug)]
 pub(crate) struct Console {
@@ -22,6 +33,9 @@ pub(crate) struct Console {
     pub(crate) verbose: bool,
     styled_results: bool,
     styled_messages: bool,
+    /// Whether somebody reads the messages as they come.
+    watched: bool,
+    pub(crate) detail: Detail,
     pub(crate) plot: Option<Drawing>,
     drawn: AtomicBool,
     reporting: Option<Reporting>,
@@ -39,6 +53,12 @@ impl Console {
             verbose: global.verbose,
             styled_results: styled(io::stdout().is_terminal()),
             styled_messages: styled(io::stderr().is_terminal()),
+            watched: io::stderr().is_terminal(),
+            detail: match io::stdout().is_terminal() {
+                _ if global.verbose => Detail::Verbose,
+                true => Detail::Usual,
+                false => Detail::Brief,
+            },
             plot: global.plot.clone(),
             drawn: AtomicBool::new(false),
             reporting: report.map(Reporting::into),
@@ -56,7 +76,7 @@ impl Console {
         if self.plot == Some(Drawing::Terminal) && format != Format::Table {
             return Err(drawing::not_here());
         }
-        self.write(|out| lptn_report::write(page, format, self.styled_results, out))?;
+        self.write(|out| lptn_report::write(page, format, self.look(), out))?;
         if self.reports() {
             self.add_report(lptn_report::report_of(page));
         }
@@ -89,6 +109,11 @@ impl Console {
             None => {}
         }
         Ok(())
+    }
+
+    /// How results look.
+    pub(crate) fn look(&self) -> Look {
+        Look { styled: self.styled_results, width: drawing::terminal_width() }
     }
 
     /// Draws figures into a file or on the terminal.
@@ -139,6 +164,20 @@ impl Console {
     pub(crate) fn note(&self, text: &str) {
         if !self.quiet {
             self.message(text);
+        }
+    }
+
+    /// What to do next, for those who look on; left out in scripts and logs unless verbose.
+    pub(crate) fn hint(&self, text: &str) {
+        if self.watched || self.verbose {
+            self.note(text);
+        }
+    }
+
+    /// Where the first of some problems is explained, for those who look on.
+    pub(crate) fn offer_explanation(&self, diagnostics: &[Diagnostic]) {
+        if let Some(first) = diagnostics.first().filter(|_| self.watched) {
+            self.note(&format!("\nexplain  lptn explain {}", first.code));
         }
     }
 

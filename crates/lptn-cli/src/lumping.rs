@@ -7,6 +7,7 @@ use lptn_solve::{Biot, LumpCheck, Lumping, NotChecked, Stretch};
 use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
+use crate::console::Detail;
 use crate::words::count;
 
 /// So many nodes are warned of one by one, the worst of them.
@@ -77,11 +78,12 @@ fn at(netlist: &Netlist, check: &LumpCheck, warning: Diagnostic) -> Diagnostic {
         .help("make it several nodes with [conduction] between them; L_char is volume over surface")
 }
 
-/// A few lines below a result: the largest numbers, and what was not checked.
+/// A few lines below a result: the largest numbers, and what was not checked. Where nothing was,
+/// only those who look on are told.
 pub(crate) fn lines(
     text: &mut Text,
     network: &Network,
-    (lumping, label, verbose): (&Lumping, &str, bool),
+    (lumping, label, detail): (&Lumping, &str, Detail),
 ) {
     let name = |id: NodeId| &network.nodes()[id.index()].name;
     let mut pieces = Vec::new();
@@ -94,7 +96,9 @@ pub(crate) fn lines(
     if let Some((node, time)) = times.max_by(|a, b| a.1.total_cmp(&b.1)) {
         pieces.push(format!("L^2/alpha up to {} ({}),", duration(time, 2), name(node)));
     }
-    pieces.extend(not_checked(lumping));
+    if detail > Detail::Brief || !pieces.is_empty() {
+        pieces.extend(not_checked(lumping));
+    }
     if let Some(last) = pieces.last_mut().filter(|last| last.ends_with(',')) {
         last.pop();
     }
@@ -102,7 +106,7 @@ pub(crate) fn lines(
         return;
     }
     text.labelled(label, pieces);
-    if verbose {
+    if detail == Detail::Verbose {
         details(text, network, lumping);
     }
 }

@@ -9,12 +9,14 @@ mod about;
 mod args;
 mod balance;
 mod command;
+mod completion;
 mod console;
 mod diagnostics;
 mod doubts;
 mod drawing;
 mod exit;
 mod failure;
+mod families;
 mod files;
 mod input;
 mod interrupt;
@@ -39,6 +41,7 @@ use failure::Failure;
 use verbs::Verb;
 
 fn main() -> ExitCode {
+    completion::answer_shell(command::command);
     let args = match command::parsed() {
         Ok(args) => args,
         Err(error) => return ExitCode::from(command::refuse(&error) as u8),
@@ -48,6 +51,7 @@ fn main() -> ExitCode {
     let outcome = panic_net::caught(|| dispatch(&args, &console));
     let refused = |failure: Failure| {
         console.report(&failure.files, &failure.diagnostics);
+        console.offer_explanation(&failure.diagnostics);
         failure.exit
     };
     let known = outcome.is_ok();
@@ -68,6 +72,7 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
             console.message(&command::help());
             Ok(Exit::Input)
         }
+        Some(verb) if console.plot.is_some() && !verb.is_drawn() => Err(drawing::nothing()),
         Some(verb) => match verb.run(console)? {
             exit if exit != Exit::Interrupted && console.owes_a_picture() => {
                 Err(drawing::nothing())

@@ -100,16 +100,19 @@ fn a_large_network_shows_its_hottest_nodes() {
 #[test]
 fn quiet_is_quiet() {
     let folder = Folder::with_gearbox();
-    let loud =
-        folder.run(&["run", "gearbox.toml"]).exits(0).says("next   lptn run gearbox.toml --set");
+    let loud = folder.run(&["run", "gearbox.toml"]).exits(0).says("wrote  out/gearbox/result.csv");
     let quiet = folder.run(&["run", "gearbox.toml", "--quiet"]).exits(0);
     assert_eq!((quiet.err.as_str(), &quiet.out), ("", &loud.out));
+    // a script or a log needs no advice
+    assert!(!loud.err.contains("next"), "{}", loud.err);
+    let verbose = folder.run(&["run", "gearbox.toml", "-v"]).exits(0);
+    verbose.says("next   lptn run gearbox.toml --set");
 }
 
 #[test]
 fn the_next_command_works() {
     let folder = Folder::with_gearbox();
-    let ran = folder.run(&["run", "gearbox.toml"]).exits(0);
+    let ran = folder.run(&["run", "gearbox.toml", "-v"]).exits(0);
     let next = ran.err.lines().find_map(|line| line.strip_prefix("next   lptn ")).unwrap();
     let script = format!("exec \"$0\" {next}");
     let mut command = std::process::Command::new("sh");

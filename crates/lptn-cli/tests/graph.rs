@@ -165,7 +165,7 @@ fn without_steady_no_temperature_is_computed() {
 fn the_ending_decides_and_a_picture_stands_among_the_results() {
     let folder = Folder::with("two.toml", PARALLEL);
     let said = "wrote  out/two/graph.svg\nnext   lptn graph two.toml --steady\n";
-    assert_eq!(folder.run(&["graph", "two.toml"]).err, said);
+    assert_eq!(folder.run(&["graph", "two.toml", "-v"]).err, said);
     for name in ["a.svg", "a.png", "a.dot", "a.gv", "a.mmd"] {
         let ran = folder.run(&["graph", "two.toml", "-q", "-o", name]);
         assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""), "{name}");

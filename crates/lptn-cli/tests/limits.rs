@@ -164,7 +164,8 @@ fn check_names_the_stiffness_and_the_specific_heat_of_the_paper() {
     let text = NET.replace("C = \"100 J/K\"", "material = \"m\", mass = \"1 kg\"");
     let text = format!("{text}[material]\nm = {{ cp = \"0.475 J/(kg K)\" }}\n");
     let folder = Folder::with("net.toml", &text);
-    let ran = folder.run(&["check", "net.toml"]).exits(0).prints("did you mean 0.475 J/(g K)?");
+    let ran =
+        folder.run(&["check", "net.toml", "-v"]).exits(0).prints("did you mean 0.475 J/(g K)?");
     // C / G = 0.475 x 0.5 s
     ran.prints("stiffness: C / sum of G is 237 ms (a)").prints("1 warning");
     let two =
@@ -175,7 +176,7 @@ fn check_names_the_stiffness_and_the_specific_heat_of_the_paper() {
     folder.write("two.toml", &two);
     // a: 100 / (2 + 2) s, b: 1 / 2 s
     folder
-        .run(&["check", "two.toml"])
+        .run(&["check", "two.toml", "-v"])
         .exits(0)
         .prints("stiffness: 50, C / sum of G is 500 ms (b) to 25 s (a)");
     let json = folder.run(&["check", "two.toml", "--format", "json"]).exits(0).json();

@@ -206,6 +206,19 @@ fn what_cannot_be_drawn_is_said() {
     assert_eq!(folder.files(), ["lump.toml", "record.csv"]);
 }
 
+#[test]
+fn a_verb_without_pictures_says_so_before_it_works() {
+    let folder = Folder::with("lump.toml", LUMP);
+    for verb in ["steady", "verify", "check", "explain", "units"] {
+        let arguments: &[&str] = match verb {
+            "explain" | "units" => &[verb, "--plot", "x.svg"],
+            _ => &[verb, "lump.toml", "--plot", "x.svg"],
+        };
+        let ran = folder.run(arguments).exits(2).says("plot::nothing");
+        assert_eq!(ran.out, "", "{verb} worked all the same");
+    }
+}
+
 /// `LPTN_BLESS=1` draws them anew: look at them then.
 #[test]
 fn the_pictures_of_the_pages_are_what_their_commands_draw() {

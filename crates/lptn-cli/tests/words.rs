@@ -88,6 +88,11 @@ fn help_is_a_verb_and_a_file_is_none() {
     folder.run(&["gearbox.toml"]).exits(2).says("input::no_verb").says("`lptn run gearbox.toml`");
     folder.run(&["record.csv"]).exits(2).says("`lptn fit step record.csv`");
     folder.run(&["rnu", "gearbox.toml"]).exits(2).says("did you mean `lptn run`?");
+    folder.run(&["help", "rnu"]).exits(2).says("did you mean `lptn help run`?");
+    folder.write("motor", "format = 1");
+    folder.run(&["motor"]).exits(2).says("motor is a file").says("`lptn run motor`");
+    std::fs::create_dir(folder.path().join("results")).unwrap();
+    folder.run(&["results"]).exits(2).says("`lptn report results`");
 }
 
 /// A path in other letters of case, or with backslashes, was only said not to be there.

@@ -42,10 +42,11 @@ fn claims(out: &mut String, report: &Report) {
     }
     *out += "<ul class=\"claims\">\n";
     for claim in &report.claims {
-        let (class, sign) = match claim.standing {
-            Standing::Holds => ("holds", "\u{2713}"),
-            Standing::Open => ("open", "\u{b7}"),
-            Standing::Fails => ("fails", "\u{2717}"),
+        let class = text::class_of(claim.standing);
+        let sign = match claim.standing {
+            Standing::Holds => "\u{2713}",
+            Standing::Open => "\u{b7}",
+            Standing::Fails => "\u{2717}",
         };
         let text = escaped(&claim.text);
         *out += &format!("<li class=\"{class}\"><b>{sign}</b> {text}</li>\n");

@@ -1,7 +1,7 @@
 //! Lines, sentences and tables.
 
 use lptn_plot::svg::escaped;
-use lptn_report::{Align, Block, Column, Text, TextTable};
+use lptn_report::{Align, Block, Column, Standing, Text, TextTable};
 
 /// Writes a text, a paragraph for each of its lines.
 pub(crate) fn write(out: &mut String, text: &Text) {
@@ -17,11 +17,23 @@ fn block(out: &mut String, block: &Block) {
         Block::Title(title) => *out += &format!("<h3>{}</h3>\n", escaped(title)),
         Block::Line(lines) if lines.contains('\n') => verbatim(out, lines),
         Block::Line(line) => *out += &format!("<p>{}</p>\n", escaped(line)),
+        Block::Marked(standing, line) => {
+            *out += &format!("<p class=\"{}\">{}</p>\n", class_of(*standing), escaped(line));
+        }
         Block::Table(of) => table(out, of),
         Block::Labelled(label, pieces) => {
             let (label, text) = (escaped(label.trim()), escaped(&pieces.join(" ")));
             *out += &format!("<p><span class=\"label\">{label}</span> {text}</p>\n");
         }
+    }
+}
+
+/// The class of what stands so.
+pub(crate) fn class_of(standing: Standing) -> &'static str {
+    match standing {
+        Standing::Holds => "holds",
+        Standing::Open => "open",
+        Standing::Fails => "fails",
     }
 }
 
@@ -54,7 +66,11 @@ fn table(out: &mut String, table: &TextTable) {
     for row in 0..table.rows() {
         *out += "<tr>";
         for column in table.columns() {
-            *out += &format!("<td{}>{}</td>", class(column), escaped(&column.cells[row]));
+            let class = match column.standing.get(row) {
+                Some(standing) => format!(" class=\"{}\"", class_of(*standing)),
+                None => class(column).to_owned(),
+            };
+            *out += &format!("<td{class}>{}</td>", escaped(&column.cells[row]));
         }
         *out += "</tr>\n";
     }

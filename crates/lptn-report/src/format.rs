@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use crate::colour::Look;
 use crate::json::JsonWriter;
 use crate::page::Page;
 use crate::{csv, text};
@@ -31,13 +32,13 @@ impl Format {
     }
 }
 
-/// Writes a page in a format; titles of texts are bold where that is `styled`.
+/// Writes a page in a format.
 ///
 /// # Errors
 /// What the stream reports.
-pub fn write(page: &dyn Page, format: Format, styled: bool, out: &mut dyn Write) -> io::Result<()> {
+pub fn write(page: &dyn Page, format: Format, look: Look, out: &mut dyn Write) -> io::Result<()> {
     match format {
-        Format::Table => text::write(&page.text(), styled, out),
+        Format::Table => text::write(&page.text(), look, out),
         Format::Csv => csv::write(&page.rows(), out),
         Format::Json => {
             let mut json = JsonWriter::new(out);
@@ -52,7 +53,7 @@ mod tests {
     use lptn_solve::Table;
 
     use super::{Format, write};
-    use crate::{Json, Page, Rows, Text};
+    use crate::{Json, Look, Page, Rows, Text};
 
     struct Answer;
 
@@ -79,7 +80,7 @@ mod tests {
     fn every_format_has_a_name_and_a_writer() {
         let written = Format::ALL.map(|format| {
             let mut out = Vec::new();
-            write(&Answer, format, false, &mut out).unwrap();
+            write(&Answer, format, Look::PLAIN, &mut out).unwrap();
             (format.key(), String::from_utf8(out).unwrap())
         });
         let csv = "steel.T [K]\n300.5\nNaN\n".to_owned();

@@ -4,6 +4,10 @@ use std::collections::BTreeSet;
 
 use unicode_width::UnicodeWidthStr;
 
+use crate::colour::Look;
+use crate::names::{differing, shortened};
+use crate::report::Standing;
+
 /// Columns of a terminal that tables are made for.
 pub const WIDTH: usize = 80;
 
@@ -35,12 +39,15 @@ pub struct Column {
     /// Whether its texts may be shortened in the middle where the table is too wide: never so for
     /// numbers.
     pub names: bool,
+    /// How what each text says stands, one a row; empty where the texts are no verdicts.
+    pub standing: Vec<Standing>,
 }
 
 impl Column {
     /// A column that is always shown.
     pub fn new(title: impl Into<String>, align: Align, cells: Vec<String>) -> Self {
-        Self { title: title.into(), cells, align, optional: false, names: false }
+        let (title, standing) = (title.into(), Vec::new());
+        Self { title, cells, align, optional: false, names: false, standing }
     }
 
     /// The same column, left out where the table is too wide.
@@ -58,7 +65,7 @@ impl Column {
         self
     }
 
-    fn shorten(&mut self, room: usize) {
+    pub(crate) fn shorten(&mut self, room: usize) {
         self.title = shortened(&self.title, room);
         let short =
             |names: &[String]| names.iter().map(|name| shortened(name, room)).collect::<Vec<_>>();
@@ -128,6 +135,15 @@ impl<'a, T> TextTableOf<'a, T> {
         self
     }
 
+    /// Says how the texts of the last column stand.
+    #[must_use]
+    pub fn judged(mut self, standing: impl FnMut(&'a T) -> Standing) -> Self {
+        if let Some(last) = self.columns.last_mut() {
+            last.standing = self.items.iter().map(standing).collect();
+        }
+        self
+    }
+
     /// Lets the texts of the last column be shortened in the middle.
     #[must_use]
     pub fn names(mut self) -> Self {
@@ -156,20 +172,17 @@ impl TextTable {
     }
 
     /// The lines of the table, the heading first, unless no column has one. Where they would be
-    /// longer than `width`, optional columns are left out from the right, and then long names
+    /// longer than the width, optional columns are left out from the right, and then long names
     /// shortened in the middle, the longest first.
-    pub fn lines(mut self, width: usize) -> Vec<String> {
-        while self.width() > width {
+    pub fn lines(mut self, look: Look) -> Vec<String> {
+        while self.width() > look.width {
             let Some(last) = self.columns.iter().rposition(|column| column.optional) else { break };
             self.columns.remove(last);
         }
-        self.shorten_names(width);
+        self.shorten_names(look.width);
         let headed = self.columns.iter().any(|column| !column.title.is_empty());
-        let heading = headed.then(|| self.line(|column| &column.title));
-        heading
-            .into_iter()
-            .chain((0..self.rows()).map(|row| self.line(|column| &column.cells[row])))
-            .collect()
+        let heading = headed.then(|| self.line(None, look));
+        heading.into_iter().chain((0..self.rows()).map(|row| self.line(Some(row), look))).collect()
     }
 
     fn shorten_names(&mut self, width: usize) {
@@ -206,10 +219,28 @@ impl TextTable {
         self.columns.iter().map(Column::width).sum::<usize>() + gaps
     }
 
-    fn line<'a>(&'a self, text: impl Fn(&'a Column) -> &'a String) -> String {
-        let cells: Vec<String> =
-            self.columns.iter().map(|c| padded(text(c), c.width(), c.align)).collect();
-        cells.join(GAP).trim_end().to_owned()
+    /// A row, or the heading. Colours count for no width.
+    fn line(&self, row: Option<usize>, look: Look) -> String {
+        let mut line = String::new();
+        let mut due = 0;
+        for column in &self.columns {
+            let text = row.map_or(&column.title, |row| &column.cells[row]);
+            let blanks = column.width().saturating_sub(text.width());
+            let (before, after) = match column.align {
+                Align::Left => (0, blanks),
+                Align::Right => (blanks, 0),
+            };
+            if !text.is_empty() {
+                let standing = row.and_then(|row| column.standing.get(row));
+                line += &" ".repeat(due + before);
+                line += &standing.map_or(text.clone(), |of| look.standing(*of, text));
+                due = 0;
+            } else {
+                due += before;
+            }
+            due += after + GAP.len();
+        }
+        line
     }
 }
 
@@ -232,53 +263,6 @@ pub fn stacked(
         }
     }
     tables
-}
-
-fn padded(text: &str, width: usize, align: Align) -> String {
-    let blanks = " ".repeat(width.saturating_sub(text.width()));
-    match align {
-        Align::Left => format!("{text}{blanks}"),
-        Align::Right => format!("{blanks}{text}"),
-    }
-}
-
-/// A name of at most `room` letters, `planetary_..ring_17`: the ends of names tell them apart.
-pub fn shortened(name: &str, room: usize) -> String {
-    let letters: Vec<char> = name.chars().collect();
-    if name.width() <= room {
-        return name.to_owned();
-    }
-    let keep = room.saturating_sub(2);
-    let (head, tail) = (keep / 2, keep - keep / 2);
-    let start: String = letters[..head.min(letters.len())].iter().collect();
-    let end: String = letters[letters.len() - tail.min(letters.len())..].iter().collect();
-    format!("{start}..{end}")
-}
-
-/// The part of each name in which the names differ, from one border of words to another: `1000rpm`
-/// and `7000rpm` of `runs/1000rpm.csv` and `runs/7000rpm.csv`. The names themselves where a part
-/// would be empty, or all are the same.
-pub fn differing(names: &[String]) -> Vec<String> {
-    let Some(first) = names.first() else { return Vec::new() };
-    let is_border = |c: char| !c.is_alphanumeric();
-    let same = |length: usize, end: bool| {
-        names.iter().all(|name| match end {
-            false => name.get(..length) == first.get(..length),
-            true => {
-                name.len() >= length
-                    && name.get(name.len() - length..) == first.get(first.len() - length..)
-            }
-        })
-    };
-    let borders = || first.char_indices().filter(|(_, c)| is_border(*c));
-    let head =
-        borders().map(|(at, c)| at + c.len_utf8()).filter(|&length| same(length, false)).max();
-    let tail = borders().map(|(at, _)| first.len() - at).filter(|&length| same(length, true)).max();
-    let (head, tail) = (head.unwrap_or(0), tail.unwrap_or(0));
-    let part = |name: &String| Some(name.get(head..name.len().checked_sub(tail)?)?.to_owned());
-    let parts: Option<Vec<String>> =
-        names.iter().map(|name| part(name).filter(|p| !p.is_empty())).collect();
-    parts.unwrap_or_else(|| names.to_vec())
 }
 
 /// Pieces of a sentence behind a label, wrapped between pieces where they would be longer than
@@ -308,7 +292,27 @@ pub fn plain(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Align, Column, TextTable, differing, labelled, plain, stacked};
+    use super::{Align, Column, TextTable, labelled, plain, stacked};
+    use crate::{Look, Standing};
+
+    fn plain_of(width: usize) -> Look {
+        Look { styled: false, width }
+    }
+
+    #[test]
+    fn colours_count_for_no_width() {
+        let of = |styled| {
+            let table = TextTable::of(&[true, false]).left("", |_| "hot");
+            let table = table.left("", |kept| if *kept { "kept" } else { "BROKEN" });
+            let stands = |kept: &bool| if *kept { Standing::Holds } else { Standing::Fails };
+            let table: TextTable = table.judged(stands).right("margin", |_| "1 K").into();
+            table.lines(Look { styled, width: 80 })
+        };
+        let styled = of(true);
+        assert_eq!(styled[1], "hot  \u{1b}[32mkept\u{1b}[0m       1 K");
+        assert_eq!(styled[2], "hot  \u{1b}[1;31mBROKEN\u{1b}[0m     1 K");
+        assert_eq!(of(false)[1..], ["hot  kept       1 K", "hot  BROKEN     1 K"]);
+    }
 
     fn texts(cells: &[&str]) -> Vec<String> {
         cells.iter().map(|&c| c.to_owned()).collect()
@@ -324,41 +328,27 @@ mod tests {
     }
 
     #[test]
-    fn names_are_told_apart_by_the_part_that_differs() {
-        let names = |all: &[&str]| all.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
-        let records = names(&["runs/1000rpm_a.csv", "runs/7000rpm_a.csv"]);
-        assert_eq!(differing(&records), ["1000rpm", "7000rpm"]);
-        for alone in [names(&["a.csv"]), names(&["a.csv", "a.csv"]), names(&["ab", "abc"])] {
-            assert_eq!(differing(&alone), alone);
-        }
-        let middle = names(&[
-            "records_of_spring/1000rpm_run/logger_7_of_8.csv",
-            "records_of_spring/2000rpm_run/logger_7_of_8.csv",
-        ]);
-        let mut column = Column::new("record", Align::Left, middle).names();
-        column.shorten(20);
-        assert_eq!(column.cells, ["1000rpm", "2000rpm"]);
-    }
-
-    #[test]
     fn numbers_stand_on_the_right_and_lines_end_with_text() {
         assert_eq!(
-            table(&["steel", "al"]).lines(80),
+            table(&["steel", "al"]).lines(plain_of(80)),
             ["node      T  curve", "steel  92.7  ▁▂▃", "al     92.7  ▁▂▃"]
         );
     }
 
     #[test]
     fn wide_letters_take_two_columns() {
-        assert_eq!(table(&["漢字", "µ"]).lines(80)[1..], ["漢字  92.7  ▁▂▃", "µ     92.7  ▁▂▃"]);
+        assert_eq!(
+            table(&["漢字", "µ"]).lines(plain_of(80))[1..],
+            ["漢字  92.7  ▁▂▃", "µ     92.7  ▁▂▃"]
+        );
     }
 
     #[test]
     fn what_is_too_wide_loses_optional_columns_and_then_letters() {
         let long = "first_stage_planet_carrier_bearing_outer_ring";
-        let lines = table(&[long]).lines(53);
+        let lines = table(&[long]).lines(plain_of(53));
         assert_eq!(lines[1], format!("{long}  92.7"));
-        let lines = table(&[long, "al"]).lines(30);
+        let lines = table(&[long, "al"]).lines(plain_of(30));
         assert_eq!(lines[1], "first_stage.._outer_ring  92.7");
         assert!(lines.iter().all(|line| line.chars().count() <= 30), "{lines:?}");
     }
@@ -369,7 +359,8 @@ mod tests {
         let first = Column::new("node", Align::Left, texts(&["steel"]));
         let columns = vec![column("start"), column("peak"), column("end")];
         let tables = stacked(&first, columns, |table| table.width() <= 18);
-        let lines: Vec<Vec<String>> = tables.into_iter().map(|table| table.lines(80)).collect();
+        let lines: Vec<Vec<String>> =
+            tables.into_iter().map(|table| table.lines(plain_of(80))).collect();
         assert_eq!(lines[0], ["node   start  peak", "steel   92.7  92.7"]);
         assert_eq!(lines[1], ["node    end", "steel  92.7"]);
     }

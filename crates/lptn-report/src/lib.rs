@@ -7,12 +7,15 @@
 //! text that reads back as the same `f64`; in tables for reading, numbers are rounded and say their
 //! unit.
 
+mod clock;
+mod colour;
 mod columns;
 mod csv;
 mod format;
 mod heat;
 mod json;
 mod layout;
+mod names;
 mod number;
 mod of_page;
 mod page;
@@ -21,14 +24,15 @@ mod report;
 mod sparkline;
 mod text;
 
+pub use clock::{Clock, TimeUnit};
+pub use colour::Look;
 pub use columns::{MOST_CURVES, TEMPERATURE, panels};
 pub use csv::{write_csv, write_rows};
 pub use format::{Format, write};
 pub use heat::{Flow, balance};
 pub use json::{Json, JsonWriter};
-pub use layout::{
-    Align, Column, TextTable, TextTableOf, WIDTH, differing, labelled, plain, shortened, stacked,
-};
+pub use layout::{Align, Column, TextTable, TextTableOf, WIDTH, labelled, plain, stacked};
+pub use names::{differing, shortened};
 pub use number::{Shortest, decimals, duration, fixed, prefix, significant};
 pub use of_page::report_of;
 pub use page::{Page, Rows};

@@ -2,7 +2,9 @@
 
 use std::io::{self, Write};
 
-use crate::layout::{TextTable, WIDTH, labelled};
+use crate::colour::Look;
+use crate::layout::{TextTable, labelled};
+use crate::report::Standing;
 
 /// What a person reads of a result, from the title to the verdict.
 #[derive(Clone, Debug, Default)]
@@ -17,6 +19,8 @@ pub enum Block {
     Title(String),
     /// A line as it is.
     Line(String),
+    /// A line that says how something stands.
+    Marked(Standing, String),
     /// A table.
     Table(TextTable),
     /// A label, and what stands behind it, in pieces that are not broken.
@@ -54,6 +58,11 @@ impl Text {
     /// Adds a line.
     pub fn line(&mut self, line: impl Into<String>) -> &mut Self {
         self.add(Block::Line(line.into()))
+    }
+
+    /// Adds a line that says how something stands.
+    pub fn marked(&mut self, standing: Standing, line: impl Into<String>) -> &mut Self {
+        self.add(Block::Marked(standing, line.into()))
     }
 
     /// Adds lines.
@@ -108,37 +117,41 @@ pub fn words(text: &str) -> Vec<String> {
     text.split(' ').map(str::to_owned).collect()
 }
 
-/// Writes a text for a terminal, its title bold where that is `styled`.
-pub(crate) fn write(text: &Text, styled: bool, out: &mut dyn Write) -> io::Result<()> {
+/// Sentences are not wider than this, however wide the terminal is: longer lines are hard to read.
+const WIDEST_SENTENCE: usize = 100;
+
+/// Writes a text for a terminal.
+pub(crate) fn write(text: &Text, look: Look, out: &mut dyn Write) -> io::Result<()> {
     for (i, section) in text.sections().enumerate() {
         if i > 0 {
             writeln!(out)?;
         }
         section
             .iter()
-            .flat_map(|block| lines(block, styled))
+            .flat_map(|block| lines(block, look))
             .try_for_each(|line| writeln!(out, "{line}"))?;
     }
     Ok(())
 }
 
-fn lines(block: &Block, styled: bool) -> Vec<String> {
+fn lines(block: &Block, look: Look) -> Vec<String> {
     match block {
-        Block::Title(title) if styled => vec![format!("\u{1b}[1m{title}\u{1b}[0m")],
-        Block::Title(line) | Block::Line(line) => vec![line.clone()],
-        Block::Table(table) => table.clone().lines(WIDTH),
-        Block::Labelled(label, pieces) => labelled(label, pieces, WIDTH),
+        Block::Title(title) => vec![look.title(title)],
+        Block::Marked(standing, line) => vec![look.standing(*standing, line)],
+        Block::Line(line) => vec![line.clone()],
+        Block::Table(table) => table.clone().lines(look),
+        Block::Labelled(label, pieces) => labelled(label, pieces, look.width.min(WIDEST_SENTENCE)),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::{Text, write};
-    use crate::TextTable;
+    use crate::{Look, TextTable};
 
     fn written(text: &Text, styled: bool) -> String {
         let mut out = Vec::new();
-        write(text, styled, &mut out).unwrap();
+        write(text, Look { styled, width: 80 }, &mut out).unwrap();
         String::from_utf8(out).unwrap()
     }
 

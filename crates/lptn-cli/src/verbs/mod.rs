@@ -3,6 +3,7 @@
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;
+pub(crate) mod explain;
 pub(crate) mod fit;
 pub(crate) mod graph;
 pub(crate) mod man;
@@ -26,9 +27,9 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 
-/// Names each verb with its options and what does it.
+/// Names each verb with its options, what does it, and whether there is a picture of its answer.
 macro_rules! verbs {
-    ($($Verb:ident($($args:ident)::*) => $($does:ident)::*,)*) => {
+    ($($Verb:ident($($args:ident)::*) => $($does:ident)::*, drawn $drawn:expr;)*) => {
         /// What is to be done.
         #[derive(Debug, Subcommand)]
         pub(crate) enum Verb {
@@ -51,6 +52,16 @@ macro_rules! verbs {
                 }
             }
 
+            /// Whether `--plot` has something to draw.
+            pub(crate) fn is_drawn(&self) -> bool {
+                match self {
+                    $(Self::$Verb(args) => {
+                        let drawn: fn(&$($args)::*) -> bool = $drawn;
+                        drawn(args)
+                    })*
+                }
+            }
+
             /// Does it.
             pub(crate) fn run(&self, console: &Console) -> Result<Exit, Failure> {
                 match self {
@@ -62,21 +73,22 @@ macro_rules! verbs {
 }
 
 verbs! {
-    Run(run::RunArgs) => run::run,
-    Plot(plot::PlotArgs) => plot::plot,
-    Report(report::ReportArgs) => report::report,
-    Steady(steady::SteadyArgs) => steady::steady,
-    Modes(modes::ModesArgs) => modes::modes,
-    Verify(verify::VerifyArgs) => verify::verify,
-    Compare(compare::CompareArgs) => compare::compare,
-    Size(size::SizeArgs) => size::size,
-    Fit(fit::FitArgs) => fit::fit,
-    Reduce(reduce::ReduceArgs) => reduce::reduce,
-    Graph(graph::GraphArgs) => graph::graph,
-    Check(check::CheckArgs) => check::check,
-    New(new::NewArgs) => new::new,
-    Units(units::UnitsArgs) => units::units,
-    Materials(materials::MaterialsArgs) => materials::materials,
-    Completions(completions::CompletionsArgs) => completions::completions,
-    Man(man::ManArgs) => man::man,
+    Run(run::RunArgs) => run::run, drawn |_| true;
+    Plot(plot::PlotArgs) => plot::plot, drawn |_| true;
+    Report(report::ReportArgs) => report::report, drawn |_| false;
+    Steady(steady::SteadyArgs) => steady::steady, drawn |args| args.cycle.periodic;
+    Modes(modes::ModesArgs) => modes::modes, drawn |_| true;
+    Verify(verify::VerifyArgs) => verify::verify, drawn |_| false;
+    Compare(compare::CompareArgs) => compare::compare, drawn |_| true;
+    Size(size::SizeArgs) => size::size, drawn |args| args.file.is_some();
+    Fit(fit::FitArgs) => fit::fit, drawn |_| true;
+    Reduce(reduce::ReduceArgs) => reduce::reduce, drawn |_| true;
+    Graph(graph::GraphArgs) => graph::graph, drawn |_| true;
+    Check(check::CheckArgs) => check::check, drawn |_| false;
+    Explain(explain::ExplainArgs) => explain::explain, drawn |_| false;
+    New(new::NewArgs) => new::new, drawn |_| false;
+    Units(units::UnitsArgs) => units::units, drawn |_| false;
+    Materials(materials::MaterialsArgs) => materials::materials, drawn |_| false;
+    Completions(completions::CompletionsArgs) => completions::completions, drawn |_| false;
+    Man(man::ManArgs) => man::man, drawn |_| false;
 }

@@ -15,7 +15,7 @@ use lptn_solve::{Lumping, Stiffness};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
 
-use crate::console::Console;
+use crate::console::{Console, Detail};
 use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -145,11 +145,12 @@ impl Page for View<'_> {
         }
         text.section();
         if finding.exit() == Exit::Done {
-            if let Some(stiff) = &finding.stiffness {
+            let at_length = self.console.detail > Detail::Brief;
+            if let Some(stiff) = finding.stiffness.as_ref().filter(|_| at_length) {
                 text.sentence("stiffness: ", &stiff.words());
             }
             if let Some((network, lumping)) = &finding.lumping {
-                lumping::lines(&mut text, network, (lumping, "lumping:   ", self.console.verbose));
+                lumping::lines(&mut text, network, (lumping, "lumping:   ", self.console.detail));
             }
         }
         let warnings = count(finding.number(Severity::Warning), "warning");

@@ -6,8 +6,8 @@ use std::path::Path;
 use lptn_network::LimitSeverity;
 use lptn_plot::Figure;
 use lptn_report::{
-    Align, Column, Json, Page, Report, Rows, Text, TextTable, WIDTH, decimals, duration, fixed,
-    plain, significant, stacked,
+    Align, Column, Json, Page, Report, Rows, Standing, Text, TextTable, WIDTH, decimals, duration,
+    fixed, plain, significant, stacked,
 };
 use lptn_study::{Candidate, CompareRow, LimitResult, compare_table};
 
@@ -101,7 +101,14 @@ fn overview(comparison: &Comparison) -> TextTable {
     if rows.iter().filter_map(CompareRow::candidate).any(|candidate| candidate.mass.is_some()) {
         table = table.right("m [kg]", cell(|c| c.mass.map(|mass| significant(mass, 4)))).optional();
     }
-    table.left("limits", |row| verdict(row, ends.next().copied().unwrap_or(Exit::Done))).into()
+    table
+        .left("limits", |row| verdict(row, ends.next().copied().unwrap_or(Exit::Done)))
+        .judged(|row| match row.status() {
+            "kept" => Standing::Holds,
+            "none" | "warning" | "not judged" => Standing::Open,
+            _ => Standing::Fails,
+        })
+        .into()
 }
 
 /// What a text says of a candidate that was evaluated.

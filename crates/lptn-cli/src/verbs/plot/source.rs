@@ -15,7 +15,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::names::{EVENTS, MANIFEST, RESULT};
 use crate::input::{self, Input};
-use crate::options::{Scale, Shown};
+use crate::options::{Scale, Shown, TimeScale};
 use crate::verbs::run::{self, RunArgs};
 
 /// One of the things that are drawn over each other.
@@ -62,6 +62,7 @@ impl Source {
             source,
             times: args.times.clone(),
             shown,
+            time_scale: TimeScale::default(),
             balance: None,
             tolerance: None,
             output: None,

@@ -19,8 +19,8 @@ use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
 use crate::words::MOST_NODES;
-use crate::{balance, select};
-use lptn_report::{Format, duration};
+use crate::{balance, families, select};
+use lptn_report::{Clock, Format, duration};
 
 /// Why there is no steady state to show.
 #[derive(Debug)]
@@ -39,6 +39,7 @@ pub(crate) struct Job<'a> {
     /// Whether columns were asked for by name.
     pub(crate) chosen: bool,
     pub(crate) unit: Unit,
+    pub(crate) clock: Clock,
     pub(crate) format: Format,
     pub(crate) balance: Option<End>,
     /// Times in s at which the report draws the network.
@@ -72,6 +73,7 @@ impl<'a> Job<'a> {
             selection,
             chosen,
             unit,
+            clock: Clock(args.time_scale.time_unit),
             format,
             balance,
             set: &args.source.set,
@@ -202,6 +204,9 @@ pub(crate) fn no_run(input: &Input) -> Failure {
     Failure::new(Exit::Input, problem)
 }
 
+/// So many nodes are watched where families make few rows of them.
+const MOST_WATCHED: usize = 500;
+
 /// The nodes that a table shows: those selected, in the order of the file; unless any is, all but
 /// the cells of grids. Of too many the hottest in steady state, hottest first; where there is none,
 /// the first ones.
@@ -214,7 +219,10 @@ pub(crate) fn shown(
     if nodes.is_empty() {
         nodes = network.outer_nodes().collect();
     }
-    if nodes.len() > MOST_NODES {
+    let name = |id: &NodeId| (network.nodes()[id.index()].name.clone(), 0);
+    let rows = |nodes: &[NodeId]| families::folded(nodes.to_vec(), true, name, |_| 0.0).len();
+    let few = nodes.len() <= MOST_WATCHED && rows(&nodes) <= MOST_NODES;
+    if nodes.len() > MOST_NODES && !few {
         if let Some(steady) = steady {
             let at = |id: &NodeId| steady.temperatures[id.index()];
             nodes.sort_by(|a, b| at(b).total_cmp(&at(a)));

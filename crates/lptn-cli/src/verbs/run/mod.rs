@@ -62,9 +62,9 @@ pub(crate) fn outcome<'a>(
     let wall_time = begun.elapsed().as_secs_f64();
     let lumping = Lumping::of_run(&solution);
     let table = Table::of_solution(&solution, &job.selection, &job.unit);
-    let verbose = console.verbose;
+    let detail = console.detail;
     let result =
-        Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, verbose };
+        Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, detail };
     Ok((result, folder))
 }
 

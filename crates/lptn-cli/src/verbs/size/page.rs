@@ -4,7 +4,7 @@ use std::io;
 
 use lptn_netlist::{Goal, Requirement};
 use lptn_plot::Figure;
-use lptn_report::{Json, Page, Report, Rows, Text, TextTable, plain, significant};
+use lptn_report::{Json, Page, Report, Rows, Standing, Text, TextTable, plain, significant};
 use lptn_solve::Table;
 use lptn_study::{SiValue, Verdict};
 use lptn_units::Unit;
@@ -151,6 +151,7 @@ fn requirements(answer: &Answer<'_>) -> TextTable {
         .left("requirement", |&i| plain(&study.requirements[i].text))
         .right("margin", |&i| margin(i))
         .left("", |&i| word(i))
+        .judged(|&i| if word(i) == "broken" { Standing::Fails } else { Standing::Holds })
         .into()
 }
 

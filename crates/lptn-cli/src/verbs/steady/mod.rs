@@ -13,11 +13,11 @@ use lptn_solve::{Selection, SteadyError, SteadyState, Table};
 use lptn_units::Unit;
 use view::View;
 
-use crate::console::Console;
+use crate::console::{Console, Detail};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Input};
-use crate::limits::{self, Judged, Judgement};
+use crate::limits::{self, Judged};
 use crate::{balance, select, sense};
 
 pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failure> {
@@ -45,6 +45,7 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
         limits: &limits,
         balance: balance.as_ref(),
         all: args.shown.select.is_empty(),
+        fold: args.shown.select.is_empty() && console.detail < Detail::Verbose,
     };
     console.show(&view, args.shown.format)?;
     if args.shown.format == Format::Table {
@@ -55,7 +56,7 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
         console.warn(&netlist.files, &view.doubts());
     }
     console.warn(&netlist.files, &sense::of_steady(netlist, &steady));
-    Ok(limits::conclude(&Judgement { netlist, unit: &unit, limits: &limits }, console))
+    Ok(limits::conclude(&view.judgement(), console))
 }
 
 fn table(

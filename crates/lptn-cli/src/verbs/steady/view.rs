@@ -6,7 +6,7 @@ use std::io;
 use lptn_netlist::Diagnostic;
 use lptn_network::{ConductorId, FacePathId, GridValue, HeatOf, Item, Network, NodeId};
 use lptn_report::{
-    Claim, Json, Page, Report, Rows, Text, TextTable, decimals, fixed, prefix, shortened,
+    Claim, Clock, Json, Page, Report, Rows, Text, TextTable, decimals, fixed, prefix, shortened,
     significant,
 };
 use lptn_solve::{Balance, Selection, SteadyState, Table};
@@ -18,9 +18,9 @@ use crate::about::{self, Known};
 use crate::console::Console;
 use crate::doubts::{adiabatic, inputs_vary, others};
 use crate::input::Input;
-use crate::limits::{self, Judged};
+use crate::limits::{self, Judged, Judgement};
 use crate::words::{difference, largest, some_of};
-use crate::{balance, sense};
+use crate::{balance, families, sense};
 
 /// Rises in K and heats in W below this are what rounding left over: no unit and no decimals are
 /// chosen to show them.
@@ -38,6 +38,8 @@ pub(super) struct View<'a> {
     pub(super) balance: Option<&'a Balance>,
     /// Whether nothing was selected.
     pub(super) all: bool,
+    /// Whether large families are one row.
+    pub(super) fold: bool,
 }
 
 /// A temperature or heat flow with its value. Names are made for those that are shown.
@@ -63,6 +65,19 @@ impl Row {
             Of::Grid(value) => value.name(network),
             Of::Heat(heat) => heat.name(network),
         }
+    }
+
+    /// Its name, and what has to be the same in a family.
+    fn family(self, network: &Network) -> (String, u8) {
+        let kind = match self.of {
+            Of::Item(Item::Node(_)) => 0,
+            Of::Item(_) => 1,
+            Of::Grid(_) => 2,
+            Of::Heat(HeatOf::Source(_)) => 3,
+            Of::Heat(HeatOf::Boundary(_)) => 4,
+            Of::Heat(_) => 5,
+        };
+        (self.label(network), kind)
     }
 
     /// Its name; `T`, `Q` and `P` go without saying.
@@ -160,39 +175,45 @@ impl View<'_> {
     }
 
     /// Temperatures with their rise over the coldest boundary, hottest first where there are many.
-    fn nodes(&self, mut rows: Vec<Row>, text: &mut Text) {
+    fn nodes(&self, rows: Vec<Row>, text: &mut Text) {
         let network = &self.input.netlist.network;
         let coldest = coldest(network, self.steady).unwrap_or_default();
         let rises = rows.iter().map(|r| (r.value - coldest.1).abs());
         let most = rises.filter(|rise| *rise > NOISE).fold(0.0, f64::max);
         let digits = decimals(most / self.unit.scale, 3, 1);
-        let all = largest(&mut rows, |row| row.value);
+        let mut rows = families::folded(rows, self.fold, |r| r.family(network), |r| r.value);
+        let all = largest(&mut rows, |row| row.item.value);
         let kelvin = |r: &Row| fixed((r.value - coldest.1) / self.unit.scale, digits);
-        let table = TextTable::of(&rows)
-            .left("temperature", |row| row.label(network))
-            .right(format!("T [{}]", self.unit.text), |r| fixed(self.unit.from_si(r.value), digits))
-            .right(
-                format!("over {} [{}]", shortened(&coldest.0, 24), difference(self.unit)),
-                kelvin,
-            )
-            .left("", |r| r.words(network))
+        let celsius = |r: &Row| fixed(self.unit.from_si(r.value), digits);
+        let over = format!("over {} [{}]", shortened(&coldest.0, 24), difference(self.unit));
+        let table = TextTable::of(&rows).left("temperature", |row| row.name.as_str());
+        let table = families::members(table, &rows, "hottest")
+            .right(format!("T [{}]", self.unit.text), |row| celsius(&row.item))
+            .right(over, |row| kelvin(&row.item))
+            .left("", |row| row.item.words(network))
             .optional();
         some_of(text, table, (all, "the hottest first; --select 'NAME.T' shows others"));
     }
 
-    fn heat_flows(&self, mut rows: Vec<Row>, text: &mut Text) {
+    fn heat_flows(&self, rows: Vec<Row>, text: &mut Text) {
         let network = &self.input.netlist.network;
-        let all = largest(&mut rows, |row| row.value.abs());
-        let most =
-            rows.iter().map(|r| r.value.abs()).filter(|heat| *heat > NOISE).fold(0.0, f64::max);
+        let size = |row: &Row| row.value.abs();
+        let most = rows.iter().map(size).filter(|heat| *heat > NOISE).fold(0.0, f64::max);
+        let mut rows = families::folded(rows, self.fold, |r| r.family(network), size);
+        let all = largest(&mut rows, |row| size(&row.item));
         let (scale, letter) = prefix(most);
         let digits = decimals(most / scale, 4, 0);
-        let table = TextTable::of(&rows)
-            .left("heat flow", |row| row.label(network))
-            .right(format!("Q [{letter}W]"), |r| fixed(r.value / scale, digits))
-            .left("", |r| r.words(network))
+        let table = TextTable::of(&rows).left("heat flow", |row| row.name.as_str());
+        let table = families::members(table, &rows, "largest")
+            .right(format!("Q [{letter}W]"), |row| fixed(row.item.value / scale, digits))
+            .left("", |row| row.item.words(network))
             .optional();
         some_of(text, table, (all, "the largest first; --select 'NAME.Q' shows others"));
+    }
+
+    pub(super) fn judgement(&self) -> Judgement<'_> {
+        let (netlist, unit, limits) = (&self.input.netlist, self.unit, self.limits);
+        Judgement { netlist, unit, clock: Clock::default(), limits }
     }
 
     /// Signals, controls and reports.
@@ -234,7 +255,7 @@ impl View<'_> {
 
     pub(super) fn messages(&self, console: &Console) {
         if let (Some(file), Some(_)) = (self.input.typed(), &self.input.netlist.run) {
-            console.note(&format!("next   lptn run {file}"));
+            console.hint(&format!("next   lptn run {file}"));
         }
     }
 }
@@ -251,7 +272,7 @@ impl Page for View<'_> {
         self.nodes(self.temperatures(inside).into_iter().filter(keep).collect(), &mut text);
         self.heat_flows(self.flows(inside).into_iter().filter(keep).collect(), &mut text);
         self.others(&mut text);
-        limits::section(&mut text, network, self.limits, self.unit);
+        limits::section(&mut text, &self.judgement(), self.fold);
         if let Some(of) = self.balance {
             balance::section(&mut text, network, (of, None));
         }

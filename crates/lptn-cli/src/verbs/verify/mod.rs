@@ -8,7 +8,9 @@ use std::io;
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::Network;
-use lptn_report::{Json, Page, Report, Rows, Text, TextTable, duration, shortened, significant};
+use lptn_report::{
+    Json, Page, Report, Rows, Standing, Text, TextTable, duration, shortened, significant,
+};
 use lptn_solve::{NoReference, Reference, RunComparison, Transient, TransientError, Verification};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
@@ -168,7 +170,12 @@ impl Page for View<'_> {
         let mut text = self.input.begun();
         text.section().table(self.comparisons());
         text.section().labelled("compared with: ", with_units(&self.reference()));
-        text.line(self.verdict());
+        let standing = match (self.verification.passes(), self.is_independent()) {
+            (false, _) => Standing::Fails,
+            (true, false) => Standing::Open,
+            (true, true) => Standing::Holds,
+        };
+        text.marked(standing, self.verdict());
         text
     }
 

@@ -5,7 +5,7 @@ use std::io;
 use lptn_fit::step::{Estimated, FittedValue, Parted, Power, TwoExponentials};
 use lptn_plot::Figure;
 use lptn_report::{
-    Align, Column as TextColumn, Json, Page, Report, Rows, Text, TextTable, WIDTH, plain,
+    Align, Column as TextColumn, Json, Look, Page, Report, Rows, Text, TextTable, WIDTH, plain,
     shortened, significant, stacked,
 };
 use lptn_solve::Table;
@@ -122,7 +122,7 @@ fn table(answer: &Answer<'_>, text: &mut Text, cells: &[Cells<'_>]) {
     let names = column("column", Align::Left, &|column| plain(&column.column.name));
     let columns = cells.iter().map(|(title, cell)| column(title, Align::Right, cell)).collect();
     let fits = |table: &TextTable| {
-        table.clone().lines(WIDTH).iter().all(|line| line.chars().count() <= WIDTH)
+        table.clone().lines(Look::PLAIN).iter().all(|line| line.chars().count() <= WIDTH)
     };
     for table in stacked(&names, columns, fits) {
         text.table(table);

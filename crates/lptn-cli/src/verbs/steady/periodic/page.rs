@@ -33,13 +33,15 @@ impl Page for View<'_> {
         temperature_section(&mut text, self, temperatures);
         flow_section(&mut text, flows);
         other_section(&mut text, self, &others);
-        limits::section(&mut text, network, &self.outcome.limits(), &job.unit);
+        let fold = self.outcome.folds();
+        let limits = self.outcome.limits();
+        limits::section(&mut text, &self.outcome.judgement(&limits), fold);
         if let Some(of) = solution.balance() {
             let times = Some((job.settings.start, job.settings.stop));
             balance::section(&mut text, network, (of, times));
         }
         found_section(&mut text, self);
-        heat_over(text.section(), solution, self.period());
+        heat_over(text.section(), solution, (self.period(), job.clock));
         text
     }
 

@@ -1,0 +1,58 @@
+//! `lptn explain`
+
+mod args;
+mod codes;
+mod page;
+
+pub(crate) use args::ExplainArgs;
+
+use codes::Code;
+use lptn_netlist::Diagnostic;
+use page::Explained;
+
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+
+pub(crate) fn explain(args: &ExplainArgs, console: &Console) -> Result<Exit, Failure> {
+    let codes = codes::all();
+    let explained = match &args.code {
+        None => Explained { codes, named: false },
+        Some(text) => asked(bare(text), codes)?,
+    };
+    console.show(&explained, args.printed.format)
+}
+
+/// The code of `error[units::syntax]`.
+fn bare(text: &str) -> &str {
+    let inner = text.split_once('[').map_or(text, |(_, rest)| rest);
+    inner.trim_end_matches([']', ':'])
+}
+
+/// The codes of an area, or the one that is named.
+fn asked(name: &str, codes: Vec<Code>) -> Result<Explained, Failure> {
+    let (named, wanted): (bool, fn(&Code) -> &str) =
+        if name.contains("::") { (true, |code| code.code) } else { (false, Code::area) };
+    let found: Vec<Code> = codes.iter().filter(|code| wanted(code) == name).cloned().collect();
+    if found.is_empty() {
+        Err(unknown(name, &codes))
+    } else {
+        Ok(Explained { codes: found, named })
+    }
+}
+
+fn unknown(name: &str, codes: &[Code]) -> Failure {
+    let problem =
+        Diagnostic::error("explain::unknown", format!("no diagnostic has the code `{name}`"));
+    let behind: Vec<&str> =
+        codes.iter().filter(|code| code.problem() == name).map(|code| code.code).collect();
+    if let [first, ..] = behind.as_slice() {
+        return Failure::new(
+            crate::exit::Exit::Input,
+            problem.help(format!("did you mean `{first}`?")),
+        );
+    }
+    let names = codes.iter().flat_map(|code| [code.code, code.area()]);
+    let all = || "`lptn explain` lists them all".into();
+    Failure::new(Exit::Input, problem.did_you_mean(name, names, all))
+}

@@ -1,0 +1,85 @@
+//! Families of equal parts in one row with their worst member, and tables at several widths.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod common;
+
+use common::{Folder, Ran};
+
+/// 24 cells on a plate, the last of which gets 9 W instead of 5 W.
+fn pack() -> Folder {
+    let text = "format = 1\n[default]\nT0 = \"25 degC\"\n[node]\nplate = { C = \"5 kJ/K\" }\n\
+        [boundary]\nair = { T = \"25 degC\" }\n\
+        [resistor]\nout = { from = \"plate\", to = \"air\", R = \"0.05 K/W\" }\n\
+        [template.cell]\nparam = { P = { unit = \"W\" } }\nport = [\"base\"]\n\
+        [template.cell.node]\ncore = { C = \"60 J/K\" }\n\
+        [template.cell.resistor]\njoint = { from = \"core\", to = \"base\", R = \"2 K/W\" }\n\
+        [template.cell.source]\nloss = { into = \"core\", P = \"P\" }\n\
+        [use.row]\ntemplate = \"cell\"\ncount = 24\nconnect = { base = \"plate\" }\n\
+        set = { P = [POWERS] }\n\
+        [limit]\nhot = { of = \"row[*].core.T\", below = \"46 degC\" }\n[run]\nstop = \"30 min\"\n";
+    let powers = "\"5 W\", ".repeat(23) + "\"9 W\"";
+    Folder::with("pack.toml", &text.replace("POWERS", &powers))
+}
+
+fn lines_from(ran: &Ran, start: &str) -> usize {
+    ran.out.lines().filter(|line| line.starts_with(start)).count()
+}
+
+/// In steady state 124 W through 0.05 K/W and 9 W through 2 K/W: 49.2 degC.
+#[test]
+fn a_family_is_one_row_with_its_worst_member() {
+    let folder = pack();
+    let steady = folder.run(&["steady", "pack.toml"]).exits(1);
+    assert_eq!(lines_from(&steady, "row[*].core  [24] of 24      49.2  "), 1, "{}", steady.out);
+    assert_eq!(lines_from(&steady, "row["), 3, "{}", steady.out);
+    let steady =
+        steady.prints("\nhot[*]  [24] of 24  row[24].core.T below 46 degC  -3.2 K  BROKEN\n");
+    steady.says("limit broken: `hot[24]`");
+    let run = folder.run(&["run", "pack.toml", "--no-files"]).exits(1);
+    assert_eq!((lines_from(&run, "row["), lines_from(&run, "hot[")), (1, 1), "{}", run.out);
+    run.prints("\nT [degC]     hottest     start").prints("\nrow[*].core  [24] of 24   25.0");
+}
+
+#[test]
+fn every_member_is_shown_where_it_is_asked_for() {
+    let folder = pack();
+    for verb in ["run", "steady"] {
+        let all = folder.run(&[verb, "pack.toml", "-v"]);
+        assert!(lines_from(&all, "row[7].core ") == 1 && lines_from(&all, "hot[") == 24);
+        let some = folder.run(&[verb, "pack.toml", "--select", "row[*].core.T"]);
+        assert_eq!(lines_from(&some, "row[7].core "), 1, "{}", some.out);
+    }
+    let json = folder.run(&["steady", "pack.toml", "--format", "json"]).json();
+    assert_eq!(json["limits"].as_object().unwrap().len(), 24);
+}
+
+/// Wide terminals have room for the curves, narrow ones lose curves and letters of names only.
+#[test]
+fn tables_use_the_width_they_have() {
+    let folder = pack();
+    let at = |columns: &str| {
+        let mut command = folder.command(&["run", "pack.toml", "--no-files", "-q"]);
+        Ran::of(command.env("COLUMNS", columns).output().unwrap()).out
+    };
+    let widest = |text: &str| text.lines().map(|line| line.chars().count()).max().unwrap();
+    let (narrow, usual, wide) = (at("64"), at("80"), at("200"));
+    assert!(widest(&usual) <= 80 && widest(&wide) > 80, "{wide}");
+    assert!(wide.contains("0 to 30 min") && !usual.contains("0 to 30 min"), "{usual}");
+    for text in [&narrow, &usual, &wide] {
+        assert!(text.contains("49.1") && text.contains("-3.12 K"), "{text}");
+    }
+}
+
+#[test]
+fn verdicts_are_coloured_and_can_be_read_without() {
+    let folder = pack();
+    let coloured = folder.run(&["steady", "pack.toml", "--color", "always"]);
+    coloured.prints("-3.2 K  \u{1b}[1;31mBROKEN\u{1b}[0m\n");
+    let kept = ["steady", "pack.toml", "--color", "always", "--set", "row[24].P=5 W"];
+    folder.run(&kept).prints("\u{1b}[32mkept\u{1b}[0m\n");
+    for format in ["csv", "json"] {
+        let ran = folder.run(&["steady", "pack.toml", "--color", "always", "--format", format]);
+        assert!(!ran.out.contains('\u{1b}'), "{}", ran.out);
+    }
+}

@@ -1,0 +1,65 @@
+//! Names that have to be short.
+
+use unicode_width::UnicodeWidthStr;
+
+/// A name of at most `room` letters, `planetary_..ring_17`: the ends of names tell them apart.
+pub fn shortened(name: &str, room: usize) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    if name.width() <= room {
+        return name.to_owned();
+    }
+    let keep = room.saturating_sub(2);
+    let (head, tail) = (keep / 2, keep - keep / 2);
+    let start: String = letters[..head.min(letters.len())].iter().collect();
+    let end: String = letters[letters.len() - tail.min(letters.len())..].iter().collect();
+    format!("{start}..{end}")
+}
+
+/// The part of each name in which the names differ, from one border of words to another: `1000rpm`
+/// and `7000rpm` of `runs/1000rpm.csv` and `runs/7000rpm.csv`. The names themselves where a part
+/// would be empty, or all are the same.
+pub fn differing(names: &[String]) -> Vec<String> {
+    let Some(first) = names.first() else { return Vec::new() };
+    let is_border = |c: char| !c.is_alphanumeric();
+    let same = |length: usize, end: bool| {
+        names.iter().all(|name| match end {
+            false => name.get(..length) == first.get(..length),
+            true => {
+                name.len() >= length
+                    && name.get(name.len() - length..) == first.get(first.len() - length..)
+            }
+        })
+    };
+    let borders = || first.char_indices().filter(|(_, c)| is_border(*c));
+    let head =
+        borders().map(|(at, c)| at + c.len_utf8()).filter(|&length| same(length, false)).max();
+    let tail = borders().map(|(at, _)| first.len() - at).filter(|&length| same(length, true)).max();
+    let (head, tail) = (head.unwrap_or(0), tail.unwrap_or(0));
+    let part = |name: &String| Some(name.get(head..name.len().checked_sub(tail)?)?.to_owned());
+    let parts: Option<Vec<String>> =
+        names.iter().map(|name| part(name).filter(|p| !p.is_empty())).collect();
+    parts.unwrap_or_else(|| names.to_vec())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::differing;
+    use crate::layout::{Align, Column};
+
+    #[test]
+    fn names_are_told_apart_by_the_part_that_differs() {
+        let names = |all: &[&str]| all.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+        let records = names(&["runs/1000rpm_a.csv", "runs/7000rpm_a.csv"]);
+        assert_eq!(differing(&records), ["1000rpm", "7000rpm"]);
+        for alone in [names(&["a.csv"]), names(&["a.csv", "a.csv"]), names(&["ab", "abc"])] {
+            assert_eq!(differing(&alone), alone);
+        }
+        let middle = names(&[
+            "records_of_spring/1000rpm_run/logger_7_of_8.csv",
+            "records_of_spring/2000rpm_run/logger_7_of_8.csv",
+        ]);
+        let mut column = Column::new("record", Align::Left, middle).names();
+        column.shorten(20);
+        assert_eq!(column.cells, ["1000rpm", "2000rpm"]);
+    }
+}
