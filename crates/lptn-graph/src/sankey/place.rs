@@ -217,7 +217,7 @@ impl Layers {
                 });
             }
         }
-        // what is nearly straight becomes straight: wide bands from the left, then what stands first
+        // what is nearly straight becomes straight: wide bands from the left, then what comes first
         let main = |vertex: usize, side: usize| -> Option<usize> {
             let width = |i: &&usize| self.widths[self.pieces[**i].band];
             joined[vertex][side].iter().max_by(|a, b| width(a).total_cmp(&width(b))).copied()
@@ -263,7 +263,7 @@ impl Layers {
         (weight > 0.0).then(|| sum / weight)
     }
 
-    /// Where the middle of a vertex would have to be for a piece to be straight, and how wide it is.
+    /// Where the middle of a vertex has to be for a piece to be straight, and how wide it is.
     fn straight(&self, piece: usize, vertex: usize, at: &[f64]) -> (f64, f64) {
         let Piece { band, ends, offsets } = self.pieces[piece];
         let own = usize::from(ends[1] == vertex);
