@@ -21,6 +21,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::Folder;
 use crate::files::names::{EVENTS, MANIFEST, RANKING, RESULT, STATE, UNCERTAINTY, WINDOWS};
+use crate::input::quoted;
 use crate::limits::{self, Judged};
 use crate::{files, lumping, select, sense};
 
@@ -210,8 +211,13 @@ impl Outcome<'_> {
         }
         console.warn(&self.job.input.netlist.files, &self.found());
         if self.job.format == Format::Table && self.solution.end() == RunStatus::Reached {
-            let command = next::after_run(self.job.input, self.steady.is_ok());
-            command.iter().for_each(|command| console.hint(&format!("next   {command}")));
+            if let Some(folder) = folder {
+                console
+                    .next(&format!("lptn plot {}", quoted(&folder.path().display().to_string())));
+            }
+            next::after_run(self.job.input, self.steady.is_ok())
+                .iter()
+                .for_each(|command| console.next(command));
         }
     }
 

@@ -255,7 +255,7 @@ impl View<'_> {
 
     pub(super) fn messages(&self, console: &Console) {
         if let (Some(file), Some(_)) = (self.input.typed(), &self.input.netlist.run) {
-            console.hint(&format!("next   lptn run {file}"));
+            console.next(&format!("lptn run {file}"));
         }
     }
 }
