@@ -97,12 +97,17 @@ pub(crate) fn section(text: &mut Text, judgement: &Judgement<'_>, fold: bool) {
     let rows = families::folded(limits.to_vec(), fold, |j| j.family(of(j)), |j| -j.margin);
     let table = TextTable::of(&rows).left("limit", |row| row.name.as_str());
     let mut table = families::members(table, &rows, "worst")
-        .left("wanted", |row| wanted(network, row.item.limit, unit))
+        .left("wanted", |row| of(&row.item).text.as_str())
         .names()
+        .left("", |row| bounded(network, row.item.limit, unit))
         .right("margin", |row| margin(&row.item, of(&row.item), unit));
     if limits.iter().any(|judged| judged.worst_at.is_some()) {
         let time = |row: &Row<Judged>| row.item.worst_at.map(|time| clock.text(time, 3));
         table = table.right("least at", move |row| time(row).unwrap_or_else(|| "-".into()));
+        // a family has one more column
+        if rows.len() < limits.len() {
+            table = table.optional();
+        }
     }
     let table = table.left("", |row| verdict(&row.item, of(&row.item), clock));
     text.section().table(table.judged(|row| row.item.standing()));
@@ -110,9 +115,14 @@ pub(crate) fn section(text: &mut Text, judgement: &Judgement<'_>, fold: bool) {
 
 /// "steel.T below 110 degC".
 fn wanted(network: &Network, id: LimitId, unit: &Unit) -> String {
+    format!("{} {}", network.limits()[id.index()].text, bounded(network, id, unit))
+}
+
+/// "below 110 degC".
+fn bounded(network: &Network, id: LimitId, unit: &Unit) -> String {
     let limit = &network.limits()[id.index()];
     let bound = number(bound(network, limit), limit.ty, unit);
-    format!("{} {} {bound}", limit.text, limit.bound.field().key())
+    format!("{} {bound}", limit.bound.field().key())
 }
 
 /// Marks the limits in the panels that show what they are of: temperatures, and columns by name.
