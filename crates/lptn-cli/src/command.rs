@@ -40,11 +40,19 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
             file_as_verb(verb).or_else(|| near_verb(verb)).or_else(|| path_as_verb(verb))
         })
     });
-    let Some(problem) = problem else { error.exit() };
     let global =
         Global { quiet: false, verbose: false, color: Color::Auto, plot: None, report: None };
     let console = Console::new(&global, None);
-    console.report(&Files::new(), &[problem]);
+    match problem {
+        Some(problem) => console.report(&Files::new(), &[problem]),
+        None if !error.use_stderr() => error.exit(),
+        None => {
+            // if stderr is closed there is nobody to tell
+            drop(error.print());
+            console.note_down(&Files::new(), &[wrong_usage(&error.render().to_string())]);
+        }
+    }
+    console.answer_failure(Exit::Input);
     Exit::Input
 }
 
@@ -55,6 +63,20 @@ fn page_without_sign(error: &clap::Error) -> Option<Diagnostic> {
     let message = format!("{word} stands alone: the file of a report is joined with =");
     let problem = Diagnostic::error("input::report_file", message);
     is_page.then(|| problem.help(format!("write --report={}", quoted(word))))
+}
+
+/// What the parser says of a command line, which people get as it is.
+fn wrong_usage(text: &str) -> Diagnostic {
+    let mut parts = text.trim_end().split("\n\n").map(|part| {
+        let lines: Vec<&str> = part.lines().map(str::trim).collect();
+        lines.join(" ")
+    });
+    let first = parts.next().unwrap_or_default();
+    let problem = Diagnostic::error("input::usage", first.trim_start_matches("error: "));
+    parts.fold(problem, |problem, part| match part.strip_prefix("tip: ") {
+        Some(tip) => problem.help(tip),
+        None => problem.note(part),
+    })
 }
 
 /// The name of a file in the place of a verb.

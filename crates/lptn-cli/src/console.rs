@@ -13,6 +13,7 @@ use crate::drawing::{self, Drawing};
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
 use crate::options::{Color, Global};
+use crate::refusal::Refusal;
 use crate::reporting::{self, Reporting};
 
 /// How much a result tells.
@@ -39,6 +40,10 @@ pub(crate) struct Console {
     pub(crate) plot: Option<Drawing>,
     drawn: AtomicBool,
     reporting: Option<Reporting>,
+    /// What a program is told if there is no result; only where JSON was asked for.
+    refusal: Option<Refusal>,
+    /// Whether something was printed.
+    printed: AtomicBool,
 }
 
 impl Console {
@@ -62,6 +67,8 @@ impl Console {
             plot: global.plot.clone(),
             drawn: AtomicBool::new(false),
             reporting: report.map(Reporting::into),
+            refusal: Refusal::wanted(),
+            printed: AtomicBool::new(false),
         }
     }
 
@@ -145,6 +152,7 @@ impl Console {
         &self,
         result: impl FnOnce(&mut BufWriter<io::StdoutLock<'static>>) -> io::Result<()>,
     ) -> Result<(), Failure> {
+        self.printed.store(true, Ordering::Relaxed);
         let mut out = BufWriter::with_capacity(1 << 16, io::stdout().lock());
         match result(&mut out).and_then(|()| out.flush()) {
             Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -193,7 +201,7 @@ impl Console {
             .iter()
             .map(|diagnostic| render(files, diagnostic, self.styled_messages))
             .collect();
-        self.reporting.iter().for_each(|reporting| reporting.say(files, diagnostics));
+        self.note_down(files, diagnostics);
         if !texts.is_empty() {
             self.message(&texts.join("\n\n"));
         }
@@ -201,10 +209,25 @@ impl Console {
 
     /// Warnings beside a result.
     pub(crate) fn warn(&self, files: &Files, warnings: &[Diagnostic]) {
-        match &self.reporting {
-            _ if !self.quiet => self.report(files, warnings),
-            Some(reporting) => reporting.say(files, warnings),
-            None => {}
+        if self.quiet {
+            self.note_down(files, warnings);
+        } else {
+            self.report(files, warnings);
+        }
+    }
+
+    /// Keeps what was said for the report, and for a program that gets no result.
+    pub(crate) fn note_down(&self, files: &Files, diagnostics: &[Diagnostic]) {
+        self.reporting.iter().for_each(|reporting| reporting.say(files, diagnostics));
+        self.refusal.iter().for_each(|refusal| refusal.say(files, diagnostics));
+    }
+
+    /// Answers a program that asked for JSON and got no result, so that it always finds one object.
+    pub(crate) fn answer_failure(&self, exit: Exit) {
+        let Some(refusal) = &self.refusal else { return };
+        if exit != Exit::Done && !self.printed.load(Ordering::Relaxed) {
+            // where stdout cannot be written to there is nobody to tell
+            drop(self.write(|out| out.write_all(&refusal.object(exit)?)));
         }
     }
 

@@ -8,7 +8,7 @@ use lptn_units::{Help, Problem};
 use crate::exit::Exit;
 
 /// What is printed, and the exit code.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Failure {
     pub(crate) exit: Exit,
     pub(crate) files: Files,

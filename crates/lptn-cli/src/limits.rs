@@ -13,6 +13,7 @@ use serde_json::{Map, Value, json};
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::families::{self, Row};
+use crate::scale;
 use crate::words::{count, spaced};
 
 /// Digits of a margin.
@@ -198,31 +199,24 @@ fn verdict(judged: &Judged, limit: &Limit, clock: Clock) -> String {
 
 /// A number in the unit that is shown for its type.
 fn number(value: f64, ty: Type, unit: &Unit) -> String {
-    if ty.absolute {
-        return format!("{} {}", significant(unit.from_si(value), DIGITS), unit.text);
-    }
-    if ty == Type::of(Dimension::TEMPERATURE) {
-        let kelvin = (unit.scale - 1.0).abs() < 1e-12;
-        return format!(
-            "{} {}",
-            significant(value / unit.scale, DIGITS),
-            if kelvin { "K" } else { "degR" }
-        );
-    }
-    format!("{}{}", significant(value, DIGITS), spaced(&ty.dimension.si_unit()))
+    let (value, unit) = scale::in_unit(value, ty, unit);
+    format!("{}{}", significant(value, DIGITS), spaced(&unit))
 }
 
 /// Members by the limit's name:
 /// `{ of, below or above, worst, margin, worst_at, broken_at, severity, kept }`, in the results and
-/// in the manifest. `worst` is the value of `of` where the margin is least; where a limit is not
-/// judged `worst`, `margin` and `kept` are null. Nothing without limits.
-pub(crate) fn members(network: &Network, limits: &[Judged]) -> Option<Map<String, Value>> {
+/// in the manifest, temperatures in `unit`. `worst` is the value of `of` where the margin is least;
+/// where a limit is not judged `worst`, `margin` and `kept` are null. Nothing without limits.
+pub(crate) fn members(
+    network: &Network,
+    limits: &[Judged],
+    unit: &Unit,
+) -> Option<Map<String, Value>> {
     let one = |judged: &Judged| {
         let limit = &network.limits()[judged.limit.index()];
         let time = |time: Option<f64>| time.map(|time| SiValue::new(time, "s"));
-        let scalar = |value: f64| {
-            (!value.is_nan()).then(|| SiValue::new(value, &limit.ty.dimension.si_unit()))
-        };
+        let scalar =
+            |value: f64, ty: Type| (!value.is_nan()).then(|| scale::scalar(value, ty, unit));
         let bound = bound(network, limit);
         let worst = match limit.bound {
             Bound::Below => bound - judged.margin,
@@ -230,9 +224,9 @@ pub(crate) fn members(network: &Network, limits: &[Judged]) -> Option<Map<String
         };
         let member = json!({
             "of": limit.text,
-            limit.bound.field().key(): scalar(bound),
-            "worst": scalar(worst),
-            "margin": scalar(judged.margin),
+            limit.bound.field().key(): scalar(bound, limit.ty),
+            "worst": scalar(worst, limit.ty),
+            "margin": scalar(judged.margin, limit.margin_type()),
             "worst_at": time(judged.worst_at),
             "broken_at": time(judged.broken_at),
             "severity": if limit.severity == LimitSeverity::Error { "error" } else { "warning" },

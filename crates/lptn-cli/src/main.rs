@@ -25,7 +25,9 @@ mod lumping;
 mod options;
 mod panic_net;
 mod progress;
+mod refusal;
 mod reporting;
+mod scale;
 mod select;
 mod sense;
 mod verbs;
@@ -60,6 +62,7 @@ fn main() -> ExitCode {
     if let Err(failure) = console.write_report(verb, known) {
         exit = refused(failure);
     }
+    console.answer_failure(exit);
     ExitCode::from(exit as u8)
 }
 

@@ -234,7 +234,7 @@ fn the_json_of_steady_has_its_schema() {
     let json =
         Folder::with_gearbox().run(&["steady", "gearbox.toml", "--format", "json"]).exits(0).json();
     assert_eq!(keys(&json), ["format", "network", "warnings", "values"]);
-    assert_scalars(&json["values"], &["K", "W"]);
+    assert_scalars(&json["values"], &["degC", "W"]);
 }
 
 #[test]
@@ -247,7 +247,7 @@ fn the_json_of_check_has_its_schema() {
     );
     assert_eq!(json["ok"], false);
     let error = &json["errors"][0];
-    assert_eq!(keys(error), ["severity", "code", "message", "places", "help", "notes"]);
+    assert_eq!(keys(error), ["severity", "code", "message", "places", "help", "fix", "notes"]);
     let line = 1 + GEARBOX.lines().position(|line| line.contains("to = \"bed\"")).unwrap();
     assert_eq!(
         (&error["code"], &error["places"][0]["line"]),

@@ -4,7 +4,8 @@
 //! A block ` ```console ` holds commands, each after `$ `, and their output. The commands of a page
 //! run one after the other through `sh` in a temporary folder of its own that holds a copy of
 //! `networks/` and `docs/records/`, and the blocks of the page that have a file name:
-//! ` ```toml motor.toml `, ` ```csv points.csv `.
+//! ` ```toml motor.toml `, ` ```csv points.csv `, ` ```python loop.py `. ` ```python plot.py
+//! optional ` needs packages that may not be there and is only compiled.
 //!
 //! - A block that shows any output shows all of it, stdout and stderr as a terminal would; a line
 //!   `..` stands for lines that are left out, `[..]` for a part of a line. A block that shows none
@@ -173,7 +174,8 @@ impl Page {
                     self.console(&block);
                 }
                 ("console", "by-hand") => self.by_hand(&block),
-                ("toml" | "csv", file) if file.contains('.') => {
+                ("python", file) if file.ends_with(" optional") => self.compiles(&block),
+                ("toml" | "csv" | "python", file) if file.contains('.') => {
                     let text = self.lines[block.lines.clone()].join("\n") + "\n";
                     self.folder.write(file, &text);
                 }
@@ -193,6 +195,16 @@ impl Page {
 
     fn complain(&mut self, line: usize, what: &str) {
         writeln!(self.wrong, "{}:{}: {what}", self.name, line + 1).unwrap();
+    }
+
+    /// Python that needs more than the tests may ask for is read, not run.
+    fn compiles(&mut self, block: &Block) {
+        let text = self.lines[block.lines.clone()].join("\n") + "\n";
+        self.folder.write("optional.py", &text);
+        let (code, found) = self.execute("python3 -m py_compile optional.py");
+        if code != Some(0) {
+            self.complain(block.lines.start, &found.join("\n"));
+        }
     }
 
     fn by_hand(&mut self, block: &Block) {

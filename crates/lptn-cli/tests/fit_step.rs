@@ -38,8 +38,8 @@ fn analytic_an_exact_exponential_is_found() {
         .exits(0)
         .json();
     let ring = &json["columns"]["ring"];
-    near(&ring["T_i"], T_I + 273.15, "K", 1e-9);
-    near(&ring["T_f"], T_F + 273.15, "K", 1e-9);
+    near(&ring["T_i"], T_I, "degC", 1e-8);
+    near(&ring["T_f"], T_F, "degC", 1e-9);
     near(&ring["t_RC"], T_RC, "s", 1e-7);
     for name in ["T_i", "T_f", "t_RC"] {
         assert!(ring[name]["standard_error"].as_f64().unwrap() < 1e-6, "{ring}");
@@ -142,7 +142,7 @@ fn a_window_begins_a_curve_of_its_own() {
     let json = run(&["--from", "5 min", "--to", "20 min"]);
     let ring = &json["columns"]["ring"];
     // the same curve, its start moved along it
-    near(&ring["T_i"], T_F + (T_I - T_F) * (-300.0 / T_RC).exp() + 273.15, "K", 1e-9);
+    near(&ring["T_i"], T_F + (T_I - T_F) * (-300.0 / T_RC).exp(), "degC", 1e-9);
     near(&ring["t_RC"], T_RC, "s", 1e-7);
     near(&json["from"], 300.0, "s", 0.0);
     near(&json["to"], 1200.0, "s", 0.0);
@@ -244,7 +244,7 @@ fn analytic_the_bias_of_a_model_stands_apart() {
     let model = run("one.toml", "block");
     near(&model["t_RC"]["network"], 2659.0 * 0.3, "s", 1e-12);
     near(&model["t_RC"]["fitted"], 2659.0 * 0.3, "s", 1e-5);
-    near(&model["T_f"]["fitted"], 25.5 + 66.0 + 273.15, "K", 1e-5);
+    near(&model["T_f"]["fitted"], 25.5 + 66.0, "degC", 1e-5);
     assert!(model["P"]["bias"]["value"].as_f64().unwrap().abs() < 0.01, "{model}");
     // C_sum R_eq = 2659 J/K (1.7 K + 65.5 K) / 220.6 W = 810.0 s; one exponential through its steel
     // finds less
@@ -298,8 +298,8 @@ fn reference_the_fit_is_that_of_scipy() {
         .exits(0)
         .json();
     let ring = &json["columns"]["ring"];
-    near(&ring["T_i"], 25.390_270_54 + 273.15, "K", 1e-8);
-    near(&ring["T_f"], 92.718_064 + 273.15, "K", 1e-8);
+    near(&ring["T_i"], 25.390_270_54, "degC", 1e-7);
+    near(&ring["T_f"], 92.718_064, "degC", 1e-8);
     near(&ring["t_RC"], 809.786_305_86, "s", 1e-6);
     near(&ring["rms"], 0.106_156_196, "K", 1e-7);
     // the error for independent samples, sqrt(diag(pcov)) of scipy

@@ -56,7 +56,9 @@ fn json_has_each_limit_with_its_margin() {
 fn the_manifest_says_what_became_of_every_limit() {
     let folder =
         Folder::with("net.toml", &format!("{NET}cold = {{ of = \"a.T\", above = \"10 degC\" }}\n"));
-    let json = folder.run(&["run", "net.toml", "--format", "json"]).exits(1).json();
+    // the manifest is in K whatever is shown
+    let shown = ["run", "net.toml", "--format", "json", "--temperature-unit", "K"];
+    let json = folder.run(&shown).exits(1).json();
     let manifest: serde_json::Value =
         serde_json::from_str(&folder.read("out/net/manifest.json")).unwrap();
     let limits = &manifest["limits"];

@@ -52,7 +52,7 @@ fn a_window_stands_in_the_table_in_json_and_in_a_file() {
     assert!(min < mean && mean < steel["max"]["value"].as_f64().unwrap());
     assert_eq!(
         (steel["min_at"]["value"].as_f64(), steel["mean"]["unit"].as_str()),
-        (Some(600.0), Some("K"))
+        (Some(600.0), Some("degC"))
     );
     // a later run without windows leaves no old file behind
     folder.write("g.toml", GEARBOX);

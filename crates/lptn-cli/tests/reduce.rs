@@ -32,7 +32,7 @@ fn json_holds_what_the_design_promises() {
         (&1.into(), &"gearbox".into(), &"steel".into())
     );
     near(number(&json, &["R_eq"]), 67.2 / 220.6, 1e-12);
-    near(number(&json, &["T_ref"]), 298.65, 1e-14);
+    near(number(&json, &["T_ref"]), 25.5, 1e-14);
     near(number(&json, &["Q_N"]), 220.6, 1e-14);
     near(number(&json, &["boundary_weights", "bed"]), 0.7, 1e-12);
     near(number(&json, &["C_eq", "sum"]), 2659.0, 1e-12);

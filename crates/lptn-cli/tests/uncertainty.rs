@@ -112,7 +112,7 @@ fn json_has_every_answer_with_its_ranking() {
         (value(&end["high"]) - value(&end["value"]) - 1.959_963_985 * value(&end["sd"])).abs()
             < 1e-6
     );
-    assert_eq!(end["high"]["unit"], "K");
+    assert_eq!((&end["high"]["unit"], &end["sd"]["unit"]), (&"degC".into(), &"K".into()));
     assert_eq!(linear["bands"]["rows"].as_array().unwrap().len(), 301);
     let sampled = json(&sobol(&[]));
     let margin = &sampled["results"]["seals"]["margin"];

@@ -10,11 +10,13 @@ use lptn_report::{
     fixed, plain, significant, stacked,
 };
 use lptn_study::{Candidate, CompareRow, LimitResult, compare_table};
+use serde_json::Value;
 
 use super::Comparison;
 use crate::about;
 use crate::diagnostics;
 use crate::exit::Exit;
+use crate::scale;
 use crate::words::{count, spaced};
 
 /// What is not known or does not exist.
@@ -56,8 +58,12 @@ impl Page for Comparison {
         json.member("format", &1)?;
         json.member("network", &())?;
         json.member("warnings", &warnings.collect::<Vec<_>>())?;
-        json.member("errors", &errors.collect::<Vec<_>>())?;
-        json.table(&compare_table(&self.rows, &self.unit))
+        let errors: Value = errors.collect();
+        match self.exit() {
+            Exit::Done | Exit::No => json.member("errors", &errors)?,
+            exit => diagnostics::failed(json, exit, &errors)?,
+        }
+        json.table(&scale::table(&compare_table(&self.rows, &self.unit), &self.unit))
     }
 }
 

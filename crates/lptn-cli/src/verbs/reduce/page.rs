@@ -9,10 +9,12 @@ use lptn_report::{
     Json, Page, Report, Rows, Text, TextTable, decimals, duration, fixed, significant,
 };
 use lptn_study::SiValue;
+use lptn_units::Unit;
 use serde_json::{Value, json};
 
 use super::View;
 use crate::about::{self, Known};
+use crate::scale;
 use crate::words::count;
 
 impl Page for View<'_> {
@@ -52,12 +54,12 @@ impl Page for View<'_> {
         self.input.head(json, &[])?;
         json.member("port", &self.args.port)?;
         json.member("R_eq", &scalar(norton.resistance, "K/W"))?;
-        json.member("T_ref", &scalar(inputs.reference, "K"))?;
+        json.member("T_ref", &scale::temperature(inputs.reference, &self.unit))?;
         json.member("Q_N", &scalar(inputs.heat, "W"))?;
         json.member("boundary_weights", &named(boundaries, &norton.boundary_weights))?;
         json.member("source_weights", &named(sources, &norton.source_weights))?;
-        dynamics(self.reduction.dynamics.as_ref(), json)?;
-        json.optional("bias", self.bias.as_ref().map(of_bias))?;
+        dynamics((self.reduction.dynamics.as_ref(), &self.unit), json)?;
+        json.optional("bias", self.bias.as_ref().map(|bias| of_bias(bias, &self.unit)))?;
         json.member("notes", &self.notes())
     }
 }
@@ -302,7 +304,7 @@ fn pairs(dynamics: &Dynamics) -> TextTable {
         .into()
 }
 
-fn dynamics(dynamics: Option<&Dynamics>, json: &mut Json<'_>) -> io::Result<()> {
+fn dynamics((dynamics, unit): (Option<&Dynamics>, &Unit), json: &mut Json<'_>) -> io::Result<()> {
     let Some(dynamics) = dynamics else {
         return ["C_eq", "errors", "recommended"]
             .into_iter()
@@ -313,8 +315,8 @@ fn dynamics(dynamics: Option<&Dynamics>, json: &mut Json<'_>) -> io::Result<()> 
     };
     json.member("C_eq", &by_name(&|pair| json!(scalar(pair.capacity, "J/K"))))?;
     let errors = |pair: &lptn_reduce::Pair| {
-        let run = pair.run.as_ref().map(error);
-        json!({ "step": error(&pair.step), "run": run })
+        let run = pair.run.as_ref().map(|run| error(run, unit));
+        json!({ "step": error(&pair.step, unit), "run": run })
     };
     json.member("errors", &by_name(&errors))?;
     json.member("recommended", dynamics.recommended.definition.key())?;
@@ -326,27 +328,27 @@ fn dynamics(dynamics: Option<&Dynamics>, json: &mut Json<'_>) -> io::Result<()> 
         LeastSquaresWindow::TimeConstants(_) => "five time constants",
     };
     json.member("window", &json!({ "value": dynamics.window.length(), "unit": "s", "from": of }))?;
-    let kelvin = |value: f64| scalar(value, "K");
+    let kelvin = |value: f64| scale::of_difference(value, unit);
     json.member("rise", &dynamics.rise.map(kelvin))?;
     json.member("tolerance", &dynamics.tolerance.map(kelvin))
 }
 
-fn error(deviation: &Deviation) -> Value {
+fn error(deviation: &Deviation, unit: &Unit) -> Value {
     json!({
-        "max": scalar(deviation.kelvin, "K"),
+        "max": scale::of_difference(deviation.kelvin, unit),
         "relative": deviation.relative.map(|relative| scalar(relative, "1")),
         "time": scalar(deviation.time, "s"),
     })
 }
 
-fn of_bias(bias: &Result<Bias, FitError>) -> Value {
+fn of_bias(bias: &Result<Bias, FitError>, unit: &Unit) -> Value {
     match bias {
         Err(error) => json!({ "code": error.code(), "message": error.to_string() }),
         Ok(bias) => json!({
-            "T_i": scalar(bias.fit.initial, "K"),
-            "T_f": scalar(bias.fit.settled, "K"),
+            "T_i": scale::temperature(bias.fit.initial, unit),
+            "T_f": scale::temperature(bias.fit.settled, unit),
             "t_RC": scalar(bias.fit.tau, "s"),
-            "rms": scalar(bias.fit.rms, "K"),
+            "rms": scale::of_difference(bias.fit.rms, unit),
             "points": json!({ "value": bias.points, "unit": "1" }),
             "C_eq": scalar(bias.capacity, "J/K"),
             "R_eq": scalar(bias.resistance, "K/W"),

@@ -23,7 +23,7 @@ use crate::files::Folder;
 use crate::files::names::{EVENTS, MANIFEST, RANKING, RESULT, STATE, UNCERTAINTY, WINDOWS};
 use crate::input::quoted;
 use crate::limits::{self, Judged};
-use crate::{files, lumping, select, sense};
+use crate::{files, lumping, scale, select, sense};
 
 /// What came of it.
 pub(crate) struct Outcome<'a> {
@@ -84,10 +84,12 @@ impl Outcome<'_> {
             end: RunEnd::of(&self.solution, settings.stop, self.ended_early()),
             statistics: StatisticsRecord::new(&self.solution),
             ledger: self.ledger(),
-            limits: limits::members(self.solution.network(), &self.limits()).unwrap_or_default(),
+            limits: limits::members(self.solution.network(), &self.limits(), &scale::kelvin())
+                .unwrap_or_default(),
             uncertainty: self.uncertainty().map(|study| {
                 let mut members = uncertain::method(&study.found);
-                let parameters = uncertain::parameters(self.solution.network(), &study.found);
+                let of = (self.solution.network(), &scale::kelvin());
+                let parameters = uncertain::parameters(of, &study.found);
                 members.insert("parameters".into(), parameters);
                 Value::Object(members)
             }),
@@ -221,6 +223,21 @@ impl Outcome<'_> {
         }
     }
 
+    /// Why this is not a whole result, where it is not.
+    pub(super) fn failed(&self) -> Option<Failure> {
+        let at = |exit, problem| Failure::at(exit, self.job.input.netlist.files.clone(), problem);
+        if let Some(problem) = &self.failure {
+            return Some(at(Exit::Failed, problem.clone()));
+        }
+        if let Some(message) = self.ended_early() {
+            return Some(at(Exit::Interrupted, Diagnostic::error("run::interrupted", message)));
+        }
+        if !self.solution.ledger().closes() {
+            return Some(at(Exit::Failed, does_not_close(&self.solution)));
+        }
+        self.uncertainty.as_ref()?.as_ref().err().cloned()
+    }
+
     /// The exit code, after saying why it is not 0.
     pub(crate) fn conclude(&self, console: &Console, files: bool) -> Exit {
         let kept = if files {
@@ -228,22 +245,15 @@ impl Outcome<'_> {
         } else {
             "the rows up to then are whole"
         };
-        if let Some(problem) = &self.failure {
-            console.report(&self.job.input.netlist.files, std::slice::from_ref(problem));
-            console.message(&format!("failed: {kept}"));
-            return Exit::Failed;
-        }
-        if let Some(message) = self.ended_early() {
-            console.message(&format!("{message}: {kept}"));
-            return Exit::Interrupted;
-        }
-        if !self.solution.ledger().closes() {
-            let problem = does_not_close(&self.solution);
-            console.report(&self.job.input.netlist.files, &[problem]);
-            return Exit::Failed;
-        }
-        if let Some(Err(failure)) = &self.uncertainty {
-            console.report(&failure.files, &failure.diagnostics);
+        if let Some(failure) = self.failed() {
+            match (&self.failure, self.ended_early()) {
+                (None, Some(message)) => console.message(&format!("{message}: {kept}")),
+                (broken_off, _) => {
+                    console.report(&failure.files, &failure.diagnostics);
+                    let said = broken_off.iter().map(|_| format!("failed: {kept}"));
+                    said.for_each(|said| console.message(&said));
+                }
+            }
             return failure.exit;
         }
         self.judge(console)

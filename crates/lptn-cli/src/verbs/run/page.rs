@@ -16,7 +16,7 @@ use super::{events, state, uncertainty, windows};
 use crate::console::Detail;
 use crate::doubts::others;
 use crate::words::MOST_NODES;
-use crate::{balance, families, limits, lumping};
+use crate::{balance, diagnostics, families, limits, lumping, scale};
 
 /// Characters of a curve.
 const CURVE: usize = 16;
@@ -77,21 +77,25 @@ impl Page for Outcome<'_> {
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        let network = self.solution.network();
+        let (network, unit) = (self.solution.network(), &self.job.unit);
         self.job.input.head(json, &[self.doubts(), self.found()].concat())?;
-        json.table(&self.shown_table())?;
+        json.table(&scale::table(&self.shown_table(), unit))?;
         json.member("events", &events::json(&self.solution))?;
         json.member("ledger", &self.ledger())?;
-        let uncertain = |study| uncertainty::files::json(network, study);
+        let uncertain = |study| uncertainty::files::json(network, study, unit);
         let windowed = !self.job.settings.windows.is_empty();
-        json.optional("limits", limits::members(network, &self.limits()))?;
+        json.optional("limits", limits::members(network, &self.limits(), unit))?;
         json.optional("uncertainty", self.uncertainty().map(uncertain))?;
-        json.optional("windows", windowed.then(|| windows::members(self.solution.windows())))?;
+        let windows = || windows::members(self.solution.windows(), unit);
+        json.optional("windows", windowed.then(windows))?;
         json.optional("balance", self.solution.balance().map(|of| balance::json(network, of)))?;
         json.member("lumping", &lumping::json(network, &self.lumping))?;
         json.member("statistics", &StatisticsRecord::new(&self.solution))?;
         let end = |message| RunEnd::of(&self.solution, self.job.settings.stop, Some(message));
-        json.optional("end", self.ended_early().map(end))
+        json.optional("end", self.ended_early().map(end))?;
+        let Some(failure) = self.failed() else { return Ok(()) };
+        let errors = diagnostics::list(&failure.files, &failure.diagnostics);
+        diagnostics::failed(json, failure.exit, &errors)
     }
 }
 

@@ -6,6 +6,7 @@ use lptn_study::SiValue;
 use lptn_units::Unit;
 use serde_json::{Map, Value, json};
 
+use crate::scale;
 use crate::words::{MOST_NODES, symbol};
 
 /// A section for each window.
@@ -68,11 +69,12 @@ pub(crate) fn rows(windows: &[WindowSeen], unit: &Unit) -> Vec<Vec<String>> {
 }
 
 /// Members by the window's name:
-/// `{ from, to, columns: { NAME: { mean, min, min_at, max, max_at } } }`, in SI.
-pub(crate) fn members(windows: &[WindowSeen]) -> Map<String, Value> {
+/// `{ from, to, columns: { NAME: { mean, min, min_at, max, max_at } } }`, in SI but for
+/// temperatures, which are in `unit`.
+pub(crate) fn members(windows: &[WindowSeen], unit: &Unit) -> Map<String, Value> {
     let time = |time: f64| SiValue::new(time, "s");
     let column = |c: &ColumnSeen| {
-        let scalar = |value: f64| SiValue::new(value, &c.ty.dimension.si_unit());
+        let scalar = |value: f64| scale::scalar(value, c.ty, unit);
         let member = json!({
             "mean": scalar(c.mean),
             "min": scalar(c.min.0),

@@ -39,7 +39,6 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
     let view = View {
         input: &input,
         steady: &steady,
-        selection: &selection,
         table: &table,
         unit: &unit,
         limits: &limits,

@@ -9,8 +9,7 @@ use lptn_report::{
     Claim, Clock, Json, Page, Report, Rows, Text, TextTable, decimals, fixed, prefix, shortened,
     significant,
 };
-use lptn_solve::{Balance, Selection, SteadyState, Table};
-use lptn_study::SiValue;
+use lptn_solve::{Balance, SteadyState, Table};
 use lptn_units::Unit;
 use serde_json::{Map, json};
 
@@ -20,7 +19,7 @@ use crate::doubts::{adiabatic, inputs_vary, others};
 use crate::input::Input;
 use crate::limits::{self, Judged, Judgement};
 use crate::words::{difference, largest, some_of};
-use crate::{balance, families, sense};
+use crate::{balance, families, scale, sense};
 
 /// Rises in K and heats in W below this are what rounding left over: no unit and no decimals are
 /// chosen to show them.
@@ -30,7 +29,6 @@ const NOISE: f64 = 1e-9;
 pub(super) struct View<'a> {
     pub(super) input: &'a Input,
     pub(super) steady: &'a SteadyState,
-    pub(super) selection: &'a Selection,
     /// What is selected, in the unit that is shown.
     pub(super) table: &'a Table,
     pub(super) unit: &'a Unit,
@@ -292,15 +290,14 @@ impl Page for View<'_> {
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let netlist = &self.input.netlist;
-        let kelvin = Unit { text: "K".into(), scale: 1.0, offset: 0.0, ty: self.unit.ty };
-        let table = Table::of_steady(&netlist.network, self.steady, self.selection, &kelvin);
-        let table = table.map_err(io::Error::other)?;
-        let value =
-            |c: &lptn_solve::Column| (c.name.clone(), json!(SiValue::new(c.values[0], &c.unit)));
+        let table = scale::table(self.table, self.unit);
+        let value = |c: &lptn_solve::Column| {
+            (c.name.clone(), json!({ "value": c.values[0], "unit": c.unit }))
+        };
         let found = self.doubts().into_iter().chain(sense::of_steady(netlist, self.steady));
         self.input.head(json, &found.collect::<Vec<_>>())?;
         json.member("values", &table.columns().iter().map(value).collect::<Map<_, _>>())?;
-        json.optional("limits", limits::members(&netlist.network, self.limits))?;
+        json.optional("limits", limits::members(&netlist.network, self.limits, self.unit))?;
         json.optional("balance", self.balance.map(|of| balance::json(&netlist.network, of)))
     }
 }

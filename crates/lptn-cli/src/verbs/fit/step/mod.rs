@@ -29,6 +29,8 @@ pub(crate) struct Answer<'a> {
     pub(crate) without: Vec<(&'a str, &'static str)>,
     pub(crate) model: Option<Model>,
     pub(crate) warnings: Vec<Diagnostic>,
+    /// 0 unless a column has no fit.
+    pub(crate) exit: Exit,
 }
 
 /// A column with its fit.
@@ -64,7 +66,7 @@ pub(crate) fn step(args: &StepArgs, console: &Console) -> Result<Exit, Failure> 
     }
     let model = Model::read(args, &request)?;
     warnings.extend(problems.iter().cloned());
-    let answer = Answer { request: &request, columns, without, model, warnings };
+    let answer = Answer { request: &request, columns, without, model, warnings, exit };
     console.page(&answer, args.printed.format)?;
     console.report(files, &problems);
     Ok(exit)

@@ -3,6 +3,7 @@
 use std::io;
 
 use lptn_fit::step::{Estimated, FittedValue, Parted, Power, TwoExponentials};
+use lptn_netlist::{Diagnostic, Severity};
 use lptn_plot::Figure;
 use lptn_report::{
     Align, Column as TextColumn, Json, Look, Page, Report, Rows, Text, TextTable, WIDTH, plain,
@@ -10,14 +11,19 @@ use lptn_report::{
 };
 use lptn_solve::Table;
 use lptn_study::SiValue;
+use lptn_units::{Dimension, Type, Unit};
 use serde_json::{Map, Value, json};
 
 use super::estimate::{to_error, with_error};
 use super::model::Model;
-use super::request::Reference;
+use super::request::{Reference, Request};
 use super::{Answer, Column};
 use crate::about;
 use crate::diagnostics;
+use crate::scale;
+
+const TEMPERATURE: Type = Type::ABSOLUTE_TEMPERATURE;
+const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
 
 impl Page for Answer<'_> {
     fn text(&self) -> Text {
@@ -74,11 +80,8 @@ impl Page for Answer<'_> {
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let request = self.request;
-        let mut columns: Map<String, Value> = self
-            .columns
-            .iter()
-            .map(|c| (c.column.name.clone(), column(c, request.capacity.is_some())))
-            .collect();
+        let mut columns: Map<String, Value> =
+            self.columns.iter().map(|c| (c.column.name.clone(), column(c, request))).collect();
         for (name, code) in &self.without {
             columns.insert((*name).to_owned(), json!({ "error": code }));
         }
@@ -101,9 +104,16 @@ impl Page for Answer<'_> {
         json.member("to", &time(request.record.time.last()))?;
         json.member("reference", reference)?;
         json.member("capacity", &capacity)?;
-        json.member("sensor", &request.sensor.map(|class| scalar(class, "K")))?;
+        let sensor = request.sensor.map(|class| scale::of_difference(class, &request.unit));
+        json.member("sensor", &sensor)?;
         json.member("columns", &columns)?;
-        json.member("model", &self.model.as_ref().map(model))
+        json.member("model", &self.model.as_ref().map(|of| model(of, &request.unit)))?;
+        let errors: Vec<Diagnostic> =
+            self.warnings.iter().filter(|w| w.severity == Severity::Error).cloned().collect();
+        if errors.is_empty() {
+            return Ok(());
+        }
+        diagnostics::failed(json, self.exit, &diagnostics::list(&request.files, &errors))
     }
 }
 
@@ -287,82 +297,94 @@ fn scalar(value: f64, unit: &str) -> SiValue {
     SiValue::new(value, unit)
 }
 
-fn estimated(number: &Estimated, unit: &str) -> Value {
+/// What a number is, and the unit of temperatures.
+type Of<'a> = (Type, &'a Unit);
+
+fn estimated(number: &Estimated, (ty, unit): Of<'_>) -> Value {
+    let at = |value: f64| scale::in_unit(value, ty, unit);
+    let error = |value: f64| scale::in_unit(value, Type::of(ty.dimension), unit).0;
     let (low, high) = number.interval();
+    let (value, unit) = at(number.value);
     json!({
-        "value": number.value,
+        "value": value,
         "unit": unit,
-        "standard_error": number.standard_error,
-        "naive_standard_error": number.naive,
-        "interval_95": [low, high],
+        "standard_error": error(number.standard_error),
+        "naive_standard_error": error(number.naive),
+        "interval_95": [at(low).0, at(high).0],
     })
 }
 
-fn parted(number: &Parted, unit: &str) -> Value {
+fn parted(number: &Parted, (ty, unit): Of<'_>) -> Value {
+    let at = |value: f64| scale::in_unit(value, ty, unit).0;
     json!({
-        "value": number.value,
-        "unit": unit,
-        "standard_error": number.random,
-        "systematic_error": number.systematic,
-        "interval_95": [number.value - number.half_width, number.value + number.half_width],
+        "value": at(number.value),
+        "unit": scale::in_unit(0.0, ty, unit).1,
+        "standard_error": at(number.random),
+        "systematic_error": at(number.systematic),
+        "interval_95": [at(number.value - number.half_width), at(number.value + number.half_width)],
     })
 }
 
-fn column(column: &Column<'_>, with_capacity: bool) -> Value {
-    let (fit, power) = (&column.fit, &column.power);
+fn column(column: &Column<'_>, request: &Request) -> Value {
+    let (fit, power, unit) = (&column.fit, &column.power, &request.unit);
+    let reference = scale::in_unit(power.reference_temperature, TEMPERATURE, unit);
+    let kelvin = |value: f64| scale::of_difference(value, unit);
     let mut value = json!({
-        "T_i": estimated(&fit.initial, "K"),
-        "T_f": estimated(&fit.settled, "K"),
-        "t_RC": estimated(&fit.tau, "s"),
-        "rms": scalar(fit.rms, "K"),
+        "T_i": estimated(&fit.initial, (TEMPERATURE, unit)),
+        "T_f": estimated(&fit.settled, (TEMPERATURE, unit)),
+        "t_RC": estimated(&fit.tau, (Type::of(Dimension::TIME), unit)),
+        "rms": kelvin(fit.rms),
         "samples": fit.samples,
         "gaps": fit.gaps,
         "effective_samples": fit.noise.effective,
-        "resolution": fit.resolution.map(|step| scalar(step, "K")),
+        "resolution": fit.resolution.map(kelvin),
         "time_constants": fit.time_constants(),
-        "extrapolated": fit.extrapolates().then(|| scalar(fit.beyond, "K")),
-        "second_exponential": fit.second.offer.as_ref().map(two),
+        "extrapolated": fit.extrapolates().then(|| kelvin(fit.beyond)),
+        "second_exponential": fit.second.offer.as_ref().map(|of| two(of, unit)),
         "reference": {
-            "value": power.reference_temperature,
-            "unit": "K",
-            "standard_error": power.reference_error,
-            "drift": scalar(power.drift, "K"),
+            "value": reference.0,
+            "unit": reference.1,
+            "standard_error": scale::in_unit(power.reference_error, DIFFERENCE, unit).0,
+            "drift": kelvin(power.drift),
         },
-        "dT": parted(&power.rise, "K"),
+        "dT": parted(&power.rise, (DIFFERENCE, unit)),
     });
-    if with_capacity {
-        value["R_eq"] = parted(&power.resistance, "K/W");
-        value["P_disp"] = parted(&power.power, "W");
+    if request.capacity.is_some() {
+        value["R_eq"] = parted(&power.resistance, (Type::of(Dimension::RESISTANCE), unit));
+        value["P_disp"] = parted(&power.power, (Type::of(Dimension::POWER), unit));
     }
     value
 }
 
-fn two(two: &TwoExponentials) -> Value {
+fn two(two: &TwoExponentials, unit: &Unit) -> Value {
+    let list = |numbers: &[Estimated], ty: Type| {
+        numbers.iter().map(|number| estimated(number, (ty, unit))).collect::<Vec<_>>()
+    };
     json!({
-        "T_f": estimated(&two.settled, "K"),
-        "amplitudes": two.amplitudes.iter().map(|a| estimated(a, "K")).collect::<Vec<_>>(),
-        "time_constants": two.taus.iter().map(|tau| estimated(tau, "s")).collect::<Vec<_>>(),
-        "rms": scalar(two.rms, "K"),
+        "T_f": estimated(&two.settled, (TEMPERATURE, unit)),
+        "amplitudes": list(&two.amplitudes, DIFFERENCE),
+        "time_constants": list(&two.taus, Type::of(Dimension::TIME)),
+        "rms": scale::of_difference(two.rms, unit),
     })
 }
 
-fn model(model: &Model) -> Value {
-    let off = |off: &FittedValue, unit: &str| {
+fn model(model: &Model, unit: &Unit) -> Value {
+    let off = |off: &FittedValue, ty: Type| {
         json!({
-            "network": scalar(off.real, unit),
-            "fitted": scalar(off.fitted, unit),
-            "bias": scalar(off.bias(), unit),
+            "network": scale::scalar(off.real, ty, unit),
+            "fitted": scale::scalar(off.fitted, ty, unit),
+            "bias": scale::scalar(off.bias(), Type::of(ty.dimension), unit),
         })
     };
     let bias = &model.bias;
     json!({
         "port": model.port,
-        "T_i": off(&bias.initial, "K"),
-        "T_f": off(&bias.settled, "K"),
-        "t_RC": off(&bias.tau, "s"),
-        "P": off(&bias.power, "W"),
+        "T_i": off(&bias.initial, TEMPERATURE),
+        "T_f": off(&bias.settled, TEMPERATURE),
+        "t_RC": off(&bias.tau, Type::of(Dimension::TIME)),
+        "P": off(&bias.power, Type::of(Dimension::POWER)),
         "C_sum": scalar(bias.capacity, "J/K"),
         "R_eq": scalar(bias.resistance, "K/W"),
-        "rms": scalar(bias.rms, "K"),
+        "rms": scale::of_difference(bias.rms, unit),
     })
 }

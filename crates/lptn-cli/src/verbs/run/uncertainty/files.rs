@@ -6,10 +6,11 @@ use lptn_study::SiValue;
 use lptn_study::uncertainty::{
     Answer, AnswerOf, Contribution, Discrepancy, Estimate, Lost, Uncertainty, UncertaintyMethod,
 };
-use lptn_units::{Dimension, Unit};
+use lptn_units::{Dimension, Type, Unit};
 use serde_json::{Map, Value, json};
 
 use super::Study;
+use crate::scale;
 use crate::words::difference;
 
 /// The rows of `uncertainty.csv`: the time, then for each node its temperature as in `result.csv`,
@@ -69,11 +70,14 @@ pub(crate) fn parameter(network: &Network, found: &Uncertainty, input: usize) ->
 
 /// The SI unit of a difference of two values of an answer.
 pub(crate) fn unit_of(network: &Network, of: AnswerOf) -> String {
-    let dimension = match of {
-        AnswerOf::End(_) | AnswerOf::Max(_) => Dimension::TEMPERATURE,
-        AnswerOf::Margin(id) => network.limits()[id.index()].ty.dimension,
-    };
-    dimension.si_unit()
+    type_of(network, of).dimension.si_unit()
+}
+
+fn type_of(network: &Network, of: AnswerOf) -> Type {
+    match of {
+        AnswerOf::End(_) | AnswerOf::Max(_) => Type::ABSOLUTE_TEMPERATURE,
+        AnswerOf::Margin(id) => network.limits()[id.index()].margin_type(),
+    }
 }
 
 /// What was done: method, samples, seed, runs without a result.
@@ -106,13 +110,12 @@ fn one_lost(lost: &Lost) -> Value {
     })
 }
 
-/// The parameters with `±` by name, in SI units.
-pub(crate) fn parameters(network: &Network, found: &Uncertainty) -> Value {
+/// The parameters with `±` by name, in SI units but for temperatures.
+pub(crate) fn parameters((network, unit): (&Network, &Unit), found: &Uncertainty) -> Value {
     let one = |(i, input): (usize, &lptn_study::uncertainty::Uncertain)| {
         let ty = network.parameters()[input.parameter.index()].ty;
-        let unit = ty.dimension.si_unit();
-        let value = SiValue::new(input.value, &unit);
-        let member = json!({ "value": value, "sd": SiValue::new(input.deviation, &unit) });
+        let sd = scale::scalar(input.deviation, Type::of(ty.dimension), unit);
+        let member = json!({ "value": scale::scalar(input.value, ty, unit), "sd": sd });
         (parameter(network, found, i), member)
     };
     Value::Object(found.inputs.iter().enumerate().map(one).collect())
@@ -120,34 +123,30 @@ pub(crate) fn parameters(network: &Network, found: &Uncertainty) -> Value {
 
 /// The member `uncertainty` of the results: method, parameters, and by the name of the column or
 /// limit what was found.
-pub(crate) fn json(network: &Network, study: &Study) -> Value {
+pub(crate) fn json(network: &Network, study: &Study, unit: &Unit) -> Value {
     let found = &study.found;
     let mut members = method(found);
-    members.insert("parameters".into(), parameters(network, found));
+    members.insert("parameters".into(), parameters((network, unit), found));
     let mut results = Map::new();
     for answer in &found.answers {
         let (name, part) = place(network, answer.of);
         let entry = results.entry(name).or_insert_with(|| json!({}));
         if let Value::Object(entry) = entry {
-            entry.insert(part.into(), of_answer(network, found, answer));
+            entry.insert(part.into(), of_answer((network, unit), found, answer));
         }
     }
     members.insert("results".into(), Value::Object(results));
     if let Some(Ok(differ)) = &study.linear {
-        members
-            .insert("not_linear".into(), differ.iter().map(|one| differs(network, one)).collect());
+        let differ = differ.iter().map(|one| differs(network, one, unit)).collect();
+        members.insert("not_linear".into(), differ);
     }
-    members.insert("bands".into(), rows(network, found));
+    members.insert("bands".into(), rows(network, found, unit));
     Value::Object(members)
 }
 
-/// A band that straight lines give wrongly, in SI units.
-fn differs(network: &Network, one: &Discrepancy) -> Value {
-    let unit = match one.of {
-        AnswerOf::Margin(_) => unit_of(network, one.of),
-        _ => "K".to_owned(),
-    };
-    let scalar = |value: f64| SiValue::new(value, &unit);
+/// A band that straight lines give wrongly.
+fn differs(network: &Network, one: &Discrepancy, unit: &Unit) -> Value {
+    let scalar = |value: f64| scale::scalar(value, type_of(network, one.of), unit);
     let band = |(low, high): (f64, f64)| json!({ "low": scalar(low), "high": scalar(high) });
     let (name, part) = place(network, one.of);
     let time = one.time.map(|time| SiValue::new(time, "s"));
@@ -164,48 +163,46 @@ fn place(network: &Network, of: AnswerOf) -> (String, &'static str) {
     }
 }
 
-fn of_answer(network: &Network, found: &Uncertainty, answer: &Answer) -> Value {
-    let unit = unit_of(network, answer.of);
+fn of_answer((network, unit): (&Network, &Unit), found: &Uncertainty, answer: &Answer) -> Value {
+    let ty = type_of(network, answer.of);
+    let difference = Type::of(ty.dimension);
+    let value = |of: Estimate| estimate(of, ty, unit);
+    let number = |of: Estimate| estimate(of, Type::of(Dimension::NONE), unit);
     let mut member = Map::new();
-    member.insert("value".into(), json!(SiValue::new(answer.value, &unit)));
-    member.insert("sd".into(), estimate(answer.deviation, &unit));
-    member.insert("low".into(), estimate(answer.low, &unit));
+    member.insert("value".into(), scale::scalar(answer.value, ty, unit));
+    member.insert("sd".into(), estimate(answer.deviation, difference, unit));
+    member.insert("low".into(), value(answer.low));
     if let Some(median) = answer.median {
-        member.insert("median".into(), estimate(median, &unit));
+        member.insert("median".into(), value(median));
     }
-    member.insert("high".into(), estimate(answer.high, &unit));
+    member.insert("high".into(), value(answer.high));
     if matches!(answer.of, AnswerOf::Margin(_)) {
-        member.insert("probability_broken".into(), estimate(answer.below_zero, "1"));
+        member.insert("probability_broken".into(), number(answer.below_zero));
     }
     let part = |part: &Contribution| {
         let mut ranked = Map::new();
         ranked.insert("parameter".into(), json!(parameter(network, found, part.input)));
-        ranked.insert("effect".into(), json!(SiValue::new(part.effect, &unit)));
-        ranked.insert("share".into(), estimate(part.share, "1"));
-        ranked.extend(part.total.map(|total| ("total".to_owned(), estimate(total, "1"))));
+        ranked.insert("effect".into(), scale::scalar(part.effect, difference, unit));
+        ranked.insert("share".into(), number(part.share));
+        ranked.extend(part.total.map(|total| ("total".to_owned(), number(total))));
         Value::Object(ranked)
     };
     member.insert("ranking".into(), answer.ranking.iter().map(part).collect());
     Value::Object(member)
 }
 
-fn estimate(of: Estimate, unit: &str) -> Value {
-    let mut scalar = SiValue::new(of.value, unit).json();
+fn estimate(of: Estimate, ty: Type, unit: &Unit) -> Value {
+    let mut scalar = scale::scalar(of.value, ty, unit);
     if let (Some(error), Value::Object(scalar)) = (of.error, &mut scalar) {
+        let error = scale::in_unit(error, Type::of(ty.dimension), unit).0;
         scalar.insert("standard_error".into(), json!(error));
     }
     scalar
 }
 
-/// The bands at every row in SI units: `columns` with name and unit, and `rows` of plain numbers.
-fn rows(network: &Network, found: &Uncertainty) -> Value {
-    let kelvin = Unit {
-        text: "K".into(),
-        scale: 1.0,
-        offset: 0.0,
-        ty: lptn_units::Type::ABSOLUTE_TEMPERATURE,
-    };
-    let table = bands(network, found, &kelvin);
+/// The bands at every row: `columns` with name and unit, and `rows` of plain numbers.
+fn rows(network: &Network, found: &Uncertainty, unit: &Unit) -> Value {
+    let table = bands(network, found, unit);
     let columns: Vec<Value> =
         table.columns().iter().map(|c| json!({ "name": c.name, "unit": c.unit })).collect();
     let rows: Vec<Vec<f64>> = (0..table.rows()).map(|row| table.row(row).collect()).collect();

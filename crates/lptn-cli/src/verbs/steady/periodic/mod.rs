@@ -12,7 +12,7 @@ use lptn_solve::{
     Beyond, CycleMethod, Lumping, Periodic, PeriodicError, Table, Transient, Window, WindowSeen,
 };
 use lptn_study::SiValue;
-use lptn_units::{Dimension, Problem as _};
+use lptn_units::{Dimension, Problem as _, Type};
 use serde_json::{Map, Value, json};
 
 use super::SteadyArgs;
@@ -26,7 +26,7 @@ use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
 use crate::verbs::run::job::{Job, NoSteady, explain};
 use crate::verbs::run::outcome::Outcome;
-use crate::{balance, select, sense};
+use crate::{balance, scale, select, sense};
 
 /// The name of the window over the cycle.
 const CYCLE: &str = "cycle";
@@ -206,13 +206,14 @@ impl View<'_> {
             .map(|c| c.values.first().copied().unwrap_or(f64::NAN))
     }
 
-    /// By column: start, mean, extremes and swing in SI.
+    /// By column: start, mean, extremes and swing, temperatures in the unit that is shown.
     fn members(&self) -> Map<String, Value> {
         let unit = &self.outcome.job.unit;
         let seconds = |time: f64| SiValue::new(time, "s");
         let columns = self.cycle().into_iter().flat_map(|cycle| &cycle.columns).zip(self.starts());
         let member = |(seen, start): (&lptn_solve::ColumnSeen, f64)| {
-            let scalar = |value: f64| SiValue::new(value, &seen.ty.dimension.si_unit());
+            let scalar = |value: f64| scale::scalar(value, seen.ty, unit);
+            let swing = Type::of(seen.ty.dimension);
             let start = if seen.ty.absolute { unit.to_si(start) } else { start };
             let member = json!({
                 "start": scalar(start),
@@ -221,7 +222,7 @@ impl View<'_> {
                 "min_at": seconds(seen.min.1),
                 "max": scalar(seen.max.0),
                 "max_at": seconds(seen.max.1),
-                "swing": scalar(seen.max.0 - seen.min.0),
+                "swing": scale::scalar(seen.max.0 - seen.min.0, swing, unit),
             });
             (seen.name.clone(), member)
         };
@@ -230,7 +231,7 @@ impl View<'_> {
 
     fn search(&self) -> Value {
         let found = self.found;
-        let kelvin = |value: f64| SiValue::new(value, "K");
+        let kelvin = |value: f64| scale::of_difference(value, &self.outcome.job.unit);
         json!({
             "method": match found.method {
                 CycleMethod::Modes => "modes",

@@ -80,8 +80,8 @@ impl Page for View<'_> {
         json.member("columns", &self.members())?;
         json.member("search", &self.search())?;
         json.member("ledger", &self.outcome.ledger())?;
-        let network = solution.network();
-        json.optional("limits", limits::members(network, &self.outcome.limits()))?;
+        let (network, unit) = (solution.network(), &self.outcome.job.unit);
+        json.optional("limits", limits::members(network, &self.outcome.limits(), unit))?;
         json.optional("balance", solution.balance().map(|of| balance::json(network, of)))?;
         json.member("statistics", &StatisticsRecord::new(solution))
     }

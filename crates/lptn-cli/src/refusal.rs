@@ -1,0 +1,70 @@
+//! What programs get where a command fails: one object on stdout, as where it does not.
+
+use std::sync::{Mutex, PoisonError};
+
+use lptn_netlist::{Diagnostic, Files, Severity};
+use lptn_report::JsonWriter;
+use serde_json::Value;
+
+use crate::diagnostics;
+use crate::exit::Exit;
+
+/// What was said beside a result that is printed as JSON, errors and warnings apart.
+///
+/// stderr has the same in words: logs keep it, and a program that reads only stdout loses nothing.
+#[derive(Debug, Default)]
+pub(crate) struct Refusal {
+    said: Mutex<[Vec<Value>; 2]>,
+}
+
+impl Refusal {
+    /// One to fill where JSON was asked for.
+    pub(crate) fn wanted() -> Option<Self> {
+        let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
+        is_json(&words.collect::<Vec<_>>()).then(Self::default)
+    }
+
+    /// Takes note of what was said.
+    pub(crate) fn say(&self, files: &Files, diagnostics: &[Diagnostic]) {
+        let mut said = self.said.lock().unwrap_or_else(PoisonError::into_inner);
+        for diagnostic in diagnostics {
+            let list = usize::from(diagnostic.severity == Severity::Warning);
+            said[list].push(diagnostics::json(files, diagnostic));
+        }
+    }
+
+    /// The object in place of a result.
+    pub(crate) fn object(&self, exit: Exit) -> std::io::Result<Vec<u8>> {
+        let [mut errors, warnings] =
+            std::mem::take(&mut *self.said.lock().unwrap_or_else(PoisonError::into_inner));
+        if errors.is_empty() && exit == Exit::Interrupted {
+            let problem = Diagnostic::error("run::interrupted", "interrupted: there is no result");
+            errors.push(diagnostics::json(&Files::new(), &problem));
+        }
+        let mut json = JsonWriter::new(Vec::new());
+        json.member("format", &1)?;
+        diagnostics::failed(&mut json, exit, &errors.into())?;
+        json.member("warnings", &warnings)?;
+        json.finish()
+    }
+}
+
+/// Whether the words of a command ask for JSON. They are looked at themselves, for one that cannot
+/// be understood is answered in JSON too.
+fn is_json(words: &[String]) -> bool {
+    let options = words.split(|word| word == "--").next().unwrap_or_default();
+    options.iter().any(|word| word == "--format=json")
+        || options.windows(2).any(|pair| pair == ["--format", "json"])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_json;
+
+    #[test]
+    fn json_is_seen_among_words_that_cannot_be_understood() {
+        let asks = |text: &str| is_json(&text.split(' ').map(str::to_owned).collect::<Vec<_>>());
+        assert!(asks("run a.toml --format json") && asks("rum --format=json"));
+        assert!(!asks("run a.toml --format csv json") && !asks("run a.toml -- --format json"));
+    }
+}

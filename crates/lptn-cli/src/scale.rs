@@ -1,0 +1,58 @@
+//! Temperatures for programs: one unit in the whole object, the one that is shown. All else is in
+//! SI.
+
+use std::borrow::Cow;
+
+use lptn_solve::Table;
+use lptn_units::{Dimension, Type, Unit};
+use serde_json::{Value, json};
+
+use crate::words::difference;
+
+/// The unit in which files keep temperatures.
+pub(crate) fn kelvin() -> Unit {
+    Unit { text: "K".into(), scale: 1.0, offset: 0.0, ty: Type::ABSOLUTE_TEMPERATURE }
+}
+
+/// A value of SI with its unit: a temperature in `unit`, a difference of temperatures in K or degR
+/// as it goes with that.
+pub(crate) fn scalar(si: f64, ty: Type, unit: &Unit) -> Value {
+    let (value, unit) = in_unit(si, ty, unit);
+    json!({ "value": value, "unit": unit })
+}
+
+/// The same as a number, and its unit.
+pub(crate) fn in_unit(si: f64, ty: Type, unit: &Unit) -> (f64, String) {
+    match ty.dimension == Dimension::TEMPERATURE {
+        true if ty.absolute => (unit.from_si(si), unit.text.clone()),
+        true => (si / unit.scale, difference(unit).to_owned()),
+        false => (si, ty.dimension.si_unit()),
+    }
+}
+
+/// A temperature in K.
+pub(crate) fn temperature(kelvin: f64, unit: &Unit) -> Value {
+    scalar(kelvin, Type::ABSOLUTE_TEMPERATURE, unit)
+}
+
+/// A difference of temperatures in K.
+pub(crate) fn of_difference(kelvin: f64, unit: &Unit) -> Value {
+    scalar(kelvin, Type::of(Dimension::TEMPERATURE), unit)
+}
+
+/// A table whose temperatures are in `unit` with its differences, which CSV has in K, to match.
+pub(crate) fn table<'a>(table: &'a Table, unit: &Unit) -> Cow<'a, Table> {
+    if difference(unit) == "K" {
+        return Cow::Borrowed(table);
+    }
+    let rows: Vec<usize> = (0..table.rows()).collect();
+    let mut scaled = Table::of(&rows);
+    table.labels().iter().for_each(|of| scaled.label(&of.name, |&row| of.cells[row].clone()));
+    for of in table.columns() {
+        match of.unit.as_str() {
+            "K" => scaled.column(&of.name, difference(unit), |&row| of.values[row] / unit.scale),
+            own => scaled.column(&of.name, own, |&row| of.values[row]),
+        }
+    }
+    Cow::Owned(scaled.done())
+}
