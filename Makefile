@@ -5,7 +5,8 @@
 #              another (5,496 in all) and runs the tests of the crate each time: some ten hours on two cores. Results go to
 #              target/mutants/CRATE. MUTANTS="--shard 1/40" takes every fortieth place, in a quarter of an hour.
 # make fuzz    feeds six readers with inputs guided by coverage, FUZZ_MINUTES (5) each; fuzz/run says how
-# make dist    builds target/dist/lptn with link-time optimisation: see docs/performance.md
+# make dist    packs one program that runs on any Linux for x86-64, with manual pages, completions and networks, and a
+#              Python wheel of it: target/dist. See docs/install.md
 # make check-wasm  builds the core, which knows no C, for WebAssembly; says SKIPPED where no Rust can
 # SUNDIALS=bundled make demo    builds SUNDIALS itself: needs gcc, cmake and libclang only
 
@@ -21,8 +22,8 @@ demo: build
 build: setup
 	cargo build --release --locked -p lptn-cli $(features)
 
-dist: setup
-	cargo build --profile dist --locked -p lptn-cli $(features)
+dist:
+	@./.ci/dist
 
 test: setup-tests
 	cargo test --workspace --locked $(features)

@@ -3,14 +3,19 @@
 
 use std::path::{Path, PathBuf};
 
-/// README and everything below `docs`, sorted; `root` is the folder of the project.
+/// README and every page below `docs`, sorted; `root` is the folder of the project.
 pub fn pages(root: &Path) -> Vec<PathBuf> {
-    let mut pages = vec![root.join("README.md")];
-    for folder in ["docs", "docs/codes", "docs/elements"] {
-        let docs = std::fs::read_dir(root.join(folder)).expect("the folder of documentation");
-        pages.extend(docs.map(|entry| entry.expect("an entry").path()));
+    let (mut pages, mut folders) = (vec![root.join("README.md")], vec![root.join("docs")]);
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("the folder of documentation") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "md") {
+                pages.push(path);
+            }
+        }
     }
-    pages.retain(|path| path.extension().is_some_and(|ending| ending == "md"));
     pages.sort();
     pages
 }

@@ -18,7 +18,7 @@ use crate::options::{Color, Global};
 const WIDEST_HELP: usize = 100;
 
 /// The parser, with help as wide as the terminal.
-fn command() -> clap::Command {
+pub(crate) fn command() -> clap::Command {
     Args::command().term_width(terminal_width().min(WIDEST_HELP))
 }
 
@@ -35,8 +35,10 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
         }
         _ => None,
     };
-    let problem = verb.and_then(|verb| {
-        file_as_verb(verb).or_else(|| near_verb(verb)).or_else(|| path_as_verb(verb))
+    let problem = page_without_sign(error).or_else(|| {
+        verb.and_then(|verb| {
+            file_as_verb(verb).or_else(|| near_verb(verb)).or_else(|| path_as_verb(verb))
+        })
     });
     let global =
         Global { quiet: false, verbose: false, color: Color::Auto, plot: None, report: None };
@@ -66,6 +68,15 @@ fn wrong_usage(text: &str) -> Diagnostic {
         Some(tip) => problem.help(tip),
         None => problem.note(part),
     })
+}
+
+/// `--report page.html`, of which only `--report` is understood.
+fn page_without_sign(error: &clap::Error) -> Option<Diagnostic> {
+    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return None };
+    let is_page = Path::new(word).extension().is_some_and(|ending| ending == "html");
+    let message = format!("{word} stands alone: the file of a report is joined with =");
+    let problem = Diagnostic::error("input::report_file", message);
+    is_page.then(|| problem.help(format!("write --report={}", quoted(word))))
 }
 
 /// The name of a file in the place of a verb.

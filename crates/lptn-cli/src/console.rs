@@ -175,10 +175,10 @@ impl Console {
         }
     }
 
-    /// What to do next, for those who look on; left out in scripts and logs unless verbose.
-    pub(crate) fn hint(&self, text: &str) {
+    /// A command to type next, for those who look on; left out in scripts and logs unless verbose.
+    pub(crate) fn next(&self, command: &str) {
         if self.watched || self.verbose {
-            self.note(text);
+            self.note(&format!("next   {command}"));
         }
     }
 

@@ -31,6 +31,13 @@ pub(crate) struct Given {
     pub(crate) stem: String,
 }
 
+impl Given {
+    /// The name for a command that can be typed; `None` for stdin.
+    pub(crate) fn typed(&self) -> Option<String> {
+        (self.name != STDIN).then(|| quoted(&self.name))
+    }
+}
+
 /// Reads the file, or stdin for `-`.
 pub(crate) fn read(file: &Path) -> Result<Given, Failure> {
     if file.as_os_str() == "-" {
@@ -127,7 +134,7 @@ impl Input {
 
     /// The name for a command that can be typed; `None` for stdin.
     pub(crate) fn typed(&self) -> Option<String> {
-        (self.text.name != STDIN).then(|| quoted(&self.text.name))
+        self.text.typed()
     }
 
     /// The unit in which the file writes a parameter, else the usual one of its type.

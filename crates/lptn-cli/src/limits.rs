@@ -4,7 +4,7 @@ use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Bound, Item, Limit, LimitId, LimitSeverity, Network};
 use lptn_plot::figure::{Level, Panel};
 use lptn_plot::printed;
-use lptn_report::{Claim, Standing, TEMPERATURE, Text, TextTable, duration, significant};
+use lptn_report::{Claim, Clock, Standing, TEMPERATURE, Text, TextTable, duration, significant};
 use lptn_solve::LimitSeen;
 use lptn_study::SiValue;
 use lptn_units::{Dimension, Type, Unit};
@@ -83,18 +83,14 @@ pub(crate) struct Judgement<'a> {
     pub(crate) netlist: &'a Netlist,
     /// The unit of temperatures.
     pub(crate) unit: &'a Unit,
+    pub(crate) clock: Clock,
     pub(crate) limits: &'a [Judged],
 }
 
 /// A section with a line for each limit, and for each large family where they are to `fold`;
 /// nothing without limits.
-pub(crate) fn section(
-    text: &mut Text,
-    network: &Network,
-    limits: &[Judged],
-    unit: &Unit,
-    fold: bool,
-) {
+pub(crate) fn section(text: &mut Text, judgement: &Judgement<'_>, fold: bool) {
+    let Judgement { netlist: Netlist { network, .. }, unit, clock, limits } = *judgement;
     if limits.is_empty() {
         return;
     }
@@ -102,22 +98,32 @@ pub(crate) fn section(
     let rows = families::folded(limits.to_vec(), fold, |j| j.family(of(j)), |j| -j.margin);
     let table = TextTable::of(&rows).left("limit", |row| row.name.as_str());
     let mut table = families::members(table, &rows, "worst")
-        .left("wanted", |row| wanted(network, row.item.limit, unit))
+        .left("wanted", |row| of(&row.item).text.as_str())
         .names()
+        .left("", |row| bounded(network, row.item.limit, unit))
         .right("margin", |row| margin(&row.item, of(&row.item), unit));
     if limits.iter().any(|judged| judged.worst_at.is_some()) {
-        let time = |row: &Row<Judged>| row.item.worst_at.map(|time| duration(time, 3));
+        let time = |row: &Row<Judged>| row.item.worst_at.map(|time| clock.text(time, 3));
         table = table.right("least at", move |row| time(row).unwrap_or_else(|| "-".into()));
+        // a family has one more column
+        if rows.len() < limits.len() {
+            table = table.optional();
+        }
     }
-    let table = table.left("", |row| verdict(&row.item, of(&row.item)));
+    let table = table.left("", |row| verdict(&row.item, of(&row.item), clock));
     text.section().table(table.judged(|row| row.item.standing()));
 }
 
 /// "steel.T below 110 degC".
 fn wanted(network: &Network, id: LimitId, unit: &Unit) -> String {
+    format!("{} {}", network.limits()[id.index()].text, bounded(network, id, unit))
+}
+
+/// "below 110 degC".
+fn bounded(network: &Network, id: LimitId, unit: &Unit) -> String {
     let limit = &network.limits()[id.index()];
     let bound = number(bound(network, limit), limit.ty, unit);
-    format!("{} {} {bound}", limit.text, limit.bound.field().key())
+    format!("{} {bound}", limit.bound.field().key())
 }
 
 /// Marks the limits in the panels that show what they are of: temperatures, and columns by name.
@@ -176,15 +182,15 @@ fn margin(judged: &Judged, limit: &Limit, unit: &Unit) -> String {
     if judged.is_open() { "-".into() } else { number(judged.margin, limit.margin_type(), unit) }
 }
 
-fn verdict(judged: &Judged, limit: &Limit) -> String {
+fn verdict(judged: &Judged, limit: &Limit, clock: Clock) -> String {
     if judged.is_open() {
         return "not judged".into();
     }
     match (judged.is_broken(), judged.broken_at, limit.severity) {
         (false, ..) => "kept".into(),
-        (true, Some(time), LimitSeverity::Error) => format!("BROKEN from {}", duration(time, 4)),
+        (true, Some(time), LimitSeverity::Error) => format!("BROKEN from {}", clock.text(time, 4)),
         (true, Some(time), LimitSeverity::Warning) => {
-            format!("exceeded from {}", duration(time, 4))
+            format!("exceeded from {}", clock.text(time, 4))
         }
         (true, None, LimitSeverity::Error) => "BROKEN".into(),
         (true, None, LimitSeverity::Warning) => "exceeded".into(),
@@ -257,16 +263,16 @@ fn warning(judgement: &Judgement<'_>, judged: &Judged) -> Diagnostic {
 
 /// "`hot` (steel.T below 110 degC) by 3.2 K at 25 min, first after 12.05 min".
 fn words(judgement: &Judgement<'_>, judged: &Judged) -> String {
-    let Judgement { netlist: Netlist { network, .. }, unit, .. } = judgement;
+    let Judgement { netlist: Netlist { network, .. }, unit, clock, .. } = judgement;
     let limit = &network.limits()[judged.limit.index()];
     let by = number(-judged.margin, limit.margin_type(), unit);
     let mut text = format!("`{}` ({}) by {by}", limit.name, wanted(network, judged.limit, unit));
     match judged.worst_at {
-        Some(time) => text += &format!(" at {}", duration(time, 4)),
+        Some(time) => text += &format!(" at {}", clock.text(time, 4)),
         None => text += " in steady state",
     }
     if let Some(time) = judged.broken_at {
-        text += &format!(", first at {}", duration(time, 4));
+        text += &format!(", first at {}", clock.text(time, 4));
     }
     text
 }

@@ -9,6 +9,7 @@ mod about;
 mod args;
 mod balance;
 mod command;
+mod completion;
 mod console;
 mod diagnostics;
 mod doubts;
@@ -42,6 +43,7 @@ use failure::Failure;
 use verbs::Verb;
 
 fn main() -> ExitCode {
+    completion::answer_shell(command::command);
     let args = match command::parsed() {
         Ok(args) => args,
         Err(error) => return ExitCode::from(command::refuse(&error) as u8),

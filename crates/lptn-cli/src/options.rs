@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args as Arguments, ValueEnum};
-use lptn_report::Format;
+use lptn_report::{Format, TimeUnit};
 
 use crate::drawing::Drawing;
 
@@ -64,6 +64,15 @@ pub(crate) struct Times {
     /// Write a row every so often, such as 10s
     #[arg(long, value_name = "TIME")]
     pub(crate) every: Option<String>,
+}
+
+/// The unit in which times are shown.
+#[derive(Clone, Debug, Default, Arguments)]
+pub(crate) struct TimeScale {
+    /// Show times in s, min, h or d
+    #[arg(long, value_name = "UNIT", hide_possible_values = true)]
+    #[arg(value_parser = one_of(&TimeUnit::ALL, TimeUnit::symbol))]
+    pub(crate) time_unit: Option<TimeUnit>,
 }
 
 /// How a result is printed, of a verb that writes no files unless it is asked to.

@@ -2,7 +2,11 @@
 //!
 //! Without Chromium these tests say so and pass, unless `LPTN_REQUIRE_ORACLES` is set.
 
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    reason = "a test that cannot go on has failed, and one that cannot begin says why"
+)]
 
 mod common;
 

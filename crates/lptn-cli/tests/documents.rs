@@ -1,10 +1,11 @@
 //! Every command that README and docs show is run, and what they show of its output is what it
 //! prints.
 //!
-//! A block ` ```console ` holds commands, each after `$
-//! `, and their output. The commands of a page run one after the other through `sh` in a temporary folder of its own that holds a copy of `networks/` and `docs/records/`, and the blocks of the page that have a file name: ` ```toml motor.toml `,
-//! ` ```csv points.csv `, ` ```python loop.py `. ` ```python plot.py optional ` needs packages that
-//! may not be there and is only compiled.
+//! A block ` ```console ` holds commands, each after `$ `, and their output. The commands of a page
+//! run one after the other through `sh` in a temporary folder of its own that holds a copy of
+//! `networks/` and `docs/records/`, and the blocks of the page that have a file name:
+//! ` ```toml motor.toml `, ` ```csv points.csv `, ` ```python loop.py `.
+//! ` ```python plot.py optional ` needs packages that may not be there and is only compiled.
 //!
 //! - A block that shows any output shows all of it, stdout and stderr as a terminal would; a line
 //!   `..` stands for lines that are left out, `[..]` for a part of a line. A block that shows none
@@ -12,8 +13,9 @@
 //! - A command has to end with 0, or with the number that a comment behind it says:
 //!   `# exit code 1`.
 //! - What differs between machines is not compared: [`normal`] lists it.
-//! - ` ```console by-hand
-//!   ` is not run: it builds, installs or measures, and every command in it is one of [`BY_HAND`].
+//! - ` ```console by-hand ` is not run: it builds, installs or measures, and every command in it is
+//!   one of [`BY_HAND`].
+//! - A picture `pictures/NAME.svg` that a page shows is the `NAME.svg` that its commands wrote.
 //!
 //! `LPTN_BLESS=1 cargo test -p lptn-cli --test documents` writes what the commands print into the
 //! pages; what it writes has to be read as one who learns from it would. A block with `..` is not
@@ -236,6 +238,24 @@ impl Page {
         }
     }
 
+    /// Compares the pictures that the page shows with those that its commands drew.
+    fn pictures(&mut self) {
+        let shown: Vec<(usize, String)> =
+            self.lines.iter().enumerate().filter_map(picture).collect();
+        for (line, name) in shown {
+            let kept = root().join("docs/pictures").join(&name);
+            let drawn = std::fs::read(self.folder.path().join(&name)).ok();
+            if drawn.is_none() {
+                self.complain(line, &format!("no command of the page writes {name}"));
+            } else if std::fs::read(&kept).ok() != drawn {
+                self.complain(line, &format!("{name} is another picture now"));
+                if let (Some(_), Some(drawn)) = (std::env::var_os("LPTN_BLESS"), drawn) {
+                    std::fs::write(kept, drawn).unwrap();
+                }
+            }
+        }
+    }
+
     fn execute(&self, command: &str) -> (Option<i32>, Vec<String>) {
         let path = std::env::var("PATH").unwrap_or_default();
         let mut shell = Command::new("sh");
@@ -256,6 +276,13 @@ impl Page {
     }
 }
 
+/// The picture that a line shows.
+fn picture((number, line): (usize, &String)) -> Option<(usize, String)> {
+    let (_, path) = line.strip_prefix("![")?.split_once("](")?;
+    let name = path.strip_suffix(')')?.rsplit('/').next()?;
+    name.ends_with(".svg").then(|| (number, name.to_owned()))
+}
+
 fn is_command(line: &str) -> bool {
     line.starts_with("$ ") || line.starts_with("lptn ")
 }
@@ -266,6 +293,7 @@ fn commands_in_documents_print_what_they_show() {
     for path in pages(&root()) {
         let mut page = Page::open(&path);
         count += page.run();
+        page.pictures();
         wrong += &page.wrong;
         if std::env::var_os("LPTN_BLESS").is_some() && !page.blessed.is_empty() {
             page.bless();

@@ -288,3 +288,37 @@ fn what_is_wrong_with_the_question() {
     let csv = folder.run(&["fit", "network", "body.toml", "--format", "csv"]).exits(0);
     assert!(csv.out.starts_with("parameter,unit,state,value [unit]"), "{}", csv.out);
 }
+
+/// The record holds the curve of the parameters that are fitted: nothing is left but rounding.
+#[test]
+fn residuals_are_written_beside_the_answer() {
+    let folder = folder(OWN, "vary = [\"P\", \"C\"]");
+    let asked = ["fit", "network", "body.toml", "-o", "found", "--format", "json"];
+    let run =
+        folder.run(&asked).exits(0).says("wrote  found/residuals.csv, fit.json, manifest.json");
+    assert_eq!(folder.read("found/fit.json"), run.out);
+    let text = folder.read("found/residuals.csv");
+    let mut lines = text.lines();
+    let heading = "record,column,time [s],measured [degC],computed [degC],residual [K]";
+    assert_eq!(lines.next(), Some(heading));
+    assert_eq!(lines.clone().count(), 51);
+    for line in lines {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |i: usize| cells[i].parse::<f64>().unwrap();
+        assert_eq!((cells[0], cells[1]), ("record.csv", "ring"));
+        assert!(
+            (number(3) - number(4) - number(5)).abs() < 1e-9 && number(5).abs() < 1e-3,
+            "{line}"
+        );
+    }
+    let manifest: serde_json::Value =
+        serde_json::from_str(&folder.read("found/manifest.json")).unwrap();
+    let inputs: Vec<&str> = manifest["inputs"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|i| i["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(inputs, ["body.toml", "record.csv"]);
+    assert_eq!(manifest["results"].as_array().unwrap().len(), 2);
+}

@@ -302,23 +302,3 @@ fn what_cannot_be_drawn_is_said_before_anything_is_computed() {
     assert!(ran.err.contains("output::cannot_write") && ran.err.contains("-o FILE"), "{}", ran.err);
     assert_eq!(folder.files(), ["file", "rod.toml", "run.toml", "two.toml"]);
 }
-
-/// `LPTN_BLESS=1` draws them anew: look at them then.
-#[test]
-fn the_pictures_of_the_page_are_what_its_commands_draw() {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    for (name, arguments) in [
-        ("gearbox_graph.svg", &["--steady"][..]),
-        ("gearbox_sankey.svg", &["--sankey", "--at", "5min"]),
-    ] {
-        let path = root.join("docs/pictures").join(name);
-        let folder = Folder::with_gearbox();
-        let ran = folder.run(&[&["graph", "gearbox.toml", "-o", "x.svg"], arguments].concat());
-        assert_eq!(ran.code, Some(0), "{}", ran.err);
-        if std::env::var_os("LPTN_BLESS").is_some() {
-            std::fs::write(&path, folder.read("x.svg")).unwrap();
-        }
-        let expected = std::fs::read_to_string(&path).unwrap();
-        assert!(folder.read("x.svg") == expected, "{name} is another picture now");
-    }
-}

@@ -218,27 +218,3 @@ fn a_verb_without_pictures_says_so_before_it_works() {
         assert_eq!(ran.out, "", "{verb} worked all the same");
     }
 }
-
-/// `LPTN_BLESS=1` draws them anew: look at them then.
-#[test]
-fn the_pictures_of_the_pages_are_what_their_commands_draw() {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let pictures: [(&str, &[&str]); 3] = [
-        ("gearbox", &["gearbox.toml", "--select", "steel.T", "--select", "aluminium.T"]),
-        ("fan", &["gearbox_fan.toml", "--select", "*.T"]),
-        ("heaters", &["two_heaters.toml", "records/two_heaters.csv", "--select", "T?*"]),
-    ];
-    for (name, arguments) in pictures {
-        let path = root.join(format!("docs/pictures/{name}.svg"));
-        let folder = Folder::empty();
-        let mut command = folder.command(&["plot", "-o"]);
-        command.arg(folder.path().join("x.svg")).args(arguments);
-        let drawn = Ran::of(command.current_dir(root.join("networks")).output().unwrap());
-        assert_eq!(drawn.code, Some(0), "{}", drawn.err);
-        if std::env::var_os("LPTN_BLESS").is_some() {
-            std::fs::write(&path, folder.read("x.svg")).unwrap();
-        }
-        let expected = std::fs::read_to_string(&path).unwrap();
-        assert!(folder.read("x.svg") == expected, "{name}.svg is another picture now");
-    }
-}

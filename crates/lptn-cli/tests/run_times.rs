@@ -90,3 +90,26 @@ fn help_keeps_to_the_width_of_the_terminal() {
         }
     }
 }
+
+/// Times of rows, tables and verdicts in one unit; the picture and the other files stay as they are.
+#[test]
+fn times_are_shown_in_the_unit_that_is_asked_for() {
+    let folder = Folder::with_gearbox();
+    let seconds = folder.run(&["run", "gearbox.toml", "--format", "csv", "--no-files"]).exits(0);
+    let asked = ["run", "gearbox.toml", "--format", "csv", "--time-unit", "min"];
+    let minutes = folder.run(&asked).exits(0);
+    let (headers, rows) = csv(&minutes.out);
+    let (_, in_seconds) = csv(&seconds.out);
+    assert_eq!(headers[0], "time [min]");
+    assert!((rows.last().unwrap()[0] - 25.0).abs() < 1e-12);
+    for (row, other) in rows.iter().zip(&in_seconds) {
+        assert!((60.0 * row[0] - other[0]).abs() < 1e-9 && row[1..] == other[1..]);
+    }
+    assert_eq!(folder.read("out/gearbox/result.csv"), minutes.out);
+    // a picture of the rows knows their unit
+    folder.run(&["plot", "out/gearbox", "-o", "x.svg"]).exits(0);
+    let asked = ["run", "gearbox.toml", "--time-unit", "h", "--no-files"];
+    let table = folder.run(&asked).exits(0);
+    table.prints("  0.4167 h  peak").prints("heat over 0.4167 h:");
+    folder.run(&["run", "gearbox.toml", "--time-unit", "week"]).exits(2).says("s, min, h, d");
+}

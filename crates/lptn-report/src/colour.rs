@@ -1,7 +1,9 @@
 //! The colours of a terminal. Nothing is said by a colour alone.
 
-use crate::layout::WIDTH;
-use crate::report::Standing;
+use crate::standing::Standing;
+
+/// Columns of a terminal that tables are made for.
+pub const WIDTH: usize = 80;
 
 /// How texts look on what they are written to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

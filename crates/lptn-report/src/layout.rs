@@ -6,10 +6,7 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::colour::Look;
 use crate::names::{differing, shortened};
-use crate::report::Standing;
-
-/// Columns of a terminal that tables are made for.
-pub const WIDTH: usize = 80;
+use crate::standing::Standing;
 
 const GAP: &str = "  ";
 

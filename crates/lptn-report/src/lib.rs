@@ -7,6 +7,7 @@
 //! text that reads back as the same `f64`; in tables for reading, numbers are rounded and say their
 //! unit.
 
+mod clock;
 mod colour;
 mod columns;
 mod csv;
@@ -21,20 +22,23 @@ mod page;
 mod picture;
 mod report;
 mod sparkline;
+mod standing;
 mod text;
 
-pub use colour::Look;
+pub use clock::{Clock, TimeUnit};
+pub use colour::{Look, WIDTH};
 pub use columns::{MOST_CURVES, TEMPERATURE, panels};
 pub use csv::{write_csv, write_rows};
 pub use format::{Format, write};
 pub use heat::{Flow, balance};
 pub use json::{Json, JsonWriter};
-pub use layout::{Align, Column, TextTable, TextTableOf, WIDTH, labelled, plain, stacked};
+pub use layout::{Align, Column, TextTable, TextTableOf, labelled, plain, stacked};
 pub use names::{differing, shortened};
 pub use number::{Shortest, decimals, duration, fixed, prefix, significant};
 pub use of_page::report_of;
 pub use page::{Page, Rows};
 pub use picture::Picture;
-pub use report::{Claim, Piece, Report, Section, Standing};
+pub use report::{Claim, Piece, Report, Section};
 pub use sparkline::sparkline;
+pub use standing::Standing;
 pub use text::{Block, Text, words};

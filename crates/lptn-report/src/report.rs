@@ -2,6 +2,7 @@
 
 use lptn_plot::{Figure, Scene};
 
+use crate::standing::Standing;
 use crate::text::Text;
 
 /// What a document says of a result: first how far it can be trusted, then what it is.
@@ -24,17 +25,6 @@ pub struct Claim {
     pub standing: Standing,
     /// The sentence.
     pub text: String,
-}
-
-/// How a claim stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Standing {
-    /// It was checked, and holds.
-    Holds,
-    /// It was not checked, or a reader has to know of it.
-    Open,
-    /// It was checked, and does not hold.
-    Fails,
 }
 
 /// A part of a report under a heading.

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use crate::colour::Look;
 use crate::layout::{TextTable, labelled};
-use crate::report::Standing;
+use crate::standing::Standing;
 
 /// What a person reads of a result, from the title to the verdict.
 #[derive(Clone, Debug, Default)]

@@ -122,6 +122,16 @@ impl Table {
         Self { labels: Vec::new(), columns }
     }
 
+    /// The same with its first column, times in s, in a unit of so many seconds.
+    #[must_use]
+    pub fn with_times_in(mut self, unit: &str, seconds: f64) -> Self {
+        if let Some(time) = self.columns.first_mut() {
+            unit.clone_into(&mut time.unit);
+            time.values.iter_mut().for_each(|value| *value /= seconds);
+        }
+        self
+    }
+
     /// The selected columns of a steady state as a table of one row, temperatures in `unit`.
     ///
     /// # Errors

@@ -11,8 +11,9 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use lptn_netlist::Diagnostic;
-use lptn_study::{Environment, SiValue};
+use lptn_study::{Environment, FileHash, SiValue};
 use lptn_units::Help;
+use serde_json::{Value, json};
 
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
@@ -100,6 +101,18 @@ pub(crate) fn environment(wall_time: f64) -> Environment {
         host: host.trim().to_owned(),
         wall_time: SiValue::new(wall_time, "s"),
     }
+}
+
+/// The manifest of files that no single run has made.
+pub(crate) fn manifest(inputs: &[FileHash], results: &[FileHash], wall_time: f64) -> Value {
+    json!({
+        "format": 1,
+        "lptn": env!("CARGO_PKG_VERSION"),
+        "arguments": arguments(),
+        "inputs": inputs,
+        "results": results,
+        "environment": environment(wall_time),
+    })
 }
 
 /// The words of the command line.

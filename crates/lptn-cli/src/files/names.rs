@@ -10,6 +10,8 @@ pub(crate) const RISE: &str = "figure_7_rise.csv";
 pub(crate) const TIME_CONSTANT: &str = "figure_8_time_constant.csv";
 pub(crate) const POWER: &str = "figure_9_power.csv";
 pub(crate) const LAWS: &str = "laws.csv";
+pub(crate) const RESIDUALS: &str = "residuals.csv";
+pub(crate) const FIT: &str = "fit.json";
 pub(crate) const MANIFEST: &str = "manifest.json";
 
 /// The record of results that are whole and about to take their places.
@@ -18,7 +20,7 @@ pub(super) const COMMIT: &str = ".commit.json";
 /// The file whose lock says that somebody writes here.
 pub(super) const LOCK: &str = ".lptn.lock";
 
-const RESULTS: [&str; 11] = [
+const RESULTS: [&str; 13] = [
     RESULT,
     STATE,
     EVENTS,
@@ -29,6 +31,8 @@ const RESULTS: [&str; 11] = [
     TIME_CONSTANT,
     POWER,
     LAWS,
+    RESIDUALS,
+    FIT,
     MANIFEST,
 ];
 

@@ -10,7 +10,7 @@ use std::path::Path;
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files, Netlist, Severity};
 use lptn_network::{Network, NodeId};
-use lptn_report::{Json, Page, Text, duration, significant};
+use lptn_report::{Format, Json, Page, Text, duration, significant};
 use lptn_solve::{Lumping, Stiffness};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
@@ -32,6 +32,11 @@ pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure
     }
     let finding = Finding::of(&text, &args.source.set)?;
     console.show(&View { finding: &finding, text: &text, console }, args.format)?;
+    let ok = finding.exit() == Exit::Done && args.format == Format::Table;
+    if let (true, Some(file)) = (ok, text.typed()) {
+        let verb = if finding.has_run { "run" } else { "steady" };
+        console.next(&format!("lptn {verb} {file}"));
+    }
     Ok(finding.exit())
 }
 
@@ -70,6 +75,8 @@ struct Finding {
     /// The network with how far its nodes are lumps.
     lumping: Option<(Network, Lumping)>,
     syntax: bool,
+    /// Whether it says how long it runs.
+    has_run: bool,
 }
 
 impl Finding {
@@ -88,6 +95,7 @@ impl Finding {
                     stiffness: None,
                     lumping: None,
                     syntax,
+                    has_run: false,
                 });
             }
         };
@@ -105,9 +113,10 @@ impl Finding {
         let found =
             lumping.iter().flat_map(|(_, lumping)| lumping::warnings(&input.netlist, lumping));
         diagnostics.extend(found);
+        let has_run = input.netlist.run.is_some();
         let selection = select::of_run(&input.netlist, &[]);
         diagnostics.extend(selection.err().into_iter().flat_map(|failure| failure.diagnostics));
-        Ok(Self { files, diagnostics, counts, stiffness, lumping, syntax: false })
+        Ok(Self { files, diagnostics, counts, stiffness, lumping, syntax: false, has_run })
     }
 
     fn number(&self, severity: Severity) -> usize {

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files, Netlist};
-use lptn_report::plain;
+use lptn_report::{Format, plain};
 use lptn_solve::Progress;
 use lptn_solve::{available_threads, in_parallel};
 use lptn_study::{Candidate, CompareError, CompareRow, order};
@@ -21,7 +21,7 @@ use crate::doubts::others;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files;
-use crate::input::{self, Input};
+use crate::input::{self, Input, quoted};
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressOfAll;
@@ -42,6 +42,11 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
     comparison.report(console);
     console.show(&comparison, args.printed.format)?;
     let answer = page::answer(&comparison);
+    if comparison.rows.len() > 1 && args.printed.format == Format::Table {
+        let names: Vec<String> =
+            files.iter().map(|file| quoted(&file.display().to_string())).collect();
+        console.next(&format!("lptn plot {}", names.join(" ")));
+    }
     match comparison.exit() {
         Exit::Done => console.note(&answer),
         _ => console.message(&answer),

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use lptn_report::{Json, Page, Rows, Standing, Text, TextTable};
+use lptn_report::{Json, Page, Rows, Standing, Text};
 use serde_json::{Value, json};
 
 use super::codes::{Code, Part};
@@ -27,7 +27,11 @@ impl Page for Explained {
         }
         for codes in self.codes.chunk_by(|a, b| a.area() == b.area()) {
             text.section().title(codes[0].area());
-            text.table(TextTable::of(codes).left("", Code::problem).left("", Code::summary));
+            // a code that were shortened could not be typed
+            let width = codes.iter().map(|code| code.problem().len()).max().unwrap_or(0);
+            for code in codes {
+                text.sentence(&format!("{:width$}  ", code.problem()), code.summary());
+            }
         }
         text.section().line("More on one of them: lptn explain AREA::CODE");
         text

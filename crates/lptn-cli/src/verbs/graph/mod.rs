@@ -39,7 +39,7 @@ pub(crate) fn graph(args: &GraphArgs, console: &Console) -> Result<Exit, Failure
     output::put(&bytes, (&place, &name), &input, console)?;
     let plain = !args.shows_state() && !field::is_wanted(args, kind);
     if let (true, Some(file)) = (plain, input.typed()) {
-        console.hint(&format!("next   lptn graph {file} --steady"));
+        console.next(&format!("lptn graph {file} --steady"));
     }
     Ok(Exit::Done)
 }

@@ -18,7 +18,7 @@ use crate::about::{self, Known};
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::input::Input;
+use crate::input::{Input, quoted};
 use crate::words::{MOST_NODES, count};
 
 /// Modes that are shown without `--count`: all of up to so many, else the slowest so many.
@@ -44,7 +44,11 @@ pub(crate) fn modes(args: &ModesArgs, console: &Console) -> Result<Exit, Failure
     modes.truncate(args.count.map_or(usual, |count| usize::try_from(count).unwrap_or(usize::MAX)));
     console.warn(&netlist.files, &netlist.warnings);
     let view = View { input: &input, modes: &modes, all };
-    console.show(&view, args.printed.format)
+    let exit = console.show(&view, args.printed.format)?;
+    if let (Some(file), Some(node)) = (input.typed(), view.slowest()) {
+        console.next(&format!("lptn reduce {file} --port {}", quoted(node)));
+    }
+    Ok(exit)
 }
 
 struct View<'a> {
@@ -67,6 +71,13 @@ impl View<'_> {
             .right("tau", |(_, mode)| tau(mode))
             .left("participation", |(_, mode)| self.partners(mode))
             .into()
+    }
+
+    /// The node that takes most part in the slowest mode.
+    fn slowest(&self) -> Option<&str> {
+        let parts = &self.modes.modes().first()?.participation;
+        let most = parts.iter().zip(self.network().nodes());
+        most.max_by(|a, b| a.0.total_cmp(b.0)).map(|(_, node)| node.name.as_str())
     }
 
     /// The nodes that take most part, most first, those of equal part in the order of the file.

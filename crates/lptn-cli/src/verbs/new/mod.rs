@@ -39,6 +39,6 @@ pub(crate) fn new(args: &NewArgs, console: &Console) -> Result<Exit, Failure> {
         "wrote {}: a motor with a winding and a housing in a room\n",
         path.display()
     ))?;
-    console.hint(&format!("next   lptn run {typed}"));
+    console.next(&format!("lptn check {typed}"));
     Ok(Exit::Done)
 }

@@ -10,6 +10,7 @@ use crate::console::Console;
 use crate::drawing::Drawing;
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::input::quoted;
 use lptn_netlist::{Diagnostic, RunTime};
 use overlay::overlay;
 use source::Source;
@@ -28,6 +29,14 @@ pub(crate) fn plot(args: &PlotArgs, console: &Console) -> Result<Exit, Failure> 
     let here = Drawing::Terminal;
     let drawing = args.output.as_ref().or(console.plot.as_ref()).unwrap_or(&here);
     console.draw(&[overlay(sources)], drawing)?;
+    if let [path] = args.sources.as_slice() {
+        let name = quoted(&path.display().to_string());
+        match (source::is_netlist(path), path.is_dir()) {
+            (true, _) => console.next(&format!("lptn run {name} --report")),
+            (_, true) => console.next(&format!("lptn report {name}")),
+            _ => {}
+        }
+    }
     Ok(exit)
 }
 

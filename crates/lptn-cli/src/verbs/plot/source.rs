@@ -14,8 +14,8 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::names::{EVENTS, MANIFEST, RESULT};
-use crate::input::{self, Input};
-use crate::options::{Scale, Shown};
+use crate::input::{self, Input, quoted};
+use crate::options::{Scale, Shown, TimeScale};
 use crate::verbs::run::{self, RunArgs};
 
 /// One of the things that are drawn over each other.
@@ -62,6 +62,7 @@ impl Source {
             source,
             times: args.times.clone(),
             shown,
+            time_scale: TimeScale::default(),
             balance: None,
             tolerance: None,
             output: None,
@@ -120,7 +121,13 @@ pub(super) fn is_netlist(path: &Path) -> bool {
 fn no_result(path: &Path) -> Failure {
     let message = format!("there is no {RESULT} in the folder {}", path.display());
     let problem = Diagnostic::error("plot::no_result", message);
-    Failure::new(Exit::Input, problem.help("`lptn run FILE` writes one into out/NAME"))
+    let help = match path.extension().is_some_and(|ending| ending == "toml") {
+        true => {
+            format!("this is a netlist: lptn run {} --report", quoted(&path.display().to_string()))
+        }
+        false => "`lptn run FILE` writes one into out/NAME".to_owned(),
+    };
+    Failure::new(Exit::Input, problem.help(help))
 }
 
 /// Warns where results are not those that their manifest speaks of: one that was cut off reads as

@@ -92,7 +92,7 @@ impl View<'_> {
             (self.args.format, self.input.typed(), self.system.network().has_events())
         {
             let port = quoted(&self.args.port);
-            console.hint(&format!("next   lptn reduce {file} --port {port} --write {port}.toml"));
+            console.next(&format!("lptn reduce {file} --port {port} --write {port}.toml"));
         }
         Ok(())
     }

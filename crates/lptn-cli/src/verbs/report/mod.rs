@@ -83,7 +83,7 @@ fn again(
     input.set_times(&args.times)?;
     let (outcome, _) = run::outcome(&args, &input, console)?;
     let mut bytes = Vec::new();
-    let written = write_csv(&outcome.table, &mut bytes);
+    let written = write_csv(&outcome.shown_table(), &mut bytes);
     let there = std::fs::read(folder.join(RESULT)).unwrap_or_default();
     let same = written.is_ok() && there == bytes;
     let mut report = lptn_report::report_of(&outcome);

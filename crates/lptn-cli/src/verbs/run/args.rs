@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args as Arguments;
 
 use super::uncertainty::args::UncertaintyArgs;
-use crate::options::{Shown, Source, TEMPLATE, Times};
+use crate::options::{Shown, Source, TEMPLATE, TimeScale, Times};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -24,6 +24,8 @@ pub(crate) struct RunArgs {
     pub(crate) times: Times,
     #[command(flatten)]
     pub(crate) shown: Shown,
+    #[command(flatten)]
+    pub(crate) time_scale: TimeScale,
     /// Show the heat into and out of a node or boundary, largest path first
     #[arg(long, value_name = "NODE")]
     pub(crate) balance: Option<String>,

@@ -1,7 +1,7 @@
 //! Events of a run: `events.csv`, JSON, and what a reader wants to know of controls.
 
 use lptn_network::{ControlId, Network};
-use lptn_report::{Shortest, Text, TextTable, duration, fixed};
+use lptn_report::{Clock, Shortest, Text, TextTable, fixed};
 use lptn_solve::{Event, EventKind, Solution};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
@@ -80,7 +80,12 @@ impl Use {
 
 /// A section with a line for each control and the first events, from `start` on; nothing where
 /// nothing can switch.
-pub(crate) fn section(text: &mut Text, solution: &Solution, (start, end): (f64, f64)) {
+pub(crate) fn section(
+    text: &mut Text,
+    solution: &Solution,
+    (start, end): (f64, f64),
+    clock: Clock,
+) {
     let network = solution.network();
     if !network.has_events() {
         return;
@@ -89,35 +94,35 @@ pub(crate) fn section(text: &mut Text, solution: &Solution, (start, end): (f64, 
     let ids = network.control_ids().take(MOST_NODES);
     let uses: Vec<Use> = ids.map(|id| Use::of(solution, id, (start, end))).collect();
     if !uses.is_empty() {
-        text.table(controls(&uses));
+        text.table(controls(&uses, clock));
     }
     if uses.len() < network.controls().len() {
         text.line(format!("{} of {} are shown", uses.len(), network.controls().len()));
     }
-    text.labelled("events: ", first(solution));
+    text.labelled("events: ", first(solution, clock));
 }
 
-fn controls(uses: &[Use]) -> TextTable {
+fn controls(uses: &[Use], clock: Clock) -> TextTable {
     let percent =
         |share: Option<f64>| share.map_or("-".into(), |s| format!("{} %", fixed(100.0 * s, 1)));
     TextTable::of(uses)
         .left("control", |u| u.name.as_str())
         .right("starts", |u| u.starts.to_string())
         .right("stops", |u| u.stops.to_string())
-        .right("mean period", |u| u.period.map_or("-".into(), |period| duration(period, 4)))
+        .right("mean period", |u| u.period.map_or("-".into(), |period| clock.text(period, 4)))
         .right("on for", |u| percent(u.duty))
         .right("at the end", |u| if u.on { "on" } else { "off" })
         .into()
 }
 
 /// The first events in words.
-fn first(solution: &Solution) -> Vec<String> {
+fn first(solution: &Solution, clock: Clock) -> Vec<String> {
     let events = solution.events();
     if events.is_empty() {
         return vec!["none".to_owned()];
     }
     let mut pieces: Vec<String> =
-        events.iter().take(SHOWN).map(|event| words(solution.network(), event)).collect();
+        events.iter().take(SHOWN).map(|event| words(solution.network(), event, clock)).collect();
     if events.len() > SHOWN {
         pieces.push(format!("and {} more", events.len() - SHOWN));
     }
@@ -127,7 +132,7 @@ fn first(solution: &Solution) -> Vec<String> {
 }
 
 /// "fan on at 12.05 min".
-fn words(network: &Network, event: &Event) -> String {
+fn words(network: &Network, event: &Event, clock: Clock) -> String {
     let state = match (event.kind, event.after) {
         (EventKind::Control(_), 1) => "on",
         (EventKind::Control(_), _) => "off",
@@ -135,5 +140,5 @@ fn words(network: &Network, event: &Event) -> String {
         (EventKind::Comparison(_), _) => "false",
         (EventKind::Limit(_), _) => "broken",
     };
-    format!("{} {state} at {}", event.kind.name(network), duration(event.time, 4))
+    format!("{} {state} at {}", event.kind.name(network), clock.text(event.time, 4))
 }

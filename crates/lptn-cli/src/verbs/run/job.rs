@@ -20,7 +20,7 @@ use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
 use crate::words::MOST_NODES;
 use crate::{balance, families, select};
-use lptn_report::{Format, duration};
+use lptn_report::{Clock, Format, duration};
 
 /// Why there is no steady state to show.
 #[derive(Debug)]
@@ -39,6 +39,7 @@ pub(crate) struct Job<'a> {
     /// Whether columns were asked for by name.
     pub(crate) chosen: bool,
     pub(crate) unit: Unit,
+    pub(crate) clock: Clock,
     pub(crate) format: Format,
     pub(crate) balance: Option<End>,
     /// Times in s at which the report draws the network.
@@ -72,6 +73,7 @@ impl<'a> Job<'a> {
             selection,
             chosen,
             unit,
+            clock: Clock(args.time_scale.time_unit),
             format,
             balance,
             set: &args.source.set,

@@ -1,5 +1,7 @@
 //! What came of a run: files, the result on stdout, messages on stderr, the exit code.
 
+use std::borrow::Cow;
+
 use lptn_netlist::Diagnostic;
 use lptn_network::{Parameter, list_of_names};
 use lptn_report::{Format, WIDTH, duration, labelled, significant, words, write_csv, write_rows};
@@ -19,6 +21,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::Folder;
 use crate::files::names::{EVENTS, MANIFEST, RANKING, RESULT, STATE, UNCERTAINTY, WINDOWS};
+use crate::input::quoted;
 use crate::limits::{self, Judged};
 use crate::{files, lumping, scale, select, sense};
 
@@ -44,7 +47,7 @@ impl Outcome<'_> {
     /// Writes the files: all of them take their places together, the manifest last.
     pub(crate) fn write(&self, folder: &Folder) -> Result<(), Failure> {
         let mut files = folder.batch();
-        files.write(RESULT, |out| write_csv(&self.table, out))?;
+        files.write(RESULT, |out| write_csv(&self.shown_table(), out))?;
         let state = state::of(self.job.input, &self.solution);
         files.write(STATE, |out| state.write(out))?;
         let events = events::rows(&self.solution);
@@ -56,7 +59,7 @@ impl Outcome<'_> {
         }
         if let Some(study) = self.uncertainty() {
             let network = self.solution.network();
-            let bands = uncertain::bands(network, &study.found, &self.job.unit);
+            let bands = self.bands(study);
             files.write(UNCERTAINTY, |out| write_csv(&bands, out))?;
             let ranking = uncertain::ranking(network, &study.found);
             files.write(RANKING, |out| write_csv(&ranking, out))?;
@@ -150,6 +153,38 @@ impl Outcome<'_> {
         doubts(&self.solution)
     }
 
+    /// The rows with their times in the unit that was asked for.
+    pub(crate) fn shown_table(&self) -> Cow<'_, Table> {
+        match self.job.clock.0 {
+            None => Cow::Borrowed(&self.table),
+            Some(_) => Cow::Owned(self.in_its_unit(self.table.clone())),
+        }
+    }
+
+    fn in_its_unit(&self, table: Table) -> Table {
+        match self.job.clock.0 {
+            None => table,
+            Some(unit) => table.with_times_in(unit.symbol(), unit.seconds()),
+        }
+    }
+
+    /// The bands of a study, as rows.
+    pub(crate) fn bands(&self, study: &Study) -> Table {
+        let network = self.solution.network();
+        self.in_its_unit(uncertain::bands(network, &study.found, &self.job.unit))
+    }
+
+    /// The limits, and how they are shown.
+    pub(crate) fn judgement<'b>(&'b self, limits: &'b [Judged]) -> limits::Judgement<'b> {
+        let (netlist, unit) = (&self.job.input.netlist, &self.job.unit);
+        limits::Judgement { netlist, unit, clock: self.job.clock, limits }
+    }
+
+    /// Says which limits are broken, and gives the exit code.
+    pub(crate) fn judge(&self, console: &Console) -> Exit {
+        limits::conclude(&self.judgement(&self.limits()), console)
+    }
+
     /// Whether large families are shown as one row.
     pub(crate) fn folds(&self) -> bool {
         !self.job.chosen && self.detail < Detail::Verbose
@@ -178,8 +213,13 @@ impl Outcome<'_> {
         }
         console.warn(&self.job.input.netlist.files, &self.found());
         if self.job.format == Format::Table && self.solution.end() == RunStatus::Reached {
-            let command = next::after_run(self.job.input, self.steady.is_ok());
-            command.iter().for_each(|command| console.hint(&format!("next   {command}")));
+            if let Some(folder) = folder {
+                console
+                    .next(&format!("lptn plot {}", quoted(&folder.path().display().to_string())));
+            }
+            next::after_run(self.job.input, self.steady.is_ok())
+                .iter()
+                .for_each(|command| console.next(command));
         }
     }
 
@@ -216,8 +256,7 @@ impl Outcome<'_> {
             }
             return failure.exit;
         }
-        let (netlist, unit) = (&self.job.input.netlist, &self.job.unit);
-        limits::conclude(&limits::Judgement { netlist, unit, limits: &self.limits() }, console)
+        self.judge(console)
     }
 }
 

@@ -5,15 +5,13 @@ use std::io;
 
 use lptn_plot::Figure;
 use lptn_report::{
-    Flow, Json, Page, Report, Rows, Text, TextTable, decimals, duration, fixed, significant,
-    sparkline,
+    Clock, Flow, Json, Page, Report, Rows, Text, TextTable, decimals, fixed, significant, sparkline,
 };
 use lptn_solve::{NodeSummary, RunStatus, Solution, SteadyError, Summary, first_there};
 use lptn_study::{RunEnd, StatisticsRecord};
 
 use super::job::NoSteady;
 use super::outcome::{Outcome, not_bounded, weak_ledger};
-use super::uncertainty::files::bands;
 use super::{events, state, uncertainty, windows};
 use crate::console::Detail;
 use crate::doubts::others;
@@ -38,24 +36,24 @@ impl Page for Outcome<'_> {
         if !nodes.is_empty() {
             text.section().table(temperatures(self, &nodes));
         }
-        limits::section(&mut text, network, &self.limits(), &self.job.unit, self.folds());
+        limits::section(&mut text, &self.judgement(&self.limits()), self.folds());
         if let Some(study) = self.uncertainty() {
             uncertainty::text::sections(&mut text, network, (study, &self.job.unit));
         }
-        events::section(&mut text, &self.solution, span);
+        events::section(&mut text, &self.solution, span, self.job.clock);
         columns(self, &mut text);
-        windows::sections(&mut text, self.solution.windows(), &self.job.unit);
+        windows::sections(&mut text, self.solution.windows(), (&self.job.unit, self.job.clock));
         let uncertain = |study| uncertainty::text::notes(network, study, &self.job.unit);
         text.section().notes(self.uncertainty().into_iter().flat_map(uncertain));
         text.notes(notes(self, &nodes)).section();
         // where a run breaks off, the integrals and the state are not those of one time
         if !matches!(self.solution.end(), RunStatus::Failed(_)) {
-            heat_over(&mut text, &self.solution, span.1 - span.0);
+            heat_over(&mut text, &self.solution, (span.1 - span.0, self.job.clock));
             if let Some(of) = self.solution.balance() {
                 balance::section(&mut text, network, (of, Some(span)));
             }
         }
-        let label = format!("{:1$}", "lumping:", over(span.1 - span.0).len() + 2);
+        let label = format!("{:1$}", "lumping:", over(span.1 - span.0, self.job.clock).len() + 2);
         lumping::lines(&mut text, network, (&self.lumping, &label, self.detail));
         if self.detail == Detail::Verbose {
             text.labelled("solver: ", solver(self));
@@ -65,8 +63,8 @@ impl Page for Outcome<'_> {
 
     fn rows(&self) -> Rows<'_> {
         match self.uncertainty() {
-            Some(study) => bands(self.solution.network(), &study.found, &self.job.unit).into(),
-            None => (&self.table).into(),
+            Some(study) => self.bands(study).into(),
+            None => Rows::Table(self.shown_table()),
         }
     }
 
@@ -81,7 +79,7 @@ impl Page for Outcome<'_> {
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let (network, unit) = (self.solution.network(), &self.job.unit);
         self.job.input.head(json, &[self.doubts(), self.found()].concat())?;
-        json.table(&scale::table(&self.table, unit))?;
+        json.table(&scale::table(&self.shown_table(), unit))?;
         json.member("events", &events::json(&self.solution))?;
         json.member("ledger", &self.ledger())?;
         let uncertain = |study| uncertainty::files::json(network, study, unit);
@@ -137,7 +135,8 @@ fn temperatures(of: &Outcome<'_>, nodes: &[NodeSummary]) -> TextTable {
     let digits = decimals(span / unit.scale, 3, 1);
     let number = |kelvin: f64| fixed(unit.from_si(kelvin), digits);
     let network = of.solution.network();
-    let end = duration(reached(of), 4);
+    let clock = of.job.clock;
+    let end = clock.text(reached(of), 4);
     let name = |n: &NodeSummary| (network.nodes()[n.node.index()].name.clone(), 0);
     let rows = families::folded(nodes.to_vec(), of.folds(), name, |n| n.peak.0);
     let table = TextTable::of(&rows).left(format!("T [{}]", unit.text), |row| row.name.as_str());
@@ -145,11 +144,13 @@ fn temperatures(of: &Outcome<'_>, nodes: &[NodeSummary]) -> TextTable {
         .right("start", |row| number(row.item.start))
         .right(end.as_str(), |row| number(row.item.end))
         .right("peak", |row| number(row.item.peak.0))
-        .right("at", |row| duration(row.item.peak.1, 3))
+        .right("at", |row| clock.text(row.item.peak.1, 3))
         .optional()
         .right("steady", |row| row.item.steady.map_or("-".into(), number))
         .right("95 % after", |row| time_to_95(of, &row.item))
-        .left(format!("{} to {end}", start_of_curve(settings.start)), |row| curve(of, &row.item))
+        .left(format!("{} to {end}", start_of_curve(settings.start, clock)), |row| {
+            curve(of, &row.item)
+        })
         .optional()
         .into()
 }
@@ -179,14 +180,14 @@ fn columns(of: &Outcome<'_>, text: &mut Text) {
     let table = TextTable::of(&shown)
         .left("column", |c| c.header())
         .right("start", |c| number(c, c.values.first()))
-        .right(duration(reached(of), 4), |c| number(c, c.values.last()))
+        .right(of.job.clock.text(reached(of), 4), |c| number(c, c.values.last()))
         .left("", |c| sparkline(of.solution.times(), &c.values, CURVE, 0.0))
         .optional();
     text.section().table(table);
 }
 
-fn start_of_curve(start: f64) -> String {
-    if start == 0.0 { "0".into() } else { duration(start, 4) }
+fn start_of_curve(start: f64, clock: Clock) -> String {
+    if start == 0.0 { "0".into() } else { clock.text(start, 4) }
 }
 
 fn curve(of: &Outcome<'_>, node: &NodeSummary) -> String {
@@ -196,8 +197,10 @@ fn curve(of: &Outcome<'_>, node: &NodeSummary) -> String {
 
 fn time_to_95(of: &Outcome<'_>, node: &NodeSummary) -> String {
     match (node.time_to_95, node.reached()) {
-        (Some(time), _) => duration(time, 3),
-        (None, Some(_)) => format!("> {}", duration(reached(of) - of.job.settings.start, 3)),
+        (Some(time), _) => of.job.clock.text(time, 3),
+        (None, Some(_)) => {
+            format!("> {}", of.job.clock.text(reached(of) - of.job.settings.start, 3))
+        }
         (None, None) => "-".into(),
     }
 }
@@ -255,12 +258,12 @@ fn short_record(nodes: &[NodeSummary]) -> Option<String> {
 }
 
 /// The label of the heat, with which those below it line up.
-fn over(length: f64) -> String {
-    format!("heat over {}:", duration(length, 4))
+fn over(length: f64, clock: Clock) -> String {
+    format!("heat over {}:", clock.text(length, 4))
 }
 
 /// The heat of a run of this length in s, and how far the books close.
-pub(crate) fn heat_over(text: &mut Text, solution: &Solution, length: f64) {
+pub(crate) fn heat_over(text: &mut Text, solution: &Solution, (length, clock): (f64, Clock)) {
     let (network, ledger) = (solution.network(), solution.ledger());
     let sources = network.sources().iter().map(|s| s.name()).zip(&ledger.sources);
     let boundaries =
@@ -270,7 +273,7 @@ pub(crate) fn heat_over(text: &mut Text, solution: &Solution, length: f64) {
     // one stream hands on what another brings: only all of them together say something
     flows.push(Flow { name: "streams".into(), heat: ledger.streams.iter().sum() });
     let pieces = lptn_report::balance(&flows, ledger.stored.iter().sum(), ledger.turned_over);
-    let over = over(length);
+    let over = over(length, clock);
     let width = over.len() + 2;
     text.labelled(&format!("{over:width$}"), pieces);
     let balance = match ledger.relative_residual() {

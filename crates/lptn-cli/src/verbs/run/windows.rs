@@ -1,6 +1,6 @@
 //! Means and extremes over windows of a run: table, CSV and JSON.
 
-use lptn_report::{Shortest, Text, TextTable, decimals, duration, fixed};
+use lptn_report::{Clock, Shortest, Text, TextTable, decimals, fixed};
 use lptn_solve::{ColumnSeen, WindowSeen};
 use lptn_study::SiValue;
 use lptn_units::Unit;
@@ -10,26 +10,26 @@ use crate::scale;
 use crate::words::{MOST_NODES, symbol};
 
 /// A section for each window.
-pub(crate) fn sections(text: &mut Text, windows: &[WindowSeen], unit: &Unit) {
-    windows.iter().for_each(|window| section(text, window, unit));
+pub(crate) fn sections(text: &mut Text, windows: &[WindowSeen], units: (&Unit, Clock)) {
+    windows.iter().for_each(|window| section(text, window, units));
 }
 
-fn section(text: &mut Text, window: &WindowSeen, unit: &Unit) {
+fn section(text: &mut Text, window: &WindowSeen, (unit, clock): (&Unit, Clock)) {
     let shown = &window.columns[..window.columns.len().min(MOST_NODES)];
     let number = |column: &ColumnSeen, value: f64| {
         let [low, high] = [column.min.0, column.max.0].map(|value| column.shown(value, unit));
         fixed(column.shown(value, unit), decimals(low.abs().max(high.abs()), 4, 1))
     };
     let title =
-        format!("{}: {} to {}", window.name, duration(window.from, 4), duration(window.to, 4));
+        format!("{}: {} to {}", window.name, clock.text(window.from, 4), clock.text(window.to, 4));
     let table = TextTable::of(shown)
         .left(title, |c| format!("{} [{}]", c.name, symbol(&c.unit(unit))))
         .right("mean", |c| number(c, c.mean))
         .right("min", |c| number(c, c.min.0))
-        .right("at", |c| duration(c.min.1, 4))
+        .right("at", |c| clock.text(c.min.1, 4))
         .optional()
         .right("max", |c| number(c, c.max.0))
-        .right("at", |c| duration(c.max.1, 4))
+        .right("at", |c| clock.text(c.max.1, 4))
         .optional();
     text.section().table(table);
     if shown.len() < window.columns.len() {

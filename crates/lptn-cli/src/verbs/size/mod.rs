@@ -11,13 +11,14 @@ pub(crate) use args::SizeArgs;
 
 use lptn_netlist::{Diagnostic, Requirement, SizeStudy};
 use lptn_network::ParameterId;
+use lptn_report::Format;
 use lptn_study::{SizeError, SizeTask, Sizing, Verdict};
 use lptn_units::{Problem as _, Unit};
 
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
-use crate::input::{Input, Studies};
+use crate::input::{Input, Studies, quoted};
 use crate::options::Source;
 
 pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
@@ -37,6 +38,9 @@ pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> 
     let exit = console.show(&answer, args.printed.format)?;
     if args.write && exit == Exit::Done {
         write::write(&answer, file, console)?;
+    } else if exit == Exit::Done && args.printed.format == Format::Table {
+        let file = quoted(&file.display().to_string());
+        console.next(&format!("lptn size {file} --write"));
     }
     Ok(exit)
 }

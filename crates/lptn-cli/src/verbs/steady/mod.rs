@@ -17,7 +17,7 @@ use crate::console::{Console, Detail};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Input};
-use crate::limits::{self, Judged, Judgement};
+use crate::limits::{self, Judged};
 use crate::{balance, select, sense};
 
 pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failure> {
@@ -55,7 +55,7 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
         console.warn(&netlist.files, &view.doubts());
     }
     console.warn(&netlist.files, &sense::of_steady(netlist, &steady));
-    Ok(limits::conclude(&Judgement { netlist, unit: &unit, limits: &limits }, console))
+    Ok(limits::conclude(&view.judgement(), console))
 }
 
 fn table(

@@ -6,7 +6,7 @@ use std::io;
 use lptn_netlist::Diagnostic;
 use lptn_network::{ConductorId, FacePathId, GridValue, HeatOf, Item, Network, NodeId};
 use lptn_report::{
-    Claim, Json, Page, Report, Rows, Text, TextTable, decimals, fixed, prefix, shortened,
+    Claim, Clock, Json, Page, Report, Rows, Text, TextTable, decimals, fixed, prefix, shortened,
     significant,
 };
 use lptn_solve::{Balance, SteadyState, Table};
@@ -17,7 +17,7 @@ use crate::about::{self, Known};
 use crate::console::Console;
 use crate::doubts::{adiabatic, inputs_vary, others};
 use crate::input::Input;
-use crate::limits::{self, Judged};
+use crate::limits::{self, Judged, Judgement};
 use crate::words::{difference, largest, some_of};
 use crate::{balance, families, scale, sense};
 
@@ -209,6 +209,11 @@ impl View<'_> {
         some_of(text, table, (all, "the largest first; --select 'NAME.Q' shows others"));
     }
 
+    pub(super) fn judgement(&self) -> Judgement<'_> {
+        let (netlist, unit, limits) = (&self.input.netlist, self.unit, self.limits);
+        Judgement { netlist, unit, clock: Clock::default(), limits }
+    }
+
     /// Signals, controls and reports.
     fn others(&self, text: &mut Text) {
         let network = &self.input.netlist.network;
@@ -248,7 +253,7 @@ impl View<'_> {
 
     pub(super) fn messages(&self, console: &Console) {
         if let (Some(file), Some(_)) = (self.input.typed(), &self.input.netlist.run) {
-            console.hint(&format!("next   lptn run {file}"));
+            console.next(&format!("lptn run {file}"));
         }
     }
 }
@@ -265,7 +270,7 @@ impl Page for View<'_> {
         self.nodes(self.temperatures(inside).into_iter().filter(keep).collect(), &mut text);
         self.heat_flows(self.flows(inside).into_iter().filter(keep).collect(), &mut text);
         self.others(&mut text);
-        limits::section(&mut text, network, self.limits, self.unit, self.fold);
+        limits::section(&mut text, &self.judgement(), self.fold);
         if let Some(of) = self.balance {
             balance::section(&mut text, network, (of, None));
         }

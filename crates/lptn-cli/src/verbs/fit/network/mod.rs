@@ -3,6 +3,7 @@
 mod args;
 mod figure;
 mod interrupted;
+mod output;
 mod page;
 mod words;
 mod write;
@@ -10,6 +11,7 @@ mod write;
 pub(crate) use args::NetworkArgs;
 
 use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
 
 use lptn_fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network_observed};
 use lptn_netlist::{Diagnostic, FitStudy};
@@ -19,6 +21,7 @@ use lptn_units::Unit;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::files::Folder;
 use crate::input::{Input, Studies};
 use crate::interrupt::Interrupt;
 use crate::options::Source;
@@ -47,6 +50,8 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
     if args.write {
         write::possible(&input, &task)?;
     }
+    let folder = args.output.clone().map(Folder::prepare).transpose()?;
+    let begun = Instant::now();
     let fit = match observed(&task, console) {
         Err(NetworkFitError::Interrupted { stage, best }) => {
             return interrupted::tell((&input, &task), (stage, best), (args, console));
@@ -64,7 +69,16 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
     let mut answer = Answer { input: &input, study, task, units, fit, doubts: Vec::new() };
     answer.doubts = words::doubts(&answer);
     console.warn(&input.netlist.files, &answer.doubts);
+    if let Some(folder) = &folder {
+        output::write(&answer, folder, begun.elapsed().as_secs_f64())?;
+        console.results_in(folder.path());
+    }
     let exit = console.show(&answer, args.printed.format)?;
+    if let Some(folder) = &folder {
+        let [first, others @ ..] = output::NAMES;
+        let path = folder.path().join(first);
+        console.note(&format!("wrote  {}, {}", path.display(), others.join(", ")));
+    }
     if args.write && exit == Exit::Done {
         write::write(&answer, &args.file, console)?;
     }

@@ -7,7 +7,7 @@ use std::time::Instant;
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings};
 use lptn_network::{Item, OutputTimes};
-use lptn_report::duration;
+use lptn_report::{Clock, duration};
 use lptn_solve::{
     Beyond, CycleMethod, Lumping, Periodic, PeriodicError, Table, Transient, Window, WindowSeen,
 };
@@ -23,7 +23,6 @@ use crate::files::Folder;
 use crate::files::names::{MANIFEST, RESULT, WINDOWS};
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
-use crate::limits::{self, Judgement};
 use crate::progress::ProgressLine;
 use crate::verbs::run::job::{Job, NoSteady, explain};
 use crate::verbs::run::outcome::Outcome;
@@ -46,6 +45,7 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
         selection: select::of_option(netlist, &args.shown.select)?,
         chosen: !args.shown.select.is_empty(),
         unit: input::temperature_unit(args.shown.scale.temperature_unit.as_deref(), netlist)?,
+        clock: Clock::default(),
         format: args.shown.format,
         balance: balance::end(netlist, args.balance.as_deref(), args.shown.format)?,
         input: &input,
@@ -249,8 +249,6 @@ impl View<'_> {
     }
 
     fn conclude(&self, console: &Console) -> Exit {
-        let job = &self.outcome.job;
-        let (netlist, unit) = (&job.input.netlist, &job.unit);
-        limits::conclude(&Judgement { netlist, unit, limits: &self.outcome.limits() }, console)
+        self.outcome.judge(console)
     }
 }

@@ -13,7 +13,7 @@ use lptn_units::Dimension;
 use super::View;
 use crate::verbs::run::page::heat_over;
 use crate::words::{count, difference, largest, some_of, symbol};
-use crate::{balance, limits};
+use crate::{balance, families, limits};
 
 /// A column with its first value, in SI.
 type Row<'a> = (&'a ColumnSeen, f64);
@@ -31,16 +31,17 @@ impl Page for View<'_> {
             .into_iter()
             .partition(|(c, _)| c.ty.dimension == Dimension::POWER && c.name.contains('.'));
         temperature_section(&mut text, self, temperatures);
-        flow_section(&mut text, flows);
+        flow_section(&mut text, flows, self.outcome.folds());
         other_section(&mut text, self, &others);
         let fold = self.outcome.folds();
-        limits::section(&mut text, network, &self.outcome.limits(), &job.unit, fold);
+        let limits = self.outcome.limits();
+        limits::section(&mut text, &self.outcome.judgement(&limits), fold);
         if let Some(of) = solution.balance() {
             let times = Some((job.settings.start, job.settings.stop));
             balance::section(&mut text, network, (of, times));
         }
         found_section(&mut text, self);
-        heat_over(text.section(), solution, self.period());
+        heat_over(text.section(), solution, (self.period(), job.clock));
         text
     }
 
@@ -86,9 +87,13 @@ impl Page for View<'_> {
     }
 }
 
-fn temperature_section(text: &mut Text, view: &View<'_>, mut rows: Vec<Row<'_>>) {
+/// The name of a column without what goes without saying.
+fn named((column, _): &Row<'_>) -> (String, u8) {
+    (column.name.strip_suffix(".T").unwrap_or(&column.name).to_owned(), 0)
+}
+
+fn temperature_section(text: &mut Text, view: &View<'_>, rows: Vec<Row<'_>>) {
     let unit = &view.outcome.job.unit;
-    let all = largest(&mut rows, |row| row.0.max.0);
     let swing = |c: &ColumnSeen| c.max.0 - c.min.0;
     let span = rows.iter().map(|(c, _)| swing(c)).fold(0.0, f64::max);
     let digits = decimals(span / unit.scale, 3, 1);
@@ -96,16 +101,18 @@ fn temperature_section(text: &mut Text, view: &View<'_>, mut rows: Vec<Row<'_>>)
     let clear =
         |swing: f64| if swing > 10.0 * view.outcome.job.settings.tolerance { swing } else { 0.0 };
     let kelvin = |value: f64| fixed(unit.from_si(value), digits);
-    let table = TextTable::of(&rows)
-        .left(format!("T [{}]", unit.text), |(c, _)| c.name.strip_suffix(".T").unwrap_or(&c.name))
-        .right("start", |(_, start)| fixed(*start, digits))
-        .right("mean", |(c, _)| kelvin(c.mean))
-        .right("min", |(c, _)| kelvin(c.min.0))
-        .right("max", |(c, _)| kelvin(c.max.0))
-        .right("at", |(c, _)| at(c))
+    let mut rows = families::folded(rows, view.outcome.folds(), named, |row| row.0.max.0);
+    let all = largest(&mut rows, |row| row.item.0.max.0);
+    let table = TextTable::of(&rows).left(format!("T [{}]", unit.text), |row| row.name.as_str());
+    let table = families::members(table, &rows, "hottest")
+        .right("start", |row| fixed(row.item.1, digits))
+        .right("mean", |row| kelvin(row.item.0.mean))
+        .right("min", |row| kelvin(row.item.0.min.0))
+        .right("max", |row| kelvin(row.item.0.max.0))
+        .right("at", |row| at(row.item.0))
         .optional()
-        .right(format!("swing [{}]", difference(unit)), |(c, _)| {
-            significant(clear(swing(c)) / unit.scale, 3)
+        .right(format!("swing [{}]", difference(unit)), |row| {
+            significant(clear(swing(row.item.0)) / unit.scale, 3)
         });
     some_of(text, table, (all, "the hottest first; --select 'NAME.T' shows others"));
 }
@@ -115,17 +122,19 @@ fn at(column: &ColumnSeen) -> String {
     if column.max.0 > column.min.0 { duration(column.max.1, 3) } else { "-".into() }
 }
 
-fn flow_section(text: &mut Text, mut rows: Vec<Row<'_>>) {
-    let all = largest(&mut rows, |row| row.0.mean.abs());
+fn flow_section(text: &mut Text, rows: Vec<Row<'_>>, fold: bool) {
     let most = rows.iter().map(|(c, _)| c.mean.abs()).fold(0.0, f64::max);
     let (scale, letter) = prefix(most);
     let digits = decimals(most / scale, 4, 0);
     let watt = |value: f64| fixed(value / scale, digits);
-    let table = TextTable::of(&rows)
-        .left(format!("heat flow [{letter}W]"), |(c, _)| c.name.as_str())
-        .right("mean", |(c, _)| watt(c.mean))
-        .right("min", |(c, _)| watt(c.min.0))
-        .right("max", |(c, _)| watt(c.max.0));
+    let mut rows = families::folded(rows, fold, named, |row| row.0.mean.abs());
+    let all = largest(&mut rows, |row| row.item.0.mean.abs());
+    let table =
+        TextTable::of(&rows).left(format!("heat flow [{letter}W]"), |row| row.name.as_str());
+    let table = families::members(table, &rows, "largest")
+        .right("mean", |row| watt(row.item.0.mean))
+        .right("min", |row| watt(row.item.0.min.0))
+        .right("max", |row| watt(row.item.0.max.0));
     some_of(text, table, (all, "the largest first; --select 'NAME.Q' shows others"));
 }
 

@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 use super::Runs;
 use crate::failure::Failure;
 use crate::files::names::{LAWS, MANIFEST, POWER, RISE, TIME_CONSTANT};
-use crate::files::{Folder, arguments, environment};
+use crate::files::{Folder, manifest};
 
 /// What is written.
 pub(crate) const NAMES: [&str; 5] = [RISE, TIME_CONSTANT, POWER, LAWS, MANIFEST];
@@ -27,14 +27,7 @@ pub(crate) fn write(found: &Runs, folder: &Folder) -> Result<(), Failure> {
     files.write(LAWS, |mut out| {
         lptn_report::write(&found.answer, Format::Csv, Look::PLAIN, &mut out)
     })?;
-    let text = json!({
-        "format": 1,
-        "lptn": env!("CARGO_PKG_VERSION"),
-        "arguments": arguments(),
-        "inputs": found.inputs,
-        "results": files.written(),
-        "environment": environment(found.wall_time),
-    });
+    let text = manifest(&found.inputs, files.written(), found.wall_time);
     files.write(MANIFEST, |out| out.write_all(format!("{text:#}\n").as_bytes()))?;
     files.commit(&[])
 }

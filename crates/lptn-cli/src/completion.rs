@@ -1,0 +1,67 @@
+//! Completion of the names that stand in the netlist of the command line, for shells that ask the
+//! program itself: `source <(COMPLETE=bash lptn)`.
+
+use std::path::PathBuf;
+
+use clap::{Arg, Command};
+use clap_complete::engine::{ArgValueCandidates, CompletionCandidate};
+use clap_complete::env::CompleteEnv;
+use lptn_netlist::{Netlist, library};
+use lptn_solve::Selection;
+
+use crate::input::Input;
+use crate::options::Source;
+
+/// Answers a shell that asks for completions, and ends the program then.
+pub(crate) fn answer_shell(command: fn() -> Command) {
+    CompleteEnv::with_factory(move || with_names(command())).complete();
+}
+
+/// The same command, of which some options know what they take.
+fn with_names(command: Command) -> Command {
+    let materials = command.get_name() == "materials";
+    let command = command.mut_args(|arg| {
+        let found: Option<fn() -> Vec<String>> = match arg.get_id().as_str() {
+            "set" => Some(parameters),
+            "select" => Some(columns),
+            "balance" | "port" => Some(nodes),
+            "name" if materials => Some(substances),
+            _ => None,
+        };
+        match found {
+            Some(names) => completed(arg, names),
+            None => arg,
+        }
+    });
+    command.mut_subcommands(with_names)
+}
+
+fn completed(arg: Arg, names: fn() -> Vec<String>) -> Arg {
+    let candidates = move || names().into_iter().map(CompletionCandidate::new).collect();
+    arg.add(ArgValueCandidates::new(candidates))
+}
+
+/// The first netlist among the words, if it can be read.
+fn netlist() -> Option<Netlist> {
+    let mut words = std::env::args_os().map(PathBuf::from);
+    let file = words.find(|word| word.extension().is_some_and(|end| end == "toml"))?;
+    Some(Input::load(&Source { file, set: Vec::new() }).ok()?.netlist)
+}
+
+fn parameters() -> Vec<String> {
+    let parameters = netlist().map(|netlist| netlist.network.parameters().to_vec());
+    parameters.unwrap_or_default().into_iter().map(|p| format!("{}=", p.name)).collect()
+}
+
+fn columns() -> Vec<String> {
+    netlist().map(|netlist| Selection::names(&netlist.network)).unwrap_or_default()
+}
+
+fn nodes() -> Vec<String> {
+    let nodes = netlist().map(|netlist| netlist.network.nodes().to_vec());
+    nodes.unwrap_or_default().into_iter().map(|node| node.name).collect()
+}
+
+fn substances() -> Vec<String> {
+    library::materials().iter().chain(library::fluids()).map(|record| record.name.clone()).collect()
+}

@@ -1,0 +1,65 @@
+//! The files of `lptn fit network -o DIR`: what was measured beside what the fitted network
+//! computes, the answer, and their manifest.
+
+use lptn_report::{Format, Look, write_csv};
+use lptn_solve::Table;
+
+use super::Answer;
+use crate::about;
+use crate::failure::Failure;
+use crate::files::names::{FIT, MANIFEST, RESIDUALS};
+use crate::files::{self, Folder};
+use crate::words::difference;
+
+/// What is written.
+pub(crate) const NAMES: [&str; 3] = [RESIDUALS, FIT, MANIFEST];
+
+pub(crate) fn write(answer: &Answer<'_>, folder: &Folder, wall_time: f64) -> Result<(), Failure> {
+    let mut files = folder.batch();
+    files.write(RESIDUALS, |out| write_csv(&residuals(answer), out))?;
+    files.write(FIT, |mut out| lptn_report::write(answer, Format::Json, Look::PLAIN, &mut out))?;
+    let inputs = about::hashes(&answer.input.netlist);
+    let text = files::manifest(&inputs, files.written(), wall_time);
+    files.write(MANIFEST, |out| out.write_all(format!("{text:#}\n").as_bytes()))?;
+    files.commit(&[])
+}
+
+/// A value of a record: which column of which, and its row.
+struct Sample<'a> {
+    record: &'a str,
+    column: &'a str,
+    /// In s.
+    time: f64,
+    /// In K.
+    measured: f64,
+    computed: f64,
+}
+
+/// A row for each value, by record and column, in the unit of the netlist. A residual is positive
+/// where more was measured than the network computes.
+fn residuals(answer: &Answer<'_>) -> Table {
+    let samples = answer.fit.columns.iter().flat_map(|m| {
+        let run = &answer.task.runs[m.run];
+        let column = &run.columns[m.column];
+        let values = run.times.iter().zip(&column.values).zip(&m.modelled);
+        let sample = |((&time, &measured), &computed): ((&f64, &f64), &f64)| Sample {
+            record: &run.name,
+            column: &column.name,
+            time,
+            measured,
+            computed,
+        };
+        // gaps of the record are no values
+        values.map(sample).filter(|sample| sample.measured.is_finite()).collect::<Vec<_>>()
+    });
+    let samples: Vec<Sample<'_>> = samples.collect();
+    let unit = &answer.input.netlist.temperature_unit;
+    let mut table = Table::of(&samples);
+    table.label("record", |s| s.record.to_owned());
+    table.label("column", |s| s.column.to_owned());
+    table.column("time", "s", |s| s.time);
+    table.column("measured", &unit.text, |s| unit.from_si(s.measured));
+    table.column("computed", &unit.text, |s| unit.from_si(s.computed));
+    table.column("residual", difference(unit), |s| (s.measured - s.computed) / unit.scale);
+    table.done()
+}

@@ -1,0 +1,12 @@
+//! How something that was asked stands.
+
+/// How a claim stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// It was checked, and holds.
+    Holds,
+    /// It was not checked, or a reader has to know of it.
+    Open,
+    /// It was checked, and does not hold.
+    Fails,
+}
