@@ -394,3 +394,62 @@ fn the_same_temperature_is_the_same_number_in_every_member() {
         );
     }
 }
+
+/// Looks at every number: its unit is a text, and what has none is `null`.
+fn units_are_texts(value: &Value) {
+    if let Some(members) = value.as_object() {
+        if members.contains_key("unit") && members.contains_key("value") {
+            assert!(value["unit"].is_string(), "{value}");
+            assert!(value["value"].is_number() || value["value"].is_null(), "{value}");
+        }
+        members.values().for_each(units_are_texts);
+    }
+    value.as_array().into_iter().flatten().for_each(units_are_texts);
+}
+
+/// The name of the first node of a netlist.
+fn first_node(text: &str) -> &str {
+    let below = text.lines().skip_while(|line| line.trim() != "[node]").skip(1);
+    let mut entries = below.filter(|line| line.contains('='));
+    entries.next().and_then(|line| line.split('=').next()).unwrap_or("none").trim()
+}
+
+/// Whether it has an answer or not: one object that says the exit code where there is no result.
+#[test]
+fn every_verb_answers_every_network_with_one_object() {
+    let (mut results, mut refusals) = (0, 0);
+    let folder = Folder::empty();
+    let all = [netlists("networks"), netlists("networks/candidates")].concat();
+    assert!(all.len() > 35);
+    for path in all {
+        let (file, text) = (path.to_str().unwrap(), std::fs::read_to_string(&path).unwrap());
+        let reduce = format!("reduce --port {}", first_node(&text));
+        for verb in [
+            "run --no-files",
+            "steady",
+            "steady --periodic",
+            "check",
+            "modes",
+            "verify",
+            "size",
+            "compare",
+            "fit network",
+            &reduce,
+        ] {
+            let words: Vec<&str> = verb.split(' ').chain([file, "--format", "json"]).collect();
+            let ran = folder.run(&words);
+            let value: Value = serde_json::from_str(&ran.out)
+                .unwrap_or_else(|error| panic!("{verb} {file}: {error}\n{}{}", ran.out, ran.err));
+            assert_eq!(value["format"], 1, "{verb} {file}");
+            units_are_texts(&value);
+            if value.get("columns").is_none() && value["ok"] == false && verb != "check" {
+                refusals += 1;
+                refused(&ran, ran.code.unwrap());
+            } else {
+                results += 1;
+                assert!(matches!(ran.code, Some(0 | 1)), "{verb} {file}: {:?}", ran.code);
+            }
+        }
+    }
+    assert!(results > 190 && refusals > 90, "{results} results, {refusals} refusals");
+}
