@@ -3,7 +3,6 @@
 const root = document.documentElement;
 const FONT = "12px Arimo, Arial, Helvetica, 'Liberation Sans', sans-serif";
 const HEIGHT = 300;
-const MOST_NAMES = 12;
 const TIMES = [["s", 1], ["min", 60], ["h", 3600], ["d", 86400]];
 const STEPS = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 10800, 14400, 21600, 43200, 86400];
 
@@ -161,7 +160,7 @@ function spreads(u, panel, places) {
   ctx.restore();
 }
 
-// limits across and moments upwards, with their names unless they are too many
+// limits across and moments upwards, with their names
 function marks(u, panel, first) {
   const { ctx } = u, { left, top, width, height } = u.bbox, one = devicePixelRatio;
   ctx.save();
@@ -170,15 +169,19 @@ function marks(u, panel, first) {
   ctx.strokeStyle = ctx.fillStyle = colour("limit");
   ctx.setLineDash([6 * one, 4 * one]);
   const line = (a, b) => { ctx.beginPath(); ctx.moveTo(...a); ctx.lineTo(...b); ctx.stroke(); };
-  const written = [];
+  const named = [];
   panel.limits.forEach(limit => {
     const y = u.valToPos(limit.at, "y", true);
     if (!(y >= top && y <= top + height)) return;
     line([left, y], [left + width, y]);
-    if (panel.limits.length > MOST_NAMES || written.some(other => Math.abs(other - y) < 13 * one)) return;
-    written.push(y);
-    ctx.textAlign = "left";
-    ctx.fillText(limit.name, left + 4 * one, y - 4 * one);
+    const near = named.find(other => Math.abs(other.y - y) < 12 * one);
+    if (near) near.names.push(limit.name);
+    else named.push({ y, names: [limit.name] });
+  });
+  ctx.textAlign = "left";
+  named.forEach(({ y, names }) => {
+    const text = names.length > 2 ? names[0] + "; " + (names.length - 1) + " more" : names.join("; ");
+    ctx.fillText(text, left + 4 * one, y - 4 * one);
   });
   ctx.strokeStyle = colour("frame");
   ctx.fillStyle = colour("faint");

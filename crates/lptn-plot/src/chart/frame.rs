@@ -66,19 +66,35 @@ fn titles(scene: &mut Scene, area: &Area, shared: bool) {
 
 /// Limits and moments, over the curves.
 pub(super) fn marks(scene: &mut Scene, panel: &Panel, area: &Area) {
+    let mut named: Vec<(f64, Vec<&str>)> = Vec::new();
     for limit in range::near(panel) {
         let y = area.y_at(limit.value);
         let stroke = Stroke { ink: Ink::Limit, width: 1.3, dash: Dash::Dashed };
         scene.put(line([(area.left, y), (area.right, y)]).stroked(stroke).tipped(&limit.name));
         let below = y - area.top < SMALL + 4.0;
         let y = if below { y + SMALL + 2.0 } else { y - 4.0 };
-        scene.write(Text::new(&limit.name, (area.left + 6.0, y), SMALL, Ink::Limit));
+        match named.iter_mut().find(|(at, _)| (at - y).abs() < SMALL) {
+            Some((_, names)) => names.push(&limit.name),
+            None => named.push((y, vec![&limit.name])),
+        }
+    }
+    for (y, names) in named {
+        scene.write(Text::new(together(&names), (area.left + 6.0, y), SMALL, Ink::Limit));
     }
     for (i, text) in far(panel).into_iter().enumerate() {
         let y = area.top - 5.0 - i as f64 * (SMALL + 4.0);
         scene.write(Text::new(text, (area.left + 6.0, y), SMALL, Ink::Limit));
     }
     moments(scene, panel, area);
+}
+
+/// The names of limits whose names would cover each other.
+fn together(names: &[&str]) -> String {
+    match names {
+        [one, other] => format!("{one}; {other}"),
+        [first, _, _, ..] => format!("{first}; {} more", names.len() - 1),
+        _ => names.concat(),
+    }
 }
 
 /// What is said of limits that are too far to be shown.

@@ -139,3 +139,18 @@ fn a_figure_is_drawn_with_characters() {
     let text = crate::terminal::write(&figure, 80, false);
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
 }
+
+/// Names of limits of one value stood over each other.
+#[test]
+fn limits_of_one_value_share_a_line_of_text() {
+    let limits = |count: usize| {
+        let mut panel = Panel::new(Axis::time(), Axis::linear("T", "degC"));
+        panel.curves.push(Curve::line("a", vec![(0.0, 20.0), (60.0, 80.0)]));
+        let level = |i| Level { name: format!("limit {i}"), value: 60.0 };
+        panel.limits.extend((0..count).map(level));
+        svg::write(&scene(&[Figure { panels: vec![panel], ..Figure::default() }], 500.0))
+    };
+    assert!(limits(2).contains(">limit 0; limit 1</text>"));
+    assert!(limits(60).contains(">limit 0; 59 more</text>"));
+    assert_eq!(limits(60).matches(">limit").count(), 60 + 1, "60 tips and one text");
+}
