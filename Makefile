@@ -7,6 +7,7 @@
 # make fuzz    feeds six readers with inputs guided by coverage, FUZZ_MINUTES (5) each; fuzz/run says how
 # make dist    packs one program that runs on any Linux for x86-64, with manual pages, completions and networks, and a
 #              Python wheel of it: target/dist. See docs/install.md
+# make book    installs mdBook if it is missing and builds docs/ as a book, target/book/index.html, equations as MathML
 # make check-wasm  builds the core, which knows no C, for WebAssembly; says SKIPPED where no Rust can
 # SUNDIALS=bundled make demo    builds SUNDIALS itself: needs gcc, cmake and libclang only
 
@@ -14,7 +15,7 @@ SUNDIALS ?= system
 export SUNDIALS
 features = $(if $(filter bundled,$(SUNDIALS)),--features lptn-cli/bundled)
 
-.PHONY: demo test build dist setup setup-tests bench audit fuzz mutants check-wasm clean
+.PHONY: demo test build dist book setup setup-tests bench audit fuzz mutants check-wasm clean
 
 demo: build
 	./target/release/lptn run networks/gearbox.toml
@@ -42,6 +43,12 @@ mutants: setup-tests
 
 fuzz:
 	@./fuzz/run
+
+book:
+	@command -v mdbook >/dev/null || cargo install mdbook --locked
+	cargo build --release --locked --manifest-path book/prepare/Cargo.toml --target-dir target/book-prepare
+	mdbook build book
+	@echo "target/book/index.html"
 
 audit:
 	@./.ci/audit

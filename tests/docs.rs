@@ -89,3 +89,42 @@ fn every_link_to_a_file_leads_somewhere() {
         }
     }
 }
+
+/// The book holds what is written: every page below `docs` once.
+#[test]
+fn the_book_has_every_page_once() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let summary = std::fs::read_to_string(docs.join("SUMMARY.md")).expect("the summary");
+    for page in all_pages() {
+        let Ok(name) = page.strip_prefix(&docs) else { continue };
+        let wanted = usize::from(name != Path::new("SUMMARY.md"));
+        let link = format!("]({})", name.display());
+        assert_eq!(summary.matches(&link).count(), wanted, "docs/SUMMARY.md: {}", name.display());
+    }
+}
+
+/// What a heading is called in a link, on GitHub and in the book.
+fn anchor(heading: &str) -> String {
+    let kept = |c: &char| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_');
+    heading.trim().to_lowercase().chars().filter(kept).collect::<String>().replace(' ', "-")
+}
+
+#[test]
+fn every_link_to_a_heading_leads_to_one() {
+    for page in all_pages() {
+        let text = std::fs::read_to_string(&page).expect("a page");
+        for part in text.split("](").skip(1) {
+            let target = part.split(')').next().unwrap_or_default();
+            let Some((file, wanted)) = target.split_once('#').filter(|_| !target.contains("://"))
+            else {
+                continue;
+            };
+            let other = if file.is_empty() { page.clone() } else { page.with_file_name(file) };
+            let found = lines(&other).iter().any(|line| {
+                let heading = line.trim_start_matches('#');
+                heading.len() < line.len() && anchor(heading) == wanted
+            });
+            assert!(found, "{}: {target} has no such heading", page.display());
+        }
+    }
+}

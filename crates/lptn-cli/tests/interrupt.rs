@@ -33,6 +33,14 @@ fn a_run_keeps_its_rows() {
 }
 
 #[test]
+fn a_picture_of_a_run_that_was_interrupted_is_not_drawn() {
+    let folder = Folder::with("gearbox.toml", &endless());
+    let ran = interrupted(&folder, &["graph", "gearbox.toml", "--at", "0s", "-o", "x.svg"]);
+    ran.exits(130).says("error[run::interrupted]: the run was interrupted at");
+    assert_eq!(folder.files(), ["gearbox.toml"]);
+}
+
+#[test]
 fn a_comparison_prints_what_is_finished_and_names_the_rest() {
     let ran =
         interrupted(&two(), &["compare", "slow.toml", "gearbox.toml", "--threads", "2"]).exits(130);

@@ -54,8 +54,8 @@ fn same(flows: &HeatFlows, expected: &[(&str, &str, &str, f64)]) {
     }
 }
 
-/// 12 W into `hot`, which leaves 9 W to `cold` and 3 W to the air: T_hot = 20 + 3 * 10 = 50 degC and
-/// T_cold = 50 - 9 * 2 = 32 degC. There 4 W are taken out, so that (32 - 20) / 2.4 = 5 W go on.
+/// 12 W into `hot`, which leaves 9 W to `cold` and 3 W to the air: T_hot = 20 + 3 * 10 = 50 degC
+/// and T_cold = 50 - 9 * 2 = 32 degC. There 4 W are taken out, so that (32 - 20) / 2.4 = 5 W go on.
 const PAIR: &str = r#"
 format = 1
 [node]

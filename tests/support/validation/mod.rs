@@ -13,6 +13,7 @@ mod expected;
 mod gate;
 mod mean;
 mod network;
+pub mod page;
 mod size;
 mod verdict;
 mod waiting;

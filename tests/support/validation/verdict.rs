@@ -111,6 +111,11 @@ impl Report {
         [sum(|line| line.right), sum(|line| line.wrong), sum(|line| line.waiting)]
     }
 
+    /// The largest error of a value that is right, as a share of what is allowed.
+    pub fn worst(&self) -> f64 {
+        self.lines.iter().map(|line| line.worst.0).fold(0.0, f64::max)
+    }
+
     /// The quantities that were asked for.
     pub fn quantities(&self) -> impl Iterator<Item = &str> {
         self.lines.iter().map(|line| line.quantity.as_str())

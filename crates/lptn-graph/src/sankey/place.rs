@@ -93,6 +93,11 @@ pub(crate) fn place(flows: &HeatFlows) -> Placed {
     layers.placed(&ranks, &levels)
 }
 
+/// What a band of this width takes up at a bar: a little more, so that the next one is told apart.
+fn slot(width: f64) -> f64 {
+    width + (0.2 * width).min(1.2)
+}
+
 /// For each vertex the part it belongs to, which no band joins to another; numbered in the order of
 /// the vertices.
 fn parts(neighbours: &Neighbours) -> Vec<usize> {
@@ -144,12 +149,13 @@ impl Layers {
         all
     }
 
-    /// Each vertex is as high as the bands at its larger side are wide.
+    /// Each vertex is as high as the bands at its larger side need.
     fn make_room(&mut self, bars: usize, vertices: usize) {
         let mut sides = vec![[0.0; 2]; vertices];
         for piece in &self.pieces {
-            sides[piece.ends[0]][1] += self.widths[piece.band];
-            sides[piece.ends[1]][0] += self.widths[piece.band];
+            let slot = slot(self.widths[piece.band]);
+            sides[piece.ends[0]][1] += slot;
+            sides[piece.ends[1]][0] += slot;
         }
         self.halves = sides.iter().map(|[left, right]| f64::max(*left, *right) / 2.0).collect();
         let room = |(vertex, half): (usize, &f64)| {
@@ -179,20 +185,15 @@ impl Layers {
             order.sort_by_key(|i| at[self.pieces[*i].ends[1 - side]]);
             let mut sums = vec![0.0; self.halves.len()];
             for i in &order {
-                let (vertex, width) = self.end(*i, side);
-                self.pieces[*i].offsets[side] = sums[vertex] + width / 2.0;
-                sums[vertex] += width;
+                let piece = &mut self.pieces[*i];
+                let (sum, slot) = (&mut sums[piece.ends[side]], slot(self.widths[piece.band]));
+                piece.offsets[side] = *sum + slot / 2.0;
+                *sum += slot;
             }
-            for i in order {
-                let (vertex, _) = self.end(i, side);
-                self.pieces[i].offsets[side] -= sums[vertex] / 2.0;
+            for piece in &mut self.pieces {
+                piece.offsets[side] -= sums[piece.ends[side]] / 2.0;
             }
         }
-    }
-
-    fn end(&self, piece: usize, side: usize) -> (usize, f64) {
-        let piece = self.pieces[piece];
-        (piece.ends[side], self.widths[piece.band])
     }
 
     /// The middle of each vertex, such that wide bands are nearly straight.
@@ -216,7 +217,7 @@ impl Layers {
                 });
             }
         }
-        // what is nearly straight becomes straight: wide bands from the left, then what stands first
+        // what is nearly straight becomes straight: wide bands from the left, then what comes first
         let main = |vertex: usize, side: usize| -> Option<usize> {
             let width = |i: &&usize| self.widths[self.pieces[**i].band];
             joined[vertex][side].iter().max_by(|a, b| width(a).total_cmp(&width(b))).copied()
@@ -262,7 +263,7 @@ impl Layers {
         (weight > 0.0).then(|| sum / weight)
     }
 
-    /// Where the middle of a vertex would have to be for a piece to be straight, and how wide it is.
+    /// Where the middle of a vertex has to be for a piece to be straight, and how wide it is.
     fn straight(&self, piece: usize, vertex: usize, at: &[f64]) -> (f64, f64) {
         let Piece { band, ends, offsets } = self.pieces[piece];
         let own = usize::from(ends[1] == vertex);
