@@ -128,3 +128,18 @@ fn every_link_to_a_heading_leads_to_one() {
         }
     }
 }
+
+/// Tables, headings and blocks are as wide as they have to be.
+#[test]
+fn lines_of_prose_fit_on_a_page() {
+    for page in pages(Path::new(env!("CARGO_MANIFEST_DIR"))) {
+        let lines = lines(&page);
+        let blocks = blocks(&lines);
+        for (number, line) in lines.iter().enumerate() {
+            let block = blocks.iter().any(|block| block.lines.contains(&number));
+            let width = if block { 0 } else { line.chars().count() };
+            let place = format!("{}:{}", page.display(), number + 1);
+            assert!(line.starts_with(['|', '#']) || width <= 100, "{place}: {width} characters");
+        }
+    }
+}

@@ -56,15 +56,6 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
     Exit::Input
 }
 
-/// `--report page.html`, of which only `--report` is understood.
-fn page_without_sign(error: &clap::Error) -> Option<Diagnostic> {
-    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return None };
-    let is_page = Path::new(word).extension().is_some_and(|ending| ending == "html");
-    let message = format!("{word} stands alone: the file of a report is joined with =");
-    let problem = Diagnostic::error("input::report_file", message);
-    is_page.then(|| problem.help(format!("write --report={}", quoted(word))))
-}
-
 /// What the parser says of a command line, which people get as it is.
 fn wrong_usage(text: &str) -> Diagnostic {
     let mut parts = text.trim_end().split("\n\n").map(|part| {
@@ -77,6 +68,15 @@ fn wrong_usage(text: &str) -> Diagnostic {
         Some(tip) => problem.help(tip),
         None => problem.note(part),
     })
+}
+
+/// `--report page.html`, of which only `--report` is understood.
+fn page_without_sign(error: &clap::Error) -> Option<Diagnostic> {
+    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return None };
+    let is_page = Path::new(word).extension().is_some_and(|ending| ending == "html");
+    let message = format!("{word} stands alone: the file of a report is joined with =");
+    let problem = Diagnostic::error("input::report_file", message);
+    is_page.then(|| problem.help(format!("write --report={}", quoted(word))))
 }
 
 /// The name of a file in the place of a verb.

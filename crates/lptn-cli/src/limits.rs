@@ -104,11 +104,8 @@ pub(crate) fn section(text: &mut Text, judgement: &Judgement<'_>, fold: bool) {
         .right("margin", |row| margin(&row.item, of(&row.item), unit));
     if limits.iter().any(|judged| judged.worst_at.is_some()) {
         let time = |row: &Row<Judged>| row.item.worst_at.map(|time| clock.text(time, 3));
-        table = table.right("least at", move |row| time(row).unwrap_or_else(|| "-".into()));
-        // a family has one more column
-        if rows.len() < limits.len() {
-            table = table.optional();
-        }
+        let time = move |row: &Row<Judged>| time(row).unwrap_or_else(|| "-".into());
+        table = table.right("least at", time).spare();
     }
     let table = table.left("", |row| verdict(&row.item, of(&row.item), clock));
     text.section().table(table.judged(|row| row.item.standing()));

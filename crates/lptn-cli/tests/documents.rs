@@ -4,8 +4,8 @@
 //! A block ` ```console ` holds commands, each after `$ `, and their output. The commands of a page
 //! run one after the other through `sh` in a temporary folder of its own that holds a copy of
 //! `networks/` and `docs/records/`, and the blocks of the page that have a file name:
-//! ` ```toml motor.toml `, ` ```csv points.csv `, ` ```python loop.py `. ` ```python plot.py
-//! optional ` needs packages that may not be there and is only compiled.
+//! ` ```toml motor.toml `, ` ```csv points.csv `, ` ```python loop.py `.
+//! ` ```python plot.py optional ` needs packages that may not be there and is only compiled.
 //!
 //! - A block that shows any output shows all of it, stdout and stderr as a terminal would; a line
 //!   `..` stands for lines that are left out, `[..]` for a part of a line. A block that shows none

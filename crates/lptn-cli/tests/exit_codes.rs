@@ -180,7 +180,7 @@ fn new_never_writes_over_a_file() {
     assert_eq!(folder.read("motor.toml"), "mine");
     folder.run(&["new", "a\"b"]).exits(2).says("new::bad_name");
     folder.run(&["new", "no/such/folder/x"]).exits(2).says("output::cannot_create");
-    folder.run(&["new", "my motor", "-v"]).exits(0).says("lptn run 'my motor.toml'");
+    folder.run(&["new", "my motor", "-v"]).exits(0).says("lptn check 'my motor.toml'");
     folder.run(&["check", "my motor.toml"]).exits(0);
 }
 

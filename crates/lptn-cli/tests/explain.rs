@@ -174,6 +174,6 @@ fn a_terminal_is_told_where_to_read_more() {
     let said = on_terminal("run missing.toml");
     assert_eq!(said.matches("explain  lptn explain input::cannot_read").count(), 1, "{said}");
     assert!(!on_terminal("run missing.toml -q").contains("lptn explain"));
-    assert!(on_terminal("new motor").contains("next   lptn run motor.toml"));
+    assert!(on_terminal("new motor").contains("next   lptn check motor.toml"));
     assert!(on_terminal("check motor.toml").contains("stiffness: "));
 }

@@ -107,7 +107,7 @@ fn a_parameter_of_the_command_line_counts() {
 #[test]
 fn a_new_netlist_runs_and_settles_where_it_must() {
     let folder = Folder::empty();
-    folder.run(&["new", "motor", "-v"]).exits(0).says("lptn run motor.toml");
+    folder.run(&["new", "motor", "-v"]).exits(0).says("lptn check motor.toml");
     folder.run(&["run", "motor.toml"]).exits(0);
     // 60 W through 12 W/(m^2 K) x 0.12 m^2 into 20 degC, and through 0.35 K/W
     let (_, rows) = csv(&folder.run(&["steady", "motor.toml", "--format", "csv"]).exits(0).out);

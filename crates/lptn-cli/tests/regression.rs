@@ -238,18 +238,18 @@ fn an_extreme_that_lasts_is_where_it_begins() {
         "both.toml",
         &text("if(t < 60 [s], 20 [degC], if(t < 80 [s], 30 [degC], 20 [degC]))"),
     );
-    // value in K or W and time of the least and of the largest value. The core: 10 K (1 -
+    // value in degC or W and time of the least and of the largest value. The core: 10 K (1 -
     // exp(-t/100 s)), then back
-    let rise = |time: f64| 293.15 - 10.0 * f64::exp_m1(-time / 100.0);
+    let rise = |time: f64| 20.0 - 10.0 * f64::exp_m1(-time / 100.0);
     let up = [
-        ("air.T", (293.15, 10.0), (303.15, 60.0)),
-        ("skin.T", (293.15, 10.0), (298.15, 60.0)),
+        ("air.T", (20.0, 10.0), (30.0, 60.0)),
+        ("skin.T", (20.0, 10.0), (25.0, 60.0)),
         ("in.Q", (0.0, 10.0), (5.0, 60.0)),
-        ("core.T", (293.15, 10.0), (rise(40.0), 100.0)),
+        ("core.T", (20.0, 10.0), (rise(40.0), 100.0)),
         ("foot.Q", (-10.0, 60.0), (0.0, 10.0)),
     ];
     let both =
-        [("air.T", (293.15, 10.0), (303.15, 60.0)), ("core.T", (293.15, 10.0), (rise(20.0), 80.0))];
+        [("air.T", (20.0, 10.0), (30.0, 60.0)), ("core.T", (20.0, 10.0), (rise(20.0), 80.0))];
     for (file, expected) in [("up.toml", &up[..]), ("both.toml", &both)] {
         let json = folder.run(&["run", file, "--no-files", "--format", "json"]).exits(0).json();
         for (name, min, max) in expected {

@@ -1,4 +1,4 @@
-//! Names that have to be short.
+//! Names that have to be short, and texts that have to be harmless.
 
 use unicode_width::UnicodeWidthStr;
 
@@ -41,9 +41,15 @@ pub fn differing(names: &[String]) -> Vec<String> {
     parts.unwrap_or_else(|| names.to_vec())
 }
 
+/// A text on one line without control characters, so that no file can steer the terminal.
+pub fn plain(text: &str) -> String {
+    let one_line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    one_line.chars().filter(|c| !c.is_control()).collect()
+}
+
 #[cfg(test)]
 mod tests {
-    use super::differing;
+    use super::{differing, plain};
     use crate::layout::{Align, Column};
 
     #[test]
@@ -61,5 +67,10 @@ mod tests {
         let mut column = Column::new("record", Align::Left, middle).names();
         column.shorten(20);
         assert_eq!(column.cells, ["1000rpm", "2000rpm"]);
+    }
+
+    #[test]
+    fn titles_cannot_steer_the_terminal() {
+        assert_eq!(plain("a\u{1b}[31mred\n\tb"), "a[31mred b");
     }
 }
