@@ -1,4 +1,4 @@
-//! `--format json`: one object on stdout whatever happens, and temperatures in one unit.
+//! `--format json`: one object on stdout whatever happens, with what was wrong and how to mend it.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -11,12 +11,6 @@ use std::path::{Path, PathBuf};
 
 use common::{Folder, GEARBOX, Ran};
 use serde_json::Value;
-
-/// Runs a command with `--format json`, given as its words between blanks.
-fn json(folder: &Folder, command: &str) -> Ran {
-    let words: Vec<&str> = command.split(' ').chain(["--format", "json"]).collect();
-    folder.run(&words)
-}
 
 fn list<'a>(value: &'a Value, key: &str) -> &'a [Value] {
     value[key].as_array().unwrap()
@@ -71,7 +65,7 @@ fn every_failure_is_one_object() {
         ("materials unobtainium", 2, "materials::unknown"),
         ("explain nonsense", 2, "explain::unknown"),
     ] {
-        let ran = json(&folder, command);
+        let ran = folder.json(command);
         let value = refused(&ran, exit);
         assert_eq!(codes(list(&value, "errors"))[0], code, "{command}: {value}");
         // people get it too, the parser's words without a code
@@ -80,7 +74,7 @@ fn every_failure_is_one_object() {
         assert_eq!(folder.run(&other).out, "", "{command}: only JSON has an object");
     }
     // a candidate that cannot be read is a row among others
-    let compared = json(&folder, "compare gearbox.toml missing.toml").exits(2).json();
+    let compared = folder.json("compare gearbox.toml missing.toml").exits(2).json();
     assert_eq!(
         (compared["rows"][1][2].as_str(), list(&compared, "errors").len()),
         (Some("input::cannot_read"), 1)
@@ -96,7 +90,7 @@ fn a_run_that_breaks_off_has_its_rows_and_why() {
         "a.toml",
         &GEARBOX.replace("P = \"P_7000\"", "P = \"P_7000 * sqrt(1 - t / 5 [min])\""),
     );
-    let ran = json(&folder, "run a.toml").exits(3);
+    let ran = folder.json("run a.toml").exits(3);
     let value = ran.json();
     assert!(list(&value, "rows").len() > 50 && value["end"]["status"] == "failed", "{}", ran.err);
     assert_eq!((&value["ok"], &value["exit"]), (&false.into(), &3.into()));
@@ -106,7 +100,7 @@ fn a_run_that_breaks_off_has_its_rows_and_why() {
         (&"solve::input".into(), &value["end"]["message"])
     );
     assert!(error["places"][0]["text"].as_str().unwrap().contains("sqrt"), "{error}");
-    let whole = json(&Folder::with_gearbox(), "run gearbox.toml --no-files").exits(0).json();
+    let whole = Folder::with_gearbox().json("run gearbox.toml --no-files").exits(0).json();
     assert!(whole.get("ok").is_none() && whole.get("errors").is_none());
 }
 
@@ -177,11 +171,11 @@ fn fixes_mend_what_is_wrong() {
     for path in netlists("crates/lptn-netlist/tests/bad") {
         let name = path.file_name().unwrap().to_str().unwrap();
         let Ok(text) = std::fs::read_to_string(&path) else { continue };
-        let checked = json(&folder, &format!("check {name}")).json();
+        let checked = folder.json(&format!("check {name}")).json();
         let (errors, warnings) = (list(&checked, "errors"), list(&checked, "warnings"));
         if !errors.is_empty() {
             seen += 1;
-            let ran = json(&folder, &format!("run {name}"));
+            let ran = folder.json(&format!("run {name}"));
             assert_eq!(refused(&ran, 2)["errors"], checked["errors"], "{name}");
             for code in codes(errors) {
                 assert!(ran.err.contains(&format!("error[{code}]")), "{name}: {code}");
@@ -190,7 +184,7 @@ fn fixes_mend_what_is_wrong() {
         for problem in errors.iter().chain(warnings).filter(|problem| !problem["fix"].is_null()) {
             let Some(mended) = mended(&text, name, &problem["fix"]) else { continue };
             folder.write("mended.toml", &mended);
-            let again = json(&folder, "check mended.toml").json();
+            let again = folder.json("check mended.toml").json();
             let same =
                 |other: &&Value| ["code", "message"].iter().all(|key| other[*key] == problem[*key]);
             let count = |value: &Value| {
@@ -204,195 +198,6 @@ fn fixes_mend_what_is_wrong() {
         }
     }
     assert!(seen > 300 && fixes > 50, "{seen} netlists, {fixes} fixes");
-}
-
-/// What is a difference of temperatures by its name.
-const DIFFERENCES: [&str; 16] = [
-    "margin",
-    "sd",
-    "effect",
-    "swing",
-    "residual",
-    "error",
-    "rms",
-    "dT",
-    "rise",
-    "tolerance",
-    "drift",
-    "bias",
-    "sensor",
-    "resolution",
-    "amplitudes",
-    "extrapolated",
-];
-
-/// A number in K beside the same in `unit`, degF or degR.
-fn is_same(kelvin: &Value, other: &Value, unit: &str) -> bool {
-    let (Some(kelvin), Some(other)) = (kelvin.as_f64(), other.as_f64()) else {
-        return kelvin == other;
-    };
-    let expected = 1.8 * kelvin - if unit == "degF" { 459.67 } else { 0.0 };
-    (other - expected).abs() <= 1e-9 * expected.abs().max(1.0)
-}
-
-/// Compares an object in K with the same in degF, and gives how many temperatures it has.
-fn compared(key: &str, kelvin: &Value, other: &Value) -> usize {
-    let same_unit = |k: &Value, o: &Value, key: &str| match (k.as_str(), o.as_str()) {
-        (Some("K"), Some(unit @ ("degF" | "degR"))) => {
-            assert!(unit == "degR" || !DIFFERENCES.contains(&key), "{key}: {other}");
-            Some(unit.to_owned())
-        }
-        (k, o) => {
-            assert!(k == o && k != Some("K"), "{key}: {other}");
-            None
-        }
-    };
-    match (kelvin, other) {
-        (Value::Object(k), Value::Object(o)) if k.contains_key("rows") => {
-            compared_rows((&k["columns"], &o["columns"]), (&k["rows"], &o["rows"]), same_unit)
-                + compared_members(k, o)
-        }
-        (Value::Object(k), Value::Object(o)) if k.contains_key("unit") => {
-            let Some(unit) = same_unit(&k["unit"], &o["unit"], key) else {
-                return compared_members(k, o);
-            };
-            assert!(is_same(&k["value"], &o["value"], &unit), "{key}: {kelvin} {other}");
-            for error in ["standard_error", "naive_standard_error", "systematic_error"] {
-                assert!(is_same(&kelvin[error], &other[error], "degR"), "{key}: {kelvin} {other}");
-            }
-            let ends = |of: &Value| of["interval_95"].as_array().cloned().unwrap_or_default();
-            for (k, o) in ends(kelvin).iter().zip(&ends(other)) {
-                assert!(is_same(k, o, &unit), "{key}: {kelvin} {other}");
-            }
-            1
-        }
-        (Value::Object(k), Value::Object(o)) => compared_members(k, o),
-        (Value::Array(k), Value::Array(o)) => {
-            assert_eq!(k.len(), o.len(), "{key}");
-            k.iter().zip(o).map(|(k, o)| compared(key, k, o)).sum()
-        }
-        _ => 0,
-    }
-}
-
-fn compared_members(
-    k: &serde_json::Map<String, Value>,
-    o: &serde_json::Map<String, Value>,
-) -> usize {
-    assert!(k.keys().eq(o.keys()), "{:?} {:?}", k.keys(), o.keys());
-    let inside = k.iter().filter(|(key, _)| !["rows", "value"].contains(&key.as_str()));
-    inside
-        .filter(|(key, k)| *key != "columns" || k.is_object())
-        .map(|(key, k)| compared(key, k, &o[key]))
-        .sum()
-}
-
-fn compared_rows(
-    columns: (&Value, &Value),
-    rows: (&Value, &Value),
-    same_unit: impl Fn(&Value, &Value, &str) -> Option<String>,
-) -> usize {
-    let list = |of: &Value| of.as_array().unwrap().clone();
-    let mut found = 0;
-    for (i, (k, o)) in list(columns.0).iter().zip(&list(columns.1)).enumerate() {
-        assert_eq!(k["name"], o["name"]);
-        let Some(unit) = same_unit(&k["unit"], &o["unit"], k["name"].as_str().unwrap()) else {
-            continue;
-        };
-        for (k, o) in list(rows.0).iter().zip(&list(rows.1)) {
-            assert!(is_same(&k[i], &o[i], &unit), "{k} {o}");
-            found += 1;
-        }
-    }
-    found
-}
-
-/// A gearbox with a limit, a window, a report and uncertain parameters.
-fn of_everything() -> Folder {
-    let text = GEARBOX
-        .replace("\"25.5 degC\"", "\"25.5 ± 1 degC\"")
-        .replace("\"220.6 W\"", "\"220.6 W ± 5 %\"");
-    let run = "[run]\nreport = { rise = \"steel.T - air.T\" }\nselect = [\"*.T\", \"rise\"]\n\
-               window = { late = { from = \"20 min\", to = \"25 min\" } }\n";
-    let limits = "[limit]\nhot = { of = \"steel.T\", below = \"90 degC\" }\n\
-                  rise = { of = \"steel.T - air.T\", below = \"90 K\" }\n";
-    let folder = Folder::with("gearbox.toml", &(text.replace("[run]\n", run) + limits));
-    let duty = std::fs::read_to_string(project().join("networks/duty_cycle.toml")).unwrap();
-    folder.write(
-        "duty.toml",
-        &(duty + "\n[limit]\nhot = { of = \"body.T\", below = \"90 degC\" }\n"),
-    );
-    let ring = |t: f64| 92.7 - 67.2 * (-t / 810.0).exp() + 0.05 * (t / 7.0).sin();
-    let rows = (0..300).map(|i| 5.0 * f64::from(i)).map(|t| format!("{t},{:.2}\n", ring(t)));
-    folder.write("record.csv", &format!("t [s],ring [degC]\n{}", rows.collect::<String>()));
-    folder
-}
-
-/// Every temperature and every difference goes with the unit that is asked for.
-#[test]
-fn temperatures_come_in_one_unit() {
-    let folder = of_everything();
-    for (command, least) in [
-        ("run gearbox.toml --no-files", 900),
-        ("run gearbox.toml --no-files --uncertainty linear", 1500),
-        ("run gearbox.toml --no-files --uncertainty sobol --samples 64", 1500),
-        ("steady gearbox.toml", 8),
-        ("steady duty.toml --periodic", 10),
-        ("compare gearbox.toml duty.toml", 6),
-        ("reduce gearbox.toml --port steel --bias", 6),
-        ("fit step record.csv --capacity 2659J/K --sensor 1K", 5),
-        ("fit step record.csv --model gearbox.toml --port steel", 10),
-    ] {
-        let [kelvin, fahrenheit] = ["K", "degF"]
-            .map(|unit| json(&folder, &format!("{command} --temperature-unit {unit}")).json());
-        let found = compared("", &kelvin, &fahrenheit);
-        assert!(found >= least, "{command}: {found} temperatures");
-        // without the option in the netlist's, which is degC, and no absolute one in K
-        let celsius = json(&folder, command).json();
-        assert!(celsius.to_string().contains("\"degC\""), "{command}: {celsius}");
-    }
-}
-
-/// The last row, the window's largest value, the limit's worst and the steady state's are one
-/// number, and CSV has it too.
-#[test]
-fn the_same_temperature_is_the_same_number_in_every_member() {
-    let folder = of_everything();
-    for unit in ["degC", "K", "degF", "degR"] {
-        let run = format!("run gearbox.toml --temperature-unit {unit}");
-        let value = json(&folder, &run).json();
-        let last = list(&value, "rows").last().unwrap();
-        let (headers, rows) = common::csv(&folder.read("out/gearbox/result.csv"));
-        let column =
-            headers.iter().position(|header| *header == format!("steel.T [{unit}]")).unwrap();
-        let steel = last[column].as_f64().unwrap();
-        assert_eq!(value["columns"][column]["unit"], unit);
-        assert_eq!(rows.last().unwrap()[column].to_bits(), steel.to_bits());
-        let same = |found: &Value| {
-            assert_eq!(found["unit"], unit, "{found}");
-            assert!((found["value"].as_f64().unwrap() - steel).abs() < 1e-9, "{found} {steel}");
-        };
-        same(&value["windows"]["late"]["columns"]["steel.T"]["max"]);
-        same(&value["limits"]["hot"]["worst"]);
-        let limit = &value["limits"]["hot"];
-        let number = |of: &Value| of["value"].as_f64().unwrap();
-        let margin = number(&limit["below"]) - number(&limit["worst"]);
-        assert!((number(&limit["margin"]) - margin).abs() < 1e-9, "{limit}");
-        // files of results do not follow: they are in K
-        let manifest: Value =
-            serde_json::from_str(&folder.read("out/gearbox/manifest.json")).unwrap();
-        assert_eq!(
-            manifest["limits"]["hot"]["below"],
-            serde_json::json!({ "value": 363.15, "unit": "K" })
-        );
-        let steady =
-            json(&folder, &format!("steady gearbox.toml --temperature-unit {unit}")).json();
-        let settled = &steady["values"]["steel.T"];
-        assert_eq!(
-            (settled["unit"].as_str(), settled),
-            (Some(unit), &steady["limits"]["hot"]["worst"])
-        );
-    }
 }
 
 /// Looks at every number: its unit is a text, and what has none is `null`.

@@ -92,6 +92,12 @@ impl Folder {
         Ran::of(self.command(arguments).output().unwrap())
     }
 
+    /// Runs a command with `--format json`, given as its words between blanks.
+    pub fn json(&self, command: &str) -> Ran {
+        let words: Vec<&str> = command.split(' ').chain(["--format", "json"]).collect();
+        self.run(&words)
+    }
+
     /// Runs with a text on stdin.
     pub fn run_with(&self, arguments: &[&str], stdin: &str) -> Ran {
         let mut command = self.command(arguments);
