@@ -77,7 +77,7 @@ pub(crate) fn laws(network: &Network) -> Vec<Claim> {
     let laws = network.conductors().iter().map(|conductor| conductor.law.formula().declaration());
     let unsure = laws.filter(|law| law.confidence == Confidence::Medium).map(|law| law.name);
     let names: BTreeSet<&str> = unsure.collect();
-    let kept = "no table, fluid or capacity left the range it is given for";
+    let kept = "no fluid or capacity left its range, nor a table without `outside`";
     let mut claims = vec![Claim::checked(true, kept)];
     if !names.is_empty() {
         let names: Vec<String> = names.into_iter().map(|name| name.replace('_', " ")).collect();
@@ -183,7 +183,7 @@ fn parameters(input: &Input, sensitivities: Option<&Sensitivities>) -> Option<Se
     let mut table = TextTable::of(&ids)
         .left("parameter", |id| of(id).name.as_str())
         .right("value", |id| shown(*id, network.parameter_value(*id)))
-        .left("as it is written", |id| written(input, *id));
+        .left("in the file", |id| written(input, *id));
     if ids.iter().any(|id| !deviation(id).is_empty()) {
         table = table.right("\u{b1}, one standard deviation", deviation);
     }
@@ -202,7 +202,7 @@ fn parameters(input: &Input, sensitivities: Option<&Sensitivities>) -> Option<Se
     Some(Section::of("Parameters", Piece::Text(text)))
 }
 
-/// The text of a parameter's value with the comment behind it, or that it was set.
+/// What the file says of a parameter, with the comment behind it: what was set stands in the value.
 fn written(input: &Input, id: ParameterId) -> String {
     let netlist = &input.netlist;
     let Some(span) = netlist.source_map.get(Item::Parameter(id), Field::Value) else {

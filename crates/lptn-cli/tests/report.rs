@@ -136,6 +136,7 @@ fn trust_is_told_first() {
         "the books close to",
         "linear: temperatures rise in proportion to heat",
         "no Biot number checked",
+        "<li class=\"open\"><b>\u{b7}</b> not verified: errors should be below 1e-4 K",
         "<li class=\"fails\"><b>\u{2717}</b> hot broken by",
     ] {
         assert!(claims.contains(claim), "{claims} lacks {claim}");
@@ -202,4 +203,15 @@ fn a_page_of_results_says_whether_they_are_what_their_run_gives() {
     claim("not run again: lump.toml has changed since", 0);
     std::fs::remove_file(folder.path().join("lump.toml")).unwrap();
     claim("not run again: lump.toml is not here", 0);
+}
+
+/// What a parameter does to a run from the start is not what it does to a settled cycle.
+#[test]
+fn a_settled_cycle_has_no_derivatives_of_another_run() {
+    let text = include_str!("../../../networks/duty_cycle.toml");
+    let folder = Folder::with("duty.toml", &format!("{text}\n[param]\nspare = \"1 W/K\"\n"));
+    let ran = folder.run(&["steady", "duty.toml", "--periodic", "--report=page.html"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    let page = folder.read("page.html");
+    assert!(page.contains("<h2>Parameters</h2>") && !page.contains("+1 % changes it"));
 }

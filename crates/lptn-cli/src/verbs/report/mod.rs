@@ -11,6 +11,7 @@ pub(crate) use args::ReportArgs;
 use clap::Parser as _;
 use lptn_netlist::Diagnostic;
 use lptn_report::{Claim, Piece, Section, write_csv};
+use lptn_solve::RunStatus;
 use serde_json::Value;
 
 use super::Verb;
@@ -58,6 +59,9 @@ fn changed(manifest: &Value) -> Option<String> {
     let Some(inputs) = manifest["inputs"].as_array().filter(|inputs| !inputs.is_empty()) else {
         return Some(format!("no {MANIFEST} says how"));
     };
+    if manifest["end"]["status"] == "interrupted" {
+        return Some("it was interrupted".into());
+    }
     inputs.iter().find_map(|input| {
         let name = input["name"].as_str()?;
         let Ok(bytes) = std::fs::read(name) else { return Some(format!("{name} is not here")) };
@@ -82,6 +86,10 @@ fn again(
     let mut input = Input::load(&args.source)?;
     input.set_times(&args.times)?;
     let (outcome, _) = run::outcome(&args, &input, console)?;
+    if matches!(outcome.solution.end(), RunStatus::Interrupted(_)) {
+        let problem = Diagnostic::error("run::interrupted", "the run was interrupted");
+        return Err(Failure::new(Exit::Interrupted, problem));
+    }
     let mut bytes = Vec::new();
     let written = write_csv(&outcome.shown_table(), &mut bytes);
     let there = std::fs::read(folder.join(RESULT)).unwrap_or_default();

@@ -73,7 +73,7 @@ impl Page for Outcome<'_> {
     }
 
     fn more(&self) -> Report {
-        self.report()
+        self.report(true)
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -69,7 +69,7 @@ impl Page for View<'_> {
     }
 
     fn more(&self) -> Report {
-        self.outcome.more()
+        self.outcome.report(false)
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
