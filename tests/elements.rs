@@ -5,6 +5,7 @@
 //! (` ```toml`) and one table of results, whose rows begin with a quantity in quotes, `steady` or a
 //! time, and a value with its unit.
 
+mod losses;
 mod support;
 
 use std::path::{Path, PathBuf};
@@ -18,7 +19,7 @@ use lptn::units::{Unit, parse_quantity};
 const TOLERANCE: f64 = 1e-6;
 
 /// Quantity, `steady` or a time, and the value in the unit of the page.
-type Closed = (&'static str, &'static str, f64);
+pub(crate) type Closed = (&'static str, &'static str, f64);
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/elements")
@@ -35,7 +36,7 @@ fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// Temperature of a lump that relaxes from `t0` to `end`.
-fn relaxed(t0: f64, end: f64, time: f64, tau: f64) -> f64 {
+pub(crate) fn relaxed(t0: f64, end: f64, time: f64, tau: f64) -> f64 {
     end + (t0 - end) * (-time / tau).exp()
 }
 
@@ -255,7 +256,7 @@ fn material() -> Vec<Closed> {
 }
 
 /// Every page with its closed forms.
-fn pages() -> [(&'static str, Vec<Closed>); 13] {
+fn pages() -> [(&'static str, Vec<Closed>); 17] {
     [
         ("node", node()),
         ("capacitor", capacitor()),
@@ -267,6 +268,10 @@ fn pages() -> [(&'static str, Vec<Closed>); 13] {
         ("radiation", radiation()),
         ("advection", advection()),
         ("source", source()),
+        ("bearing", losses::bearing()),
+        ("seal", losses::seal()),
+        ("mesh", losses::mesh()),
+        ("churning", losses::churning()),
         ("table", table()),
         ("signal", signal()),
         ("material", material()),
@@ -369,6 +374,7 @@ fn every_law_stands_in_an_example() {
         let name = kind.declaration().section;
         let network = read(name, &page(name).1).network;
         laws.extend(network.conductors().iter().map(|conductor| conductor.law.formula()));
+        laws.extend(network.sources().iter().map(|source| source.law.formula()));
     }
     for law in Formula::ALL {
         assert!(laws.contains(law), "no example in docs/elements has the law {law:?}");

@@ -5,9 +5,9 @@
 
 use std::path::{Path, PathBuf};
 
-use lptn::laws::{FieldDeclaration, Formula, Kind, Range};
+use lptn::laws::{Confidence, FieldDeclaration, Formula, Kind, Range};
 use lptn::netlist::Netlist;
-use lptn::network::{ConductorFlow, ConductorId, Network};
+use lptn::network::{ConductorFlow, Item, Network};
 use lptn::units::{parse_quantity, suggest};
 
 /// Every kind with each of its laws.
@@ -38,10 +38,12 @@ fn si(field: &FieldDeclaration) -> f64 {
     parse_quantity(field.example.trim_matches('"'), Some(field.ty)).unwrap().value
 }
 
-/// Two nodes of different temperatures, joined by a path of this kind and law.
+/// Two nodes of different temperatures, joined by a path of this kind and law, or the first heated
+/// by a source.
 fn netlist((kind, law): (Kind, Formula), value: impl Fn(&FieldDeclaration) -> String) -> String {
     let (declared, section) = (law.declaration(), kind.declaration());
-    let mut fields = vec!["from = \"a\", to = \"b\"".to_owned()];
+    let ends = if kind.is_source() { "into = \"a\"" } else { "from = \"a\", to = \"b\"" };
+    let mut fields = vec![ends.to_owned()];
     fields.extend(section.selector.map(|key| format!("{key} = \"{}\"", declared.name)));
     fields.extend(declared.carries.is_of_fluid().then(|| "fluid = \"oil\"".to_owned()));
     for same in declared.fields.chunk_by(|a, b| a.key == b.key) {
@@ -69,8 +71,14 @@ fn read(text: &str) -> Netlist {
     lptn::parse("kinds.toml", text).unwrap_or_else(|rejected| panic!("{rejected}\n{text}"))
 }
 
-fn path(network: &Network) -> ConductorId {
-    network.conductor_ids().find(|id| network.conductors()[id.index()].name() == "path").unwrap()
+/// The element that is looked at.
+fn element(network: &Network) -> Item {
+    network.item("path").unwrap()
+}
+
+/// What varies with the temperatures of the element.
+fn varied(kind: Kind) -> &'static str {
+    if kind.is_source() { "(1 + (T - 20 [degC]) / 1000 [K])" } else { "(1 + dT / 1000 [K])" }
 }
 
 #[test]
@@ -121,9 +129,23 @@ fn every_law_and_kind_that_is_written_is_in_the_list() {
 fn every_law_is_read_as_it_is_declared() {
     for of in all() {
         let netlist = read(&netlist(of, example));
-        let conductor = &netlist.network.conductors()[path(&netlist.network).index()];
-        assert_eq!((conductor.kind, conductor.law.formula()), of, "{}", words(of));
-        let heats: &[&str] = if of.0.is_stream() { &["Q_from", "Q_to"] } else { &["Q"] };
+        let found = match element(&netlist.network) {
+            Item::Conductor(id) => {
+                let conductor = &netlist.network.conductors()[id.index()];
+                (conductor.kind, conductor.law.formula())
+            }
+            Item::Source(id) => {
+                let source = &netlist.network.sources()[id.index()];
+                (source.kind, source.law.formula())
+            }
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(found, of, "{}", words(of));
+        let heats: &[&str] = match of.0 {
+            kind if kind.is_source() => &["P"],
+            kind if kind.is_stream() => &["Q_from", "Q_to"],
+            _ => &["Q"],
+        };
         for heat in heats {
             read(&format!(
                 "{}[limit]\nmuch = {{ of = \"path.{heat}\", below = \"1 GW\" }}\n",
@@ -136,9 +158,10 @@ fn every_law_is_read_as_it_is_declared() {
 #[test]
 fn every_law_is_the_same_when_it_is_written_and_read_again() {
     for of in all() {
-        for value in [example as fn(&FieldDeclaration) -> String, |field| {
-            times(field, "p * (1 + dT / 1000 [K])")
-        }] {
+        let varied = format!("p * {}", varied(of.0));
+        let values: [&dyn Fn(&FieldDeclaration) -> String; 2] =
+            [&example, &|field| times(field, &varied)];
+        for value in values {
             let first = read(&netlist(of, value));
             let again = read(&first.expanded());
             let [a, b] =
@@ -153,10 +176,18 @@ fn every_law_is_the_same_when_it_is_written_and_read_again() {
     }
 }
 
-/// Heat received by the ends of the path.
+/// Heat received by the ends of the path, or by the first node from the source.
 fn heat(network: &Network, temperatures: [f64; 3]) -> [f64; 2] {
     let difference = temperatures[0] - temperatures[1];
-    match network.flow(path(network)) {
+    let id = match element(network) {
+        Item::Conductor(id) => id,
+        Item::Source(id) => {
+            let heat = network.source_heat(id, &mut network.evaluation(), &temperatures);
+            return [heat.unwrap(), 0.0];
+        }
+        other => panic!("{other:?}"),
+    };
+    match network.flow(id) {
         ConductorFlow::Conductance(g) => [-g * difference, g * difference],
         ConductorFlow::Radiation(gr) => {
             let q = 5.670_374_419e-8 * gr * (temperatures[0].powi(4) - temperatures[1].powi(4));
@@ -164,7 +195,7 @@ fn heat(network: &Network, temperatures: [f64; 3]) -> [f64; 2] {
         }
         ConductorFlow::Stream(rate) => [0.0, rate * difference],
         ConductorFlow::Variable => {
-            network.exchange(path(network), &mut network.evaluation(), &temperatures).unwrap()
+            network.exchange(id, &mut network.evaluation(), &temperatures).unwrap()
         }
     }
 }
@@ -180,9 +211,20 @@ fn close(found: f64, slope: f64, what: &str) {
 fn every_law_knows_its_slopes() {
     let at = [350.0, 310.0, 293.15];
     for of in all() {
-        let network = read(&netlist(of, |field| times(field, "(1 + dT / 1000 [K])"))).network;
+        let network = read(&netlist(of, |field| times(field, varied(of.0)))).network;
         let (mut scope, mut slopes) = (network.evaluation(), Vec::new());
-        network.exchange_slopes(path(&network), &mut scope, &at, &mut slopes).unwrap();
+        match element(&network) {
+            Item::Conductor(id) => {
+                network.exchange_slopes(id, &mut scope, &at, &mut slopes).unwrap();
+            }
+            Item::Source(id) => {
+                let mut own = Vec::new();
+                network.source_slopes(id, &mut scope, &at, &mut own).unwrap();
+                slopes.extend(own.iter().map(|slope| [*slope, 0.0]));
+            }
+            other => panic!("{other:?}"),
+        }
+        assert!(!slopes.is_empty(), "{}", words(of));
         for (k, slope) in slopes.iter().enumerate() {
             let moved = |by: f64| {
                 let mut moved = at;
@@ -226,7 +268,7 @@ fn every_field_refuses_what_is_out_of_its_range() {
         for field in of.1.declaration().fields {
             let factor = match field.range {
                 Range::Finite => continue,
-                Range::Positive | Range::Temperature => "-1",
+                Range::Positive | Range::NotNegative | Range::Temperature => "-1",
                 Range::Fraction => "2",
             };
             let one = |own: &FieldDeclaration| {
@@ -237,6 +279,7 @@ fn every_field_refuses_what_is_out_of_its_range() {
             let wanted = match field.range {
                 Range::Fraction => "network::not_a_fraction",
                 Range::Temperature => "network::below_absolute_zero",
+                Range::NotNegative => "network::negative",
                 _ => "network::not_positive",
             };
             assert!(codes.contains(&wanted), "{} {}: {codes:?}", words(of), field.key);
@@ -279,6 +322,7 @@ fn range(range: Range) -> &'static str {
     match range {
         Range::Finite => "of either sign",
         Range::Positive => "above 0",
+        Range::NotNegative => "at least 0",
         Range::Fraction => "above 0, at most 1",
         Range::Temperature => "absolute",
     }
@@ -291,7 +335,10 @@ fn tables(kind: Kind) -> String {
         "|---|---|---|---|---|".to_owned(),
     ];
     let ends = if kind.is_stream() { "" } else { ", or faces of a grid" };
-    lines.push(format!("| `from`, `to` | two nodes or boundaries{ends} | | | |"));
+    lines.push(match kind.is_source() {
+        true => "| `into` | a node, a grid, a face, or `{ a = 0.6, b = 0.4 }` | | | |".to_owned(),
+        false => format!("| `from`, `to` | two nodes or boundaries{ends} | | | |"),
+    });
     if kind.laws().any(|law| law.declaration().carries.is_of_fluid()) {
         let of = "a [fluid](material.md) of the file or of the library: `air`, `water`, \
             `gear_oil_vg220`, ..";
@@ -332,8 +379,16 @@ fn tables(kind: Kind) -> String {
         let keys: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
         let of = if declared.carries.is_of_fluid() { "`fluid`, " } else { "" };
         let pair = if pair { " (a list of two)" } else { "" };
+        let word = kind
+            .declaration()
+            .selector
+            .map_or(String::new(), |key| format!("`{key} = \"{}\"`: ", declared.name));
+        let mark = match declared.confidence {
+            Confidence::High => "",
+            Confidence::Medium => " Unverified constants.",
+        };
         lines.push(format!(
-            "| {of}{}{pair} | {} | {} | {} |",
+            "| {word}{of}{}{pair} | {} | {}{mark} | {} |",
             keys.join(", "),
             declared.equation,
             declared.validity,

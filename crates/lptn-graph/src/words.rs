@@ -44,14 +44,19 @@ pub(crate) fn flow(flow: ConductorFlow) -> Option<String> {
 
 /// The number that a value is in SI units; `None` if it reads anything but parameters.
 pub(crate) fn number(network: &Network, value: &Value, scope: &mut Evaluation) -> Option<f64> {
-    let parameters = || network.parameter_ids().map(|id| network.parameter_slot(id));
-    let fixed = value.slots().iter().all(|slot| parameters().any(|known| known == *slot));
-    if fixed { value.at(scope).ok() } else { None }
+    if is_fixed(network, value) { value.at(scope).ok() } else { None }
 }
 
-/// A letter for a value that is not a number, with what it depends on: `P(t)`.
-pub(crate) fn letter(network: &Network, value: &Value, letter: &str, on_heat: bool) -> String {
-    let on = match (network.depends_on_time(value), on_heat) {
+/// Whether a value reads nothing but parameters.
+pub(crate) fn is_fixed(network: &Network, value: &Value) -> bool {
+    let parameters = || network.parameter_ids().map(|id| network.parameter_slot(id));
+    value.slots().iter().all(|slot| parameters().any(|known| known == *slot))
+}
+
+/// A letter for a value that is not a number, with whether it depends on time and on temperatures:
+/// `P(t)`.
+pub(crate) fn letter(letter: &str, depends: (bool, bool)) -> String {
+    let on = match depends {
         (true, true) => "(t, T)",
         (true, false) => "(t)",
         (false, true) => "(T)",

@@ -31,7 +31,7 @@ pub struct LawDeclaration {
     pub sentence: &'static str,
     /// The equation in text.
     pub equation: &'static str,
-    /// The kinds of path that obey it.
+    /// The kinds of path or source that obey it.
     pub kinds: &'static [Kind],
     /// What it takes. Two in a row with one key are given as a list of two.
     pub fields: &'static [FieldDeclaration],
@@ -73,12 +73,14 @@ pub enum Carries {
     /// A volume flow in m^3/s of a fluid, measured at the temperature that the field of this key
     /// gives.
     VolumeFlow(&'static str),
+    /// A heat in W, positive into the nodes that it heats: no path, but a source.
+    Heat,
 }
 
 impl Carries {
     /// Whether it is a stream, whose heat goes one way.
     pub fn is_stream(self) -> bool {
-        !matches!(self, Self::Conductance | Self::Radiation)
+        !matches!(self, Self::Conductance | Self::Radiation | Self::Heat)
     }
 
     /// Whether it needs a fluid.
@@ -161,6 +163,26 @@ impl FieldDeclaration {
     ) -> Self {
         Self { hints: Hints::MEASURE, ..Self::new(key, ty, meaning, example) }
     }
+
+    /// A plain number from a catalogue or a drawing, above 0.
+    pub const fn given(key: &'static str, meaning: &'static str, example: &'static str) -> Self {
+        Self { hints: Hints::GIVEN, ..Self::new(key, Type::SCALAR, meaning, example) }
+    }
+
+    /// The same with this value where it is left out.
+    pub const fn or(self, default: f64) -> Self {
+        Self { default: Some(default), ..self }
+    }
+
+    /// The same that may be 0.
+    pub const fn from_zero(self) -> Self {
+        Self { range: Range::NotNegative, ..self }
+    }
+
+    /// The same that may have either sign.
+    pub const fn signed(self) -> Self {
+        Self { range: Range::Finite, ..self }
+    }
 }
 
 /// Which numbers a field may be. During a run, where it may depend on time and temperatures, 0 is
@@ -171,6 +193,8 @@ pub enum Range {
     Finite,
     /// Above 0.
     Positive,
+    /// At least 0.
+    NotNegative,
     /// Above 0, at most 1.
     Fraction,
     /// An absolute temperature, at least 0 K.
@@ -211,6 +235,12 @@ impl Hints {
         negative: "a body has measures of more than zero",
         ..Self::SIGN
     };
+    /// Of a number that a catalogue or a drawing gives.
+    pub const GIVEN: Self = Self {
+        zero: "the catalogue or the drawing has a number of more than zero",
+        negative: "the catalogue or the drawing has a number of more than zero",
+        ..Self::SIGN
+    };
     /// Of a property of a body.
     pub const PROPERTY: Self = Self {
         zero: "a body has a mass, a volume and properties of more than zero",
@@ -219,16 +249,16 @@ impl Hints {
     };
 }
 
-/// What is known of a kind of path: a section of the netlist.
+/// What is known of a kind of path or source: a section of the netlist.
 #[derive(Debug)]
 pub struct KindDeclaration {
-    /// The section, which is also what a path of it is called.
+    /// The section, which is also what an element of it is called.
     pub section: &'static str,
     /// What it is, in one sentence.
     pub sentence: &'static str,
     /// The key whose word chooses among its laws, where their fields do not.
     pub selector: Option<&'static str>,
-    /// The right side of a path of it, for help.
+    /// The right side of an element of it, for help.
     pub example: &'static str,
     /// Keys that belong elsewhere, with what to write instead.
     pub elsewhere: &'static [(&'static str, &'static str)],
@@ -259,6 +289,11 @@ impl Kind {
     /// Whether its paths are streams, whose two ends receive different heats.
     pub fn is_stream(self) -> bool {
         self.laws().any(|law| law.declaration().carries.is_stream())
+    }
+
+    /// Whether its elements are no paths between two ends, but sources that heat nodes.
+    pub fn is_source(self) -> bool {
+        self.laws().any(|law| law.declaration().carries == Carries::Heat)
     }
 
     /// Its fields, each key once: those that all its laws take come first.

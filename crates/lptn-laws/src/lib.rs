@@ -1,5 +1,5 @@
-//! Published formulas of heat transfer, one function each, and the declarations of the laws and
-//! kinds of paths that follow from them ([`Formula`], [`Kind`]): fields with quantity, range,
+//! Published formulas of heat transfer and of losses, one function each, and the declarations of the
+//! laws and kinds of paths and sources that follow from them ([`Formula`], [`Kind`]): fields with quantity, range,
 //! default and example, forms, validity, source. Netlist keys, checks, help, documents, expansion
 //! and the tests of derivatives are read from there.
 //!
@@ -30,17 +30,26 @@
 //! ```
 
 mod advection;
+mod bearing;
+mod churning;
 mod conduction;
 mod contact;
 mod convection;
 mod declare;
 mod list;
+mod loss;
 mod lump;
+mod mesh;
 mod phase;
 mod radiation;
 mod resistor;
+mod seal;
+mod skf;
+mod source;
 
 pub use advection::{advection_from, advection_to, stream_from, stream_to};
+pub use bearing::{bearing_load, bearing_no_load};
+pub use churning::Churned;
 pub use conduction::{cylinder, rod, slab, sphere};
 pub use convection::film;
 pub use declare::{
@@ -49,8 +58,11 @@ pub use declare::{
 };
 pub use list::{Formula, Kind};
 pub use lump::{biot, diffusion_time};
+pub use mesh::{GearPair, gear_loss_factor, mesh_friction};
 pub use phase::melting_capacity;
 pub use radiation::{
     STEFAN_BOLTZMANN, effective_emissivity_parallel_plates, radiation_conductance,
     radiation_exchange_area,
 };
+pub use seal::{lip_seal, shaft_seal};
+pub use skf::SkfBearing;

@@ -7,8 +7,8 @@ use crate::declare::{KindDeclaration, Law, LawDeclaration};
 
 macro_rules! declare {
     ($($module:ident: $($kind:ident)? { $($law:ident),* };)*) => {
-        /// A kind of path: the section of the netlist that it stands in, in the order in which
-        /// their columns stand.
+        /// A kind of path or of source of heat: the section of the netlist that it stands in, in
+        /// the order in which their columns stand; paths come first.
         #[allow(missing_docs, reason = "its declaration says what it is")]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Kind { $($($kind,)?)* }
@@ -23,7 +23,7 @@ macro_rules! declare {
             }
         }
 
-        /// A law by which a path carries heat.
+        /// A law by which a path carries heat, or a source puts it into nodes.
         #[allow(missing_docs, reason = "its declaration says what it is")]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Formula { $($($law,)*)* }
@@ -55,4 +55,10 @@ declare! {
     contact: Contact {};
     radiation: Radiation { ExchangeArea, GreySurfaces, ParallelPlates };
     advection: Advection { CapacityRate, MassFlow, VolumeFlow };
+    source: Source { Given };
+    bearing: Bearing { BearingNoLoad, BearingLoad };
+    skf: { BearingSkf };
+    seal: Seal { SealShaft, SealFkm, SealNbr };
+    mesh: Mesh { MeshExternal, MeshInternal };
+    churning: Churning { ChurnedCylinder, ChurnedSides, ChurnedTeeth };
 }

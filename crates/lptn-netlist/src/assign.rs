@@ -267,7 +267,7 @@ impl Netlist {
                 thermostat.flat_map(|t| [&t.on, &t.off, &t.min_dwell]).collect()
             }
             Item::Capacitor(id) => vec![&network.capacitors()[id.index()].capacity],
-            Item::Source(id) => vec![&network.sources()[id.index()].power],
+            Item::Source(id) => network.sources()[id.index()].law.values().iter().collect(),
             Item::Limit(id) => {
                 let limit = &network.limits()[id.index()];
                 vec![if field == Field::Of { &limit.of } else { &limit.value }]

@@ -108,14 +108,9 @@ impl Wanted {
         Self { ty: Some(ty), context: Context::Own, time: false, controls: false, derived: false }
     }
 
-    /// The heat of a source.
-    pub(crate) fn of_source(ty: Type) -> Self {
-        Self { ty: Some(ty), context: Context::Source, time: true, controls: true, derived: false }
-    }
-
-    /// A value of a path between two ends.
-    pub(crate) fn of_link(ty: impl Into<Option<Type>>) -> Self {
-        Self { ty: ty.into(), context: Context::Link, time: true, controls: true, derived: false }
+    /// A value of a path between two ends, or of a source, where expressions may name this.
+    pub(crate) fn of_law(ty: Option<Type>, context: Context) -> Self {
+        Self { ty, context, time: true, controls: true, derived: false }
     }
 
     /// Something that results determine.

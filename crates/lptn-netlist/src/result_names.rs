@@ -71,10 +71,10 @@ impl Names {
 /// The endings of the heat flows that an element of this section has.
 fn heats(kind: &str) -> &'static [&'static str] {
     match kind {
-        "source" => &["P"],
         "boundary" => &["Q"],
         path => match Kind::ALL.iter().find(|kind| kind.declaration().section == path) {
             Some(kind) if kind.is_stream() => &["Q_from", "Q_to"],
+            Some(kind) if kind.is_source() => &["P"],
             Some(_) => &["Q"],
             None => &[],
         },

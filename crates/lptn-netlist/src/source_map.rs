@@ -9,6 +9,27 @@ use lptn_network::{BuildErrorKind, Field, Item, Naming, NodeId, ParameterId, Tab
 use crate::imported::Places;
 use crate::raw::{RawKind, RawTable, RawValue};
 
+/// The sections of elements in their order: the first of each run of one section.
+#[derive(Clone, Debug, Default)]
+struct Sections {
+    runs: Vec<(usize, &'static str)>,
+    count: usize,
+}
+
+impl Sections {
+    fn add(&mut self, section: &'static str) {
+        if self.runs.last().is_none_or(|(_, last)| *last != section) {
+            self.runs.push((self.count, section));
+        }
+        self.count += 1;
+    }
+
+    fn of(&self, index: usize) -> Option<&'static str> {
+        let run = self.runs.partition_point(|(first, _)| *first <= index);
+        run.checked_sub(1).filter(|_| index < self.count).map(|run| self.runs[run].1)
+    }
+}
+
 /// Leads from the parts of a network to the places they were read from.
 #[derive(Clone, Debug, Default)]
 pub struct SourceMap {
@@ -16,9 +37,9 @@ pub struct SourceMap {
     /// The byte at which the content of a string begins, where no escape changes it.
     contents: HashMap<(Item, Field), usize>,
     select: Vec<Span>,
-    /// The sections of conductors: the first of each run of one section.
-    conductors: Vec<(usize, &'static str)>,
-    conductor_count: usize,
+    /// The sections of conductors and of sources.
+    conductors: Sections,
+    sources: Sections,
     /// The section of each path that ends at a face.
     face_paths: Vec<&'static str>,
     /// Nodes and conductors that are parts of grids and of paths to faces, by their indices, in
@@ -155,10 +176,12 @@ impl SourceMap {
 
     /// Notes the section of the next conductor.
     pub(crate) fn conductor(&mut self, section: &'static str) {
-        if self.conductors.last().is_none_or(|(_, last)| *last != section) {
-            self.conductors.push((self.conductor_count, section));
-        }
-        self.conductor_count += 1;
+        self.conductors.add(section);
+    }
+
+    /// Notes the section of the next source; one that was imported has none.
+    pub(crate) fn source(&mut self, section: &'static str) {
+        self.sources.add(section);
     }
 
     /// Notes the line of a table of two arguments.
@@ -220,10 +243,8 @@ impl Naming for SourceMap {
     fn kind(&self, item: Item) -> &'static str {
         match item {
             Item::Node(_) if self.whole(item).is_some() => "grid",
-            Item::Conductor(id) => {
-                let run = self.conductors.partition_point(|(first, _)| *first <= id.index());
-                run.checked_sub(1).map_or("path", |run| self.conductors[run].1)
-            }
+            Item::Conductor(id) => self.conductors.of(id.index()).unwrap_or("path"),
+            Item::Source(id) => self.sources.of(id.index()).unwrap_or("source"),
             Item::FacePath(id) => self.face_paths.get(id.index()).copied().unwrap_or("path"),
             other => other.word(),
         }

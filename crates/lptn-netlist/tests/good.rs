@@ -149,7 +149,7 @@ fn no_part_is_without_a_place() {
     let has = |item, field| assert!(map.get(item, field).is_some(), "{item:?} {field:?}");
     network.capacitor_ids().for_each(|id| has(Item::Capacitor(id), Field::Capacity));
     network.boundary_ids().for_each(|id| has(Item::Boundary(id), Field::Temperature));
-    network.source_ids().for_each(|id| has(Item::Source(id), Field::Power));
+    network.source_ids().for_each(|id| has(Item::Source(id), Field::POWER));
     network.source_ids().for_each(|id| has(Item::Source(id), Field::Into));
 }
 

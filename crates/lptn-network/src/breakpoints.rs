@@ -4,7 +4,7 @@ use lptn_units::{Comparison, Degree, Program};
 
 use crate::error::BuildErrorKind;
 use crate::evaluation::Evaluation;
-use crate::id::{Field, Item, SignalId};
+use crate::id::{Field, Item, SignalId, SourceId};
 use crate::input_error::{InputError, InputProblem};
 use crate::network::Network;
 use crate::parts::Parts;
@@ -123,6 +123,19 @@ impl Network {
         };
         differences.retain(of_time);
         differences
+    }
+
+    /// How the heat of a source goes over time between [`Network::breakpoints`], temperatures held.
+    pub fn course_of_source(&self, id: SourceId) -> Degree {
+        let source = &self.sources()[id.index()];
+        let course = |value: &Value| self.course(value);
+        match source.power() {
+            Some(power) => course(power),
+            None if source.law.values().iter().all(|v| course(v) == Degree::Constant) => {
+                Degree::Constant
+            }
+            None => Degree::Nonlinear,
+        }
     }
 
     /// How a value goes over time between [`Network::breakpoints`], temperatures held.

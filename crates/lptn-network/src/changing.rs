@@ -129,7 +129,9 @@ impl<'a> Walk<'a> {
             }
             Element::Source(i) => {
                 let (item, source) = (Item::Source(SourceId::from_len(i)), &parts.sources[i]);
-                self.take(Some((item, Field::Power)), &source.power);
+                for (field, value) in source.law.parts() {
+                    self.take(Some((item, field)), value);
+                }
                 source.into.iter().for_each(|&(node, _)| self.go_to(node.into()));
             }
             Element::Control(i) => {

@@ -196,18 +196,21 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             say.field(*item, *field), format_short(*value)
         ),
         help text("it is a part of a whole: write `0.8` for 80 %");
-    /// An outer radius that is not larger than the inner one, in m.
+    /// A value that is not larger than another of its law that has to be smaller, such as an outer
+    /// radius, in SI units.
     Radii { item: Item, fields: [Field; 2], inner: f64, outer: f64 } = "network::radii",
         at Some((*item, fields[1])),
         says format!(
-            "{}, {} m, must be larger than its `{}`, {} m",
-            say.field(*item, fields[1]), format_short(*outer), fields[0].key(), format_short(*inner)
+            "{}, {}, must be larger than its `{}`, {}",
+            say.field(*item, fields[1]), in_unit(*outer, fields[1]), fields[0].key(),
+            in_unit(*inner, fields[0])
         ),
         help Some(match inner <= outer {
             true => format!("a wall has a thickness: make `{}` larger", fields[1].key()),
             false => format!("exchange `{}` and `{}`", fields[0].key(), fields[1].key()),
         });
-    /// A path without one value for each field of its law, or with a fluid where it has none.
+    /// A path or source without one value for each field of its law, with a fluid where it has none,
+    /// or with a law of the other.
     LawValues { item: Item, formula: Formula } = "network::law_values",
         at Some((*item, Field::Name)),
         says format!(
@@ -241,12 +244,12 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             say.item(Item::Source(*source)), format_short(*sum)
         ),
         help text("make the shares sum to 1");
-    /// A source of several nodes whose heat depends on `T`, which could be any of theirs.
-    WhichTemperature { source: SourceId } = "network::which_temperature",
-        at Some((Item::Source(*source), Field::Power)),
+    /// A source of several nodes of which a value depends on `T`, which could be any of theirs.
+    WhichTemperature { source: SourceId, field: Field } = "network::which_temperature",
+        at Some((Item::Source(*source), *field)),
         says format!(
-            "`P` of {} depends on `T`, but it heats several nodes",
-            say.item(Item::Source(*source))
+            "{} depends on `T`, but it heats several nodes",
+            say.field(Item::Source(*source), *field)
         ),
         help text("name the node, for example `steel.T`");
     /// A capacity that is not known and positive at the start of its node.

@@ -158,8 +158,6 @@ pub enum Field {
     Initial,
     /// Temperature of a boundary.
     Temperature,
-    /// Heat of a source.
-    Power,
     /// First end of a conductor.
     From,
     /// Second end of a conductor.
@@ -256,6 +254,9 @@ impl std::hash::Hash for LawField {
 }
 
 impl Field {
+    /// The given heat of a source.
+    pub const POWER: Self = Self::Law(LawField { law: Formula::Given, position: 0 });
+
     /// The field of a law at this position.
     pub(crate) fn law(law: Formula, position: usize) -> Self {
         Self::Law(LawField { law, position: position as u8 })
@@ -275,7 +276,6 @@ impl Field {
             Self::Capacity => "C",
             Self::Initial => "T0",
             Self::Temperature => "T",
-            Self::Power => "P",
             Self::From => "from",
             Self::To => "to",
             Self::Into => "into",

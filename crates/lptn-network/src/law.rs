@@ -1,5 +1,5 @@
-//! How conductors carry heat: a law with its values, and its conductance on numbers or dual
-//! numbers.
+//! How conductors carry heat and sources put it into nodes: a law with its values, and what it comes
+//! to on numbers or dual numbers.
 
 use lptn_laws::{Carries, Formula, Range};
 use lptn_units::{Dimension, EvalError, Scalar, Type};
@@ -10,8 +10,9 @@ use crate::input_error::InputProblem;
 use crate::slot;
 use crate::value::{Input, Value};
 
-/// How a conductor carries heat: a law with one value for each of its fields. Heat flow is positive
-/// from `from` to `to`; that of a stream goes one way only.
+/// How a conductor carries heat, or a source gives it: a law with one value for each of its fields.
+/// Heat flow is positive from `from` to `to`, and into the nodes of a source; that of a stream goes
+/// one way only.
 ///
 /// A builder takes a law of [`Input`]s, a network holds one of [`Value`]s in SI units.
 #[derive(Clone, Debug)]
@@ -139,6 +140,11 @@ impl Law<Input> {
         Self::new(Formula::ExchangeArea, [area.into()])
     }
 
+    /// A given heat in W.
+    pub fn heat(power: impl Into<Input>) -> Self {
+        Self::new(Formula::Given, [power.into()])
+    }
+
     /// A stream of a capacity rate in W/K, positive from `from` to `to`.
     pub fn stream(capacity_rate: impl Into<Input>) -> Self {
         Self::new(Formula::CapacityRate, [capacity_rate.into()])
@@ -202,9 +208,12 @@ fn impossible(field: &lptn_laws::FieldDeclaration, value: f64) -> Option<InputPr
         Range::Positive if field.ty == RESISTANCE => {
             Some(InputProblem::NegativeConductance(value.recip()))
         }
-        Range::Positive => Some(InputProblem::Negative(value)),
+        Range::Positive | Range::NotNegative => Some(InputProblem::Negative(value)),
     }
 }
+
+/// Fields of a small law.
+const FEW: usize = 5;
 
 /// Slots on numbers or dual numbers, with the stack that programs need.
 pub(crate) struct At<'a, S> {
@@ -226,12 +235,34 @@ impl<S: Scalar> At<'_, S> {
 
     /// The value of a law, where the slots stand: what it carries says what that is.
     pub(crate) fn value(&mut self, law: &Law) -> Result<S, (Field, InputProblem)> {
-        let mut values = [S::from_f64(0.0); Formula::MOST_FIELDS];
-        let count = law.values().len();
-        for (i, value) in values[..count].iter_mut().enumerate() {
+        // most laws are small, and run in every evaluation of a network
+        match law.values().len() {
+            0..=FEW => self.value_of::<FEW>(law),
+            _ => self.value_of::<{ Formula::MOST_FIELDS }>(law),
+        }
+    }
+
+    /// The value of a law of at most this many fields.
+    #[inline]
+    fn value_of<const MOST: usize>(&mut self, law: &Law) -> Result<S, (Field, InputProblem)> {
+        let mut values = [S::from_f64(0.0); MOST];
+        let values = &mut values[..law.values().len()];
+        for (i, value) in values.iter_mut().enumerate() {
             *value = self.get(law, i)?;
         }
-        Ok(law.formula.value(&values[..count], self.ends()))
+        Ok(law.formula.value(values, self.ends()))
+    }
+
+    /// The heat of a law of sources in W, where the slots stand.
+    pub(crate) fn heat(&mut self, law: &Law) -> Result<S, (Field, InputProblem)> {
+        let heat = match law.formula {
+            Formula::Given => self.get(law, 0)?,
+            _ => self.value(law)?,
+        };
+        match heat.is_finite() {
+            true => Ok(heat),
+            false => Err((Field::law(law.formula, 0), InputProblem::NotFinite(heat.value()))),
+        }
     }
 
     fn ends(&self) -> [S; 2] {

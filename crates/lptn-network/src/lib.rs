@@ -55,7 +55,7 @@ pub use id::{
 };
 pub use input_error::{InputError, InputProblem};
 pub use law::{ConductorFlow, Law, Received};
-pub use lptn_laws::{Carries, Formula, Kind as ConductorKind};
+pub use lptn_laws::{Carries, Extent, Formula, Kind as ConductorKind};
 pub use names::{UnknownName, is_name, is_path, list_of, list_of_names};
 pub use network::Network;
 pub use network::body::Surface;

@@ -183,7 +183,6 @@ fn at_ends(value: &Value, scope: &mut Evaluation, (time, segment): (f64, f64)) -
 /// The unit of the fields whose numbers are worth showing.
 fn unit_of(field: Field) -> Option<String> {
     Some(match field {
-        Field::Power => "W".to_owned(),
         Field::Temperature => "K".to_owned(),
         Field::Law(law) => law.ty.dimension.si_unit(),
         _ => return None,

@@ -46,7 +46,10 @@ impl Network {
             Holds::Temperature(End::Node(of)) if of == *node => Trend::VARIABLE,
             other => elsewhere(other),
         };
-        self.trend(&source.power, &own).falls
+        match source.power() {
+            Some(power) => self.trend(power, &own).falls,
+            None => source.law.values().iter().all(|value| self.trend(value, &own).is_held()),
+        }
     }
 
     fn trend(&self, value: &Value, of: &dyn Fn(Holds, u32) -> Trend) -> Trend {

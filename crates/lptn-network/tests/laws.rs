@@ -382,7 +382,7 @@ fn inputs_that_fail_during_a_run_are_named() {
     assert_eq!((error.name.as_str(), error.field), ("falling", Field::Temperature));
     assert!(matches!(error.problem, InputProblem::BelowAbsoluteZero(t) if (t + 1.0).abs() < 1e-12));
     let error = network.source_powers(&mut scope, &mut [0.0; 2]).unwrap_err();
-    assert_eq!((error.name.as_str(), error.field), ("ends", Field::Power));
+    assert_eq!((error.name.as_str(), error.field), ("ends", Field::POWER));
     let error = network.source_heat(root, &mut scope, &[280.0, 290.0, 1.0]).unwrap_err();
     assert_eq!(error.name, "root");
     let error =

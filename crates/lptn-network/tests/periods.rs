@@ -68,7 +68,7 @@ fn inputs_that_repeat_themselves_and_others() {
     let found = checked("5 [W] + 1 [W/s] * t", 60.0).unwrap_err();
     assert_eq!(
         (found.name.as_str(), found.field, found.unit.as_deref()),
-        ("p0", Field::Power, Some("W"))
+        ("p0", Field::POWER, Some("W"))
     );
     assert!(matches!(found.item, Item::Source(_)));
     near(found.period, 60.0);

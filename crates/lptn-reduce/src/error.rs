@@ -38,6 +38,10 @@ pub enum ReduceError {
     Switches { name: String } = "reduce::switches",
         format!("`{name}` switches during a run, which an equivalent of one node cannot follow"),
         help format!("write 0 or 1 in place of `{name}`, and reduce what is then there");
+    /// The heat of a source changes with time by a law, of which no share can be written.
+    NotGiven { name: String } = "reduce::not_given",
+        format!("the heat of `{name}` changes with time by a law, of which no share can be written"),
+        help format!("put a [source] with the heat that `{name}` has in its place");
     /// A source or boundary has no value.
     Input => InputError;
     /// The conductances span more than the numbers can hold.

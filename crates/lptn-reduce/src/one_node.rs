@@ -2,10 +2,10 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    Course, HeatCapacity, HeatFlow, Input, Network, NetworkBuilder, NodeId, Resistance,
-    Temperature, Value,
+    Course, Extent, HeatCapacity, HeatFlow, Input, Network, NetworkBuilder, NodeId, Path,
+    Resistance, Source, Temperature, Value,
 };
-use lptn_units::{Dimension, Problem, Problems, Quantity, Type, format_number};
+use lptn_units::{Problem, Problems, Quantity, Type, format_number};
 
 use crate::error::ReduceError;
 use crate::norton::NortonEquivalent;
@@ -52,11 +52,11 @@ impl OneNode<'_> {
     fn parameters(&self, builder: &mut NetworkBuilder) -> Result<(), ReduceError> {
         let network = self.system.network();
         let boundaries = network.boundaries().iter().map(|b| &b.temperature);
-        let sources = network.sources().iter().map(|s| &s.power);
-        let values = boundaries.zip(&self.norton.boundary_weights);
-        let values =
-            values.chain(sources.zip(&self.norton.source_weights)).filter(|(_, w)| **w > 0.0);
-        let used: Vec<u32> = values.flat_map(|(value, _)| value.slots()).collect();
+        let sources = network.sources().iter().zip(&self.norton.source_weights);
+        let sources = sources.flat_map(|(s, w)| s.law.values().iter().map(move |v| (v, w)));
+        let values = boundaries.zip(&self.norton.boundary_weights).chain(sources);
+        let used: Vec<u32> =
+            values.filter(|(_, w)| **w > 0.0).flat_map(|(value, _)| value.slots()).collect();
         let all = !network.signals().is_empty();
         for (parameter, id) in network.parameters().iter().zip(network.parameter_ids()) {
             if all || used.contains(&network.parameter_slot(id)) {
@@ -112,11 +112,32 @@ impl OneNode<'_> {
         let network = self.system.network();
         for (source, &weight) in network.sources().iter().zip(&self.norton.source_weights) {
             if weight > 0.0 {
-                let value = input(builder, &source.power, Type::of(Dimension::POWER), weight)?;
-                builder.source(&source.name(), node, value);
+                let law = self.law(builder, source, weight)?;
+                builder.heat(&source.name(), source.kind, &[(node.into(), 1.0)], law);
             }
         }
         Ok(())
+    }
+
+    /// The law of a source with `weight` times its heat.
+    fn law(
+        &self,
+        builder: &NetworkBuilder,
+        source: &Source,
+        weight: f64,
+    ) -> Result<Path, ReduceError> {
+        let formula = source.law.formula();
+        let Extent::Divided(scaled) = formula.declaration().extent else {
+            return Err(ReduceError::NotGiven { name: source.name().into_owned() });
+        };
+        let fields = formula.declaration().fields.iter().zip(source.law.values());
+        let values: Result<Vec<Input>, ReduceError> = fields
+            .map(|(field, value)| {
+                let factor = if field.key == scaled { weight } else { 1.0 };
+                input(builder, value, field.ty, factor)
+            })
+            .collect();
+        Ok(Path::new(formula, values?))
     }
 
     /// A name that nothing of the network has.

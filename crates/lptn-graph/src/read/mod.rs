@@ -122,7 +122,7 @@ impl Reader<'_> {
             None => group.boundaries.first().filter(|_| group.words.is_none()).map(|id| {
                 let given = &self.network.boundaries()[id.index()].temperature;
                 words::number(self.network, given, &mut self.scope()).map_or_else(
-                    || words::letter(self.network, given, "T", false),
+                    || words::letter("T", (self.network.depends_on_time(given), false)),
                     |kelvin| self.scale.given(kelvin),
                 )
             }),
@@ -199,7 +199,7 @@ impl Reader<'_> {
             }
         }
         for (source, own) in network.sources().iter().zip(sources) {
-            if source.power.slots().contains(&slot) {
+            if source.law.values().iter().any(|value| value.slots().contains(&slot)) {
                 switches.extend(own.iter().copied().map(Target::Source));
             }
         }
@@ -215,7 +215,7 @@ impl Reader<'_> {
         let mut scope = self.scope();
         let mut threshold = |value| {
             words::number(self.network, value, &mut scope).map_or_else(
-                || words::letter(self.network, value, "T", false),
+                || words::letter("T", (self.network.depends_on_time(value), false)),
                 |kelvin| self.scale.given(kelvin),
             )
         };

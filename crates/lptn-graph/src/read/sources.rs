@@ -73,14 +73,15 @@ impl Reader<'_> {
         let mut scope = self.scope();
         let mut sum = 0.0;
         for (id, share) in members {
-            let value = &self.network.sources()[id.index()].power;
-            match words::number(self.network, value, &mut scope) {
-                Some(power) => sum += power * share,
-                None => {
-                    let on_heat = !self.network.source_variables(*id).is_empty();
-                    return words::letter(self.network, value, "P", on_heat);
-                }
-            }
+            let law = &self.network.sources()[id.index()].law;
+            let fixed = law.values().iter().all(|value| words::is_fixed(self.network, value));
+            let heat = fixed.then(|| self.network.source_heat(*id, &mut scope, &[]).ok());
+            let Some(power) = heat.flatten() else {
+                let on_heat = !self.network.source_variables(*id).is_empty();
+                let on_time = law.values().iter().any(|v| self.network.depends_on_time(v));
+                return words::letter("P", (on_time, on_heat));
+            };
+            sum += power * share;
         }
         let sign = if sum < 0.0 { "-" } else { "" };
         format!("{sign}{}", words::si(sum.abs(), "W"))

@@ -1,7 +1,7 @@
 //! Nodes, and everything that stands between and on them.
 
 use lptn_laws::Kind;
-use lptn_network::{Bound, Conductor, Item, LimitSeverity, Lump, Size, Value};
+use lptn_network::{Bound, Conductor, Item, Law, LimitSeverity, Lump, Size, Source, Value};
 use lptn_units::{Dimension, Type, format_number};
 
 use super::Writer;
@@ -62,12 +62,17 @@ impl Writer<'_> {
         self.section("boundary", &section);
     }
 
+    /// Paths and sources.
     pub(super) fn conductors(&mut self) {
         for kind in Kind::ALL {
             let mut section = TomlFields::default();
             let conductors = self.network.conductors().iter();
             for conductor in conductors.filter(|conductor| conductor.kind == *kind) {
                 section.put(&conductor.name(), self.conductor(conductor));
+            }
+            let sources = self.network.sources().iter();
+            for source in sources.filter(|source| source.kind == *kind) {
+                section.put(&source.name(), self.source(source));
             }
             self.section(kind.declaration().section, &section);
         }
@@ -77,21 +82,42 @@ impl Writer<'_> {
         let mut fields = TomlFields::default();
         fields.word("from", &self.name(conductor.from));
         fields.word("to", &self.name(conductor.to));
-        let (law, kind) = (&conductor.law, conductor.kind.declaration());
+        self.law(&mut fields, conductor.kind, &conductor.law);
+        fields.inline()
+    }
+
+    fn source(&self, source: &Source) -> String {
+        let mut fields = TomlFields::default();
+        match source.into.as_slice() {
+            [(node, _)] => fields.word("into", &self.name(Item::Node(*node))),
+            nodes => {
+                let mut into = TomlFields::default();
+                for (node, share) in nodes {
+                    into.put(&self.name(Item::Node(*node)), format_number(*share));
+                }
+                fields.put("into", into.inline());
+            }
+        }
+        self.law(&mut fields, source.kind, &source.law);
+        fields.inline()
+    }
+
+    fn law(&self, fields: &mut TomlFields, kind: Kind, law: &Law) {
         if let Some(fluid) = law.fluid() {
             fields.word("fluid", &self.name(Item::Fluid(fluid)));
         }
-        let declared = law.formula().declaration();
+        let (declared, mut selector) = (law.formula().declaration(), kind.declaration().selector);
         let parts: Vec<(&lptn_laws::FieldDeclaration, &Value)> =
             declared.fields.iter().zip(law.values()).collect();
         for same in parts.chunk_by(|(a, _), (b, _)| a.key == b.key) {
-            self.part(&mut fields, same);
             // the word that chooses the law stands behind what all of them take
-            if let Some(selector) = kind.selector.filter(|_| same[0].0.property) {
-                fields.word(selector, declared.name);
+            let shared = kind.laws().all(|law| law.field(same[0].0.key).is_some());
+            if let Some(key) = selector.take_if(|_| !shared) {
+                fields.word(key, declared.name);
             }
+            self.part(fields, same);
         }
-        fields.inline()
+        selector.into_iter().for_each(|key| fields.word(key, declared.name));
     }
 
     /// The values of one key.
@@ -107,26 +133,6 @@ impl Writer<'_> {
                 fields.put(field.key, format!("[{}]", values.join(", ")));
             }
         }
-    }
-
-    pub(super) fn sources(&mut self) {
-        let mut section = TomlFields::default();
-        for source in self.network.sources() {
-            let mut fields = TomlFields::default();
-            match source.into.as_slice() {
-                [(node, _)] => fields.word("into", &self.name(Item::Node(*node))),
-                nodes => {
-                    let mut into = TomlFields::default();
-                    for (node, share) in nodes {
-                        into.put(&self.name(Item::Node(*node)), format_number(*share));
-                    }
-                    fields.put("into", into.inline());
-                }
-            }
-            fields.put("P", value(&source.power, Type::of(Dimension::POWER)));
-            section.put(&source.name(), fields.inline());
-        }
-        self.section("source", &section);
     }
 
     pub(super) fn limits(&mut self) {

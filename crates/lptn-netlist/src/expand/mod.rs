@@ -140,7 +140,6 @@ impl Writer<'_> {
         self.boundaries();
         self.controls();
         self.conductors();
-        self.sources();
         self.limits();
     }
 

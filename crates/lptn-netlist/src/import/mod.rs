@@ -200,7 +200,7 @@ impl<'a> Elaboration<'a> {
             };
         }
         let fields =
-            [(Field::Name, name), (Field::Into, Some(into)), (Field::Power, Some(power.index))];
+            [(Field::Name, name), (Field::Into, Some(into)), (Field::POWER, Some(power.index))];
         self.map.add_import(places(rows, (Kind::Source, first), &fields));
     }
 

@@ -11,7 +11,7 @@ use crate::work::{Elaboration, stand_in};
 impl<'a> Elaboration<'a> {
     /// Every path between two ends.
     pub(crate) fn conductors(&mut self) {
-        for path in PATHS.iter() {
+        for path in PATHS.iter().filter(|path| !path.kind.is_source()) {
             for entry in self.elements(path.section.name) {
                 let read = self.conductor(entry, path);
                 self.left_out.paths |= read.is_none();

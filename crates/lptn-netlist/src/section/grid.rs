@@ -13,7 +13,6 @@ use crate::section::default::Initial;
 use crate::section::keys::{CP, DENSITY, MATERIAL_OF};
 use crate::section::node::START;
 use crate::section::path::PATHS;
-use crate::section::source::SOURCE;
 use crate::work::{Elaboration, stand_in};
 
 /// A block that is cut into cells.
@@ -89,7 +88,7 @@ impl<'a> Elaboration<'a> {
         if self.names.grids.is_empty() {
             return;
         }
-        let sections = PATHS.iter().map(|path| path.section.name).chain([SOURCE.name]);
+        let sections = PATHS.iter().map(|path| path.section.name);
         let entries: Vec<&'a RawEntry> = sections.flat_map(|name| self.elements(name)).collect();
         for entry in entries {
             if let RawKind::Table(table) = &entry.value.kind {

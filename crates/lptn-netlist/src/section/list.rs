@@ -16,7 +16,6 @@ use super::material::MATERIAL;
 use super::node::NODE;
 use super::path::PATHS;
 use super::signal::SIGNAL;
-use super::source::SOURCE;
 use super::table::TABLE;
 use crate::fit::FitStudy;
 use crate::format::{NetlistFormat, Role, SectionDeclaration};
@@ -30,11 +29,10 @@ use crate::template::{TEMPLATE, USE};
 use crate::toml_text::TomlFields;
 use crate::work::Elaboration;
 
-/// The sections before and behind those of paths, in the order in which they are named to people.
+/// The sections before and behind those of paths and sources, in the order in which they are named to people.
 static BEFORE: [&SectionDeclaration; 10] =
     [&PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &NODE, &GRID, &CAPACITOR, &BOUNDARY];
-static BEHIND: [&SectionDeclaration; 7] =
-    [&SOURCE, &CONTROL, &IMPORT, &LIMIT, &TEMPLATE, &USE, &RUN];
+static BEHIND: [&SectionDeclaration; 6] = [&CONTROL, &IMPORT, &LIMIT, &TEMPLATE, &USE, &RUN];
 
 /// The studies that there are: where a netlist keeps those of a section, and the type of one.
 macro_rules! studies {

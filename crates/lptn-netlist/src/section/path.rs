@@ -1,16 +1,16 @@
-//! The law of a path with its values, read as its kind declares it.
+//! The law of a path or source with its values, read as its kind declares it.
 
 use std::sync::LazyLock;
 
 use lptn_data::{Diagnostic, list};
 use lptn_laws::{FieldDeclaration, Formula, Kind};
-use lptn_network::{FluidId, Input, Path};
+use lptn_network::{Context, FluidId, Input, Path};
 use lptn_units::{Quantity, Type};
 
 use crate::fields::Fields;
 use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
 use crate::place::{Place, Wanted};
-use crate::raw::{RawKind, RawValue};
+use crate::raw::RawKind;
 use crate::section::forms::{begun, check_forms};
 use crate::section::keys::MATERIAL_OF;
 use crate::section::path_law::{Read, most, of_values, types, without, written, wrong_count};
@@ -39,9 +39,11 @@ pub(crate) struct PathValue {
     most: usize,
     /// The types of which it may be, where its unit chooses the law.
     types: Vec<(Type, Formula)>,
+    /// What expressions in it may name: the ends of a path, or the node of a source.
+    context: Context,
 }
 
-/// The sections of paths, in the order in which their columns stand.
+/// The sections of paths and of sources, in the order in which their columns stand.
 pub(crate) static PATHS: LazyLock<Vec<PathSection>> =
     LazyLock::new(|| Kind::ALL.iter().map(|kind| path_section(*kind)).collect());
 
@@ -58,26 +60,18 @@ fn path_section(kind: Kind) -> PathSection {
     };
     let value = |field: &'static FieldDeclaration| PathValue {
         field,
-        most: most(field.key),
-        types: types(field.key),
+        most: most(kind, field.key),
+        types: types(kind, field.key),
+        context: if kind.is_source() { Context::Source } else { Context::Link },
     };
     let values = kind.fields().into_iter().map(value).collect();
     PathSection { section, kind, groups: groups(kind), values }
 }
 
-/// The ends, then its fields, with `material` before a property, `fluid` before a flow, and the key
+/// The ends or the nodes that are heated, then its fields, with `material` before a property, `fluid` before a flow, and the key
 /// that chooses a law behind what all laws take.
 fn keys(kind: Kind) -> Vec<KeyDeclaration> {
-    let end = "name of a node or boundary";
-    let mut keys = vec![
-        key(
-            "from",
-            end,
-            "where heat comes from while it is positive",
-            "\"name of a node or boundary\"",
-        ),
-        key("to", end, "where it goes", "\"name of another node or boundary\""),
-    ];
+    let mut keys = if kind.is_source() { vec![INTO] } else { ENDS.into() };
     let first = kind.laws().next().map_or("", |law| law.declaration().name);
     let mut selector = kind
         .declaration()
@@ -94,8 +88,28 @@ fn keys(kind: Kind) -> Vec<KeyDeclaration> {
         let unit = if field.ty.is_scalar() { "number".to_owned() } else { field.ty.usual_unit() };
         keys.push(key(field.key, unit.leak(), field.meaning, field.example));
     }
+    keys.extend(selector);
     keys
 }
+
+const END: &str = "name of a node or boundary";
+
+const ENDS: [KeyDeclaration; 2] = [
+    key(
+        "from",
+        END,
+        "where heat comes from while it is positive",
+        "\"name of a node or boundary\"",
+    ),
+    key("to", END, "where it goes", "\"name of another node or boundary\""),
+];
+
+const INTO: KeyDeclaration = key(
+    "into",
+    "name, or table of shares",
+    "the node, grid or face that is heated",
+    "\"name of a node\"",
+);
 
 /// Laws that begin with the same field, and the keys that all of them need.
 struct Group {
@@ -144,7 +158,12 @@ impl<'a> Elaboration<'a> {
             }
             None => begun(&forms, |key| fields.has(key)).first().map(|&first| &groups[first]),
         };
-        self.problems.extend(check_forms(fields, &forms));
+        match forms.as_slice() {
+            [keys] if path.kind.is_source() => keys.iter().for_each(|key| {
+                self.require(fields, key);
+            }),
+            forms => self.problems.extend(check_forms(fields, forms)),
+        }
         let fluid = fields.get("fluid").filter(|_| fields.known("fluid"));
         let fluid = fluid.map(|raw| self.used_fluid(fields, raw));
         let read = self.read(fields, values);
@@ -193,7 +212,10 @@ impl<'a> Elaboration<'a> {
             &others,
             &format!("means nothing for a {name}, which takes {}", list(&own)),
         );
-        if let Some(key) = own.iter().find(|key| !fields.has(key)).filter(|_| fields.complete) {
+        let needed = |key: &&&str| {
+            !fields.has(key) && law.field(key).is_some_and(|field| field.default.is_none())
+        };
+        if let Some(key) = own.iter().find(needed).filter(|_| fields.complete) {
             let message = format!("{} is a {name} without `{key}`", fields.owner.words());
             self.report(fields.missing(key, message));
         }
@@ -210,7 +232,8 @@ impl<'a> Elaboration<'a> {
     }
 
     fn values(&mut self, fields: &Fields<'a>, value: &PathValue) -> Vec<Input> {
-        let PathValue { field, most, types } = value;
+        let PathValue { field, most, types, context } = value;
+        let wanted = |ty: Option<Type>| Wanted::of_law(ty, *context);
         let raw = fields.get(field.key).filter(|_| fields.known(field.key));
         if let (None, true) = (raw, field.property) {
             return vec![self.property_of_material(fields).unwrap_or_else(|| stand_in(field.ty))];
@@ -220,8 +243,10 @@ impl<'a> Elaboration<'a> {
             return area.into_iter().collect();
         };
         if let (RawKind::Array(items), 2..) = (&raw.kind, most) {
-            let values: Vec<Input> =
-                items.iter().map(|raw| self.link(fields, field, raw)).collect();
+            let values: Vec<Input> = items
+                .iter()
+                .map(|raw| self.input_at(fields, field.key, raw, wanted(Some(field.ty))))
+                .collect();
             if values.len() == *most {
                 return values;
             }
@@ -229,27 +254,22 @@ impl<'a> Elaboration<'a> {
             return Vec::new();
         }
         match types.as_slice() {
-            [_] => vec![self.link(fields, field, raw)],
-            types => self.of_types(fields, field.key, raw, types).into_iter().collect(),
+            [_] => vec![self.input_at(fields, field.key, raw, wanted(Some(field.ty)))],
+            types => {
+                let place = Place { owner: &fields.owner, key: field.key, raw };
+                self.of_types(place, wanted(None), types).into_iter().collect()
+            }
         }
-    }
-
-    /// The value of a field of a path, which may depend on time and temperatures; a stand-in if it
-    /// is wrong.
-    fn link(&mut self, fields: &Fields<'a>, field: &FieldDeclaration, raw: &'a RawValue) -> Input {
-        self.input_at(fields, field.key, raw, Wanted::of_link(field.ty))
     }
 
     /// A value of one of several types: which it is chooses the law.
     fn of_types(
         &mut self,
-        fields: &Fields<'a>,
-        key: &str,
-        raw: &'a RawValue,
+        place: Place<'_>,
+        wanted: Wanted,
         types: &[(Type, Formula)],
     ) -> Option<Input> {
-        let place = Place { owner: &fields.owner, key, raw };
-        let given = self.given(place, Wanted::of_link(None))?;
+        let given = self.given(place, wanted)?;
         let found = given.ty();
         if types.iter().any(|(ty, _)| found.conforms_to(*ty)) {
             return Some(given.input());
@@ -261,7 +281,8 @@ impl<'a> Elaboration<'a> {
             names.join(" or "),
             found.with_article()
         );
-        let problem = Diagnostic::error("netlist::flow_unit", message).at(raw.span.clone(), "");
+        let problem = Diagnostic::error("netlist::flow_unit", message);
+        let problem = problem.at(place.raw.span.clone(), "");
         let written: Vec<String> = types.iter().map(|(_, law)| written(*law)).collect();
         self.report(problem.help(format!("write it like this: {}", written.join(", or "))));
         None
@@ -313,8 +334,8 @@ impl<'a> Elaboration<'a> {
         field: FieldDeclaration,
     ) -> Option<Path> {
         let first = law.declaration().fields[0].key;
-        if fields.complete && !fields.has(field.key) && fields.has(first) && types(first).len() > 1
-        {
+        let by_unit = types(law.declaration().kinds[0], first).len() > 1;
+        if fields.complete && !fields.has(field.key) && fields.has(first) && by_unit {
             self.report(without(fields, law, field.key));
         }
         None

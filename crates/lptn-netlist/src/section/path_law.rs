@@ -1,7 +1,7 @@
 //! Which law of a path its values choose, and what is wrong where they choose none.
 
 use lptn_data::Diagnostic;
-use lptn_laws::{FieldDeclaration, Formula};
+use lptn_laws::{FieldDeclaration, Formula, Kind};
 use lptn_network::Input;
 use lptn_units::Type;
 
@@ -12,21 +12,20 @@ use crate::raw::RawValue;
 pub(super) type Read = (&'static FieldDeclaration, Vec<Input>);
 
 /// How many values a key may have in a list.
-pub(super) fn most(key: &str) -> usize {
+pub(super) fn most(kind: Kind, key: &str) -> usize {
     let count =
-        |law: &Formula| law.declaration().fields.iter().filter(|field| field.key == key).count();
-    Formula::ALL.iter().map(count).max().unwrap_or(1)
+        |law: Formula| law.declaration().fields.iter().filter(|field| field.key == key).count();
+    kind.laws().map(count).max().unwrap_or(1)
 }
 
-/// The types that a key has in the laws of streams and the like, where one key chooses the law by
-/// its unit.
-pub(super) fn types(key: &str) -> Vec<(Type, Formula)> {
+/// The types that a key has in the laws of a kind, where it chooses the law by its unit.
+pub(super) fn types(kind: Kind, key: &str) -> Vec<(Type, Formula)> {
     let mut types: Vec<(Type, Formula)> = Vec::new();
-    for law in Formula::ALL {
+    for law in kind.laws() {
         if let Some(field) =
             law.field(key).filter(|field| types.iter().all(|(ty, _)| *ty != field.ty))
         {
-            types.push((field.ty, *law));
+            types.push((field.ty, law));
         }
     }
     types
@@ -86,7 +85,7 @@ pub(super) fn without(fields: &Fields<'_>, law: Formula, key: &str) -> Diagnosti
     let message = format!("{} is {is} without `{key}`", fields.owner.field(first.key));
     let span = fields.get(first.key).map_or(fields.place, |raw| &raw.span);
     let meaning = law.field(key).map_or("", |field| field.meaning);
-    let others: Vec<String> = types(first.key)
+    let others: Vec<String> = types(law.declaration().kinds[0], first.key)
         .iter()
         .filter(|(ty, _)| *ty != first.ty)
         .map(|(ty, _)| ty.with_article())

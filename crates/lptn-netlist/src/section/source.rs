@@ -1,112 +1,84 @@
-//! `[source]`.
+//! `[source]`, and sources whose heat a law gives.
 
 use lptn_data::{Diagnostic, Span};
-use lptn_network::{End, Field, Input, Item, NodeId};
+use lptn_network::{End, Field, Item, Path};
 use lptn_units::{Dimension, Type, parse_quantity};
 
 use crate::fields::Fields;
-use crate::format::{Role, SectionDeclaration, key};
 use crate::grid_part::GridPart;
-use crate::place::{Place, Wanted};
+use crate::place::Place;
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
+use crate::section::path::{PATHS, PathSection};
 use crate::work::{Elaboration, stand_in};
 
-pub(crate) const SOURCE: SectionDeclaration = SectionDeclaration {
-    name: "source",
-    sentence: "Heat that goes into a node, into several, or into a grid.",
-    role: Role::Element,
-    keys: &[
-        key(
-            "into",
-            "name, or table of shares",
-            "the node, grid or face that is heated",
-            "\"name of a node\"",
-        ),
-        key(
-            "P",
-            "W",
-            "heat flow, may depend on time, signals, controls and temperatures",
-            "\"100 W\"",
-        ),
-    ],
-    example: "{ into = \"a\", P = \"100 W\" }",
-    elsewhere: &[
-        ("node", "the node that is heated is `into`"),
-        ("to", "the node that is heated is `into`"),
-    ],
-    ..SectionDeclaration::NEW
-};
-
 impl<'a> Elaboration<'a> {
+    /// The sources of every kind.
     pub(crate) fn sources(&mut self) {
-        for entry in self.elements(SOURCE.name) {
-            self.source(entry);
+        for kind in PATHS.iter().filter(|path| path.kind.is_source()) {
+            for entry in self.elements(kind.section.name) {
+                self.source(entry, kind);
+            }
         }
     }
 
-    fn source(&mut self, entry: &'a RawEntry) -> Option<()> {
-        let fields = self.fields(&SOURCE, entry)?;
-        let shared = match fields.get("into").map(|raw| (&raw.kind, raw)) {
-            Some((RawKind::Table(table), raw)) => Some((table, raw)),
-            _ => None,
-        };
-        let ends = match shared {
-            Some((table, raw)) => Ends::Several(self.shares(&fields, table), raw),
-            None => match self.heated_grid(&fields) {
-                Some(into) => Ends::Several(Some(into.0), into.1),
-                None => Ends::One(self.end(&fields, "into")),
-            },
-        };
-        let ty = Type::of(Dimension::POWER);
-        self.require(&fields, "P");
-        let power = self.input(&fields, "P", Wanted::of_source(ty)).unwrap_or_else(|| stand_in(ty));
-        let (item, at) = match ends {
-            Ends::One(end) => {
-                let (end, at) = end?;
-                (Item::Source(self.builder.source(&entry.key, end, power)), at.span.clone())
-            }
-            Ends::Several(nodes, raw) => {
-                (self.shared(&entry.key, &nodes?, power), raw.span.clone())
-            }
-        };
-        self.note(item, &entry.key_span, &fields, &[Field::Power]);
-        self.map.insert(item, Field::Into, at);
+    fn source(&mut self, entry: &'a RawEntry, of: &'static PathSection) -> Option<()> {
+        let fields = self.fields(&of.section, entry)?;
+        let heated = self.heated(&fields);
+        // a stand-in where the law is wrong, so that the nodes still count
+        let law = self.path(&fields, of);
+        let law = law.unwrap_or_else(|| Path::heat(stand_in(Type::of(Dimension::POWER))));
+        let (into, at) = heated?;
+        let item = Item::Source(self.builder.heat(&entry.key, of.kind, &into, law));
+        self.map.source(of.section.name);
+        let own: Vec<Field> = of.values().filter_map(Field::of_law).collect();
+        self.note(item, &entry.key_span, &fields, &own);
+        self.map.insert(item, Field::Into, at.span.clone());
         Some(())
     }
 
-    fn shared(&mut self, name: &str, nodes: &[(NodeId, f64)], power: Input) -> Item {
-        Item::Source(self.builder.shared_source(name, nodes, power))
+    /// The nodes that a source heats, with their shares.
+    fn heated(&mut self, fields: &Fields<'a>) -> Option<(Vec<(End, f64)>, &'a RawValue)> {
+        if let Some(raw) = fields.get("into")
+            && let RawKind::Table(table) = &raw.kind
+        {
+            return Some((self.shares(fields, table)?, raw));
+        }
+        if let Some(into) = self.heated_grid(fields) {
+            return Some(into);
+        }
+        self.end(fields, "into").map(|(end, raw)| (vec![(end, 1.0)], raw))
     }
 
     /// `into = { a = 0.5, b = 0.5 }`.
-    fn shares(&mut self, fields: &Fields<'a>, table: &'a RawTable) -> Option<Vec<(NodeId, f64)>> {
+    fn shares(&mut self, fields: &Fields<'a>, table: &'a RawTable) -> Option<Vec<(End, f64)>> {
         let shares: Vec<_> = table.entries.iter().map(|entry| self.share(fields, entry)).collect();
         shares.into_iter().collect::<Option<Vec<_>>>().map(|shares| shares.concat())
     }
 
     /// A grid is heated by volume, a face by area.
-    fn heated_grid(&mut self, fields: &Fields<'a>) -> Option<(Vec<(NodeId, f64)>, &'a RawValue)> {
+    fn heated_grid(&mut self, fields: &Fields<'a>) -> Option<(Vec<(End, f64)>, &'a RawValue)> {
         let raw = fields.get("into")?;
         let RawKind::String { text, .. } = &raw.kind else { return None };
         Some((self.parts_of_grid(&raw.span, text)?, raw))
     }
 
-    fn parts_of_grid(&mut self, place: &Span, name: &str) -> Option<Vec<(NodeId, f64)>> {
-        match self.part_of_grid_at(place, name)? {
-            GridPart::Whole(id) => Some(self.builder.shares_of_volume(id)),
-            GridPart::Face(at) => Some(self.builder.shares_of_face(at)),
-            _ => None,
-        }
+    fn parts_of_grid(&mut self, place: &Span, name: &str) -> Option<Vec<(End, f64)>> {
+        let shares = match self.part_of_grid_at(place, name)? {
+            GridPart::Whole(id) => self.builder.shares_of_volume(id),
+            GridPart::Face(at) => self.builder.shares_of_face(at),
+            _ => return None,
+        };
+        Some(shares.into_iter().map(|(node, share)| (node.into(), share)).collect())
     }
 
-    fn share(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<Vec<(NodeId, f64)>> {
+    fn share(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<Vec<(End, f64)>> {
         let share = self.share_number(fields, entry);
         if let Some(parts) = self.parts_of_grid(&entry.value.span, &entry.key) {
             let share = share?;
             return Some(parts.into_iter().map(|(node, part)| (node, part * share)).collect());
         }
         match self.named_end(fields, "into", (&entry.key, &entry.value)) {
-            Some((End::Node(id), _)) => Some(vec![(id, share?)]),
+            Some((end @ End::Node(_), _)) => Some(vec![(end, share?)]),
             Some((End::Boundary(_), _)) => {
                 self.report(boundary(fields, &entry.key_span));
                 None
@@ -131,12 +103,6 @@ impl<'a> Elaboration<'a> {
         self.report(problem);
         None
     }
-}
-
-/// Where the heat of a source goes.
-enum Ends<'a> {
-    One(Option<(End, &'a RawValue)>),
-    Several(Option<Vec<(NodeId, f64)>>, &'a RawValue),
 }
 
 fn boundary(fields: &Fields<'_>, at: &Span) -> Diagnostic {

@@ -48,7 +48,7 @@ pub(crate) fn seen(network: &Network) -> Vec<(String, Vec<f64>)> {
             let nodes: Vec<_> =
                 source.into.iter().map(|(n, _)| network.name_of(Item::Node(*n))).collect();
             let mut numbers: Vec<f64> = source.into.iter().map(|(_, share)| *share).collect();
-            numbers.extend(source.power.at(&mut scope));
+            numbers.extend(source.law.values().iter().flat_map(|value| value.at(&mut scope)));
             seen.push((format!("source {} {nodes:?}", source.name()), numbers));
         }
         for id in network.limit_ids() {

@@ -12,7 +12,7 @@ pub(crate) mod substance;
 
 use std::sync::Arc;
 
-use lptn_laws::{Formula, Kind};
+use lptn_laws::{Carries, Formula, Kind};
 use lptn_units::{Dimension, Expression, Problems, Program, TableSymbol, Type, UnitError};
 
 use crate::error::{BuildError, BuildErrorKind, BuildErrors};
@@ -24,19 +24,16 @@ use crate::law::Law;
 use crate::network::Network;
 use crate::numbers::Numbers;
 use crate::parts::Parts;
-use crate::parts::element::{Boundary, Capacitor, Node, Parameter, Source};
+use crate::parts::element::{Boundary, Capacitor, Node, Parameter};
 use crate::parts::result::{Bound, Limit, LimitSeverity};
 use crate::parts::whole;
 use crate::scope::{Context, NetworkScope};
 use crate::value::{Input, Value};
 use crate::{check, clash};
 
-/// How far the shares of a source may be from a sum of 1.
-const SHARES: f64 = 1e-9;
-
 const CAPACITY: Type = Type::of(Dimension::CAPACITY);
 
-/// The law of a path with its values, as a builder takes it.
+/// The law of a path or source with its values, as a builder takes it.
 pub type Path = Law<Input>;
 
 impl From<crate::typed::Resistance> for Path {
@@ -200,9 +197,7 @@ impl NetworkBuilder {
         into: impl Into<End>,
         power: impl Into<Input>,
     ) -> SourceId {
-        let id = self.push_source(name.into(), into.into(), power.into());
-        self.register(name, Item::Source(id));
-        id
+        self.heat(name, Kind::Source, &[(into.into(), 1.0)], Path::heat(power))
     }
 
     /// Adds a source whose heat is shared between nodes; the shares have to sum to 1.
@@ -212,16 +207,14 @@ impl NetworkBuilder {
         into: &[(NodeId, f64)],
         power: impl Into<Input>,
     ) -> SourceId {
-        let id = SourceId::from_len(self.parts.sources.len());
-        let at = (name, Item::Source(id), Field::Power);
-        let power = self.typed(at, power.into(), Type::of(Dimension::POWER));
-        into.iter().for_each(|&(node, _)| self.check_end(name, Item::Source(id), node.into()));
-        let sum: f64 = into.iter().map(|(_, share)| share).sum();
-        let usable = into.iter().all(|(_, share)| share.is_finite() && *share >= 0.0);
-        if !(usable && (sum - 1.0).abs() <= SHARES) {
-            self.error(name, BuildErrorKind::Shares { source: id, sum });
-        }
-        self.parts.sources.push(Source { label: name.into(), into: into.to_vec(), power });
+        let into: Vec<(End, f64)> =
+            into.iter().map(|&(node, share)| (node.into(), share)).collect();
+        self.heat(name, Kind::Source, &into, Path::heat(power))
+    }
+
+    /// Adds a source of any kind, whose heat a law gives; the shares of its nodes have to sum to 1.
+    pub fn heat(&mut self, name: &str, kind: Kind, into: &[(End, f64)], law: Path) -> SourceId {
+        let id = self.push_source(name.into(), kind, into, law);
         self.register(name, Item::Source(id));
         id
     }
@@ -322,8 +315,10 @@ impl NetworkBuilder {
 
     pub(crate) fn law(&mut self, name: &str, item: Item, path: Path) -> Law {
         let declared = path.formula().declaration();
+        let is_source = matches!(item, Item::Source(_));
         if path.values().len() != declared.fields.len()
             || path.fluid().is_some() != declared.carries.is_of_fluid()
+            || is_source != (declared.carries == Carries::Heat)
         {
             self.error(name, BuildErrorKind::LawValues { item, formula: path.formula() });
             return Law::new(Formula::Resistance, [Value::Constant(1.0)]);

@@ -5,10 +5,13 @@ use lptn_units::{Dimension, Type};
 
 use crate::builder::{NetworkBuilder, Path};
 use crate::error::BuildErrorKind;
-use crate::id::{ConductorId, End, Field, Item, NodeId, SourceId};
+use crate::id::{ConductorId, End, Item, NodeId, SourceId};
 use crate::parts::element::{Conductor, Source};
 use crate::parts::label::Label;
 use crate::value::Input;
+
+/// How far the shares of a source may be from a sum of 1.
+const SHARES: f64 = 1e-9;
 
 const CONDUCTANCE: Type = Type::of(Dimension::CONDUCTANCE);
 
@@ -32,7 +35,7 @@ impl NetworkBuilder {
     pub fn numbered_source(&mut self, number: u32, into: End, power: Input) -> SourceId {
         let position = self.parts.sources.len();
         self.parts.numbered_sources.get_or_insert((position, number));
-        self.push_source(Label::Number(number), into, power)
+        self.push_source(Label::Number(number), Kind::Source, &[(into, 1.0)], Path::heat(power))
     }
 
     pub(crate) fn push_conductor(
@@ -60,21 +63,38 @@ impl NetworkBuilder {
         id
     }
 
-    pub(crate) fn push_source(&mut self, label: Label, into: End, power: Input) -> SourceId {
+    pub(crate) fn push_source(
+        &mut self,
+        label: Label,
+        kind: Kind,
+        into: &[(End, f64)],
+        law: Path,
+    ) -> SourceId {
         let id = SourceId::from_len(self.parts.sources.len());
         let item = Item::Source(id);
         let name = label.of_source().into_owned();
-        let power = self.typed((&name, item, Field::Power), power, Type::of(Dimension::POWER));
-        self.check_end(&name, item, into);
-        let node = match into {
+        let law = self.law(&name, item, law);
+        let sum: f64 = into.iter().map(|(_, share)| share).sum();
+        let usable = into.iter().all(|(_, share)| share.is_finite() && *share >= 0.0);
+        if !(usable && (sum - 1.0).abs() <= SHARES) {
+            self.error(&name, BuildErrorKind::Shares { source: id, sum });
+        }
+        let into =
+            into.iter().map(|&(end, share)| (self.heated((&name, id), end), share)).collect();
+        self.parts.sources.push(Source { label, into, kind, law });
+        id
+    }
+
+    /// The node that a source heats.
+    fn heated(&mut self, (name, source): (&str, SourceId), end: End) -> NodeId {
+        self.check_end(name, Item::Source(source), end);
+        match end {
             End::Node(node) => node,
             End::Boundary(_) => {
-                self.error(&name, BuildErrorKind::SourceIntoBoundary { source: id });
+                self.error(name, BuildErrorKind::SourceIntoBoundary { source });
                 NodeId(0)
             }
-        };
-        self.parts.sources.push(Source { label, into: vec![(node, 1.0)], power });
-        id
+        }
     }
 }
 

@@ -125,9 +125,9 @@ impl Network {
         let result = {
             let (slots, stack) = scope.plain();
             name(slots, dependence, &at);
-            source.power.on(slots, stack)
+            At { slots, stack }.heat(&source.law)
         };
-        self.finite(result, (Item::Source(id), Field::Power), scope)
+        result.map_err(|failed| self.failed(Item::Source(id), failed, scope))
     }
 
     /// As [`Network::source_heat`], and writes its derivatives in W/K by each of
@@ -152,9 +152,9 @@ impl Network {
             let result = {
                 let (slots, stack) = scope.dual();
                 name(slots, dependence, &at);
-                source.power.on(slots, stack)
+                At { slots, stack }.heat(&source.law)
             };
-            let heat = self.finite(result, (Item::Source(id), Field::Power), scope)?;
+            let heat = result.map_err(|failed| self.failed(Item::Source(id), failed, scope))?;
             value = heat.value;
             slopes.extend_from_slice(&heat.derivatives[..PASS.min(count - first)]);
         }

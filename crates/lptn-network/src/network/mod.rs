@@ -173,8 +173,16 @@ impl Network {
         out: &mut [f64],
     ) -> Result<(), InputError> {
         for (id, value) in self.boundary_ids().zip(out) {
-            let temperature = &self.boundaries()[id.index()].temperature;
-            *value = self.input(Item::Boundary(id), Field::Temperature, temperature, scope)?;
+            let problem = match self.boundaries()[id.index()].temperature.at(scope) {
+                Ok(x) if !x.is_finite() => InputProblem::NotFinite(x),
+                Ok(x) if x < 0.0 => InputProblem::BelowAbsoluteZero(x),
+                Ok(x) => {
+                    *value = x;
+                    continue;
+                }
+                Err(error) => error.into(),
+            };
+            return Err(self.failed(Item::Boundary(id), (Field::Temperature, problem), scope));
         }
         Ok(())
     }
@@ -186,29 +194,11 @@ impl Network {
     /// [`InputError`] if an expression fails or gives no number.
     pub fn source_powers(&self, scope: &mut Evaluation, out: &mut [f64]) -> Result<(), InputError> {
         for (id, value) in self.source_ids().zip(out) {
-            if !self.source_variables(id).is_empty() {
-                continue;
+            if self.source_variables(id).is_empty() {
+                *value = self.source_heat(id, scope, &[])?;
             }
-            let power = &self.sources()[id.index()].power;
-            *value = self.input(Item::Source(id), Field::Power, power, scope)?;
         }
         Ok(())
-    }
-
-    fn input(
-        &self,
-        item: Item,
-        field: Field,
-        value: &Value,
-        at: &mut Evaluation,
-    ) -> Result<f64, InputError> {
-        let problem = match value.at(at) {
-            Ok(x) if !x.is_finite() => InputProblem::NotFinite(x),
-            Ok(x) if field == Field::Temperature && x < 0.0 => InputProblem::BelowAbsoluteZero(x),
-            Ok(x) => return Ok(x),
-            Err(error) => error.into(),
-        };
-        Err(self.failed(item, (field, problem), at))
     }
 
     /// The name of an item.

@@ -3,7 +3,7 @@
 use lptn_laws::Carries;
 
 use crate::error::BuildErrorKind;
-use crate::id::{ConductorId, Field, Item};
+use crate::id::{ConductorId, Field, Item, SourceId};
 use crate::law::{At, ConductorFlow, Law};
 use crate::numbers::Work;
 use crate::parts::element::Conductor;
@@ -57,6 +57,14 @@ impl Work<'_> {
         match declared.carries {
             Carries::Radiation => ConductorFlow::Radiation(number),
             _ => ConductorFlow::Conductance(number),
+        }
+    }
+
+    /// Lengths of sources that have an order.
+    pub(crate) fn check_sources(&mut self) {
+        let parts = self.parts;
+        for (i, source) in parts.sources.iter().enumerate() {
+            self.check_order(Item::Source(SourceId::from_len(i)), &source.law);
         }
     }
 

@@ -63,6 +63,7 @@ impl Numbers {
         let flows = work.flows();
         work.check_face_paths();
         work.check_inputs();
+        work.check_sources();
         work.check_limits();
         let min_dwell = work.controls();
         whole::collapse(parts, &mut work.errors);
@@ -207,26 +208,29 @@ impl Work<'_> {
                     matches!(field, Field::Law(law) if law.property) || !reads.own
                 }
                 Item::Control(_) => !reads.link && !reads.own,
-                Item::Source(id) => !reads.link && self.names_its_node(id, reads.own),
+                Item::Source(id) => !reads.link && self.names_its_node((id, field), reads.own),
                 _ => !reads.reads_results(),
             };
             if !allowed {
                 self.error(item, BuildErrorKind::DependsOnResult { item, field });
             }
             self.check_comparisons(item, field, value);
-            if matches!(item, Item::Boundary(_) | Item::Source(_)) && reads.is_constant() {
-                let range =
-                    if field == Field::Temperature { Range::Temperature } else { Range::Finite };
+            let range = match (item, field) {
+                (Item::Boundary(_), _) => Range::Temperature,
+                (Item::Source(_), Field::Law(law)) => law.range,
+                _ => continue,
+            };
+            if reads.is_constant() {
                 self.constant(item, field, value, range);
             }
         }
     }
 
-    /// `T` of a source means one node.
-    fn names_its_node(&mut self, id: SourceId, own: bool) -> bool {
+    /// `T` in a value of a source means one node.
+    fn names_its_node(&mut self, (id, field): (SourceId, Field), own: bool) -> bool {
         let source = &self.parts.sources[id.index()];
         if own && source.into.len() != 1 {
-            self.error(Item::Source(id), BuildErrorKind::WhichTemperature { source: id });
+            self.error(Item::Source(id), BuildErrorKind::WhichTemperature { source: id, field });
         }
         true
     }
@@ -280,6 +284,7 @@ impl Work<'_> {
                 BuildErrorKind::NotPositive { item, field, value }
             }
             _ if !value.is_finite() => BuildErrorKind::NotFinite { item, field, value },
+            Range::NotNegative if value < 0.0 => BuildErrorKind::Negative { item, field, value },
             Range::Fraction if !(value > 0.0 && value <= 1.0) => {
                 BuildErrorKind::NotAFraction { item, field, value }
             }

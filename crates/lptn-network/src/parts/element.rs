@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use lptn_laws::Kind;
+use lptn_laws::{Formula, Kind};
 use lptn_units::Type;
 
 use crate::id::{End, NodeId};
@@ -101,8 +101,11 @@ pub struct Source {
     pub(crate) label: Label,
     /// The nodes it heats, with the share of each; the shares sum to 1.
     pub into: Vec<(NodeId, f64)>,
-    /// Its heat in W, positive into the nodes; may depend on time and on temperatures.
-    pub power: Value,
+    /// The section it stands in.
+    pub kind: Kind,
+    /// The formula of its heat in W, positive into the nodes, with one value for each field; they
+    /// may depend on time and on temperatures.
+    pub law: Law,
 }
 
 impl Conductor {
@@ -113,6 +116,11 @@ impl Conductor {
 }
 
 impl Source {
+    /// Its heat in W where that is given, and no law gives it.
+    pub fn power(&self) -> Option<&Value> {
+        self.law.values().first().filter(|_| self.law.formula() == Formula::Given)
+    }
+
     /// Its name; one without a name of its own is called by its number, `import.source[17]`.
     pub fn name(&self) -> Cow<'_, str> {
         self.label.of_source()

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use lptn_units::Program;
 
 use crate::id::{ConductorId, Field, Item, SourceId, SwitchId};
+use crate::law::Law;
 use crate::parts::Parts;
 use crate::parts::layout::Holds;
 use crate::parts::switch::Switch;
@@ -29,23 +30,23 @@ impl Parts {
     pub(crate) fn hold_comparisons(&mut self) {
         let mut sources = std::mem::take(&mut self.sources);
         for (i, source) in sources.iter_mut().enumerate() {
-            if self.switches_in(&source.power) {
-                self.hold((Item::Source(SourceId::from_len(i)), Field::Power), &mut source.power);
-            }
+            self.hold_law(Item::Source(SourceId::from_len(i)), &mut source.law);
         }
         self.sources = sources;
         let mut conductors = std::mem::take(&mut self.conductors);
         for (i, conductor) in conductors.iter_mut().enumerate() {
-            let item = Item::Conductor(ConductorId::from_len(i));
-            if conductor.law.values().iter().any(|value| self.switches_in(value)) {
-                let law = conductor.law.clone();
-                conductor.law = law.map(|field, mut value| {
-                    self.hold((item, field), &mut value);
-                    value
-                });
-            }
+            self.hold_law(Item::Conductor(ConductorId::from_len(i)), &mut conductor.law);
         }
         self.conductors = conductors;
+    }
+
+    fn hold_law(&mut self, item: Item, law: &mut Law) {
+        if law.values().iter().any(|value| self.switches_in(value)) {
+            *law = law.clone().map(|field, mut value| {
+                self.hold((item, field), &mut value);
+                value
+            });
+        }
     }
 
     fn hold(&mut self, (item, field): (Item, Field), value: &mut Value) {

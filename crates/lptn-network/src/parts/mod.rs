@@ -128,7 +128,7 @@ impl Parts {
         name.into()
     }
 
-    /// Every value that may depend on time: temperatures of boundaries, heat of sources, values of
+    /// Every value that may depend on time: temperatures of boundaries, values of sources and of
     /// conductors, signals that are expressions, thresholds of controls.
     pub(crate) fn inputs(&self) -> impl Iterator<Item = (Item, Field, &Value)> {
         let boundaries = self.boundaries.iter().enumerate();
@@ -140,9 +140,10 @@ impl Parts {
             .map(|(i, b)| {
                 (Item::Boundary(BoundaryId::from_len(i)), Field::Temperature, &b.temperature)
             })
-            .chain(
-                sources.map(|(i, s)| (Item::Source(SourceId::from_len(i)), Field::Power, &s.power)),
-            )
+            .chain(sources.flat_map(|(i, s)| {
+                let item = Item::Source(SourceId::from_len(i));
+                s.law.parts().map(move |(field, value)| (item, field, value))
+            }))
             .chain(conductors.flat_map(|(i, c)| {
                 let item = Item::Conductor(ConductorId::from_len(i));
                 c.law.parts().map(move |(field, value)| (item, field, value))

@@ -103,13 +103,15 @@ impl Parts {
     /// The temperatures a source depends on: its own node first, if it reads that; none if it
     /// depends on time only.
     pub(crate) fn source_dependence(&self, source: &Source) -> Dependence {
-        let reads = self.reads(&source.power);
+        let reads: Vec<Reads> = source.law.values().iter().map(|value| self.reads(value)).collect();
         let mut dependence = Dependence::default();
-        if let (true, Some(&(node, _))) = (reads.own, source.into.first()) {
+        let own = reads.iter().any(|reads| reads.own);
+        if let (true, Some(&(node, _))) = (own, source.into.first()) {
             dependence.vertices.push(self.vertex(End::Node(node)));
             dependence.named.push((slot::OWN, 0));
         }
-        reads.temperatures.into_iter().for_each(|end| dependence.add(self, end));
+        let named = reads.into_iter().flat_map(|reads| reads.temperatures);
+        named.for_each(|end| dependence.add(self, end));
         dependence
     }
 

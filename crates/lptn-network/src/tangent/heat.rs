@@ -111,8 +111,8 @@ impl Tangents {
             let dependence = &network.parts.source_dependence[id.index()];
             let dual = |vertex: usize| of_vertex(vertex, network, boundaries, temperatures);
             name(slots, dependence, &|k| dual(dependence.vertices[k] as usize));
-            let power = source.power.on(slots, stack);
-            let power = network.finite(power, (Item::Source(id), Field::Power), scope)?;
+            let power = At { slots, stack }.heat(&source.law);
+            let power = power.map_err(|failed| network.failed(Item::Source(id), failed, scope))?;
             for &(node, share) in &source.into {
                 let shared = power.derivatives.map(|d| share * d);
                 add(out, node.index(), temperatures.len(), &shared);

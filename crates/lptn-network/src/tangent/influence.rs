@@ -56,7 +56,7 @@ impl<'a> Influence<'a> {
     }
 
     pub(super) fn source(&self, id: SourceId) -> bool {
-        self.value(&self.network.sources()[id.index()].power)
+        self.network.sources()[id.index()].law.values().iter().any(|value| self.value(value))
     }
 
     /// Whether the heat of a conductor changes: by its values, or because a boundary does that it

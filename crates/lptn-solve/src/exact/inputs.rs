@@ -39,7 +39,7 @@ impl<'a> Inputs<'a> {
     pub(crate) fn new(network: &'a Network, reference: f64) -> Self {
         let boundaries = network.boundaries().iter().map(|b| network.course(&b.temperature));
         let forms =
-            boundaries.chain(network.sources().iter().map(|s| network.course(&s.power))).collect();
+            boundaries.chain(network.source_ids().map(|id| network.course_of_source(id))).collect();
         let rule = Rule::new();
         Self { network, scope: network.evaluation(), reference, forms, rule, inside: 0.0 }
     }

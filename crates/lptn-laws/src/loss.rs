@@ -1,0 +1,74 @@
+//! What the laws of losses have in common: heat of friction at a speed, which is the same for both
+//! directions of rotation and 0 at rest.
+//!
+//! The published formulas take speeds in rpm, lengths in mm and viscosities in mm^2/s; their
+//! constants stand here as printed.
+
+use std::f64::consts::PI;
+
+use lptn_units::{Dimension, Scalar, Type};
+
+use crate::declare::{Carries, Confidence, Extent, FieldDeclaration, Form, Hints, LawDeclaration};
+
+/// The speed of a shaft.
+pub(crate) const SPEED: FieldDeclaration = FieldDeclaration::new(
+    "speed",
+    Type::of(Dimension::ANGULAR_VELOCITY),
+    "speed of rotation, of either direction",
+    "\"1500 rpm\"",
+)
+.signed();
+
+/// The viscosity of the oil, or of the base oil of a grease.
+pub(crate) const VISCOSITY: FieldDeclaration = FieldDeclaration {
+    hints: Hints::GIVEN,
+    ..FieldDeclaration::new(
+        "nu",
+        Type::of(Dimension::KINEMATIC_VISCOSITY),
+        "kinematic viscosity of the lubricant at its temperature; of the base oil of a grease",
+        "\"60 mm^2/s\"",
+    )
+};
+
+/// A length of a part.
+pub(crate) const fn length(
+    key: &'static str,
+    meaning: &'static str,
+    example: &'static str,
+) -> FieldDeclaration {
+    FieldDeclaration::measure(key, Type::of(Dimension::LENGTH), meaning, example)
+}
+
+/// What the laws have in common.
+pub(crate) const LOSS: LawDeclaration = LawDeclaration {
+    name: "",
+    sentence: "",
+    equation: "",
+    kinds: &[],
+    fields: &[],
+    carries: Carries::Heat,
+    reads_ends: false,
+    form: Form::Other,
+    ordered: None,
+    area: &[],
+    extent: Extent::Whole,
+    validity: "",
+    source: "",
+    idle: &[],
+    confidence: Confidence::High,
+};
+
+/// A speed in rpm without its sign, from rad/s.
+pub(crate) fn rpm<S: Scalar>(speed: S) -> S {
+    speed.abs() * S::from_f64(30.0 / PI)
+}
+
+/// A length in mm, from m.
+pub(crate) fn mm<S: Scalar>(length: S) -> S {
+    length * S::from_f64(1e3)
+}
+
+/// A viscosity in mm^2/s, from m^2/s.
+pub(crate) fn mm2_per_s<S: Scalar>(viscosity: S) -> S {
+    viscosity * S::from_f64(1e6)
+}

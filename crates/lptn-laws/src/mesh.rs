@@ -1,0 +1,269 @@
+//! `[mesh]`: pairs of cylindrical gears under load.
+
+use std::f64::consts::PI;
+
+use lptn_units::{Dimension, Scalar, Type};
+
+use crate::Kind;
+use crate::declare::{FieldDeclaration, Hints, KindDeclaration, Law, LawDeclaration};
+use crate::loss::{LOSS, SPEED, VISCOSITY, length, mm};
+
+/// `[mesh]`, as netlists declare it.
+#[allow(non_upper_case_globals, reason = "named as in the list")]
+pub(crate) const Mesh: KindDeclaration = KindDeclaration {
+    section: "mesh",
+    sentence: "The friction of the teeth of two cylindrical gears.",
+    selector: Some("model"),
+    example: "{ into = { pinion = 0.5, wheel = 0.5 }, speed = \"1500 rpm\", torque = \"50 N m\", z1 = 20, \
+        z2 = 60, module = \"3 mm\", width = \"30 mm\", Ra = \"0.5 um\", nu = \"60 mm^2/s\", density = \"860 \
+        kg/m^3\", model = \"external\" }",
+    elsewhere: &[
+        ("n", "the speed of the pinion is `speed`; in a planetary stage that against the carrier"),
+        ("omega", "the speed of the pinion is `speed`"),
+        ("P", "a heat that is known belongs in [source]"),
+        ("eta", "the viscosity is `nu`, with the `density`"),
+    ],
+    later: &[],
+    surface: None,
+};
+
+/// The most that the coefficient of friction becomes: the formula has no bound at low speed.
+const MOST_FRICTION: f64 = 0.2;
+
+/// The factor of gear loss H_V = pi (u + 1) / (z1 u cos beta_b) (1 - eps_alpha + eps_1^2 + eps_2^2),
+/// with u - 1 for an internal mesh.
+///
+/// * `teeth`: z1 of the pinion, z2 of the wheel or ring, above 0; of a ring z2 > z1
+/// * `internal`: whether the wheel is a ring with internal teeth
+/// * `cos_base`: cosine of the helix angle at the base circle
+/// * `contact`: eps_1 and eps_2, tip contact ratios of pinion and wheel; eps_alpha is their sum
+///
+/// The power lost is P mu H_V. It is never negative, for 1 - e1 - e2 + e1^2 + e2^2 >= 1/2. Source:
+/// H. Ohlendorf, Verlustleistung und Erwärmung von Stirnrädern (TU München 1958); G. Niemann, H.
+/// Winter, Maschinenelemente II. Internal: by its radii of curvature.
+///
+/// ```
+/// let h_v = lptn_laws::gear_loss_factor([20.0, 60.0], false, 1.0, [0.8, 0.9]);
+/// assert!((h_v - std::f64::consts::PI * 4.0 / 60.0 * (1.0 - 1.7 + 0.64 + 0.81)).abs() < 1e-14);
+/// ```
+pub fn gear_loss_factor<S: Scalar>(
+    teeth: [S; 2],
+    internal: bool,
+    cos_base: S,
+    contact: [S; 2],
+) -> S {
+    let (one, [z1, z2], [e1, e2]) = (S::from_f64(1.0), teeth, contact);
+    let shape = S::from_f64(PI) * joined(z2, z1, internal) / (z1 * z2 * cos_base);
+    shape * (one - e1 - e2 + e1 * e1 + e2 * e2)
+}
+
+/// The mean coefficient of friction of a mesh: mu = 0.048 (F_bt/b / (v_sum rho))^0.2 eta^-0.05
+/// Ra^0.25 X_L, at most 0.2.
+///
+/// * `line_load`: F_bt / b in N/mm, at least 0
+/// * `speed`: v_sum, the sum of the rolling speeds at the pitch point, in m/s, at least 0
+/// * `radius`: rho, the radius of relative curvature at the pitch point, in mm, above 0
+/// * `viscosity`: eta, dynamic, in mPa s, above 0
+/// * `roughness`: Ra, mean of the two flanks, in um, at least 0
+/// * `lubricant`: X_L: 1 for mineral oil, 0.8 for PAO and ester
+///
+/// Source: L. Schlenk, Untersuchungen zur Fresstragfähigkeit von Großzahnrädern (TU München 1994);
+/// ISO/TR 14179-2.
+pub fn mesh_friction<S: Scalar>(
+    [line_load, speed, radius]: [S; 3],
+    viscosity: S,
+    roughness: S,
+    lubricant: S,
+) -> S {
+    let rest = S::from_f64(0.048) * viscosity.powf(-0.05) * roughness.powf(0.25) * lubricant;
+    // compared without the quotient, which has no value at rest
+    let bound = (line_load / radius).value() * (rest.value() / MOST_FRICTION).powi(5);
+    match speed.value() > bound {
+        true => rest * (line_load / (speed * radius)).powf(0.2),
+        false => S::from_f64(MOST_FRICTION),
+    }
+}
+
+/// z2 + z1, or z2 - z1 for an internal mesh.
+fn joined<S: Scalar>(z2: S, z1: S, internal: bool) -> S {
+    if internal { z2 - z1 } else { z2 + z1 }
+}
+
+/// Two cylindrical gears without backlash, at the centre distance of their pitch circles.
+#[derive(Clone, Copy, Debug)]
+pub struct GearPair<S> {
+    /// Teeth z1 of the pinion and z2 of the wheel or ring.
+    pub teeth: [S; 2],
+    /// Whether the wheel is a ring with internal teeth.
+    pub internal: bool,
+    /// Normal module in m.
+    pub module: S,
+    /// Common width in m.
+    pub width: S,
+    /// Normal pressure angle in rad.
+    pub pressure: S,
+    /// Helix angle in rad, of either sign.
+    pub helix: S,
+    /// Addenda of the two gears in modules, profile shift included; the shifts sum to 0.
+    pub addenda: [S; 2],
+}
+
+impl<S: Scalar> GearPair<S> {
+    /// Friction of its teeth: P = abs(T1 omega1) mu H_V, in W.
+    ///
+    /// * `speed`: omega1 of the pinion in rad/s, of either sign; in a planetary stage that against
+    ///   the carrier, so that it is the rolling power that counts
+    /// * `torque`: T1 of the pinion in N m, of either sign
+    /// * `oil`: nu in m^2/s and density in kg/m^3, above 0, and X_L as in [`mesh_friction`]
+    /// * `roughness`: Ra, mean of the two flanks, in m, at least 0
+    ///
+    /// Source: [`gear_loss_factor`], [`mesh_friction`].
+    pub fn power(&self, speed: S, torque: S, oil: [S; 3], roughness: S) -> S {
+        let [nu, density, lubricant] = oil;
+        let [z1, z2] = self.teeth;
+        let (speed, torque) = (speed.abs(), torque.abs());
+        let at = self.transverse();
+        let radius = at.module * z1 * S::from_f64(0.5);
+        let line_load = torque / (radius * at.cosine) / mm(self.width);
+        let sum = S::from_f64(2.0) * speed * radius * at.sine;
+        let curved = radius * at.sine * z2 / (at.cos_base * joined(z2, z1, self.internal));
+        let friction = mesh_friction(
+            [line_load, sum, mm(curved)],
+            S::from_f64(1e3) * nu * density,
+            S::from_f64(1e6) * roughness,
+            lubricant,
+        );
+        let contact = self.contact(&at);
+        let factor = gear_loss_factor(self.teeth, self.internal, at.cos_base, contact);
+        speed * torque * friction * factor
+    }
+
+    fn transverse(&self) -> Transverse<S> {
+        let one = S::from_f64(1.0);
+        let module = self.module / self.helix.cos();
+        let tangent = self.pressure.sin() / self.pressure.cos() / self.helix.cos();
+        let cosine = one / (one + tangent * tangent).sqrt();
+        let sine_base = self.helix.sin() * self.pressure.cos();
+        let cos_base = (one - sine_base * sine_base).sqrt();
+        Transverse { module, tangent, cosine, sine: tangent * cosine, cos_base }
+    }
+
+    /// The tip contact ratios of pinion and wheel.
+    fn contact(&self, at: &Transverse<S>) -> [S; 2] {
+        let (half, one, pitch) = (S::from_f64(0.5), S::from_f64(1.0), S::from_f64(PI));
+        let ratio = |teeth: S, addendum: S, sign: f64| {
+            let sign = S::from_f64(sign);
+            let base = half * teeth * at.cosine; // in transverse modules
+            let tip = half * teeth + sign * addendum * self.module / at.module;
+            let beyond = ((tip / base).powi(2) - one).sqrt() - at.tangent;
+            sign * base * beyond / (pitch * at.cosine)
+        };
+        let ring = if self.internal { -1.0 } else { 1.0 };
+        [ratio(self.teeth[0], self.addenda[0], 1.0), ratio(self.teeth[1], self.addenda[1], ring)]
+    }
+}
+
+/// Geometry in the transverse section.
+struct Transverse<S> {
+    module: S,
+    tangent: S,
+    cosine: S,
+    sine: S,
+    cos_base: S,
+}
+
+/// An angle of either sign.
+const fn angle(
+    key: &'static str,
+    meaning: &'static str,
+    example: &'static str,
+    default: f64,
+) -> FieldDeclaration {
+    FieldDeclaration::measure(key, Type::of(Dimension::ANGLE), meaning, example).or(default)
+}
+
+/// Two external gears.
+#[derive(Debug)]
+pub(crate) struct MeshExternal;
+
+impl Law for MeshExternal {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "external",
+        sentence: "Two cylindrical gears with external teeth.",
+        equation: "Q = abs(T1 omega1) mu H_V, mu = 0.048 (F_bt/b / (v_sum rho))^0.2 eta^-0.05 \
+            Ra^0.25 X_L",
+        kinds: &[Kind::Mesh],
+        fields: &[
+            SPEED,
+            FieldDeclaration::new(
+                "torque",
+                Type::of(Dimension::ENERGY),
+                "torque of the pinion, of either direction",
+                "\"50 N m\"",
+            )
+            .signed(),
+            FieldDeclaration::given("z1", "teeth of the pinion", "20"),
+            FieldDeclaration::given("z2", "teeth of the wheel, or of the ring", "60"),
+            length("module", "normal module", "\"3 mm\""),
+            length("width", "common width of the teeth", "\"30 mm\""),
+            length("Ra", "roughness, mean of the two flanks", "\"0.5 um\""),
+            VISCOSITY,
+            FieldDeclaration {
+                hints: Hints::GIVEN,
+                ..FieldDeclaration::new(
+                    "density",
+                    Type::of(Dimension::DENSITY),
+                    "density of the lubricant",
+                    "\"860 kg/m^3\"",
+                )
+            },
+            FieldDeclaration::given("X_L", "lubricant: mineral 1, PAO and ester 0.8", "1").or(1.0),
+            angle("pressure_angle", "normal pressure angle", "\"20 deg\"", 20.0 * PI / 180.0),
+            angle("helix_angle", "helix angle", "\"15 deg\"", 0.0).signed(),
+            FieldDeclaration::given("addendum_1", "of the pinion in modules, with its shift", "1")
+                .or(1.0),
+            FieldDeclaration::given("addendum_2", "of the wheel in modules, with its shift", "1")
+                .or(1.0),
+        ],
+        validity: "H_V after Ohlendorf; F_bt/b in N/mm, v_sum in m/s, rho in mm, eta in mPa s, Ra in \
+            um. Pitch line velocities of 2 to 25 m/s; mu is at most 0.2, which it reaches near \
+            rest. Profile shifts that sum to 0. PAG: X_L = 0.75 (6 / v_sum)^0.2.",
+        source: "L. Schlenk (TU München 1994); H. Ohlendorf (TU München 1958); ISO/TR 14179-2",
+        ..LOSS
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        mesh(values, false)
+    }
+}
+
+/// A pinion or planet in a ring.
+#[derive(Debug)]
+pub(crate) struct MeshInternal;
+
+impl Law for MeshInternal {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "internal",
+        sentence: "A pinion or planet in a ring with internal teeth.",
+        ordered: Some(["z1", "z2"]),
+        confidence: crate::Confidence::Medium,
+        ..MeshExternal::DECLARATION
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        mesh(values, true)
+    }
+}
+
+fn mesh<S: Scalar>(values: &[S], internal: bool) -> S {
+    let pair = GearPair {
+        teeth: [values[2], values[3]],
+        internal,
+        module: values[4],
+        width: values[5],
+        pressure: values[10],
+        helix: values[11],
+        addenda: [values[12], values[13]],
+    };
+    pair.power(values[0], values[1], [values[7], values[8], values[9]], values[6])
+}
