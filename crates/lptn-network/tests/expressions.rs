@@ -113,7 +113,7 @@ fn values_name_the_slots_and_programs_they_read() {
     let p = time(&b, "k * t + k * 1 [s]");
     b.source("p", a, p);
     let network = b.build().unwrap();
-    let value = &network.sources()[0].power;
+    let value = network.sources()[0].power().unwrap();
     let k = network.parameter_slot(network.parameter("k").unwrap());
     assert_eq!(value.slots(), [lptn_network::slot::TIME, k]);
     assert_eq!(value.programs().len(), 1);
