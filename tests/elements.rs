@@ -5,7 +5,7 @@
 //! (` ```toml`) and one table of results, whose rows begin with a quantity in quotes, `steady` or a
 //! time, and a value with its unit.
 
-mod losses;
+mod losses_pages;
 mod support;
 
 use std::path::{Path, PathBuf};
@@ -268,10 +268,10 @@ fn pages() -> [(&'static str, Vec<Closed>); 17] {
         ("radiation", radiation()),
         ("advection", advection()),
         ("source", source()),
-        ("bearing", losses::bearing()),
-        ("seal", losses::seal()),
-        ("mesh", losses::mesh()),
-        ("churning", losses::churning()),
+        ("bearing", losses_pages::bearing()),
+        ("seal", losses_pages::seal()),
+        ("mesh", losses_pages::mesh()),
+        ("churning", losses_pages::churning()),
         ("table", table()),
         ("signal", signal()),
         ("material", material()),

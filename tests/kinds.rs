@@ -357,6 +357,8 @@ fn tables(kind: Kind) -> String {
         known.push(field.meaning);
         let key = if field.property {
             format!("`{}` or `material`", field.key)
+        } else if field.of_lubricant {
+            format!("`{}` or `lubricant`", field.key)
         } else {
             format!("`{}`", field.key)
         };

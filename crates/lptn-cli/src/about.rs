@@ -1,9 +1,6 @@
 //! What every report says of a netlist: its network, its parameters, and what it was read from.
 
-use std::collections::BTreeSet;
-
 use lptn_graph::{Grouping, View, diagram};
-use lptn_laws::Confidence;
 use lptn_netlist::Netlist;
 use lptn_network::{Field, Item, Network, ParameterId};
 use lptn_report::{Claim, Piece, Report, Section, Text, TextTable, plain, significant};
@@ -14,7 +11,7 @@ use serde_json::Value;
 
 use crate::files;
 use crate::input::{Input, quoted};
-use crate::words::{count, difference, spaced};
+use crate::words::{count, difference, spaced, unverified};
 
 /// How an answer changes with a parameter.
 pub(crate) struct Sensitivities {
@@ -74,15 +71,9 @@ fn linearity(input: &Input) -> Claim {
 
 /// Whether every law stayed where it is known: elsewhere there is no result.
 pub(crate) fn laws(network: &Network) -> Vec<Claim> {
-    let laws = network.conductors().iter().map(|conductor| conductor.law.formula().declaration());
-    let unsure = laws.filter(|law| law.confidence == Confidence::Medium).map(|law| law.name);
-    let names: BTreeSet<&str> = unsure.collect();
     let kept = "no fluid or capacity left its range, nor a table without `outside`";
     let mut claims = vec![Claim::checked(true, kept)];
-    if !names.is_empty() {
-        let names: Vec<String> = names.into_iter().map(|name| name.replace('_', " ")).collect();
-        claims.push(Claim::open(format!("unverified constants: {}", names.join(", "))));
-    }
+    claims.extend(unverified(network).map(Claim::open));
     claims
 }
 

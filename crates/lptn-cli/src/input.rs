@@ -16,7 +16,7 @@ use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::options::{Source, Times};
-use crate::words::counts;
+use crate::words::{counts, unverified, unverified_names};
 
 /// What a netlist from stdin is called.
 const STDIN: &str = "<stdin>";
@@ -117,13 +117,17 @@ impl Input {
     pub(crate) fn begun(&self) -> Text {
         let mut text = Text::titled(self.title());
         text.line(counts(&self.netlist.network));
+        if let Some(unsure) = unverified(&self.netlist.network) {
+            text.sentence("", &unsure);
+        }
         text
     }
 
     /// How the object of a result begins.
     pub(crate) fn head(&self, json: &mut Json<'_>, more: &[Diagnostic]) -> std::io::Result<()> {
         let warnings = [self.netlist.warnings.as_slice(), more].concat();
-        diagnostics::head(json, Some(&self.text.stem), (&self.netlist.files, &warnings))
+        diagnostics::head(json, Some(&self.text.stem), (&self.netlist.files, &warnings))?;
+        json.optional("unverified_constants", unverified_names(&self.netlist.network))
     }
 
     /// Where the node of this name stands.

@@ -1,6 +1,6 @@
 //! Words that results of several verbs share.
 
-use lptn_network::Network;
+use lptn_network::{Network, list_of};
 use lptn_report::{Text, TextTable};
 use lptn_units::Unit;
 
@@ -71,6 +71,19 @@ pub(crate) fn spaced(unit: &str) -> String {
 /// The unit of a difference between two temperatures in `unit`.
 pub(crate) fn difference(unit: &Unit) -> &'static str {
     if (unit.scale - 1.0).abs() < 1e-12 { "K" } else { "degR" }
+}
+
+/// Which elements have laws whose constants were not read in their source.
+pub(crate) fn unverified(network: &Network) -> Option<String> {
+    unverified_names(network)
+        .map(|names| format!("unverified constants: {}", list_of(&names, "elements")))
+}
+
+/// The same for programs: their names.
+pub(crate) fn unverified_names(network: &Network) -> Option<Vec<String>> {
+    let items = network.unverified().into_iter();
+    let names: Vec<String> = items.map(|item| network.name_of(item).into_owned()).collect();
+    (!names.is_empty()).then_some(names)
 }
 
 #[cfg(test)]

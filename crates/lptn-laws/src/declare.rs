@@ -140,6 +140,8 @@ pub struct FieldDeclaration {
     /// Whether it is a property of a body: `material` may be named in its place, and its expression
     /// may read `T`, the mean temperature of the ends.
     pub property: bool,
+    /// Whether it is a property of a lubricant: `lubricant` may be named in its place.
+    pub of_lubricant: bool,
 }
 
 impl FieldDeclaration {
@@ -151,7 +153,17 @@ impl FieldDeclaration {
         example: &'static str,
     ) -> Self {
         let (range, hints) = (Range::Positive, Hints::SIGN);
-        Self { key, ty, range, default: None, meaning, example, hints, property: false }
+        Self {
+            key,
+            ty,
+            range,
+            default: None,
+            meaning,
+            example,
+            hints,
+            property: false,
+            of_lubricant: false,
+        }
     }
 
     /// A length or an area of a body.
@@ -294,6 +306,11 @@ impl Kind {
     /// Whether its elements are no paths between two ends, but sources that heat nodes.
     pub fn is_source(self) -> bool {
         self.laws().any(|law| law.declaration().carries == Carries::Heat)
+    }
+
+    /// Whether a lubricant may be named for some of its fields.
+    pub fn takes_lubricant(self) -> bool {
+        self.laws().any(|law| law.declaration().fields.iter().any(|field| field.of_lubricant))
     }
 
     /// Its fields, each key once: those that all its laws take come first.

@@ -46,6 +46,7 @@ mod resistor;
 mod seal;
 mod skf;
 mod source;
+mod viscosity_index;
 
 pub use advection::{advection_from, advection_to, stream_from, stream_to};
 pub use bearing::{bearing_load, bearing_no_load};
@@ -66,3 +67,4 @@ pub use radiation::{
 };
 pub use seal::{lip_seal, shaft_seal};
 pub use skf::SkfBearing;
+pub use viscosity_index::viscosity_at_100;

@@ -22,6 +22,7 @@ pub(crate) const SPEED: FieldDeclaration = FieldDeclaration::new(
 /// The viscosity of the oil, or of the base oil of a grease.
 pub(crate) const VISCOSITY: FieldDeclaration = FieldDeclaration {
     hints: Hints::GIVEN,
+    of_lubricant: true,
     ..FieldDeclaration::new(
         "nu",
         Type::of(Dimension::KINEMATIC_VISCOSITY),

@@ -210,6 +210,7 @@ impl Law for MeshExternal {
             VISCOSITY,
             FieldDeclaration {
                 hints: Hints::GIVEN,
+                of_lubricant: true,
                 ..FieldDeclaration::new(
                     "density",
                     Type::of(Dimension::DENSITY),

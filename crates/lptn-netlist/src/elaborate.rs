@@ -69,6 +69,7 @@ pub(crate) fn elaborate(
     work.map.set_top(raw.top.span.clone());
     work.top_level();
     work.tables();
+    work.lubricants();
     work.parameters();
     work.signals();
     let controls = work.controls();

@@ -57,6 +57,13 @@ impl Owner {
     }
 }
 
+/// A lubricant that an element names, and the place whose temperature it has.
+#[derive(Debug)]
+pub(crate) struct Oil {
+    pub(crate) name: String,
+    pub(crate) at: String,
+}
+
 /// The fields of one table, with everything wrong about its keys reported.
 #[derive(Debug)]
 pub(crate) struct Fields<'a> {
@@ -67,6 +74,8 @@ pub(crate) struct Fields<'a> {
     pub(crate) complete: bool,
     /// The area that is meant where none is given: that of the face at which a path ends.
     pub(crate) area: Option<Input>,
+    /// The lubricant of a loss, and where it is.
+    pub(crate) oil: Option<Oil>,
     table: &'a RawTable,
 }
 
@@ -94,7 +103,7 @@ impl<'a> Fields<'a> {
             });
         }
         let owner = Owner { section, ..owner };
-        Some(Self { owner, place: &entry.key_span, complete, area: None, table })
+        Some(Self { owner, place: &entry.key_span, complete, area: None, oil: None, table })
     }
 
     /// Whether a key is there or is meant without.

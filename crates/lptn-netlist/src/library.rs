@@ -36,6 +36,7 @@ pub struct LibrarySubstance {
 struct Library {
     materials: Vec<LibrarySubstance>,
     fluids: Vec<LibrarySubstance>,
+    lubricants: Vec<RawEntry>,
 }
 
 static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
@@ -46,7 +47,8 @@ static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
         Some(RawKind::Table(table)) => table.entries.iter().filter_map(record).collect(),
         _ => Vec::new(),
     };
-    Library { materials: section("material"), fluids: section("fluid") }
+    let lubricants = raw.elements("lubricant").to_vec();
+    Library { materials: section("material"), fluids: section("fluid"), lubricants }
 });
 
 /// The solids, in the order of the library: steels, irons, light metals, copper alloys, plastics.
@@ -57,6 +59,11 @@ pub fn materials() -> &'static [LibrarySubstance] {
 /// The fluids.
 pub fn fluids() -> &'static [LibrarySubstance] {
     &LIBRARY.fluids
+}
+
+/// The lubricants, as a netlist would write them.
+pub(crate) fn lubricants() -> &'static [RawEntry] {
+    &LIBRARY.lubricants
 }
 
 /// The solid or fluid of this name.
@@ -93,15 +100,16 @@ mod tests {
     #[test]
     fn every_line_of_the_library_is_read() {
         let all = || materials().iter().chain(fluids());
-        assert_eq!(TEXT.matches("\nsource =").count(), all().count());
+        let text = TEXT.split("\n[lubricant.").next().unwrap_or_default();
+        assert_eq!(text.matches("\nsource =").count(), all().count());
         assert_eq!(
-            TEXT.matches("\ndensity =").count(),
+            text.matches("\ndensity =").count(),
             all().filter(|r| r.density.is_some()).count()
         );
-        assert_eq!(TEXT.matches("\ncp =").count(), all().filter(|r| r.cp.is_some()).count());
-        assert_eq!(TEXT.matches("\nk =").count(), all().filter(|r| r.k.is_some()).count());
+        assert_eq!(text.matches("\ncp =").count(), all().filter(|r| r.cp.is_some()).count());
+        assert_eq!(text.matches("\nk =").count(), all().filter(|r| r.k.is_some()).count());
         assert_eq!(
-            TEXT.matches("\nT =").count(),
+            text.matches("\nT =").count(),
             all().filter(|r| r.temperature.is_some()).count()
         );
         assert!(fluids().iter().all(|r| r.temperature.is_some()));

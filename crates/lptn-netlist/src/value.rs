@@ -34,6 +34,7 @@ impl Elaboration<'_> {
             Text::Expression(expression) => expression,
         };
         self.learn(&expression);
+        self.learn_lubricants(&expression, &place.raw.span);
         let problems = self.names.check(place, &expression, wanted);
         if !problems.is_empty() {
             self.problems.extend(problems);

@@ -196,8 +196,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             say.field(*item, *field), format_short(*value)
         ),
         help text("it is a part of a whole: write `0.8` for 80 %");
-    /// A value that is not larger than another of its law that has to be smaller, such as an outer
-    /// radius, in SI units.
+    /// A value that has to be larger than another, as an outer radius; in SI units.
     Radii { item: Item, fields: [Field; 2], inner: f64, outer: f64 } = "network::radii",
         at Some((*item, fields[1])),
         says format!(
@@ -209,8 +208,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             true => format!("a wall has a thickness: make `{}` larger", fields[1].key()),
             false => format!("exchange `{}` and `{}`", fields[0].key(), fields[1].key()),
         });
-    /// A path or source without one value for each field of its law, with a fluid where it has none,
-    /// or with a law of the other.
+    /// A path or source with a law of the other, or not one value for each field, or a wrong fluid.
     LawValues { item: Item, formula: Formula } = "network::law_values",
         at Some((*item, Field::Name)),
         says format!(

@@ -249,7 +249,11 @@ fn courses_between_breakpoints() {
         .collect();
     let network = b.build().unwrap();
     for (id, (text, degree)) in values.iter().zip(texts) {
-        assert_eq!(network.course(network.sources()[id.index()].power().unwrap()), degree, "{text}");
+        assert_eq!(
+            network.course(network.sources()[id.index()].power().unwrap()),
+            degree,
+            "{text}"
+        );
     }
     assert_eq!(network.curves().len(), 3);
 }

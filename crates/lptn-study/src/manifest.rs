@@ -37,6 +37,10 @@ pub struct Manifest {
     /// (the value with the least `margin`), `worst_at`, `broken_at`, `severity`, `kept`. Up to the
     /// time in `end`.
     pub limits: Map<String, Value>,
+    /// The elements whose law has constants that were not read in its source; only where there are
+    /// some.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unverified_constants: Option<Vec<String>>,
     /// How the uncertainty of the results was found: method, seed, samples, parameters with their
     /// standard deviations; only where it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -62,7 +62,9 @@ pub use quantity::{Quantity, WrittenQuantity, kelvin_alone, parse_quantity, writ
 pub use rational::Rational;
 pub use scalar::Scalar;
 pub use suggest::suggest;
-pub use table::{Interpolation, LookupTable, Outside, Table1, Table2, TableError, TableSymbol};
+pub use table::{
+    DoubleLog, Interpolation, LookupTable, Outside, Table1, Table2, TableError, TableSymbol,
+};
 pub use taylor::Taylor;
 pub use types::Type;
 pub use unit::Unit;

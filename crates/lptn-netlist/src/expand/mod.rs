@@ -135,6 +135,7 @@ impl Writer<'_> {
         self.default();
         self.materials();
         self.fluids();
+        self.lubricants();
         self.nodes();
         self.capacitors();
         self.boundaries();

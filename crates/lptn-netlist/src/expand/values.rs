@@ -3,7 +3,9 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use lptn_network::{AfterEnd, Course, Evaluation, Item, Parameter, ParameterId, Signal, Value};
+use lptn_network::{
+    AfterEnd, Course, Evaluation, Item, Parameter, ParameterId, Signal, Value, ZERO_CELSIUS,
+};
 use lptn_units::{
     Dimension, Interpolation, LookupTable, Outside, Table1, TableSymbol, Type, format_number,
 };
@@ -57,7 +59,11 @@ impl Writer<'_> {
     pub(super) fn tables(&mut self) {
         let (network, mut fields) = (&self.network, TomlFields::default());
         for (name, symbol) in network.tables() {
+            if network.tables().any(|(other, _)| is_lubricant(other, name)) {
+                continue;
+            }
             let written = match (&*symbol.table, self.map_of(&symbol.table)) {
+                (LookupTable::DoubleLog(_), _) => continue,
                 (LookupTable::One(table), _) => of_one(table, symbol).inline(),
                 (LookupTable::Two(_), Some(raw)) => self.csv_map(raw),
                 (LookupTable::Two(_), None) => continue,
@@ -65,6 +71,30 @@ impl Writer<'_> {
             fields.put(name, written);
         }
         self.section("table", &fields);
+    }
+
+    pub(super) fn lubricants(&mut self) {
+        let (network, mut section) = (&self.network, TomlFields::default());
+        for (name, symbol) in network.tables() {
+            let LookupTable::DoubleLog(line) = &*symbol.table else { continue };
+            let pair = |[t, nu]: [f64; 2]| format!("[{}, {}]", point(t), quantity(nu, symbol.ty));
+            let mut fields = TomlFields::default();
+            fields.put("viscosity", format!("[{}]", line.points().map(pair).join(", ")));
+            fields.put("c", format_number(line.shift()));
+            let mut tables = network.tables();
+            if let Some((_, density)) = tables.find(|(other, _)| is_lubricant(name, other))
+                && let LookupTable::One(table) = &*density.table
+                && let ([x0, x1], [y0, y1]) = (table.knots(), table.values())
+            {
+                let slope = (y1 - y0) / (x1 - x0);
+                let at_15 = twelve_digits(y0 + slope * (ZERO_CELSIUS + 15.0 - x0));
+                fields.put("density", quantity(at_15, density.ty));
+                let expansion = Type::of(Dimension::EXPANSION_COEFFICIENT);
+                fields.put("expansion", quantity(twelve_digits(-slope / at_15), expansion));
+            }
+            section.put(name.strip_suffix(".nu").unwrap_or(name), fields.inline());
+        }
+        self.section("lubricant", &section);
     }
 
     /// The line of a table of two arguments in the netlist that it comes from.
@@ -175,4 +205,17 @@ fn course(signal: &Signal) -> String {
         }
     }
     fields.inline()
+}
+
+/// Whether two tables are the viscosity and the density of one lubricant.
+fn is_lubricant(viscosity: &str, density: &str) -> bool {
+    let [of_viscosity, of_density] =
+        [viscosity.strip_suffix(".nu"), density.strip_suffix(".density")];
+    of_viscosity.is_some() && of_viscosity == of_density
+}
+
+/// A number without the last digits, so that what is computed from what was written is written
+/// again as it was.
+fn twelve_digits(number: f64) -> f64 {
+    format!("{number:.11e}").parse().unwrap_or(number)
 }

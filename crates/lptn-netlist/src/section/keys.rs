@@ -26,6 +26,19 @@ pub(super) const MATERIAL_OF: KeyDeclaration = key(
     "one of the file or of the library (`lptn materials`), in place of the values that it gives",
     "\"steel_8620\"",
 );
+/// What a loss is lubricated with.
+pub(super) const LUBRICANT_OF: KeyDeclaration = key(
+    "lubricant",
+    "name of a lubricant",
+    "one of the file or of the library, in place of the values that it gives",
+    "\"iso_vg_220\"",
+);
+pub(super) const AT: KeyDeclaration = key(
+    "at",
+    "name of a node or boundary",
+    "with `lubricant`: whose temperature it has; the first that is heated unless said",
+    "\"name of a node\"",
+);
 pub(super) const MASS: KeyDeclaration =
     key("mass", "kg", "with `material`, or `volume`: the capacity is `mass cp`", "\"1.2 kg\"");
 pub(super) const VOLUME: KeyDeclaration = key(

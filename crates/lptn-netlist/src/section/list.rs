@@ -12,6 +12,7 @@ use super::default::DEFAULT;
 use super::fluid::FLUID;
 use super::grid::GRID;
 use super::limit::LIMIT;
+use super::lubricant::LUBRICANT;
 use super::material::MATERIAL;
 use super::node::NODE;
 use super::path::PATHS;
@@ -30,8 +31,10 @@ use crate::toml_text::TomlFields;
 use crate::work::Elaboration;
 
 /// The sections before and behind those of paths and sources, in the order in which they are named to people.
-static BEFORE: [&SectionDeclaration; 10] =
-    [&PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &NODE, &GRID, &CAPACITOR, &BOUNDARY];
+static BEFORE: [&SectionDeclaration; 11] = [
+    &PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &LUBRICANT, &NODE, &GRID, &CAPACITOR,
+    &BOUNDARY,
+];
 static BEHIND: [&SectionDeclaration; 6] = [&CONTROL, &IMPORT, &LIMIT, &TEMPLATE, &USE, &RUN];
 
 /// The studies that there are: where a netlist keeps those of a section, and the type of one.

@@ -11,6 +11,7 @@ use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawValue};
 use crate::section::fluid::FLUID;
 use crate::section::keys::{CP, DENSITY, SOURCE_OF};
+use crate::section::lubricant::LUBRICANT;
 use crate::work::{Elaboration, Known, stand_in};
 
 pub(crate) const MATERIAL: SectionDeclaration = SectionDeclaration {
@@ -204,7 +205,11 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn unused_substances(&self) -> Vec<Diagnostic> {
         // a file of materials is there to be chosen from
         let main = self.raw.top.span.file;
-        let named = [(&MATERIAL, "netlist::unused_material"), (&FLUID, "netlist::unused_fluid")];
+        let named = [
+            (&MATERIAL, "netlist::unused_material"),
+            (&FLUID, "netlist::unused_fluid"),
+            (&LUBRICANT, "netlist::unused_lubricant"),
+        ];
         let entries = named.into_iter().flat_map(|(section, code)| {
             self.elements(section.name).iter().map(move |entry| (section.name, code, entry))
         });

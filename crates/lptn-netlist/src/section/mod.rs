@@ -12,6 +12,7 @@ mod grid;
 mod keys;
 mod limit;
 mod list;
+mod lubricant;
 mod material;
 mod node;
 mod path;

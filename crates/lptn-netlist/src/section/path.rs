@@ -12,7 +12,7 @@ use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
 use crate::place::{Place, Wanted};
 use crate::raw::RawKind;
 use crate::section::forms::{begun, check_forms};
-use crate::section::keys::MATERIAL_OF;
+use crate::section::keys::{AT, LUBRICANT_OF, MATERIAL_OF};
 use crate::section::path_law::{Read, most, of_values, types, without, written, wrong_count};
 use crate::work::{Elaboration, stand_in};
 
@@ -85,6 +85,9 @@ fn keys(kind: Kind) -> Vec<KeyDeclaration> {
             keys.push(key("fluid", "name of a fluid", "what streams", "\"water\""));
         }
         keys.extend(field.property.then_some(MATERIAL_OF));
+        if field.of_lubricant && keys.iter().all(|key| key.name != LUBRICANT_OF.name) {
+            keys.extend([LUBRICANT_OF, AT]);
+        }
         let unit = if field.ty.is_scalar() { "number".to_owned() } else { field.ty.usual_unit() };
         keys.push(key(field.key, unit.leak(), field.meaning, field.example));
     }
@@ -206,20 +209,41 @@ impl<'a> Elaboration<'a> {
             .filter(|field| !field.property)
             .map(|field| field.key)
             .collect();
+        let what = match path.kind.is_source() {
+            true => format!("`{selector} = \"{name}\"`"),
+            false => format!("a {name}"),
+        };
         let others: Vec<&str> = path.values().filter(|key| law.field(key).is_none()).collect();
         self.refuse_keys(
             fields,
             &others,
-            &format!("means nothing for a {name}, which takes {}", list(&own)),
+            &format!("means nothing for {what}, which takes {}", list(&own)),
         );
-        let needed = |key: &&&str| {
-            !fields.has(key) && law.field(key).is_some_and(|field| field.default.is_none())
+        self.check_oil(fields, law, &what);
+        let is_given = |field: &FieldDeclaration| {
+            fields.has(field.key)
+                || field.default.is_some()
+                || field.property
+                || field.of_lubricant && fields.has(LUBRICANT_OF.name)
         };
-        if let Some(key) = own.iter().find(needed).filter(|_| fields.complete) {
-            let message = format!("{} is a {name} without `{key}`", fields.owner.words());
-            self.report(fields.missing(key, message));
+        let missing = law.declaration().fields.iter().find(|field| !is_given(field));
+        if let Some(field) = missing.filter(|_| fields.complete) {
+            self.report(law_without(fields, field, (&what, path.kind.is_source())));
         }
         Some(law)
+    }
+
+    /// A lubricant that says nothing, and a place of none.
+    fn check_oil(&mut self, fields: &Fields<'a>, law: Formula, what: &str) {
+        let open = |field: &FieldDeclaration| field.of_lubricant && !fields.has(field.key);
+        if !law.declaration().fields.iter().any(open) {
+            let why = format!("gives nothing that {what} takes");
+            self.refuse_keys(fields, &[LUBRICANT_OF.name], &why);
+        }
+        if !fields.has(LUBRICANT_OF.name) {
+            let why = "says where a `lubricant` is, which is not named";
+            self.refuse_keys(fields, &[AT.name], why);
+        }
     }
 
     /// The values as far as they are given; stand-ins for those that are wrong.
@@ -237,6 +261,10 @@ impl<'a> Elaboration<'a> {
         let raw = fields.get(field.key).filter(|_| fields.known(field.key));
         if let (None, true) = (raw, field.property) {
             return vec![self.property_of_material(fields).unwrap_or_else(|| stand_in(field.ty))];
+        }
+        if raw.is_none() && field.of_lubricant && fields.has("lubricant") {
+            let property = self.property_of_oil(fields, (field.key, field.ty));
+            return vec![property.unwrap_or_else(|| stand_in(field.ty))];
         }
         let Some(raw) = raw else {
             let area = fields.area.clone().filter(|_| field.key == "area");
@@ -340,4 +368,23 @@ impl<'a> Elaboration<'a> {
         }
         None
     }
+}
+
+/// That a field of the law that a word chooses is missing.
+fn law_without(
+    fields: &Fields<'_>,
+    field: &FieldDeclaration,
+    (what, is_source): (&str, bool),
+) -> Diagnostic {
+    let (owner, key) = (fields.owner.words(), field.key);
+    let message = match is_source {
+        true => format!("{owner} has {what} but no `{key}`"),
+        false => format!("{owner} is {what} without `{key}`"),
+    };
+    let problem = fields.missing(key, message);
+    if !field.of_lubricant {
+        return problem;
+    }
+    let [value, oil] = [key, LUBRICANT_OF.name].map(|key| fields.sample(key));
+    problem.help(format!("add `{value}`, or the oil itself: `{oil}`"))
 }

@@ -22,8 +22,10 @@ impl<'a> Elaboration<'a> {
     }
 
     fn source(&mut self, entry: &'a RawEntry, of: &'static PathSection) -> Option<()> {
-        let fields = self.fields(&of.section, entry)?;
+        let mut fields = self.fields(&of.section, entry)?;
         let heated = self.heated(&fields);
+        let first = heated.as_ref().and_then(|(into, _)| into.first().map(|(end, _)| *end));
+        fields.oil = self.oil(&fields, first);
         // a stand-in where the law is wrong, so that the nodes still count
         let law = self.path(&fields, of);
         let law = law.unwrap_or_else(|| Path::heat(stand_in(Type::of(Dimension::POWER))));

@@ -1,5 +1,7 @@
 //! What a builder holds so far, by name and by number.
 
+use std::borrow::Cow;
+
 use crate::builder::NetworkBuilder;
 use crate::id::{End, Item, NodeId};
 use crate::value::Value;
@@ -25,6 +27,16 @@ impl NetworkBuilder {
         let nodes = self.parts.nodes.iter().map(|node| node.name.as_str());
         let boundaries = self.parts.boundaries.iter().map(|boundary| boundary.name.as_str());
         nodes.chain(boundaries.filter(move |_| !only_nodes))
+    }
+
+    /// The name of something that was added.
+    pub fn name(&self, item: impl Into<Item>) -> Cow<'_, str> {
+        self.parts.name_of(item.into())
+    }
+
+    /// Whether a table of this name was added.
+    pub fn has_table(&self, name: &str) -> bool {
+        matches!(self.parts.value_names.get(name), Some(Item::Table(_)))
     }
 
     /// Whether it is a part of a grid or of a path to a face.

@@ -17,12 +17,13 @@ use crate::error::{BuildError, BuildErrorKind, BuildErrors};
 use crate::evaluation::Evaluation;
 use crate::id::{ConductorId, Field, Item, NodeId, ParameterId};
 use crate::input_error::{InputError, InputProblem};
-use crate::law::ConductorFlow;
+use crate::law::{ConductorFlow, Law};
 use crate::names::UnknownName;
 use crate::numbers::Numbers;
 use crate::parameters::Parameters;
 use crate::parts::Parts;
 use crate::value::Value;
+use lptn_laws::Confidence;
 use lptn_units::Problems;
 
 /// A thermal network: nodes, boundaries, the paths between them and the heat put in.
@@ -218,6 +219,19 @@ impl Network {
         let mut results = limits.chain(self.reports().iter().map(|report| &report.value));
         let timed = !self.signals().is_empty() || results.any(|value| self.depends_on_time(value));
         timed || self.has_events() || self.has_time_dependent_inputs()
+    }
+
+    /// The paths and sources whose law has constants that were not read in its source. This is the
+    /// one place that decides it, for every result.
+    pub fn unverified(&self) -> Vec<Item> {
+        let unsure = |law: &Law| law.formula().declaration().confidence == Confidence::Medium;
+        let conductors = self.conductor_ids().zip(self.conductors());
+        let sources = self.source_ids().zip(self.sources());
+        let conductors =
+            conductors.filter(|(_, path)| unsure(&path.law)).map(|(id, _)| Item::Conductor(id));
+        let sources =
+            sources.filter(|(_, source)| unsure(&source.law)).map(|(id, _)| Item::Source(id));
+        conductors.chain(sources).collect()
     }
 
     /// Whether a value changes with time by itself.

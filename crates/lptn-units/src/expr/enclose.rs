@@ -95,6 +95,7 @@ impl Run<'_> {
             Op::Call(function) => call(function, accumulator),
             Op::Table(table) => match self.table(table) {
                 Some(LookupTable::One(table)) => table.enclose(accumulator),
+                Some(LookupTable::DoubleLog(line)) => line.enclose(accumulator),
                 _ => Taylor::unknown(),
             },
             Op::PoppedTable(table) => {

@@ -225,9 +225,13 @@ impl Program {
 
     /// What a table of one argument makes of it.
     fn looked_up(&self, index: usize, argument: Trend) -> Trend {
-        let Some(LookupTable::One(table)) = self.tables.get(index).map(|named| &*named.table)
-        else {
-            return Trend::UNKNOWN;
+        let table = match self.tables.get(index).map(|named| &*named.table) {
+            Some(LookupTable::One(table)) => table,
+            Some(LookupTable::DoubleLog(_)) => {
+                let (rises, falls) = (argument.falls, argument.rises);
+                return Trend { low: 0.0, high: f64::INFINITY, rises, falls, signed: false };
+            }
+            _ => return Trend::UNKNOWN,
         };
         let values = table.values();
         let goes = |way: fn(f64, f64) -> bool| values.windows(2).all(|pair| way(pair[0], pair[1]));

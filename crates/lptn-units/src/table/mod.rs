@@ -4,6 +4,7 @@
 //! [`Scope::table`](crate::Scope::table) says what its arguments and its result are.
 
 mod axis;
+mod double_log;
 mod enclose;
 mod error;
 mod one;
@@ -17,24 +18,27 @@ use crate::unit::Unit;
 
 use axis::place;
 pub use axis::{Interpolation, Outside};
+pub use double_log::DoubleLog;
 pub use error::TableError;
 pub use one::Table1;
 pub use two::Table2;
 
-/// A tabulated function of one number or of two.
+/// A function of one number or of two that is given by numbers.
 #[derive(Clone, PartialEq, Debug)]
 pub enum LookupTable {
     /// A function of one number.
     One(Table1),
     /// A function of two numbers.
     Two(Table2),
+    /// A function of one number by a formula in place of points.
+    DoubleLog(DoubleLog),
 }
 
 impl LookupTable {
     /// How many arguments it takes: 1 or 2.
     pub fn dimension(&self) -> usize {
         match self {
-            Self::One(_) => 1,
+            Self::One(_) | Self::DoubleLog(_) => 1,
             Self::Two(_) => 2,
         }
     }
@@ -44,6 +48,7 @@ impl LookupTable {
     pub fn knots(&self, argument: usize) -> &[f64] {
         match (self, argument) {
             (Self::One(table), 0) => table.knots(),
+            (Self::DoubleLog(line), 0) => line.range(),
             (Self::Two(table), 0) => table.x_knots(),
             (Self::Two(table), 1) => table.y_knots(),
             _ => &[],
@@ -60,6 +65,7 @@ impl LookupTable {
         match self {
             Self::One(table) => table.outside(),
             Self::Two(table) => table.outside(),
+            Self::DoubleLog(_) => Outside::Error,
         }
     }
 }

@@ -23,6 +23,7 @@ use crate::files::Folder;
 use crate::files::names::{EVENTS, MANIFEST, RANKING, RESULT, STATE, UNCERTAINTY, WINDOWS};
 use crate::input::quoted;
 use crate::limits::{self, Judged};
+use crate::words::unverified_names;
 use crate::{files, lumping, scale, select, sense};
 
 /// What came of it.
@@ -86,6 +87,7 @@ impl Outcome<'_> {
             ledger: self.ledger(),
             limits: limits::members(self.solution.network(), &self.limits(), &scale::kelvin())
                 .unwrap_or_default(),
+            unverified_constants: unverified_names(self.solution.network()),
             uncertainty: self.uncertainty().map(|study| {
                 let mut members = uncertain::method(&study.found);
                 let of = (self.solution.network(), &scale::kelvin());
