@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lptn::laws::{FieldDeclaration, Formula, Kind, Range};
+use lptn::laws::{Confidence, FieldDeclaration, Formula, Kind, LawDeclaration, Range, Substance};
 use lptn::netlist::Netlist;
 use lptn::network::{ConductorFlow, ConductorId, Network};
 use lptn::units::{parse_quantity, suggest};
@@ -42,7 +42,8 @@ fn si(field: &FieldDeclaration) -> f64 {
 fn netlist((kind, law): (Kind, Formula), value: impl Fn(&FieldDeclaration) -> String) -> String {
     let (declared, section) = (law.declaration(), kind.declaration());
     let mut fields = vec!["from = \"a\", to = \"b\"".to_owned()];
-    fields.extend(section.selector.map(|key| format!("{key} = \"{}\"", declared.name)));
+    let selector = section.selector.filter(|_| declared.named);
+    fields.extend(selector.map(|key| format!("{key} = \"{}\"", declared.name)));
     fields.extend(declared.carries.is_of_fluid().then(|| "fluid = \"oil\"".to_owned()));
     for same in declared.fields.chunk_by(|a, b| a.key == b.key) {
         let values: Vec<String> = same.iter().map(&value).collect();
@@ -284,6 +285,61 @@ fn range(range: Range) -> &'static str {
     }
 }
 
+/// Where a law holds, with the numbers that say it.
+fn holds(law: &LawDeclaration) -> String {
+    let group = |group: &lptn::laws::Group| {
+        let number = |value: f64| match value {
+            value if value != 0.0 && !(1e-2..1e4).contains(&value) => format!("{value:e}"),
+            value => value.to_string(),
+        };
+        let name = format!("{} ({})", group.name, group.meaning);
+        match (group.from, group.to) {
+            (0.0, to) => format!("{name} at most {}", number(to)),
+            (from, f64::INFINITY) => format!("{name} at least {}", number(from)),
+            (from, to) => format!("{name} from {} to {}", number(from), number(to)),
+        }
+    };
+    let groups: Vec<String> = law.groups.iter().map(group).collect();
+    if groups.is_empty() {
+        law.validity.into()
+    } else {
+        format!("{} {}.", law.validity, groups.join("; "))
+    }
+}
+
+fn source(law: &LawDeclaration) -> String {
+    let unsure = law.confidence == Confidence::Medium;
+    format!("{}{}", law.source, if unsure { " (**unverified constants**)" } else { "" })
+}
+
+/// What a page says of a law.
+fn row(kind: Kind, declared: &LawDeclaration) -> String {
+    // a fluid gives all its properties
+    let key = |field: &FieldDeclaration| match field.property {
+        Some(Substance::Fluid) => Substance::Fluid.key(),
+        _ => field.key,
+    };
+    let mut keys: Vec<&str> = declared.fields.iter().map(key).collect();
+    let pair = declared.fields.windows(2).any(|two| two[0].key == two[1].key);
+    keys.dedup();
+    let chosen = kind
+        .declaration()
+        .selector
+        .filter(|_| declared.named && kind.laws_named(false).next().is_some());
+    let chosen = chosen.map(|key| format!("`{key} = \"{}\"`", declared.name));
+    let keys = keys.iter().map(|key| format!("`{key}`"));
+    let keys: Vec<String> = chosen.into_iter().chain(keys).collect();
+    let of = if declared.carries.is_of_fluid() { "`fluid`, " } else { "" };
+    let pair = if pair { " (a list of two)" } else { "" };
+    format!(
+        "| {of}{}{pair} | {} | {} | {} |",
+        keys.join(", "),
+        declared.equation,
+        holds(declared),
+        source(declared)
+    )
+}
+
 /// What a page says of keys and laws.
 fn tables(kind: Kind) -> String {
     let mut lines = vec![
@@ -299,7 +355,7 @@ fn tables(kind: Kind) -> String {
     }
     if let Some(selector) = kind.declaration().selector {
         let words: Vec<String> =
-            kind.laws().map(|law| format!("`{}`", law.declaration().name)).collect();
+            kind.laws_named(true).map(|law| format!("`{}`", law.declaration().name)).collect();
         lines.push(format!("| `{selector}` | the law: {} | | | |", words.join(", ")));
     }
     let mut known: Vec<&str> = Vec::new();
@@ -308,11 +364,8 @@ fn tables(kind: Kind) -> String {
             continue;
         }
         known.push(field.meaning);
-        let key = if field.property {
-            format!("`{}` or `material`", field.key)
-        } else {
-            format!("`{}`", field.key)
-        };
+        let or = field.property.map_or(String::new(), |of| format!(" or `{}`", of.key()));
+        let key = format!("`{}`{or}", field.key);
         let default = field.default.map_or(String::new(), |value| format!(" {value}"));
         lines.push(format!(
             "| {key} | {} | {} | {} |{default} |",
@@ -324,22 +377,7 @@ fn tables(kind: Kind) -> String {
     lines.push(String::new());
     lines.push("| Given by | Law | Holds | Source |".to_owned());
     lines.push("|---|---|---|---|".to_owned());
-    for law in kind.laws() {
-        let declared = law.declaration();
-        let mut keys: Vec<&str> = declared.fields.iter().map(|field| field.key).collect();
-        let pair = keys.windows(2).any(|two| two[0] == two[1]);
-        keys.dedup();
-        let keys: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
-        let of = if declared.carries.is_of_fluid() { "`fluid`, " } else { "" };
-        let pair = if pair { " (a list of two)" } else { "" };
-        lines.push(format!(
-            "| {of}{}{pair} | {} | {} | {} |",
-            keys.join(", "),
-            declared.equation,
-            declared.validity,
-            declared.source
-        ));
-    }
+    lines.extend(kind.laws().map(|law| row(kind, law.declaration())));
     lines.join("\n") + "\n"
 }
 

@@ -34,18 +34,30 @@ mod conduction;
 mod contact;
 mod convection;
 mod declare;
+mod fluid;
+mod forced_convection;
+mod free_convection;
 mod list;
 mod lump;
 mod phase;
 mod radiation;
 mod resistor;
+mod rotation;
 
 pub use advection::{advection_from, advection_to, stream_from, stream_to};
 pub use conduction::{cylinder, rod, slab, sphere};
 pub use convection::film;
 pub use declare::{
-    Carries, Confidence, Extent, FieldDeclaration, Form, Hints, KindDeclaration, Law,
-    LawDeclaration, Range, SurfaceKind,
+    Carries, Confidence, Extent, FieldDeclaration, Form, Group, Hints, KindDeclaration, Law,
+    LawDeclaration, Range, Substance, SurfaceKind,
+};
+pub use fluid::Fluid;
+pub use forced_convection::{
+    nusselt_cross_flow, nusselt_cross_flow_hilpert, nusselt_duct, nusselt_flat_plate,
+};
+pub use free_convection::{
+    nusselt_horizontal_cylinder, nusselt_plate_driven, nusselt_plate_layered,
+    nusselt_vertical_plate, rayleigh,
 };
 pub use list::{Formula, Kind};
 pub use lump::{biot, diffusion_time};
@@ -54,3 +66,4 @@ pub use radiation::{
     STEFAN_BOLTZMANN, effective_emissivity_parallel_plates, radiation_conductance,
     radiation_exchange_area,
 };
+pub use rotation::{nusselt_annulus, nusselt_shaft};

@@ -87,7 +87,7 @@ fn declared_laws_have_their_derivatives() {
                 .map(|field| number(field) * random(&mut state, (0.95, 1.05)))
                 .collect();
             let ends = [random(&mut state, KELVIN), random(&mut state, KELVIN)];
-            let duals: Vec<Dual<5>> =
+            let duals: Vec<Dual<{ Formula::MOST_FIELDS }>> =
                 inputs.iter().enumerate().map(|(i, x)| Dual::variable(*x, i)).collect();
             let found = law.value(&duals, ends.map(Dual::constant));
             for (i, x) in inputs.iter().enumerate() {

@@ -206,6 +206,9 @@ fn impossible(field: &lptn_laws::FieldDeclaration, value: f64) -> Option<InputPr
     }
 }
 
+/// As many fields as laws have that are not correlations: room for more takes time to clear.
+const FEW_FIELDS: usize = 4;
+
 /// Slots on numbers or dual numbers, with the stack that programs need.
 pub(crate) struct At<'a, S> {
     pub(crate) slots: &'a mut [S],
@@ -226,12 +229,25 @@ impl<S: Scalar> At<'_, S> {
 
     /// The value of a law, where the slots stand: what it carries says what that is.
     pub(crate) fn value(&mut self, law: &Law) -> Result<S, (Field, InputProblem)> {
-        let mut values = [S::from_f64(0.0); Formula::MOST_FIELDS];
+        let of = |values: &[S], ends| law.formula.value(values, ends);
+        match law.values().len() {
+            0..=FEW_FIELDS => self.of_values::<FEW_FIELDS, S>(law, of),
+            _ => self.of_values::<{ Formula::MOST_FIELDS }, S>(law, of),
+        }
+    }
+
+    /// A function of the values of a law, of which there are `MOST` at most, and of its ends.
+    pub(crate) fn of_values<const MOST: usize, R>(
+        &mut self,
+        law: &Law,
+        function: impl FnOnce(&[S], [S; 2]) -> R,
+    ) -> Result<R, (Field, InputProblem)> {
+        let mut values = [S::from_f64(0.0); MOST];
         let count = law.values().len();
         for (i, value) in values[..count].iter_mut().enumerate() {
             *value = self.get(law, i)?;
         }
-        Ok(law.formula.value(&values[..count], self.ends()))
+        Ok(function(&values[..count], self.ends()))
     }
 
     fn ends(&self) -> [S; 2] {

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use lptn_data::{Diagnostic, list};
-use lptn_laws::{FieldDeclaration, Formula, Kind};
+use lptn_laws::{FieldDeclaration, Formula, Kind, Substance};
 use lptn_network::{FluidId, Input, Path};
 use lptn_units::{Quantity, Type};
 
@@ -11,9 +11,12 @@ use crate::fields::Fields;
 use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
 use crate::place::{Place, Wanted};
 use crate::raw::{RawKind, RawValue};
+use crate::section::fluid::UsedFluid;
 use crate::section::forms::{begun, check_forms};
-use crate::section::keys::MATERIAL_OF;
-use crate::section::path_law::{Read, most, of_values, types, without, written, wrong_count};
+use crate::section::keys::{FLUID_OF, MATERIAL_OF};
+use crate::section::path_law::{
+    Read, most, of_values, types, with_article, without, written, wrong_count,
+};
 use crate::work::{Elaboration, stand_in};
 
 /// A kind of path with what follows from its declaration, found once and not for every path.
@@ -39,6 +42,8 @@ pub(crate) struct PathValue {
     most: usize,
     /// The types of which it may be, where its unit chooses the law.
     types: Vec<(Type, Formula)>,
+    /// Whether a law takes it that no name chooses.
+    plain: bool,
 }
 
 /// The sections of paths, in the order in which their columns stand.
@@ -60,6 +65,7 @@ fn path_section(kind: Kind) -> PathSection {
         field,
         most: most(field.key),
         types: types(field.key),
+        plain: kind.laws_named(false).any(|law| law.field(field.key).is_some()),
     };
     let values = kind.fields().into_iter().map(value).collect();
     PathSection { section, kind, groups: groups(kind), values }
@@ -78,19 +84,23 @@ fn keys(kind: Kind) -> Vec<KeyDeclaration> {
         ),
         key("to", end, "where it goes", "\"name of another node or boundary\""),
     ];
-    let first = kind.laws().next().map_or("", |law| law.declaration().name);
+    let first = kind.laws_named(true).next().map_or("", |law| law.declaration().name);
     let mut selector = kind
         .declaration()
         .selector
         .map(|name| key(name, "word", "the law", format!("\"{first}\"").leak()));
     for field in kind.fields() {
         let laws = || kind.laws().filter(|law| law.field(field.key).is_some());
-        keys.extend(selector.take_if(|_| !laws().eq(kind.laws())));
+        let chosen = |law: Formula| law.declaration().named;
+        keys.extend(selector.take_if(|_| laws().all(chosen) && !laws().eq(kind.laws())));
         let of_fluid = laws().any(|law| law.declaration().carries.is_of_fluid());
-        if of_fluid && keys.iter().all(|key| key.name != "fluid") {
-            keys.push(key("fluid", "name of a fluid", "what streams", "\"water\""));
-        }
-        keys.extend(field.property.then_some(MATERIAL_OF));
+        let substance = match field.property {
+            _ if of_fluid => Some(key("fluid", "name of a fluid", "what streams", "\"water\"")),
+            Some(Substance::Material) => Some(MATERIAL_OF),
+            Some(Substance::Fluid) => Some(FLUID_OF),
+            None => None,
+        };
+        keys.extend(substance.filter(|new| keys.iter().all(|known| known.name != new.name)));
         let unit = if field.ty.is_scalar() { "number".to_owned() } else { field.ty.usual_unit() };
         keys.push(key(field.key, unit.leak(), field.meaning, field.example));
     }
@@ -115,7 +125,7 @@ fn required(law: Formula) -> Vec<&'static str> {
 
 fn groups(kind: Kind) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
-    for law in kind.laws() {
+    for law in kind.laws_named(false) {
         let (first, keys) = (law.declaration().fields[0].key, required(law));
         match groups.iter_mut().find(|group| group.laws[0].declaration().fields[0].key == first) {
             Some(group) => {
@@ -131,23 +141,19 @@ fn groups(kind: Kind) -> Vec<Group> {
 impl<'a> Elaboration<'a> {
     /// The law of a path with its values.
     pub(crate) fn path(&mut self, fields: &Fields<'a>, path: &'static PathSection) -> Option<Path> {
-        let (groups, values) = (&path.groups, path.values.iter());
+        let groups = &path.groups;
         let forms: Vec<&[&str]> = groups.iter().map(|group| group.keys.as_slice()).collect();
-        let group = match path.kind.declaration().selector {
-            Some(selector) => {
-                self.check_property(fields, path);
-                let law = self.selected(fields, path, selector);
-                let own = values
-                    .filter(|value| law.is_some_and(|law| law.field(value.field.key).is_some()));
-                let read = self.read(fields, own);
-                return self.complete(fields, law?, read, None);
+        if let Some(selector) = path.kind.declaration().selector {
+            if groups.is_empty() || fields.has(selector) {
+                return self.named(fields, path, selector);
             }
-            None => begun(&forms, |key| fields.has(key)).first().map(|&first| &groups[first]),
-        };
+            self.refuse_named(fields, path, selector);
+        }
+        let group = begun(&forms, |key| fields.has(key)).first().map(|&first| &groups[first]);
         self.problems.extend(check_forms(fields, &forms));
-        let fluid = fields.get("fluid").filter(|_| fields.known("fluid"));
+        let fluid = fields.get("fluid").filter(|_| path.kind.is_stream());
         let fluid = fluid.map(|raw| self.used_fluid(fields, raw));
-        let read = self.read(fields, values);
+        let read = self.read(fields, path.values.iter().filter(|value| value.plain), None);
         let one = begun(&forms, |key| fields.get(key).is_some()).len() == 1;
         let law = of_values(&group?.laws, &read)?;
         let idle = law.declaration().idle.iter().filter(|_| one);
@@ -161,11 +167,30 @@ impl<'a> Elaboration<'a> {
         self.complete(fields, law, read, fluid)
     }
 
-    /// A property is given, or the material that has it.
-    fn check_property(&mut self, fields: &Fields<'a>, path: &PathSection) {
-        if let Some(value) = path.values.iter().find(|value| value.field.property) {
+    /// The law that a word chooses, with its values.
+    fn named(
+        &mut self,
+        fields: &Fields<'a>,
+        path: &'static PathSection,
+        selector: &str,
+    ) -> Option<Path> {
+        let mut values = path.values.iter();
+        let material = |value: &&PathValue| value.field.property == Some(Substance::Material);
+        if let Some(value) = values.find(material) {
             self.problems.extend(check_forms(fields, &[&["material"], &[value.field.key]]));
         }
+        let law = self.selected(fields, path, selector)?;
+        let fluid = self.film_fluid(fields, law);
+        let own = path.values.iter().filter(|value| law.field(value.field.key).is_some());
+        let read = self.read(fields, own, fluid);
+        self.complete(fields, law, read, None)
+    }
+
+    /// That keys mean nothing where no word chooses a law that takes them.
+    fn refuse_named(&mut self, fields: &Fields<'a>, path: &PathSection, selector: &str) {
+        let named = path.values.iter().filter(|value| !value.plain).map(|value| value.field.key);
+        let keys: Vec<&str> = ["fluid"].into_iter().chain(named).collect();
+        self.refuse_keys(fields, &keys, &format!("means nothing without `{selector}`"));
     }
 
     /// The law that a word chooses; fields of others mean nothing beside it.
@@ -179,22 +204,18 @@ impl<'a> Elaboration<'a> {
             path.kind.laws().map(|law| (law.declaration().name, law)).collect();
         let given = self.require(fields, selector).is_some();
         let law = self.choice(fields, selector, &words).filter(|_| given)?;
-        let name = law.declaration().name;
-        let own: Vec<&str> = law
-            .declaration()
-            .fields
-            .iter()
-            .filter(|field| !field.property)
-            .map(|field| field.key)
-            .collect();
+        let name = with_article(law.declaration().name);
+        let own = law.declaration().fields.iter().filter(|field| field.property.is_none());
+        let takes: Vec<&str> = own.clone().map(|field| field.key).collect();
         let others: Vec<&str> = path.values().filter(|key| law.field(key).is_none()).collect();
         self.refuse_keys(
             fields,
             &others,
-            &format!("means nothing for a {name}, which takes {}", list(&own)),
+            &format!("means nothing for {name}, which takes {}", list(&takes)),
         );
-        if let Some(key) = own.iter().find(|key| !fields.has(key)).filter(|_| fields.complete) {
-            let message = format!("{} is a {name} without `{key}`", fields.owner.words());
+        let mut needed = own.filter(|field| field.default.is_none()).map(|field| field.key);
+        if let Some(key) = needed.find(|key| !fields.has(key)).filter(|_| fields.complete) {
+            let message = format!("{} is {name} without `{key}`", fields.owner.words());
             self.report(fields.missing(key, message));
         }
         Some(law)
@@ -205,15 +226,25 @@ impl<'a> Elaboration<'a> {
         &mut self,
         fields: &Fields<'a>,
         wanted: impl Iterator<Item = &'static PathValue>,
+        fluid: Option<UsedFluid<'a>>,
     ) -> Vec<Read> {
-        wanted.map(|value| (value.field, self.values(fields, value))).collect()
+        wanted.map(|value| (value.field, self.values(fields, value, fluid))).collect()
     }
 
-    fn values(&mut self, fields: &Fields<'a>, value: &PathValue) -> Vec<Input> {
-        let PathValue { field, most, types } = value;
+    fn values(
+        &mut self,
+        fields: &Fields<'a>,
+        value: &PathValue,
+        fluid: Option<UsedFluid<'a>>,
+    ) -> Vec<Input> {
+        let PathValue { field, most, types, .. } = value;
         let raw = fields.get(field.key).filter(|_| fields.known(field.key));
-        if let (None, true) = (raw, field.property) {
-            return vec![self.property_of_material(fields).unwrap_or_else(|| stand_in(field.ty))];
+        if let (None, Some(of)) = (raw, field.property) {
+            let found = match of {
+                Substance::Material => self.property_of_material(fields),
+                Substance::Fluid => fluid.and_then(|of| self.property_of_fluid(fields, field, of)),
+            };
+            return vec![found.unwrap_or_else(|| stand_in(field.ty))];
         }
         let Some(raw) = raw else {
             let area = fields.area.clone().filter(|_| field.key == "area");
