@@ -7,14 +7,14 @@ use lptn_laws::Confidence;
 use lptn_netlist::Netlist;
 use lptn_network::{Field, Item, Network, ParameterId};
 use lptn_report::{Claim, Piece, Report, Section, Text, TextTable, plain, significant};
-use lptn_solve::{Lumping, Snapshot};
+use lptn_solve::{Lumping, OutOfRange, Snapshot};
 use lptn_study::{FileHash, Sundials};
 use lptn_units::Unit;
 use serde_json::Value;
 
-use crate::files;
 use crate::input::{Input, quoted};
 use crate::words::{count, difference, spaced};
+use crate::{files, ranges};
 
 /// How an answer changes with a parameter.
 pub(crate) struct Sensitivities {
@@ -73,12 +73,11 @@ fn linearity(input: &Input) -> Claim {
 }
 
 /// Whether every law stayed where it is known: elsewhere there is no result.
-pub(crate) fn laws(network: &Network) -> Vec<Claim> {
+pub(crate) fn laws(network: &Network, outside: &[OutOfRange]) -> Vec<Claim> {
     let laws = network.conductors().iter().map(|conductor| conductor.law.formula().declaration());
     let unsure = laws.filter(|law| law.confidence == Confidence::Medium).map(|law| law.name);
     let names: BTreeSet<&str> = unsure.collect();
-    let kept = "no fluid or capacity left its range, nor a table without `outside`";
-    let mut claims = vec![Claim::checked(true, kept)];
+    let mut claims = vec![ranges::claim(network, outside)];
     if !names.is_empty() {
         let names: Vec<String> = names.into_iter().map(|name| name.replace('_', " ")).collect();
         claims.push(Claim::open(format!("unverified constants: {}", names.join(", "))));

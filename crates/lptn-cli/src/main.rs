@@ -25,6 +25,7 @@ mod lumping;
 mod options;
 mod panic_net;
 mod progress;
+mod ranges;
 mod refusal;
 mod reporting;
 mod scale;

@@ -207,27 +207,30 @@ enum Side {
 }
 
 impl Side {
-    /// Whether the fluid is driven away from this side of `from`.
-    fn drives<S: Scalar>(self, [from, to]: [S; 2]) -> bool {
-        match self {
-            Self::Upper => from.value() > to.value(),
-            Self::Lower => from.value() < to.value(),
-        }
+    /// Whether the fluid is driven away from this side of `from` or lies still; neither where the
+    /// temperatures are equal.
+    fn drives<S: Scalar>(self, [from, to]: [S; 2]) -> Option<bool> {
+        let warmer = from.value() > to.value();
+        let differ = warmer || from.value() < to.value();
+        differ.then_some(match self {
+            Self::Upper => warmer,
+            Self::Lower => !warmer,
+        })
     }
 
     fn conductance<S: Scalar>(self, values: &[S], ends: [S; 2]) -> S {
         let (fluid, ra, _) = state(values, ends);
         let nusselt = match self.drives(ends) {
-            true => nusselt_plate_driven(ra),
-            false => nusselt_plate_layered(ra),
+            Some(true) => nusselt_plate_driven(ra),
+            _ => nusselt_plate_layered(ra),
         };
         fluid.film(nusselt, values[5], values[6])
     }
 
     fn groups(self, values: &[f64], ends: [f64; 2]) -> Vec<Option<f64>> {
         let (_, ra, pr) = state(values, ends);
-        let drives = self.drives(ends);
-        vec![drives.then_some(ra), (!drives).then_some(ra), Some(pr)]
+        let if_drives = |wanted| self.drives(ends).filter(|drives| *drives == wanted).map(|_| ra);
+        vec![if_drives(true), if_drives(false), Some(pr)]
     }
 }
 

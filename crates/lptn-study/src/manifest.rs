@@ -37,6 +37,10 @@ pub struct Manifest {
     /// (the value with the least `margin`), `worst_at`, `broken_at`, `severity`, `kept`. Up to the
     /// time in `end`.
     pub limits: Map<String, Value>,
+    /// Where laws were outside the ranges in which they are known: path, law, group, range, the
+    /// value furthest outside and when, the stretches; only where one was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub out_of_range: Option<Vec<Value>>,
     /// How the uncertainty of the results was found: method, seed, samples, parameters with their
     /// standard deviations; only where it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
